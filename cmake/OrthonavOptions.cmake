@@ -1,0 +1,35 @@
+option(ORTHONAV_BUILD_TESTS "Build the tests" ON)
+option(ORTHONAV_BUILD_BENCH "Build the benchmarks" OFF)
+set(ORTHONAV_SANITIZE "" CACHE STRING "Sanitizers for every target: address,undefined or thread")
+option(ORTHONAV_COVERAGE "Instrument for line coverage" OFF)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+# The same digits from every optimisation level: no fused multiply-add behind our back.
+add_compile_options(-ffp-contract=off)
+# Reproducible objects, shared by every checkout: no absolute path in them.
+add_compile_options("-ffile-prefix-map=${CMAKE_SOURCE_DIR}=.")
+# SSE4.2 is on every x86-64 machine of the last fifteen years.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_options(-march=x86-64-v2)
+endif()
+
+if(ORTHONAV_SANITIZE)
+  add_compile_options("-fsanitize=${ORTHONAV_SANITIZE}" -fno-omit-frame-pointer
+                      -fno-sanitize-recover=all)
+  add_link_options("-fsanitize=${ORTHONAV_SANITIZE}")
+endif()
+if(ORTHONAV_COVERAGE)
+  add_compile_options(--coverage -fprofile-update=atomic)
+  add_link_options(--coverage)
+endif()

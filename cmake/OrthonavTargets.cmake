@@ -1,0 +1,46 @@
+# orthonav_library(NAME folder) makes the static library orthonav_NAME, alias orthonav::NAME, of
+# every .cpp directly in the calling folder (or in the folders given as SOURCES_IN).
+function(orthonav_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES_IN" ${ARGN})
+  if(NOT ARG_SOURCES_IN)
+    set(ARG_SOURCES_IN ".")
+  endif()
+  set(sources "")
+  foreach(folder IN LISTS ARG_SOURCES_IN)
+    file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
+    list(APPEND sources ${found})
+  endforeach()
+  add_library(orthonav_${name} STATIC ${sources})
+  add_library(orthonav::${name} ALIAS orthonav_${name})
+  target_include_directories(orthonav_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/orthonav>)
+  target_compile_features(orthonav_${name} PUBLIC cxx_std_20)
+  set_target_properties(orthonav_${name} PROPERTIES EXPORT_NAME ${name})
+  orthonav_warnings(orthonav_${name})
+  set_property(GLOBAL APPEND PROPERTY ORTHONAV_LIBRARIES orthonav_${name})
+endfunction()
+
+function(orthonav_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wshadow
+    -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
+endfunction()
+
+# orthonav_test(NAME libs...) makes one test binary of every .cpp in the calling folder.
+function(orthonav_test name)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(test_${name} ${sources})
+  target_link_libraries(test_${name} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
+  target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
+  target_compile_definitions(test_${name} PRIVATE
+    ORTHONAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    ORTHONAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  orthonav_warnings(test_${name})
+  gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
+                       PROPERTIES TIMEOUT 600)
+endfunction()

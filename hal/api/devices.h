@@ -1,0 +1,146 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/camera_model.h"
+#include "hal/api/display.h"
+#include "hal/api/image.h"
+#include "hal/api/result.h"
+#include "hal/api/time.h"
+#include "hal/api/tracked.h"
+#include "hal/api/transform.h"
+
+namespace orthonav {
+
+/// The two front cameras as the device reports them.
+struct StereoCalibration {
+  CameraModel left;
+  CameraModel right;
+  Transform<LeftCamera, Rig> left_from_rig;
+  Transform<RightCamera, Rig> right_from_rig;
+
+  [[nodiscard]] Transform<RightCamera, LeftCamera> right_from_left() const {
+    return right_from_rig * left_from_rig.inverse();
+  }
+};
+
+/// Two images taken at the same moment. The buffers are reused from frame to frame.
+struct StereoFrame {
+  std::int64_t sequence = 0;
+  Timestamp time{};  ///< mid-exposure
+  GreyImage left;
+  GreyImage right;
+  /// Where the headset was at `time`; absent while the headset is not located.
+  std::optional<Transform<World, Rig>> world_from_rig;
+};
+
+enum class Next {
+  kFrame,  ///< the frame was filled
+  kNone,   ///< nothing new yet; ask again later
+  kEnd     ///< the stream has ended for good
+};
+
+/// Pull interface of the camera pair. Contract, kept by the public call for every device: times
+/// strictly increase, both images have the calibration's size, sequence numbers increase.
+class StereoCamera {
+ public:
+  virtual ~StereoCamera() = default;
+  [[nodiscard]] const StereoCalibration& calibration() const { return do_calibration(); }
+  /// Fills `frame` with the next pair, never the same one twice. Does not block.
+  Result<Next> next(StereoFrame& frame);
+
+ private:
+  [[nodiscard]] virtual const StereoCalibration& do_calibration() const = 0;
+  virtual Result<Next> do_next(StereoFrame& frame) = 0;
+
+  std::optional<Timestamp> last_time_;
+  std::int64_t last_sequence_ = -1;
+};
+
+/// Where the head is, was or will be. Contract: the answer's time is the time asked for; asked
+/// further ahead than `kMaxHeadPrediction` past the newest measurement it is lost.
+class HeadTracker {
+ public:
+  static constexpr Duration kMaxHeadPrediction = std::chrono::milliseconds(100);
+  virtual ~HeadTracker() = default;
+  [[nodiscard]] Tracked<Transform<World, Rig>> world_from_rig(Timestamp at) const;
+
+ private:
+  [[nodiscard]] virtual Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const = 0;
+};
+
+enum class ClickerAction { kPress, kRelease, kClick, kDoubleClick, kHold };
+
+struct ClickerEvent {
+  ClickerAction action = ClickerAction::kPress;
+  Timestamp time{};
+};
+
+/// One button. Contract: times never decrease, press and release alternate, a click follows its
+/// release and a double click the second release.
+class Clicker {
+ public:
+  virtual ~Clicker() = default;
+  /// Appends every event up to and including `until`; each event is delivered once.
+  Status poll(Timestamp until, std::vector<ClickerEvent>& events);
+
+ private:
+  virtual Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) = 0;
+
+  std::optional<Timestamp> last_time_;
+  bool pressed_ = false;
+};
+
+/// Makes clicks, double clicks and holds of raw presses and releases; devices that only see a
+/// button use it. Click: released within `hold_after`; double click: two clicks whose presses lie
+/// within `double_within`; the first click is delivered as a click too.
+class ClickTimer {
+ public:
+  Duration double_within = std::chrono::milliseconds(300);
+  Duration hold_after = std::chrono::milliseconds(500);
+  void button(bool down, Timestamp time, std::vector<ClickerEvent>& events);
+  /// Emits the hold of a button that stays down.
+  void advance(Timestamp now, std::vector<ClickerEvent>& events);
+
+ private:
+  std::optional<Timestamp> pressed_at_;
+  std::optional<Timestamp> last_click_pressed_at_;
+  bool held_ = false;
+};
+
+/// A phrase as understood, lower case, with a confidence in [0, 1].
+struct Phrase {
+  std::string text;
+  double confidence = 0.0;
+  Timestamp time{};
+};
+
+/// Contract: times never decrease, text is not empty, confidence lies in [0, 1].
+class Voice {
+ public:
+  virtual ~Voice() = default;
+  Status poll(Timestamp until, std::vector<Phrase>& phrases);
+
+ private:
+  virtual Status do_poll(Timestamp until, std::vector<Phrase>& phrases) = 0;
+
+  std::optional<Timestamp> last_time_;
+};
+
+/// A headset and what hangs on it. Every part lives as long as the headset.
+class Headset {
+ public:
+  virtual ~Headset() = default;
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual const Clock& clock() const = 0;
+  [[nodiscard]] virtual StereoCamera& cameras() = 0;
+  [[nodiscard]] virtual HeadTracker& head() = 0;
+  [[nodiscard]] virtual Clicker& clicker() = 0;
+  [[nodiscard]] virtual Voice& voice() = 0;
+  [[nodiscard]] virtual Display& display() = 0;
+};
+
+}  // namespace orthonav

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/time.h"
+#include "hal/api/transform.h"
+
+namespace orthonav::sim {
+
+/// A bone lying in the room: what its surface is, in its own frame (LPS axes, metres, closed).
+struct RoomLevel {
+  std::string label;
+  std::vector<Vec3> vertices_m;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  Transform<Spine, Vertebra> spine_from_vertebra;
+};
+
+enum class ToolKind { kPointer, kGuide, kReference };
+
+/// A tool as it was manufactured. What the planning file says of it may be slightly off.
+struct RoomTool {
+  std::string name;
+  ToolKind kind = ToolKind::kPointer;
+  std::string family = "tag36h11";
+  int id = 0;
+  double size_m = 0.04;        ///< outer edge of the tag's black border
+  Point<Marker> tip_in_marker;
+  Vec3 axis_in_marker{0, 1, 0};  ///< from the tip back along the shaft
+};
+
+/// What stands in the operating room; fixed for a session.
+struct RoomDescription {
+  std::vector<RoomLevel> levels;  ///< may be empty: a table and tools only
+  std::vector<RoomTool> tools;
+  std::vector<std::string> operated;  ///< labels to be operated, in order; empty: all
+};
+
+/// Frame of the room itself: fixed, +y up, origin on the table's top under the spine; the patient
+/// lies prone, posterior up. The headset's World is this plus drift.
+struct Room;
+
+/// Where everything is at one moment: the truth. Only hal/sim and the evaluation read it.
+struct RoomState {
+  Timestamp time{};
+  Transform<Room, Rig> room_from_rig;
+  Transform<Room, Spine> room_from_spine;
+  std::vector<Transform<Room, Marker>> room_from_marker;  ///< one for each tool of the description
+  std::vector<bool> tool_present;                         ///< false: out of the scene
+  std::optional<Point<Room>> hand;    ///< centre of the hand holding the active tool
+  Vec3 hand_axis{0, 1, 0};            ///< unit, along the forearm, away from the patient
+};
+
+}  // namespace orthonav::sim

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "hal/api/devices.h"
+#include "hal/sim/magnitudes.h"
+#include "hal/sim/room.h"
+#include "hal/sim/truth.h"
+
+namespace orthonav::sim {
+
+enum class Pace {
+  kFast,     ///< the clock advances one frame at each call of cameras().next(); as fast as possible
+  kRealtime  ///< the clock follows the wall; next() answers kNone until the next frame is due
+};
+
+struct SimOptions {
+  std::uint64_t seed = 1;
+  Magnitudes magnitudes;
+  Pace pace = Pace::kFast;
+  double frame_rate_hz = 30.0;
+  /// The scripted surgeon plays; without one the tools hover over the table in slow motion.
+  bool surgeon = true;
+  double limit_s = 3600.0;  ///< the stream ends then at the latest (simulated time)
+};
+
+/// The simulated operating room as a headset. The same seed gives the same bits.
+class SimHeadset : public Headset {
+ public:
+  static Result<std::unique_ptr<SimHeadset>> open(RoomDescription room, const SimOptions& options);
+  /// The truth so far.
+  [[nodiscard]] virtual const Truth& truth() const = 0;
+  [[nodiscard]] virtual RoomState state() const = 0;
+  /// World (as the headset believes) from Room now.
+  [[nodiscard]] virtual Transform<World, Room> world_from_room() const = 0;
+  /// The tools as a planning file would describe them: slightly off by the magnitudes.
+  [[nodiscard]] virtual std::vector<RoomTool> described_tools() const = 0;
+  [[nodiscard]] virtual const RoomDescription& room() const = 0;
+};
+
+}  // namespace orthonav::sim

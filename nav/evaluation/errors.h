@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "hal/api/transform.h"
+#include "nav/geometry/mesh.h"
+#include "nav/guidance/screw.h"
+
+namespace orthonav::nav {
+
+struct ScrewError {
+  double angle_rad = 0.0;           ///< between planned and executed trajectory
+  std::optional<double> entry_m;    ///< planned to executed entry; absent when it misses the bone
+};
+
+/// The executed entry is the first intersection of the executed trajectory with the model (Liebmann
+/// et al. 2019, section 4). `executed.direction` points into the bone.
+[[nodiscard]] ScrewError screw_error(const ScrewPlan& plan, const Axis<Vertebra>& executed,
+                                     const SurfaceIndex& model);
+
+struct Summary {
+  std::size_t count = 0;
+  double mean = 0.0;
+  double sd = 0.0;  ///< of the sample (n - 1)
+  double min = 0.0;
+  double max = 0.0;
+};
+[[nodiscard]] Summary summarize(std::span<const double> values);
+
+/// Target registration error: how far the estimated pose puts a point from where it is.
+[[nodiscard]] double target_registration_error_m(const Transform<World, Vertebra>& estimated,
+                                                 const Transform<World, Vertebra>& truth,
+                                                 Point<Vertebra> target);
+
+}  // namespace orthonav::nav

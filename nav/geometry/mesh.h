@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/api/transform.h"
+
+namespace orthonav::nav {
+
+/// A closed triangle surface in its model's frame, metres, outward-oriented.
+struct TriangleMesh {
+  std::vector<Vec3> vertices_m;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Refuses what can't be navigated on, with the reason: no faces, non-finite vertices, an index out
+/// of range, edges not shared by exactly two triangles (non-manifold or open), a size outside
+/// 30-250 mm (a vertebra is 60-130 mm across; the message names metres taken for millimetres).
+/// A mesh that is closed but oriented inward is turned.
+Result<TriangleMesh> checked_vertebra(TriangleMesh mesh);
+
+struct SurfacePoint {
+  Vec3 point_m;
+  Vec3 normal;  ///< of the triangle, outward
+  double distance_m = 0.0;
+  std::uint32_t triangle = 0;
+};
+
+struct RayHit {
+  Vec3 point_m;
+  Vec3 normal;
+  double distance_m = 0.0;
+  std::uint32_t triangle = 0;
+};
+
+/// Distance queries on a mesh by a bounding volume hierarchy. Immutable, thread-safe, no
+/// allocation in queries.
+class SurfaceIndex {
+ public:
+  explicit SurfaceIndex(const TriangleMesh& mesh);
+  /// The nearest point of the surface; only what lies within `within_m` is looked for.
+  [[nodiscard]] std::optional<SurfacePoint> nearest(Vec3 query_m, double within_m = 1e9) const;
+  /// First intersection along origin + s·direction, s ≥ 0; `direction` of any length.
+  [[nodiscard]] std::optional<RayHit> first_hit(Vec3 origin_m, Vec3 direction) const;
+  [[nodiscard]] bool contains(Vec3 query_m) const;
+
+ private:
+  struct Node {
+    Vec3 low;
+    Vec3 high;
+    std::uint32_t first = 0;  ///< first triangle of a leaf, or the left child
+    std::uint32_t count = 0;  ///< 0 for an inner node (children at first and first + 1)
+  };
+  std::vector<Node> nodes_;
+  std::vector<std::array<Vec3, 3>> corners_;  ///< in the order of the leaves
+  std::vector<std::uint32_t> original_;
+};
+
+}  // namespace orthonav::nav

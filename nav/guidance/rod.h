@@ -1,0 +1,31 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/api/vec.h"
+
+namespace orthonav::nav {
+
+/// One bend of the rod: at the arc length from the first head, by the angle between the chords
+/// before and after.
+struct RodBend {
+  double arc_length_m = 0.0;
+  double angle_rad = 0.0;
+  Vec3 position_m;
+};
+
+struct RodTemplate {
+  std::vector<Vec3> heads_m;   ///< in the order along the rod
+  std::vector<Vec3> path_m;    ///< the spline, sampled every millimetre
+  double length_m = 0.0;       ///< of the spline, to 1 µm
+  double diameter_m = 0.0055;
+  std::vector<RodBend> bends;  ///< at the inner heads
+};
+
+/// A rod through the screw heads: ordered along their principal axis, joined by a centripetal
+/// Catmull-Rom spline. Refuses fewer than 2 heads, non-finite ones, and heads closer than 1 mm.
+Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_m = 0.0055);
+
+}  // namespace orthonav::nav

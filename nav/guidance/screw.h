@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hal/api/transform.h"
+
+namespace orthonav::nav {
+
+enum class Side { kLeft, kRight };
+
+/// A planned pedicle screw: from the entry point on the bone to the target inside.
+struct ScrewPlan {
+  Side side = Side::kLeft;
+  Point<Vertebra> entry;
+  Point<Vertebra> target;
+  double radius_m = 0.0;
+};
+
+/// An axis in space: `point` on it, unit `direction` into the bone.
+template <class Frame>
+struct Axis {
+  Point<Frame> point;
+  Vec3 direction;
+};
+
+/// What guides the surgeon to one screw; the paper's triangle A-B-C and 3D angle, and depth.
+struct ScrewGuidance {
+  double angle_rad = 0.0;       ///< between tool axis and planned trajectory, in [0, pi]
+  Point<World> a;               ///< entry point
+  Point<World> b;               ///< on the tool's direction, |AB| = reach
+  Point<World> c;               ///< on the planned axis outside the bone, |AC| = reach
+  double tip_to_entry_m = 0.0;  ///< distance of the tip from the entry point
+  double tip_off_axis_m = 0.0;  ///< distance of the tip from the planned axis
+  double depth_m = 0.0;         ///< of the tip past the entry along the planned axis; < 0: before
+};
+
+inline constexpr double kTriangleReach_m = 0.080;
+
+/// `tool_axis_in_world` points from the tip back along the shaft, `tip_in_world` is its tip.
+[[nodiscard]] ScrewGuidance guide(const Transform<World, Vertebra>& world_from_vertebra,
+                                  const ScrewPlan& plan, Point<World> tip_in_world,
+                                  Vec3 tool_axis_in_world);
+
+}  // namespace orthonav::nav

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/api/transform.h"
+#include "nav/geometry/mesh.h"
+
+namespace orthonav::nav {
+
+/// The preoperative vertebra, prepared once: its mesh (frame Vertebra: LPS axes, metres), the part a
+/// pointer can reach from behind, and their indices.
+class VertebraModel {
+ public:
+  static Result<std::shared_ptr<const VertebraModel>> prepare(TriangleMesh mesh);
+  [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
+  /// The posterior part: what is left after trimming what a pointer can't reach.
+  [[nodiscard]] const TriangleMesh& reachable() const { return reachable_; }
+  [[nodiscard]] const SurfaceIndex& reachable_surface() const { return reachable_surface_; }
+
+ private:
+  VertebraModel(TriangleMesh mesh, TriangleMesh reachable);
+  TriangleMesh mesh_;
+  TriangleMesh reachable_;
+  SurfaceIndex surface_;
+  SurfaceIndex reachable_surface_;
+};
+
+struct RegistrationOptions {
+  std::size_t min_points = 100;
+  int max_iterations = 100;
+  double converged_m = 1e-6;         ///< change of the RMSE that ends ICP
+  double max_rmse_m = 0.003;         ///< above: refused
+  double min_runner_up_ratio = 1.0;  ///< runner-up RMSE / RMSE that is still taken
+};
+
+/// What registration says. `accepted` false: `reasons` tells why, nothing may be guided on it.
+struct Registration {
+  bool accepted = false;
+  std::vector<std::string> reasons;
+  Transform<World, Vertebra> world_from_vertebra;
+  double rmse_m = 0.0;
+  double runner_up_rmse_m = 0.0;
+  Transform<World, Vertebra> runner_up;
+  int iterations = 0;
+  std::size_t points = 0;
+};
+
+/// The published method: PCA extreme points (paper eq. 1) pair into two configurations (eq. 2), ICP
+/// (Besl & McKay 1992) refines both on the reachable surface, the smaller RMSE wins. An Error means
+/// unusable input (too few, collinear, non-finite points).
+Result<Registration> register_paper(const VertebraModel& model,
+                                    std::span<const Point<World>> points_in_world,
+                                    const RegistrationOptions& options = {});
+
+}  // namespace orthonav::nav

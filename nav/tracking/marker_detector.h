@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/image.h"
+#include "hal/api/result.h"
+#include "hal/api/vec.h"
+
+namespace orthonav::nav {
+
+/// One tag in one image. Corners in continuous pixels (first pixel's centre at (0.5, 0.5)) in the
+/// order of the upright tag's: bottom left, bottom right, top right, top left, seen on its face;
+/// that is Marker coordinates (-s, -s), (s, -s), (s, s), (-s, s) with s = size / 2.
+struct MarkerCorners {
+  std::string family;
+  int id = 0;
+  std::array<Vec2, 4> corners_px;
+  double decision_margin = 0.0;
+  int hamming = 0;
+};
+
+struct PixelBox {
+  int x_px = 0;
+  int y_px = 0;
+  int width_px = 0;
+  int height_px = 0;
+};
+
+struct DetectorOptions {
+  std::vector<std::string> families = {"tag36h11"};
+  double decimate = 1.0;       ///< 1: full resolution for quads; 2: half
+  int max_hamming = 1;
+  double min_decision_margin = 25.0;
+  int threads = 1;
+};
+
+/// AprilTag 3's detector (Krogius, Haggenmiller, Olson 2019). One thread at a time.
+class MarkerDetector {
+ public:
+  static Result<MarkerDetector> create(const DetectorOptions& options);
+  MarkerDetector(MarkerDetector&&) noexcept;
+  MarkerDetector& operator=(MarkerDetector&&) noexcept;
+  ~MarkerDetector();
+  /// Every tag of the whole image, or of the box (clipped to the image).
+  void detect(const GreyImage& image, std::vector<MarkerCorners>& found);
+  void detect(const GreyImage& image, const PixelBox& box, std::vector<MarkerCorners>& found);
+
+ private:
+  struct Library;
+  explicit MarkerDetector(std::unique_ptr<Library> library);
+  std::unique_ptr<Library> library_;
+};
+
+}  // namespace orthonav::nav

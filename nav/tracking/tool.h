@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hal/api/transform.h"
+
+namespace orthonav::nav {
+
+enum class ToolRole { kPointer, kGuide, kReference };
+
+struct MarkerDefinition {
+  std::string family = "tag36h11";
+  int id = 0;
+  double size_m = 0.0;  ///< outer edge of the black border
+};
+
+/// A rigid tool: where its tip and axis lie relative to its marker.
+struct ToolGeometry {
+  std::string name;
+  ToolRole role = ToolRole::kPointer;
+  MarkerDefinition marker;
+  Point<Marker> tip_in_marker;
+  /// Unit vector from the tip back along the shaft, away from the patient.
+  Direction<Marker> axis_in_marker{{0, 1, 0}};
+};
+
+/// Every problem at once: empty names, unknown families, duplicate ids or names, sizes outside
+/// 5-200 mm, tips farther than 1 m, axes that are not unit vectors. Empty when all is well.
+[[nodiscard]] std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools);
+/// Tag families that can be detected.
+[[nodiscard]] bool is_known_family(const std::string& family);
+
+}  // namespace orthonav::nav

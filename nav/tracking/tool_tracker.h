@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/api/tracked.h"
+#include "nav/tracking/tool.h"
+
+namespace orthonav::nav {
+
+using TrackedPose = Tracked<Transform<World, Marker>>;
+
+/// The state of one tool after one stereo pair.
+struct ToolState {
+  std::size_t tool = 0;  ///< index into the tools given at creation
+  TrackedPose world_from_marker;
+  /// The same relative to the headset, for quantities in which head pose and map drift cancel.
+  Transform<Rig, Marker> rig_from_marker;
+  double residual_px = 0.0;  ///< RMS reprojection residual of the corners
+};
+
+struct TrackerOptions {
+  /// 1: search the whole of both images in every pair. n: only around predictions, and the whole
+  /// image every n-th pair while something is missing.
+  int full_search_interval = 1;
+  double decimate = 1.0;
+  /// Two threads detect left and right at once; the result is the same.
+  bool parallel = true;
+  /// A lost tool is predicted for so long, then lost.
+  Duration coast = std::chrono::milliseconds(100);
+  /// Spectral density of the corner filter's white acceleration, px²/s³, and its measurement SD.
+  double corner_acceleration_px = 4000.0;
+  double corner_noise_px = 0.1;
+};
+
+/// Tracks every tool through stereo pairs. One thread at a time.
+class ToolTracker {
+ public:
+  virtual ~ToolTracker() = default;
+  /// One state for each tool, in the order of the tools.
+  virtual std::span<const ToolState> track(const StereoFrame& frame) = 0;
+  [[nodiscard]] virtual std::span<const ToolGeometry> tools() const = 0;
+};
+
+/// The published method (Liebmann et al. 2019, section 3.1): AprilTag corners in both images,
+/// a constant-velocity Kalman filter for each corner, look-up to the unit plane, the closest point
+/// between the two rays, absolute orientation.
+Result<std::unique_ptr<ToolTracker>> create_paper_tracker(const StereoCalibration& calibration,
+                                                          std::vector<ToolGeometry> tools,
+                                                          const TrackerOptions& options = {});
+
+/// Where the tool will be at `time`, from its two newest measured states (constant velocity,
+/// covariance grown accordingly); lost when `time` is more than `coast` past the newest one.
+[[nodiscard]] TrackedPose predicted(const TrackedPose& older, const TrackedPose& newer,
+                                    Timestamp time, Duration coast);
+
+}  // namespace orthonav::nav

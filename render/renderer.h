@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/scene.h"
+
+namespace orthonav::render {
+
+/// 8-bit RGBA, row-major, sRGB-encoded colour.
+struct Image {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> rgba;
+  friend bool operator==(const Image&, const Image&) = default;
+};
+
+/// The hologram at each pixel's centre, single sample; 0 where there is none.
+struct LabelImage {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<Label> labels;
+  friend bool operator==(const LabelImage&, const LabelImage&) = default;
+};
+
+struct RendererOptions {
+  int width_px = 1268;   ///< of one eye, 16 to 8192
+  int height_px = 720;
+  int samples = 4;       ///< 1 or 4
+  Blend blend = Blend::kAdditive;
+  std::string device;    ///< part of a device's name ("llvmpipe"); empty: best GPU, else lavapipe
+  bool validation = false;
+};
+
+struct DeviceInfo {
+  std::string name;
+  std::string driver;
+  std::string type;  ///< "discrete GPU", "integrated GPU", "CPU", ...
+  bool usable = false;
+  std::string reason;  ///< why not usable
+};
+
+/// Where the time of one frame went, milliseconds of wall time.
+struct FrameTiming {
+  double record_ms = 0;
+  double gpu_ms = 0;   ///< submit to fence
+  double total_ms = 0;
+};
+
+/// Draws scenes into images, both eyes in one pass. Owns a Vulkan device; one thread at a time.
+/// Failures come back as one line in `error`; the renderer stays usable unless the device is lost.
+class Renderer {
+ public:
+  /// nullptr and a line in `error` when there is no Vulkan device that serves.
+  static std::unique_ptr<Renderer> create(const RendererOptions& options, std::string& error);
+  virtual ~Renderer() = default;
+
+  /// Draws `scene` for one or two views. `backgrounds` is empty (black) or one image a view of the
+  /// renderer's size. Fills one image a view; false and a line in `error` on failure.
+  virtual bool draw(const Scene& scene, const std::vector<View>& views,
+                    const std::vector<const Image*>& backgrounds, std::vector<Image>& images,
+                    std::string& error) = 0;
+  /// The label images of the same scene.
+  virtual bool draw_labels(const Scene& scene, const std::vector<View>& views,
+                           std::vector<LabelImage>& images, std::string& error) = 0;
+  [[nodiscard]] virtual const DeviceInfo& device() const = 0;
+  [[nodiscard]] virtual FrameTiming last_timing() const = 0;
+  /// What the validation layer said so far; empty when silent or off.
+  [[nodiscard]] virtual const std::vector<std::string>& validation_messages() const = 0;
+};
+
+/// Every Vulkan device of this machine, with the reason where one can't be used.
+[[nodiscard]] std::vector<DeviceInfo> list_devices();
+
+}  // namespace orthonav::render

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace orthonav::render {
+
+/// World coordinates in metres, right-handed, +y up. The renderer knows nothing of surgery.
+struct Float3 {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+  friend bool operator==(const Float3&, const Float3&) = default;
+};
+
+/// Linear (not sRGB-encoded) colour and opacity in [0, 1]; not premultiplied.
+struct Colour {
+  float r = 1;
+  float g = 1;
+  float b = 1;
+  float a = 1;
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+/// Column-major 4×4 for column vectors, as GLSL reads it.
+using Matrix4 = std::array<float, 16>;
+inline constexpr Matrix4 kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+/// Which hologram an item belongs to; the value written into the label image. 0 is background.
+/// By convention 100·n + k for the k-th instance of hologram Hn (H3 of screw 2: 302).
+using Label = std::uint32_t;
+
+/// A surface, shared between frames: the renderer keys its GPU copy on the pointer.
+struct MeshData {
+  std::vector<Float3> positions;
+  std::vector<Float3> normals;         ///< one a vertex, unit length
+  std::vector<std::uint32_t> indices;  ///< three a triangle
+};
+
+enum class MeshStyle {
+  kSolid,  ///< lit by a headlight
+  kRim     ///< bright where the surface turns away from the eye, thin where it faces it
+};
+
+struct MeshItem {
+  Label label = 0;
+  std::shared_ptr<const MeshData> mesh;
+  Matrix4 world_from_model = kIdentity;
+  Colour colour;
+  MeshStyle style = MeshStyle::kSolid;
+};
+
+/// A line through world points, `width_m` wide towards the eye, never thinner than 1.5 px.
+struct LineItem {
+  Label label = 0;
+  std::vector<Float3> points;
+  float width_m = 0.001f;
+  Colour colour;
+  bool closed = false;
+  float dash_m = 0;  ///< length of a dash and of the gap after it; 0 is solid
+};
+
+/// A filled triangle, seen from both sides.
+struct TriangleItem {
+  Label label = 0;
+  std::array<Float3, 3> corners;
+  Colour colour;
+};
+
+struct TextRun {
+  std::string text;  ///< UTF-8
+  Colour colour;
+};
+
+enum class TextPlace {
+  kWorld,  ///< at `position` in the world, facing the eyes, upright to the head
+  kView    ///< at `position` in the head's frame (x right, y up, -z forward, metres): status line
+};
+enum class TextAlign { kLeft, kCentre, kRight };
+
+/// One line of text; digits are tabular. The cap height is `height_m`, but never less than
+/// `min_height_deg` of visual angle.
+struct TextItem {
+  Label label = 0;
+  std::vector<TextRun> runs;
+  Float3 position;
+  TextPlace place = TextPlace::kWorld;
+  TextAlign align = TextAlign::kCentre;
+  float height_m = 0.006f;
+  float min_height_deg = 0;
+  Colour rim{0, 0, 0, 0};  ///< outline around the glyphs; a = 0: none
+  /// Shift in units of the cap height: right and up as seen by the eyes.
+  float offset_right = 0;
+  float offset_up = 0;
+};
+
+/// Everything one frame shows. Plain values: equal scenes give equal images.
+struct Scene {
+  std::vector<MeshItem> meshes;
+  std::vector<LineItem> lines;
+  std::vector<TriangleItem> triangles;
+  std::vector<TextItem> texts;
+};
+
+/// One eye: where it is and what it sees. Tangents of the half angles, all positive.
+struct View {
+  Matrix4 eye_from_world = kIdentity;  ///< eye axes: x right, y up, -z forward
+  float tan_left = 0.5f;
+  float tan_right = 0.5f;
+  float tan_up = 0.3f;
+  float tan_down = 0.3f;
+};
+
+/// How holograms meet what is behind them.
+enum class Blend {
+  kAdditive,  ///< optical see-through: background + hologram
+  kOver       ///< preview: hologram over background by its opacity
+};
+
+}  // namespace orthonav::render

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace orthonav::tools {
+
+/// Exit codes of every subcommand: the answer is yes / the answer is no / the input is bad.
+inline constexpr int kDone = 0;
+inline constexpr int kNo = 1;
+inline constexpr int kBadInput = 2;
+
+/// What main runs once the command line is parsed; a subcommand's callback sets it.
+using Action = std::function<int()>;
+
+/// One line on standard error, then the exit code for bad input.
+int bad_input(const std::string& message);
+
+// Each adds its subcommand to `app`; one file a subcommand.
+// (declarations in alphabetical order)
+
+}  // namespace orthonav::tools
