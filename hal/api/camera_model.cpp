@@ -1,0 +1,332 @@
+#include "hal/api/camera_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace orthonav {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Far beyond any sensor; keeps width · height from overflowing on damaged input.
+constexpr int kMaxSide = 16384;
+constexpr int kGridCellPx = 8;
+/// Newton stops below this step; the contract is 1e-6 px.
+constexpr double kNewtonStepPx = 1e-9;
+constexpr int kNewtonSteps = 30;
+/// A point that rounding put just past the image's edge still lies on it.
+constexpr double kEdgePx = 1e-7;
+
+bool is_nan(Vec2 v) { return std::isnan(v.x) || std::isnan(v.y); }
+
+/// The table between four neighbouring pixel centres: value and derivative at a fraction.
+struct Cell {
+  Vec2 a;  ///< top left
+  Vec2 b;  ///< top right
+  Vec2 c;  ///< bottom left
+  Vec2 d;  ///< bottom right
+
+  [[nodiscard]] bool valid() const { return !is_nan(a) && !is_nan(b) && !is_nan(c) && !is_nan(d); }
+  [[nodiscard]] Vec2 value(double s, double t) const {
+    const Vec2 top = a + s * (b - a);
+    const Vec2 bottom = c + s * (d - c);
+    return top + t * (bottom - top);
+  }
+  [[nodiscard]] Vec2 along_x(double t) const { return (1.0 - t) * (b - a) + t * (d - c); }
+  [[nodiscard]] Vec2 along_y(double s) const { return (1.0 - s) * (c - a) + s * (d - b); }
+};
+
+double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+
+struct Place {
+  int column = 0;
+  int row = 0;
+  double s = 0.0;
+  double t = 0.0;
+};
+
+Place place_of(Vec2 pixel_px, int width_px, int height_px) {
+  // Clamped before the conversion: Newton may ask for pixels that no int can hold.
+  const double x = pixel_px.x - 0.5;
+  const double y = pixel_px.y - 0.5;
+  const int column = static_cast<int>(std::clamp(std::floor(x), 0.0, width_px - 2.0));
+  const int row = static_cast<int>(std::clamp(std::floor(y), 0.0, height_px - 2.0));
+  return {column, row, x - column, y - row};
+}
+
+Cell cell_at(std::span<const Vec2> lookup, int width_px, int column, int row) {
+  const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px) +
+                 static_cast<std::size_t>(column);
+  const auto below = i + static_cast<std::size_t>(width_px);
+  return {lookup[i], lookup[i + 1], lookup[below], lookup[below + 1]};
+}
+
+/// +1 or -1 where the cell keeps or mirrors orientation throughout, 0 where it folds: the
+/// determinant of a bilinear map is linear in each fraction, so its corners bound it.
+int orientation(const Cell& cell) {
+  int positive = 0;
+  int negative = 0;
+  for (const double t : {0.0, 1.0})
+    for (const double s : {0.0, 1.0}) {
+      const double determinant = cross(cell.along_x(t), cell.along_y(s));
+      positive += determinant > 0.0 ? 1 : 0;
+      negative += determinant < 0.0 ? 1 : 0;
+    }
+  return positive == 4 ? 1 : (negative == 4 ? -1 : 0);
+}
+
+std::string pixel_name(int column, int row) {
+  return std::string("(").append(std::to_string(column)).append(", ").append(std::to_string(row)) +
+         ")";
+}
+
+Status check_entries(int width_px, std::vector<Vec2>& lookup) {
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < lookup.size(); ++i) {
+    Vec2& v = lookup[i];
+    if (std::isinf(v.x) || std::isinf(v.y))
+      return Error{"camera look-up table holds an infinity at pixel " +
+                   pixel_name(static_cast<int>(i) % width_px, static_cast<int>(i) / width_px)};
+    if (is_nan(v))
+      v = {kNaN, kNaN};
+    else
+      ++valid;
+  }
+  if (valid == 0) return Error{"camera look-up table has no valid pixel (all NaN)"};
+  return {};
+}
+
+Status check_folds(int width_px, int height_px, std::span<const Vec2> lookup) {
+  int sign = 0;
+  for (int row = 0; row + 1 < height_px; ++row)
+    for (int column = 0; column + 1 < width_px; ++column) {
+      const Cell cell = cell_at(lookup, width_px, column, row);
+      if (!cell.valid()) continue;
+      const int here = orientation(cell);
+      if (here == 0 || (sign != 0 && here != sign))
+        return Error{"camera look-up table folds over at pixel " + pixel_name(column, row) +
+                     ": two pixels would see the same direction"};
+      sign = here;
+    }
+  if (sign == 0)
+    return Error{"camera look-up table has no four neighbouring valid pixels to interpolate in"};
+  return {};
+}
+
+struct Grid {
+  int columns = 0;
+  int rows = 0;
+  Vec2 origin{};
+  Vec2 step{};
+  std::vector<Vec2> start_px;
+};
+
+/// Cells nobody mapped to take the start of a neighbour, ring by ring.
+void fill_gaps(Grid& grid) {
+  std::vector<Vec2> next;
+  for (bool gaps = true; gaps;) {
+    gaps = false;
+    next = grid.start_px;
+    for (int row = 0; row < grid.rows; ++row)
+      for (int column = 0; column < grid.columns; ++column) {
+        Vec2& here = next[static_cast<std::size_t>(row * grid.columns + column)];
+        if (!is_nan(here)) continue;
+        gaps = true;
+        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, grid.rows - 1); ++y)
+          for (int x = std::max(column - 1, 0); x <= std::min(column + 1, grid.columns - 1); ++x) {
+            const Vec2 from = grid.start_px[static_cast<std::size_t>(y * grid.columns + x)];
+            if (!is_nan(from)) here = from;
+          }
+      }
+    grid.start_px.swap(next);
+  }
+}
+
+Grid build_grid(int width_px, int height_px, std::span<const Vec2> lookup) {
+  Vec2 low{1e300, 1e300};
+  Vec2 high{-1e300, -1e300};
+  for (const Vec2 v : lookup) {
+    if (is_nan(v)) continue;
+    low = {std::min(low.x, v.x), std::min(low.y, v.y)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y)};
+  }
+  Grid grid;
+  grid.columns = std::max(width_px / kGridCellPx, 2);
+  grid.rows = std::max(height_px / kGridCellPx, 2);
+  grid.origin = low;
+  grid.step = {(high.x - low.x) / grid.columns, (high.y - low.y) / grid.rows};
+  grid.start_px.assign(static_cast<std::size_t>(grid.columns * grid.rows), {kNaN, kNaN});
+  for (int row = 0; row + 1 < height_px; ++row)
+    for (int column = 0; column + 1 < width_px; ++column) {
+      const Cell cell = cell_at(lookup, width_px, column, row);
+      if (!cell.valid()) continue;
+      const Vec2 v = cell.a;
+      const int x = std::clamp(static_cast<int>((v.x - low.x) / grid.step.x), 0, grid.columns - 1);
+      const int y = std::clamp(static_cast<int>((v.y - low.y) / grid.step.y), 0, grid.rows - 1);
+      grid.start_px[static_cast<std::size_t>(y * grid.columns + x)] = {column + 1.0, row + 1.0};
+    }
+  fill_gaps(grid);
+  return grid;
+}
+
+/// Derivative of BrownConrady::distort in pixels by the unit-plane point: columns along x and y.
+std::array<Vec2, 2> distort_jacobian(const BrownConrady& p, Vec2 u) {
+  const double r2 = u.dot(u);
+  const double radial = 1.0 + r2 * (p.k1 + r2 * (p.k2 + r2 * p.k3));
+  const double slope = 2.0 * (p.k1 + r2 * (2.0 * p.k2 + 3.0 * r2 * p.k3));  // d radial / (r dr)
+  const double mixed = u.x * u.y * slope + 2.0 * p.p1 * u.x + 2.0 * p.p2 * u.y;
+  const double xx = radial + u.x * u.x * slope + 2.0 * p.p1 * u.y + 6.0 * p.p2 * u.x;
+  const double yy = radial + u.y * u.y * slope + 6.0 * p.p1 * u.y + 2.0 * p.p2 * u.x;
+  return {{{p.fx_px * xx, p.fy_px * mixed}, {p.fx_px * mixed, p.fy_px * yy}}};
+}
+
+/// Inverse of `distort` by Newton's method from the undistorted pixel; NaN where the polynomial
+/// does not reach the pixel on the branch that contains the centre.
+Vec2 undistorted(const BrownConrady& p, Vec2 pixel_px) {
+  Vec2 u{(pixel_px.x - p.cx_px) / p.fx_px, (pixel_px.y - p.cy_px) / p.fy_px};
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const Vec2 off = pixel_px - p.distort(u);
+    const auto [by_x, by_y] = distort_jacobian(p, u);
+    const double determinant = cross(by_x, by_y);
+    if (!(determinant > 0.0)) return {kNaN, kNaN};
+    const Vec2 step{cross(off, by_y) / determinant, cross(by_x, off) / determinant};
+    u = u + step;
+    if (step.norm() * p.fx_px < kNewtonStepPx)
+      return cross(distort_jacobian(p, u)[0], distort_jacobian(p, u)[1]) > 0.0 ? u
+                                                                               : Vec2{kNaN, kNaN};
+  }
+  return {kNaN, kNaN};
+}
+
+Status check_parameters(const BrownConrady& p) {
+  for (const double v : {p.fx_px, p.fy_px, p.cx_px, p.cy_px, p.k1, p.k2, p.p1, p.p2, p.k3})
+    if (!std::isfinite(v)) return Error{"camera parameters hold a number that is not finite"};
+  if (p.fx_px <= 0.0 || p.fy_px <= 0.0)
+    return Error{"camera focal length is " + std::to_string(std::min(p.fx_px, p.fy_px)) +
+                 " px, must be positive"};
+  return {};
+}
+
+Status check_size(int width_px, int height_px) {
+  if (width_px < 2 || height_px < 2 || width_px > kMaxSide || height_px > kMaxSide)
+    return Error{"camera image is " + std::to_string(width_px) + " x " + std::to_string(height_px) +
+                 " px, each side must be 2 to " + std::to_string(kMaxSide)};
+  return {};
+}
+
+}  // namespace
+
+Vec2 BrownConrady::distort(Vec2 u) const {
+  const double r2 = u.dot(u);
+  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  const double x = u.x * radial + 2.0 * p1 * u.x * u.y + p2 * (r2 + 2.0 * u.x * u.x);
+  const double y = u.y * radial + p1 * (r2 + 2.0 * u.y * u.y) + 2.0 * p2 * u.x * u.y;
+  return {fx_px * x + cx_px, fy_px * y + cy_px};
+}
+
+Result<CameraModel> CameraModel::from_lookup(int width_px, int height_px,
+                                             std::vector<Vec2> unit_plane) {
+  if (Status size = check_size(width_px, height_px); !size) return size.error();
+  const std::size_t expected =
+      static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  if (unit_plane.size() != expected)
+    return Error{"camera look-up table has " + std::to_string(unit_plane.size()) +
+                 " entries, an image of " + std::to_string(width_px) + " x " +
+                 std::to_string(height_px) + " px needs " + std::to_string(expected)};
+  if (Status entries = check_entries(width_px, unit_plane); !entries) return entries.error();
+  if (Status folds = check_folds(width_px, height_px, unit_plane); !folds) return folds.error();
+  Grid grid = build_grid(width_px, height_px, unit_plane);
+  CameraModel model;
+  model.width_px_ = width_px;
+  model.height_px_ = height_px;
+  model.lookup_ = std::move(unit_plane);
+  model.grid_columns_ = grid.columns;
+  model.grid_rows_ = grid.rows;
+  model.grid_origin_ = grid.origin;
+  model.grid_step_ = grid.step;
+  model.grid_start_px_ = std::move(grid.start_px);
+  return model;
+}
+
+Result<CameraModel> CameraModel::from_brown_conrady(const BrownConrady& p) {
+  if (Status size = check_size(p.width_px, p.height_px); !size) return size.error();
+  if (Status parameters = check_parameters(p); !parameters) return parameters.error();
+  std::vector<Vec2> table;
+  table.reserve(static_cast<std::size_t>(p.width_px) * static_cast<std::size_t>(p.height_px));
+  for (int row = 0; row < p.height_px; ++row)
+    for (int column = 0; column < p.width_px; ++column) {
+      table.push_back(undistorted(p, {column + 0.5, row + 0.5}));
+    }
+  return from_lookup(p.width_px, p.height_px, std::move(table));
+}
+
+std::optional<Vec2> CameraModel::unproject(Vec2 pixel_px) const {
+  if (!(pixel_px.x >= 0.0 && pixel_px.y >= 0.0 && pixel_px.x <= width_px_ &&
+        pixel_px.y <= height_px_) ||
+      lookup_.empty())
+    return std::nullopt;
+  const Place at = place_of(pixel_px, width_px_, height_px_);
+  const Cell cell = cell_at(lookup_, width_px_, at.column, at.row);
+  if (cell.valid()) return cell.value(at.s, at.t);
+  // A pixel's own centre needs no neighbour, at the rim of the valid part it may have none.
+  const Vec2 own = at.s == 0.0 && at.t == 0.0 ? cell.a : Vec2{kNaN, kNaN};
+  return is_nan(own) ? std::nullopt : std::optional<Vec2>(own);
+}
+
+std::optional<Vec2> CameraModel::project(Vec2 u) const {
+  if (lookup_.empty() || !std::isfinite(u.x) || !std::isfinite(u.y)) return std::nullopt;
+  const double column = std::floor((u.x - grid_origin_.x) / grid_step_.x);
+  const double row = std::floor((u.y - grid_origin_.y) / grid_step_.y);
+  if (column < -1.0 || row < -1.0 || column > grid_columns_ || row > grid_rows_)
+    return std::nullopt;
+  const int x = std::clamp(static_cast<int>(column), 0, grid_columns_ - 1);
+  const int y = std::clamp(static_cast<int>(row), 0, grid_rows_ - 1);
+  Vec2 pixel = grid_start_px_[static_cast<std::size_t>(y * grid_columns_ + x)];
+  Vec2 last_valid = pixel;
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const Place at = place_of(pixel, width_px_, height_px_);
+    const Cell cell = cell_at(lookup_, width_px_, at.column, at.row);
+    if (!cell.valid()) {  // a step too far, past the rim of the valid part
+      pixel = 0.5 * (pixel + last_valid);
+      continue;
+    }
+    last_valid = pixel;
+    const Vec2 off = u - cell.value(at.s, at.t);
+    const Vec2 by_x = cell.along_x(at.t);
+    const Vec2 by_y = cell.along_y(at.s);
+    const double determinant = cross(by_x, by_y);
+    if (determinant == 0.0) return std::nullopt;
+    const Vec2 step{cross(off, by_y) / determinant, cross(by_x, off) / determinant};
+    pixel = pixel + step;
+    if (!(std::abs(step.x) + std::abs(step.y) < 1e6)) return std::nullopt;
+    if (std::abs(step.x) + std::abs(step.y) > kNewtonStepPx) continue;
+    if (pixel.x < -kEdgePx || pixel.y < -kEdgePx || pixel.x > width_px_ + kEdgePx ||
+        pixel.y > height_px_ + kEdgePx)
+      return std::nullopt;
+    pixel = {std::clamp(pixel.x, 0.0, static_cast<double>(width_px_)),
+             std::clamp(pixel.y, 0.0, static_cast<double>(height_px_))};
+    return pixel;
+  }
+  return std::nullopt;
+}
+
+std::optional<Vec2> CameraModel::project(Vec3 in_camera_m) const {
+  if (!(in_camera_m.z > 0.0)) return std::nullopt;
+  return project(Vec2{in_camera_m.x / in_camera_m.z, in_camera_m.y / in_camera_m.z});
+}
+
+std::optional<std::array<double, 4>> CameraModel::jacobian_px(Vec2 pixel_px) const {
+  if (!unproject(pixel_px)) return std::nullopt;
+  const Place at = place_of(pixel_px, width_px_, height_px_);
+  const Cell cell = cell_at(lookup_, width_px_, at.column, at.row);
+  if (!cell.valid()) return std::nullopt;
+  const Vec2 by_x = cell.along_x(at.t);
+  const Vec2 by_y = cell.along_y(at.s);
+  const double determinant = cross(by_x, by_y);
+  if (determinant == 0.0) return std::nullopt;
+  return std::array<double, 4>{by_y.y / determinant, -by_y.x / determinant, -by_x.y / determinant,
+                               by_x.x / determinant};
+}
+
+}  // namespace orthonav
