@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,7 +45,9 @@ enum class Next {
 };
 
 /// Pull interface of the camera pair. Contract, kept by the public call for every device: times
-/// strictly increase, both images have the calibration's size, sequence numbers increase.
+/// strictly increase, both images have the calibration's size, sequence numbers increase, a pose is
+/// a rigid motion; after kEnd there is only kEnd. A frame that breaks it is answered with an Error
+/// and not passed on (`frame` comes back empty); the stream goes on with the next good frame.
 class StereoCamera {
  public:
   virtual ~StereoCamera() = default;
@@ -58,10 +61,12 @@ class StereoCamera {
 
   std::optional<Timestamp> last_time_;
   std::int64_t last_sequence_ = -1;
+  bool ended_ = false;
 };
 
 /// Where the head is, was or will be. Contract: the answer's time is the time asked for; asked
-/// further ahead than `kMaxHeadPrediction` past the newest measurement it is lost.
+/// further ahead than `kMaxHeadPrediction` past the newest measurement it is lost. What is no rigid
+/// motion or belongs to another time is answered as lost. Thread-safe.
 class HeadTracker {
  public:
   static constexpr Duration kMaxHeadPrediction = std::chrono::milliseconds(100);
@@ -70,6 +75,10 @@ class HeadTracker {
 
  private:
   [[nodiscard]] virtual Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const = 0;
+  /// Time of the newest measurement; a device that tells it need not watch the limit itself.
+  [[nodiscard]] virtual std::optional<Timestamp> do_newest_measurement() const {
+    return std::nullopt;
+  }
 };
 
 enum class ClickerAction { kPress, kRelease, kClick, kDoubleClick, kHold };
@@ -79,24 +88,37 @@ struct ClickerEvent {
   Timestamp time{};
 };
 
+/// Where a button is in its sequence of events.
+struct ButtonState {
+  bool pressed = false;
+  bool clickable = false;         ///< released, and not told as a click yet
+  bool double_clickable = false;  ///< released, and not told as a double click yet
+
+  /// Takes the next event, or says why it cannot come now.
+  Status take(ClickerAction action);
+};
+
 /// One button. Contract: times never decrease, press and release alternate, a click follows its
-/// release and a double click the second release.
+/// release and a double click the second release, a hold falls between press and release.
 class Clicker {
  public:
   virtual ~Clicker() = default;
-  /// Appends every event up to and including `until`; each event is delivered once.
+  /// Appends every event up to and including `until`; each event is delivered once. When one of
+  /// them breaks the contract, the answer is an Error and none of this call's events is passed on.
   Status poll(Timestamp until, std::vector<ClickerEvent>& events);
 
  private:
   virtual Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) = 0;
 
   std::optional<Timestamp> last_time_;
-  bool pressed_ = false;
+  ButtonState state_;
 };
 
 /// Makes clicks, double clicks and holds of raw presses and releases; devices that only see a
 /// button use it. Click: released within `hold_after`; double click: two clicks whose presses lie
-/// within `double_within`; the first click is delivered as a click too.
+/// within `double_within`. The first click is delivered as a click too, the second as a double
+/// click only; a third in a row starts anew. A button reported twice in the same position (a
+/// keyboard's repeat) is ignored.
 class ClickTimer {
  public:
   Duration double_within = std::chrono::milliseconds(300);
@@ -122,6 +144,8 @@ struct Phrase {
 class Voice {
  public:
   virtual ~Voice() = default;
+  /// Appends every phrase up to and including `until`; each is delivered once. When one of them
+  /// breaks the contract, the answer is an Error and none of this call's phrases is passed on.
   Status poll(Timestamp until, std::vector<Phrase>& phrases);
 
  private:
@@ -136,6 +160,13 @@ class Headset {
   virtual ~Headset() = default;
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual const Clock& clock() const = 0;
+  /// What this device's time zero is called in files, in ticks of 100 ns. A HoloLens counts from
+  /// the year 1601, and such ticks times 100 do not fit into 64 bits of nanoseconds.
+  [[nodiscard]] virtual std::int64_t epoch_ticks_100ns() const { return 0; }
+  /// A time as files name it.
+  [[nodiscard]] std::int64_t file_ticks_100ns(Timestamp t) const {
+    return epoch_ticks_100ns() + ticks_100ns(t);
+  }
   [[nodiscard]] virtual StereoCamera& cameras() = 0;
   [[nodiscard]] virtual HeadTracker& head() = 0;
   [[nodiscard]] virtual Clicker& clicker() = 0;

@@ -24,14 +24,13 @@ struct ShownFrame {
 };
 
 /// The see-through display. Pixels go to a swapchain or an image; what was shown is told here, so
-/// that a simulated wearer can read it. Contract: display times strictly increase.
+/// that a simulated wearer can read it. Contract: display times strictly
+/// increase; a frame that does not is refused and reaches nobody.
 class Display {
  public:
   virtual ~Display() = default;
   /// When a frame submitted now will light up.
-  [[nodiscard]] Timestamp predicted_display_time(Timestamp now) const {
-    return now + do_latency();
-  }
+  [[nodiscard]] Timestamp predicted_display_time(Timestamp now) const { return now + do_latency(); }
   Status shown(const ShownFrame& frame);
 
  private:

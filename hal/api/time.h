@@ -17,9 +17,10 @@ struct DeviceClock {
 using Timestamp = DeviceClock::time_point;
 using Duration = DeviceClock::duration;
 
-/// Files hold ticks of 100 ns.
+/// Files hold ticks of 100 ns; Headset::file_ticks_100ns adds the device's epoch. Rounds down.
 [[nodiscard]] constexpr std::int64_t ticks_100ns(Timestamp t) {
-  return t.time_since_epoch().count() / 100;
+  const std::int64_t ns = t.time_since_epoch().count();
+  return ns / 100 - (ns % 100 < 0 ? 1 : 0);
 }
 [[nodiscard]] constexpr Timestamp from_ticks_100ns(std::int64_t ticks) {
   return Timestamp(Duration(ticks * 100));

@@ -43,12 +43,16 @@ struct Direction {
 template <class A, class B>
 class Transform {
  public:
+  static constexpr double kExact = 1e-9;
+
   constexpr Transform() = default;
   /// `rotation` must be a rotation already; numbers from outside enter through `checked`.
   constexpr Transform(const Mat3& rotation, Vec3 translation_m)
       : rotation_(rotation), translation_(translation_m) {}
 
   /// Refuses what is no rigid motion: non-finite, not orthonormal within `tolerance`, mirrored.
+  /// A rotation that is orthonormal within kExact already is taken to the bit, so that a recorded
+  /// pose comes back as it was; anything rougher is orthonormalized.
   static Result<Transform> checked(const Mat3& rotation, Vec3 translation_m,
                                    double tolerance = 1e-2) {
     bool finite = translation_m.is_finite();
@@ -57,12 +61,11 @@ class Transform {
     if (rotation.determinant() < 0.0)
       return Error{"transform mirrors (determinant " + std::to_string(rotation.determinant()) +
                    ", must be +1)"};
-    const Mat3 gram = rotation * rotation.transposed();
-    for (int r = 0; r < 3; ++r)
-      for (std::size_t c = 0; c < 3; ++c)
-        if (std::abs(gram[r][c] - (static_cast<std::size_t>(r) == c ? 1.0 : 0.0)) > tolerance)
-          return Error{"transform is not rigid (rows are not orthonormal within " +
-                       std::to_string(tolerance) + ")"};
+    const double deviation = orthonormality_error(rotation);
+    if (!(deviation <= tolerance))
+      return Error{"transform is not rigid (rows deviate from orthonormal by " +
+                   std::to_string(deviation) + ", limit " + std::to_string(tolerance) + ")"};
+    if (deviation <= kExact) return Transform(rotation, translation_m);
     return Transform(orthonormalized(rotation), translation_m);
   }
   /// Row-major 4×4 for column vectors (translation in the last column), metres.

@@ -1,5 +1,7 @@
 #include "hal/api/vec.h"
 
+#include <algorithm>
+
 namespace orthonav {
 
 Mat3 rotation_from_vector(Vec3 v) {
@@ -60,6 +62,18 @@ Mat3 orthonormalized(const Mat3& a) {
   const Vec3 x = a.row(0).normalized();
   const Vec3 y = (a.row(1) - x.dot(a.row(1)) * x).normalized();
   return Mat3::from_columns(x, y, x.cross(y)).transposed();
+}
+
+double orthonormality_error(const Mat3& matrix) {
+  const Mat3 gram = matrix * matrix.transposed();
+  double worst = 0.0;
+  for (int r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double error = std::abs(gram[r][c] - (static_cast<std::size_t>(r) == c ? 1.0 : 0.0));
+      if (std::isnan(error)) return error;
+      worst = std::max(worst, error);
+    }
+  return worst;
 }
 
 double rotation_angle_rad(const Mat3& a, const Mat3& b) {

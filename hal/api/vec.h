@@ -98,6 +98,8 @@ struct Quaternion {
 [[nodiscard]] Quaternion quaternion_from_rotation(const Mat3& rotation);
 /// The rotation nearest to a matrix that is nearly one (Gram-Schmidt on the rows).
 [[nodiscard]] Mat3 orthonormalized(const Mat3& nearly_rotation);
+/// Largest deviation of M·Mᵀ from the identity; 0 for a rotation or a mirrored one.
+[[nodiscard]] double orthonormality_error(const Mat3& matrix);
 /// Angle of the rotation between two orientations, rad.
 [[nodiscard]] double rotation_angle_rad(const Mat3& a, const Mat3& b);
 

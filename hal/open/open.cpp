@@ -1,0 +1,101 @@
+#include "hal/open/open.h"
+
+#include <charconv>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "hal/replay/replay_headset.h"
+
+namespace orthonav {
+
+namespace {
+
+constexpr const char* kKnownSchemes = "known are sim: and replay:PATH";
+constexpr const char* kKnownSimKeys = "known are seed=N, perfect and realtime";
+
+sim::RoomTool default_pointer() {
+  sim::RoomTool pointer;
+  pointer.name = "pointer";
+  pointer.id = 3;
+  pointer.size_m = 0.050;
+  pointer.tip_in_marker = {{0.0, -0.150, 0.0}};
+  return pointer;
+}
+
+Error bad_uri(const std::string& uri, const std::string& why) {
+  return Error{"headset URI \"" + uri + "\": " + why};
+}
+
+/// One `key` or `key=value` of the query.
+Status apply_sim_key(const std::string& uri, std::string_view item, std::set<std::string>& seen,
+                     sim::SimOptions& options) {
+  const std::size_t equals = item.find('=');
+  const std::string key(item.substr(0, equals));
+  const bool has_value = equals != std::string_view::npos;
+  const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
+  if (key != "seed" && key != "perfect" && key != "realtime")
+    return bad_uri(uri, "unknown key \"" + key + "\"; " + kKnownSimKeys);
+  if (!seen.insert(key).second) return bad_uri(uri, "key \"" + key + "\" is given twice");
+  if (key == "seed") {
+    const char* end = value.data() + value.size();
+    const auto [rest, code] = std::from_chars(value.data(), end, options.seed);
+    if (value.empty() || code != std::errc{} || rest != end)
+      return bad_uri(uri, "seed \"" + std::string(value) +
+                              "\" is not a whole number from 0 to 18446744073709551615");
+    return {};
+  }
+  if (has_value) return bad_uri(uri, "key \"" + key + "\" takes no value");
+  if (key == "perfect") options.magnitudes = sim::Magnitudes::perfect();
+  if (key == "realtime") options.pace = sim::Pace::kRealtime;
+  return {};
+}
+
+Result<sim::SimOptions> sim_options(const std::string& uri, std::string_view rest,
+                                    sim::SimOptions options) {
+  if (rest.empty()) return options;
+  if (rest.front() != '?')
+    return bad_uri(
+        uri, "sim: is followed by nothing or by ?key=value&...; " + std::string(kKnownSimKeys));
+  rest.remove_prefix(1);
+  std::set<std::string> seen;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('&');
+    if (Status status = apply_sim_key(uri, rest.substr(0, end), seen, options); !status)
+      return status.error();
+    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+  }
+  return options;
+}
+
+template <class T>
+Result<std::unique_ptr<Headset>> as_headset(Result<std::unique_ptr<T>> opened) {
+  if (!opened) return opened.error();
+  return std::unique_ptr<Headset>(std::move(opened).value());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const OpenOptions& options) {
+  const std::size_t colon = uri.find(':');
+  if (colon == std::string::npos)
+    return bad_uri(uri, std::string("has no scheme; ") + kKnownSchemes);
+  const std::string scheme = uri.substr(0, colon);
+  const std::string rest = uri.substr(colon + 1);
+  if (scheme == "sim") {
+    auto chosen = sim_options(uri, rest, options.sim);
+    if (!chosen) return chosen.error();
+    sim::RoomDescription room = options.room;
+    if (room.tools.empty()) room.tools.push_back(default_pointer());
+    return as_headset(sim::SimHeadset::open(std::move(room), *chosen));
+  }
+  if (scheme == "replay") {
+    if (rest.empty()) return bad_uri(uri, "names no folder after replay:");
+    return as_headset(replay::ReplayHeadset::open(rest));
+  }
+  if (scheme == "openxr" || scheme == "hl2ss")
+    return bad_uri(uri, scheme + ": is not supported yet; " + kKnownSchemes);
+  return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes);
+}
+
+}  // namespace orthonav

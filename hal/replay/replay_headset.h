@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "hal/api/devices.h"
+
+namespace orthonav::replay {
+
+/// What a recording holds and what of it could not be delivered.
+struct RecordingSummary {
+  std::int64_t pairs = 0;
+  std::int64_t left_unpaired = 0;   ///< left images without a right one within kPairWithin
+  std::int64_t right_unpaired = 0;  ///< and the other way round
+  std::int64_t repeated = 0;        ///< images of a time that its camera had already
+  std::int64_t pairs_without_pose = 0;
+};
+
+/// Two images belong together when their sensor times agree within this.
+inline constexpr Duration kPairWithin = std::chrono::milliseconds(1);
+
+/// A recorded session as a headset. Reads the folders of HoloLens 2's StreamRecorder and those of
+/// our own recorder, which holds more (docs/file-formats.md) and comes back to the bit.
+///
+/// Frames come as fast as they are asked for; the clock is the time of the last one. The time of a
+/// pair is its left image's. The head is known up to the last frame, predicted beyond it, lost
+/// where two recorded poses lie more than HeadTracker::kMaxHeadPrediction apart. The display shows
+/// nothing and has no latency.
+class ReplayHeadset : public Headset {
+ public:
+  /// Refuses, in one line that names file, field, value and limit, whatever is missing, truncated,
+  /// not finite, mirrored or of the wrong size; images themselves are read when they are due.
+  static Result<std::unique_ptr<ReplayHeadset>> open(const std::filesystem::path& folder);
+  [[nodiscard]] virtual const RecordingSummary& summary() const = 0;
+  /// Text of the recording's tools.json; empty when it has none.
+  [[nodiscard]] virtual const std::string& tools_json() const = 0;
+};
+
+}  // namespace orthonav::replay
