@@ -25,11 +25,11 @@ struct LabelImage {
 };
 
 struct RendererOptions {
-  int width_px = 1268;   ///< of one eye, 16 to 8192
+  int width_px = 1268;  ///< of one eye, 16 to 8192
   int height_px = 720;
-  int samples = 4;       ///< 1 or 4
+  int samples = 4;  ///< 1 or 4
   Blend blend = Blend::kAdditive;
-  std::string device;    ///< part of a device's name ("llvmpipe"); empty: best GPU, else lavapipe
+  std::string device;  ///< part of a device's name ("llvmpipe"); empty: best GPU, else lavapipe
   bool validation = false;
 };
 
@@ -44,7 +44,7 @@ struct DeviceInfo {
 /// Where the time of one frame went, milliseconds of wall time.
 struct FrameTiming {
   double record_ms = 0;
-  double gpu_ms = 0;   ///< submit to fence
+  double gpu_ms = 0;  ///< submit to fence
   double total_ms = 0;
 };
 

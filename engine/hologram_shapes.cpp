@@ -1,0 +1,251 @@
+#include "engine/hologram_shapes.h"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <utility>
+
+#include "render/float3.h"
+#include "render/shapes.h"
+
+namespace orthonav::engine {
+namespace {
+
+using render::Colour;
+using render::Float3;
+using render::Label;
+using render::Scene;
+
+constexpr float kPathWidth_m = 0.001f;
+constexpr float kEntryRadius_m = 0.0015f;
+constexpr float kEntryRingRadius_m = 0.003f;
+constexpr float kEntryRingWidth_m = 0.0006f;
+constexpr float kTrajectoryWidth_m = 0.002f;
+constexpr float kDash_m = 0.004f;
+constexpr float kTriangleEdge_m = 0.001f;
+constexpr float kTriangleFill = 0.30f;
+constexpr float kReadoutOutward_m = 0.006f;
+constexpr float kHeadRadius_m = 0.0042f;  // a little wider than the rod, so that it shows around it
+constexpr float kBendRingRadius_m = 0.0042f;
+constexpr float kBendRingWidth_m = 0.0010f;
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+
+Colour faded(Colour colour, float opacity) {
+  colour.a *= opacity;
+  return colour;
+}
+
+/// One immutable sphere for all, so that the renderer keeps one copy of it.
+const std::shared_ptr<const render::MeshData>& unit_sphere() {
+  static const auto mesh = std::make_shared<const render::MeshData>(render::make_sphere(1.0f));
+  return mesh;
+}
+
+void add_sphere(Scene& scene, Float3 centre, float radius_m, Colour colour, Label label) {
+  render::MeshItem item;
+  item.label = label;
+  item.mesh = unit_sphere();
+  item.world_from_model = render::placed_at(centre, radius_m);
+  item.colour = colour;
+  scene.meshes.push_back(std::move(item));
+}
+
+void add_line(Scene& scene, std::vector<Float3> points, float width_m, Colour colour, Label label,
+              float dash_m = 0, bool closed = false) {
+  render::LineItem line;
+  line.label = label;
+  line.points = std::move(points);
+  line.width_m = width_m;
+  line.colour = colour;
+  line.dash_m = dash_m;
+  line.closed = closed;
+  scene.lines.push_back(std::move(line));
+}
+
+std::string millimetres(double length_m) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f mm", 1e3 * length_m);
+  return text;
+}
+
+/// Hyphens as wide as digits and a leading blank of one digit's width, so that the number keeps
+/// its place while it changes.
+std::string fixed_width(const std::string& text) {
+  std::string out;
+  const std::size_t point = text.find('.');
+  if (point == 1) out += "\u2007";
+  for (const char c : text) c == '-' ? out += "\u2012" : out += c;
+  return out;
+}
+
+void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
+  add_line(scene, render::make_ring(at, along, kBendRingRadius_m), kBendRingWidth_m, look::kAmber,
+           label, 0, true);
+  render::TextItem text;
+  text.label = label;
+  text.position = at;
+  text.align = render::TextAlign::kLeft;
+  text.offset_right = 1.6f;
+  text.offset_up = -0.5f;
+  text.height_m = 0.0035f;
+  text.min_height_deg = 0.35f;
+  text.runs = {{angle_text(bend.angle_rad), look::kAmber},
+               {" at " + millimetres(bend.arc_length_m), look::kDimWhite}};
+  scene.texts.push_back(std::move(text));
+}
+
+}  // namespace
+
+Grade grade_of(double angle_rad, const GradeLimits& limits) {
+  if (!(angle_rad <= limits.poor_rad)) return Grade::kPoor;
+  return angle_rad < limits.good_rad ? Grade::kGood : Grade::kFair;
+}
+
+Colour colour_of(Grade grade) {
+  switch (grade) {
+    case Grade::kGood:
+      return look::kGreen;
+    case Grade::kFair:
+      return look::kAmber;
+    case Grade::kPoor:
+      break;
+  }
+  return look::kRed;
+}
+
+std::string angle_text(std::optional<double> angle_rad) {
+  const double angle_deg = angle_rad ? *angle_rad * kDegreesPerRadian : std::nan("");
+  if (!(angle_deg >= 0.0 && angle_deg < 99.95)) return "--.-°";
+  char text[16];
+  std::snprintf(text, sizeof(text), "%.1f°", angle_deg);
+  return text;
+}
+
+void add_sampled_path(Scene& scene, std::span<const Float3> samples, PathState state, Label label,
+                      float opacity) {
+  if (samples.empty() || !(opacity > 0)) return;
+  const Colour colour = state == PathState::kRecording ? look::kYellow : look::kOrange;
+  add_line(scene, {samples.begin(), samples.end()}, kPathWidth_m,
+           faded(colour, std::fmin(opacity, 1.0f)), label);
+}
+
+void add_vertebra(Scene& scene, std::shared_ptr<const render::MeshData> mesh,
+                  const render::Matrix4& world_from_model, Label label) {
+  render::MeshItem item;
+  item.label = label;
+  item.mesh = std::move(mesh);
+  item.world_from_model = world_from_model;
+  item.colour = look::kBone;
+  item.style = render::MeshStyle::kRim;
+  scene.meshes.push_back(std::move(item));
+}
+
+void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
+  add_sphere(scene, entry.position, kEntryRadius_m, look::kBlue, label);
+  add_line(scene, render::make_ring(entry.position, entry.surface_normal, kEntryRingRadius_m),
+           kEntryRingWidth_m, look::kBlue, label, 0, true);
+  const bool right = entry.side == LabelSide::kRight;
+  render::TextItem text;
+  text.label = label;
+  text.position = entry.position;
+  text.align = right ? render::TextAlign::kLeft : render::TextAlign::kRight;
+  text.offset_right = right ? 1.2f : -1.2f;
+  text.offset_up = -0.5f;
+  text.height_m = 0.0045f;
+  text.min_height_deg = 0.5f;
+  text.runs = {{entry.text, look::kBlue}};
+  if (entry.done) text.runs.push_back({" ✓", look::kGreen});
+  scene.texts.push_back(std::move(text));
+}
+
+Float3 trajectory_outer_end(Float3 entry, Float3 target) {
+  return entry + kTrajectoryOutside_m * render::unit_or(entry - target, {0, 1, 0});
+}
+
+void add_planned_trajectory(Scene& scene, Float3 entry, Float3 target, Label label) {
+  add_line(scene, {trajectory_outer_end(entry, target), entry}, kTrajectoryWidth_m, look::kGreen,
+           label);
+  // A gap first: the dashes must not add up with the solid part at the entry.
+  const Float3 inward = render::unit_or(target - entry, {0, -1, 0});
+  if (render::length(target - entry) <= kDash_m) return;
+  add_line(scene, {entry + kDash_m * inward, target}, kTrajectoryWidth_m, look::kGreen, label,
+           kDash_m);
+}
+
+void add_deviation_triangle(Scene& scene, Float3 a, Float3 b, Float3 c, Grade grade, Label label) {
+  const Colour colour = colour_of(grade);
+  scene.triangles.push_back({label, {a, b, c}, faded(colour, kTriangleFill)});
+  add_line(scene, {a, b, c}, kTriangleEdge_m, colour, label, grade == Grade::kPoor ? kDash_m : 0.0f,
+           true);
+}
+
+void add_angle_readout(Scene& scene, Float3 a, Float3 b, const std::string& text, Grade grade,
+                       Label label) {
+  render::TextItem item;
+  item.label = label;
+  item.position = b + kReadoutOutward_m * render::unit_or(b - a, {0, 1, 0});
+  item.align = render::TextAlign::kLeft;
+  item.offset_right = 0.9f;  // clear of B even when the eye looks down the tool's axis
+  item.height_m = 0.007f;
+  item.min_height_deg = 0.8f;
+  item.runs = {{fixed_width(text), look::kWhite}};
+  item.rim = colour_of(grade);
+  scene.texts.push_back(std::move(item));
+}
+
+void add_rod(Scene& scene, const RodHologram& rod, Label label) {
+  if (rod.tube && !rod.tube->indices.empty()) {
+    render::MeshItem tube;
+    tube.label = label;
+    tube.mesh = rod.tube;
+    tube.world_from_model = render::placed_at(rod.shift);
+    tube.colour = look::kTitanium;
+    scene.meshes.push_back(std::move(tube));
+  }
+  for (const Float3 head : rod.heads) {
+    add_sphere(scene, head + rod.shift, kHeadRadius_m, look::kBlue, label);
+  }
+  const Float3 along = rod.heads.empty()
+                           ? Float3{0, 1, 0}
+                           : render::unit_or(rod.heads.back() - rod.heads.front(), {0, 1, 0});
+  for (const RodBendMark& bend : rod.bends) {
+    add_bend(scene, bend, bend.position + rod.shift, along, label);
+  }
+  if (rod.heads.size() < 2) return;
+  render::TextItem text;
+  text.label = label;
+  text.position = rod.heads.back() + 0.012f * along + rod.shift;
+  text.height_m = 0.005f;
+  text.min_height_deg = 0.6f;
+  text.runs = {{millimetres(rod.length_m), look::kWhite}};
+  scene.texts.push_back(std::move(text));
+}
+
+void add_status_line(Scene& scene, const std::string& text, std::span<const ToolDot> tools,
+                     Label label) {
+  render::TextItem item;
+  item.label = label;
+  item.place = render::TextPlace::kView;
+  item.position = {0, -0.112f, -0.5f};
+  item.height_m = 0.003f;
+  item.min_height_deg = 0.42f;
+  item.runs = {{text, look::kDimWhite}};
+  for (const ToolDot& tool : tools) {
+    // The shape says it as well as the colour does.
+    switch (tool.state) {
+      case ToolState::kMeasured:
+        item.runs.push_back({"  ● ", look::kGreen});
+        break;
+      case ToolState::kPredicted:
+        item.runs.push_back({"  ◐ ", look::kAmber});
+        break;
+      case ToolState::kLost:
+        item.runs.push_back({"  ○ ", look::kRed});
+        break;
+    }
+    item.runs.push_back({tool.name, look::kDimWhite});
+  }
+  scene.texts.push_back(std::move(item));
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+// What each hologram looks like, as pure functions from plain world values (metres) to items of a
+// render::Scene. Nothing here decides what is shown when; that is the scene builder's work.
+// Labels follow the scene's convention, 100·n + k for the k-th instance of hologram Hn.
+
+/// Linear colours of the holograms, tuned for an additive display.
+namespace look {
+inline constexpr render::Colour kYellow{1.0f, 0.78f, 0.04f, 1};
+inline constexpr render::Colour kOrange{1.0f, 0.30f, 0.02f, 1};
+inline constexpr render::Colour kBone{0.92f, 0.86f, 0.74f, 0.35f};
+inline constexpr render::Colour kBlue{0.12f, 0.36f, 1.0f, 1};
+inline constexpr render::Colour kGreen{0.04f, 0.90f, 0.13f, 1};
+inline constexpr render::Colour kAmber{1.0f, 0.42f, 0.0f, 1};
+inline constexpr render::Colour kRed{1.0f, 0.06f, 0.04f, 1};
+inline constexpr render::Colour kWhite{1, 1, 1, 1};
+inline constexpr render::Colour kDimWhite{0.42f, 0.42f, 0.42f, 1};
+inline constexpr render::Colour kTitanium{0.46f, 0.48f, 0.52f, 1};
+}  // namespace look
+
+/// How far the tool is from the plan, as colours say it.
+enum class Grade { kGood, kFair, kPoor };
+
+struct GradeLimits {
+  double good_rad = 0.0349065850398866;  ///< 2°: below it is green
+  double poor_rad = 0.0872664625997165;  ///< 5°: above it is red and dashed
+};
+
+/// An angle that is not finite is poor.
+[[nodiscard]] Grade grade_of(double angle_rad, const GradeLimits& limits = {});
+[[nodiscard]] render::Colour colour_of(Grade grade);
+
+/// `12.4°`, one decimal; `--.-°` for a value that is absent, not finite, negative or over 99.9°.
+[[nodiscard]] std::string angle_text(std::optional<double> angle_rad);
+
+enum class PathState { kRecording, kSaved };
+
+/// H1: ribbon through consecutive samples. `opacity` in [0, 1] fades a deleted region out.
+void add_sampled_path(render::Scene& scene, std::span<const render::Float3> samples,
+                      PathState state, render::Label label, float opacity = 1.0f);
+
+/// H2: the registered surface, bright where it turns away from the eye.
+void add_vertebra(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh,
+                  const render::Matrix4& world_from_model, render::Label label);
+
+enum class LabelSide { kLeft, kRight };  ///< as seen by the eyes
+
+/// H3: sphere of 3 mm, ring of 6 mm in the plane of the bone, label such as `L4 left`.
+struct EntryHologram {
+  render::Float3 position;
+  render::Float3 surface_normal;  ///< outward, any length
+  std::string text;
+  bool done = false;  ///< the screw is in: a tick behind the text
+  LabelSide side = LabelSide::kRight;
+};
+void add_entry(render::Scene& scene, const EntryHologram& entry, render::Label label);
+
+/// How far H4 stands out of the bone.
+inline constexpr float kTrajectoryOutside_m = 0.060f;
+/// The outer end of H4.
+[[nodiscard]] render::Float3 trajectory_outer_end(render::Float3 entry, render::Float3 target);
+/// H4: 2 mm wide from 60 mm outside to the entry, dashed from there to the target.
+void add_planned_trajectory(render::Scene& scene, render::Float3 entry, render::Float3 target,
+                            render::Label label);
+
+/// H5: A the entry, B on the tool's axis, C on the planned axis.
+void add_deviation_triangle(render::Scene& scene, render::Float3 a, render::Float3 b,
+                            render::Float3 c, Grade grade, render::Label label);
+
+/// H6: `text` (of angle_text) beside B, outward of it, so that it never covers A.
+void add_angle_readout(render::Scene& scene, render::Float3 a, render::Float3 b,
+                       const std::string& text, Grade grade, render::Label label);
+
+struct RodBendMark {
+  render::Float3 position;
+  double angle_rad = 0.0;
+  double arc_length_m = 0.0;  ///< from the rod's first end
+};
+
+/// H10. Make `tube` with render::make_tube once per rod and keep it: the renderer caches by
+/// pointer.
+struct RodHologram {
+  std::shared_ptr<const render::MeshData> tube;  ///< world coordinates before `shift`
+  std::span<const render::Float3> heads;
+  std::span<const RodBendMark> bends;
+  double length_m = 0.0;
+  render::Float3 shift;  ///< `move rod`: added to everything
+};
+void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
+
+enum class ToolState { kMeasured, kPredicted, kLost };
+struct ToolDot {
+  std::string name;
+  ToolState state = ToolState::kLost;
+};
+
+/// H11: one line low in view; a filled dot for a measured tool, a half one for a predicted, an
+/// empty one for a lost tool.
+void add_status_line(render::Scene& scene, const std::string& text, std::span<const ToolDot> tools,
+                     render::Label label);
+
+}  // namespace orthonav::engine
