@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "hal/api/result.h"
+#include "nav/geometry/mesh.h"
+
+namespace orthonav::engine {
+
+/// Patient axes that a file may use: LPS (+x left, +y posterior, +z superior) or RAS (+x right,
+/// +y anterior). One is the other turned half round z, so both are right-handed.
+enum class Axes { kLps, kRas };
+
+[[nodiscard]] constexpr Vec3 to_lps(Vec3 v, Axes axes) {
+  return axes == Axes::kRas ? Vec3{-v.x, -v.y, v.z} : v;
+}
+/// "LPS" or "RAS", nothing else.
+[[nodiscard]] std::optional<Axes> axes_from(const std::string& text);
+/// Metres in one "mm" or "m", nothing else.
+[[nodiscard]] std::optional<double> metres_per_unit_from(const std::string& text);
+
+/// Reads a vertebra from STL, PLY or OBJ (told by the extension) into metres and LPS axes: corners
+/// at the same place become one vertex, triangles that vanish are dropped, then
+/// `nav::checked_vertebra` decides. `axes` holds unless the file itself declares its axes
+/// (`SPACE=LPS` or `SPACE=RAS` in an STL header or a comment, as 3D Slicer writes).
+Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit,
+                                    Axes axes = Axes::kLps);
+
+/// Writes a binary STL in millimetres and LPS, marked `SPACE=LPS`.
+Status save_stl(const std::string& path, const nav::TriangleMesh& mesh);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/api/vec.h"
+
+namespace orthonav::engine {
+
+/// The vertices of a PLY file (ascii, binary little or big endian); faces are not looked at. The
+/// vertex element must come first, x, y and z must be float or double.
+Result<std::vector<Vec3>> ply_points(const std::string& text, const std::string& name);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orthonav::engine {
+
+/// The fields of one line; spaces, tabs and a carriage return around a field are dropped.
+[[nodiscard]] std::vector<std::string> split(std::string_view line, char separator);
+/// The lines of a text, with or without carriage returns.
+[[nodiscard]] std::vector<std::string> lines_of(std::string_view text);
+/// A finite number and nothing else, with a decimal point whatever the locale.
+[[nodiscard]] std::optional<double> number_from(std::string_view text);
+[[nodiscard]] std::string lower_case(std::string text);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "nav/tracking/tool.h"
+
+namespace orthonav::engine {
+
+/// Reads tool definitions: `{"tools": [{"name", "role": "pointer"|"guide"|"reference", "marker":
+/// {"family", "id", "size_mm"}, "tip_mm": [x,y,z], "axis": [x,y,z]}]}`. The axis may have any
+/// length but zero. Refuses, naming file and field, whatever is missing, of the wrong type, or a
+/// problem in the sense of `nav::problems_of`.
+Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path);
+
+/// Writes what `load_tools` reads back to the same numbers.
+Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>& tools);
+
+/// The pointer, the drill guide and the patient reference of data/tools.json.
+[[nodiscard]] std::vector<nav::ToolGeometry> built_in_tools();
+
+/// "pointer", "guide" or "reference".
+[[nodiscard]] std::string to_text(nav::ToolRole role);
+
+}  // namespace orthonav::engine
