@@ -3,14 +3,12 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <string_view>
 
+#include "embedded/tools_json.h"
 #include "engine/atomic_file.h"
 #include "engine/json_document.h"
 
 namespace orthonav::engine {
-
-extern const std::string_view kToolsJson;
 
 namespace {
 
@@ -99,7 +97,8 @@ Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>&
 }
 
 std::vector<nav::ToolGeometry> built_in_tools() {
-  const Result<JsonDocument> document = JsonDocument::parse(kToolsJson, "data/tools.json");
+  const Result<JsonDocument> document =
+      JsonDocument::parse(embedded::tools_json(), "data/tools.json");
   assert(document.ok());
   Result<std::vector<nav::ToolGeometry>> tools = tools_from(*document, "data/tools.json");
   assert(tools.ok());
