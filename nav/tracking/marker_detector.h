@@ -2,8 +2,9 @@
 
 #include <array>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/api/image.h"
@@ -16,7 +17,7 @@ namespace orthonav::nav {
 /// order of the upright tag's: bottom left, bottom right, top right, top left, seen on its face;
 /// that is Marker coordinates (-s, -s), (s, -s), (s, s), (-s, s) with s = size / 2.
 struct MarkerCorners {
-  std::string family;
+  std::string_view family;  ///< one of `known_families()`, valid for ever
   int id = 0;
   std::array<Vec2, 4> corners_px;
   double decision_margin = 0.0;
@@ -32,22 +33,31 @@ struct PixelBox {
 
 struct DetectorOptions {
   std::vector<std::string> families = {"tag36h11"};
-  double decimate = 1.0;       ///< 1: full resolution for quads; 2: half
-  int max_hamming = 1;
+  double decimate = 1.0;  ///< 1: full resolution for quads; 1.5, 2, 3 or 4: less
+  int max_hamming = 1;    ///< corrected bits, 0-2; at most 1 for families of over 10,000 codes
   double min_decision_margin = 25.0;
   int threads = 1;
 };
 
-/// AprilTag 3's detector (Krogius, Haggenmiller, Olson 2019). One thread at a time.
+/// Names of the tag families that can be detected.
+[[nodiscard]] std::span<const std::string_view> known_families();
+/// The same in one line, for messages.
+[[nodiscard]] std::string known_families_text();
+
+/// AprilTag 3's detector (Krogius, Haggenmiller, Olson 2019). One thread at a time. The images are
+/// read in place; the library allocates its own working memory for every call.
 class MarkerDetector {
  public:
   static Result<MarkerDetector> create(const DetectorOptions& options);
   MarkerDetector(MarkerDetector&&) noexcept;
   MarkerDetector& operator=(MarkerDetector&&) noexcept;
   ~MarkerDetector();
-  /// Every tag of the whole image, or of the box (clipped to the image).
-  void detect(const GreyImage& image, std::vector<MarkerCorners>& found);
-  void detect(const GreyImage& image, const PixelBox& box, std::vector<MarkerCorners>& found);
+  /// Every tag of the whole image, or of the box (clipped to the image), sorted by family, id and
+  /// position. The box is widened to whole tiles of the library's threshold with one to spare, so
+  /// that a tag inside it has the same corners as in the whole image (within 1e-3 px). Refuses an
+  /// image without pixels, of the wrong length or too large for the library; `found` is then empty.
+  Status detect(const GreyImage& image, std::vector<MarkerCorners>& found);
+  Status detect(const GreyImage& image, const PixelBox& box, std::vector<MarkerCorners>& found);
 
  private:
   struct Library;

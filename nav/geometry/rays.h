@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "hal/api/vec.h"
+
+namespace orthonav::nav {
+
+/// From `origin_m` on along `direction`, which may have any length but zero.
+struct Ray {
+  Vec3 origin_m;
+  Vec3 direction;
+};
+
+/// Where two rays come closest.
+struct RayMeeting {
+  Vec3 point_m;        ///< the middle of the shortest segment between them
+  double gap_m = 0.0;  ///< its length
+};
+
+/// The point closest to both rays (mid-point method: Hartley & Sturm 1997, "Triangulation").
+/// Nothing when they are parallel within 1e-6 rad, when the meeting lies behind either origin or
+/// when a number is not finite.
+[[nodiscard]] std::optional<RayMeeting> closest_point(const Ray& a, const Ray& b);
+
+}  // namespace orthonav::nav

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "nav/tracking/marker_detector.h"
+#include "nav/tracking/worker.h"
+
+namespace orthonav::nav {
+
+/// Where to look in one image: everywhere, or in boxes that each concern one tag.
+struct SearchPlan {
+  struct Box {
+    PixelBox box;
+    std::string_view family;
+    int id = 0;
+  };
+  bool everywhere = true;
+  std::vector<Box> boxes;
+};
+
+/// Detects tags in both images of a pair, at once when a second thread is given; the result is the
+/// same.
+class PairDetector {
+ public:
+  static Result<std::unique_ptr<PairDetector>> create(const DetectorOptions& options,
+                                                      bool parallel);
+  PairDetector(MarkerDetector left, MarkerDetector right, bool parallel);
+
+  SearchPlan& left_plan() { return left_.plan; }
+  SearchPlan& right_plan() { return right_.plan; }
+  /// Fills `left()` and `right()` as planned. An image that the detector refuses shows no tags.
+  void detect(const StereoFrame& frame);
+  [[nodiscard]] std::span<const MarkerCorners> left() const { return left_.found; }
+  [[nodiscard]] std::span<const MarkerCorners> right() const { return right_.found; }
+
+ private:
+  struct Side {
+    MarkerDetector detector;
+    SearchPlan plan;
+    const GreyImage* image = nullptr;
+    std::vector<MarkerCorners> found;
+    std::vector<MarkerCorners> in_box;
+  };
+  static void detect_side(void* side);
+
+  Side left_;
+  Side right_;
+  std::optional<Worker> worker_;
+};
+
+}  // namespace orthonav::nav

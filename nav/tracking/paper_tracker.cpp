@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+
+#include "nav/tracking/corner_filter.h"
+#include "nav/tracking/pair_detector.h"
+#include "nav/tracking/tag_matching.h"
+#include "nav/tracking/tool_tracker.h"
+
+namespace orthonav::nav {
+namespace {
+
+// A box around a prediction: room for the quiet zone and for turning, for what the filter doubts,
+// and for the odd pixel.
+constexpr double kBoxOfExtent = 0.35;
+constexpr double kBoxOfSd = 4.0;
+constexpr double kBoxPx = 6.0;
+constexpr double kFarPx = 1e5;
+
+class PaperTracker final : public ToolTracker {
+ public:
+  PaperTracker(const StereoCalibration& calibration, std::vector<ToolGeometry> tools,
+               const TrackerOptions& options, std::unique_ptr<PairDetector> detector)
+      : geometry_(calibration),
+        tools_(std::move(tools)),
+        options_(options),
+        detector_(std::move(detector)) {
+    const CornerFilterOptions filter{options.corner_acceleration_px, options.corner_noise_px};
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      trails_.push_back({CornerFilter(filter), CornerFilter(filter), {}, {}});
+      states_.push_back({i, {}, {}, 0.0});
+    }
+  }
+
+  std::span<const ToolState> track(const StereoFrame& frame) override {
+    plan(frame.time);
+    detector_->detect(frame);
+    ++pairs_;
+    missing_ = false;
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      states_[i] = {i, {}, {}, 0.0};
+      if (!measure(i, frame)) predict(i, frame);
+      missing_ = missing_ || states_[i].world_from_marker.origin != Origin::kMeasured;
+    }
+    return states_;
+  }
+
+  [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
+
+ private:
+  struct Trail {
+    CornerFilter left;
+    CornerFilter right;
+    TrackedPose older;
+    TrackedPose newer;
+  };
+
+  [[nodiscard]] bool is_recent(const CornerFilter& filter, Timestamp time) const {
+    return filter.alive() && time > filter.time() && time - filter.time() <= options_.coast;
+  }
+
+  void plan(Timestamp time) {
+    const int every = options_.full_search_interval;
+    const bool everywhere = every == 1 || (missing_ && pairs_ % every == 0);
+    SearchPlan& left = detector_->left_plan();
+    SearchPlan& right = detector_->right_plan();
+    left.everywhere = right.everywhere = everywhere;
+    left.boxes.clear();
+    right.boxes.clear();
+    for (std::size_t i = 0; i < tools_.size() && !everywhere; ++i) {
+      add_box(trails_[i].left, tools_[i], time, left);
+      add_box(trails_[i].right, tools_[i], time, right);
+    }
+  }
+
+  void add_box(const CornerFilter& filter, const ToolGeometry& tool, Timestamp time,
+               SearchPlan& plan) const {
+    if (!is_recent(filter, time)) return;
+    const CornerFilter::Prediction ahead = filter.predicted(time);
+    Vec2 low = ahead.corners_px[0];
+    Vec2 high = low;
+    for (const Vec2 corner : ahead.corners_px) {
+      low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
+      high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
+    }
+    const double extent_px = std::max(high.x - low.x, high.y - low.y);
+    const double room_px = kBoxOfExtent * extent_px + kBoxOfSd * ahead.sd_px + kBoxPx;
+    // Negated, so that what is not finite stays out as well.
+    if (!(std::abs(low.x) + std::abs(low.y) + extent_px + room_px < kFarPx)) return;
+    const auto whole = [](double v) { return static_cast<int>(std::floor(v)); };
+    const PixelBox box{whole(low.x - room_px), whole(low.y - room_px),
+                       whole(high.x - low.x + 2.0 * room_px) + 1,
+                       whole(high.y - low.y + 2.0 * room_px) + 1};
+    plan.boxes.push_back({box, tool.marker.family, tool.marker.id});
+  }
+
+  [[nodiscard]] std::optional<TagPair> expected(const Trail& trail, Timestamp time) const {
+    if (!is_recent(trail.left, time) || !is_recent(trail.right, time)) return std::nullopt;
+    return TagPair{trail.left.predicted(time).corners_px, trail.right.predicted(time).corners_px};
+  }
+
+  static void follow(CornerFilter& filter, const MarkerCorners* seen, Timestamp time,
+                     Duration coast) {
+    if (filter.alive() && time - filter.time() > coast) filter.stop();
+    if (seen) filter.update(seen->corners_px, time);
+  }
+
+  bool measure(std::size_t i, const StereoFrame& frame) {
+    Trail& trail = trails_[i];
+    const MarkerDefinition& marker = tools_[i].marker;
+    const TagMatch match = matched(detector_->left(), detector_->right(), marker.family, marker.id,
+                                   marker.size_m, geometry_, expected(trail, frame.time));
+    follow(trail.left, match.left, frame.time, options_.coast);
+    follow(trail.right, match.right, frame.time, options_.coast);
+    if (!match.both() || !frame.world_from_rig) return false;
+
+    const TagPair filtered{trail.left.corners_px(), trail.right.corners_px()};
+    const TagPair seen{match.left->corners_px, match.right->corners_px};
+    const std::optional<TagPose> pose = geometry_.pose(filtered, marker.size_m);
+    if (!pose) return false;
+    const auto residual_px = geometry_.residual_px(pose->rig_from_marker, seen, marker.size_m);
+    const auto covariance =
+        geometry_.covariance(pose->rig_from_marker, filtered, marker.size_m,
+                             trail.left.variance_px2(), trail.right.variance_px2());
+    if (!residual_px || !covariance) return false;
+    states_[i].rig_from_marker = pose->rig_from_marker;
+    states_[i].residual_px = *residual_px;
+    states_[i].world_from_marker = {*frame.world_from_rig * pose->rig_from_marker, frame.time,
+                                    Origin::kMeasured,
+                                    turned(*covariance, frame.world_from_rig->rotation())};
+    trail.older = trail.newer;
+    trail.newer = states_[i].world_from_marker;
+    return true;
+  }
+
+  void predict(std::size_t i, const StereoFrame& frame) {
+    ToolState& state = states_[i];
+    state.world_from_marker.time = frame.time;
+    if (!frame.world_from_rig) return;
+    // At the time of the newest measurement itself there is nothing to predict: this pair is not
+    // it.
+    if (frame.time <= trails_[i].newer.time) return;
+    state.world_from_marker =
+        predicted(trails_[i].older, trails_[i].newer, frame.time, options_.coast);
+    if (state.world_from_marker.origin == Origin::kLost) return;
+    state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
+  }
+
+  TagGeometry geometry_;
+  std::vector<ToolGeometry> tools_;
+  TrackerOptions options_;
+  std::unique_ptr<PairDetector> detector_;
+  std::vector<Trail> trails_;
+  std::vector<ToolState> states_;
+  std::int64_t pairs_ = 0;
+  bool missing_ = true;
+};
+
+Status check(const StereoCalibration& calibration, const std::vector<ToolGeometry>& tools,
+             const TrackerOptions& options) {
+  std::string text;
+  for (const std::string& problem : problems_of(tools))
+    text += (text.empty() ? "" : "; ") + problem;
+  if (!text.empty()) return Error{"tools: " + text};
+  if (calibration.left.width_px() <= 0 || calibration.right.width_px() <= 0)
+    return Error{"tracker: the stereo calibration has no camera model"};
+  if (options.full_search_interval < 1)
+    return Error{"tracker: full_search_interval " + std::to_string(options.full_search_interval) +
+                 ", must be at least 1"};
+  if (options.coast < Duration::zero()) return Error{"tracker: coast is negative"};
+  if (!(options.corner_acceleration_px > 0.0) || !std::isfinite(options.corner_acceleration_px))
+    return Error{"tracker: corner_acceleration_px must be positive"};
+  if (!(options.corner_noise_px > 0.0) || !std::isfinite(options.corner_noise_px))
+    return Error{"tracker: corner_noise_px must be positive"};
+  return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ToolTracker>> create_paper_tracker(const StereoCalibration& calibration,
+                                                          std::vector<ToolGeometry> tools,
+                                                          const TrackerOptions& options) {
+  if (Status status = check(calibration, tools, options); !status) return status.error();
+  DetectorOptions detection;
+  detection.decimate = options.decimate;
+  detection.families.clear();
+  for (const ToolGeometry& tool : tools)
+    if (std::find(detection.families.begin(), detection.families.end(), tool.marker.family) ==
+        detection.families.end())
+      detection.families.push_back(tool.marker.family);
+  Result<std::unique_ptr<PairDetector>> detector =
+      PairDetector::create(detection, options.parallel);
+  if (!detector) return detector.error();
+  std::unique_ptr<ToolTracker> tracker = std::make_unique<PaperTracker>(
+      calibration, std::move(tools), options, std::move(detector).value());
+  return tracker;
+}
+
+}  // namespace orthonav::nav

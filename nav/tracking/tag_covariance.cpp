@@ -1,0 +1,77 @@
+#include <Eigen/Dense>
+
+#include "nav/tracking/tag_pose.h"
+
+namespace orthonav::nav {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix36 = Eigen::Matrix<double, 3, 6>;
+
+constexpr double kStepPx = 0.05;
+
+Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
+
+Eigen::Matrix3d as_eigen(const Mat3& m) {
+  Eigen::Matrix3d out;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) out(r, c) = m[r][static_cast<std::size_t>(c)];
+  return out;
+}
+
+PoseCovariance as_array(const Matrix6& m) {
+  PoseCovariance out;
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c)
+      out[static_cast<std::size_t>(6 * r + c)] = 0.5 * (m(r, c) + m(c, r));
+  return out;
+}
+
+// How a point of the body moves with a small shift and turn: [I, -[arm]x].
+Matrix36 point_by_pose(Vec3 arm) {
+  Matrix36 j;
+  j.leftCols<3>().setIdentity();
+  j.rightCols<3>() << 0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0;
+  return j;
+}
+
+}  // namespace
+
+std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marker>& rig_from_marker,
+                                                      const TagPair& corners, double size_m,
+                                                      double left_variance_px2,
+                                                      double right_variance_px2) const {
+  const std::array<Vec3, 4> in_marker_m = corners_in_marker(size_m);
+  Matrix6 normal = Matrix6::Zero();
+  Matrix6 spread = Matrix6::Zero();
+  for (std::size_t i = 0; i < in_marker_m.size(); ++i) {
+    Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();
+    const auto add = [&](Vec2 left_step, Vec2 right_step, double variance) {
+      const auto ahead =
+          corner_in_rig(corners.left_px[i] + left_step, corners.right_px[i] + right_step);
+      const auto behind =
+          corner_in_rig(corners.left_px[i] - left_step, corners.right_px[i] - right_step);
+      if (!ahead || !behind) return false;
+      const Eigen::Vector3d slope = as_eigen(*ahead - *behind) / (2.0 * kStepPx);
+      noise += variance * slope * slope.transpose();
+      return true;
+    };
+    if (!add({kStepPx, 0}, {}, left_variance_px2) || !add({0, kStepPx}, {}, left_variance_px2) ||
+        !add({}, {kStepPx, 0}, right_variance_px2) || !add({}, {0, kStepPx}, right_variance_px2))
+      return std::nullopt;
+    const Matrix36 j = point_by_pose(rig_from_marker.rotation() * in_marker_m[i]);
+    normal += j.transpose() * j;
+    spread += j.transpose() * noise * j;
+  }
+  const Matrix6 inverse = normal.inverse();
+  return as_array(inverse * spread * inverse);
+}
+
+PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a) {
+  Matrix6 both = Matrix6::Zero();
+  both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = as_eigen(b_from_a);
+  const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> in_a(covariance.data());
+  return as_array(both * in_a * both.transpose());
+}
+
+}  // namespace orthonav::nav

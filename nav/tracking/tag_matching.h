@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "nav/tracking/marker_detector.h"
+#include "nav/tracking/tag_pose.h"
+
+namespace orthonav::nav {
+
+/// What a pair must satisfy to be one tag seen by two cameras.
+struct MatchLimits {
+  /// Corners from the images of the triangulated ones: a unit's factory calibration was found to be
+  /// off by 0.6 px across the epipolar lines; a chance match is off by tens.
+  double gap_px = 2.0;
+  /// Triangulated size by the tool's, and what the four corners depart from a square, by the size.
+  double size_share = 0.15;
+};
+
+/// The sightings of one tag in a pair of images that belong together; null where there is none.
+/// Both are set only when they agree with each other and with the tag's size.
+struct TagMatch {
+  const MarkerCorners* left = nullptr;
+  const MarkerCorners* right = nullptr;
+  [[nodiscard]] bool both() const { return left && right; }
+};
+
+/// The same id may be seen twice in an image (a copy, a misread): of the consistent pairs the one
+/// nearest to where the tag is expected is taken, or without expectation the one decoded best.
+/// Where only one camera sees the id, that sighting is returned alone, unpaired; where both do but
+/// nothing fits together, nothing is.
+[[nodiscard]] TagMatch matched(std::span<const MarkerCorners> left,
+                               std::span<const MarkerCorners> right, std::string_view family,
+                               int id, double size_m, const TagGeometry& geometry,
+                               const std::optional<TagPair>& expected,
+                               const MatchLimits& limits = {});
+
+}  // namespace orthonav::nav

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "hal/api/devices.h"
+#include "hal/api/tracked.h"
+
+namespace orthonav::nav {
+
+using TagCorners = std::array<Vec2, 4>;
+
+/// A tag as both cameras see it, its corners in the order of `MarkerCorners`.
+struct TagPair {
+  TagCorners left_px;
+  TagCorners right_px;
+};
+
+/// A tag's pose from its corners in two images.
+struct TagPose {
+  Transform<Rig, Marker> rig_from_marker;
+  double size_ratio = 0.0;  ///< mean length of the triangulated edges by the size given
+  double fit_rmse_m = 0.0;  ///< of the absolute orientation
+  double gap_px = 0.0;  ///< RMS distance of the corners from the images of the triangulated ones
+};
+
+/// The published geometry (Liebmann et al. 2019, section 3.1): corner → unit plane by the camera's
+/// look-up table, closest point between the two rays, absolute orientation. Immutable.
+class TagGeometry {
+ public:
+  explicit TagGeometry(const StereoCalibration& calibration);
+
+  /// Nothing when a corner has no direction, rays do not meet in front of both cameras or the
+  /// corners make no plane.
+  [[nodiscard]] std::optional<TagPose> pose(const TagPair& corners, double size_m) const;
+  /// RMS over the eight corners of the distance between corner and reprojected pose; nothing when
+  /// one does not project.
+  [[nodiscard]] std::optional<double> residual_px(const Transform<Rig, Marker>& rig_from_marker,
+                                                  const TagPair& corners, double size_m) const;
+  /// First-order covariance of the pose, in the rig, from independent corner noise of the given
+  /// variances (px², one coordinate). Errors of the calibration are not in it.
+  [[nodiscard]] std::optional<PoseCovariance> covariance(
+      const Transform<Rig, Marker>& rig_from_marker, const TagPair& corners, double size_m,
+      double left_variance_px2, double right_variance_px2) const;
+  [[nodiscard]] const StereoCalibration& calibration() const { return calibration_; }
+
+ private:
+  [[nodiscard]] std::optional<Vec3> corner_in_rig(Vec2 left_px, Vec2 right_px) const;
+  [[nodiscard]] std::optional<double> gap_px2(Vec3 in_rig_m, Vec2 left_px, Vec2 right_px) const;
+
+  StereoCalibration calibration_;
+  Transform<Rig, LeftCamera> rig_from_left_;
+  Transform<Rig, RightCamera> rig_from_right_;
+};
+
+/// The corners of an upright tag in its own frame, in the order of `MarkerCorners`.
+[[nodiscard]] std::array<Vec3, 4> corners_in_marker(double size_m);
+
+/// A covariance in frame A seen from frame B, given B's view of A's axes.
+[[nodiscard]] PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a);
+
+}  // namespace orthonav::nav
