@@ -9,7 +9,7 @@ namespace orthonav::nav {
 
 struct CornerFilterOptions {
   /// Spectral density of the white acceleration, px²/s³ (Bar-Shalom, Li & Kirubarajan 2001, 6.2.2).
-  double acceleration_px = 4000.0;
+  double acceleration_px = 400.0;
   /// SD of a measured corner coordinate, px.
   double noise_px = 0.1;
   /// SD of the velocity of a tag that has just come into sight, px/s.

@@ -32,7 +32,8 @@ struct TrackerOptions {
   /// A lost tool is predicted for so long, then lost.
   Duration coast = std::chrono::milliseconds(100);
   /// Spectral density of the corner filter's white acceleration, px²/s³, and its measurement SD.
-  double corner_acceleration_px = 4000.0;
+  /// Small, since the filter opens by itself when a hand accelerates more than that.
+  double corner_acceleration_px = 400.0;
   double corner_noise_px = 0.1;
 };
 
