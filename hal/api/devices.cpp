@@ -7,8 +7,8 @@ namespace orthonav {
 
 namespace {
 
-// A pose that a device publishes is a rotation to rounding; this much is a broken device.
-constexpr double kMaxPoseDeviation = 1e-6;
+// A pose that a device publishes is a rotation to rounding: `checked` makes it one.
+constexpr double kMaxPoseDeviation = Transform<World, Rig>::kExact;
 
 std::string in_seconds(Timestamp t) { return std::to_string(seconds(t.time_since_epoch())) + " s"; }
 

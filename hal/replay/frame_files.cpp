@@ -1,0 +1,153 @@
+#include "hal/replay/frame_files.h"
+
+#include "hal/replay/layout.h"
+#include "hal/replay/text.h"
+
+namespace orthonav::replay {
+
+namespace {
+
+constexpr std::uintmax_t kMaxPosesBytes = std::uintmax_t{1} << 30U;
+constexpr std::uintmax_t kMaxFramesBytes = std::uintmax_t{1} << 30U;
+constexpr std::uintmax_t kMaxDeviceBytes = 4096;
+constexpr double kMaxWorldM = 1e6;
+// Times 100 this still fits into 64 bits of nanoseconds.
+constexpr std::int64_t kMaxTicks = 90'000'000'000'000'000;
+constexpr std::int64_t kMaxNs = 100 * kMaxTicks;
+
+Status take_pose(std::string_view line, std::vector<std::string_view>& fields,
+                 PosesByTicks& poses) {
+  split(line, fields);
+  if (fields.size() != 17)
+    return Error{"holds " + std::to_string(fields.size()) + " values, must be 17 (ticks, matrix)"};
+  const auto ticks = parse_integer(fields[0]);
+  if (!ticks || *ticks < 0) return Error{"ticks must be a whole number"};
+  const auto pose = parse_pose<World, Rig>(fields, 1, kMaxWorldM);
+  if (!pose) return Error{"world_from_rig: " + pose.error().message};
+  if (!poses.emplace(*ticks, *pose).second)
+    return Error{"ticks " + std::to_string(*ticks) + " have a pose already"};
+  return {};
+}
+
+Status take_frame(std::string_view line, std::vector<std::string_view>& fields,
+                  std::vector<FrameRow>& rows) {
+  split(line, fields);
+  if (fields.size() != 4)
+    return Error{"holds " + std::to_string(fields.size()) + " values, must be 4"};
+  std::array<std::int64_t, 4> values{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto value = parse_integer(fields[i]);
+    if (!value) return Error{"value " + std::to_string(i + 1) + " must be a whole number"};
+    if (*value < -kMaxNs || *value > kMaxNs)
+      return Error{"value " + std::to_string(i + 1) + " must lie within 9e18"};
+    values[i] = *value;
+  }
+  const FrameRow row{values[0], Timestamp(Duration(values[1])), values[2],
+                     Timestamp(Duration(values[3]))};
+  if (!rows.empty() && (row.sequence <= rows.back().sequence || row.time <= rows.back().time ||
+                        row.ticks <= rows.back().ticks || row.clock < rows.back().clock))
+    return Error{"does not come after the line above it"};
+  rows.push_back(row);
+  return {};
+}
+
+Status take_device(std::string_view line, RecordedDevice& device) {
+  std::vector<std::string_view> fields;
+  split(line, fields);
+  const auto value = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
+  if (!value) return Error{"must be a key and a whole number"};
+  if (*value < -kMaxNs || *value > kMaxNs) return Error{"value must lie within 9e18"};
+  if (fields[0] == "epoch_ticks_100ns") {
+    device.epoch_ticks_100ns = *value;
+  } else if (fields[0] == "display_latency_ns") {
+    constexpr std::int64_t kMaxLatencyNs = 10'000'000'000;
+    if (*value < 0 || *value > kMaxLatencyNs)
+      return Error{"display_latency_ns must lie in [0, 10000000000]"};
+    device.display_latency = Duration(*value);
+  } else if (fields[0] == "clock_start_ns") {
+    device.clock_start = Timestamp(Duration(*value));
+  } else {
+    return Error{
+        "key is unknown; known are epoch_ticks_100ns, display_latency_ns and clock_start_ns"};
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PosesByTicks> read_poses(const std::filesystem::path& path) {
+  const auto text = read_text(path, kMaxPosesBytes);
+  if (!text) return text.error();
+  PosesByTicks poses;
+  std::vector<std::string_view> fields;
+  Status status = for_each_line(*text, [&](std::size_t number, std::string_view line) -> Status {
+    if (Status taken = take_pose(line, fields, poses); !taken)
+      return line_error(path, number, taken.error().message);
+    return {};
+  });
+  if (!status) return status.error();
+  return poses;
+}
+
+void append_pose(std::string& line, std::int64_t ticks, const Transform<World, Rig>& pose) {
+  append_number(line, ticks);
+  for (const double entry : pose.row_major()) {
+    line += ',';
+    append_number(line, entry);
+  }
+}
+
+Result<std::vector<FrameRow>> read_frames(const std::filesystem::path& path) {
+  std::vector<FrameRow> rows;
+  std::vector<std::string_view> fields;
+  Status status = for_each_row(path, kMaxFramesBytes, kFramesHeader, [&](std::string_view line) {
+    return take_frame(line, fields, rows);
+  });
+  if (!status) return status.error();
+  return rows;
+}
+
+void append_frame(std::string& line, const FrameRow& row) {
+  append_number(line, row.sequence);
+  line += ',';
+  append_number(line, std::int64_t{row.time.time_since_epoch().count()});
+  line += ',';
+  append_number(line, row.ticks);
+  line += ',';
+  append_number(line, std::int64_t{row.clock.time_since_epoch().count()});
+}
+
+Result<RecordedDevice> read_device(const std::filesystem::path& path) {
+  RecordedDevice device;
+  Status status = for_each_row(path, kMaxDeviceBytes, kDeviceHeader,
+                               [&](std::string_view line) { return take_device(line, device); });
+  if (!status) return status.error();
+  return device;
+}
+
+std::string device_text(const RecordedDevice& device) {
+  std::string text = std::string(kDeviceHeader) + "\nepoch_ticks_100ns,";
+  append_number(text, device.epoch_ticks_100ns.value_or(0));
+  text += "\ndisplay_latency_ns,";
+  append_number(text, std::int64_t{device.display_latency.count()});
+  if (device.clock_start) {
+    text += "\nclock_start_ns,";
+    append_number(text, std::int64_t{device.clock_start->time_since_epoch().count()});
+  }
+  return text + "\n";
+}
+
+std::int64_t epoch_of(std::int64_t first_ticks) {
+  return first_ticks > kMaxTicks ? kUnixEpochTicks : 0;
+}
+
+std::optional<Timestamp> device_time(std::int64_t ticks, std::int64_t epoch_ticks) {
+  // Ticks are not negative and the epoch is 0 or the device's own word: compare before subtracting.
+  const bool fits = epoch_ticks >= 0
+                        ? ticks - epoch_ticks <= kMaxTicks && ticks - epoch_ticks >= -kMaxTicks
+                        : ticks <= kMaxTicks + epoch_ticks;
+  if (!fits) return std::nullopt;
+  return from_ticks_100ns(ticks - epoch_ticks);
+}
+
+}  // namespace orthonav::replay

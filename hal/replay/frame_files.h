@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hal/replay/recording.h"
+
+namespace orthonav::replay {
+
+/// rig2world.txt: pose by ticks. Lines may come in any order, but each time once.
+using PosesByTicks = std::map<std::int64_t, Transform<World, Rig>>;
+Result<PosesByTicks> read_poses(const std::filesystem::path& path);
+void append_pose(std::string& line, std::int64_t ticks, const Transform<World, Rig>& pose);
+
+/// frames.csv: what ticks cannot hold of a pair.
+struct FrameRow {
+  std::int64_t sequence = 0;
+  Timestamp time{};
+  std::int64_t ticks = 0;
+  Timestamp clock{};
+};
+Result<std::vector<FrameRow>> read_frames(const std::filesystem::path& path);
+void append_frame(std::string& line, const FrameRow& row);
+
+/// device.csv
+Result<RecordedDevice> read_device(const std::filesystem::path& path);
+std::string device_text(const RecordedDevice& device);
+
+/// The epoch of a recording that does not name it, and times since an epoch: nothing where they do
+/// not fit.
+[[nodiscard]] std::int64_t epoch_of(std::int64_t first_ticks);
+[[nodiscard]] std::optional<Timestamp> device_time(std::int64_t ticks, std::int64_t epoch_ticks);
+
+}  // namespace orthonav::replay

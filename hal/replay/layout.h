@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace orthonav::replay {
+
+/// Names, sizes and constants of the folder: HoloLens 2's StreamRecorder layout, and the files that
+/// our recorder adds. docs/recordings.md describes each.
+inline constexpr int kImageWidthPx = 640;
+inline constexpr int kImageHeightPx = 480;
+inline constexpr std::size_t kImageBytes = std::size_t{640} * 480;
+inline constexpr const char* kLeftSensor = "VLC LF";
+inline constexpr const char* kRightSensor = "VLC RF";
+/// The year 1970 in ticks of 100 ns since 1601. Ticks times 100 overflow from the year 1893 on, so
+/// that a recording with FILETIME ticks counts its nanoseconds from 1970.
+inline constexpr std::int64_t kUnixEpochTicks = 116444736000000000;
+
+inline std::filesystem::path tar_of(const std::filesystem::path& folder,
+                                    const std::string& sensor) {
+  return folder / (sensor + ".tar");
+}
+inline std::filesystem::path lut_of(const std::filesystem::path& folder,
+                                    const std::string& sensor) {
+  return folder / (sensor + "_lut.bin");
+}
+inline std::filesystem::path exact_lut_of(const std::filesystem::path& folder,
+                                          const std::string& sensor) {
+  return folder / (sensor + "_lut64.bin");
+}
+inline std::filesystem::path extrinsics_of(const std::filesystem::path& folder,
+                                           const std::string& sensor) {
+  return folder / (sensor + "_extrinsics.txt");
+}
+inline std::filesystem::path poses_of(const std::filesystem::path& folder,
+                                      const std::string& sensor) {
+  return folder / (sensor + "_rig2world.txt");
+}
+// Our own, all optional for the reader.
+inline constexpr const char* kDeviceFile = "device.csv";
+inline constexpr const char* kFramesFile = "frames.csv";
+inline constexpr const char* kEventsFile = "events.csv";
+inline constexpr const char* kHeadFile = "head.csv";
+inline constexpr const char* kToolsFile = "tools.json";
+inline constexpr const char* kDeviceHeader = "key,value";
+inline constexpr const char* kFramesHeader = "sequence,time_ns,ticks_100ns,clock_ns";
+inline constexpr const char* kEventsHeader = "device,what,confidence,time_ns,available_ns,text";
+inline constexpr const char* kHeadHeader =
+    "sequence,at_ns,origin,m11,m12,m13,m14,m21,m22,m23,m24,m31,m32,m33,m34,m41,m42,m43,m44,"
+    "covariance";
+
+}  // namespace orthonav::replay

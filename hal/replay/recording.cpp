@@ -1,0 +1,187 @@
+#include "hal/replay/recording.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hal/replay/calibration_files.h"
+#include "hal/replay/frame_files.h"
+#include "hal/replay/layout.h"
+#include "hal/replay/pairing.h"
+#include "hal/replay/text.h"
+
+namespace orthonav::replay {
+
+namespace {
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code code;
+  return std::filesystem::exists(path, code);
+}
+
+Status check_folder(const std::filesystem::path& folder) {
+  std::error_code code;
+  if (!is_there(folder)) return file_error(folder, "no such recording");
+  if (!std::filesystem::is_directory(folder, code))
+    return file_error(folder, "is no folder; a recording is a folder with \"VLC LF.tar\" in it");
+  if (is_there(folder / "vlc_lf.tar"))
+    return file_error(folder, "is a HoloLens 1 recording, which is not supported yet");
+  return {};
+}
+
+Result<Timestamp> time_of(const std::filesystem::path& path, std::int64_t ticks,
+                          std::int64_t epoch) {
+  const auto time = device_time(ticks, epoch);
+  if (!time)
+    return file_error(path, "time " + std::to_string(ticks) +
+                                " lies more than 285 years from the recording's epoch " +
+                                std::to_string(epoch));
+  return *time;
+}
+
+/// The pairs of a StreamRecorder folder: found by time, numbered in order.
+Status add_paired(const std::filesystem::path& folder, Recording& recording) {
+  const auto& left = recording.left.members();
+  const auto& right = recording.right.members();
+  const auto path = tar_of(folder, kLeftSensor);
+  // The lists are sorted: their ends tell whether every difference fits.
+  for (const std::int64_t ticks :
+       {left.front().ticks, left.back().ticks, right.front().ticks, right.back().ticks})
+    if (auto time = time_of(path, ticks, recording.epoch_ticks_100ns); !time) return time.error();
+  constexpr std::int64_t kWithinTicks = kPairWithin / Duration(100);
+  for (const auto& [l, r] : paired(left, right, kWithinTicks)) {
+    const Timestamp time = *device_time(l.ticks, recording.epoch_ticks_100ns);
+    const auto sequence = static_cast<std::int64_t>(recording.pairs.size());
+    recording.pairs.push_back({sequence, time, time, l, r, std::nullopt});
+  }
+  if (recording.pairs.empty())
+    return file_error(folder, "holds no stereo pair: no two images of " + std::string(kLeftSensor) +
+                                  " and " + kRightSensor + " lie within 1 ms");
+  return {};
+}
+
+/// The pairs that our recorder listed.
+Status add_listed(const std::filesystem::path& folder, Recording& recording) {
+  const auto path = folder / kFramesFile;
+  const auto rows = read_frames(path);
+  if (!rows) return rows.error();
+  const auto& left = recording.left.members();
+  const auto& right = recording.right.members();
+  if (rows->size() != left.size() || rows->size() != right.size())
+    return file_error(path, "lists " + std::to_string(rows->size()) + " pairs, the archives hold " +
+                                std::to_string(left.size()) + " left and " +
+                                std::to_string(right.size()) + " right images");
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    const FrameRow& row = (*rows)[i];
+    const auto by_ticks = device_time(row.ticks, recording.epoch_ticks_100ns);
+    if (row.ticks != left[i].ticks || row.ticks != right[i].ticks)
+      return file_error(path, "pair " + std::to_string(row.sequence) + " has ticks " +
+                                  std::to_string(row.ticks) + ", its images " +
+                                  std::to_string(left[i].ticks) + " and " +
+                                  std::to_string(right[i].ticks));
+    if (!by_ticks || *by_ticks > row.time || *by_ticks + Duration(100) <= row.time)
+      return file_error(path, "pair " + std::to_string(row.sequence) +
+                                  ": time_ns does not belong to its ticks_100ns");
+    recording.pairs.push_back({row.sequence, row.time, row.clock, left[i], right[i], std::nullopt});
+  }
+  return {};
+}
+
+Status add_poses(const std::filesystem::path& folder, Recording& recording) {
+  const auto path = poses_of(folder, kLeftSensor);
+  const auto poses = read_poses(path);
+  if (!poses) return poses.error();
+  // The right camera's file says the same again; it is read for its damage only.
+  if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) return same.error();
+  std::map<std::int64_t, Timestamp> exact_times;
+  for (RecordedPair& pair : recording.pairs) {
+    exact_times.emplace(pair.left.ticks, pair.time);
+    const auto found = poses->find(pair.left.ticks);
+    if (found != poses->end())
+      pair.world_from_rig = found->second;
+    else
+      ++recording.summary.pairs_without_pose;
+  }
+  std::vector<HeadSample> samples;
+  samples.reserve(poses->size());
+  for (const auto& [ticks, pose] : *poses) {
+    const auto exact = exact_times.find(ticks);
+    const auto time = exact != exact_times.end()
+                          ? Result<Timestamp>(exact->second)
+                          : time_of(path, ticks, recording.epoch_ticks_100ns);
+    if (!time) return time.error();
+    samples.push_back({*time, pose});
+  }
+  recording.head = HeadHistory(std::move(samples));
+  return {};
+}
+
+Status add_own_files(const std::filesystem::path& folder, Recording& recording) {
+  if (is_there(folder / kEventsFile)) {
+    auto events = read_events(folder / kEventsFile);
+    if (!events) return events.error();
+    recording.events = std::move(*events);
+  }
+  if (is_there(folder / kHeadFile)) {
+    auto answers = read_head_answers(folder / kHeadFile);
+    if (!answers) return answers.error();
+    recording.head_answers = std::move(*answers);
+  }
+  if (is_there(folder / kToolsFile)) {
+    constexpr std::uintmax_t kMaxToolsBytes = 1 << 20;
+    auto tools = read_text(folder / kToolsFile, kMaxToolsBytes);
+    if (!tools) return tools.error();
+    recording.tools_json = std::move(*tools);
+  }
+  return {};
+}
+
+Status add_device(const std::filesystem::path& folder, Recording& recording) {
+  RecordedDevice device;
+  if (is_there(folder / kDeviceFile)) {
+    const auto read = read_device(folder / kDeviceFile);
+    if (!read) return read.error();
+    device = *read;
+  }
+  const std::int64_t first_ticks = recording.left.members().front().ticks;
+  recording.epoch_ticks_100ns = device.epoch_ticks_100ns.value_or(epoch_of(first_ticks));
+  recording.display_latency = device.display_latency;
+  const bool listed = is_there(folder / kFramesFile);
+  if (Status s = listed ? add_listed(folder, recording) : add_paired(folder, recording); !s)
+    return s;
+  // A recording that does not say it began one nominal frame before its first pair.
+  constexpr Duration kNominalFrame = std::chrono::nanoseconds(33'333'333);
+  const Timestamp first = recording.pairs.front().clock;
+  recording.clock_start = device.clock_start.value_or(first - kNominalFrame);
+  if (recording.clock_start > first)
+    return file_error(folder / kDeviceFile, "clock_start_ns lies after the first pair's clock_ns");
+  return {};
+}
+
+}  // namespace
+
+Result<Recording> read_recording(const std::filesystem::path& folder) {
+  if (Status s = check_folder(folder); !s) return s.error();
+  auto left = ImageTar::open(tar_of(folder, kLeftSensor));
+  if (!left) return left.error();
+  auto right = ImageTar::open(tar_of(folder, kRightSensor));
+  if (!right) return right.error();
+  auto calibration = read_calibration(folder);
+  if (!calibration) return calibration.error();
+  Recording recording;
+  recording.left = std::move(*left);
+  recording.right = std::move(*right);
+  recording.calibration = std::move(*calibration);
+  if (Status s = add_device(folder, recording); !s) return s.error();
+  if (Status s = add_poses(folder, recording); !s) return s.error();
+  if (Status s = add_own_files(folder, recording); !s) return s.error();
+  RecordingSummary& summary = recording.summary;
+  summary.pairs = static_cast<std::int64_t>(recording.pairs.size());
+  summary.left_unpaired =
+      static_cast<std::int64_t>(recording.left.members().size()) - summary.pairs;
+  summary.right_unpaired =
+      static_cast<std::int64_t>(recording.right.members().size()) - summary.pairs;
+  summary.repeated = recording.left.repeated() + recording.right.repeated();
+  return recording;
+}
+
+}  // namespace orthonav::replay

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/replay/event_files.h"
+#include "hal/replay/head_history.h"
+#include "hal/replay/image_tar.h"
+#include "hal/replay/replay_headset.h"
+
+namespace orthonav::replay {
+
+/// One pair to be delivered.
+struct RecordedPair {
+  std::int64_t sequence = 0;
+  Timestamp time{};
+  Timestamp clock{};  ///< what the device's clock showed once the pair was there
+  ImageMember left;
+  ImageMember right;
+  std::optional<Transform<World, Rig>> world_from_rig;
+};
+
+/// What device.csv says; the defaults are those of a recording without it.
+struct RecordedDevice {
+  std::optional<std::int64_t> epoch_ticks_100ns;
+  Duration display_latency{};
+  std::optional<Timestamp> clock_start;
+};
+
+/// A whole folder but for the pixels, checked.
+struct Recording {
+  StereoCalibration calibration;
+  ImageTar left;
+  ImageTar right;
+  std::vector<RecordedPair> pairs;
+  HeadHistory head;
+  HeadAnswers head_answers;
+  RecordedEvents events;
+  std::int64_t epoch_ticks_100ns = 0;
+  Timestamp clock_start{};
+  Duration display_latency{};
+  std::string tools_json;
+  RecordingSummary summary;
+};
+
+Result<Recording> read_recording(const std::filesystem::path& folder);
+
+}  // namespace orthonav::replay

@@ -1,0 +1,164 @@
+#include "hal/replay/replay_headset.h"
+
+#include <atomic>
+#include <utility>
+#include <vector>
+
+#include "hal/replay/recording.h"
+
+namespace orthonav::replay {
+
+namespace {
+
+/// How far the replay has come. Written by the cameras, read from any thread.
+struct Progress {
+  std::atomic<Timestamp> clock{};
+  std::atomic<Timestamp> frame_time{Timestamp::min()};
+  std::atomic<std::int64_t> sequence{-1};
+};
+
+class ReplayClock : public Clock {
+ public:
+  explicit ReplayClock(const Progress& progress) : progress_(progress) {}
+  [[nodiscard]] Timestamp now() const override { return progress_.clock.load(); }
+
+ private:
+  const Progress& progress_;
+};
+
+class ReplayCamera : public StereoCamera {
+ public:
+  ReplayCamera(Recording& recording, Progress& progress)
+      : recording_(recording), progress_(progress) {}
+
+ private:
+  Recording& recording_;
+  Progress& progress_;
+  std::size_t next_ = 0;
+
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return recording_.calibration;
+  }
+  Result<Next> do_next(StereoFrame& frame) override {
+    if (next_ == recording_.pairs.size()) return Next::kEnd;
+    const RecordedPair& pair = recording_.pairs[next_++];
+    if (Status s = recording_.left.read(pair.left, frame.left); !s) return s.error();
+    if (Status s = recording_.right.read(pair.right, frame.right); !s) return s.error();
+    frame.sequence = pair.sequence;
+    frame.time = pair.time;
+    frame.world_from_rig = pair.world_from_rig;
+    progress_.clock = pair.clock;
+    progress_.frame_time = pair.time;
+    progress_.sequence = pair.sequence;
+    return Next::kFrame;
+  }
+};
+
+class ReplayHead : public HeadTracker {
+ public:
+  ReplayHead(const Recording& recording, const Progress& progress)
+      : recording_(recording), progress_(progress) {}
+
+ private:
+  const Recording& recording_;
+  const Progress& progress_;
+
+  [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
+    const auto answered = recording_.head_answers.find(progress_.sequence.load(), at);
+    return answered ? *answered : recording_.head.at(at, progress_.frame_time.load());
+  }
+};
+
+/// Delivers each event once it was available to the recorded session too.
+template <class Event>
+class Deliverer {
+ public:
+  explicit Deliverer(const std::vector<Delivered<Event>>& events) : events_(events) {}
+  void deliver(Timestamp until, std::vector<Event>& out) {
+    while (next_ < events_.size() && events_[next_].available <= until)
+      out.push_back(events_[next_++].event);
+  }
+
+ private:
+  const std::vector<Delivered<Event>>& events_;
+  std::size_t next_ = 0;
+};
+
+class ReplayClicker : public Clicker {
+ public:
+  explicit ReplayClicker(const Recording& recording) : deliverer_(recording.events.clicker) {}
+
+ private:
+  Deliverer<ClickerEvent> deliverer_;
+
+  Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override {
+    deliverer_.deliver(until, events);
+    return {};
+  }
+};
+
+class ReplayVoice : public Voice {
+ public:
+  explicit ReplayVoice(const Recording& recording) : deliverer_(recording.events.voice) {}
+
+ private:
+  Deliverer<Phrase> deliverer_;
+
+  Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
+    deliverer_.deliver(until, phrases);
+    return {};
+  }
+};
+
+class ReplayDisplay : public Display {
+ public:
+  explicit ReplayDisplay(Duration latency) : latency_(latency) {}
+
+ private:
+  Duration latency_;
+
+  [[nodiscard]] Duration do_latency() const override { return latency_; }
+  Status do_shown(const ShownFrame&) override { return {}; }
+};
+
+class Replay : public ReplayHeadset {
+ public:
+  Replay(std::string name, Recording recording)
+      : name_(std::move(name)), recording_(std::move(recording)) {
+    progress_.clock = recording_.clock_start;
+  }
+  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] const Clock& clock() const override { return clock_; }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
+    return recording_.epoch_ticks_100ns;
+  }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return head_; }
+  [[nodiscard]] Clicker& clicker() override { return clicker_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] const RecordingSummary& summary() const override { return recording_.summary; }
+  [[nodiscard]] const std::string& tools_json() const override { return recording_.tools_json; }
+
+ private:
+  std::string name_;
+  Recording recording_;
+  Progress progress_;
+  ReplayClock clock_{progress_};
+  ReplayCamera cameras_{recording_, progress_};
+  ReplayHead head_{recording_, progress_};
+  ReplayClicker clicker_{recording_};
+  ReplayVoice voice_{recording_};
+  ReplayDisplay display_{recording_.display_latency};
+};
+
+}  // namespace
+
+Result<std::unique_ptr<ReplayHeadset>> ReplayHeadset::open(const std::filesystem::path& folder) {
+  auto recording = read_recording(folder);
+  if (!recording) return recording.error();
+  return std::unique_ptr<ReplayHeadset>(
+      std::make_unique<Replay>("replay:" + folder.string(), std::move(*recording)));
+}
+
+}  // namespace orthonav::replay
