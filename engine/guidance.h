@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/operation.h"
+#include "engine/workflow.h"
+#include "hal/api/tracked.h"
+#include "nav/guidance/rod.h"
+#include "nav/guidance/screw.h"
+#include "nav/registration/digitizer.h"
+#include "nav/registration/registration.h"
+#include "nav/tracking/tool.h"
+
+namespace orthonav::engine {
+
+/// Where one level of the operation stands.
+struct LevelState {
+  OperatedLevel plan;
+  int attempts = 0;  ///< registrations asked for so far
+  /// The newest registration that passed its limits; gone when the surgeon rejects it.
+  std::optional<nav::Registration> registration;
+  bool accepted = false;  ///< by the surgeon; only then anything is guided on it
+  Timestamp registered_at{};
+  std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
+  double digitization_s = 0.0;           ///< from the first press to the registration
+  std::vector<bool> screw_done;
+};
+
+/// One rod: the heads as they were touched, and the template once there are two.
+struct RodState {
+  nav::Side side = nav::Side::kLeft;
+  std::vector<Point<World>> heads;
+  std::optional<nav::RodTemplate> rod;
+};
+
+/// A tool as the status line shows it.
+struct ToolDot {
+  std::string name;
+  nav::ToolRole role = nav::ToolRole::kPointer;
+  Origin origin = Origin::kLost;
+};
+
+/// The tool against the selected screw.
+struct ToolGuidance {
+  /// From one stereo pair: what is written as a number. Head motion between then and now has no
+  /// part in it.
+  nav::ScrewGuidance measured;
+  /// Predicted to the display time: what is drawn over the patient.
+  nav::ScrewGuidance shown;
+  Timestamp pose_time{};  ///< mid-exposure of the newest pair in which the tool was measured
+};
+
+/// A region that was deleted a moment ago.
+struct DroppedRegion {
+  nav::Region region;
+  Timestamp dropped_at{};
+};
+
+/// Everything that the surgeon may be shown after one stereo pair, as facts; engine/scene_builder.h
+/// decides what becomes visible. The spans look into the session: valid until its next step.
+struct Guidance {
+  Timestamp frame_time{};    ///< mid-exposure of the pair
+  Timestamp display_time{};  ///< when the frame made of this lights up
+  Timestamp pose_time{};     ///< of the pair in which the step's tool was last measured
+  Step step = Step::kSetup;
+  std::string step_text;  ///< "guide L4 left"
+  std::string detail;     ///< "refused: registration RMSE 3.4 mm, limit 3.0 mm"; empty: nothing
+  std::span<const LevelState> levels;
+  std::size_t level = 0;  ///< being operated, an index into `levels`
+  std::size_t screw = 0;  ///< selected, an index into the level's screws (while guiding)
+  std::span<const nav::Region> regions;
+  const DroppedRegion* dropped = nullptr;
+  std::optional<ToolGuidance> tool;  ///< absent: not guiding, or nothing fresh to guide on
+  bool tool_lost = false;            ///< the step's tool is not measured
+  std::span<const RodState> rods;
+  bool rods_moved_away = false;
+  std::span<const ToolDot> tools;
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nav/guidance/screw.h"
+#include "nav/registration/registration.h"
+
+namespace orthonav::engine {
+
+/// A level to be operated: its preoperative model, prepared, and its screws in the order in which
+/// they are guided.
+struct OperatedLevel {
+  std::string label;
+  std::shared_ptr<const nav::VertebraModel> model;
+  std::vector<nav::ScrewPlan> screws;
+};
+
+/// What the surgeon is going to do. Levels in the order in which they are operated.
+struct Operation {
+  std::string case_name;
+  std::vector<OperatedLevel> levels;
+
+  /// Every problem at once: no level, a level without model, label or screw, labels twice. Empty
+  /// when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+[[nodiscard]] const char* name_of(nav::Side side);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,281 @@
+#include "engine/session.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace orthonav::engine {
+namespace {
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string out;
+  for (const std::string& line : lines) out += (out.empty() ? "" : "; ") + line;
+  return out;
+}
+
+Result<std::size_t> only_tool(std::span<const nav::ToolGeometry> tools, nav::ToolRole role,
+                              const char* name) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    if (tools[i].role != role) continue;
+    if (found) return Error{std::string("tools: more than one ") + name + ", exactly 1 needed"};
+    found = i;
+  }
+  if (!found) return Error{std::string("tools: no ") + name + ", exactly 1 needed"};
+  return *found;
+}
+
+std::optional<Event> command(const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, Event>, 8> kCommands = {{
+      {"start", Event::kSayStart},
+      {"save", Event::kSaySave},
+      {"delete", Event::kSayDelete},
+      {"accept", Event::kSayAccept},
+      {"reject", Event::kSayReject},
+      {"next", Event::kSayNext},
+      {"done", Event::kSayDone},
+      {"move rod", Event::kSayMoveRod},
+  }};
+  for (const auto& [phrase, event] : kCommands)
+    if (phrase == text) return event;
+  return std::nullopt;
+}
+
+Event event_of(ClickerAction action) {
+  switch (action) {
+    case ClickerAction::kPress: return Event::kPress;
+    case ClickerAction::kRelease: return Event::kRelease;
+    case ClickerAction::kClick: return Event::kClick;
+    case ClickerAction::kDoubleClick: return Event::kDoubleClick;
+    case ClickerAction::kHold: break;
+  }
+  return Event::kHold;
+}
+
+}  // namespace
+
+std::vector<std::string> SessionOptions::check() const {
+  std::vector<std::string> problems;
+  if (stale_after <= Duration::zero() || stale_after > std::chrono::seconds(1))
+    problems.push_back("stale_after must lie in (0, 1000] ms");
+  if (!(min_voice_confidence >= 0.0 && min_voice_confidence <= 1.0))
+    problems.push_back("min_voice_confidence must lie in [0, 1]");
+  if (!(rod_diameter_m >= 0.001 && rod_diameter_m <= 0.02))
+    problems.push_back("rod_diameter_m must lie in [0.001, 0.02]");
+  if (fade < Duration::zero()) problems.push_back("fade must not be negative");
+  return problems;
+}
+
+Result<std::unique_ptr<Session>> Session::create(Operation operation,
+                                                 std::unique_ptr<nav::ToolTracker> tracker,
+                                                 Registrar registrar,
+                                                 const SessionOptions& options) {
+  std::vector<std::string> problems = operation.check();
+  for (const std::string& problem : options.check()) problems.push_back("session: " + problem);
+  if (!problems.empty()) return Error{joined(problems)};
+  const auto pointer = only_tool(tracker->tools(), nav::ToolRole::kPointer, "pointer");
+  if (!pointer) return pointer.error();
+  const auto guide = only_tool(tracker->tools(), nav::ToolRole::kGuide, "guide");
+  if (!guide) return guide.error();
+  return std::unique_ptr<Session>(new Session(std::move(operation), std::move(tracker),
+                                              std::move(registrar), options, *pointer, *guide));
+}
+
+Session::Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker,
+                 Registrar registrar, const SessionOptions& options, std::size_t pointer,
+                 std::size_t guide)
+    : tracker_(std::move(tracker)),
+      registrar_(std::move(registrar)),
+      options_(options),
+      pointer_(pointer),
+      guide_(guide) {
+  for (OperatedLevel& plan : operation.levels) {
+    LevelState state;
+    state.screw_done.assign(plan.screws.size(), false);
+    state.plan = std::move(plan);
+    levels_.push_back(std::move(state));
+  }
+  rods_.resize(2);
+  rods_[0].side = nav::Side::kLeft;
+  rods_[1].side = nav::Side::kRight;
+  watches_.resize(tracker_->tools().size());
+  for (const nav::ToolGeometry& tool : tracker_->tools())
+    dots_.push_back({tool.name, tool.role, Origin::kLost});
+  touch_.reserve(64);
+}
+
+const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
+  // Events first: a press before this pair makes this pair a sample, a release before it does not.
+  answer_inputs(inputs);
+  track(frame);
+  watch_active_tool(frame.time);
+  collect_samples();
+  publish(frame, inputs.display_time);
+  return guidance_;
+}
+
+void Session::answer_inputs(const Inputs& inputs) {
+  std::size_t c = 0;
+  std::size_t p = 0;
+  while (c < inputs.clicks.size() || p < inputs.phrases.size()) {
+    // The clicker goes first at equal times: what is said refers to what was done.
+    const bool clicker_next =
+        p == inputs.phrases.size() ||
+        (c < inputs.clicks.size() && inputs.clicks[c].time <= inputs.phrases[p].time);
+    if (clicker_next)
+      click(inputs.clicks[c++]);
+    else
+      hear(inputs.phrases[p++]);
+  }
+}
+
+void Session::click(const ClickerEvent& event) { handle(event_of(event.action), event.time); }
+
+void Session::hear(const Phrase& phrase) {
+  const auto event = command(phrase.text);
+  if (event && phrase.confidence >= options_.min_voice_confidence)
+    handle(*event, phrase.time);
+  else if (observer_)
+    observer_->not_understood(phrase);
+}
+
+void Session::handle(Event event, Timestamp time) {
+  const Cell cell = answer(step_, event);
+  if (observer_) observer_->happened(time, step_, event, cell);
+  // The step changes first, so that an action may raise the next event from where it now stands.
+  step_ = cell.next;
+  act(cell.action, event, time);
+}
+
+void Session::track(const StereoFrame& frame) {
+  states_ = tracker_->track(frame);
+  for (std::size_t i = 0; i < watches_.size() && i < states_.size(); ++i) {
+    watches_[i].update(states_[i].world_from_marker);
+    dots_[i].origin = states_[i].world_from_marker.origin;
+  }
+}
+
+std::optional<std::size_t> Session::active_tool() const {
+  if (step_ == Step::kDigitize || step_ == Step::kRod) return pointer_;
+  if (step_ == Step::kGuide) return guide_;
+  return std::nullopt;
+}
+
+void Session::watch_active_tool(Timestamp now) {
+  const auto tool = active_tool();
+  if (tool != seen_tool_) {
+    // A tool that was just taken into use was not lost; it has not been found yet.
+    seen_tool_ = tool;
+    seen_ = Seen::kNever;
+    guidance_hidden_ = false;
+  }
+  if (!tool) return;
+  const ToolWatch& watch = watches_[*tool];
+  if (watch.measured_now()) {
+    if (std::exchange(seen_, Seen::kMeasured) != Seen::kMeasured)
+      handle(Event::kTrackingRegained, now);
+  } else if (seen_ == Seen::kMeasured) {
+    seen_ = Seen::kLost;
+    handle(Event::kTrackingLost, now);
+  } else if (seen_ == Seen::kLost && !watch.fresh(now, options_.stale_after)) {
+    seen_ = Seen::kStale;
+    handle(Event::kPoseStale, now);
+  }
+}
+
+void Session::collect_samples() {
+  const nav::TrackedPose& pose = watches_[pointer_].newest();
+  const Point<Marker> tip = tracker_->tools()[pointer_].tip_in_marker;
+  if (step_ == Step::kDigitize && digitizer_.recording()) digitizer_.add(pose, tip);
+  if (step_ == Step::kRod && touching_ && pose.origin == Origin::kMeasured)
+    touch_.push_back(pose.value * tip);
+}
+
+void Session::publish(const StereoFrame& frame, Timestamp display_time) {
+  Guidance& out = guidance_;
+  out.frame_time = frame.time;
+  out.display_time = display_time;
+  const auto tool = active_tool();
+  out.pose_time = tool ? watches_[*tool].last_measured().value_or(Timestamp{}) : frame.time;
+  out.step = step_;
+  out.levels = levels_;
+  out.level = level_;
+  out.screw = screw_;
+  out.regions = digitizer_.regions();
+  const bool fading = !dropped_.region.samples.empty() &&
+                      display_time - dropped_.dropped_at <= options_.fade;
+  out.dropped = fading ? &dropped_ : nullptr;
+  out.tool_lost = tool && seen_ != Seen::kMeasured;
+  out.rods = rods_;
+  out.rods_moved_away = rods_moved_away_;
+  out.tools = dots_;
+  publish_tool_guidance(frame.time, display_time);
+  write_texts();
+}
+
+void Session::publish_tool_guidance(Timestamp now, Timestamp display_time) {
+  guidance_.tool.reset();
+  if (step_ != Step::kGuide || guidance_hidden_ || !level().registration) return;
+  const ToolWatch& watch = watches_[guide_];
+  if (!watch.fresh(now, options_.stale_after)) return;
+  // Between two measurements the tracker's own prediction stands in; without one there is nothing.
+  const nav::TrackedPose& now_pose = watch.newest();
+  const nav::TrackedPose at_display = watch.at(display_time, options_.stale_after);
+  if (now_pose.origin == Origin::kLost || at_display.origin == Origin::kLost) return;
+  const nav::ToolGeometry& tool = tracker_->tools()[guide_];
+  const auto& world_from_vertebra = level().registration->world_from_vertebra;
+  const nav::ScrewPlan& plan = level().plan.screws[screw_];
+  const auto guide = [&](const Transform<World, Marker>& pose) {
+    return nav::guide(world_from_vertebra, plan, pose * tool.tip_in_marker,
+                      (pose * tool.axis_in_marker).v);
+  };
+  guidance_.tool = ToolGuidance{guide(now_pose.value), guide(at_display.value),
+                                watch.last_measured().value_or(Timestamp{})};
+  if (now_pose.origin == Origin::kMeasured) last_guidance_ = guidance_.tool;
+}
+
+void Session::write_texts() {
+  std::array<char, 160> text{};
+  const std::string& label = level().plan.label;
+  const char* name = name_of(step_).data();
+  switch (step_) {
+    case Step::kSetup:
+    case Step::kDone: guidance_.step_text = name; break;
+    case Step::kDigitize:
+    case Step::kVerify:
+    case Step::kAccepted:
+      std::snprintf(text.data(), text.size(), "%s %s", name, label.c_str());
+      guidance_.step_text = text.data();
+      break;
+    case Step::kGuide:
+      std::snprintf(text.data(), text.size(), "%s %s %s", name, label.c_str(),
+                    name_of(level().plan.screws[screw_].side));
+      guidance_.step_text = text.data();
+      break;
+    case Step::kRod:
+      std::snprintf(text.data(), text.size(), "%s %s", name, name_of(rods_[rod_].side));
+      guidance_.step_text = text.data();
+      break;
+  }
+  guidance_.detail = message_;
+  if (!message_.empty()) return;
+  const auto tool = active_tool();
+  if (tool && seen_ != Seen::kMeasured && seen_ != Seen::kNever) {
+    std::snprintf(text.data(), text.size(), "%s lost", tracker_->tools()[*tool].name.c_str());
+  } else if (step_ == Step::kDigitize) {
+    std::size_t points = 0;
+    for (const nav::Region& region : digitizer_.regions()) points += region.samples.size();
+    std::snprintf(text.data(), text.size(), "%zu points", points);
+  } else if (step_ == Step::kVerify || step_ == Step::kAccepted) {
+    const double rmse_mm = level().registration ? level().registration->rmse_m * 1e3 : 0.0;
+    std::snprintf(text.data(), text.size(), "RMSE %.2f mm", rmse_mm);
+  } else if (step_ == Step::kRod) {
+    std::snprintf(text.data(), text.size(), "%zu heads", rods_[rod_].heads.size());
+  } else {
+    return;
+  }
+  guidance_.detail = text.data();
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/guidance.h"
+#include "engine/method.h"
+#include "engine/operation.h"
+#include "engine/session_observer.h"
+#include "engine/tool_watch.h"
+#include "engine/workflow.h"
+#include "hal/api/devices.h"
+#include "nav/registration/digitizer.h"
+#include "nav/tracking/tool_tracker.h"
+
+namespace orthonav::engine {
+
+struct SessionOptions {
+  /// Guidance on a pose older than this is hidden, never frozen.
+  Duration stale_after = std::chrono::milliseconds(100);
+  /// A phrase understood less surely than this is not acted upon: a wrong "accept" is worse than
+  /// one said twice.
+  double min_voice_confidence = 0.5;
+  double rod_diameter_m = 0.0055;
+  /// A deleted path fades for so long.
+  Duration fade = std::chrono::milliseconds(300);
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// What came in beside the images since the last step.
+struct Inputs {
+  std::span<const ClickerEvent> clicks;  ///< in order of time
+  std::span<const Phrase> phrases;       ///< in order of time
+  Timestamp display_time{};              ///< when a frame made of this step lights up
+};
+
+/// One operation from setup to done: values in, guidance out. Reads no clock and no device, so the
+/// same inputs give the same outputs, live, simulated or replayed. One thread at a time.
+class Session {
+ public:
+  /// Refuses an operation or options with problems, and tools without a pointer and a guide.
+  static Result<std::unique_ptr<Session>> create(Operation operation,
+                                                 std::unique_ptr<nav::ToolTracker> tracker,
+                                                 Registrar registrar,
+                                                 const SessionOptions& options = {});
+
+  /// Hears everything from now on; null: nobody. Borrowed.
+  void observe(SessionObserver* observer) { observer_ = observer; }
+
+  /// One stereo pair: events up to it are answered in order of time, tools are tracked, the step's
+  /// work is done. The result is valid until the next call.
+  const Guidance& step(const StereoFrame& frame, const Inputs& inputs);
+
+  [[nodiscard]] Step current_step() const { return step_; }
+  [[nodiscard]] std::span<const LevelState> levels() const { return levels_; }
+  [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
+  [[nodiscard]] std::span<const nav::ToolState> tool_states() const { return states_; }
+  [[nodiscard]] const nav::ToolTracker& tracker() const { return *tracker_; }
+
+ private:
+  enum class Seen { kNever, kMeasured, kLost, kStale };
+
+  Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker, Registrar registrar,
+          const SessionOptions& options, std::size_t pointer, std::size_t guide);
+
+  // session.cpp: the order of one step.
+  void answer_inputs(const Inputs& inputs);
+  void hear(const Phrase& phrase);
+  void click(const ClickerEvent& event);
+  void handle(Event event, Timestamp time);
+  void track(const StereoFrame& frame);
+  void watch_active_tool(Timestamp now);
+  void collect_samples();
+  void publish(const StereoFrame& frame, Timestamp display_time);
+  void publish_tool_guidance(Timestamp now, Timestamp display_time);
+  void write_texts();
+  [[nodiscard]] std::optional<std::size_t> active_tool() const;
+
+  // session_actions.cpp: what the table asks for.
+  void act(Action action, Event event, Timestamp time);
+  void act_on_regions(Action action, Timestamp time);
+  void act_on_level(Action action, Timestamp time);
+  void act_on_rod(Action action, Timestamp time);
+  void try_registration(Timestamp time);
+  void finish_screw(Timestamp time);
+  void record_head(Timestamp time);
+  void drop_head(Timestamp time);
+  void finish_rod(Timestamp time);
+  void update_rod();
+  void drop_region(Timestamp time);
+  void begin_level();
+  void say(std::string message) { message_ = std::move(message); }
+  [[nodiscard]] LevelState& level() { return levels_[level_]; }
+
+  std::unique_ptr<nav::ToolTracker> tracker_;
+  Registrar registrar_;
+  SessionOptions options_;
+  SessionObserver* observer_ = nullptr;
+  std::size_t pointer_ = 0;  ///< indices into the tracker's tools
+  std::size_t guide_ = 0;
+
+  Step step_ = Step::kSetup;
+  std::vector<LevelState> levels_;
+  std::size_t level_ = 0;
+  std::size_t screw_ = 0;
+  std::vector<RodState> rods_;  ///< left, right
+  std::size_t rod_ = 0;
+  bool rods_moved_away_ = false;
+
+  nav::Digitizer digitizer_;
+  DroppedRegion dropped_;
+  std::vector<Point<World>> touch_;  ///< tips while the button is down, for a screw head
+  bool touching_ = false;
+
+  std::span<const nav::ToolState> states_;
+  std::vector<ToolWatch> watches_;
+  std::vector<ToolDot> dots_;
+  Seen seen_ = Seen::kNever;
+  std::optional<std::size_t> seen_tool_;
+  bool guidance_hidden_ = false;
+
+  std::string message_;  ///< what the surgeon must be told, until he does something that is taken
+  std::optional<ToolGuidance> last_guidance_;  ///< newest of the selected screw
+  Guidance guidance_;
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,201 @@
+#include <algorithm>
+
+#include "engine/session.h"
+
+namespace orthonav::engine {
+
+void Session::act(Action action, Event event, Timestamp time) {
+  switch (action) {
+    case Action::kRefuse: say("not possible now: " + std::string(name_of(event))); return;
+    case Action::kIgnore: return;
+    case Action::kWarnLost: return;  // the status line shows it from `seen_`
+    case Action::kHideGuidance: guidance_hidden_ = true; return;
+    case Action::kShowGuidance: guidance_hidden_ = false; return;
+    case Action::kCountRefusal: return;  // the reason was said where it arose
+    default: break;
+  }
+  message_.clear();
+  act_on_regions(action, time);
+  act_on_level(action, time);
+  act_on_rod(action, time);
+}
+
+void Session::act_on_regions(Action action, Timestamp time) {
+  switch (action) {
+    case Action::kStartSampling:
+      digitizer_.press(time);
+      if (!level().first_press) level().first_press = time;
+      return;
+    case Action::kStopSampling: digitizer_.release(time); return;
+    case Action::kSaveRegion: digitizer_.save(); return;
+    case Action::kDropRegion: drop_region(time); return;
+    default: return;
+  }
+}
+
+void Session::act_on_level(Action action, Timestamp time) {
+  switch (action) {
+    case Action::kBeginLevel:
+      begin_level();
+      return;
+    case Action::kRegister:
+      digitizer_.release(time);
+      try_registration(time);
+      return;
+    case Action::kAccept: level().accepted = true; return;
+    case Action::kClearLevel:
+      level().registration.reset();
+      level().accepted = false;
+      level().first_press.reset();
+      // Wires driven on a registration that is thrown away are not undone; what was done stays.
+      digitizer_.clear();
+      last_guidance_.reset();
+      return;
+    case Action::kSelectScrew: {
+      digitizer_.clear();
+      const auto& done = level().screw_done;
+      const auto open = std::find(done.begin(), done.end(), false);
+      screw_ = open == done.end() ? 0 : static_cast<std::size_t>(open - done.begin());
+      last_guidance_.reset();
+      return;
+    }
+    case Action::kFinishScrew: finish_screw(time); return;
+    default: return;
+  }
+}
+
+void Session::act_on_rod(Action action, Timestamp time) {
+  switch (action) {
+    case Action::kBeginRod:
+      if (rods_[rod_].heads.empty()) touching_ = false;
+      return;
+    case Action::kBeginTouch:
+      touch_.clear();
+      touching_ = true;
+      return;
+    case Action::kRecordHead: record_head(time); return;
+    case Action::kDropHead: drop_head(time); return;
+    case Action::kFinishRod: finish_rod(time); return;
+    case Action::kMoveRod: rods_moved_away_ = !rods_moved_away_; return;
+    default: return;
+  }
+}
+
+void Session::begin_level() {
+  const auto open = std::find_if(levels_.begin(), levels_.end(), [](const LevelState& level) {
+    return std::find(level.screw_done.begin(), level.screw_done.end(), false) !=
+           level.screw_done.end();
+  });
+  level_ = open == levels_.end() ? 0 : static_cast<std::size_t>(open - levels_.begin());
+  screw_ = 0;
+  digitizer_.clear();
+  last_guidance_.reset();
+}
+
+void Session::drop_region(Timestamp time) {
+  const auto regions = digitizer_.regions();
+  if (regions.empty()) return;
+  // Copied before it goes: it fades instead of vanishing.
+  const auto last = std::find_if(regions.rbegin(), regions.rend(),
+                                 [](const nav::Region& r) { return !r.samples.empty(); });
+  if (last != regions.rend()) dropped_ = {*last, time};
+  digitizer_.drop();
+}
+
+void Session::try_registration(Timestamp time) {
+  LevelState& now = level();
+  ++now.attempts;
+  const std::vector<Point<World>> points = digitizer_.saved_points();
+  const auto result = registrar_(*now.plan.model, points);
+  std::string reason;
+  if (!result) {
+    reason = result.error().message;
+  } else if (!result->accepted) {
+    for (const std::string& r : result->reasons) reason += (reason.empty() ? "" : "; ") + r;
+    if (reason.empty()) reason = "registration not accepted";
+  }
+  if (reason.empty()) {
+    now.registration = *result;
+    now.registered_at = time;
+    now.digitization_s = now.first_press ? seconds(time - *now.first_press) : 0.0;
+  } else {
+    say("refused: " + reason);
+  }
+  if (observer_) {
+    nav::Registration unusable;
+    unusable.points = points.size();
+    observer_->registered(time, now, result ? *result : unusable, reason);
+  }
+  handle(reason.empty() ? Event::kRegistered : Event::kRegistrationRefused, time);
+}
+
+void Session::finish_screw(Timestamp time) {
+  LevelState& now = level();
+  now.screw_done[screw_] = true;
+  if (observer_)
+    observer_->screw_done(time, now, now.plan.screws[screw_],
+                          last_guidance_ ? &*last_guidance_ : nullptr);
+  const auto unfinished = [](const LevelState& state) {
+    return std::find(state.screw_done.begin(), state.screw_done.end(), false) !=
+           state.screw_done.end();
+  };
+  if (unfinished(now))
+    handle(Event::kAnotherScrew, time);
+  else if (std::any_of(levels_.begin(), levels_.end(), unfinished))
+    handle(Event::kAnotherLevel, time);
+  else
+    handle(Event::kNoScrewLeft, time);
+}
+
+void Session::record_head(Timestamp time) {
+  touching_ = false;
+  const ToolWatch& pointer = watches_[pointer_];
+  Point<World> head;
+  if (!touch_.empty()) {
+    Vec3 sum{};
+    for (const Point<World>& tip : touch_) sum += tip.v;
+    head = {sum / static_cast<double>(touch_.size())};
+  } else if (pointer.fresh(time, options_.stale_after)) {
+    // A click shorter than a frame: the pose of the pair just before it.
+    head = pointer.last_measured_pose().value * tracker_->tools()[pointer_].tip_in_marker;
+  } else {
+    say("head not recorded: pointer not seen");
+    return;
+  }
+  rods_[rod_].heads.push_back(head);
+  update_rod();
+  if (observer_) observer_->head_recorded(time, rods_[rod_].side, head);
+}
+
+void Session::drop_head(Timestamp time) {
+  RodState& rod = rods_[rod_];
+  if (rod.heads.empty()) {
+    say("no head to delete");
+    return;
+  }
+  rod.heads.pop_back();
+  update_rod();
+  if (observer_) observer_->head_dropped(time, rod.side);
+}
+
+void Session::update_rod() {
+  RodState& rod = rods_[rod_];
+  rod.rod.reset();
+  if (rod.heads.size() < 2) return;
+  std::vector<Vec3> heads;
+  for (const Point<World>& head : rod.heads) heads.push_back(head.v);
+  auto made = nav::rod_template(heads, options_.rod_diameter_m);
+  if (made)
+    rod.rod = std::move(*made);
+  else
+    say("no rod: " + made.error().message);
+}
+
+void Session::finish_rod(Timestamp time) {
+  if (observer_) observer_->rod_done(time, rods_[rod_]);
+  const bool another = rod_ + 1 < rods_.size();
+  if (another) ++rod_;
+  handle(another ? Event::kAnotherSide : Event::kNoSideLeft, time);
+}
+
+}  // namespace orthonav::engine

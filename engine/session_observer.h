@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "engine/guidance.h"
+#include "hal/api/devices.h"
+
+namespace orthonav::engine {
+
+/// Hears what happens in a session, in order, on the thread that steps it. The references live as
+/// long as the call.
+class SessionObserver {
+ public:
+  virtual ~SessionObserver() = default;
+  /// Every event with the table's answer to it.
+  virtual void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell /*answer*/) {}
+  /// A phrase that is no command here, or was not understood well enough.
+  virtual void not_understood(const Phrase& /*phrase*/) {}
+  /// A registration was asked for; `reason` is empty when it passed.
+  virtual void registered(Timestamp /*time*/, const LevelState& /*level*/,
+                          const nav::Registration& /*result*/, const std::string& /*reason*/) {}
+  /// The surgeon declared the screw done; `last` is what he was guided by at the end, if anything.
+  virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,
+                          const nav::ScrewPlan& /*screw*/, const ToolGuidance* /*last*/) {}
+  virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, Point<World> /*head*/) {}
+  virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/) {}
+  virtual void rod_done(Timestamp /*time*/, const RodState& /*rod*/) {}
+};
+
+}  // namespace orthonav::engine

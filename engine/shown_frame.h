@@ -1,0 +1,40 @@
+#pragma once
+
+#include "engine/visibility.h"
+#include "hal/api/display.h"
+
+namespace orthonav::engine {
+
+/// Says what a frame shows in words and points: what a person wearing the display reads off it.
+/// Reuses the frame's buffers; in the steady state it allocates nothing.
+class ShownFrameWriter {
+ public:
+  void write(const Guidance& guidance, const Visibility& visible, const VisibilityRules& rules,
+             ShownFrame& frame);
+
+ private:
+  ShownHologram& add(ShownFrame& frame, const char* name);
+  void write_digitizing(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
+  void write_entries(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
+  void write_screw(const Guidance& guidance, const Visibility& visible,
+                   const VisibilityRules& rules, ShownFrame& frame);
+  void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
+  void write_status(const Guidance& guidance, ShownFrame& frame);
+
+  std::size_t used_ = 0;
+};
+
+/// The planned trajectory in the world: its outer end, the entry, the target.
+struct TrajectoryLine {
+  Point<World> outside;
+  Point<World> entry;
+  Point<World> target;
+};
+[[nodiscard]] TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw,
+                                           const VisibilityRules& rules);
+
+/// The angle as it is written: `12.4°`.
+[[nodiscard]] std::string angle_text(double angle_rad);
+inline constexpr const char* kLostAngle = "--.-°";
+
+}  // namespace orthonav::engine

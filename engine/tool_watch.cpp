@@ -1,0 +1,34 @@
+#include "engine/tool_watch.h"
+
+namespace orthonav::engine {
+
+void ToolWatch::update(const nav::TrackedPose& world_from_marker) {
+  newest_ = world_from_marker;
+  if (newest_.origin != Origin::kMeasured) return;
+  older_ = newer_;
+  newer_ = newest_;
+}
+
+std::optional<Timestamp> ToolWatch::last_measured() const {
+  if (newer_.origin != Origin::kMeasured) return std::nullopt;
+  return newer_.time;
+}
+
+bool ToolWatch::fresh(Timestamp now, Duration within) const {
+  return newer_.origin == Origin::kMeasured && newer_.age(now) <= within;
+}
+
+nav::TrackedPose ToolWatch::at(Timestamp time, Duration coast) const {
+  if (newer_.origin != Origin::kMeasured) return {};
+  // A velocity over a gap says where the tool was going then, not now: hold the pose instead.
+  const bool has_velocity =
+      older_.origin == Origin::kMeasured && newer_.time - older_.time <= coast;
+  if (has_velocity) return nav::predicted(older_, newer_, time, coast);
+  if (newer_.age(time) > coast) return {};
+  nav::TrackedPose held = newer_;
+  held.time = time;
+  held.origin = Origin::kPredicted;
+  return held;
+}
+
+}  // namespace orthonav::engine

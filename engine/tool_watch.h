@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "nav/tracking/tool_tracker.h"
+
+namespace orthonav::engine {
+
+/// The recent past of one tool: its two newest measured poses, from which it is predicted, and the
+/// newest state of whatever origin.
+class ToolWatch {
+ public:
+  void update(const nav::TrackedPose& world_from_marker);
+  [[nodiscard]] const nav::TrackedPose& newest() const { return newest_; }
+  [[nodiscard]] bool measured_now() const { return newest_.origin == Origin::kMeasured; }
+  [[nodiscard]] std::optional<Timestamp> last_measured() const;
+  /// Measured no longer than `within` before `now`.
+  [[nodiscard]] bool fresh(Timestamp now, Duration within) const;
+  /// The newest measured pose; lost when there was none.
+  [[nodiscard]] const nav::TrackedPose& last_measured_pose() const { return newer_; }
+  /// Where the tool will be at `time`; lost when nothing measured is near enough.
+  [[nodiscard]] nav::TrackedPose at(Timestamp time, Duration coast) const;
+
+ private:
+  nav::TrackedPose newest_;
+  nav::TrackedPose newer_;  ///< newest measured
+  nav::TrackedPose older_;  ///< measured before that
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,52 @@
+#include "engine/visibility.h"
+
+namespace orthonav::engine {
+
+void decide_visibility(const Guidance& g, const VisibilityRules& rules, Visibility& out) {
+  out.entries_of.clear();
+  // H1: the surgeon still compares the paths with the hologram while he verifies; after acceptance
+  // they would only cover the bone.
+  out.paths = g.step == Step::kDigitize || g.step == Step::kVerify;
+  const LevelState* level = g.level < g.levels.size() ? &g.levels[g.level] : nullptr;
+  // H2: what is to be verified, and only that; gone with a rejected registration.
+  out.vertebra = g.step == Step::kVerify && level && level->registration.has_value();
+  // H3: entry points of everything that may be guided on, never faded by distance. An unaccepted
+  // registration shows none: an entry point on display reads as "drill here".
+  for (std::size_t i = 0; i < g.levels.size(); ++i)
+    if (g.levels[i].accepted && g.levels[i].registration) out.entries_of.push_back(i);
+  // H4: of the selected screw; it depends on the registration alone, so a lost tool leaves it.
+  out.trajectory = g.step == Step::kGuide && level && level->accepted &&
+                   level->registration.has_value() && g.screw < level->plan.screws.size();
+  // H5, H6: on a pose younger than the limit at the moment when the frame lights up. A frozen
+  // triangle is worse than none.
+  const bool fresh = out.trajectory && g.tool.has_value() &&
+                     g.display_time - g.tool->pose_time <= rules.stale_after;
+  out.triangle = fresh && g.tool->measured.tip_to_entry_m <= rules.triangle_within_m;
+  out.angle = out.triangle;
+  // A lost value says so in the place of the number, never with the last number.
+  out.angle_lost = out.trajectory && !fresh;
+  // H10: from the first head until the end.
+  out.rods = g.step == Step::kRod || g.step == Step::kDone;
+}
+
+Vec3 rod_shift_m(const Guidance& guidance, const RodState& rod, const VisibilityRules& rules) {
+  if (!guidance.rods_moved_away || rod.heads.empty()) return {};
+  constexpr Vec3 kUp{0, 1, 0};
+  const Vec3 along = rod.heads.back() - rod.heads.front();
+  Vec3 side = along.cross(kUp);
+  if (side.norm() < 1e-6) side = {1, 0, 0};
+  // Right-handed: which way `side` points depends on the order of touching, so take the way that
+  // leads off the other rod.
+  Vec3 centre_of_rods{};
+  double count = 0.0;
+  for (const RodState& other : guidance.rods)
+    for (const Point<World>& head : other.heads) {
+      centre_of_rods += head.v;
+      count += 1.0;
+    }
+  const Vec3 outward = rod.heads.front().v - centre_of_rods / count;
+  const double sign = outward.dot(side) < 0.0 ? -1.0 : 1.0;
+  return side.normalized() * (sign * rules.rod_moved_away_m);
+}
+
+}  // namespace orthonav::engine

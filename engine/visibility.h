@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/guidance.h"
+
+namespace orthonav::engine {
+
+struct VisibilityRules {
+  /// A pose older than this when the frame lights up guides nobody.
+  Duration stale_after = std::chrono::milliseconds(100);
+  double triangle_within_m = 0.040;  ///< of the tip from the entry
+  double trajectory_outside_m = 0.060;
+  double rod_moved_away_m = 0.150;
+  Duration fade = std::chrono::milliseconds(300);
+};
+
+/// Which holograms one frame shows. Computed once, so that what is drawn and what the display is
+/// told can't differ.
+struct Visibility {
+  bool paths = false;              ///< H1
+  bool vertebra = false;           ///< H2 of the current level
+  std::vector<std::size_t> entries_of;  ///< H3: the levels whose entry points are shown
+  bool trajectory = false;         ///< H4 of the selected screw
+  bool triangle = false;           ///< H5
+  bool angle = false;              ///< H6 with a number
+  bool angle_lost = false;         ///< H6 without one
+  bool rods = false;               ///< H10
+};
+
+void decide_visibility(const Guidance& guidance, const VisibilityRules& rules, Visibility& out);
+
+/// From where to where the rods are shifted while they are moved away: sideways off the patient,
+/// as a rigid body, each to its own side.
+[[nodiscard]] Vec3 rod_shift_m(const Guidance& guidance, const RodState& rod,
+                               const VisibilityRules& rules);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,217 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace orthonav::engine {
+
+/// Where the operation stands. One step at a time; the table below decides every change.
+enum class Step : std::uint8_t { kSetup, kDigitize, kVerify, kAccepted, kGuide, kRod, kDone };
+inline constexpr std::size_t kStepCount = 7;
+
+/// Everything that can happen: what the surgeon does, and what the engine itself finds out.
+enum class Event : std::uint8_t {
+  kPress,
+  kRelease,
+  kClick,
+  kDoubleClick,
+  kHold,
+  kSayStart,
+  kSaySave,
+  kSayDelete,
+  kSayAccept,
+  kSayReject,
+  kSayNext,
+  kSayDone,
+  kSayMoveRod,
+  kRegistered,           ///< a registration passed its limits
+  kRegistrationRefused,  ///< a registration failed its limits
+  kAnotherScrew,         ///< the level has a further screw
+  kAnotherLevel,         ///< the level is finished, a further one is planned
+  kNoScrewLeft,          ///< every screw of the plan is done
+  kAnotherSide,          ///< the rod of the other side is still to do
+  kNoSideLeft,           ///< both rods are done
+  kTrackingLost,         ///< the step's tool is no longer measured
+  kPoseStale,            ///< the step's tool was last measured longer ago than may be shown
+  kTrackingRegained,     ///< the step's tool is measured again
+};
+inline constexpr std::size_t kEventCount = 23;
+
+/// What the session does about it. The first is the answer of a forgotten cell.
+enum class Action : std::uint8_t {
+  kRefuse,  ///< not possible now; the surgeon is told
+  kIgnore,  ///< means nothing here, and need not be told
+  kBeginLevel,
+  kStartSampling,
+  kStopSampling,
+  kSaveRegion,
+  kDropRegion,
+  kRegister,
+  kShowRegistration,
+  kCountRefusal,
+  kAccept,
+  kClearLevel,
+  kSelectScrew,
+  kFinishScrew,
+  kBeginRod,
+  kBeginTouch,
+  kRecordHead,
+  kDropHead,
+  kFinishRod,
+  kMoveRod,
+  kFinish,
+  kWarnLost,
+  kHideGuidance,
+  kShowGuidance,
+};
+inline constexpr std::size_t kActionCount = 24;
+
+struct Cell {
+  Step next = Step::kSetup;
+  Action action = Action::kRefuse;
+  friend constexpr bool operator==(const Cell&, const Cell&) = default;
+};
+
+/// One line of the table as it is written down.
+struct Rule {
+  Step step;
+  Event event;
+  Action action;
+  Step next;
+};
+
+namespace workflow_detail {
+using enum Step;
+using enum Event;
+using enum Action;
+
+// clang-format off
+inline constexpr auto kRules = std::to_array<Rule>({
+    // Nothing is tracked for guidance before the operation starts.
+    {kSetup, kSayStart, kBeginLevel, kDigitize},
+    {kSetup, kPress, kIgnore, kSetup},
+    {kSetup, kRelease, kIgnore, kSetup},
+    {kSetup, kClick, kIgnore, kSetup},
+    {kSetup, kHold, kIgnore, kSetup},
+    {kSetup, kTrackingLost, kIgnore, kSetup},
+    {kSetup, kPoseStale, kIgnore, kSetup},
+    {kSetup, kTrackingRegained, kIgnore, kSetup},
+
+    // Samples while the button is down; a double click asks for the registration. Its two clicks
+    // come as clicks too and mean nothing of their own.
+    {kDigitize, kPress, kStartSampling, kDigitize},
+    {kDigitize, kRelease, kStopSampling, kDigitize},
+    {kDigitize, kClick, kIgnore, kDigitize},
+    {kDigitize, kHold, kIgnore, kDigitize},
+    {kDigitize, kSaySave, kSaveRegion, kDigitize},
+    {kDigitize, kSayDelete, kDropRegion, kDigitize},
+    {kDigitize, kDoubleClick, kRegister, kDigitize},
+    {kDigitize, kRegistered, kShowRegistration, kVerify},
+    {kDigitize, kRegistrationRefused, kCountRefusal, kDigitize},
+    {kDigitize, kTrackingLost, kWarnLost, kDigitize},
+    {kDigitize, kPoseStale, kHideGuidance, kDigitize},
+    {kDigitize, kTrackingRegained, kShowGuidance, kDigitize},
+
+    // The surgeon looks at the hologram on the bone: the only way on is his own word.
+    {kVerify, kSayAccept, kAccept, kAccepted},
+    {kVerify, kSayReject, kClearLevel, kDigitize},
+    {kVerify, kPress, kIgnore, kVerify},
+    {kVerify, kRelease, kIgnore, kVerify},
+    {kVerify, kClick, kIgnore, kVerify},
+    {kVerify, kHold, kIgnore, kVerify},
+    {kVerify, kTrackingLost, kIgnore, kVerify},
+    {kVerify, kPoseStale, kIgnore, kVerify},
+    {kVerify, kTrackingRegained, kIgnore, kVerify},
+
+    {kAccepted, kSayNext, kSelectScrew, kGuide},
+    {kAccepted, kSayReject, kClearLevel, kDigitize},
+    {kAccepted, kPress, kIgnore, kAccepted},
+    {kAccepted, kRelease, kIgnore, kAccepted},
+    {kAccepted, kClick, kIgnore, kAccepted},
+    {kAccepted, kHold, kIgnore, kAccepted},
+    {kAccepted, kTrackingLost, kIgnore, kAccepted},
+    {kAccepted, kPoseStale, kIgnore, kAccepted},
+    {kAccepted, kTrackingRegained, kIgnore, kAccepted},
+
+    // A registration that turns out wrong while guiding can be thrown away at any screw.
+    {kGuide, kSayNext, kFinishScrew, kGuide},
+    {kGuide, kSayReject, kClearLevel, kDigitize},
+    {kGuide, kAnotherScrew, kSelectScrew, kGuide},
+    {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
+    {kGuide, kNoScrewLeft, kBeginRod, kRod},
+    {kGuide, kPress, kIgnore, kGuide},
+    {kGuide, kRelease, kIgnore, kGuide},
+    {kGuide, kClick, kIgnore, kGuide},
+    {kGuide, kHold, kIgnore, kGuide},
+    {kGuide, kTrackingLost, kWarnLost, kGuide},
+    {kGuide, kPoseStale, kHideGuidance, kGuide},
+    {kGuide, kTrackingRegained, kShowGuidance, kGuide},
+
+    // Heads are touched with the pointer's tip; the tip is averaged while the button is down.
+    {kRod, kPress, kBeginTouch, kRod},
+    {kRod, kRelease, kIgnore, kRod},
+    {kRod, kClick, kRecordHead, kRod},
+    {kRod, kDoubleClick, kIgnore, kRod},
+    {kRod, kHold, kIgnore, kRod},
+    {kRod, kSayDelete, kDropHead, kRod},
+    {kRod, kSayDone, kFinishRod, kRod},
+    {kRod, kSayMoveRod, kMoveRod, kRod},
+    {kRod, kAnotherSide, kBeginRod, kRod},
+    {kRod, kNoSideLeft, kFinish, kDone},
+    {kRod, kTrackingLost, kWarnLost, kRod},
+    {kRod, kPoseStale, kHideGuidance, kRod},
+    {kRod, kTrackingRegained, kShowGuidance, kRod},
+
+    {kDone, kSayMoveRod, kMoveRod, kDone},
+    {kDone, kPress, kIgnore, kDone},
+    {kDone, kRelease, kIgnore, kDone},
+    {kDone, kClick, kIgnore, kDone},
+    {kDone, kHold, kIgnore, kDone},
+    {kDone, kTrackingLost, kIgnore, kDone},
+    {kDone, kPoseStale, kIgnore, kDone},
+    {kDone, kTrackingRegained, kIgnore, kDone},
+});
+// clang-format on
+
+using Table = std::array<std::array<Cell, kEventCount>, kStepCount>;
+
+/// Every cell starts as a refusal that stays where it is; the rules overwrite theirs.
+consteval Table make_table() {
+  Table table{};
+  for (std::size_t step = 0; step < kStepCount; ++step)
+    for (Cell& cell : table[step]) cell = {static_cast<Step>(step), kRefuse};
+  for (const Rule& rule : kRules)
+    table[static_cast<std::size_t>(rule.step)][static_cast<std::size_t>(rule.event)] = {
+        rule.next, rule.action};
+  return table;
+}
+
+/// Two rules for one cell would silently hide the first.
+consteval bool rules_are_unique() {
+  for (std::size_t i = 0; i < kRules.size(); ++i)
+    for (std::size_t j = i + 1; j < kRules.size(); ++j)
+      if (kRules[i].step == kRules[j].step && kRules[i].event == kRules[j].event) return false;
+  return true;
+}
+static_assert(rules_are_unique(), "two rules of the workflow share a cell");
+}  // namespace workflow_detail
+
+inline constexpr workflow_detail::Table kWorkflow = workflow_detail::make_table();
+
+/// The table's answer: every step answers every event.
+[[nodiscard]] constexpr Cell answer(Step step, Event event) {
+  return kWorkflow[static_cast<std::size_t>(step)][static_cast<std::size_t>(event)];
+}
+
+[[nodiscard]] std::string_view name_of(Step step);
+[[nodiscard]] std::string_view name_of(Event event);
+[[nodiscard]] std::string_view name_of(Action action);
+
+/// The workflow as docs/safety.md holds it: a mermaid diagram of the changes of step, then the
+/// whole table.
+[[nodiscard]] std::string workflow_diagram();
+
+}  // namespace orthonav::engine
