@@ -36,8 +36,8 @@ struct RodState {
   std::optional<nav::RodTemplate> rod;
 };
 
-/// A tool as the status line shows it.
-struct ToolDot {
+/// How well a tool is seen right now, for the status line.
+struct ToolSight {
   std::string name;
   nav::ToolRole role = nav::ToolRole::kPointer;
   Origin origin = Origin::kLost;
@@ -77,7 +77,7 @@ struct Guidance {
   bool tool_lost = false;            ///< the step's tool is not measured
   std::span<const RodState> rods;
   bool rods_moved_away = false;
-  std::span<const ToolDot> tools;
+  std::span<const ToolSight> tools;
 };
 
 }  // namespace orthonav::engine

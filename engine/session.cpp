@@ -101,7 +101,7 @@ Session::Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker,
   rods_[1].side = nav::Side::kRight;
   watches_.resize(tracker_->tools().size());
   for (const nav::ToolGeometry& tool : tracker_->tools())
-    dots_.push_back({tool.name, tool.role, Origin::kLost});
+    sights_.push_back({tool.name, tool.role, Origin::kLost});
   touch_.reserve(64);
 }
 
@@ -152,7 +152,7 @@ void Session::track(const StereoFrame& frame) {
   states_ = tracker_->track(frame);
   for (std::size_t i = 0; i < watches_.size() && i < states_.size(); ++i) {
     watches_[i].update(states_[i].world_from_marker);
-    dots_[i].origin = states_[i].world_from_marker.origin;
+    sights_[i].origin = states_[i].world_from_marker.origin;
   }
 }
 
@@ -209,7 +209,7 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   out.tool_lost = tool && seen_ != Seen::kMeasured;
   out.rods = rods_;
   out.rods_moved_away = rods_moved_away_;
-  out.tools = dots_;
+  out.tools = sights_;
   publish_tool_guidance(frame.time, display_time);
   write_texts();
 }

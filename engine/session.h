@@ -119,7 +119,7 @@ class Session {
 
   std::span<const nav::ToolState> states_;
   std::vector<ToolWatch> watches_;
-  std::vector<ToolDot> dots_;
+  std::vector<ToolSight> sights_;
   Seen seen_ = Seen::kNever;
   std::optional<std::size_t> seen_tool_;
   bool guidance_hidden_ = false;

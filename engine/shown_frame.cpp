@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <numbers>
+
+#include "engine/hologram_shapes.h"
 
 namespace orthonav::engine {
 namespace {
@@ -24,18 +25,11 @@ std::array<Vec3, 4> landmarks_m(const nav::TriangleMesh& mesh) {
 
 }  // namespace
 
-std::string angle_text(double angle_rad) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f°", angle_rad * 180.0 / std::numbers::pi);
-  return text.data();
-}
-
-TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw,
-                             const VisibilityRules& rules) {
+TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw) {
   const auto& world_from_vertebra = level.registration->world_from_vertebra;
   const nav::ScrewPlan& plan = level.plan.screws[screw];
   const Vec3 out = (plan.entry - plan.target).normalized();
-  return {world_from_vertebra * (plan.entry + out * rules.trajectory_outside_m),
+  return {world_from_vertebra * (plan.entry + out * static_cast<double>(kTrajectoryOutside_m)),
           world_from_vertebra * plan.entry, world_from_vertebra * plan.target};
 }
 
@@ -56,7 +50,7 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   write_status(guidance, frame);
   write_digitizing(guidance, visible, frame);
   write_entries(guidance, visible, frame);
-  write_screw(guidance, visible, rules, frame);
+  write_screw(guidance, visible, frame);
   if (visible.rods) write_rods(guidance, rules, frame);
   frame.holograms.resize(used_);
 }
@@ -97,10 +91,10 @@ void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility&
 }
 
 void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& visible,
-                                   const VisibilityRules& rules, ShownFrame& frame) {
+                                   ShownFrame& frame) {
   if (visible.trajectory) {
     const TrajectoryLine line =
-        trajectory_of(guidance.levels[guidance.level], guidance.screw, rules);
+        trajectory_of(guidance.levels[guidance.level], guidance.screw);
     ShownHologram& trajectory = add(frame, "H4 trajectory");
     trajectory.points_in_world = {line.outside, line.entry, line.target};
   }
@@ -109,7 +103,7 @@ void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& v
     add(frame, "H5 triangle").points_in_world = {shown.a, shown.b, shown.c};
   }
   if (visible.angle) add(frame, "H6 angle").text = angle_text(guidance.tool->measured.angle_rad);
-  if (visible.angle_lost) add(frame, "H6 angle").text = kLostAngle;
+  if (visible.angle_lost) add(frame, "H6 angle").text = angle_text(std::nullopt);
 }
 
 void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRules& rules,

@@ -16,8 +16,7 @@ class ShownFrameWriter {
   ShownHologram& add(ShownFrame& frame, const char* name);
   void write_digitizing(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
   void write_entries(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
-  void write_screw(const Guidance& guidance, const Visibility& visible,
-                   const VisibilityRules& rules, ShownFrame& frame);
+  void write_screw(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
   void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
   void write_status(const Guidance& guidance, ShownFrame& frame);
 
@@ -30,11 +29,6 @@ struct TrajectoryLine {
   Point<World> entry;
   Point<World> target;
 };
-[[nodiscard]] TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw,
-                                           const VisibilityRules& rules);
-
-/// The angle as it is written: `12.4°`.
-[[nodiscard]] std::string angle_text(double angle_rad);
-inline constexpr const char* kLostAngle = "--.-°";
+[[nodiscard]] TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw);
 
 }  // namespace orthonav::engine

@@ -10,7 +10,6 @@ struct VisibilityRules {
   /// A pose older than this when the frame lights up guides nobody.
   Duration stale_after = std::chrono::milliseconds(100);
   double triangle_within_m = 0.040;  ///< of the tip from the entry
-  double trajectory_outside_m = 0.060;
   double rod_moved_away_m = 0.150;
   Duration fade = std::chrono::milliseconds(300);
 };

@@ -1,0 +1,127 @@
+#include "engine/journal.h"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace orthonav::engine {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json millimetres(Vec3 v) { return Json::array({v.x * 1e3, v.y * 1e3, v.z * 1e3}); }
+
+Json entry(Timestamp time, const char* what) {
+  return Json{{"time_100ns", ticks_100ns(time)}, {"what", what}};
+}
+
+double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
+
+/// Row-major, translation in mm.
+Json matrix_mm(std::array<double, 16> m) {
+  for (const std::size_t i : {3u, 7u, 11u}) m[i] *= 1e3;
+  return m;
+}
+
+/// Labels come from files: bytes that are no UTF-8 must not end the journal.
+void write_line(std::ostream& out, const Json& line) {
+  out << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
+                                                 const JournalHeader& header) {
+  auto file = AtomicFile::create(path);
+  if (!file) return file.error();
+  std::ofstream out(file->temporary_path(), std::ios::binary);
+  if (!out) return Error{path + ": can't be written"};
+  write_line(out, Json{{"format", "orthonav session"},
+                       {"format_version", 1},
+                       {"orthonav", header.version},
+                       {"device", header.device},
+                       {"method", header.method},
+                       {"case", header.case_name},
+                       {"seed", header.seed}});
+  return std::unique_ptr<Journal>(new Journal(std::move(*file), std::move(out)));
+}
+
+Status Journal::finish() {
+  out_.close();
+  if (out_.fail()) return Error{file_.final_path() + ": not every line could be written"};
+  return file_.commit();
+}
+
+void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
+  Json line = entry(time, "event");
+  line["step"] = name_of(from);
+  line["event"] = name_of(event);
+  line["action"] = name_of(answer.action);
+  line["next"] = name_of(answer.next);
+  write_line(out_, line);
+}
+
+void Journal::not_understood(const Phrase& phrase) {
+  Json line = entry(phrase.time, "not understood");
+  line["phrase"] = phrase.text;
+  line["confidence"] = phrase.confidence;
+  write_line(out_, line);
+}
+
+void Journal::registered(Timestamp time, const LevelState& level, const nav::Registration& result,
+                         const std::string& reason) {
+  Json line = entry(time, "registration");
+  line["level"] = level.plan.label;
+  line["attempt"] = level.attempts;
+  line["accepted"] = reason.empty();
+  if (!reason.empty()) line["reason"] = reason;
+  line["points"] = result.points;
+  line["rmse_mm"] = result.rmse_m * 1e3;
+  line["runner_up_rmse_mm"] = result.runner_up_rmse_m * 1e3;
+  line["world_from_vertebra_mm"] = matrix_mm(result.world_from_vertebra.row_major());
+  write_line(out_, line);
+}
+
+void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+                         const ToolGuidance* last) {
+  Json line = entry(time, "screw");
+  line["level"] = level.plan.label;
+  line["side"] = name_of(screw.side);
+  if (last) {
+    line["pose_time_100ns"] = ticks_100ns(last->pose_time);
+    line["angle_deg"] = degrees(last->measured.angle_rad);
+    line["tip_to_entry_mm"] = last->measured.tip_to_entry_m * 1e3;
+    line["tip_off_axis_mm"] = last->measured.tip_off_axis_m * 1e3;
+    line["depth_mm"] = last->measured.depth_m * 1e3;
+  }
+  write_line(out_, line);
+}
+
+void Journal::head_recorded(Timestamp time, nav::Side side, Point<World> head) {
+  Json line = entry(time, "head");
+  line["side"] = name_of(side);
+  line["in_world_mm"] = millimetres(head.v);
+  write_line(out_, line);
+}
+
+void Journal::head_dropped(Timestamp time, nav::Side side) {
+  Json line = entry(time, "head dropped");
+  line["side"] = name_of(side);
+  write_line(out_, line);
+}
+
+void Journal::rod_done(Timestamp time, const RodState& rod) {
+  Json line = entry(time, "rod");
+  line["side"] = name_of(rod.side);
+  line["heads"] = rod.heads.size();
+  if (rod.rod) {
+    line["length_mm"] = rod.rod->length_m * 1e3;
+    Json bends = Json::array();
+    for (const nav::RodBend& bend : rod.rod->bends)
+      bends.push_back(Json{{"arc_length_mm", bend.arc_length_m * 1e3},
+                           {"angle_deg", degrees(bend.angle_rad)}});
+    line["bends"] = bends;
+  }
+  write_line(out_, line);
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "engine/atomic_file.h"
+#include "engine/session_observer.h"
+
+namespace orthonav::engine {
+
+/// What the journal says about the whole session, in its first line.
+struct JournalHeader {
+  std::string version;
+  std::string device;  ///< the headset's name
+  std::string method;
+  std::string case_name;
+  std::uint64_t seed = 0;
+};
+
+/// The event log of a session: one JSON object a line, the first is the header. Times in 100 ns
+/// ticks of the device's clock, lengths in mm, angles in degrees. Written beside its name as it
+/// happens, so that a crash leaves it readable there, and named by `finish`.
+class Journal : public SessionObserver {
+ public:
+  static Result<std::unique_ptr<Journal>> create(const std::string& path,
+                                                 const JournalHeader& header);
+  /// Flushes and gives the file its name; an Error when any line could not be written.
+  Status finish();
+
+  void happened(Timestamp time, Step from, Event event, Cell answer) override;
+  void not_understood(const Phrase& phrase) override;
+  void registered(Timestamp time, const LevelState& level, const nav::Registration& result,
+                  const std::string& reason) override;
+  void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+                  const ToolGuidance* last) override;
+  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
+  void head_dropped(Timestamp time, nav::Side side) override;
+  void rod_done(Timestamp time, const RodState& rod) override;
+
+ private:
+  Journal(AtomicFile file, std::ofstream out) : file_(std::move(file)), out_(std::move(out)) {}
+
+  AtomicFile file_;
+  std::ofstream out_;
+};
+
+}  // namespace orthonav::engine

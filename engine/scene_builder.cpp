@@ -1,0 +1,186 @@
+#include "engine/scene_builder.h"
+
+#include <algorithm>
+#include <string>
+
+#include "render/shapes.h"
+
+namespace orthonav::engine {
+namespace {
+
+// Labels as scene.h has them: 100·n + k for the k-th instance of hologram Hn.
+constexpr render::Label label_of(std::uint32_t hologram, std::size_t instance) {
+  return 100 * hologram + static_cast<render::Label>(instance);
+}
+constexpr std::size_t kMostInstances = 99;
+
+std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh) {
+  auto data = std::make_shared<render::MeshData>();
+  for (const Vec3 v : mesh.vertices_m) data->positions.push_back(to_float3(v));
+  for (const auto& triangle : mesh.triangles)
+    data->indices.insert(data->indices.end(), triangle.begin(), triangle.end());
+  data->normals = render::smooth_normals(data->positions, data->indices);
+  return data;
+}
+
+}  // namespace
+
+render::Float3 to_float3(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+render::Matrix4 to_matrix(const std::array<double, 16>& row_major) {
+  render::Matrix4 out{};
+  for (std::size_t r = 0; r < 4; ++r)
+    for (std::size_t c = 0; c < 4; ++c) out[4 * c + r] = static_cast<float>(row_major[4 * r + c]);
+  return out;
+}
+
+void SceneBuilder::update(const Guidance& guidance) {
+  decide_visibility(guidance, rules_, visible_);
+}
+
+void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
+  shown_.write(guidance, visible_, rules_, frame);
+}
+
+void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
+  scene.meshes.clear();
+  scene.lines.clear();
+  scene.triangles.clear();
+  scene.texts.clear();
+  add_paths(guidance, scene);
+  if (visible_.vertebra) add_bone(guidance, scene);
+  add_entries(guidance, scene);
+  add_screw(guidance, scene);
+  if (visible_.rods) add_rods(guidance, scene);
+  add_status(guidance, scene);
+}
+
+void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
+  const auto add = [&](const nav::Region& region, std::size_t k, float opacity) {
+    points_.clear();
+    for (const nav::Sample& sample : region.samples)
+      points_.push_back(to_float3(sample.tip_in_world.v));
+    if (points_.size() < 2) return;
+    add_sampled_path(scene, points_, region.saved ? PathState::kSaved : PathState::kRecording,
+                     label_of(1, std::min(k, kMostInstances)), opacity);
+  };
+  if (visible_.paths)
+    for (std::size_t k = 0; k < guidance.regions.size(); ++k) add(guidance.regions[k], k + 1, 1.0f);
+  if (visible_.paths && guidance.dropped) {
+    // A deleted region fades, so that the surgeon sees which one went.
+    const double age_s = seconds(guidance.display_time - guidance.dropped->dropped_at);
+    const double left = 1.0 - age_s / seconds(rules_.fade);
+    if (left > 0.0)
+      add(guidance.dropped->region, kMostInstances, static_cast<float>(std::min(left, 1.0)));
+  }
+}
+
+void SceneBuilder::add_bone(const Guidance& guidance, render::Scene& scene) {
+  const LevelState& level = guidance.levels[guidance.level];
+  add_vertebra(scene, surface_of(level),
+               to_matrix(level.registration->world_from_vertebra.row_major()), label_of(2, 1));
+}
+
+void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
+  std::size_t k = 0;
+  for (const std::size_t i : visible_.entries_of) {
+    const LevelState& level = guidance.levels[i];
+    const auto& world_from_vertebra = level.registration->world_from_vertebra;
+    for (std::size_t s = 0; s < level.plan.screws.size(); ++s) {
+      const nav::ScrewPlan& screw = level.plan.screws[s];
+      const auto on_bone = level.plan.model->surface().nearest(screw.entry.v);
+      const Vec3 outward = on_bone ? on_bone->normal : (screw.entry - screw.target);
+      EntryHologram entry;
+      entry.position = to_float3((world_from_vertebra * screw.entry).v);
+      entry.surface_normal =
+          to_float3((world_from_vertebra * Direction<Vertebra>{outward.normalized()}).v);
+      entry.text = level.plan.label + " " + name_of(screw.side);
+      entry.done = level.screw_done[s];
+      // From behind, where the surgeon looks from, the patient's left is on the left.
+      entry.side = screw.side == nav::Side::kLeft ? LabelSide::kLeft : LabelSide::kRight;
+      add_entry(scene, entry, label_of(3, std::min(++k, kMostInstances)));
+    }
+  }
+}
+
+void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
+  if (!visible_.trajectory) return;
+  const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
+  add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v),
+                         label_of(4, 1));
+  if (visible_.triangle) {
+    // The overlay is where the tool will be when the frame lights up; the number and its colour
+    // come from one stereo pair.
+    const nav::ScrewGuidance& shown = guidance.tool->shown;
+    const double angle_rad = guidance.tool->measured.angle_rad;
+    const Grade grade = grade_of(angle_rad);
+    const render::Float3 a = to_float3(shown.a.v);
+    const render::Float3 b = to_float3(shown.b.v);
+    add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade, label_of(5, 1));
+    add_angle_readout(scene, a, b, angle_text(angle_rad), grade, label_of(6, 1));
+  }
+  if (visible_.angle_lost)
+    // Where the number would be with the tool on the plan.
+    add_angle_readout(scene, to_float3(line.entry.v), to_float3(line.outside.v),
+                      angle_text(std::nullopt), Grade::kPoor, label_of(6, 1));
+}
+
+void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
+  tubes_.resize(guidance.rods.size());
+  for (std::size_t i = 0; i < guidance.rods.size(); ++i) {
+    const RodState& rod = guidance.rods[i];
+    if (rod.heads.empty()) continue;
+    std::vector<RodBendMark> bends;
+    RodHologram hologram;
+    hologram.tube = tube_of(i, rod);
+    points_.clear();
+    for (const Point<World>& head : rod.heads) points_.push_back(to_float3(head.v));
+    hologram.heads = points_;
+    if (rod.rod) {
+      for (const nav::RodBend& bend : rod.rod->bends)
+        bends.push_back({to_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
+      hologram.length_m = rod.rod->length_m;
+    }
+    hologram.bends = bends;
+    hologram.shift = to_float3(rod_shift_m(guidance, rod, rules_));
+    add_rod(scene, hologram, label_of(10, i + 1));
+  }
+}
+
+void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
+  dots_.clear();
+  for (const ToolSight& tool : guidance.tools) {
+    const ToolState state = tool.origin == Origin::kMeasured    ? ToolState::kMeasured
+                            : tool.origin == Origin::kPredicted ? ToolState::kPredicted
+                                                                : ToolState::kLost;
+    dots_.push_back({tool.name, state});
+  }
+  const std::string text =
+      guidance.detail.empty() ? guidance.step_text : guidance.step_text + " | " + guidance.detail;
+  add_status_line(scene, text, dots_, label_of(11, 1));
+}
+
+const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const LevelState& level) {
+  auto& surface = surfaces_[level.plan.model.get()];
+  if (!surface) surface = mesh_data(level.plan.model->mesh());
+  return surface;
+}
+
+const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t i,
+                                                                     const RodState& rod) {
+  Tube& tube = tubes_[i];
+  if (tube.heads == rod.heads) return tube.mesh;
+  tube.heads = rod.heads;
+  tube.mesh.reset();
+  if (rod.rod) {
+    std::vector<render::Float3> path;
+    for (const Vec3 p : rod.rod->path_m) path.push_back(to_float3(p));
+    tube.mesh = std::make_shared<render::MeshData>(
+        render::make_tube(path, static_cast<float>(rod.rod->diameter_m / 2.0)));
+  }
+  return tube.mesh;
+}
+
+}  // namespace orthonav::engine

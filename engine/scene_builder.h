@@ -1,0 +1,57 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "engine/guidance.h"
+#include "engine/hologram_shapes.h"
+#include "engine/shown_frame.h"
+#include "engine/visibility.h"
+#include "hal/api/display.h"
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+/// The only place where guidance becomes something visible: a scene of values for the renderer and
+/// the same frame in words for the display. What is shown when is decided in visibility.cpp, how it
+/// looks in hologram_shapes.cpp. One thread at a time.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const VisibilityRules& rules = {}) : rules_(rules) {}
+
+  /// Decides what this guidance shows; the two below then show exactly that.
+  void update(const Guidance& guidance);
+  void write_shown(const Guidance& guidance, ShownFrame& frame);
+  void write_scene(const Guidance& guidance, render::Scene& scene);
+  [[nodiscard]] const Visibility& visible() const { return visible_; }
+
+ private:
+  struct Tube {
+    std::vector<Point<World>> heads;  ///< that the tube was made for
+    std::shared_ptr<const render::MeshData> mesh;
+  };
+
+  void add_paths(const Guidance& guidance, render::Scene& scene);
+  void add_bone(const Guidance& guidance, render::Scene& scene);
+  void add_entries(const Guidance& guidance, render::Scene& scene);
+  void add_screw(const Guidance& guidance, render::Scene& scene);
+  void add_rods(const Guidance& guidance, render::Scene& scene);
+  void add_status(const Guidance& guidance, render::Scene& scene);
+  const std::shared_ptr<const render::MeshData>& surface_of(const LevelState& level);
+  const std::shared_ptr<const render::MeshData>& tube_of(std::size_t i, const RodState& rod);
+
+  VisibilityRules rules_;
+  Visibility visible_;
+  ShownFrameWriter shown_;
+  // The renderer keeps its copies by pointer: one surface a level, one tube a rod, made once.
+  std::map<const nav::VertebraModel*, std::shared_ptr<const render::MeshData>> surfaces_;
+  std::vector<Tube> tubes_;
+  std::vector<render::Float3> points_;
+  std::vector<ToolDot> dots_;
+};
+
+[[nodiscard]] render::Float3 to_float3(Vec3 v);
+[[nodiscard]] render::Matrix4 to_matrix(const std::array<double, 16>& row_major);
+
+}  // namespace orthonav::engine

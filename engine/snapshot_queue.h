@@ -1,0 +1,61 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/workflow.h"
+#include "hal/api/time.h"
+#include "hal/api/transform.h"
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+/// What the rendering thread gets of one displayed frame.
+struct Snapshot {
+  std::int64_t frame = 0;  ///< counts displayed frames from 0
+  std::size_t slot = 0;    ///< index of this buffer: a caller keeps its own data beside it
+  Timestamp display_time{};
+  Step step = Step::kSetup;
+  std::string step_text;
+  /// Predicted to the display time; absent while the headset is not located.
+  std::optional<Transform<World, Rig>> world_from_rig;
+  render::Scene scene;
+};
+
+/// A few snapshots going round between two threads. The buffers are made once and reused.
+class SnapshotQueue {
+ public:
+  enum class WhenFull {
+    kWait,       ///< every snapshot is drawn: what is drawn does not depend on speed
+    kDropOldest  ///< the newest counts: tracking never waits for rendering
+  };
+  static constexpr std::size_t kSlots = 4;
+
+  explicit SnapshotQueue(WhenFull when_full);
+  /// A buffer to fill; give it back by `publish`. Null once closed.
+  Snapshot* acquire();
+  void publish(Snapshot* filled);
+  /// The oldest that waits; blocks until there is one. Null once closed and empty.
+  Snapshot* take();
+  void release(Snapshot* drawn);
+  /// No more is published; the taker gets what is left.
+  void close();
+  [[nodiscard]] std::int64_t dropped() const;
+
+ private:
+  WhenFull when_full_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Snapshot> slots_;
+  std::vector<Snapshot*> free_;
+  std::deque<Snapshot*> ready_;
+  bool closed_ = false;
+  std::int64_t dropped_ = 0;
+};
+
+}  // namespace orthonav::engine
