@@ -81,8 +81,7 @@ Result<bool> FrameLoop::next_frame(LoopReport& report) {
       if (++errors_in_a_row_ > options_.max_errors_in_a_row)
         return Error{headset_.name() + ": " + std::to_string(errors_in_a_row_) +
                      " pairs in a row failed (limit " +
-                     std::to_string(options_.max_errors_in_a_row) +
-                     "): " + next.error().message};
+                     std::to_string(options_.max_errors_in_a_row) + "): " + next.error().message};
       continue;
     }
     errors_in_a_row_ = 0;

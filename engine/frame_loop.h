@@ -47,7 +47,7 @@ struct LoopReport {
   std::string last_failure;
   std::int64_t drawn = 0;
   std::int64_t dropped_snapshots = 0;
-  bool done = false;               ///< the workflow reached its end
+  bool done = false;  ///< the workflow reached its end
   Timestamp first_frame{};
   Timestamp last_frame{};
   std::vector<double> intervals_ms;  ///< device clock, between displayed frames

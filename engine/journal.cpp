@@ -117,8 +117,8 @@ void Journal::rod_done(Timestamp time, const RodState& rod) {
     line["length_mm"] = rod.rod->length_m * 1e3;
     Json bends = Json::array();
     for (const nav::RodBend& bend : rod.rod->bends)
-      bends.push_back(Json{{"arc_length_mm", bend.arc_length_m * 1e3},
-                           {"angle_deg", degrees(bend.angle_rad)}});
+      bends.push_back(
+          Json{{"arc_length_mm", bend.arc_length_m * 1e3}, {"angle_deg", degrees(bend.angle_rad)}});
     line["bends"] = bends;
   }
   write_line(out_, line);

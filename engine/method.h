@@ -17,9 +17,9 @@ using Registrar = std::function<Result<nav::Registration>(
 /// One way of tracking and registering, under the name that reports carry.
 struct Method {
   std::string name;
-  std::function<Result<std::unique_ptr<nav::ToolTracker>>(
-      const StereoCalibration& calibration, std::vector<nav::ToolGeometry> tools,
-      const nav::TrackerOptions& options)>
+  std::function<Result<std::unique_ptr<nav::ToolTracker>>(const StereoCalibration& calibration,
+                                                          std::vector<nav::ToolGeometry> tools,
+                                                          const nav::TrackerOptions& options)>
       create_tracker;
   Registrar registrar;
 };

@@ -108,8 +108,7 @@ void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
 void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
   if (!visible_.trajectory) return;
   const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
-  add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v),
-                         label_of(4, 1));
+  add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v), label_of(4, 1));
   if (visible_.triangle) {
     // The overlay is where the tool will be when the frame lights up; the number and its colour
     // come from one stereo pair.

@@ -44,11 +44,16 @@ std::optional<Event> command(const std::string& text) {
 
 Event event_of(ClickerAction action) {
   switch (action) {
-    case ClickerAction::kPress: return Event::kPress;
-    case ClickerAction::kRelease: return Event::kRelease;
-    case ClickerAction::kClick: return Event::kClick;
-    case ClickerAction::kDoubleClick: return Event::kDoubleClick;
-    case ClickerAction::kHold: break;
+    case ClickerAction::kPress:
+      return Event::kPress;
+    case ClickerAction::kRelease:
+      return Event::kRelease;
+    case ClickerAction::kClick:
+      return Event::kClick;
+    case ClickerAction::kDoubleClick:
+      return Event::kDoubleClick;
+    case ClickerAction::kHold:
+      break;
   }
   return Event::kHold;
 }
@@ -203,8 +208,8 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   out.level = level_;
   out.screw = screw_;
   out.regions = digitizer_.regions();
-  const bool fading = !dropped_.region.samples.empty() &&
-                      display_time - dropped_.dropped_at <= options_.fade;
+  const bool fading =
+      !dropped_.region.samples.empty() && display_time - dropped_.dropped_at <= options_.fade;
   out.dropped = fading ? &dropped_ : nullptr;
   out.tool_lost = tool && seen_ != Seen::kMeasured;
   out.rods = rods_;
@@ -241,7 +246,9 @@ void Session::write_texts() {
   const char* name = name_of(step_).data();
   switch (step_) {
     case Step::kSetup:
-    case Step::kDone: guidance_.step_text = name; break;
+    case Step::kDone:
+      guidance_.step_text = name;
+      break;
     case Step::kDigitize:
     case Step::kVerify:
     case Step::kAccepted:

@@ -6,13 +6,23 @@ namespace orthonav::engine {
 
 void Session::act(Action action, Event event, Timestamp time) {
   switch (action) {
-    case Action::kRefuse: say("not possible now: " + std::string(name_of(event))); return;
-    case Action::kIgnore: return;
-    case Action::kWarnLost: return;  // the status line shows it from `seen_`
-    case Action::kHideGuidance: guidance_hidden_ = true; return;
-    case Action::kShowGuidance: guidance_hidden_ = false; return;
-    case Action::kCountRefusal: return;  // the reason was said where it arose
-    default: break;
+    case Action::kRefuse:
+      say("not possible now: " + std::string(name_of(event)));
+      return;
+    case Action::kIgnore:
+      return;
+    case Action::kWarnLost:
+      return;  // the status line shows it from `seen_`
+    case Action::kHideGuidance:
+      guidance_hidden_ = true;
+      return;
+    case Action::kShowGuidance:
+      guidance_hidden_ = false;
+      return;
+    case Action::kCountRefusal:
+      return;  // the reason was said where it arose
+    default:
+      break;
   }
   message_.clear();
   act_on_regions(action, time);
@@ -26,10 +36,17 @@ void Session::act_on_regions(Action action, Timestamp time) {
       digitizer_.press(time);
       if (!level().first_press) level().first_press = time;
       return;
-    case Action::kStopSampling: digitizer_.release(time); return;
-    case Action::kSaveRegion: digitizer_.save(); return;
-    case Action::kDropRegion: drop_region(time); return;
-    default: return;
+    case Action::kStopSampling:
+      digitizer_.release(time);
+      return;
+    case Action::kSaveRegion:
+      digitizer_.save();
+      return;
+    case Action::kDropRegion:
+      drop_region(time);
+      return;
+    default:
+      return;
   }
 }
 
@@ -42,7 +59,9 @@ void Session::act_on_level(Action action, Timestamp time) {
       digitizer_.release(time);
       try_registration(time);
       return;
-    case Action::kAccept: level().accepted = true; return;
+    case Action::kAccept:
+      level().accepted = true;
+      return;
     case Action::kClearLevel:
       level().registration.reset();
       level().accepted = false;
@@ -59,8 +78,11 @@ void Session::act_on_level(Action action, Timestamp time) {
       last_guidance_.reset();
       return;
     }
-    case Action::kFinishScrew: finish_screw(time); return;
-    default: return;
+    case Action::kFinishScrew:
+      finish_screw(time);
+      return;
+    default:
+      return;
   }
 }
 
@@ -73,11 +95,20 @@ void Session::act_on_rod(Action action, Timestamp time) {
       touch_.clear();
       touching_ = true;
       return;
-    case Action::kRecordHead: record_head(time); return;
-    case Action::kDropHead: drop_head(time); return;
-    case Action::kFinishRod: finish_rod(time); return;
-    case Action::kMoveRod: rods_moved_away_ = !rods_moved_away_; return;
-    default: return;
+    case Action::kRecordHead:
+      record_head(time);
+      return;
+    case Action::kDropHead:
+      drop_head(time);
+      return;
+    case Action::kFinishRod:
+      finish_rod(time);
+      return;
+    case Action::kMoveRod:
+      rods_moved_away_ = !rods_moved_away_;
+      return;
+    default:
+      return;
   }
 }
 

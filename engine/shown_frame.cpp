@@ -93,8 +93,7 @@ void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility&
 void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& visible,
                                    ShownFrame& frame) {
   if (visible.trajectory) {
-    const TrajectoryLine line =
-        trajectory_of(guidance.levels[guidance.level], guidance.screw);
+    const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
     ShownHologram& trajectory = add(frame, "H4 trajectory");
     trajectory.points_in_world = {line.outside, line.entry, line.target};
   }

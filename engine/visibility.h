@@ -17,14 +17,14 @@ struct VisibilityRules {
 /// Which holograms one frame shows. Computed once, so that what is drawn and what the display is
 /// told can't differ.
 struct Visibility {
-  bool paths = false;              ///< H1
-  bool vertebra = false;           ///< H2 of the current level
+  bool paths = false;                   ///< H1
+  bool vertebra = false;                ///< H2 of the current level
   std::vector<std::size_t> entries_of;  ///< H3: the levels whose entry points are shown
-  bool trajectory = false;         ///< H4 of the selected screw
-  bool triangle = false;           ///< H5
-  bool angle = false;              ///< H6 with a number
-  bool angle_lost = false;         ///< H6 without one
-  bool rods = false;               ///< H10
+  bool trajectory = false;              ///< H4 of the selected screw
+  bool triangle = false;                ///< H5
+  bool angle = false;                   ///< H6 with a number
+  bool angle_lost = false;              ///< H6 without one
+  bool rods = false;                    ///< H10
 };
 
 void decide_visibility(const Guidance& guidance, const VisibilityRules& rules, Visibility& out);

@@ -33,30 +33,11 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
 };
 
 constexpr std::array<std::string_view, kActionCount> kActionNames = {
-    "refuse",
-    "ignore",
-    "begin level",
-    "start sampling",
-    "stop sampling",
-    "save region",
-    "drop region",
-    "register",
-    "show registration",
-    "count refusal",
-    "accept",
-    "clear level",
-    "select screw",
-    "finish screw",
-    "begin rod",
-    "begin touch",
-    "record head",
-    "drop head",
-    "finish rod",
-    "move rod",
-    "finish",
-    "warn: tool lost",
-    "hide guidance",
-    "show guidance",
+    "refuse",      "ignore",          "begin level",   "start sampling",    "stop sampling",
+    "save region", "drop region",     "register",      "show registration", "count refusal",
+    "accept",      "clear level",     "select screw",  "finish screw",      "begin rod",
+    "begin touch", "record head",     "drop head",     "finish rod",        "move rod",
+    "finish",      "warn: tool lost", "hide guidance", "show guidance",
 };
 
 // A name forgotten at the end of an array would be empty.
@@ -93,7 +74,8 @@ void append_table(std::string& out) {
     for (std::size_t s = 0; s < kStepCount; ++s) {
       const Cell cell = kWorkflow[s][e];
       out += " " + std::string(name_of(cell.action));
-      if (cell.next != static_cast<Step>(s)) out += " → **" + std::string(name_of(cell.next)) + "**";
+      if (cell.next != static_cast<Step>(s))
+        out += " → **" + std::string(name_of(cell.next)) + "**";
       out += " |";
     }
     out += "\n";

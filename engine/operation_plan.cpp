@@ -1,0 +1,52 @@
+#include "engine/operation_plan.h"
+
+#include <algorithm>
+#include <set>
+
+namespace orthonav::engine {
+namespace {
+
+std::string known_labels(const Case& source) {
+  std::string out;
+  for (const CaseLevel& level : source.levels) out += (out.empty() ? "" : ", ") + level.label;
+  return out;
+}
+
+std::vector<std::string> two_lowest(const Case& source) {
+  std::vector<const CaseLevel*> levels;
+  for (const CaseLevel& level : source.levels) levels.push_back(&level);
+  // Height along the spine (+z superior), not the name: a case may call its levels anything.
+  std::stable_sort(levels.begin(), levels.end(), [](const CaseLevel* a, const CaseLevel* b) {
+    return a->spine_from_vertebra.translation().z < b->spine_from_vertebra.translation().z;
+  });
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, levels.size()); ++i)
+    labels.push_back(levels[i]->label);
+  return labels;
+}
+
+}  // namespace
+
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels) {
+  const std::vector<std::string> wanted = labels.empty() ? two_lowest(source) : labels;
+  std::set<std::string> open;
+  for (const std::string& label : wanted) {
+    if (!source.find(label))
+      return Error{"case '" + source.name + "' has no level '" + label +
+                   "' (it has: " + known_labels(source) + ")"};
+    if (!open.insert(label).second) return Error{"level '" + label + "' is named twice"};
+  }
+  Operation operation;
+  operation.case_name = source.name;
+  for (const CaseLevel& level : source.levels) {
+    if (!open.contains(level.label)) continue;
+    auto model = nav::VertebraModel::prepare(level.mesh);
+    if (!model)
+      return Error{"case '" + source.name + "', level '" + level.label +
+                   "': " + model.error().message};
+    operation.levels.push_back({level.label, *model, level.screws});
+  }
+  return operation;
+}
+
+}  // namespace orthonav::engine

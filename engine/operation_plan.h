@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/case_file.h"
+#include "engine/operation.h"
+
+namespace orthonav::engine {
+
+/// Prepares levels of a case for an operation, in the order of the case. `labels` empty: the two
+/// lowest of the spine. Refuses a label that the case does not have or that is named twice.
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});
+
+}  // namespace orthonav::engine

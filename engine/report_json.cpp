@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "engine/operation_result.h"
+
+namespace orthonav::engine {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
+
+void put_mm(Json& object, const char* key, const std::optional<double>& metres) {
+  if (metres) object[key] = *metres * 1e3;
+}
+
+/// The value below which `share` of the sorted values lie (nearest rank).
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
+Json screw_json(const ScrewOutcome& screw) {
+  Json out{{"side", name_of(screw.side)}};
+  if (screw.angle_error_rad) out["angle_error_deg"] = degrees(*screw.angle_error_rad);
+  put_mm(out, "entry_error_mm", screw.entry_error_m);
+  return out;
+}
+
+Json level_json(const LevelOutcome& level) {
+  Json out{{"label", level.label}, {"accepted", level.accepted}, {"attempts", level.attempts}};
+  put_mm(out, "rmse_mm", level.rmse_m);
+  put_mm(out, "tre_mm", level.tre_m);
+  put_mm(out, "predicted_tre_mm", level.predicted_tre_m);
+  out["points"] = level.points;
+  if (level.digitization_s) out["digitization_s"] = *level.digitization_s;
+  out["screws"] = Json::array();
+  for (const ScrewOutcome& screw : level.screws) out["screws"].push_back(screw_json(screw));
+  return out;
+}
+
+Json one_rod_json(const RodOutcome& rod) {
+  Json out{{"side", name_of(rod.side)}, {"heads", rod.heads}};
+  put_mm(out, "length_mm", rod.length_m);
+  put_mm(out, "length_error_mm", rod.length_error_m);
+  put_mm(out, "head_error_mm", rod.head_error_m);
+  return out;
+}
+
+/// Of both sides: the mean length, the length error that is largest in size, the mean head error.
+Json rods_json(const std::vector<RodOutcome>& rods) {
+  Json out = Json::object();
+  double length = 0.0;
+  double head = 0.0;
+  int lengths = 0;
+  int heads = 0;
+  std::optional<double> worst;
+  for (const RodOutcome& rod : rods) {
+    if (rod.length_m) length += *rod.length_m, ++lengths;
+    if (rod.head_error_m) head += *rod.head_error_m, ++heads;
+    if (rod.length_error_m && (!worst || std::abs(*rod.length_error_m) > std::abs(*worst)))
+      worst = rod.length_error_m;
+  }
+  if (lengths > 0) out["length_mm"] = length / lengths * 1e3;
+  put_mm(out, "length_error_mm", worst);
+  if (heads > 0) out["head_error_mm"] = head / heads * 1e3;
+  out["sides"] = Json::array();
+  for (const RodOutcome& rod : rods) out["sides"].push_back(one_rod_json(rod));
+  return out;
+}
+
+Json series(const std::vector<double>& values) {
+  return Json{{"count", values.size()},
+              {"median_ms", quantile(values, 0.5)},
+              {"p99_ms", quantile(values, 0.99)},
+              {"max_ms", quantile(values, 1.0)}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string report_json(const OperationResult& result) {
+  Json out{{"method", result.method},
+           {"seed", result.seed},
+           {"case", result.case_name},
+           {"completed", result.completed}};
+  out["levels"] = Json::array();
+  for (const LevelOutcome& level : result.levels) out["levels"].push_back(level_json(level));
+  out["rod"] = rods_json(result.rods);
+  out["frames"] = Json{{"displayed", result.loop.displayed},
+                       {"median_ms", quantile(result.loop.intervals_ms, 0.5)},
+                       {"p99_ms", quantile(result.loop.intervals_ms, 0.99)}};
+  return text_of(out);
+}
+
+std::string timing_json(const LoopReport& loop) {
+  return text_of(Json{{"step_wall", series(loop.step_wall_ms)},
+                      {"draw_wall", series(loop.draw_wall_ms)},
+                      {"drawn", loop.drawn},
+                      {"dropped_snapshots", loop.dropped_snapshots}});
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/case_file.h"
+#include "engine/operation.h"
+#include "hal/open/open.h"
+#include "nav/tracking/tool.h"
+
+namespace orthonav::engine {
+
+/// The simulated operating room of a case: every level lies there, those of the operation are
+/// operated, in its order. The tools are made exactly as `tools` says.
+[[nodiscard]] sim::RoomDescription room_of(const Case& source, const Operation& operation,
+                                           const std::vector<nav::ToolGeometry>& tools);
+
+/// What a planning file of that room says of its tools: slightly off, as calibrations are.
+[[nodiscard]] std::vector<nav::ToolGeometry> described_tools(const sim::SimHeadset& headset);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,48 @@
+#include "engine/simulated_operation.h"
+
+#include "engine/evaluation.h"
+#include "engine/observer_list.h"
+#include "engine/operation_plan.h"
+#include "engine/sim_scenario.h"
+
+namespace orthonav::engine {
+
+Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
+                                      const OperationGuests& guests) {
+  const auto method = method_named(options.method);
+  if (!method) return method.error();
+  auto operation = plan_operation(source, options.levels);
+  if (!operation) return operation.error();
+  auto headset = sim::SimHeadset::open(room_of(source, *operation, options.tools), options.sim);
+  if (!headset) return headset.error();
+  sim::SimHeadset& room = **headset;
+  // The engine gets the tools as a planning file describes them, not as they are.
+  auto tracker =
+      method->create_tracker(room.cameras().calibration(), described_tools(room), options.tracker);
+  if (!tracker) return tracker.error();
+  auto session = Session::create(std::move(*operation), std::move(*tracker), method->registrar,
+                                 options.session);
+  if (!session) return session.error();
+  SimWitness witness(room);
+  ObserverList observers({&witness});
+  for (SessionObserver* guest : guests.session) observers.add(guest);
+  (*session)->observe(&observers);
+  if (guests.opened)
+    if (const Status opened = guests.opened(room, *method, **session); !opened)
+      return opened.error();
+
+  SceneBuilder builder;
+  FrameLoop loop(room, **session, builder, options.loop);
+  loop.observe(guests.loop);
+  loop.draw_into(guests.sink);
+  auto report = loop.run();
+  if (!report) return report.error();
+  OperationResult result = outcome_of((*session)->levels(), (*session)->rods(), std::move(*report));
+  result.method = method->name;
+  result.seed = options.sim.seed;
+  result.case_name = source.name;
+  witness.evaluate((*session)->levels(), result);
+  return result;
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/case_file.h"
+#include "engine/frame_loop.h"
+#include "engine/method.h"
+#include "engine/operation_result.h"
+#include "hal/sim/sim_headset.h"
+
+namespace orthonav::engine {
+
+struct OperationOptions {
+  std::string method = "paper";
+  std::vector<std::string> levels;  ///< empty: the two lowest of the case
+  std::vector<nav::ToolGeometry> tools;
+  sim::SimOptions sim;
+  nav::TrackerOptions tracker;
+  SessionOptions session;
+  LoopOptions loop;
+};
+
+/// What else takes part; all borrowed, all optional.
+struct OperationGuests {
+  std::vector<SessionObserver*> session;
+  LoopObserver* loop = nullptr;
+  SnapshotSink* sink = nullptr;
+  /// Called once the room is open and before the first frame; an Error ends the run.
+  std::function<Status(sim::SimHeadset&, const Method&, const Session&)> opened;
+};
+
+/// A whole operation in the simulated room, from camera frames to rods, and its evaluation. The
+/// same case, options and seed give the same result, whatever takes part. An Error means bad input;
+/// an operation that did not come to its end is a result with `completed` false.
+Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
+                                      const OperationGuests& guests = {});
+
+}  // namespace orthonav::engine
