@@ -1,0 +1,103 @@
+#include "engine/workflow.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace orthonav::engine {
+namespace {
+
+constexpr const char* kBegin = "<!-- workflow begin -->\n";
+constexpr const char* kEnd = "<!-- workflow end -->";
+
+std::string written_workflow() {
+  std::ifstream in(std::string(ORTHONAV_SOURCE_DIR) + "/docs/safety.md");
+  std::stringstream text;
+  text << in.rdbuf();
+  const std::string all = text.str();
+  const std::size_t begin = all.find(kBegin);
+  const std::size_t end = all.find(kEnd);
+  if (begin == std::string::npos || end == std::string::npos) return {};
+  const std::size_t from = begin + std::string(kBegin).size();
+  return all.substr(from, end - from);
+}
+
+TEST(Workflow, IsWrittenDownAsItIs) {
+  EXPECT_EQ(written_workflow(), workflow_diagram())
+      << "docs/safety.md is stale; between its two workflow marks belongs:\n"
+      << workflow_diagram();
+}
+
+TEST(Workflow, EveryStepAnswersEveryEvent) {
+  std::size_t cells = 0;
+  for (const auto& row : kWorkflow)
+    for (const Cell& cell : row) {
+      EXPECT_LT(static_cast<std::size_t>(cell.next), kStepCount);
+      EXPECT_LT(static_cast<std::size_t>(cell.action), kActionCount);
+      ++cells;
+    }
+  EXPECT_EQ(cells, kStepCount * kEventCount);
+}
+
+TEST(Workflow, AForgottenCellRefusesAndStays) {
+  // No rule is written for this one.
+  EXPECT_EQ(answer(Step::kSetup, Event::kSayAccept), (Cell{Step::kSetup, Action::kRefuse}));
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (const Cell& cell : kWorkflow[s])
+      if (cell.action == Action::kRefuse) EXPECT_EQ(cell.next, static_cast<Step>(s));
+}
+
+TEST(Workflow, EveryStepCanBeReachedAndAllButTheLastCanBeLeft) {
+  std::set<Step> reached = {Step::kSetup};
+  for (std::size_t round = 0; round < kStepCount; ++round)
+    for (const Step step : std::set<Step>(reached))
+      for (std::size_t e = 0; e < kEventCount; ++e)
+        reached.insert(answer(step, static_cast<Event>(e)).next);
+  EXPECT_EQ(reached.size(), kStepCount);
+  for (std::size_t s = 0; s + 1 < kStepCount; ++s) {
+    bool leaves = false;
+    for (const Cell& cell : kWorkflow[s]) leaves = leaves || cell.next != static_cast<Step>(s);
+    EXPECT_TRUE(leaves) << name_of(static_cast<Step>(s));
+  }
+}
+
+TEST(Workflow, OnlyTheSurgeonsWordLeadsToGuidance) {
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (std::size_t e = 0; e < kEventCount; ++e) {
+      const auto step = static_cast<Step>(s);
+      const auto event = static_cast<Event>(e);
+      const Step next = answer(step, event).next;
+      if (next == Step::kAccepted && step != Step::kAccepted)
+        EXPECT_TRUE(step == Step::kVerify && event == Event::kSayAccept) << s << " " << e;
+      if (next == Step::kGuide && step != Step::kGuide)
+        EXPECT_TRUE(step == Step::kAccepted && event == Event::kSayNext) << s << " " << e;
+    }
+}
+
+TEST(Workflow, LosingAToolNeverChangesTheStep) {
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (const Event event : {Event::kTrackingLost, Event::kPoseStale, Event::kTrackingRegained}) {
+      const Cell cell = answer(static_cast<Step>(s), event);
+      EXPECT_EQ(cell.next, static_cast<Step>(s));
+      EXPECT_NE(cell.action, Action::kRefuse) << "what tracking finds out can't be refused";
+    }
+}
+
+TEST(Workflow, AStalePoseHidesWhereverAToolIsUsed) {
+  for (const Step step : {Step::kDigitize, Step::kGuide, Step::kRod})
+    EXPECT_EQ(answer(step, Event::kPoseStale).action, Action::kHideGuidance) << name_of(step);
+}
+
+TEST(Workflow, NamesAreDistinct) {
+  std::set<std::string_view> names;
+  for (std::size_t e = 0; e < kEventCount; ++e) names.insert(name_of(static_cast<Event>(e)));
+  EXPECT_EQ(names.size(), kEventCount);
+  names.clear();
+  for (std::size_t a = 0; a < kActionCount; ++a) names.insert(name_of(static_cast<Action>(a)));
+  EXPECT_EQ(names.size(), kActionCount);
+}
+
+}  // namespace
+}  // namespace orthonav::engine
