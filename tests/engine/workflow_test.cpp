@@ -46,7 +46,9 @@ TEST(Workflow, AForgottenCellRefusesAndStays) {
   EXPECT_EQ(answer(Step::kSetup, Event::kSayAccept), (Cell{Step::kSetup, Action::kRefuse}));
   for (std::size_t s = 0; s < kStepCount; ++s)
     for (const Cell& cell : kWorkflow[s])
-      if (cell.action == Action::kRefuse) EXPECT_EQ(cell.next, static_cast<Step>(s));
+      if (cell.action == Action::kRefuse) {
+        EXPECT_EQ(cell.next, static_cast<Step>(s));
+      }
 }
 
 TEST(Workflow, EveryStepCanBeReachedAndAllButTheLastCanBeLeft) {
@@ -69,10 +71,12 @@ TEST(Workflow, OnlyTheSurgeonsWordLeadsToGuidance) {
       const auto step = static_cast<Step>(s);
       const auto event = static_cast<Event>(e);
       const Step next = answer(step, event).next;
-      if (next == Step::kAccepted && step != Step::kAccepted)
+      if (next == Step::kAccepted && step != Step::kAccepted) {
         EXPECT_TRUE(step == Step::kVerify && event == Event::kSayAccept) << s << " " << e;
-      if (next == Step::kGuide && step != Step::kGuide)
+      }
+      if (next == Step::kGuide && step != Step::kGuide) {
         EXPECT_TRUE(step == Step::kAccepted && event == Event::kSayNext) << s << " " << e;
+      }
     }
 }
 
