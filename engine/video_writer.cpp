@@ -102,9 +102,9 @@ Status VideoWriter::Encoder::open_file() {
   frame->height = options.height_px;
   if (av_frame_get_buffer(frame, 0) < 0) return Error{path + ": out of memory for a video frame"};
   packet = av_packet_alloc();
-  scaler = sws_getContext(options.width_px, options.height_px, AV_PIX_FMT_RGBA, options.width_px,
-                          options.height_px, AV_PIX_FMT_YUV420P, SWS_POINT, nullptr, nullptr,
-                          nullptr);
+  scaler =
+      sws_getContext(options.width_px, options.height_px, AV_PIX_FMT_RGBA, options.width_px,
+                     options.height_px, AV_PIX_FMT_YUV420P, SWS_POINT, nullptr, nullptr, nullptr);
   return {};
 }
 

@@ -12,12 +12,12 @@ struct VideoOptions {
   int width_px = 960;   ///< even
   int height_px = 540;  ///< even
   int frames_per_second = 30;
-  int quality = 23;     ///< x264's constant rate factor, 0 (best) to 51
+  int quality = 23;  ///< x264's constant rate factor, 0 (best) to 51
   int threads = 1;
 };
 
-/// H.264 in an MP4 that browsers play, by libavcodec. Written beside as `<path>.part` and renamed by
-/// `finish`; a writer that is dropped without it leaves nothing behind.
+/// H.264 in an MP4 that browsers play, by libavcodec. Written beside as `<path>.part` and renamed
+/// by `finish`; a writer that is dropped without it leaves nothing behind.
 class VideoWriter {
  public:
   static Result<std::unique_ptr<VideoWriter>> create(const std::string& path,
