@@ -1,0 +1,150 @@
+#include "hal/fake/failing.h"
+
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace orthonav::fake {
+
+namespace {
+
+template <class Kind>
+std::optional<Kind> fault_at(const std::vector<Fault<Kind>>& faults, std::int64_t index) {
+  for (const Fault<Kind>& fault : faults)
+    if (fault.at == index) return fault.kind;
+  return std::nullopt;
+}
+
+Transform<World, Rig> mirrored(const Transform<World, Rig>& pose) {
+  Mat3 rotation = pose.rotation();
+  for (double& entry : rotation[0]) entry = -entry;
+  return {rotation, pose.translation()};
+}
+
+Transform<World, Rig> not_a_number(const Transform<World, Rig>& pose) {
+  return {pose.rotation(), {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}};
+}
+
+void turn_into_garbage(ClickerEvent& event) {
+  event.action =
+      event.action == ClickerAction::kPress ? ClickerAction::kRelease : ClickerAction::kPress;
+}
+void turn_into_garbage(Phrase& phrase) { phrase.text.clear(); }
+
+}  // namespace
+
+Result<Next> FailingCamera::do_next(StereoFrame& frame) {
+  const auto fault = fault_at(faults_, call_++);
+  if (fault == CameraFault::kDelay) return Next::kNone;
+  auto answer = inner_.next(frame);
+  if (fault == CameraFault::kDrop && answer && *answer == Next::kFrame) answer = inner_.next(frame);
+  if (!answer || *answer != Next::kFrame) return answer;
+  if (fault) answer = spoiled(*fault, frame);
+  last_time_ = frame.time;
+  last_sequence_ = frame.sequence;
+  return answer;
+}
+
+Result<Next> FailingCamera::spoiled(CameraFault fault, StereoFrame& frame) {
+  const Transform<World, Rig> pose = frame.world_from_rig.value_or(Transform<World, Rig>{});
+  switch (fault) {
+    case CameraFault::kDrop:
+    case CameraFault::kDelay:
+      break;  // done before the pair came
+    case CameraFault::kError:
+      return Error{"camera pair: simulated failure"};
+    case CameraFault::kWrongSize:
+      frame.left = GreyImage(frame.left.width_px, frame.left.height_px - 1);
+      break;
+    case CameraFault::kShortBuffer:
+      frame.right.pixels.pop_back();
+      break;
+    case CameraFault::kTimeBack:
+      frame.time = last_time_;
+      break;
+    case CameraFault::kSequenceBack:
+      frame.sequence = last_sequence_;
+      break;
+    case CameraFault::kMirroredPose:
+      frame.world_from_rig = mirrored(pose);
+      break;
+    case CameraFault::kNanPose:
+      frame.world_from_rig = not_a_number(pose);
+      break;
+    case CameraFault::kNoPose:
+      frame.world_from_rig.reset();
+      break;
+    case CameraFault::kNoise:
+      for (GreyImage* image : {&frame.left, &frame.right})
+        for (std::uint8_t& pixel : image->pixels) pixel = static_cast<std::uint8_t>(255 - pixel);
+      break;
+  }
+  return Next::kFrame;
+}
+
+Tracked<Transform<World, Rig>> FailingHead::do_world_from_rig(Timestamp at) const {
+  auto answer = inner_.world_from_rig(at);
+  const auto fault = fault_at(faults_, call_++);
+  if (!fault) return answer;
+  switch (*fault) {
+    case HeadFault::kLost:
+      answer.origin = Origin::kLost;
+      break;
+    case HeadFault::kWrongTime:
+      answer.time = at - std::chrono::milliseconds(33);
+      break;
+    case HeadFault::kNanPose:
+      answer.value = not_a_number(answer.value);
+      break;
+    case HeadFault::kMirroredPose:
+      answer.value = mirrored(answer.value);
+      break;
+    case HeadFault::kNanCovariance:
+      answer.covariance[0] = std::numeric_limits<double>::quiet_NaN();
+      break;
+  }
+  return answer;
+}
+
+template <class Device, class Event>
+Status FailingEvents<Device, Event>::do_poll(Timestamp until, std::vector<Event>& events) {
+  if (Status status = inner_.poll(until, waiting_); !status) return status;
+  std::size_t taken = 0;
+  for (; taken < waiting_.size(); ++taken) {
+    const std::int64_t index = delivered_ + static_cast<std::int64_t>(taken);
+    auto fault = fault_at(faults_, index);
+    if (fault == EventFault::kDelay || fault == EventFault::kError) {
+      const bool spent = std::exchange(held_, index) == index;
+      if (!spent && fault == EventFault::kError) return Error{"simulated failure"};
+      if (!spent) break;
+    }
+    if (fault == EventFault::kDrop) continue;
+    Event event = waiting_[taken];
+    if (fault == EventFault::kTimeBack) event.time -= std::chrono::hours(1);
+    if (fault == EventFault::kFuture) event.time = until + std::chrono::seconds(1);
+    if (fault == EventFault::kGarbage) turn_into_garbage(event);
+    events.push_back(event);
+    if (fault == EventFault::kRepeat) events.push_back(event);
+  }
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(taken));
+  delivered_ += static_cast<std::int64_t>(taken);
+  return {};
+}
+
+template class FailingEvents<Clicker, ClickerEvent>;
+template class FailingEvents<Voice, Phrase>;
+
+Status FailingDisplay::do_shown(const ShownFrame& frame) {
+  if (fault_at(faults_, call_++)) return Error{"display: simulated failure"};
+  return inner_.shown(frame);
+}
+
+FailingHeadset::FailingHeadset(Headset& inner, Faults faults)
+    : inner_(inner),
+      cameras_(inner.cameras(), std::move(faults.camera)),
+      head_(inner.head(), std::move(faults.head)),
+      clicker_(inner.clicker(), std::move(faults.clicker)),
+      voice_(inner.voice(), std::move(faults.voice)),
+      display_(inner.display(), std::move(faults.display)) {}
+
+}  // namespace orthonav::fake

@@ -1,0 +1,146 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+
+namespace orthonav::fake {
+
+/// A fault and the call (or event) that it strikes, counted from 0.
+template <class Kind>
+struct Fault {
+  std::int64_t at = 0;
+  Kind kind{};
+};
+
+enum class CameraFault {
+  kDrop,          ///< this pair is lost, the one after it comes instead
+  kDelay,         ///< kNone now; the pair comes with the next call
+  kError,         ///< an Error, and the pair is lost
+  kWrongSize,     ///< the left image is one line short
+  kShortBuffer,   ///< the right image says its size but holds fewer bytes
+  kTimeBack,      ///< stamped as the pair before it
+  kSequenceBack,  ///< numbered as the pair before it
+  kMirroredPose,
+  kNanPose,
+  kNoPose,  ///< the head is not located: allowed
+  kNoise    ///< every pixel inverted: allowed, nobody can know
+};
+enum class HeadFault { kLost, kWrongTime, kNanPose, kMirroredPose, kNanCovariance };
+enum class EventFault {
+  kDrop,      ///< this event is lost
+  kDelay,     ///< this event and what follows come with the next poll
+  kError,     ///< an Error; what was due comes with the next poll
+  kTimeBack,  ///< stamped an hour early
+  kFuture,    ///< stamped a second after the time asked for
+  kRepeat,    ///< delivered twice
+  kGarbage    ///< the clicker's opposite action; a phrase without text
+};
+enum class DisplayFault { kError };
+
+/// Passes a camera pair on, but for its faults; `at` counts the calls of next().
+class FailingCamera : public StereoCamera {
+ public:
+  FailingCamera(StereoCamera& inner, std::vector<Fault<CameraFault>> faults)
+      : inner_(inner), faults_(std::move(faults)) {}
+
+ private:
+  StereoCamera& inner_;
+  std::vector<Fault<CameraFault>> faults_;
+  std::int64_t call_ = 0;
+  Timestamp last_time_{};
+  std::int64_t last_sequence_ = 0;
+
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return inner_.calibration();
+  }
+  Result<Next> do_next(StereoFrame& frame) override;
+  Result<Next> spoiled(CameraFault fault, StereoFrame& frame);
+};
+
+/// `at` counts the questions.
+class FailingHead : public HeadTracker {
+ public:
+  FailingHead(const HeadTracker& inner, std::vector<Fault<HeadFault>> faults)
+      : inner_(inner), faults_(std::move(faults)) {}
+
+ private:
+  const HeadTracker& inner_;
+  std::vector<Fault<HeadFault>> faults_;
+  mutable std::atomic<std::int64_t> call_{0};
+
+  [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override;
+};
+
+/// Clicker or voice; `at` counts the events.
+template <class Device, class Event>
+class FailingEvents : public Device {
+ public:
+  FailingEvents(Device& inner, std::vector<Fault<EventFault>> faults)
+      : inner_(inner), faults_(std::move(faults)) {}
+
+ private:
+  Device& inner_;
+  std::vector<Fault<EventFault>> faults_;
+  std::vector<Event> waiting_;
+  std::int64_t delivered_ = 0;
+  std::int64_t held_ = -1;  // the event that a delay or an error has held back already
+
+  Status do_poll(Timestamp until, std::vector<Event>& events) override;
+};
+using FailingClicker = FailingEvents<Clicker, ClickerEvent>;
+using FailingVoice = FailingEvents<Voice, Phrase>;
+
+/// `at` counts the frames shown.
+class FailingDisplay : public Display {
+ public:
+  FailingDisplay(Display& inner, std::vector<Fault<DisplayFault>> faults)
+      : inner_(inner), faults_(std::move(faults)) {}
+
+ private:
+  Display& inner_;
+  std::vector<Fault<DisplayFault>> faults_;
+  std::int64_t call_ = 0;
+
+  [[nodiscard]] Duration do_latency() const override {
+    return inner_.predicted_display_time(Timestamp{}) - Timestamp{};
+  }
+  Status do_shown(const ShownFrame& frame) override;
+};
+
+struct Faults {
+  std::vector<Fault<CameraFault>> camera;
+  std::vector<Fault<HeadFault>> head;
+  std::vector<Fault<EventFault>> clicker;
+  std::vector<Fault<EventFault>> voice;
+  std::vector<Fault<DisplayFault>> display;
+};
+
+/// A headset with faults. The inner one is borrowed.
+class FailingHeadset : public Headset {
+ public:
+  FailingHeadset(Headset& inner, Faults faults);
+  [[nodiscard]] std::string name() const override { return "failing " + inner_.name(); }
+  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
+    return inner_.epoch_ticks_100ns();
+  }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return head_; }
+  [[nodiscard]] Clicker& clicker() override { return clicker_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+  [[nodiscard]] Display& display() override { return display_; }
+
+ private:
+  Headset& inner_;
+  FailingCamera cameras_;
+  FailingHead head_;
+  FailingClicker clicker_;
+  FailingVoice voice_;
+  FailingDisplay display_;
+};
+
+}  // namespace orthonav::fake

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hal/api/devices.h"
+
+namespace orthonav::fake {
+
+/// A clock that stands still until it is set. Thread-safe.
+class ManualClock : public Clock {
+ public:
+  explicit ManualClock(Timestamp start = Timestamp{}) : now_(start) {}
+  [[nodiscard]] Timestamp now() const override { return now_.load(); }
+  void set(Timestamp now) { now_ = now; }
+  void advance(Duration by) { now_ = now_.load() + by; }
+
+ private:
+  std::atomic<Timestamp> now_;
+};
+
+/// What one call of next() does: deliver a pair, have nothing, or fail.
+using CameraStep = std::variant<StereoFrame, Next, Error>;
+
+/// Plays its steps, one a call, then ends. A delivered pair sets the clock to its time.
+class ScriptedCamera : public StereoCamera {
+ public:
+  ScriptedCamera(StereoCalibration calibration, std::vector<CameraStep> steps, ManualClock& clock);
+
+ private:
+  StereoCalibration calibration_;
+  std::vector<CameraStep> steps_;
+  std::size_t next_ = 0;
+  ManualClock& clock_;
+
+  [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  Result<Next> do_next(StereoFrame& frame) override;
+};
+
+struct HeadPose {
+  Timestamp time{};
+  Transform<World, Rig> world_from_rig;
+};
+
+/// Knows the poses up to the clock's time: measured where there is one and between two, predicted
+/// standing still beyond the newest.
+class ScriptedHead : public HeadTracker {
+ public:
+  /// `poses` strictly increase in time.
+  ScriptedHead(std::vector<HeadPose> poses, const ManualClock& clock);
+
+ private:
+  std::vector<HeadPose> poses_;
+  const ManualClock& clock_;
+
+  [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override;
+  [[nodiscard]] std::optional<Timestamp> do_newest_measurement() const override;
+  [[nodiscard]] std::vector<HeadPose>::const_iterator known_end() const;
+};
+
+/// Delivers its events in the order given, each once its time is asked for.
+class ScriptedClicker : public Clicker {
+ public:
+  explicit ScriptedClicker(std::vector<ClickerEvent> events) : events_(std::move(events)) {}
+
+ private:
+  std::vector<ClickerEvent> events_;
+  std::size_t next_ = 0;
+
+  Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override;
+};
+
+class ScriptedVoice : public Voice {
+ public:
+  explicit ScriptedVoice(std::vector<Phrase> phrases) : phrases_(std::move(phrases)) {}
+
+ private:
+  std::vector<Phrase> phrases_;
+  std::size_t next_ = 0;
+
+  Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override;
+};
+
+/// Keeps what it was shown. Thread-safe.
+class RememberingDisplay : public Display {
+ public:
+  explicit RememberingDisplay(Duration latency) : latency_(latency) {}
+  [[nodiscard]] std::vector<ShownFrame> frames() const;
+
+ private:
+  Duration latency_;
+  mutable std::mutex mutex_;
+  std::vector<ShownFrame> frames_;
+
+  [[nodiscard]] Duration do_latency() const override { return latency_; }
+  Status do_shown(const ShownFrame& frame) override;
+};
+
+/// Everything a scripted headset will ever do.
+struct Script {
+  StereoCalibration calibration;
+  std::vector<CameraStep> camera;
+  std::vector<HeadPose> head;
+  std::vector<ClickerEvent> clicker;
+  std::vector<Phrase> voice;
+  Duration display_latency{};
+  Timestamp clock_start{};
+  std::int64_t epoch_ticks_100ns = 0;
+};
+
+class FakeHeadset : public Headset {
+ public:
+  explicit FakeHeadset(Script script);
+  [[nodiscard]] std::string name() const override { return "fake"; }
+  [[nodiscard]] const Clock& clock() const override { return clock_; }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override { return epoch_ticks_100ns_; }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return head_; }
+  [[nodiscard]] Clicker& clicker() override { return clicker_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+  [[nodiscard]] RememberingDisplay& display() override { return display_; }
+  [[nodiscard]] ManualClock& manual_clock() { return clock_; }
+
+ private:
+  std::int64_t epoch_ticks_100ns_;
+  ManualClock clock_;
+  ScriptedCamera cameras_;
+  ScriptedHead head_;
+  ScriptedClicker clicker_;
+  ScriptedVoice voice_;
+  RememberingDisplay display_;
+};
+
+}  // namespace orthonav::fake

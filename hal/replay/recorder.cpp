@@ -1,0 +1,193 @@
+#include "hal/replay/recorder.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "hal/replay/recording_writer.h"
+
+namespace orthonav::replay {
+
+namespace {
+
+/// The writer until its first failure, and that failure.
+class Tape {
+ public:
+  explicit Tape(std::unique_ptr<RecordingWriter> writer) : writer_(std::move(writer)) {}
+
+  /// Calls `write` with the writer while recording goes on.
+  template <class Write>
+  void record(const Write& write) {
+    if (!running_.load()) return;
+    // Another thread may have closed meanwhile: what comes too late is no failure.
+    if (Status status = write(*writer_); !status && running_.load()) fail(status);
+  }
+  [[nodiscard]] Status status() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
+  }
+  Status close() {
+    if (running_.exchange(false))
+      if (Status status = writer_->close(); !status) fail(status);
+    return status();
+  }
+
+  std::atomic<std::int64_t> newest_sequence{-1};
+
+ private:
+  std::unique_ptr<RecordingWriter> writer_;
+  std::atomic<bool> running_{true};
+  mutable std::mutex mutex_;
+  Status failure_;
+
+  void fail(const Status& status) {
+    const std::lock_guard lock(mutex_);
+    running_ = false;
+    if (failure_.ok()) failure_ = status;
+  }
+};
+
+class RecordingCamera : public StereoCamera {
+ public:
+  RecordingCamera(Headset& inner, Tape& tape) : inner_(inner), tape_(tape) {}
+
+ private:
+  Headset& inner_;
+  Tape& tape_;
+
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return inner_.cameras().calibration();
+  }
+  Result<Next> do_next(StereoFrame& frame) override {
+    auto answer = inner_.cameras().next(frame);
+    if (!answer || *answer != Next::kFrame) return answer;
+    tape_.record([&](RecordingWriter& w) { return w.frame(frame, inner_.clock().now()); });
+    tape_.newest_sequence = frame.sequence;
+    return answer;
+  }
+};
+
+class RecordingHead : public HeadTracker {
+ public:
+  RecordingHead(Headset& inner, Tape& tape) : inner_(inner), tape_(tape) {}
+
+ private:
+  Headset& inner_;
+  Tape& tape_;
+
+  [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
+    const auto answer = inner_.head().world_from_rig(at);
+    tape_.record([&](RecordingWriter& w) { return w.head_answer(tape_.newest_sequence, answer); });
+    return answer;
+  }
+};
+
+/// Clicker and voice alike. An event was on time if it came with the first poll that asked for its
+/// time, and late otherwise: then the replay delivers it as late.
+template <class Device, class Event>
+class RecordingEvents : public Device {
+ public:
+  RecordingEvents(Device& inner, Tape& tape) : inner_(inner), tape_(tape) {}
+
+ private:
+  Device& inner_;
+  Tape& tape_;
+  std::optional<Timestamp> asked_until_;
+  Timestamp available_ = Timestamp::min();
+
+  Status do_poll(Timestamp until, std::vector<Event>& events) override {
+    const std::size_t before = events.size();
+    if (Status status = inner_.poll(until, events); !status) return status;
+    for (std::size_t i = before; i < events.size(); ++i) {
+      const bool late = asked_until_ && events[i].time <= *asked_until_;
+      available_ = std::max(available_, late ? until : events[i].time);
+      tape_.record([&](RecordingWriter& w) {
+        return w.event(Delivered<Event>{events[i], available_});
+      });
+    }
+    asked_until_ = std::max(asked_until_.value_or(until), until);
+    return {};
+  }
+};
+
+class RecordingDisplay : public Display {
+ public:
+  explicit RecordingDisplay(Headset& inner) : inner_(inner) {}
+
+ private:
+  Headset& inner_;
+
+  [[nodiscard]] Duration do_latency() const override {
+    return inner_.display().predicted_display_time(Timestamp{}) - Timestamp{};
+  }
+  Status do_shown(const ShownFrame& frame) override { return inner_.display().shown(frame); }
+};
+
+class Recorder : public RecordingHeadset {
+ public:
+  Recorder(Headset& inner, std::unique_ptr<Headset> owned, std::unique_ptr<RecordingWriter> writer)
+      : owned_(std::move(owned)),
+        inner_(inner),
+        tape_(std::move(writer)),
+        clicker_(inner_.clicker(), tape_),
+        voice_(inner_.voice(), tape_) {}
+  ~Recorder() override { static_cast<void>(tape_.close()); }
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  [[nodiscard]] std::string name() const override { return inner_.name(); }
+  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
+    return inner_.epoch_ticks_100ns();
+  }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return head_; }
+  [[nodiscard]] Clicker& clicker() override { return clicker_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] Status recording_status() const override { return tape_.status(); }
+  Status close() override { return tape_.close(); }
+
+ private:
+  std::unique_ptr<Headset> owned_;
+  Headset& inner_;
+  Tape tape_;
+  RecordingCamera cameras_{inner_, tape_};
+  RecordingHead head_{inner_, tape_};
+  RecordingEvents<Clicker, ClickerEvent> clicker_;
+  RecordingEvents<Voice, Phrase> voice_;
+  RecordingDisplay display_{inner_};
+};
+
+Result<std::unique_ptr<RecordingHeadset>> make(Headset& inner, std::unique_ptr<Headset> owned,
+                                               const std::filesystem::path& folder,
+                                               const RecorderOptions& options) {
+  RecordedDevice device;
+  device.epoch_ticks_100ns = inner.epoch_ticks_100ns();
+  device.display_latency = inner.display().predicted_display_time(Timestamp{}) - Timestamp{};
+  device.clock_start = inner.clock().now();
+  auto writer =
+      RecordingWriter::create(folder, inner.cameras().calibration(), device, options.tools_json);
+  if (!writer) return writer.error();
+  return std::unique_ptr<RecordingHeadset>(
+      std::make_unique<Recorder>(inner, std::move(owned), std::move(*writer)));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RecordingHeadset>> RecordingHeadset::create(
+    std::unique_ptr<Headset> inner, const std::filesystem::path& folder,
+    const RecorderOptions& options) {
+  Headset& borrowed = *inner;
+  return make(borrowed, std::move(inner), folder, options);
+}
+
+Result<std::unique_ptr<RecordingHeadset>> RecordingHeadset::around(
+    Headset& inner, const std::filesystem::path& folder, const RecorderOptions& options) {
+  return make(inner, nullptr, folder, options);
+}
+
+}  // namespace orthonav::replay

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "hal/api/devices.h"
+
+namespace orthonav::replay {
+
+struct RecorderOptions {
+  std::string tools_json;  ///< kept beside the recording as tools.json, if not empty
+};
+
+/// A headset that passes everything on to another one and records what went through: images, head
+/// poses, answers of the head tracker, clicker and voice. It writes StreamRecorder's layout and a
+/// few files more (docs/recordings.md), so that ReplayHeadset delivers the same session to the bit.
+///
+/// Writes into `folder` + ".part" and renames on close(); a recording that was cut off stays there.
+/// A recording that fails (a full disk) never disturbs the session: everything is passed on
+/// unchanged, recording stops, and recording_status() and close() say why. Writes on the thread
+/// that calls next().
+class RecordingHeadset : public Headset {
+ public:
+  /// Refuses a folder that exists and is not empty, one left over under the temporary name, and
+  /// cameras that are not 640×480.
+  static Result<std::unique_ptr<RecordingHeadset>> create(std::unique_ptr<Headset> inner,
+                                                          const std::filesystem::path& folder,
+                                                          const RecorderOptions& options = {});
+  /// The same around a headset that somebody else owns and keeps alive.
+  static Result<std::unique_ptr<RecordingHeadset>> around(Headset& inner,
+                                                          const std::filesystem::path& folder,
+                                                          const RecorderOptions& options = {});
+  /// The first failure of the recording so far.
+  [[nodiscard]] virtual Status recording_status() const = 0;
+  /// Finishes the files and gives the folder its name. Nothing is recorded from here on, while the
+  /// devices go on. A recording without a single pair is no recording: an error. The destructor
+  /// closes too, but cannot say whether that went well.
+  virtual Status close() = 0;
+};
+
+}  // namespace orthonav::replay
