@@ -1,0 +1,108 @@
+#include "render/draw_order.h"
+
+#include <compare>
+#include <numeric>
+#include <tuple>
+
+#include "render/float3.h"
+
+namespace orthonav::render {
+namespace {
+
+Float3 middle(const MeshItem& item) {
+  const Matrix4& m = item.world_from_model;
+  return {m[12], m[13], m[14]};
+}
+
+Float3 middle(const LineItem& item) {
+  Float3 sum;
+  for (const Float3 point : item.points) sum = sum + point;
+  return item.points.empty() ? sum : (1.0f / static_cast<float>(item.points.size())) * sum;
+}
+
+Float3 middle(const TriangleItem& item) {
+  return (1.0f / 3.0f) * (item.corners[0] + item.corners[1] + item.corners[2]);
+}
+
+Float3 middle(const TextItem& item) { return item.position; }
+
+auto key(Float3 p) { return std::tuple(p.x, p.y, p.z); }
+auto key(const Colour& c) { return std::tuple(c.r, c.g, c.b, c.a); }
+
+template <class Range>
+std::partial_ordering compare_points(const Range& a, const Range& b) {
+  return std::lexicographical_compare_three_way(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](Float3 p, Float3 q) -> std::partial_ordering { return key(p) <=> key(q); });
+}
+
+bool content_less(const MeshItem& a, const MeshItem& b) {
+  const auto key_of = [](const MeshItem& item) {
+    return std::tuple(item.world_from_model, key(item.colour), item.style,
+                      item.mesh->positions.size(), item.mesh->indices.size());
+  };
+  if (const auto order = key_of(a) <=> key_of(b); order != 0) return order < 0;
+  return a.mesh != b.mesh && compare_points(a.mesh->positions, b.mesh->positions) < 0;
+}
+
+bool content_less(const LineItem& a, const LineItem& b) {
+  const auto key_of = [](const LineItem& item) {
+    return std::tuple(key(item.colour), item.width_m, item.dash_m, item.closed);
+  };
+  if (const auto order = key_of(a) <=> key_of(b); order != 0) return order < 0;
+  return compare_points(a.points, b.points) < 0;
+}
+
+bool content_less(const TriangleItem& a, const TriangleItem& b) {
+  const auto order = key(a.colour) <=> key(b.colour);
+  return order != 0 ? order < 0 : compare_points(a.corners, b.corners) < 0;
+}
+
+bool content_less(const TextItem& a, const TextItem& b) {
+  const auto key_of = [](const TextItem& item) {
+    return std::tuple(key(item.position), item.place, item.align, item.height_m,
+                      item.min_height_deg, key(item.rim), item.offset_right, item.offset_up);
+  };
+  if (const auto order = key_of(a) <=> key_of(b); order != 0) return order < 0;
+  return std::lexicographical_compare(a.runs.begin(), a.runs.end(), b.runs.begin(), b.runs.end(),
+                                      [](const TextRun& r, const TextRun& s) {
+                                        const int texts = r.text.compare(s.text);
+                                        return texts != 0 ? texts < 0
+                                                          : key(r.colour) < key(s.colour);
+                                      });
+}
+
+template <class Item>
+void sort_items(const std::vector<Item>& items, const Head& head,
+                std::vector<std::uint32_t>& order) {
+  order.resize(items.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const Float3 a = middle(items[i]) - head.position;
+    const Float3 b = middle(items[j]) - head.position;
+    if (dot(a, a) != dot(b, b)) return dot(a, a) > dot(b, b);
+    if (items[i].label != items[j].label) return items[i].label < items[j].label;
+    return content_less(items[i], items[j]);
+  });
+}
+
+}  // namespace
+
+void sort_for_drawing(const std::vector<MeshItem>& items, const Head& head,
+                      std::vector<std::uint32_t>& order) {
+  sort_items(items, head, order);
+}
+void sort_for_drawing(const std::vector<LineItem>& items, const Head& head,
+                      std::vector<std::uint32_t>& order) {
+  sort_items(items, head, order);
+}
+void sort_for_drawing(const std::vector<TriangleItem>& items, const Head& head,
+                      std::vector<std::uint32_t>& order) {
+  sort_items(items, head, order);
+}
+void sort_for_drawing(const std::vector<TextItem>& items, const Head& head,
+                      std::vector<std::uint32_t>& order) {
+  sort_items(items, head, order);
+}
+
+}  // namespace orthonav::render

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "render/projection.h"
+#include "render/scene.h"
+
+namespace orthonav::render {
+
+/// Orders the items of one kind by what they are, never by when they were submitted: the farther
+/// first (by the middle of the item), then by label, then by content. Equal items are alike, so
+/// that any order of them gives the same frame. Fills `order` with indices; allocates only while
+/// `order` grows.
+void sort_for_drawing(const std::vector<MeshItem>& items, const Head& head,
+                      std::vector<std::uint32_t>& order);
+void sort_for_drawing(const std::vector<LineItem>& items, const Head& head,
+                      std::vector<std::uint32_t>& order);
+void sort_for_drawing(const std::vector<TriangleItem>& items, const Head& head,
+                      std::vector<std::uint32_t>& order);
+void sort_for_drawing(const std::vector<TextItem>& items, const Head& head,
+                      std::vector<std::uint32_t>& order);
+
+}  // namespace orthonav::render

@@ -1,0 +1,192 @@
+// make_font FONT.ttf OUT: writes the glyph atlas that render/text/font.h reads.
+#include <ft2build.h>
+#include FT_FREETYPE_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "render/font_maker/distance_field.h"
+#include "render/text/font_file.h"
+
+namespace orthonav::font_maker {
+namespace {
+
+using render::FontFileGlyph;
+using render::FontFileHeader;
+
+constexpr int kEm_px = 48;        // of the atlas
+constexpr int kOversampling = 8;  // outline rasterised that much finer, then measured
+constexpr int kPadding_px = 6;    // reach of the distances on either side of the outline
+constexpr int kAtlasWidth_px = 1024;
+
+/// Latin with accents, and the signs a navigation display needs.
+std::vector<char32_t> wanted() {
+  std::vector<char32_t> codes;
+  for (char32_t c = 0x20; c < 0x7f; ++c) codes.push_back(c);
+  for (char32_t c = 0xa0; c < 0x180; ++c) codes.push_back(c);
+  for (const char32_t c :
+       U"ΔΘΣΩαβγδεθκλμπρσφω‐‑‒–—‘’“”•…′″←↑→↓↔↕−∞≈≠≤≥⌀□▲▶▼◀◆◇○◐●✓✗\u2007\u2009\u202f") {
+    if (c != 0) codes.push_back(c);
+  }
+  std::sort(codes.begin(), codes.end());
+  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  return codes;
+}
+
+struct Cell {
+  FontFileGlyph glyph;
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> texels;
+};
+
+Mask padded_mask(const FT_Bitmap& bitmap, int left, int top, int width, int height) {
+  Mask mask{width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height)};
+  for (unsigned y = 0; y < bitmap.rows; ++y) {
+    for (unsigned x = 0; x < bitmap.width; ++x) {
+      const unsigned char byte = bitmap.buffer[y * static_cast<unsigned>(bitmap.pitch) + x / 8];
+      const bool set = (byte >> (7 - x % 8) & 1) != 0;
+      mask.inside[static_cast<std::size_t>(top + static_cast<int>(y)) * width + left +
+                  static_cast<int>(x)] = set;
+    }
+  }
+  return mask;
+}
+
+/// Mean of the four fine cells around the coarse texel's centre, as a byte with 128 at the outline.
+std::uint8_t texel(const std::vector<float>& fine, int fine_width, int x, int y) {
+  const int cx = x * kOversampling + kOversampling / 2;
+  const int cy = y * kOversampling + kOversampling / 2;
+  float sum = 0;
+  for (const int dy : {-1, 0}) {
+    for (const int dx : {-1, 0})
+      sum += fine[static_cast<std::size_t>(cy + dy) * fine_width + cx + dx];
+  }
+  const float distance_px = 0.25f * sum / kOversampling;
+  const float value = 127.5f + 127.5f * distance_px / kPadding_px;
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 255.0f)));
+}
+
+int floor_to(int value, int step) {
+  return value >= 0 ? value / step * step : -((-value + step - 1) / step * step);
+}
+
+Cell cell_of(FT_Face face, char32_t code, float cap_px) {
+  Cell cell;
+  cell.glyph.code = static_cast<std::uint32_t>(code);
+  const FT_GlyphSlot slot = face->glyph;
+  cell.glyph.advance =
+      static_cast<float>(slot->linearHoriAdvance) / 65536.0f / kOversampling / cap_px;
+  const FT_Bitmap& bitmap = slot->bitmap;
+  if (bitmap.rows == 0 || bitmap.width == 0) return cell;
+  // Bounds of the fine picture on the coarse grid, baseline origin, y up.
+  const int pad = kPadding_px * kOversampling;
+  const int x0 = floor_to(slot->bitmap_left - pad, kOversampling);
+  const int y1 = -floor_to(-(slot->bitmap_top + pad), kOversampling);
+  const int x1 =
+      -floor_to(-(slot->bitmap_left + static_cast<int>(bitmap.width) + pad), kOversampling);
+  const int y0 = floor_to(slot->bitmap_top - static_cast<int>(bitmap.rows) - pad, kOversampling);
+  const Mask mask =
+      padded_mask(bitmap, slot->bitmap_left - x0, y1 - slot->bitmap_top, x1 - x0, y1 - y0);
+  const std::vector<float> fine = signed_distance(mask);
+  cell.width_px = mask.width / kOversampling;
+  cell.height_px = mask.height / kOversampling;
+  for (int y = 0; y < cell.height_px; ++y) {
+    for (int x = 0; x < cell.width_px; ++x) cell.texels.push_back(texel(fine, mask.width, x, y));
+  }
+  const auto in_caps = [&](int fine_px) {
+    return static_cast<float>(fine_px) / kOversampling / cap_px;
+  };
+  cell.glyph.left = in_caps(x0);
+  cell.glyph.bottom = in_caps(y0);
+  cell.glyph.right = in_caps(x1);
+  cell.glyph.top = in_caps(y1);
+  return cell;
+}
+
+/// Rows of cells, tallest glyphs wherever they come; fills in the texture rectangles.
+std::vector<std::uint8_t> packed(std::vector<Cell>& cells, int& height_px) {
+  int x = 0;
+  int y = 0;
+  int row_height = 0;
+  for (Cell& cell : cells) {
+    if (x + cell.width_px > kAtlasWidth_px) {
+      x = 0;
+      y += row_height;
+      row_height = 0;
+    }
+    cell.glyph.u0 = static_cast<std::uint16_t>(x);
+    cell.glyph.v0 = static_cast<std::uint16_t>(y);
+    cell.glyph.u1 = static_cast<std::uint16_t>(x + cell.width_px);
+    cell.glyph.v1 = static_cast<std::uint16_t>(y + cell.height_px);
+    x += cell.width_px;
+    row_height = std::max(row_height, cell.height_px);
+  }
+  height_px = y + row_height;
+  std::vector<std::uint8_t> atlas(static_cast<std::size_t>(kAtlasWidth_px) * height_px);
+  for (const Cell& cell : cells) {
+    for (int row = 0; row < cell.height_px; ++row) {
+      std::memcpy(
+          &atlas[static_cast<std::size_t>(cell.glyph.v0 + row) * kAtlasWidth_px + cell.glyph.u0],
+          &cell.texels[static_cast<std::size_t>(row) * cell.width_px], cell.width_px);
+    }
+  }
+  return atlas;
+}
+
+int fail(const char* what) {
+  std::fprintf(stderr, "make_font: %s\n", what);
+  return 2;
+}
+
+int make(const char* font_path, const char* out_path) {
+  FT_Library library = nullptr;
+  FT_Face face = nullptr;
+  if (FT_Init_FreeType(&library) || FT_New_Face(library, font_path, 0, &face)) {
+    return fail("the font can't be opened");
+  }
+  FT_Set_Pixel_Sizes(face, 0, kEm_px * kOversampling);
+  if (FT_Load_Char(face, U'H', FT_LOAD_NO_HINTING)) return fail("the font has no H");
+  const float cap_px =
+      static_cast<float>(face->glyph->metrics.horiBearingY) / 64.0f / kOversampling;
+  std::vector<Cell> cells;
+  for (const char32_t code : wanted()) {
+    if (FT_Get_Char_Index(face, code) == 0) continue;
+    if (FT_Load_Char(face, code, FT_LOAD_NO_HINTING) ||
+        FT_Render_Glyph(face->glyph, FT_RENDER_MODE_MONO)) {
+      return fail("a glyph can't be rendered");
+    }
+    cells.push_back(cell_of(face, code, cap_px));
+  }
+  int height_px = 0;
+  const std::vector<std::uint8_t> atlas = packed(cells, height_px);
+  FontFileHeader header;
+  header.glyphs = static_cast<std::uint32_t>(cells.size());
+  header.width_px = kAtlasWidth_px;
+  header.height_px = static_cast<std::uint32_t>(height_px);
+  header.reach = kPadding_px / cap_px;
+  std::ofstream out(out_path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(&header), sizeof(header));
+  for (const Cell& cell : cells) {
+    out.write(reinterpret_cast<const char*>(&cell.glyph), sizeof(cell.glyph));
+  }
+  out.write(reinterpret_cast<const char*>(atlas.data()),
+            static_cast<std::streamsize>(atlas.size()));
+  FT_Done_Face(face);
+  FT_Done_FreeType(library);
+  out.close();
+  return out ? 0 : fail("the output can't be written");
+}
+
+}  // namespace
+}  // namespace orthonav::font_maker
+
+int main(int argc, char** argv) {
+  if (argc != 3) return orthonav::font_maker::fail("usage: make_font FONT.ttf OUT");
+  return orthonav::font_maker::make(argv[1], argv[2]);
+}

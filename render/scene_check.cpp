@@ -1,0 +1,184 @@
+#include "render/scene_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/float3.h"
+#include "render/text/text_layout.h"
+
+namespace orthonav::render {
+namespace {
+
+using Problem = std::optional<std::string>;
+
+constexpr float kFarthest_m = 1e5f;  // beyond it, floats resolve centimetres only
+constexpr float kWidest_m = 10.0f;
+constexpr float kMostDashes = 20000.0f;
+constexpr float kColourSlack = 1e-3f;  // of a fade computed in floats
+constexpr float kRigidSlack = 1e-3f;
+
+bool is_place(Float3 p) {
+  return std::abs(p.x) <= kFarthest_m && std::abs(p.y) <= kFarthest_m &&
+         std::abs(p.z) <= kFarthest_m;  // false for NaN
+}
+
+bool is_between(float value, float low, float high) { return value >= low && value <= high; }
+
+bool is_colour(const Colour& c) {
+  const float top = 1 + kColourSlack;
+  return is_between(c.r, 0, top) && is_between(c.g, 0, top) && is_between(c.b, 0, top) &&
+         is_between(c.a, 0, top);
+}
+
+bool is_affine(const Matrix4& m) {
+  for (const float value : m) {
+    if (!(std::abs(value) <= kFarthest_m)) return false;
+  }
+  return m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
+}
+
+bool is_rigid(const Matrix4& m) {
+  if (!is_affine(m)) return false;
+  const Float3 x = {m[0], m[1], m[2]};
+  const Float3 y = {m[4], m[5], m[6]};
+  const Float3 z = {m[8], m[9], m[10]};
+  const auto is_zero = [](float value) { return std::abs(value) <= kRigidSlack; };
+  return is_zero(dot(x, x) - 1) && is_zero(dot(y, y) - 1) && is_zero(dot(x, y)) &&
+         length(cross(x, y) - z) <= kRigidSlack;
+}
+
+Problem problem_of(const MeshItem& item) {
+  if (!item.mesh) return "has no mesh";
+  if (!is_affine(item.world_from_model)) return "has a place that is not a finite affine matrix";
+  if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
+  return std::nullopt;
+}
+
+Problem problem_of(const LineItem& item) {
+  float run_m = 0;
+  for (std::size_t i = 0; i < item.points.size(); ++i) {
+    if (!is_place(item.points[i])) return "point " + std::to_string(i) + " is not a finite place";
+    if (i > 0) run_m += length(item.points[i] - item.points[i - 1]);
+  }
+  if (!is_between(item.width_m, 0, kWidest_m)) return "has a width outside 0 to 10 m";
+  if (!is_between(item.dash_m, 0, kWidest_m)) return "has dashes outside 0 to 10 m";
+  if (item.dash_m > 0 && run_m / item.dash_m > kMostDashes) return "has more than 20000 dashes";
+  if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
+  return std::nullopt;
+}
+
+Problem problem_of(const TriangleItem& item) {
+  if (!std::all_of(item.corners.begin(), item.corners.end(), is_place)) {
+    return "has a corner that is not a finite place";
+  }
+  if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
+  return std::nullopt;
+}
+
+Problem problem_of(const TextItem& item) {
+  for (const TextRun& run : item.runs) {
+    if (!is_utf8(run.text)) return "is not valid UTF-8";
+    if (!is_colour(run.colour)) return "has a colour outside 0 to 1";
+  }
+  if (!is_place(item.position)) return "is not at a finite place";
+  if (!is_between(item.height_m, 0, kWidest_m)) return "has a height outside 0 to 10 m";
+  if (!is_between(item.min_height_deg, 0, 45)) return "has a least height outside 0 to 45 deg";
+  if (!is_colour(item.rim)) return "has a rim outside 0 to 1";
+  if (!is_place({item.offset_right, item.offset_up, 0})) return "has an offset that is not finite";
+  return std::nullopt;
+}
+
+template <class Item>
+Problem first_problem(const std::vector<Item>& items, const char* kind) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (const Problem problem = problem_of(items[i])) {
+      return std::string("scene: ") + kind + " " + std::to_string(i) + " (label " +
+             std::to_string(items[i].label) + ") " + *problem;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> problem_of_scene(const Scene& scene) {
+  if (const Problem problem = first_problem(scene.meshes, "mesh")) return problem;
+  if (const Problem problem = first_problem(scene.lines, "line")) return problem;
+  if (const Problem problem = first_problem(scene.triangles, "triangle")) return problem;
+  return first_problem(scene.texts, "text");
+}
+
+std::optional<std::string> problem_of_views(const std::vector<View>& views) {
+  if (views.empty() || views.size() > 2) {
+    return "views: " + std::to_string(views.size()) + ", expected 1 or 2";
+  }
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const View& view = views[i];
+    const std::string name = "view " + std::to_string(i);
+    if (!is_rigid(view.eye_from_world)) return name + ": eye_from_world is not a rigid transform";
+    for (const float tangent : {view.tan_left, view.tan_right, view.tan_up, view.tan_down}) {
+      if (!is_between(tangent, 1e-4f, 100.0f)) {
+        return name + ": tangent of a half angle " + std::to_string(tangent) +
+               ", expected 0.0001 to 100";
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> problem_of_mesh(const MeshData& mesh) {
+  if (mesh.normals.size() != mesh.positions.size()) {
+    return std::to_string(mesh.normals.size()) + " normals for " +
+           std::to_string(mesh.positions.size()) + " vertices";
+  }
+  if (mesh.indices.size() % 3 != 0) {
+    return std::to_string(mesh.indices.size()) + " indices, expected three a triangle";
+  }
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (!is_place(mesh.positions[i])) return "vertex " + std::to_string(i) + " is not finite";
+    if (!is_place(mesh.normals[i])) return "normal " + std::to_string(i) + " is not finite";
+  }
+  for (const std::uint32_t index : mesh.indices) {
+    if (index >= mesh.positions.size()) {
+      return "index " + std::to_string(index) + ", limit " + std::to_string(mesh.positions.size()) +
+             " vertices";
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> problem_of_backgrounds(const std::vector<const Image*>& backgrounds,
+                                                  const std::vector<View>& views, int width_px,
+                                                  int height_px) {
+  if (backgrounds.empty()) return std::nullopt;
+  if (backgrounds.size() != views.size()) {
+    return "backgrounds: " + std::to_string(backgrounds.size()) + " for " +
+           std::to_string(views.size()) + " views";
+  }
+  const std::string wanted = std::to_string(width_px) + "x" + std::to_string(height_px) + " px";
+  for (std::size_t i = 0; i < backgrounds.size(); ++i) {
+    const std::string name = "background " + std::to_string(i);
+    if (backgrounds[i] == nullptr) return name + " is missing";
+    const Image& image = *backgrounds[i];
+    const auto bytes = 4 * static_cast<std::size_t>(width_px) * height_px;
+    if (image.width_px != width_px || image.height_px != height_px || image.rgba.size() != bytes) {
+      return name + ": " + std::to_string(image.width_px) + "x" + std::to_string(image.height_px) +
+             " px with " + std::to_string(image.rgba.size()) + " bytes, expected " + wanted;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> problem_of_options(const RendererOptions& options) {
+  for (const int side_px : {options.width_px, options.height_px}) {
+    if (side_px < 16 || side_px > 8192) {
+      return "renderer: image side " + std::to_string(side_px) + " px, expected 16 to 8192";
+    }
+  }
+  if (options.samples != 1 && options.samples != 4) {
+    return "renderer: " + std::to_string(options.samples) + " samples, expected 1 or 4";
+  }
+  return std::nullopt;
+}
+
+}  // namespace orthonav::render

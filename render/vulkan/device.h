@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "render/vulkan/instance.h"
+
+namespace orthonav::render {
+
+inline constexpr VkFormat kColourFormat = VK_FORMAT_R8G8B8A8_SRGB;
+inline constexpr VkFormat kLabelFormat = VK_FORMAT_R32_UINT;
+
+/// What a physical device offers and, where it won't do, why.
+[[nodiscard]] DeviceInfo describe(VkPhysicalDevice physical);
+
+/// The device to draw with: the best usable one whose name contains `wanted` (case ignored);
+/// discrete before integrated before virtual before CPU. Throws std::runtime_error with one line.
+[[nodiscard]] VkPhysicalDevice choose_device(const Instance& instance, const std::string& wanted);
+
+/// A logical device with one graphics queue.
+class Device {
+ public:
+  explicit Device(VkPhysicalDevice physical);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  [[nodiscard]] VkDevice get() const { return device_; }
+  [[nodiscard]] VkQueue queue() const { return queue_; }
+  [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
+  [[nodiscard]] VkFormat depth_format() const { return depth_format_; }
+  /// A type among `allowed` with all `required` flags, with `preferred` ones too if there is any.
+  [[nodiscard]] std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
+                                          VkMemoryPropertyFlags preferred) const;
+
+ private:
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::uint32_t queue_family_ = 0;
+  VkFormat depth_format_ = VK_FORMAT_UNDEFINED;
+  VkPhysicalDeviceMemoryProperties memory_{};
+};
+
+}  // namespace orthonav::render

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "render/frame_items.h"
+#include "render/scene.h"
+
+namespace orthonav::render {
+
+// What shaders/frame.glsl reads, byte for byte.
+
+struct GpuEye {
+  Matrix4 clip_from_world{};
+  Float4 position;
+};
+
+struct GpuFrame {
+  std::array<GpuEye, 2> eyes{};
+  Float4 target;  ///< width and height in px, pixels per metre across and up at 1 m
+  Float4 font;    ///< reach and rim width in cap heights, near plane in metres
+  std::array<std::uint32_t, 4> mode{};  ///< over?, background?
+};
+static_assert(sizeof(GpuFrame) == 2 * 80 + 48);
+
+struct GpuItem {
+  Matrix4 place = kIdentity;
+  Colour colour;
+  std::array<float, 4> extra{};
+  std::array<std::uint32_t, 4> ids{};  ///< label, first, style
+};
+static_assert(sizeof(GpuItem) == 112, "fits the 128 bytes that every device has");
+
+struct GpuVertex {
+  Float3 position;
+  Float3 normal;
+};
+static_assert(sizeof(GpuVertex) == 24);
+
+}  // namespace orthonav::render

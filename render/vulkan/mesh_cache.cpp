@@ -1,0 +1,78 @@
+#include "render/vulkan/mesh_cache.h"
+
+#include <algorithm>
+
+#include "render/scene_check.h"
+#include "render/vulkan/gpu_types.h"
+
+namespace orthonav::render {
+namespace {
+
+constexpr int kMostIdleFrames = 300;  // five seconds of a headset's frames
+
+std::vector<GpuVertex> vertices_of(const MeshData& mesh) {
+  std::vector<GpuVertex> vertices(mesh.positions.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    vertices[i] = {mesh.positions[i], mesh.normals[i]};
+  }
+  return vertices;
+}
+
+/// Through a staging buffer into memory of the device.
+Buffer uploaded(const Device& device, Commands& commands, const void* bytes, std::size_t count,
+                VkBufferUsageFlags usage) {
+  const Buffer staging(device, count, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::kUpload);
+  staging.write(bytes, count);
+  Buffer buffer(device, count, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::kDevice);
+  const VkCommandBuffer batch = commands.begin();
+  const VkBufferCopy region = {0, 0, count};
+  vkCmdCopyBuffer(batch, staging.get(), buffer.get(), 1, &region);
+  commands.run();
+  return buffer;
+}
+
+}  // namespace
+
+const GpuMesh* MeshCache::find(const std::shared_ptr<const MeshData>& mesh) const {
+  for (const Entry& entry : entries_) {
+    if (entry.mesh == mesh) return &entry.copy;
+  }
+  return nullptr;
+}
+
+bool MeshCache::touch(const std::shared_ptr<const MeshData>& mesh) {
+  for (Entry& entry : entries_) {
+    if (entry.mesh != mesh) continue;
+    entry.idle_frames = 0;
+    return true;
+  }
+  return false;
+}
+
+std::string MeshCache::add(const Device& device, Commands& commands,
+                           const std::shared_ptr<const MeshData>& mesh) {
+  if (const auto problem = problem_of_mesh(*mesh)) return *problem;
+  Entry entry;
+  entry.mesh = mesh;
+  entry.copy.index_count = static_cast<std::uint32_t>(mesh->indices.size());
+  if (entry.copy.index_count > 0) {
+    const std::vector<GpuVertex> vertices = vertices_of(*mesh);
+    entry.copy.vertices =
+        uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
+                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    entry.copy.indices =
+        uploaded(device, commands, mesh->indices.data(),
+                 mesh->indices.size() * sizeof(std::uint32_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  }
+  entries_.push_back(std::move(entry));
+  return {};
+}
+
+void MeshCache::end_frame() {
+  for (Entry& entry : entries_) ++entry.idle_frames;
+  std::erase_if(entries_, [](const Entry& entry) {
+    return entry.mesh.use_count() == 1 || entry.idle_frames > kMostIdleFrames;
+  });
+}
+
+}  // namespace orthonav::render

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "render/vulkan/commands.h"
+#include "render/vulkan/memory.h"
+
+namespace orthonav::render {
+
+/// The copy of a mesh on the device.
+struct GpuMesh {
+  Buffer vertices;
+  Buffer indices;
+  std::uint32_t index_count = 0;  ///< 0: an empty mesh draws nothing
+};
+
+/// Device copies of meshes, keyed by pointer. A copy goes when nobody else holds the mesh any more,
+/// or when it was not drawn for a while. The cache keeps the mesh alive meanwhile, so that a
+/// pointer never means two meshes.
+class MeshCache {
+ public:
+  /// Ready for drawing; uploads what is new. A problem of the mesh comes back as a line.
+  [[nodiscard]] const GpuMesh* find(const std::shared_ptr<const MeshData>& mesh) const;
+  [[nodiscard]] std::string add(const Device& device, Commands& commands,
+                                const std::shared_ptr<const MeshData>& mesh);
+  /// Marks the frame's end: drops what is unused.
+  void end_frame();
+  /// Marks a mesh as used in this frame; false when it has no copy yet.
+  bool touch(const std::shared_ptr<const MeshData>& mesh);
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    std::shared_ptr<const MeshData> mesh;
+    GpuMesh copy;
+    int idle_frames = 0;
+  };
+  std::vector<Entry> entries_;
+};
+
+}  // namespace orthonav::render

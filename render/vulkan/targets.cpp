@@ -1,0 +1,131 @@
+#include "render/vulkan/targets.h"
+
+#include <array>
+
+namespace orthonav::render {
+namespace {
+
+VkAttachmentDescription attachment(VkFormat format, VkSampleCountFlagBits samples,
+                                   VkAttachmentLoadOp load, VkAttachmentStoreOp store,
+                                   VkImageLayout final_layout) {
+  VkAttachmentDescription description = {};
+  description.format = format;
+  description.samples = samples;
+  description.loadOp = load;
+  description.storeOp = store;
+  description.stencilLoadOp = load;
+  description.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  description.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  description.finalLayout = final_layout;
+  return description;
+}
+
+VkSubpassDependency before_drawing() {
+  VkSubpassDependency dependency = {};
+  dependency.srcSubpass = VK_SUBPASS_EXTERNAL;
+  dependency.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+                            VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT |
+                            VK_PIPELINE_STAGE_TRANSFER_BIT;
+  dependency.dstStageMask =
+      VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT;
+  dependency.srcAccessMask =
+      VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+  dependency.dstAccessMask =
+      VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT |
+      VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+  return dependency;
+}
+
+VkSubpassDependency before_copying() {
+  VkSubpassDependency dependency = {};
+  dependency.dstSubpass = VK_SUBPASS_EXTERNAL;
+  dependency.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+  dependency.dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT;
+  dependency.srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+  dependency.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
+  return dependency;
+}
+
+}  // namespace
+
+Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
+  const bool labels = spec.kind == PassKind::kLabels;
+  if (labels) spec_.samples = VK_SAMPLE_COUNT_1_BIT;
+  ImageSpec image;
+  image.format = labels ? kLabelFormat : kColourFormat;
+  image.width = spec_.width;
+  image.height = spec_.height;
+  image.layers = spec_.views;
+  image.samples = spec_.samples;
+  image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+  if (!resolves()) image.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  colour_ = DeviceImage(device, image);
+  if (resolves()) {
+    ImageSpec result = image;
+    result.samples = VK_SAMPLE_COUNT_1_BIT;
+    result.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    result_ = DeviceImage(device, result);
+  }
+  ImageSpec depth = image;
+  depth.format = device.depth_format();
+  depth.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  depth.aspect = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
+  depth_ = DeviceImage(device, depth);
+  make_pass(device, image.format);
+  const std::array<VkImageView, 3> views = {colour_.view(), depth_.view(), result_.view()};
+  VkFramebufferCreateInfo info = {};
+  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+  info.renderPass = pass();
+  info.attachmentCount = resolves() ? 3 : 2;
+  info.pAttachments = views.data();
+  info.width = spec_.width;
+  info.height = spec_.height;
+  info.layers = 1;  // multiview picks the layers
+  VkFramebuffer framebuffer = VK_NULL_HANDLE;
+  check(vkCreateFramebuffer(device.get(), &info, nullptr, &framebuffer), "framebuffer");
+  framebuffer_ = Framebuffer(device.get(), framebuffer);
+}
+
+void Targets::make_pass(const Device& device, VkFormat format) {
+  constexpr auto kDrop = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  constexpr auto kKeep = VK_ATTACHMENT_STORE_OP_STORE;
+  const std::array<VkAttachmentDescription, 3> attachments = {
+      attachment(format, spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, resolves() ? kDrop : kKeep,
+                 resolves() ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
+                            : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+      attachment(device.depth_format(), spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, kDrop,
+                 VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
+      attachment(format, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE, kKeep,
+                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+  const VkAttachmentReference colour = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+  const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+  const VkAttachmentReference result = {2, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+  VkSubpassDescription subpass = {};
+  subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  subpass.colorAttachmentCount = 1;
+  subpass.pColorAttachments = &colour;
+  subpass.pDepthStencilAttachment = &depth;
+  if (resolves()) subpass.pResolveAttachments = &result;
+  const std::array<VkSubpassDependency, 2> dependencies = {before_drawing(), before_copying()};
+  const std::uint32_t view_mask = (1u << spec_.views) - 1;
+  VkRenderPassMultiviewCreateInfo multiview = {};
+  multiview.sType = VK_STRUCTURE_TYPE_RENDER_PASS_MULTIVIEW_CREATE_INFO;
+  multiview.subpassCount = 1;
+  multiview.pViewMasks = &view_mask;
+  multiview.correlationMaskCount = 1;
+  multiview.pCorrelationMasks = &view_mask;
+  VkRenderPassCreateInfo info = {};
+  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
+  info.pNext = &multiview;
+  info.attachmentCount = resolves() ? 3 : 2;
+  info.pAttachments = attachments.data();
+  info.subpassCount = 1;
+  info.pSubpasses = &subpass;
+  info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
+  info.pDependencies = dependencies.data();
+  VkRenderPass pass = VK_NULL_HANDLE;
+  check(vkCreateRenderPass(device.get(), &info, nullptr, &pass), "render pass");
+  pass_ = RenderPass(device.get(), pass);
+}
+
+}  // namespace orthonav::render

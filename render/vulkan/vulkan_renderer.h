@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "render/frame_items.h"
+#include "render/renderer.h"
+#include "render/vulkan/bindings.h"
+#include "render/vulkan/commands.h"
+#include "render/vulkan/device.h"
+#include "render/vulkan/frame_recorder.h"
+#include "render/vulkan/instance.h"
+#include "render/vulkan/mesh_cache.h"
+#include "render/vulkan/pipelines.h"
+#include "render/vulkan/targets.h"
+
+namespace orthonav::render {
+
+/// Draws one frame after the other, each to its end, out of buffers that are kept.
+class VulkanRenderer final : public Renderer {
+ public:
+  /// Throws VulkanFailure or std::runtime_error with one line.
+  explicit VulkanRenderer(const RendererOptions& options);
+
+  bool draw(const Scene& scene, const std::vector<View>& views,
+            const std::vector<const Image*>& backgrounds, std::vector<Image>& images,
+            std::string& error) override;
+  bool draw_labels(const Scene& scene, const std::vector<View>& views,
+                   std::vector<LabelImage>& images, std::string& error) override;
+  [[nodiscard]] const DeviceInfo& device() const override { return info_; }
+  [[nodiscard]] FrameTiming last_timing() const override { return timing_; }
+  [[nodiscard]] const std::vector<std::string>& validation_messages() const override {
+    return instance_.messages();
+  }
+
+ private:
+  bool draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
+                 const std::vector<const Image*>& backgrounds, std::string& error);
+  std::string problem_of(const Scene& scene, const std::vector<View>& views,
+                         const std::vector<const Image*>& backgrounds);
+  const FramePass& pass_for(PassKind kind, std::size_t views);
+  void prepare(const std::vector<View>& views, bool has_background);
+  void prepare_data();
+  void upload_atlas();
+  void upload_blank_background();
+  void stage_backgrounds(const std::vector<const Image*>& backgrounds);
+  [[nodiscard]] std::size_t image_bytes() const;
+
+  RendererOptions options_;
+  Instance instance_;
+  VkPhysicalDevice physical_;
+  DeviceInfo info_;
+  Device device_;
+  Commands commands_;
+  Bindings bindings_;
+  Font font_;
+  FrameItems items_;
+  MeshCache meshes_;
+  DeviceImage atlas_;
+  DeviceImage background_;
+  Buffer background_staging_;
+  Buffer frame_;
+  Buffer data_;
+  Buffer line_indices_;
+  Buffer readback_;
+  std::array<std::unique_ptr<FramePass>, 4> passes_;  ///< by kind and number of views
+  FrameTiming timing_;
+  bool lost_ = false;
+};
+
+}  // namespace orthonav::render

@@ -1,0 +1,9 @@
+#version 450
+#extension GL_EXT_multiview : require
+
+layout(set = 0, binding = 3) uniform sampler2DArray background;
+layout(location = 0) out vec4 colour;
+
+void main() {
+  colour = vec4(texelFetch(background, ivec3(gl_FragCoord.xy, gl_ViewIndex), 0).rgb, 1);
+}

@@ -1,0 +1,23 @@
+// What every shader sees. Mirrors render/vulkan/gpu_types.h.
+#extension GL_EXT_multiview : require
+
+struct Eye {
+  mat4 clip_from_world;
+  vec4 position;
+};
+
+layout(set = 0, binding = 0) uniform Frame {
+  Eye eyes[2];
+  vec4 target;  // width and height in pixels, pixels per metre across and up at 1 m
+  vec4 font;    // reach of the distances and rim width in cap heights, near plane in metres, -
+  uvec4 mode;   // 1: over, 0: additive; 1: there is a background; -; -
+}
+frame;
+
+layout(push_constant) uniform Item {
+  mat4 place;
+  vec4 colour;  // linear, not premultiplied
+  vec4 extra;   // line: width in metres; text: colour of the rim
+  uvec4 ids;    // label, first vec4 of the item's data, style, -
+}
+item;

@@ -1,0 +1,26 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+#include "shade.glsl"
+
+layout(set = 0, binding = 3) uniform sampler2DArray background;
+
+layout(location = 0) in vec3 normal_in_world;
+layout(location = 1) in vec3 towards_eye;
+layout(location = 0) out vec4 colour;
+
+// Only the nearest veil shows, so this replaces what it finds instead of blending with it: the
+// background is the one thing that can lie below, and it is fetched here. One pass, no sorting.
+void main() {
+  float light = item.ids.z == 1u ? rim_light(normal_in_world, towards_eye)
+                                 : headlight(normal_in_world, towards_eye);
+  vec3 below = vec3(0);
+  if (frame.mode.y == 1u) {
+    below = texelFetch(background, ivec3(gl_FragCoord.xy, gl_ViewIndex), 0).rgb;
+  }
+  // A rim's light is its opacity: where it is thin, the bone shows through.
+  float opacity = item.ids.z == 1u ? min(item.colour.a * light, 1.0) : item.colour.a;
+  float kept = frame.mode.x == 1u ? 1.0 - opacity : 1.0;
+  vec3 added = item.colour.rgb * min(item.colour.a * light, 1.0);
+  colour = vec4(below * kept + added, 1);
+}
