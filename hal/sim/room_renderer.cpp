@@ -1,0 +1,107 @@
+#include "hal/sim/room_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hal/sim/room_renderer_room.h"
+
+namespace orthonav::sim {
+namespace {
+
+/// Thins the bones to about a pixel of the background at arm's length.
+constexpr double kBoneCellM = 0.0025;
+
+/// Doubles the resolution: value i of the source stands at 2i+1 of the target.
+void doubled(const HalfImage& from, HalfImage& to) {
+  for (int y = 0; y < to.height; ++y) {
+    const int j = std::min((y + 1) / 2, from.height - 1);
+    const int i = std::max((y + 1) / 2 - 1, 0);
+    const float lower = y % 2 == 0 ? 0.75F : 0.25F;
+    const float* top = from.row(i);
+    const float* bottom = from.row(j);
+    float* out = to.grey.data() + static_cast<std::ptrdiff_t>(y) * to.width;
+    float before = top[0] + lower * (bottom[0] - top[0]);
+    out[0] = before;
+    int x = 1;
+    for (int k = 1; k < from.width; ++k) {
+      const float here = top[k] + lower * (bottom[k] - top[k]);
+      if (x < to.width) out[x++] = 0.75F * before + 0.25F * here;
+      if (x < to.width) out[x++] = 0.25F * before + 0.75F * here;
+      before = here;
+    }
+    for (; x < to.width; ++x) out[x] = before;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<RoomRenderer> RoomRenderer::create(RoomDescription room,
+                                                   const Magnitudes& magnitudes) {
+  return std::make_unique<SoftwareRoomRenderer>(std::move(room), magnitudes);
+}
+
+SoftwareRoomRenderer::SoftwareRoomRenderer(RoomDescription room, const Magnitudes& magnitudes)
+    : room_(std::move(room)),
+      ground_(room_),
+      coarse_bones_(room_, ground_, kBoneCellM),
+      bodies_(room_.tools),
+      sensor_(magnitudes),
+      painter_(room_, ground_) {}
+
+void SoftwareRoomRenderer::draw_background(const CameraLens& lens,
+                                           const Transform<LeftCamera, Spine>& camera_from_spine) {
+  background_.reset((lens.width_px() + 1) / 2, (lens.height_px() + 1) / 2);
+  quarter_.reset((background_.width + 1) / 2, (background_.height + 1) / 2);
+  const Transform<Spine, LeftCamera> spine_from_camera = camera_from_spine.inverse();
+  const Vec3 eye = spine_from_camera.translation();
+  const std::array<float, 3> origin{static_cast<float>(eye.x), static_cast<float>(eye.y),
+                                    static_cast<float>(eye.z)};
+  const Mat3& turn = spine_from_camera.rotation();
+  for (int j = 0; j < quarter_.height; ++j)
+    for (int i = 0; i < quarter_.width; ++i) {
+      const Vec3 ray = turn * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
+                                       std::min(4 * j + 2, lens.height_px() - 1));
+      float& grey = quarter_.grey[static_cast<std::size_t>(j * quarter_.width + i)];
+      grey = std::isnan(ray.x) ? 0.0F
+                               : ground_.grey(ground_.hit(
+                                     origin, {static_cast<float>(ray.x), static_cast<float>(ray.y),
+                                              static_cast<float>(ray.z)}));
+    }
+  doubled(quarter_, background_);
+  bone_image_.reset(background_.width, background_.height);
+  bone_image_.draw(coarse_bones_, ground_, camera_from_spine, lens, 0.5);
+  for (int y = bone_image_.low_row(); y < bone_image_.high_row(); ++y)
+    for (int x = 0; x < background_.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y * background_.width + x);
+      if (bone_image_.nearness()[i] > 0.0F)
+        background_.grey[i] = 68.0F + 92.0F * bone_image_.lit()[i];
+    }
+}
+
+void SoftwareRoomRenderer::render(std::span<const RoomState> states, const CameraModel& camera,
+                                  const Transform<LeftCamera, Rig>& camera_from_rig,
+                                  std::uint64_t noise_seed, GreyImage& image) {
+  image.width_px = camera.width_px();
+  image.height_px = camera.height_px();
+  if (states.empty() || camera.lookup().empty()) {  // our caller's bug; a black image shows it
+    image.pixels.assign(camera.lookup().size(), 0);
+    return;
+  }
+  const CameraLens lens(camera);
+  const RoomState& middle = states[states.size() / 2];
+  draw_background(lens, camera_from_rig * middle.room_from_rig.inverse() * middle.room_from_spine);
+  foreground_.reset(camera.width_px(), camera.height_px(), 1);
+  for (const RoomState& state : states) {
+    bodies_.gather(state, camera_from_rig * state.room_from_rig.inverse(), solids_);
+    layers_.add_moment(solids_, lens, 1.0F / static_cast<float>(states.size()), foreground_);
+  }
+  sensor_.expose(background_, foreground_, noise_seed, image);
+}
+
+void SoftwareRoomRenderer::picture(const RoomState& state, const PinholeView& view,
+                                   RgbaImage& image) {
+  painter_.paint(state, view, bodies_, image);
+}
+
+}  // namespace orthonav::sim

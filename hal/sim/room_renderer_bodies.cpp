@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hal/sim/room_renderer_layers.h"
+
+// How single bodies are drawn into their layers.
+namespace orthonav::sim {
+namespace {
+
+using Span = CoverageWindow::Span;
+
+/// The plate's rim in so many straight pieces a side: distortion bends them by less than 1e-3 px.
+constexpr int kRimPieces = 8;
+constexpr int kArcPieces = 14;
+constexpr float kBackAlbedo = 0.35F;
+
+struct Box {
+  Vec2 low{1e30, 1e30};
+  Vec2 high{-1e30, -1e30};
+  void add(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+};
+
+/// Inverse depth as a linear function of the pixel through three points.
+std::array<float, 3> plane_through(std::array<Vec2, 3> p, std::array<double, 3> nearness) {
+  const Vec2 u = p[1] - p[0];
+  const Vec2 v = p[2] - p[0];
+  const double det = u.x * v.y - u.y * v.x;
+  const double du = nearness[1] - nearness[0];
+  const double dv = nearness[2] - nearness[0];
+  const bool flat = std::abs(det) < 1e-9;  // seen edge-on
+  const double gx = flat ? 0.0 : (du * v.y - dv * u.y) / det;
+  const double gy = flat ? 0.0 : (dv * u.x - du * v.x) / det;
+  return {static_cast<float>(nearness[0] - gx * p[0].x - gy * p[0].y), static_cast<float>(gx),
+          static_cast<float>(gy)};
+}
+
+}  // namespace
+
+void Layers::draw(const Plate& plate, const Lens& lens) {
+  const auto& camera_from_marker = plate.camera_from_marker;
+  const auto project = [&](double x, double y) {
+    return lens.pixel((camera_from_marker * Point<Marker>{{x, y, 0.0}}).v);
+  };
+  Box box;
+  corners_px_.clear();
+  constexpr std::array<Vec2, 5> kTurns = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}};
+  for (std::size_t side = 0; side < 4; ++side)
+    for (int i = 0; i < kRimPieces; ++i) {
+      const double s = static_cast<double>(i) / kRimPieces;
+      const Vec2 at = plate.half_m * (kTurns[side] + s * (kTurns[side + 1] - kTurns[side]));
+      corners_px_.push_back(project(at.x, at.y));
+      box.add(corners_px_.back());
+    }
+  Layer* layer = open_layer(box.low, box.high, lens);
+  if (layer == nullptr) return;
+  const std::size_t rim = corners_px_.size();
+  double area = 0.0;
+  for (std::size_t i = 0; i < rim; ++i) {
+    const Vec2 a = corners_px_[i];
+    const Vec2 b = corners_px_[(i + 1) % rim];
+    area += a.x * b.y - a.y * b.x;
+  }
+  const double sign = area < 0.0 ? 1.0 : -1.0;  // makes the inside positive
+  const bool front = camera_from_marker.inverse().translation().z > 0.0;
+  const auto nearness_of = [&](Vec2 m) {
+    return 1.0 / (camera_from_marker * Point<Marker>{{m.x, m.y, 0.0}}).v.z;
+  };
+  const double h = plate.half_m;
+  const auto plane =
+      plane_through({corners_px_[0], corners_px_[kRimPieces], corners_px_[3 * kRimPieces]},
+                    {nearness_of({-h, -h}), nearness_of({h, -h}), nearness_of({-h, h})});
+  layer->nearness0 = plane[0];
+  layer->nearness_x = plane[1];
+  layer->nearness_y = plane[2];
+  layer->tool = plate.tool;
+  layer->rank = front ? 1 : -1;
+  Span* spans = spans_.data() + layer->spans;
+  CoverageWindow alpha(arena_.data() + layer->alpha, spans, layer->width, layer->height);
+  CoverageWindow light(arena_.data() + layer->light, spans, layer->width, layer->height);
+  const Vec2 origin{static_cast<double>(layer->x0), static_cast<double>(layer->y0)};
+  const float albedo = front ? kWhiteAlbedo : kBackAlbedo;
+  const double grey = static_cast<double>(kFullGrey * plate.light * albedo);
+  for (std::size_t i = 0; i < rim; ++i) {
+    const Vec2 a = corners_px_[i] - origin;
+    const Vec2 b = corners_px_[(i + 1) % rim] - origin;
+    alpha.add_segment(a, b, sign);
+    light.add_segment(a, b, sign * grey);
+  }
+  if (front && plate.pattern != nullptr) draw_face(plate, lens, *layer, sign);
+  integrate(*layer, layer->alpha);
+  // Both windows share their spans: the second must not be cut twice, and isn't.
+  integrate(*layer, layer->light);
+}
+
+void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, double sign) {
+  const TagPattern& pattern = *plate.pattern;
+  const int n = pattern.cells;
+  const auto vertex = [&](int row, int column) {
+    return static_cast<std::size_t>(row * (n + 1) + column);
+  };
+  corners_px_.clear();
+  for (int row = 0; row <= n; ++row)
+    for (int column = 0; column <= n; ++column) {
+      const Vec3 at{(column - 0.5 * n) * plate.cell_m, (0.5 * n - row) * plate.cell_m, 0.0};
+      const Vec2 pixel = lens.pixel((plate.camera_from_marker * Point<Marker>{at}).v);
+      corners_px_.push_back(
+          {pixel.x - static_cast<double>(layer.x0), pixel.y - static_cast<double>(layer.y0)});
+    }
+  const double step = static_cast<double>(kFullGrey * plate.light * (kBlackAlbedo - kWhiteAlbedo));
+  CoverageWindow light(arena_.data() + layer.light, spans_.data() + layer.spans, layer.width,
+                       layer.height);
+  // Counter-clockwise in Marker like the rim: right along a black cell's lower edge, up its right.
+  for (int row = 0; row <= n; ++row)
+    for (int column = 0; column < n; ++column) {
+      const int turn = static_cast<int>(pattern.is_black(row - 1, column)) -
+                       static_cast<int>(pattern.is_black(row, column));
+      if (turn != 0)
+        light.add_segment(corners_px_[vertex(row, column)], corners_px_[vertex(row, column + 1)],
+                          sign * step * turn);
+    }
+  for (int row = 0; row < n; ++row)
+    for (int column = 0; column <= n; ++column) {
+      const int turn = static_cast<int>(pattern.is_black(row, column - 1)) -
+                       static_cast<int>(pattern.is_black(row, column));
+      if (turn != 0)
+        light.add_segment(corners_px_[vertex(row + 1, column)], corners_px_[vertex(row, column)],
+                          sign * step * turn);
+    }
+}
+
+void Layers::draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens) {
+  const Vec2 a = lens.pixel(capsule.a);
+  const Vec2 b = lens.pixel(capsule.b);
+  const double ra = lens.focal_px() * capsule.radius_a_m / capsule.a.z;
+  const double rb = lens.focal_px() * capsule.radius_b_m / capsule.b.z;
+  Box box;
+  for (const double s : {-1.0, 1.0}) {
+    box.add({a.x + s * ra, a.y + s * ra});
+    box.add({b.x + s * rb, b.y + s * rb});
+  }
+  Layer* layer = open_layer(box.low, box.high, lens);
+  if (layer == nullptr) return;
+  // The outline: an arc round each end between the two tangents.
+  const Vec2 axis = b - a;
+  const double length = axis.norm();
+  const double lean = length > std::abs(ra - rb) ? std::acos((ra - rb) / length)
+                                                 : (ra > rb ? 0.0 : 3.14159265358979323846);
+  const double heading = std::atan2(axis.y, axis.x);
+  corners_px_.clear();
+  const Vec2 origin{static_cast<double>(layer->x0), static_cast<double>(layer->y0)};
+  const auto arc = [&](Vec2 centre, double radius, double from, double to) {
+    for (int i = 0; i <= kArcPieces; ++i) {
+      const double angle = from + (to - from) * i / kArcPieces;
+      corners_px_.push_back(centre - origin + radius * Vec2{std::cos(angle), std::sin(angle)});
+    }
+  };
+  arc(a, ra, heading + lean, heading + 2.0 * 3.14159265358979323846 - lean);
+  arc(b, rb, heading - lean, heading + lean);
+  CoverageWindow alpha(arena_.data() + layer->alpha, spans_.data() + layer->spans, layer->width,
+                       layer->height);
+  for (std::size_t i = 0; i < corners_px_.size(); ++i)
+    alpha.add_segment(corners_px_[i], corners_px_[(i + 1) % corners_px_.size()], -1.0);
+  integrate(*layer, layer->alpha);
+  shade(capsule, lamp_in_camera, a, b, ra, rb, *layer);
+}
+
+void Layers::shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b, double radius_a,
+                   double radius_b, Layer& layer) {
+  const Vec2 axis = b - a;
+  const double squared = std::max(axis.dot(axis), 1e-6);
+  // The front of the body, a radius nearer than its axis.
+  const double near_a = 1.0 / std::max(capsule.a.z - capsule.radius_a_m, 0.01);
+  const double near_b = 1.0 / std::max(capsule.b.z - capsule.radius_b_m, 0.01);
+  const Vec2 gradient = (near_b - near_a) / squared * axis;
+  layer.nearness_x = static_cast<float>(gradient.x);
+  layer.nearness_y = static_cast<float>(gradient.y);
+  layer.nearness0 = static_cast<float>(near_a - gradient.dot(a));
+  layer.tint = capsule.tint;
+  layer.tool = capsule.tool;
+  const float ax = static_cast<float>(axis.x / squared);
+  const float ay = static_cast<float>(axis.y / squared);
+  const float r0 = static_cast<float>(radius_a);
+  const float dr = static_cast<float>(radius_b - radius_a);
+  const Vec2 across{-axis.y / std::sqrt(squared), axis.x / std::sqrt(squared)};
+  const float cx = static_cast<float>(across.x);
+  const float cy = static_cast<float>(across.y);
+  const float lamp = static_cast<float>(across.dot({lamp_in_camera.x, lamp_in_camera.y}));
+  const float grey = kFullGrey * capsule.albedo;
+  const int stride = CoverageWindow::stride(layer.width);
+  for (int row = 0; row < layer.height; ++row) {
+    const Span span = spans_[layer.spans + static_cast<std::size_t>(row)];
+    const float* alpha = arena_.data() + layer.alpha + static_cast<std::ptrdiff_t>(row) * stride;
+    float* light = arena_.data() + layer.light + static_cast<std::ptrdiff_t>(row) * stride;
+    const float py = static_cast<float>(layer.y0 + row + 0.5 - a.y);
+    const float px0 = static_cast<float>(layer.x0 + 0.5 - a.x);
+    for (int x = span.low; x < span.high; ++x) {
+      const float px = px0 + static_cast<float>(x);
+      float t = px * ax + py * ay;
+      t = t < 0.0F ? 0.0F : (t > 1.0F ? 1.0F : t);
+      const float radius = std::max(r0 + t * dr, 0.3F);
+      float q = (px * cx + py * cy) / radius;
+      q = q < -1.0F ? -1.0F : (q > 1.0F ? 1.0F : q);
+      const float facing = 1.0F - q * q;
+      const float tilted = 1.0F - (q - 0.45F * lamp) * (q - 0.45F * lamp) * 5.0F;
+      const float shine = tilted > 0.0F ? capsule.gloss * tilted * tilted : 0.0F;
+      light[x] = alpha[x] * grey * (0.42F + 0.58F * facing + 0.25F * q * lamp + shine);
+    }
+  }
+}
+
+}  // namespace orthonav::sim

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "hal/sim/room.h"
+
+namespace orthonav::sim {
+
+/// A patch of smooth random values in [0, 1] that repeats; for blotches, folds and tissue.
+class Blotches {
+ public:
+  Blotches();
+  /// Bilinear; one repetition per unit of x and y.
+  [[nodiscard]] float at(float x, float y) const;
+
+ private:
+  std::vector<float> values_;
+};
+
+/// The patient's back under the drape with the open wound, in the frame of the spine: x left,
+/// y posterior (up, the patient lies prone), z superior. Where no spine is described, a draped
+/// table.
+class Ground {
+ public:
+  enum class Kind { kNothing, kFloor, kDrape, kSkin, kWall, kTissue };
+  struct Hit {
+    Kind kind = Kind::kNothing;
+    float x = 0.0F;
+    float y = 0.0F;
+    float z = 0.0F;
+    float distance = 0.0F;  ///< along the ray, in lengths of `direction`
+    float rim = 0.0F;       ///< 0 at the wound's middle, 1 at its rim, at the surface hit
+    float skin_rim = 0.0F;  ///< the same where the ray passed the level of the skin
+    float lamp = 0.0F;      ///< elevation of the ray, for what is beyond the floor
+  };
+  explicit Ground(const RoomDescription& room);
+
+  [[nodiscard]] Hit hit(const std::array<float, 3>& origin,
+                        const std::array<float, 3>& direction) const;
+  /// Grey as the cameras see it, and colour (linear light) for people.
+  [[nodiscard]] float grey(const Hit& hit) const;
+  [[nodiscard]] std::array<float, 3> colour(const Hit& hit) const;
+
+  /// Height of the skin, and of the tissue between the bones.
+  [[nodiscard]] float skin_height(float z) const;
+  [[nodiscard]] float tissue_height(float z) const { return skin_height(z) - kDepth; }
+  [[nodiscard]] float rim_at(float x, float z) const;
+
+ private:
+  static constexpr float kDepth = 0.036F;
+  [[nodiscard]] std::array<float, 3> drape_colour(const Hit& hit) const;
+
+  Blotches blotches_;
+  bool wound_ = false;
+  // Skin height: a + b (z - z0) + c (z - z0)², constant outside [low, high].
+  float z0_ = 0.0F;
+  float a_ = 0.0F;
+  float b_ = 0.0F;
+  float c_ = 0.0F;
+  float low_ = 0.0F;
+  float high_ = 0.0F;
+  float wound_x_ = 0.0F;
+  float wound_z_ = 0.0F;
+  float half_width_ = 0.04F;
+  float half_length_ = 0.08F;
+};
+
+}  // namespace orthonav::sim

@@ -1,0 +1,140 @@
+#include "hal/sim/room_renderer_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthonav::sim {
+namespace {
+
+constexpr int kDefaultWidthPx = 960;
+constexpr int kDefaultHeightPx = 540;
+constexpr std::size_t kEncodeSteps = 4096;
+
+/// Eye axes (y up, -z forward) to camera axes (y down, z forward).
+Transform<LeftCamera, Room> camera_from_room_of(const PinholeView& view) {
+  const Transform<LeftCamera, Eye> camera_from_eye{{{{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}}, {}};
+  return camera_from_eye * view.room_from_eye.inverse();
+}
+
+std::uint8_t encoded(float linear) {
+  const double v = static_cast<double>(std::clamp(linear, 0.0F, 1.0F));
+  const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * s));
+}
+
+std::array<float, 3> bone_colour(float lit, float height) {
+  // Blood stays in the grooves near the tissue.
+  const float clean = std::clamp((height - 0.0005F) / 0.005F, 0.0F, 1.0F);
+  const float light = 0.10F + 0.95F * lit;
+  return {light * (0.42F + 0.42F * clean), light * (0.13F + 0.60F * clean),
+          light * (0.08F + 0.44F * clean)};
+}
+
+}  // namespace
+
+PicturePainter::PicturePainter(const RoomDescription& room, const Ground& ground)
+    : ground_(ground), bones_(room, ground, 0.0) {
+  for (std::size_t i = 0; i < kEncodeSteps; ++i)
+    encode_.push_back(encoded(static_cast<float>(i) / (kEncodeSteps - 1)));
+}
+
+void PicturePainter::paint_ground(const PinholeLens& lens,
+                                  const Transform<Spine, LeftCamera>& spine_from_camera) {
+  const int columns = (width_ + 1) / 2;
+  const int rows = (height_ + 1) / 2;
+  coarse_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  coarse_nearness_.resize(coarse_.size());
+  const Vec3 eye = spine_from_camera.translation();
+  const std::array<float, 3> origin{static_cast<float>(eye.x), static_cast<float>(eye.y),
+                                    static_cast<float>(eye.z)};
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const Vec3 ray = spine_from_camera.rotation() * lens.ray({2.0 * i + 1.0, 2.0 * j + 1.0});
+      const Ground::Hit hit = ground_.hit(
+          origin,
+          {static_cast<float>(ray.x), static_cast<float>(ray.y), static_cast<float>(ray.z)});
+      const std::size_t at = static_cast<std::size_t>(j * columns + i);
+      coarse_[at] = ground_.colour(hit);
+      coarse_nearness_[at] = hit.distance > 0.0F ? 1.0F / hit.distance : 0.0F;
+    }
+  light_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  nearness_.resize(light_.size());
+  for (int y = 0; y < height_; ++y) {
+    const int low = std::max((y + 1) / 2 - 1, 0);
+    const int high = std::min((y + 1) / 2, rows - 1);
+    const float t = y % 2 == 0 ? 0.75F : 0.25F;
+    for (int x = 0; x < width_; ++x) {
+      const int left = std::max((x + 1) / 2 - 1, 0);
+      const int right = std::min((x + 1) / 2, columns - 1);
+      const float s = x % 2 == 0 ? 0.75F : 0.25F;
+      const auto& a = coarse_[static_cast<std::size_t>(low * columns + left)];
+      const auto& b = coarse_[static_cast<std::size_t>(low * columns + right)];
+      const auto& c = coarse_[static_cast<std::size_t>(high * columns + left)];
+      const auto& d = coarse_[static_cast<std::size_t>(high * columns + right)];
+      auto& out = light_[static_cast<std::size_t>(y * width_ + x)];
+      for (std::size_t k = 0; k < 3; ++k)
+        out[k] = (1 - t) * ((1 - s) * a[k] + s * b[k]) + t * ((1 - s) * c[k] + s * d[k]);
+      nearness_[static_cast<std::size_t>(y * width_ + x)] =
+          coarse_nearness_[static_cast<std::size_t>((y / 2) * columns + x / 2)];
+    }
+  }
+}
+
+void PicturePainter::paint_bones(const PinholeLens& lens,
+                                 const Transform<LeftCamera, Spine>& camera_from_spine) {
+  bone_image_.reset(width_, height_);
+  bone_image_.draw(bones_, ground_, camera_from_spine, lens, 1.0);
+  for (int y = bone_image_.low_row(); y < bone_image_.high_row(); ++y)
+    for (int x = 0; x < width_; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y * width_ + x);
+      if (bone_image_.nearness()[i] <= 0.0F) continue;
+      light_[i] = bone_colour(bone_image_.lit()[i], bone_image_.height()[i]);
+      nearness_[i] = bone_image_.nearness()[i];
+    }
+}
+
+void PicturePainter::merge_tools(RgbaImage& image) {
+  const std::size_t plane = foreground_.plane();
+  for (int y = 0; y < height_; ++y) {
+    const CoverageWindow::Span span = foreground_.spans[static_cast<std::size_t>(y)];
+    const std::size_t row = foreground_.row(y);
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
+      const std::array<float, 3>& c = light_[row + x];
+      std::uint8_t* out = image.pixels.data() + 4 * (row + x);
+      for (std::size_t k = 0; k < 3; ++k)
+        out[k] = encode_[static_cast<std::size_t>(std::clamp(c[k], 0.0F, 1.0F) *
+                                                  static_cast<float>(kEncodeSteps - 1))];
+      // Bodies carry greys as a display shows them, so they are laid over the encoded background.
+      if (static_cast<int>(x) >= span.low && static_cast<int>(x) < span.high)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const float below = static_cast<float>(out[k]);
+          const float v =
+              below + foreground_.light[k * plane + row + x] - foreground_.opacity[row + x] * below;
+          out[k] = static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F));
+        }
+      out[3] = 255;
+    }
+  }
+}
+
+void PicturePainter::paint(const RoomState& state, const PinholeView& view,
+                           const ToolBodies& bodies, RgbaImage& image) {
+  if (image.width_px <= 0 || image.height_px <= 0) {
+    image.width_px = kDefaultWidthPx;
+    image.height_px = kDefaultHeightPx;
+  }
+  width_ = image.width_px;
+  height_ = image.height_px;
+  image.pixels.resize(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  const PinholeLens lens(view, width_, height_);
+  const Transform<LeftCamera, Room> camera_from_room = camera_from_room_of(view);
+  const Transform<LeftCamera, Spine> camera_from_spine = camera_from_room * state.room_from_spine;
+  paint_ground(lens, camera_from_spine.inverse());
+  paint_bones(lens, camera_from_spine);
+  foreground_.reset(width_, height_, 3);
+  bodies.gather(state, camera_from_room, solids_);
+  layers_.add_moment(solids_, lens, 1.0F, foreground_, nearness_.data());
+  merge_tools(image);
+}
+
+}  // namespace orthonav::sim

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "hal/sim/room_renderer_bones.h"
+#include "hal/sim/room_renderer_layers.h"
+
+namespace orthonav::sim {
+
+/// Paints the room in colour for people. The image's size is the one it comes with; an empty image
+/// becomes 960×540.
+class PicturePainter {
+ public:
+  PicturePainter(const RoomDescription& room, const Ground& ground);
+  void paint(const RoomState& state, const PinholeView& view, const ToolBodies& bodies,
+             RgbaImage& image);
+
+ private:
+  void paint_ground(const PinholeLens& lens, const Transform<Spine, LeftCamera>& spine_from_camera);
+  void paint_bones(const PinholeLens& lens, const Transform<LeftCamera, Spine>& camera_from_spine);
+  void merge_tools(RgbaImage& image);
+
+  const Ground& ground_;
+  BoneSurface bones_;
+  BoneImage bone_image_;
+  Layers layers_;
+  Foreground foreground_;
+  Solids solids_;
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<std::array<float, 3>> coarse_;  ///< linear light, half resolution
+  std::vector<float> coarse_nearness_;
+  std::vector<std::array<float, 3>> light_;
+  std::vector<float> nearness_;
+  std::vector<std::uint8_t> encode_;  ///< linear light in 1/4095 to sRGB
+};
+
+}  // namespace orthonav::sim

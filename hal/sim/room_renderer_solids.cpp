@@ -1,0 +1,148 @@
+#include "hal/sim/room_renderer_solids.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthonav::sim {
+namespace {
+
+/// The white margin goes on past the quiet zone by this part of a cell.
+constexpr double kMarginCells = 0.25;
+constexpr Vec3 kLampInRoom{0.24, 0.94, 0.24};
+constexpr Tint kSteel{0.93F, 0.97F, 1.0F};
+constexpr Tint kHandleTint{0.75F, 0.85F, 1.0F};
+constexpr Tint kGlove{0.93F, 0.96F, 1.0F};
+constexpr Tint kGown{0.42F, 0.78F, 0.80F};
+/// Nearer to the camera than this nothing is drawn.
+constexpr double kNearM = 0.06;
+
+Capsule rod(Vec3 a, Vec3 b, double radius_a, double radius_b, float albedo, float gloss,
+            Tint tint) {
+  return {a, b, radius_a, radius_b, albedo, gloss, tint, 0};
+}
+
+/// Shaft from the tip, handle, and a bracket that holds the plate from behind.
+std::vector<Capsule> rods_of(const RoomTool& tool, double half_m) {
+  std::vector<Capsule> rods;
+  const Vec3 tip = tool.tip_in_marker.v;
+  const double length = tool.axis_in_marker.norm();
+  if (!(length > 0.0)) return rods;
+  const Vec3 axis = tool.axis_in_marker / length;
+  const double reach = -tip.dot(axis);  // along the axis to the point nearest the tag's centre
+  const Vec3 foot = tip + reach * axis;
+  const double aside = foot.norm();
+  // The rod ends at the plate's rim where it would cross the plate.
+  const double rim = aside < half_m ? std::sqrt(half_m * half_m - aside * aside) : -0.02;
+  const double end = reach - rim;
+  if (!(end > 0.012)) return rods;
+  const double shaft = tool.kind == ToolKind::kGuide ? 0.0045 : 0.0018;
+  const double handle = tool.kind == ToolKind::kReference ? 0.004 : 0.0075;
+  const double grip = 0.45 * end;
+  const auto at = [&](double s) { return tip + s * axis; };
+  const double point = tool.kind == ToolKind::kGuide ? 0.6 * shaft : 0.0004;
+  rods.push_back(rod(at(0.0), at(0.008), point, shaft, 0.5F, 0.5F, kSteel));
+  rods.push_back(rod(at(0.008), at(grip + 0.004), shaft, shaft, 0.5F, 0.5F, kSteel));
+  if (tool.kind == ToolKind::kReference)
+    rods.push_back(rod(at(grip), at(end), handle, handle, 0.45F, 0.4F, kSteel));
+  else
+    rods.push_back(rod(at(grip), at(end), handle, 0.85 * handle, 0.2F, 0.2F, kHandleTint));
+  const Vec3 behind{0.0, 0.0, -0.006};
+  rods.push_back(rod(at(end), behind, 0.004, 0.004, 0.35F, 0.3F, kSteel));
+  return rods;
+}
+
+float lit(Vec3 normal_in_room) {
+  const double cosine = std::max(0.0, normal_in_room.dot(kLampInRoom.normalized()));
+  return static_cast<float>(0.78 + 0.25 * cosine);
+}
+
+/// Cuts what lies nearer than kNearM; false when nothing is left.
+bool clip_near(Capsule& c) {
+  if (!c.a.is_finite() || !c.b.is_finite()) return false;
+  if (c.a.z < kNearM && c.b.z < kNearM) return false;
+  if (c.a.z >= kNearM && c.b.z >= kNearM) return true;
+  const double s = (kNearM - c.a.z) / (c.b.z - c.a.z);
+  const Vec3 cut = c.a + s * (c.b - c.a);
+  const double radius = c.radius_a_m + s * (c.radius_b_m - c.radius_a_m);
+  (c.a.z < kNearM ? c.a : c.b) = cut;
+  (c.a.z < kNearM ? c.radius_a_m : c.radius_b_m) = radius;
+  c.a.z = std::max(c.a.z, kNearM);
+  c.b.z = std::max(c.b.z, kNearM);
+  return true;
+}
+
+void add_hand(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
+              std::vector<Capsule>& capsules) {
+  const Vec3 centre = state.hand->v;
+  const double length = state.hand_axis.norm();
+  const Vec3 back = length > 0.0 ? state.hand_axis / length : Vec3{0, 1, 0};
+  const Vec3 hint = std::abs(back.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+  const Vec3 side = back.cross(hint).normalized();
+  const Vec3 up = side.cross(back);
+  const auto add = [&](Vec3 a, Vec3 b, double ra, double rb, float albedo, Tint tint) {
+    Capsule c{(camera_from_room * Point<Room>{a}).v,
+              (camera_from_room * Point<Room>{b}).v,
+              ra,
+              rb,
+              albedo,
+              0.1F,
+              tint,
+              -1};
+    if (clip_near(c)) capsules.push_back(c);
+  };
+  // A fist of four fingers and a thumb round the handle, wrist, sleeve of the gown.
+  add(centre + 0.02 * back, centre + 0.06 * back, 0.027, 0.030, 0.52F, kGlove);
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 knuckle = centre + (0.027 - 0.018 * i) * side + 0.015 * up + 0.012 * back;
+    add(knuckle, knuckle - 0.020 * back - 0.022 * up, 0.0105, 0.009, 0.56F, kGlove);
+  }
+  add(centre + 0.035 * side + 0.02 * back, centre + 0.018 * side - 0.018 * back, 0.012, 0.010,
+      0.55F, kGlove);
+  add(centre + 0.06 * back, centre + 0.11 * back, 0.030, 0.034, 0.52F, kGlove);
+  add(centre + 0.10 * back, centre + 0.30 * back, 0.037, 0.046, 0.36F, kGown);
+}
+
+}  // namespace
+
+ToolBodies::ToolBodies(const std::vector<RoomTool>& tools) {
+  for (const RoomTool& tool : tools) {
+    Body body;
+    body.pattern = tag_pattern(tool.family, tool.id);
+    const int border = body.pattern ? body.pattern->border_cells : 8;
+    const int cells = body.pattern ? body.pattern->cells : 10;
+    body.cell_m = tool.size_m / border;
+    body.half_m = (0.5 * std::max(cells, border + 2) + kMarginCells) * body.cell_m;
+    body.rods = rods_of(tool, body.half_m);
+    bodies_.push_back(std::move(body));
+  }
+}
+
+void ToolBodies::gather(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
+                        Solids& solids) const {
+  solids.plates.clear();
+  solids.capsules.clear();
+  solids.lamp_in_camera = (camera_from_room * Direction<Room>{kLampInRoom.normalized()}).v;
+  const std::size_t known =
+      std::min({bodies_.size(), state.room_from_marker.size(), state.tool_present.size()});
+  for (std::size_t i = 0; i < known; ++i) {
+    if (!state.tool_present[i]) continue;
+    const Body& body = bodies_[i];
+    const auto camera_from_marker = camera_from_room * state.room_from_marker[i];
+    const Vec3 at = camera_from_marker.translation();
+    if (!at.is_finite()) continue;
+    if (at.z - 1.5 * body.half_m > kNearM && body.half_m > 0.0)
+      solids.plates.push_back(
+          {camera_from_marker, body.pattern ? &*body.pattern : nullptr, body.cell_m, body.half_m,
+           lit(state.room_from_marker[i].rotation().column(2)), static_cast<int>(i)});
+    for (const Capsule& in_marker : body.rods) {
+      Capsule c = in_marker;
+      c.tool = static_cast<int>(i);
+      c.a = (camera_from_marker * Point<Marker>{c.a}).v;
+      c.b = (camera_from_marker * Point<Marker>{c.b}).v;
+      if (clip_near(c)) solids.capsules.push_back(c);
+    }
+  }
+  if (state.hand) add_hand(state, camera_from_room, solids.capsules);
+}
+
+}  // namespace orthonav::sim

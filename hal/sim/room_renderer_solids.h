@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/sim/room.h"
+#include "hal/sim/tag_pattern.h"
+
+namespace orthonav::sim {
+
+using Tint = std::array<float, 3>;
+
+/// What a surface returns of the light, 0 to 1. The printed black and white give about 30 and 200
+/// grey under the lamp.
+inline constexpr float kWhiteAlbedo = 0.80F;
+inline constexpr float kBlackAlbedo = 0.12F;
+/// Grey of a white surface that faces the lamp.
+inline constexpr float kFullGrey = 250.0F;
+
+/// A tag's square plate in the camera frame. Its face is +z of Marker.
+struct Plate {
+  Transform<LeftCamera, Marker> camera_from_marker;
+  const TagPattern* pattern = nullptr;  ///< null: blank
+  double cell_m = 0.0;
+  double half_m = 0.0;  ///< half the plate's width, quiet zone and margin included
+  float light = 1.0F;
+  int tool = 0;
+};
+
+/// A tapered rod with round ends in the camera frame.
+struct Capsule {
+  Vec3 a;
+  Vec3 b;
+  double radius_a_m = 0.0;
+  double radius_b_m = 0.0;
+  float albedo = 0.5F;
+  float gloss = 0.0F;
+  Tint tint{1, 1, 1};
+  int tool = -1;  ///< the hand: -1
+};
+
+struct Solids {
+  Vec3 lamp_in_camera{0, -1, 0};  ///< unit, towards the lamp
+  std::vector<Plate> plates;
+  std::vector<Capsule> capsules;
+};
+
+/// Tools and hand as bodies. Built once for a room; `gather` reuses the vectors given.
+class ToolBodies {
+ public:
+  explicit ToolBodies(const std::vector<RoomTool>& tools);
+  /// Everything in front of the camera at that moment.
+  void gather(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
+              Solids& solids) const;
+
+ private:
+  struct Body {
+    std::optional<TagPattern> pattern;
+    double cell_m = 0.0;
+    double half_m = 0.0;
+    std::vector<Capsule> rods;  ///< in Marker
+  };
+  std::vector<Body> bodies_;
+};
+
+}  // namespace orthonav::sim

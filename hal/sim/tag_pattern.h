@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace orthonav::sim {
+
+/// A printed tag as a square of cells, seen upright: row 0 on top, its white margin included.
+struct TagPattern {
+  int cells = 0;         ///< across the whole pattern
+  int border_cells = 0;  ///< across the outer edge of the border, which the tag's size measures
+  std::vector<std::uint8_t> black;  ///< row-major, 1: black
+
+  [[nodiscard]] bool is_black(int row, int column) const {
+    if (row < 0 || column < 0 || row >= cells || column >= cells) return false;
+    return black[static_cast<std::size_t>(row * cells + column)] != 0;
+  }
+};
+
+/// The pattern out of libapriltag's own tables; nothing for a family or id it does not know.
+[[nodiscard]] std::optional<TagPattern> tag_pattern(const std::string& family, int id);
+
+}  // namespace orthonav::sim
