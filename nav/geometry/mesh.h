@@ -24,6 +24,10 @@ struct TriangleMesh {
 /// A mesh that is closed but oriented inward is turned.
 Result<TriangleMesh> checked_vertebra(TriangleMesh mesh);
 
+/// The same surface with vertices at exactly equal places made one, and the faces that collapse
+/// thereby left out: what a format without shared vertices (STL) needs before the check above.
+TriangleMesh welded(const TriangleMesh& mesh);
+
 struct SurfacePoint {
   Vec3 point_m;
   Vec3 normal;  ///< of the triangle, outward
@@ -47,6 +51,7 @@ class SurfaceIndex {
   [[nodiscard]] std::optional<SurfacePoint> nearest(Vec3 query_m, double within_m = 1e9) const;
   /// First intersection along origin + s·direction, s ≥ 0; `direction` of any length.
   [[nodiscard]] std::optional<RayHit> first_hit(Vec3 origin_m, Vec3 direction) const;
+  /// Whether a closed, outward-oriented surface encloses the point.
   [[nodiscard]] bool contains(Vec3 query_m) const;
 
  private:
@@ -56,6 +61,9 @@ class SurfaceIndex {
     std::uint32_t first = 0;  ///< first triangle of a leaf, or the left child
     std::uint32_t count = 0;  ///< 0 for an inner node (children at first and first + 1)
   };
+  void split(std::size_t node, std::size_t begin, std::size_t end,
+             const std::vector<Vec3>& centres_m, std::vector<std::array<Vec3, 3>>& unordered);
+
   std::vector<Node> nodes_;
   std::vector<std::array<Vec3, 3>> corners_;  ///< in the order of the leaves
   std::vector<std::uint32_t> original_;

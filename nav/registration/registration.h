@@ -23,7 +23,7 @@ class VertebraModel {
   [[nodiscard]] const SurfaceIndex& reachable_surface() const { return reachable_surface_; }
 
  private:
-  VertebraModel(TriangleMesh mesh, TriangleMesh reachable);
+  VertebraModel(TriangleMesh mesh, TriangleMesh reachable, SurfaceIndex surface);
   TriangleMesh mesh_;
   TriangleMesh reachable_;
   SurfaceIndex surface_;

@@ -1,0 +1,176 @@
+#include "nav/geometry/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace orthonav::nav {
+namespace {
+
+constexpr double kSmallest_m = 0.030;
+constexpr double kLargest_m = 0.250;
+/// Less than this much of its bounding cube: folded flat, there is no inside.
+constexpr double kMinVolumeShare = 1e-4;
+
+struct DirectedEdge {
+  std::uint32_t low;
+  std::uint32_t high;
+  bool upward;  ///< runs from low to high
+};
+
+std::string number(double value, const char* format) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+Status check_numbers(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty() || mesh.vertices_m.empty()) return Error{"mesh has no faces"};
+  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i)
+    if (!mesh.vertices_m[i].is_finite())
+      return Error{"mesh vertex " + std::to_string(i) + " is not finite"};
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    for (const std::uint32_t v : t)
+      if (v >= mesh.vertices_m.size())
+        return Error{"mesh face " + std::to_string(i) + " names vertex " + std::to_string(v) +
+                     ", but there are only " + std::to_string(mesh.vertices_m.size())};
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      return Error{"mesh is not manifold: face " + std::to_string(i) + " names vertex " +
+                   std::to_string(t[0] == t[1] ? t[0] : t[2]) + " twice"};
+  }
+  return {};
+}
+
+/// The largest extent along an axis, of the vertices that faces use.
+double extent_m(const TriangleMesh& mesh) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Vec3 low{kFar, kFar, kFar};
+  Vec3 high{-kFar, -kFar, -kFar};
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], mesh.vertices_m[v][axis]);
+        high[axis] = std::max(high[axis], mesh.vertices_m[v][axis]);
+      }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+Status check_size(double size_m) {
+  if (size_m >= kSmallest_m && size_m <= kLargest_m) return {};
+  std::string message = "mesh is " + number(size_m * 1e3, "%.6g") +
+                        " mm across, limit 30-250 mm (a lumbar vertebra is 60-130 mm)";
+  const auto plausible = [](double m) { return m >= kSmallest_m && m <= kLargest_m; };
+  if (plausible(size_m * 1e3))
+    message += ": its unit looks like metres taken for millimetres";
+  else if (plausible(size_m * 1e-3))
+    message += ": its unit looks like millimetres taken for metres";
+  return Error{message};
+}
+
+std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k];
+      const std::uint32_t b = t[(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a < b});
+    }
+  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+    return std::tie(a.low, a.high, a.upward) < std::tie(b.low, b.high, b.upward);
+  });
+  return edges;
+}
+
+Status check_closed(const TriangleMesh& mesh) {
+  const std::vector<DirectedEdge> edges = sorted_edges(mesh);
+  std::size_t open = 0;
+  std::size_t crowded = 0;
+  std::size_t against = 0;
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t j = i;
+    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
+    if (j - i == 1) ++open;
+    if (j - i > 2) ++crowded;
+    if (j - i == 2 && edges[i].upward == edges[i + 1].upward) ++against;
+    i = j;
+  }
+  if (open > 0)
+    return Error{"mesh is open: " + std::to_string(open) + " edges have one face, must have two"};
+  if (crowded > 0)
+    return Error{"mesh is not manifold: " + std::to_string(crowded) +
+                 " edges have more than two faces"};
+  if (against > 0)
+    return Error{"mesh is not oriented: the faces at " + std::to_string(against) +
+                 " edges are wound against each other"};
+  return {};
+}
+
+double signed_volume_m3(const TriangleMesh& mesh) {
+  // About a vertex, so that a model far from its origin keeps its digits.
+  const Vec3 o = mesh.vertices_m[mesh.triangles[0][0]];
+  double six_volumes = 0.0;
+  for (const auto& t : mesh.triangles)
+    six_volumes += (mesh.vertices_m[t[0]] - o)
+                       .dot((mesh.vertices_m[t[1]] - o).cross(mesh.vertices_m[t[2]] - o));
+  return six_volumes / 6.0;
+}
+
+}  // namespace
+
+Result<TriangleMesh> checked_vertebra(TriangleMesh mesh) {
+  if (const Status s = check_numbers(mesh); !s) return s.error();
+  const double size_m = extent_m(mesh);
+  if (const Status s = check_size(size_m); !s) return s.error();
+  if (const Status s = check_closed(mesh); !s) return s.error();
+  const double volume_m3 = signed_volume_m3(mesh);
+  if (std::abs(volume_m3) < kMinVolumeShare * size_m * size_m * size_m)
+    return Error{"mesh encloses no volume (" + number(volume_m3 * 1e9, "%.3g") + " mm3)"};
+  if (volume_m3 < 0.0)
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+TriangleMesh welded(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.vertices_m.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+  const auto key = [&](std::uint32_t i) {
+    const Vec3& v = mesh.vertices_m[i];
+    return std::tie(v.x, v.y, v.z);
+  };
+  // Vertices that are not finite would break the order; they stay single for the check to name.
+  const auto finite_end = std::partition(order.begin(), order.end(), [&](std::uint32_t i) {
+    return mesh.vertices_m[i].is_finite();
+  });
+  std::sort(order.begin(), finite_end, [&](std::uint32_t a, std::uint32_t b) {
+    return std::make_pair(key(a), a) < std::make_pair(key(b), b);
+  });
+  std::vector<std::uint32_t> first_like(mesh.vertices_m.size());
+  for (auto it = order.begin(); it != order.end(); ++it) {
+    const bool same = it != order.begin() && it < finite_end && key(*it) == key(*(it - 1));
+    first_like[*it] = same ? first_like[*(it - 1)] : *it;
+  }
+  TriangleMesh result;
+  std::vector<std::uint32_t> renamed(mesh.vertices_m.size());
+  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
+    if (first_like[i] != i) continue;
+    renamed[i] = static_cast<std::uint32_t>(result.vertices_m.size());
+    result.vertices_m.push_back(mesh.vertices_m[i]);
+  }
+  for (const auto& t : mesh.triangles) {
+    std::array<std::uint32_t, 3> u{};
+    bool in_range = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      in_range = in_range && t[k] < first_like.size();
+      u[k] = in_range ? renamed[first_like[t[k]]] : std::numeric_limits<std::uint32_t>::max();
+    }
+    const bool collapsed = in_range && (u[0] == u[1] || u[1] == u[2] || u[2] == u[0]);
+    if (!collapsed) result.triangles.push_back(u);
+  }
+  return result;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+
+#include "hal/api/result.h"
+#include "hal/api/transform.h"
+#include "nav/geometry/mesh.h"
+
+namespace orthonav::nav {
+
+struct IcpOptions {
+  int max_iterations = 100;
+  double converged_m = 1e-6;  ///< change of the RMSE that ends it
+};
+
+struct IcpResult {
+  Transform<World, Vertebra> world_from_vertebra;
+  double rmse_m = 0.0;  ///< of the closest points at that pose
+  int iterations = 0;
+};
+
+/// Iterative closest points (Besl & McKay 1992), point to point, every point weighted alike. Each
+/// step lowers the RMSE, so it ends in the nearest minimum, not in the best one: where it starts
+/// decides. An Error when the closest points are collinear.
+Result<IcpResult> refine_icp(const SurfaceIndex& surface,
+                             std::span<const Point<World>> points_in_world,
+                             const Transform<World, Vertebra>& start, const IcpOptions& options);
+
+}  // namespace orthonav::nav
