@@ -142,9 +142,8 @@ TriangleMesh welded(const TriangleMesh& mesh) {
     return std::tie(v.x, v.y, v.z);
   };
   // Vertices that are not finite would break the order; they stay single for the check to name.
-  const auto finite_end = std::partition(order.begin(), order.end(), [&](std::uint32_t i) {
-    return mesh.vertices_m[i].is_finite();
-  });
+  const auto finite_end = std::partition(
+      order.begin(), order.end(), [&](std::uint32_t i) { return mesh.vertices_m[i].is_finite(); });
   std::sort(order.begin(), finite_end, [&](std::uint32_t a, std::uint32_t b) {
     return std::make_pair(key(a), a) < std::make_pair(key(b), b);
   });

@@ -28,8 +28,7 @@ constexpr std::array<Node, 5> kGauss = {{{-0.9061798459386640, 0.236926885056189
 double gauss_m(const CatmullRom& curve, std::size_t segment, double a, double b) {
   double sum = 0.0;
   for (const Node& node : kGauss)
-    sum += node.weight *
-           curve.derivative(segment, 0.5 * (a + b) + 0.5 * (b - a) * node.x).norm();
+    sum += node.weight * curve.derivative(segment, 0.5 * (a + b) + 0.5 * (b - a) * node.x).norm();
   return 0.5 * (b - a) * sum;
 }
 

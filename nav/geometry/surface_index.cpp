@@ -56,8 +56,7 @@ SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) {
   std::vector<Vec3> centres_m(n);
   original_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < 3; ++k)
-      unordered[i][k] = mesh.vertices_m[mesh.triangles[i][k]];
+    for (std::size_t k = 0; k < 3; ++k) unordered[i][k] = mesh.vertices_m[mesh.triangles[i][k]];
     centres_m[i] = (unordered[i][0] + unordered[i][1] + unordered[i][2]) / 3.0;
     original_[i] = static_cast<std::uint32_t>(i);
   }

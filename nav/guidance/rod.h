@@ -17,9 +17,9 @@ struct RodBend {
 };
 
 struct RodTemplate {
-  std::vector<Vec3> heads_m;   ///< in the order along the rod
-  std::vector<Vec3> path_m;    ///< the spline, sampled every millimetre
-  double length_m = 0.0;       ///< of the spline, to 1 µm
+  std::vector<Vec3> heads_m;  ///< in the order along the rod
+  std::vector<Vec3> path_m;   ///< the spline, sampled every millimetre
+  double length_m = 0.0;      ///< of the spline, to 1 µm
   double diameter_m = 0.0055;
   std::vector<RodBend> bends;  ///< at the inner heads
 };

@@ -38,7 +38,9 @@ struct ScrewGuidance {
 
 inline constexpr double kTriangleReach_m = 0.080;
 
-/// `tool_axis_in_world` points from the tip back along the shaft, `tip_in_world` is its tip.
+/// `tool_axis_in_world` points from the tip back along the shaft, `tip_in_world` is its tip; the
+/// axis is of any length but zero, and the plan's entry and target differ (plan files are checked
+/// for it).
 [[nodiscard]] ScrewGuidance guide(const Transform<World, Vertebra>& world_from_vertebra,
                                   const ScrewPlan& plan, Point<World> tip_in_world,
                                   Vec3 tool_axis_in_world);

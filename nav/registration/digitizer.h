@@ -23,16 +23,23 @@ struct Region {
 };
 
 /// Collects pointer tips while the button is held, only from measured poses (Liebmann et al. 2019,
-/// section 3.2). "save" closes the current region, "delete" drops it (or, when it is empty, the last
-/// saved one).
+/// section 3.2). "save" closes the current region, "delete" drops it (or, when it is empty, the
+/// last saved one). One thread at a time.
 class Digitizer {
  public:
+  /// Starts recording into the current region, or into a new one after a save.
   void press(Timestamp time);
+  /// Ends recording; the region stays open for another press.
   void release(Timestamp time);
-  /// True when the pose became a sample.
+  /// True when the pose became a sample: recording, measured, finite, no older than the press, and
+  /// newer than the last sample (the same pose twice is one observation).
   bool add(const TrackedPose& world_from_marker, Point<Marker> tip_in_marker);
+  /// Keeps the current region; without samples there is nothing to keep.
   void save();
+  /// Drops the current region, or the last saved one when the current one has no samples. Recording
+  /// goes on while the button is held.
   void drop();
+  /// Forgets everything and stops recording.
   void clear();
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::span<const Region> regions() const { return regions_; }
@@ -40,8 +47,13 @@ class Digitizer {
   [[nodiscard]] std::size_t saved_count() const;
 
  private:
+  /// The region that samples go to: the last one, while it is not saved.
+  Region& current();
+
   std::vector<Region> regions_;
   bool recording_ = false;
+  Timestamp pressed_at_{};
+  Timestamp newest_ = Timestamp::min();
 };
 
 }  // namespace orthonav::nav

@@ -1,8 +1,8 @@
 #include "nav/registration/principal_axes.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Eigenvalues>
 
 namespace orthonav::nav {
 namespace {

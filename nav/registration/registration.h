@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -8,11 +9,12 @@
 #include "hal/api/result.h"
 #include "hal/api/transform.h"
 #include "nav/geometry/mesh.h"
+#include "nav/registration/principal_axes.h"
 
 namespace orthonav::nav {
 
-/// The preoperative vertebra, prepared once: its mesh (frame Vertebra: LPS axes, metres), the part a
-/// pointer can reach from behind, and their indices.
+/// The preoperative vertebra, prepared once: its mesh (frame Vertebra: LPS axes, metres), the part
+/// a pointer can reach from behind, and their indices.
 class VertebraModel {
  public:
   static Result<std::shared_ptr<const VertebraModel>> prepare(TriangleMesh mesh);
@@ -21,6 +23,9 @@ class VertebraModel {
   /// The posterior part: what is left after trimming what a pointer can't reach.
   [[nodiscard]] const TriangleMesh& reachable() const { return reachable_; }
   [[nodiscard]] const SurfaceIndex& reachable_surface() const { return reachable_surface_; }
+  /// Principal axes of the reachable surface (by area) and its extreme points along them.
+  [[nodiscard]] const PrincipalAxes& reachable_axes() const { return reachable_axes_; }
+  [[nodiscard]] const std::array<Vec3, 6>& reachable_extremes() const { return extremes_; }
 
  private:
   VertebraModel(TriangleMesh mesh, TriangleMesh reachable, SurfaceIndex surface);
@@ -28,13 +33,15 @@ class VertebraModel {
   TriangleMesh reachable_;
   SurfaceIndex surface_;
   SurfaceIndex reachable_surface_;
+  PrincipalAxes reachable_axes_;
+  std::array<Vec3, 6> extremes_;
 };
 
 struct RegistrationOptions {
   std::size_t min_points = 100;
-  int max_iterations = 100;
-  double converged_m = 1e-6;         ///< change of the RMSE that ends ICP
-  double max_rmse_m = 0.003;         ///< above: refused
+  int max_iterations = 200;
+  double converged_m = 1e-8;  ///< change of the RMSE that ends ICP; it creeps towards its end
+  double max_rmse_m = 0.003;  ///< above: refused
   double min_runner_up_ratio = 1.0;  ///< runner-up RMSE / RMSE that is still taken
 };
 

@@ -72,8 +72,9 @@ class AxialView {
     for (int row = 0; row < rows_; ++row)
       for (int column = 0; column < columns_; ++column)
         bone_or_seen_[cell(column, row)] =
-            surface.first_hit({b.low.x + (column - 0.5) * kGrid_m, y_of(row), b.low.z - kGrid_m},
-                              {0, 0, 1})
+            surface
+                .first_hit({b.low.x + (column - 0.5) * kGrid_m, y_of(row), b.low.z - kGrid_m},
+                           {0, 0, 1})
                 .has_value();
     flood(0, 0);  // the outside; the border is one free cell wide
   }

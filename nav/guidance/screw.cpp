@@ -1,0 +1,24 @@
+#include "nav/guidance/screw.h"
+
+namespace orthonav::nav {
+
+ScrewGuidance guide(const Transform<World, Vertebra>& world_from_vertebra, const ScrewPlan& plan,
+                    Point<World> tip_in_world, Vec3 tool_axis_in_world) {
+  const Point<World> entry = world_from_vertebra * plan.entry;
+  const Point<World> target = world_from_vertebra * plan.target;
+  const Vec3 inward = (target - entry).normalized();
+  const Vec3 tool_outward = tool_axis_in_world.normalized();
+  const Vec3 tip_from_entry = tip_in_world - entry;
+  ScrewGuidance g;
+  // The tool's axis points out of the patient, so the plan's outward side is compared with it.
+  g.angle_rad = angle_between_rad(tool_outward, -inward);
+  g.a = entry;
+  g.b = entry + kTriangleReach_m * tool_outward;
+  g.c = entry - kTriangleReach_m * inward;
+  g.tip_to_entry_m = tip_from_entry.norm();
+  g.tip_off_axis_m = tip_from_entry.cross(inward).norm();
+  g.depth_m = tip_from_entry.dot(inward);
+  return g;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,146 @@
+#include "nav/registration/coarse.h"
+
+#include <algorithm>
+#include <array>
+
+#include "nav/geometry/absolute_orientation.h"
+#include "nav/registration/icp.h"
+
+namespace orthonav::nav {
+namespace {
+
+using Pose = Transform<World, Vertebra>;
+
+constexpr double kSamePlace_m = 0.003;
+constexpr double kSameTurn_rad = 0.1;
+constexpr double kShift_m = 0.009;
+constexpr double kTurn_rad = 0.35;
+constexpr int kShakes = 4;
+/// Poses that are worth shaking; beyond these none has led to the right one.
+constexpr std::size_t kShaken = 10;
+/// Enough points to tell a good pose from a bad one, few enough to try hundreds.
+constexpr std::size_t kThinned = 80;
+/// A shaken pose is better only when its RMSE falls by more than ICP's own slack.
+constexpr double kBetter_m = 1e-5;
+constexpr IcpOptions kFirstLook{30, 1e-5};
+constexpr IcpOptions kShakeLook{25, 2e-5};
+
+std::vector<Point<World>> thinned(std::span<const Point<World>> points, std::size_t count) {
+  const std::size_t step = std::max<std::size_t>(1, points.size() / count);
+  std::vector<Point<World>> few;
+  for (std::size_t i = 0; i < points.size(); i += step) few.push_back(points[i]);
+  return few;
+}
+
+/// The 24 ways to lay one right-handed set of axes onto another, as order and direction of the
+/// digitized extreme points for every one of the model's.
+std::vector<std::array<Vec3, 6>> proper_pairings(const std::array<Vec3, 6>& extremes) {
+  constexpr std::array<std::array<std::size_t, 3>, 6> kOrders = {
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};  // 3 even, 3 odd
+  std::vector<std::array<Vec3, 6>> pairings;
+  for (std::size_t order = 0; order < kOrders.size(); ++order)
+    for (unsigned flips = 0; flips < 8; ++flips) {
+      const bool odd_flips = ((flips ^ (flips >> 1) ^ (flips >> 2)) & 1U) != 0;
+      if ((order >= 3) != odd_flips) continue;  // would mirror
+      std::array<Vec3, 6> paired;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t axis = kOrders[order][k];
+        const std::size_t flip = (flips >> k) & 1U;
+        paired[2 * k] = extremes[2 * axis + flip];
+        paired[2 * k + 1] = extremes[2 * axis + 1 - flip];
+      }
+      pairings.push_back(paired);
+    }
+  return pairings;
+}
+
+void sort_by_fit(std::vector<CoarsePose>& poses) {
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const CoarsePose& a, const CoarsePose& b) { return a.rmse_m < b.rmse_m; });
+}
+
+class Search {
+ public:
+  Search(const VertebraModel& model, std::span<const Point<World>> points)
+      : model_(model), few_(thinned(points, kThinned)) {}
+
+  [[nodiscard]] std::vector<CoarsePose> starts(std::span<const Point<World>> points) const {
+    std::vector<Vec3> digitized(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) digitized[i] = points[i].v;
+    const auto extremes = extreme_points(digitized, principal_axes(digitized));
+    std::vector<CoarsePose> found;
+    for (const auto& paired : proper_pairings(extremes))
+      if (const auto fit = absolute_orientation(model_.reachable_extremes(), paired))
+        if (const auto pose = look({fit->rotation, fit->translation_m}, kFirstLook))
+          found.push_back(*pose);
+    return found;
+  }
+
+  /// Leaves local minima: the best of twelve shaken and refined poses, again and again while it
+  /// gets better.
+  [[nodiscard]] CoarsePose shaken(CoarsePose pose) const {
+    for (int i = 0; i < kShakes; ++i) {
+      CoarsePose best = pose;
+      for (const Pose& start : neighbours(pose.world_from_vertebra))
+        if (const auto found = look(start, kShakeLook))
+          if (found->rmse_m < best.rmse_m - kBetter_m) best = *found;
+      if (best.rmse_m == pose.rmse_m) break;
+      pose = best;
+    }
+    return pose;
+  }
+
+  /// Sorted, without what lies close to a better one.
+  [[nodiscard]] std::vector<CoarsePose> distinct(std::vector<CoarsePose> poses,
+                                                 std::size_t most) const {
+    sort_by_fit(poses);
+    std::vector<CoarsePose> kept;
+    for (const CoarsePose& pose : poses)
+      if (kept.size() < most && std::all_of(kept.begin(), kept.end(), [&](const CoarsePose& k) {
+            return differ_clearly(model_, k.world_from_vertebra, pose.world_from_vertebra);
+          }))
+        kept.push_back(pose);
+    return kept;
+  }
+
+ private:
+  [[nodiscard]] std::optional<CoarsePose> look(const Pose& start, const IcpOptions& options) const {
+    const auto found = refine_icp(model_.reachable_surface(), few_, start, options);
+    if (!found) return std::nullopt;
+    return CoarsePose{found->world_from_vertebra, found->rmse_m};
+  }
+
+  [[nodiscard]] std::vector<Pose> neighbours(const Pose& pose) const {
+    const Vec3 centre = (pose * Point<Vertebra>{model_.reachable_axes().centre_m}).v;
+    std::vector<Pose> poses;
+    for (const Vec3& axis_in_vertebra : model_.reachable_axes().axes)
+      for (const double sign : {1.0, -1.0}) {
+        const Vec3 axis = sign * (pose.rotation() * axis_in_vertebra);
+        poses.emplace_back(pose.rotation(), pose.translation() + kShift_m * axis);
+        const Mat3 turn = rotation_from_vector(kTurn_rad * axis);
+        poses.emplace_back(turn * pose.rotation(), turn * (pose.translation() - centre) + centre);
+      }
+    return poses;
+  }
+
+  const VertebraModel& model_;
+  std::vector<Point<World>> few_;
+};
+
+}  // namespace
+
+bool differ_clearly(const VertebraModel& model, const Pose& a, const Pose& b) {
+  const Point<Vertebra> centre{model.reachable_axes().centre_m};
+  return (a * centre - b * centre).norm() > kSamePlace_m ||
+         rotation_angle_rad(a.rotation(), b.rotation()) > kSameTurn_rad;
+}
+
+std::vector<CoarsePose> coarse_poses(const VertebraModel& model,
+                                     std::span<const Point<World>> points_in_world) {
+  const Search search(model, points_in_world);
+  std::vector<CoarsePose> poses = search.distinct(search.starts(points_in_world), kShaken);
+  for (CoarsePose& pose : poses) pose = search.shaken(pose);
+  return search.distinct(std::move(poses), 2);
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,69 @@
+#include "nav/registration/digitizer.h"
+
+namespace orthonav::nav {
+namespace {
+
+/// Two minutes at 30 Hz: recording does not allocate.
+constexpr std::size_t kReservedSamples = 3600;
+
+}  // namespace
+
+Region& Digitizer::current() {
+  if (regions_.empty() || regions_.back().saved) {
+    regions_.emplace_back();
+    regions_.back().samples.reserve(kReservedSamples);
+  }
+  return regions_.back();
+}
+
+void Digitizer::press(Timestamp time) {
+  if (recording_) return;
+  recording_ = true;
+  pressed_at_ = time;
+  current();
+}
+
+void Digitizer::release(Timestamp /*time*/) { recording_ = false; }
+
+bool Digitizer::add(const TrackedPose& world_from_marker, Point<Marker> tip_in_marker) {
+  if (!recording_ || world_from_marker.origin != Origin::kMeasured) return false;
+  if (world_from_marker.time < pressed_at_ || world_from_marker.time <= newest_) return false;
+  const Point<World> tip_in_world = world_from_marker.value * tip_in_marker;
+  if (!tip_in_world.v.is_finite()) return false;
+  current().samples.push_back({tip_in_world, world_from_marker.time});
+  newest_ = world_from_marker.time;
+  return true;
+}
+
+void Digitizer::save() {
+  if (!regions_.empty() && !regions_.back().samples.empty()) regions_.back().saved = true;
+}
+
+void Digitizer::drop() {
+  if (!regions_.empty() && regions_.back().samples.empty()) regions_.pop_back();
+  if (!regions_.empty()) regions_.pop_back();
+}
+
+void Digitizer::clear() {
+  regions_.clear();
+  recording_ = false;
+  newest_ = Timestamp::min();
+}
+
+std::vector<Point<World>> Digitizer::saved_points() const {
+  std::vector<Point<World>> points;
+  points.reserve(saved_count());
+  for (const Region& region : regions_)
+    if (region.saved)
+      for (const Sample& sample : region.samples) points.push_back(sample.tip_in_world);
+  return points;
+}
+
+std::size_t Digitizer::saved_count() const {
+  std::size_t count = 0;
+  for (const Region& region : regions_)
+    if (region.saved) count += region.samples.size();
+  return count;
+}
+
+}  // namespace orthonav::nav

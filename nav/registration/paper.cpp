@@ -1,0 +1,89 @@
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "nav/registration/coarse.h"
+#include "nav/registration/icp.h"
+#include "nav/registration/registration.h"
+
+namespace orthonav::nav {
+namespace {
+
+/// Strokes narrower than this (standard deviation) along their second axis are a line.
+constexpr double kNarrowest_m = 0.001;
+/// Points of one vertebra are not farther than this (standard deviation) from their centre.
+constexpr double kWidest_m = 0.1;
+
+std::string line(const char* format, double a, double b) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+Status check(std::span<const Point<World>> points, const RegistrationOptions& options) {
+  const std::size_t fewest = std::max<std::size_t>(options.min_points, 3);
+  if (points.size() < fewest)
+    return Error{"registration has " + std::to_string(points.size()) + " points, needs at least " +
+                 std::to_string(fewest)};
+  std::vector<Vec3> numbers(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].v.is_finite())
+      return Error{"registration point " + std::to_string(i + 1) + " is not finite"};
+    numbers[i] = points[i].v;
+  }
+  const PrincipalAxes axes = principal_axes(numbers);
+  if (!(axes.deviation_m[0] <= kWidest_m))
+    return Error{
+        line("registration points spread %.4g mm (standard deviation), limit %.0f mm: not "
+             "one vertebra, or not in the unit given",
+             axes.deviation_m[0] * 1e3, kWidest_m * 1e3)};
+  if (!(axes.deviation_m[1] >= kNarrowest_m))
+    return Error{
+        line("registration points lie on a line or in one place (%.3g mm wide, at least "
+             "%.0f mm)",
+             axes.deviation_m[1] * 1e3, kNarrowest_m * 1e3)};
+  return {};
+}
+
+void judge(const VertebraModel& model, const RegistrationOptions& options, Registration& r) {
+  if (!(r.rmse_m <= options.max_rmse_m))
+    r.reasons.push_back(
+        line("registration RMSE %.1f mm, limit %.1f mm", r.rmse_m * 1e3, options.max_rmse_m * 1e3));
+  // Two starts that end in the same pose agree; only another pose is a rival.
+  const bool rival = differ_clearly(model, r.world_from_vertebra, r.runner_up);
+  if (rival && r.runner_up_rmse_m < options.min_runner_up_ratio * r.rmse_m)
+    r.reasons.push_back(
+        line("another pose fits nearly as well (%.2f times the RMSE, at least %.2f)",
+             r.runner_up_rmse_m / r.rmse_m, options.min_runner_up_ratio));
+  r.accepted = r.reasons.empty();
+}
+
+}  // namespace
+
+Result<Registration> register_paper(const VertebraModel& model,
+                                    std::span<const Point<World>> points_in_world,
+                                    const RegistrationOptions& options) {
+  if (const Status s = check(points_in_world, options); !s) return s.error();
+  const IcpOptions fine{options.max_iterations, options.converged_m};
+  std::vector<IcpResult> refined;
+  for (const CoarsePose& coarse : coarse_poses(model, points_in_world)) {
+    auto result =
+        refine_icp(model.reachable_surface(), points_in_world, coarse.world_from_vertebra, fine);
+    if (result) refined.push_back(*result);
+  }
+  if (refined.empty())
+    return Error{"registration finds no pose: the points match a single place of the model"};
+  if (refined.size() == 1) refined.push_back(refined[0]);
+  if (refined[1].rmse_m < refined[0].rmse_m) std::swap(refined[0], refined[1]);
+  Registration r;
+  r.world_from_vertebra = refined[0].world_from_vertebra;
+  r.rmse_m = refined[0].rmse_m;
+  r.iterations = refined[0].iterations;
+  r.runner_up = refined[1].world_from_vertebra;
+  r.runner_up_rmse_m = refined[1].rmse_m;
+  r.points = points_in_world.size();
+  judge(model, options, r);
+  return r;
+}
+
+}  // namespace orthonav::nav
