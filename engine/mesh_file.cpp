@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
-#include <bit>
 #include <cctype>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include "engine/atomic_file.h"
 
@@ -88,30 +86,6 @@ Result<nav::TriangleMesh> imported(const std::string& path) {
   }
 }
 
-/// Files repeat a vertex for each of its triangles with the same digits, so equal means equal.
-nav::TriangleMesh welded(const nav::TriangleMesh& apart) {
-  nav::TriangleMesh mesh;
-  std::map<std::array<std::uint64_t, 3>, std::uint32_t> known;
-  std::vector<std::uint32_t> new_index;
-  for (const Vec3& v : apart.vertices_m) {
-    // Adding zero turns -0 into +0.
-    const std::array<std::uint64_t, 3> key = {std::bit_cast<std::uint64_t>(v.x + 0.0),
-                                              std::bit_cast<std::uint64_t>(v.y + 0.0),
-                                              std::bit_cast<std::uint64_t>(v.z + 0.0)};
-    const auto next = static_cast<std::uint32_t>(mesh.vertices_m.size());
-    const auto [entry, added] = known.try_emplace(key, next);
-    if (added) mesh.vertices_m.push_back(v);
-    new_index.push_back(entry->second);
-  }
-  for (const auto& t : apart.triangles) {
-    const std::array<std::uint32_t, 3> triangle = {new_index[t[0]], new_index[t[1]],
-                                                   new_index[t[2]]};
-    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
-      mesh.triangles.push_back(triangle);
-  }
-  return mesh;
-}
-
 void put(std::string& bytes, const void* data, std::size_t size) {
   bytes.append(static_cast<const char*>(data), size);
 }
@@ -141,7 +115,8 @@ Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_u
   if (Status status = readable(path); !status) return status.error();
   Result<nav::TriangleMesh> apart = imported(path);
   if (!apart) return apart;
-  nav::TriangleMesh mesh = welded(*apart);
+  // Files repeat a vertex for each of its triangles with the same digits, so equal means equal.
+  nav::TriangleMesh mesh = nav::welded(*apart);
   const Axes used = declared_axes(path).value_or(axes);
   for (Vec3& v : mesh.vertices_m) v = to_lps(v, used) * metres_per_unit;
   Result<nav::TriangleMesh> checked = nav::checked_vertebra(std::move(mesh));

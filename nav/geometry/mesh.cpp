@@ -1,8 +1,11 @@
 #include "nav/geometry/mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -135,39 +138,26 @@ Result<TriangleMesh> checked_vertebra(TriangleMesh mesh) {
 }
 
 TriangleMesh welded(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.vertices_m.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
-  const auto key = [&](std::uint32_t i) {
-    const Vec3& v = mesh.vertices_m[i];
-    return std::tie(v.x, v.y, v.z);
-  };
-  // Vertices that are not finite would break the order; they stay single for the check to name.
-  const auto finite_end = std::partition(
-      order.begin(), order.end(), [&](std::uint32_t i) { return mesh.vertices_m[i].is_finite(); });
-  std::sort(order.begin(), finite_end, [&](std::uint32_t a, std::uint32_t b) {
-    return std::make_pair(key(a), a) < std::make_pair(key(b), b);
-  });
-  std::vector<std::uint32_t> first_like(mesh.vertices_m.size());
-  for (auto it = order.begin(); it != order.end(); ++it) {
-    const bool same = it != order.begin() && it < finite_end && key(*it) == key(*(it - 1));
-    first_like[*it] = same ? first_like[*(it - 1)] : *it;
-  }
   TriangleMesh result;
-  std::vector<std::uint32_t> renamed(mesh.vertices_m.size());
-  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
-    if (first_like[i] != i) continue;
-    renamed[i] = static_cast<std::uint32_t>(result.vertices_m.size());
-    result.vertices_m.push_back(mesh.vertices_m[i]);
+  std::map<std::array<std::uint64_t, 3>, std::uint32_t> known;
+  std::vector<std::uint32_t> renamed;
+  renamed.reserve(mesh.vertices_m.size());
+  for (const Vec3& v : mesh.vertices_m) {
+    // By their bits, so that even numbers that are not finite have an order; adding zero turns -0
+    // into +0.
+    const std::array<std::uint64_t, 3> key = {std::bit_cast<std::uint64_t>(v.x + 0.0),
+                                              std::bit_cast<std::uint64_t>(v.y + 0.0),
+                                              std::bit_cast<std::uint64_t>(v.z + 0.0)};
+    const auto next = static_cast<std::uint32_t>(result.vertices_m.size());
+    const auto [entry, added] = known.try_emplace(key, next);
+    if (added) result.vertices_m.push_back(v);
+    renamed.push_back(entry->second);
   }
-  for (const auto& t : mesh.triangles) {
-    std::array<std::uint32_t, 3> u{};
-    bool in_range = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      in_range = in_range && t[k] < first_like.size();
-      u[k] = in_range ? renamed[first_like[t[k]]] : std::numeric_limits<std::uint32_t>::max();
-    }
-    const bool collapsed = in_range && (u[0] == u[1] || u[1] == u[2] || u[2] == u[0]);
-    if (!collapsed) result.triangles.push_back(u);
+  for (std::array<std::uint32_t, 3> t : mesh.triangles) {
+    // An index out of range stays one, for the check to name.
+    for (std::uint32_t& v : t)
+      v = v < renamed.size() ? renamed[v] : std::numeric_limits<std::uint32_t>::max();
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) result.triangles.push_back(t);
   }
   return result;
 }
