@@ -14,8 +14,8 @@ struct RigidFit {
 };
 
 /// The rotation and translation that take `from` onto `to` with least squares, by unit quaternions
-/// (Horn 1987, "Closed-form solution of absolute orientation using unit quaternions"). Refuses fewer
-/// than 3 points, different counts, non-finite and collinear points. Never a reflection.
+/// (Horn 1987, "Closed-form solution of absolute orientation using unit quaternions"). Refuses
+/// fewer than 3 points, different counts, non-finite and collinear points. Never a reflection.
 Result<RigidFit> absolute_orientation(std::span<const Vec3> from_m, std::span<const Vec3> to_m);
 
 }  // namespace orthonav::nav

@@ -23,21 +23,22 @@ namespace {
 struct Family {
   apriltag_family_t* (*create)();
   void (*destroy)(apriltag_family_t*);
+  int codes;
 };
 
 constexpr std::array<std::string_view, 9> kNames = {
     "tag36h11",      "tag25h9",        "tag16h5",        "tagStandard41h12", "tagStandard52h13",
     "tagCircle21h7", "tagCircle49h12", "tagCustom48h12", "tag36h10"};
 constexpr std::array<Family, kNames.size()> kFamilies = {{
-    {tag36h11_create, tag36h11_destroy},
-    {tag25h9_create, tag25h9_destroy},
-    {tag16h5_create, tag16h5_destroy},
-    {tagStandard41h12_create, tagStandard41h12_destroy},
-    {tagStandard52h13_create, tagStandard52h13_destroy},
-    {tagCircle21h7_create, tagCircle21h7_destroy},
-    {tagCircle49h12_create, tagCircle49h12_destroy},
-    {tagCustom48h12_create, tagCustom48h12_destroy},
-    {tag36h10_create, tag36h10_destroy},
+    {tag36h11_create, tag36h11_destroy, 587},
+    {tag25h9_create, tag25h9_destroy, 35},
+    {tag16h5_create, tag16h5_destroy, 30},
+    {tagStandard41h12_create, tagStandard41h12_destroy, 2115},
+    {tagStandard52h13_create, tagStandard52h13_destroy, 48714},
+    {tagCircle21h7_create, tagCircle21h7_destroy, 38},
+    {tagCircle49h12_create, tagCircle49h12_destroy, 65535},
+    {tagCustom48h12_create, tagCustom48h12_destroy, 42211},
+    {tag36h10_create, tag36h10_destroy, 2320},
 }};
 
 // The library thresholds in tiles of so many (decimated) pixels.
@@ -127,6 +128,11 @@ std::string known_families_text() {
     text += name;
   }
   return text;
+}
+
+int family_size(std::string_view family) {
+  const std::size_t index = family_index(family);
+  return index < kFamilies.size() ? kFamilies[index].codes : 0;
 }
 
 bool is_known_family(const std::string& family) { return family_index(family) < kNames.size(); }

@@ -41,7 +41,9 @@ struct DetectorOptions {
 
 /// Names of the tag families that can be detected.
 [[nodiscard]] std::span<const std::string_view> known_families();
-/// The same in one line, for messages.
+/// How many ids a family has; 0 for an unknown one.
+[[nodiscard]] int family_size(std::string_view family);
+/// The names in one line, for messages.
 [[nodiscard]] std::string known_families_text();
 
 /// AprilTag 3's detector (Krogius, Haggenmiller, Olson 2019). One thread at a time. The images are

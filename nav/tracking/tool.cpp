@@ -1,8 +1,11 @@
 #include "nav/tracking/tool.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+
+#include "nav/tracking/marker_detector.h"
 
 namespace orthonav::nav {
 namespace {
@@ -21,9 +24,12 @@ std::string number(double value) {
 void check_marker(const ToolGeometry& tool, const std::string& name,
                   std::vector<std::string>& problems) {
   if (!is_known_family(tool.marker.family))
-    problems.push_back(name + ": unknown tag family '" + tool.marker.family + "'");
-  if (tool.marker.id < 0)
-    problems.push_back(name + ": tag id " + std::to_string(tool.marker.id) + " is negative");
+    problems.push_back(name + ": unknown tag family '" + tool.marker.family + "', known are " +
+                       known_families_text());
+  const int ids = family_size(tool.marker.family);
+  if (tool.marker.id < 0 || (ids > 0 && tool.marker.id >= ids))
+    problems.push_back(name + ": tag id " + std::to_string(tool.marker.id) + ", must be 0-" +
+                       std::to_string(std::max(ids, 1) - 1));
   if (!(tool.marker.size_m >= kSmallestMarkerM && tool.marker.size_m <= kLargestMarkerM))
     problems.push_back(name + ": tag size " + number(tool.marker.size_m * 1e3) +
                        " mm, must be 5-200 mm");
