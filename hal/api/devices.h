@@ -86,6 +86,7 @@ enum class ClickerAction { kPress, kRelease, kClick, kDoubleClick, kHold };
 struct ClickerEvent {
   ClickerAction action = ClickerAction::kPress;
   Timestamp time{};
+  friend bool operator==(const ClickerEvent&, const ClickerEvent&) = default;
 };
 
 /// Where a button is in its sequence of events.
@@ -138,6 +139,7 @@ struct Phrase {
   std::string text;
   double confidence = 0.0;
   Timestamp time{};
+  friend bool operator==(const Phrase&, const Phrase&) = default;
 };
 
 /// Contract: times never decrease, text is not empty, confidence lies in [0, 1].

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+
+namespace orthonav::testing {
+
+/// Everything that a headset said while it was asked in the manner of a frame loop.
+struct SessionLog {
+  struct Moment {
+    StereoFrame frame;
+    Timestamp clock{};
+    Timestamp display_time{};
+    Tracked<Transform<World, Rig>> head_now;
+    Tracked<Transform<World, Rig>> head_at_display;
+  };
+  std::vector<Moment> moments;
+  std::vector<ClickerEvent> clicker;
+  std::vector<Phrase> voice;
+  std::vector<std::string> errors;
+  bool ended = false;
+};
+
+/// Plays `headset` to its end, at most `max_calls` calls of next().
+inline SessionLog play(Headset& headset, int max_calls = 2000) {
+  SessionLog log;
+  StereoFrame frame;
+  for (int call = 0; call < max_calls && !log.ended; ++call) {
+    const auto answer = headset.cameras().next(frame);
+    if (!answer) log.errors.push_back(answer.error().message);
+    if (!answer || *answer == Next::kNone) continue;
+    log.ended = *answer == Next::kEnd;
+    const Timestamp now = headset.clock().now();
+    if (*answer == Next::kFrame) {
+      const Timestamp lit = headset.display().predicted_display_time(now);
+      log.moments.push_back({frame, now, lit, headset.head().world_from_rig(frame.time),
+                             headset.head().world_from_rig(lit)});
+      EXPECT_TRUE(headset.display().shown({lit, frame.time, {}}).ok());
+    }
+    if (Status s = headset.clicker().poll(now, log.clicker); !s)
+      log.errors.push_back(s.error().message);
+    if (Status s = headset.voice().poll(now, log.voice); !s)
+      log.errors.push_back(s.error().message);
+  }
+  return log;
+}
+
+inline void expect_same(const Tracked<Transform<World, Rig>>& a,
+                        const Tracked<Transform<World, Rig>>& b) {
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.origin, b.origin);
+  if (a.origin == Origin::kLost || b.origin == Origin::kLost) return;
+  EXPECT_EQ(a.value, b.value);
+  EXPECT_EQ(a.covariance, b.covariance);
+}
+
+/// The same bits throughout.
+inline void expect_same(const SessionLog& a, const SessionLog& b) {
+  EXPECT_EQ(a.ended, b.ended);
+  EXPECT_EQ(a.errors, b.errors);
+  EXPECT_TRUE(a.clicker == b.clicker);
+  EXPECT_TRUE(a.voice == b.voice);
+  ASSERT_EQ(a.moments.size(), b.moments.size());
+  for (std::size_t i = 0; i < a.moments.size(); ++i) {
+    SCOPED_TRACE("pair " + std::to_string(i));
+    const auto& x = a.moments[i];
+    const auto& y = b.moments[i];
+    EXPECT_EQ(x.frame.sequence, y.frame.sequence);
+    EXPECT_EQ(x.frame.time, y.frame.time);
+    EXPECT_TRUE(x.frame.left == y.frame.left);
+    EXPECT_TRUE(x.frame.right == y.frame.right);
+    EXPECT_EQ(x.frame.world_from_rig, y.frame.world_from_rig);
+    EXPECT_EQ(x.clock, y.clock);
+    EXPECT_EQ(x.display_time, y.display_time);
+    expect_same(x.head_now, y.head_now);
+    expect_same(x.head_at_display, y.head_at_display);
+  }
+}
+
+/// The same bits of table and extrinsics, NaN equal to NaN.
+inline void expect_same(const StereoCalibration& a, const StereoCalibration& b) {
+  EXPECT_EQ(a.left_from_rig, b.left_from_rig);
+  EXPECT_EQ(a.right_from_rig, b.right_from_rig);
+  const auto compare = [](const CameraModel& x, const CameraModel& y) {
+    ASSERT_EQ(x.width_px(), y.width_px());
+    ASSERT_EQ(x.height_px(), y.height_px());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < x.lookup().size(); ++i) {
+      const Vec2 p = x.lookup()[i];
+      const Vec2 q = y.lookup()[i];
+      const bool both_nothing = p.x != p.x && q.x != q.x;
+      if (!(p == q) && !both_nothing) ++different;
+    }
+    EXPECT_EQ(different, 0u);
+    const Vec2 aside{0.213, -0.176};
+    EXPECT_EQ(x.project(aside), y.project(aside));
+  };
+  compare(a.left, b.left);
+  compare(a.right, b.right);
+}
+
+}  // namespace orthonav::testing
