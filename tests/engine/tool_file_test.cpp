@@ -1,0 +1,120 @@
+#include "engine/tool_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::engine {
+namespace {
+
+using orthonav::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string tool(const std::string& fields) {
+  return R"({"tools": [{"name": "pointer", "role": "pointer", )" + fields + "}]}";
+}
+const std::string kMarker = R"("marker": {"family": "tag36h11", "id": 3, "size_mm": 50})";
+
+/// The one line that a tool file is refused with.
+std::string refusal(const std::string& text) {
+  const TemporaryFolder folder;
+  const auto tools = load_tools(folder.with("tools.json", text));
+  EXPECT_FALSE(tools.ok());
+  const std::string message = tools.ok() ? "" : tools.error().message;
+  EXPECT_THAT(message, HasSubstr("tools.json: "));
+  EXPECT_THAT(message, Not(HasSubstr("\n")));
+  return message;
+}
+
+TEST(ToolFile, ReadsMillimetresIntoMetres) {
+  const TemporaryFolder folder;
+  const auto tools = load_tools(
+      folder.with("tools.json", tool(kMarker + R"(, "tip_mm": [1, -150, 2], "axis": [0, 2, 0])")));
+  ASSERT_TRUE(tools.ok()) << tools.error().message;
+  ASSERT_EQ(tools->size(), 1u);
+  const nav::ToolGeometry& pointer = tools->front();
+  EXPECT_EQ(pointer.role, nav::ToolRole::kPointer);
+  EXPECT_EQ(pointer.marker.id, 3);
+  EXPECT_DOUBLE_EQ(pointer.marker.size_m, 0.050);
+  EXPECT_EQ(pointer.tip_in_marker.v, (Vec3{0.001, -0.150, 0.002}));
+  EXPECT_EQ(pointer.axis_in_marker.v, (Vec3{0, 1, 0})) << "any length of the axis serves";
+}
+
+TEST(ToolFile, WritesWhatItReadsBack) {
+  const TemporaryFolder folder;
+  const std::vector<nav::ToolGeometry> tools = built_in_tools();
+  ASSERT_TRUE(save_tools(folder.file("tools.json"), tools).ok());
+  const auto back = load_tools(folder.file("tools.json"));
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  ASSERT_EQ(back->size(), tools.size());
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    EXPECT_EQ((*back)[i].name, tools[i].name);
+    EXPECT_EQ((*back)[i].role, tools[i].role);
+    EXPECT_EQ((*back)[i].marker.family, tools[i].marker.family);
+    EXPECT_EQ((*back)[i].marker.id, tools[i].marker.id);
+    EXPECT_DOUBLE_EQ((*back)[i].marker.size_m, tools[i].marker.size_m);
+    EXPECT_LT(((*back)[i].tip_in_marker.v - tools[i].tip_in_marker.v).norm(), 1e-12);
+  }
+}
+
+TEST(ToolFile, HasAPointerAGuideAndAReferenceBuiltIn) {
+  const std::vector<nav::ToolGeometry> tools = built_in_tools();
+  ASSERT_EQ(tools.size(), 3u);
+  EXPECT_EQ(tools[0].role, nav::ToolRole::kPointer);
+  EXPECT_EQ(tools[1].role, nav::ToolRole::kGuide);
+  EXPECT_EQ(tools[2].role, nav::ToolRole::kReference);
+  EXPECT_TRUE(nav::problems_of(tools).empty());
+}
+
+TEST(ToolFile, RefusesMissingAndMistypedFieldsByName) {
+  const std::string tip = R"(, "tip_mm": [0, -150, 0])";
+  EXPECT_THAT(refusal(R"({})"), HasSubstr("tools is missing"));
+  EXPECT_THAT(refusal(R"({"tools": []})"), HasSubstr("tools is empty"));
+  EXPECT_THAT(refusal(R"({"tools": [5]})"), HasSubstr("tools[0] must be an object"));
+  EXPECT_THAT(refusal(tool(kMarker)), HasSubstr("tools[0].tip_mm is missing"));
+  EXPECT_THAT(refusal(tool(R"("tip_mm": [0, 0, 0])")), HasSubstr("tools[0].marker is missing"));
+  EXPECT_THAT(refusal(tool(R"("marker": {"family": "tag36h11", "id": 3})" + tip)),
+              HasSubstr("tools[0].marker.size_mm is missing"));
+  EXPECT_THAT(refusal(tool(R"("marker": {"family": "tag36h11", "id": 3.5, "size_mm": 5})" + tip)),
+              HasSubstr("tools[0].marker.id must be a whole number"));
+  EXPECT_THAT(refusal(tool(kMarker + R"(, "tip_mm": [0, "a", 0])")),
+              HasSubstr("tools[0].tip_mm must be a list of 3 finite numbers"));
+  EXPECT_THAT(refusal(tool(kMarker + R"(, "tip_mm": [0, 1])")),
+              HasSubstr("tools[0].tip_mm holds 2 numbers, must be 3"));
+  EXPECT_THAT(refusal(tool(kMarker + tip + R"(, "axis": [0, 0, 0])")),
+              HasSubstr("tools[0].axis must not be zero"));
+}
+
+TEST(ToolFile, RefusesAnUnknownRole) {
+  EXPECT_THAT(refusal(R"({"tools": [{"name": "x", "role": "hammer", )" + kMarker +
+                      R"(, "tip_mm": [0, 0, 0]}]})"),
+              HasSubstr("\"hammer\", must be pointer, guide or reference"));
+}
+
+TEST(ToolFile, RefusesAnUnknownFamily) {
+  EXPECT_THAT(refusal(tool(R"("marker": {"family": "tag99h1", "id": 3, "size_mm": 50},
+                              "tip_mm": [0, 0, 0])")),
+              HasSubstr("tag99h1"));
+}
+
+TEST(ToolFile, RefusesTheSameTagOnTwoTools) {
+  const std::string rest = kMarker + R"(, "tip_mm": [0, -100, 0]})";
+  EXPECT_THAT(refusal(R"({"tools": [{"name": "a", "role": "pointer", )" + rest +
+                      R"(, {"name": "b", "role": "guide", )" + rest + "]}"),
+              HasSubstr("3"));
+}
+
+TEST(ToolFile, RefusesWhatIsNotJsonOrNotThere) {
+  EXPECT_THAT(refusal("{\"tools\": [1, 2"), HasSubstr("is not JSON"));
+  EXPECT_THAT(refusal(""), HasSubstr("is not JSON"));
+  EXPECT_THAT(refusal("[]"), HasSubstr("must hold a JSON object"));
+  EXPECT_THAT(refusal(tool(R"("marker": {"family": "tag36h11", "id": 3, "size_mm": 1e999})")),
+              HasSubstr("too large"));
+  EXPECT_THAT(load_tools("/nowhere/tools.json").error().message, HasSubstr("cannot be opened"));
+  EXPECT_THAT(load_tools("/tmp").error().message, HasSubstr("is a folder"));
+}
+
+}  // namespace
+}  // namespace orthonav::engine
