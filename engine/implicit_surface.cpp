@@ -1,87 +1,19 @@
 #include "engine/implicit_surface.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "engine/dual_cells.h"
+#include "engine/sample_grid.h"
+
 namespace orthonav::engine {
 namespace {
 
-constexpr std::uint32_t kNoVertex = 0xffffffff;
 constexpr int kEveningRounds = 4;
 constexpr int kFinalSteps = 3;
-
-/// Values at the nodes of a regular grid; a cell has the index of its lowest corner.
-class Grid {
- public:
-  Grid(const ImplicitFunction& function, Vec3 low, Vec3 high, double step)
-      : low_(low), step_(step) {
-    for (int axis = 0; axis < 3; ++axis)
-      size_[static_cast<std::size_t>(axis)] =
-          static_cast<int>(std::ceil((high[axis] - low[axis]) / step)) + 1;
-    values_.reserve(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                    static_cast<std::size_t>(size_[2]));
-    for (int z = 0; z < size_[2]; ++z)
-      for (int y = 0; y < size_[1]; ++y)
-        for (int x = 0; x < size_[0]; ++x) values_.push_back(function(position(x, y, z)));
-  }
-  [[nodiscard]] Vec3 position(int x, int y, int z) const {
-    return low_ + step_ * Vec3{double(x), double(y), double(z)};
-  }
-  [[nodiscard]] std::size_t index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_[1]) +
-            static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(size_[0]) +
-           static_cast<std::size_t>(x);
-  }
-  [[nodiscard]] double value(int x, int y, int z) const { return values_[index(x, y, z)]; }
-  [[nodiscard]] bool inside(int x, int y, int z) const { return value(x, y, z) < 0.0; }
-  [[nodiscard]] int size(std::size_t axis) const { return size_[axis]; }
-  [[nodiscard]] std::size_t nodes() const { return values_.size(); }
-
- private:
-  Vec3 low_;
-  double step_;
-  std::array<int, 3> size_{};
-  std::vector<double> values_;
-};
-
-/// Mean of the places where the surface crosses the cell's twelve edges; false if it does not.
-bool cell_vertex(const Grid& grid, int x, int y, int z, Vec3& vertex) {
-  Vec3 sum;
-  int crossings = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int corner = 0; corner < 4; ++corner) {
-      std::array<int, 3> a = {x, y, z};
-      a[static_cast<std::size_t>((axis + 1) % 3)] += corner & 1;
-      a[static_cast<std::size_t>((axis + 2) % 3)] += corner >> 1;
-      std::array<int, 3> b = a;
-      ++b[static_cast<std::size_t>(axis)];
-      const double va = grid.value(a[0], a[1], a[2]);
-      const double vb = grid.value(b[0], b[1], b[2]);
-      if ((va < 0.0) == (vb < 0.0)) continue;
-      const Vec3 pa = grid.position(a[0], a[1], a[2]);
-      sum += pa + va / (va - vb) * (grid.position(b[0], b[1], b[2]) - pa);
-      ++crossings;
-    }
-  if (crossings > 0) vertex = sum / crossings;
-  return crossings > 0;
-}
-
-std::vector<std::uint32_t> place_vertices(const Grid& grid, nav::TriangleMesh& mesh) {
-  std::vector<std::uint32_t> vertex_of(grid.nodes(), kNoVertex);
-  for (int z = 0; z + 1 < grid.size(2); ++z)
-    for (int y = 0; y + 1 < grid.size(1); ++y)
-      for (int x = 0; x + 1 < grid.size(0); ++x) {
-        Vec3 vertex;
-        if (!cell_vertex(grid, x, y, z, vertex)) continue;
-        vertex_of[grid.index(x, y, z)] = static_cast<std::uint32_t>(mesh.vertices_m.size());
-        mesh.vertices_m.push_back(vertex);
-      }
-  return vertex_of;
-}
 
 /// Two triangles over the shorter diagonal, in the order given.
 void add_quad(const std::array<std::uint32_t, 4>& q, nav::TriangleMesh& mesh) {
@@ -98,28 +30,27 @@ void add_quad(const std::array<std::uint32_t, 4>& q, nav::TriangleMesh& mesh) {
 }
 
 /// One quad for each grid edge that the surface crosses, through the four cells around it.
-void join_vertices(const Grid& grid, const std::vector<std::uint32_t>& vertex_of,
-                   nav::TriangleMesh& mesh) {
-  for (int z = 1; z + 1 < grid.size(2); ++z)
-    for (int y = 1; y + 1 < grid.size(1); ++y)
-      for (int x = 1; x + 1 < grid.size(0); ++x)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          std::array<int, 3> end = {x, y, z};
-          ++end[axis];
-          const bool first_inside = grid.inside(x, y, z);
-          if (first_inside == grid.inside(end[0], end[1], end[2])) continue;
-          std::array<std::uint32_t, 4> quad{};
-          constexpr std::array<std::pair<int, int>, 4> kAround = {
-              {{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
-          for (std::size_t corner = 0; corner < 4; ++corner) {
-            std::array<int, 3> cell = {x, y, z};
-            cell[(axis + 1) % 3] += kAround[corner].first;
-            cell[(axis + 2) % 3] += kAround[corner].second;
-            quad[corner] = vertex_of[grid.index(cell[0], cell[1], cell[2])];
-          }
-          if (!first_inside) std::swap(quad[1], quad[3]);
-          add_quad(quad, mesh);
-        }
+void join_vertices(const SampleGrid& grid, const CellMap& map, nav::TriangleMesh& mesh) {
+  constexpr std::array<std::pair<int, int>, 4> kAround = {{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
+  for (const Cell& cell : map.cells)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // Each edge is taken from the one cell whose lowest corner it starts at.
+      if (!cell.crossed[edge_id(axis, 0, 0)]) continue;
+      const std::size_t first = (axis + 1) % 3;
+      const std::size_t second = (axis + 2) % 3;
+      if (cell.at[first] == 0 || cell.at[second] == 0) continue;
+      std::array<std::uint32_t, 4> quad{};
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        const auto [along_first, along_second] = kAround[corner];
+        const Cell& around =
+            map.at(grid, moved(moved(cell.at, first, along_first), second, along_second));
+        const std::size_t edge = edge_id(axis, static_cast<std::size_t>(-along_first),
+                                         static_cast<std::size_t>(-along_second));
+        quad[corner] = around.first_vertex + around.sheet[edge];
+      }
+      if (!grid.inside(cell.at)) std::swap(quad[1], quad[3]);
+      add_quad(quad, mesh);
+    }
 }
 
 /// One Newton step towards the zero surface, at most half a grid step long.
@@ -156,9 +87,9 @@ void even_out(const ImplicitFunction& function, double step, nav::TriangleMesh& 
 
 nav::TriangleMesh surface_of(const ImplicitFunction& inside_negative, Vec3 low_m, Vec3 high_m,
                              double step_m) {
-  const Grid grid(inside_negative, low_m, high_m, step_m);
+  const SampleGrid grid(inside_negative, low_m, high_m, step_m);
   nav::TriangleMesh mesh;
-  join_vertices(grid, place_vertices(grid, mesh), mesh);
+  join_vertices(grid, passed_cells(grid, mesh), mesh);
   for (int round = 0; round < kEveningRounds; ++round) even_out(inside_negative, step_m, mesh);
   for (int round = 0; round < kFinalSteps; ++round)
     for (Vec3& v : mesh.vertices_m) v = stepped_onto(inside_negative, v, step_m);

@@ -161,7 +161,7 @@ double VertebraShape::body(Vec3 p) const {
   const double a = 0.5 * mix(m_.lower_width_m, m_.upper_width_m, 0.5 * (t + 1.0)) - waist;
   const double b = 0.5 * mix(m_.lower_depth_m, m_.upper_depth_m, 0.5 * (t + 1.0)) - 0.7 * waist;
   // A superellipse, fuller than an ellipse and flatter behind.
-  const double exponent = p.y > 0.0 ? 2.7 : 2.2;
+  const double exponent = p.y > 0.0 ? 2.5 : 2.2;
   const double r =
       std::pow(std::pow(std::abs(p.x) / a, exponent) + std::pow(std::abs(p.y) / b, exponent),
                1.0 / exponent);
