@@ -16,8 +16,8 @@
 namespace orthonav::engine {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// Generated once for all tests.
 const Case& spine() {
