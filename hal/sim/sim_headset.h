@@ -23,11 +23,18 @@ struct SimOptions {
   /// The scripted surgeon plays; without one the tools hover over the table in slow motion.
   bool surgeon = true;
   double limit_s = 3600.0;  ///< the stream ends then at the latest (simulated time)
+  /// False leaves the images black and costs nothing: for whoever is not after the pixels.
+  bool render = true;
 };
 
-/// The simulated operating room as a headset. The same seed gives the same bits.
+/// The simulated operating room as a headset. The same seed gives the same bits, as long as what is
+/// shown comes at the same moments. Parts may be used from different threads; `truth` is read when
+/// nobody calls `cameras().next`. Half a second after the surgeon has seen the last step (`done`)
+/// the stream ends.
 class SimHeadset : public Headset {
  public:
+  /// Refuses magnitudes, options and rooms that make no sense, and a surgeon without pointer or
+  /// guide. Without levels there is nothing to operate: the tools hover, as without a surgeon.
   static Result<std::unique_ptr<SimHeadset>> open(RoomDescription room, const SimOptions& options);
   /// The truth so far.
   [[nodiscard]] virtual const Truth& truth() const = 0;

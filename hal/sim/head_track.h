@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "hal/api/tracked.h"
+#include "hal/api/transform.h"
+#include "hal/sim/magnitudes.h"
+#include "hal/sim/noise.h"
+
+namespace orthonav::sim {
+
+/// What the headset says of its own pose: a noisy measurement at every frame, in between on the
+/// line from one to the next, ahead of the newest with its velocity (an inertial sensor knows that
+/// well). Remembers 256 frames. Not thread-safe.
+class HeadTrack {
+ public:
+  HeadTrack(const Random& random, const Magnitudes& magnitudes);
+  /// The true poses at a frame and a moment before it.
+  void add(std::int64_t frame, Timestamp time, const Transform<World, Rig>& pose, Timestamp before,
+           const Transform<World, Rig>& pose_before);
+  [[nodiscard]] std::optional<Timestamp> newest() const;
+  [[nodiscard]] Tracked<Transform<World, Rig>> at(Timestamp time) const;
+  /// As it would have been answered when `known` was the newest measurement allowed.
+  [[nodiscard]] Tracked<Transform<World, Rig>> at(Timestamp time, Timestamp known) const;
+
+ private:
+  struct Node {
+    Timestamp time{};
+    Timestamp before{};
+    Transform<World, Rig> pose;  ///< true
+    Transform<World, Rig> pose_before;
+    Vec3 shift_m;
+    Vec3 turn_rad;
+  };
+  static constexpr std::size_t kKept = 256;
+  [[nodiscard]] const Node& back(std::size_t steps) const {
+    return nodes_[(count_ - 1 - steps) % kKept];
+  }
+  [[nodiscard]] static Transform<World, Rig> noisy(const Node& node,
+                                                   const Transform<World, Rig>& pose);
+
+  Random random_;
+  double noise_m_;
+  double noise_rad_;
+  std::array<Node, kKept> nodes_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace orthonav::sim

@@ -1,0 +1,55 @@
+#include "hal/sim/stereo_renderer.h"
+
+#include "hal/api/random.h"
+
+namespace orthonav::sim {
+
+StereoRenderer::StereoRenderer(const RoomDescription& room, const Magnitudes& magnitudes,
+                               StereoCalibration cameras, std::uint64_t seed)
+    : cameras_(std::move(cameras)),
+      seed_(seed),
+      left_(RoomRenderer::create(room, magnitudes)),
+      right_(RoomRenderer::create(room, magnitudes)),
+      worker_([this] { work(); }) {}
+
+StereoRenderer::~StereoRenderer() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  worker_.join();
+}
+
+void StereoRenderer::render(std::span<const RoomState> states, std::int64_t number,
+                            StereoFrame& frame) {
+  const Random noise = Random(seed_).fork("image").fork(static_cast<std::uint64_t>(number));
+  {
+    const std::lock_guard lock(mutex_);
+    job_ = {states, noise.fork("right").next(), &frame.right};
+  }
+  changed_.notify_all();
+  left_->render(states, cameras_.left, cameras_.left_from_rig, noise.fork("left").next(),
+                frame.left);
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return job_.image == nullptr; });
+}
+
+void StereoRenderer::work() {
+  // The renderer takes any camera's place under the left one's name.
+  const Transform<LeftCamera, Rig> right_from_rig{cameras_.right_from_rig.rotation(),
+                                                  cameras_.right_from_rig.translation()};
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return stop_ || job_.image != nullptr; });
+    if (stop_) return;
+    const Job job = job_;
+    lock.unlock();
+    right_->render(job.states, cameras_.right, right_from_rig, job.noise_seed, *job.image);
+    lock.lock();
+    job_.image = nullptr;
+    changed_.notify_all();
+  }
+}
+
+}  // namespace orthonav::sim

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <thread>
+
+#include "hal/api/devices.h"
+#include "hal/sim/room_renderer.h"
+
+namespace orthonav::sim {
+
+/// Renders both cameras' images at once, the right one on a thread of its own. The images depend
+/// on the arguments alone.
+class StereoRenderer {
+ public:
+  StereoRenderer(const RoomDescription& room, const Magnitudes& magnitudes,
+                 StereoCalibration cameras, std::uint64_t seed);
+  ~StereoRenderer();
+  StereoRenderer(const StereoRenderer&) = delete;
+  StereoRenderer& operator=(const StereoRenderer&) = delete;
+
+  /// Fills both images of the frame with this number. One thread at a time.
+  void render(std::span<const RoomState> states, std::int64_t number, StereoFrame& frame);
+
+ private:
+  struct Job {
+    std::span<const RoomState> states;
+    std::uint64_t noise_seed = 0;
+    GreyImage* image = nullptr;  ///< null: nothing to do
+  };
+  void work();
+
+  StereoCalibration cameras_;
+  std::uint64_t seed_;
+  std::unique_ptr<RoomRenderer> left_;
+  std::unique_ptr<RoomRenderer> right_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Job job_;
+  bool stop_ = false;
+  std::thread worker_;
+};
+
+}  // namespace orthonav::sim

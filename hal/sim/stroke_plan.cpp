@@ -1,0 +1,184 @@
+#include "hal/sim/stroke_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hal/sim/surface_map.h"
+
+namespace orthonav::sim {
+namespace {
+
+constexpr double kLinePitch_m = 0.0035;
+constexpr double kShortestLine_m = 0.005;
+constexpr double kLongestStroke_m = 0.110;
+constexpr double kLongestBridge_m = 0.008;
+constexpr double kSteepest = 0.42;             // cosine of 65° between normal and line of sight
+constexpr double kHalfMidline_m = 0.006;       // the crest's lines and the side lines meet here
+constexpr double kSpinousHalfWidth_m = 0.014;  // sides of the spinous process lie within
+
+/// The part of a vertebra that a pointer reaches from behind: its posterior half, out to the roots
+/// of the transverse processes.
+struct Reach {
+  double lowest_y_m = 0.0;
+  double half_width_m = 0.0;
+
+  explicit Reach(const RoomLevel& level) {
+    double front = 1e9;
+    double back = -1e9;
+    double widest = 0.0;
+    for (const Vec3 vertex : level.vertices_m) {
+      front = std::min(front, vertex.y);
+      back = std::max(back, vertex.y);
+      widest = std::max(widest, std::abs(vertex.x));
+    }
+    lowest_y_m = 0.5 * (front + back);
+    half_width_m = std::min(0.65 * widest, 0.030);
+  }
+  [[nodiscard]] bool holds(const BoneSpot& spot) const {
+    return spot.point.y > lowest_y_m && std::abs(spot.point.x) < half_width_m &&
+           spot.normal.y > -0.1;
+  }
+};
+
+using Run = std::vector<BoneSpot>;
+
+double length_of(const Run& run) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < run.size(); ++i) sum += (run[i].point - run[i - 1].point).norm();
+  return sum;
+}
+
+/// Covers a strip of a map with lines along the spine, back and forth, and joins neighbours that
+/// the tip can reach without leaving the bone.
+template <class Accept>
+class Sweep {
+ public:
+  Sweep(const SurfaceMap& map, Accept accept) : map_(map), accept_(accept) {}
+
+  std::vector<Run> over(double first_u_m, double last_u_m) {
+    std::vector<Run> strokes;
+    const int lines =
+        std::max(1, static_cast<int>(std::abs(last_u_m - first_u_m) / kLinePitch_m) + 1);
+    const double step = lines > 1 ? (last_u_m - first_u_m) / (lines - 1) : 0.0;
+    for (int line = 0; line < lines; ++line) {
+      auto runs = runs_along(first_u_m + line * step);
+      if (line % 2 == 1) {
+        std::reverse(runs.begin(), runs.end());
+        for (Run& run : runs) std::reverse(run.begin(), run.end());
+      }
+      for (Run& run : runs) add(strokes, run);
+    }
+    return strokes;
+  }
+
+ private:
+  [[nodiscard]] std::optional<BoneSpot> accepted(Vec2 uv) const {
+    auto spot = map_.at(uv);
+    if (spot && spot->normal.dot(map_.from()) > kSteepest && accept_(*spot)) return spot;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::vector<Run> runs_along(double u_m) const {
+    std::vector<Run> runs;
+    Run run;
+    const auto close = [&runs, &run] {
+      if (length_of(run) >= kShortestLine_m) runs.push_back(run);
+      run.clear();
+    };
+    for (double v = map_.low().y; v <= map_.high().y; v += SurfaceMap::kStep_m) {
+      if (const auto spot = accepted({u_m, v}))
+        run.push_back(*spot);
+      else
+        close();
+    }
+    close();
+    return runs;
+  }
+
+  /// The way over the bone from one place to another; nothing when it leaves the bone.
+  [[nodiscard]] std::optional<Run> bridge(Vec3 from, Vec3 to) const {
+    const Vec2 start = map_.uv(from);
+    const Vec2 way = map_.uv(to) - start;
+    if ((to - from).norm() > kLongestBridge_m) return std::nullopt;
+    Run run;
+    const int steps = static_cast<int>(way.norm() / SurfaceMap::kStep_m);
+    for (int i = 1; i < steps; ++i) {
+      const auto spot = accepted(start + (static_cast<double>(i) / steps) * way);
+      if (!spot) return std::nullopt;
+      run.push_back(*spot);
+    }
+    return run;
+  }
+
+  void add(std::vector<Run>& strokes, const Run& run) const {
+    if (!strokes.empty() && length_of(strokes.back()) + length_of(run) < kLongestStroke_m) {
+      Run& last = strokes.back();
+      if (const auto between = bridge(last.back().point, run.front().point)) {
+        last.insert(last.end(), between->begin(), between->end());
+        last.insert(last.end(), run.begin(), run.end());
+        return;
+      }
+    }
+    strokes.push_back(run);
+  }
+
+  const SurfaceMap& map_;
+  Accept accept_;
+};
+
+/// A hand does not follow the facets of a mesh: normals averaged over ±2 mm of the way.
+Stroke finished(const Run& run) {
+  constexpr std::size_t kHalfWindow = 4;
+  Stroke stroke;
+  stroke.spots = run;
+  stroke.arc_m.resize(run.size());
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    Vec3 sum;
+    const std::size_t end = std::min(run.size(), i + kHalfWindow + 1);
+    for (std::size_t j = i > kHalfWindow ? i - kHalfWindow : 0; j < end; ++j) sum += run[j].normal;
+    if (sum.squared_norm() > 0.0) stroke.spots[i].normal = sum.normalized();
+    if (i > 0) stroke.arc_m[i] = stroke.arc_m[i - 1] + (run[i].point - run[i - 1].point).norm();
+  }
+  return stroke;
+}
+
+void append(std::vector<Stroke>& strokes, const std::vector<Run>& runs) {
+  for (const Run& run : runs) strokes.push_back(finished(run));
+}
+
+}  // namespace
+
+BoneSpot Stroke::at(double along_m) const {
+  const auto after = std::upper_bound(arc_m.begin(), arc_m.end(), along_m);
+  if (after == arc_m.begin()) return spots.front();
+  if (after == arc_m.end()) return spots.back();
+  const auto i = static_cast<std::size_t>(after - arc_m.begin());
+  const double fraction = (along_m - arc_m[i - 1]) / (arc_m[i] - arc_m[i - 1]);
+  const BoneSpot& a = spots[i - 1];
+  const BoneSpot& b = spots[i];
+  const Vec3 normal = a.normal + fraction * (b.normal - a.normal);
+  return {a.point + fraction * (b.point - a.point),
+          normal.squared_norm() > 0.0 ? normal.normalized() : a.normal};
+}
+
+std::vector<Stroke> plan_strokes(const RoomLevel& level) {
+  const Reach reach(level);
+  std::vector<Stroke> strokes;
+  const SurfaceMap from_behind(level, {0, 1, 0});
+  const auto reachable = [&reach](const BoneSpot& spot) { return reach.holds(spot); };
+  append(strokes, Sweep(from_behind, reachable).over(kHalfMidline_m, reach.half_width_m));
+  append(strokes, Sweep(from_behind, reachable).over(-kHalfMidline_m, -reach.half_width_m));
+  for (const double side : {1.0, -1.0}) {
+    const SurfaceMap oblique(level, {side * std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0});
+    const auto flank = [&reach, side](const BoneSpot& spot) {
+      return reach.holds(spot) && side * spot.point.x < kSpinousHalfWidth_m &&
+             side * spot.normal.x > 0.5;
+    };
+    append(strokes, Sweep(oblique, flank).over(oblique.low().x, oblique.high().x));
+  }
+  append(strokes, Sweep(from_behind, reachable).over(-kLinePitch_m / 2, kLinePitch_m / 2));
+  return strokes;
+}
+
+}  // namespace orthonav::sim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "hal/sim/bone_surface.h"
+
+namespace orthonav::sim {
+
+/// One unbroken line of the pointer's tip over a bone, in the vertebra's frame.
+struct Stroke {
+  std::vector<BoneSpot> spots;  ///< about half a millimetre apart
+  std::vector<double> arc_m;    ///< length from the start to each spot
+
+  [[nodiscard]] double length_m() const { return arc_m.empty() ? 0.0 : arc_m.back(); }
+  /// The place after `along_m` of it; clamped to its ends.
+  [[nodiscard]] BoneSpot at(double along_m) const;
+};
+
+/// The strokes by which a surgeon covers what a pointer reaches of a vertebra from behind: laminae,
+/// facets and the roots of the transverse processes in lines along the spine, the spinous
+/// process's crest and its two sides. Empty when the mesh has no such surface.
+[[nodiscard]] std::vector<Stroke> plan_strokes(const RoomLevel& level);
+
+}  // namespace orthonav::sim

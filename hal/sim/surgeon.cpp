@@ -1,0 +1,177 @@
+#include "hal/sim/surgeon.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthonav::sim {
+namespace {
+
+constexpr double kPatience_s = 60.0;
+constexpr int kRepeats = 5;
+/// A frame older than this is no longer in view: the display has gone dark.
+constexpr double kDark_s = 0.15;
+/// Holograms farther than this from the real bone are rejected.
+constexpr double kAcceptedOverlay_m = 0.006;
+constexpr int kMaxFailures = 3;
+/// Comparing model and bone takes a second or two of glances, from more than one side: what is
+/// wrong in depth from here is seen from there.
+constexpr double kComparing_s = 1.5;
+constexpr double kGlance_s = 0.1;
+constexpr double kTwoViews = 0.5;
+
+/// Duration of everything against the median surgeon's; its mean over surgeons is 1 / pace.
+double slowness_of(const Magnitudes& magnitudes, Random random) {
+  const double sd = magnitudes.pace_sd;
+  return std::exp(sd * random.normal() - 0.5 * sd * sd) / magnitudes.pace;
+}
+
+Posture standing_at(const RoomLayout& layout) {
+  Posture posture;
+  posture.head.gaze = layout.middle();
+  return posture;
+}
+
+/// The four places that H2 marks: the extreme vertices to posterior, left, right and superior.
+std::array<Vec3, 4> landmarks(const RoomLevel& level) {
+  constexpr std::array<Vec3, 4> kDirections = {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0},
+                                               Vec3{0, 0, 1}};
+  std::array<Vec3, 4> found;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    found[i] =
+        *std::max_element(level.vertices_m.begin(), level.vertices_m.end(),
+                          [d = kDirections[i]](Vec3 a, Vec3 b) { return a.dot(d) < b.dot(d); });
+  return found;
+}
+
+std::string without_first_word(const std::string& text) {
+  const std::size_t space = text.find(' ');
+  return space == std::string::npos ? std::string{} : text.substr(space + 1);
+}
+
+}  // namespace
+
+Surgeon::Surgeon(const RoomLayout& layout, const Magnitudes& magnitudes, const Random& random,
+                 const Eyes& eyes, const std::vector<PlacedHead>& heads)
+    : layout_(&layout),
+      magnitudes_(&magnitudes),
+      eyes_(&eyes),
+      heads_(&heads),
+      body_(random.fork("hand"), slowness_of(magnitudes, random.fork("pace")), standing_at(layout)),
+      strokes_(layout.levels()),
+      failures_(layout.levels()),
+      life_(operate()) {
+  for (const std::size_t level : layout.operated())
+    strokes_[level] = plan_strokes(layout.room().levels[level]);
+  life_.start();
+}
+
+void Surgeon::tick(Timestamp now) { body_.tick(now); }
+
+bool Surgeon::sees_now() const {
+  const auto seen = eyes_->seen_at();
+  return seen && seconds(body_.now() - *seen) < kDark_s;
+}
+
+void Surgeon::give_up() {
+  gave_up_ = true;
+  finished_ = true;
+}
+
+Script Surgeon::operate() {
+  co_await body_.next_tick();
+  while (!finished_) {
+    if (eyes_->step().empty())
+      co_await await_change("", "");
+    else
+      co_await perform(std::string(eyes_->step()));
+  }
+  for (;;) co_await body_.next_tick();
+}
+
+Script Surgeon::perform(std::string step) {
+  const std::string verb = step.substr(0, step.find(' '));
+  std::string rest = without_first_word(step);
+  std::string side;
+  if (verb == "guide") {
+    const std::size_t space = rest.rfind(' ');
+    side = space == std::string::npos ? std::string{} : rest.substr(space + 1);
+    rest = rest.substr(0, space);
+  }
+  const auto level = layout_->find(rest);
+  if (verb == "setup") {
+    co_await set_up();
+    co_await await_change(step, "start");
+  } else if (verb == "digitize" && level) {
+    co_await digitize(*level);
+    co_await await_verdict(*level, step);
+  } else if (verb == "verify" && level) {
+    co_await verify(*level);
+  } else if (verb == "accepted") {
+    co_await body_.rest(1.0);
+    body_.say("next");
+    co_await await_change(step, "next");
+  } else if (verb == "guide" && level) {
+    co_await guide(*level, side);
+    if (driven_.contains(step)) co_await await_change(step, "next");
+  } else if (verb == "rod") {
+    co_await touch_heads(rest);
+    co_await await_change(step, "done");
+  } else if (verb == "done") {
+    finished_ = true;
+  } else {
+    co_await await_change(step, "");
+  }
+}
+
+Script Surgeon::set_up() {
+  const auto& operated = layout_->operated();
+  const Point<Room> site = operated.empty() ? layout_->middle() : layout_->site(operated.front());
+  co_await body_.take(ToolKind::kPointer, site);
+  co_await body_.rest(1.0);
+  body_.say("start");
+}
+
+Script Surgeon::await_change(std::string step, std::string phrase) {
+  for (int repeat = 0; repeat <= kRepeats; ++repeat) {
+    const Timestamp end = body_.now() + from_seconds(kPatience_s);
+    while (body_.now() < end) {
+      if (!in_step(step)) co_return;
+      co_await body_.next_tick();
+    }
+    if (repeat < kRepeats && !phrase.empty()) body_.say(phrase);
+  }
+  give_up();
+}
+
+Script Surgeon::verify(std::size_t level) {
+  const std::string step(eyes_->step());
+  body_.posture().contact_normal.reset();
+  const auto real = landmarks(layout_->room().levels[level]);
+  std::array<Vec3, 4> apart{};
+  const Timestamp patience = body_.now() + from_seconds(kPatience_s * kRepeats);
+  co_await body_.rest(1.0);
+  for (double looked_s = 0.0; looked_s < kComparing_s; looked_s += kGlance_s) {
+    co_await body_.rest(kGlance_s / body_.slowness());
+    const ShownHologram* model = eyes_->find("H2");
+    while (!(model && sees_now() && model->points_in_world.size() == real.size())) {
+      if (body_.now() > patience) give_up();
+      if (!in_step(step) || finished_) co_return;
+      co_await body_.next_tick();
+      model = eyes_->find("H2");
+    }
+    for (std::size_t i = 0; i < real.size(); ++i) {
+      const Point<Room> bone = layout_->room_from_vertebra(level) * Point<Vertebra>{real[i]};
+      apart[i] += (kGlance_s / kComparing_s) * (eyes_->place(model->points_in_world[i]) - bone);
+    }
+  }
+  const Vec3 perceived_shift =
+      normal_vector(body_.random(), kTwoViews * magnitudes_->overlay_perception_m);
+  const bool fits = std::all_of(apart.begin(), apart.end(), [perceived_shift](Vec3 away) {
+    return (away + perceived_shift).norm() <= kAcceptedOverlay_m;  // NaN does not fit
+  });
+  body_.say(fits ? "accept" : "reject");
+  if (!fits && ++failures_[level] >= kMaxFailures) give_up();
+  if (!finished_) co_await await_change(step, fits ? "accept" : "reject");
+}
+
+}  // namespace orthonav::sim

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/sim/eyes.h"
+#include "hal/sim/magnitudes.h"
+#include "hal/sim/room_layout.h"
+#include "hal/sim/stroke_plan.h"
+#include "hal/sim/surgeon_body.h"
+#include "hal/sim/truth.h"
+
+namespace orthonav::sim {
+
+/// What the surgeon did to the patient, for the room to carry out and to remember.
+struct Deed {
+  enum class Kind { kRegistered, kPierced };
+  Kind kind = Kind::kRegistered;
+  std::size_t level = 0;
+  std::string side;
+};
+
+/// The scripted surgeon. Knows the bones as they lie there (strokes them, compares holograms with
+/// them), sees the screw heads already placed, and learns everything else from the display.
+/// Answers each step of the workflow as the status line names it.
+class Surgeon {
+ public:
+  /// The layout, the eyes and the heads must outlive it.
+  Surgeon(const RoomLayout& layout, const Magnitudes& magnitudes, const Random& random,
+          const Eyes& eyes, const std::vector<PlacedHead>& heads);
+
+  /// Lives on to `now`.
+  void tick(Timestamp now);
+  [[nodiscard]] SurgeonBody& body() { return body_; }
+  [[nodiscard]] std::vector<Deed>& deeds() { return deeds_; }
+  /// Has seen the end of the operation, or has given up.
+  [[nodiscard]] bool finished() const { return finished_; }
+  [[nodiscard]] bool gave_up() const { return gave_up_; }
+
+  /// The surgeon's strokes for a level; for tests of the anatomy.
+  [[nodiscard]] const std::vector<Stroke>& strokes(std::size_t level) const {
+    return strokes_[level];
+  }
+
+ private:
+  /// Where a screw is to go, as perceived.
+  struct Aim {
+    BoneSpot on_bone;  ///< in Room
+    Vec3 outwards;     ///< the planned axis, out of the bone
+  };
+  /// What H5 says: the turn (Room, rad) that takes the tool's axis onto the planned one.
+  struct Deviation {
+    Timestamp seen_at{};
+    Vec3 turn;
+  };
+
+  Script operate();
+  Script perform(std::string step);
+  Script set_up();
+  Script verify(std::size_t level);
+  /// Waits until the status line leaves `step`; repeats the phrase each minute, then gives up.
+  Script await_change(std::string step, std::string phrase);
+
+  // surgeon_digitizing.cpp
+  Script digitize(std::size_t level);
+  Script record(std::size_t level, const Stroke& stroke, double share, bool slips);
+  Script slide(std::size_t level, const Stroke& stroke, double duration_s, bool slips);
+  Script await_verdict(std::size_t level, std::string step);
+
+  // surgeon_guiding.cpp
+  Script guide(std::size_t level, std::string side);
+  Script find_entry(std::size_t level, const std::string& label, Aim& aim);
+  Script turn_tool(const std::string& step, const Aim& aim);
+  Script hold_and_average(double duration_s, Vec3& mean_turn, int& readings);
+  Script drive_wire(std::size_t level, const std::string& side, const Aim& aim);
+  [[nodiscard]] std::optional<Deviation> read_deviation() const;
+  [[nodiscard]] BoneSpot put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) const;
+
+  // surgeon_rod.cpp
+  Script touch_heads(const std::string& side);
+
+  [[nodiscard]] bool sees_now() const;
+  [[nodiscard]] bool in_step(std::string_view step) const { return eyes_->step() == step; }
+  void give_up();
+
+  const RoomLayout* layout_;
+  const Magnitudes* magnitudes_;
+  const Eyes* eyes_;
+  const std::vector<PlacedHead>* heads_;
+  SurgeonBody body_;
+  std::vector<std::vector<Stroke>> strokes_;  ///< for each level; empty where not operated
+  std::vector<int> failures_;                 ///< refusals and rejections, for each level
+  std::set<std::string> driven_;              ///< guide steps whose wire is in
+  std::vector<Deed> deeds_;
+  bool finished_ = false;
+  bool gave_up_ = false;
+  Script life_;
+};
+
+}  // namespace orthonav::sim

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/sim/grip.h"
+#include "hal/sim/head_motion.h"
+#include "hal/sim/script.h"
+
+namespace orthonav::sim {
+
+/// What the surgeon's body is doing at a tick, tremor apart.
+struct Posture {
+  std::optional<ToolKind> in_hand;
+  Grip grip;
+  /// Outward normal of the bone that the tip rests on.
+  std::optional<Vec3> contact_normal;
+  HeadGoal head;
+};
+
+/// Hand, head, voice and thumb, with the movements that every task is made of. Durations are those
+/// of a surgeon of median pace; `slowness` stretches them.
+class SurgeonBody {
+ public:
+  SurgeonBody(Random random, double slowness, const Posture& start);
+
+  /// A tick of the simulation: the script awaiting it goes on.
+  void tick(Timestamp now);
+  [[nodiscard]] Metronome::NextTick next_tick() { return metronome_.next_tick(); }
+  [[nodiscard]] Timestamp now() const { return now_; }
+  [[nodiscard]] double slowness() const { return slowness_; }
+  [[nodiscard]] Random& random() { return random_; }
+  [[nodiscard]] const Posture& posture() const { return posture_; }
+  [[nodiscard]] Posture& posture() { return posture_; }
+
+  /// Holds still.
+  Script rest(double duration_s);
+  /// Moves the tool with a minimum-jerk profile (Flash and Hogan 1985), lifted on the way.
+  Script move(Grip goal, double duration_s, double lift_m = 0.0);
+  /// Lays away what is in hand and brings the tool wanted over `site`.
+  Script take(ToolKind tool, Point<Room> site);
+  void look(Point<Room> site, std::optional<Vec3> from = std::nullopt);
+
+  void press();
+  void release();
+  Script click();
+  Script double_click();
+  void say(const std::string& phrase);
+
+  /// What was done since, for the devices to deliver.
+  std::vector<ClickerEvent> clicks;
+  std::vector<Phrase> phrases;
+
+  /// How the pointer is held over a place: leaning away from the head, so that its tag shows.
+  [[nodiscard]] Vec3 pointer_axis(Vec3 surface_normal) const;
+
+ private:
+  [[nodiscard]] Grip parked(Point<Room> site) const;
+
+  Random random_;
+  double slowness_;
+  Posture posture_;
+  Timestamp now_{};
+  Metronome metronome_;
+  ClickTimer button_;
+};
+
+/// Fraction of the way after a fraction of the time, without jerk at the ends.
+[[nodiscard]] constexpr double minimum_jerk(double t) {
+  return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+}
+
+}  // namespace orthonav::sim

@@ -1,0 +1,121 @@
+#include <cmath>
+
+#include "hal/sim/surgeon.h"
+
+namespace orthonav::sim {
+namespace {
+
+// Liebmann et al. 2019 report 125 ± 27 s for the digitization of a level and 1,983 ± 404 points at
+// 30 Hz, that is 66.1 s with the button pressed. One stroke in nine is a repeat at the default
+// probability of slipping; what remains is divided between stroking and everything else.
+constexpr double kStroking_s = 66.1;
+constexpr double kBetweenStrokes_s = 46.4;
+// How the time around one stroke is spent.
+constexpr double kApproaching = 0.40;
+constexpr double kSettling = 0.10;
+constexpr double kLookingBack = 0.15;
+constexpr double kAfterWord = 0.35;
+constexpr double kHop_m = 0.015;
+constexpr double kStrokePaceSd = 0.05;
+/// Soft tissue lifts the tip along some millimetres of way.
+constexpr double kLongestLift_m = 0.030;
+constexpr double kShortestLift_m = 0.007;
+constexpr double kVerdict_s = 1.5;
+constexpr double kPatience_s = 60.0;
+constexpr int kRepeats = 5;
+constexpr int kMaxFailures = 3;
+
+/// Where and how far the tip leaves the bone in a stroke that slips.
+struct Slip {
+  double at_m = 0.0;
+  double width_m = 0.0;
+  double height_m = 0.0;
+
+  [[nodiscard]] double lift_m(double along_m) const {
+    const double z = (along_m - at_m) / width_m;
+    return height_m * std::exp(-0.5 * z * z);
+  }
+};
+
+BoneSpot in_room(const Transform<Room, Vertebra>& room_from_vertebra, const BoneSpot& spot) {
+  return {(room_from_vertebra * Point<Vertebra>{spot.point}).v,
+          (room_from_vertebra * Direction<Vertebra>{spot.normal}).v};
+}
+
+}  // namespace
+
+Script Surgeon::digitize(std::size_t level) {
+  const std::string step(eyes_->step());
+  co_await body_.take(ToolKind::kPointer, layout_->site(level));
+  double total_m = 0.0;
+  for (const Stroke& stroke : strokes_[level]) total_m += stroke.length_m();
+  for (const Stroke& stroke : strokes_[level]) {
+    bool slips = true;
+    while (slips) {
+      if (!in_step(step)) co_return;
+      slips = body_.random().uniform() < magnitudes_->bad_stroke_probability;
+      co_await record(level, stroke, stroke.length_m() / total_m, slips);
+    }
+  }
+  co_await body_.double_click();
+  deeds_.push_back({Deed::Kind::kRegistered, level, {}});
+}
+
+Script Surgeon::record(std::size_t level, const Stroke& stroke, double share, bool slips) {
+  const double around_s = kBetweenStrokes_s / static_cast<double>(strokes_[level].size());
+  const double stroking_s =
+      kStroking_s * share * std::max(0.5, body_.random().normal(1.0, kStrokePaceSd));
+  const BoneSpot start = in_room(layout_->room_from_vertebra(level), stroke.spots.front());
+  body_.posture().contact_normal.reset();
+  co_await body_.move({{start.point}, body_.pointer_axis(start.normal), 0.0},
+                      kApproaching * around_s, kHop_m);
+  body_.posture().contact_normal = start.normal;
+  co_await body_.rest(kSettling * around_s);
+  body_.press();
+  co_await slide(level, stroke, stroking_s, slips);
+  body_.release();
+  co_await body_.rest(kLookingBack * around_s);
+  body_.say(slips ? "delete" : "save");
+  co_await body_.rest(kAfterWord * around_s);
+}
+
+Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s, bool slips) {
+  const auto& room_from_vertebra = layout_->room_from_vertebra(level);
+  const double length_m = stroke.length_m();
+  const SmoothNoise lift(body_.random().fork(body_.random().next()), magnitudes_->stroke_lift_m,
+                         1.0 / kLongestLift_m, 1.0 / kShortestLift_m);
+  Slip slip{length_m * body_.random().uniform(0.3, 0.8), 0.06 * length_m + 1e-6,
+            slips ? body_.random().uniform(0.004, 0.008) : 0.0};
+  const Timestamp begin = body_.now();
+  const double length_s = body_.slowness() * duration_s;
+  for (double t = 0.0; t < 1.0;) {
+    co_await body_.next_tick();
+    t = std::min(1.0, seconds(body_.now() - begin) / length_s);
+    const double along_m = length_m * minimum_jerk(t);
+    const BoneSpot spot = in_room(room_from_vertebra, stroke.at(along_m));
+    // The bone stops the tip, so it is lifted off only.
+    const double lift_m = std::abs(lift.at(along_m)) + slip.lift_m(along_m);
+    body_.posture().grip.tip = {spot.point + lift_m * spot.normal};
+    body_.posture().contact_normal = spot.normal;
+  }
+}
+
+Script Surgeon::await_verdict(std::size_t level, std::string step) {
+  // The line may still say why the last attempt was refused.
+  co_await body_.rest(kVerdict_s / body_.slowness());
+  for (int repeat = 0; repeat <= kRepeats; ++repeat) {
+    const Timestamp end = body_.now() + from_seconds(kPatience_s);
+    while (body_.now() < end) {
+      if (!in_step(step)) co_return;
+      if (eyes_->detail().find("refused") != std::string_view::npos) {
+        if (++failures_[level] >= kMaxFailures) give_up();
+        co_return;
+      }
+      co_await body_.next_tick();
+    }
+    if (repeat < kRepeats) co_await body_.double_click();
+  }
+  give_up();
+}
+
+}  // namespace orthonav::sim

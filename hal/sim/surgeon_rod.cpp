@@ -1,0 +1,31 @@
+#include <algorithm>
+
+#include "hal/sim/surgeon.h"
+
+namespace orthonav::sim {
+
+Script Surgeon::touch_heads(const std::string& side) {
+  const std::string step(eyes_->step());
+  std::vector<Point<Room>> heads;
+  for (const PlacedHead& head : *heads_)
+    if (head.side == side) heads.push_back(head.position);
+  const Vec3 superior = (layout_->room_from_spine() * Direction<Spine>{{0, 0, 1}}).v;
+  std::stable_sort(heads.begin(), heads.end(), [superior](Point<Room> a, Point<Room> b) {
+    return a.v.dot(superior) > b.v.dot(superior);
+  });
+  if (!heads.empty()) co_await body_.take(ToolKind::kPointer, heads.front());
+  for (const Point<Room>& head : heads) {
+    if (!in_step(step)) co_return;
+    body_.look(head);
+    co_await body_.move({head, body_.pointer_axis({0, 1, 0}), 0.0}, 1.5, 0.02);
+    body_.posture().contact_normal = Vec3{0, 1, 0};
+    co_await body_.rest(1.0);
+    co_await body_.click();
+    co_await body_.rest(0.5);
+    body_.posture().contact_normal.reset();
+  }
+  co_await body_.rest(1.0);
+  body_.say("done");
+}
+
+}  // namespace orthonav::sim

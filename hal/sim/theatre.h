@@ -1,0 +1,85 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/sim/eyes.h"
+#include "hal/sim/head_motion.h"
+#include "hal/sim/noise.h"
+#include "hal/sim/room_layout.h"
+#include "hal/sim/sim_headset.h"
+#include "hal/sim/surgeon.h"
+
+namespace orthonav::sim {
+
+/// What moves in the room, in steps of 1/120 s: head, map, tools, surgeon. Keeps the last second,
+/// so that moments between the steps can be asked for. Not thread-safe.
+class Theatre {
+ public:
+  /// `eyes_in_rig`: the middle between the cameras. The room must have passed `check_room`.
+  Theatre(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig, Timestamp start);
+  Theatre(const Theatre&) = delete;
+  Theatre& operator=(const Theatre&) = delete;
+
+  /// Goes on until at least `until`.
+  void advance(Timestamp until);
+  /// Everything at a moment of the last second; `state`'s buffers are reused.
+  void state_at(Timestamp time, RoomState& state) const;
+  [[nodiscard]] Transform<Room, Rig> room_from_rig(Timestamp time) const;
+  [[nodiscard]] Transform<World, Room> world_from_room(Timestamp time) const;
+  [[nodiscard]] Transform<World, Rig> world_from_rig(Timestamp time) const {
+    return world_from_room(time) * room_from_rig(time);
+  }
+
+  [[nodiscard]] const RoomDescription& room() const { return room_; }
+  [[nodiscard]] const Truth& truth() const { return truth_; }
+  [[nodiscard]] Eyes& eyes() { return eyes_; }
+  /// Clicks and words not fetched yet, in order.
+  [[nodiscard]] std::vector<ClickerEvent>& clicks() { return clicks_; }
+  [[nodiscard]] std::vector<Phrase>& phrases() { return phrases_; }
+  /// When the surgeon had done, or had given up.
+  [[nodiscard]] std::optional<Timestamp> finished_at() const { return finished_at_; }
+
+  static constexpr Duration kStep{8'333'333};
+
+ private:
+  struct Around {
+    const RoomState& before;
+    const RoomState& after;
+    double fraction;
+  };
+  static constexpr std::size_t kKept = 128;
+
+  void step();
+  void let_surgeon_act(RoomState& now);
+  void let_tools_hover(RoomState& now) const;
+  void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact) const;
+  void carry_out(const Deed& deed);
+  void pierce(const Deed& deed);
+  [[nodiscard]] double seconds_in(Timestamp time) const { return seconds(time - start_); }
+  [[nodiscard]] RoomState& kept(std::size_t number) { return states_[number % kKept]; }
+  [[nodiscard]] const RoomState& kept(std::size_t number) const { return states_[number % kKept]; }
+  [[nodiscard]] Around around(Timestamp time) const;
+
+  RoomDescription room_;
+  Magnitudes magnitudes_;
+  RoomLayout layout_;
+  Timestamp start_;
+  Random physics_;
+  HeadMotion head_;
+  MapDrift drift_;
+  SmoothNoise3 tremor_m_;
+  SmoothNoise3 tremor_rad_;
+  Eyes eyes_;
+  Truth truth_;
+  std::unique_ptr<Surgeon> surgeon_;
+  std::vector<RoomState> states_;
+  std::size_t steps_ = 0;  ///< steps simulated; the newest state is number steps_ - 1
+  std::vector<ClickerEvent> clicks_;
+  std::vector<Phrase> phrases_;
+  std::optional<Timestamp> finished_at_;
+};
+
+}  // namespace orthonav::sim
