@@ -156,14 +156,14 @@ TEST(SimHeadset, PredictsTheHeadFromItsVelocityAndLosesItBeyondItsReach) {
 }
 
 /// A room point as both cameras of a calibration would see it from the headset's true place.
-bool both_see(const SimHeadset& headset, Point<Room> point) {
-  const StereoCalibration cameras = hololens2_calibration();
+bool both_see(const StereoCalibration& cameras, const SimHeadset& headset, Point<Room> point) {
   const Point<Rig> in_rig = headset.state().room_from_rig.inverse() * point;
   return cameras.left.project((cameras.left_from_rig * in_rig).v).has_value() &&
          cameras.right.project((cameras.right_from_rig * in_rig).v).has_value();
 }
 
 TEST(SimHeadset, HoveringToolsShowTheirTagsToBothCameras) {
+  const StereoCalibration cameras = hololens2_calibration();
   const auto headset = opened(hovering());
   for (int i = 0; i < 300; ++i) {
     next_frame(*headset);
@@ -174,31 +174,11 @@ TEST(SimHeadset, HoveringToolsShowTheirTagsToBothCameras) {
       const double half = 0.6 * headset->room().tools[t].size_m;
       for (const double x : {-half, half})
         for (const double y : {-half, half})
-          EXPECT_TRUE(both_see(*headset, tag * Point<Marker>{{x, y, 0.0}}));
+          EXPECT_TRUE(both_see(cameras, *headset, tag * Point<Marker>{{x, y, 0.0}}));
       const Vec3 view = (state.room_from_rig.translation() - tag.translation()).normalized();
       EXPECT_GT((tag * Direction<Marker>{{0, 0, 1}}).v.dot(view), std::cos(0.9));
     }
   }
-}
-
-TEST(SimHeadset, DescribedToolsAreOffByTheirMagnitudesAndTheDescriptionIsNot) {
-  SimOptions options = hovering();
-  options.magnitudes = Magnitudes::perfect();
-  EXPECT_EQ(opened(options)->described_tools()[0].tip_in_marker, test_tools()[0].tip_in_marker);
-  double tip = 0.0;
-  double axis = 0.0;
-  constexpr int kSeeds = 400;
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const auto headset = opened(hovering(seed));
-    const RoomTool described = headset->described_tools()[1];
-    const RoomTool made = test_tools()[1];
-    EXPECT_EQ(headset->room().tools[1].tip_in_marker, made.tip_in_marker);
-    tip += (described.tip_in_marker - made.tip_in_marker).squared_norm();
-    axis += std::pow(angle_between_rad(described.axis_in_marker, made.axis_in_marker), 2);
-  }
-  // SD an axis, three for the tip, two for a direction; five standard errors.
-  EXPECT_NEAR(std::sqrt(tip / kSeeds / 3), Magnitudes{}.tip_calibration_m, 0.00006);
-  EXPECT_NEAR(std::sqrt(axis / kSeeds / 2), Magnitudes{}.axis_calibration_rad, 0.0004);
 }
 
 TEST(SimHeadset, RefusesWhatMakesNoSenseInOneLine) {
