@@ -33,7 +33,9 @@ nav::ToolGeometry tool_from(const JsonNode& node) {
   tool.marker.family = marker.text("family");
   tool.marker.id = marker.integer("id");
   tool.marker.size_m = marker.number("size_mm") * kMetresPerMm;
-  tool.tip_in_marker = {node.vec3("tip_mm") * kMetresPerMm};
+  // A reference is nothing but its marker.
+  if (tool.role != nav::ToolRole::kReference || node.has("tip_mm"))
+    tool.tip_in_marker = {node.vec3("tip_mm") * kMetresPerMm};
   const Vec3 axis = node.has("axis") ? node.vec3("axis") : Vec3{0, 1, 0};
   if (axis.norm() < 1e-9)
     node.refuse("axis", "must not be zero");

@@ -10,8 +10,8 @@ namespace orthonav::engine {
 
 /// Reads tool definitions: `{"tools": [{"name", "role": "pointer"|"guide"|"reference", "marker":
 /// {"family", "id", "size_mm"}, "tip_mm": [x,y,z], "axis": [x,y,z]}]}`. The axis may have any
-/// length but zero. Refuses, naming file and field, whatever is missing, of the wrong type, or a
-/// problem in the sense of `nav::problems_of`.
+/// length but zero and is +y where absent; a reference needs no tip. Refuses, naming file and
+/// field, whatever is missing, of the wrong type, or a problem in the sense of `nav::problems_of`.
 Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path);
 
 /// Writes what `load_tools` reads back to the same numbers.

@@ -17,6 +17,8 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);
   Action action;
+  add_detect_command(app, action);
+  add_track_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

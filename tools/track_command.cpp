@@ -1,0 +1,151 @@
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "engine/atomic_file.h"
+#include "engine/method.h"
+#include "engine/tool_file.h"
+#include "hal/replay/replay_headset.h"
+#include "tools/command.h"
+#include "tools/count_progress.h"
+
+namespace orthonav::tools {
+namespace {
+
+struct TrackArguments {
+  std::string recording;
+  std::string tools_file;
+  std::string method = "paper";
+  std::string csv;
+  int full_search_every = 1;
+  bool json = false;
+};
+
+struct TrackSummary {
+  std::int64_t pairs = 0;
+  std::vector<std::int64_t> measured;  ///< by tool
+};
+
+constexpr const char* kHeader =
+    "timestamp_100ns,id,px,py,pz,qx,qy,qz,qw,origin,sigma_mm,residual_px\n";
+
+void append_row(const Headset& headset, const nav::ToolGeometry& tool, const nav::ToolState& state,
+                std::string& csv) {
+  const auto& pose = state.world_from_marker;
+  const Vec3 p = pose.value.translation();
+  // A recorded head pose is rigid to its nine digits only; the file promises a unit quaternion.
+  Quaternion q = quaternion_from_rotation(pose.value.rotation());
+  const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  q = {q.x / norm, q.y / norm, q.z / norm, q.w / norm};
+  const double sigma_m = std::sqrt(pose.covariance[0] + pose.covariance[7] + pose.covariance[14]);
+  std::array<char, 400> row{};
+  std::snprintf(row.data(), row.size(),
+                "%lld,%d,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,measured,%.6g,%.6g\n",
+                static_cast<long long>(headset.file_ticks_100ns(pose.time)), tool.marker.id, p.x,
+                p.y, p.z, q.x, q.y, q.z, q.w, sigma_m * 1e3, state.residual_px);
+  csv += row.data();
+}
+
+Result<TrackSummary> track_all(replay::ReplayHeadset& headset, nav::ToolTracker& tracker,
+                               std::string& csv) {
+  TrackSummary summary;
+  summary.measured.resize(tracker.tools().size());
+  CountProgress progress("stereo pairs", headset.summary().pairs);
+  StereoFrame frame;
+  for (;;) {
+    const Result<Next> next = headset.cameras().next(frame);
+    if (!next) return next.error();
+    if (*next == Next::kEnd) return summary;
+    if (*next == Next::kNone) continue;
+    for (const nav::ToolState& state : tracker.track(frame)) {
+      // A predicted pose is not a measured one and has no row.
+      if (state.world_from_marker.origin != Origin::kMeasured) continue;
+      append_row(headset, tracker.tools()[state.tool], state, csv);
+      ++summary.measured[state.tool];
+    }
+    ++summary.pairs;
+    progress.add_one();
+  }
+}
+
+void print(const TrackArguments& arguments, const TrackSummary& summary,
+           const replay::RecordingSummary& recording, std::span<const nav::ToolGeometry> tools) {
+  if (arguments.json) {
+    nlohmann::ordered_json out = {
+        {"method", arguments.method},
+        {"pairs", summary.pairs},
+        {"pairs_without_pose", recording.pairs_without_pose},
+        {"unpaired_images", recording.left_unpaired + recording.right_unpaired}};
+    for (std::size_t i = 0; i < tools.size(); ++i)
+      out["tools"].push_back({{"name", tools[i].name},
+                              {"id", tools[i].marker.id},
+                              {"measured_pairs", summary.measured[i]}});
+    std::printf("%s\n", out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    return;
+  }
+  std::printf("%lld stereo pairs, %lld without a head pose, %lld images without a partner\n",
+              static_cast<long long>(summary.pairs),
+              static_cast<long long>(recording.pairs_without_pose),
+              static_cast<long long>(recording.left_unpaired + recording.right_unpaired));
+  for (std::size_t i = 0; i < tools.size(); ++i)
+    std::printf("%s (id %d): measured in %lld\n", tools[i].name.c_str(), tools[i].marker.id,
+                static_cast<long long>(summary.measured[i]));
+}
+
+int run_track(const TrackArguments& arguments) {
+  const auto method = engine::method_named(arguments.method);
+  if (!method) return bad_input(method.error().message);
+  auto tools = engine::load_tools(arguments.tools_file);
+  if (!tools) return bad_input(tools.error().message);
+  auto headset = replay::ReplayHeadset::open(arguments.recording);
+  if (!headset) return bad_input(headset.error().message);
+  // Before the work, so that an unwritable place is known at once.
+  if (auto place = engine::AtomicFile::create(arguments.csv); !place)
+    return bad_input(place.error().message);
+  nav::TrackerOptions options;
+  options.full_search_interval = arguments.full_search_every;
+  auto tracker =
+      method->create_tracker((*headset)->cameras().calibration(), std::move(*tools), options);
+  if (!tracker) return bad_input(tracker.error().message);
+
+  std::string csv = kHeader;
+  const auto summary = track_all(**headset, **tracker, csv);
+  if (!summary) return bad_input(summary.error().message);
+  if (Status status = engine::write_file(arguments.csv, csv); !status)
+    return bad_input(status.error().message);
+  print(arguments, *summary, (*headset)->summary(), (*tracker)->tools());
+  return kDone;
+}
+
+constexpr const char* kFooter =
+    "\nThe CSV has a row for each tag measured by both cameras in a pair: world_from_marker,\n"
+    "position in metres and unit quaternion; sigma_mm: predicted 3-D SD of the position from\n"
+    "corner noise; residual_px: RMS reprojection residual of the corners. Marker frame: origin at\n"
+    "the tag's centre, x right, y up as the upright tag is seen, z out of its face.";
+
+}  // namespace
+
+void add_track_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<TrackArguments>();
+  CLI::App* command =
+      app.add_subcommand("track", "Poses of every tool in every stereo pair of a recording");
+  command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
+      ->required();
+  command->add_option("--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
+  command->add_option("--method", arguments->method, "paper or best")->capture_default_str();
+  command->add_option("--csv", arguments->csv, "Where the poses go")->required();
+  command
+      ->add_option("--full-search-every", arguments->full_search_every,
+                   "1: search whole images; N: only around predictions, and everywhere in every "
+                   "N-th pair while a tool is missing")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000));
+  command->add_flag("--json", arguments->json, "The summary as JSON");
+  command->footer(kFooter);
+  command->callback(
+      [arguments, &action] { action = [arguments] { return run_track(*arguments); }; });
+}
+
+}  // namespace orthonav::tools
