@@ -23,7 +23,8 @@ endfunction()
 
 function(orthonav_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -Wshadow
-    -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual)
+    -Wconversion -Wno-sign-conversion -Wno-missing-field-initializers
+    -Wnon-virtual-dtor -Woverloaded-virtual)
   # GCC 12 sees overlapping copies in plain "text" + std::string (GCC bug 105651).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)

@@ -126,6 +126,7 @@ VideoWriter::~VideoWriter() = default;
 Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path,
                                                          const VideoOptions& options) {
   if (const Status status = check(path, options); !status) return status.error();
+  av_log_set_level(AV_LOG_ERROR);
   std::unique_ptr<VideoWriter> writer(new VideoWriter());
   writer->encoder_->path = path;
   writer->encoder_->part = path + ".part";
