@@ -67,9 +67,11 @@ void Theatre::let_surgeon_act(RoomState& now) {
   if (tool) {
     put(now, *tool, posture.grip, posture.contact_normal);
     const Vec3 view = posture.head.from_gaze;
+    // The forearm comes from the surgeon's right, across the shaft, so that it never hides the tag,
+    // and below the line of sight to the wound.
+    const Vec3 across = posture.grip.axis.cross(view).normalized();
     now.hand = hand_on(room_.tools[*tool], posture.grip);
-    // The forearm comes from the surgeon's side of the table, below the line of sight.
-    now.hand_axis = Vec3{view.x, 0.1, view.z - 0.2}.normalized();
+    now.hand_axis = (0.9 * across + 0.35 * Vec3{view.x, 0.0, view.z}).normalized();
   }
   if (const auto reference = layout_.tool(ToolKind::kReference))
     put(now, *reference, {layout_.middle() + Vec3{-0.02, 0.0, 0.13}, {0, 1, 0}, 0.0},

@@ -41,6 +41,7 @@ int FakeEngine::run() {
     for (const ClickerEvent& event : clicks) take(event);
     for (const Phrase& phrase : phrases) take(phrase);
     draw(frame);
+    if (on_frame) on_frame(frame, step_);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ struct EngineOptions {
 class FakeEngine {
  public:
   FakeEngine(SimHeadset& headset, const TestCase& test_case, EngineOptions options = {});
+  /// Called after each frame with the step of the workflow.
+  std::function<void(const StereoFrame&, const std::string&)> on_frame;
   /// Runs the headset to the end of its stream; the number of frames.
   int run();
 
