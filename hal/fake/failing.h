@@ -112,11 +112,11 @@ class FailingDisplay : public Display {
 };
 
 struct Faults {
-  std::vector<Fault<CameraFault>> camera;
-  std::vector<Fault<HeadFault>> head;
-  std::vector<Fault<EventFault>> clicker;
-  std::vector<Fault<EventFault>> voice;
-  std::vector<Fault<DisplayFault>> display;
+  std::vector<Fault<CameraFault>> camera{};
+  std::vector<Fault<HeadFault>> head{};
+  std::vector<Fault<EventFault>> clicker{};
+  std::vector<Fault<EventFault>> voice{};
+  std::vector<Fault<DisplayFault>> display{};
 };
 
 /// A headset with faults. The inner one is borrowed.

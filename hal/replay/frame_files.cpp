@@ -24,8 +24,10 @@ Status take_pose(std::string_view line, std::vector<std::string_view>& fields,
   if (!ticks || *ticks < 0) return Error{"ticks must be a whole number"};
   const auto pose = parse_pose<World, Rig>(fields, 1, kMaxWorldM);
   if (!pose) return Error{"world_from_rig: " + pose.error().message};
-  if (!poses.emplace(*ticks, *pose).second)
-    return Error{"ticks " + std::to_string(*ticks) + " have a pose already"};
+  // A frame that was written twice says the same twice; a contradiction is damage.
+  const auto [entry, added] = poses.emplace(*ticks, *pose);
+  if (!added && entry->second != *pose)
+    return Error{"ticks " + std::to_string(*ticks) + " have another pose already"};
   return {};
 }
 

@@ -10,7 +10,7 @@
 
 namespace orthonav::replay {
 
-/// rig2world.txt: pose by ticks. Lines may come in any order, but each time once.
+/// rig2world.txt: pose by ticks. Lines may come in any order; two for one time must agree.
 using PosesByTicks = std::map<std::int64_t, Transform<World, Rig>>;
 Result<PosesByTicks> read_poses(const std::filesystem::path& path);
 void append_pose(std::string& line, std::int64_t ticks, const Transform<World, Rig>& pose);

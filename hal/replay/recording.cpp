@@ -165,15 +165,15 @@ Result<Recording> read_recording(const std::filesystem::path& folder) {
   if (!left) return left.error();
   auto right = ImageTar::open(tar_of(folder, kRightSensor));
   if (!right) return right.error();
-  auto calibration = read_calibration(folder);
-  if (!calibration) return calibration.error();
   Recording recording;
   recording.left = std::move(*left);
   recording.right = std::move(*right);
-  recording.calibration = std::move(*calibration);
   if (Status s = add_device(folder, recording); !s) return s.error();
   if (Status s = add_poses(folder, recording); !s) return s.error();
   if (Status s = add_own_files(folder, recording); !s) return s.error();
+  auto calibration = read_calibration(folder);
+  if (!calibration) return calibration.error();
+  recording.calibration = std::move(*calibration);
   RecordingSummary& summary = recording.summary;
   summary.pairs = static_cast<std::int64_t>(recording.pairs.size());
   summary.left_unpaired =

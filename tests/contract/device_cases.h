@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+
+namespace orthonav::testing {
+
+/// One implementation of the device interfaces; every `open` gives the same device from its start.
+/// Its sessions are a few seconds long at most.
+struct DeviceCase {
+  std::string name;
+  std::function<std::unique_ptr<Headset>()> open;
+  bool has_events = true;  ///< clicker and voice say something
+};
+inline void PrintTo(const DeviceCase& device, std::ostream* out) { *out << device.name; }
+
+/// Every implementation there is.
+std::vector<DeviceCase> device_cases();
+
+}  // namespace orthonav::testing
