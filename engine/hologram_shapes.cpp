@@ -226,9 +226,9 @@ void add_status_line(Scene& scene, const std::string& text, std::span<const Tool
   render::TextItem item;
   item.label = label;
   item.place = render::TextPlace::kView;
-  item.position = {0, -0.112f, -0.5f};
+  item.position = {0, -0.096f, -0.5f};  // 11° below straight ahead
   item.height_m = 0.003f;
-  item.min_height_deg = 0.42f;
+  item.min_height_deg = 0.5f;
   item.runs = {{text, look::kDimWhite}};
   for (const ToolDot& tool : tools) {
     // The shape says it as well as the colour does.

@@ -6,8 +6,9 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <system_error>
 #include <vector>
+
+#include "engine/atomic_file.h"
 
 namespace orthonav::engine {
 namespace {
@@ -25,26 +26,6 @@ Result<std::vector<char>> bytes_of(const std::filesystem::path& path) {
   std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (file.bad()) return error_of(path, "can't be read");
   return bytes;
-}
-
-Status write_beside_and_rename(const std::filesystem::path& path, const std::vector<char>& bytes) {
-  std::filesystem::path beside = path;
-  beside += ".part";
-  std::error_code ignored;
-  {
-    std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) {
-      std::filesystem::remove(beside, ignored);
-      return error_of(path, "can't be written");
-    }
-  }
-  std::error_code failure;
-  std::filesystem::rename(beside, path, failure);
-  if (!failure) return {};
-  std::filesystem::remove(beside, ignored);
-  return error_of(path, "can't be written: " + failure.message());
 }
 
 }  // namespace
@@ -73,10 +54,10 @@ Result<render::Image> read_png(const std::filesystem::path& path) {
   return image;
 }
 
-Status write_png(const std::filesystem::path& path, const render::Image& image) {
+Result<std::string> png_bytes(const render::Image& image) {
   const auto pixels = static_cast<std::size_t>(image.width_px) * image.height_px;
   if (image.width_px <= 0 || image.height_px <= 0 || image.rgba.size() != 4 * pixels) {
-    return error_of(path, "image without pixels");
+    return Error{"image without pixels"};
   }
   png_image header = {};
   header.version = PNG_IMAGE_VERSION;
@@ -84,12 +65,18 @@ Status write_png(const std::filesystem::path& path, const render::Image& image) 
   header.height = static_cast<png_uint_32>(image.height_px);
   header.format = PNG_FORMAT_RGBA;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
-  std::vector<char> bytes(size);
+  std::string bytes(size, '\0');
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr)) {
-    return error_of(path, std::string("can't be encoded: ") + header.message);
+    return Error{std::string("image can't be encoded: ") + header.message};
   }
   bytes.resize(size);
-  return write_beside_and_rename(path, bytes);
+  return bytes;
+}
+
+Status write_png(const std::filesystem::path& path, const render::Image& image) {
+  const Result<std::string> bytes = png_bytes(image);
+  if (!bytes) return error_of(path, bytes.error().message);
+  return write_file(path.string(), *bytes);
 }
 
 Result<render::Image> picture_of_labels(const render::LabelImage& labels) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "hal/api/result.h"
 #include "render/renderer.h"
@@ -9,6 +10,9 @@ namespace orthonav::engine {
 
 /// Reads any PNG as 8-bit RGBA. Refuses a file that is absent, truncated or no PNG, by name.
 Result<render::Image> read_png(const std::filesystem::path& path);
+
+/// The image as the bytes of a PNG file.
+Result<std::string> png_bytes(const render::Image& image);
 
 /// Writes beside `path` first and then renames, so that no half-written image is ever seen.
 Status write_png(const std::filesystem::path& path, const render::Image& image);

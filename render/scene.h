@@ -33,11 +33,12 @@ inline constexpr Matrix4 kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 
 /// By convention 100·n + k for the k-th instance of hologram Hn (H3 of screw 2: 302).
 using Label = std::uint32_t;
 
-/// A surface, shared between frames: the renderer keys its GPU copy on the pointer.
+/// A surface, shared between frames: the renderer keys its GPU copy on the pointer. Its inside is
+/// never drawn.
 struct MeshData {
   std::vector<Float3> positions;
   std::vector<Float3> normals;         ///< one a vertex, unit length
-  std::vector<std::uint32_t> indices;  ///< three a triangle
+  std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
 };
 
 enum class MeshStyle {
@@ -48,7 +49,7 @@ enum class MeshStyle {
 struct MeshItem {
   Label label = 0;
   std::shared_ptr<const MeshData> mesh;
-  Matrix4 world_from_model = kIdentity;
+  Matrix4 world_from_model = kIdentity;  ///< rotation, shift and uniform scale; never a mirror
   Colour colour;
   MeshStyle style = MeshStyle::kSolid;
 };

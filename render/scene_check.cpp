@@ -37,6 +37,11 @@ bool is_affine(const Matrix4& m) {
   return m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
 }
 
+/// Positive for a turned and scaled place, negative for a mirrored one.
+float volume(const Matrix4& m) {
+  return dot(cross({m[0], m[1], m[2]}, {m[4], m[5], m[6]}), {m[8], m[9], m[10]});
+}
+
 bool is_rigid(const Matrix4& m) {
   if (!is_affine(m)) return false;
   const Float3 x = {m[0], m[1], m[2]};
@@ -50,6 +55,7 @@ bool is_rigid(const Matrix4& m) {
 Problem problem_of(const MeshItem& item) {
   if (!item.mesh) return "has no mesh";
   if (!is_affine(item.world_from_model)) return "has a place that is not a finite affine matrix";
+  if (!(volume(item.world_from_model) > 0)) return "has a place that mirrors or flattens it";
   if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
   return std::nullopt;
 }

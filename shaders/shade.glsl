@@ -11,5 +11,6 @@ float headlight(vec3 normal, vec3 towards_eye) {
 // read from its edges while what lies below stays visible.
 float rim_light(vec3 normal, vec3 towards_eye) {
   float away = 1.0 - facing(normal, towards_eye);
-  return 0.05 + 0.06 * (1.0 - away) + 2.3 * away * away * away;
+  float edge = away * away;
+  return 0.04 + 0.06 * (1.0 - away) + 2.6 * edge * edge;
 }

@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", ORTHONAV_VERSION);
   Action action;
   add_detect_command(app, action);
+  add_golden_command(app, action);
   add_track_command(app, action);
   try {
     app.parse(argc, argv);

@@ -95,6 +95,7 @@ class Recording {
     vkCmdEndRenderPass(commands_);
     const TargetSpec& spec = sources_.pass.targets.spec();
     VkBufferImageCopy region = {};
+    region.bufferOffset = sources_.readback_offset;
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, spec.views};
     region.imageExtent = {spec.width, spec.height, 1};
     vkCmdCopyImageToBuffer(commands_, sources_.pass.targets.result(),

@@ -28,6 +28,7 @@ struct FrameSources {
   const FrameItems& items;
   const Buffer& line_indices;
   const Buffer& readback;
+  VkDeviceSize readback_offset = 0;
   bool has_background = false;
 };
 

@@ -40,11 +40,14 @@ class VulkanRenderer final : public Renderer {
   std::string problem_of(const Scene& scene, const std::vector<View>& views,
                          const std::vector<const Image*>& backgrounds);
   const FramePass& pass_for(PassKind kind, std::size_t views);
-  void prepare(const std::vector<View>& views, bool has_background);
+  void draw_views(PassKind kind, const std::vector<View>& views,
+                  const std::vector<const Image*>& backgrounds, std::size_t first,
+                  std::size_t count);
+  void write_frame(const View* views, std::size_t count, bool has_background);
+  bool draws_both_eyes_whole();
   void prepare_data();
   void upload_atlas();
   void upload_blank_background();
-  void stage_backgrounds(const std::vector<const Image*>& backgrounds);
   [[nodiscard]] std::size_t image_bytes() const;
 
   RendererOptions options_;
@@ -66,6 +69,7 @@ class VulkanRenderer final : public Renderer {
   Buffer readback_;
   std::array<std::unique_ptr<FramePass>, 4> passes_;  ///< by kind and number of views
   FrameTiming timing_;
+  std::size_t views_a_pass_ = 2;
   bool lost_ = false;
 };
 

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+
+namespace orthonav::engine {
+
+/// A point of a hologram whose place in the image is asserted as a number.
+struct GoldenPoint {
+  render::Label label = 0;
+  render::Float3 in_world;
+};
+
+/// A picture that is kept: what is drawn, from where, and how large.
+struct GoldenScene {
+  std::string name;
+  std::string what;  ///< what a reviewer should see, one line
+  int width_px = 360;
+  int height_px = 234;
+  render::Scene scene;
+  std::vector<render::View> views;
+  /// Points that the hologram must cover.
+  std::vector<GoldenPoint> covered;
+  /// Centres of holograms that are alike on all sides of them, text left out.
+  std::vector<GoldenPoint> centred;
+};
+
+/// Every golden scene, in a fixed order; the same values at every call.
+[[nodiscard]] std::vector<GoldenScene> golden_scenes();
+
+/// What lies behind the holograms in the `over` pictures: a lit wound, a little uneven.
+[[nodiscard]] render::Image golden_background(int width_px, int height_px);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "render/renderer.h"
+
+namespace orthonav::render {
+
+// Comparing frames. There is no budget of pixels that may differ: a whole-frame budget is blind to
+// thin holograms and single digits.
+
+/// What 8-bit colour may differ by on the pinned software rasterizer: rounding of the last blend.
+inline constexpr int kColourTolerance = 2;
+
+struct ColourDifference {
+  bool same_size = true;
+  int worst = 0;  ///< largest difference of a channel, 0 to 255
+  int worst_x_px = 0;
+  int worst_y_px = 0;
+  std::size_t outside = 0;  ///< pixels with a channel beyond the tolerance
+  [[nodiscard]] bool alike() const { return same_size && outside == 0; }
+  /// `alike`, or one line with the count and the worst pixel.
+  [[nodiscard]] std::string text() const;
+};
+[[nodiscard]] ColourDifference compare_colour(const Image& expected, const Image& actual,
+                                              int tolerance = kColourTolerance);
+
+struct LabelDifference {
+  bool same_size = true;
+  std::size_t outside = 0;  ///< pixels whose label differs
+  int first_x_px = 0;
+  int first_y_px = 0;
+  Label expected = 0;  ///< at the first differing pixel
+  Label actual = 0;
+  [[nodiscard]] bool alike() const { return same_size && outside == 0; }
+  [[nodiscard]] std::string text() const;
+};
+/// Labels are integers: any difference is one.
+[[nodiscard]] LabelDifference compare_labels(const LabelImage& expected, const LabelImage& actual);
+
+/// Differences of the channels times `gain`, for the eye. Empty when the sizes differ.
+[[nodiscard]] Image difference_image(const Image& expected, const Image& actual, int gain = 16);
+
+/// Where the pixels of a label lie.
+struct LabelExtent {
+  double centre_x_px = 0;  ///< mean of the pixels' centres
+  double centre_y_px = 0;
+  int left_px = 0;  ///< first and one past the last column and row
+  int right_px = 0;
+  int top_px = 0;
+  int bottom_px = 0;
+  std::size_t pixels = 0;
+};
+/// Nothing when no pixel has the label.
+[[nodiscard]] std::optional<LabelExtent> extent_of(const LabelImage& image, Label label);
+
+}  // namespace orthonav::render
