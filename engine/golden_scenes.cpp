@@ -37,10 +37,10 @@ Float3 tool_point(double angle_deg) {
   return kEntry + kToolLength_m * (std::cos(angle_rad) * along + std::sin(angle_rad) * side);
 }
 
-/// Near enough to judge one hologram: 18° wide.
+/// Near enough to judge one hologram: 14° wide.
 std::vector<render::View> close_view(Float3 target) {
   const Float3 eye = target + Float3{0.24f, 0.36f, -0.16f};
-  return {render::look_at(eye, target, {0, 0.3f, 1}, 0.160f, 0.104f)};
+  return {render::look_at(eye, target, {0, 0.3f, 1}, 0.120f, 0.078f)};
 }
 
 /// The surgeon's own: both eyes, a HoloLens 2's 43°.
@@ -117,7 +117,7 @@ GoldenScene triangle(const std::string& name, const std::string& what, double an
 
 GoldenScene readout(const std::string& name, const std::string& what,
                     std::optional<double> angle_deg) {
-  GoldenScene golden = start(name, what, close_view({0.05f, 0.115f, 0.01f}));
+  GoldenScene golden = start(name, what, close_view({0.035f, 0.115f, 0.01f}));
   std::optional<double> angle_rad;
   if (angle_deg) angle_rad = *angle_deg * kRadiansPerDegree;
   const Float3 b = tool_point(angle_deg.value_or(4.0));

@@ -24,6 +24,8 @@ constexpr int kOversampling = 8;  // outline rasterised that much finer, then me
 constexpr int kPadding_px = 6;    // reach of the distances on either side of the outline
 constexpr int kAtlasWidth_px = 1024;
 
+constexpr char32_t kFigureDash = U'\u2012';
+
 /// Latin with accents, and the signs a navigation display needs.
 std::vector<char32_t> wanted() {
   std::vector<char32_t> codes;
@@ -139,6 +141,25 @@ std::vector<std::uint8_t> packed(std::vector<Cell>& cells, int& height_px) {
   return atlas;
 }
 
+/// A dash that fills a digit's whole width would join its neighbours to one stroke. The dash of
+/// numbers is a hyphen, in the middle of that width.
+void set_apart(std::vector<Cell>& cells) {
+  const auto find = [&](char32_t code) {
+    return std::find_if(cells.begin(), cells.end(),
+                        [&](const Cell& cell) { return cell.glyph.code == code; });
+  };
+  const auto dash = find(kFigureDash);
+  const auto hyphen = find(U'-');
+  if (dash == cells.end() || hyphen == cells.end()) return;
+  const float advance = dash->glyph.advance;
+  const float shift = 0.5f * (advance - hyphen->glyph.advance);
+  *dash = *hyphen;
+  dash->glyph.code = static_cast<std::uint32_t>(kFigureDash);
+  dash->glyph.advance = advance;
+  dash->glyph.left += shift;
+  dash->glyph.right += shift;
+}
+
 int fail(const char* what) {
   std::fprintf(stderr, "make_font: %s\n", what);
   return 2;
@@ -163,6 +184,7 @@ int make(const char* font_path, const char* out_path) {
     }
     cells.push_back(cell_of(face, code, cap_px));
   }
+  set_apart(cells);
   int height_px = 0;
   const std::vector<std::uint8_t> atlas = packed(cells, height_px);
   FontFileHeader header;
