@@ -1,5 +1,8 @@
 #include "hal/replay/recording_writer.h"
 
+#include <archive.h>
+#include <archive_entry.h>
+
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -59,6 +62,10 @@ Status LineFile::close() {
     return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
   return {};
 }
+
+void ImageTarWriter::FreeArchive::operator()(archive* a) const { archive_write_free(a); }
+
+void ImageTarWriter::FreeEntry::operator()(archive_entry* e) const { archive_entry_free(e); }
 
 Status ImageTarWriter::open(const std::filesystem::path& path) {
   path_ = path;

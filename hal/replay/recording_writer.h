@@ -1,8 +1,5 @@
 #pragma once
 
-#include <archive.h>
-#include <archive_entry.h>
-
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +10,9 @@
 #include "hal/api/devices.h"
 #include "hal/replay/event_files.h"
 #include "hal/replay/recording.h"
+
+struct archive;
+struct archive_entry;
 
 namespace orthonav::replay {
 
@@ -43,10 +43,10 @@ class ImageTarWriter {
 
  private:
   struct FreeArchive {
-    void operator()(archive* a) const { archive_write_free(a); }
+    void operator()(archive* a) const;
   };
   struct FreeEntry {
-    void operator()(archive_entry* e) const { archive_entry_free(e); }
+    void operator()(archive_entry* e) const;
   };
   std::filesystem::path path_;
   std::unique_ptr<archive, FreeArchive> archive_;

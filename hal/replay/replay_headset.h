@@ -22,7 +22,7 @@ struct RecordingSummary {
 inline constexpr Duration kPairWithin = std::chrono::milliseconds(1);
 
 /// A recorded session as a headset. Reads the folders of HoloLens 2's StreamRecorder and those of
-/// our own recorder, which holds more (docs/file-formats.md) and comes back to the bit.
+/// our own recorder, which holds more (docs/recordings.md) and comes back to the bit.
 ///
 /// Frames come as fast as they are asked for; the clock is the time of the last one. The time of a
 /// pair is its left image's. The head is known up to the last frame, predicted beyond it, lost
