@@ -12,8 +12,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Far beyond any sensor; keeps width · height from overflowing on damaged input.
 constexpr int kMaxSide = 16384;
 constexpr int kGridCellPx = 8;
-/// Newton stops below this step; the contract is 1e-6 px.
-constexpr double kNewtonStepPx = 1e-9;
+/// Newton's error is about the square of its last step: 1e-8 px, where the contract is 1e-6.
+constexpr double kNewtonStepPx = 1e-4;
 constexpr int kNewtonSteps = 30;
 /// A point that rounding put just past the image's edge still lies on it.
 constexpr double kEdgePx = 1e-7;

@@ -49,25 +49,51 @@ SoftwareRoomRenderer::SoftwareRoomRenderer(RoomDescription room, const Magnitude
       sensor_(magnitudes),
       painter_(room_, ground_) {}
 
-void SoftwareRoomRenderer::draw_background(const CameraLens& lens,
-                                           const Transform<LeftCamera, Spine>& camera_from_spine) {
-  background_.reset((lens.width_px() + 1) / 2, (lens.height_px() + 1) / 2);
-  quarter_.reset((background_.width + 1) / 2, (background_.height + 1) / 2);
-  const Transform<Spine, LeftCamera> spine_from_camera = camera_from_spine.inverse();
+void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
+                                       const Transform<Spine, LeftCamera>& spine_from_camera) {
   const Vec3 eye = spine_from_camera.translation();
   const std::array<float, 3> origin{static_cast<float>(eye.x), static_cast<float>(eye.y),
                                     static_cast<float>(eye.z)};
   const Mat3& turn = spine_from_camera.rotation();
-  for (int j = 0; j < quarter_.height; ++j)
-    for (int i = 0; i < quarter_.width; ++i) {
-      const Vec3 ray = turn * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
-                                       std::min(4 * j + 2, lens.height_px() - 1));
-      float& grey = quarter_.grey[static_cast<std::size_t>(j * quarter_.width + i)];
-      grey = std::isnan(ray.x) ? 0.0F
-                               : ground_.grey(ground_.hit(
-                                     origin, {static_cast<float>(ray.x), static_cast<float>(ray.y),
-                                              static_cast<float>(ray.z)}));
-    }
+  kinds_.resize(quarter_.grey.size());
+  const auto sample = [&](int i, int j) {
+    const Vec3 ray = turn * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
+                                     std::min(4 * j + 2, lens.height_px() - 1));
+    const std::size_t at = static_cast<std::size_t>(j * quarter_.width + i);
+    quarter_.grey[at] = 0.0F;
+    kinds_[at] = Ground::Kind::kNothing;
+    if (std::isnan(ray.x)) return;
+    const Ground::Hit hit = ground_.hit(
+        origin, {static_cast<float>(ray.x), static_cast<float>(ray.y), static_cast<float>(ray.z)});
+    quarter_.grey[at] = ground_.grey(hit);
+    kinds_[at] = hit.kind;
+  };
+  // Every second point first; the ones between only where something else than plain cloth is near.
+  const int last_i = quarter_.width - 1;
+  const int last_j = quarter_.height - 1;
+  for (int j = 0; j <= last_j; j += 2)
+    for (int i = 0; i <= last_i; i += 2) sample(i, j);
+  const auto between = [&](int i, int j, int di, int dj) {
+    const std::size_t a = static_cast<std::size_t>((j - dj) * quarter_.width + i - di);
+    const std::size_t b = static_cast<std::size_t>((j + dj) * quarter_.width + i + di);
+    if (i + di > last_i || j + dj > last_j || kinds_[a] != kinds_[b] ||
+        (kinds_[a] != Ground::Kind::kDrape && kinds_[a] != Ground::Kind::kFloor))
+      return sample(i, j);
+    const std::size_t at = static_cast<std::size_t>(j * quarter_.width + i);
+    quarter_.grey[at] = 0.5F * (quarter_.grey[a] + quarter_.grey[b]);
+    kinds_[at] = kinds_[a];
+  };
+  for (int j = 0; j <= last_j; j += 2)
+    for (int i = 1; i <= last_i; i += 2) between(i, j, 1, 0);
+  for (int j = 1; j <= last_j; j += 2)
+    for (int i = 0; i <= last_i; ++i) between(i, j, 0, 1);
+}
+
+void SoftwareRoomRenderer::draw_background(const CameraLens& lens,
+                                           const Transform<LeftCamera, Spine>& camera_from_spine) {
+  background_.reset((lens.width_px() + 1) / 2, (lens.height_px() + 1) / 2);
+  quarter_.reset((background_.width + 1) / 2, (background_.height + 1) / 2);
+  draw_ground(lens, camera_from_spine.inverse());
   doubled(quarter_, background_);
   bone_image_.reset(background_.width, background_.height);
   bone_image_.draw(coarse_bones_, ground_, camera_from_spine, lens, 0.5);

@@ -10,8 +10,8 @@ namespace {
 
 using Span = CoverageWindow::Span;
 
-/// The plate's rim in so many straight pieces a side: distortion bends them by less than 1e-3 px.
-constexpr int kRimPieces = 8;
+/// The plate's rim in so many straight pieces a side; nobody measures it.
+constexpr int kRimPieces = 4;
 constexpr int kArcPieces = 14;
 constexpr float kBackAlbedo = 0.35F;
 
@@ -43,7 +43,7 @@ std::array<float, 3> plane_through(std::array<Vec2, 3> p, std::array<double, 3> 
 void Layers::draw(const Plate& plate, const Lens& lens) {
   const auto& camera_from_marker = plate.camera_from_marker;
   const auto project = [&](double x, double y) {
-    return lens.pixel((camera_from_marker * Point<Marker>{{x, y, 0.0}}).v);
+    return lens.rough_pixel((camera_from_marker * Point<Marker>{{x, y, 0.0}}).v);
   };
   Box box;
   corners_px_.clear();
@@ -102,13 +102,18 @@ void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, doubl
   const auto vertex = [&](int row, int column) {
     return static_cast<std::size_t>(row * (n + 1) + column);
   };
-  corners_px_.clear();
+  // Only corners of black cells are needed; the projection is what costs.
+  corners_px_.assign(static_cast<std::size_t>((n + 1) * (n + 1)), {});
   for (int row = 0; row <= n; ++row)
     for (int column = 0; column <= n; ++column) {
+      const int black =
+          int{pattern.is_black(row, column)} + int{pattern.is_black(row - 1, column)} +
+          int{pattern.is_black(row, column - 1)} + int{pattern.is_black(row - 1, column - 1)};
+      if (black == 0 || black == 4) continue;
       const Vec3 at{(column - 0.5 * n) * plate.cell_m, (0.5 * n - row) * plate.cell_m, 0.0};
       const Vec2 pixel = lens.pixel((plate.camera_from_marker * Point<Marker>{at}).v);
-      corners_px_.push_back(
-          {pixel.x - static_cast<double>(layer.x0), pixel.y - static_cast<double>(layer.y0)});
+      corners_px_[vertex(row, column)] = {pixel.x - static_cast<double>(layer.x0),
+                                          pixel.y - static_cast<double>(layer.y0)};
     }
   const double step = static_cast<double>(kFullGrey * plate.light * (kBlackAlbedo - kWhiteAlbedo));
   CoverageWindow light(arena_.data() + layer.light, spans_.data() + layer.spans, layer.width,
@@ -133,8 +138,8 @@ void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, doubl
 }
 
 void Layers::draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens) {
-  const Vec2 a = lens.pixel(capsule.a);
-  const Vec2 b = lens.pixel(capsule.b);
+  const Vec2 a = lens.rough_pixel(capsule.a);
+  const Vec2 b = lens.rough_pixel(capsule.b);
   const double ra = lens.focal_px() * capsule.radius_a_m / capsule.a.z;
   const double rb = lens.focal_px() * capsule.radius_b_m / capsule.b.z;
   Box box;
@@ -190,24 +195,24 @@ void Layers::shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b, 
   const float cy = static_cast<float>(across.y);
   const float lamp = static_cast<float>(across.dot({lamp_in_camera.x, lamp_in_camera.y}));
   const float grey = kFullGrey * capsule.albedo;
+  const float gloss = capsule.gloss;
   const int stride = CoverageWindow::stride(layer.width);
   for (int row = 0; row < layer.height; ++row) {
     const Span span = spans_[layer.spans + static_cast<std::size_t>(row)];
-    const float* alpha = arena_.data() + layer.alpha + static_cast<std::ptrdiff_t>(row) * stride;
-    float* light = arena_.data() + layer.light + static_cast<std::ptrdiff_t>(row) * stride;
+    const auto offset = static_cast<std::ptrdiff_t>(row) * stride;
+    const float* __restrict alpha = arena_.data() + layer.alpha + offset;
+    float* __restrict light = arena_.data() + layer.light + offset;
     const float py = static_cast<float>(layer.y0 + row + 0.5 - a.y);
     const float px0 = static_cast<float>(layer.x0 + 0.5 - a.x);
     for (int x = span.low; x < span.high; ++x) {
       const float px = px0 + static_cast<float>(x);
-      float t = px * ax + py * ay;
-      t = t < 0.0F ? 0.0F : (t > 1.0F ? 1.0F : t);
+      const float t = std::min(std::max(px * ax + py * ay, 0.0F), 1.0F);
       const float radius = std::max(r0 + t * dr, 0.3F);
-      float q = (px * cx + py * cy) / radius;
-      q = q < -1.0F ? -1.0F : (q > 1.0F ? 1.0F : q);
-      const float facing = 1.0F - q * q;
-      const float tilted = 1.0F - (q - 0.45F * lamp) * (q - 0.45F * lamp) * 5.0F;
-      const float shine = tilted > 0.0F ? capsule.gloss * tilted * tilted : 0.0F;
-      light[x] = alpha[x] * grey * (0.42F + 0.58F * facing + 0.25F * q * lamp + shine);
+      const float q = std::min(std::max((px * cx + py * cy) / radius, -1.0F), 1.0F);
+      const float aside = q - 0.45F * lamp;
+      const float shine = std::max(1.0F - 5.0F * aside * aside, 0.0F);
+      light[x] =
+          alpha[x] * grey * (1.0F - 0.58F * q * q + 0.25F * q * lamp + gloss * shine * shine);
     }
   }
 }

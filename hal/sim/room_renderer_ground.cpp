@@ -8,7 +8,6 @@
 namespace orthonav::sim {
 namespace {
 
-constexpr int kPatch = 128;
 constexpr float kSkinAboveTip = 0.005F;
 constexpr float kWoundHalfWidth = 0.041F;
 constexpr float kWoundPastTips = 0.034F;
@@ -103,19 +102,6 @@ Blotches::Blotches() : values_(static_cast<std::size_t>(kPatch) * kPatch, 0.0F) 
   for (float& v : values_) v = std::clamp(0.5F + 1.6F * (v / total - 0.5F), 0.0F, 1.0F);
 }
 
-float Blotches::at(float x, float y) const {
-  const float u = (x - std::floor(x)) * kPatch;
-  const float v = (y - std::floor(y)) * kPatch;
-  const int i = static_cast<int>(u) & (kPatch - 1);
-  const int j = static_cast<int>(v) & (kPatch - 1);
-  const float s = u - std::floor(u);
-  const float t = v - std::floor(v);
-  const float* top = values_.data() + j * kPatch;
-  const float* bottom = values_.data() + ((j + 1) & (kPatch - 1)) * kPatch;
-  const int k = (i + 1) & (kPatch - 1);
-  return (1 - t) * ((1 - s) * top[i] + s * top[k]) + t * ((1 - s) * bottom[i] + s * bottom[k]);
-}
-
 Ground::Ground(const RoomDescription& room) {
   const std::vector<Tip> tips = tips_of(room);
   if (tips.empty()) return;
@@ -151,17 +137,6 @@ Ground::Ground(const RoomDescription& room) {
   wound_z_ = static_cast<float>(0.5 * (wound_low + wound_high)) + 0.006F;
   half_width_ = kWoundHalfWidth;
   half_length_ = static_cast<float>(0.5 * (wound_high - wound_low)) + kWoundPastTips;
-}
-
-float Ground::skin_height(float z) const {
-  const float t = std::clamp(z, low_, high_) - z0_;
-  return a_ + t * (b_ + t * c_);
-}
-
-float Ground::rim_at(float x, float z) const {
-  const float u = (x - wound_x_) / half_width_;
-  const float v = (z - wound_z_) / half_length_;
-  return u * u + v * v * v * v;
 }
 
 Ground::Hit Ground::hit(const std::array<float, 3>& o, const std::array<float, 3>& d) const {

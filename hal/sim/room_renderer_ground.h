@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "hal/sim/room.h"
@@ -12,9 +14,21 @@ class Blotches {
  public:
   Blotches();
   /// Bilinear; one repetition per unit of x and y.
-  [[nodiscard]] float at(float x, float y) const;
+  [[nodiscard]] float at(float x, float y) const {
+    const float u = (x - std::floor(x)) * kPatch;
+    const float v = (y - std::floor(y)) * kPatch;
+    const int i = static_cast<int>(u) & (kPatch - 1);
+    const int j = static_cast<int>(v) & (kPatch - 1);
+    const float s = u - static_cast<float>(static_cast<int>(u));
+    const float t = v - static_cast<float>(static_cast<int>(v));
+    const float* top = values_.data() + j * kPatch;
+    const float* bottom = values_.data() + ((j + 1) & (kPatch - 1)) * kPatch;
+    const int k = (i + 1) & (kPatch - 1);
+    return (1 - t) * ((1 - s) * top[i] + s * top[k]) + t * ((1 - s) * bottom[i] + s * bottom[k]);
+  }
 
  private:
+  static constexpr int kPatch = 128;
   std::vector<float> values_;
 };
 
@@ -43,9 +57,17 @@ class Ground {
   [[nodiscard]] std::array<float, 3> colour(const Hit& hit) const;
 
   /// Height of the skin, and of the tissue between the bones.
-  [[nodiscard]] float skin_height(float z) const;
+  [[nodiscard]] float skin_height(float z) const {
+    const float t = std::min(std::max(z, low_), high_) - z0_;
+    return a_ + t * (b_ + t * c_);
+  }
   [[nodiscard]] float tissue_height(float z) const { return skin_height(z) - kDepth; }
-  [[nodiscard]] float rim_at(float x, float z) const;
+  /// 0 in the wound's middle, 1 on its rim.
+  [[nodiscard]] float rim_at(float x, float z) const {
+    const float u = (x - wound_x_) / half_width_;
+    const float v = (z - wound_z_) / half_length_;
+    return u * u + v * v * v * v;
+  }
 
  private:
   static constexpr float kDepth = 0.036F;

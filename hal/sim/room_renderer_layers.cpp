@@ -1,20 +1,12 @@
 #include "hal/sim/room_renderer_layers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace orthonav::sim {
 namespace {
 
 using Span = CoverageWindow::Span;
-
-/// Coverage below this is rounding.
-constexpr float kNothing = 1e-4F;
-/// Pixels that are merged at a time; bodies seldom overlap in one.
-constexpr int kBlockPx = 32;
-/// A body may reach so far into the background before it is hidden: 1 mm at 0.5 m.
-constexpr float kDepthSlack = 0.004F;
 
 }  // namespace
 
@@ -82,108 +74,6 @@ void Layers::integrate(const Layer& layer, std::size_t window) {
     for (int x = span.low; x < span.high; ++x) {
       sum += cells[x];
       cells[x] = sum;
-    }
-  }
-}
-
-void Layers::merge(float weight, Foreground& sum, const float* hidden_by) {
-  for (int y = 0; y < sum.height_px; ++y) {
-    int low = sum.width_px;
-    int high = 0;
-    for (const Layer& layer : layers_) {
-      if (y < layer.y0 || y >= layer.y0 + layer.height) continue;
-      const Span span = spans_[layer.spans + static_cast<std::size_t>(y - layer.y0)];
-      if (span.low >= span.high) continue;
-      low = std::min(low, layer.x0 + span.low);
-      high = std::max(high, layer.x0 + span.high);
-    }
-    if (low >= high) continue;
-    Span& dirty = sum.spans[static_cast<std::size_t>(y)];
-    dirty = dirty.low == dirty.high ? Span{low, high}
-                                    : Span{std::min(dirty.low, low), std::max(dirty.high, high)};
-    for (int from = low; from < high; from += kBlockPx) {
-      const int to = std::min(from + kBlockPx, high);
-      active_.clear();
-      for (const Layer& layer : layers_) {
-        if (y < layer.y0 || y >= layer.y0 + layer.height) continue;
-        const Span span = spans_[layer.spans + static_cast<std::size_t>(y - layer.y0)];
-        if (layer.x0 + span.low < to && layer.x0 + span.high > from) active_.push_back(&layer);
-      }
-      if (active_.size() == 1)
-        merge_one(*active_.front(), y, from, to, weight, sum, hidden_by);
-      else if (!active_.empty())
-        merge_many(y, from, to, weight, sum, hidden_by);
-    }
-  }
-}
-
-void Layers::merge_one(const Layer& layer, int y, int from, int to, float weight, Foreground& sum,
-                       const float* hidden_by) const {
-  const Span span = spans_[layer.spans + static_cast<std::size_t>(y - layer.y0)];
-  from = std::max(from, layer.x0 + span.low);
-  to = std::min(to, layer.x0 + span.high);
-  const std::ptrdiff_t row =
-      static_cast<std::ptrdiff_t>(y - layer.y0) * CoverageWindow::stride(layer.width) - layer.x0;
-  const float* alpha = arena_.data() + static_cast<std::ptrdiff_t>(layer.alpha) + row;
-  const float* light = arena_.data() + static_cast<std::ptrdiff_t>(layer.light) + row;
-  float* opacity = sum.opacity.data() + sum.row(y);
-  if (hidden_by == nullptr && sum.channels == 1) {
-    float* out = sum.light.data() + sum.row(y);
-    for (int x = from; x < to; ++x) {
-      opacity[x] += weight * alpha[x];
-      out[x] += weight * light[x];
-    }
-    return;
-  }
-  const float* hide = hidden_by == nullptr ? nullptr : hidden_by + sum.row(y);
-  for (int x = from; x < to; ++x) {
-    if (hide != nullptr && layer.nearness(x, y) + kDepthSlack < hide[x]) continue;
-    opacity[x] += weight * alpha[x];
-    for (int c = 0; c < sum.channels; ++c)
-      sum.light[static_cast<std::size_t>(c) * sum.plane() + sum.row(y) +
-                static_cast<std::size_t>(x)] +=
-          weight * light[x] * layer.tint[static_cast<std::size_t>(c)];
-  }
-}
-
-void Layers::merge_many(int y, int from, int to, float weight, Foreground& sum,
-                        const float* hidden_by) const {
-  constexpr std::size_t kMost = 16;
-  std::array<Fragment, kMost> fragments;
-  const auto in_front = [](const Fragment& a, const Fragment& b) {
-    if (a.layer->tool == b.layer->tool && a.layer->rank != b.layer->rank)
-      return a.layer->rank > b.layer->rank;
-    return a.nearness > b.nearness;
-  };
-  for (int x = from; x < to; ++x) {
-    std::size_t count = 0;
-    const float hide =
-        hidden_by == nullptr ? -1e9F : hidden_by[sum.row(y) + static_cast<std::size_t>(x)];
-    for (const Layer* layer : active_) {
-      const Span span = spans_[layer->spans + static_cast<std::size_t>(y - layer->y0)];
-      const int column = x - layer->x0;
-      if (column < span.low || column >= span.high || count == kMost) continue;
-      const std::size_t cell = static_cast<std::size_t>(y - layer->y0) *
-                                   static_cast<std::size_t>(CoverageWindow::stride(layer->width)) +
-                               static_cast<std::size_t>(column);
-      const float alpha = arena_[layer->alpha + cell];
-      if (alpha < kNothing) continue;
-      const Fragment fragment{alpha, arena_[layer->light + cell], layer->nearness(x, y), layer};
-      if (fragment.nearness + kDepthSlack < hide) continue;
-      std::size_t place = count++;
-      for (; place > 0 && in_front(fragment, fragments[place - 1]); --place)
-        fragments[place] = fragments[place - 1];
-      fragments[place] = fragment;
-    }
-    float through = weight;
-    const std::size_t pixel = sum.row(y) + static_cast<std::size_t>(x);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Fragment& f = fragments[i];
-      for (std::size_t c = 0; c < static_cast<std::size_t>(sum.channels); ++c)
-        sum.light[c * sum.plane() + pixel] +=
-            through * f.light * (sum.channels == 1 ? 1.0F : f.layer->tint[c]);
-      sum.opacity[pixel] += through * f.alpha;
-      through *= std::max(1.0F - f.alpha, 0.0F);
     }
   }
 }

@@ -55,12 +55,16 @@ class Layers {
       return nearness0 + nearness_x * static_cast<float>(x) + nearness_y * static_cast<float>(y);
     }
   };
-  struct Fragment {
-    float alpha = 0.0F;
-    float light = 0.0F;
-    float nearness = 0.0F;
+  /// One layer's part of one row, addressed by the image's columns.
+  struct RowLayer {
     const Layer* layer = nullptr;
+    int low = 0;
+    int high = 0;
+    const float* alpha = nullptr;
+    const float* light = nullptr;
   };
+  /// Pixels merged at a time.
+  static constexpr int kBlockPx = 16;
 
   Layer* open_layer(Vec2 low, Vec2 high, const Lens& lens);
   void draw(const Plate& plate, const Lens& lens);
@@ -70,10 +74,13 @@ class Layers {
              double radius_b, Layer& layer);
   void integrate(const Layer& layer, std::size_t window);
   void merge(float weight, Foreground& sum, const float* hidden_by);
-  void merge_one(const Layer& layer, int y, int from, int to, float weight, Foreground& sum,
-                 const float* hidden_by) const;
-  void merge_many(int y, int from, int to, float weight, Foreground& sum,
-                  const float* hidden_by) const;
+  void merge_block(int y, int from, int to, float weight, Foreground& sum, const float* hidden_by);
+  void merge_pixel(int x, int y, float weight, Foreground& sum, const float* hidden_by);
+  /// Adds columns [from, to) of a layer behind what is there; `left`, from column `block` on, is
+  /// the weight that still gets through.
+  static void lay_under(const RowLayer& row, int y, int block, int from, int to, float* left,
+                        Foreground& sum, const float* hidden_by);
+  [[nodiscard]] static bool in_front(const Layer& a, const Layer& b, int x, int y);
   void wipe();
 
   std::vector<Layer> layers_;
@@ -82,7 +89,8 @@ class Layers {
   std::size_t arena_used_ = 0;
   std::size_t spans_used_ = 0;
   std::vector<Vec2> corners_px_;
-  std::vector<const Layer*> active_;
+  std::vector<RowLayer> in_row_;
+  std::vector<const RowLayer*> active_;
 };
 
 }  // namespace orthonav::sim

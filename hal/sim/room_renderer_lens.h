@@ -12,6 +12,8 @@ class Lens {
   virtual ~Lens() = default;
   /// `in_camera_m.z` must be positive.
   [[nodiscard]] virtual Vec2 pixel(Vec3 in_camera_m) const = 0;
+  /// Within about 0.1 px and many times faster: for shapes that nobody measures.
+  [[nodiscard]] virtual Vec2 rough_pixel(Vec3 in_camera_m) const = 0;
   /// Pixels per radian at the centre, for sizes that need not be exact.
   [[nodiscard]] virtual double focal_px() const = 0;
   [[nodiscard]] virtual int width_px() const = 0;
@@ -26,8 +28,7 @@ class CameraLens final : public Lens {
   [[nodiscard]] double focal_px() const override { return focal_px_; }
   [[nodiscard]] int width_px() const override { return camera_.width_px(); }
   [[nodiscard]] int height_px() const override { return camera_.height_px(); }
-  /// Within about 0.1 px and many times faster: for shapes that nobody measures.
-  [[nodiscard]] Vec2 rough_pixel(Vec3 in_camera_m) const;
+  [[nodiscard]] Vec2 rough_pixel(Vec3 in_camera_m) const override;
   /// The ray (x, y, 1) of the pixel, NaN where the camera sees nothing.
   [[nodiscard]] Vec3 ray(int column, int row) const {
     const Vec2 v = camera_.lookup()[index(column, row)];
@@ -58,7 +59,7 @@ class PinholeLens final : public Lens {
   [[nodiscard]] double focal_px() const override { return 0.5 * (scale_.x + scale_.y); }
   [[nodiscard]] int width_px() const override { return width_px_; }
   [[nodiscard]] int height_px() const override { return height_px_; }
-  [[nodiscard]] Vec2 rough_pixel(Vec3 in_camera_m) const { return pixel(in_camera_m); }
+  [[nodiscard]] Vec2 rough_pixel(Vec3 in_camera_m) const override { return pixel(in_camera_m); }
   [[nodiscard]] Vec3 ray(Vec2 pixel_px) const {
     return {(pixel_px.x - centre_.x) / scale_.x, (pixel_px.y - centre_.y) / scale_.y, 1.0};
   }

@@ -25,6 +25,8 @@ class SoftwareRoomRenderer final : public RoomRenderer {
   void draw_background(const CameraLens& lens,
                        const Transform<LeftCamera, Spine>& camera_from_spine);
 
+  void draw_ground(const CameraLens& lens, const Transform<Spine, LeftCamera>& spine_from_camera);
+
   RoomDescription room_;
   Ground ground_;
   BoneSurface coarse_bones_;
@@ -35,6 +37,7 @@ class SoftwareRoomRenderer final : public RoomRenderer {
   Solids solids_;
   HalfImage quarter_;
   HalfImage background_;
+  std::vector<Ground::Kind> kinds_;
   BoneImage bone_image_;
   PicturePainter painter_;
 };

@@ -101,14 +101,15 @@ void Sensor::compose_row(const HalfImage& background, const Foreground& foregrou
 
 void Sensor::blur_along(int y, Span span) {
   if (radius_ == 0 || span.low >= span.high) return;
-  float* row = ring_row(y);
+  float* const row = ring_row(y);
   // The row with its ends repeated, from span.low - radius_.
   for (int x = span.low - radius_; x < span.high + radius_; ++x)
     line_[static_cast<std::size_t>(x - span.low + radius_)] = row[std::clamp(x, 0, width_ - 1)];
-  const float* in = line_.data() + radius_;
+  const float* __restrict in = line_.data() + radius_;
   const int n = span.high - span.low;
-  float* out = row + span.low;
-  for (int x = 0; x < n; ++x) out[x] = kernel_[0] * in[x];
+  float* __restrict out = row + span.low;
+  const float centre = kernel_[0];
+  for (int x = 0; x < n; ++x) out[x] = centre * in[x];
   for (int k = 1; k <= radius_; ++k) {
     const float w = kernel_[static_cast<std::size_t>(k)];
     for (int x = 0; x < n; ++x) out[x] += w * (in[x - k] + in[x + k]);
@@ -119,14 +120,13 @@ const float* Sensor::blur_across(int y, Span span) {
   const float* centre = ring_row(y);
   if (radius_ == 0 || span.low >= span.high) return centre;
   std::memcpy(across_.data(), centre, sizeof(float) * static_cast<std::size_t>(width_));
-  for (int x = span.low; x < span.high; ++x)
-    across_[static_cast<std::size_t>(x)] = kernel_[0] * centre[x];
+  float* __restrict out = across_.data();
+  for (int x = span.low; x < span.high; ++x) out[x] *= kernel_.front();
   for (int k = 1; k <= radius_; ++k) {
-    const float* above = ring_row(std::max(y - k, 0));
-    const float* below = ring_row(std::min(y + k, height_ - 1));
+    const float* __restrict above = ring_row(std::max(y - k, 0));
+    const float* __restrict below = ring_row(std::min(y + k, height_ - 1));
     const float w = kernel_[static_cast<std::size_t>(k)];
-    for (int x = span.low; x < span.high; ++x)
-      across_[static_cast<std::size_t>(x)] += w * (above[x] + below[x]);
+    for (int x = span.low; x < span.high; ++x) out[x] += w * (above[x] + below[x]);
   }
   return across_.data();
 }
@@ -142,35 +142,43 @@ Span Sensor::widened(const Foreground& foreground, int low_row, int high_row) co
   return all.low < all.high ? all : Span{};
 }
 
-void Sensor::finish_row(const float* light, int y, std::uint64_t noise_seed, std::uint8_t* out) {
+void Sensor::draw_noise(int y, std::uint64_t noise_seed) {
+  // Counter-based (splitmix64's mix of a counter), so that no number waits for the one before.
+  std::uint64_t counter = noise_seed;
+  counter = splitmix64(counter) + static_cast<std::uint64_t>(y) * 0xD1342543DE82EF95ULL;
+  const float* const normal = normal_.data();
+  float* const noise = noise_.data();
+  for (int x = 0; x < width_; x += 4) {
+    counter += 0x9E3779B97F4A7C15ULL;
+    std::uint64_t bits = counter;
+    bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBULL;
+    bits ^= bits >> 31;
+    noise[x] = normal[bits & (kDraws - 1)];
+    noise[x + 1] = normal[(bits >> 16) & (kDraws - 1)];
+    noise[x + 2] = normal[(bits >> 32) & (kDraws - 1)];
+    noise[x + 3] = normal[(bits >> 48) & (kDraws - 1)];
+  }
+}
+
+void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
+                        std::uint8_t* out_bytes) {
   const float dy = static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(height_);
   const float corner = 0.25F * static_cast<float>(width_ * width_ + height_ * height_);
   const float kept = 1.0F - vignetting_ * dy * dy / corner;
-  if (shot_variance_per_grey_ == 0.0F && read_variance_ == 0.0F) {
-    for (int x = 0; x < width_; ++x) {
-      float v = light[x] * (kept - loss_x_[static_cast<std::size_t>(x)]) + 0.5F;
-      v = v < 0.0F ? 0.0F : (v > 255.0F ? 255.0F : v);
-      out[x] = static_cast<std::uint8_t>(static_cast<int>(v));
-    }
-    return;
-  }
-  std::uint64_t stream = noise_seed;
-  stream = splitmix64(stream) + static_cast<std::uint64_t>(y) * 0xD1342543DE82EF95ULL;
-  for (int x = 0; x < width_; x += 4) {
-    const std::uint64_t bits = splitmix64(stream);
-    float* four = noise_.data() + x;
-    four[0] = normal_[bits & (kDraws - 1)];
-    four[1] = normal_[(bits >> 16) & (kDraws - 1)];
-    four[2] = normal_[(bits >> 32) & (kDraws - 1)];
-    four[3] = normal_[(bits >> 48) & (kDraws - 1)];
-  }
-  for (int x = 0; x < width_; ++x) {
-    const float mean = light[x] * (kept - loss_x_[static_cast<std::size_t>(x)]);
-    const float positive = mean < 0.0F ? 0.0F : mean;
-    const float sd = std::sqrt(shot_variance_per_grey_ * positive + read_variance_);
-    float v = mean + sd * noise_[static_cast<std::size_t>(x)] + 0.5F;
-    v = v < 0.0F ? 0.0F : (v > 255.0F ? 255.0F : v);
-    out[x] = static_cast<std::uint8_t>(static_cast<int>(v));
+  const float shot = shot_variance_per_grey_;
+  const float read = read_variance_;
+  const int width = width_;
+  const float* __restrict light = light_in;
+  const float* __restrict loss = loss_x_.data();
+  const float* __restrict noise = noise_.data();
+  std::uint8_t* __restrict out = out_bytes;
+  const bool noisy = shot > 0.0F || read > 0.0F;
+  if (noisy) draw_noise(y, noise_seed);
+  for (int x = 0; x < width; ++x) {
+    const float mean = std::max(light[x] * (kept - loss[x]), 0.0F);
+    const float v = mean + std::sqrt(shot * mean + read) * noise[x] + 0.5F;
+    out[x] = static_cast<std::uint8_t>(static_cast<int>(std::min(std::max(v, 0.0F), 255.0F)));
   }
 }
 

@@ -34,6 +34,7 @@ class Sensor {
   void compose_row(const HalfImage& background, const Foreground& foreground, int y);
   void blur_along(int y, CoverageWindow::Span span);
   [[nodiscard]] const float* blur_across(int y, CoverageWindow::Span span);
+  void draw_noise(int y, std::uint64_t noise_seed);
   void finish_row(const float* light, int y, std::uint64_t noise_seed, std::uint8_t* out);
   [[nodiscard]] float* ring_row(int y);
   [[nodiscard]] CoverageWindow::Span widened(const Foreground& foreground, int low_row,
