@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace orthonav::sim {
+namespace {
+
+constexpr double kFarPx = 1e8;
+
+}  // namespace
 
 void CoverageWindow::touch(int row, int low, int high) {
   Span& span = spans_[row];
@@ -16,7 +21,9 @@ void CoverageWindow::touch(int row, int low, int high) {
 }
 
 void CoverageWindow::add_segment(Vec2 from, Vec2 to, double weight) {
-  if (!(from.y != to.y)) return;  // also drops NaN
+  // Whatever is not a number, or too far off to be clipped exactly, covers nothing.
+  if (!(std::abs(from.x) + std::abs(from.y) + std::abs(to.x) + std::abs(to.y) < kFarPx)) return;
+  if (from.y == to.y) return;
   if (from.y > to.y) return add_segment(to, from, -weight);
   if (to.y <= 0.0 || from.y >= height_) return;
   const double slope = (to.x - from.x) / (to.y - from.y);

@@ -33,6 +33,14 @@ void Foreground::reset(int width, int height, int channel_count) {
   spans.assign(static_cast<std::size_t>(height), {});
 }
 
+// Enough for bodies that fill an image of 640×480 twice over; a frame that needs more grows it.
+Layers::Layers() : arena_(std::size_t{2} * 2 * 640 * 480, 0.0F), spans_(16 * 1024) {
+  layers_.reserve(128);
+  in_row_.reserve(128);
+  active_.reserve(128);
+  corners_px_.reserve(512);
+}
+
 void Layers::add_moment(const Solids& solids, const Lens& lens, float weight, Foreground& sum,
                         const float* hidden_by) {
   for (const Plate& plate : solids.plates) draw(plate, lens);

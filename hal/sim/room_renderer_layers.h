@@ -29,6 +29,7 @@ struct Foreground {
 /// depth in each pixel. Memory is kept from frame to frame.
 class Layers {
  public:
+  Layers();
   /// Draws and adds one moment with its weight. `hidden_by`, if given, is the inverse depth of the
   /// background in each pixel: what lies behind it is not drawn.
   void add_moment(const Solids& solids, const Lens& lens, float weight, Foreground& sum,

@@ -132,7 +132,7 @@ TEST(RoomRenderer, AnEmptyRoomIsATable) {
   state.room_from_rig = scene::looking({0.3, 0.6, 0.0}, {0.0, 0.0, 0.0});
   const GreyImage image = left(*renderer, state);
   ASSERT_EQ(image.pixels.size(), 640u * 480u);
-  for (const auto [x, y] : {std::pair{5, 5}, {320, 240}, {600, 400}}) {
+  for (const auto& [x, y] : {std::pair{5, 5}, {320, 240}, {600, 400}}) {
     EXPECT_GT(image.at(x, y), 40);
     EXPECT_LT(image.at(x, y), 140);
   }

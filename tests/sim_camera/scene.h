@@ -81,12 +81,12 @@ inline Transform<Room, Marker> holding(const RoomTool& t, Vec3 tip, Vec3 up, Vec
 
 /// All three tools over the open wound, the pointer in the hand.
 inline RoomState operating_state(const RoomDescription& room) {
-  const Vec3 eye{0.30, 0.62, -0.02};
+  const Vec3 eye{0.30, 0.62, 0.03};
   RoomState state;
-  state.room_from_rig = looking(eye, {0.0, 0.22, -0.02});
+  state.room_from_rig = looking(eye, {0.0, 0.22, 0.03});
   state.room_from_spine = {Mat3::identity(), {0.0, 0.16, 0.0}};
-  const std::vector<Vec3> tips = {{0.015, 0.21, 0.0}, {-0.02, 0.205, -0.06}, {0.0, 0.225, 0.09}};
-  const std::vector<Vec3> shafts = {{0.25, 1.0, 0.25}, {0.1, 1.0, -0.45}, {0.1, 1.0, 0.5}};
+  const std::vector<Vec3> tips = {{0.015, 0.21, 0.0}, {-0.02, 0.205, -0.06}, {0.0, 0.225, 0.15}};
+  const std::vector<Vec3> shafts = {{0.25, 1.0, 0.25}, {0.1, 1.0, -0.45}, {0.1, 1.0, 0.3}};
   for (std::size_t i = 0; i < room.tools.size() && i < tips.size(); ++i) {
     state.room_from_marker.push_back(holding(room.tools[i], tips[i], shafts[i], eye));
     state.tool_present.push_back(true);

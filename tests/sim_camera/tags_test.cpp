@@ -15,6 +15,8 @@ namespace {
 
 /// Mean offset of an edge of the rendered border from the projected one.
 constexpr double kEdgeBiasPx = 0.01;
+/// With blur half a dozen pixels lie between levels that are known to half a grey of 170.
+constexpr double kBlurredEdgeBiasPx = 0.015;
 /// AprilTag's own bias on blur-free edges is a few hundredths of a pixel.
 constexpr double kCornerPx = 0.25;
 
@@ -27,10 +29,15 @@ Magnitudes perfect_camera() {
   return m;
 }
 
+const StereoCalibration& shared_calibration() {
+  static const StereoCalibration both = hololens2_calibration();
+  return both;
+}
+
 struct TagScene {
   RoomDescription room;
   RoomState state;
-  StereoCalibration calibration = hololens2_calibration();
+  const StereoCalibration& calibration = shared_calibration();
 
   /// One tag of that size (id 3), posed in the left camera.
   TagScene(double size_m, const Mat3& camera_from_marker, Vec3 at_m) {
@@ -140,7 +147,7 @@ TEST(RenderedTag, BlurLeavesEdgesInPlace) {
   const TagScene s(0.07, facing({0.1, -0.1, 0.15}), {0.05, 0.03, 0.35});
   const GreyImage image = s.left(blurred);
   for (int side = 0; side < 4; ++side)
-    EXPECT_LT(std::abs(side_offset_px(s, image, side)), kEdgeBiasPx);
+    EXPECT_LT(std::abs(side_offset_px(s, image, side)), kBlurredEdgeBiasPx);
 }
 
 TEST(RenderedTag, AprilTagFindsItsCornersWhereTheyAre) {
@@ -198,9 +205,8 @@ TEST(RenderedTag, APoseThatIsNotFiniteIsNotDrawn) {
 
 TEST(RenderedTag, IsCutAtTheImagesEdge) {
   // The tag's centre projects onto the image's left edge; half of its white rim must show.
-  TagScene s(0.07, facing({0, 0, 0}), {0.0, 0.0, 0.4});
-  const Vec2 edge_ray = *s.calibration.left.unproject({0.0, 240.0});
-  s = TagScene(0.07, facing({0, 0, 0}), {0.4 * edge_ray.x, 0.4 * edge_ray.y, 0.4});
+  const Vec2 edge_ray = *shared_calibration().left.unproject({0.0, 240.0});
+  const TagScene s(0.07, facing({0, 0, 0}), {0.4 * edge_ray.x, 0.4 * edge_ray.y, 0.4});
   const GreyImage image = s.left(perfect_camera());
   const Vec2 rim = s.projected(0.020, 0.035 * 1.12);  // in the quiet zone above the tag
   EXPECT_GT(image.at(static_cast<int>(rim.x), static_cast<int>(rim.y)), 150);
