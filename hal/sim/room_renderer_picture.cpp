@@ -8,6 +8,8 @@ namespace {
 
 constexpr int kDefaultWidthPx = 960;
 constexpr int kDefaultHeightPx = 540;
+/// People's pictures are brighter than the cameras': paper is nearly white.
+constexpr float kPrintLight = 1.2F;
 constexpr std::size_t kEncodeSteps = 4096;
 
 /// Eye axes (y up, -z forward) to camera axes (y down, z forward).
@@ -108,8 +110,8 @@ void PicturePainter::merge_tools(RgbaImage& image) {
       if (static_cast<int>(x) >= span.low && static_cast<int>(x) < span.high)
         for (std::size_t k = 0; k < 3; ++k) {
           const float below = static_cast<float>(out[k]);
-          const float v =
-              below + foreground_.light[k * plane + row + x] - foreground_.opacity[row + x] * below;
+          const float v = below + kPrintLight * foreground_.light[k * plane + row + x] -
+                          foreground_.opacity[row + x] * below;
           out[k] = static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F));
         }
       out[3] = 255;
