@@ -8,6 +8,7 @@
 #include "nav/tracking/tag_matching.h"
 #include "nav/tracking/tag_pose.h"
 #include "nav/tracking/tool_tracker.h"
+#include "tests/nav/allocation_count.h"
 #include "tests/nav/tag_scene.h"
 
 namespace orthonav::nav {
@@ -210,6 +211,26 @@ TEST(PaperTracker, FindsAToolAgainThatJumped) {
   }
   EXPECT_GE(found_after, 0);
   EXPECT_LE(found_after, 3);
+}
+
+TEST(PaperTracker, AllocatesNothingOnceWarm) {
+  for (const int interval : {1, 10}) {
+    auto t = tracker({.full_search_interval = interval});
+    StereoFrame frame = stroke()[0];
+    for (int k = 0; k < 3; ++k) {
+      frame.time = at_frame(k);
+      (void)t->track(frame);
+    }
+    const std::size_t before = test::allocation_count();
+    for (int k = 3; k < 8; ++k) {
+      frame.time = at_frame(k);
+      (void)t->track(frame);
+    }
+    EXPECT_EQ(test::allocation_count(), before);
+  }
+  const std::size_t before = test::allocation_count();
+  const std::vector<int> one(1);  // the counter does count
+  EXPECT_EQ(test::allocation_count(), before + one.size());
 }
 
 TEST(PaperTracker, RejectsATagOfTheWrongSize) {
