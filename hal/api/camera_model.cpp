@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "hal/api/brown_conrady.h"
+
 namespace orthonav {
 namespace {
 
@@ -170,44 +172,6 @@ Grid build_grid(int width_px, int height_px, std::span<const Vec2> lookup) {
   return grid;
 }
 
-/// Derivative of BrownConrady::distort in pixels by the unit-plane point: columns along x and y.
-std::array<Vec2, 2> distort_jacobian(const BrownConrady& p, Vec2 u) {
-  const double r2 = u.dot(u);
-  const double radial = 1.0 + r2 * (p.k1 + r2 * (p.k2 + r2 * p.k3));
-  const double slope = 2.0 * (p.k1 + r2 * (2.0 * p.k2 + 3.0 * r2 * p.k3));  // d radial / (r dr)
-  const double mixed = u.x * u.y * slope + 2.0 * p.p1 * u.x + 2.0 * p.p2 * u.y;
-  const double xx = radial + u.x * u.x * slope + 2.0 * p.p1 * u.y + 6.0 * p.p2 * u.x;
-  const double yy = radial + u.y * u.y * slope + 6.0 * p.p1 * u.y + 2.0 * p.p2 * u.x;
-  return {{{p.fx_px * xx, p.fy_px * mixed}, {p.fx_px * mixed, p.fy_px * yy}}};
-}
-
-/// Inverse of `distort` by Newton's method from the undistorted pixel; NaN where the polynomial
-/// does not reach the pixel on the branch that contains the centre.
-Vec2 undistorted(const BrownConrady& p, Vec2 pixel_px) {
-  Vec2 u{(pixel_px.x - p.cx_px) / p.fx_px, (pixel_px.y - p.cy_px) / p.fy_px};
-  for (int i = 0; i < kNewtonSteps; ++i) {
-    const Vec2 off = pixel_px - p.distort(u);
-    const auto [by_x, by_y] = distort_jacobian(p, u);
-    const double determinant = cross(by_x, by_y);
-    if (!(determinant > 0.0)) return {kNaN, kNaN};
-    const Vec2 step{cross(off, by_y) / determinant, cross(by_x, off) / determinant};
-    u = u + step;
-    if (step.norm() * p.fx_px < kNewtonStepPx)
-      return cross(distort_jacobian(p, u)[0], distort_jacobian(p, u)[1]) > 0.0 ? u
-                                                                               : Vec2{kNaN, kNaN};
-  }
-  return {kNaN, kNaN};
-}
-
-Status check_parameters(const BrownConrady& p) {
-  for (const double v : {p.fx_px, p.fy_px, p.cx_px, p.cy_px, p.k1, p.k2, p.p1, p.p2, p.k3})
-    if (!std::isfinite(v)) return Error{"camera parameters hold a number that is not finite"};
-  if (p.fx_px <= 0.0 || p.fy_px <= 0.0)
-    return Error{"camera focal length is " + std::to_string(std::min(p.fx_px, p.fy_px)) +
-                 " px, must be positive"};
-  return {};
-}
-
 Status check_size(int width_px, int height_px) {
   if (width_px < 2 || height_px < 2 || width_px > kMaxSide || height_px > kMaxSide)
     return Error{"camera image is " + std::to_string(width_px) + " x " + std::to_string(height_px) +
@@ -216,14 +180,6 @@ Status check_size(int width_px, int height_px) {
 }
 
 }  // namespace
-
-Vec2 BrownConrady::distort(Vec2 u) const {
-  const double r2 = u.dot(u);
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double x = u.x * radial + 2.0 * p1 * u.x * u.y + p2 * (r2 + 2.0 * u.x * u.x);
-  const double y = u.y * radial + p1 * (r2 + 2.0 * u.y * u.y) + 2.0 * p2 * u.x * u.y;
-  return {fx_px * x + cx_px, fy_px * y + cy_px};
-}
 
 Result<CameraModel> CameraModel::from_lookup(int width_px, int height_px,
                                              std::vector<Vec2> unit_plane) {
@@ -251,7 +207,7 @@ Result<CameraModel> CameraModel::from_lookup(int width_px, int height_px,
 
 Result<CameraModel> CameraModel::from_brown_conrady(const BrownConrady& p) {
   if (Status size = check_size(p.width_px, p.height_px); !size) return size.error();
-  if (Status parameters = check_parameters(p); !parameters) return parameters.error();
+  if (Status parameters = checked_parameters(p); !parameters) return parameters.error();
   std::vector<Vec2> table;
   table.reserve(static_cast<std::size_t>(p.width_px) * static_cast<std::size_t>(p.height_px));
   for (int row = 0; row < p.height_px; ++row)
