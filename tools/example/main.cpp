@@ -1,5 +1,6 @@
-// Opens the simulated operating room, navigates one level and prints what guides the surgeon.
+// Opens the simulated operating room, navigates one level and prints what the surgeon is told.
 #include <cstdio>
+#include <cstdlib>
 
 #include "engine/frame_loop.h"
 #include "engine/operation_plan.h"
@@ -11,28 +12,28 @@ using namespace orthonav;
 using namespace orthonav::engine;
 
 struct Printer : LoopObserver {
-  FrameLoop* loop = nullptr;
-  int left = 10;
   void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
-    if (!guidance.tool || frame.sequence % 15 != 0) return;
-    const nav::ScrewGuidance& screw = guidance.tool->measured;
-    std::printf("%s: %.1f deg off the plan, tip %.1f mm from the entry\n",
-                guidance.step_text.c_str(), screw.angle_rad * 57.2958, screw.tip_to_entry_m * 1e3);
-    if (--left == 0) loop->stop();
+    if (frame.sequence % 30 != 0) return;
+    std::printf("%s  %s", guidance.step_text.c_str(), guidance.detail.c_str());
+    if (guidance.tool)
+      std::printf("  %.1f deg off the plan, tip %.1f mm from the entry",
+                  guidance.tool->measured.angle_rad * 57.2958,
+                  guidance.tool->measured.tip_to_entry_m * 1e3);
+    std::puts("");
   }
 };
 
-int main() {
+int main(int argc, char** argv) {
   const Case spine = phantom();
   auto operation = plan_operation(spine, {"L4"});
   auto headset = open_headset("sim:?seed=3", {room_of(spine, *operation, built_in_tools()), {}});
   auto method = method_named("paper");
-  auto tracker = method->create_tracker((*headset)->cameras().calibration(), built_in_tools(), {});
+  auto tracker = method->create_tracker((*headset)->cameras().calibration(), built_in_tools(),
+                                        {.full_search_interval = 10});
   auto session = Session::create(std::move(*operation), std::move(*tracker), method->registrar);
   SceneBuilder builder;
-  FrameLoop loop(**headset, **session, builder, {});
+  FrameLoop loop(**headset, **session, builder, {.max_frames = argc > 1 ? atoi(argv[1]) : 0});
   Printer printer;
-  printer.loop = &loop;
   loop.observe(&printer);
-  return loop.run().ok() && printer.left == 0 ? 0 : 1;
+  return loop.run().ok() ? 0 : 1;
 }
