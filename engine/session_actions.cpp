@@ -57,6 +57,8 @@ void Session::act_on_level(Action action, Timestamp time) {
       return;
     case Action::kRegister:
       digitizer_.release(time);
+      // What is not saved is not registered: the two clicks that ask for it are no strokes.
+      if (!digitizer_.regions().empty() && !digitizer_.regions().back().saved) digitizer_.drop();
       try_registration(time);
       return;
     case Action::kAccept:

@@ -19,16 +19,7 @@ bool ToolWatch::fresh(Timestamp now, Duration within) const {
 }
 
 nav::TrackedPose ToolWatch::at(Timestamp time, Duration coast) const {
-  if (newer_.origin != Origin::kMeasured) return {};
-  // A velocity over a gap says where the tool was going then, not now: hold the pose instead.
-  const bool has_velocity =
-      older_.origin == Origin::kMeasured && newer_.time - older_.time <= coast;
-  if (has_velocity) return nav::predicted(older_, newer_, time, coast);
-  if (newer_.age(time) > coast) return {};
-  nav::TrackedPose held = newer_;
-  held.time = time;
-  held.origin = Origin::kPredicted;
-  return held;
+  return nav::predicted(older_, newer_, time, coast);
 }
 
 }  // namespace orthonav::engine

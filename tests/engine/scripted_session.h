@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/session.h"
+
+namespace orthonav::engine::testing {
+
+/// A closed box, finely divided, 60 × 40 × 50 mm: a bone as far as the session is concerned.
+nav::TriangleMesh box_bone();
+
+/// One screw a side on top of that box (its posterior face, +y), pointing straight in (-y).
+std::vector<nav::ScrewPlan> two_screws();
+
+Operation operation_of(const std::vector<std::string>& labels);
+
+/// Where a tool is for the next pairs; absent: not seen.
+class ScriptedTracker : public nav::ToolTracker {
+ public:
+  ScriptedTracker();
+  std::span<const nav::ToolState> track(const StereoFrame& frame) override;
+  [[nodiscard]] std::span<const nav::ToolGeometry> tools() const override { return tools_; }
+
+  std::optional<Transform<World, Marker>> pointer;
+  std::optional<Transform<World, Marker>> guide;
+
+ private:
+  std::vector<nav::ToolGeometry> tools_;
+  std::vector<nav::ToolState> states_;
+};
+
+/// A session whose surgeon, tools and registrations are said line by line. Pairs come every 33 ms.
+class ScriptedSession {
+ public:
+  explicit ScriptedSession(std::vector<std::string> labels = {"L4", "L5"},
+                           SessionOptions options = {});
+
+  const Guidance& pair();
+  const Guidance& pairs(int n);
+  const Guidance& says(const std::string& phrase, double confidence = 1.0);
+  const Guidance& does(std::vector<ClickerAction> actions);
+  /// Presses, holds over `n` pairs, releases.
+  const Guidance& strokes(int n);
+  /// A click of two pairs with the pointer's tip at `tip`.
+  const Guidance& touches(Vec3 tip);
+  /// From setup to `accepted` of the first level.
+  const Guidance& accepts_first_level();
+
+  [[nodiscard]] Session& session() { return *session_; }
+  [[nodiscard]] ScriptedTracker& tracker() { return *tracker_; }
+  [[nodiscard]] Timestamp now() const { return now_; }
+
+  nav::Registration registration;              ///< what the next registration says
+  std::optional<std::string> unusable;         ///< or why there is none
+  std::vector<std::size_t> registered_points;  ///< of each registration asked for
+  Duration latency = std::chrono::milliseconds(16);
+
+ private:
+  Timestamp now_ = from_ticks_100ns(10'000'000);
+  std::vector<ClickerEvent> clicks_;
+  std::vector<Phrase> phrases_;
+  ScriptedTracker* tracker_ = nullptr;
+  std::unique_ptr<Session> session_;
+};
+
+/// A guide whose tip is at `tip` and whose shaft leaves the bone at `angle_rad` from +y, about z.
+Transform<World, Marker> guide_at(Vec3 tip, double angle_rad);
+/// A pointer with its tip there.
+Transform<World, Marker> pointer_at(Vec3 tip);
+
+}  // namespace orthonav::engine::testing

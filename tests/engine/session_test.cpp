@@ -1,0 +1,279 @@
+#include "engine/session.h"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "tests/engine/scripted_session.h"
+
+namespace orthonav::engine {
+namespace {
+
+using testing::guide_at;
+using testing::pointer_at;
+using testing::ScriptedSession;
+using enum ClickerAction;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
+// Arithmetic on values of the order of 1: far below what any device resolves.
+constexpr double kExact = 1e-9;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+TEST(Session, BeginsWithTheFirstLevelWhenTold) {
+  ScriptedSession s;
+  EXPECT_EQ(s.pair().step_text, "setup");
+  EXPECT_EQ(s.says("start").step_text, "digitize L4");
+}
+
+TEST(Session, RefusesWhatHasNoMeaningAndSaysSo) {
+  ScriptedSession s;
+  const Guidance& g = s.says("accept");
+  EXPECT_EQ(g.step, Step::kSetup);
+  EXPECT_THAT(g.detail, HasSubstr("not possible now"));
+  EXPECT_THAT(g.detail, HasSubstr("accept"));
+}
+
+TEST(Session, DoesNotActOnWhatItHardlyUnderstood) {
+  ScriptedSession s;
+  EXPECT_EQ(s.says("start", 0.49).step, Step::kSetup);
+  EXPECT_EQ(s.says("start", 0.5).step, Step::kDigitize);
+}
+
+TEST(Session, SamplesWhileTheButtonIsDownAndNotAfter) {
+  ScriptedSession s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  const Guidance& g = s.pairs(3);
+  ASSERT_EQ(g.regions.size(), 1u);
+  EXPECT_EQ(g.regions[0].samples.size(), 5u);
+  EXPECT_FALSE(g.regions[0].saved);
+  EXPECT_EQ(g.detail, "5 points");
+}
+
+TEST(Session, DoesNotSampleAToolThatIsNotMeasured) {
+  ScriptedSession s;
+  s.says("start");
+  s.strokes(5);
+  std::size_t samples = 0;
+  for (const nav::Region& region : s.pair().regions) samples += region.samples.size();
+  EXPECT_EQ(samples, 0u);
+}
+
+TEST(Session, RegistersWhatWasSavedAndOnlyThat) {
+  ScriptedSession s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  s.says("save");
+  s.strokes(4);  // never saved
+  s.does({kDoubleClick});
+  EXPECT_THAT(s.registered_points, ::testing::ElementsAre(5u));
+}
+
+TEST(Session, StaysInDigitizeWithTheReasonWhenTheNumbersRefuse) {
+  ScriptedSession s;
+  s.registration.accepted = false;
+  s.registration.reasons = {"registration RMSE 3.4 mm, limit 3.0 mm"};
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  s.says("save");
+  const Guidance& g = s.does({kDoubleClick});
+  EXPECT_EQ(g.step, Step::kDigitize);
+  EXPECT_EQ(g.detail, "refused: registration RMSE 3.4 mm, limit 3.0 mm");
+  EXPECT_EQ(g.levels[0].attempts, 1);
+  EXPECT_FALSE(g.levels[0].registration.has_value());
+  // The saved regions stay: more strokes may heal it.
+  EXPECT_EQ(g.regions.size(), 1u);
+}
+
+TEST(Session, SaysWhyARegistrationWasUnusable) {
+  ScriptedSession s;
+  s.unusable = "0 points, at least 100 needed";
+  s.says("start");
+  const Guidance& g = s.does({kDoubleClick});
+  EXPECT_EQ(g.step, Step::kDigitize);
+  EXPECT_EQ(g.detail, "refused: 0 points, at least 100 needed");
+  EXPECT_EQ(g.levels[0].attempts, 1);
+}
+
+TEST(Session, GuidesOnlyAfterTheSurgeonsWord) {
+  ScriptedSession s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.tracker().guide = guide_at(kLeftEntry, 0.0);
+  s.says("start");
+  s.strokes(5);
+  s.says("save");
+  EXPECT_EQ(s.does({kDoubleClick}).step_text, "verify L4");
+  EXPECT_FALSE(s.pair().levels[0].accepted);
+  EXPECT_EQ(s.says("next").step, Step::kVerify);
+  EXPECT_EQ(s.says("accept").step_text, "accepted L4");
+  EXPECT_TRUE(s.pair().levels[0].accepted);
+  EXPECT_FALSE(s.pair().tool.has_value());
+  EXPECT_EQ(s.says("next").step_text, "guide L4 left");
+  EXPECT_TRUE(s.pair().tool.has_value());
+}
+
+TEST(Session, RejectClearsTheLevelInVerifyAcceptedAndGuide) {
+  for (const int words : {0, 1, 2}) {
+    ScriptedSession s;
+    s.tracker().pointer = pointer_at({0, 0.02, 0});
+    s.says("start");
+    s.strokes(5);
+    s.says("save");
+    s.does({kDoubleClick});
+    if (words > 0) s.says("accept");
+    if (words > 1) s.says("next");
+    const Guidance& g = s.says("reject");
+    EXPECT_EQ(g.step_text, "digitize L4") << words;
+    EXPECT_FALSE(g.levels[0].registration.has_value()) << words;
+    EXPECT_FALSE(g.levels[0].accepted) << words;
+    EXPECT_TRUE(g.regions.empty()) << words;
+    EXPECT_FALSE(g.tool.has_value()) << words;
+  }
+}
+
+TEST(Session, MeasuresTheAngleBetweenToolAndPlan) {
+  ScriptedSession s;
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, radians(7.0));
+  s.pair();
+  const Guidance& g = s.pair();
+  ASSERT_TRUE(g.tool.has_value());
+  EXPECT_NEAR(g.tool->measured.angle_rad, radians(7.0), kExact);
+  EXPECT_NEAR(g.tool->measured.tip_to_entry_m, 0.0, kExact);
+}
+
+TEST(Session, PredictsTheOverlayButNotTheNumber) {
+  ScriptedSession s;
+  s.latency = std::chrono::microseconds(33333);
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, radians(4.0));
+  s.pair();
+  s.tracker().guide = guide_at(kLeftEntry, radians(5.0));
+  const Guidance& g = s.pair();
+  ASSERT_TRUE(g.tool.has_value());
+  EXPECT_NEAR(g.tool->measured.angle_rad, radians(5.0), kExact);
+  EXPECT_NEAR(g.tool->shown.angle_rad, radians(6.0), 1e-6);
+}
+
+TEST(Session, HidesGuidanceOnceThePoseIsOlderThanItsLimit) {
+  ScriptedSession s;
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, 0.0);
+  s.pairs(3);
+  ASSERT_TRUE(s.pair().tool.has_value());
+  s.tracker().guide.reset();
+  EXPECT_TRUE(s.pair().tool_lost);
+  const Guidance& g = s.pairs(4);
+  EXPECT_FALSE(g.tool.has_value());
+  EXPECT_EQ(g.detail, "guide lost");
+  s.tracker().guide = guide_at(kLeftEntry, 0.0);
+  EXPECT_TRUE(s.pair().tool.has_value());
+  EXPECT_FALSE(s.pair().tool_lost);
+}
+
+TEST(Session, GoesThroughEveryScrewLevelAndRodToTheEnd) {
+  ScriptedSession s;
+  s.accepts_first_level();
+  EXPECT_EQ(s.says("next").step_text, "guide L4 left");
+  EXPECT_EQ(s.says("next").step_text, "guide L4 right");
+  EXPECT_EQ(s.says("next").step_text, "digitize L5");
+  s.strokes(5);
+  s.says("save");
+  EXPECT_EQ(s.does({kDoubleClick}).step_text, "verify L5");
+  s.says("accept");
+  EXPECT_EQ(s.says("next").step_text, "guide L5 left");
+  EXPECT_EQ(s.says("next").step_text, "guide L5 right");
+  EXPECT_EQ(s.says("next").step_text, "rod left");
+  EXPECT_EQ(s.says("done").step_text, "rod right");
+  EXPECT_EQ(s.says("done").step_text, "done");
+  for (const LevelState& level : s.session().levels()) {
+    EXPECT_TRUE(level.accepted) << level.plan.label << ": stays registered";
+    EXPECT_THAT(level.screw_done, ::testing::Each(true));
+  }
+}
+
+class RodSession : public ::testing::Test {
+ protected:
+  RodSession() : s({"L5"}) {
+    s.accepts_first_level();
+    s.says("next");
+    s.says("next");
+    s.says("next");
+  }
+  ScriptedSession s;
+};
+
+TEST_F(RodSession, RecordsHeadsAtTheTipAndJoinsThem) {
+  ASSERT_EQ(s.pair().step_text, "rod left");
+  s.touches({0.02, 0.03, 0.00});
+  EXPECT_FALSE(s.session().rods()[0].rod.has_value());
+  const Guidance& g = s.touches({0.02, 0.03, 0.04});
+  ASSERT_EQ(g.rods[0].heads.size(), 2u);
+  EXPECT_NEAR((g.rods[0].heads[1].v - Vec3{0.02, 0.03, 0.04}).norm(), 0.0, kExact);
+  ASSERT_TRUE(g.rods[0].rod.has_value());
+  EXPECT_NEAR(g.rods[0].rod->length_m, 0.04, 1e-6);
+  EXPECT_EQ(g.detail, "2 heads");
+}
+
+TEST_F(RodSession, DropsTheLastHead) {
+  s.touches({0.02, 0.03, 0.00});
+  s.touches({0.02, 0.03, 0.04});
+  const Guidance& g = s.says("delete");
+  EXPECT_EQ(g.rods[0].heads.size(), 1u);
+  EXPECT_FALSE(g.rods[0].rod.has_value());
+  s.says("delete");
+  EXPECT_EQ(s.says("delete").detail, "no head to delete");
+}
+
+TEST_F(RodSession, DoesNotRecordAHeadWithAnUnseenPointer) {
+  s.tracker().pointer.reset();
+  s.pairs(5);
+  const Guidance& g = s.does({kPress, kRelease, kClick});
+  EXPECT_TRUE(g.rods[0].heads.empty());
+  EXPECT_THAT(g.detail, StartsWith("head not recorded"));
+}
+
+TEST_F(RodSession, MovesTheRodsAwayAndBack) {
+  s.touches({0.02, 0.03, 0.00});
+  EXPECT_TRUE(s.says("move rod").rods_moved_away);
+  EXPECT_FALSE(s.says("move rod").rods_moved_away);
+}
+
+TEST(SessionOptions, NamesEveryProblem) {
+  SessionOptions bad;
+  bad.stale_after = Duration::zero();
+  bad.min_voice_confidence = 2.0;
+  bad.rod_diameter_m = 0.1;
+  EXPECT_EQ(bad.check().size(), 3u);
+  EXPECT_TRUE(SessionOptions{}.check().empty());
+}
+
+TEST(Session, RefusesAnOperationWithoutScrewsOrWithDoubleLabels) {
+  Operation operation = testing::operation_of({"L4", "L4"});
+  operation.levels[0].screws.clear();
+  const auto made = Session::create(std::move(operation),
+                                    std::make_unique<testing::ScriptedTracker>(), Registrar{});
+  ASSERT_FALSE(made.ok());
+  EXPECT_THAT(made.error().message, HasSubstr("no screw"));
+  EXPECT_THAT(made.error().message, HasSubstr("named twice"));
+}
+
+TEST(Method, BestIsRefusedInOneLine) {
+  const auto best = method_named("best");
+  ASSERT_FALSE(best.ok());
+  EXPECT_THAT(best.error().message, HasSubstr("not available"));
+  EXPECT_TRUE(method_named("paper").ok());
+  EXPECT_FALSE(method_named("Paper ").ok());
+}
+
+}  // namespace
+}  // namespace orthonav::engine
