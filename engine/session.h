@@ -93,6 +93,7 @@ class Session {
   void finish_rod(Timestamp time);
   void update_rod();
   void drop_region(Timestamp time);
+  void drop_unsaved();
   void begin_level();
   void say(std::string message) { message_ = std::move(message); }
   [[nodiscard]] LevelState& level() { return levels_[level_]; }

@@ -58,7 +58,7 @@ void Session::act_on_level(Action action, Timestamp time) {
     case Action::kRegister:
       digitizer_.release(time);
       // What is not saved is not registered: the two clicks that ask for it are no strokes.
-      if (!digitizer_.regions().empty() && !digitizer_.regions().back().saved) digitizer_.drop();
+      drop_unsaved();
       try_registration(time);
       return;
     case Action::kAccept:
@@ -133,6 +133,13 @@ void Session::drop_region(Timestamp time) {
                                  [](const nav::Region& r) { return !r.samples.empty(); });
   if (last != regions.rend()) dropped_ = {*last, time};
   digitizer_.drop();
+}
+
+void Session::drop_unsaved() {
+  const auto regions = digitizer_.regions();
+  // An empty region must stay: dropping it would drop the saved one before it.
+  if (!regions.empty() && !regions.back().saved && !regions.back().samples.empty())
+    digitizer_.drop();
 }
 
 void Session::try_registration(Timestamp time) {
