@@ -4,6 +4,8 @@
 #include "engine/observer_list.h"
 #include "engine/operation_plan.h"
 #include "engine/sim_scenario.h"
+#include "engine/tool_file.h"
+#include "hal/replay/recorder.h"
 
 namespace orthonav::engine {
 
@@ -17,8 +19,8 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   if (!headset) return headset.error();
   sim::SimHeadset& room = **headset;
   // The engine gets the tools as a planning file describes them, not as they are.
-  auto tracker =
-      method->create_tracker(room.cameras().calibration(), described_tools(room), options.tracker);
+  const std::vector<nav::ToolGeometry> tools = described_tools(room);
+  auto tracker = method->create_tracker(room.cameras().calibration(), tools, options.tracker);
   if (!tracker) return tracker.error();
   auto session = Session::create(std::move(*operation), std::move(*tracker), method->registrar,
                                  options.session);
@@ -31,12 +33,21 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
     if (const Status opened = guests.opened(room, *method, **session); !opened)
       return opened.error();
 
+  std::unique_ptr<replay::RecordingHeadset> recorder;
+  if (!options.record_folder.empty()) {
+    auto made = replay::RecordingHeadset::around(room, options.record_folder, {tools_text(tools)});
+    if (!made) return made.error();
+    recorder = std::move(*made);
+  }
   SceneBuilder builder;
-  FrameLoop loop(room, **session, builder, options.loop);
+  FrameLoop loop(recorder ? static_cast<Headset&>(*recorder) : room, **session, builder,
+                 options.loop);
   loop.observe(guests.loop);
   loop.draw_into(guests.sink);
   auto report = loop.run();
   if (!report) return report.error();
+  if (recorder)
+    if (const Status closed = recorder->close(); !closed) return closed.error();
   OperationResult result = outcome_of((*session)->levels(), (*session)->rods(), std::move(*report));
   result.method = method->name;
   result.seed = options.sim.seed;

@@ -22,6 +22,7 @@ struct OperationOptions {
   nav::TrackerOptions tracker;
   SessionOptions session;
   LoopOptions loop;
+  std::string record_folder;  ///< empty: nothing is recorded
 };
 
 /// What else takes part; all borrowed, all optional.

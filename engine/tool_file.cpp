@@ -80,7 +80,7 @@ Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path) {
   return tools_from(*document, path);
 }
 
-Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>& tools) {
+std::string tools_text(const std::vector<nav::ToolGeometry>& tools) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const nav::ToolGeometry& tool : tools) {
     nlohmann::ordered_json entry;
@@ -95,7 +95,18 @@ Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>&
   }
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;
   const nlohmann::ordered_json root = {{"tools", list}};
-  return write_file(path, root.dump(1, ' ', false, replace) + "\n");
+  return root.dump(1, ' ', false, replace) + "\n";
+}
+
+Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>& tools) {
+  return write_file(path, tools_text(tools));
+}
+
+Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
+                                                   const std::string& name) {
+  const auto document = JsonDocument::parse(text, name);
+  if (!document) return document.error();
+  return tools_from(*document, name);
 }
 
 std::vector<nav::ToolGeometry> built_in_tools() {

@@ -17,6 +17,11 @@ Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path);
 /// Writes what `load_tools` reads back to the same numbers.
 Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>& tools);
 
+/// The same without a file; `name` stands for it in messages.
+[[nodiscard]] std::string tools_text(const std::vector<nav::ToolGeometry>& tools);
+Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
+                                                   const std::string& name);
+
 /// The pointer, the drill guide and the patient reference of data/tools.json.
 [[nodiscard]] std::vector<nav::ToolGeometry> built_in_tools();
 

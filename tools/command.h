@@ -18,9 +18,10 @@ using Action = std::function<int()>;
 int bad_input(const std::string& message);
 
 // Each adds its subcommand to `app`; one file a subcommand.
-// (declarations in alphabetical order)
+void add_demo_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);
 void add_golden_command(CLI::App& app, Action& action);
+void add_run_command(CLI::App& app, Action& action);
 void add_track_command(CLI::App& app, Action& action);
 
 }  // namespace orthonav::tools

@@ -17,8 +17,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);
   Action action;
+  add_demo_command(app, action);
   add_detect_command(app, action);
   add_golden_command(app, action);
+  add_run_command(app, action);
   add_track_command(app, action);
   try {
     app.parse(argc, argv);

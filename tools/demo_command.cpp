@@ -1,0 +1,183 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+
+#include "engine/atomic_file.h"
+#include "engine/case_file.h"
+#include "engine/journal.h"
+#include "engine/phantom.h"
+#include "engine/simulated_operation.h"
+#include "engine/tool_file.h"
+#include "engine/video_writer.h"
+#include "tools/command.h"
+#include "tools/operation_summary.h"
+#include "tools/progress.h"
+#include "tools/step_pictures.h"
+#include "tools/surgeon_view.h"
+
+namespace orthonav::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DemoArguments {
+  std::string case_folder;
+  std::string method = "paper";
+  std::uint64_t seed = 1;
+  std::string out = "orthonav-demo";
+  std::vector<std::string> levels;
+  std::string record;
+  std::string device;
+  bool realtime = false;
+  bool fast = false;
+  bool perfect = false;
+  bool no_video = false;
+  bool json = false;
+  int threads = 2;
+};
+
+/// Every how many-th displayed frame becomes a picture: an operation of ten minutes then makes a
+/// video of under a minute at 20 pictures a second.
+constexpr int kDrawEvery = 15;
+constexpr int kVideoRate = 20;
+
+Result<engine::Case> case_of(const DemoArguments& arguments) {
+  if (arguments.case_folder.empty()) return engine::phantom();
+  auto loaded = engine::load_case(arguments.case_folder);
+  if (!loaded) return loaded;
+  const auto problems = loaded->check();
+  if (!problems.empty()) return Error{arguments.case_folder + ": " + problems.front()};
+  return loaded;
+}
+
+engine::OperationOptions options_of(const DemoArguments& arguments) {
+  engine::OperationOptions options;
+  options.method = arguments.method;
+  options.levels = arguments.levels;
+  options.tools = engine::built_in_tools();
+  options.sim.seed = arguments.seed;
+  if (arguments.perfect) options.sim.magnitudes = sim::Magnitudes::perfect();
+  options.sim.pace = arguments.realtime ? sim::Pace::kRealtime : sim::Pace::kFast;
+  options.tracker.parallel = arguments.threads > 1;
+  options.loop.draw_every = kDrawEvery;
+  options.loop.drop_late_snapshots = arguments.realtime;
+  options.record_folder = arguments.record;
+  return options;
+}
+
+/// Everything a demo needs beside the operation itself; made before anything is written.
+class Demo {
+ public:
+  explicit Demo(DemoArguments arguments)
+      : arguments_(std::move(arguments)), pictures_(arguments_.out) {}
+
+  int run() {
+    const auto method = engine::method_named(arguments_.method);
+    if (!method) return bad_input(method.error().message);
+    const auto source = case_of(arguments_);
+    if (!source) return bad_input(source.error().message);
+    if (const Status ready = prepare(source->name); !ready) return bad_input(ready.error().message);
+    const auto result = operate(*source);
+    if (!result) return bad_input(result.error().message);
+    if (const Status written = write(*result); !written) return bad_input(written.error().message);
+    std::fputs(
+        arguments_.json ? engine::report_json(*result).c_str() : operation_summary(*result).c_str(),
+        stdout);
+    if (!result->completed)
+      std::fprintf(stderr, "orthonav: the operation did not come to its end\n");
+    return result->completed ? kDone : kNo;
+  }
+
+ private:
+  Status prepare(const std::string& case_name) {
+    SurgeonViewOptions view_options;
+    view_options.device = arguments_.device;
+    auto view = SurgeonView::create(view_options);
+    if (!view) return view.error();
+    view_ = std::move(*view);
+    std::error_code code;
+    fs::create_directories(arguments_.out, code);
+    if (code) return Error{"--out " + arguments_.out + ": " + code.message()};
+    auto journal = engine::Journal::create(
+        arguments_.out + "/session.orthonav",
+        {ORTHONAV_VERSION, "sim:", arguments_.method, case_name, arguments_.seed});
+    if (!journal) return journal.error();
+    journal_ = std::move(*journal);
+    if (!arguments_.no_video) {
+      engine::VideoOptions video_options;
+      video_options.width_px = view_options.width_px;
+      video_options.height_px = view_options.height_px;
+      video_options.frames_per_second = kVideoRate;
+      auto video = engine::VideoWriter::create(arguments_.out + "/operation.mp4", video_options);
+      if (!video) return video.error();
+      video_ = std::move(*video);
+      video_pictures_ = std::make_unique<VideoPictures>(*video_);
+      view_->send_to(video_pictures_.get());
+    }
+    view_->send_to(&pictures_);
+    return {};
+  }
+
+  Result<engine::OperationResult> operate(const engine::Case& source) {
+    const engine::OperationOptions options = options_of(arguments_);
+    OperationProgress progress(view_.get());
+    engine::OperationGuests guests;
+    guests.session = {journal_.get()};
+    guests.loop = &progress;
+    guests.sink = view_.get();
+    guests.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
+      view_->look_at(headset, options.sim.magnitudes);
+      return Status{};
+    };
+    return engine::run_operation(source, options, guests);
+  }
+
+  Status write(const engine::OperationResult& result) {
+    if (const Status done = pictures_.finish(); !done) return done;
+    if (video_)
+      if (const Status done = video_->finish(); !done) return done;
+    if (const Status done = journal_->finish(); !done) return done;
+    const std::string timing = engine::timing_json(result.loop);
+    if (const Status done = engine::write_file(arguments_.out + "/timing.json", timing); !done)
+      return done;
+    return engine::write_file(arguments_.out + "/report.json", engine::report_json(result));
+  }
+
+  DemoArguments arguments_;
+  std::unique_ptr<SurgeonView> view_;
+  StepPictures pictures_;
+  std::unique_ptr<engine::Journal> journal_;
+  std::unique_ptr<engine::VideoWriter> video_;
+  std::unique_ptr<VideoPictures> video_pictures_;
+};
+
+}  // namespace
+
+void add_demo_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<DemoArguments>();
+  auto* demo = app.add_subcommand(
+      "demo", "A whole navigated operation in the simulated room, from camera frames to holograms");
+  demo->add_option("--case", arguments->case_folder,
+                   "case folder with case.json (default: the built-in phantom)");
+  demo->add_option("--method", arguments->method, "tracking and registration: paper")
+      ->capture_default_str();
+  demo->add_option("--seed", arguments->seed, "seed of every random number")->capture_default_str();
+  demo->add_option("--out", arguments->out, "folder of the results")->capture_default_str();
+  demo->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
+      ->delimiter(',');
+  auto* fast = demo->add_flag("--fast", arguments->fast, "as fast as the machine goes (default)");
+  demo->add_flag("--realtime", arguments->realtime, "30 frames a second")->excludes(fast);
+  demo->add_option("--record", arguments->record, "also record the session into this new folder");
+  demo->add_option("--device", arguments->device, "part of the name of the Vulkan device");
+  demo->add_option("--threads", arguments->threads,
+                   "threads of the tracker; no result depends on it")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
+  demo->add_flag("--no-video", arguments->no_video, "write no operation.mp4");
+  demo->add_flag("--perfect", arguments->perfect, "every source of error at zero");
+  demo->add_flag("--json", arguments->json, "print the report as JSON");
+  demo->callback([arguments, &action] { action = [arguments] { return Demo(*arguments).run(); }; });
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,43 @@
+#include "tools/operation_summary.h"
+
+#include <cstdio>
+#include <numbers>
+
+namespace orthonav::tools {
+namespace {
+
+std::string number(const std::optional<double>& value, double scale, const char* unit) {
+  if (!value) return "-";
+  char text[48];
+  std::snprintf(text, sizeof text, "%.2f %s", *value * scale, unit);
+  return text;
+}
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+}  // namespace
+
+std::string operation_summary(const engine::OperationResult& result) {
+  std::string out = "case " + result.case_name + ", method " + result.method + ", seed " +
+                    std::to_string(result.seed) +
+                    (result.completed ? ": completed\n" : ": not completed\n");
+  for (const engine::LevelOutcome& level : result.levels) {
+    out += level.label + ": " + (level.accepted ? "accepted" : "not accepted") + " after " +
+           std::to_string(level.attempts) + " attempt(s), RMSE " + number(level.rmse_m, 1e3, "mm") +
+           ", TRE " + number(level.tre_m, 1e3, "mm") + ", " + std::to_string(level.points) +
+           " points in " + number(level.digitization_s, 1.0, "s") + "\n";
+    for (const engine::ScrewOutcome& screw : level.screws)
+      out += "  " + std::string(engine::name_of(screw.side)) + ": angle error " +
+             number(screw.angle_error_rad, kDegrees, "deg") + ", entry error " +
+             number(screw.entry_error_m, 1e3, "mm") + "\n";
+  }
+  for (const engine::RodOutcome& rod : result.rods)
+    out += "rod " + std::string(engine::name_of(rod.side)) + ": length " +
+           number(rod.length_m, 1e3, "mm") + ", length error " +
+           number(rod.length_error_m, 1e3, "mm") + ", head error " +
+           number(rod.head_error_m, 1e3, "mm") + "\n";
+  out += std::to_string(result.loop.displayed) + " frames displayed\n";
+  return out;
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "engine/operation_result.h"
+
+namespace orthonav::tools {
+
+/// The report as lines for people: the same figures as report.json.
+[[nodiscard]] std::string operation_summary(const engine::OperationResult& result);
+
+}  // namespace orthonav::tools

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "engine/frame_loop.h"
+
+namespace orthonav::tools {
+
+/// Progress of an operation on standard error: a bar with an estimate of the time left on a
+/// terminal, otherwise a plain line at each step of the workflow.
+class OperationProgress : public engine::LoopObserver {
+ public:
+  /// Also passes what it hears on. Borrowed, may be null.
+  explicit OperationProgress(engine::LoopObserver* next, bool quiet = false);
+  ~OperationProgress() override;
+  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+               const engine::Guidance& guidance) override;
+  void captured(const engine::Snapshot& snapshot) override;
+
+ private:
+  void bar(double share, const std::string& step);
+
+  engine::LoopObserver* next_;
+  bool quiet_;
+  bool terminal_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_bar_{};
+  std::string step_;
+  Timestamp first_{};
+};
+
+/// How far an operation is, in [0, 1]: digitizing counts for much of a level, a screw for some.
+[[nodiscard]] double share_done(const engine::Guidance& guidance);
+
+}  // namespace orthonav::tools

@@ -1,0 +1,181 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "engine/atomic_file.h"
+#include "engine/case_file.h"
+#include "engine/journal.h"
+#include "engine/observer_list.h"
+#include "engine/operation_plan.h"
+#include "engine/operation_result.h"
+#include "engine/phantom.h"
+#include "engine/sim_scenario.h"
+#include "engine/tool_file.h"
+#include "hal/open/open.h"
+#include "hal/replay/recorder.h"
+#include "hal/replay/replay_headset.h"
+#include "tools/command.h"
+#include "tools/operation_summary.h"
+#include "tools/progress.h"
+
+namespace orthonav::tools {
+namespace {
+
+struct RunArguments {
+  std::string headset = "sim:";
+  std::string case_folder;
+  std::string method = "paper";
+  std::vector<std::string> levels;
+  std::string tools_file;
+  std::string record;
+  std::string out;
+  std::int64_t frames = 0;
+  bool json = false;
+};
+
+Result<engine::Case> case_of(const RunArguments& arguments) {
+  if (arguments.case_folder.empty()) return engine::phantom();
+  auto loaded = engine::load_case(arguments.case_folder);
+  if (!loaded) return loaded;
+  const auto problems = loaded->check();
+  if (!problems.empty()) return Error{arguments.case_folder + ": " + problems.front()};
+  return loaded;
+}
+
+/// The file that was named; else what the headset itself knows of its tools; else the built-in.
+Result<std::vector<nav::ToolGeometry>> tools_of(const RunArguments& arguments,
+                                                const Headset& headset) {
+  if (!arguments.tools_file.empty()) return engine::load_tools(arguments.tools_file);
+  if (const auto* room = dynamic_cast<const sim::SimHeadset*>(&headset))
+    return engine::described_tools(*room);
+  const auto* recording = dynamic_cast<const replay::ReplayHeadset*>(&headset);
+  if (recording && !recording->tools_json().empty())
+    return engine::parse_tools(recording->tools_json(), "tools.json of the recording");
+  return engine::built_in_tools();
+}
+
+/// Opens everything, then runs; members in the order in which they borrow from one another.
+class LiveRun {
+ public:
+  explicit LiveRun(RunArguments arguments) : arguments_(std::move(arguments)) {}
+
+  int run() {
+    if (const Status opened = open(); !opened) return bad_input(opened.error().message);
+    engine::LoopOptions options;
+    options.draw_every = 0;
+    options.max_frames = arguments_.frames;
+    engine::SceneBuilder builder;
+    OperationProgress progress(nullptr);
+    engine::FrameLoop loop(*used_, *session_, builder, options);
+    loop.observe(&progress);
+    auto report = loop.run();
+    if (!report) return bad_input(report.error().message);
+    engine::OperationResult result =
+        engine::outcome_of(session_->levels(), session_->rods(), std::move(*report));
+    result.method = method_.name;
+    result.case_name = case_name_;
+    if (const Status finished = finish(result); !finished)
+      return bad_input(finished.error().message);
+    const bool limited = arguments_.frames > 0 && result.loop.displayed >= arguments_.frames;
+    return result.completed || limited ? kDone : kNo;
+  }
+
+ private:
+  Status open() {
+    auto method = engine::method_named(arguments_.method);
+    if (!method) return method.error();
+    method_ = std::move(*method);
+    const auto source = case_of(arguments_);
+    if (!source) return source.error();
+    case_name_ = source->name;
+    auto operation = engine::plan_operation(*source, arguments_.levels);
+    if (!operation) return operation.error();
+    OpenOptions open_options;
+    open_options.room = engine::room_of(*source, *operation, engine::built_in_tools());
+    auto headset = open_headset(arguments_.headset, open_options);
+    if (!headset) return headset.error();
+    headset_ = std::move(*headset);
+    return start(std::move(*operation));
+  }
+
+  Status start(engine::Operation operation) {
+    const auto tools = tools_of(arguments_, *headset_);
+    if (!tools) return tools.error();
+    auto tracker = method_.create_tracker(headset_->cameras().calibration(), *tools, {});
+    if (!tracker) return tracker.error();
+    auto session =
+        engine::Session::create(std::move(operation), std::move(*tracker), method_.registrar);
+    if (!session) return session.error();
+    session_ = std::move(*session);
+    used_ = headset_.get();
+    if (!arguments_.record.empty()) {
+      auto recorder = replay::RecordingHeadset::around(*headset_, arguments_.record,
+                                                       {engine::tools_text(*tools)});
+      if (!recorder) return recorder.error();
+      recorder_ = std::move(*recorder);
+      used_ = recorder_.get();
+    }
+    return open_journal();
+  }
+
+  Status open_journal() {
+    if (arguments_.out.empty()) return {};
+    std::error_code code;
+    std::filesystem::create_directories(arguments_.out, code);
+    if (code) return Error{"--out " + arguments_.out + ": " + code.message()};
+    auto journal =
+        engine::Journal::create(arguments_.out + "/session.orthonav",
+                                {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_, 0});
+    if (!journal) return journal.error();
+    journal_ = std::move(*journal);
+    session_->observe(journal_.get());
+    return {};
+  }
+
+  Status finish(const engine::OperationResult& result) {
+    const std::string report = engine::report_json(result);
+    if (journal_) {
+      if (const Status done = journal_->finish(); !done) return done;
+      const Status written = engine::write_file(arguments_.out + "/report.json", report);
+      if (!written) return written;
+    }
+    if (recorder_)
+      if (const Status done = recorder_->close(); !done) return done;
+    std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
+    return {};
+  }
+
+  RunArguments arguments_;
+  engine::Method method_;
+  std::string case_name_;
+  std::unique_ptr<Headset> headset_;
+  std::unique_ptr<replay::RecordingHeadset> recorder_;
+  Headset* used_ = nullptr;
+  std::unique_ptr<engine::Journal> journal_;
+  std::unique_ptr<engine::Session> session_;
+};
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<RunArguments>();
+  auto* run = app.add_subcommand("run", "An operation with a headset, simulated or recorded");
+  run->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH")->capture_default_str();
+  run->add_option("--case", arguments->case_folder,
+                  "case folder with case.json (default: the built-in phantom)");
+  run->add_option("--method", arguments->method, "tracking and registration: paper")
+      ->capture_default_str();
+  run->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
+      ->delimiter(',');
+  run->add_option("--tools", arguments->tools_file,
+                  "tool definitions (default: the headset's own, else the built-in)");
+  run->add_option("--frames", arguments->frames, "end after so many displayed frames (0: no limit)")
+      ->check(CLI::NonNegativeNumber);
+  run->add_option("--record", arguments->record, "record the session into this new folder");
+  run->add_option("--out", arguments->out, "folder for report.json and session.orthonav");
+  run->add_flag("--json", arguments->json, "print the report as JSON");
+  run->callback(
+      [arguments, &action] { action = [arguments] { return LiveRun(*arguments).run(); }; });
+}
+
+}  // namespace orthonav::tools

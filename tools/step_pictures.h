@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/video_writer.h"
+#include "tools/surgeon_view.h"
+
+namespace orthonav::tools {
+
+/// The surgeon's view at one step, as a file.
+struct StepPicture {
+  std::string step;  ///< "guide L4 left"
+  std::filesystem::path path;
+};
+
+/// Keeps one picture of every step: the last one before the step ends; while guiding, the last one
+/// with the deviation triangle, for afterwards the tool is gone.
+class StepPictures : public PictureSink {
+ public:
+  explicit StepPictures(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  Status picture(const render::Image& image, const engine::Snapshot& snapshot) override;
+  /// Writes what is still held.
+  Status finish();
+  [[nodiscard]] const std::vector<StepPicture>& written() const { return written_; }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<StepPicture> written_;
+  render::Image held_;
+  std::string held_step_;
+  bool held_guides_ = false;
+};
+
+/// Every picture into the video.
+class VideoPictures : public PictureSink {
+ public:
+  explicit VideoPictures(engine::VideoWriter& writer) : writer_(writer) {}
+  Status picture(const render::Image& image, const engine::Snapshot& snapshot) override;
+
+ private:
+  engine::VideoWriter& writer_;
+  RgbaImage frame_;
+};
+
+}  // namespace orthonav::tools

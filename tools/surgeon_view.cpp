@@ -1,0 +1,88 @@
+#include "tools/surgeon_view.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace orthonav::tools {
+namespace {
+
+/// Rig and Eye have the same axes; the eye lies between the two cameras' right half, 30 mm behind
+/// them and a little below.
+constexpr Vec3 kEyeInRig{0.081, -0.010, 0.030};
+
+Transform<Rig, Eye> rig_from_eye() { return {Mat3::identity(), kEyeInRig}; }
+
+}  // namespace
+
+Result<std::unique_ptr<SurgeonView>> SurgeonView::create(const SurgeonViewOptions& options) {
+  render::RendererOptions renderer_options;
+  renderer_options.width_px = options.width_px;
+  renderer_options.height_px = options.height_px;
+  renderer_options.blend = render::Blend::kAdditive;
+  renderer_options.device = options.device;
+  std::string error;
+  auto renderer = render::Renderer::create(renderer_options, error);
+  if (!renderer) return Error{error};
+  return std::unique_ptr<SurgeonView>(new SurgeonView(options, std::move(renderer)));
+}
+
+SurgeonView::SurgeonView(const SurgeonViewOptions& options,
+                         std::unique_ptr<render::Renderer> renderer)
+    : options_(options), renderer_(std::move(renderer)) {
+  room_picture_.width_px = background_.width_px = options.width_px;
+  room_picture_.height_px = background_.height_px = options.height_px;
+  room_picture_.pixels.resize(4u * static_cast<std::size_t>(options.width_px) *
+                              static_cast<std::size_t>(options.height_px));
+  const double tan_side = std::tan(options.half_angle_deg * std::numbers::pi / 180.0);
+  const double tan_up = tan_side * options.height_px / options.width_px;
+  render::View view;
+  view.tan_left = view.tan_right = static_cast<float>(tan_side);
+  view.tan_up = view.tan_down = static_cast<float>(tan_up);
+  views_.push_back(view);
+}
+
+void SurgeonView::look_at(sim::SimHeadset& headset, const sim::Magnitudes& magnitudes) {
+  headset_ = &headset;
+  room_ = sim::RoomRenderer::create(headset.room(), magnitudes);
+}
+
+void SurgeonView::captured(const engine::Snapshot& snapshot) {
+  Moment& moment = moments_[snapshot.slot];
+  moment.room = headset_->state();
+  // At the moment of the room's state, so that background and holograms belong together.
+  moment.world_from_rig = headset_->head().world_from_rig(moment.room.time);
+}
+
+void SurgeonView::draw_room(const Moment& moment) {
+  sim::PinholeView view;
+  view.room_from_eye = moment.room.room_from_rig * rig_from_eye();
+  view.tan_left = static_cast<double>(views_[0].tan_left);
+  view.tan_right = static_cast<double>(views_[0].tan_right);
+  view.tan_up = static_cast<double>(views_[0].tan_up);
+  view.tan_down = static_cast<double>(views_[0].tan_down);
+  room_->picture(moment.room, view, room_picture_);
+  background_.rgba.swap(room_picture_.pixels);
+}
+
+Status SurgeonView::draw(const engine::Snapshot& snapshot) {
+  const Moment& moment = moments_[snapshot.slot];
+  draw_room(moment);
+  const bool located = moment.world_from_rig.origin != Origin::kLost;
+  if (located) {
+    const auto eye_from_world = (moment.world_from_rig.value * rig_from_eye()).inverse();
+    views_[0].eye_from_world = engine::to_matrix(eye_from_world.row_major());
+  }
+  backgrounds_.assign(1, &background_);
+  std::string error;
+  // A headset that does not know where it is shows nothing.
+  static const render::Scene kNothing;
+  const bool drawn =
+      renderer_->draw(located ? snapshot.scene : kNothing, views_, backgrounds_, images_, error);
+  background_.rgba.swap(room_picture_.pixels);
+  if (!drawn) return Error{error};
+  for (PictureSink* sink : sinks_)
+    if (const Status taken = sink->picture(images_[0], snapshot); !taken) return taken;
+  return {};
+}
+
+}  // namespace orthonav::tools

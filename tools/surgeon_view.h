@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/frame_loop.h"
+#include "hal/sim/room_renderer.h"
+#include "hal/sim/sim_headset.h"
+#include "render/renderer.h"
+
+namespace orthonav::tools {
+
+/// Takes composed pictures, on the rendering thread.
+class PictureSink {
+ public:
+  virtual ~PictureSink() = default;
+  virtual Status picture(const render::Image& image, const engine::Snapshot& snapshot) = 0;
+};
+
+struct SurgeonViewOptions {
+  int width_px = 960;
+  int height_px = 540;
+  double half_angle_deg = 32.0;  ///< of the horizontal field of view
+  std::string device;            ///< part of a Vulkan device's name; empty: the best
+};
+
+/// What the surgeon's right eye sees of a simulated room: the site with the holograms added to it,
+/// as an optical see-through display does. The room is drawn from where the head truly is, the
+/// holograms from where the headset believes it is: tracking error and map drift show as they
+/// would. It only looks; nothing of it reaches the engine.
+class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
+ public:
+  /// An Error when no Vulkan device serves.
+  static Result<std::unique_ptr<SurgeonView>> create(const SurgeonViewOptions& options);
+
+  /// Before the loop starts. Borrowed.
+  void look_at(sim::SimHeadset& headset, const sim::Magnitudes& magnitudes);
+  void send_to(PictureSink* sink) { sinks_.push_back(sink); }
+
+  void captured(const engine::Snapshot& snapshot) override;
+  Status draw(const engine::Snapshot& snapshot) override;
+  [[nodiscard]] const render::DeviceInfo& device() const { return renderer_->device(); }
+
+ private:
+  struct Moment {
+    sim::RoomState room;
+    Tracked<Transform<World, Rig>> world_from_rig;
+  };
+
+  SurgeonView(const SurgeonViewOptions& options, std::unique_ptr<render::Renderer> renderer);
+  void draw_room(const Moment& moment);
+
+  SurgeonViewOptions options_;
+  std::unique_ptr<render::Renderer> renderer_;
+  sim::SimHeadset* headset_ = nullptr;
+  std::unique_ptr<sim::RoomRenderer> room_;
+  std::vector<PictureSink*> sinks_;
+  /// Beside the loop's snapshots, slot by slot: written before a snapshot is handed over, read
+  /// before it is given back.
+  std::array<Moment, engine::SnapshotQueue::kSlots> moments_;
+
+  // Reused from picture to picture.
+  RgbaImage room_picture_;
+  render::Image background_;
+  std::vector<render::View> views_;
+  std::vector<const render::Image*> backgrounds_;
+  std::vector<render::Image> images_;
+};
+
+}  // namespace orthonav::tools
