@@ -71,20 +71,26 @@ Status FrameLoop::loop(SnapshotQueue* queue, LoopReport& report) {
   return {};
 }
 
+/// A device that fails now and then must not end an operation; one that fails for good must.
+Status FrameLoop::tolerate(const Status& status, int& in_a_row, LoopReport& report) {
+  if (status.ok()) {
+    in_a_row = 0;
+    return {};
+  }
+  ++report.failures;
+  report.last_failure = status.error().message;
+  if (++in_a_row <= options_.max_errors_in_a_row) return {};
+  return Error{headset_.name() + ": " + std::to_string(in_a_row) + " failures in a row (limit " +
+               std::to_string(options_.max_errors_in_a_row) + "): " + report.last_failure};
+}
+
 /// False at the end of the stream.
 Result<bool> FrameLoop::next_frame(LoopReport& report) {
   while (!stop_) {
     const auto next = headset_.cameras().next(frame_);
-    if (!next) {
-      ++report.failed_frames;
-      report.last_failure = next.error().message;
-      if (++errors_in_a_row_ > options_.max_errors_in_a_row)
-        return Error{headset_.name() + ": " + std::to_string(errors_in_a_row_) +
-                     " pairs in a row failed (limit " +
-                     std::to_string(options_.max_errors_in_a_row) + "): " + next.error().message};
-      continue;
-    }
-    errors_in_a_row_ = 0;
+    const Status status = next ? Status{} : Status{next.error()};
+    if (const Status over = tolerate(status, camera_errors_, report); !over) return over.error();
+    if (!next) continue;
     if (*next == Next::kFrame) return true;
     if (*next == Next::kEnd) return false;
     std::this_thread::sleep_for(kIdle);
@@ -96,32 +102,35 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   const Stopwatch watch;
   clicks_.clear();
   phrases_.clear();
-  if (const Status polled = headset_.clicker().poll(frame_.time, clicks_); !polled) return polled;
-  if (const Status polled = headset_.voice().poll(frame_.time, phrases_); !polled) return polled;
+  const Status clicked = headset_.clicker().poll(frame_.time, clicks_);
+  if (const Status over = tolerate(clicked, clicker_errors_, report); !over) return over;
+  const Status spoken = headset_.voice().poll(frame_.time, phrases_);
+  if (const Status over = tolerate(spoken, voice_errors_, report); !over) return over;
   Inputs inputs;
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
   inputs.display_time = headset_.display().predicted_display_time(frame_.time);
   const Guidance& guidance = session_.step(frame_, inputs);
-  if (report.displayed == 0) report.first_frame = frame_.time;
+  if (!first_frame_seen_) report.first_frame = frame_.time;
+  first_frame_seen_ = true;
   report.last_frame = frame_.time;
   if (observer_) observer_->stepped(frame_, inputs, guidance);
   builder_.update(guidance);
-  if (const Status shown = show(guidance, report); !shown) return shown;
-  const std::int64_t frame = report.displayed - 1;
-  if (queue && frame % options_.draw_every == 0) capture(*queue, guidance, frame);
+  builder_.write_shown(guidance, shown_);
+  const Status shown = headset_.display().shown(shown_);
+  if (const Status over = tolerate(shown, display_errors_, report); !over) return over;
+  if (shown) count_displayed(guidance, queue, report);
   report.step_wall_ms.push_back(watch.elapsed_ms());
   return {};
 }
 
-Status FrameLoop::show(const Guidance& guidance, LoopReport& report) {
-  builder_.write_shown(guidance, shown_);
-  if (const Status shown = headset_.display().shown(shown_); !shown) return shown;
+void FrameLoop::count_displayed(const Guidance& guidance, SnapshotQueue* queue,
+                                LoopReport& report) {
   if (last_display_)
     report.intervals_ms.push_back(seconds(guidance.display_time - *last_display_) * 1e3);
   last_display_ = guidance.display_time;
-  ++report.displayed;
-  return {};
+  const std::int64_t frame = report.displayed++;
+  if (queue && frame % options_.draw_every == 0) capture(*queue, guidance, frame);
 }
 
 void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame) {

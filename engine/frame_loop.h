@@ -36,14 +36,14 @@ struct LoopOptions {
   bool drop_late_snapshots = false;
   std::int64_t max_frames = 0;  ///< ends after so many displayed frames; 0: no limit
   Duration after_done = std::chrono::seconds(1);  ///< goes on for so long once the rod is done
-  int max_errors_in_a_row = 30;  ///< frames that a device may fail to deliver before we give up
+  int max_errors_in_a_row = 30;                   ///< of one device; beyond it the run ends
 };
 
 /// What the loop measured. Times of the device's clock are part of the result; wall times depend on
 /// the machine.
 struct LoopReport {
   std::int64_t displayed = 0;
-  std::int64_t failed_frames = 0;  ///< refused by the camera, with the reason of the last
+  std::int64_t failures = 0;  ///< of any device, with the reason of the last
   std::string last_failure;
   std::int64_t drawn = 0;
   std::int64_t dropped_snapshots = 0;
@@ -75,7 +75,8 @@ class FrameLoop {
   Status loop(SnapshotQueue* queue, LoopReport& report);
   Result<bool> next_frame(LoopReport& report);
   Status step(SnapshotQueue* queue, LoopReport& report);
-  Status show(const Guidance& guidance, LoopReport& report);
+  Status tolerate(const Status& status, int& in_a_row, LoopReport& report);
+  void count_displayed(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
   void capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame);
   [[nodiscard]] bool finished(const LoopReport& report);
 
@@ -94,7 +95,11 @@ class FrameLoop {
   ShownFrame shown_;
   std::optional<Timestamp> last_display_;
   std::optional<Timestamp> done_since_;
-  int errors_in_a_row_ = 0;
+  bool first_frame_seen_ = false;
+  int camera_errors_ = 0;  ///< in a row, each
+  int clicker_errors_ = 0;
+  int voice_errors_ = 0;
+  int display_errors_ = 0;
 };
 
 }  // namespace orthonav::engine

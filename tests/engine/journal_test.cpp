@@ -1,0 +1,87 @@
+#include "engine/journal.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/engine/scripted_session.h"
+
+namespace orthonav::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+class JournalTest : public ::testing::Test {
+ protected:
+  JournalTest()
+      : folder_(fs::path(::testing::TempDir()) /
+                ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    path_ = (folder_ / "session.orthonav").string();
+  }
+  ~JournalTest() override { fs::remove_all(folder_); }
+
+  std::vector<nlohmann::json> lines() const {
+    std::ifstream in(path_);
+    std::vector<nlohmann::json> all;
+    for (std::string line; std::getline(in, line);) all.push_back(nlohmann::json::parse(line));
+    return all;
+  }
+
+  fs::path folder_;
+  std::string path_;
+};
+
+TEST_F(JournalTest, TellsTheWholeOperation) {
+  auto journal = Journal::create(path_, {"0.1.0", "fake", "paper", "boxes", 7}).value();
+  testing::ScriptedSession s({"L5"});
+  s.session().observe(journal.get());
+  s.accepts_first_level();
+  s.tracker().guide = testing::guide_at({0.015, 0.020, 0.0}, 0.1);
+  s.says("next");
+  s.pair();
+  s.says("next");
+  s.says("next");
+  s.touches({0.02, 0.03, 0.00});
+  s.touches({0.02, 0.03, 0.04});
+  s.says("mumble");
+  s.says("done");
+  s.says("done");
+  EXPECT_FALSE(fs::exists(path_)) << "named only when it is whole";
+  ASSERT_TRUE(journal->finish().ok());
+
+  const auto all = lines();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0]["format"], "orthonav session");
+  EXPECT_EQ(all[0]["seed"], 7);
+  std::map<std::string, int> count;
+  for (std::size_t i = 1; i < all.size(); ++i) ++count[all[i]["what"]];
+  EXPECT_EQ(count["registration"], 1);
+  EXPECT_EQ(count["screw"], 2);
+  EXPECT_EQ(count["head"], 2);
+  EXPECT_EQ(count["rod"], 2);
+  EXPECT_EQ(count["not understood"], 1);
+  for (std::size_t i = 2; i < all.size(); ++i)
+    EXPECT_GE(all[i]["time_100ns"], all[i - 1]["time_100ns"]) << i;
+  for (const auto& line : all) {
+    if (line.value("what", "") == "screw" && line["side"] == "left") {
+      EXPECT_NEAR(line["angle_deg"].get<double>(), 5.7296, 1e-3);
+    }
+  }
+}
+
+TEST_F(JournalTest, LeavesNothingUnderItsNameWithoutFinish) {
+  { auto journal = Journal::create(path_, {}).value(); }
+  EXPECT_FALSE(fs::exists(path_));
+}
+
+TEST_F(JournalTest, RefusesAFolderThatIsNotThere) {
+  const auto journal = Journal::create((folder_ / "no" / "such.orthonav").string(), {});
+  EXPECT_FALSE(journal.ok());
+}
+
+}  // namespace
+}  // namespace orthonav::engine

@@ -1,0 +1,101 @@
+#include "engine/operation_result.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/operation_plan.h"
+#include "engine/phantom.h"
+#include "tests/engine/scripted_session.h"
+
+namespace orthonav::engine {
+namespace {
+
+OperationResult measured() {
+  OperationResult result;
+  result.method = "paper";
+  result.seed = 3;
+  result.case_name = "phantom";
+  LevelOutcome level;
+  level.label = "L4";
+  level.accepted = true;
+  level.attempts = 1;
+  level.rmse_m = 0.0016;
+  level.tre_m = 0.002;
+  level.points = 800;
+  level.digitization_s = 120.5;
+  level.screws.push_back({nav::Side::kLeft, true, 0.05, 0.0025});
+  level.screws.push_back({nav::Side::kRight, true, 0.04, std::nullopt});
+  result.levels.push_back(level);
+  result.rods.push_back({nav::Side::kLeft, 2, 0.040, 0.001, 0.002});
+  result.rods.push_back({nav::Side::kRight, 2, 0.042, -0.003, 0.001});
+  for (int i = 1; i <= 100; ++i) result.loop.intervals_ms.push_back(i);
+  result.loop.displayed = 101;
+  return result;
+}
+
+TEST(ReportJson, HoldsWhatTheFormatSays) {
+  const auto json = nlohmann::json::parse(report_json(measured()));
+  EXPECT_EQ(json["method"], "paper");
+  EXPECT_EQ(json["seed"], 3);
+  EXPECT_EQ(json["case"], "phantom");
+  const auto& level = json["levels"][0];
+  EXPECT_EQ(level["label"], "L4");
+  EXPECT_EQ(level["accepted"], true);
+  EXPECT_EQ(level["attempts"], 1);
+  EXPECT_DOUBLE_EQ(level["rmse_mm"], 1.6);
+  EXPECT_DOUBLE_EQ(level["tre_mm"], 2.0);
+  EXPECT_EQ(level["points"], 800);
+  EXPECT_DOUBLE_EQ(level["digitization_s"], 120.5);
+  EXPECT_EQ(level["screws"][0]["side"], "left");
+  EXPECT_NEAR(level["screws"][0]["angle_error_deg"].get<double>(), 2.8648, 1e-4);
+  EXPECT_DOUBLE_EQ(level["screws"][0]["entry_error_mm"], 2.5);
+  EXPECT_FALSE(level["screws"][1].contains("entry_error_mm")) << "the wire missed the bone";
+  EXPECT_DOUBLE_EQ(json["rod"]["length_mm"], 41.0);
+  EXPECT_DOUBLE_EQ(json["rod"]["length_error_mm"], -3.0);
+  EXPECT_DOUBLE_EQ(json["rod"]["head_error_mm"], 1.5);
+  EXPECT_EQ(json["frames"]["displayed"], 101);
+  EXPECT_DOUBLE_EQ(json["frames"]["median_ms"], 50.0);
+  EXPECT_DOUBLE_EQ(json["frames"]["p99_ms"], 99.0);
+}
+
+TEST(ReportJson, LeavesErrorsOutWhereThereIsNoTruth) {
+  testing::ScriptedSession s({"L5"});
+  s.accepts_first_level();
+  const auto result = outcome_of(s.session().levels(), s.session().rods(), {});
+  const auto json = nlohmann::json::parse(report_json(result));
+  EXPECT_EQ(json["completed"], false);
+  EXPECT_TRUE(json["levels"][0]["accepted"]);
+  EXPECT_FALSE(json["levels"][0].contains("tre_mm"));
+  EXPECT_FALSE(json["levels"][0]["screws"][0].contains("angle_error_deg"));
+  EXPECT_FALSE(json["rod"].contains("length_error_mm"));
+}
+
+TEST(ReportJson, DoesNotDependOnWallTime) {
+  OperationResult a = measured();
+  OperationResult b = measured();
+  b.loop.step_wall_ms = {1, 2, 3};
+  b.loop.draw_wall_ms = {9};
+  EXPECT_EQ(report_json(a), report_json(b));
+}
+
+TEST(OperationPlan, TakesTheTwoLowestLevelsInTheOrderOfTheCase) {
+  const auto operation = plan_operation(phantom());
+  ASSERT_TRUE(operation.ok()) << operation.error().message;
+  ASSERT_EQ(operation->levels.size(), 2u);
+  EXPECT_EQ(operation->levels[0].label, "L4");
+  EXPECT_EQ(operation->levels[1].label, "L5");
+  EXPECT_TRUE(operation->check().empty());
+}
+
+TEST(OperationPlan, RefusesLevelsThatAreNotThereOrNamedTwice) {
+  const Case lumbar = phantom({"L4", "L5"});
+  const auto unknown = plan_operation(lumbar, {"L9"});
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_THAT(unknown.error().message, ::testing::HasSubstr("no level 'L9' (it has: L4, L5)"));
+  EXPECT_FALSE(plan_operation(lumbar, {"L5", "L5"}).ok());
+  EXPECT_TRUE(plan_operation(lumbar, {"L5"}).ok());
+}
+
+}  // namespace
+}  // namespace orthonav::engine
