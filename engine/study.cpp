@@ -129,9 +129,10 @@ Status append_runs(const std::string& text, const std::string& name, std::string
                        run.contains("seed") && run["seed"].is_number_unsigned() &&
                        run.contains("levels") && run["levels"].is_array();
     if (!whole) return Error{name + ": a run lacks case, seed or levels"};
-    if (!seen.insert({run["case"], run["seed"]}).second)
-      return Error{name + ": case '" + run["case"].get<std::string>() + "' with seed " +
-                   std::to_string(run["seed"].get<std::uint64_t>()) + " occurs twice"};
+    const std::pair key(run["case"].get<std::string>(), run["seed"].get<std::uint64_t>());
+    if (!seen.insert(key).second)
+      return Error{name + ": case '" + key.first + "' with seed " + std::to_string(key.second) +
+                   " occurs twice"};
     runs.push_back(run);
   }
   return {};

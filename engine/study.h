@@ -11,12 +11,12 @@
 namespace orthonav::engine {
 
 struct StudyOptions {
-  OperationOptions operation;    ///< its seed is replaced
-  int runs = 20;                 ///< a case, with the seeds first_seed, first_seed + 1, ...
+  OperationOptions operation;  ///< its seed is replaced
+  int runs = 20;               ///< a case, with the seeds first_seed, first_seed + 1, ...
   std::uint64_t first_seed = 1;
-  int shard = 1;                 ///< of `shards`, from 1: every shards-th run
+  int shard = 1;  ///< of `shards`, from 1: every shards-th run
   int shards = 1;
-  int jobs = 1;                  ///< operations at once; no figure depends on it
+  int jobs = 1;  ///< operations at once; no figure depends on it
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;

@@ -22,6 +22,7 @@ void add_demo_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);
 void add_golden_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
+void add_study_command(CLI::App& app, Action& action);
 void add_track_command(CLI::App& app, Action& action);
 
 }  // namespace orthonav::tools

@@ -1,0 +1,138 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "engine/operation_plan.h"
+#include "engine/phantom.h"
+#include "engine/simulated_operation.h"
+#include "engine/tool_file.h"
+#include "hal/replay/replay_headset.h"
+
+namespace orthonav::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the chain may lose without any source of error: 8-bit images and the exact geometry of a tag
+// leave the method's own resolution, with a margin.
+constexpr double kPerfectAngle_deg = 0.3;
+constexpr double kPerfectEntry_m = 0.0003;
+
+double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
+
+OperationOptions one_level() {
+  OperationOptions options;
+  options.levels = {"L5"};
+  options.tools = built_in_tools();
+  options.loop.draw_every = 0;
+  return options;
+}
+
+TEST(Operation, InAPerfectWorldEveryWireLiesOnItsPlan) {
+  OperationOptions options = one_level();
+  options.sim.magnitudes = sim::Magnitudes::perfect();
+  const auto result = run_operation(phantom(), options);
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  EXPECT_TRUE(result->completed);
+  ASSERT_EQ(result->levels.size(), 1u);
+  ASSERT_EQ(result->levels[0].screws.size(), 2u);
+  for (const ScrewOutcome& screw : result->levels[0].screws) {
+    ASSERT_TRUE(screw.angle_error_rad.has_value()) << name_of(screw.side);
+    ASSERT_TRUE(screw.entry_error_m.has_value()) << name_of(screw.side);
+    EXPECT_LT(degrees(*screw.angle_error_rad), kPerfectAngle_deg) << name_of(screw.side);
+    EXPECT_LT(*screw.entry_error_m, kPerfectEntry_m) << name_of(screw.side);
+  }
+}
+
+TEST(Operation, AtItsDocumentedErrorsItIsWorseThanPerfectButComesToItsEnd) {
+  OperationOptions options = one_level();
+  options.tracker.parallel = true;
+  const auto two_threads = run_operation(phantom(), options);
+  ASSERT_TRUE(two_threads.ok()) << two_threads.error().message;
+  EXPECT_TRUE(two_threads->completed);
+  double worst_deg = 0.0;
+  for (const ScrewOutcome& screw : two_threads->levels[0].screws) {
+    ASSERT_TRUE(screw.angle_error_rad.has_value());
+    worst_deg = std::max(worst_deg, degrees(*screw.angle_error_rad));
+    // Six standard deviations of the paper's results: beyond it something else is wrong.
+    EXPECT_LT(degrees(*screw.angle_error_rad), 3.38 + 6 * 1.73);
+  }
+  // The bound of the perfect world is one that errors do break.
+  EXPECT_GT(worst_deg, kPerfectAngle_deg);
+
+  // The same bytes whatever the number of threads.
+  options.tracker.parallel = false;
+  const auto one_thread = run_operation(phantom(), options);
+  ASSERT_TRUE(one_thread.ok());
+  EXPECT_EQ(report_json(*one_thread), report_json(*two_threads));
+}
+
+/// Every tool's pose in every pair, and the step it was in.
+class PoseLog : public LoopObserver {
+ public:
+  const Session* session = nullptr;
+  void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
+    for (const nav::ToolState& tool : session->tool_states())
+      lines.push_back({frame.time, guidance.step_text, tool.world_from_marker.origin,
+                       tool.world_from_marker.value.row_major()});
+  }
+  struct Line {
+    Timestamp time{};
+    std::string step;
+    Origin origin = Origin::kLost;
+    std::array<double, 16> pose{};
+    friend bool operator==(const Line&, const Line&) = default;
+  };
+  std::vector<Line> lines;
+};
+
+TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "replayed-operation";
+  fs::remove_all(folder);
+  OperationOptions options = one_level();
+  options.loop.max_frames = 240;
+  options.record_folder = folder.string();
+  PoseLog live;
+  OperationGuests guests;
+  guests.loop = &live;
+  guests.opened = [&](sim::SimHeadset&, const Method&, const Session& session) {
+    live.session = &session;
+    return Status{};
+  };
+  const auto result = run_operation(phantom(), options, guests);
+  ASSERT_TRUE(result.ok()) << result.error().message;
+
+  auto recording = replay::ReplayHeadset::open(folder);
+  ASSERT_TRUE(recording.ok()) << recording.error().message;
+  const auto method = method_named("paper");
+  auto tracker = method->create_tracker((*recording)->cameras().calibration(),
+                                        parse_tools((*recording)->tools_json(), "tools").value(),
+                                        options.tracker);
+  ASSERT_TRUE(tracker.ok());
+  auto session = Session::create(plan_operation(phantom(), options.levels).value(),
+                                 std::move(*tracker), method->registrar);
+  ASSERT_TRUE(session.ok());
+  PoseLog again;
+  again.session = session->get();
+  SceneBuilder builder;
+  LoopOptions loop_options;
+  FrameLoop loop(**recording, **session, builder, loop_options);
+  loop.observe(&again);
+  ASSERT_TRUE(loop.run().ok());
+  fs::remove_all(folder);
+
+  ASSERT_EQ(again.lines.size(), live.lines.size());
+  EXPECT_EQ(live.lines.size(), 240u * 3u);
+  std::size_t measured = 0;
+  for (std::size_t i = 0; i < live.lines.size(); ++i) {
+    EXPECT_TRUE(again.lines[i] == live.lines[i]) << "line " << i;
+    measured += live.lines[i].origin == Origin::kMeasured ? 1 : 0;
+  }
+  // A comparison of nothing with nothing would pass too.
+  EXPECT_GT(measured, 100u);
+  EXPECT_EQ(live.lines.back().step, "digitize L5");
+}
+
+}  // namespace
+}  // namespace orthonav::engine
