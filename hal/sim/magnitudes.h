@@ -6,42 +6,84 @@
 
 namespace orthonav::sim {
 
-/// Every imperfection of the simulated operating room, with its source. `perfect()` has all of them
-/// at zero. Defaults are the documented values; docs/accuracy.md discusses them.
+/// Every imperfection of the simulated operating room. `perfect()` has all of them at zero. Each
+/// line says where its default comes from: a measurement, a publication, or our own estimate
+/// ("estimate": nobody published it for this device or this hand). SD is per axis where a vector
+/// is meant. docs/accuracy.md discusses which of them decide the outcome.
 struct Magnitudes {
-  // The camera: HoloLens 2 front cameras.
-  double blur_sigma_px = 0.7;    ///< point spread of lens and pixel, besides the pixel's square
-  double exposure_s = 0.004;     ///< motion blur lasts so long
-  double vignetting = 0.3;       ///< loss of light in the corner of the image
-  double shot_noise = 0.1;       ///< SD² of a grey value per grey value (photon statistics)
-  double read_noise_grey = 1.0;  ///< SD of a grey value
-  // The calibration that the device reports, against the true one.
+  // The camera: HoloLens 2 front cameras. Grey values are of 255.
+
+  /// Gaussian SD of lens and pixel cross-talk, besides the pixel's own square. Estimate: edges in
+  /// published frames of these cameras rise over about two pixels.
+  double blur_sigma_px = 0.7;
+  /// Motion blur lasts so long. Estimate for a lit operating field.
+  double exposure_s = 0.004;
+  /// Share of light lost in the corner of the image. Estimate; wide lenses lose up to cos⁴.
+  double vignetting = 0.3;
+  /// Variance of a grey value per grey value: photon statistics of a full well of about 2,500
+  /// electrons, small pixels at some gain. Estimate.
+  double shot_noise = 0.1;
+  /// SD of a grey value in the dark. Estimate.
+  double read_noise_grey = 1.0;
+
+  // The calibration that the device reports, against the true one. One real unit's factory
+  // calibration was off by 0.6 px across the epipolar lines; these four give 0.5 px SD there.
+
   double calibration_focal_ratio = 0.001;    ///< SD, each camera
   double calibration_centre_px = 0.3;        ///< SD, each camera and axis
   double calibration_rotation_rad = 0.0008;  ///< SD an axis, right against left camera
-  double calibration_baseline_m = 0.0002;    ///< SD an axis
+  double calibration_baseline_m = 0.0002;    ///< SD an axis of the right camera's place
+
   // The head and the map.
-  double head_sway_m = 0.012;              ///< SD an axis of the head's position
-  double head_sway_rad = 0.03;             ///< SD an axis of its rotation
-  double head_pose_noise_m = 0.0003;       ///< SD an axis, white, of the reported head pose
-  double head_pose_noise_rad = 0.0003;     ///< SD an axis
-  double map_drift_m_per_sqrt_s = 0.0001;  ///< random walk of World against the room, an axis
+
+  /// SD of the head's position below 0.5 Hz. Estimate for a surgeon bending over the table, more
+  /// than the quiet standing of posturography (Winter 1995), as hands and eyes are at work.
+  double head_sway_m = 0.012;
+  double head_sway_rad = 0.03;  ///< SD of its rotation, likewise
+  /// SD of the reported head pose from frame to frame. Estimate: static jitter of inside-out
+  /// trackers lies below a millimetre.
+  double head_pose_noise_m = 0.0003;
+  double head_pose_noise_rad = 0.0003;
+  /// Random walk of World against the room: 1 mm and half a milliradian after 100 s. Estimate.
+  double map_drift_m_per_sqrt_s = 0.0001;
   double map_drift_rad_per_sqrt_s = 0.00005;
+
   // The tools as the planning file describes them, against how they are.
-  double tip_calibration_m = 0.0005;    ///< SD an axis of the tip
-  double axis_calibration_rad = 0.003;  ///< SD an axis of the guide's axis
+
+  /// SD of the tip. What a pivot calibration with such cameras leaves. Estimate.
+  double tip_calibration_m = 0.0005;
+  /// SD of the axis about the two directions across it: 0.17°, half a millimetre over the 150 mm
+  /// between tag and tip.
+  double axis_calibration_rad = 0.003;
+
   // The hand and the surgeon.
-  double tremor_m = 0.0003;              ///< SD an axis of the tip, 8-12 Hz
-  double tremor_rad = 0.003;             ///< SD an axis
-  double stroke_lift_m = 0.0010;         ///< SD of the tip above the bone (soft tissue, lift-off)
-  double bad_stroke_probability = 0.1;   ///< a stroke that slips off and is deleted
-  double entry_pick_m = 0.0010;          ///< SD an axis of putting the tip on the shown entry
-  double angle_reading_rad = 0.005;      ///< accepted when the reading is within about this
-  double overlay_perception_m = 0.0020;  ///< SD of where a hologram is perceived (depth of focus)
-  double wire_skiving_m = 0.0015;  ///< SD an axis of the wire's slip on the cortex at piercing
-  double wire_bending_rad = 0.03;  ///< SD an axis of the wire's bending while driven
-  double pace = 1.0;               ///< median of the surgeon's pace; 1 is the paper's
-  double pace_sd = 0.2;            ///< relative SD of the pace over surgeons
+
+  /// SD of the tip at 8-12 Hz, the band of physiological tremor (Elble and Koller 1990); the
+  /// amplitude of a hand at rest on the patient is our estimate.
+  double tremor_m = 0.0003;
+  double tremor_rad = 0.003;  ///< SD of the tool's rotation, likewise
+  /// RMS of the tip above the bone while stroking: soft tissue and lift-off, correlated over
+  /// 7-30 mm of way; never below the bone. Estimate.
+  double stroke_lift_m = 0.0010;
+  /// Share of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.
+  double bad_stroke_probability = 0.1;
+  /// SD of putting the tip where the entry is perceived. Estimate.
+  double entry_pick_m = 0.0010;
+  /// The surgeon pierces when the deviation seen stays within this, and misreads what is left with
+  /// this SD about each direction across the axis: 0.3°, three of the readout's last digits.
+  double angle_reading_rad = 0.005;
+  /// SD of where a hologram is perceived, the same during one placement: vergence, focus and eye
+  /// calibration. Estimate; published overlays on this kind of display are off by 1-5 mm.
+  double overlay_perception_m = 0.0020;
+  /// SD of the wire's slip along the cortex at piercing. The least certain of all: estimate.
+  double wire_skiving_m = 0.0015;
+  /// SD of the wire's bending about each direction across it while driven. As uncertain: estimate.
+  double wire_bending_rad = 0.03;
+  /// Speed of the median surgeon; 1 is that of the publication (Liebmann et al. 2019: 125 s and
+  /// 1,983 points for a level), which is thus an input here and no finding.
+  double pace = 1.0;
+  /// Relative SD of the duration over surgeons; 0.2 gives the published 27 s and 404 points.
+  double pace_sd = 0.2;
 
   static Magnitudes perfect();
   /// Everything wrong with the numbers, a line each: name, value, limit. Empty: fine.

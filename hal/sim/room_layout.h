@@ -11,6 +11,8 @@ namespace orthonav::sim {
 
 /// Refuses a room that can't stand: broken meshes, labels or tools, in one line each.
 Status check_room(const RoomDescription& room);
+/// Refuses a sound room that a surgeon can't operate in: no pointer, no guide, nothing to stroke.
+Status check_surgery(const RoomDescription& room);
 
 /// How the patient lies: prone, posterior up, the middle of the operated levels over the room's
 /// origin. Keeps a view of the description, which must outlive it.

@@ -22,8 +22,6 @@ constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
 constexpr Duration kAfterDone = std::chrono::milliseconds(500);
 /// The device had been running for a while.
 constexpr Timestamp kStart{std::chrono::seconds(100)};
-constexpr double kLongest_s = 86400.0;
-constexpr double kFastestRate_hz = 240.0;
 
 class SimClock final : public Clock {
  public:
@@ -261,41 +259,11 @@ class SimulatedHeadset final : public SimHeadset {
   SimDisplay display_;
 };
 
-Status check_options(const SimOptions& options) {
-  const auto problems = options.magnitudes.check();
-  if (!problems.empty()) {
-    std::string all = problems.front();
-    for (std::size_t i = 1; i < problems.size(); ++i) all += "; " + problems[i];
-    return Error{all};
-  }
-  if (!(options.frame_rate_hz >= 1.0 && options.frame_rate_hz <= kFastestRate_hz))
-    return Error{"simulated frame rate is " + std::to_string(options.frame_rate_hz) +
-                 " Hz, must lie in [1, 240]"};
-  if (options.magnitudes.exposure_s * options.frame_rate_hz > 1.0)
-    return Error{"simulated exposure of " + std::to_string(options.magnitudes.exposure_s) +
-                 " s is longer than a frame at " + std::to_string(options.frame_rate_hz) + " Hz"};
-  if (!(options.limit_s > 0.0 && options.limit_s <= kLongest_s))
-    return Error{"simulated time limit is " + std::to_string(options.limit_s) +
-                 " s, must be more than 0 and at most 86400"};
-  return {};
-}
-
-Status check_surgery(const RoomDescription& room) {
-  const RoomLayout layout(room);
-  if (!layout.tool(ToolKind::kPointer)) return Error{"room: the surgeon has no pointer"};
-  if (!layout.tool(ToolKind::kGuide)) return Error{"room: the surgeon has no guide"};
-  for (const std::size_t level : layout.operated())
-    if (plan_strokes(room.levels[level]).empty())
-      return Error{"room level \"" + room.levels[level].label +
-                   "\": has no surface that a pointer reaches from behind (+y)"};
-  return {};
-}
-
 }  // namespace
 
 Result<std::unique_ptr<SimHeadset>> SimHeadset::open(RoomDescription room,
                                                      const SimOptions& options) {
-  if (Status status = check_options(options); !status) return status.error();
+  if (Status status = options.check(); !status) return status.error();
   if (Status status = check_room(room); !status) return status.error();
   if (options.surgeon && !room.levels.empty())
     if (Status status = check_surgery(room); !status) return status.error();

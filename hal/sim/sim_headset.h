@@ -25,6 +25,9 @@ struct SimOptions {
   double limit_s = 3600.0;  ///< the stream ends then at the latest (simulated time)
   /// False leaves the images black and costs nothing: for whoever is not after the pixels.
   bool render = true;
+
+  /// Refuses values that make no sense; names all that is wrong with the magnitudes.
+  [[nodiscard]] Status check() const;
 };
 
 /// The simulated operating room as a headset. The same seed gives the same bits, as long as what is

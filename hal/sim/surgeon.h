@@ -50,12 +50,6 @@ class Surgeon {
     BoneSpot on_bone;  ///< in Room
     Vec3 outwards;     ///< the planned axis, out of the bone
   };
-  /// What H5 says: the turn (Room, rad) that takes the tool's axis onto the planned one.
-  struct Deviation {
-    Timestamp seen_at{};
-    Vec3 turn;
-  };
-
   Script operate();
   Script perform(std::string step);
   Script set_up();
@@ -72,11 +66,21 @@ class Surgeon {
   // surgeon_guiding.cpp
   Script guide(std::size_t level, std::string side);
   Script find_entry(std::size_t level, const std::string& label, Aim& aim);
-  Script turn_tool(const std::string& step, const Aim& aim);
-  Script hold_and_average(double duration_s, Vec3& mean_turn, int& readings);
+  /// Averages what is seen of entry and axis for a while; `found` stays false when the step ends.
+  Script look_at_entry(const std::string& label, double look_s, bool& found, Vec3& entry,
+                       Vec3& outwards);
+  Script set_on(const Aim& aim);
   Script drive_wire(std::size_t level, const std::string& side, const Aim& aim);
-  [[nodiscard]] std::optional<Deviation> read_deviation() const;
   [[nodiscard]] BoneSpot put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) const;
+
+  // surgeon_turning.cpp
+  /// Turns the tool about its tip until the readings are small and steady.
+  Script turn_tool(const std::string& step, const Aim& aim);
+  /// Holds still, reads the average and takes out what is left of it, if that is little.
+  Script settle(double content_rad, bool& settled);
+  void turn_by(Vec3 turn);
+  /// Turns the tag to and fro and leans over, so that the cameras find it again.
+  void show_tag(const Aim& aim, double since_s, double tick_s);
 
   // surgeon_rod.cpp
   Script touch_heads(const std::string& side);

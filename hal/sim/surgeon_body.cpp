@@ -19,6 +19,7 @@ constexpr double kBetweenClicks_s = 0.10;
 /// Confidence that an offline recognizer gives a command from a small vocabulary.
 constexpr double kConfidence = 0.90;
 constexpr double kConfidenceSd = 0.03;
+constexpr double kRad = std::numbers::pi / 180.0;
 
 }  // namespace
 
@@ -102,6 +103,24 @@ Vec3 SurgeonBody::pointer_axis(Vec3 surface_normal) const {
   const Vec3 view = posture_.head.from_gaze;
   const Vec3 sideways = Vec3{view.x, 0.0, view.z}.normalized();
   return (0.9 * kUp - 0.42 * sideways + 0.35 * surface_normal).normalized();
+}
+
+Vec3 SurgeonBody::best_view(Vec3 axis) {
+  Vec3 best;
+  double least = 1e9;
+  for (double azimuth = -80.0; azimuth <= 80.0; azimuth += 10.0)
+    for (double elevation = 35.0; elevation <= 65.0; elevation += 5.0) {
+      const Vec3 view{std::cos(elevation * kRad) * std::cos(azimuth * kRad),
+                      std::sin(elevation * kRad),
+                      std::cos(elevation * kRad) * std::sin(azimuth * kRad)};
+      const double too_steep = std::max(0.0, 58.0 - angle_between_rad(view, axis) / kRad) / 8.0;
+      const double cost = too_steep * too_steep + std::pow((elevation - 50.0) / 15.0, 2) +
+                          std::pow(azimuth / 40.0, 2);
+      if (cost >= least) continue;
+      least = cost;
+      best = view;
+    }
+  return best;
 }
 
 }  // namespace orthonav::sim

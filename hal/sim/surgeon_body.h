@@ -55,6 +55,9 @@ class SurgeonBody {
 
   /// How the pointer is held over a place: leaning away from the head, so that its tag shows.
   [[nodiscard]] Vec3 pointer_axis(Vec3 surface_normal) const;
+  /// The head's place from which a tool along `axis` shows its tag well, while the surgeon still
+  /// stands at the side of the table.
+  [[nodiscard]] static Vec3 best_view(Vec3 axis);
 
  private:
   [[nodiscard]] Grip parked(Point<Room> site) const;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "hal/sim/eyes.h"
+
+namespace orthonav::sim {
+
+/// What H5 and H6 say at a moment: the turn (Room, rad) that takes the tool's axis onto the planned
+/// one.
+struct Deviation {
+  Timestamp seen_at{};
+  Vec3 turn;
+};
+
+/// Reads it off the display: the direction from the triangle, checked against the number. Nothing
+/// when either is missing, shows dashes, or when they disagree by more than a degree.
+[[nodiscard]] std::optional<Deviation> read_deviation(const Eyes& eyes);
+
+/// The last seconds of readings, one for each displayed frame.
+class DeviationMemory {
+ public:
+  void add(const Deviation& reading);
+  void clear() { count_ = 0; }
+  /// The newest seen at or before `until`.
+  [[nodiscard]] std::optional<Deviation> newest(Timestamp until) const;
+  /// The mean turn of those seen since; nothing when they don't reach back that far.
+  [[nodiscard]] std::optional<Vec3> mean_since(Timestamp since) const;
+
+ private:
+  static constexpr std::size_t kKept = 256;
+  [[nodiscard]] std::size_t size() const { return count_ < kKept ? count_ : kKept; }
+  [[nodiscard]] const Deviation& back(std::size_t steps) const {
+    return readings_[(count_ - 1 - steps) % kKept];
+  }
+  std::array<Deviation, kKept> readings_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace orthonav::sim

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hal/sim/deviation.h"
+#include "hal/sim/surgeon.h"
+
+namespace orthonav::sim {
+namespace {
+
+constexpr double kRad = std::numbers::pi / 180.0;
+constexpr double kPatience_s = 300.0;
+/// Visual reaction to a moving target (Jeannerod 1988: 0.2-0.3 s).
+constexpr double kReaction_s = 0.25;
+/// Share of the seen deviation taken out in a second; times the reaction well below 1, or the hand
+/// would swing.
+constexpr double kGain_per_s = 1.6;
+constexpr double kSteady_s = 0.7;
+constexpr double kHold_s = 0.8;
+constexpr int kFewestReadings = 5;
+constexpr double kLastMove_s = 0.4;
+/// Half the last digit of the readout: a zero can't be told from this.
+constexpr double kReadoutFloor_rad = 0.05 * kRad;
+/// Nobody turns for ever: after a while the surgeon is content with more.
+constexpr double kStrict_s = 6.0;
+constexpr double kDoublesEvery_s = 4.0;
+/// Without a reading for this long the surgeon does something about it.
+constexpr double kLost_s = 1.0;
+
+}  // namespace
+
+Script Surgeon::turn_tool(const std::string& step, const Aim& aim) {
+  DeviationMemory memory;
+  const double strict_rad = std::max(magnitudes_->angle_reading_rad, kReadoutFloor_rad);
+  Timestamp last_seen = body_.now();
+  Timestamp before = body_.now();
+  double turning_s = 0.0;
+  while (in_step(step) && !finished_) {
+    co_await body_.next_tick();
+    const double tick_s = seconds(body_.now() - before);
+    before = body_.now();
+    const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
+    if (!reading) {
+      const double lost_s = seconds(body_.now() - last_seen);
+      if (lost_s > kPatience_s) give_up();
+      if (lost_s > kLost_s) show_tag(aim, lost_s - kLost_s, tick_s);
+      if (lost_s > kLost_s) memory.clear();
+      continue;
+    }
+    memory.add(*reading);
+    last_seen = body_.now();
+    turning_s += tick_s;
+    if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s)))
+      turn_by(kGain_per_s * tick_s * acted_on->turn);
+    const double content_rad =
+        strict_rad * std::exp2(std::max(0.0, turning_s - kStrict_s) / kDoublesEvery_s);
+    const auto mean = memory.mean_since(body_.now() - from_seconds(kSteady_s));
+    if (!mean || mean->norm() > content_rad) continue;
+    bool settled = false;
+    co_await settle(content_rad, settled);
+    if (settled) co_return;
+    before = body_.now();
+    memory.clear();
+  }
+}
+
+void Surgeon::turn_by(Vec3 turn) {
+  Grip& grip = body_.posture().grip;
+  grip.axis = (rotation_from_vector(turn) * grip.axis).normalized();
+}
+
+void Surgeon::show_tag(const Aim& aim, double since_s, double tick_s) {
+  body_.posture().grip.roll_rad += tick_s * 0.7 * std::cos(2.0 * since_s);
+  const double lean = 0.25 * std::sin(0.5 * since_s);
+  body_.look({aim.on_bone.point},
+             rotation_from_vector({0, lean, 0}) * body_.best_view(aim.outwards));
+}
+
+Script Surgeon::settle(double content_rad, bool& settled) {
+  co_await body_.rest(kReaction_s / body_.slowness());
+  const Timestamp end = body_.now() + from_seconds(kHold_s);
+  std::optional<Timestamp> last;
+  Vec3 sum;
+  int readings = 0;
+  while (body_.now() < end) {
+    co_await body_.next_tick();
+    const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
+    if (!reading || reading->seen_at == last) continue;
+    last = reading->seen_at;
+    sum += reading->turn;
+    ++readings;
+  }
+  if (readings < kFewestReadings || sum.norm() > 2.0 * content_rad * readings) co_return;
+  const Vec3 misread = normal_vector(body_.random(), magnitudes_->angle_reading_rad);
+  Grip last_grip = body_.posture().grip;
+  last_grip.axis = (rotation_from_vector(sum / readings + misread) * last_grip.axis).normalized();
+  co_await body_.move(last_grip, kLastMove_s);
+  settled = true;
+}
+
+}  // namespace orthonav::sim
