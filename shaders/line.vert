@@ -12,6 +12,10 @@ vec4 to_pixels(vec4 clip) {
   return vec4((0.5 * clip.xy / clip.w + 0.5) * frame.target.xy, clip.z, clip.w);
 }
 
+float radius_at(float depth) {
+  return max(0.5 * item.extra.x * frame.target.w / depth, kLeastRadius_px);
+}
+
 void main() {
   uint segment = uint(gl_VertexIndex) / kCorners;
   uint corner = uint(gl_VertexIndex) % kCorners;
@@ -28,12 +32,26 @@ void main() {
   if (b.w < near) b = mix(b, a, (near - b.w) / (a.w - b.w));
   vec4 pa = to_pixels(a);
   vec4 pb = to_pixels(b);
+  float radius_a = radius_at(pa.w);
+  float radius_b = radius_at(pb.w);
   vec2 along = pb.xy - pa.xy;
   float span = length(along);
-  along = span > 1e-4 ? along / span : vec2(1, 0);
+  // Seen from its end, the nearer end's disc covers all the rest.
+  if (span <= abs(radius_a - radius_b) || span < 1e-4) {
+    if (radius_a < radius_b) {
+      pa = pb;
+      radius_a = radius_b;
+    } else {
+      pb = pa;
+      radius_b = radius_a;
+    }
+    along = vec2(1, 0);
+  } else {
+    along /= span;
+  }
   bool first = corner < 7u;
   vec4 end = first ? pa : pb;
-  float radius = max(0.5 * item.extra.x * frame.target.w / end.w, kLeastRadius_px);
+  float radius = first ? radius_a : radius_b;
   float turn = radians(30.0) * float(corner % 7u);
   vec2 across = vec2(-along.y, along.x);
   vec2 offset = (first ? 1.0 : -1.0) * (cos(turn) * across - sin(turn) * along);

@@ -85,7 +85,7 @@ Cell cell_of(FT_Face face, char32_t code, float cap_px) {
   cell.glyph.advance =
       static_cast<float>(slot->linearHoriAdvance) / 65536.0f / kOversampling / cap_px;
   const FT_Bitmap& bitmap = slot->bitmap;
-  if (bitmap.rows == 0 || bitmap.width == 0) return cell;
+  if (slot->outline.n_points == 0) return cell;  // a blank: nothing to draw
   // Bounds of the fine picture on the coarse grid, baseline origin, y up.
   const int pad = kPadding_px * kOversampling;
   const int x0 = floor_to(slot->bitmap_left - pad, kOversampling);

@@ -1,0 +1,223 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "engine/golden_images.h"
+#include "render/frame_items.h"
+#include "render/projection.h"
+#include "tests/golden/golden_scene_edit.h"
+
+namespace orthonav::engine {
+namespace {
+
+using render::Label;
+using testing::IsEmpty;
+
+const std::filesystem::path kFolder = ORTHONAV_SOURCE_DIR "/tests/golden/images";
+
+// A centre is the mean of a few hundred pixel centres; what is cut off at the edges moves it less.
+constexpr double kCentreTolerance_px = 0.5;
+
+class Golden : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    for (GoldenScene& scene : golden_scenes()) {
+      if (scene.name == GetParam()) golden_ = std::move(scene);
+    }
+    ASSERT_EQ(golden_.name, GetParam());
+  }
+  GoldenImages painted(const GoldenScene& scene) {
+    Result<GoldenImages> images = painter_.paint(scene);
+    EXPECT_TRUE(images.ok()) << images.error().message;
+    return images.ok() ? std::move(*images) : GoldenImages{};
+  }
+  /// Labels of one view out of the views side by side.
+  render::LabelImage view_of(const render::LabelImage& joined, std::size_t view) const {
+    render::LabelImage one{golden_.width_px, golden_.height_px, {}};
+    for (int y = 0; y < one.height_px; ++y) {
+      const auto begin = joined.labels.begin() + y * joined.width_px +
+                         static_cast<std::ptrdiff_t>(view) * one.width_px;
+      one.labels.insert(one.labels.end(), begin, begin + one.width_px);
+    }
+    return one;
+  }
+  GoldenScene golden_;
+  GoldenPainter painter_{GoldenPainter::kPinnedDevice, true};
+};
+
+TEST_P(Golden, LooksAsApproved) {
+  const auto expected = read_goldens(kFolder, golden_.name);
+  ASSERT_TRUE(expected.ok()) << expected.error().message;
+  EXPECT_THAT(differences(*expected, painted(golden_)), IsEmpty())
+      << "see: orthonav golden review " << golden_.name;
+  EXPECT_THAT(painter_.validation_messages(), IsEmpty());
+}
+
+TEST_P(Golden, NoticesEveryHologramThatIsMissingMovedOrDim) {
+  const GoldenImages good = painted(golden_);
+  for (const Label label : labels_in(golden_.scene)) {
+    const GoldenImages hidden = painted(without(golden_, label));
+    EXPECT_FALSE(render::compare_labels(good.labels, hidden.labels).alike()) << label;
+    EXPECT_FALSE(render::compare_colour(good.additive, hidden.additive).alike()) << label;
+    EXPECT_FALSE(render::compare_colour(good.over, hidden.over).alike()) << label;
+    const GoldenImages shifted = painted(moved(golden_, label, 1));
+    EXPECT_FALSE(render::compare_labels(good.labels, shifted.labels).alike()) << label;
+    EXPECT_FALSE(render::compare_colour(good.additive, shifted.additive).alike()) << label;
+    const GoldenImages dim = painted(dimmed(golden_, label));
+    EXPECT_TRUE(render::compare_labels(good.labels, dim.labels).alike()) << label;
+    EXPECT_FALSE(render::compare_colour(good.additive, dim.additive).alike()) << label;
+    EXPECT_FALSE(render::compare_colour(good.over, dim.over).alike()) << label;
+  }
+}
+
+TEST_P(Golden, NoticesEveryChangedDigit) {
+  const GoldenImages good = painted(golden_);
+  for (const Label label : labels_in(golden_.scene)) {
+    GoldenScene changed = golden_;
+    if (!change_digit(changed, label)) continue;
+    const GoldenImages other = painted(changed);
+    EXPECT_FALSE(render::compare_labels(good.labels, other.labels).alike()) << label;
+    EXPECT_FALSE(render::compare_colour(good.additive, other.additive).alike()) << label;
+    EXPECT_FALSE(render::compare_colour(good.over, other.over).alike()) << label;
+  }
+}
+
+/// Whether the label lies at a point's pixel or at one beside it.
+bool covers(const render::LabelImage& image, Label label, const render::PixelPoint& at) {
+  for (int y = static_cast<int>(at.y_px) - 1; y <= static_cast<int>(at.y_px) + 1; ++y) {
+    for (int x = static_cast<int>(at.x_px) - 1; x <= static_cast<int>(at.x_px) + 1; ++x) {
+      if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px) continue;
+      if (image.labels[static_cast<std::size_t>(y) * image.width_px + x] == label) return true;
+    }
+  }
+  return false;
+}
+
+TEST_P(Golden, CoversItsPointsInEveryView) {
+  for (const GoldenPoint& point : golden_.covered) {
+    const GoldenScene alone = only(golden_, point.label, false);
+    const GoldenImages images = painted(alone);
+    const GoldenImages astray = painted(moved(alone, point.label, 60));
+    for (std::size_t view = 0; view < golden_.views.size(); ++view) {
+      const auto at =
+          render::project(golden_.views[view], point.in_world, golden_.width_px, golden_.height_px);
+      ASSERT_TRUE(at);
+      EXPECT_TRUE(covers(view_of(images.labels, view), point.label, *at)) << point.label;
+    }
+    EXPECT_NE(images.labels, astray.labels);
+  }
+}
+
+TEST_P(Golden, IsCentredWhereItBelongsAndOnePixelAsideIsNot) {
+  for (const GoldenPoint& point : golden_.centred) {
+    const GoldenScene alone = only(golden_, point.label, false);
+    const auto at =
+        render::project(golden_.views[0], point.in_world, golden_.width_px, golden_.height_px);
+    const auto is = render::extent_of(view_of(painted(alone).labels, 0), point.label);
+    const auto aside =
+        render::extent_of(view_of(painted(moved(alone, point.label, 1)).labels, 0), point.label);
+    ASSERT_TRUE(at && is && aside);
+    EXPECT_NEAR(is->centre_x_px, at->x_px, kCentreTolerance_px);
+    EXPECT_NEAR(is->centre_y_px, at->y_px, kCentreTolerance_px);
+    EXPECT_GT(aside->centre_x_px - at->x_px, kCentreTolerance_px);
+  }
+}
+
+/// The box of a line's ink as the CPU lays it out and projects it.
+render::LabelExtent expected_box(const GoldenScene& golden, const render::TextItem& item,
+                                 std::size_t view) {
+  const render::Font font;
+  const render::Matrix4 place = world_from_caps(item, render::head_of(golden.views));
+  std::vector<render::PlacedGlyph> glyphs;
+  lay_out(font, item, glyphs);
+  render::LabelExtent box;
+  double left = 1e9;
+  double right = -1e9;
+  double top = 1e9;
+  double bottom = -1e9;
+  for (const render::PlacedGlyph& glyph : glyphs) {
+    const float reach = font.header().reach - (item.rim.a > 0 ? render::kRimWidth : 0);
+    for (const float x : {glyph.left + reach, glyph.right - reach}) {
+      for (const float y : {glyph.bottom + reach, glyph.top - reach}) {
+        const auto at = render::project(golden.views[view], render::transformed(place, {x, y, 0}),
+                                        golden.width_px, golden.height_px);
+        left = std::min(left, static_cast<double>(at->x_px));
+        right = std::max(right, static_cast<double>(at->x_px));
+        top = std::min(top, static_cast<double>(at->y_px));
+        bottom = std::max(bottom, static_cast<double>(at->y_px));
+      }
+    }
+  }
+  box.left_px = static_cast<int>(std::lround(left));
+  box.right_px = static_cast<int>(std::lround(right));
+  box.top_px = static_cast<int>(std::lround(top));
+  box.bottom_px = static_cast<int>(std::lround(bottom));
+  return box;
+}
+
+TEST_P(Golden, WritesEveryTextWhereTheLayoutSays) {
+  for (const render::TextItem& item : golden_.scene.texts) {
+    GoldenScene alone = golden_;
+    alone.scene = {};
+    alone.scene.texts = {item};
+    const GoldenImages images = painted(alone);
+    for (std::size_t view = 0; view < golden_.views.size(); ++view) {
+      const auto is = render::extent_of(view_of(images.labels, view), item.label);
+      ASSERT_TRUE(is) << item.label;
+      const render::LabelExtent box = expected_box(golden_, item, view);
+      // A texel of the atlas around the ink, and half a pixel of rounding.
+      constexpr int kTolerance_px = 1;
+      EXPECT_NEAR(is->left_px, box.left_px, kTolerance_px) << item.label;
+      EXPECT_NEAR(is->right_px, box.right_px, kTolerance_px) << item.label;
+      EXPECT_NEAR(is->top_px, box.top_px, kTolerance_px) << item.label;
+      EXPECT_NEAR(is->bottom_px, box.bottom_px, kTolerance_px) << item.label;
+    }
+  }
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const GoldenScene& scene : golden_scenes()) names.push_back(scene.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(scene_names()),
+                         [](const auto& param) { return param.param; });
+
+TEST(GoldenFolder, HoldsNothingThatBelongsToNoScene) {
+  EXPECT_THAT(orphaned_goldens(kFolder, golden_scenes()), IsEmpty());
+  std::vector<GoldenScene> fewer = golden_scenes();
+  fewer.pop_back();
+  EXPECT_EQ(orphaned_goldens(kFolder, fewer).size(), 3u) << "the twin";
+}
+
+TEST(GoldenFolder, LacksNothingSilently) {
+  EXPECT_FALSE(read_goldens(kFolder, "no_such_scene").ok());
+}
+
+TEST(GoldenImages, OfAnotherSizeDiffer) {
+  GoldenPainter painter;
+  GoldenScene scene = golden_scenes().front();
+  const auto images = painter.paint(scene);
+  ASSERT_TRUE(images.ok()) << images.error().message;
+  scene.width_px += 2;
+  const auto larger = painter.paint(scene);
+  ASSERT_TRUE(larger.ok()) << larger.error().message;
+  EXPECT_THAT(
+      differences(*images, *larger),
+      testing::ElementsAre("labels: sizes differ", "additive: sizes differ", "over: sizes differ"));
+}
+
+TEST(GoldenScenes, AreTheSameAtEveryCall) {
+  const std::vector<GoldenScene> first = golden_scenes();
+  const std::vector<GoldenScene> second = golden_scenes();
+  GoldenPainter painter;
+  const auto a = painter.paint(first.back());
+  const auto b = painter.paint(second.back());
+  ASSERT_TRUE(a.ok() && b.ok());
+  EXPECT_EQ(a->additive, b->additive);
+  EXPECT_EQ(a->labels, b->labels);
+}
+
+}  // namespace
+}  // namespace orthonav::engine

@@ -1,0 +1,128 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "render/shapes.h"
+#include "render/vulkan/mesh_cache.h"
+#include "tests/render/test_renderer.h"
+
+namespace {
+
+// Counts what passes through operator new anywhere in this program while `counting`.
+std::atomic<bool> counting{false};
+std::atomic<int> allocations{0};
+
+void* counted(std::size_t size) {
+  if (counting) ++allocations;
+  void* memory = std::malloc(size == 0 ? 1 : size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace orthonav::render {
+namespace {
+
+Scene moving_scene(float shift) {
+  static const auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f));
+  Scene scene;
+  MeshItem item;
+  item.label = 201;
+  item.mesh = mesh;
+  item.style = MeshStyle::kRim;
+  item.world_from_model = placed_at({shift, 0, -1});
+  scene.meshes.push_back(item);
+  LineItem line;
+  line.points = {{shift, 0, -1}, {0.2f, 0.1f, -1}, {0.1f, 0.2f, -1}};
+  line.dash_m = 0.01f;
+  scene.lines.push_back(line);
+  scene.triangles.push_back({501, {Float3{shift, 0, -1}, {0.1f, 0, -1}, {0, 0.1f, -1}}, {}});
+  TextItem text;
+  text.position = {shift, 0, -1};
+  text.runs = {{"12.4°", {}}};
+  scene.texts.push_back(text);
+  return scene;
+}
+
+TEST(FrameLoop, AllocatesNothingAfterTheFirstFrames) {
+  RendererOptions options;
+  options.width_px = 200;
+  options.height_px = 120;
+  options.device = "llvmpipe";
+  std::string error;
+  const auto renderer = Renderer::create(options, error);
+  ASSERT_NE(renderer, nullptr) << error;
+  const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
+  const std::vector<Scene> scenes = {moving_scene(0.00f), moving_scene(0.03f), moving_scene(0.05f)};
+  std::vector<Image> images;
+  for (const Scene& scene : scenes) ASSERT_TRUE(renderer->draw(scene, eyes, {}, images, error));
+  allocations = 0;
+  counting = true;
+  bool drawn = true;
+  for (int i = 0; i < 6; ++i)
+    drawn = renderer->draw(scenes[i % 3], eyes, {}, images, error) && drawn;
+  counting = false;
+  EXPECT_TRUE(drawn) << error;
+  EXPECT_EQ(allocations, 0);
+  counting = true;
+  const Scene copy = scenes[0];
+  counting = false;
+  EXPECT_GT(allocations, 0) << "the twin: the counter counts " << copy.lines.size();
+}
+
+TEST(FrameLoop, TellsWhereItsTimeWent) {
+  TestRenderer renderer;
+  renderer.draw(moving_scene(0), TestRenderer::straight_ahead());
+  const FrameTiming timing = renderer->last_timing();
+  EXPECT_GT(timing.gpu_ms, 0);
+  EXPECT_GT(timing.record_ms, 0);
+  EXPECT_GE(timing.total_ms, timing.gpu_ms + timing.record_ms);
+}
+
+class MeshCacheTest : public testing::Test {
+ protected:
+  Instance instance_{false};
+  Device device_{choose_device(instance_, "llvmpipe")};
+  Commands commands_{device_};
+  MeshCache cache_;
+};
+
+TEST_F(MeshCacheTest, KeepsOneCopyAMeshAndDropsItWithItsLastOwner) {
+  auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f));
+  EXPECT_FALSE(cache_.touch(mesh));
+  EXPECT_EQ(cache_.add(device_, commands_, mesh), "");
+  EXPECT_TRUE(cache_.touch(mesh));
+  cache_.end_frame();
+  EXPECT_EQ(cache_.size(), 1u);
+  ASSERT_NE(cache_.find(mesh), nullptr);
+  EXPECT_EQ(cache_.find(mesh)->index_count, mesh->indices.size());
+  mesh.reset();
+  cache_.end_frame();
+  EXPECT_EQ(cache_.size(), 0u);
+}
+
+TEST_F(MeshCacheTest, DropsWhatIsNotDrawnForLong) {
+  const auto drawn = std::make_shared<const MeshData>(make_sphere(0.05f));
+  const auto idle = std::make_shared<const MeshData>(make_sphere(0.06f));
+  EXPECT_EQ(cache_.add(device_, commands_, drawn), "");
+  EXPECT_EQ(cache_.add(device_, commands_, idle), "");
+  for (int frame = 0; frame < 400; ++frame) {
+    cache_.touch(drawn);
+    cache_.end_frame();
+  }
+  EXPECT_NE(cache_.find(drawn), nullptr);
+  EXPECT_EQ(cache_.find(idle), nullptr);
+}
+
+}  // namespace
+}  // namespace orthonav::render

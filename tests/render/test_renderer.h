@@ -1,0 +1,83 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/compare.h"
+#include "render/projection.h"
+#include "render/renderer.h"
+
+namespace orthonav::render {
+
+/// A renderer on the software rasterizer with the validation layer listening; every test that draws
+/// ends with what the layer said, which must be nothing.
+class TestRenderer {
+ public:
+  explicit TestRenderer(int width_px = 200, int height_px = 120, Blend blend = Blend::kAdditive,
+                        int samples = 4) {
+    RendererOptions options;
+    options.width_px = width_px;
+    options.height_px = height_px;
+    options.blend = blend;
+    options.samples = samples;
+    options.device = "llvmpipe";
+    options.validation = true;
+    std::string error;
+    renderer_ = Renderer::create(options, error);
+    EXPECT_NE(renderer_, nullptr) << error;
+  }
+  ~TestRenderer() {
+    if (!renderer_) return;
+    for (const std::string& message : renderer_->validation_messages()) {
+      ADD_FAILURE() << "validation: " << message;
+    }
+  }
+  TestRenderer(const TestRenderer&) = delete;
+  TestRenderer& operator=(const TestRenderer&) = delete;
+
+  Renderer& operator*() { return *renderer_; }
+  Renderer* operator->() { return renderer_.get(); }
+
+  Image draw(const Scene& scene, const View& view, const Image* background = nullptr) {
+    std::vector<const Image*> backgrounds;
+    if (background != nullptr) backgrounds.push_back(background);
+    std::vector<Image> images;
+    std::string error;
+    EXPECT_TRUE(renderer_->draw(scene, {view}, backgrounds, images, error)) << error;
+    return images.empty() ? Image{} : images.front();
+  }
+  LabelImage labels(const Scene& scene, const View& view) {
+    std::vector<LabelImage> images;
+    std::string error;
+    EXPECT_TRUE(renderer_->draw_labels(scene, {view}, images, error)) << error;
+    return images.empty() ? LabelImage{} : images.front();
+  }
+  std::string error_of(const Scene& scene, const View& view = straight_ahead()) {
+    std::vector<Image> images;
+    std::string error;
+    EXPECT_FALSE(renderer_->draw(scene, {view}, {}, images, error));
+    return error;
+  }
+
+  /// From the origin along -z; one metre away, a pixel of the default size is 5 mm.
+  static View straight_ahead() {
+    View view;
+    view.tan_left = view.tan_right = 0.5f;
+    view.tan_up = view.tan_down = 0.3f;
+    return view;
+  }
+
+ private:
+  std::unique_ptr<Renderer> renderer_;
+};
+
+/// Red, green and blue at a pixel.
+inline std::array<int, 3> pixel(const Image& image, int x_px, int y_px) {
+  const std::size_t i = 4 * (static_cast<std::size_t>(y_px) * image.width_px + x_px);
+  return {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]};
+}
+
+}  // namespace orthonav::render
