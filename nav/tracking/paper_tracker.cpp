@@ -58,9 +58,18 @@ class PaperTracker final : public ToolTracker {
     return filter.alive() && time > filter.time() && time - filter.time() <= options_.coast;
   }
 
+  // After a gap in the stream what was just measured may be anywhere.
+  [[nodiscard]] bool follows_a_gap(Timestamp time) const {
+    for (std::size_t i = 0; i < tools_.size(); ++i)
+      if (states_[i].world_from_marker.origin == Origin::kMeasured &&
+          !(is_recent(trails_[i].left, time) && is_recent(trails_[i].right, time)))
+        return true;
+    return false;
+  }
+
   void plan(Timestamp time) {
     const int every = options_.full_search_interval;
-    const bool everywhere = every == 1 || (missing_ && pairs_ % every == 0);
+    const bool everywhere = every == 1 || (missing_ && pairs_ % every == 0) || follows_a_gap(time);
     SearchPlan& left = detector_->left_plan();
     SearchPlan& right = detector_->right_plan();
     left.everywhere = right.everywhere = everywhere;

@@ -194,6 +194,14 @@ TEST(PaperTracker, LooksForMissingToolsEveryNthPairOnly) {
               ::testing::ElementsAre(false, false, false, false, true, true, true, true, true));
 }
 
+TEST(PaperTracker, LooksEverywhereAtOnceAfterAGap) {
+  auto t = tracker({.full_search_interval = 1000});
+  (void)t->track(shown(stroke()[0], 0));
+  (void)t->track(shown(stroke()[0], 1));
+  for (const ToolState& state : t->track(shown(stroke()[5], 40)))
+    EXPECT_EQ(state.world_from_marker.origin, Origin::kMeasured);
+}
+
 TEST(PaperTracker, FindsAToolAgainThatJumped) {
   auto t = tracker({.full_search_interval = 3});
   for (int k = 0; k < 6; ++k) (void)t->track(shown(stroke()[0], k));
