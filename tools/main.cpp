@@ -19,6 +19,7 @@ int run(int argc, char** argv) {
   Action action;
   add_demo_command(app, action);
   add_detect_command(app, action);
+  add_doctor_command(app, action);
   add_golden_command(app, action);
   add_run_command(app, action);
   add_study_command(app, action);
