@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <thread>
 
 #include "hal/fake/failing.h"
 #include "hal/replay/replay_headset.h"
@@ -251,6 +253,29 @@ TEST(Recorder, RecordsOddLookUpTablesToTheBit) {
   auto replayed = ReplayHeadset::open(folder / "session");
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
   expect_same((*replayed)->cameras().calibration(), expected);
+}
+
+TEST(Recorder, TakesQuestionsFromOtherThreads) {
+  const TemporaryFolder folder;
+  auto recorder = RecordingHeadset::create(headset(), folder / "session");
+  ASSERT_TRUE(recorder.ok());
+  std::atomic<bool> done{false};
+  std::atomic<int> asked{0};
+  std::thread display([&] {
+    while (!done.load()) {
+      const Timestamp now = (*recorder)->clock().now();
+      EXPECT_EQ((*recorder)->head().world_from_rig(now).time, now);
+      ++asked;
+    }
+  });
+  const SessionLog log = play(**recorder);
+  while (asked.load() == 0) std::this_thread::yield();
+  EXPECT_TRUE((*recorder)->close().ok());
+  done = true;
+  display.join();
+  EXPECT_EQ(log.moments.size(), 11u);
+  EXPECT_TRUE((*recorder)->recording_status().ok());
+  EXPECT_TRUE(ReplayHeadset::open(folder / "session").ok());
 }
 
 TEST(Recorder, KeepsFiletimeTicks) {
