@@ -41,10 +41,6 @@ std::array<float, 3> plane_through(std::array<Vec2, 3> p, std::array<double, 3> 
 }  // namespace
 
 void Layers::draw(const Plate& plate, const Lens& lens) {
-  const auto& camera_from_marker = plate.camera_from_marker;
-  const auto project = [&](double x, double y) {
-    return lens.rough_pixel((camera_from_marker * Point<Marker>{{x, y, 0.0}}).v);
-  };
   Box box;
   corners_px_.clear();
   constexpr std::array<Vec2, 5> kTurns = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}};
@@ -52,48 +48,52 @@ void Layers::draw(const Plate& plate, const Lens& lens) {
     for (int i = 0; i < kRimPieces; ++i) {
       const double s = static_cast<double>(i) / kRimPieces;
       const Vec2 at = plate.half_m * (kTurns[side] + s * (kTurns[side + 1] - kTurns[side]));
-      corners_px_.push_back(project(at.x, at.y));
+      corners_px_.push_back(
+          lens.rough_pixel((plate.camera_from_marker * Point<Marker>{{at.x, at.y, 0.0}}).v));
       box.add(corners_px_.back());
     }
   Layer* layer = open_layer(box.low, box.high, lens);
   if (layer == nullptr) return;
-  const std::size_t rim = corners_px_.size();
-  double area = 0.0;
-  for (std::size_t i = 0; i < rim; ++i) {
-    const Vec2 a = corners_px_[i];
-    const Vec2 b = corners_px_[(i + 1) % rim];
-    area += a.x * b.y - a.y * b.x;
-  }
-  const double sign = area < 0.0 ? 1.0 : -1.0;  // makes the inside positive
-  const bool front = camera_from_marker.inverse().translation().z > 0.0;
-  const auto nearness_of = [&](Vec2 m) {
-    return 1.0 / (camera_from_marker * Point<Marker>{{m.x, m.y, 0.0}}).v.z;
-  };
+  const bool front = plate.camera_from_marker.inverse().translation().z > 0.0;
+  layer->tool = plate.tool;
+  layer->rank = front ? 1 : -1;
   const double h = plate.half_m;
+  const auto nearness_of = [&](double x, double y) {
+    return 1.0 / (plate.camera_from_marker * Point<Marker>{{x, y, 0.0}}).v.z;
+  };
   const auto plane =
       plane_through({corners_px_[0], corners_px_[kRimPieces], corners_px_[3 * kRimPieces]},
-                    {nearness_of({-h, -h}), nearness_of({h, -h}), nearness_of({-h, h})});
+                    {nearness_of(-h, -h), nearness_of(h, -h), nearness_of(-h, h)});
   layer->nearness0 = plane[0];
   layer->nearness_x = plane[1];
   layer->nearness_y = plane[2];
-  layer->tool = plate.tool;
-  layer->rank = front ? 1 : -1;
-  Span* spans = spans_.data() + layer->spans;
-  CoverageWindow alpha(arena_.data() + layer->alpha, spans, layer->width, layer->height);
-  CoverageWindow light(arena_.data() + layer->light, spans, layer->width, layer->height);
-  const Vec2 origin{static_cast<double>(layer->x0), static_cast<double>(layer->y0)};
   const float albedo = front ? kWhiteAlbedo : kBackAlbedo;
-  const double grey = static_cast<double>(kFullGrey * plate.light * albedo);
-  for (std::size_t i = 0; i < rim; ++i) {
+  const double sign = fill_outline(*layer, static_cast<double>(kFullGrey * plate.light * albedo));
+  if (front && plate.pattern != nullptr) draw_face(plate, lens, *layer, sign);
+  integrate(*layer, layer->alpha);
+  integrate(*layer, layer->light);
+}
+
+double Layers::fill_outline(const Layer& layer, double grey) {
+  const std::size_t count = corners_px_.size();
+  double area = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 a = corners_px_[i];
+    const Vec2 b = corners_px_[(i + 1) % count];
+    area += a.x * b.y - a.y * b.x;
+  }
+  const double sign = area < 0.0 ? 1.0 : -1.0;
+  Span* spans = spans_.data() + layer.spans;
+  CoverageWindow alpha(arena_.data() + layer.alpha, spans, layer.width, layer.height);
+  CoverageWindow light(arena_.data() + layer.light, spans, layer.width, layer.height);
+  const Vec2 origin{static_cast<double>(layer.x0), static_cast<double>(layer.y0)};
+  for (std::size_t i = 0; i < count; ++i) {
     const Vec2 a = corners_px_[i] - origin;
-    const Vec2 b = corners_px_[(i + 1) % rim] - origin;
+    const Vec2 b = corners_px_[(i + 1) % count] - origin;
     alpha.add_segment(a, b, sign);
     light.add_segment(a, b, sign * grey);
   }
-  if (front && plate.pattern != nullptr) draw_face(plate, lens, *layer, sign);
-  integrate(*layer, layer->alpha);
-  // Both windows share their spans: the second must not be cut twice, and isn't.
-  integrate(*layer, layer->light);
+  return sign;
 }
 
 void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, double sign) {

@@ -69,6 +69,8 @@ class Layers {
 
   Layer* open_layer(Vec2 low, Vec2 high, const Lens& lens);
   void draw(const Plate& plate, const Lens& lens);
+  /// Fills the contour in corners_px_; returns the sign that makes the inside positive.
+  double fill_outline(const Layer& layer, double grey);
   void draw_face(const Plate& plate, const Lens& lens, Layer& layer, double sign);
   void draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens);
   void shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b, double radius_a,

@@ -53,7 +53,7 @@ std::vector<Capsule> rods_of(const RoomTool& tool, double half_m) {
 
 float lit(Vec3 normal_in_room) {
   const double cosine = std::max(0.0, normal_in_room.dot(kLampInRoom.normalized()));
-  return static_cast<float>(0.78 + 0.25 * cosine);
+  return static_cast<float>(0.90 + 0.12 * cosine);
 }
 
 /// Cuts what lies nearer than kNearM; false when nothing is left.
@@ -90,16 +90,23 @@ void add_hand(const RoomState& state, const Transform<LeftCamera, Room>& camera_
               -1};
     if (clip_near(c)) capsules.push_back(c);
   };
-  // A fist of four fingers and a thumb round the handle, wrist, sleeve of the gown.
-  add(centre + 0.02 * back, centre + 0.06 * back, 0.027, 0.030, 0.52F, kGlove);
+  // A fist round the handle: back of the hand, four fingers in two bones each, the thumb; then the
+  // wrist and the sleeve of the gown over the glove.
+  add(centre + 0.022 * back + 0.010 * up, centre + 0.062 * back, 0.026, 0.027, 0.55F, kGlove);
   for (int i = 0; i < 4; ++i) {
-    const Vec3 knuckle = centre + (0.027 - 0.018 * i) * side + 0.015 * up + 0.012 * back;
-    add(knuckle, knuckle - 0.020 * back - 0.022 * up, 0.0105, 0.009, 0.56F, kGlove);
+    const double spread = 0.027 - 0.018 * i;
+    const double reach = i == 0 || i == 3 ? 0.024 : 0.029;
+    const Vec3 knuckle = centre + spread * side + 0.020 * up + 0.016 * back;
+    const Vec3 joint = knuckle - reach * back - 0.004 * up;
+    add(knuckle, joint, 0.0105, 0.0095, 0.60F, kGlove);
+    add(joint, joint - 0.020 * up + 0.006 * back, 0.0095, 0.0085, 0.57F, kGlove);
   }
-  add(centre + 0.035 * side + 0.02 * back, centre + 0.018 * side - 0.018 * back, 0.012, 0.010,
-      0.55F, kGlove);
-  add(centre + 0.06 * back, centre + 0.11 * back, 0.030, 0.034, 0.52F, kGlove);
-  add(centre + 0.10 * back, centre + 0.30 * back, 0.037, 0.046, 0.36F, kGown);
+  const Vec3 thumb = centre + 0.033 * side - 0.004 * up;
+  add(thumb + 0.034 * back, thumb + 0.004 * back, 0.013, 0.0115, 0.57F, kGlove);
+  add(thumb + 0.004 * back, thumb - 0.022 * back - 0.012 * side, 0.0115, 0.0095, 0.60F, kGlove);
+  add(centre + 0.062 * back, centre + 0.110 * back, 0.027, 0.031, 0.53F, kGlove);
+  add(centre + 0.105 * back, centre + 0.112 * back, 0.0345, 0.035, 0.30F, kGown);
+  add(centre + 0.118 * back, centre + 0.310 * back, 0.036, 0.046, 0.36F, kGown);
 }
 
 }  // namespace
