@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "engine/atomic_file.h"
@@ -21,6 +22,9 @@ Error error_of(const std::filesystem::path& path, const std::string& reason) {
 }
 
 Result<std::vector<char>> bytes_of(const std::filesystem::path& path) {
+  // Reading a folder throws, and a pipe may never end.
+  std::error_code absent;
+  if (!std::filesystem::is_regular_file(path, absent)) return error_of(path, "can't be read");
   std::ifstream file(path, std::ios::binary);
   if (!file) return error_of(path, "can't be read");
   std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

@@ -33,7 +33,7 @@ struct FrameSources {
 };
 
 /// Records drawing and the copy of the result into the readback buffer. The rules of depth and
-/// order that it follows are in docs/decisions/0003-holograms-need-no-order.md.
+/// order that it follows are in docs/decisions/0021-holograms-need-no-order.md.
 void record_frame(VkCommandBuffer commands, const FrameSources& sources);
 
 }  // namespace orthonav::render

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -47,7 +48,6 @@ TEST(GoldenCommand, DrawsTheSameBitsWithAnyNumberOfThreads) {
 TEST(GoldenCommand, ReviewFindsApprovedScenesAlikeAndChangedOnesNot) {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder.file("images"));
-  const std::vector<std::string> where = {"--dir", folder.file("images")};
   const Called missing = orthonav({"golden", "review", "h5_red", "--out", folder.file("a.html"),
                                    "--dir", folder.file("images")});
   EXPECT_EQ(missing.code, 1) << missing.err;
@@ -73,7 +73,7 @@ TEST(GoldenCommand, ReviewFindsApprovedScenesAlikeAndChangedOnesNot) {
 
 TEST(GoldenCommand, ReviewNamesOrphans) {
   const ScratchFolder folder;
-  folder.with("old.labels.png", "x");
+  ASSERT_FALSE(folder.with("old.labels.png", "x").empty());
   const Called called = orthonav({"golden", "review", "--out", folder.file("a.html"), "--dir",
                                   std::filesystem::path(folder.file("x")).parent_path().string()});
   EXPECT_EQ(called.code, 1);
