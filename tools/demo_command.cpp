@@ -11,8 +11,10 @@
 #include "engine/tool_file.h"
 #include "engine/video_writer.h"
 #include "tools/command.h"
+#include "tools/demo_report.h"
 #include "tools/operation_summary.h"
 #include "tools/progress.h"
+#include "tools/reading_curves.h"
 #include "tools/step_pictures.h"
 #include "tools/surgeon_view.h"
 
@@ -121,7 +123,8 @@ class Demo {
 
   Result<engine::OperationResult> operate(const engine::Case& source) {
     const engine::OperationOptions options = options_of(arguments_);
-    OperationProgress progress(view_.get());
+    readings_ = std::make_unique<ReadingCurves>(view_.get());
+    OperationProgress progress(readings_.get());
     engine::OperationGuests guests;
     guests.session = {journal_.get()};
     guests.loop = &progress;
@@ -141,12 +144,18 @@ class Demo {
     const std::string timing = engine::timing_json(result.loop);
     if (const Status done = engine::write_file(arguments_.out + "/timing.json", timing); !done)
       return done;
+    const DemoReport report{.perfect = arguments_.perfect,
+                            .video = video_ != nullptr,
+                            .plots = readings_->plots(),
+                            .pictures = pictures_.written()};
+    if (const Status done = write_demo_report(arguments_.out, result, report); !done) return done;
     return engine::write_file(arguments_.out + "/report.json", engine::report_json(result));
   }
 
   DemoArguments arguments_;
   std::unique_ptr<SurgeonView> view_;
   StepPictures pictures_;
+  std::unique_ptr<ReadingCurves> readings_;
   std::unique_ptr<engine::Journal> journal_;
   std::unique_ptr<engine::VideoWriter> video_;
   std::unique_ptr<VideoPictures> video_pictures_;

@@ -1,0 +1,68 @@
+#include "tools/demo_report.h"
+
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "engine/atomic_file.h"
+
+namespace orthonav::tools {
+namespace {
+
+Result<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Error{path.string() + ": cannot be read"};
+  return std::vector<std::uint8_t>(std::istreambuf_iterator<char>(file), {});
+}
+
+/// What there is to see at a step; the key is the step's first word.
+std::string caption_of(const std::string& step) {
+  static const std::map<std::string, std::string> kCaptions = {
+      {"setup", "The tools are found in both cameras; nothing is registered yet."},
+      {"digitize", "The pointer strokes the bone: yellow while recording, orange once saved."},
+      {"verify", "The registered vertebra is laid over the bone to be judged before use."},
+      {"accepted", "The registration was accepted: entry points appear."},
+      {"guide", "Entry, planned trajectory, the triangle towards the tool's axis, and the angle."},
+      {"rod", "The heads are touched one by one; the rod follows as a spline through them."},
+      {"done", "The operation is over."}};
+  const auto found = kCaptions.find(step.substr(0, step.find(' ')));
+  return found == kCaptions.end() ? "" : found->second;
+}
+
+std::vector<std::string> notes_of(const DemoReport& report) {
+  std::vector<std::string> notes;
+  notes.push_back(report.perfect
+                      ? "Simulated operating room with every source of error at zero."
+                      : "Simulated operating room: cameras, head, map, hands and wires err by the "
+                        "documented magnitudes (docs/accuracy.md).");
+  notes.push_back(
+      "Tracking, registration and guidance saw camera images, head poses, clicker and voice alone; "
+      "errors were computed afterwards against what really happened.");
+  notes.push_back(
+      "The published figures come from a phantom study; one run holds too "
+      "few screws to compare spreads. Not a medical device.");
+  return notes;
+}
+
+}  // namespace
+
+Status write_demo_report(const std::filesystem::path& folder, const engine::OperationResult& result,
+                         const DemoReport& report) {
+  engine::ReportContent content;
+  content.report_json = engine::report_json(result);
+  if (report.video) content.video = "operation.mp4";
+  content.plots = report.plots;
+  content.notes = notes_of(report);
+  content.timings = {{"track a stereo pair and all that follows", result.loop.step_wall_ms},
+                     {"draw the surgeon's view (room and holograms)", result.loop.draw_wall_ms}};
+  for (const StepPicture& picture : report.pictures) {
+    auto png = bytes_of(picture.path);
+    if (!png) return png.error();
+    content.pictures.push_back({picture.step, caption_of(picture.step), std::move(*png)});
+  }
+  const auto page = engine::report_html(content);
+  if (!page) return page.error();
+  return engine::write_file(folder / "report.html", *page);
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/operation_result.h"
+#include "engine/report_html.h"
+#include "tools/step_pictures.h"
+
+namespace orthonav::tools {
+
+struct DemoReport {
+  bool perfect = false;  ///< every source of error was at zero
+  bool video = false;    ///< operation.mp4 lies beside the page
+  std::vector<engine::ReportPlot> plots;
+  std::vector<StepPicture> pictures;
+};
+
+/// Writes report.html into `folder`.
+Status write_demo_report(const std::filesystem::path& folder, const engine::OperationResult& result,
+                         const DemoReport& report);
+
+}  // namespace orthonav::tools

@@ -1,0 +1,44 @@
+#include "tools/reading_curves.h"
+
+#include <numbers>
+
+namespace orthonav::tools {
+
+void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+                            const engine::Guidance& guidance) {
+  if (next_) next_->stepped(frame, inputs, guidance);
+  if (guidance.step != engine::Step::kGuide || !guidance.tool) return;
+  if (screws_.empty() || screws_.back().name != guidance.step_text)
+    screws_.push_back({guidance.step_text, frame.time, {}, {}, {}});
+  Screw& screw = screws_.back();
+  screw.time_s.push_back(seconds(frame.time - screw.begin));
+  screw.angle_deg.push_back(guidance.tool->measured.angle_rad * 180.0 / std::numbers::pi);
+  screw.distance_mm.push_back(1e3 * guidance.tool->measured.tip_to_entry_m);
+}
+
+void ReadingCurves::captured(const engine::Snapshot& snapshot) {
+  if (next_) next_->captured(snapshot);
+}
+
+std::vector<engine::ReportPlot> ReadingCurves::plots() const {
+  engine::ReportPlot angle{"Angle between tool and plan, as displayed",
+                           "time since the tool was seen [s]",
+                           "\u00b0",
+                           {},
+                           0.0};
+  engine::ReportPlot distance{"Distance of the tool's tip from the planned entry, as tracked",
+                              "time since the tool was seen [s]",
+                              "mm",
+                              {},
+                              0.0};
+  for (const Screw& screw : screws_) {
+    // "guide L4 left": the step's first word says nothing here.
+    const std::string name = screw.name.substr(screw.name.find(' ') + 1);
+    angle.curves.push_back({name, screw.time_s, screw.angle_deg});
+    distance.curves.push_back({name, screw.time_s, screw.distance_mm});
+  }
+  if (screws_.empty()) return {};
+  return {angle, distance};
+}
+
+}  // namespace orthonav::tools

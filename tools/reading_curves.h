@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/frame_loop.h"
+#include "engine/report_html.h"
+
+namespace orthonav::tools {
+
+/// Notes what the surgeon could read while every screw was guided: the angle, and how far the tip
+/// was from the entry. Passes what it hears on.
+class ReadingCurves : public engine::LoopObserver {
+ public:
+  /// Borrowed, may be null.
+  explicit ReadingCurves(engine::LoopObserver* next) : next_(next) {}
+  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+               const engine::Guidance& guidance) override;
+  void captured(const engine::Snapshot& snapshot) override;
+
+  /// The plots of the report: angle and distance over the time since the tool was first seen.
+  [[nodiscard]] std::vector<engine::ReportPlot> plots() const;
+
+ private:
+  struct Screw {
+    std::string name;
+    Timestamp begin{};
+    std::vector<double> time_s;
+    std::vector<double> angle_deg;
+    std::vector<double> distance_mm;
+  };
+  engine::LoopObserver* next_;
+  std::vector<Screw> screws_;
+};
+
+}  // namespace orthonav::tools
