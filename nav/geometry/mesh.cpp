@@ -154,10 +154,14 @@ TriangleMesh welded(const TriangleMesh& mesh) {
     renamed.push_back(entry->second);
   }
   for (std::array<std::uint32_t, 3> t : mesh.triangles) {
-    // An index out of range stays one, for the check to name.
-    for (std::uint32_t& v : t)
+    bool valid = true;
+    for (std::uint32_t& v : t) {
+      // An index out of range stays one, for the check to name.
+      valid = valid && v < renamed.size();
       v = v < renamed.size() ? renamed[v] : std::numeric_limits<std::uint32_t>::max();
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) result.triangles.push_back(t);
+    }
+    const bool collapsed = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    if (!valid || !collapsed) result.triangles.push_back(t);
   }
   return result;
 }

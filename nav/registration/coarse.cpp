@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "nav/geometry/absolute_orientation.h"
 #include "nav/registration/icp.h"
@@ -15,9 +16,9 @@ constexpr double kSamePlace_m = 0.003;
 constexpr double kSameTurn_rad = 0.1;
 constexpr double kShift_m = 0.009;
 constexpr double kTurn_rad = 0.35;
-constexpr int kShakes = 4;
+constexpr int kShakes = 8;
 /// Poses that are worth shaking; beyond these none has led to the right one.
-constexpr std::size_t kShaken = 10;
+constexpr std::size_t kShaken = 24;
 /// Enough points to tell a good pose from a bad one, few enough to try hundreds.
 constexpr std::size_t kThinned = 80;
 /// A shaken pose is better only when its RMSE falls by more than ICP's own slack.
@@ -104,10 +105,33 @@ class Search {
   }
 
  private:
+  /// ICP on the grid's rough closest points.
   [[nodiscard]] std::optional<CoarsePose> look(const Pose& start, const IcpOptions& options) const {
-    const auto found = refine_icp(model_.reachable_surface(), few_, start, options);
-    if (!found) return std::nullopt;
-    return CoarsePose{found->world_from_vertebra, found->rmse_m};
+    std::vector<Vec3> digitized(few_.size());
+    for (std::size_t i = 0; i < few_.size(); ++i) digitized[i] = few_[i].v;
+    std::vector<Vec3> closest(few_.size());
+    CoarsePose result{start, match(start, closest)};
+    for (int i = 0; i < options.max_iterations; ++i) {
+      const auto fit = absolute_orientation(closest, digitized);
+      if (!fit) return std::nullopt;
+      const Pose pose{fit->rotation, fit->translation_m};
+      const double rmse_m = match(pose, closest);
+      const double gained_m = result.rmse_m - rmse_m;
+      if (gained_m > 0.0) result = {pose, rmse_m};
+      if (!(gained_m > options.converged_m)) break;
+    }
+    return result;
+  }
+
+  double match(const Pose& pose, std::vector<Vec3>& closest) const {
+    const Transform<Vertebra, World> vertebra_from_world = pose.inverse();
+    double sum_m2 = 0.0;
+    for (std::size_t i = 0; i < few_.size(); ++i) {
+      const Vec3 query_m = (vertebra_from_world * few_[i]).v;
+      closest[i] = model_.reachable_grid().nearest(query_m);
+      sum_m2 += (closest[i] - query_m).squared_norm();
+    }
+    return std::sqrt(sum_m2 / static_cast<double>(few_.size()));
   }
 
   [[nodiscard]] std::vector<Pose> neighbours(const Pose& pose) const {

@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "nav/registration/coarse.h"
 #include "nav/registration/icp.h"
 #include "nav/registration/registration.h"
+#include "nav/registration/tre.h"
 
 namespace orthonav::nav {
 namespace {
@@ -55,7 +58,31 @@ void judge(const VertebraModel& model, const RegistrationOptions& options, Regis
     r.reasons.push_back(
         line("another pose fits nearly as well (%.2f times the RMSE, at least %.2f)",
              r.runner_up_rmse_m / r.rmse_m, options.min_runner_up_ratio));
+  if (!(r.predicted_tre_m <= options.max_predicted_tre_m))
+    r.reasons.push_back(
+        line("the points leave the bone loose: %.1f mm error expected at its centre, "
+             "limit %.1f mm",
+             r.predicted_tre_m * 1e3, options.max_predicted_tre_m * 1e3));
   r.accepted = r.reasons.empty();
+}
+
+/// The middle of the model's box, between the pedicles or close to it.
+Point<Vertebra> centre_of(const TriangleMesh& mesh) {
+  Vec3 low = mesh.vertices_m.front();
+  Vec3 high = low;
+  for (const Vec3& v : mesh.vertices_m)
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], v[axis]);
+      high[axis] = std::max(high[axis], v[axis]);
+    }
+  return {0.5 * (low + high)};
+}
+
+double predicted_tre_m(const VertebraModel& model, const Registration& r,
+                       std::span<const Point<World>> points) {
+  const auto uncertainty = PoseUncertainty::estimate(model, r.world_from_vertebra, points);
+  return uncertainty ? uncertainty->predicted_tre_m(centre_of(model.mesh()))
+                     : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -82,6 +109,7 @@ Result<Registration> register_paper(const VertebraModel& model,
   r.runner_up = refined[1].world_from_vertebra;
   r.runner_up_rmse_m = refined[1].rmse_m;
   r.points = points_in_world.size();
+  r.predicted_tre_m = predicted_tre_m(model, r, points_in_world);
   judge(model, options, r);
   return r;
 }

@@ -8,6 +8,7 @@
 
 #include "hal/api/result.h"
 #include "hal/api/transform.h"
+#include "nav/geometry/closest_grid.h"
 #include "nav/geometry/mesh.h"
 #include "nav/registration/principal_axes.h"
 
@@ -23,6 +24,8 @@ class VertebraModel {
   /// The posterior part: what is left after trimming what a pointer can't reach.
   [[nodiscard]] const TriangleMesh& reachable() const { return reachable_; }
   [[nodiscard]] const SurfaceIndex& reachable_surface() const { return reachable_surface_; }
+  /// Its closest points, roughly and fast.
+  [[nodiscard]] const ClosestGrid& reachable_grid() const { return reachable_grid_; }
   /// Principal axes of the reachable surface (by area) and its extreme points along them.
   [[nodiscard]] const PrincipalAxes& reachable_axes() const { return reachable_axes_; }
   [[nodiscard]] const std::array<Vec3, 6>& reachable_extremes() const { return extremes_; }
@@ -33,6 +36,7 @@ class VertebraModel {
   TriangleMesh reachable_;
   SurfaceIndex surface_;
   SurfaceIndex reachable_surface_;
+  ClosestGrid reachable_grid_;
   PrincipalAxes reachable_axes_;
   std::array<Vec3, 6> extremes_;
 };
@@ -55,6 +59,8 @@ struct Registration {
   Transform<World, Vertebra> runner_up;
   int iterations = 0;
   std::size_t points = 0;
+  /// Root mean square error to expect at the centre of the model; infinite when a motion is open.
+  double predicted_tre_m = 0.0;
 };
 
 /// The published method: PCA extreme points (paper eq. 1) pair into two configurations (eq. 2), ICP

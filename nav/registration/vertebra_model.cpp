@@ -7,6 +7,10 @@
 namespace orthonav::nav {
 namespace {
 
+// Fine enough to tell crests apart, coarse enough to be made in a fraction of a second.
+constexpr double kGridCell_m = 0.003;
+constexpr double kGridMargin_m = 0.02;
+
 /// By area, so that a finely meshed corner counts no more than it is large.
 PrincipalAxes axes_by_area(const TriangleMesh& mesh) {
   std::vector<Vec3> centres_m;
@@ -39,6 +43,7 @@ VertebraModel::VertebraModel(TriangleMesh mesh, TriangleMesh reachable, SurfaceI
       reachable_(std::move(reachable)),
       surface_(std::move(surface)),
       reachable_surface_(reachable_),
+      reachable_grid_(reachable_, reachable_surface_, kGridCell_m, kGridMargin_m),
       reachable_axes_(axes_by_area(reachable_)),
       extremes_(extreme_points(reachable_.vertices_m, reachable_axes_)) {}
 

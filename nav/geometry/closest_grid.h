@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "nav/geometry/mesh.h"
+
+namespace orthonav::nav {
+
+/// Closest points of a surface, looked up instead of searched for: what is closest to the centre of
+/// a cell stands for the whole cell. Tens of times faster than SurfaceIndex and wrong by up to
+/// about a cell: for a first look at many poses. Immutable, thread-safe, no allocation in queries.
+class ClosestGrid {
+ public:
+  /// Covers the mesh and `margin_m` around it; points outside take the border's cell.
+  ClosestGrid(const TriangleMesh& mesh, const SurfaceIndex& surface, double cell_m,
+              double margin_m);
+  [[nodiscard]] Vec3 nearest(Vec3 query_m) const {
+    return closest_m_[cell(0, query_m) + cell(1, query_m) + cell(2, query_m)];
+  }
+
+ private:
+  /// The axis' share of the index; NaN falls into the first cell.
+  [[nodiscard]] std::size_t cell(int axis, Vec3 query_m) const {
+    const auto k = static_cast<std::size_t>(axis);
+    const double at = (query_m[axis] - low_m_[axis]) / cell_m_;
+    const std::size_t i = at > 0.0 ? (at < last_[k] ? static_cast<std::size_t>(at)
+                                                    : static_cast<std::size_t>(last_[k]))
+                                   : 0;
+    return i * stride_[k];
+  }
+
+  Vec3 low_m_;
+  double cell_m_;
+  std::array<double, 3> last_{};  ///< the last cell's index
+  std::array<std::size_t, 3> stride_{};
+  std::vector<Vec3> closest_m_;
+};
+
+}  // namespace orthonav::nav

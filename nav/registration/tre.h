@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "hal/api/result.h"
+#include "nav/registration/registration.h"
+
+namespace orthonav::nav {
+
+/// How far a surface registration leaves the bone free to move, and so the error to expect at a
+/// target (the surface counterpart of Fitzpatrick & West 2001, "The distribution of target
+/// registration error in rigid-body point-based registration"): a residual along the surface's
+/// normal tells of the six motions what a plane can tell; the inverse of that information, times
+/// the squared residual, is the covariance of the pose (Simon 1996, "Fast and accurate shape-based
+/// registration", section 4).
+///
+/// Points of a stroke share the tracker's error, so all points within 5 mm count as one. It says
+/// nothing of errors common to all points, such as a wrong tip.
+class PoseUncertainty {
+ public:
+  /// An Error when the points leave a motion wholly open (a plane, a ball, a cylinder).
+  static Result<PoseUncertainty> estimate(const VertebraModel& model,
+                                          const Transform<World, Vertebra>& world_from_vertebra,
+                                          std::span<const Point<World>> points_in_world);
+  /// Root mean square of the error to expect at a target, metres.
+  [[nodiscard]] double predicted_tre_m(Point<Vertebra> target) const;
+
+ private:
+  Vec3 centre_m_;                        ///< of the points, in the model's frame
+  std::array<double, 36> covariance_{};  ///< row-major, of (shift m, turn rad) about the centre
+};
+
+}  // namespace orthonav::nav

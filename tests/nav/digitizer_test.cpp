@@ -1,0 +1,149 @@
+#include "nav/registration/digitizer.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace orthonav::nav {
+namespace {
+
+using std::chrono::milliseconds;
+
+Timestamp at(int ms) { return Timestamp(milliseconds(ms)); }
+
+TrackedPose pose(int ms, Origin origin = Origin::kMeasured) {
+  TrackedPose tracked;
+  tracked.value = {Mat3::identity(), {0.001 * ms, 0, 0}};
+  tracked.time = at(ms);
+  tracked.origin = origin;
+  return tracked;
+}
+
+const Point<Marker> kTip{{0, -0.15, 0}};
+
+/// Holds the button and adds `count` samples from `ms` on, 33 ms apart.
+void stroke(Digitizer& digitizer, int ms, int count) {
+  digitizer.press(at(ms));
+  for (int i = 0; i < count; ++i) EXPECT_TRUE(digitizer.add(pose(ms + 33 * i), kTip));
+  digitizer.release(at(ms + 33 * count));
+}
+
+TEST(Digitizer, TakesTheTipOnlyWhileTheButtonIsHeld) {
+  Digitizer digitizer;
+  EXPECT_FALSE(digitizer.add(pose(0), kTip));
+  digitizer.press(at(10));
+  EXPECT_TRUE(digitizer.recording());
+  EXPECT_TRUE(digitizer.add(pose(33), kTip));
+  digitizer.release(at(40));
+  EXPECT_FALSE(digitizer.recording());
+  EXPECT_FALSE(digitizer.add(pose(66), kTip));
+  ASSERT_EQ(digitizer.regions().size(), 1U);
+  ASSERT_EQ(digitizer.regions()[0].samples.size(), 1U);
+  EXPECT_EQ(digitizer.regions()[0].samples[0].tip_in_world.v, (Vec3{0.033, -0.15, 0}));
+  EXPECT_EQ(digitizer.regions()[0].samples[0].time, at(33));
+}
+
+TEST(Digitizer, TakesOnlyWhatWasMeasured) {
+  Digitizer digitizer;
+  digitizer.press(at(0));
+  EXPECT_FALSE(digitizer.add(pose(33, Origin::kPredicted), kTip));
+  EXPECT_FALSE(digitizer.add(pose(33, Origin::kLost), kTip));
+  EXPECT_TRUE(digitizer.add(pose(33), kTip));
+}
+
+TEST(Digitizer, TakesAPoseOnceAndNoneFromBeforeThePress) {
+  Digitizer digitizer;
+  digitizer.press(at(50));
+  EXPECT_FALSE(digitizer.add(pose(33), kTip));
+  EXPECT_TRUE(digitizer.add(pose(66), kTip));
+  EXPECT_FALSE(digitizer.add(pose(66), kTip));
+  EXPECT_FALSE(digitizer.add(pose(60), kTip));
+  EXPECT_TRUE(digitizer.add(pose(99), kTip));
+}
+
+TEST(Digitizer, RefusesATipThatIsNotFinite) {
+  Digitizer digitizer;
+  digitizer.press(at(0));
+  EXPECT_FALSE(digitizer.add(pose(33), {{std::numeric_limits<double>::quiet_NaN(), 0, 0}}));
+  EXPECT_TRUE(digitizer.add(pose(33), kTip));
+}
+
+TEST(Digitizer, CollectsSeveralStrokesInOneRegionUntilItIsSaved) {
+  Digitizer digitizer;
+  stroke(digitizer, 0, 3);
+  stroke(digitizer, 1000, 2);
+  EXPECT_EQ(digitizer.regions().size(), 1U);
+  EXPECT_EQ(digitizer.saved_count(), 0U);
+  EXPECT_TRUE(digitizer.saved_points().empty());
+  digitizer.save();
+  EXPECT_EQ(digitizer.saved_count(), 5U);
+  stroke(digitizer, 2000, 4);
+  ASSERT_EQ(digitizer.regions().size(), 2U);
+  EXPECT_TRUE(digitizer.regions()[0].saved);
+  EXPECT_FALSE(digitizer.regions()[1].saved);
+  EXPECT_EQ(digitizer.saved_points().size(), 5U);
+}
+
+TEST(Digitizer, SavesNothingWhereThereIsNothing) {
+  Digitizer digitizer;
+  digitizer.save();
+  EXPECT_TRUE(digitizer.regions().empty());
+  digitizer.press(at(0));
+  digitizer.save();
+  EXPECT_EQ(digitizer.saved_count(), 0U);
+  EXPECT_TRUE(digitizer.add(pose(33), kTip));
+  digitizer.save();
+  EXPECT_EQ(digitizer.saved_count(), 1U);
+}
+
+TEST(Digitizer, DropsTheCurrentRegionThenTheLastSavedOne) {
+  Digitizer digitizer;
+  stroke(digitizer, 0, 3);
+  digitizer.save();
+  stroke(digitizer, 1000, 2);
+  digitizer.save();
+  stroke(digitizer, 2000, 4);
+  digitizer.drop();
+  EXPECT_EQ(digitizer.saved_count(), 5U);
+  digitizer.drop();
+  EXPECT_EQ(digitizer.saved_count(), 3U);
+  digitizer.drop();
+  EXPECT_EQ(digitizer.saved_count(), 0U);
+  digitizer.drop();  // nothing left to drop
+  EXPECT_TRUE(digitizer.regions().empty());
+}
+
+TEST(Digitizer, DropsTheLastSavedRegionWhenTheCurrentOneIsEmpty) {
+  Digitizer digitizer;
+  stroke(digitizer, 0, 3);
+  digitizer.save();
+  digitizer.press(at(1000));
+  digitizer.drop();
+  EXPECT_EQ(digitizer.saved_count(), 0U);
+  EXPECT_TRUE(digitizer.recording());
+  EXPECT_TRUE(digitizer.add(pose(1033), kTip));
+}
+
+TEST(Digitizer, KeepsRecordingIntoANewRegionAfterASaveMidStroke) {
+  Digitizer digitizer;
+  digitizer.press(at(0));
+  EXPECT_TRUE(digitizer.add(pose(33), kTip));
+  digitizer.save();
+  EXPECT_TRUE(digitizer.add(pose(66), kTip));
+  EXPECT_EQ(digitizer.regions().size(), 2U);
+  EXPECT_EQ(digitizer.saved_count(), 1U);
+}
+
+TEST(Digitizer, ForgetsEverythingOnClear) {
+  Digitizer digitizer;
+  stroke(digitizer, 0, 3);
+  digitizer.save();
+  digitizer.press(at(1000));
+  digitizer.clear();
+  EXPECT_FALSE(digitizer.recording());
+  EXPECT_TRUE(digitizer.regions().empty());
+  EXPECT_FALSE(digitizer.add(pose(1033), kTip));
+}
+
+}  // namespace
+}  // namespace orthonav::nav

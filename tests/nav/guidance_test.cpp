@@ -1,0 +1,79 @@
+#include "nav/guidance/screw.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace orthonav::nav {
+namespace {
+
+constexpr double kRounding_m = 1e-15;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// A screw straight down from (0.01, 0.02, 0.03), 45 mm long, in a turned and shifted vertebra.
+struct Scene {
+  ScrewPlan plan{Side::kLeft, {{0.01, 0.02, 0.03}}, {{0.01, -0.025, 0.03}}, 0.003};
+  Transform<World, Vertebra> world_from_vertebra{rotation_from_vector({0.3, -0.8, 0.5}),
+                                                 {0.4, -1.2, 0.7}};
+  Point<World> at(Vec3 in_vertebra) const {
+    return world_from_vertebra * Point<Vertebra>{in_vertebra};
+  }
+  Vec3 turned(Vec3 in_vertebra) const { return world_from_vertebra.rotation() * in_vertebra; }
+};
+
+TEST(Guide, IsAllZeroWhereTheToolStandsAsPlanned) {
+  const Scene s;
+  const auto g =
+      guide(s.world_from_vertebra, s.plan, s.at({0.01, 0.02, 0.03}), s.turned({0, 1, 0}));
+  EXPECT_NEAR(g.angle_rad, 0.0, 1e-15);
+  EXPECT_NEAR(g.tip_to_entry_m, 0.0, kRounding_m);
+  EXPECT_NEAR(g.tip_off_axis_m, 0.0, kRounding_m);
+  EXPECT_NEAR(g.depth_m, 0.0, kRounding_m);
+  EXPECT_LT((g.b - g.c).norm(), kRounding_m);
+}
+
+TEST(Guide, MeasuresTheAngleDownToAMillionthOfADegree) {
+  const Scene s;
+  for (const double degrees : {1e-6, 0.01, 2.0, 12.4, 90.0, 179.0}) {
+    const double a = degrees * kDegree;
+    const Vec3 axis = 3.0 * Vec3{std::sin(a), std::cos(a), 0};
+    const auto g = guide(s.world_from_vertebra, s.plan, s.at({0, 0, 0}), s.turned(axis));
+    // acos would give 0 or 1.2e-6 degrees for the first.
+    EXPECT_NEAR(g.angle_rad / kDegree, degrees, 1e-12 * degrees + 1e-13);
+  }
+}
+
+TEST(Guide, TellsATheReverseDirectionFromTheRightOne) {
+  const Scene s;
+  const auto g =
+      guide(s.world_from_vertebra, s.plan, s.at({0.01, 0.02, 0.03}), s.turned({0, -1, 0}));
+  EXPECT_NEAR(g.angle_rad, std::numbers::pi, 1e-15);
+}
+
+TEST(Guide, DrawsTheTriangleOutsideTheBone) {
+  const Scene s;
+  const auto g = guide(s.world_from_vertebra, s.plan, s.at({0, 0, 0}), s.turned({0.5, 0, 0}));
+  const auto back = s.world_from_vertebra.inverse();
+  EXPECT_LT((back * g.a - s.plan.entry).norm(), kRounding_m);
+  EXPECT_LT((back * g.b - Point<Vertebra>{{0.09, 0.02, 0.03}}).norm(), kRounding_m);
+  EXPECT_LT((back * g.c - Point<Vertebra>{{0.01, 0.10, 0.03}}).norm(), kRounding_m);
+  EXPECT_NEAR((g.b - g.a).norm(), kTriangleReach_m, kRounding_m);
+  EXPECT_NEAR((g.c - g.a).norm(), kTriangleReach_m, kRounding_m);
+}
+
+TEST(Guide, SaysHowFarTheTipIsFromAxisAndEntry) {
+  const Scene s;
+  // 3 mm and 4 mm beside the axis, 12 mm past the entry.
+  const auto g =
+      guide(s.world_from_vertebra, s.plan, s.at({0.013, 0.008, 0.034}), s.turned({0, 1, 0}));
+  EXPECT_NEAR(g.tip_off_axis_m, 0.005, kRounding_m);
+  EXPECT_NEAR(g.depth_m, 0.012, kRounding_m);
+  EXPECT_NEAR(g.tip_to_entry_m, 0.013, kRounding_m);
+  const auto before =
+      guide(s.world_from_vertebra, s.plan, s.at({0.01, 0.025, 0.03}), s.turned({0, 1, 0}));
+  EXPECT_NEAR(before.depth_m, -0.005, kRounding_m);
+}
+
+}  // namespace
+}  // namespace orthonav::nav
