@@ -99,7 +99,8 @@ Result<Registration> register_paper(const VertebraModel& model,
     if (result) refined.push_back(*result);
   }
   if (refined.empty())
-    return Error{"registration finds no pose: the points match a single place of the model"};
+    return Error{
+        "registration finds no pose: the extreme points of the strokes fit no part of the model"};
   if (refined.size() == 1) refined.push_back(refined[0]);
   if (refined[1].rmse_m < refined[0].rmse_m) std::swap(refined[0], refined[1]);
   Registration r;

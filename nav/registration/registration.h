@@ -46,7 +46,11 @@ struct RegistrationOptions {
   int max_iterations = 200;
   double converged_m = 1e-8;  ///< change of the RMSE that ends ICP; it creeps towards its end
   double max_rmse_m = 0.003;  ///< above: refused
-  double min_runner_up_ratio = 1.0;  ///< runner-up RMSE / RMSE that is still taken
+  /// Runner-up RMSE / RMSE that is still taken. With full strokes a wrong pose fits at least twice
+  /// as badly; where two fit alike, the strokes don't tell.
+  double min_runner_up_ratio = 1.25;
+  /// Error to expect at the model's centre (nav/registration/tre.h); above: refused.
+  double max_predicted_tre_m = 0.003;
 };
 
 /// What registration says. `accepted` false: `reasons` tells why, nothing may be guided on it.

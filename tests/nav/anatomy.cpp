@@ -53,6 +53,14 @@ std::vector<ScrewPlan> plan(const std::string& text) {
   return screws;
 }
 
+const std::filesystem::path kRoot = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
+
+AnatomyLevel level_of(std::filesystem::path file) {
+  const std::string name = file.parent_path().filename().string() + "/" + file.stem().string();
+  TriangleMesh mesh = binary_stl(content_of(file));
+  return {name, std::move(mesh), plan(content_of(file.replace_extension(".plan.json")))};
+}
+
 struct Stroker {
   const SurfaceIndex surface;
   double front_m;  ///< nothing in front of it is touched
@@ -91,26 +99,20 @@ struct Stroker {
 }  // namespace
 
 std::vector<AnatomyLevel> anatomy_levels() {
-  const std::filesystem::path root = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
   std::vector<std::filesystem::path> files;
-  if (std::filesystem::is_directory(root))
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
+  if (std::filesystem::is_directory(kRoot))
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot))
       if (entry.path().extension() == ".stl") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<AnatomyLevel> levels;
-  for (std::filesystem::path file : files) {
-    const std::string name = file.parent_path().filename().string() + "/" + file.stem().string();
-    TriangleMesh mesh = binary_stl(content_of(file));
-    levels.push_back(
-        {name, std::move(mesh), plan(content_of(file.replace_extension(".plan.json")))});
-  }
+  for (const std::filesystem::path& file : files) levels.push_back(level_of(file));
   return levels;
 }
 
 std::optional<AnatomyLevel> anatomy_level(const std::string& name) {
-  for (AnatomyLevel& level : anatomy_levels())
-    if (level.name == name) return std::move(level);
-  return std::nullopt;
+  const std::filesystem::path file = kRoot / (name + ".stl");
+  if (!std::filesystem::is_regular_file(file)) return std::nullopt;
+  return level_of(file);
 }
 
 std::vector<Vec3> strokes(const AnatomyLevel& level, const StrokeRegions& regions, Random& random) {
