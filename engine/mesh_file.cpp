@@ -43,14 +43,6 @@ Status readable(const std::string& path) {
   return {};
 }
 
-std::optional<Axes> declared_axes(const std::string& path) {
-  std::string head(extension_of(path) == ".stl" ? kStlHeaderBytes : kCommentBytes, '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  const std::size_t at = head.find("SPACE=");
-  return at == std::string::npos ? std::nullopt : axes_from(head.substr(at + 6, 3));
-}
-
 /// Appends one of assimp's meshes, corners still apart.
 void append(const aiMesh& part, nav::TriangleMesh& mesh) {
   const auto base = static_cast<std::uint32_t>(mesh.vertices_m.size());
@@ -109,6 +101,14 @@ std::optional<double> metres_per_unit_from(const std::string& text) {
   if (text == "mm") return 1e-3;
   if (text == "m") return 1.0;
   return std::nullopt;
+}
+
+std::optional<Axes> declared_axes(const std::string& path) {
+  std::string head(extension_of(path) == ".stl" ? kStlHeaderBytes : kCommentBytes, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  const std::size_t at = head.find("SPACE=");
+  return at == std::string::npos ? std::nullopt : axes_from(head.substr(at + 6, 3));
 }
 
 Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit, Axes axes) {

@@ -21,6 +21,8 @@ int run(int argc, char** argv) {
   add_detect_command(app, action);
   add_doctor_command(app, action);
   add_golden_command(app, action);
+  add_register_command(app, action);
+  add_rod_command(app, action);
   add_run_command(app, action);
   add_study_command(app, action);
   add_track_command(app, action);

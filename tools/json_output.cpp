@@ -1,0 +1,35 @@
+#include "tools/json_output.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "engine/atomic_file.h"
+
+namespace orthonav::tools {
+
+void JsonOutput::add_to(CLI::App& command) {
+  option_ = command
+                .add_option("--json", place_,
+                            "Every figure as JSON into this file, or to standard output (-)")
+                ->expected(0, 1)
+                ->type_name("OUT");
+}
+
+bool JsonOutput::on_stdout() const { return wanted() && (place_.empty() || place_ == "-"); }
+
+Status JsonOutput::check() const {
+  if (!wanted() || on_stdout()) return {};
+  const auto place = engine::AtomicFile::create(place_);
+  return place ? Status{} : Status{place.error()};
+}
+
+Status JsonOutput::write(const nlohmann::ordered_json& content) const {
+  if (!wanted()) return {};
+  const std::string text =
+      content.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  if (!on_stdout()) return engine::write_file(place_, text);
+  std::fputs(text.c_str(), stdout);
+  return {};
+}
+
+}  // namespace orthonav::tools
