@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kLinePitch_m = 0.0035;
 constexpr double kShortestLine_m = 0.005;
+constexpr double kShortestStroke_m = 0.010;
 constexpr double kLongestStroke_m = 0.110;
+constexpr double kLongestRegion_m = 0.120;
 constexpr double kLongestBridge_m = 0.008;
 constexpr double kSteepest = 0.42;             // cosine of 65° between normal and line of sight
 constexpr double kHalfMidline_m = 0.006;       // the crest's lines and the side lines meet here
@@ -143,8 +145,18 @@ Stroke finished(const Run& run) {
   return stroke;
 }
 
-void append(std::vector<Stroke>& strokes, const std::vector<Run>& runs) {
-  for (const Run& run : runs) strokes.push_back(finished(run));
+/// A sweep's strokes in regions of about the same length; crumbs at the edges are left out.
+void append(std::vector<StrokeRegion>& regions, const std::vector<Run>& runs) {
+  StrokeRegion region;
+  for (const Run& run : runs) {
+    if (length_of(run) < kShortestStroke_m) continue;
+    if (!region.strokes.empty() && region.length_m() + length_of(run) > kLongestRegion_m) {
+      regions.push_back(region);
+      region = {};
+    }
+    region.strokes.push_back(finished(run));
+  }
+  if (!region.strokes.empty()) regions.push_back(region);
 }
 
 }  // namespace
@@ -162,23 +174,29 @@ BoneSpot Stroke::at(double along_m) const {
           normal.squared_norm() > 0.0 ? normal.normalized() : a.normal};
 }
 
-std::vector<Stroke> plan_strokes(const RoomLevel& level) {
+double StrokeRegion::length_m() const {
+  double sum = 0.0;
+  for (const Stroke& stroke : strokes) sum += stroke.length_m();
+  return sum;
+}
+
+std::vector<StrokeRegion> plan_strokes(const RoomLevel& level) {
   const Reach reach(level);
-  std::vector<Stroke> strokes;
+  std::vector<StrokeRegion> regions;
   const SurfaceMap from_behind(level, {0, 1, 0});
   const auto reachable = [&reach](const BoneSpot& spot) { return reach.holds(spot); };
-  append(strokes, Sweep(from_behind, reachable).over(kHalfMidline_m, reach.half_width_m));
-  append(strokes, Sweep(from_behind, reachable).over(-kHalfMidline_m, -reach.half_width_m));
+  append(regions, Sweep(from_behind, reachable).over(kHalfMidline_m, reach.half_width_m));
+  append(regions, Sweep(from_behind, reachable).over(-kHalfMidline_m, -reach.half_width_m));
   for (const double side : {1.0, -1.0}) {
     const SurfaceMap oblique(level, {side * std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0});
     const auto flank = [&reach, side](const BoneSpot& spot) {
       return reach.holds(spot) && side * spot.point.x < kSpinousHalfWidth_m &&
              side * spot.normal.x > 0.5;
     };
-    append(strokes, Sweep(oblique, flank).over(oblique.low().x, oblique.high().x));
+    append(regions, Sweep(oblique, flank).over(oblique.low().x, oblique.high().x));
   }
-  append(strokes, Sweep(from_behind, reachable).over(-kLinePitch_m / 2, kLinePitch_m / 2));
-  return strokes;
+  append(regions, Sweep(from_behind, reachable).over(-kLinePitch_m / 2, kLinePitch_m / 2));
+  return regions;
 }
 
 }  // namespace orthonav::sim

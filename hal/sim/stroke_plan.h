@@ -16,9 +16,17 @@ struct Stroke {
   [[nodiscard]] BoneSpot at(double along_m) const;
 };
 
+/// What is recorded before one says "save": strokes close together, the button released between
+/// them.
+struct StrokeRegion {
+  std::vector<Stroke> strokes;
+
+  [[nodiscard]] double length_m() const;
+};
+
 /// The strokes by which a surgeon covers what a pointer reaches of a vertebra from behind: laminae,
 /// facets and the roots of the transverse processes in lines along the spine, the spinous
-/// process's crest and its two sides. Empty when the mesh has no such surface.
-[[nodiscard]] std::vector<Stroke> plan_strokes(const RoomLevel& level);
+/// process's two sides and its crest. Empty when the mesh has no such surface.
+[[nodiscard]] std::vector<StrokeRegion> plan_strokes(const RoomLevel& level);
 
 }  // namespace orthonav::sim

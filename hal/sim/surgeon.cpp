@@ -57,11 +57,11 @@ Surgeon::Surgeon(const RoomLayout& layout, const Magnitudes& magnitudes, const R
       eyes_(&eyes),
       heads_(&heads),
       body_(random.fork("hand"), slowness_of(magnitudes, random.fork("pace")), standing_at(layout)),
-      strokes_(layout.levels()),
+      regions_(layout.levels()),
       failures_(layout.levels()),
       life_(operate()) {
   for (const std::size_t level : layout.operated())
-    strokes_[level] = plan_strokes(layout.room().levels[level]);
+    regions_[level] = plan_strokes(layout.room().levels[level]);
   life_.start();
 }
 

@@ -39,11 +39,6 @@ class Surgeon {
   [[nodiscard]] bool finished() const { return finished_; }
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 
-  /// The surgeon's strokes for a level; for tests of the anatomy.
-  [[nodiscard]] const std::vector<Stroke>& strokes(std::size_t level) const {
-    return strokes_[level];
-  }
-
  private:
   /// Where a screw is to go, as perceived.
   struct Aim {
@@ -59,8 +54,14 @@ class Surgeon {
 
   // surgeon_digitizing.cpp
   Script digitize(std::size_t level);
-  Script record(std::size_t level, const Stroke& stroke, double share, bool slips);
+  Script record(std::size_t level, const StrokeRegion& region, bool slips);
   Script slide(std::size_t level, const Stroke& stroke, double duration_s, bool slips);
+  /// Seconds of stroking a metre of bone, and around each region, for the median surgeon.
+  struct Tempo {
+    double stroking_s_per_m = 0.0;
+    double around_region_s = 0.0;
+  };
+  [[nodiscard]] Tempo tempo(std::size_t level) const;
   Script await_verdict(std::size_t level, std::string step);
 
   // surgeon_guiding.cpp
@@ -94,9 +95,9 @@ class Surgeon {
   const Eyes* eyes_;
   const std::vector<PlacedHead>* heads_;
   SurgeonBody body_;
-  std::vector<std::vector<Stroke>> strokes_;  ///< for each level; empty where not operated
-  std::vector<int> failures_;                 ///< refusals and rejections, for each level
-  std::set<std::string> driven_;              ///< guide steps whose wire is in
+  std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
+  std::vector<int> failures_;                       ///< refusals and rejections, for each level
+  std::set<std::string> driven_;                    ///< guide steps whose wire is in
   std::vector<Deed> deeds_;
   bool finished_ = false;
   bool gave_up_ = false;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "hal/sim/surgeon.h"
@@ -6,16 +7,18 @@ namespace orthonav::sim {
 namespace {
 
 // Liebmann et al. 2019 report 125 ± 27 s for the digitization of a level and 1,983 ± 404 points at
-// 30 Hz, that is 66.1 s with the button pressed. One stroke in nine is a repeat at the default
+// 30 Hz, that is 66.1 s with the button pressed. One region in nine is a repeat at the default
 // probability of slipping; what remains is divided between stroking and everything else.
 constexpr double kStroking_s = 66.1;
 constexpr double kBetweenStrokes_s = 46.4;
-// How the time around one stroke is spent.
+// How the time around one region is spent.
 constexpr double kApproaching = 0.40;
 constexpr double kSettling = 0.10;
 constexpr double kLookingBack = 0.15;
 constexpr double kAfterWord = 0.35;
-constexpr double kHop_m = 0.015;
+constexpr double kHop_s = 0.8;          // from one stroke of a region to the next
+constexpr double kLeastAround_s = 1.5;  // there is always time for a word
+constexpr double kLift_m = 0.015;
 constexpr double kStrokePaceSd = 0.05;
 /// Soft tissue lifts the tip along some millimetres of way.
 constexpr double kLongestLift_m = 0.030;
@@ -44,36 +47,52 @@ BoneSpot in_room(const Transform<Room, Vertebra>& room_from_vertebra, const Bone
 
 }  // namespace
 
+Surgeon::Tempo Surgeon::tempo(std::size_t level) const {
+  double total_m = 0.0;
+  double hops = 0.0;
+  for (const StrokeRegion& region : regions_[level]) {
+    total_m += region.length_m();
+    hops += static_cast<double>(region.strokes.size() - 1);
+  }
+  const double between_regions_s =
+      (kBetweenStrokes_s - hops * kHop_s) / static_cast<double>(regions_[level].size());
+  return {kStroking_s / total_m, std::max(kLeastAround_s, between_regions_s)};
+}
+
 Script Surgeon::digitize(std::size_t level) {
   const std::string step(eyes_->step());
   co_await body_.take(ToolKind::kPointer, layout_->site(level));
-  double total_m = 0.0;
-  for (const Stroke& stroke : strokes_[level]) total_m += stroke.length_m();
-  for (const Stroke& stroke : strokes_[level]) {
+  for (const StrokeRegion& region : regions_[level]) {
     bool slips = true;
     while (slips) {
       if (!in_step(step)) co_return;
       slips = body_.random().uniform() < magnitudes_->bad_stroke_probability;
-      co_await record(level, stroke, stroke.length_m() / total_m, slips);
+      co_await record(level, region, slips);
     }
   }
   co_await body_.double_click();
   deeds_.push_back({Deed::Kind::kRegistered, level, {}});
 }
 
-Script Surgeon::record(std::size_t level, const Stroke& stroke, double share, bool slips) {
-  const double around_s = kBetweenStrokes_s / static_cast<double>(strokes_[level].size());
-  const double stroking_s =
-      kStroking_s * share * std::max(0.5, body_.random().normal(1.0, kStrokePaceSd));
-  const BoneSpot start = in_room(layout_->room_from_vertebra(level), stroke.spots.front());
-  body_.posture().contact_normal.reset();
-  co_await body_.move({{start.point}, body_.pointer_axis(start.normal), 0.0},
-                      kApproaching * around_s, kHop_m);
-  body_.posture().contact_normal = start.normal;
-  co_await body_.rest(kSettling * around_s);
-  body_.press();
-  co_await slide(level, stroke, stroking_s, slips);
-  body_.release();
+Script Surgeon::record(std::size_t level, const StrokeRegion& region, bool slips) {
+  const auto [stroking_s_per_m, around_s] = tempo(level);
+  const double speed = std::max(0.5, body_.random().normal(1.0, kStrokePaceSd));
+  const auto slipping = static_cast<std::size_t>(body_.random().uniform() *
+                                                 static_cast<double>(region.strokes.size()));
+  for (std::size_t i = 0; i < region.strokes.size(); ++i) {
+    const Stroke& stroke = region.strokes[i];
+    const BoneSpot start = in_room(layout_->room_from_vertebra(level), stroke.spots.front());
+    const double approach_s = i == 0 ? (kApproaching + kSettling) * around_s : kHop_s;
+    body_.posture().contact_normal.reset();
+    co_await body_.move({{start.point}, body_.pointer_axis(start.normal), 0.0}, 0.8 * approach_s,
+                        i == 0 ? kLift_m : 0.5 * kLift_m);
+    body_.posture().contact_normal = start.normal;
+    co_await body_.rest(0.2 * approach_s);
+    body_.press();
+    co_await slide(level, stroke, speed * stroking_s_per_m * stroke.length_m(),
+                   slips && i == slipping);
+    body_.release();
+  }
   co_await body_.rest(kLookingBack * around_s);
   body_.say(slips ? "delete" : "save");
   co_await body_.rest(kAfterWord * around_s);

@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "hal/sim/hololens2.h"
 #include "test_rooms.h"
@@ -242,6 +244,35 @@ TEST(SimHeadset, TrueCamerasDifferFromTheReportedOnesByTheSeed) {
   const StereoFrame c = next_frame(*opened(options));
   EXPECT_NE(a.left, c.left);
   EXPECT_NE(a.left, a.right);
+}
+
+TEST(SimHeadset, PartsMayBeUsedFromDifferentThreads) {
+  // Nothing to compare: a race is the thread sanitizer's to find.
+  SimOptions options;
+  options.render = false;
+  const TestCase test_case = synthetic_case();
+  const auto headset = opened(options, test_case.room);
+  std::atomic<bool> running{true};
+  std::thread other([&headset, &running] {
+    std::vector<ClickerEvent> clicks;
+    std::vector<Phrase> phrases;
+    while (running) {
+      const Timestamp now = headset->clock().now();
+      EXPECT_TRUE(headset->clicker().poll(now, clicks).ok());
+      EXPECT_TRUE(headset->voice().poll(now, phrases).ok());
+      static_cast<void>(headset->head().world_from_rig(now));
+      ShownFrame shown;
+      shown.display_time = headset->display().predicted_display_time(now);
+      shown.holograms.push_back({"H11 status", "digitize L4", {}});
+      // Refused while no new frame has moved the clock.
+      static_cast<void>(headset->display().shown(shown));
+      static_cast<void>(headset->state());
+      static_cast<void>(headset->world_from_room());
+    }
+  });
+  for (int i = 0; i < 600; ++i) next_frame(*headset);
+  running = false;
+  other.join();
 }
 
 }  // namespace
