@@ -66,10 +66,15 @@ void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
     same_order = same_order && !in_front(*active_[i]->layer, *active_[i - 1]->layer, to - 1, y);
   if (same_order) {
     std::array<float, kBlockPx> through;
-    through.fill(weight);
-    for (const RowLayer* row : active_)
+    through.fill(0.0F);
+    std::fill_n(through.begin(), to - from, weight);
+    for (const RowLayer* row : active_) {
       lay_under(*row, y, from, std::max(from, row->low), std::min(to, row->high), through.data(),
                 sum, hidden_by);
+      float left = 0.0F;  // what is behind a closed surface need not be added up
+      for (const float t : through) left = std::max(left, t);
+      if (left < kNothing * weight) break;
+    }
     return;
   }
   for (int x = from; x < to; ++x) merge_pixel(x, y, weight, sum, hidden_by);
