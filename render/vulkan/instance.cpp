@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/vulkan/handle.h"
+#include "render/vulkan/keep_drivers.h"
 
 namespace orthonav::render {
 namespace {
@@ -77,6 +78,7 @@ Instance::Instance(bool validation) : messages_(std::make_unique<std::vector<std
     info.ppEnabledExtensionNames = extensions.data();
   }
   check(vkCreateInstance(&info, nullptr, &instance_), "Vulkan");
+  keep_drivers_for_leak_check();
   if (!validation) return;
   const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
       vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
@@ -100,6 +102,7 @@ std::vector<VkPhysicalDevice> Instance::devices() const {
   check(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "list of Vulkan devices");
   std::vector<VkPhysicalDevice> devices(count);
   check(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "list of Vulkan devices");
+  keep_drivers_for_leak_check();  // some are loaded only now
   return devices;
 }
 

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace orthonav::render {
+
+/// Under AddressSanitizer: keeps the Vulkan drivers and layers that are loaded now in memory until
+/// the program ends. The loader unmaps them with the last instance, their globals with them, and
+/// what a driver keeps for its lifetime would be called leaked at exit. Otherwise nothing.
+void keep_drivers_for_leak_check();
+
+}  // namespace orthonav::render
