@@ -28,7 +28,7 @@ struct RoomTool {
   ToolKind kind = ToolKind::kPointer;
   std::string family = "tag36h11";
   int id = 0;
-  double size_m = 0.04;        ///< outer edge of the tag's black border
+  double size_m = 0.04;  ///< outer edge of the tag's black border
   Point<Marker> tip_in_marker;
   Vec3 axis_in_marker{0, 1, 0};  ///< from the tip back along the shaft
 };
@@ -51,8 +51,8 @@ struct RoomState {
   Transform<Room, Spine> room_from_spine;
   std::vector<Transform<Room, Marker>> room_from_marker;  ///< one for each tool of the description
   std::vector<bool> tool_present;                         ///< false: out of the scene
-  std::optional<Point<Room>> hand;    ///< centre of the hand holding the active tool
-  Vec3 hand_axis{0, 1, 0};            ///< unit, along the forearm, away from the patient
+  std::optional<Point<Room>> hand;  ///< centre of the hand holding the active tool
+  Vec3 hand_axis{0, 1, 0};          ///< unit, along the forearm, away from the patient
 };
 
 }  // namespace orthonav::sim
