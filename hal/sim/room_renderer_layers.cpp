@@ -28,7 +28,8 @@ void Foreground::reset(int width, int height, int channel_count) {
   width_px = width;
   height_px = height;
   channels = channel_count;
-  opacity.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0F);
+  // A vector more, for the last row's end.
+  opacity.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + 16, 0.0F);
   light.assign(opacity.size() * static_cast<std::size_t>(channels), 0.0F);
   spans.assign(static_cast<std::size_t>(height), {});
 }
@@ -54,9 +55,9 @@ Layers::Layer* Layers::open_layer(Vec2 low, Vec2 high, const Lens& lens) {
   const double h = lens.height_px();
   if (!(low.x < w && low.y < h && high.x > 0.0 && high.y > 0.0)) return nullptr;
   Layer layer;
-  layer.x0 = static_cast<int>(std::max(std::floor(low.x), 0.0));
+  layer.x0 = static_cast<int>(std::max(std::floor(low.x), 0.0)) & ~3;  // in whole vectors
   layer.y0 = static_cast<int>(std::max(std::floor(low.y), 0.0));
-  layer.width = static_cast<int>(std::min(std::ceil(high.x), w)) - layer.x0;
+  layer.width = (static_cast<int>(std::min(std::ceil(high.x), w)) - layer.x0 + 3) & ~3;
   layer.height = static_cast<int>(std::min(std::ceil(high.y), h)) - layer.y0;
   if (layer.width <= 0 || layer.height <= 0) return nullptr;
   const std::size_t size = static_cast<std::size_t>(CoverageWindow::stride(layer.width)) *
@@ -83,6 +84,8 @@ void Layers::integrate(const Layer& layer, std::size_t window) {
       sum += cells[x];
       cells[x] = sum;
     }
+    cells[layer.width] = 0.0F;  // the difference past the edge
+    cells[layer.width + 1] = 0.0F;
   }
 }
 
@@ -90,7 +93,6 @@ void Layers::wipe() {
   for (const Layer& layer : layers_)
     for (int row = 0; row < layer.height; ++row) {
       Span& span = spans_[layer.spans + static_cast<std::size_t>(row)];
-      // The difference past the last pixel of a row is there too, hence two more.
       const auto begin = static_cast<std::ptrdiff_t>(row) * CoverageWindow::stride(layer.width);
       const auto size = static_cast<std::ptrdiff_t>(
           std::min(span.high - span.low + 2, CoverageWindow::stride(layer.width) - span.low));

@@ -83,6 +83,8 @@ class Layers {
   /// the weight that still gets through.
   static void lay_under(const RowLayer& row, int y, int block, int from, int to, float* left,
                         Foreground& sum, const float* hidden_by);
+  static void lay_block_under(const RowLayer& row, int y, int block, int from, int to, float* left,
+                              Foreground& sum);
   [[nodiscard]] static bool in_front(const Layer& a, const Layer& b, int x, int y);
   void wipe();
 

@@ -34,17 +34,19 @@ void Layers::merge(float weight, Foreground& sum, const float* hidden_by) {
       const std::ptrdiff_t row =
           static_cast<std::ptrdiff_t>(y - layer.y0) * CoverageWindow::stride(layer.width) -
           layer.x0;
-      in_row_.push_back({&layer, layer.x0 + span.low, layer.x0 + span.high,
+      const int end = std::min(layer.x0 + span.high, sum.width_px);
+      if (layer.x0 + span.low >= end) continue;
+      in_row_.push_back({&layer, layer.x0 + span.low, end,
                          arena_.data() + static_cast<std::ptrdiff_t>(layer.alpha) + row,
                          arena_.data() + static_cast<std::ptrdiff_t>(layer.light) + row});
       low = std::min(low, layer.x0 + span.low);
-      high = std::max(high, layer.x0 + span.high);
+      high = std::max(high, end);
     }
     if (low >= high) continue;
     Span& dirty = sum.spans[static_cast<std::size_t>(y)];
     dirty = dirty.low == dirty.high ? Span{low, high}
                                     : Span{std::min(dirty.low, low), std::max(dirty.high, high)};
-    for (int from = low; from < high; from += kBlockPx)
+    for (int from = low - low % kBlockPx; from < high; from += kBlockPx)
       merge_block(y, from, std::min(from + kBlockPx, high), weight, sum, hidden_by);
   }
 }
@@ -61,16 +63,25 @@ void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
       active_[place] = active_[place - 1];
     active_[place] = &row;
   }
-  bool same_order = true;  // at the right end; depths being linear, then everywhere
-  for (std::size_t i = 1; i < active_.size(); ++i)
-    same_order = same_order && !in_front(*active_[i]->layer, *active_[i - 1]->layer, to - 1, y);
+  // The same at the right end: then everywhere, depths being linear. Within the hand it does not
+  // matter: where its parts run into each other they look alike.
+  bool same_order = true;
+  for (std::size_t i = 1; i < active_.size(); ++i) {
+    const bool alike = active_[i]->layer->tool < 0 && active_[i - 1]->layer->tool < 0;
+    same_order = same_order && ((alike && sum.channels == 1) ||
+                                !in_front(*active_[i]->layer, *active_[i - 1]->layer, to - 1, y));
+  }
   if (same_order) {
     std::array<float, kBlockPx> through;
     through.fill(0.0F);
     std::fill_n(through.begin(), to - from, weight);
     for (const RowLayer* row : active_) {
-      lay_under(*row, y, from, std::max(from, row->low), std::min(to, row->high), through.data(),
-                sum, hidden_by);
+      const int low = std::max(from, row->low);
+      const int high = std::min(to, row->high);
+      if (hidden_by == nullptr && sum.channels == 1)
+        lay_block_under(*row, y, from, low, high, through.data(), sum);
+      else
+        lay_under(*row, y, from, low, high, through.data(), sum, hidden_by);
       float left = 0.0F;  // what is behind a closed surface need not be added up
       for (const float t : through) left = std::max(left, t);
       if (left < kNothing * weight) break;
@@ -96,29 +107,28 @@ void Layers::merge_pixel(int x, int y, float weight, Foreground& sum, const floa
     lay_under(*order[i], y, x, x, x + 1, &through, sum, hidden_by);
 }
 
+// Layers begin at multiples of four and are zero beside their spans, blocks begin at multiples of
+// sixteen: whole vectors can be added without a look at the ends.
+void Layers::lay_block_under(const RowLayer& row, int y, int block, int from, int to, float* left,
+                             Foreground& sum) {
+  const int first = from - from % 4;
+  const int vectors = (to - first + 3) / 4;
+  const float* __restrict alpha = row.alpha + first;
+  const float* __restrict light = row.light + first;
+  float* __restrict through = left + (first - block);
+  float* __restrict opacity = sum.opacity.data() + sum.row(y) + first;
+  float* __restrict out = sum.light.data() + sum.row(y) + first;
+  for (int v = 0; v < vectors; ++v)
+    for (int i = 4 * v; i < 4 * v + 4; ++i) {
+      opacity[i] += through[i] * alpha[i];
+      out[i] += through[i] * light[i];
+      through[i] -= through[i] * alpha[i];
+    }
+}
+
 void Layers::lay_under(const RowLayer& row, int y, int block, int from, int to, float* left,
                        Foreground& sum, const float* hidden_by) {
   const std::size_t at = sum.row(y);
-  if (hidden_by == nullptr && sum.channels == 1) {
-    const float* __restrict alpha = row.alpha + from;
-    const float* __restrict light = row.light + from;
-    float* __restrict through = left + (from - block);
-    float* __restrict opacity = sum.opacity.data() + at + from;
-    float* __restrict out = sum.light.data() + at + from;
-    const auto lay = [&](int count) {
-      for (int i = 0; i < count; ++i) {
-        opacity[i] += through[i] * alpha[i];
-        out[i] += through[i] * light[i];
-        through[i] -= through[i] * alpha[i];
-      }
-    };
-    // A whole block is the common case, and a fixed count makes straight vector code.
-    if (to - from == kBlockPx)
-      lay(kBlockPx);
-    else
-      lay(to - from);
-    return;
-  }
   const float* alpha = row.alpha;
   const float* light = row.light;
   float* through = left - block;

@@ -203,6 +203,31 @@ TEST(RoomRenderer, NothingIsAllocatedAfterTheFirstFrame) {
   EXPECT_EQ(one.size(), 10u);
 }
 
+TEST(RoomRenderer, ImagesOfOddSizesAreFilledToTheEdge) {
+  // A quarter of the real camera in steps that nothing divides.
+  BrownConrady odd = hololens2_left();
+  odd.width_px = 157;
+  odd.height_px = 119;
+  odd.fx_px /= 4.0;
+  odd.fy_px /= 4.0;
+  odd.cx_px = 101.0;
+  odd.cy_px = 60.0;
+  const CameraModel camera = CameraModel::from_brown_conrady(odd).value();
+  const RoomDescription room = scene::operating_room(8);
+  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  GreyImage image;
+  for (int turn = 0; turn < 8; ++turn) {  // tools and hand leave over every edge
+    RoomState state = scene::operating_state(room);
+    const Mat3 aside = rotation_from_vector({0.3 * (turn % 3 - 1), 0.3 * (turn / 3 - 1), 0.0});
+    state.room_from_rig = {state.room_from_rig.rotation() * aside,
+                           state.room_from_rig.translation()};
+    renderer->render(std::vector<RoomState>{state}, camera, calibration().left_from_rig, 1, image);
+    ASSERT_EQ(image.pixels.size(), 157u * 119u);
+    for (int y = 0; y < 119; ++y) ASSERT_GT(image.at(156, y), 5);
+    for (int x = 0; x < 157; ++x) ASSERT_GT(image.at(x, 118), 5);
+  }
+}
+
 TEST(RoomPicture, ShowsDrapeTissueBoneAndTags) {
   const RoomDescription room = scene::operating_room(24);
   RoomState state = scene::operating_state(room);
