@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "tests/nav/allocation_count.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -132,6 +134,15 @@ TEST(Digitizer, KeepsRecordingIntoANewRegionAfterASaveMidStroke) {
   EXPECT_TRUE(digitizer.add(pose(66), kTip));
   EXPECT_EQ(digitizer.regions().size(), 2U);
   EXPECT_EQ(digitizer.saved_count(), 1U);
+}
+
+TEST(Digitizer, AllocatesNothingWhileRecording) {
+  Digitizer digitizer;
+  digitizer.press(at(0));
+  const std::size_t before = test::allocation_count();
+  for (int i = 1; i <= 1800; ++i) digitizer.add(pose(33 * i), kTip);  // a minute
+  EXPECT_EQ(test::allocation_count(), before);
+  EXPECT_EQ(digitizer.regions()[0].samples.size(), 1800U);
 }
 
 TEST(Digitizer, ForgetsEverythingOnClear) {

@@ -10,6 +10,7 @@
 #include "hal/api/random.h"
 #include "mesh_builder.h"
 #include "nav/geometry/triangle.h"
+#include "tests/nav/allocation_count.h"
 
 namespace orthonav::nav {
 namespace {
@@ -252,6 +253,18 @@ TEST(SurfaceIndex, AnswersNoWhereThereIsNothingToAsk) {
   EXPECT_FALSE(index.first_hit({0, 0, 0}, {0, 0, 0}));
   EXPECT_FALSE(index.first_hit({0, 0, 0}, {0, kNaN, 0}));
   EXPECT_FALSE(index.first_hit({0, kNaN, 0}, {1, 0, 0}));
+}
+
+TEST(SurfaceIndex, AllocatesNothingInQueries) {
+  const SurfaceIndex index(potato());
+  const auto before = orthonav::test::allocation_count();
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 q{0.001 * i, 0.02, -0.03};
+    EXPECT_TRUE(index.nearest(q).has_value());
+    static_cast<void>(index.first_hit(q, {0, 0, 1}));
+    static_cast<void>(index.contains(q));
+  }
+  EXPECT_EQ(orthonav::test::allocation_count(), before);
 }
 
 TEST(SurfaceIndex, SurvivesTrianglesWithoutArea) {
