@@ -1,8 +1,9 @@
 #include "engine/plan_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <regex>
 
 #include "engine/atomic_file.h"
 #include "engine/json_document.h"
@@ -96,29 +97,52 @@ struct LineName {
   std::string level;
 };
 
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// Letters and the digits after them, in lower case: "L4_Left-2" has l4 and left.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t first = i;
+    while (i < text.size() && is_letter(text[i])) ++i;
+    const bool has_letters = i > first;
+    while (i < text.size() && is_digit(text[i])) ++i;
+    if (has_letters) words.push_back(lower_case(text.substr(first, i - first)));
+    if (i == first) ++i;
+  }
+  return words;
+}
+
+bool is_level(const std::string& word) {
+  return (word.size() == 2 || word.size() == 3) &&
+         std::string("ctls").find(word[0]) != std::string::npos && is_digit(word[1]) &&
+         is_digit(word.back());
+}
+
 LineName parsed_name(const std::string& name) {
   LineName parsed;
-  static const std::regex kWord("[A-Za-z]+[0-9]*");
-  for (std::sregex_iterator word(name.begin(), name.end(), kWord), end; word != end; ++word) {
-    const std::string text = lower_case(word->str());
-    if (text == "left" || text == "l") parsed.side = nav::Side::kLeft;
-    if (text == "right" || text == "r") parsed.side = nav::Side::kRight;
-    static const std::regex kLevel("[ltsc][0-9]{1,2}");
-    if (std::regex_match(text, kLevel)) {
-      parsed.level = text;
-      parsed.level[0] = static_cast<char>(std::toupper(text[0]));
-    }
+  for (const std::string& word : words_of(name)) {
+    if (word == "left" || word == "l") parsed.side = nav::Side::kLeft;
+    if (word == "right" || word == "r") parsed.side = nav::Side::kRight;
+    if (!is_level(word)) continue;
+    parsed.level = word;
+    parsed.level[0] = static_cast<char>(std::toupper(word[0]));
   }
   return parsed;
 }
 
 /// The radius that `diameter=5.5` states, in the file's unit; 0 where it does not.
 double stated_radius(const Markup& markup) {
-  static const std::regex kDiameter("diameter\\s*=\\s*([0-9]+\\.?[0-9]*)", std::regex::icase);
-  for (const std::string& text : {markup.description, markup.name}) {
-    std::smatch match;
-    if (std::regex_search(text, match, kDiameter))
-      return number_from(match[1].str()).value_or(0.0) / 2.0;
+  for (const std::string& text : {lower_case(markup.description), lower_case(markup.name)}) {
+    std::size_t at = text.find("diameter");
+    if (at == std::string::npos) continue;
+    at = text.find_first_not_of(" \t", at + std::string("diameter").size());
+    if (at == std::string::npos || text[at] != '=') continue;
+    at = text.find_first_not_of(" \t", at + 1);
+    if (at == std::string::npos) continue;
+    const std::size_t end = std::min(text.find_first_not_of("0123456789.", at), text.size());
+    return number_from(text.substr(at, end - at)).value_or(0.0) / 2.0;
   }
   return 0.0;
 }

@@ -140,6 +140,22 @@ TEST(PlanFile, ReadsUnitsThatSlicerWritesAsACode) {
   EXPECT_LT((read->screws[0].entry.v - Vec3{-0.020, -0.030, 0.001}).norm(), kRounding_m);
 }
 
+TEST(PlanFile, ReadsSideAndDiameterHoweverTheyAreWritten) {
+  const std::string name = "plan.mrk.json";
+  const auto right = loaded(markups(line("T12 RIGHT", "screw, Diameter = 6.5 mm")), name);
+  ASSERT_TRUE(right.ok()) << right.error().message;
+  EXPECT_EQ(right->level, "T12");
+  EXPECT_EQ(right->screws[0].side, nav::Side::kRight);
+  EXPECT_NEAR(right->screws[0].radius_m, 0.00325, kRounding_m);
+  const auto left = loaded(markups(line("Line-2 (L4R, not; left)", "diameter: 6")), name);
+  ASSERT_TRUE(left.ok()) << left.error().message;
+  EXPECT_EQ(left->level, "L4");
+  EXPECT_EQ(left->screws[0].side, nav::Side::kLeft) << "the last word counts";
+  EXPECT_EQ(left->screws[0].radius_m, 0.0) << "not written as diameter=";
+  const auto long_name = loaded(markups(line(std::string(300000, 'x') + " left")), name);
+  EXPECT_TRUE(long_name.ok()) << "a name of any length";
+}
+
 TEST(PlanFile, RefusesMarkupsThatLeaveSomethingOpen) {
   const std::string name = "L4.mrk.json";
   EXPECT_THAT(refusal(markups(line("L4 left", "", R"("coordinateUnits": "mm")")), name),
