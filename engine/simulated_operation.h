@@ -19,7 +19,8 @@ struct OperationOptions {
   std::vector<std::string> levels;  ///< empty: the two lowest of the case
   std::vector<nav::ToolGeometry> tools;
   sim::SimOptions sim;
-  nav::TrackerOptions tracker;
+  /// Tools in sight are searched around their predictions; the whole image only every tenth pair.
+  nav::TrackerOptions tracker{.full_search_interval = 10};
   SessionOptions session;
   LoopOptions loop;
   std::string record_folder;  ///< empty: nothing is recorded

@@ -10,6 +10,7 @@
 #include "engine/operation_result.h"
 #include "engine/phantom.h"
 #include "engine/sim_scenario.h"
+#include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
 #include "hal/open/open.h"
 #include "hal/replay/recorder.h"
@@ -101,7 +102,8 @@ class LiveRun {
   Status start(engine::Operation operation) {
     const auto tools = tools_of(arguments_, *headset_);
     if (!tools) return tools.error();
-    auto tracker = method_.create_tracker(headset_->cameras().calibration(), *tools, {});
+    auto tracker = method_.create_tracker(headset_->cameras().calibration(), *tools,
+                                          engine::OperationOptions().tracker);
     if (!tracker) return tracker.error();
     auto session =
         engine::Session::create(std::move(operation), std::move(*tracker), method_.registrar);
