@@ -42,7 +42,7 @@ struct Magnitudes {
   double head_sway_rad = 0.03;  ///< SD of its rotation, likewise
   /// SD of the reported head pose from frame to frame. Estimate: static jitter of inside-out
   /// trackers lies below a millimetre.
-  double head_pose_noise_m = 0.0003;
+  double head_pose_noise_m = 0.0005;
   double head_pose_noise_rad = 0.0003;
   /// Random walk of World against the room: 1 mm and half a milliradian after 100 s. Estimate.
   double map_drift_m_per_sqrt_s = 0.0001;
@@ -63,20 +63,21 @@ struct Magnitudes {
   double tremor_m = 0.0003;
   double tremor_rad = 0.003;  ///< SD of the tool's rotation, likewise
   /// RMS of the tip above the bone while stroking: soft tissue and lift-off, correlated over
-  /// 7-30 mm of way; never below the bone. Estimate.
-  double stroke_lift_m = 0.0010;
+  /// 7-30 mm of way; never below the bone. Uncertain, and the one that the published registration
+  /// RMSE was matched with (docs/accuracy.md).
+  double stroke_lift_m = 0.0019;
   /// Share of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.
   double bad_stroke_probability = 0.1;
   /// SD of putting the tip where the entry is perceived. Estimate.
-  double entry_pick_m = 0.0010;
+  double entry_pick_m = 0.0008;
   /// The surgeon pierces when the deviation seen stays within this, and misreads what is left with
   /// this SD about each direction across the axis: 0.3°, three of the readout's last digits.
   double angle_reading_rad = 0.005;
   /// SD of where a hologram is perceived, the same during one placement: vergence, focus and eye
   /// calibration. Estimate; published overlays on this kind of display are off by 1-5 mm.
-  double overlay_perception_m = 0.0020;
+  double overlay_perception_m = 0.0013;
   /// SD of the wire's slip along the cortex at piercing. The least certain of all: estimate.
-  double wire_skiving_m = 0.0015;
+  double wire_skiving_m = 0.0012;
   /// SD of the wire's bending about each direction across it while driven. As uncertain: estimate.
   double wire_bending_rad = 0.03;
   /// Speed of the median surgeon; 1 is that of the publication (Liebmann et al. 2019: 125 s and
