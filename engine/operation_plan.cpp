@@ -27,7 +27,8 @@ std::vector<std::string> two_lowest(const Case& source) {
 
 }  // namespace
 
-Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels) {
+Result<std::vector<std::string>> levels_to_operate(const Case& source,
+                                                   const std::vector<std::string>& labels) {
   const std::vector<std::string> wanted = labels.empty() ? two_lowest(source) : labels;
   std::set<std::string> open;
   for (const std::string& label : wanted) {
@@ -36,15 +37,23 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
                    "' (it has: " + known_labels(source) + ")"};
     if (!open.insert(label).second) return Error{"level '" + label + "' is named twice"};
   }
+  std::vector<std::string> ordered;
+  for (const CaseLevel& level : source.levels)
+    if (open.contains(level.label)) ordered.push_back(level.label);
+  return ordered;
+}
+
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels) {
+  const auto ordered = levels_to_operate(source, labels);
+  if (!ordered) return ordered.error();
   Operation operation;
   operation.case_name = source.name;
-  for (const CaseLevel& level : source.levels) {
-    if (!open.contains(level.label)) continue;
+  for (const std::string& label : *ordered) {
+    const CaseLevel& level = *source.find(label);
     auto model = nav::VertebraModel::prepare(level.mesh);
     if (!model)
-      return Error{"case '" + source.name + "', level '" + level.label +
-                   "': " + model.error().message};
-    operation.levels.push_back({level.label, *model, level.screws});
+      return Error{"case '" + source.name + "', level '" + label + "': " + model.error().message};
+    operation.levels.push_back({label, *model, level.screws});
   }
   return operation;
 }

@@ -8,6 +8,11 @@
 
 namespace orthonav::engine {
 
+/// The labels that would be operated, in the order of the case; refuses as `plan_operation` does,
+/// without preparing anything.
+Result<std::vector<std::string>> levels_to_operate(const Case& source,
+                                                   const std::vector<std::string>& labels = {});
+
 /// Prepares levels of a case for an operation, in the order of the case. `labels` empty: the two
 /// lowest of the spine. Refuses a label that the case does not have or that is named twice.
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});

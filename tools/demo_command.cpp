@@ -6,6 +6,7 @@
 #include "engine/atomic_file.h"
 #include "engine/case_file.h"
 #include "engine/journal.h"
+#include "engine/operation_plan.h"
 #include "engine/phantom.h"
 #include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
@@ -79,6 +80,8 @@ class Demo {
     if (!method) return bad_input(method.error().message);
     const auto source = case_of(arguments_);
     if (!source) return bad_input(source.error().message);
+    const auto levels = engine::levels_to_operate(*source, arguments_.levels);
+    if (!levels) return bad_input("--levels: " + levels.error().message);
     if (const Status ready = prepare(source->name); !ready) return bad_input(ready.error().message);
     const auto result = operate(*source);
     if (!result) return bad_input(result.error().message);
