@@ -22,7 +22,7 @@ class PictureSink {
 struct SurgeonViewOptions {
   int width_px = 960;
   int height_px = 540;
-  double half_angle_deg = 32.0;  ///< of the horizontal field of view
+  double half_angle_deg = 26.0;  ///< of the horizontal field of view
   std::string device;            ///< part of a Vulkan device's name; empty: the best
 };
 
