@@ -46,13 +46,11 @@ TEST(Operation, InAPerfectWorldEveryWireLiesOnItsPlan) {
 }
 
 TEST(Operation, AtItsDocumentedErrorsItIsWorseThanPerfectButComesToItsEnd) {
-  OperationOptions options = one_level();
-  options.tracker.parallel = true;
-  const auto two_threads = run_operation(phantom(), options);
-  ASSERT_TRUE(two_threads.ok()) << two_threads.error().message;
-  EXPECT_TRUE(two_threads->completed);
+  const auto result = run_operation(phantom(), one_level());
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  EXPECT_TRUE(result->completed);
   double worst_deg = 0.0;
-  for (const ScrewOutcome& screw : two_threads->levels[0].screws) {
+  for (const ScrewOutcome& screw : result->levels[0].screws) {
     ASSERT_TRUE(screw.angle_error_rad.has_value());
     worst_deg = std::max(worst_deg, degrees(*screw.angle_error_rad));
     // Six standard deviations of the paper's results: beyond it something else is wrong.
@@ -60,12 +58,25 @@ TEST(Operation, AtItsDocumentedErrorsItIsWorseThanPerfectButComesToItsEnd) {
   }
   // The bound of the perfect world is one that errors do break.
   EXPECT_GT(worst_deg, kPerfectAngle_deg);
+}
 
-  // The same bytes whatever the number of threads.
+TEST(Operation, GivesTheSameReportWithOneAndTwoThreads) {
+  OperationOptions options = one_level();
+  // A hasty surgeon: the whole operation in a third of the frames.
+  options.sim.magnitudes.pace = 3.0;
+  options.tracker.parallel = true;
+  const auto two_threads = run_operation(phantom(), options);
+  ASSERT_TRUE(two_threads.ok()) << two_threads.error().message;
+  EXPECT_TRUE(two_threads->completed);
   options.tracker.parallel = false;
   const auto one_thread = run_operation(phantom(), options);
   ASSERT_TRUE(one_thread.ok());
   EXPECT_EQ(report_json(*one_thread), report_json(*two_threads));
+  // Not because nothing ever differs.
+  options.sim.seed = 2;
+  const auto other_seed = run_operation(phantom(), options);
+  ASSERT_TRUE(other_seed.ok());
+  EXPECT_NE(report_json(*other_seed), report_json(*two_threads));
 }
 
 /// Every tool's pose in every pair, and the step it was in.
