@@ -96,7 +96,7 @@ void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
       entry.position = to_float3((world_from_vertebra * screw.entry).v);
       entry.surface_normal =
           to_float3((world_from_vertebra * Direction<Vertebra>{outward.normalized()}).v);
-      entry.text = level.plan.label + " " + name_of(screw.side);
+      if (visible_.entry_labels) entry.text = level.plan.label + " " + name_of(screw.side);
       entry.done = level.screw_done[s];
       // From behind, where the surgeon looks from, the patient's left is on the left.
       entry.side = screw.side == nav::Side::kLeft ? LabelSide::kLeft : LabelSide::kRight;

@@ -84,7 +84,7 @@ void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility&
       ShownHologram& entry = add(frame, text.data());
       std::snprintf(text.data(), text.size(), "%s %s", level.plan.label.c_str(),
                     name_of(screw.side));
-      entry.text = text.data();
+      if (visible.entry_labels) entry.text = text.data();
       entry.points_in_world.push_back(level.registration->world_from_vertebra * screw.entry);
     }
   }

@@ -14,6 +14,8 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Visibili
   // registration shows none: an entry point on display reads as "drill here".
   for (std::size_t i = 0; i < g.levels.size(); ++i)
     if (g.levels[i].accepted && g.levels[i].registration) out.entries_of.push_back(i);
+  // Once every screw is in, the names would only cover the rod's lengths.
+  out.entry_labels = g.step != Step::kRod && g.step != Step::kDone;
   // H4: of the selected screw; it depends on the registration alone, so a lost tool leaves it.
   out.trajectory = g.step == Step::kGuide && level && level->accepted &&
                    level->registration.has_value() && g.screw < level->plan.screws.size();

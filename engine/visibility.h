@@ -20,6 +20,7 @@ struct Visibility {
   bool paths = false;                   ///< H1
   bool vertebra = false;                ///< H2 of the current level
   std::vector<std::size_t> entries_of;  ///< H3: the levels whose entry points are shown
+  bool entry_labels = false;            ///< their names too
   bool trajectory = false;              ///< H4 of the selected screw
   bool triangle = false;                ///< H5
   bool angle = false;                   ///< H6 with a number

@@ -235,6 +235,8 @@ TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
   EXPECT_THAT(drawn(g), ::testing::ElementsAre(3, 10, 11));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame in_place = shown(g);
+  ASSERT_NE(find(in_place, "H3 entry L5 left"), nullptr);
+  EXPECT_EQ(find(in_place, "H3 entry L5 left")->text, "") << "names would cover the rod's length";
   const auto before = find(in_place, "H10 rod")->points_in_world;
   const ShownFrame moved = shown(s.says("move rod"));
   const auto after = find(moved, "H10 rod")->points_in_world;
