@@ -8,6 +8,7 @@
 #include "engine/operation.h"
 #include "engine/workflow.h"
 #include "hal/api/tracked.h"
+#include "nav/guidance/predicted_error.h"
 #include "nav/guidance/rod.h"
 #include "nav/guidance/screw.h"
 #include "nav/registration/digitizer.h"
@@ -22,6 +23,8 @@ struct LevelState {
   int attempts = 0;  ///< registrations asked for so far
   /// The newest registration that passed its limits; gone when the surgeon rejects it.
   std::optional<nav::Registration> registration;
+  /// What that registration leaves uncertain, screw by screw.
+  std::vector<nav::PredictedScrewError> predicted;
   bool accepted = false;  ///< by the surgeon; only then anything is guided on it
   Timestamp registered_at{};
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration

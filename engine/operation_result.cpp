@@ -16,6 +16,7 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
     level.attempts = state.attempts;
     if (state.registration) {
       level.rmse_m = state.registration->rmse_m;
+      level.predicted_tre_m = nav::worst_m(state.predicted);
       level.points = state.registration->points;
       level.digitization_s = state.digitization_s;
     }

@@ -24,6 +24,7 @@ struct LevelOutcome {
   int attempts = 0;
   std::optional<double> rmse_m;  ///< absent without an accepted registration
   std::optional<double> tre_m;   ///< mean over the entries and targets of the level's screws
+  /// Root mean square error to expect at the worst of the screws' entries and targets.
   std::optional<double> predicted_tre_m;
   std::size_t points = 0;
   std::optional<double> digitization_s;

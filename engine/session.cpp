@@ -216,7 +216,8 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   out.rods_moved_away = rods_moved_away_;
   out.tools = sights_;
   publish_tool_guidance(frame.time, display_time);
-  write_texts();
+  write_step_text();
+  write_detail();
 }
 
 void Session::publish_tool_guidance(Timestamp now, Timestamp display_time) {
@@ -240,7 +241,7 @@ void Session::publish_tool_guidance(Timestamp now, Timestamp display_time) {
   if (now_pose.origin == Origin::kMeasured) last_guidance_ = guidance_.tool;
 }
 
-void Session::write_texts() {
+void Session::write_step_text() {
   std::array<char, 160> text{};
   const std::string& label = level().plan.label;
   const char* name = name_of(step_).data();
@@ -265,22 +266,29 @@ void Session::write_texts() {
       guidance_.step_text = text.data();
       break;
   }
+}
+
+void Session::write_detail() {
   guidance_.detail = message_;
   if (!message_.empty()) return;
+  std::array<char, 160> text{};
+  const auto write = [&](const char* format, auto... values) {
+    std::snprintf(text.data(), text.size(), format, values...);
+  };
   const auto tool = active_tool();
   if (tool && seen_ != Seen::kMeasured && seen_ != Seen::kNever) {
-    std::snprintf(text.data(), text.size(), "%s lost", tracker_->tools()[*tool].name.c_str());
+    write("%s lost", tracker_->tools()[*tool].name.c_str());
   } else if (step_ == Step::kDigitize) {
     std::size_t points = 0;
     for (const nav::Region& region : digitizer_.regions()) points += region.samples.size();
-    std::snprintf(text.data(), text.size(), "%zu points", points);
-  } else if (step_ == Step::kVerify || step_ == Step::kAccepted) {
-    const double rmse_mm = level().registration ? level().registration->rmse_m * 1e3 : 0.0;
-    std::snprintf(text.data(), text.size(), "RMSE %.2f mm", rmse_mm);
+    write("%zu points", points);
+  } else if ((step_ == Step::kVerify || step_ == Step::kAccepted) && level().registration) {
+    write("RMSE %.2f mm, %.1f mm expected at the screws", level().registration->rmse_m * 1e3,
+          nav::worst_m(level().predicted) * 1e3);
+  } else if (step_ == Step::kGuide) {
+    write("%.1f mm expected", level().predicted[screw_].worst_m() * 1e3);
   } else if (step_ == Step::kRod) {
-    std::snprintf(text.data(), text.size(), "%zu heads", rods_[rod_].heads.size());
-  } else {
-    return;
+    write("%zu heads", rods_[rod_].heads.size());
   }
   guidance_.detail = text.data();
 }

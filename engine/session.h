@@ -78,7 +78,8 @@ class Session {
   void collect_samples();
   void publish(const StereoFrame& frame, Timestamp display_time);
   void publish_tool_guidance(Timestamp now, Timestamp display_time);
-  void write_texts();
+  void write_step_text();
+  void write_detail();
   [[nodiscard]] std::optional<std::size_t> active_tool() const;
 
   // session_actions.cpp: what the table asks for.

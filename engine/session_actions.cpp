@@ -156,6 +156,7 @@ void Session::try_registration(Timestamp time) {
   }
   if (reason.empty()) {
     now.registration = *result;
+    now.predicted = nav::predicted_errors(*result, now.plan.screws);
     now.registered_at = time;
     now.digitization_s = now.first_press ? seconds(time - *now.first_press) : 0.0;
   } else {

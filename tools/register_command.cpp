@@ -9,7 +9,7 @@
 #include "engine/method.h"
 #include "engine/plan_file.h"
 #include "engine/points_file.h"
-#include "nav/registration/tre.h"
+#include "nav/guidance/predicted_error.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
 
@@ -78,31 +78,15 @@ Result<Inputs> load(const RegisterArguments& arguments) {
   return inputs;
 }
 
-/// Root mean square errors to expect at a screw, metres.
-struct ScrewPrediction {
-  std::string side;
-  double entry_m = 0.0;
-  double target_m = 0.0;
-};
+using Predictions = std::vector<nav::PredictedScrewError>;
 
-std::vector<ScrewPrediction> at_screws(const Inputs& inputs, const nav::Registration& r) {
-  std::vector<ScrewPrediction> predictions;
-  if (!inputs.plan) return predictions;
-  const auto u =
-      nav::PoseUncertainty::estimate(*inputs.model, r.world_from_vertebra, inputs.points);
-  if (!u) return predictions;
-  for (const nav::ScrewPlan& screw : inputs.plan->screws)
-    predictions.push_back({engine::to_text(screw.side), u->predicted_tre_m(screw.entry),
-                           u->predicted_tre_m(screw.target)});
-  return predictions;
+Predictions at_screws(const Inputs& inputs, const nav::Registration& r) {
+  return inputs.plan ? nav::predicted_errors(r, inputs.plan->screws) : Predictions{};
 }
 
 /// The worst at the screws, or at the model's centre where no plan says where they go.
-double predicted_tre_m(const std::vector<ScrewPrediction>& screws, const nav::Registration& r) {
-  if (screws.empty()) return r.predicted_tre_m;
-  double worst_m = 0.0;
-  for (const ScrewPrediction& s : screws) worst_m = std::max({worst_m, s.entry_m, s.target_m});
-  return worst_m;
+double predicted_tre_m(const Predictions& screws, const nav::Registration& r) {
+  return screws.empty() ? r.predicted_tre_m : nav::worst_m(screws);
 }
 
 /// From the model's file (its axes, the points' unit) to the points' file.
@@ -138,8 +122,8 @@ nlohmann::ordered_json as_json(const RegisterArguments& arguments, const Inputs&
                                 {"runner_up_rmse_mm", in_mm(r.runner_up_rmse_m)},
                                 {"predicted_tre_mm", in_mm(predicted_tre_m(screws, r))},
                                 {"iterations", r.iterations}};
-  for (const ScrewPrediction& s : screws)
-    out["screws"].push_back({{"side", s.side},
+  for (const nav::PredictedScrewError& s : screws)
+    out["screws"].push_back({{"side", engine::to_text(s.side)},
                              {"predicted_entry_tre_mm", in_mm(s.entry_m)},
                              {"predicted_target_tre_mm", in_mm(s.target_m)}});
   return out;
@@ -152,9 +136,9 @@ void print(const Inputs& inputs, const nav::Registration& r) {
               r.runner_up_rmse_m * 1e3);
   if (screws.empty())
     std::printf("error to expect at the model's centre: %.2f mm\n", r.predicted_tre_m * 1e3);
-  for (const ScrewPrediction& s : screws)
-    std::printf("error to expect at the %s screw: entry %.2f mm, target %.2f mm\n", s.side.c_str(),
-                s.entry_m * 1e3, s.target_m * 1e3);
+  for (const nav::PredictedScrewError& s : screws)
+    std::printf("error to expect at the %s screw: entry %.2f mm, target %.2f mm\n",
+                engine::to_text(s.side).c_str(), s.entry_m * 1e3, s.target_m * 1e3);
   std::printf("model to points (%s):\n", inputs.points_unit_m == 1.0 ? "m" : "mm");
   for (const auto& row : model_to_points(inputs, r))
     std::printf("%12.6f %12.6f %12.6f %14.6f\n", row[0].get<double>(), row[1].get<double>(),

@@ -78,11 +78,13 @@ Point<Vertebra> centre_of(const TriangleMesh& mesh) {
   return {0.5 * (low + high)};
 }
 
-double predicted_tre_m(const VertebraModel& model, const Registration& r,
-                       std::span<const Point<World>> points) {
+void estimate_errors(const VertebraModel& model, std::span<const Point<World>> points,
+                     Registration& r) {
+  r.predicted_tre_m = std::numeric_limits<double>::infinity();
   const auto uncertainty = PoseUncertainty::estimate(model, r.world_from_vertebra, points);
-  return uncertainty ? uncertainty->predicted_tre_m(centre_of(model.mesh()))
-                     : std::numeric_limits<double>::infinity();
+  if (!uncertainty) return;
+  r.uncertainty = *uncertainty;
+  r.predicted_tre_m = uncertainty->predicted_tre_m(centre_of(model.mesh()));
 }
 
 }  // namespace
@@ -110,7 +112,7 @@ Result<Registration> register_paper(const VertebraModel& model,
   r.runner_up = refined[1].world_from_vertebra;
   r.runner_up_rmse_m = refined[1].rmse_m;
   r.points = points_in_world.size();
-  r.predicted_tre_m = predicted_tre_m(model, r, points_in_world);
+  estimate_errors(model, points_in_world, r);
   judge(model, options, r);
   return r;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "nav/geometry/closest_grid.h"
 #include "nav/geometry/mesh.h"
 #include "nav/registration/principal_axes.h"
+#include "nav/registration/tre.h"
 
 namespace orthonav::nav {
 
@@ -63,6 +65,8 @@ struct Registration {
   Transform<World, Vertebra> runner_up;
   int iterations = 0;
   std::size_t points = 0;
+  /// What the points leave open; absent when a whole motion is.
+  std::optional<PoseUncertainty> uncertainty;
   /// Root mean square error to expect at the centre of the model; infinite when a motion is open.
   double predicted_tre_m = 0.0;
 };

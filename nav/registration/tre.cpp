@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "nav/registration/registration.h"
+
 namespace orthonav::nav {
 namespace {
 

@@ -4,9 +4,11 @@
 #include <span>
 
 #include "hal/api/result.h"
-#include "nav/registration/registration.h"
+#include "hal/api/transform.h"
 
 namespace orthonav::nav {
+
+class VertebraModel;
 
 /// How far a surface registration leaves the bone free to move, and so the error to expect at a
 /// target (the surface counterpart of Fitzpatrick & West 2001, "The distribution of target

@@ -6,6 +6,7 @@
 
 #include "mesh_builder.h"
 #include "nav/evaluation/errors.h"
+#include "nav/guidance/predicted_error.h"
 #include "nav/registration/icp.h"
 #include "nav/registration/tre.h"
 #include "registration_builder.h"
@@ -201,6 +202,29 @@ TEST_F(RegisterPaper, PredictsItsErrorOnTheSafeSide) {
   }
   EXPECT_LT(actual_m2, predicted_m2);
   EXPECT_LT(predicted_m2, 16.0 * actual_m2);
+}
+
+TEST_F(RegisterPaper, SaysWhatToExpectAtEachScrew) {
+  const auto d = digitized(*level_, 12);
+  const auto r = register_paper(*model_, d.points);
+  ASSERT_TRUE(r.ok() && r->uncertainty);
+  const auto errors = predicted_errors(*r, level_->screws);
+  ASSERT_EQ(errors.size(), level_->screws.size());
+  double worst = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_EQ(errors[i].side, level_->screws[i].side);
+    EXPECT_EQ(errors[i].entry_m, r->uncertainty->predicted_tre_m(level_->screws[i].entry));
+    EXPECT_EQ(errors[i].target_m, r->uncertainty->predicted_tre_m(level_->screws[i].target));
+    worst = std::max({worst, errors[i].entry_m, errors[i].target_m});
+  }
+  EXPECT_EQ(worst_m(errors), worst);
+  EXPECT_TRUE(std::isfinite(worst) && worst > 0.0);
+}
+
+TEST(PredictedScrewError, IsUnboundedWhereThePointsLeaveAMotionOpen) {
+  const std::vector<ScrewPlan> screws(2);
+  EXPECT_TRUE(std::isinf(worst_m(predicted_errors(Registration{}, screws))));
+  EXPECT_EQ(worst_m(predicted_errors(Registration{}, {})), 0.0);
 }
 
 TEST_F(RegisterPaper, PredictsMoreErrorFromFewerRegionsAndFartherAway) {
