@@ -8,8 +8,9 @@
 namespace orthonav::sim {
 namespace {
 
-constexpr float kSkinAboveTip = 0.005F;
-constexpr float kWoundHalfWidth = 0.041F;
+constexpr float kSkinAboveTip = 0.003F;
+// Retracted past the facets, so that from where a surgeon stands no entry point hides under skin.
+constexpr float kWoundHalfWidth = 0.056F;
 constexpr float kWoundPastTips = 0.034F;
 constexpr float kFloorBelow = 0.95F;
 constexpr float kTableHalfWidth = 0.45F;
