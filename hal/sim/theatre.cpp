@@ -57,6 +57,7 @@ void Theatre::step() {
     let_surgeon_act(now);
   else
     let_tools_hover(now);
+  if (layout_.levels() > 0) leave_reference(now);
 }
 
 void Theatre::let_surgeon_act(RoomState& now) {
@@ -73,9 +74,6 @@ void Theatre::let_surgeon_act(RoomState& now) {
     now.hand = hand_on(room_.tools[*tool], posture.grip);
     now.hand_axis = (0.9 * across + 0.35 * Vec3{view.x, 0.0, view.z}).normalized();
   }
-  if (const auto reference = layout_.tool(ToolKind::kReference))
-    put(now, *reference, {layout_.middle() + Vec3{-0.02, 0.0, 0.13}, {0, 1, 0}, 0.0},
-        Vec3{0, 1, 0});
   for (const Deed& deed : surgeon_->deeds()) carry_out(deed);
   surgeon_->deeds().clear();
   clicks_.insert(clicks_.end(), body.clicks.begin(), body.clicks.end());
@@ -83,6 +81,19 @@ void Theatre::let_surgeon_act(RoomState& now) {
   body.clicks.clear();
   body.phrases.clear();
   if (surgeon_->finished() && !finished_at_) finished_at_ = now.time;
+}
+
+/// The reference is clamped to the patient, facing where the head is at the start, and stays so.
+void Theatre::leave_reference(RoomState& now) {
+  constexpr Vec3 kBesideTheSite_m{-0.02, 0.0, 0.13};
+  const auto reference = layout_.tool(ToolKind::kReference);
+  if (!reference) return;
+  if (!room_from_reference_) {
+    put(now, *reference, {layout_.middle() + kBesideTheSite_m, {0, 1, 0}, 0.0}, std::nullopt);
+    room_from_reference_ = now.room_from_marker[*reference];
+  }
+  now.room_from_marker[*reference] = *room_from_reference_;
+  now.tool_present[*reference] = true;
 }
 
 /// Without a surgeon the tools float side by side over the table, slowly going round.

@@ -55,6 +55,7 @@ class Theatre {
   void step();
   void let_surgeon_act(RoomState& now);
   void let_tools_hover(RoomState& now) const;
+  void leave_reference(RoomState& now);
   void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact) const;
   void carry_out(const Deed& deed);
   void pierce(const Deed& deed);
@@ -72,6 +73,7 @@ class Theatre {
   MapDrift drift_;
   SmoothNoise3 tremor_m_;
   SmoothNoise3 tremor_rad_;
+  std::optional<Transform<Room, Marker>> room_from_reference_;  ///< since the first step
   Eyes eyes_;
   Truth truth_;
   std::unique_ptr<Surgeon> surgeon_;
