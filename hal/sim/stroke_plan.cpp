@@ -20,27 +20,33 @@ constexpr double kHalfMidline_m = 0.006;       // the crest's lines and the side
 constexpr double kSpinousHalfWidth_m = 0.014;  // sides of the spinous process lie within
 
 /// The part of a vertebra that a pointer reaches from behind: its posterior half, out to the roots
-/// of the transverse processes.
+/// of the transverse processes. The midline is the middle of the box: a model's origin is free.
 struct Reach {
   double lowest_y_m = 0.0;
+  double midline_x_m = 0.0;
   double half_width_m = 0.0;
 
   explicit Reach(const RoomLevel& level) {
     double front = 1e9;
     double back = -1e9;
-    double widest = 0.0;
+    double right = 1e9;
+    double left = -1e9;
     for (const Vec3 vertex : level.vertices_m) {
       front = std::min(front, vertex.y);
       back = std::max(back, vertex.y);
-      widest = std::max(widest, std::abs(vertex.x));
+      right = std::min(right, vertex.x);
+      left = std::max(left, vertex.x);
     }
     lowest_y_m = 0.5 * (front + back);
-    half_width_m = std::min(0.65 * widest, 0.030);
+    midline_x_m = 0.5 * (right + left);
+    half_width_m = std::min(0.65 * 0.5 * (left - right), 0.030);
   }
   [[nodiscard]] bool holds(const BoneSpot& spot) const {
-    return spot.point.y > lowest_y_m && std::abs(spot.point.x) < half_width_m &&
+    return spot.point.y > lowest_y_m && std::abs(lateral_m(spot)) < half_width_m &&
            spot.normal.y > -0.1;
   }
+  /// To the left of the midline.
+  [[nodiscard]] double lateral_m(const BoneSpot& spot) const { return spot.point.x - midline_x_m; }
 };
 
 using Run = std::vector<BoneSpot>;
@@ -60,8 +66,9 @@ class Sweep {
 
   std::vector<Run> over(double first_u_m, double last_u_m) {
     std::vector<Run> strokes;
-    const int lines =
-        std::max(1, static_cast<int>(std::abs(last_u_m - first_u_m) / kLinePitch_m) + 1);
+    // A whole number of pitches away from zero may round to just below it.
+    const double pitches = std::abs(last_u_m - first_u_m) / kLinePitch_m + 1e-6;
+    const int lines = static_cast<int>(pitches) + 1;
     const double step = lines > 1 ? (last_u_m - first_u_m) / (lines - 1) : 0.0;
     for (int line = 0; line < lines; ++line) {
       auto runs = runs_along(first_u_m + line * step);
@@ -185,17 +192,21 @@ std::vector<StrokeRegion> plan_strokes(const RoomLevel& level) {
   std::vector<StrokeRegion> regions;
   const SurfaceMap from_behind(level, {0, 1, 0});
   const auto reachable = [&reach](const BoneSpot& spot) { return reach.holds(spot); };
-  append(regions, Sweep(from_behind, reachable).over(kHalfMidline_m, reach.half_width_m));
-  append(regions, Sweep(from_behind, reachable).over(-kHalfMidline_m, -reach.half_width_m));
+  const auto sweep_behind = [&](double first_m, double last_m) {
+    append(regions, Sweep(from_behind, reachable)
+                        .over(reach.midline_x_m + first_m, reach.midline_x_m + last_m));
+  };
+  sweep_behind(kHalfMidline_m, reach.half_width_m);
+  sweep_behind(-kHalfMidline_m, -reach.half_width_m);
   for (const double side : {1.0, -1.0}) {
     const SurfaceMap oblique(level, {side * std::numbers::sqrt2 / 2, std::numbers::sqrt2 / 2, 0});
     const auto flank = [&reach, side](const BoneSpot& spot) {
-      return reach.holds(spot) && side * spot.point.x < kSpinousHalfWidth_m &&
+      return reach.holds(spot) && side * reach.lateral_m(spot) < kSpinousHalfWidth_m &&
              side * spot.normal.x > 0.5;
     };
     append(regions, Sweep(oblique, flank).over(oblique.low().x, oblique.high().x));
   }
-  append(regions, Sweep(from_behind, reachable).over(-kLinePitch_m / 2, kLinePitch_m / 2));
+  sweep_behind(-kLinePitch_m / 2, kLinePitch_m / 2);
   return regions;
 }
 
