@@ -16,7 +16,7 @@ struct Range {
 
 // The upper ends are far beyond any real room; past them the scene leaves the cameras' view, or the
 // surgeon can't finish.
-constexpr std::array<Range, 27> kRanges = {{
+constexpr std::array<Range, 34> kRanges = {{
     {"blur_sigma_px", &Magnitudes::blur_sigma_px, 0.0, 5.0},
     {"exposure_s", &Magnitudes::exposure_s, 0.0, 0.030},
     {"vignetting", &Magnitudes::vignetting, 0.0, 0.9},
@@ -37,10 +37,17 @@ constexpr std::array<Range, 27> kRanges = {{
     {"tremor_m", &Magnitudes::tremor_m, 0.0, 0.01},
     {"tremor_rad", &Magnitudes::tremor_rad, 0.0, 0.1},
     {"stroke_lift_m", &Magnitudes::stroke_lift_m, 0.0, 0.02},
+    {"stroke_pace_sd", &Magnitudes::stroke_pace_sd, 0.0, 1.0},
     {"bad_stroke_probability", &Magnitudes::bad_stroke_probability, 0.0, 0.9},
+    {"bad_stroke_lift_m", &Magnitudes::bad_stroke_lift_m, 0.0, 0.05},
+    {"voice_doubt", &Magnitudes::voice_doubt, 0.0, 1.0},
+    {"voice_doubt_sd", &Magnitudes::voice_doubt_sd, 0.0, 1.0},
     {"entry_pick_m", &Magnitudes::entry_pick_m, 0.0, 0.02},
+    {"first_guess_rad", &Magnitudes::first_guess_rad, 0.0, 0.5},
+    {"head_pick_m", &Magnitudes::head_pick_m, 0.0, 0.02},
     {"angle_reading_rad", &Magnitudes::angle_reading_rad, 0.0, 0.5},
     {"overlay_perception_m", &Magnitudes::overlay_perception_m, 0.0, 0.03},
+    {"overlay_comparison_m", &Magnitudes::overlay_comparison_m, 0.0, 0.03},
     {"wire_skiving_m", &Magnitudes::wire_skiving_m, 0.0, 0.02},
     {"wire_bending_rad", &Magnitudes::wire_bending_rad, 0.0, 0.5},
     {"pace_sd", &Magnitudes::pace_sd, 0.0, 1.0},

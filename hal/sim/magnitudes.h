@@ -66,16 +66,34 @@ struct Magnitudes {
   /// 7-30 mm of way; never below the bone. Uncertain, and the one that the published registration
   /// RMSE was matched with (docs/accuracy.md).
   double stroke_lift_m = 0.0019;
+  /// Relative SD of the stroking speed from region to region. Estimate.
+  double stroke_pace_sd = 0.05;
   /// Share of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.
   double bad_stroke_probability = 0.1;
+  /// Such a stroke leaves the bone by half to all of this at its worst: so far that it is noticed
+  /// beside the lift of every stroke. Estimate. It is always deleted, so it costs time only.
+  double bad_stroke_lift_m = 0.008;
+  /// What the recognizer's mean confidence in a command lacks to 1, and its SD. Estimate for an
+  /// offline recognizer with a small vocabulary.
+  double voice_doubt = 0.10;
+  double voice_doubt_sd = 0.03;
   /// SD of putting the tip where the entry is perceived. Estimate.
   double entry_pick_m = 0.0008;
+  /// The guide's first direction is off by half to all of this, before any reading: by eye a hand
+  /// aligns a tool with a line in space to several degrees. Estimate. It is turned out afterwards.
+  double first_guess_rad = 0.14;
+  /// SD of the pointer's tip against the middle of a screw head's top, which is a few millimetres
+  /// wide. Estimate, that of picking an entry.
+  double head_pick_m = 0.0008;
   /// The surgeon pierces when the deviation seen stays within this, and misreads what is left with
   /// this SD about each direction across the axis: 0.3°, three of the readout's last digits.
   double angle_reading_rad = 0.005;
   /// SD of where a hologram is perceived, the same during one placement: vergence, focus and eye
   /// calibration. Estimate; published overlays on this kind of display are off by 1-5 mm.
   double overlay_perception_m = 0.0013;
+  /// SD of judging model against bone when verifying: glances from more than one side see half of
+  /// what one view gets wrong. Estimate.
+  double overlay_comparison_m = 0.00065;
   /// SD of the wire's slip along the cortex at piercing. The least certain of all: estimate.
   double wire_skiving_m = 0.0012;
   /// SD of the wire's bending about each direction across it while driven. As uncertain: estimate.

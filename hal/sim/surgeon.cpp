@@ -13,11 +13,9 @@ constexpr double kDark_s = 0.15;
 /// Holograms farther than this from the real bone are rejected.
 constexpr double kAcceptedOverlay_m = 0.006;
 constexpr int kMaxFailures = 3;
-/// Comparing model and bone takes a second or two of glances, from more than one side: what is
-/// wrong in depth from here is seen from there.
+/// Comparing model and bone takes a second or two of glances.
 constexpr double kComparing_s = 1.5;
 constexpr double kGlance_s = 0.1;
-constexpr double kTwoViews = 0.5;
 
 /// Duration of everything against the median surgeon's; its mean over surgeons is 1 / pace.
 double slowness_of(const Magnitudes& magnitudes, Random random) {
@@ -56,7 +54,8 @@ Surgeon::Surgeon(const RoomLayout& layout, const Magnitudes& magnitudes, const R
       magnitudes_(&magnitudes),
       eyes_(&eyes),
       heads_(&heads),
-      body_(random.fork("hand"), slowness_of(magnitudes, random.fork("pace")), standing_at(layout)),
+      body_(random.fork("hand"), magnitudes, slowness_of(magnitudes, random.fork("pace")),
+            standing_at(layout)),
       regions_(layout.levels()),
       failures_(layout.levels()),
       life_(operate()) {
@@ -164,8 +163,7 @@ Script Surgeon::verify(std::size_t level) {
       apart[i] += (kGlance_s / kComparing_s) * (eyes_->place(model->points_in_world[i]) - bone);
     }
   }
-  const Vec3 perceived_shift =
-      normal_vector(body_.random(), kTwoViews * magnitudes_->overlay_perception_m);
+  const Vec3 perceived_shift = normal_vector(body_.random(), magnitudes_->overlay_comparison_m);
   const bool fits = std::all_of(apart.begin(), apart.end(), [perceived_shift](Vec3 away) {
     return (away + perceived_shift).norm() <= kAcceptedOverlay_m;  // NaN does not fit
   });

@@ -16,15 +16,13 @@ constexpr double kReachForTool_s = 1.2;
 /// takes for a double click.
 constexpr double kClickDown_s = 0.08;
 constexpr double kBetweenClicks_s = 0.10;
-/// Confidence that an offline recognizer gives a command from a small vocabulary.
-constexpr double kConfidence = 0.90;
-constexpr double kConfidenceSd = 0.03;
 constexpr double kRad = std::numbers::pi / 180.0;
 
 }  // namespace
 
-SurgeonBody::SurgeonBody(Random random, double slowness, const Posture& start)
-    : random_(random), slowness_(slowness), posture_(start) {}
+SurgeonBody::SurgeonBody(Random random, const Magnitudes& magnitudes, double slowness,
+                         const Posture& start)
+    : random_(random), magnitudes_(&magnitudes), slowness_(slowness), posture_(start) {}
 
 void SurgeonBody::tick(Timestamp now) {
   now_ = now;
@@ -95,8 +93,9 @@ Script SurgeonBody::double_click() {
 }
 
 void SurgeonBody::say(const std::string& phrase) {
-  const double confidence = std::clamp(random_.normal(kConfidence, kConfidenceSd), 0.75, 0.99);
-  phrases.push_back({phrase, confidence, now_});
+  const double confidence =
+      random_.normal(1.0 - magnitudes_->voice_doubt, magnitudes_->voice_doubt_sd);
+  phrases.push_back({phrase, std::clamp(confidence, 0.0, 1.0), now_});
 }
 
 Vec3 SurgeonBody::pointer_axis(Vec3 surface_normal) const {

@@ -7,6 +7,7 @@
 #include "hal/api/devices.h"
 #include "hal/sim/grip.h"
 #include "hal/sim/head_motion.h"
+#include "hal/sim/magnitudes.h"
 #include "hal/sim/script.h"
 
 namespace orthonav::sim {
@@ -24,7 +25,8 @@ struct Posture {
 /// of a surgeon of median pace; `slowness` stretches them.
 class SurgeonBody {
  public:
-  SurgeonBody(Random random, double slowness, const Posture& start);
+  /// The magnitudes must outlive it.
+  SurgeonBody(Random random, const Magnitudes& magnitudes, double slowness, const Posture& start);
 
   /// A tick of the simulation: the script awaiting it goes on.
   void tick(Timestamp now);
@@ -63,6 +65,7 @@ class SurgeonBody {
   [[nodiscard]] Grip parked(Point<Room> site) const;
 
   Random random_;
+  const Magnitudes* magnitudes_;
   double slowness_;
   Posture posture_;
   Timestamp now_{};

@@ -19,7 +19,6 @@ constexpr double kAfterWord = 0.35;
 constexpr double kHop_s = 0.8;          // from one stroke of a region to the next
 constexpr double kLeastAround_s = 1.5;  // there is always time for a word
 constexpr double kLift_m = 0.015;
-constexpr double kStrokePaceSd = 0.05;
 /// Soft tissue lifts the tip along some millimetres of way.
 constexpr double kLongestLift_m = 0.030;
 constexpr double kShortestLift_m = 0.007;
@@ -76,7 +75,7 @@ Script Surgeon::digitize(std::size_t level) {
 
 Script Surgeon::record(std::size_t level, const StrokeRegion& region, bool slips) {
   const auto [stroking_s_per_m, around_s] = tempo(level);
-  const double speed = std::max(0.5, body_.random().normal(1.0, kStrokePaceSd));
+  const double speed = std::max(0.5, body_.random().normal(1.0, magnitudes_->stroke_pace_sd));
   const auto slipping = static_cast<std::size_t>(body_.random().uniform() *
                                                  static_cast<double>(region.strokes.size()));
   for (std::size_t i = 0; i < region.strokes.size(); ++i) {
@@ -104,7 +103,7 @@ Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s
   const SmoothNoise lift(body_.random().fork(body_.random().next()), magnitudes_->stroke_lift_m,
                          1.0 / kLongestLift_m, 1.0 / kShortestLift_m);
   Slip slip{length_m * body_.random().uniform(0.3, 0.8), 0.06 * length_m + 1e-6,
-            slips ? body_.random().uniform(0.004, 0.008) : 0.0};
+            slips ? body_.random().uniform(0.5, 1.0) * magnitudes_->bad_stroke_lift_m : 0.0};
   const Timestamp begin = body_.now();
   const double length_s = body_.slowness() * duration_s;
   for (double t = 0.0; t < 1.0;) {

@@ -6,7 +6,6 @@
 namespace orthonav::sim {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 constexpr double kGlance_s = 0.1;
 constexpr double kLook_s = 0.6;
 constexpr double kMoveHead_s = 2.0;
@@ -36,8 +35,7 @@ Script Surgeon::guide(std::size_t level, std::string side) {
 }
 
 Script Surgeon::set_on(const Aim& aim) {
-  // The first guess of the direction is several degrees off.
-  const double guess_rad = body_.random().uniform(4.0, 8.0) * kRad;
+  const double guess_rad = body_.random().uniform(0.5, 1.0) * magnitudes_->first_guess_rad;
   const double where = body_.random().uniform(0.0, 2.0 * std::numbers::pi);
   const Vec3 across = perpendicular_to(aim.outwards);
   const Vec3 tilt = std::cos(where) * across + std::sin(where) * aim.outwards.cross(across);

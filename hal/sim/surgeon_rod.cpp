@@ -16,8 +16,9 @@ Script Surgeon::touch_heads(const std::string& side) {
   if (!heads.empty()) co_await body_.take(ToolKind::kPointer, heads.front());
   for (const Point<Room>& head : heads) {
     if (!in_step(step)) co_return;
+    const Point<Room> touched = head + normal_vector(body_.random(), magnitudes_->head_pick_m);
     body_.look(head);
-    co_await body_.move({head, body_.pointer_axis({0, 1, 0}), 0.0}, 1.5, 0.02);
+    co_await body_.move({touched, body_.pointer_axis({0, 1, 0}), 0.0}, 1.5, 0.02);
     body_.posture().contact_normal = Vec3{0, 1, 0};
     co_await body_.rest(1.0);
     co_await body_.click();

@@ -85,6 +85,36 @@ TEST(Surgeon, FollowsTheHologramsAndNotThePlan) {
   for (const ScrewError& error : errors) EXPECT_NEAR(error.entry_m, 0.002, 0.001);
 }
 
+/// RMS per axis of where the heads were touched against where they stand.
+double head_error_m(const Magnitudes& magnitudes, int seeds) {
+  const TestCase test_case = synthetic_case();
+  double squares = 0.0;
+  std::size_t heads = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    auto headset = SimHeadset::open(test_case.room, without_pixels(seed, magnitudes));
+    if (!headset.ok()) return -1.0;
+    FakeEngine engine(**headset, test_case);
+    engine.run();
+    for (const Point<World> touched : engine.heads()) {
+      double nearest = 1.0;
+      for (const PlacedHead& head : (*headset)->truth().heads)
+        nearest = std::min(
+            nearest, ((*headset)->world_from_room().inverse() * touched - head.position).norm());
+      squares += nearest * nearest;
+      ++heads;
+    }
+  }
+  return heads > 0 ? std::sqrt(squares / static_cast<double>(3 * heads)) : -1.0;
+}
+
+TEST(Surgeon, TouchesScrewHeadsAsWellAsItsMagnitudeSays) {
+  Magnitudes magnitudes = Magnitudes::perfect();
+  EXPECT_NEAR(head_error_m(magnitudes, 1), 0.0, 1e-6);
+  magnitudes.head_pick_m = 0.0008;
+  // 16 heads, 48 draws: three standard errors are 3 / sqrt(96) = 31 %.
+  EXPECT_NEAR(head_error_m(magnitudes, 4), 0.0008, 0.00025);
+}
+
 TEST(Surgeon, RejectsAModelThatIsNotWhereTheBoneIs) {
   const TestCase test_case = synthetic_case();
   auto headset = SimHeadset::open(test_case.room, without_pixels(3));
