@@ -30,8 +30,10 @@ Picture side_by_side(const std::vector<Picture>& views, Values Picture::*values,
 
 }  // namespace
 
-GoldenPainter::GoldenPainter(std::string device, bool validation)
-    : device_(std::move(device)), validation_(validation) {}
+GoldenPainter::GoldenPainter(std::string device, bool validation, render::MessageSink messages)
+    : device_(std::move(device)),
+      validation_(validation),
+      messages_(messages ? std::move(messages) : std::make_shared<std::vector<std::string>>()) {}
 
 Result<render::Renderer*> GoldenPainter::renderer_for(const GoldenScene& scene,
                                                       render::Blend blend) {
@@ -43,6 +45,7 @@ Result<render::Renderer*> GoldenPainter::renderer_for(const GoldenScene& scene,
   options.blend = blend;
   options.device = device_;
   options.validation = validation_;
+  options.messages = messages_;
   std::string error;
   renderer = render::Renderer::create(options, error);
   if (!renderer) return Error{error};
@@ -67,16 +70,6 @@ Result<GoldenImages> GoldenPainter::paint(const GoldenScene& scene) {
   if (!(*additive)->draw_labels(scene.scene, scene.views, labels, error)) return Error{error};
   images.labels = side_by_side(labels, &render::LabelImage::labels, 1);
   return images;
-}
-
-std::vector<std::string> GoldenPainter::validation_messages() const {
-  std::vector<std::string> messages;
-  for (const auto& [key, renderer] : renderers_) {
-    if (!renderer) continue;
-    const auto& more = renderer->validation_messages();
-    messages.insert(messages.end(), more.begin(), more.end());
-  }
-  return messages;
 }
 
 std::vector<std::string> golden_files(const std::string& scene_name) {

@@ -25,16 +25,19 @@ class GoldenPainter {
  public:
   /// The goldens were taken on this rasterizer; another rounds differently.
   static constexpr const char* kPinnedDevice = "llvmpipe";
-  explicit GoldenPainter(std::string device = kPinnedDevice, bool validation = false);
+  /// With validation, its lines go to `messages` too, which may outlive the painter.
+  explicit GoldenPainter(std::string device = kPinnedDevice, bool validation = false,
+                         render::MessageSink messages = nullptr);
   Result<GoldenImages> paint(const GoldenScene& scene);
   /// Of all renderers used so far.
-  [[nodiscard]] std::vector<std::string> validation_messages() const;
+  [[nodiscard]] const std::vector<std::string>& validation_messages() const { return *messages_; }
 
  private:
   using Key = std::pair<std::pair<int, int>, render::Blend>;
   Result<render::Renderer*> renderer_for(const GoldenScene& scene, render::Blend blend);
   std::string device_;
   bool validation_;
+  render::MessageSink messages_;
   std::map<Key, std::unique_ptr<render::Renderer>> renderers_;
 };
 

@@ -25,6 +25,17 @@ struct LabelImage {
   friend bool operator==(const LabelImage&, const LabelImage&) = default;
 };
 
+/// Takes the validation layer's lines. Held by its readers too, so that it outlives the renderer:
+/// what is left undestroyed is told only while the device goes.
+using MessageSink = std::shared_ptr<std::vector<std::string>>;
+
+/// Both eyes in one pass, or one after the other; see docs/decisions/0022-both-eyes-in-one-pass.md.
+enum class EyesAPass {
+  kProbe,  ///< two where the device is seen to draw them whole
+  kOne,
+  kTwo  ///< without asking: a driver that fails loses parts of the right eye, and nothing tells
+};
+
 struct RendererOptions {
   int width_px = 1268;  ///< of one eye, 16 to 8192
   int height_px = 720;
@@ -32,6 +43,8 @@ struct RendererOptions {
   Blend blend = Blend::kAdditive;
   std::string device;  ///< part of a device's name ("llvmpipe"); empty: best GPU, else lavapipe
   bool validation = false;
+  MessageSink messages;  ///< empty: one of the renderer's own
+  EyesAPass eyes_a_pass = EyesAPass::kProbe;
 };
 
 struct DeviceInfo {
@@ -49,22 +62,24 @@ struct FrameTiming {
   double total_ms = 0;
 };
 
-/// Draws scenes into images, both eyes in one pass. Owns a Vulkan device; one thread at a time.
-/// Failures come back as one line in `error`; the renderer stays usable unless the device is lost.
+/// Draws scenes into images. Owns a Vulkan device; one thread at a time. Failures come back as one
+/// line in `error`, never as an exception; the renderer stays usable unless the device is lost.
 class Renderer {
  public:
   /// nullptr and a line in `error` when there is no Vulkan device that serves.
-  static std::unique_ptr<Renderer> create(const RendererOptions& options, std::string& error);
+  [[nodiscard]] static std::unique_ptr<Renderer> create(const RendererOptions& options,
+                                                        std::string& error);
   virtual ~Renderer() = default;
 
   /// Draws `scene` for one or two views. `backgrounds` is empty (black) or one image a view of the
-  /// renderer's size. Fills one image a view; false and a line in `error` on failure.
-  virtual bool draw(const Scene& scene, const std::vector<View>& views,
-                    const std::vector<const Image*>& backgrounds, std::vector<Image>& images,
-                    std::string& error) = 0;
+  /// renderer's size. Fills one image a view; on failure false and a line in `error`, and the
+  /// images mean nothing.
+  [[nodiscard]] virtual bool draw(const Scene& scene, const std::vector<View>& views,
+                                  const std::vector<const Image*>& backgrounds,
+                                  std::vector<Image>& images, std::string& error) = 0;
   /// The label images of the same scene.
-  virtual bool draw_labels(const Scene& scene, const std::vector<View>& views,
-                           std::vector<LabelImage>& images, std::string& error) = 0;
+  [[nodiscard]] virtual bool draw_labels(const Scene& scene, const std::vector<View>& views,
+                                         std::vector<LabelImage>& images, std::string& error) = 0;
   [[nodiscard]] virtual const DeviceInfo& device() const = 0;
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;
   /// What the validation layer said so far; empty when silent or off.

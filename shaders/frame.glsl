@@ -4,11 +4,12 @@
 struct Eye {
   mat4 clip_from_world;
   vec4 position;
+  vec4 scale;  // pixels per metre across and up at 1 m
 };
 
 layout(set = 0, binding = 0) uniform Frame {
   Eye eyes[2];
-  vec4 target;  // width and height in pixels, pixels per metre across and up at 1 m
+  vec4 target;  // width and height in pixels, -, -
   vec4 font;    // reach of the distances and rim width in cap heights, near plane in metres, -
   uvec4 mode;   // 1: over, 0: additive; 1: there is a background; -; -
 }

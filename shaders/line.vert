@@ -13,7 +13,7 @@ vec4 to_pixels(vec4 clip) {
 }
 
 float radius_at(float depth) {
-  return max(0.5 * item.extra.x * frame.target.w / depth, kLeastRadius_px);
+  return max(0.5 * item.extra.x * frame.eyes[gl_ViewIndex].scale.y / depth, kLeastRadius_px);
 }
 
 void main() {

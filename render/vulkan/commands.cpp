@@ -1,13 +1,9 @@
 #include "render/vulkan/commands.h"
 
 namespace orthonav::render {
-namespace {
 
-constexpr std::uint64_t kPatience_ns = 10'000'000'000;
-
-}  // namespace
-
-Commands::Commands(const Device& device) : device_(device.get()), queue_(device.queue()) {
+Commands::Commands(const Device& device, std::chrono::nanoseconds patience)
+    : device_(device.get()), queue_(device.queue()), patience_(patience) {
   VkCommandPoolCreateInfo pool_info = {};
   pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   pool_info.queueFamilyIndex = device.queue_family();
@@ -44,10 +40,19 @@ void Commands::run() {
   info.commandBufferCount = 1;
   info.pCommandBuffers = &buffer_;
   check(vkQueueSubmit(queue_, 1, &info, finished_.get()), "drawing");
-  const VkResult result = vkWaitForFences(device_, 1, &finished_.get(), VK_TRUE, kPatience_ns);
-  // A batch that never ends can't be taken back: as good as lost.
-  if (result == VK_TIMEOUT) throw VulkanFailure(VK_ERROR_DEVICE_LOST, "drawing for over 10 s");
-  check(result, "drawing");
+  const VkResult result = vkWaitForFences(device_, 1, &finished_.get(), VK_TRUE,
+                                          static_cast<std::uint64_t>(patience_.count()));
+  if (result == VK_SUCCESS) return;
+  // The batch can't be taken back. Nothing that it reads may go before it ends or the driver gives
+  // the device up, however long that takes; waiting again tells nothing new.
+  lost_ = true;
+  vkDeviceWaitIdle(device_);
+  if (result == VK_TIMEOUT) {
+    throw VulkanFailure(
+        VK_ERROR_DEVICE_LOST,
+        "drawing for over " + std::to_string(patience_.count() / 1'000'000) + " ms");
+  }
+  throw VulkanFailure(result, "drawing");
 }
 
 void change_layout(VkCommandBuffer commands, const LayoutChange& change) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <chrono>
 
 #include "render/vulkan/device.h"
 #include "render/vulkan/handle.h"
@@ -11,11 +11,15 @@ namespace orthonav::render {
 /// Records and runs commands, one batch at a time, each to its end.
 class Commands {
  public:
-  explicit Commands(const Device& device);
+  explicit Commands(const Device& device,
+                    std::chrono::nanoseconds patience = std::chrono::seconds(10));
   /// Starts a new batch; what was recorded before is forgotten.
   VkCommandBuffer begin();
-  /// Runs the batch and waits for it. Throws on a lost device or one that takes over ten seconds.
+  /// Runs the batch and waits for it. Throws on a lost device or one that takes longer than the
+  /// patience; not before the device is idle, so that the caller may destroy what the batch used.
   void run();
+  /// Whether a batch that was handed over did not come back in order: draw no more with the device.
+  [[nodiscard]] bool lost() const { return lost_; }
 
  private:
   VkDevice device_ = VK_NULL_HANDLE;
@@ -23,6 +27,8 @@ class Commands {
   CommandPool pool_;
   VkCommandBuffer buffer_ = VK_NULL_HANDLE;
   Fence finished_;
+  std::chrono::nanoseconds patience_;
+  bool lost_ = false;
 };
 
 struct LayoutChange {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <stdexcept>
 
 #include "render/vulkan/handle.h"
@@ -137,6 +136,20 @@ VkPhysicalDevice choose_device(const Instance& instance, const std::string& want
   throw std::runtime_error("renderer: no usable Vulkan device" +
                            (wanted.empty() ? "" : " named '" + wanted + "'") +
                            "; there is: " + seen);
+}
+
+std::optional<std::string> problem_of_size(const VkPhysicalDeviceLimits& limits, int width_px,
+                                           int height_px) {
+  const std::uint32_t most_across =
+      std::min(limits.maxImageDimension2D, limits.maxFramebufferWidth);
+  const std::uint32_t most_down = std::min(limits.maxImageDimension2D, limits.maxFramebufferHeight);
+  if (static_cast<std::uint32_t>(width_px) <= most_across &&
+      static_cast<std::uint32_t>(height_px) <= most_down) {
+    return std::nullopt;
+  }
+  return "renderer: image of " + std::to_string(width_px) + "x" + std::to_string(height_px) +
+         " px, limit of the device " + std::to_string(most_across) + "x" +
+         std::to_string(most_down) + " px";
 }
 
 Device::Device(VkPhysicalDevice physical) {

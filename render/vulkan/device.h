@@ -2,6 +2,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ inline constexpr VkFormat kLabelFormat = VK_FORMAT_R32_UINT;
 /// The device to draw with: the best usable one whose name contains `wanted` (case ignored);
 /// discrete before integrated before virtual before CPU. Throws std::runtime_error with one line.
 [[nodiscard]] VkPhysicalDevice choose_device(const Instance& instance, const std::string& wanted);
+
+/// Why the device can't hold one eye's image; nothing when it can.
+[[nodiscard]] std::optional<std::string> problem_of_size(const VkPhysicalDeviceLimits& limits,
+                                                         int width_px, int height_px);
 
 /// A logical device with one graphics queue.
 class Device {

@@ -13,15 +13,16 @@ namespace orthonav::render {
 struct GpuEye {
   Matrix4 clip_from_world{};
   Float4 position;
+  Float4 scale;  ///< pixels per metre across and up at 1 m
 };
 
 struct GpuFrame {
   std::array<GpuEye, 2> eyes{};
-  Float4 target;  ///< width and height in px, pixels per metre across and up at 1 m
+  Float4 target;  ///< width and height in px
   Float4 font;    ///< reach and rim width in cap heights, near plane in metres
   std::array<std::uint32_t, 4> mode{};  ///< over?, background?
 };
-static_assert(sizeof(GpuFrame) == 2 * 80 + 48);
+static_assert(sizeof(GpuFrame) == 2 * 96 + 48);
 
 struct GpuItem {
   Matrix4 place = kIdentity;

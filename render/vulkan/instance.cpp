@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
 #include "render/vulkan/handle.h"
 #include "render/vulkan/keep_drivers.h"
@@ -49,7 +50,8 @@ bool has_validation_layer() {
 
 }  // namespace
 
-Instance::Instance(bool validation) : messages_(std::make_unique<std::vector<std::string>>()) {
+Instance::Instance(bool validation, MessageSink messages)
+    : messages_(messages ? std::move(messages) : std::make_shared<std::vector<std::string>>()) {
   if (validation && !has_validation_layer()) {
     throw VulkanFailure(VK_ERROR_LAYER_NOT_PRESENT, "validation layer");
   }

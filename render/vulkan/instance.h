@@ -14,7 +14,8 @@ namespace orthonav::render {
 class Instance {
  public:
   /// Throws VulkanFailure when there is no Vulkan here, or no validation layer where asked for.
-  explicit Instance(bool validation);
+  /// Messages go to `messages`, or to a sink of its own where that is empty.
+  explicit Instance(bool validation, MessageSink messages = nullptr);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -27,7 +28,7 @@ class Instance {
  private:
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  std::unique_ptr<std::vector<std::string>> messages_;
+  MessageSink messages_;
 };
 
 }  // namespace orthonav::render

@@ -27,6 +27,12 @@ Buffer uploaded(const Device& device, Commands& commands, const void* bytes, std
   const VkCommandBuffer batch = commands.begin();
   const VkBufferCopy region = {0, 0, count};
   vkCmdCopyBuffer(batch, staging.get(), buffer.get(), 1, &region);
+  VkMemoryBarrier readable = {};
+  readable.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+  readable.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+  readable.dstAccessMask = VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT;
+  vkCmdPipelineBarrier(batch, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_VERTEX_INPUT_BIT, 0,
+                       1, &readable, 0, nullptr, 0, nullptr);
   commands.run();
   return buffer;
 }

@@ -22,8 +22,9 @@ struct GpuMesh {
 /// pointer never means two meshes.
 class MeshCache {
  public:
-  /// Ready for drawing; uploads what is new. A problem of the mesh comes back as a line.
+  /// The copy of a mesh, or nullptr.
   [[nodiscard]] const GpuMesh* find(const std::shared_ptr<const MeshData>& mesh) const;
+  /// Checks and uploads a mesh that has no copy yet. Its problem comes back as a line; empty: none.
   [[nodiscard]] std::string add(const Device& device, Commands& commands,
                                 const std::shared_ptr<const MeshData>& mesh);
   /// Marks the frame's end: drops what is unused.

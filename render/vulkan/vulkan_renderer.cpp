@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cstring>
 #include <new>
+#include <stdexcept>
 
 #include "render/projection.h"
 #include "render/scene_check.h"
+#include "render/vulkan/eyes_probe.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {
@@ -27,6 +29,15 @@ RendererOptions checked(const RendererOptions& options) {
   return options;
 }
 
+/// The device, where it can hold the images.
+VkPhysicalDevice fitting(VkPhysicalDevice physical, const RendererOptions& options) {
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical, &properties);
+  const auto problem = problem_of_size(properties.limits, options.width_px, options.height_px);
+  if (problem) throw std::runtime_error(*problem);
+  return physical;
+}
+
 void write_line_indices(const Buffer& buffer) {
   auto* out = reinterpret_cast<std::uint32_t*>(buffer.mapped());
   const auto segments = static_cast<std::uint32_t>(buffer.size() / (4 * kIndicesPerSegment));
@@ -44,8 +55,8 @@ void write_line_indices(const Buffer& buffer) {
 
 VulkanRenderer::VulkanRenderer(const RendererOptions& options)
     : options_(checked(options)),
-      instance_(options.validation),
-      physical_(choose_device(instance_, options.device)),
+      instance_(options.validation, options.messages),
+      physical_(fitting(choose_device(instance_, options.device), options)),
       info_(describe(physical_)),
       device_(physical_),
       commands_(device_),
@@ -56,27 +67,23 @@ VulkanRenderer::VulkanRenderer(const RendererOptions& options)
   readback_ = Buffer(device_, both, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::kReadback);
   frame_ =
       Buffer(device_, sizeof(GpuFrame), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::kUpload);
-  bindings_.bind_frame(frame_);
-  prepare_data();
   upload_atlas();
   upload_blank_background();
-  if (!draws_both_eyes_whole()) views_a_pass_ = 1;
+  views_a_pass_ = views_a_pass();  // binds buffers of its own
+  bindings_.bind_frame(frame_);
+  prepare_data();
 }
 
-// llvmpipe of Mesa 22.3 puts every tile that a triangle covers wholly into the first layer,
-// whatever the view: the right eye misses it. A hologram that one eye lacks is worse than a slower
-// frame, so the device is asked instead of its name, and eyes are drawn one after the other where
-// it fails.
-bool VulkanRenderer::draws_both_eyes_whole() {
-  Scene scene;
-  scene.triangles.push_back({1, {Float3{-9, -9, -1}, {9, -9, -1}, {0, 9, -1}}, {}});
-  std::vector<LabelImage> images;
-  std::string error;
-  if (!draw_labels(scene, {View{}, View{}}, images, error)) throw std::runtime_error(error);
-  return std::all_of(images.begin(), images.end(), [](const LabelImage& image) {
-    return std::count(image.labels.begin(), image.labels.end(), Label{1}) ==
-           static_cast<std::ptrdiff_t>(image.labels.size());
-  });
+std::size_t VulkanRenderer::views_a_pass() {
+  if (options_.eyes_a_pass != EyesAPass::kProbe) {
+    return options_.eyes_a_pass == EyesAPass::kTwo ? 2 : 1;
+  }
+  return draws_both_eyes_whole(device_, commands_, bindings_, font_) ? 2 : 1;
+}
+
+VulkanRenderer::~VulkanRenderer() {
+  // Members go one by one; none of them may be in use any more, whatever the last frame came to.
+  vkDeviceWaitIdle(device_.get());
 }
 
 std::size_t VulkanRenderer::image_bytes() const {
@@ -149,15 +156,18 @@ std::string VulkanRenderer::problem_of(const Scene& scene, const std::vector<Vie
 }
 
 void VulkanRenderer::write_frame(const View* views, std::size_t count, bool has_background) {
+  const auto width = static_cast<float>(options_.width_px);
+  const auto height = static_cast<float>(options_.height_px);
   GpuFrame frame;
   for (std::size_t i = 0; i < count; ++i) {
     const Float3 eye = transformed(rigid_inverse(views[i].eye_from_world), {0, 0, 0});
-    frame.eyes[i] = {clip_from_world(views[i]), {eye.x, eye.y, eye.z, 1}};
+    const View& view = views[i];
+    frame.eyes[i] = {
+        clip_from_world(view),
+        {eye.x, eye.y, eye.z, 1},
+        {width / (view.tan_left + view.tan_right), height / (view.tan_up + view.tan_down), 0, 0}};
   }
-  const auto width = static_cast<float>(options_.width_px);
-  const auto height = static_cast<float>(options_.height_px);
-  frame.target = {width, height, width / (views[0].tan_left + views[0].tan_right),
-                  height / (views[0].tan_up + views[0].tan_down)};
+  frame.target = {width, height, 0, 0};
   frame.font = {font_.header().reach, kRimWidth, kNearPlane_m, 0};
   frame.mode = {options_.blend == Blend::kOver ? 1u : 0u, has_background ? 1u : 0u, 0, 0};
   frame_.write(&frame, sizeof(frame));
@@ -200,63 +210,81 @@ void VulkanRenderer::draw_views(PassKind kind, const std::vector<View>& views,
   timing_.gpu_ms += milliseconds_since(submitted);
 }
 
-bool VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                               const std::vector<const Image*>& backgrounds, std::string& error) {
+void VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
+                               const std::vector<const Image*>& backgrounds) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string problem = problem_of(scene, views, backgrounds);
+  if (!problem.empty()) throw std::runtime_error(problem);
+  items_.build(scene, views, font_);
+  prepare_data();
+  const std::size_t at_once = std::min(views.size(), views_a_pass_);
+  for (std::size_t first = 0; first < views.size(); first += at_once) {
+    draw_views(kind, views, backgrounds, first, at_once);
+  }
+  timing_.record_ms = milliseconds_since(start) - timing_.gpu_ms;
+}
+
+template <class Picture, class Element>
+void VulkanRenderer::read_back(std::size_t views, std::vector<Picture>& pictures,
+                               std::vector<Element> Picture::*elements) const {
+  pictures.resize(views);
+  for (std::size_t i = 0; i < views; ++i) {
+    pictures[i].width_px = options_.width_px;
+    pictures[i].height_px = options_.height_px;
+    auto& values = pictures[i].*elements;
+    values.resize(image_bytes() / sizeof(Element));
+    std::memcpy(values.data(), readback_.mapped() + i * image_bytes(), image_bytes());
+  }
+}
+
+/// The line for the exception in flight.
+std::string VulkanRenderer::line_of_failure() {
+  try {
+    throw;
+  } catch (const VulkanFailure& failure) {
+    lost_ = lost_ || commands_.lost() || failure.result() == VK_ERROR_DEVICE_LOST;
+    return failure.what();
+  } catch (const std::runtime_error& refusal) {
+    return refusal.what();
+  } catch (const std::bad_alloc&) {
+    return "renderer: out of host memory";
+  } catch (const std::exception& failure) {
+    return std::string("renderer: ") + failure.what();
+  }
+}
+
+/// Nothing thrown leaves it, and a frame ends for the meshes however it ended.
+template <class Work>
+bool VulkanRenderer::attempt(std::string& error, const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   timing_ = {};
+  bool drawn = false;
   try {
-    std::string problem = problem_of(scene, views, backgrounds);
-    if (!problem.empty()) {
-      error = std::move(problem);
-      return false;
-    }
-    items_.build(scene, views, font_);
-    prepare_data();
-    const std::size_t at_once = std::min(views.size(), views_a_pass_);
-    for (std::size_t first = 0; first < views.size(); first += at_once) {
-      draw_views(kind, views, backgrounds, first, at_once);
-    }
-    meshes_.end_frame();
-    timing_.record_ms = milliseconds_since(start) - timing_.gpu_ms;
-    return true;
-  } catch (const VulkanFailure& failure) {
-    lost_ = lost_ || failure.result() == VK_ERROR_DEVICE_LOST;
-    error = failure.what();
-  } catch (const std::bad_alloc&) {
-    error = "renderer: out of host memory";
+    work();
+    drawn = true;
+  } catch (const std::exception&) {
+    error = line_of_failure();
   }
-  return false;
+  meshes_.end_frame();
+  timing_.total_ms = milliseconds_since(start);
+  return drawn;
 }
 
 bool VulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
                           const std::vector<const Image*>& backgrounds, std::vector<Image>& images,
                           std::string& error) {
-  const auto start = std::chrono::steady_clock::now();
-  if (!draw_into(PassKind::kColour, scene, views, backgrounds, error)) return false;
-  images.resize(views.size());
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    images[i].width_px = options_.width_px;
-    images[i].height_px = options_.height_px;
-    images[i].rgba.resize(image_bytes());
-    std::memcpy(images[i].rgba.data(), readback_.mapped() + i * image_bytes(), image_bytes());
-  }
-  timing_.total_ms = milliseconds_since(start);
-  return true;
+  return attempt(error, [&] {
+    draw_into(PassKind::kColour, scene, views, backgrounds);
+    read_back(views.size(), images, &Image::rgba);
+  });
 }
 
 bool VulkanRenderer::draw_labels(const Scene& scene, const std::vector<View>& views,
                                  std::vector<LabelImage>& images, std::string& error) {
-  const auto start = std::chrono::steady_clock::now();
-  if (!draw_into(PassKind::kLabels, scene, views, {}, error)) return false;
-  images.resize(views.size());
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    images[i].width_px = options_.width_px;
-    images[i].height_px = options_.height_px;
-    images[i].labels.resize(image_bytes() / sizeof(Label));
-    std::memcpy(images[i].labels.data(), readback_.mapped() + i * image_bytes(), image_bytes());
-  }
-  timing_.total_ms = milliseconds_since(start);
-  return true;
+  return attempt(error, [&] {
+    draw_into(PassKind::kLabels, scene, views, {});
+    read_back(views.size(), images, &LabelImage::labels);
+  });
 }
 
 }  // namespace orthonav::render

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 
 #include "render/frame_items.h"
 #include "render/renderer.h"
@@ -22,12 +21,15 @@ class VulkanRenderer final : public Renderer {
  public:
   /// Throws VulkanFailure or std::runtime_error with one line.
   explicit VulkanRenderer(const RendererOptions& options);
+  ~VulkanRenderer() override;
+  VulkanRenderer(const VulkanRenderer&) = delete;
+  VulkanRenderer& operator=(const VulkanRenderer&) = delete;
 
-  bool draw(const Scene& scene, const std::vector<View>& views,
-            const std::vector<const Image*>& backgrounds, std::vector<Image>& images,
-            std::string& error) override;
-  bool draw_labels(const Scene& scene, const std::vector<View>& views,
-                   std::vector<LabelImage>& images, std::string& error) override;
+  [[nodiscard]] bool draw(const Scene& scene, const std::vector<View>& views,
+                          const std::vector<const Image*>& backgrounds, std::vector<Image>& images,
+                          std::string& error) override;
+  [[nodiscard]] bool draw_labels(const Scene& scene, const std::vector<View>& views,
+                                 std::vector<LabelImage>& images, std::string& error) override;
   [[nodiscard]] const DeviceInfo& device() const override { return info_; }
   [[nodiscard]] FrameTiming last_timing() const override { return timing_; }
   [[nodiscard]] const std::vector<std::string>& validation_messages() const override {
@@ -35,8 +37,14 @@ class VulkanRenderer final : public Renderer {
   }
 
  private:
-  bool draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                 const std::vector<const Image*>& backgrounds, std::string& error);
+  template <class Work>
+  bool attempt(std::string& error, const Work& work);
+  std::string line_of_failure();
+  void draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
+                 const std::vector<const Image*>& backgrounds);
+  template <class Picture, class Element>
+  void read_back(std::size_t views, std::vector<Picture>& pictures,
+                 std::vector<Element> Picture::*elements) const;
   std::string problem_of(const Scene& scene, const std::vector<View>& views,
                          const std::vector<const Image*>& backgrounds);
   const FramePass& pass_for(PassKind kind, std::size_t views);
@@ -44,8 +52,8 @@ class VulkanRenderer final : public Renderer {
                   const std::vector<const Image*>& backgrounds, std::size_t first,
                   std::size_t count);
   void write_frame(const View* views, std::size_t count, bool has_background);
-  bool draws_both_eyes_whole();
   void prepare_data();
+  std::size_t views_a_pass();
   void upload_atlas();
   void upload_blank_background();
   [[nodiscard]] std::size_t image_bytes() const;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 #include "render/shapes.h"
@@ -13,10 +14,12 @@ namespace {
 // Counts what passes through operator new anywhere in this program while `counting`.
 std::atomic<bool> counting{false};
 std::atomic<int> allocations{0};
+// More than this at once fails.
+std::atomic<std::size_t> largest{std::numeric_limits<std::size_t>::max()};
 
 void* counted(std::size_t size) {
   if (counting) ++allocations;
-  void* memory = std::malloc(size == 0 ? 1 : size);
+  void* memory = size > largest ? nullptr : std::malloc(size == 0 ? 1 : size);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -82,6 +85,51 @@ TEST(FrameLoop, AllocatesNothingAfterTheFirstFrames) {
   EXPECT_GT(allocations, 0) << "the twin: the counter counts " << copy.lines.size();
 }
 
+// The layer allocates all the time; what it says about such a loop is heard here instead.
+TEST(FrameLoop, IsValid) {
+  TestRenderer renderer;
+  const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
+  std::vector<Image> images;
+  std::string error;
+  for (int i = 0; i < 9; ++i) {
+    const Scene scene = moving_scene(0.02f * static_cast<float>(i % 3));
+    EXPECT_TRUE(renderer->draw(scene, eyes, {}, images, error)) << error;
+  }
+}
+
+TEST(FrameLoop, TellsARefusalWhenMemoryForTheImagesIsMissing) {
+  TestRenderer renderer;
+  const std::vector<View> views = {TestRenderer::straight_ahead()};
+  const Scene scene = moving_scene(0);
+  std::vector<Image> images;
+  std::string error;
+  ASSERT_TRUE(renderer->draw(scene, views, {}, images, error)) << error;
+  images.clear();
+  largest = 50000;  // an image has 96000 bytes
+  const bool drawn = renderer->draw(scene, views, {}, images, error);
+  largest = std::numeric_limits<std::size_t>::max();
+  EXPECT_FALSE(drawn);
+  EXPECT_EQ(error, "renderer: out of host memory");
+  EXPECT_TRUE(renderer->draw(scene, views, {}, images, error)) << error;
+}
+
+TEST(FrameLoop, LetsGoOfMeshesThoughEveryFrameIsRefused) {
+  TestRenderer renderer;
+  auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f));
+  const std::weak_ptr<const MeshData> watched = mesh;
+  Scene scene;
+  scene.meshes.push_back({});
+  scene.meshes[0].mesh = std::move(mesh);
+  scene.meshes[0].world_from_model = placed_at({0, 0, -1});
+  renderer.draw(scene, TestRenderer::straight_ahead());
+  scene.meshes.clear();
+  EXPECT_FALSE(watched.expired()) << "the twin: the renderer keeps it until a frame ends";
+  scene.lines.push_back({});
+  scene.lines[0].width_m = -1;
+  renderer.error_of(scene);
+  EXPECT_TRUE(watched.expired());
+}
+
 TEST(FrameLoop, TellsWhereItsTimeWent) {
   TestRenderer renderer;
   renderer.draw(moving_scene(0), TestRenderer::straight_ahead());
@@ -93,7 +141,8 @@ TEST(FrameLoop, TellsWhereItsTimeWent) {
 
 class MeshCacheTest : public testing::Test {
  protected:
-  Instance instance_{false};
+  SilentValidation validation_;
+  Instance instance_{true, validation_.sink()};
   Device device_{choose_device(instance_, "llvmpipe")};
   Commands commands_{device_};
   MeshCache cache_;

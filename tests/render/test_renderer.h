@@ -9,15 +9,15 @@
 #include "render/compare.h"
 #include "render/projection.h"
 #include "render/renderer.h"
+#include "tests/render/silent_validation.h"
 
 namespace orthonav::render {
 
-/// A renderer on the software rasterizer with the validation layer listening; every test that draws
-/// ends with what the layer said, which must be nothing.
+/// A renderer on the software rasterizer with the validation layer listening until it is gone.
 class TestRenderer {
  public:
   explicit TestRenderer(int width_px = 200, int height_px = 120, Blend blend = Blend::kAdditive,
-                        int samples = 4) {
+                        int samples = 4, EyesAPass eyes_a_pass = EyesAPass::kProbe) {
     RendererOptions options;
     options.width_px = width_px;
     options.height_px = height_px;
@@ -25,15 +25,11 @@ class TestRenderer {
     options.samples = samples;
     options.device = "llvmpipe";
     options.validation = true;
+    options.messages = validation_.sink();
+    options.eyes_a_pass = eyes_a_pass;
     std::string error;
     renderer_ = Renderer::create(options, error);
     EXPECT_NE(renderer_, nullptr) << error;
-  }
-  ~TestRenderer() {
-    if (!renderer_) return;
-    for (const std::string& message : renderer_->validation_messages()) {
-      ADD_FAILURE() << "validation: " << message;
-    }
   }
   TestRenderer(const TestRenderer&) = delete;
   TestRenderer& operator=(const TestRenderer&) = delete;
@@ -71,6 +67,7 @@ class TestRenderer {
   }
 
  private:
+  SilentValidation validation_;
   std::unique_ptr<Renderer> renderer_;
 };
 

@@ -1,0 +1,62 @@
+#include "render/vulkan/eyes_probe.h"
+
+#include <algorithm>
+#include <span>
+
+#include "render/projection.h"
+#include "render/vulkan/frame_recorder.h"
+#include "render/vulkan/gpu_types.h"
+
+namespace orthonav::render {
+namespace {
+
+constexpr std::uint32_t kSide_px = 128;  // four of llvmpipe's tiles
+constexpr std::uint32_t kViews = 2;
+constexpr Label kLabel = 1;
+
+TargetSpec small_target() {
+  TargetSpec spec;
+  spec.kind = PassKind::kLabels;
+  spec.width = spec.height = kSide_px;
+  spec.views = kViews;
+  return spec;
+}
+
+/// A triangle over the whole of both views.
+FrameItems covering_items(const Font& font) {
+  Scene scene;
+  scene.triangles.push_back({kLabel, {Float3{-9, -9, -1}, {9, -9, -1}, {0, 9, -1}}, {}});
+  FrameItems items;
+  items.build(scene, {View{}, View{}}, font);
+  return items;
+}
+
+}  // namespace
+
+bool draws_both_eyes_whole(const Device& device, Commands& commands, const Bindings& bindings,
+                           const Font& font) {
+  const FramePass pass(device, bindings.layout(), small_target(), Blend::kAdditive);
+  const FrameItems items = covering_items(font);
+  GpuFrame content;
+  for (GpuEye& eye : content.eyes) eye.clip_from_world = clip_from_world(View{});
+  content.target = {kSide_px, kSide_px, 0, 0};
+  const Buffer frame(device, sizeof(content), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                     BufferPlace::kUpload);
+  frame.write(&content, sizeof(content));
+  const std::size_t data_bytes = items.data().size() * sizeof(Float4);
+  const Buffer data(device, data_bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::kUpload);
+  data.write(items.data().data(), data_bytes);
+  constexpr std::size_t kPixels = std::size_t{kViews} * kSide_px * kSide_px;
+  const Buffer readback(device, kPixels * sizeof(Label), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                        BufferPlace::kReadback);
+  bindings.bind_frame(frame);
+  bindings.bind_data(data);
+  const MeshCache no_meshes;
+  const Buffer no_lines;
+  record_frame(commands.begin(), {pass, bindings, no_meshes, items, no_lines, readback});
+  commands.run();
+  const std::span drawn(reinterpret_cast<const Label*>(readback.mapped()), kPixels);
+  return std::all_of(drawn.begin(), drawn.end(), [](Label label) { return label == kLabel; });
+}
+
+}  // namespace orthonav::render
