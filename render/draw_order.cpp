@@ -24,7 +24,18 @@ Float3 middle(const TriangleItem& item) {
   return (1.0f / 3.0f) * (item.corners[0] + item.corners[1] + item.corners[2]);
 }
 
-Float3 middle(const TextItem& item) { return item.position; }
+/// Squared, from the point between the eyes.
+template <class Item>
+float distance2(const Item& item, const Head& head) {
+  const Float3 from_head = middle(item) - head.position;
+  return dot(from_head, from_head);
+}
+
+float distance2(const TextItem& item, const Head& head) {
+  const bool in_world = item.place == TextPlace::kWorld;
+  const Float3 from_head = in_world ? item.position - head.position : item.position;
+  return dot(from_head, from_head);
+}
 
 auto key(Float3 p) { return std::tuple(p.x, p.y, p.z); }
 auto key(const Colour& c) { return std::tuple(c.r, c.g, c.b, c.a); }
@@ -42,7 +53,14 @@ bool content_less(const MeshItem& a, const MeshItem& b) {
                       item.mesh->positions.size(), item.mesh->indices.size());
   };
   if (const auto order = key_of(a) <=> key_of(b); order != 0) return order < 0;
-  return a.mesh != b.mesh && compare_points(a.mesh->positions, b.mesh->positions) < 0;
+  if (a.mesh == b.mesh) return false;
+  if (const auto order = compare_points(a.mesh->positions, b.mesh->positions); order != 0) {
+    return order < 0;
+  }
+  if (const auto order = compare_points(a.mesh->normals, b.mesh->normals); order != 0) {
+    return order < 0;
+  }
+  return a.mesh->indices < b.mesh->indices;
 }
 
 bool content_less(const LineItem& a, const LineItem& b) {
@@ -78,9 +96,9 @@ void sort_items(const std::vector<Item>& items, const Head& head,
   order.resize(items.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-    const Float3 a = middle(items[i]) - head.position;
-    const Float3 b = middle(items[j]) - head.position;
-    if (dot(a, a) != dot(b, b)) return dot(a, a) > dot(b, b);
+    const float a = distance2(items[i], head);
+    const float b = distance2(items[j], head);
+    if (a != b) return a > b;
     if (items[i].label != items[j].label) return items[i].label < items[j].label;
     return content_less(items[i], items[j]);
   });

@@ -16,6 +16,7 @@ constexpr float kWidest_m = 10.0f;
 constexpr float kMostDashes = 20000.0f;
 constexpr float kColourSlack = 1e-3f;  // of a fade computed in floats
 constexpr float kRigidSlack = 1e-3f;
+constexpr float kUnitSlack = 1e-2f;  // of normals stored in few digits
 
 bool is_place(Float3 p) {
   return std::abs(p.x) <= kFarthest_m && std::abs(p.y) <= kFarthest_m &&
@@ -52,10 +53,22 @@ bool is_rigid(const Matrix4& m) {
          length(cross(x, y) - z) <= kRigidSlack;
 }
 
+/// Rotation times one scale: the columns are as long as one another and at right angles.
+bool is_uniform(const Matrix4& m) {
+  const Float3 x = {m[0], m[1], m[2]};
+  const Float3 y = {m[4], m[5], m[6]};
+  const Float3 z = {m[8], m[9], m[10]};
+  const float slack = kRigidSlack * dot(x, x);
+  return std::abs(dot(y, y) - dot(x, x)) <= slack && std::abs(dot(z, z) - dot(x, x)) <= slack &&
+         std::abs(dot(x, y)) <= slack && std::abs(dot(y, z)) <= slack &&
+         std::abs(dot(z, x)) <= slack;
+}
+
 Problem problem_of(const MeshItem& item) {
   if (!item.mesh) return "has no mesh";
   if (!is_affine(item.world_from_model)) return "has a place that is not a finite affine matrix";
   if (!(volume(item.world_from_model) > 0)) return "has a place that mirrors or flattens it";
+  if (!is_uniform(item.world_from_model)) return "has a place that shears or scales unevenly";
   if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
   return std::nullopt;
 }
@@ -142,7 +155,10 @@ std::optional<std::string> problem_of_mesh(const MeshData& mesh) {
   }
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (!is_place(mesh.positions[i])) return "vertex " + std::to_string(i) + " is not finite";
-    if (!is_place(mesh.normals[i])) return "normal " + std::to_string(i) + " is not finite";
+    // One of no length has no direction, and its light would be no number.
+    if (!is_between(length(mesh.normals[i]), 1 - kUnitSlack, 1 + kUnitSlack)) {
+      return "normal " + std::to_string(i) + " is not of unit length";
+    }
   }
   for (const std::uint32_t index : mesh.indices) {
     if (index >= mesh.positions.size()) {

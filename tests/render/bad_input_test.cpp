@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "render/float3.h"
 #include "render/shapes.h"
 #include "tests/render/test_renderer.h"
 
@@ -103,6 +104,32 @@ TEST_F(BadScene, MirroredPlacesAreRefused) {
   scene_ = good_scene();
   scene_.meshes[0].world_from_model[13] = kNaN;
   EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("finite affine"));
+}
+
+TEST_F(BadScene, NormalsThatAreNotUnitVectorsAreNamed) {
+  for (const Float3 wrong :
+       {Float3{0, 0, 0}, Float3{0, 0, 1.5f}, Float3{0, kNaN, 0}, Float3{0, 0, 0.5f}}) {
+    MeshData data = make_sphere(0.05f);
+    data.normals[7] = wrong;
+    scene_.meshes[0].mesh = std::make_shared<MeshData>(data);
+    EXPECT_EQ(renderer_.error_of(scene_),
+              "scene: mesh 0 (label 201): normal 7 is not of unit length");
+  }
+  MeshData data = make_sphere(0.05f);
+  data.normals[7] = 1.005f * data.normals[7];
+  scene_.meshes[0].mesh = std::make_shared<MeshData>(data);
+  renderer_.draw(scene_, TestRenderer::straight_ahead());
+}
+
+TEST_F(BadScene, PlacesThatAreNotUniformAreRefused) {
+  scene_.meshes[0].world_from_model[5] = 2;
+  EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("mesh 0 (label 201) has a place that shears"));
+  scene_ = good_scene();
+  scene_.meshes[0].world_from_model[4] = 0.1f;
+  EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("shears or scales unevenly"));
+  scene_ = good_scene();
+  scene_.meshes[0].world_from_model = placed_at({0, 0, -1}, 0.0015f);
+  renderer_.draw(scene_, TestRenderer::straight_ahead());
 }
 
 TEST_F(BadScene, EndlessDashesAreRefused) {

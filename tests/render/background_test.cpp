@@ -1,0 +1,68 @@
+#include <gmock/gmock.h>
+
+#include "tests/render/test_renderer.h"
+#include "tests/render/test_scenes.h"
+
+namespace orthonav::render {
+namespace {
+
+using testing::ElementsAre;
+
+Image plain_background(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
+  Image image{200, 120, {}};
+  for (int i = 0; i < 200 * 120; ++i) image.rgba.insert(image.rgba.end(), {red, green, blue, 255});
+  return image;
+}
+
+TEST(Background, ComesThroughUnchangedWhereThereIsNoHologram) {
+  for (const Blend blend : {Blend::kAdditive, Blend::kOver}) {
+    TestRenderer renderer(200, 120, blend);
+    Image background{200, 120, {}};
+    for (int i = 0; i < 200 * 120; ++i) {
+      const auto value = static_cast<std::uint8_t>(i % 256);
+      background.rgba.insert(background.rgba.end(),
+                             {value, static_cast<std::uint8_t>(255 - value), 77, 255});
+    }
+    EXPECT_EQ(renderer.draw({}, TestRenderer::straight_ahead(), &background), background);
+  }
+}
+
+TEST(Background, IsAddedToOrCovered) {
+  Scene scene;
+  scene.triangles.push_back(
+      {501, {Float3{-9, -9, -1}, {9, -9, -1}, {0, 9, -1}}, {0.2f, 0, 0, 0.5f}});
+  const Image background = plain_background(0, 188, 0);  // green 0.5 in linear light
+  TestRenderer additive;
+  TestRenderer over(200, 120, Blend::kOver);
+  // Red 0.2 × 0.5 = 0.1: 89 in sRGB. Green stays, or halves to 0.25: 137.
+  EXPECT_THAT(pixel(additive.draw(scene, TestRenderer::straight_ahead(), &background), 100, 60),
+              ElementsAre(89, 188, 0));
+  EXPECT_THAT(pixel(over.draw(scene, TestRenderer::straight_ahead(), &background), 100, 60),
+              ElementsAre(89, 137, 0));
+}
+
+TEST(Background, ShinesThroughAVeil) {
+  Scene scene = sphere_scene(MeshStyle::kRim, {1, 1, 1, 0.35f}, {0, 0, -0.4f}, 201);
+  const Image background = plain_background(0, 188, 0);
+  TestRenderer additive;
+  const auto with =
+      pixel(additive.draw(scene, TestRenderer::straight_ahead(), &background), 100, 60);
+  EXPECT_GT(with[1], 188);
+  EXPECT_GT(with[0], 20);
+}
+
+TEST(Background, ReachesBothEyes) {
+  TestRenderer renderer(200, 120, Blend::kOver);
+  const Image left = plain_background(200, 0, 0);
+  const Image right = plain_background(0, 0, 200);
+  std::vector<Image> images;
+  std::string error;
+  ASSERT_TRUE(renderer->draw({}, stereo_pair(TestRenderer::straight_ahead()), {&left, &right},
+                             images, error))
+      << error;
+  EXPECT_EQ(images.at(0), left);
+  EXPECT_EQ(images.at(1), right);
+}
+
+}  // namespace
+}  // namespace orthonav::render

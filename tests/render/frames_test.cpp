@@ -1,0 +1,63 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/render/test_renderer.h"
+#include "tests/render/test_scenes.h"
+
+namespace orthonav::render {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr std::array<int, 3> kBlack = {0, 0, 0};
+
+TEST(Order, OfSubmissionNeverChangesAFrame) {
+  for (const Blend blend : {Blend::kAdditive, Blend::kOver}) {
+    TestRenderer renderer(200, 120, blend);
+    Scene scene = crowded_scene();
+    const Image image = renderer.draw(scene, TestRenderer::straight_ahead());
+    const LabelImage labels = renderer.labels(scene, TestRenderer::straight_ahead());
+    std::reverse(scene.meshes.begin(), scene.meshes.end());
+    std::reverse(scene.lines.begin(), scene.lines.end());
+    std::reverse(scene.triangles.begin(), scene.triangles.end());
+    std::rotate(scene.texts.begin(), scene.texts.begin() + 1, scene.texts.end());
+    EXPECT_EQ(renderer.draw(scene, TestRenderer::straight_ahead()), image);
+    EXPECT_EQ(renderer.labels(scene, TestRenderer::straight_ahead()), labels);
+    scene.texts.pop_back();
+    EXPECT_NE(renderer.draw(scene, TestRenderer::straight_ahead()), image) << "the twin";
+  }
+}
+
+TEST(Frames, RepeatToTheBit) {
+  TestRenderer renderer;
+  const Image first = renderer.draw(crowded_scene(), TestRenderer::straight_ahead());
+  TestRenderer other;
+  EXPECT_EQ(renderer.draw(crowded_scene(), TestRenderer::straight_ahead()), first);
+  EXPECT_EQ(other.draw(crowded_scene(), TestRenderer::straight_ahead()), first);
+}
+
+TEST(Frames, OfOneSampleShowTheSameThings) {
+  TestRenderer renderer(200, 120, Blend::kAdditive, 1);
+  const Image image = renderer.draw(line_scene(0.03f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
+                                    TestRenderer::straight_ahead());
+  EXPECT_THAT(pixel(image, 100, 60), ElementsAre(255, 255, 255));
+  EXPECT_EQ(pixel(image, 100, 20), kBlack);
+}
+
+TEST(Labels, HaveTheirExactValuesAndNothingBetween) {
+  TestRenderer renderer;
+  Scene scene = crowded_scene();
+  scene.triangles[0].label = 0xfffffffe;
+  const LabelImage labels = renderer.labels(scene, TestRenderer::straight_ahead());
+  for (const Label label : labels.labels) {
+    const bool known = label == 0 || (label >= 201 && label <= 202) || label == 301 ||
+                       label == 302 || label == 401 || label == 402 || label == 502 ||
+                       label == 503 || (label >= 601 && label <= 603) || label == 0xfffffffe;
+    EXPECT_TRUE(known) << label;
+  }
+  EXPECT_TRUE(extent_of(labels, 0xfffffffe));
+}
+
+}  // namespace
+}  // namespace orthonav::render
