@@ -30,8 +30,8 @@ struct Magnitudes {
   // calibration was off by 0.6 px across the epipolar lines; these four give 0.5 px SD there.
 
   double calibration_focal_ratio = 0.001;    ///< SD, each camera
-  double calibration_centre_px = 0.3;        ///< SD, each camera and axis
-  double calibration_rotation_rad = 0.0008;  ///< SD an axis, right against left camera
+  double calibration_centre_px = 0.2;        ///< SD, each camera and axis
+  double calibration_rotation_rad = 0.0006;  ///< SD an axis, right against left camera
   double calibration_baseline_m = 0.0002;    ///< SD an axis of the right camera's place
 
   // The head and the map.
