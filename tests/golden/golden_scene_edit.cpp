@@ -8,14 +8,29 @@ namespace {
 
 using render::Float3;
 
-/// The step of `pixels` to the right at a point's depth in the first view.
-Float3 step_at(const GoldenScene& golden, Float3 point, float pixels) {
+/// The step in the first view's own axes at a depth, metres.
+Float3 step_in_eye(const GoldenScene& golden, float depth_m, PixelStep step) {
   const render::View& view = golden.views.front();
-  const render::Matrix4& m = view.eye_from_world;
-  const float depth_m = -render::transformed(m, point).z;
-  const float metres =
-      pixels * depth_m * (view.tan_left + view.tan_right) / static_cast<float>(golden.width_px);
-  return metres * Float3{m[0], m[4], m[8]};
+  const float across = (view.tan_left + view.tan_right) / static_cast<float>(golden.width_px);
+  const float down = (view.tan_up + view.tan_down) / static_cast<float>(golden.height_px);
+  return {step.right * depth_m * across, -step.down * depth_m * down, 0};
+}
+
+/// The same in the world at a point's depth.
+Float3 step_at(const GoldenScene& golden, Float3 point, PixelStep step) {
+  const render::Matrix4& m = golden.views.front().eye_from_world;
+  const Float3 in_eye = step_in_eye(golden, -render::transformed(m, point).z, step);
+  return in_eye.x * Float3{m[0], m[4], m[8]} + in_eye.y * Float3{m[1], m[5], m[9]};
+}
+
+/// The numbers of a text, each by the place of its last digit.
+std::vector<std::size_t> number_ends(const std::string& text) {
+  const auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (is_digit(i) && (i + 1 == text.size() || !is_digit(i + 1))) ends.push_back(i);
+  }
+  return ends;
 }
 
 template <class Items>
@@ -55,31 +70,34 @@ GoldenScene only(GoldenScene golden, render::Label label, bool with_text) {
   return golden;
 }
 
-GoldenScene moved(GoldenScene golden, render::Label label, float pixels) {
+GoldenScene only_shapes(GoldenScene golden) {
+  golden.scene.texts.clear();
+  return golden;
+}
+
+GoldenScene moved(GoldenScene golden, render::Label label, PixelStep step) {
   for (auto& item : golden.scene.meshes) {
     if (item.label != label) continue;
     render::Matrix4& m = item.world_from_model;
-    const Float3 step = step_at(golden, {m[12], m[13], m[14]}, pixels);
-    m[12] += step.x;
-    m[13] += step.y;
-    m[14] += step.z;
+    const Float3 shift = step_at(golden, {m[12], m[13], m[14]}, step);
+    m[12] += shift.x;
+    m[13] += shift.y;
+    m[14] += shift.z;
   }
   for (auto& item : golden.scene.lines) {
     if (item.label != label) continue;
-    for (Float3& point : item.points) point = point + step_at(golden, point, pixels);
+    for (Float3& point : item.points) point = point + step_at(golden, point, step);
   }
   for (auto& item : golden.scene.triangles) {
     if (item.label != label) continue;
-    for (Float3& corner : item.corners) corner = corner + step_at(golden, corner, pixels);
+    for (Float3& corner : item.corners) corner = corner + step_at(golden, corner, step);
   }
   for (auto& item : golden.scene.texts) {
     if (item.label != label) continue;
-    const render::View& view = golden.views.front();
     if (item.place == render::TextPlace::kWorld) {
-      item.position = item.position + step_at(golden, item.position, pixels);
+      item.position = item.position + step_at(golden, item.position, step);
     } else {
-      item.position.x -= item.position.z * pixels * (view.tan_left + view.tan_right) /
-                         static_cast<float>(golden.width_px);
+      item.position = item.position + step_in_eye(golden, -item.position.z, step);
     }
   }
   return golden;
@@ -103,17 +121,19 @@ GoldenScene dimmed(GoldenScene golden, render::Label label) {
   return golden;
 }
 
-bool change_digit(GoldenScene& golden, render::Label label) {
-  for (auto& item : golden.scene.texts) {
-    if (item.label != label) continue;
-    for (auto& run : item.runs) {
-      const std::size_t at = run.text.find_last_of("0123456789");
-      if (at == std::string::npos) continue;
-      run.text[at] = run.text[at] == '9' ? '0' : static_cast<char>(run.text[at] + 1);
-      return true;
+std::vector<GoldenScene> with_one_number_changed(const GoldenScene& golden) {
+  std::vector<GoldenScene> changed;
+  const auto& texts = golden.scene.texts;
+  for (std::size_t t = 0; t < texts.size(); ++t) {
+    for (std::size_t r = 0; r < texts[t].runs.size(); ++r) {
+      for (const std::size_t end : number_ends(texts[t].runs[r].text)) {
+        changed.push_back(golden);
+        char& digit = changed.back().scene.texts[t].runs[r].text[end];
+        digit = digit == '9' ? '0' : static_cast<char>(digit + 1);
+      }
     }
   }
-  return false;
+  return changed;
 }
 
 }  // namespace orthonav::engine

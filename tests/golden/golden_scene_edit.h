@@ -1,7 +1,7 @@
 #pragma once
 
 #include <set>
-#include <string>
+#include <vector>
 
 #include "engine/golden_scenes.h"
 
@@ -12,11 +12,18 @@ namespace orthonav::engine {
 [[nodiscard]] std::set<render::Label> labels_in(const render::Scene& scene);
 [[nodiscard]] GoldenScene without(GoldenScene golden, render::Label label);
 [[nodiscard]] GoldenScene only(GoldenScene golden, render::Label label, bool with_text);
-/// To the right in the first view, as far as a pixel is wide there, times `pixels`.
-[[nodiscard]] GoldenScene moved(GoldenScene golden, render::Label label, float pixels);
+[[nodiscard]] GoldenScene only_shapes(GoldenScene golden);
+/// Pixels of the first view.
+struct PixelStep {
+  float right = 0;
+  float down = 0;
+};
+/// So far that the first view shows each point aside by the step.
+[[nodiscard]] GoldenScene moved(GoldenScene golden, render::Label label, PixelStep step);
 /// A fifth less light.
 [[nodiscard]] GoldenScene dimmed(GoldenScene golden, render::Label label);
-/// The last digit of the first text that has one becomes the next digit; false without a digit.
-[[nodiscard]] bool change_digit(GoldenScene& golden, render::Label label);
+/// Scenes that differ from the given one by a single number each, for every run of digits in every
+/// text: its last digit becomes the next one. Empty when the scene shows no number.
+[[nodiscard]] std::vector<GoldenScene> with_one_number_changed(const GoldenScene& golden);
 
 }  // namespace orthonav::engine
