@@ -85,8 +85,8 @@ Bindings::Bindings(const Device& device)
   check(vkAllocateDescriptorSets(device_, &info, &set_), "descriptor set");
 }
 
-void Bindings::bind_frame(const Buffer& frame) const { bind_buffer(0, kTypes[0], frame.get()); }
-void Bindings::bind_data(const Buffer& data) const { bind_buffer(1, kTypes[1], data.get()); }
+void Bindings::bind_frame(const Buffer& frame) const { bind_buffer(0, frame.get()); }
+void Bindings::bind_data(const Buffer& data) const { bind_buffer(1, data.get()); }
 void Bindings::bind_atlas(const DeviceImage& atlas) const {
   bind_image(2, atlas.view(), smooth_.get());
 }
@@ -94,27 +94,26 @@ void Bindings::bind_background(const DeviceImage& background) const {
   bind_image(3, background.view(), nearest_.get());
 }
 
-void Bindings::bind_buffer(std::uint32_t binding, VkDescriptorType type, VkBuffer buffer) const {
+void Bindings::bind_buffer(std::uint32_t binding, VkBuffer buffer) const {
   const VkDescriptorBufferInfo info = {buffer, 0, VK_WHOLE_SIZE};
-  VkWriteDescriptorSet write = {};
-  write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-  write.dstSet = set_;
-  write.dstBinding = binding;
-  write.descriptorCount = 1;
-  write.descriptorType = type;
-  write.pBufferInfo = &info;
-  vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+  write(binding, &info, nullptr);
 }
 
 void Bindings::bind_image(std::uint32_t binding, VkImageView view, VkSampler sampler) const {
   const VkDescriptorImageInfo info = {sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+  write(binding, nullptr, &info);
+}
+
+void Bindings::write(std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
+                     const VkDescriptorImageInfo* image) const {
   VkWriteDescriptorSet write = {};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set_;
   write.dstBinding = binding;
   write.descriptorCount = 1;
-  write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-  write.pImageInfo = &info;
+  write.descriptorType = kTypes[binding];
+  write.pBufferInfo = buffer;
+  write.pImageInfo = image;
   vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
 }
 

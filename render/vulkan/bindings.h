@@ -18,8 +18,10 @@ class Bindings {
   [[nodiscard]] const VkDescriptorSet& set() const { return set_; }
 
  private:
-  void bind_buffer(std::uint32_t binding, VkDescriptorType type, VkBuffer buffer) const;
+  void bind_buffer(std::uint32_t binding, VkBuffer buffer) const;
   void bind_image(std::uint32_t binding, VkImageView view, VkSampler sampler) const;
+  void write(std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
+             const VkDescriptorImageInfo* image) const;
 
   VkDevice device_ = VK_NULL_HANDLE;
   Sampler smooth_;

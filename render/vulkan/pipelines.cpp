@@ -33,56 +33,60 @@ struct Recipe {
   bool stencil = false;
 };
 
+/// Of the three stages that draw meshes.
+Recipe mesh_recipe(std::string_view fragment, bool blends, bool depth_write,
+                   VkCompareOp depth_compare) {
+  Recipe recipe;
+  recipe.vertex = embedded::mesh_vert();
+  recipe.fragment = fragment;
+  recipe.mesh = recipe.depth_test = true;
+  recipe.blends = blends;
+  recipe.depth_write = depth_write;
+  recipe.depth_compare = depth_compare;
+  return recipe;
+}
+
+/// Of what is drawn over the meshes without hiding anything.
+Recipe overlay_recipe(std::string_view vertex, std::string_view fragment, bool depth_test) {
+  Recipe recipe;
+  recipe.vertex = vertex;
+  recipe.fragment = fragment;
+  recipe.blends = true;
+  recipe.depth_test = depth_test;
+  return recipe;
+}
+
 Recipe recipe_of(Stage stage, PassKind kind) {
   const bool labels = kind == PassKind::kLabels;
   const std::string_view flat = labels ? embedded::label_frag() : embedded::flat_frag();
-  Recipe recipe;
   switch (stage) {
-    case Stage::kBackground:
+    case Stage::kBackground: {
+      Recipe recipe;
       recipe.vertex = embedded::background_vert();
       recipe.fragment = embedded::background_frag();
-      break;
+      return recipe;
+    }
     case Stage::kDepth:
-      recipe = {embedded::mesh_vert(), {}, true, false, true, true, VK_COMPARE_OP_LESS, false};
-      break;
+      return mesh_recipe({}, false, true, VK_COMPARE_OP_LESS);
     case Stage::kVeil:
-      recipe = {embedded::mesh_vert(),
-                labels ? flat : embedded::mesh_veil_frag(),
-                true,
-                false,
-                true,
-                true,
-                VK_COMPARE_OP_LESS,
-                false};
-      break;
+      return mesh_recipe(labels ? flat : embedded::mesh_veil_frag(), false, true,
+                         VK_COMPARE_OP_LESS);
     case Stage::kSolid:
-      recipe = {embedded::mesh_vert(),
-                labels ? flat : embedded::mesh_solid_frag(),
-                true,
-                true,
-                true,
-                false,
-                VK_COMPARE_OP_EQUAL,
-                false};
-      break;
+      return mesh_recipe(labels ? flat : embedded::mesh_solid_frag(), true, false,
+                         VK_COMPARE_OP_EQUAL);
     case Stage::kTriangle:
-      recipe.vertex = embedded::triangle_vert();
-      recipe.fragment = flat;
-      recipe.blends = recipe.depth_test = true;
-      break;
-    case Stage::kLine:
-      recipe.vertex = embedded::line_vert();
-      recipe.fragment = flat;
-      recipe.blends = recipe.depth_test = recipe.stencil = true;
-      break;
+      return overlay_recipe(embedded::triangle_vert(), flat, true);
+    case Stage::kLine: {
+      Recipe recipe = overlay_recipe(embedded::line_vert(), flat, true);
+      recipe.stencil = true;
+      return recipe;
+    }
     case Stage::kText:
     case Stage::kCount:
-      recipe.vertex = embedded::text_vert();
-      recipe.fragment = labels ? embedded::text_label_frag() : embedded::text_frag();
-      recipe.blends = true;
       break;
   }
-  return recipe;
+  return overlay_recipe(embedded::text_vert(),
+                        labels ? embedded::text_label_frag() : embedded::text_frag(), false);
 }
 
 ShaderModule make_module(VkDevice device, std::string_view spirv) {

@@ -46,6 +46,17 @@ VkSubpassDependency before_copying() {
   return dependency;
 }
 
+/// The views of a mask drawn together; the info points to the mask.
+VkRenderPassMultiviewCreateInfo all_at_once(const std::uint32_t& view_mask) {
+  VkRenderPassMultiviewCreateInfo multiview = {};
+  multiview.sType = VK_STRUCTURE_TYPE_RENDER_PASS_MULTIVIEW_CREATE_INFO;
+  multiview.subpassCount = 1;
+  multiview.pViewMasks = &view_mask;
+  multiview.correlationMaskCount = 1;
+  multiview.pCorrelationMasks = &view_mask;
+  return multiview;
+}
+
 }  // namespace
 
 Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
@@ -72,6 +83,10 @@ Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
   depth.aspect = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
   depth_ = DeviceImage(device, depth);
   make_pass(device, image.format);
+  make_framebuffer(device);
+}
+
+void Targets::make_framebuffer(const Device& device) {
   const std::array<VkImageView, 3> views = {colour_.view(), depth_.view(), result_.view()};
   VkFramebufferCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
@@ -86,17 +101,21 @@ Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
   framebuffer_ = Framebuffer(device.get(), framebuffer);
 }
 
-void Targets::make_pass(const Device& device, VkFormat format) {
+/// Colour, depth and, where samples are resolved, the result.
+std::array<VkAttachmentDescription, 3> Targets::attachments(VkFormat colour, VkFormat depth) const {
   constexpr auto kDrop = VK_ATTACHMENT_STORE_OP_DONT_CARE;
   constexpr auto kKeep = VK_ATTACHMENT_STORE_OP_STORE;
-  const std::array<VkAttachmentDescription, 3> attachments = {
-      attachment(format, spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, resolves() ? kDrop : kKeep,
-                 resolves() ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
-                            : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
-      attachment(device.depth_format(), spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, kDrop,
-                 VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-      attachment(format, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE, kKeep,
-                 VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+  return {attachment(colour, spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, resolves() ? kDrop : kKeep,
+                     resolves() ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
+                                : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+          attachment(depth, spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, kDrop,
+                     VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
+          attachment(colour, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE, kKeep,
+                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+}
+
+void Targets::make_pass(const Device& device, VkFormat format) {
+  const auto described = attachments(format, device.depth_format());
   const VkAttachmentReference colour = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
   const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
   const VkAttachmentReference result = {2, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -108,17 +127,12 @@ void Targets::make_pass(const Device& device, VkFormat format) {
   if (resolves()) subpass.pResolveAttachments = &result;
   const std::array<VkSubpassDependency, 2> dependencies = {before_drawing(), before_copying()};
   const std::uint32_t view_mask = (1u << spec_.views) - 1;
-  VkRenderPassMultiviewCreateInfo multiview = {};
-  multiview.sType = VK_STRUCTURE_TYPE_RENDER_PASS_MULTIVIEW_CREATE_INFO;
-  multiview.subpassCount = 1;
-  multiview.pViewMasks = &view_mask;
-  multiview.correlationMaskCount = 1;
-  multiview.pCorrelationMasks = &view_mask;
+  const VkRenderPassMultiviewCreateInfo multiview = all_at_once(view_mask);
   VkRenderPassCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
   info.pNext = &multiview;
   info.attachmentCount = resolves() ? 3 : 2;
-  info.pAttachments = attachments.data();
+  info.pAttachments = described.data();
   info.subpassCount = 1;
   info.pSubpasses = &subpass;
   info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());

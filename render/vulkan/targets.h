@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "render/vulkan/memory.h"
 
 namespace orthonav::render {
@@ -27,7 +29,10 @@ class Targets {
   [[nodiscard]] bool resolves() const { return spec_.samples != VK_SAMPLE_COUNT_1_BIT; }
 
  private:
+  [[nodiscard]] std::array<VkAttachmentDescription, 3> attachments(VkFormat colour,
+                                                                   VkFormat depth) const;
   void make_pass(const Device& device, VkFormat format);
+  void make_framebuffer(const Device& device);
 
   TargetSpec spec_;
   DeviceImage colour_;
