@@ -67,7 +67,7 @@ float light_on(Vec3 normal, double height_m) {
 
 }  // namespace
 
-BoneSurface::BoneSurface(const RoomDescription& room, const Ground& ground, double cell_m) {
+ShownBones::ShownBones(const RoomDescription& room, const Ground& ground, double cell_m) {
   for (const RoomLevel& level : room.levels) {
     const Thinned thin = thinned(level, cell_m);
     constexpr std::uint32_t kUnused = 0xFFFFFFFFU;
@@ -117,7 +117,7 @@ void BoneImage::reset(int width_px, int height_px) {
 }
 
 template <class AnyLens>
-void BoneImage::draw(const BoneSurface& bones, const Ground& ground,
+void BoneImage::draw(const ShownBones& bones, const Ground& ground,
                      const Transform<LeftCamera, Spine>& camera_from_spine, const AnyLens& lens,
                      double scale) {
   vertices_.resize(std::max(vertices_.size(), bones.x.size()));
@@ -190,9 +190,9 @@ void BoneImage::draw(const Vertex& a, const Vertex& b, const Vertex& c) {
     }
 }
 
-template void BoneImage::draw(const BoneSurface&, const Ground&,
-                              const Transform<LeftCamera, Spine>&, const CameraLens&, double);
-template void BoneImage::draw(const BoneSurface&, const Ground&,
-                              const Transform<LeftCamera, Spine>&, const PinholeLens&, double);
+template void BoneImage::draw(const ShownBones&, const Ground&, const Transform<LeftCamera, Spine>&,
+                              const CameraLens&, double);
+template void BoneImage::draw(const ShownBones&, const Ground&, const Transform<LeftCamera, Spine>&,
+                              const PinholeLens&, double);
 
 }  // namespace orthonav::sim

@@ -10,13 +10,13 @@ namespace orthonav::sim {
 
 /// What of the bones may show: the triangles above the tissue, of every level, in Spine. With
 /// `cell_m` > 0 the surface is thinned by clustering vertices in cells of that size.
-struct BoneSurface {
+struct ShownBones {
   std::vector<float> x, y, z;
   std::vector<float> lit;     ///< light received, lamp and sky, 0 to about 1
   std::vector<float> height;  ///< above the tissue, m
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  BoneSurface(const RoomDescription& room, const Ground& ground, double cell_m);
+  ShownBones(const RoomDescription& room, const Ground& ground, double cell_m);
 };
 
 /// A depth-buffered image of the bones. A bone shows where it rises above the tissue and is seen
@@ -26,7 +26,7 @@ class BoneImage {
   void reset(int width_px, int height_px);
   /// `scale` shrinks the lens's pixels to those of this image.
   template <class AnyLens>
-  void draw(const BoneSurface& bones, const Ground& ground,
+  void draw(const ShownBones& bones, const Ground& ground,
             const Transform<LeftCamera, Spine>& camera_from_spine, const AnyLens& lens,
             double scale);
 

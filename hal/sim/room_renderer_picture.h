@@ -21,7 +21,7 @@ class PicturePainter {
   void merge_tools(RgbaImage& image);
 
   const Ground& ground_;
-  BoneSurface bones_;
+  ShownBones bones_;
   BoneImage bone_image_;
   Layers layers_;
   Foreground foreground_;

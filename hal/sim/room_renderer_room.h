@@ -29,7 +29,7 @@ class SoftwareRoomRenderer final : public RoomRenderer {
 
   RoomDescription room_;
   Ground ground_;
-  BoneSurface coarse_bones_;
+  ShownBones coarse_bones_;
   ToolBodies bodies_;
   Sensor sensor_;
   Layers layers_;
