@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "hal/sim/room_layout.h"
+#include "hal/sim/tag_pattern.h"
 
 namespace orthonav::sim {
 namespace {
@@ -40,7 +41,13 @@ Status check_tool(const RoomTool& tool) {
   const double length = tool.axis_in_marker.norm();
   if (!(length > 0.999 && length < 1.001))
     return Error{name + "axis has length " + std::to_string(length) + ", must be 1"};
-  if (tool.id < 0) return Error{name + "tag id is " + std::to_string(tool.id) + ", must be >= 0"};
+  const int ids = tag_count(tool.family);
+  if (ids == 0)
+    return Error{name + "tag family \"" + tool.family + "\" is not known; known are " +
+                 tag_families()};
+  if (tool.id < 0 || tool.id >= ids)
+    return Error{name + "tag id is " + std::to_string(tool.id) + ", " + tool.family + " has 0 to " +
+                 std::to_string(ids - 1)};
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include <apriltag/tagStandard52h13.h>
 
 #include <array>
+#include <memory>
 
 namespace orthonav::sim {
 namespace {
@@ -27,6 +28,15 @@ constexpr std::array<Family, 6> kFamilies = {{
     {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
     {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
 }};
+
+using OpenFamily = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
+
+/// The library's tables of a family; null for one that is not known.
+OpenFamily opened(const std::string& name) {
+  for (const Family& known : kFamilies)
+    if (name == known.name) return {known.create(), known.destroy};
+  return {nullptr, [](apriltag_family_t*) {}};
+}
 
 /// Everything is black but a ring of white one cell wide, outside the border (or, where the border
 /// is reversed, the border itself), and the bits that are set.
@@ -58,16 +68,24 @@ TagPattern pattern_of(const apriltag_family_t& family, int id) {
 
 }  // namespace
 
-std::optional<TagPattern> tag_pattern(const std::string& name, int id) {
+int tag_count(const std::string& name) {
+  const auto family = opened(name);
+  return family ? static_cast<int>(family->ncodes) : 0;
+}
+
+std::string tag_families() {
+  std::string names;
   for (const Family& known : kFamilies) {
-    if (name != known.name) continue;
-    apriltag_family_t* family = known.create();
-    std::optional<TagPattern> pattern;
-    if (id >= 0 && id < static_cast<int>(family->ncodes)) pattern = pattern_of(*family, id);
-    known.destroy(family);
-    return pattern;
+    if (!names.empty()) names += ", ";
+    names += known.name;
   }
-  return std::nullopt;
+  return names;
+}
+
+std::optional<TagPattern> tag_pattern(const std::string& name, int id) {
+  const auto family = opened(name);
+  if (!family || id < 0 || id >= static_cast<int>(family->ncodes)) return std::nullopt;
+  return pattern_of(*family, id);
 }
 
 }  // namespace orthonav::sim

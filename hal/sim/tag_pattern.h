@@ -19,6 +19,10 @@ struct TagPattern {
   }
 };
 
+/// How many ids a family has: 0 for one that is not known.
+[[nodiscard]] int tag_count(const std::string& family);
+/// The families that can be drawn, for messages: "tag36h11, ...".
+[[nodiscard]] std::string tag_families();
 /// The pattern out of libapriltag's own tables; nothing for a family or id it does not know.
 [[nodiscard]] std::optional<TagPattern> tag_pattern(const std::string& family, int id);
 

@@ -13,6 +13,7 @@
 namespace orthonav::sim {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 SimOptions hovering(std::uint64_t seed = 1) {
@@ -221,6 +222,18 @@ TEST(SimHeadset, RefusesBrokenRooms) {
   room = good;
   room.tools[1].id = room.tools[0].id;
   EXPECT_THAT(refusal(room), HasSubstr("given twice"));
+  room = good;
+  room.tools[1].family = "tag99h9";
+  EXPECT_THAT(refusal(room),
+              AllOf(HasSubstr("\"guide\": tag family \"tag99h9\" is not known"),
+                    HasSubstr("tag36h11, tag36h10, tag25h9, tag16h5, tagStandard41h12")));
+  room = good;
+  room.tools[1].id = 587;
+  EXPECT_THAT(refusal(room), HasSubstr("tag id is 587, tag36h11 has 0 to 586"));
+  room.tools[1].id = -1;
+  EXPECT_THAT(refusal(room), HasSubstr("tag id is -1"));
+  room.tools[1].id = 586;
+  EXPECT_EQ(refusal(room), "accepted");
   room = good;
   room.tools[0].axis_in_marker = {};
   EXPECT_THAT(refusal(room), HasSubstr("axis has length 0"));
