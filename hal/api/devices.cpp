@@ -138,17 +138,18 @@ Status ButtonState::take(ClickerAction action) {
       if (!clickable) refused = "does not follow its release";
       break;
     case ClickerAction::kDoubleClick:
-      if (!double_clickable) refused = "does not follow its release";
+      if (!clickable) refused = "does not follow its release";
+      if (!after_click) refused = "does not follow a click";
       break;
     case ClickerAction::kHold:
       if (!pressed) refused = "while the button is not pressed";
       break;
   }
   if (refused) return Error{std::string("clicker: ") + name_of(action) + " " + refused};
-  if (action == ClickerAction::kPress) *this = {true, false, false};
-  if (action == ClickerAction::kRelease) *this = {false, true, true};
-  if (action == ClickerAction::kClick) clickable = false;
-  if (action == ClickerAction::kDoubleClick) *this = {false, false, false};
+  if (action == ClickerAction::kPress) *this = {true, false, false, clicked};
+  if (action == ClickerAction::kRelease) *this = {false, true, false, after_click};
+  if (action == ClickerAction::kClick) *this = {false, false, true, false};
+  if (action == ClickerAction::kDoubleClick) *this = {};
   return {};
 }
 

@@ -92,15 +92,17 @@ struct ClickerEvent {
 /// Where a button is in its sequence of events.
 struct ButtonState {
   bool pressed = false;
-  bool clickable = false;         ///< released, and not told as a click yet
-  bool double_clickable = false;  ///< released, and not told as a double click yet
+  bool clickable = false;    ///< released, and not told as a click or a double click yet
+  bool clicked = false;      ///< released, and told as a click
+  bool after_click = false;  ///< the release before the newest press was told as a click
 
   /// Takes the next event, or says why it cannot come now.
   Status take(ClickerAction action);
 };
 
 /// One button. Contract: times never decrease, press and release alternate, a click follows its
-/// release and a double click the second release, a hold falls between press and release.
+/// release, a double click the second of two releases: the first was told as a click, and the
+/// second is told as a double click only. A hold falls between press and release.
 class Clicker {
  public:
   virtual ~Clicker() = default;
