@@ -1,5 +1,6 @@
 #include "hal/fake/failing.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -114,7 +115,8 @@ Status FailingEvents<Device, Event>::do_poll(Timestamp until, std::vector<Event>
     const std::int64_t index = delivered_ + static_cast<std::int64_t>(taken);
     auto fault = fault_at(faults_, index);
     if (fault == EventFault::kDelay || fault == EventFault::kError) {
-      const bool spent = std::exchange(held_, index) == index;
+      const bool spent = index <= spent_;
+      spent_ = std::max(spent_, index);
       if (!spent && fault == EventFault::kError) return Error{"simulated failure"};
       if (!spent) break;
     }

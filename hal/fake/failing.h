@@ -87,7 +87,7 @@ class FailingEvents : public Device {
   std::vector<Fault<EventFault>> faults_;
   std::vector<Event> waiting_;
   std::int64_t delivered_ = 0;
-  std::int64_t held_ = -1;  // the event that a delay or an error has held back already
+  std::int64_t spent_ = -1;  // the last event that a delay or an error has held back already
 
   Status do_poll(Timestamp until, std::vector<Event>& events) override;
 };
