@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::uintmax_t kMaxEventsBytes = std::uintmax_t{64} << 20U;
 constexpr std::uintmax_t kMaxHeadBytes = std::uintmax_t{1} << 31U;
-constexpr double kMaxWorldM = 1e6;
 
 constexpr std::array<std::pair<ClickerAction, std::string_view>, 5> kActions = {
     {{ClickerAction::kPress, "press"},
@@ -101,6 +100,9 @@ Status take_event(std::string_view line, std::vector<std::string_view>& fields,
   const auto time = parse_time(fields[3]);
   const auto available = parse_time(fields[4]);
   if (!time || !available) return Error{"time_ns or available_ns is no whole number"};
+  for (const Timestamp t : {*time, *available})
+    if (t < Timestamp(Duration(-kMaxNs)) || t > Timestamp(Duration(kMaxNs)))
+      return Error{"time_ns and available_ns must lie within 9e18"};
   if (fields[0] == "clicker") {
     const auto action = value_in(kActions, fields[1]);
     if (!action)

@@ -10,10 +10,6 @@ namespace {
 constexpr std::uintmax_t kMaxPosesBytes = std::uintmax_t{1} << 30U;
 constexpr std::uintmax_t kMaxFramesBytes = std::uintmax_t{1} << 30U;
 constexpr std::uintmax_t kMaxDeviceBytes = 4096;
-constexpr double kMaxWorldM = 1e6;
-// Times 100 this still fits into 64 bits of nanoseconds.
-constexpr std::int64_t kMaxTicks = 90'000'000'000'000'000;
-constexpr std::int64_t kMaxNs = 100 * kMaxTicks;
 
 Status take_pose(std::string_view line, std::vector<std::string_view>& fields,
                  PosesByTicks& poses) {
@@ -44,6 +40,7 @@ Status take_frame(std::string_view line, std::vector<std::string_view>& fields,
       return Error{"value " + std::to_string(i + 1) + " must lie within 9e18"};
     values[i] = *value;
   }
+  if (values[2] < 0) return Error{"ticks_100ns must not be negative"};
   const FrameRow row{values[0], Timestamp(Duration(values[1])), values[2],
                      Timestamp(Duration(values[3]))};
   if (!rows.empty() && (row.sequence <= rows.back().sequence || row.time <= rows.back().time ||
@@ -144,7 +141,9 @@ std::int64_t epoch_of(std::int64_t first_ticks) {
 }
 
 std::optional<Timestamp> device_time(std::int64_t ticks, std::int64_t epoch_ticks) {
-  // Ticks are not negative and the epoch is 0 or the device's own word: compare before subtracting.
+  // The epoch is whatever a file says: compare before subtracting. Two numbers that are not
+  // negative have a difference; under a negative epoch both sides of the sum are within 9e18.
+  if (ticks < 0 || epoch_ticks < -kMaxNs) return std::nullopt;
   const bool fits = epoch_ticks >= 0
                         ? ticks - epoch_ticks <= kMaxTicks && ticks - epoch_ticks >= -kMaxTicks
                         : ticks <= kMaxTicks + epoch_ticks;

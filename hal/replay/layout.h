@@ -18,6 +18,12 @@ inline constexpr const char* kRightSensor = "VLC RF";
 /// that a recording with FILETIME ticks counts its nanoseconds from 1970.
 inline constexpr std::int64_t kUnixEpochTicks = 116444736000000000;
 
+/// Times 100 this still fits into 64 bits of nanoseconds.
+inline constexpr std::int64_t kMaxTicks = 90'000'000'000'000'000;
+inline constexpr std::int64_t kMaxNs = 100 * kMaxTicks;
+/// Poses farther from the origin than this are damage.
+inline constexpr double kMaxWorldM = 1e6;
+
 inline std::filesystem::path tar_of(const std::filesystem::path& folder,
                                     const std::string& sensor) {
   return folder / (sensor + ".tar");

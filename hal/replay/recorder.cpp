@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "hal/replay/layout.h"
 #include "hal/replay/recording_writer.h"
 
 namespace orthonav::replay {
@@ -95,21 +96,24 @@ class RecordingEvents : public Device {
  private:
   Device& inner_;
   Tape& tape_;
+  /// Whoever asks for everything at once asks for no time that a file could hold.
+  static constexpr Timestamp kLatest{Duration{kMaxNs}};
   std::optional<Timestamp> asked_until_;
   Timestamp available_ = Timestamp::min();
 
   Status do_poll(Timestamp until, std::vector<Event>& events) override {
     const std::size_t before = events.size();
-    if (Status status = inner_.poll(until, events); !status) return status;
+    // A poll that fails has asked too: what was due comes with a later one, and is late.
+    const Status status = inner_.poll(until, events);
     for (std::size_t i = before; i < events.size(); ++i) {
       const bool late = asked_until_ && events[i].time <= *asked_until_;
-      available_ = std::max(available_, late ? until : events[i].time);
+      available_ = std::max(available_, late ? std::min(until, kLatest) : events[i].time);
       tape_.record([&](RecordingWriter& w) {
         return w.event(Delivered<Event>{events[i], available_});
       });
     }
     asked_until_ = std::max(asked_until_.value_or(until), until);
-    return {};
+    return status;
   }
 };
 
