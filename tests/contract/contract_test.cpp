@@ -46,6 +46,7 @@ TEST_P(DeviceContract, DeliversPairsInOrderOfTheCalibrationsSize) {
 }
 
 TEST_P(DeviceContract, NeverDeliversTheSameImagesTwice) {
+  if (!GetParam().has_images) GTEST_SKIP() << "black by choice";
   const SessionLog log = play(*headset_);
   for (std::size_t i = 1; i < log.moments.size(); ++i)
     EXPECT_FALSE(log.moments[i].frame.left == log.moments[i - 1].frame.left) << i;
@@ -118,6 +119,7 @@ TEST_P(DeviceContract, HasTwoCamerasOfOneHead) {
   const StereoCalibration& calibration = headset_->cameras().calibration();
   const auto right_from_left = calibration.right_from_left();
   EXPECT_LT(right_from_left.translation().norm(), 0.3);
+  EXPECT_GT(right_from_left.translation().norm(), 0.05) << "too close for a depth at arm's length";
   EXPECT_LE(orthonormality_error(calibration.left_from_rig.rotation()), 1e-9);
   EXPECT_LE(orthonormality_error(calibration.right_from_rig.rotation()), 1e-9);
   EXPECT_GT(calibration.left_from_rig.rotation().determinant(), 0.0);
@@ -146,12 +148,10 @@ TEST_P(DeviceContract, PredictsTheHeadSoonAndLosesItLater) {
   ASSERT_FALSE(log.moments.empty());
   const Timestamp newest = log.moments.back().frame.time;
   ASSERT_TRUE(log.moments.back().frame.world_from_rig.has_value());
-  // The head may be measured more often than there are images: half a second covers that.
-  constexpr Duration kMeasuredAhead = std::chrono::milliseconds(500);
-  const auto later =
-      headset_->head().world_from_rig(newest + kMeasuredAhead + HeadTracker::kMaxHeadPrediction);
+  const Timestamp limit = newest + GetParam().head_ahead + HeadTracker::kMaxHeadPrediction;
+  const auto later = headset_->head().world_from_rig(limit + Duration(1));
   EXPECT_EQ(later.origin, Origin::kLost);
-  EXPECT_EQ(later.time, newest + kMeasuredAhead + HeadTracker::kMaxHeadPrediction);
+  EXPECT_EQ(later.time, limit + Duration(1));
   const auto soon = headset_->head().world_from_rig(newest + std::chrono::milliseconds(40));
   EXPECT_EQ(soon.origin, Origin::kPredicted);
   const double step_m =

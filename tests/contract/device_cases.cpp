@@ -6,6 +6,7 @@
 #include "hal/open/open.h"
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
+#include "tests/sim_camera/scene.h"
 #include "tests/support/scripted_session.h"
 #include "tests/support/session_log.h"
 #include "tests/support/stream_recorder_folder.h"
@@ -23,6 +24,9 @@ class Keeping : public Headset {
       : kept_(std::move(kept)), headset_(std::move(headset)) {}
   [[nodiscard]] std::string name() const override { return headset_->name(); }
   [[nodiscard]] const Clock& clock() const override { return headset_->clock(); }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
+    return headset_->epoch_ticks_100ns();
+  }
   [[nodiscard]] StereoCamera& cameras() override { return headset_->cameras(); }
   [[nodiscard]] HeadTracker& head() override { return headset_->head(); }
   [[nodiscard]] Clicker& clicker() override { return headset_->clicker(); }
@@ -38,6 +42,56 @@ template <class Kept>
 std::unique_ptr<Headset> keeping(Kept kept, std::unique_ptr<Headset> headset) {
   return std::make_unique<Keeping<Kept>>(std::move(kept), std::move(headset));
 }
+
+/// Shows a step of the workflow to the wearer with each pair, whatever it is asked to show itself.
+class Prompting : public Headset {
+ public:
+  Prompting(std::unique_ptr<Headset> inner, std::string step)
+      : inner_(std::move(inner)), cameras_(*inner_, std::move(step)), display_(*inner_) {}
+  [[nodiscard]] std::string name() const override { return inner_->name(); }
+  [[nodiscard]] const Clock& clock() const override { return inner_->clock(); }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return inner_->head(); }
+  [[nodiscard]] Clicker& clicker() override { return inner_->clicker(); }
+  [[nodiscard]] Voice& voice() override { return inner_->voice(); }
+  [[nodiscard]] Display& display() override { return display_; }
+
+ private:
+  class Cameras : public StereoCamera {
+   public:
+    Cameras(Headset& inner, std::string step) : inner_(inner), step_(std::move(step)) {}
+
+   private:
+    [[nodiscard]] const StereoCalibration& do_calibration() const override {
+      return inner_.cameras().calibration();
+    }
+    Result<Next> do_next(StereoFrame& frame) override {
+      auto answer = inner_.cameras().next(frame);
+      if (!answer || *answer != Next::kFrame) return answer;
+      ShownFrame shown;
+      shown.display_time = inner_.display().predicted_display_time(inner_.clock().now());
+      shown.holograms.push_back({"H11 status", step_, {}});
+      EXPECT_TRUE(inner_.display().shown(shown).ok());
+      return answer;
+    }
+    Headset& inner_;
+    std::string step_;
+  };
+  class Unseen : public Display {
+   public:
+    explicit Unseen(Headset& inner) : inner_(inner) {}
+
+   private:
+    [[nodiscard]] Duration do_latency() const override {
+      return inner_.display().predicted_display_time(Timestamp{}) - Timestamp{};
+    }
+    Status do_shown(const ShownFrame&) override { return {}; }
+    Headset& inner_;
+  };
+  std::unique_ptr<Headset> inner_;
+  Cameras cameras_;
+  Unseen display_;
+};
 
 template <class T>
 std::unique_ptr<Headset> checked(Result<std::unique_ptr<T>> opened) {
@@ -56,22 +110,25 @@ std::unique_ptr<Headset> open_faultless() {
   return keeping(std::move(inner), std::move(failing));
 }
 
+/// What may happen to a device without breaking its word: pairs that are lost, late, unlocated or
+/// spoiled, a head that is lost for a moment, a phrase that nobody heard.
+std::unique_ptr<Headset> open_with_allowed_faults() {
+  auto inner = open_fake();
+  fake::Faults faults;
+  faults.camera = {{1, fake::CameraFault::kNoPose},
+                   {2, fake::CameraFault::kDrop},
+                   {4, fake::CameraFault::kDelay},
+                   {6, fake::CameraFault::kNoise}};
+  faults.head = {{1, fake::HeadFault::kLost}};  // asked for the time of display
+  faults.voice = {{1, fake::EventFault::kDrop}};
+  auto failing = std::make_unique<fake::FailingHeadset>(*inner, std::move(faults));
+  return keeping(std::move(inner), std::move(failing));
+}
+
 std::unique_ptr<Headset> open_recorder() {
   auto folder = std::make_unique<TemporaryFolder>();
   auto recorder = checked(replay::RecordingHeadset::create(open_fake(), *folder / "session"));
   return keeping(std::move(folder), std::move(recorder));
-}
-
-std::unique_ptr<Headset> open_replay() {
-  auto folder = std::make_unique<TemporaryFolder>();
-  {
-    auto recorder = replay::RecordingHeadset::create(open_fake(), *folder / "session");
-    EXPECT_TRUE(recorder.ok());
-    play(**recorder);
-    EXPECT_TRUE((*recorder)->close().ok());
-  }
-  auto headset = checked(open_headset("replay:" + (*folder / "session").string()));
-  return keeping(std::move(folder), std::move(headset));
 }
 
 std::unique_ptr<Headset> open_stream_recorder() {
@@ -105,10 +162,22 @@ std::unique_ptr<Headset> open_sim() {
   return checked(open_headset("sim:?seed=11", options));
 }
 
-std::unique_ptr<Headset> open_replayed_sim() {
+/// The scripted surgeon, told by the display to digitize: presses, clicks and speaks.
+std::unique_ptr<Headset> open_surgeon() {
+  OpenOptions options;
+  options.room = sim::scene::operating_room(12);
+  options.sim.render = false;
+  options.sim.frame_rate_hz = 10.0;
+  options.sim.limit_s = 9.0;
+  options.sim.magnitudes.pace = 4.0;
+  return std::make_unique<Prompting>(checked(open_headset("sim:?seed=11", options)), "digitize L3");
+}
+
+/// Records a headset to its end and opens what was recorded.
+std::unique_ptr<Headset> open_replayed(std::unique_ptr<Headset> live) {
   auto folder = std::make_unique<TemporaryFolder>();
   {
-    auto recorder = replay::RecordingHeadset::create(open_sim(), *folder / "session");
+    auto recorder = replay::RecordingHeadset::create(std::move(live), *folder / "session");
     EXPECT_TRUE(recorder.ok());
     play(**recorder);
     EXPECT_TRUE((*recorder)->close().ok());
@@ -122,11 +191,14 @@ std::unique_ptr<Headset> open_replayed_sim() {
 std::vector<DeviceCase> device_cases() {
   return {{"fake", open_fake},
           {"faultless", open_faultless},
+          {"allowed_faults", open_with_allowed_faults},
           {"recorder", open_recorder},
-          {"replay", open_replay},
+          {"replay", [] { return open_replayed(open_fake()); }},
           {"stream_recorder", open_stream_recorder, false},
           {"sim", open_sim, false},
-          {"replayed_sim", open_replayed_sim, false}};
+          {"replayed_sim", [] { return open_replayed(open_sim()); }, false},
+          {"surgeon", open_surgeon, true, false},
+          {"replayed_surgeon", [] { return open_replayed(open_surgeon()); }, true, false}};
 }
 
 }  // namespace orthonav::testing

@@ -16,6 +16,9 @@ struct DeviceCase {
   std::string name;
   std::function<std::unique_ptr<Headset>()> open;
   bool has_events = true;  ///< clicker and voice say something
+  bool has_images = true;  ///< false: they stay black, as nobody looks at them
+  /// How far past the newest pair the head may have been measured already.
+  Duration head_ahead{};
 };
 inline void PrintTo(const DeviceCase& device, std::ostream* out) { *out << device.name; }
 

@@ -157,6 +157,18 @@ TEST(EventsUnderFault, ComeAgainAfterAnError) {
   EXPECT_TRUE(phrases == scripted_session().voice);
 }
 
+TEST(EventsUnderFault, StrikeOnceEachWhereTheyFollowOneAnother) {
+  for (const EventFault second : {EventFault::kError, EventFault::kDelay}) {
+    ScriptedVoice inner(scripted_session().voice);
+    FailingVoice voice(inner, {{0, EventFault::kError}, {1, second}});
+    std::vector<Phrase> phrases;
+    EXPECT_FALSE(voice.poll(scripted_time(100), phrases).ok());
+    EXPECT_EQ(voice.poll(scripted_time(101), phrases).ok(), second == EventFault::kDelay);
+    ASSERT_TRUE(voice.poll(scripted_time(102), phrases).ok());
+    EXPECT_TRUE(phrases == scripted_session().voice);
+  }
+}
+
 TEST(Clicker, FindsItsPlaceAgainAfterALostRelease) {
   using enum ClickerAction;
   const auto at = [](int ms) { return Timestamp(std::chrono::milliseconds(ms)); };
@@ -186,9 +198,16 @@ TEST(ButtonState, DecidesEveryActionInEveryState) {
   EXPECT_THAT(allowed({}), ElementsAre(kPress));
   EXPECT_THAT(allowed({kPress}), ElementsAre(kRelease, kHold));
   EXPECT_THAT(allowed({kPress, kHold}), ElementsAre(kRelease, kHold));
-  EXPECT_THAT(allowed({kPress, kRelease}), ElementsAre(kPress, kClick, kDoubleClick));
-  EXPECT_THAT(allowed({kPress, kRelease, kClick}), ElementsAre(kPress, kDoubleClick));
-  EXPECT_THAT(allowed({kPress, kRelease, kDoubleClick}), ElementsAre(kPress));
+  EXPECT_THAT(allowed({kPress, kRelease}), ElementsAre(kPress, kClick));
+  EXPECT_THAT(allowed({kPress, kRelease, kClick}), ElementsAre(kPress));
+  EXPECT_THAT(allowed({kPress, kRelease, kPress, kRelease}), ElementsAre(kPress, kClick));
+  const std::vector<ClickerAction> twice = {kPress, kRelease, kClick, kPress, kRelease};
+  EXPECT_THAT(allowed(twice), ElementsAre(kPress, kClick, kDoubleClick));
+  auto doubled = twice;
+  doubled.push_back(kDoubleClick);
+  EXPECT_THAT(allowed(doubled), ElementsAre(kPress));
+  doubled.insert(doubled.end(), {kPress, kRelease});
+  EXPECT_THAT(allowed(doubled), ElementsAre(kPress, kClick)) << "a third one starts anew";
 }
 
 TEST(Voice, RefusesAConfidenceOutsideZeroToOne) {

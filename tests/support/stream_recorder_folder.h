@@ -92,7 +92,9 @@ class StreamRecorderFolder {
     write("VLC RF.tar", right_tar.finished());
     for (const char* sensor : {"VLC LF", "VLC RF"}) {
       write(std::string(sensor) + "_lut.bin", rays());
-      write(std::string(sensor) + "_extrinsics.txt", "0,1,0,0,1,0,0,0,0,0,-1,0,0,0,0,1\n");
+      const std::string x_m = std::string(sensor) == "VLC RF" ? "-0.1" : "0";
+      write(std::string(sensor) + "_extrinsics.txt",
+            "0,1,0," + x_m + ",1,0,0,0,0,0,-1,0,0,0,0,1\n");
       write(std::string(sensor) + "_rig2world.txt", poses);
     }
   }
