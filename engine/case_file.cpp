@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
 
 #include "engine/json_document.h"
 #include "engine/mesh_file.h"
+#include "engine/operation.h"
 #include "engine/plan_file.h"
 
 namespace orthonav::engine {
@@ -16,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMaxEntryOffBone_m = 0.010;
+/// A tip may stand out of the front by its radius, or by this where the plan states less.
+constexpr double kMinTargetOutside_m = 0.003;
 /// Centres of neighbouring lumbar vertebrae lie 30 mm and more apart; closer ones intersect.
 constexpr double kMinLevelSpacing_m = 0.015;
 /// Height of a lumbar body and its disc (Panjabi et al. 1992: 24-27 mm; discs about 10 mm).
@@ -33,15 +37,11 @@ Vec3 centre_of(const nav::TriangleMesh& mesh) {
   return 0.5 * (low + high);
 }
 
-Vec3 centre_in_spine(const CaseLevel& level) {
-  return (level.spine_from_vertebra * Point<Vertebra>{centre_of(level.mesh)}).v;
-}
-
 /// The label of a level that lies in this one; nullptr when it has its place for itself.
 const CaseLevel* overlapped_by(const Case& subject, std::size_t index) {
-  const Vec3 centre = centre_in_spine(subject.levels[index]);
+  const Point<Spine> centre = subject.levels[index].centre_in_spine();
   for (std::size_t i = 0; i < index; ++i)
-    if ((centre_in_spine(subject.levels[i]) - centre).norm() < kMinLevelSpacing_m)
+    if ((subject.levels[i].centre_in_spine() - centre).norm() < kMinLevelSpacing_m)
       return &subject.levels[i];
   return nullptr;
 }
@@ -92,12 +92,13 @@ Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double m
   if (!plan->level.empty() && plan->level != entry.label)
     return Error{(fs::path(folder) / entry.plan).string() + ": is the plan of " + plan->level +
                  ", the case uses it for " + entry.label};
-  Result<nav::TriangleMesh> mesh =
-      load_mesh((fs::path(folder) / entry.model).string(), plan->metres_per_unit, plan->axes);
+  const std::string model = (fs::path(folder) / entry.model).string();
+  Result<nav::TriangleMesh> mesh = load_mesh(model, plan->metres_per_unit, plan->axes);
   if (!mesh) return mesh.error();
   CaseLevel level{entry.label, std::move(mesh).value(), plan->screws, {}};
   if (entry.node.has("spine_from_model"))
-    level.spine_from_vertebra = spine_from_model(entry.node, metres_per_unit, plan->axes);
+    level.spine_from_vertebra =
+        spine_from_model(entry.node, metres_per_unit, declared_axes(model).value_or(plan->axes));
   return level;
 }
 
@@ -116,18 +117,45 @@ Error all_problems(const std::string& path, const std::vector<std::string>& prob
   return Error{line};
 }
 
-std::optional<std::string> entry_problem(const nav::SurfaceIndex& bone,
-                                         const nav::ScrewPlan& screw) {
-  const auto nearest = bone.nearest(screw.entry.v);
-  if (nearest && nearest->distance_m <= kMaxEntryOffBone_m) return std::nullopt;
-  char text[128];
-  std::snprintf(text, sizeof text, "%s entry lies %.1f mm off the bone, limit %.1f mm",
-                to_text(screw.side).c_str(), nearest ? nearest->distance_m * 1e3 : 1e6,
-                kMaxEntryOffBone_m * 1e3);
+std::string in_mm(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", metres * 1e3);
   return text;
 }
 
+/// What tells that a screw is not of this bone, or is written in other axes; +x left, +y posterior.
+std::optional<std::string> screw_problem(const nav::SurfaceIndex& bone, double middle_x_m,
+                                         const nav::ScrewPlan& screw) {
+  const std::string which = name_of(screw.side);
+  const auto at_entry = bone.nearest(screw.entry.v);
+  const double off_m = at_entry ? at_entry->distance_m : 1e3;
+  if (off_m > kMaxEntryOffBone_m)
+    return which + " entry lies " + in_mm(off_m) + " off the bone, limit " +
+           in_mm(kMaxEntryOffBone_m);
+  const double behind_m = screw.entry.v.y - screw.target.v.y;
+  if (!(behind_m > 0.0))
+    return which + " entry lies " + in_mm(-behind_m) +
+           " in front of its target, must lie behind it (posterior)";
+  const auto at_target = bone.nearest(screw.target.v);
+  const double outside_m =
+      bone.contains(screw.target.v) || !at_target ? 0.0 : at_target->distance_m;
+  const double limit_m = std::max(screw.radius_m, kMinTargetOutside_m);
+  if (outside_m > limit_m)
+    return which + " target lies " + in_mm(outside_m) + " outside the bone, limit " +
+           in_mm(limit_m);
+  const double left_m = screw.entry.v.x - middle_x_m;
+  const bool there = screw.side == nav::Side::kLeft ? left_m > 0.0 : left_m < 0.0;
+  if (!there)
+    return which + " entry lies " + in_mm(std::abs(left_m)) + " to the " +
+           (left_m > 0.0 ? "left" : "right") + " of the bone's middle, must lie to the " + which;
+  return std::nullopt;
+}
+
 }  // namespace
+
+Point<Spine> CaseLevel::centre_in_spine() const {
+  return spine_from_vertebra * Point<Vertebra>{centre_of(mesh)};
+}
 
 const CaseLevel* Case::find(const std::string& label) const {
   const auto found = std::find_if(levels.begin(), levels.end(),
@@ -153,8 +181,9 @@ std::vector<std::string> Case::check() const {
       continue;
     }
     const nav::SurfaceIndex bone(level.mesh);
+    const double middle_x_m = centre_of(level.mesh).x;
     for (const nav::ScrewPlan& screw : level.screws)
-      if (const auto problem = entry_problem(bone, screw))
+      if (const auto problem = screw_problem(bone, middle_x_m, screw))
         problems.push_back(which + " " + *problem);
   }
   return problems;

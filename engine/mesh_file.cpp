@@ -78,6 +78,23 @@ Result<nav::TriangleMesh> imported(const std::string& path) {
   }
 }
 
+/// The word after `SPACE=` near the file's beginning.
+std::optional<std::string> declared_space(const std::string& path) {
+  constexpr std::string_view kKey = "SPACE=";
+  std::string head(extension_of(path) == ".stl" ? kStlHeaderBytes : kCommentBytes, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  std::size_t at = head.find(kKey);
+  // A word of its own: COLORSPACE= says nothing of axes.
+  while (at != std::string::npos && at > 0 &&
+         std::isalnum(static_cast<unsigned char>(head[at - 1])) != 0)
+    at = head.find(kKey, at + 1);
+  if (at == std::string::npos) return std::nullopt;
+  const auto first = head.begin() + static_cast<std::ptrdiff_t>(at + kKey.size());
+  return std::string(first, std::find_if_not(first, head.end(),
+                                             [](unsigned char c) { return std::isalpha(c) != 0; }));
+}
+
 void put(std::string& bytes, const void* data, std::size_t size) {
   bytes.append(static_cast<const char*>(data), size);
 }
@@ -104,15 +121,14 @@ std::optional<double> metres_per_unit_from(const std::string& text) {
 }
 
 std::optional<Axes> declared_axes(const std::string& path) {
-  std::string head(extension_of(path) == ".stl" ? kStlHeaderBytes : kCommentBytes, '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  const std::size_t at = head.find("SPACE=");
-  return at == std::string::npos ? std::nullopt : axes_from(head.substr(at + 6, 3));
+  const auto word = declared_space(path);
+  return word ? axes_from(*word) : std::nullopt;
 }
 
 Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit, Axes axes) {
   if (Status status = readable(path); !status) return status.error();
+  if (const auto space = declared_space(path); space && !axes_from(*space))
+    return Error{path + ": SPACE is \"" + *space + "\", must be LPS or RAS"};
   Result<nav::TriangleMesh> apart = imported(path);
   if (!apart) return apart;
   // Files repeat a vertex for each of its triangles with the same digits, so equal means equal.

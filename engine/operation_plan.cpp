@@ -17,7 +17,7 @@ std::vector<std::string> two_lowest(const Case& source) {
   for (const CaseLevel& level : source.levels) levels.push_back(&level);
   // Height along the spine (+z superior), not the name: a case may call its levels anything.
   std::stable_sort(levels.begin(), levels.end(), [](const CaseLevel* a, const CaseLevel* b) {
-    return a->spine_from_vertebra.translation().z < b->spine_from_vertebra.translation().z;
+    return a->centre_in_spine().v.z < b->centre_in_spine().v.z;
   });
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < std::min<std::size_t>(2, levels.size()); ++i)

@@ -7,6 +7,7 @@
 
 #include "engine/atomic_file.h"
 #include "engine/json_document.h"
+#include "engine/operation.h"
 #include "engine/slicer_markups.h"
 #include "engine/text_fields.h"
 
@@ -48,7 +49,7 @@ Result<Plan> checked(Plan plan, const std::string& path) {
   for (std::size_t i = 0; i < plan.screws.size(); ++i) {
     const nav::ScrewPlan& screw = plan.screws[i];
     const std::string which =
-        path + ": screws[" + std::to_string(i) + "] (" + to_text(screw.side) + ") ";
+        path + ": screws[" + std::to_string(i) + "] (" + name_of(screw.side) + ") ";
     if (const std::string problem = problem_of(screw); !problem.empty())
       return Error{which + problem};
     if (++count[static_cast<int>(screw.side)] > 1)
@@ -189,9 +190,10 @@ nlohmann::json list_mm(Point<Vertebra> p) { return {p.v.x * 1e3, p.v.y * 1e3, p.
 
 }  // namespace
 
-std::string to_text(nav::Side side) { return side == nav::Side::kLeft ? "left" : "right"; }
-
 Result<Plan> load_plan(const std::string& path) {
+  // The legacy format holds points without lines: nothing says which of them make a screw.
+  if (lower_case(path).ends_with(".fcsv"))
+    return Error{path + ": an .fcsv file holds no lines; save the screws as .mrk.json lines"};
   return is_markups_name(path) ? plan_from_markups(path) : plan_from_json(path);
 }
 
@@ -201,7 +203,7 @@ Status save_plan(const std::string& path, const Plan& plan) {
   root["screws"] = nlohmann::ordered_json::array();
   for (const nav::ScrewPlan& screw : plan.screws) {
     nlohmann::ordered_json entry;
-    entry["side"] = to_text(screw.side);
+    entry["side"] = name_of(screw.side);
     entry["entry"] = list_mm(screw.entry);
     entry["target"] = list_mm(screw.target);
     entry["radius"] = screw.radius_m * 1e3;

@@ -22,13 +22,11 @@ struct Plan {
 /// "right", "entry", "target", "radius"}]}`, or the lines of a 3D Slicer markups file (`.mrk.json`:
 /// point 0 entry, point 1 target, side from the name, `diameter=5.5` in name or description; radius
 /// 0 where none is given). Refuses plans without unit or frame, without screws, with two screws on
-/// one side, screws shorter than 10 mm or longer than 120 mm, and radii outside 1-6 mm.
+/// one side, screws shorter than 10 mm or longer than 120 mm, radii outside 1-6 mm, and the
+/// legacy `.fcsv`, which knows no lines.
 Result<Plan> load_plan(const std::string& path);
 
 /// Writes a plan in millimetres and LPS.
 Status save_plan(const std::string& path, const Plan& plan);
-
-/// "left" or "right".
-[[nodiscard]] std::string to_text(nav::Side side);
 
 }  // namespace orthonav::engine

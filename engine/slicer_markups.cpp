@@ -1,6 +1,9 @@
 #include "engine/slicer_markups.h"
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 
 #include "engine/json_document.h"
 #include "engine/text_fields.h"
@@ -8,7 +11,9 @@
 namespace orthonav::engine {
 namespace {
 
-/// The columns of a legacy file before its `# columns` line says otherwise.
+/// The columns that every version of the legacy format begins with; a file that says it has others
+/// is refused.
+constexpr std::array<std::string_view, 4> kFirstColumns = {"id", "x", "y", "z"};
 constexpr std::size_t kFirstCoordinate = 1;
 constexpr std::size_t kLabelColumn = 11;
 
@@ -36,10 +41,31 @@ void read_frame(const JsonNode& node, bool first, MarkupsFile& file) {
   file.metres_per_unit = *metres;
 }
 
+bool known_columns(const std::string& value) {
+  const std::vector<std::string> names = split(value, ',');
+  return names.size() >= kFirstColumns.size() &&
+         std::equal(kFirstColumns.begin(), kFirstColumns.end(), names.begin()) &&
+         (names.size() <= kLabelColumn || names[kLabelColumn] == "label");
+}
+
 std::optional<Axes> fcsv_axes(const std::string& value) {
   if (value == "0") return Axes::kRas;
   if (value == "1") return Axes::kLps;
   return axes_from(value);
+}
+
+/// A remark may say how the points are written: `CoordinateSystem = ...` or `columns = ...`.
+Status read_remark(const std::string& remark, const std::string& where, std::optional<Axes>& axes) {
+  const std::vector<std::string> parts = split(remark, '=');
+  if (parts.size() != 2) return {};
+  if (parts[0] == "CoordinateSystem") {
+    axes = fcsv_axes(parts[1]);
+    if (!axes) return Error{where + ": CoordinateSystem must be LPS, RAS, 0 or 1"};
+  }
+  if (parts[0] == "columns" && !known_columns(parts[1]))
+    return Error{where + ": columns are \"" + parts[1] +
+                 "\", must be id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,..."};
+  return {};
 }
 
 }  // namespace
@@ -74,10 +100,7 @@ Result<MarkupsFile> load_fcsv(const std::string& path) {
     ++line_number;
     const std::string where = path + ": line " + std::to_string(line_number);
     if (line.starts_with('#')) {
-      const std::vector<std::string> parts = split(line.substr(1), '=');
-      if (parts.size() != 2 || parts[0] != "CoordinateSystem") continue;
-      axes = fcsv_axes(parts[1]);
-      if (!axes) return Error{where + ": CoordinateSystem must be LPS, RAS, 0 or 1"};
+      if (Status read = read_remark(line.substr(1), where, axes); !read) return read.error();
     } else if (!line.empty()) {
       const std::vector<std::string> fields = split(line, ',');
       Vec3 position;

@@ -32,7 +32,8 @@ struct MarkupsFile {
 /// or `coordinateUnits` (mm or m), and files whose markups differ in either.
 Result<MarkupsFile> load_markups(const std::string& path);
 
-/// Reads the legacy `.fcsv` (always mm); refuses one without `# CoordinateSystem`.
+/// Reads the legacy `.fcsv` (always mm); refuses one without `# CoordinateSystem`, or whose
+/// `# columns` do not begin as Slicer writes them.
 Result<MarkupsFile> load_fcsv(const std::string& path);
 
 [[nodiscard]] bool is_markups_name(const std::string& path);

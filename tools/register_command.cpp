@@ -7,6 +7,7 @@
 
 #include "engine/mesh_file.h"
 #include "engine/method.h"
+#include "engine/operation.h"
 #include "engine/plan_file.h"
 #include "engine/points_file.h"
 #include "nav/guidance/predicted_error.h"
@@ -123,7 +124,7 @@ nlohmann::ordered_json as_json(const RegisterArguments& arguments, const Inputs&
                                 {"predicted_tre_mm", in_mm(predicted_tre_m(screws, r))},
                                 {"iterations", r.iterations}};
   for (const nav::PredictedScrewError& s : screws)
-    out["screws"].push_back({{"side", engine::to_text(s.side)},
+    out["screws"].push_back({{"side", engine::name_of(s.side)},
                              {"predicted_entry_tre_mm", in_mm(s.entry_m)},
                              {"predicted_target_tre_mm", in_mm(s.target_m)}});
   return out;
@@ -138,7 +139,7 @@ void print(const Inputs& inputs, const nav::Registration& r) {
     std::printf("error to expect at the model's centre: %.2f mm\n", r.predicted_tre_m * 1e3);
   for (const nav::PredictedScrewError& s : screws)
     std::printf("error to expect at the %s screw: entry %.2f mm, target %.2f mm\n",
-                engine::to_text(s.side).c_str(), s.entry_m * 1e3, s.target_m * 1e3);
+                engine::name_of(s.side), s.entry_m * 1e3, s.target_m * 1e3);
   std::printf("model to points (%s):\n", inputs.points_unit_m == 1.0 ? "m" : "mm");
   for (const auto& row : model_to_points(inputs, r))
     std::printf("%12.6f %12.6f %12.6f %14.6f\n", row[0].get<double>(), row[1].get<double>(),

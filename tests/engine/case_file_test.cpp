@@ -91,11 +91,14 @@ TEST_F(CaseFile, LeavesModelsOfOneScanWhereTheyAre) {
 }
 
 TEST_F(CaseFile, TurnsARasMatrixWithItsModel) {
+  nav::TriangleMesh in_ras_axes = box_mesh();
+  for (Vec3& v : in_ras_axes.vertices_m) v = to_lps(v, Axes::kRas);
+  std::ignore = folder_.with("L4.obj", as_obj(in_ras_axes, 1e3));
   std::ignore =
       folder_.with("L4.plan.json", R"({"units": "mm", "frame": "RAS", "screws": [{"side": "left",
       "entry": [-20, -30, 0], "target": [-10, 10, 0], "radius": 3}]})");
-  const auto loaded = load(level("L4", R"(, "spine_from_model":
-      [1,0,0,10, 0,0.8,-0.6,20, 0,0.6,0.8,30, 0,0,0,1])"));
+  const auto loaded = load(R"({"label": "L4", "model": "L4.obj", "plan": "L4.plan.json",
+      "spine_from_model": [1,0,0,10, 0,0.8,-0.6,20, 0,0.6,0.8,30, 0,0,0,1]})");
   ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Transform<Spine, Vertebra>& place = loaded->levels[0].spine_from_vertebra;
   // A point of the model in RAS, sent through the file's matrix there, then turned to LPS...
@@ -105,6 +108,17 @@ TEST_F(CaseFile, TurnsARasMatrixWithItsModel) {
   // ...is where the case puts the same point in LPS.
   const Vec3 placed = (place * Point<Vertebra>{to_lps(in_ras, Axes::kRas)}).v;
   EXPECT_LT((placed - to_lps(in_spine_ras, Axes::kRas)).norm(), 1e-12);
+}
+
+TEST_F(CaseFile, TurnsAMatrixByTheAxesThatTheModelDeclaresNotByThePlans) {
+  // The model's file says LPS, its plan is written in RAS.
+  std::ignore =
+      folder_.with("L4.plan.json", R"({"units": "mm", "frame": "RAS", "screws": [{"side": "left",
+      "entry": [-20, -30, 0], "target": [-10, 10, 0], "radius": 3}]})");
+  const auto loaded = load(level("L4", R"(, "spine_from_model":
+      [1,0,0,10, 0,1,0,20, 0,0,1,30, 0,0,0,1])"));
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  EXPECT_EQ(loaded->levels[0].spine_from_vertebra.translation(), (Vec3{0.010, 0.020, 0.030}));
 }
 
 TEST_F(CaseFile, NamesWhatIsMissing) {
@@ -144,6 +158,39 @@ TEST_F(CaseFile, RefusesAPlanOffTheBone) {
               HasSubstr("L4 left entry lies 15.0 mm off the bone, limit 10.0 mm"));
 }
 
+/// One screw on the box of 80 x 60 x 40 mm: what `check` says of it.
+std::string said_of(nav::Side side, Vec3 entry, Vec3 target, double radius = 0.003) {
+  Case subject;
+  subject.levels = {{"L4", box_mesh(), {{side, {entry}, {target}, radius}}, {}}};
+  const auto problems = subject.check();
+  EXPECT_LE(problems.size(), 1u);
+  return problems.empty() ? "" : problems.front();
+}
+
+TEST(Case, RefusesScrewsInOtherAxesOrOnTheOtherSide) {
+  constexpr auto kLeft = nav::Side::kLeft;
+  constexpr auto kRight = nav::Side::kRight;
+  EXPECT_EQ(said_of(kLeft, {0.02, 0.03, 0}, {0.01, -0.01, 0}), "");
+  EXPECT_EQ(said_of(kRight, {-0.02, 0.03, 0}, {-0.01, -0.01, 0}), "");
+  EXPECT_EQ(said_of(kLeft, {0.02, -0.03, 0}, {0.01, 0.01, 0}),
+            "L4 left entry lies 40.0 mm in front of its target, must lie behind it (posterior)");
+  EXPECT_EQ(said_of(kRight, {0.02, 0.03, 0}, {0.01, -0.01, 0}),
+            "L4 right entry lies 20.0 mm to the left of the bone's middle, must lie to the right");
+  EXPECT_EQ(said_of(kLeft, {-0.02, 0.03, 0}, {-0.01, -0.01, 0}),
+            "L4 left entry lies 20.0 mm to the right of the bone's middle, must lie to the left");
+}
+
+TEST(Case, RefusesATargetThatStandsOutOfTheBoneByMoreThanItsRadius) {
+  const auto tip_at = [](double y, double radius) {
+    return said_of(nav::Side::kLeft, {0.02, 0.03, 0}, {0.01, y, 0}, radius);
+  };
+  // The front face lies at y = -30 mm.
+  EXPECT_EQ(tip_at(-0.0335, 0.0036), "");
+  EXPECT_EQ(tip_at(-0.0340, 0.0036), "L4 left target lies 4.0 mm outside the bone, limit 3.6 mm");
+  EXPECT_EQ(tip_at(-0.0329, 0.0), "") << "3 mm where no radius is stated";
+  EXPECT_EQ(tip_at(-0.0331, 0.0), "L4 left target lies 3.1 mm outside the bone, limit 3.0 mm");
+}
+
 TEST(Case, NamesEveryProblemAtOnce) {
   Case bad;
   EXPECT_THAT(bad.check(), ElementsAre("levels is empty"));
@@ -159,13 +206,16 @@ TEST(Case, NamesEveryProblemAtOnce) {
 TEST(Case, ReadsTheRealSpines) {
   const std::filesystem::path anatomy = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
   if (!std::filesystem::exists(anatomy)) GTEST_SKIP() << "no " << anatomy;
-  const auto loaded = load_case((anatomy / "visible-human").string());
-  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
-  EXPECT_EQ(loaded->levels.size(), 5u);
-  for (const CaseLevel& level : loaded->levels) {
-    EXPECT_EQ(level.screws.size(), 2u);
-    for (const nav::ScrewPlan& screw : level.screws)
-      EXPECT_NEAR((screw.target - screw.entry).norm(), 0.045, 1e-4);
+  for (const auto& [name, levels] :
+       {std::pair{"visible-human", 5u}, {"morph-a", 4u}, {"morph-b", 4u}, {"shape-mean", 4u}}) {
+    const auto loaded = load_case((anatomy / name).string());
+    ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+    EXPECT_EQ(loaded->levels.size(), levels);
+    for (const CaseLevel& level : loaded->levels) {
+      EXPECT_EQ(level.screws.size(), 2u);
+      for (const nav::ScrewPlan& screw : level.screws)
+        EXPECT_NEAR((screw.target - screw.entry).norm(), 0.045, 1e-4);
+    }
   }
 }
 

@@ -89,6 +89,20 @@ TEST(MeshFile, BelievesTheAxesThatTheFileDeclares) {
   EXPECT_LT((sum - Vec3{0.010, 0, 0}).norm(), kFileDigits_m) << "SPACE=LPS stands in the header";
 }
 
+TEST(MeshFile, RefusesAxesThatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  const auto obj = [&](const std::string& remark) {
+    return folder.with("box.obj", "# " + remark + "\n" + as_obj(box_mesh(), 1e3));
+  };
+  const auto lis = load_mesh(obj("SPACE=LIS"), kMm);
+  ASSERT_FALSE(lis.ok());
+  EXPECT_THAT(lis.error().message, HasSubstr("box.obj: SPACE is \"LIS\", must be LPS or RAS"));
+  EXPECT_FALSE(load_mesh(obj("SPACE=RASX"), kMm).ok());
+  EXPECT_FALSE(load_mesh(obj("SPACE="), kMm).ok());
+  EXPECT_TRUE(load_mesh(obj("SPACE=RAS;UNIT=mm"), kMm).ok());
+  EXPECT_TRUE(load_mesh(obj("COLORSPACE=sRGB"), kMm).ok()) << "a word of its own";
+}
+
 TEST(MeshFile, ReadsEveryRealVertebra) {
   const std::filesystem::path anatomy = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
   if (!std::filesystem::exists(anatomy)) GTEST_SKIP() << "no " << anatomy;

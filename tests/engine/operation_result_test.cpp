@@ -88,6 +88,23 @@ TEST(OperationPlan, TakesTheTwoLowestLevelsInTheOrderOfTheCase) {
   EXPECT_TRUE(operation->check().empty());
 }
 
+TEST(OperationPlan, TakesTheTwoLowestOfOneScanWhereAllModelsShareAFrame) {
+  Case scan = phantom();
+  for (CaseLevel& level : scan.levels) {
+    for (Vec3& v : level.mesh.vertices_m) v = (level.spine_from_vertebra * Point<Vertebra>{v}).v;
+    for (nav::ScrewPlan& screw : level.screws) {
+      screw.entry = {(level.spine_from_vertebra * screw.entry).v};
+      screw.target = {(level.spine_from_vertebra * screw.target).v};
+    }
+    level.spine_from_vertebra = {};
+  }
+  ASSERT_TRUE(scan.check().empty());
+  EXPECT_THAT(levels_to_operate(scan).value(), ::testing::ElementsAre("L4", "L5"));
+  // By where they lie, not by their order in the file.
+  std::reverse(scan.levels.begin(), scan.levels.end());
+  EXPECT_THAT(levels_to_operate(scan).value(), ::testing::ElementsAre("L5", "L4"));
+}
+
 TEST(OperationPlan, RefusesLevelsThatAreNotThereOrNamedTwice) {
   const Case lumbar = phantom({"L4", "L5"});
   const auto unknown = plan_operation(lumbar, {"L9"});

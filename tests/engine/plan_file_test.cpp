@@ -187,5 +187,13 @@ TEST(PlanFile, WritesWhatItReadsBack) {
   EXPECT_NEAR(back->screws[0].radius_m, 0.00275, kRounding_m);
 }
 
+TEST(PlanFile, SaysThatALegacyMarkupsFileHoldsNoLines) {
+  const TemporaryFolder folder;
+  const auto plan = load_plan(
+      folder.with("L4.FCSV", "# CoordinateSystem = LPS\nf,1,2,3,0,0,0,1,1,1,0,L4 left,,\n"));
+  ASSERT_FALSE(plan.ok());
+  EXPECT_THAT(plan.error().message, HasSubstr("L4.FCSV: an .fcsv file holds no lines"));
+}
+
 }  // namespace
 }  // namespace orthonav::engine

@@ -164,5 +164,17 @@ TEST(PointsFile, ReadsLegacyFiducials) {
   EXPECT_THAT(refusal("p.fcsv", head + "LPS\n"), HasSubstr("holds no points"));
 }
 
+TEST(PointsFile, RefusesLegacyMarkupsWithOtherColumns) {
+  const std::string system = "# CoordinateSystem = LPS\n";
+  const auto slicer = loaded("p.fcsv", system +
+                                           "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,"
+                                           "desc,associatedNodeID\nf,1,2,3,0,0,0,1,1,1,0,a,,\n");
+  EXPECT_TRUE(slicer.ok());
+  EXPECT_THAT(refusal("p.fcsv", system + "# columns = label,x,y,z,sel,vis\na,1,2,3,1,1\n"),
+              HasSubstr("p.fcsv: line 2: columns are \"label,x,y,z,sel,vis\", must be id,x,y,z"));
+  EXPECT_THAT(refusal("p.fcsv", system + "# columns = id,y,x,z\nf,1,2,3\n"),
+              HasSubstr("must be id,x,y,z"));
+}
+
 }  // namespace
 }  // namespace orthonav::engine
