@@ -100,6 +100,7 @@ Result<bool> FrameLoop::next_frame(LoopReport& report) {
 
 Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   const Stopwatch watch;
+  const Timestamp received = headset_.clock().now();
   clicks_.clear();
   phrases_.clear();
   const Status clicked = headset_.clicker().poll(frame_.time, clicks_);
@@ -109,7 +110,8 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   Inputs inputs;
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
-  inputs.display_time = headset_.display().predicted_display_time(frame_.time);
+  // What is made of this pair is submitted from here on: the images were underway for a while.
+  inputs.display_time = headset_.display().predicted_display_time(received);
   const Guidance& guidance = session_.step(frame_, inputs);
   if (!first_frame_seen_) report.first_frame = frame_.time;
   first_frame_seen_ = true;

@@ -48,9 +48,9 @@ struct ToolSight {
 
 /// The tool against the selected screw.
 struct ToolGuidance {
-  /// From one stereo pair: what is written as a number. Head motion between then and now has no
-  /// part in it.
-  nav::ScrewGuidance measured;
+  /// From this very stereo pair: what is written as a number. Head motion between then and now has
+  /// no part in it. Absent when the tool was not measured in this pair: a prediction is no reading.
+  std::optional<nav::ScrewGuidance> measured;
   /// Predicted to the display time: what is drawn over the patient.
   nav::ScrewGuidance shown;
   Timestamp pose_time{};  ///< mid-exposure of the newest pair in which the tool was measured

@@ -86,12 +86,12 @@ void Journal::screw_done(Timestamp time, const LevelState& level, const nav::Scr
   Json line = entry(time, "screw");
   line["level"] = level.plan.label;
   line["side"] = name_of(screw.side);
-  if (last) {
+  if (last && last->measured) {
     line["pose_time_100ns"] = ticks_100ns(last->pose_time);
-    line["angle_deg"] = degrees(last->measured.angle_rad);
-    line["tip_to_entry_mm"] = last->measured.tip_to_entry_m * 1e3;
-    line["tip_off_axis_mm"] = last->measured.tip_off_axis_m * 1e3;
-    line["depth_mm"] = last->measured.depth_m * 1e3;
+    line["angle_deg"] = degrees(last->measured->angle_rad);
+    line["tip_to_entry_mm"] = last->measured->tip_to_entry_m * 1e3;
+    line["tip_off_axis_mm"] = last->measured->tip_off_axis_m * 1e3;
+    line["depth_mm"] = last->measured->depth_m * 1e3;
   }
   write_line(out_, line);
 }

@@ -111,16 +111,18 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
   add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v), label_of(4, 1));
   if (visible_.triangle) {
     // The overlay is where the tool will be when the frame lights up; the number and its colour
-    // come from one stereo pair.
+    // come from one stereo pair. What is only predicted has no number and is never called good.
     const nav::ScrewGuidance& shown = guidance.tool->shown;
-    const double angle_rad = guidance.tool->measured.angle_rad;
-    const Grade grade = grade_of(angle_rad);
+    std::optional<double> angle_rad;
+    if (visible_.angle) angle_rad = guidance.tool->measured->angle_rad;
+    const Grade grade =
+        angle_rad ? grade_of(*angle_rad) : std::max(grade_of(shown.angle_rad), Grade::kFair);
     const render::Float3 a = to_float3(shown.a.v);
     const render::Float3 b = to_float3(shown.b.v);
     add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade, label_of(5, 1));
     add_angle_readout(scene, a, b, angle_text(angle_rad), grade, label_of(6, 1));
   }
-  if (visible_.angle_lost)
+  if (visible_.angle_lost && !visible_.triangle)
     // Where the number would be with the tool on the plan.
     add_angle_readout(scene, to_float3(line.entry.v), to_float3(line.outside.v),
                       angle_text(std::nullopt), Grade::kPoor, label_of(6, 1));

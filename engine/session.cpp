@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <utility>
 
 namespace orthonav::engine {
@@ -69,6 +68,9 @@ std::vector<std::string> SessionOptions::check() const {
   if (!(rod_diameter_m >= 0.001 && rod_diameter_m <= 0.02))
     problems.push_back("rod_diameter_m must lie in [0.001, 0.02]");
   if (fade < Duration::zero()) problems.push_back("fade must not be negative");
+  if (!(max_touch_spread_m > 0.0 && max_touch_spread_m <= 0.01))
+    problems.push_back("max_touch_spread_m must lie in (0, 0.01]");
+  if (message_for <= Duration::zero()) problems.push_back("message_for must be positive");
   return problems;
 }
 
@@ -139,10 +141,21 @@ void Session::click(const ClickerEvent& event) { handle(event_of(event.action), 
 
 void Session::hear(const Phrase& phrase) {
   const auto event = command(phrase.text);
-  if (event && phrase.confidence >= options_.min_voice_confidence)
+  const bool sure = phrase.confidence >= options_.min_voice_confidence;
+  if (!event || !sure) {
+    if (!sure) say("not understood", phrase.time);
+    if (observer_) observer_->not_understood(phrase);
+  } else if (precedes_the_hologram(*event, phrase.time)) {
+    if (observer_) observer_->happened(phrase.time, step_, *event, Cell{step_, Action::kRefuse});
+    say("not accepted: said before the hologram was shown", phrase.time);
+  } else {
     handle(*event, phrase.time);
-  else if (observer_)
-    observer_->not_understood(phrase);
+  }
+}
+
+bool Session::precedes_the_hologram(Event event, Timestamp spoken) const {
+  if (step_ != Step::kVerify || event != Event::kSayAccept) return false;
+  return !verify_visible_at_ || spoken < *verify_visible_at_;
 }
 
 void Session::handle(Event event, Timestamp time) {
@@ -201,6 +214,7 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   Guidance& out = guidance_;
   out.frame_time = frame.time;
   out.display_time = display_time;
+  if (step_ == Step::kVerify && !verify_visible_at_) verify_visible_at_ = display_time;
   const auto tool = active_tool();
   out.pose_time = tool ? watches_[*tool].last_measured().value_or(Timestamp{}) : frame.time;
   out.step = step_;
@@ -225,10 +239,10 @@ void Session::publish_tool_guidance(Timestamp now, Timestamp display_time) {
   if (step_ != Step::kGuide || guidance_hidden_ || !level().registration) return;
   const ToolWatch& watch = watches_[guide_];
   if (!watch.fresh(now, options_.stale_after)) return;
-  // Between two measurements the tracker's own prediction stands in; without one there is nothing.
-  const nav::TrackedPose& now_pose = watch.newest();
+  // Between two measurements the overlay is predicted, as long as the tracker itself still follows
+  // the tool; the number is not.
   const nav::TrackedPose at_display = watch.at(display_time, options_.stale_after);
-  if (now_pose.origin == Origin::kLost || at_display.origin == Origin::kLost) return;
+  if (watch.newest().origin == Origin::kLost || at_display.origin == Origin::kLost) return;
   const nav::ToolGeometry& tool = tracker_->tools()[guide_];
   const auto& world_from_vertebra = level().registration->world_from_vertebra;
   const nav::ScrewPlan& plan = level().plan.screws[screw_];
@@ -236,61 +250,11 @@ void Session::publish_tool_guidance(Timestamp now, Timestamp display_time) {
     return nav::guide(world_from_vertebra, plan, pose * tool.tip_in_marker,
                       (pose * tool.axis_in_marker).v);
   };
-  guidance_.tool = ToolGuidance{guide(now_pose.value), guide(at_display.value),
+  guidance_.tool = ToolGuidance{std::nullopt, guide(at_display.value),
                                 watch.last_measured().value_or(Timestamp{})};
-  if (now_pose.origin == Origin::kMeasured) last_guidance_ = guidance_.tool;
-}
-
-void Session::write_step_text() {
-  std::array<char, 160> text{};
-  const std::string& label = level().plan.label;
-  const char* name = name_of(step_).data();
-  switch (step_) {
-    case Step::kSetup:
-    case Step::kDone:
-      guidance_.step_text = name;
-      break;
-    case Step::kDigitize:
-    case Step::kVerify:
-    case Step::kAccepted:
-      std::snprintf(text.data(), text.size(), "%s %s", name, label.c_str());
-      guidance_.step_text = text.data();
-      break;
-    case Step::kGuide:
-      std::snprintf(text.data(), text.size(), "%s %s %s", name, label.c_str(),
-                    name_of(level().plan.screws[screw_].side));
-      guidance_.step_text = text.data();
-      break;
-    case Step::kRod:
-      std::snprintf(text.data(), text.size(), "%s %s", name, name_of(rods_[rod_].side));
-      guidance_.step_text = text.data();
-      break;
-  }
-}
-
-void Session::write_detail() {
-  guidance_.detail = message_;
-  if (!message_.empty()) return;
-  std::array<char, 160> text{};
-  const auto write = [&](const char* format, auto... values) {
-    std::snprintf(text.data(), text.size(), format, values...);
-  };
-  const auto tool = active_tool();
-  if (tool && seen_ != Seen::kMeasured && seen_ != Seen::kNever) {
-    write("%s lost", tracker_->tools()[*tool].name.c_str());
-  } else if (step_ == Step::kDigitize) {
-    std::size_t points = 0;
-    for (const nav::Region& region : digitizer_.regions()) points += region.samples.size();
-    write("%zu points", points);
-  } else if ((step_ == Step::kVerify || step_ == Step::kAccepted) && level().registration) {
-    write("RMSE %.2f mm, %.1f mm expected at the screws", level().registration->rmse_m * 1e3,
-          nav::worst_m(level().predicted) * 1e3);
-  } else if (step_ == Step::kGuide) {
-    write("%.1f mm expected", level().predicted[screw_].worst_m() * 1e3);
-  } else if (step_ == Step::kRod) {
-    write("%zu heads", rods_[rod_].heads.size());
-  }
-  guidance_.detail = text.data();
+  if (!watch.measured_now()) return;
+  guidance_.tool->measured = guide(watch.newest().value);
+  last_guidance_ = guidance_.tool;
 }
 
 }  // namespace orthonav::engine

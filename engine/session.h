@@ -25,6 +25,11 @@ struct SessionOptions {
   /// one said twice.
   double min_voice_confidence = 0.5;
   double rod_diameter_m = 0.0055;
+  /// A screw head whose touches scatter more than this (root mean square about their mean) was not
+  /// touched at rest. A pointer held still scatters by some tenths of a millimetre.
+  double max_touch_spread_m = 0.001;
+  /// A message to the surgeon goes by itself after so long.
+  Duration message_for = std::chrono::seconds(3);
   /// A deleted path fades for so long.
   Duration fade = std::chrono::milliseconds(300);
 
@@ -71,6 +76,7 @@ class Session {
   // session.cpp: the order of one step.
   void answer_inputs(const Inputs& inputs);
   void hear(const Phrase& phrase);
+  [[nodiscard]] bool precedes_the_hologram(Event event, Timestamp spoken) const;
   void click(const ClickerEvent& event);
   void handle(Event event, Timestamp time);
   void track(const StereoFrame& frame);
@@ -78,9 +84,12 @@ class Session {
   void collect_samples();
   void publish(const StereoFrame& frame, Timestamp display_time);
   void publish_tool_guidance(Timestamp now, Timestamp display_time);
+  [[nodiscard]] std::optional<std::size_t> active_tool() const;
+
+  // session_status.cpp: the status line.
   void write_step_text();
   void write_detail();
-  [[nodiscard]] std::optional<std::size_t> active_tool() const;
+  void write_state_of_step();
 
   // session_actions.cpp: what the table asks for.
   void act(Action action, Event event, Timestamp time);
@@ -90,13 +99,15 @@ class Session {
   void try_registration(Timestamp time);
   void finish_screw(Timestamp time);
   void record_head(Timestamp time);
+  [[nodiscard]] Result<Point<World>> touched_head(Timestamp time) const;
+  void end_touch();
   void drop_head(Timestamp time);
   void finish_rod(Timestamp time);
-  void update_rod();
+  void update_rod(Timestamp time);
   void drop_region(Timestamp time);
   void drop_unsaved();
   void begin_level();
-  void say(std::string message) { message_ = std::move(message); }
+  void say(std::string message, Timestamp time);
   [[nodiscard]] LevelState& level() { return levels_[level_]; }
 
   std::unique_ptr<nav::ToolTracker> tracker_;
@@ -117,7 +128,8 @@ class Session {
   nav::Digitizer digitizer_;
   DroppedRegion dropped_;
   std::vector<Point<World>> touch_;  ///< tips while the button is down, for a screw head
-  bool touching_ = false;
+  bool touching_ = false;            ///< the button is down
+  bool touch_begun_ = false;         ///< on this rod, by a press that no click has used yet
 
   std::span<const nav::ToolState> states_;
   std::vector<ToolWatch> watches_;
@@ -126,7 +138,13 @@ class Session {
   std::optional<std::size_t> seen_tool_;
   bool guidance_hidden_ = false;
 
-  std::string message_;  ///< what the surgeon must be told, until he does something that is taken
+  /// When the registration to be verified lights up for the first time. What was said before that
+  /// can't be a judgement of it.
+  std::optional<Timestamp> verify_visible_at_;
+
+  /// What the surgeon must be told, until he does something that is taken, or for a while.
+  std::string message_;
+  Timestamp message_until_{};
   std::optional<ToolGuidance> last_guidance_;  ///< newest of the selected screw
   Guidance guidance_;
 };

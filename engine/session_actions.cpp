@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 
 #include "engine/session.h"
 
@@ -7,7 +10,7 @@ namespace orthonav::engine {
 void Session::act(Action action, Event event, Timestamp time) {
   switch (action) {
     case Action::kRefuse:
-      say("not possible now: " + std::string(name_of(event)));
+      say("not possible now: " + std::string(name_of(event)), time);
       return;
     case Action::kIgnore:
       return;
@@ -21,6 +24,13 @@ void Session::act(Action action, Event event, Timestamp time) {
       return;
     case Action::kCountRefusal:
       return;  // the reason was said where it arose
+    case Action::kEndTouch:
+      touching_ = false;
+      return;  // the click that may follow uses the touch
+    case Action::kDropTouch:
+      end_touch();
+      say("head not recorded: hold too long", time);
+      return;
     default:
       break;
   }
@@ -61,11 +71,15 @@ void Session::act_on_level(Action action, Timestamp time) {
       drop_unsaved();
       try_registration(time);
       return;
+    case Action::kShowRegistration:
+      verify_visible_at_.reset();
+      return;
     case Action::kAccept:
       level().accepted = true;
       return;
     case Action::kClearLevel:
       level().registration.reset();
+      level().predicted.clear();
       level().accepted = false;
       level().first_press.reset();
       // Wires driven on a registration that is thrown away are not undone; what was done stays.
@@ -91,11 +105,12 @@ void Session::act_on_level(Action action, Timestamp time) {
 void Session::act_on_rod(Action action, Timestamp time) {
   switch (action) {
     case Action::kBeginRod:
-      if (rods_[rod_].heads.empty()) touching_ = false;
+      end_touch();
       return;
     case Action::kBeginTouch:
       touch_.clear();
       touching_ = true;
+      touch_begun_ = true;
       return;
     case Action::kRecordHead:
       record_head(time);
@@ -160,7 +175,7 @@ void Session::try_registration(Timestamp time) {
     now.registered_at = time;
     now.digitization_s = now.first_press ? seconds(time - *now.first_press) : 0.0;
   } else {
-    say("refused: " + reason);
+    say("refused: " + reason, time);
   }
   if (observer_) {
     nav::Registration unusable;
@@ -188,38 +203,59 @@ void Session::finish_screw(Timestamp time) {
     handle(Event::kNoScrewLeft, time);
 }
 
-void Session::record_head(Timestamp time) {
+void Session::end_touch() {
+  touch_.clear();
   touching_ = false;
-  const ToolWatch& pointer = watches_[pointer_];
-  Point<World> head;
-  if (!touch_.empty()) {
-    Vec3 sum{};
-    for (const Point<World>& tip : touch_) sum += tip.v;
-    head = {sum / static_cast<double>(touch_.size())};
-  } else if (pointer.fresh(time, options_.stale_after)) {
+  touch_begun_ = false;
+}
+
+Result<Point<World>> Session::touched_head(Timestamp time) const {
+  // The press fell into another rod, or before the rods.
+  if (!touch_begun_) return Error{"press again"};
+  if (touch_.empty()) {
     // A click shorter than a frame: the pose of the pair just before it.
-    head = pointer.last_measured_pose().value * tracker_->tools()[pointer_].tip_in_marker;
-  } else {
-    say("head not recorded: pointer not seen");
+    const ToolWatch& pointer = watches_[pointer_];
+    if (!pointer.fresh(time, options_.stale_after)) return Error{"pointer not seen"};
+    return pointer.last_measured_pose().value * tracker_->tools()[pointer_].tip_in_marker;
+  }
+  const auto count = static_cast<double>(touch_.size());
+  Vec3 sum{};
+  for (const Point<World>& tip : touch_) sum += tip.v;
+  const Vec3 mean = sum / count;
+  double squares = 0.0;
+  for (const Point<World>& tip : touch_) squares += (tip.v - mean).dot(tip.v - mean);
+  const double spread_m = std::sqrt(squares / count);
+  if (spread_m <= options_.max_touch_spread_m) return Point<World>{mean};
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "tip moved %.1f mm, limit %.1f mm", spread_m * 1e3,
+                options_.max_touch_spread_m * 1e3);
+  return Error{text.data()};
+}
+
+void Session::record_head(Timestamp time) {
+  const auto head = touched_head(time);
+  end_touch();
+  if (!head) {
+    say("head not recorded: " + head.error().message, time);
     return;
   }
-  rods_[rod_].heads.push_back(head);
-  update_rod();
-  if (observer_) observer_->head_recorded(time, rods_[rod_].side, head);
+  rods_[rod_].heads.push_back(*head);
+  update_rod(time);
+  if (observer_) observer_->head_recorded(time, rods_[rod_].side, *head);
 }
 
 void Session::drop_head(Timestamp time) {
   RodState& rod = rods_[rod_];
   if (rod.heads.empty()) {
-    say("no head to delete");
+    say("no head to delete", time);
     return;
   }
   rod.heads.pop_back();
-  update_rod();
+  update_rod(time);
   if (observer_) observer_->head_dropped(time, rod.side);
 }
 
-void Session::update_rod() {
+void Session::update_rod(Timestamp time) {
   RodState& rod = rods_[rod_];
   rod.rod.reset();
   if (rod.heads.size() < 2) return;
@@ -229,7 +265,7 @@ void Session::update_rod() {
   if (made)
     rod.rod = std::move(*made);
   else
-    say("no rod: " + made.error().message);
+    say("no rod: " + made.error().message, time);
 }
 
 void Session::finish_rod(Timestamp time) {

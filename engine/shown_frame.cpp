@@ -101,7 +101,7 @@ void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& v
     const nav::ScrewGuidance& shown = guidance.tool->shown;
     add(frame, "H5 triangle").points_in_world = {shown.a, shown.b, shown.c};
   }
-  if (visible.angle) add(frame, "H6 angle").text = angle_text(guidance.tool->measured.angle_rad);
+  if (visible.angle) add(frame, "H6 angle").text = angle_text(guidance.tool->measured->angle_rad);
   if (visible.angle_lost) add(frame, "H6 angle").text = angle_text(std::nullopt);
 }
 

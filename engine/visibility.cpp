@@ -23,10 +23,14 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Visibili
   // triangle is worse than none.
   const bool fresh = out.trajectory && g.tool.has_value() &&
                      g.display_time - g.tool->pose_time <= rules.stale_after;
-  out.triangle = fresh && g.tool->measured.tip_to_entry_m <= rules.triangle_within_m;
-  out.angle = out.triangle;
-  // A lost value says so in the place of the number, never with the last number.
-  out.angle_lost = out.trajectory && !fresh;
+  const auto near = [&](const nav::ScrewGuidance& guidance) {
+    return guidance.tip_to_entry_m <= rules.triangle_within_m;
+  };
+  out.triangle = fresh && near(g.tool->measured ? *g.tool->measured : g.tool->shown);
+  out.angle = out.triangle && g.tool->measured.has_value();
+  // A lost value says so in the place of the number, never with the last number, nor with one that
+  // was predicted.
+  out.angle_lost = out.trajectory && !out.angle && (out.triangle || !fresh);
   // H10: from the first head until the end.
   out.rods = g.step == Step::kRod || g.step == Step::kDone;
 }

@@ -33,11 +33,12 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
 };
 
 constexpr std::array<std::string_view, kActionCount> kActionNames = {
-    "refuse",      "ignore",          "begin level",   "start sampling",    "stop sampling",
-    "save region", "drop region",     "register",      "show registration", "count refusal",
-    "accept",      "clear level",     "select screw",  "finish screw",      "begin rod",
-    "begin touch", "record head",     "drop head",     "finish rod",        "move rod",
-    "finish",      "warn: tool lost", "hide guidance", "show guidance",
+    "refuse",        "ignore",      "begin level",  "start sampling",    "stop sampling",
+    "save region",   "drop region", "register",     "show registration", "count refusal",
+    "accept",        "clear level", "select screw", "finish screw",      "begin rod",
+    "begin touch",   "end touch",   "drop touch",   "record head",       "drop head",
+    "finish rod",    "move rod",    "finish",       "warn: tool lost",   "hide guidance",
+    "show guidance",
 };
 
 // A name forgotten at the end of an array would be empty.

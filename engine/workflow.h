@@ -58,6 +58,8 @@ enum class Action : std::uint8_t {
   kFinishScrew,
   kBeginRod,
   kBeginTouch,
+  kEndTouch,
+  kDropTouch,
   kRecordHead,
   kDropHead,
   kFinishRod,
@@ -67,7 +69,7 @@ enum class Action : std::uint8_t {
   kHideGuidance,
   kShowGuidance,
 };
-inline constexpr std::size_t kActionCount = 24;
+inline constexpr std::size_t kActionCount = 26;
 
 struct Cell {
   Step next = Step::kSetup;
@@ -150,12 +152,13 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kPoseStale, kHideGuidance, kGuide},
     {kGuide, kTrackingRegained, kShowGuidance, kGuide},
 
-    // Heads are touched with the pointer's tip; the tip is averaged while the button is down.
+    // Heads are touched with the pointer's tip; the tip is averaged while the button is down. A
+    // button held too long makes no click, so its touch is dropped and the surgeon told.
     {kRod, kPress, kBeginTouch, kRod},
-    {kRod, kRelease, kIgnore, kRod},
+    {kRod, kRelease, kEndTouch, kRod},
     {kRod, kClick, kRecordHead, kRod},
     {kRod, kDoubleClick, kIgnore, kRod},
-    {kRod, kHold, kIgnore, kRod},
+    {kRod, kHold, kDropTouch, kRod},
     {kRod, kSayDelete, kDropHead, kRod},
     {kRod, kSayDone, kFinishRod, kRod},
     {kRod, kSayMoveRod, kMoveRod, kRod},

@@ -7,13 +7,13 @@ namespace orthonav::tools {
 void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                             const engine::Guidance& guidance) {
   if (next_) next_->stepped(frame, inputs, guidance);
-  if (guidance.step != engine::Step::kGuide || !guidance.tool) return;
+  if (guidance.step != engine::Step::kGuide || !guidance.tool || !guidance.tool->measured) return;
   if (screws_.empty() || screws_.back().name != guidance.step_text)
     screws_.push_back({guidance.step_text, frame.time, {}, {}, {}});
   Screw& screw = screws_.back();
   screw.time_s.push_back(seconds(frame.time - screw.begin));
-  screw.angle_deg.push_back(guidance.tool->measured.angle_rad * 180.0 / std::numbers::pi);
-  screw.distance_mm.push_back(1e3 * guidance.tool->measured.tip_to_entry_m);
+  screw.angle_deg.push_back(guidance.tool->measured->angle_rad * 180.0 / std::numbers::pi);
+  screw.distance_mm.push_back(1e3 * guidance.tool->measured->tip_to_entry_m);
 }
 
 void ReadingCurves::captured(const engine::Snapshot& snapshot) {

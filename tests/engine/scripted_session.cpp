@@ -83,13 +83,14 @@ ScriptedTracker::ScriptedTracker() {
 
 std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame) {
   const std::optional<Transform<World, Marker>> poses[] = {pointer, guide};
+  const Origin origins[] = {pointer_origin, guide_origin};
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].tool = i;
     states_[i].world_from_marker = {};
     states_[i].world_from_marker.time = frame.time;
     if (!poses[i]) continue;
     states_[i].world_from_marker.value = *poses[i];
-    states_[i].world_from_marker.origin = Origin::kMeasured;
+    states_[i].world_from_marker.origin = origins[i];
   }
   return states_;
 }
@@ -134,6 +135,10 @@ const Guidance& ScriptedSession::says(const std::string& phrase, double confiden
   return pair();
 }
 
+void ScriptedSession::hears_at(Timestamp time, const std::string& phrase, double confidence) {
+  phrases_.push_back({phrase, confidence, time});
+}
+
 const Guidance& ScriptedSession::does(std::vector<ClickerAction> actions) {
   for (const ClickerAction action : actions)
     clicks_.push_back({action, now_ + std::chrono::milliseconds(1)});
@@ -153,13 +158,18 @@ const Guidance& ScriptedSession::touches(Vec3 tip) {
   return does({ClickerAction::kRelease, ClickerAction::kClick});
 }
 
+const Guidance& ScriptedSession::accepts() {
+  pair();
+  return says("accept");
+}
+
 const Guidance& ScriptedSession::accepts_first_level() {
   tracker_->pointer = pointer_at({0, 0.02, 0});
   says("start");
   strokes(5);
   says("save");
   does({ClickerAction::kDoubleClick});
-  return says("accept");
+  return accepts();
 }
 
 Transform<World, Marker> guide_at(Vec3 tip, double angle_rad) {

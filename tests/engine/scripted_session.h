@@ -26,6 +26,9 @@ class ScriptedTracker : public nav::ToolTracker {
 
   std::optional<Transform<World, Marker>> pointer;
   std::optional<Transform<World, Marker>> guide;
+  /// How the poses above came about.
+  Origin pointer_origin = Origin::kMeasured;
+  Origin guide_origin = Origin::kMeasured;
 
  private:
   std::vector<nav::ToolGeometry> tools_;
@@ -42,10 +45,14 @@ class ScriptedSession {
   const Guidance& pairs(int n);
   const Guidance& says(const std::string& phrase, double confidence = 1.0);
   const Guidance& does(std::vector<ClickerAction> actions);
+  /// Comes with the next pair, beside what is said or done then.
+  void hears_at(Timestamp time, const std::string& phrase, double confidence = 1.0);
   /// Presses, holds over `n` pairs, releases.
   const Guidance& strokes(int n);
   /// A click of two pairs with the pointer's tip at `tip`.
   const Guidance& touches(Vec3 tip);
+  /// Looks at the registration, then accepts it.
+  const Guidance& accepts();
   /// From setup to `accepted` of the first level.
   const Guidance& accepts_first_level();
 

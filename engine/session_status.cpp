@@ -1,0 +1,84 @@
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "engine/session.h"
+
+namespace orthonav::engine {
+namespace {
+
+/// "1.2 mm"; "-- mm" for what is not finite.
+std::string millimetres(double length_m, int decimals) {
+  if (!std::isfinite(length_m)) return "-- mm";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*f mm", decimals, length_m * 1e3);
+  return text.data();
+}
+
+}  // namespace
+
+void Session::say(std::string message, Timestamp time) {
+  message_ = std::move(message);
+  message_until_ = time + options_.message_for;
+}
+
+void Session::write_step_text() {
+  std::array<char, 160> text{};
+  const std::string& label = level().plan.label;
+  const char* name = name_of(step_).data();
+  switch (step_) {
+    case Step::kSetup:
+    case Step::kDone:
+      guidance_.step_text = name;
+      break;
+    case Step::kDigitize:
+    case Step::kVerify:
+    case Step::kAccepted:
+      std::snprintf(text.data(), text.size(), "%s %s", name, label.c_str());
+      guidance_.step_text = text.data();
+      break;
+    case Step::kGuide:
+      std::snprintf(text.data(), text.size(), "%s %s %s", name, label.c_str(),
+                    name_of(level().plan.screws[screw_].side));
+      guidance_.step_text = text.data();
+      break;
+    case Step::kRod:
+      std::snprintf(text.data(), text.size(), "%s %s", name, name_of(rods_[rod_].side));
+      guidance_.step_text = text.data();
+      break;
+  }
+}
+
+/// The loss of the tool comes first: no message may cover it.
+void Session::write_detail() {
+  if (guidance_.frame_time >= message_until_) message_.clear();
+  guidance_.detail.clear();
+  const auto tool = active_tool();
+  const bool lost = tool && seen_ != Seen::kMeasured && seen_ != Seen::kNever;
+  if (lost) guidance_.detail = tracker_->tools()[*tool].name + " lost";
+  if (!message_.empty())
+    guidance_.detail += (lost ? "; " : "") + message_;
+  else if (!lost)
+    write_state_of_step();
+}
+
+void Session::write_state_of_step() {
+  std::string& out = guidance_.detail;
+  const auto& registration = level().registration;
+  if (step_ == Step::kDigitize) {
+    std::size_t points = 0;
+    for (const nav::Region& region : digitizer_.regions()) points += region.samples.size();
+    out = std::to_string(points) + " points";
+  } else if ((step_ == Step::kVerify || step_ == Step::kAccepted) && registration) {
+    out = "RMSE " + millimetres(registration->rmse_m, 2) + ", " +
+          millimetres(nav::worst_m(level().predicted), 1) + " expected at the screws";
+  } else if (step_ == Step::kGuide && registration) {
+    out = "RMSE " + millimetres(registration->rmse_m, 2) + ", " +
+          millimetres(level().predicted[screw_].worst_m(), 1) + " expected";
+  } else if (step_ == Step::kRod) {
+    out = std::to_string(rods_[rod_].heads.size()) + " heads";
+  }
+}
+
+}  // namespace orthonav::engine
