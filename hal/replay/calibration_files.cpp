@@ -3,7 +3,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <span>
 #include <string>
@@ -114,17 +113,9 @@ Result<Transform<Camera, Rig>> read_extrinsics(const std::filesystem::path& path
   return pose;
 }
 
-Status write_file(const std::filesystem::path& path, std::span<const char> bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) return file_error(path, "cannot be written");
-  return {};
-}
-
 template <class Number>
 Status write_numbers(const std::filesystem::path& path, const std::vector<Number>& numbers) {
-  return write_file(
+  return write_bytes(
       path, {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
 }
 
@@ -155,7 +146,7 @@ Status write_extrinsics(const std::filesystem::path& path, const std::array<doub
     append_number(text, matrix[i]);
   }
   text += '\n';
-  return write_file(path, text);
+  return write_bytes(path, text);
 }
 
 }  // namespace

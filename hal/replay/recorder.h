@@ -18,8 +18,8 @@ struct RecorderOptions {
 ///
 /// Writes into `folder` + ".part" and renames on close(); a recording that was cut off stays there.
 /// A recording that fails (a full disk) never disturbs the session: everything is passed on
-/// unchanged, recording stops, and recording_status() and close() say why. Writes on the thread
-/// that calls next().
+/// unchanged, recording stops, and recording_status() and close() say why. Each call
+/// writes on the thread that makes it.
 class RecordingHeadset : public Headset {
  public:
   /// Refuses a folder that exists and is not empty, one left over under the temporary name, and

@@ -6,7 +6,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "hal/replay/calibration_files.h"
 #include "hal/replay/frame_files.h"
@@ -19,14 +18,6 @@ namespace {
 
 constexpr char kPgmHeader[] = "P5\n640 480\n255\n";
 constexpr std::size_t kPgmHeaderBytes = sizeof(kPgmHeader) - 1;
-
-Status write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) return file_error(path, "cannot be written");
-  return {};
-}
 
 Status check_free(const std::filesystem::path& folder, const std::filesystem::path& part) {
   std::error_code code;
@@ -122,9 +113,9 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(
   if (code) return file_error(writer->part_, "cannot be made: " + code.message());
   const auto filled = [&]() -> Status {
     if (Status s = write_calibration(writer->part_, calibration); !s) return s;
-    if (Status s = write_text(writer->part_ / kDeviceFile, device_text(device)); !s) return s;
+    if (Status s = write_bytes(writer->part_ / kDeviceFile, device_text(device)); !s) return s;
     if (!tools_json.empty())
-      if (Status s = write_text(writer->part_ / kToolsFile, tools_json); !s) return s;
+      if (Status s = write_bytes(writer->part_ / kToolsFile, tools_json); !s) return s;
     return writer->open_files();
   }();
   if (!filled) {

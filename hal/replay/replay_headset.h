@@ -27,7 +27,7 @@ inline constexpr Duration kPairWithin = std::chrono::milliseconds(1);
 /// Frames come as fast as they are asked for; the clock is the time of the last one. The time of a
 /// pair is its left image's. The head is known up to the last frame, predicted beyond it, lost
 /// where two recorded poses lie more than HeadTracker::kMaxHeadPrediction apart. The display shows
-/// nothing and has no latency.
+/// nothing; its latency is the recorded one.
 class ReplayHeadset : public Headset {
  public:
   /// Refuses, in one line that names file, field, value and limit, whatever is missing, truncated,

@@ -67,6 +67,14 @@ Result<std::string> read_text(const std::filesystem::path& path, std::uintmax_t 
   return text;
 }
 
+Status write_bytes(const std::filesystem::path& path, std::span<const char> bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) return file_error(path, "cannot be written");
+  return {};
+}
+
 Status for_each_line(const std::string& text,
                      const std::function<Status(std::size_t, std::string_view)>& take) {
   std::size_t number = 0;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ Error line_error(const std::filesystem::path& path, std::size_t line, const std:
 
 /// Whole text of a file of at most `max_bytes`.
 Result<std::string> read_text(const std::filesystem::path& path, std::uintmax_t max_bytes);
+
+/// Writes a whole file.
+Status write_bytes(const std::filesystem::path& path, std::span<const char> bytes);
 
 /// Calls `take(line number from 1, text)` for each line that is not empty, without its line end,
 /// and stops at the first failure.
