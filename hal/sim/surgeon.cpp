@@ -6,13 +6,10 @@
 namespace orthonav::sim {
 namespace {
 
-constexpr double kPatience_s = 60.0;
-constexpr int kRepeats = 5;
 /// A frame older than this is no longer in view: the display has gone dark.
 constexpr double kDark_s = 0.15;
 /// Holograms farther than this from the real bone are rejected.
 constexpr double kAcceptedOverlay_m = 0.006;
-constexpr int kMaxFailures = 3;
 /// Comparing model and bone takes a second or two of glances.
 constexpr double kComparing_s = 1.5;
 constexpr double kGlance_s = 0.1;

@@ -14,10 +14,8 @@
 
 namespace orthonav::sim {
 
-/// What the surgeon did to the patient, for the room to carry out and to remember.
+/// A wire that pierces the bone, for the room to carry out and to remember.
 struct Deed {
-  enum class Kind { kRegistered, kPierced };
-  Kind kind = Kind::kRegistered;
   std::size_t level = 0;
   std::string side;
 };
@@ -40,6 +38,14 @@ class Surgeon {
   [[nodiscard]] bool gave_up() const { return gave_up_; }
 
  private:
+  /// Whoever waits for a step says so again each minute, and gives up in the end.
+  static constexpr double kPatience_s = 60.0;
+  static constexpr int kRepeats = 5;
+  /// So long a tool or a hologram may stay out of sight.
+  static constexpr double kLongPatience_s = 300.0;
+  /// Refusals and rejections of a level.
+  static constexpr int kMaxFailures = 3;
+
   /// Where a screw is to go, as perceived.
   struct Aim {
     BoneSpot on_bone;  ///< in Room

@@ -23,9 +23,6 @@ constexpr double kLift_m = 0.015;
 constexpr double kLongestLift_m = 0.030;
 constexpr double kShortestLift_m = 0.007;
 constexpr double kVerdict_s = 1.5;
-constexpr double kPatience_s = 60.0;
-constexpr int kRepeats = 5;
-constexpr int kMaxFailures = 3;
 
 /// Where and how far the tip leaves the bone in a stroke that slips.
 struct Slip {
@@ -70,7 +67,6 @@ Script Surgeon::digitize(std::size_t level) {
     }
   }
   co_await body_.double_click();
-  deeds_.push_back({Deed::Kind::kRegistered, level, {}});
 }
 
 Script Surgeon::record(std::size_t level, const StrokeRegion& region, bool slips) {

@@ -9,7 +9,6 @@ namespace {
 constexpr double kGlance_s = 0.1;
 constexpr double kLook_s = 0.6;
 constexpr double kMoveHead_s = 2.0;
-constexpr double kPatience_s = 300.0;
 constexpr double kOverBone_m = 0.030;
 constexpr double kBoneSearch_m = 0.015;
 constexpr double kDriving_s = 3.5;
@@ -76,7 +75,7 @@ Script Surgeon::find_entry(std::size_t level, const std::string& label, Aim& aim
 Script Surgeon::look_at_entry(const std::string& label, double look_s, bool& found, Vec3& entry,
                               Vec3& outwards) {
   const std::string step(eyes_->step());
-  const Timestamp patience = body_.now() + from_seconds(kPatience_s);
+  const Timestamp patience = body_.now() + from_seconds(kLongPatience_s);
   Vec3 entries;
   Vec3 axes;
   int frames = 0;
@@ -105,7 +104,7 @@ Script Surgeon::look_at_entry(const std::string& label, double look_s, bool& fou
 }
 
 Script Surgeon::drive_wire(std::size_t level, const std::string& side, const Aim& aim) {
-  deeds_.push_back({Deed::Kind::kPierced, level, side});
+  deeds_.push_back({level, side});
   body_.posture().contact_normal.reset();
   const Grip pierced = body_.posture().grip;
   Grip deep = pierced;

@@ -9,7 +9,6 @@ namespace orthonav::sim {
 namespace {
 
 constexpr double kRad = std::numbers::pi / 180.0;
-constexpr double kPatience_s = 300.0;
 /// Visual reaction to a moving target (Jeannerod 1988: 0.2-0.3 s).
 constexpr double kReaction_s = 0.25;
 /// Share of the seen deviation taken out in a second; times the reaction well below 1, or the hand
@@ -48,7 +47,7 @@ Script Surgeon::turn_tool(const std::string& step, const Aim& aim) {
     const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
     if (!reading) {
       const double lost_s = seconds(body_.now() - last_seen);
-      if (lost_s > kPatience_s) give_up();
+      if (lost_s > kLongPatience_s) give_up();
       if (lost_s > kLost_s) show_tag(aim, lost_s - kLost_s, tick_s);
       if (lost_s > kLost_s) memory.clear();
       continue;

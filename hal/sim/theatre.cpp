@@ -74,13 +74,14 @@ void Theatre::let_surgeon_act(RoomState& now) {
     now.hand = hand_on(room_.tools[*tool], posture.grip);
     now.hand_axis = (0.9 * across + 0.35 * Vec3{view.x, 0.0, view.z}).normalized();
   }
-  for (const Deed& deed : surgeon_->deeds()) carry_out(deed);
+  for (const Deed& deed : surgeon_->deeds()) pierce(deed);
   surgeon_->deeds().clear();
   clicks_.insert(clicks_.end(), body.clicks.begin(), body.clicks.end());
   phrases_.insert(phrases_.end(), body.phrases.begin(), body.phrases.end());
   body.clicks.clear();
   body.phrases.clear();
   if (surgeon_->finished() && !finished_at_) finished_at_ = now.time;
+  truth_.surgeon_gave_up = surgeon_->gave_up();
 }
 
 /// The reference is clamped to the patient, facing where the head is at the start, and stays so.
@@ -128,16 +129,6 @@ void Theatre::put(RoomState& state, std::size_t tool, const Grip& grip,
   const Vec3 viewer = state.room_from_rig.translation();
   state.room_from_marker[tool] = held(made, shaken, (viewer - tag.v).normalized());
   state.tool_present[tool] = true;
-}
-
-void Theatre::carry_out(const Deed& deed) {
-  if (deed.kind == Deed::Kind::kPierced) return pierce(deed);
-  const Timestamp now = kept(steps_ - 1).time;
-  const std::string& label = room_.levels[deed.level].label;
-  // The last attempt is the one that counts.
-  std::erase_if(truth_.poses, [&label](const auto& pose) { return pose.level == label; });
-  truth_.poses.push_back(
-      {label, now, world_from_room(now) * layout_.room_from_vertebra(deed.level)});
 }
 
 void Theatre::pierce(const Deed& deed) {

@@ -57,7 +57,6 @@ class Theatre {
   void let_tools_hover(RoomState& now) const;
   void leave_reference(RoomState& now);
   void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact) const;
-  void carry_out(const Deed& deed);
   void pierce(const Deed& deed);
   [[nodiscard]] double seconds_in(Timestamp time) const { return seconds(time - start_); }
   [[nodiscard]] RoomState& kept(std::size_t number) { return states_[number % kKept]; }

@@ -23,18 +23,13 @@ struct PlacedHead {
   Point<Room> position;
 };
 
-/// What really happened; filled while the session runs, read by the evaluation afterwards. It never
-/// reaches nav or engine.
+/// What really happened; filled while the session runs, read afterwards by the evaluation alone
+/// (engine/evaluation.h). Nothing that navigates may know it.
 struct Truth {
   std::vector<DrivenWire> wires;
   std::vector<PlacedHead> heads;
-  /// world_from_spine at the end of each level's digitization (drift included), by label.
-  struct LevelPose {
-    std::string level;
-    Timestamp time{};
-    Transform<World, Vertebra> world_from_vertebra;
-  };
-  std::vector<LevelPose> poses;
+  /// The surgeon lost patience before the last step.
+  bool surgeon_gave_up = false;
 };
 
 }  // namespace orthonav::sim
