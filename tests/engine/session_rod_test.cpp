@@ -93,10 +93,10 @@ const Guidance& touches_moving(ScriptedSession& s, double apart_m) {
 }
 
 TEST_F(RodSession, RefusesATipThatMoved) {
-  EXPECT_EQ(touches_moving(s, 0.0019).rods[0].heads.size(), 1u);
-  const Guidance& g = touches_moving(s, 0.0024);
+  EXPECT_EQ(touches_moving(s, 0.0059).rods[0].heads.size(), 1u);
+  const Guidance& g = touches_moving(s, 0.0064);
   EXPECT_EQ(g.rods[0].heads.size(), 1u);
-  EXPECT_EQ(g.detail, "head not recorded: tip moved 1.2 mm, limit 1.0 mm");
+  EXPECT_EQ(g.detail, "head not recorded: tip moved 3.2 mm, limit 3.0 mm");
 }
 
 TEST_F(RodSession, ADoubleClickLeavesNoTouchBehind) {
