@@ -1,7 +1,8 @@
 #include "engine/video_writer.h"
 
-#include <cstdio>
-#include <filesystem>
+#include <utility>
+
+#include "engine/atomic_file.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -32,8 +33,11 @@ Status check(const std::string& path, const VideoOptions& o) {
 }  // namespace
 
 struct VideoWriter::Encoder {
+  Encoder(AtomicFile to, const VideoOptions& chosen, std::string name)
+      : path(std::move(name)), file(std::move(to)), options(chosen) {}
+
   std::string path;
-  std::string part;
+  AtomicFile file;
   VideoOptions options;
   AVFormatContext* format = nullptr;
   AVCodecContext* codec = nullptr;
@@ -53,11 +57,12 @@ struct VideoWriter::Encoder {
       avio_closep(&format->pb);
       avformat_free_context(format);
     }
-    if (!finished) std::remove(part.c_str());
   }
 
   Status open_codec();
   Status open_file();
+  Status write_header();
+  Status open_frame();
   Status drain();
 };
 
@@ -65,6 +70,7 @@ Status VideoWriter::Encoder::open_codec() {
   const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
   if (h264 == nullptr) return Error{path + ": libavcodec has no H.264 encoder (libx264)"};
   codec = avcodec_alloc_context3(h264);
+  if (codec == nullptr) return Error{path + ": out of memory for the H.264 encoder"};
   codec->width = options.width_px;
   codec->height = options.height_px;
   codec->time_base = {1, options.frames_per_second};
@@ -72,8 +78,10 @@ Status VideoWriter::Encoder::open_codec() {
   codec->pix_fmt = AV_PIX_FMT_YUV420P;
   codec->thread_count = options.threads;
   // Fixed reference threads and no timing: the same pictures give the same bytes.
-  av_opt_set(codec->priv_data, "preset", "veryfast", 0);
-  av_opt_set(codec->priv_data, "crf", std::to_string(options.quality).c_str(), 0);
+  const std::string quality = std::to_string(options.quality);
+  for (const auto& [key, value] : {std::pair{"preset", "veryfast"}, {"crf", quality.c_str()}})
+    if (const int code = av_opt_set(codec->priv_data, key, value, 0); code < 0)
+      return av_error(path, std::string("H.264 encoder refused ") + key + " " + value, code);
   if ((format->oformat->flags & AVFMT_GLOBALHEADER) != 0)
     codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   if (const int code = avcodec_open2(codec, h264, nullptr); code < 0)
@@ -82,29 +90,45 @@ Status VideoWriter::Encoder::open_codec() {
 }
 
 Status VideoWriter::Encoder::open_file() {
-  if (const int code = avformat_alloc_output_context2(&format, nullptr, "mp4", part.c_str());
+  if (const int code =
+          avformat_alloc_output_context2(&format, nullptr, "mp4", file.temporary_path().c_str());
       code < 0)
     return av_error(path, "no MP4 writer", code);
   if (const Status opened = open_codec(); !opened) return opened;
   stream = avformat_new_stream(format, nullptr);
+  if (stream == nullptr) return Error{path + ": out of memory for a video stream"};
   stream->time_base = codec->time_base;
-  avcodec_parameters_from_context(stream->codecpar, codec);
-  if (const int code = avio_open(&format->pb, part.c_str(), AVIO_FLAG_WRITE); code < 0)
+  if (const int code = avcodec_parameters_from_context(stream->codecpar, codec); code < 0)
+    return av_error(path, "cannot describe its stream", code);
+  if (const int code = avio_open(&format->pb, file.temporary_path().c_str(), AVIO_FLAG_WRITE);
+      code < 0)
     return av_error(path, "cannot be written", code);
+  if (const Status begun = write_header(); !begun) return begun;
+  return open_frame();
+}
+
+Status VideoWriter::Encoder::write_header() {
   AVDictionary* movie = nullptr;
-  av_dict_set(&movie, "movflags", "faststart", 0);
-  const int code = avformat_write_header(format, &movie);
+  int code = av_dict_set(&movie, "movflags", "faststart", 0);
+  if (code >= 0) code = avformat_write_header(format, &movie);
   av_dict_free(&movie);
   if (code < 0) return av_error(path, "cannot be started", code);
+  return {};
+}
+
+Status VideoWriter::Encoder::open_frame() {
   frame = av_frame_alloc();
+  packet = av_packet_alloc();
+  if (frame == nullptr || packet == nullptr)
+    return Error{path + ": out of memory for a video frame"};
   frame->format = codec->pix_fmt;
   frame->width = options.width_px;
   frame->height = options.height_px;
   if (av_frame_get_buffer(frame, 0) < 0) return Error{path + ": out of memory for a video frame"};
-  packet = av_packet_alloc();
   scaler =
       sws_getContext(options.width_px, options.height_px, AV_PIX_FMT_RGBA, options.width_px,
                      options.height_px, AV_PIX_FMT_YUV420P, SWS_POINT, nullptr, nullptr, nullptr);
+  if (scaler == nullptr) return Error{path + ": no conversion from RGBA to YUV 4:2:0"};
   return {};
 }
 
@@ -120,31 +144,38 @@ Status VideoWriter::Encoder::drain() {
   }
 }
 
-VideoWriter::VideoWriter() : encoder_(std::make_unique<Encoder>()) {}
+VideoWriter::VideoWriter(std::unique_ptr<Encoder> encoder) : encoder_(std::move(encoder)) {}
 VideoWriter::~VideoWriter() = default;
 
 Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path,
                                                          const VideoOptions& options) {
   if (const Status status = check(path, options); !status) return status.error();
-  av_log_set_level(AV_LOG_ERROR);
-  std::unique_ptr<VideoWriter> writer(new VideoWriter());
-  writer->encoder_->path = path;
-  writer->encoder_->part = path + ".part";
-  writer->encoder_->options = options;
-  if (const Status status = writer->encoder_->open_file(); !status) return status.error();
-  return writer;
+  // The library never prints: what matters comes back as an Error.
+  av_log_set_level(AV_LOG_QUIET);
+  auto file = AtomicFile::create(path);
+  if (!file) return file.error();
+  auto encoder = std::make_unique<Encoder>(std::move(*file), options, path);
+  if (const Status status = encoder->open_file(); !status) return status.error();
+  return std::unique_ptr<VideoWriter>(new VideoWriter(std::move(encoder)));
 }
 
 Status VideoWriter::write(const RgbaImage& picture) {
   Encoder& e = *encoder_;
-  if (picture.width_px != e.options.width_px || picture.height_px != e.options.height_px)
+  const auto bytes = 4 * static_cast<std::size_t>(e.options.width_px) *
+                     static_cast<std::size_t>(e.options.height_px);
+  if (picture.width_px != e.options.width_px || picture.height_px != e.options.height_px ||
+      picture.pixels.size() < bytes)
     return Error{e.path + ": picture of " + std::to_string(picture.width_px) + "x" +
                  std::to_string(picture.height_px) + " in a video of " +
                  std::to_string(e.options.width_px) + "x" + std::to_string(e.options.height_px)};
   if (av_frame_make_writable(e.frame) < 0) return Error{e.path + ": out of memory"};
   const std::uint8_t* rows[1] = {picture.pixels.data()};
   const int stride[1] = {4 * picture.width_px};
-  sws_scale(e.scaler, rows, stride, 0, picture.height_px, e.frame->data, e.frame->linesize);
+  if (const int lines =
+          sws_scale(e.scaler, rows, stride, 0, picture.height_px, e.frame->data, e.frame->linesize);
+      lines != picture.height_px)
+    return Error{e.path + ": conversion of a picture ended after " + std::to_string(lines) +
+                 " lines"};
   e.frame->pts = e.frames++;
   if (const int code = avcodec_send_frame(e.codec, e.frame); code < 0)
     return av_error(e.path, "encoding failed", code);
@@ -155,14 +186,15 @@ Status VideoWriter::finish() {
   Encoder& e = *encoder_;
   if (e.finished) return {};
   if (e.frames == 0) return Error{e.path + ": no picture was written"};
-  avcodec_send_frame(e.codec, nullptr);
+  if (const int code = avcodec_send_frame(e.codec, nullptr); code < 0)
+    return av_error(e.path, "encoding failed", code);
   if (const Status drained = e.drain(); !drained) return drained;
   if (const int code = av_write_trailer(e.format); code < 0)
     return av_error(e.path, "cannot be completed", code);
-  avio_closep(&e.format->pb);
-  std::error_code failure;
-  std::filesystem::rename(e.part, e.path, failure);
-  if (failure) return Error{e.path + ": cannot be put in place (" + failure.message() + ")"};
+  // Closing writes what is still buffered: a full disk shows here.
+  if (const int code = avio_closep(&e.format->pb); code < 0)
+    return av_error(e.path, "cannot be completed", code);
+  if (const Status placed = e.file.commit(); !placed) return placed;
   e.finished = true;
   return {};
 }

@@ -16,8 +16,8 @@ struct VideoOptions {
   int threads = 1;
 };
 
-/// H.264 in an MP4 that browsers play, by libavcodec. Written beside as `<path>.part` and renamed
-/// by `finish`; a writer that is dropped without it leaves nothing behind.
+/// H.264 in an MP4 that browsers play, by libavcodec. An atomic file: there once `finish`
+/// has named it; a writer that is dropped without it leaves nothing behind.
 class VideoWriter {
  public:
   static Result<std::unique_ptr<VideoWriter>> create(const std::string& path,
@@ -33,7 +33,7 @@ class VideoWriter {
 
  private:
   struct Encoder;
-  VideoWriter();
+  explicit VideoWriter(std::unique_ptr<Encoder> encoder);
   std::unique_ptr<Encoder> encoder_;
 };
 

@@ -55,5 +55,18 @@ TEST(VideoWriter, RefusesOddSizesWrongPicturesAndBadFolders) {
   EXPECT_FALSE((*writer)->finish().ok());
 }
 
+TEST(VideoWriter, TwoAtOnceDoNotWriteIntoOneAnother) {
+  const std::string path = testing::TempDir() + "video_writer_two.mp4";
+  fs::remove(path);
+  auto one = VideoWriter::create(path, {.width_px = 64, .height_px = 48});
+  auto two = VideoWriter::create(path, {.width_px = 64, .height_px = 48});
+  ASSERT_TRUE(one.ok() && two.ok());
+  ASSERT_TRUE((*one)->write(picture(64, 48, 10)).ok());
+  ASSERT_TRUE((*one)->finish().ok());
+  const auto size = fs::file_size(path);
+  two->reset();
+  EXPECT_EQ(fs::file_size(path), size) << "the dropped one took nothing away";
+}
+
 }  // namespace
 }  // namespace orthonav::engine
