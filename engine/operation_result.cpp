@@ -38,4 +38,32 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
   return result;
 }
 
+void EndNote::happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell answer) {
+  step_ = answer.next;
+}
+
+void EndNote::registered(Timestamp /*time*/, const LevelState& level,
+                         const nav::Registration& /*result*/, const std::string& reason) {
+  refused_ =
+      reason.empty() ? "" : "; last registration (" + level.plan.label + ") refused: " + reason;
+}
+
+void EndNote::explain(OperationResult& result) const {
+  if (result.completed) return;
+  std::string unfinished;
+  for (const LevelOutcome& level : result.levels) {
+    const bool all_done = std::all_of(level.screws.begin(), level.screws.end(),
+                                      [](const ScrewOutcome& screw) { return screw.done; });
+    if (unfinished.empty() && !(level.accepted && all_done)) unfinished = " of " + level.label;
+  }
+  result.why_not = "ended at " + std::string(name_of(step_)) + unfinished + refused_;
+}
+
+std::optional<double> quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+}
+
 }  // namespace orthonav::engine

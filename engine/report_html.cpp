@@ -10,6 +10,7 @@
 #include "embedded/report_css.h"
 #include "embedded/report_js.h"
 #include "engine/base64.h"
+#include "engine/operation_result.h"
 #include "engine/paper_table.h"
 #include "nav/evaluation/errors.h"
 
@@ -81,6 +82,17 @@ void table_against_paper(const json& report, std::string& html) {
   html += "</tbody></table></section>";
 }
 
+/// Accepted, not accepted after so many attempts, or never tried.
+std::string verdict_on(const json& level) {
+  const json attempts = level.value("attempts", json());
+  const bool tried = attempts.is_number() && attempts.get<double>() > 0.0;
+  const json accepted = level.value("accepted", json());
+  if (!tried) return "<span>not reached</span>";
+  return std::string(accepted == true ? "<span class=good>accepted</span>"
+                                      : "<span class=bad>refused</span>") +
+         " <small>attempt " + figure(level, "attempts", 0) + "</small>";
+}
+
 void table_of_levels(const json& report, std::string& html) {
   html +=
       "<section><h2>Levels and screws</h2><table><thead><tr><th>level</th><th>registration</th>"
@@ -95,14 +107,11 @@ void table_of_levels(const json& report, std::string& html) {
       html += "<tr>";
       if (i == 0) {
         const std::string span = "<td rowspan=" + std::to_string(rows) + ">";
-        const bool accepted = level.value("accepted", false);
-        html += span + escaped(text_of(level, "label")) + "</td>" + span +
-                (accepted ? "<span class=good>accepted</span>" : "<span class=bad>refused</span>") +
-                " <small>attempt " + figure(level, "attempts", 0) + "</small></td>" + span +
-                figure(level, "rmse_mm", 2) + "</td>" + span + figure(level, "tre_mm", 2) +
-                "</td>" + span + figure(level, "predicted_tre_mm", 2) + "</td>" + span +
-                figure(level, "points", 0) + "</td>" + span + figure(level, "digitization_s", 1) +
-                "</td>";
+        html += span + escaped(text_of(level, "label")) + "</td>" + span + verdict_on(level) +
+                "</td>" + span + figure(level, "rmse_mm", 2) + "</td>" + span +
+                figure(level, "tre_mm", 2) + "</td>" + span + figure(level, "predicted_tre_mm", 2) +
+                "</td>" + span + figure(level, "points", 0) + "</td>" + span +
+                figure(level, "digitization_s", 1) + "</td>";
       }
       if (i < screws.size())
         html += "<td>" + escaped(text_of(screws[i], "side")) + "</td><td>" +
@@ -175,17 +184,12 @@ void timing_table(const std::vector<ReportTiming>& timings, std::string& html) {
       "<section><h2>What a frame costs</h2><table><thead><tr><th></th><th>median "
       "<small>ms</small></th><th>99 % <small>ms</small></th><th>n</th></tr></thead><tbody>";
   for (const ReportTiming& timing : timings) {
-    std::vector<double> sorted = timing.ms;
-    std::sort(sorted.begin(), sorted.end());
-    const auto at = [&sorted](double q) {
-      return sorted.empty()
-                 ? std::string("\u2013")
-                 : number(
-                       sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))],
-                       2);
+    const auto at = [&timing](double share) {
+      const auto value = quantile(timing.ms, share);
+      return value ? number(*value, 2) : std::string("\u2013");
     };
     html += "<tr><th scope=row>" + escaped(timing.name) + "</th><td>" + at(0.5) + "</td><td>" +
-            at(0.99) + "</td><td>" + std::to_string(sorted.size()) + "</td></tr>";
+            at(0.99) + "</td><td>" + std::to_string(timing.ms.size()) + "</td></tr>";
   }
   html += "</tbody></table></section>";
 }
@@ -251,6 +255,8 @@ Result<std::string> report_html(const ReportContent& content) {
       "</b>, seed <b>" + figure(report, "seed", 0) + "</b></p></header><main>";
   table_against_paper(report, html);
   html += "<ul class=notes>";
+  if (const std::string why = text_of(report, "why_not"); !why.empty())
+    html += "<li><b>The operation did not come to its end</b>: " + escaped(why) + "</li>";
   for (const std::string& note : content.notes) html += "<li>" + escaped(note) + "</li>";
   html += "</ul>";
   table_of_levels(report, html);

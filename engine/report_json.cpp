@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -16,12 +15,8 @@ void put_mm(Json& object, const char* key, const std::optional<double>& metres) 
   if (metres) object[key] = *metres * 1e3;
 }
 
-/// The value below which `share` of the sorted values lie (nearest rank).
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
+void put_quantile(Json& object, const char* key, const std::vector<double>& values, double share) {
+  if (const auto value = quantile(values, share)) object[key] = *value;
 }
 
 Json screw_json(const ScrewOutcome& screw) {
@@ -36,7 +31,7 @@ Json level_json(const LevelOutcome& level) {
   put_mm(out, "rmse_mm", level.rmse_m);
   put_mm(out, "tre_mm", level.tre_m);
   put_mm(out, "predicted_tre_mm", level.predicted_tre_m);
-  out["points"] = level.points;
+  if (level.points) out["points"] = *level.points;
   if (level.digitization_s) out["digitization_s"] = *level.digitization_s;
   out["screws"] = Json::array();
   for (const ScrewOutcome& screw : level.screws) out["screws"].push_back(screw_json(screw));
@@ -74,10 +69,11 @@ Json rods_json(const std::vector<RodOutcome>& rods) {
 }
 
 Json series(const std::vector<double>& values) {
-  return Json{{"count", values.size()},
-              {"median_ms", quantile(values, 0.5)},
-              {"p99_ms", quantile(values, 0.99)},
-              {"max_ms", quantile(values, 1.0)}};
+  Json out{{"count", values.size()}};
+  put_quantile(out, "median_ms", values, 0.5);
+  put_quantile(out, "p99_ms", values, 0.99);
+  put_quantile(out, "max_ms", values, 1.0);
+  return out;
 }
 
 std::string text_of(const Json& json) {
@@ -87,16 +83,17 @@ std::string text_of(const Json& json) {
 }  // namespace
 
 std::string report_json(const OperationResult& result) {
-  Json out{{"method", result.method},
-           {"seed", result.seed},
-           {"case", result.case_name},
-           {"completed", result.completed}};
+  Json out{{"method", result.method}};
+  if (result.seed) out["seed"] = *result.seed;
+  out["case"] = result.case_name;
+  out["completed"] = result.completed;
+  if (!result.why_not.empty()) out["why_not"] = result.why_not;
   out["levels"] = Json::array();
   for (const LevelOutcome& level : result.levels) out["levels"].push_back(level_json(level));
   out["rod"] = rods_json(result.rods);
-  out["frames"] = Json{{"displayed", result.loop.displayed},
-                       {"median_ms", quantile(result.loop.intervals_ms, 0.5)},
-                       {"p99_ms", quantile(result.loop.intervals_ms, 0.99)}};
+  out["frames"] = Json{{"displayed", result.loop.displayed}};
+  put_quantile(out["frames"], "median_ms", result.loop.intervals_ms, 0.5);
+  put_quantile(out["frames"], "p99_ms", result.loop.intervals_ms, 0.99);
   return text_of(out);
 }
 

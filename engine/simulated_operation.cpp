@@ -26,7 +26,8 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
                                  options.session);
   if (!session) return session.error();
   SimWitness witness(room);
-  ObserverList observers({&witness});
+  EndNote end_note;
+  ObserverList observers({&witness, &end_note});
   for (SessionObserver* guest : guests.session) observers.add(guest);
   (*session)->observe(&observers);
   if (guests.opened)
@@ -46,13 +47,14 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   loop.draw_into(guests.sink);
   auto report = loop.run();
   if (!report) return report.error();
-  if (recorder)
-    if (const Status closed = recorder->close(); !closed) return closed.error();
   OperationResult result = outcome_of((*session)->levels(), (*session)->rods(), std::move(*report));
   result.method = method->name;
   result.seed = options.sim.seed;
   result.case_name = source.name;
+  // A recording that came to nothing takes nothing from what was measured.
+  if (recorder) result.recording = recorder->close();
   witness.evaluate((*session)->levels(), result);
+  end_note.explain(result);
   return result;
 }
 

@@ -55,14 +55,15 @@ Json table_of(const Json& runs) {
   return table;
 }
 
-std::string study_text(const std::string& method, const Json& runs) {
+std::string study_text(const std::string& method, const Json& runs, const Json& failed) {
   int completed = 0;
   for (const Json& run : runs) completed += run.value("completed", false) ? 1 : 0;
-  const Json study{{"method", method},
-                   {"operations", runs.size()},
-                   {"completed", completed},
-                   {"table", table_of(runs)},
-                   {"runs", runs}};
+  Json study{{"method", method},
+             {"operations", runs.size()},
+             {"completed", completed},
+             {"table", table_of(runs)},
+             {"runs", runs}};
+  if (!failed.empty()) study["failed"] = failed;
   return study.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -71,16 +72,18 @@ class Workers {
  public:
   Workers(std::vector<Job> jobs, const StudyOptions& options,
           const std::function<void(int, int)>& progress)
-      : jobs_(std::move(jobs)), options_(options), progress_(progress), reports_(jobs_.size()) {}
+      : jobs_(std::move(jobs)),
+        options_(options),
+        progress_(progress),
+        reports_(jobs_.size(), std::string()) {}
 
-  Result<std::vector<std::string>> run() {
+  Result<Study> run() {
     std::vector<std::thread> threads;
     const int count = std::min<int>(options_.jobs, static_cast<int>(jobs_.size()));
     for (int i = 1; i < count; ++i) threads.emplace_back([this] { work(); });
     work();
     for (std::thread& thread : threads) thread.join();
-    if (error_) return *error_;
-    return std::move(reports_);
+    return study();
   }
 
  private:
@@ -93,29 +96,48 @@ class Workers {
       operation.tracker.parallel = options_.jobs < 2;
       const auto result = run_operation(*jobs_[i].source, operation);
       const std::lock_guard lock(mutex_);
-      if (!result) {
-        if (!error_) error_ = result.error();
-        next_ = jobs_.size();
-        return;
-      }
-      reports_[i] = report_json(*result);
+      if (result)
+        reports_[i] = report_json(*result);
+      else
+        reports_[i] = result.error();
       ++done_;
       if (progress_) progress_(done_, static_cast<int>(jobs_.size()));
     }
   }
 
+  [[nodiscard]] Result<Study> study() const {
+    Study out;
+    Json runs = Json::array();
+    Json failed = Json::array();
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      if (reports_[i]) {
+        runs.push_back(Json::parse(*reports_[i]));
+        continue;
+      }
+      const std::string& name = jobs_[i].source->name;
+      const std::string& why = reports_[i].error().message;
+      failed.push_back(Json{{"case", name}, {"seed", jobs_[i].seed}, {"why", why}});
+      if (!out.failure)
+        out.failure =
+            Error{"case '" + name + "', seed " + std::to_string(jobs_[i].seed) + ": " + why};
+    }
+    if (runs.empty() && out.failure) return *out.failure;
+    out.text = study_text(options_.operation.method, runs, failed);
+    return out;
+  }
+
   std::vector<Job> jobs_;
   const StudyOptions& options_;
   const std::function<void(int, int)>& progress_;
-  std::vector<std::string> reports_;
+  std::vector<Result<std::string>> reports_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex mutex_;
-  std::optional<Error> error_;
   int done_ = 0;
 };
 
 Status append_runs(const std::string& text, const std::string& name, std::string& method,
-                   std::set<std::pair<std::string, std::uint64_t>>& seen, Json& runs) {
+                   std::set<std::pair<std::string, std::uint64_t>>& seen, Json& runs,
+                   Json& failed) {
   const Json study = Json::parse(text, nullptr, false);
   if (study.is_discarded() || !study.is_object() || !study.contains("runs") ||
       !study["runs"].is_array() || !study.contains("method") || !study["method"].is_string())
@@ -129,12 +151,19 @@ Status append_runs(const std::string& text, const std::string& name, std::string
                        run.contains("seed") && run["seed"].is_number_unsigned() &&
                        run.contains("levels") && run["levels"].is_array();
     if (!whole) return Error{name + ": a run lacks case, seed or levels"};
+    if (run.contains("completed") && !run["completed"].is_boolean())
+      return Error{name + ": completed of a run is " + run["completed"].dump() +
+                   ", must be true or false"};
+    for (const Json& level : run["levels"])
+      if (!level.is_object()) return Error{name + ": a level of a run is no object"};
     const std::pair key(run["case"].get<std::string>(), run["seed"].get<std::uint64_t>());
     if (!seen.insert(key).second)
       return Error{name + ": case '" + key.first + "' with seed " + std::to_string(key.second) +
                    " occurs twice"};
     runs.push_back(run);
   }
+  if (study.contains("failed") && study["failed"].is_array())
+    for (const Json& run : study["failed"]) failed.push_back(run);
   return {};
 }
 
@@ -150,16 +179,12 @@ std::vector<std::string> StudyOptions::check() const {
   return problems;
 }
 
-Result<std::string> run_study(std::span<const Case> cases, const StudyOptions& options,
-                              const std::function<void(int, int)>& progress) {
+Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options,
+                        const std::function<void(int, int)>& progress) {
   const auto problems = options.check();
   if (!problems.empty()) return Error{problems.front()};
   if (cases.empty()) return Error{"study: no case"};
-  const auto reports = Workers(jobs_of(cases, options), options, progress).run();
-  if (!reports) return reports.error();
-  Json runs = Json::array();
-  for (const std::string& report : *reports) runs.push_back(Json::parse(report));
-  return study_text(options.operation.method, runs);
+  return Workers(jobs_of(cases, options), options, progress).run();
 }
 
 Result<std::string> merge_studies(std::span<const std::string> texts,
@@ -167,8 +192,9 @@ Result<std::string> merge_studies(std::span<const std::string> texts,
   std::string method;
   std::set<std::pair<std::string, std::uint64_t>> seen;
   Json runs = Json::array();
+  Json failed = Json::array();
   for (std::size_t i = 0; i < texts.size(); ++i)
-    if (const Status read = append_runs(texts[i], names[i], method, seen, runs); !read)
+    if (const Status read = append_runs(texts[i], names[i], method, seen, runs, failed); !read)
       return read.error();
   std::stable_sort(runs.begin(), runs.end(), [](const Json& a, const Json& b) {
     const auto key = [](const Json& run) {
@@ -176,7 +202,7 @@ Result<std::string> merge_studies(std::span<const std::string> texts,
     };
     return key(a) < key(b);
   });
-  return study_text(method, runs);
+  return study_text(method, runs, failed);
 }
 
 }  // namespace orthonav::engine

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,11 +23,18 @@ struct StudyOptions {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
+/// A study, and the first thing that kept a run of it from being made.
+struct Study {
+  std::string text;
+  std::optional<Error> failure;
+};
+
 /// Many simulated operations as one JSON text: `runs` holds every run's report, ordered by case and
 /// seed, `table` the rows of the paper's Table 1 over all of them. Called after each run with how
-/// many are done of how many, from any thread, one at a time.
-Result<std::string> run_study(std::span<const Case> cases, const StudyOptions& options,
-                              const std::function<void(int, int)>& progress = {});
+/// many are done of how many, from any thread, one at a time. A run that could not be made stands
+/// in `failed` with the reason, the others are kept; an Error where none could.
+Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options,
+                        const std::function<void(int, int)>& progress = {});
 
 /// Joins the texts of shards as if they had been one study. `names` stand for them in messages.
 /// Refuses what is no study, different methods, and a run that occurs twice.

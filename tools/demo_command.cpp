@@ -1,19 +1,21 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <numbers>
+#include <optional>
+#include <regex>
 
 #include "engine/atomic_file.h"
-#include "engine/case_file.h"
 #include "engine/journal.h"
 #include "engine/operation_plan.h"
-#include "engine/phantom.h"
 #include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
 #include "engine/video_writer.h"
+#include "tools/arguments.h"
+#include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/demo_report.h"
 #include "tools/operation_summary.h"
+#include "tools/out_folder.h"
 #include "tools/progress.h"
 #include "tools/reading_curves.h"
 #include "tools/step_pictures.h"
@@ -45,15 +47,6 @@ struct DemoArguments {
 constexpr int kDrawEvery = 15;
 constexpr int kVideoRate = 20;
 
-Result<engine::Case> case_of(const DemoArguments& arguments) {
-  if (arguments.case_folder.empty()) return engine::phantom();
-  auto loaded = engine::load_case(arguments.case_folder);
-  if (!loaded) return loaded;
-  const auto problems = loaded->check();
-  if (!problems.empty()) return Error{arguments.case_folder + ": " + problems.front()};
-  return loaded;
-}
-
 engine::OperationOptions options_of(const DemoArguments& arguments) {
   engine::OperationOptions options;
   options.method = arguments.method;
@@ -69,6 +62,22 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
   return options;
 }
 
+/// Takes away what an earlier demo left here: a picture of its steps or its film would pass for one
+/// of this run. Only files with the names that a demo gives.
+Status remove_earlier_results(const fs::path& folder) {
+  static const std::regex kOurs(
+      "report\\.html|report\\.json|timing\\.json|session\\.orthonav|operation\\.mp4|"
+      "[0-9]{2,}-(setup|digitize|verify|accepted|guide|rod|done)(-[^/]*)?\\.png");
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    if (!std::regex_match(entry.path().filename().string(), kOurs)) continue;
+    if (!entry.is_directory()) fs::remove(entry.path(), code);
+    if (code) return Error{entry.path().string() + ": cannot be replaced: " + code.message()};
+  }
+  if (code) return Error{folder.string() + ": cannot be read: " + code.message()};
+  return {};
+}
+
 /// Everything a demo needs beside the operation itself; made before anything is written.
 class Demo {
  public:
@@ -78,17 +87,18 @@ class Demo {
   int run() {
     const auto method = engine::method_named(arguments_.method);
     if (!method) return bad_input(method.error().message);
-    const auto source = case_of(arguments_);
+    const auto source = load_checked_case(arguments_.case_folder);
     if (!source) return bad_input(source.error().message);
     const auto levels = engine::levels_to_operate(*source, arguments_.levels);
     if (!levels) return bad_input("--levels: " + levels.error().message);
     if (const Status ready = prepare(source->name); !ready) return bad_input(ready.error().message);
     const auto result = operate(*source);
     if (!result) return bad_input(result.error().message);
-    if (const Status written = write(*result); !written) return bad_input(written.error().message);
+    const Status written = write(*result);
     std::fputs(
         arguments_.json ? engine::report_json(*result).c_str() : operation_summary(*result).c_str(),
         stdout);
+    if (!written) return bad_input(written.error().message);
     if (!result->completed)
       std::fprintf(stderr, "orthonav: the operation did not come to its end\n");
     return result->completed ? kDone : kNo;
@@ -101,11 +111,11 @@ class Demo {
     auto view = SurgeonView::create(view_options);
     if (!view) return view.error();
     view_ = std::move(*view);
-    std::error_code code;
-    fs::create_directories(arguments_.out, code);
-    if (code) return Error{"--out " + arguments_.out + ": " + code.message()};
+    auto out = OutFolder::create("--out", arguments_.out);
+    if (!out) return out.error();
+    out_.emplace(std::move(*out));
     auto journal = engine::Journal::create(
-        arguments_.out + "/session.orthonav",
+        out_->file("session.orthonav"),
         {ORTHONAV_VERSION, "sim:", arguments_.method, case_name, arguments_.seed});
     if (!journal) return journal.error();
     journal_ = std::move(*journal);
@@ -114,7 +124,7 @@ class Demo {
       video_options.width_px = view_options.width_px;
       video_options.height_px = view_options.height_px;
       video_options.frames_per_second = kVideoRate;
-      auto video = engine::VideoWriter::create(arguments_.out + "/operation.mp4", video_options);
+      auto video = engine::VideoWriter::create(out_->file("operation.mp4"), video_options);
       if (!video) return video.error();
       video_ = std::move(*video);
       video_pictures_ = std::make_unique<VideoPictures>(*video_);
@@ -134,28 +144,34 @@ class Demo {
     guests.sink = view_.get();
     guests.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
       view_->look_at(headset, options.sim.magnitudes);
-      return Status{};
+      return remove_earlier_results(out_->path());
     };
     return engine::run_operation(source, options, guests);
   }
 
+  /// What was measured first: nothing that fails after it may take it away. The first failure.
   Status write(const engine::OperationResult& result) {
-    if (const Status done = pictures_.finish(); !done) return done;
-    if (video_)
-      if (const Status done = video_->finish(); !done) return done;
-    if (const Status done = journal_->finish(); !done) return done;
-    const std::string timing = engine::timing_json(result.loop);
-    if (const Status done = engine::write_file(arguments_.out + "/timing.json", timing); !done)
-      return done;
+    Status first;
+    const auto note = [&first](const Status& status) {
+      if (first.ok()) first = status;
+      return status.ok();
+    };
+    note(engine::write_file(out_->file("report.json"), engine::report_json(result)));
+    note(engine::write_file(out_->file("timing.json"), engine::timing_json(result.loop)));
+    note(journal_->finish());
+    note(pictures_.finish());
+    const bool film = video_ && note(video_->finish());
     const DemoReport report{.perfect = arguments_.perfect,
-                            .video = video_ != nullptr,
+                            .video = film,
                             .plots = readings_->plots(),
                             .pictures = pictures_.written()};
-    if (const Status done = write_demo_report(arguments_.out, result, report); !done) return done;
-    return engine::write_file(arguments_.out + "/report.json", engine::report_json(result));
+    note(write_demo_report(out_->path(), result, report));
+    note(result.recording);
+    return first;
   }
 
   DemoArguments arguments_;
+  std::optional<OutFolder> out_;  ///< goes last: the files in it are dropped first
   std::unique_ptr<SurgeonView> view_;
   StepPictures pictures_;
   std::unique_ptr<ReadingCurves> readings_;
@@ -171,20 +187,26 @@ void add_demo_command(CLI::App& app, Action& action) {
   auto* demo = app.add_subcommand(
       "demo", "A whole navigated operation in the simulated room, from camera frames to holograms");
   demo->add_option("--case", arguments->case_folder,
-                   "case folder with case.json (default: the built-in phantom)");
+                   "case folder with case.json (default: the built-in phantom)")
+      ->check(some_text());
   demo->add_option("--method", arguments->method, "tracking and registration: paper")
       ->capture_default_str();
-  demo->add_option("--seed", arguments->seed, "seed of every random number")->capture_default_str();
-  demo->add_option("--out", arguments->out, "folder of the results")->capture_default_str();
+  demo->add_option("--seed", arguments->seed, "seed of every random number")
+      ->check(seed_number())
+      ->capture_default_str();
+  demo->add_option("--out", arguments->out, "folder of the results")
+      ->check(some_text())
+      ->capture_default_str();
   demo->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
       ->delimiter(',');
   auto* fast = demo->add_flag("--fast", arguments->fast, "as fast as the machine goes (default)");
   demo->add_flag("--realtime", arguments->realtime, "30 frames a second")->excludes(fast);
-  demo->add_option("--record", arguments->record, "also record the session into this new folder");
+  demo->add_option("--record", arguments->record, "also record the session into this new folder")
+      ->check(some_text());
   demo->add_option("--device", arguments->device, "part of the name of the Vulkan device");
   demo->add_option("--threads", arguments->threads,
                    "threads of the tracker; no result depends on it")
-      ->check(CLI::Range(1, 2))
+      ->check(whole_number(1, 2))
       ->capture_default_str();
   demo->add_flag("--no-video", arguments->no_video, "write no operation.mp4");
   demo->add_flag("--perfect", arguments->perfect, "every source of error at zero");

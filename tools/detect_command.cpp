@@ -6,6 +6,7 @@
 
 #include "engine/grey_image_file.h"
 #include "nav/tracking/marker_detector.h"
+#include "tools/arguments.h"
 #include "tools/command.h"
 
 namespace orthonav::tools {
@@ -120,15 +121,19 @@ void add_detect_command(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--max-hamming", arguments->max_hamming,
-                      "Corrected bits, 0-2; without it 2, 1 for families of over 10,000 codes");
+  command
+      ->add_option("--max-hamming", arguments->max_hamming,
+                   "Corrected bits, 0-2; without it 2, 1 for families of over 10,000 codes")
+      ->check(whole_number(0, 2));
   command
       ->add_option("--min-margin", arguments->min_margin,
                    "Least decision margin, grey levels: weaker tags are left out")
+      ->check(finite_number(0, 255))
       ->capture_default_str();
   command
       ->add_option("--decimate", arguments->decimate,
                    "Look for tags at this fraction of the resolution: 1, 1.5, 2, 3 or 4")
+      ->check(finite_number(1, 4))
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "Everything as JSON");
   command->footer(std::string("\nCorners are in ") + kConvention + ",\nin the order " + kOrder +

@@ -10,6 +10,7 @@
 #include "engine/atomic_file.h"
 #include "engine/golden_review.h"
 #include "tools/command.h"
+#include "tools/out_folder.h"
 
 namespace orthonav::tools {
 namespace {
@@ -53,9 +54,8 @@ int list_scenes() {
 int render_scenes(const GoldenOptions& options) {
   const auto scenes = chosen_scenes(options.scenes);
   if (!scenes) return bad_input(scenes.error().message);
-  std::error_code failure;
-  fs::create_directories(options.out, failure);
-  if (failure) return bad_input(options.out + ": can't be made: " + failure.message());
+  const auto out = OutFolder::create("--out", options.out);
+  if (!out) return bad_input(out.error().message);
   engine::GoldenPainter painter(options.device);
   for (const engine::GoldenScene& scene : *scenes) {
     const auto images = painter.paint(scene);

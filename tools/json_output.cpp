@@ -15,20 +15,25 @@ void JsonOutput::add_to(CLI::App& command) {
                 ->type_name("OUT");
 }
 
-bool JsonOutput::on_stdout() const { return wanted() && (place_.empty() || place_ == "-"); }
+bool JsonOutput::on_stdout() const {
+  return given() ? place_.empty() || place_ == "-" : unasked_ == Unasked::kStdout;
+}
 
 Status JsonOutput::check() const {
-  if (!wanted() || on_stdout()) return {};
+  if (!given() || on_stdout()) return {};
   const auto place = engine::AtomicFile::create(place_);
   return place ? Status{} : Status{place.error()};
 }
 
 Status JsonOutput::write(const nlohmann::ordered_json& content) const {
-  if (!wanted()) return {};
-  const std::string text =
-      content.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  if (!on_stdout()) return engine::write_file(place_, text);
-  std::fputs(text.c_str(), stdout);
+  return write_text(content.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+Status JsonOutput::write_text(const std::string& text) const {
+  if (on_stdout())
+    std::fputs(text.c_str(), stdout);
+  else if (given())
+    return engine::write_file(place_, text);
   return {};
 }
 

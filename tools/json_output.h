@@ -8,10 +8,12 @@
 
 namespace orthonav::tools {
 
-/// Where a command's figures go as JSON: nowhere, standard output (`--json` or `--json -`), or a
-/// file.
+/// Where a command's figures go as JSON: nowhere (or, for a command with no other output, standard
+/// output), standard output (`--json` or `--json -`), or a file.
 class JsonOutput {
  public:
+  enum class Unasked { kNowhere, kStdout };
+  explicit JsonOutput(Unasked unasked = Unasked::kNowhere) : unasked_(unasked) {}
   /// Adds `--json [OUT]` to the command. Keep this object alive until it is parsed.
   void add_to(CLI::App& command);
   /// Standard output carries the JSON and nothing else.
@@ -19,11 +21,14 @@ class JsonOutput {
   /// Refuses a place that can't be written, before the work is done.
   [[nodiscard]] Status check() const;
   [[nodiscard]] Status write(const nlohmann::ordered_json& content) const;
+  /// The same for what is JSON text already.
+  [[nodiscard]] Status write_text(const std::string& text) const;
 
  private:
-  [[nodiscard]] bool wanted() const { return option_ != nullptr && option_->count() > 0; }
+  [[nodiscard]] bool given() const { return option_ != nullptr && option_->count() > 0; }
   CLI::Option* option_ = nullptr;
   std::string place_;
+  Unasked unasked_;
 };
 
 }  // namespace orthonav::tools

@@ -75,7 +75,7 @@ Offer video_encoder() {
   const auto writer = engine::VideoWriter::create(scratch.string(), {});
   if (writer.ok()) return {"H.264 encoder", Finding::kFound, "libavcodec with libx264", ""};
   return {"H.264 encoder", Finding::kMissing, writer.error().message,
-          "apt install libavcodec59 (Debian's build brings libx264)"};
+          "apt install libavcodec-dev (Debian's build brings libx264)"};
 }
 
 Offer phantom_case() {

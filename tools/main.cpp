@@ -1,19 +1,50 @@
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
 
 #include "tools/command.h"
 
 namespace orthonav::tools {
 
 int bad_input(const std::string& message) {
-  std::fprintf(stderr, "orthonav: %s\n", message.c_str());
+  std::string line = message;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::fprintf(stderr, "orthonav: %s\n", line.c_str());
   return kBadInput;
 }
 
 namespace {
 
+/// Whatever the library says of the command line, in one line.
+int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* asked = &app;
+  while (!asked->get_subcommands().empty()) asked = asked->get_subcommands().front();
+  std::string way;
+  for (const CLI::App* part = asked; part != nullptr; part = part->get_parent())
+    way = part->get_name() + (way.empty() ? "" : " " + way);
+  // Without a known command the library misses one; what was written instead says more.
+  const std::vector<std::string> unknown = app.remaining(true);
+  const bool no_command = asked->get_require_subcommand_min() > 0 && !unknown.empty();
+  return bad_input((no_command ? "unknown command: " + unknown.front() : error.what()) + " (see " +
+                   way + " --help)");
+}
+
+/// A full disk under standard output shows only when it is flushed.
+int with_output_written(int code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  const char* why = errno != 0 ? std::strerror(errno) : "write error";
+  return bad_input(std::string("standard output: cannot be written: ") + why);
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"orthonav: standalone mixed-reality navigation for orthopaedic surgery"};
+  CLI::App app{"orthonav: standalone mixed-reality navigation for orthopaedic surgery", "orthonav"};
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);
   Action action;
@@ -29,10 +60,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? kDone : kBadInput;
+    if (error.get_exit_code() != 0) return bad_command_line(app, error);
+    return with_output_written(app.exit(error) == 0 ? kDone : kBadInput);
   }
-  return action ? action() : kBadInput;
+  return with_output_written(action ? action() : kBadInput);
 }
 
 }  // namespace

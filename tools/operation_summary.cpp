@@ -18,14 +18,20 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 }  // namespace
 
 std::string operation_summary(const engine::OperationResult& result) {
-  std::string out = "case " + result.case_name + ", method " + result.method + ", seed " +
-                    std::to_string(result.seed) +
+  std::string out = "case " + result.case_name + ", method " + result.method +
+                    (result.seed ? ", seed " + std::to_string(*result.seed) : "") +
                     (result.completed ? ": completed\n" : ": not completed\n");
+  if (!result.why_not.empty()) out += result.why_not + "\n";
   for (const engine::LevelOutcome& level : result.levels) {
+    if (level.attempts == 0) {
+      out += level.label + ": not reached\n";
+      continue;
+    }
     out += level.label + ": " + (level.accepted ? "accepted" : "not accepted") + " after " +
            std::to_string(level.attempts) + " attempt(s), RMSE " + number(level.rmse_m, 1e3, "mm") +
-           ", TRE " + number(level.tre_m, 1e3, "mm") + ", " + std::to_string(level.points) +
-           " points in " + number(level.digitization_s, 1.0, "s") + "\n";
+           ", TRE " + number(level.tre_m, 1e3, "mm") + ", " +
+           (level.points ? std::to_string(*level.points) : "-") + " points in " +
+           number(level.digitization_s, 1.0, "s") + "\n";
     for (const engine::ScrewOutcome& screw : level.screws)
       out += "  " + std::string(engine::name_of(screw.side)) + ": angle error " +
              number(screw.angle_error_rad, kDegrees, "deg") + ", entry error " +

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 
 #include "engine/frame_loop.h"
+#include "tools/progress_bar.h"
 
 namespace orthonav::tools {
 
@@ -12,20 +12,14 @@ namespace orthonav::tools {
 class OperationProgress : public engine::LoopObserver {
  public:
   /// Also passes what it hears on. Borrowed, may be null.
-  explicit OperationProgress(engine::LoopObserver* next, bool quiet = false);
-  ~OperationProgress() override;
+  explicit OperationProgress(engine::LoopObserver* next) : next_(next) {}
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
 
  private:
-  void bar(double share, const std::string& step);
-
   engine::LoopObserver* next_;
-  bool quiet_;
-  bool terminal_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point last_bar_{};
+  ProgressBar bar_;
   std::string step_;
   Timestamp first_{};
 };

@@ -195,7 +195,7 @@ void add_register_command(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"LPS", "RAS"}));
   command->add_option("--plan", arguments->plan, "Planned screws, for the error to expect there")
       ->type_name("PLAN");
-  command->add_option("--method", arguments->method, "paper or best")->capture_default_str();
+  command->add_option("--method", arguments->method, "registration: paper")->capture_default_str();
   arguments->json.add_to(*command);
   command->footer(kFooter);
   command->callback(

@@ -6,6 +6,7 @@
 
 #include "engine/points_file.h"
 #include "nav/guidance/rod.h"
+#include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
 
@@ -84,7 +85,8 @@ void add_rod_command(CLI::App& app, Action& action) {
   command->add_option("--units", arguments->units, "Unit of a file that declares none")
       ->check(CLI::IsMember({"mm", "m"}))
       ->capture_default_str();
-  command->add_option("--diameter-mm", arguments->diameter_mm, "Rod diameter, 1-15 mm")
+  command->add_option("--diameter-mm", arguments->diameter_mm, "Rod diameter")
+      ->check(finite_number(1, 15))
       ->capture_default_str();
   arguments->json.add_to(*command);
   command->footer(

@@ -1,22 +1,24 @@
 #include <cstdio>
-#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "engine/atomic_file.h"
-#include "engine/case_file.h"
+#include "engine/evaluation.h"
 #include "engine/journal.h"
 #include "engine/observer_list.h"
 #include "engine/operation_plan.h"
 #include "engine/operation_result.h"
-#include "engine/phantom.h"
 #include "engine/sim_scenario.h"
 #include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
 #include "hal/open/open.h"
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
+#include "tools/arguments.h"
+#include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/operation_summary.h"
+#include "tools/out_folder.h"
 #include "tools/progress.h"
 
 namespace orthonav::tools {
@@ -33,15 +35,6 @@ struct RunArguments {
   std::int64_t frames = 0;
   bool json = false;
 };
-
-Result<engine::Case> case_of(const RunArguments& arguments) {
-  if (arguments.case_folder.empty()) return engine::phantom();
-  auto loaded = engine::load_case(arguments.case_folder);
-  if (!loaded) return loaded;
-  const auto problems = loaded->check();
-  if (!problems.empty()) return Error{arguments.case_folder + ": " + problems.front()};
-  return loaded;
-}
 
 /// The file that was named; else what the headset itself knows of its tools; else the built-in.
 Result<std::vector<nav::ToolGeometry>> tools_of(const RunArguments& arguments,
@@ -75,6 +68,9 @@ class LiveRun {
         engine::outcome_of(session_->levels(), session_->rods(), std::move(*report));
     result.method = method_.name;
     result.case_name = case_name_;
+    if (room_) result.seed = room_->options().seed;
+    if (witness_) witness_->evaluate(session_->levels(), result);
+    end_note_.explain(result);
     if (const Status finished = finish(result); !finished)
       return bad_input(finished.error().message);
     const bool limited = arguments_.frames > 0 && result.loop.displayed >= arguments_.frames;
@@ -86,7 +82,7 @@ class LiveRun {
     auto method = engine::method_named(arguments_.method);
     if (!method) return method.error();
     method_ = std::move(*method);
-    const auto source = case_of(arguments_);
+    const auto source = load_checked_case(arguments_.case_folder);
     if (!source) return source.error();
     case_name_ = source->name;
     auto operation = engine::plan_operation(*source, arguments_.levels);
@@ -109,42 +105,52 @@ class LiveRun {
         engine::Session::create(std::move(operation), std::move(*tracker), method_.registrar);
     if (!session) return session.error();
     session_ = std::move(*session);
-    used_ = headset_.get();
-    if (!arguments_.record.empty()) {
-      auto recorder = replay::RecordingHeadset::around(*headset_, arguments_.record,
-                                                       {engine::tools_text(*tools)});
-      if (!recorder) return recorder.error();
-      recorder_ = std::move(*recorder);
-      used_ = recorder_.get();
-    }
-    return open_journal();
+    observers_.add(&end_note_);
+    room_ = dynamic_cast<const sim::SimHeadset*>(headset_.get());
+    if (room_) observers_.add(&witness_.emplace(*room_));
+    if (const Status opened = open_journal(); !opened) return opened;
+    session_->observe(&observers_);
+    return start_recording(*tools);
   }
 
   Status open_journal() {
     if (arguments_.out.empty()) return {};
-    std::error_code code;
-    std::filesystem::create_directories(arguments_.out, code);
-    if (code) return Error{"--out " + arguments_.out + ": " + code.message()};
-    auto journal =
-        engine::Journal::create(arguments_.out + "/session.orthonav",
-                                {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_, 0});
+    auto out = OutFolder::create("--out", arguments_.out);
+    if (!out) return out.error();
+    out_.emplace(std::move(*out));
+    auto journal = engine::Journal::create(out_->file("session.orthonav"),
+                                           {ORTHONAV_VERSION, headset_->name(), method_.name,
+                                            case_name_, room_ ? room_->options().seed : 0});
     if (!journal) return journal.error();
     journal_ = std::move(*journal);
-    session_->observe(journal_.get());
+    observers_.add(journal_.get());
     return {};
   }
 
+  /// Last of all, for a recording that was begun stays.
+  Status start_recording(const std::vector<nav::ToolGeometry>& tools) {
+    used_ = headset_.get();
+    if (arguments_.record.empty()) return {};
+    auto recorder =
+        replay::RecordingHeadset::around(*headset_, arguments_.record, {engine::tools_text(tools)});
+    if (!recorder) return recorder.error();
+    recorder_ = std::move(*recorder);
+    used_ = recorder_.get();
+    return {};
+  }
+
+  /// What was measured first: nothing that fails after it may take it away. The first failure.
   Status finish(const engine::OperationResult& result) {
     const std::string report = engine::report_json(result);
-    if (journal_) {
-      if (const Status done = journal_->finish(); !done) return done;
-      const Status written = engine::write_file(arguments_.out + "/report.json", report);
-      if (!written) return written;
-    }
-    if (recorder_)
-      if (const Status done = recorder_->close(); !done) return done;
     std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
-    return {};
+    Status first;
+    const auto note = [&first](const Status& status) {
+      if (first.ok()) first = status;
+    };
+    if (out_) note(engine::write_file(out_->file("report.json"), report));
+    if (journal_) note(journal_->finish());
+    if (recorder_) note(recorder_->close());
+    return first;
   }
 
   RunArguments arguments_;
@@ -153,7 +159,12 @@ class LiveRun {
   std::unique_ptr<Headset> headset_;
   std::unique_ptr<replay::RecordingHeadset> recorder_;
   Headset* used_ = nullptr;
+  const sim::SimHeadset* room_ = nullptr;  ///< the headset, where it is the simulated one
+  std::optional<engine::SimWitness> witness_;
+  engine::EndNote end_note_;
+  std::optional<OutFolder> out_;
   std::unique_ptr<engine::Journal> journal_;
+  engine::ObserverList observers_;
   std::unique_ptr<engine::Session> session_;
 };
 
@@ -162,19 +173,25 @@ class LiveRun {
 void add_run_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<RunArguments>();
   auto* run = app.add_subcommand("run", "An operation with a headset, simulated or recorded");
-  run->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH")->capture_default_str();
+  run->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH")
+      ->check(some_text())
+      ->capture_default_str();
   run->add_option("--case", arguments->case_folder,
-                  "case folder with case.json (default: the built-in phantom)");
+                  "case folder with case.json (default: the built-in phantom)")
+      ->check(some_text());
   run->add_option("--method", arguments->method, "tracking and registration: paper")
       ->capture_default_str();
   run->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
       ->delimiter(',');
   run->add_option("--tools", arguments->tools_file,
-                  "tool definitions (default: the headset's own, else the built-in)");
+                  "tool definitions (default: the headset's own, else the built-in)")
+      ->check(some_text());
   run->add_option("--frames", arguments->frames, "end after so many displayed frames (0: no limit)")
-      ->check(CLI::NonNegativeNumber);
-  run->add_option("--record", arguments->record, "record the session into this new folder");
-  run->add_option("--out", arguments->out, "folder for report.json and session.orthonav");
+      ->check(whole_number(0));
+  run->add_option("--record", arguments->record, "record the session into this new folder")
+      ->check(some_text());
+  run->add_option("--out", arguments->out, "folder for report.json and session.orthonav")
+      ->check(some_text());
   run->add_flag("--json", arguments->json, "print the report as JSON");
   run->callback(
       [arguments, &action] { action = [arguments] { return LiveRun(*arguments).run(); }; });

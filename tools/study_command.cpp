@@ -2,15 +2,17 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <thread>
 
-#include "engine/atomic_file.h"
-#include "engine/case_file.h"
 #include "engine/json_document.h"
-#include "engine/phantom.h"
 #include "engine/study.h"
 #include "engine/tool_file.h"
+#include "tools/arguments.h"
+#include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/count_progress.h"
+#include "tools/json_output.h"
 
 namespace orthonav::tools {
 namespace {
@@ -25,15 +27,19 @@ struct StudyArguments {
   std::uint64_t first_seed = 1;
   std::string shard = "1/1";
   int jobs = 0;
-  std::string json;
+  JsonOutput json{JsonOutput::Unasked::kStdout};
   bool perfect = false;
   std::vector<std::string> merged;
-  std::string merged_json;
+  JsonOutput merged_json{JsonOutput::Unasked::kStdout};
 };
 
 /// A case folder, or a folder of case folders in the order of their names; the phantom without one.
 Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
-  if (folder.empty()) return std::vector<engine::Case>{engine::phantom()};
+  if (folder.empty()) {
+    auto spine = load_checked_case(folder);
+    if (!spine) return spine.error();
+    return std::vector<engine::Case>{std::move(*spine)};
+  }
   std::vector<std::string> folders;
   std::error_code code;
   if (fs::exists(fs::path(folder) / "case.json", code)) {
@@ -47,10 +53,8 @@ Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
     return Error{"--cases " + folder + ": no case.json in it or one level below"};
   std::vector<engine::Case> cases;
   for (const std::string& path : folders) {
-    auto loaded = engine::load_case(path);
+    auto loaded = load_checked_case(path);
     if (!loaded) return loaded.error();
-    const auto problems = loaded->check();
-    if (!problems.empty()) return Error{path + ": " + problems.front()};
     cases.push_back(std::move(*loaded));
   }
   return cases;
@@ -76,30 +80,30 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   return options;
 }
 
-int write_or_print(const std::string& path, const std::string& text) {
-  if (path.empty()) {
-    std::fputs(text.c_str(), stdout);
-    return kDone;
-  }
-  const Status written = engine::write_file(path, text);
-  return written ? kDone : bad_input(written.error().message);
-}
-
 int run_study(const StudyArguments& arguments) {
   const auto method = engine::method_named(arguments.method);
   if (!method) return bad_input(method.error().message);
   const auto options = options_of(arguments);
   if (!options) return bad_input(options.error().message);
+  if (const Status place = arguments.json.check(); !place) return bad_input(place.error().message);
   const auto cases = cases_in(arguments.cases);
   if (!cases) return bad_input(cases.error().message);
-  const auto study = engine::run_study(*cases, *options, [](int done, int all) {
-    std::fprintf(stderr, "%d of %d operations\n", done, all);
+  std::optional<CountProgress> progress;
+  const auto study = engine::run_study(*cases, *options, [&progress](int /*done*/, int all) {
+    if (!progress) progress.emplace("operations", all);
+    progress->add_one();
   });
+  progress.reset();
   if (!study) return bad_input(study.error().message);
-  return write_or_print(arguments.json, *study);
+  if (const Status written = arguments.json.write_text(study->text); !written)
+    return bad_input(written.error().message);
+  // The runs that finished are kept; that one could not be made is bad input all the same.
+  return study->failure ? bad_input(study->failure->message) : kDone;
 }
 
 int merge(const StudyArguments& arguments) {
+  if (const Status place = arguments.merged_json.check(); !place)
+    return bad_input(place.error().message);
   std::vector<std::string> texts;
   for (const std::string& path : arguments.merged) {
     auto text = engine::read_text(path);
@@ -108,7 +112,8 @@ int merge(const StudyArguments& arguments) {
   }
   const auto study = engine::merge_studies(texts, arguments.merged);
   if (!study) return bad_input(study.error().message);
-  return write_or_print(arguments.merged_json, *study);
+  const Status written = arguments.merged_json.write_text(*study);
+  return written ? kDone : bad_input(written.error().message);
 }
 
 }  // namespace
@@ -117,25 +122,30 @@ void add_study_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<StudyArguments>();
   auto* study = app.add_subcommand(
       "study", "Many simulated operations and the paper's Table 1 over them; merge joins shards");
-  study->add_option("--cases", arguments->cases,
-                    "case folder or a folder of them (default: the built-in phantom)");
+  study
+      ->add_option("--cases", arguments->cases,
+                   "case folder or a folder of them (default: the built-in phantom)")
+      ->check(some_text());
   study->add_option("--method", arguments->method, "tracking and registration: paper")
       ->capture_default_str();
   study->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
       ->delimiter(',');
-  study->add_option("--runs", arguments->runs, "operations a case")->capture_default_str();
+  study->add_option("--runs", arguments->runs, "operations a case")
+      ->check(whole_number(1, 1'000'000))
+      ->capture_default_str();
   study->add_option("--seed", arguments->first_seed, "seed of the first run, then one more each")
+      ->check(seed_number())
       ->capture_default_str();
   study->add_option("--shard", arguments->shard, "I/N: every N-th run from the I-th on")
       ->capture_default_str();
-  study->add_option("--jobs", arguments->jobs, "operations at once (default: the cores)")
-      ->check(CLI::NonNegativeNumber);
-  study->add_option("--json", arguments->json, "file of the result (default: standard output)");
+  study->add_option("--jobs", arguments->jobs, "operations at once (0: as many as cores)")
+      ->check(whole_number(0, 1024))
+      ->capture_default_str();
+  arguments->json.add_to(*study);
   study->add_flag("--perfect", arguments->perfect, "every source of error at zero");
   auto* merge_command = study->add_subcommand("merge", "joins the results of shards");
   merge_command->add_option("files", arguments->merged, "results of shards")->required();
-  merge_command->add_option("--json", arguments->merged_json,
-                            "file of the result (default: standard output)");
+  arguments->merged_json.add_to(*merge_command);
   study->require_subcommand(0, 1);
   study->callback([arguments, &action, merge_command] {
     const bool merging = merge_command->parsed();

@@ -8,6 +8,7 @@
 #include "engine/method.h"
 #include "engine/tool_file.h"
 #include "hal/replay/replay_headset.h"
+#include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/count_progress.h"
 
@@ -134,14 +135,14 @@ void add_track_command(CLI::App& app, Action& action) {
   command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
       ->required();
   command->add_option("--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
-  command->add_option("--method", arguments->method, "paper or best")->capture_default_str();
+  command->add_option("--method", arguments->method, "tracking: paper")->capture_default_str();
   command->add_option("--csv", arguments->csv, "Where the poses go")->required();
   command
       ->add_option("--full-search-every", arguments->full_search_every,
                    "1: search whole images; N: only around predictions, and everywhere in every "
                    "N-th pair while a tool is missing")
       ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number(1, 1000));
   command->add_flag("--json", arguments->json, "The summary as JSON");
   command->footer(kFooter);
   command->callback(

@@ -243,6 +243,7 @@ class SimulatedHeadset final : public SimHeadset {
                      Random(options_.seed).fork("tool descriptions"));
   }
   [[nodiscard]] const RoomDescription& room() const override { return shared_.theatre.room(); }
+  [[nodiscard]] const SimOptions& options() const override { return options_; }
 
  private:
   static Vec3 between_cameras(const StereoCalibration& cameras) {

@@ -47,6 +47,8 @@ class SimHeadset : public Headset {
   /// The tools as a planning file would describe them: slightly off by the magnitudes.
   [[nodiscard]] virtual std::vector<RoomTool> described_tools() const = 0;
   [[nodiscard]] virtual const RoomDescription& room() const = 0;
+  /// What it was opened with.
+  [[nodiscard]] virtual const SimOptions& options() const = 0;
 };
 
 }  // namespace orthonav::sim

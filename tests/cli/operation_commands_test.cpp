@@ -44,20 +44,24 @@ TEST(DemoCommand, RefusesAFileInThePlaceOfItsFolder) {
 TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
   const ScratchFolder folder;
   const std::string recording = folder.file("recording");
-  const Called live = orthonav({"run", "--headset", "sim:", "--levels", "L5", "--frames", "6",
-                                "--json", "--record", recording});
+  const Called live = orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--frames",
+                                "6", "--json", "--record", recording});
   ASSERT_EQ(live.code, 0) << live.err;
   const json report = json::parse(live.out);
   EXPECT_EQ(report["method"], "paper");
   EXPECT_EQ(report["frames"]["displayed"], 6);
   EXPECT_EQ(report["levels"][0]["label"], "L5");
   EXPECT_EQ(report["levels"][0]["accepted"], false);
+  EXPECT_FALSE(report["levels"][0].contains("points")) << "none were registered: no 0 for a mean";
+  EXPECT_EQ(report["seed"], 3) << "of the headset that was opened";
+  EXPECT_EQ(report["why_not"], "ended at setup of L5");
 
   // Without a limit the answer is no: the recording ends before the operation does.
   const Called again =
       orthonav({"run", "--headset", "replay:" + recording, "--levels", "L5", "--json"});
   EXPECT_EQ(again.code, 1) << again.err;
   EXPECT_EQ(json::parse(again.out)["frames"]["displayed"], 6);
+  EXPECT_FALSE(json::parse(again.out).contains("seed")) << "a recording has none";
 }
 
 TEST(RunCommand, RefusesBadInput) {
@@ -72,9 +76,13 @@ TEST(StudyCommand, RefusesBadInput) {
   const ScratchFolder folder;
   expect_refusal(orthonav({"study", "--shard", "3/2"}), "--shard 3/2");
   expect_refusal(orthonav({"study", "--shard", "1/2x"}), "--shard 1/2x");
-  expect_refusal(orthonav({"study", "--runs", "0"}), "--runs 0");
+  expect_refusal(orthonav({"study", "--runs", "0"}), "--runs: \"0\"");
   expect_refusal(orthonav({"study", "--cases", folder.file("none")}), "no case.json");
   expect_refusal(orthonav({"study", "merge", folder.with("a.json", "[]")}), "is no study");
+  const std::string words = folder.with("words.json", R"({"method": "paper", "runs": [
+      {"case": "a", "seed": 1, "completed": "yes", "levels": []}]})");
+  expect_refusal(orthonav({"study", "merge", words}),
+                 "words.json: completed of a run is \"yes\", must be true or false");
 }
 
 TEST(StudyCommand, MergesShards) {

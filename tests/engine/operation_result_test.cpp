@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/operation_plan.h"
@@ -69,6 +70,48 @@ TEST(ReportJson, LeavesErrorsOutWhereThereIsNoTruth) {
   EXPECT_FALSE(json["levels"][0].contains("tre_mm"));
   EXPECT_FALSE(json["levels"][0]["screws"][0].contains("angle_error_deg"));
   EXPECT_FALSE(json["rod"].contains("length_error_mm"));
+}
+
+TEST(ReportJson, LeavesFiguresOutWhereNothingWasMeasured) {
+  OperationResult result;
+  result.levels.emplace_back();
+  const auto json = nlohmann::json::parse(report_json(result));
+  for (const char* key : {"rmse_mm", "points", "digitization_s"})
+    EXPECT_FALSE(json["levels"][0].contains(key)) << key;
+  EXPECT_FALSE(json.contains("seed"));
+  EXPECT_FALSE(json["frames"].contains("p99_ms"));
+  EXPECT_FALSE(nlohmann::json::parse(timing_json({}))["draw_wall"].contains("median_ms"));
+}
+
+TEST(EndNote, SaysWhereAnOperationEndedAndWhatItWasToldLast) {
+  testing::ScriptedSession s({"L4", "L5"});
+  EndNote note;
+  s.session().observe(&note);
+  const auto why_not = [&] {
+    OperationResult result = outcome_of(s.session().levels(), s.session().rods(), {});
+    note.explain(result);
+    return result.why_not;
+  };
+  EXPECT_EQ(why_not(), "ended at setup of L4");
+  s.unusable = "99 points, needs at least 100";
+  s.says("start");
+  s.strokes(3);
+  s.says("save");
+  s.does({ClickerAction::kDoubleClick});
+  EXPECT_EQ(why_not(),
+            "ended at digitize of L4; last registration (L4) refused: 99 points, needs at least "
+            "100");
+  OperationResult whole;
+  whole.completed = true;
+  note.explain(whole);
+  EXPECT_EQ(whole.why_not, "");
+}
+
+TEST(Quantile, IsTheNearestRank) {
+  EXPECT_FALSE(quantile({}, 0.5).has_value());
+  EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2.0);
+  EXPECT_EQ(quantile({4, 3, 1, 2}, 0.99), 4.0);
+  EXPECT_EQ(quantile({7}, 0.0), 7.0);
 }
 
 TEST(ReportJson, DoesNotDependOnWallTime) {

@@ -35,6 +35,16 @@ TEST(ReportHtml, ShowsTheFiguresOfTheRunBesideThePapers) {
   EXPECT_THAT(*html, HasSubstr("42.5 mm"));
 }
 
+TEST(ReportHtml, TellsALevelThatWasRefusedFromOneThatWasNeverReached) {
+  const auto page = [](const std::string& level) {
+    return report_html({.report_json = R"({"levels":[{"label":"L4",)" + level + "}]}"}).value();
+  };
+  EXPECT_THAT(page(R"("accepted":false,"attempts":0)"), HasSubstr("not reached"));
+  EXPECT_THAT(page(R"("accepted":false,"attempts":0)"), Not(HasSubstr("refused")));
+  EXPECT_THAT(page(R"("accepted":false,"attempts":2)"), HasSubstr(">refused</span>"));
+  EXPECT_THAT(page(R"("accepted":true,"attempts":1)"), HasSubstr(">accepted</span>"));
+}
+
 TEST(ReportHtml, LoadsNothingFromOutside) {
   ReportContent content{.report_json = kReport, .video = "operation.mp4"};
   content.pictures.push_back({"step", "what", {1, 2, 3}});

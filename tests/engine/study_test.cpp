@@ -4,6 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/phantom.h"
+#include "engine/tool_file.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -70,6 +73,54 @@ TEST(Study, RefusesWhatDoesNotBelongTogether) {
   EXPECT_THAT(merged({"[]"}).error().message, HasSubstr("is no study"));
   EXPECT_THAT(merged({study_of("paper", {json{{"case", "a"}}})}).error().message,
               HasSubstr("a run lacks"));
+}
+
+TEST(Study, KeepsWhatFailedThroughAMerge) {
+  json part = json::parse(study_of("paper", {run_of("a", 1, 3.0)}));
+  part["failed"] = {{{"case", "a"}, {"seed", 2}, {"why", "no room"}}};
+  const auto all = merged({part.dump(), study_of("paper", {run_of("b", 1, 3.0)})});
+  ASSERT_TRUE(all.ok()) << all.error().message;
+  EXPECT_EQ(json::parse(*all)["failed"], part["failed"]);
+  EXPECT_EQ(json::parse(*all)["operations"], 2);
+}
+
+TEST(Study, RefusesRunsWhoseFieldsAreOfAnotherType) {
+  json run = run_of("a", 1, 3.0);
+  run["completed"] = "yes";
+  EXPECT_EQ(merged({study_of("paper", {run})}).error().message,
+            "part1: completed of a run is \"yes\", must be true or false");
+  run = run_of("a", 1, 3.0);
+  run["levels"] = {1};
+  EXPECT_THAT(merged({study_of("paper", {run})}).error().message, HasSubstr("part1: a level"));
+}
+
+TEST(Study, IsAnErrorWhereNoRunCouldBeMade) {
+  StudyOptions options;
+  options.runs = 2;
+  options.operation.levels = {"T1"};
+  const Case spine = phantom({"L5"});
+  const auto study = run_study({&spine, 1}, options);
+  ASSERT_FALSE(study.ok());
+  EXPECT_THAT(study.error().message, HasSubstr("case 'phantom', seed 1: "));
+}
+
+TEST(Study, KeepsTheRunsThatCouldBeMadeBesideOneThatCouldNot) {
+  StudyOptions options;
+  options.runs = 1;
+  options.operation.levels = {"L5"};
+  options.operation.tools = built_in_tools();
+  options.operation.loop.draw_every = 0;
+  options.operation.loop.max_frames = 2;
+  const std::vector<Case> cases = {phantom({"L4"}), phantom({"L5"})};
+  const auto study = run_study(cases, options);
+  ASSERT_TRUE(study.ok()) << study.error().message;
+  ASSERT_TRUE(study->failure.has_value());
+  EXPECT_THAT(study->failure->message, HasSubstr("no level 'L5'"));
+  const json text = json::parse(study->text);
+  EXPECT_EQ(text["operations"], 1);
+  EXPECT_EQ(text["failed"].size(), 1u);
+  EXPECT_EQ(text["runs"][0]["why_not"], "ended at setup of L5");
+  EXPECT_EQ(text["table"][4]["count"], 0) << "a level never registered has no points";
 }
 
 TEST(Study, RefusesOptionsWithAReason) {

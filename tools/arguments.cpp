@@ -1,0 +1,56 @@
+#include "tools/arguments.h"
+
+#include <charconv>
+#include <cstdio>
+#include <string>
+
+#include "engine/text_fields.h"
+
+namespace orthonav::tools {
+namespace {
+
+template <class Whole>
+CLI::Validator whole(Whole low, Whole high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    Whole value = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, code] = std::from_chars(text.data(), end, value);
+    if (!text.empty() && code == std::errc() && rest == end && value >= low && value <= high)
+      return {};
+    return "\"" + text + "\" must be a whole number from " + std::to_string(low) + " to " +
+           std::to_string(high);
+  };
+  return {check, "", "whole number"};
+}
+
+std::string shortest(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+}  // namespace
+
+CLI::Validator whole_number(std::int64_t low, std::int64_t high) { return whole(low, high); }
+
+CLI::Validator seed_number() {
+  return whole<std::uint64_t>(0, std::numeric_limits<std::uint64_t>::max());
+}
+
+CLI::Validator finite_number(double low, double high) {
+  const auto check = [low, high](const std::string& text) -> std::string {
+    const auto value = engine::number_from(text);
+    if (value && *value >= low && *value <= high) return {};
+    return "\"" + text + "\" must be a number from " + shortest(low) + " to " + shortest(high);
+  };
+  return {check, "", "number"};
+}
+
+CLI::Validator some_text() {
+  const auto check = [](const std::string& text) -> std::string {
+    return text.empty() ? "must not be empty" : "";
+  };
+  return {check, "", "text"};
+}
+
+}  // namespace orthonav::tools

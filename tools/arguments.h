@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
+
+namespace orthonav::tools {
+
+// Checks of what stands on the command line; the library alone takes hexadecimal digits, a minus
+// sign before an unsigned number, infinities and nothing at all for numbers.
+
+/// A whole number in decimal digits and nothing else, from `low` to `high`.
+[[nodiscard]] CLI::Validator whole_number(
+    std::int64_t low, std::int64_t high = std::numeric_limits<std::int64_t>::max());
+/// What a generator can be started from: 0 to 2^64 - 1.
+[[nodiscard]] CLI::Validator seed_number();
+/// A finite number with a decimal point and nothing else, from `low` to `high`.
+[[nodiscard]] CLI::Validator finite_number(double low, double high);
+/// Any text but none: an unset variable of a script must not mean a default.
+[[nodiscard]] CLI::Validator some_text();
+
+}  // namespace orthonav::tools

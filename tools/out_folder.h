@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+
+namespace orthonav::tools {
+
+/// A folder for results. What was made for it and is still empty at the end goes away again, so
+/// that a command that is refused leaves nothing.
+class OutFolder {
+ public:
+  /// Makes the folder and those above it. `option` stands for it in a refusal: "--out".
+  static Result<OutFolder> create(const std::string& option, const std::string& path);
+  OutFolder(OutFolder&& other) noexcept;
+  OutFolder& operator=(OutFolder&& other) = delete;
+  ~OutFolder();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  OutFolder(std::filesystem::path path, std::vector<std::filesystem::path> made)
+      : path_(std::move(path)), made_(std::move(made)) {}
+
+  std::filesystem::path path_;
+  std::vector<std::filesystem::path> made_;  ///< by this, the innermost first
+};
+
+}  // namespace orthonav::tools
