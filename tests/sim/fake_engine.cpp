@@ -62,6 +62,11 @@ void FakeEngine::take(const ClickerEvent& event) {
   if (event.action == ClickerAction::kRelease) pressed_ = false;
   if (event.action == ClickerAction::kDoubleClick && digitizing) double_clicked(event.time);
   if (event.action == ClickerAction::kClick && step_.starts_with("rod")) {
+    reason_.clear();
+    if (options_.lost_touches-- > 0) {
+      reason_ = " | head not recorded: tip moved 3.2 mm, limit 3.0 mm";
+      return;
+    }
     const RoomState state = headset_.state();
     const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
     heads_.push_back(headset_.world_from_room() * state.room_from_marker[pointer] *

@@ -23,7 +23,8 @@ struct EngineOptions {
   Vec3 registration_error_m;  ///< shifts every hologram of the bone
   double blind_from_s = 0.0;  ///< the tools are lost in this span of time
   double blind_to_s = 0.0;
-  bool deaf = false;  ///< hears no voice
+  bool deaf = false;     ///< hears no voice
+  int lost_touches = 0;  ///< the first touches of screw heads are not recorded
 };
 
 /// Stands in for the engine: walks through the workflow as clicker and voice say and draws the

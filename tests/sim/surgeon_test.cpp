@@ -54,6 +54,18 @@ TEST(Surgeon, OperatesTwoLevelsFromSetupToRod) {
   EXPECT_EQ(engine.heads().size(), 4U);
 }
 
+TEST(Surgeon, TouchesAgainWhatWasNotRecorded) {
+  const TestCase test_case = synthetic_case();
+  auto headset = SimHeadset::open(test_case.room, without_pixels(1));
+  ASSERT_TRUE(headset.ok()) << headset.error().message;
+  EngineOptions options;
+  options.lost_touches = 2;
+  FakeEngine engine(**headset, test_case, options);
+  EXPECT_GT(engine.run(), 0);
+  EXPECT_EQ(engine.heads().size(), 4U);
+  EXPECT_EQ(engine.history().back(), "done");
+}
+
 TEST(Surgeon, InAPerfectWorldHitsWhatPerfectHologramsShow) {
   // What is left: the readings' rounding of the last correction.
   constexpr double kMaxAngle_rad = 0.05 * kDeg;
