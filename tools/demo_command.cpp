@@ -40,6 +40,7 @@ struct DemoArguments {
   bool no_video = false;
   bool json = false;
   int threads = 2;
+  std::optional<double> pace;
 };
 
 /// Every how many-th displayed frame becomes a picture: an operation of ten minutes then makes a
@@ -54,6 +55,7 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
   options.tools = engine::built_in_tools();
   options.sim.seed = arguments.seed;
   if (arguments.perfect) options.sim.magnitudes = sim::Magnitudes::perfect();
+  if (arguments.pace) options.sim.magnitudes.pace = *arguments.pace;
   options.sim.pace = arguments.realtime ? sim::Pace::kRealtime : sim::Pace::kFast;
   options.tracker.parallel = arguments.threads > 1;
   options.loop.draw_every = kDrawEvery;
@@ -210,6 +212,10 @@ void add_demo_command(CLI::App& app, Action& action) {
       ->capture_default_str();
   demo->add_flag("--no-video", arguments->no_video, "write no operation.mp4");
   demo->add_flag("--perfect", arguments->perfect, "every source of error at zero");
+  // For tests: a hasty surgeon is through in a fraction of the frames.
+  demo->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
+      ->check(finite_number(0.5, 4))
+      ->group("");
   demo->add_flag("--json", arguments->json, "print the report as JSON");
   demo->callback([arguments, &action] { action = [arguments] { return Demo(*arguments).run(); }; });
 }

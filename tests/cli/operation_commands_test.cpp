@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <tuple>
 
 #include "tests/cli/command_line.h"
 
@@ -12,6 +16,7 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// Exit code 2, nothing on standard output, one line that says why.
 void expect_refusal(const Called& called, const std::string& reason) {
@@ -39,6 +44,48 @@ TEST(DemoCommand, RefusesAFileInThePlaceOfItsFolder) {
   const std::string file = folder.with("out", "mine");
   EXPECT_EQ(orthonav({"demo", "--out", file}).code, 2);
   EXPECT_EQ(content_of(file), "mine");
+}
+
+TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
+  const ScratchFolder folder;
+  const std::string out = folder.file("out");
+  std::filesystem::create_directories(out);
+  for (const char* stale : {"12-done.png", "report.json", "mine-01-setup.png", "notes.txt"})
+    std::ignore = folder.with("out/" + std::string(stale), "of an earlier run");
+  const Called demo = orthonav({"demo", "--levels", "L5", "--pace", "3", "--out", out, "--json"});
+  ASSERT_EQ(demo.code, 0) << demo.err;
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(out))
+    names.insert(entry.path().filename().string());
+  for (const char* name : {"report.html", "report.json", "timing.json", "session.orthonav",
+                           "operation.mp4", "01-setup.png"}) {
+    EXPECT_EQ(names.count(name), 1u) << name;
+    EXPECT_GT(std::filesystem::file_size(out + "/" + name), 100u) << name;
+  }
+  const auto shows = [&names](const std::string& step) {
+    return std::any_of(names.begin(), names.end(), [&step](const std::string& name) {
+      return name.size() == step.size() + 7 && name.ends_with("-" + step + ".png");
+    });
+  };
+  for (const char* step : {"digitize-L5", "guide-L5-left", "guide-L5-right", "rod-left"})
+    EXPECT_TRUE(shows(step)) << step;
+  EXPECT_EQ(names.count("12-done.png"), 0u) << "a picture of the run before";
+  EXPECT_EQ(content_of(out + "/mine-01-setup.png"), "of an earlier run") << "not ours to remove";
+  EXPECT_EQ(names.count("notes.txt"), 1u);
+  for (const std::string& name : names) EXPECT_THAT(name, Not(HasSubstr(".part")));
+
+  EXPECT_EQ(content_of(out + "/report.json"), demo.out);
+  const json report = json::parse(demo.out);
+  EXPECT_EQ(report["completed"], true);
+  EXPECT_FALSE(report.contains("why_not"));
+  EXPECT_GT(report["levels"][0]["screws"][1]["angle_error_deg"].get<double>(), 0.0);
+  EXPECT_GT(json::parse(content_of(out + "/timing.json"))["draw_wall"]["count"], 50);
+  std::istringstream journal(content_of(out + "/session.orthonav"));
+  int lines = 0;
+  for (std::string line; std::getline(journal, line); ++lines)
+    EXPECT_TRUE(json::accept(line)) << line;
+  EXPECT_GT(lines, 20);
+  EXPECT_THAT(content_of(out + "/operation.mp4"), HasSubstr("ftyp"));
 }
 
 TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {

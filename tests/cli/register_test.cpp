@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/mesh_file.h"
+#include "engine/phantom.h"
 #include "engine/plan_file.h"
 #include "hal/api/random.h"
 #include "nav/geometry/mesh.h"
@@ -42,12 +43,17 @@ std::vector<Vec3> touched(const nav::TriangleMesh& mesh, double front_m) {
   return points;
 }
 
-class RegisterCommand : public ::testing::Test {
+/// With the built-in phantom, which every checkout has, and with a real bone.
+class RegisterCommand : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    if (shared("anatomy").empty()) GTEST_SKIP() << "shared anatomy is absent";
-    model_ = shared("anatomy/visible-human/L4.stl");
-    plan_file_ = shared("anatomy/visible-human/L4.plan.json");
+    if (std::string(GetParam()) == "phantom") {
+      use_phantom();
+    } else {
+      if (shared("anatomy").empty()) GTEST_SKIP() << "shared anatomy is absent";
+      model_ = shared("anatomy/visible-human/L4.stl");
+      plan_file_ = shared("anatomy/visible-human/L4.plan.json");
+    }
     mesh_ = engine::load_mesh(model_, 1e-3).value();
     plan_ = engine::load_plan(plan_file_).value();
     Random random(21);
@@ -56,6 +62,16 @@ class RegisterCommand : public ::testing::Test {
                        random.normal(0, kNoise_m)};
       points_m_.push_back((truth_ * Point<Vertebra>{p + noise}).v);
     }
+  }
+  void use_phantom() {
+    const engine::Case spine = engine::phantom({"L4"});
+    model_ = folder_.file("model.stl");
+    plan_file_ = folder_.file("model.plan.json");
+    ASSERT_TRUE(engine::save_stl(model_, spine.levels[0].mesh).ok());
+    engine::Plan plan;
+    plan.level = "L4";
+    plan.screws = spine.levels[0].screws;
+    ASSERT_TRUE(engine::save_plan(plan_file_, plan).ok());
   }
   std::string points_file(double per_metre, const std::string& name = "points.csv") const {
     std::string csv = "x,y,z\n";
@@ -92,7 +108,7 @@ class RegisterCommand : public ::testing::Test {
   std::vector<Vec3> points_m_;
 };
 
-TEST_F(RegisterCommand, FindsThePoseAndWritesEveryFigure) {
+TEST_P(RegisterCommand, FindsThePoseAndWritesEveryFigure) {
   const std::string out = folder_.file("out.json");
   const Called called = orthonav({"register", "--model", model_, "--points", points_file(1e3),
                                   "--plan", plan_file_, "--json", out});
@@ -118,7 +134,7 @@ TEST_F(RegisterCommand, FindsThePoseAndWritesEveryFigure) {
   EXPECT_LT(worst_mm, 2.0);
 }
 
-TEST_F(RegisterCommand, GivesTheMatrixInThePointsUnit) {
+TEST_P(RegisterCommand, GivesTheMatrixInThePointsUnit) {
   // The model is in millimetres all the same.
   const Called called = orthonav(
       {"register", "--model", model_, "--points", points_file(1.0), "--units", "m", "--json", "-"});
@@ -128,7 +144,7 @@ TEST_F(RegisterCommand, GivesTheMatrixInThePointsUnit) {
   EXPECT_LT(error_m(report, 1.0), kRight_m);
 }
 
-TEST_F(RegisterCommand, TakesAModelInRas) {
+TEST_P(RegisterCommand, TakesAModelInRas) {
   nav::TriangleMesh turned = mesh_;
   for (Vec3& v : turned.vertices_m) v = {-v.x, -v.y, v.z};
   std::string obj;
@@ -149,7 +165,7 @@ TEST_F(RegisterCommand, TakesAModelInRas) {
   EXPECT_LT(error_m(report, 1e3, -1.0), kRight_m);
 }
 
-TEST_F(RegisterCommand, SaysNoToACloudThatIsNotTheBone) {
+TEST_P(RegisterCommand, SaysNoToACloudThatIsNotTheBone) {
   Random random(3);
   for (Vec3& p : points_m_)
     p = {random.normal(0, 0.02), random.normal(0, 0.02), random.normal(0, 0.02)};
@@ -162,7 +178,7 @@ TEST_F(RegisterCommand, SaysNoToACloudThatIsNotTheBone) {
   EXPECT_THAT(report["reasons"][0].get<std::string>(), HasSubstr("limit 3.0 mm"));
 }
 
-TEST_F(RegisterCommand, RefusesBadInputInOneLineAndWritesNothing) {
+TEST_P(RegisterCommand, RefusesBadInputInOneLineAndWritesNothing) {
   const std::string good = points_file(1e3);
   std::string few = "x,y,z\n";
   for (int i = 0; i < 99; ++i) few += std::to_string(i) + ",0,0\n";
@@ -191,7 +207,7 @@ TEST_F(RegisterCommand, RefusesBadInputInOneLineAndWritesNothing) {
   }
 }
 
-TEST_F(RegisterCommand, NamesMetresTakenForMillimetres) {
+TEST_P(RegisterCommand, NamesMetresTakenForMillimetres) {
   nav::TriangleMesh small = mesh_;
   for (Vec3& v : small.vertices_m) v = v * 1e-3;  // written as mm: 0.09 mm across
   const std::string model = folder_.file("small.stl");
@@ -201,7 +217,7 @@ TEST_F(RegisterCommand, NamesMetresTakenForMillimetres) {
   EXPECT_THAT(called.err, HasSubstr("metres taken for millimetres"));
 }
 
-TEST_F(RegisterCommand, RefusesAnUnwritablePlaceAndTheMethodToCome) {
+TEST_P(RegisterCommand, RefusesAnUnwritablePlaceAndTheMethodToCome) {
   const std::string points = points_file(1e3);
   const Called unwritable = orthonav({"register", "--model", model_, "--points", points, "--json",
                                       folder_.file("no/such/folder.json")});
@@ -214,6 +230,9 @@ TEST_F(RegisterCommand, RefusesAnUnwritablePlaceAndTheMethodToCome) {
   EXPECT_EQ(orthonav({"register", "--model", model_, "--points", points, "--units", "inch"}).code,
             2);
 }
+
+INSTANTIATE_TEST_SUITE_P(Bones, RegisterCommand, ::testing::Values("phantom", "real"),
+                         [](const auto& bone) { return std::string(bone.param); });
 
 }  // namespace
 }  // namespace orthonav::test

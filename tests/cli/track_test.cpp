@@ -77,6 +77,22 @@ class TrackCommand : public ::testing::Test {
   ScratchFolder folder_;
 };
 
+/// A recording of our own: what is refused needs no more than three pairs.
+class TrackBadInput : public TrackCommand {
+ protected:
+  void SetUp() override {
+    sample_ = folder_.file("recording");
+    const Called made = orthonav({"run", "--levels", "L5", "--frames", "3", "--record", sample_});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+};
+
+TEST_F(TrackBadInput, IsRefusedOnOtherwiseGoodRecordings) {
+  const Called called = track({});
+  ASSERT_EQ(called.code, 0) << called.err;
+  EXPECT_THAT(called.out, HasSubstr("3 stereo pairs"));
+}
+
 TEST_F(TrackCommand, WritesARowForEveryVisibleTagAndNoOther) {
   const Called called = track({});
   ASSERT_EQ(called.code, 0) << called.err;
@@ -134,16 +150,16 @@ TEST_F(TrackCommand, GivesTheSameBytesAgain) {
   EXPECT_EQ(content_of(folder_.file("poses.csv")), first);
 }
 
-TEST_F(TrackCommand, RefusesTheMethodThatIsNotThereYet) {
+TEST_F(TrackBadInput, RefusesTheMethodThatIsNotThereYet) {
   const Called called = track({"--method", "best"});
   EXPECT_EQ(called.code, 2);
   EXPECT_THAT(called.err, HasSubstr("best"));
   EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1);
-  EXPECT_THAT(folder_.names(), IsEmpty());
+  EXPECT_THAT(folder_.names(), ElementsAre("recording"));
   EXPECT_EQ(track({"--method", "nonsense"}).code, 2);
 }
 
-TEST_F(TrackCommand, RefusesBadInputInOneLineAndWritesNothing) {
+TEST_F(TrackBadInput, RefusesBadInputInOneLineAndWritesNothing) {
   const std::string csv = folder_.file("poses.csv");
   const std::string tools = sample_ + "/tools.json";
   const std::string twice = folder_.with("twice.json", R"({"tools": [
@@ -169,11 +185,11 @@ TEST_F(TrackCommand, RefusesBadInputInOneLineAndWritesNothing) {
   }
   EXPECT_EQ(orthonav({"track", sample_, "--tools", tools}).code, 2) << "no --csv";
   EXPECT_EQ(track({"--full-search-every", "0"}).code, 2);
-  EXPECT_THAT(folder_.names(), ElementsAre("family.json", "twice.json"));
+  EXPECT_THAT(folder_.names(), ElementsAre("family.json", "recording", "twice.json"));
 }
 
-TEST_F(TrackCommand, LeavesNoCsvOfARecordingThatIsCutShort) {
-  const std::string copy = folder_.file("recording");
+TEST_F(TrackBadInput, LeavesNoCsvOfARecordingThatIsCutShort) {
+  const std::string copy = folder_.file("copy");
   std::filesystem::copy(sample_, copy, std::filesystem::copy_options::recursive);
   const std::string tar = copy + "/VLC RF.tar";
   std::filesystem::permissions(copy, std::filesystem::perms::owner_all);
@@ -183,7 +199,7 @@ TEST_F(TrackCommand, LeavesNoCsvOfARecordingThatIsCutShort) {
       {"track", copy, "--tools", copy + "/tools.json", "--csv", folder_.file("poses.csv")});
   EXPECT_EQ(called.code, 2);
   EXPECT_THAT(called.err, HasSubstr("VLC RF.tar"));
-  EXPECT_THAT(folder_.names(), ElementsAre("recording"));
+  EXPECT_THAT(folder_.names(), ElementsAre("copy", "recording"));
 }
 
 }  // namespace
