@@ -1,12 +1,15 @@
 // Opens the simulated operating room, navigates one level and prints what the surgeon is told.
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "engine/frame_loop.h"
+#include "engine/method.h"
 #include "engine/operation_plan.h"
 #include "engine/phantom.h"
 #include "engine/sim_scenario.h"
 #include "engine/tool_file.h"
+#include "hal/open/open.h"
 
 using namespace orthonav;
 using namespace orthonav::engine;
@@ -23,17 +26,28 @@ struct Printer : LoopObserver {
   }
 };
 
+/// The value, or the reason and the end of the program.
+template <class T>
+T must(Result<T> result) {
+  if (!result) {
+    std::fprintf(stderr, "example: %s\n", result.error().message.c_str());
+    std::exit(2);
+  }
+  return std::move(result).value();
+}
+
 int main(int argc, char** argv) {
   const Case spine = phantom();
-  auto operation = plan_operation(spine, {"L4"});
-  auto headset = open_headset("sim:?seed=3", {room_of(spine, *operation, built_in_tools()), {}});
-  auto method = method_named("paper");
-  auto tracker = method->create_tracker((*headset)->cameras().calibration(), built_in_tools(),
-                                        {.full_search_interval = 10});
-  auto session = Session::create(std::move(*operation), std::move(*tracker), method->registrar);
+  Operation operation = must(plan_operation(spine, {"L4"}));
+  auto headset =
+      must(open_headset("sim:?seed=3", {room_of(spine, operation, built_in_tools()), {}}));
+  const Method method = must(method_named("paper"));
+  auto tracker = must(method.create_tracker(headset->cameras().calibration(), built_in_tools(),
+                                            {.full_search_interval = 10}));
+  auto session = must(Session::create(std::move(operation), std::move(tracker), method.registrar));
   SceneBuilder builder;
-  FrameLoop loop(**headset, **session, builder, {.max_frames = argc > 1 ? atoi(argv[1]) : 0});
+  FrameLoop loop(*headset, *session, builder, {.max_frames = argc > 1 ? std::atoi(argv[1]) : 0});
   Printer printer;
   loop.observe(&printer);
-  return loop.run().ok() ? 0 : 1;
+  must(loop.run());
 }
