@@ -53,7 +53,7 @@ struct Magnitudes {
 
   /// SD of the tip. What a pivot calibration with such cameras leaves. Estimate.
   double tip_calibration_m = 0.0005;
-  /// SD of the axis about the two directions across it: 0.17°, half a millimetre over the 150 mm
+  /// SD of the axis about the two directions across it: 0.17°, 0.4 mm over the 130 mm
   /// between tag and tip.
   double axis_calibration_rad = 0.003;
 
