@@ -11,7 +11,7 @@ constexpr std::uint32_t kNone = 0xffffffff;
 /// The four edges of a cell's face, and how the surface runs between them.
 class Face {
  public:
-  Face(const SampleGrid& grid, const Cell& cell, std::size_t normal, std::size_t side)
+  Face(const SampleGrid& grid, const GridCell& cell, std::size_t normal, std::size_t side)
       : u_((normal + 1) % 3), v_((normal + 2) % 3), side_(side) {
     node_ = moved(cell.at, normal, static_cast<int>(side));
     const std::array<int, 3> along_u = moved(node_, u_);
@@ -44,7 +44,7 @@ class Face {
 /// Faces on which the inside corners are joined, by node and normal.
 using JoinedFaces = std::set<std::pair<std::array<int, 3>, std::size_t>>;
 
-void mark_crossed_edges(const SampleGrid& grid, Cell& cell) {
+void mark_crossed_edges(const SampleGrid& grid, GridCell& cell) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t corner = 0; corner < 4; ++corner) {
       std::array<int, 3> node = moved(cell.at, (axis + 1) % 3, static_cast<int>(corner & 1));
@@ -54,7 +54,7 @@ void mark_crossed_edges(const SampleGrid& grid, Cell& cell) {
 }
 
 /// Groups the crossed edges of a cell into sheets of the surface; gives how many.
-std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, Cell& cell) {
+std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, GridCell& cell) {
   for (std::uint8_t edge = 0; edge < 12; ++edge) cell.sheet[edge] = edge;
   const auto unite = [&cell](std::size_t a, std::size_t b) {
     const std::uint8_t from = cell.sheet[a];
@@ -113,11 +113,11 @@ CellMap marked_cells(const SampleGrid& grid) {
 /// (Wenger 2013, "Isosurfaces", manifold dual contouring).
 bool part_double_edges(const SampleGrid& grid, const CellMap& map, JoinedFaces& joined) {
   bool changed = false;
-  for (const Cell& cell : map.cells)
+  for (const GridCell& cell : map.cells)
     for (std::size_t normal = 0; normal < 3; ++normal) {
       const Face face(grid, cell, normal, 0);
       if (!face.ambiguous() || cell.at[normal] == 0) continue;
-      const Cell& other = map.at(grid, moved(cell.at, normal, -1));
+      const GridCell& other = map.at(grid, moved(cell.at, normal, -1));
       const Face same(grid, other, normal, 1);
       const bool one_here = cell.sheet[face.along_u(0)] == cell.sheet[face.along_u(1)];
       const bool one_there = other.sheet[same.along_u(0)] == other.sheet[same.along_u(1)];
@@ -126,7 +126,7 @@ bool part_double_edges(const SampleGrid& grid, const CellMap& map, JoinedFaces& 
   return changed;
 }
 
-Vec3 crossing(const SampleGrid& grid, const Cell& cell, std::size_t edge) {
+Vec3 crossing(const SampleGrid& grid, const GridCell& cell, std::size_t edge) {
   const std::size_t axis = edge / 4;
   std::array<int, 3> a = moved(cell.at, (axis + 1) % 3, static_cast<int>(edge & 1));
   a = moved(a, (axis + 2) % 3, static_cast<int>(edge >> 1 & 1));
@@ -141,9 +141,9 @@ CellMap passed_cells(const SampleGrid& grid, nav::TriangleMesh& mesh) {
   CellMap map = marked_cells(grid);
   JoinedFaces joined;
   do {
-    for (Cell& cell : map.cells) find_sheets(grid, joined, cell);
+    for (GridCell& cell : map.cells) find_sheets(grid, joined, cell);
   } while (part_double_edges(grid, map, joined));
-  for (Cell& cell : map.cells) {
+  for (GridCell& cell : map.cells) {
     cell.first_vertex = static_cast<std::uint32_t>(mesh.vertices_m.size());
     const std::uint32_t sheets = find_sheets(grid, joined, cell);
     for (std::uint32_t sheet = 0; sheet < sheets; ++sheet) {

@@ -17,7 +17,7 @@ constexpr std::size_t edge_id(std::size_t axis, std::size_t first, std::size_t s
 
 /// A cell that the surface passes: its sheets, each with one vertex, and which edge belongs to
 /// which.
-struct Cell {
+struct GridCell {
   std::array<int, 3> at{};
   std::uint32_t first_vertex = 0;
   std::array<std::uint8_t, 12> sheet{};
@@ -33,8 +33,8 @@ struct Cell {
 /// Cells by grid index.
 struct CellMap {
   std::vector<std::uint32_t> cell_of;
-  std::vector<Cell> cells;
-  [[nodiscard]] const Cell& at(const SampleGrid& grid, const std::array<int, 3>& node) const {
+  std::vector<GridCell> cells;
+  [[nodiscard]] const GridCell& at(const SampleGrid& grid, const std::array<int, 3>& node) const {
     return cells[cell_of[grid.index(node)]];
   }
 };

@@ -7,8 +7,8 @@
 namespace orthonav::engine {
 
 void SimWitness::registered(Timestamp /*time*/, const LevelState& level,
-                            const nav::Registration& result, const std::string& reason) {
-  if (!reason.empty()) return;
+                            const nav::Registration* result, const std::string& reason) {
+  if (!reason.empty() || !result) return;
   const auto& levels = headset_.room().levels;
   const auto here = std::find_if(levels.begin(), levels.end(), [&](const sim::RoomLevel& l) {
     return l.label == level.plan.label;
@@ -17,7 +17,7 @@ void SimWitness::registered(Timestamp /*time*/, const LevelState& level,
   const auto world_from_vertebra =
       headset_.world_from_room() * headset_.state().room_from_spine * here->spine_from_vertebra;
   std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
-  registrations_.push_back({level.plan.label, result.world_from_vertebra, world_from_vertebra});
+  registrations_.push_back({level.plan.label, result->world_from_vertebra, world_from_vertebra});
 }
 
 void SimWitness::head_recorded(Timestamp /*time*/, nav::Side side, Point<World> head) {

@@ -17,7 +17,7 @@ class SimWitness : public SessionObserver {
  public:
   explicit SimWitness(const sim::SimHeadset& headset) : headset_(headset) {}
 
-  void registered(Timestamp time, const LevelState& level, const nav::Registration& result,
+  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
                   const std::string& reason) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;

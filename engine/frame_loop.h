@@ -36,7 +36,12 @@ struct LoopOptions {
   bool drop_late_snapshots = false;
   std::int64_t max_frames = 0;  ///< ends after so many displayed frames; 0: no limit
   Duration after_done = std::chrono::seconds(1);  ///< goes on for so long once the rod is done
-  int max_errors_in_a_row = 30;                   ///< of one device; beyond it the run ends
+  int max_errors_in_a_row = 30;  ///< of one device or the sink; beyond it the run ends
+  /// A camera pair that delivers nothing for so long, by the device's clock, is gone for good.
+  Duration longest_silence = std::chrono::seconds(60);
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
 };
 
 /// What the loop measured. Times of the device's clock are part of the result; wall times depend on
@@ -45,13 +50,15 @@ struct LoopReport {
   std::int64_t displayed = 0;
   std::int64_t failures = 0;  ///< of any device, with the reason of the last
   std::string last_failure;
+  std::int64_t blanked = 0;  ///< times that guidance was taken back because pairs stopped
   std::int64_t drawn = 0;
+  std::int64_t draw_failures = 0;  ///< of the sink; each with its reason in `last_failure`
   std::int64_t dropped_snapshots = 0;
   bool done = false;  ///< the workflow reached its end
-  Timestamp first_frame{};
   Timestamp last_frame{};
   std::vector<double> intervals_ms;  ///< device clock, between displayed frames
-  std::vector<double> step_wall_ms;  ///< tracking and everything after it, for each pair
+  /// Tracking and everything after it, for each pair; without waiting for the drawing.
+  std::vector<double> step_wall_ms;
   std::vector<double> draw_wall_ms;  ///< the sink, for each snapshot
 };
 
@@ -68,12 +75,17 @@ class FrameLoop {
   void stop() { stop_ = true; }
 
   /// Until the stream ends, the operation is done, or the limit is reached. An Error when a device
-  /// or the sink fails for good.
+  /// or the sink fails for good, or an option has a problem. However it ends, the last frame shown
+  /// guides nobody.
   Result<LoopReport> run();
 
  private:
   Status loop(SnapshotQueue* queue, LoopReport& report);
-  Result<bool> next_frame(LoopReport& report);
+  Result<bool> next_frame(SnapshotQueue* queue, LoopReport& report);
+  Status wait_for_pair(SnapshotQueue* queue, LoopReport& report);
+  void take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
+  [[nodiscard]] Timestamp next_light() const;
+  void draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status);
   Status step(SnapshotQueue* queue, LoopReport& report);
   Status tolerate(const Status& status, int& in_a_row, LoopReport& report);
   void count_displayed(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
@@ -93,9 +105,11 @@ class FrameLoop {
   std::vector<ClickerEvent> clicks_;
   std::vector<Phrase> phrases_;
   ShownFrame shown_;
-  std::optional<Timestamp> last_display_;
+  std::optional<Timestamp> last_display_;    ///< of a pair's frame, for the intervals
+  Timestamp last_light_ = Timestamp::min();  ///< of any frame
+  Timestamp heard_at_{};                     ///< when the last pair came, or the loop began
+  std::optional<Timestamp> guiding_since_;   ///< mid-exposure of the pair that is being shown
   std::optional<Timestamp> done_since_;
-  bool first_frame_seen_ = false;
   int camera_errors_ = 0;  ///< in a row, each
   int clicker_errors_ = 0;
   int voice_errors_ = 0;

@@ -25,8 +25,7 @@ struct LevelState {
   std::optional<nav::Registration> registration;
   /// What that registration leaves uncertain, screw by screw.
   std::vector<nav::PredictedScrewError> predicted;
-  bool accepted = false;  ///< by the surgeon; only then anything is guided on it
-  Timestamp registered_at{};
+  bool accepted = false;                 ///< by the surgeon; only then anything is guided on it
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration
   std::vector<bool> screw_done;
@@ -76,8 +75,11 @@ struct Guidance {
   std::size_t screw = 0;  ///< selected, an index into the level's screws (while guiding)
   std::span<const nav::Region> regions;
   const DroppedRegion* dropped = nullptr;
+  /// Guidance on a pose older than this, when the frame lights up, is hidden.
+  Duration stale_after{};
+  Duration fade{};     ///< a deleted path fades for so long
+  bool blank = false;  ///< no more pairs will come: nothing may be shown that could go stale
   std::optional<ToolGuidance> tool;  ///< absent: not guiding, or nothing fresh to guide on
-  bool tool_lost = false;            ///< the step's tool is not measured
   std::span<const RodState> rods;
   bool rods_moved_away = false;
   std::span<const ToolSight> tools;

@@ -96,6 +96,15 @@ void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, La
 
 }  // namespace
 
+std::vector<std::string> GradeLimits::check() const {
+  std::vector<std::string> problems;
+  if (!(good_rad > 0.0 && good_rad <= std::numbers::pi))
+    problems.push_back("good_rad must lie in (0, pi]");
+  if (!(poor_rad >= good_rad && poor_rad <= std::numbers::pi))
+    problems.push_back("poor_rad must lie in [good_rad, pi]");
+  return problems;
+}
+
 Grade grade_of(double angle_rad, const GradeLimits& limits) {
   if (!(angle_rad <= limits.poor_rad)) return Grade::kPoor;
   return angle_rad < limits.good_rad ? Grade::kGood : Grade::kFair;
@@ -211,13 +220,13 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   for (const RodBendMark& bend : rod.bends) {
     add_bend(scene, bend, bend.position + rod.shift, along, label);
   }
-  if (rod.heads.size() < 2) return;
+  if (rod.heads.size() < 2 || !rod.length_m) return;
   render::TextItem text;
   text.label = label;
   text.position = rod.heads.back() + 0.012f * along + rod.shift;
   text.height_m = 0.005f;
   text.min_height_deg = 0.6f;
-  text.runs = {{millimetres(rod.length_m), look::kWhite}};
+  text.runs = {{millimetres(*rod.length_m), look::kWhite}};
   scene.texts.push_back(std::move(text));
 }
 

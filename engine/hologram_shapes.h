@@ -34,6 +34,9 @@ enum class Grade { kGood, kFair, kPoor };
 struct GradeLimits {
   double good_rad = 0.0349065850398866;  ///< 2°: below it is green
   double poor_rad = 0.0872664625997165;  ///< 5°: above it is red and dashed
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
 };
 
 /// An angle that is not finite is poor.
@@ -93,8 +96,8 @@ struct RodHologram {
   std::shared_ptr<const render::MeshData> tube;  ///< world coordinates before `shift`
   std::span<const render::Float3> heads;
   std::span<const RodBendMark> bends;
-  double length_m = 0.0;
-  render::Float3 shift;  ///< `move rod`: added to everything
+  std::optional<double> length_m;  ///< absent: the heads make no rod
+  render::Float3 shift;            ///< `move rod`: added to everything
 };
 void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 

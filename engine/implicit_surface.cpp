@@ -32,7 +32,7 @@ void add_quad(const std::array<std::uint32_t, 4>& q, nav::TriangleMesh& mesh) {
 /// One quad for each grid edge that the surface crosses, through the four cells around it.
 void join_vertices(const SampleGrid& grid, const CellMap& map, nav::TriangleMesh& mesh) {
   constexpr std::array<std::pair<int, int>, 4> kAround = {{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
-  for (const Cell& cell : map.cells)
+  for (const GridCell& cell : map.cells)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // Each edge is taken from the one cell whose lowest corner it starts at.
       if (!cell.crossed[edge_id(axis, 0, 0)]) continue;
@@ -42,7 +42,7 @@ void join_vertices(const SampleGrid& grid, const CellMap& map, nav::TriangleMesh
       std::array<std::uint32_t, 4> quad{};
       for (std::size_t corner = 0; corner < 4; ++corner) {
         const auto [along_first, along_second] = kAround[corner];
-        const Cell& around =
+        const GridCell& around =
             map.at(grid, moved(moved(cell.at, first, along_first), second, along_second));
         const std::size_t edge = edge_id(axis, static_cast<std::size_t>(-along_first),
                                          static_cast<std::size_t>(-along_second));

@@ -1,5 +1,6 @@
 #include "engine/journal.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -10,8 +11,10 @@ using Json = nlohmann::ordered_json;
 
 Json millimetres(Vec3 v) { return Json::array({v.x * 1e3, v.y * 1e3, v.z * 1e3}); }
 
-Json entry(Timestamp time, const char* what) {
-  return Json{{"time_100ns", ticks_100ns(time)}, {"what", what}};
+Json entry(std::int64_t file_ticks, Timestamp time, const char* what) {
+  return Json{{"time_100ns", file_ticks},
+              {"time_ns", std::int64_t{time.time_since_epoch().count()}},
+              {"what", what}};
 }
 
 double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
@@ -22,9 +25,10 @@ Json matrix_mm(std::array<double, 16> m) {
   return m;
 }
 
-/// Labels come from files: bytes that are no UTF-8 must not end the journal.
+/// Labels come from files: bytes that are no UTF-8 must not end the journal. A line is out of this
+/// process as soon as it is written.
 void write_line(std::ostream& out, const Json& line) {
-  out << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  out << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
 }
 
 }  // namespace
@@ -42,17 +46,24 @@ Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
                        {"method", header.method},
                        {"case", header.case_name},
                        {"seed", header.seed}});
-  return std::unique_ptr<Journal>(new Journal(std::move(*file), std::move(out)));
+  return std::unique_ptr<Journal>(
+      new Journal(std::move(*file), std::move(out), header.epoch_ticks_100ns));
 }
 
-Status Journal::finish() {
+Status Journal::finish(const std::string& reason) {
+  if (!reason.empty()) {
+    Json line = entry(file_ticks(newest_), newest_, "ended");
+    line["reason"] = reason;
+    write_line(out_, line);
+  }
   out_.close();
   if (out_.fail()) return Error{file_.final_path() + ": not every line could be written"};
   return file_.commit();
 }
 
 void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
-  Json line = entry(time, "event");
+  newest_ = std::max(newest_, time);
+  Json line = entry(file_ticks(time), time, "event");
   line["step"] = name_of(from);
   line["event"] = name_of(event);
   line["action"] = name_of(answer.action);
@@ -61,29 +72,33 @@ void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
 }
 
 void Journal::not_understood(const Phrase& phrase) {
-  Json line = entry(phrase.time, "not understood");
+  Json line = entry(file_ticks(phrase.time), phrase.time, "not understood");
   line["phrase"] = phrase.text;
   line["confidence"] = phrase.confidence;
   write_line(out_, line);
 }
 
-void Journal::registered(Timestamp time, const LevelState& level, const nav::Registration& result,
+void Journal::registered(Timestamp time, const LevelState& level, const nav::Registration* result,
                          const std::string& reason) {
-  Json line = entry(time, "registration");
+  Json line = entry(file_ticks(time), time, "registration");
   line["level"] = level.plan.label;
   line["attempt"] = level.attempts;
   line["accepted"] = reason.empty();
   if (!reason.empty()) line["reason"] = reason;
-  line["points"] = result.points;
-  line["rmse_mm"] = result.rmse_m * 1e3;
-  line["runner_up_rmse_mm"] = result.runner_up_rmse_m * 1e3;
-  line["world_from_vertebra_mm"] = matrix_mm(result.world_from_vertebra.row_major());
+  if (result) {
+    line["points"] = result->points;
+    line["rmse_mm"] = result->rmse_m * 1e3;
+    line["runner_up_rmse_mm"] = result->runner_up_rmse_m * 1e3;
+    line["world_from_vertebra_mm"] = matrix_mm(result->world_from_vertebra.row_major());
+  }
+  // Infinite, that is without a bound, becomes null.
+  if (reason.empty()) line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
   write_line(out_, line);
 }
 
 void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                          const ToolGuidance* last) {
-  Json line = entry(time, "screw");
+  Json line = entry(file_ticks(time), time, "screw");
   line["level"] = level.plan.label;
   line["side"] = name_of(screw.side);
   if (last && last->measured) {
@@ -97,20 +112,20 @@ void Journal::screw_done(Timestamp time, const LevelState& level, const nav::Scr
 }
 
 void Journal::head_recorded(Timestamp time, nav::Side side, Point<World> head) {
-  Json line = entry(time, "head");
+  Json line = entry(file_ticks(time), time, "head");
   line["side"] = name_of(side);
   line["in_world_mm"] = millimetres(head.v);
   write_line(out_, line);
 }
 
 void Journal::head_dropped(Timestamp time, nav::Side side) {
-  Json line = entry(time, "head dropped");
+  Json line = entry(file_ticks(time), time, "head dropped");
   line["side"] = name_of(side);
   write_line(out_, line);
 }
 
 void Journal::rod_done(Timestamp time, const RodState& rod) {
-  Json line = entry(time, "rod");
+  Json line = entry(file_ticks(time), time, "rod");
   line["side"] = name_of(rod.side);
   line["heads"] = rod.heads.size();
   if (rod.rod) {

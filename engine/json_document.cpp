@@ -112,10 +112,6 @@ double JsonNode::number(const char* key) const {
   return value;
 }
 
-double JsonNode::number_or(const char* key, double fallback) const {
-  return has(key) ? number(key) : fallback;
-}
-
 int JsonNode::integer(const char* key) const {
   const double value = number(key);
   if (value != std::floor(value) || std::abs(value) > 1e9)

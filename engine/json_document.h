@@ -25,7 +25,6 @@ class JsonNode {
   [[nodiscard]] std::string text_or(const char* key, const std::string& fallback) const;
   /// A finite number.
   [[nodiscard]] double number(const char* key) const;
-  [[nodiscard]] double number_or(const char* key, double fallback) const;
   [[nodiscard]] int integer(const char* key) const;
   /// Exactly `count` finite numbers; nested lists (a matrix by rows) are flattened.
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count) const;

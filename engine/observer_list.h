@@ -23,7 +23,7 @@ class ObserverList : public SessionObserver {
   void not_understood(const Phrase& phrase) override {
     for (auto* o : observers_) o->not_understood(phrase);
   }
-  void registered(Timestamp time, const LevelState& level, const nav::Registration& result,
+  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
                   const std::string& reason) override {
     for (auto* o : observers_) o->registered(time, level, result, reason);
   }

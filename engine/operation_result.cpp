@@ -43,7 +43,7 @@ void EndNote::happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell 
 }
 
 void EndNote::registered(Timestamp /*time*/, const LevelState& level,
-                         const nav::Registration& /*result*/, const std::string& reason) {
+                         const nav::Registration* /*result*/, const std::string& reason) {
   refused_ =
       reason.empty() ? "" : "; last registration (" + level.plan.label + ") refused: " + reason;
 }

@@ -25,6 +25,19 @@ std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh)
 
 }  // namespace
 
+void hide_tool_guidance(render::Scene& scene) {
+  const auto of_triangle = [](const auto& item) { return item.label / 100 == 5; };
+  std::erase_if(scene.triangles, of_triangle);
+  std::erase_if(scene.lines, of_triangle);
+  for (render::TextItem& text : scene.texts) {
+    if (text.label / 100 != 6) continue;
+    render::Scene dashes;
+    add_angle_readout(dashes, {}, {}, angle_text(std::nullopt), Grade::kPoor, text.label);
+    text.runs = dashes.texts.front().runs;
+    text.rim = dashes.texts.front().rim;
+  }
+}
+
 render::Float3 to_float3(Vec3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -36,8 +49,8 @@ render::Matrix4 to_matrix(const std::array<double, 16>& row_major) {
   return out;
 }
 
-void SceneBuilder::update(const Guidance& guidance) {
-  decide_visibility(guidance, rules_, visible_);
+void SceneBuilder::update(const Guidance& guidance, Timestamp lights_up) {
+  decide_visibility(guidance, rules_, lights_up, visible_);
 }
 
 void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
@@ -71,7 +84,7 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
   if (visible_.paths && guidance.dropped) {
     // A deleted region fades, so that the surgeon sees which one went.
     const double age_s = seconds(guidance.display_time - guidance.dropped->dropped_at);
-    const double left = 1.0 - age_s / seconds(rules_.fade);
+    const double left = 1.0 - age_s / seconds(guidance.fade);
     if (left > 0.0)
       add(guidance.dropped->region, kMostInstances, static_cast<float>(std::min(left, 1.0)));
   }
@@ -115,8 +128,9 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
     const nav::ScrewGuidance& shown = guidance.tool->shown;
     std::optional<double> angle_rad;
     if (visible_.angle) angle_rad = guidance.tool->measured->angle_rad;
-    const Grade grade =
-        angle_rad ? grade_of(*angle_rad) : std::max(grade_of(shown.angle_rad), Grade::kFair);
+    const Grade grade = angle_rad
+                            ? grade_of(*angle_rad, rules_.grades)
+                            : std::max(grade_of(shown.angle_rad, rules_.grades), Grade::kFair);
     const render::Float3 a = to_float3(shown.a.v);
     const render::Float3 b = to_float3(shown.b.v);
     add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade, label_of(5, 1));

@@ -20,8 +20,10 @@ class SceneBuilder {
  public:
   explicit SceneBuilder(const VisibilityRules& rules = {}) : rules_(rules) {}
 
-  /// Decides what this guidance shows; the two below then show exactly that.
-  void update(const Guidance& guidance);
+  /// Decides what this guidance shows in a frame that lights up when it expects, or later; the two
+  /// below then show exactly that.
+  void update(const Guidance& guidance) { update(guidance, guidance.display_time); }
+  void update(const Guidance& guidance, Timestamp lights_up);
   void write_shown(const Guidance& guidance, ShownFrame& frame);
   void write_scene(const Guidance& guidance, render::Scene& scene);
   [[nodiscard]] const Visibility& visible() const { return visible_; }
@@ -50,6 +52,10 @@ class SceneBuilder {
   std::vector<render::Float3> points_;
   std::vector<ToolDot> dots_;
 };
+
+/// Takes the deviation triangle out of a scene and the number off its readout: the pose they came
+/// from has grown too old before they were drawn.
+void hide_tool_guidance(render::Scene& scene);
 
 [[nodiscard]] render::Float3 to_float3(Vec3 v);
 [[nodiscard]] render::Matrix4 to_matrix(const std::array<double, 16>& row_major);

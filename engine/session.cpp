@@ -122,6 +122,22 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   return guidance_;
 }
 
+const Guidance& Session::expire(Timestamp display_time) {
+  guidance_.display_time = display_time;
+  guidance_.tool.reset();
+  for (ToolSight& sight : sights_) sight.origin = Origin::kLost;
+  write_step_text();
+  guidance_.detail = "no camera images";
+  return guidance_;
+}
+
+const Guidance& Session::end(Timestamp display_time) {
+  expire(display_time);
+  guidance_.blank = true;
+  guidance_.detail = "ended";
+  return guidance_;
+}
+
 void Session::answer_inputs(const Inputs& inputs) {
   std::size_t c = 0;
   std::size_t p = 0;
@@ -225,7 +241,9 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   const bool fading =
       !dropped_.region.samples.empty() && display_time - dropped_.dropped_at <= options_.fade;
   out.dropped = fading ? &dropped_ : nullptr;
-  out.tool_lost = tool && seen_ != Seen::kMeasured;
+  out.stale_after = options_.stale_after;
+  out.fade = options_.fade;
+  out.blank = false;
   out.rods = rods_;
   out.rods_moved_away = rods_moved_away_;
   out.tools = sights_;

@@ -62,6 +62,13 @@ class Session {
   /// work is done. The result is valid until the next call.
   const Guidance& step(const StereoFrame& frame, const Inputs& inputs);
 
+  /// No pair has come for longer than guidance may stand: takes back what was guided on the last
+  /// one. The next step goes on as ever.
+  const Guidance& expire(Timestamp display_time);
+  /// Nothing more will come: only the status line is left.
+  const Guidance& end(Timestamp display_time);
+
+  [[nodiscard]] const SessionOptions& options() const { return options_; }
   [[nodiscard]] Step current_step() const { return step_; }
   [[nodiscard]] std::span<const LevelState> levels() const { return levels_; }
   [[nodiscard]] std::span<const RodState> rods() const { return rods_; }

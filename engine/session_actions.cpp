@@ -172,16 +172,11 @@ void Session::try_registration(Timestamp time) {
   if (reason.empty()) {
     now.registration = *result;
     now.predicted = nav::predicted_errors(*result, now.plan.screws);
-    now.registered_at = time;
     now.digitization_s = now.first_press ? seconds(time - *now.first_press) : 0.0;
   } else {
     say("refused: " + reason, time);
   }
-  if (observer_) {
-    nav::Registration unusable;
-    unusable.points = points.size();
-    observer_->registered(time, now, result ? *result : unusable, reason);
-  }
+  if (observer_) observer_->registered(time, now, result ? &*result : nullptr, reason);
   handle(reason.empty() ? Event::kRegistered : Event::kRegistrationRefused, time);
 }
 

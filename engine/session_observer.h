@@ -16,9 +16,10 @@ class SessionObserver {
   virtual void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell /*answer*/) {}
   /// A phrase that is no command here, or was not understood well enough.
   virtual void not_understood(const Phrase& /*phrase*/) {}
-  /// A registration was asked for; `reason` is empty when it passed.
+  /// A registration was asked for; `reason` is empty when it passed, `result` null when there is
+  /// none at all.
   virtual void registered(Timestamp /*time*/, const LevelState& /*level*/,
-                          const nav::Registration& /*result*/, const std::string& /*reason*/) {}
+                          const nav::Registration* /*result*/, const std::string& /*reason*/) {}
   /// The surgeon declared the screw done; `last` is what he was guided by at the end, if anything.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,
                           const nav::ScrewPlan& /*screw*/, const ToolGuidance* /*last*/) {}

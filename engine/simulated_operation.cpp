@@ -9,8 +9,26 @@
 
 namespace orthonav::engine {
 
+std::vector<std::string> OperationOptions::check() const {
+  std::vector<std::string> problems;
+  const auto add = [&](const char* where, const std::vector<std::string>& found) {
+    for (const std::string& problem : found) problems.push_back(where + problem);
+  };
+  if (const auto known = method_named(method); !known) problems.push_back(known.error().message);
+  add("tools: ", nav::problems_of(tools));
+  if (const Status room = sim.check(); !room) problems.push_back(room.error().message);
+  add("session: ", session.check());
+  add("loop: ", loop.check());
+  add("visibility: ", visibility.check());
+  return problems;
+}
+
 Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
                                       const OperationGuests& guests) {
+  std::string problems;
+  for (const std::string& problem : options.check())
+    problems += (problems.empty() ? "" : "; ") + problem;
+  if (!problems.empty()) return Error{problems};
   const auto method = method_named(options.method);
   if (!method) return method.error();
   auto operation = plan_operation(source, options.levels);
@@ -40,7 +58,7 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
     if (!made) return made.error();
     recorder = std::move(*made);
   }
-  SceneBuilder builder;
+  SceneBuilder builder(options.visibility);
   FrameLoop loop(recorder ? static_cast<Headset&>(*recorder) : room, **session, builder,
                  options.loop);
   loop.observe(guests.loop);

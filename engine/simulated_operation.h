@@ -23,7 +23,11 @@ struct OperationOptions {
   nav::TrackerOptions tracker{.full_search_interval = 10};
   SessionOptions session;
   LoopOptions loop;
+  VisibilityRules visibility;
   std::string record_folder;  ///< empty: nothing is recorded
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
 };
 
 /// What else takes part; all borrowed, all optional.

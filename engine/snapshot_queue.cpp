@@ -35,9 +35,14 @@ Snapshot* SnapshotQueue::take() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || !ready_.empty(); });
   if (ready_.empty()) return nullptr;
-  Snapshot* oldest = ready_.front();
+  while (when_full_ == WhenFull::kDropOldest && ready_.size() > 1) {
+    free_.push_back(ready_.front());
+    ready_.pop_front();
+    ++dropped_;
+  }
+  Snapshot* next = ready_.front();
   ready_.pop_front();
-  return oldest;
+  return next;
 }
 
 void SnapshotQueue::release(Snapshot* drawn) {

@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/workflow.h"
 #include "hal/api/time.h"
-#include "hal/api/transform.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {
@@ -20,10 +18,10 @@ struct Snapshot {
   std::int64_t frame = 0;  ///< counts displayed frames from 0
   std::size_t slot = 0;    ///< index of this buffer: a caller keeps its own data beside it
   Timestamp display_time{};
-  Step step = Step::kSetup;
   std::string step_text;
-  /// Predicted to the display time; absent while the headset is not located.
-  std::optional<Transform<World, Rig>> world_from_rig;
+  /// Lit up after this, what guides a tool is too old to be seen; absent when nothing does.
+  std::optional<Timestamp> expires;
+  bool blank = false;  ///< the loop has ended: nothing but the status line
   render::Scene scene;
 };
 
@@ -40,7 +38,8 @@ class SnapshotQueue {
   /// A buffer to fill; give it back by `publish`. Null once closed.
   Snapshot* acquire();
   void publish(Snapshot* filled);
-  /// The oldest that waits; blocks until there is one. Null once closed and empty.
+  /// The next to draw: under kWait the oldest that waits; under kDropOldest the newest, while those
+  /// before it are dropped. Blocks until there is one. Null once closed and empty.
   Snapshot* take();
   void release(Snapshot* drawn);
   /// No more is published; the taker gets what is left.

@@ -1,9 +1,25 @@
 #include "engine/visibility.h"
 
+#include <utility>
+
 namespace orthonav::engine {
 
-void decide_visibility(const Guidance& g, const VisibilityRules& rules, Visibility& out) {
-  out.entries_of.clear();
+std::vector<std::string> VisibilityRules::check() const {
+  std::vector<std::string> problems = grades.check();
+  if (!(triangle_within_m > 0.0 && triangle_within_m <= 1.0))
+    problems.push_back("triangle_within_m must lie in (0, 1]");
+  if (!(rod_moved_away_m >= 0.0 && rod_moved_away_m <= 1.0))
+    problems.push_back("rod_moved_away_m must lie in [0, 1]");
+  return problems;
+}
+
+void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestamp lights_up,
+                       Visibility& out) {
+  std::vector<std::size_t> entries = std::move(out.entries_of);  // keeps its buffer
+  entries.clear();
+  out = {};
+  out.entries_of = std::move(entries);
+  if (g.blank) return;
   // H1: the surgeon still compares the paths with the hologram while he verifies; after acceptance
   // they would only cover the bone.
   out.paths = g.step == Step::kDigitize || g.step == Step::kVerify;
@@ -21,8 +37,8 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Visibili
                    level->registration.has_value() && g.screw < level->plan.screws.size();
   // H5, H6: on a pose younger than the limit at the moment when the frame lights up. A frozen
   // triangle is worse than none.
-  const bool fresh = out.trajectory && g.tool.has_value() &&
-                     g.display_time - g.tool->pose_time <= rules.stale_after;
+  const bool fresh =
+      out.trajectory && g.tool.has_value() && lights_up - g.tool->pose_time <= g.stale_after;
   const auto near = [&](const nav::ScrewGuidance& guidance) {
     return guidance.tip_to_entry_m <= rules.triangle_within_m;
   };

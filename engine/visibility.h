@@ -1,17 +1,21 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/guidance.h"
+#include "engine/hologram_shapes.h"
 
 namespace orthonav::engine {
 
+/// How long what is shown stays true is the session's to say: it comes with the guidance.
 struct VisibilityRules {
-  /// A pose older than this when the frame lights up guides nobody.
-  Duration stale_after = std::chrono::milliseconds(100);
   double triangle_within_m = 0.040;  ///< of the tip from the entry
   double rod_moved_away_m = 0.150;
-  Duration fade = std::chrono::milliseconds(300);
+  GradeLimits grades;
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
 };
 
 /// Which holograms one frame shows. Computed once, so that what is drawn and what the display is
@@ -28,7 +32,9 @@ struct Visibility {
   bool rods = false;                    ///< H10
 };
 
-void decide_visibility(const Guidance& guidance, const VisibilityRules& rules, Visibility& out);
+/// For a frame that lights up at `lights_up`, which may be later than the guidance expected.
+void decide_visibility(const Guidance& guidance, const VisibilityRules& rules, Timestamp lights_up,
+                       Visibility& out);
 
 /// From where to where the rods are shifted while they are moved away: sideways off the patient,
 /// as a rigid body, each to its own side.

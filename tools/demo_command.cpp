@@ -95,7 +95,7 @@ class Demo {
     if (!levels) return bad_input("--levels: " + levels.error().message);
     if (const Status ready = prepare(source->name); !ready) return bad_input(ready.error().message);
     const auto result = operate(*source);
-    if (!result) return bad_input(result.error().message);
+    if (!result) return ended(result.error().message);
     const Status written = write(*result);
     std::fputs(
         arguments_.json ? engine::report_json(*result).c_str() : operation_summary(*result).c_str(),
@@ -107,6 +107,17 @@ class Demo {
   }
 
  private:
+  /// What was written until then stays: the journal says how it ended. What never began leaves
+  /// nothing.
+  int ended(std::string reason) {
+    if (!began_) return bad_input(reason);
+    if (const Status done = pictures_.finish(); !done) reason += "; " + done.error().message;
+    if (video_)
+      if (const Status done = video_->finish(); !done) reason += "; " + done.error().message;
+    if (const Status done = journal_->finish(reason); !done) reason += "; " + done.error().message;
+    return bad_input(reason);
+  }
+
   Status prepare(const std::string& case_name) {
     SurgeonViewOptions view_options;
     view_options.device = arguments_.device;
@@ -146,6 +157,7 @@ class Demo {
     guests.sink = view_.get();
     guests.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
       view_->look_at(headset, options.sim.magnitudes);
+      began_ = true;
       return remove_earlier_results(out_->path());
     };
     return engine::run_operation(source, options, guests);
@@ -173,6 +185,7 @@ class Demo {
   }
 
   DemoArguments arguments_;
+  bool began_ = false;            ///< the room is open, the first pair is next
   std::optional<OutFolder> out_;  ///< goes last: the files in it are dropped first
   std::unique_ptr<SurgeonView> view_;
   StepPictures pictures_;

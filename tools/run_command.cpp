@@ -63,7 +63,7 @@ class LiveRun {
     engine::FrameLoop loop(*used_, *session_, builder, options);
     loop.observe(&progress);
     auto report = loop.run();
-    if (!report) return bad_input(report.error().message);
+    if (!report) return ended(report.error().message);
     engine::OperationResult result =
         engine::outcome_of(session_->levels(), session_->rods(), std::move(*report));
     result.method = method_.name;
@@ -78,6 +78,16 @@ class LiveRun {
   }
 
  private:
+  /// What was written until then stays: the journal says how it ended.
+  int ended(std::string reason) {
+    if (journal_)
+      if (const Status done = journal_->finish(reason); !done)
+        reason += "; " + done.error().message;
+    if (recorder_)
+      if (const Status done = recorder_->close(); !done) reason += "; " + done.error().message;
+    return bad_input(reason);
+  }
+
   Status open() {
     auto method = engine::method_named(arguments_.method);
     if (!method) return method.error();
@@ -118,9 +128,10 @@ class LiveRun {
     auto out = OutFolder::create("--out", arguments_.out);
     if (!out) return out.error();
     out_.emplace(std::move(*out));
-    auto journal = engine::Journal::create(out_->file("session.orthonav"),
-                                           {ORTHONAV_VERSION, headset_->name(), method_.name,
-                                            case_name_, room_ ? room_->options().seed : 0});
+    auto journal =
+        engine::Journal::create(out_->file("session.orthonav"),
+                                {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_,
+                                 room_ ? room_->options().seed : 0, headset_->epoch_ticks_100ns()});
     if (!journal) return journal.error();
     journal_ = std::move(*journal);
     observers_.add(journal_.get());

@@ -7,6 +7,7 @@
 namespace orthonav::tools {
 
 Status StepPictures::picture(const render::Image& image, const engine::Snapshot& snapshot) {
+  if (snapshot.blank) return {};
   if (snapshot.step_text != held_step_) {
     if (const Status finished = finish(); !finished) return finished;
     held_step_ = snapshot.step_text;

@@ -49,7 +49,8 @@ void SurgeonView::look_at(sim::SimHeadset& headset, const sim::Magnitudes& magni
 void SurgeonView::captured(const engine::Snapshot& snapshot) {
   Moment& moment = moments_[snapshot.slot];
   moment.room = headset_->state();
-  // At the moment of the room's state, so that background and holograms belong together.
+  // At the moment of the room's state, so that the bone and what is fixed to it belong together.
+  // What follows the tool is predicted to the display time, some 30 ms ahead of the room behind it.
   moment.world_from_rig = headset_->head().world_from_rig(moment.room.time);
 }
 

@@ -2,34 +2,18 @@
 
 #include <gmock/gmock.h>
 
+#include <thread>
+
 #include "hal/fake/failing.h"
-#include "hal/fake/scripted.h"
-#include "hal/sim/hololens2.h"
+#include "tests/engine/scripted_pairs.h"
 #include "tests/engine/scripted_session.h"
 
 namespace orthonav::engine {
 namespace {
 
-constexpr Duration kPair = std::chrono::microseconds(33333);
-constexpr Timestamp kStart = from_ticks_100ns(100'000'000);
-
-fake::Script pairs(int n) {
-  fake::Script script;
-  script.calibration = sim::hololens2_calibration();
-  script.clock_start = kStart;
-  script.display_latency = std::chrono::milliseconds(16);
-  for (int i = 0; i < n; ++i) {
-    StereoFrame frame;
-    frame.sequence = i;
-    frame.time = kStart + (i + 1) * kPair;
-    frame.left = GreyImage(640, 480);
-    frame.right = GreyImage(640, 480);
-    frame.world_from_rig = Transform<World, Rig>{};
-    script.camera.push_back(frame);
-    script.head.push_back({frame.time, {}});
-  }
-  return script;
-}
+using testing::kPair;
+using testing::kStart;
+using testing::pairs;
 
 std::unique_ptr<Session> session() {
   return Session::create(testing::operation_of({"L5"}),
@@ -42,12 +26,17 @@ std::unique_ptr<Session> session() {
 class CountingSink : public SnapshotSink {
  public:
   Status draw(const Snapshot& snapshot) override {
+    if (snapshot.blank) return {};
     frames.push_back(snapshot.frame);
+    while (display && display->frames().size() < wait_for_shown) std::this_thread::yield();
     if (fail_at >= 0 && snapshot.frame >= fail_at) return Error{"display unplugged"};
     return {};
   }
   std::vector<std::int64_t> frames;
   std::int64_t fail_at = -1;
+  /// Draws nothing before so many frames were shown.
+  fake::RememberingDisplay* display = nullptr;
+  std::size_t wait_for_shown = 0;
 };
 
 TEST(FrameLoop, ShowsEveryPairAndEndsWithTheStream) {
@@ -59,7 +48,7 @@ TEST(FrameLoop, ShowsEveryPairAndEndsWithTheStream) {
   ASSERT_TRUE(report.ok()) << report.error().message;
   EXPECT_EQ(report->displayed, 10);
   EXPECT_FALSE(report->done);
-  EXPECT_EQ(headset.display().frames().size(), 10u);
+  EXPECT_EQ(headset.display().frames().size(), 11u) << "and one that takes all back";
   ASSERT_EQ(report->intervals_ms.size(), 9u);
   // The device's clock, exactly: 33.333 ms.
   EXPECT_NEAR(report->intervals_ms[0], 33.333, 1e-9);
@@ -81,33 +70,55 @@ TEST(FrameLoop, DrawsEveryNthFrameHoweverSlowTheSink) {
   LoopOptions options;
   options.draw_every = 3;
   CountingSink sink;
+  // Every buffer is full by then, and the loop waits.
+  sink.display = &headset.display();
+  sink.wait_for_shown = 13;
   FrameLoop loop(headset, *navigation, builder, options);
   loop.draw_into(&sink);
   const auto report = loop.run();
   ASSERT_TRUE(report.ok());
   EXPECT_THAT(sink.frames, ::testing::ElementsAre(0, 3, 6, 9, 12, 15, 18));
-  EXPECT_EQ(report->drawn, 7);
+  EXPECT_EQ(report->drawn, 8) << "and the one that takes all back";
 }
 
-TEST(FrameLoop, AFailingSinkIsReportedAndDoesNotHoldUpTracking) {
+TEST(FrameLoop, ASinkThatFailsForGoodEndsTheRun) {
   fake::FakeHeadset headset(pairs(20));
   const auto navigation = session();
   SceneBuilder builder;
   CountingSink sink;
   sink.fail_at = 2;
-  FrameLoop loop(headset, *navigation, builder, {});
+  LoopOptions options;
+  options.max_errors_in_a_row = 5;
+  FrameLoop loop(headset, *navigation, builder, options);
   loop.draw_into(&sink);
   const auto report = loop.run();
   ASSERT_FALSE(report.ok());
-  EXPECT_EQ(report.error().message, "display unplugged");
-  EXPECT_EQ(headset.display().frames().size(), 20u);
+  EXPECT_THAT(report.error().message, ::testing::HasSubstr("6 failures in a row (limit 5): "));
+  EXPECT_THAT(report.error().message, ::testing::HasSubstr("display unplugged"));
+}
+
+TEST(FrameLoop, ASceneThatIsRefusedDoesNotBlackOutTheOthers) {
+  fake::FakeHeadset headset(pairs(20));
+  const auto navigation = session();
+  SceneBuilder builder;
+  CountingSink sink;
+  sink.fail_at = 17;
+  FrameLoop loop(headset, *navigation, builder, {});
+  loop.draw_into(&sink);
+  const auto report = loop.run();
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(sink.frames.size(), 20u);
+  EXPECT_EQ(report->draw_failures, 3);
+  EXPECT_EQ(report->last_failure, "display unplugged");
 }
 
 TEST(FrameLoop, GoesOnAfterFailuresOfEveryDevice) {
   fake::Script script = pairs(20);
   script.voice.push_back({"start", 1.0, kStart + 5 * kPair});
+  script.clicker.push_back({ClickerAction::kPress, kStart + 6 * kPair});
   fake::FakeHeadset inner(std::move(script));
   fake::Faults faults;
+  faults.clicker = {{0, fake::EventFault::kError}};
   faults.camera = {{3, fake::CameraFault::kError}, {7, fake::CameraFault::kWrongSize}};
   faults.voice = {{0, fake::EventFault::kError}};
   faults.display = {{9, fake::DisplayFault::kError}};
@@ -116,7 +127,8 @@ TEST(FrameLoop, GoesOnAfterFailuresOfEveryDevice) {
   SceneBuilder builder;
   const auto report = FrameLoop(headset, *navigation, builder, {}).run();
   ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(report->failures, 4);
+  EXPECT_EQ(report->failures, 5);
+  EXPECT_EQ(report->displayed, 20 - 2 - 1) << "two pairs and one frame are gone, no more";
   EXPECT_FALSE(report->last_failure.empty());
   EXPECT_EQ(navigation->current_step(), Step::kDigitize) << "the phrase came with the next poll";
 }
@@ -150,7 +162,8 @@ TEST(SnapshotQueue, KeepsTheNewestWhenTheDrawerIsLate) {
     left.push_back(snapshot->frame);
     queue.release(snapshot);
   }
-  EXPECT_THAT(left, ::testing::ElementsAre(6, 7, 8, 9));
+  EXPECT_THAT(left, ::testing::ElementsAre(9));
+  EXPECT_EQ(queue.dropped(), 9);
   EXPECT_EQ(queue.acquire(), nullptr) << "closed";
 }
 

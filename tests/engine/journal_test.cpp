@@ -13,6 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A HoloLens counts from the year 1601.
+constexpr std::int64_t kEpoch = 116'444'736'000'000'000;
+
 class JournalTest : public ::testing::Test {
  protected:
   JournalTest()
@@ -36,7 +39,7 @@ class JournalTest : public ::testing::Test {
 };
 
 TEST_F(JournalTest, TellsTheWholeOperation) {
-  auto journal = Journal::create(path_, {"0.1.0", "fake", "paper", "boxes", 7}).value();
+  auto journal = Journal::create(path_, {"0.1.0", "fake", "paper", "boxes", 7, kEpoch}).value();
   testing::ScriptedSession s({"L5"});
   s.session().observe(journal.get());
   s.accepts_first_level();
@@ -64,6 +67,10 @@ TEST_F(JournalTest, TellsTheWholeOperation) {
   EXPECT_EQ(count["head"], 2);
   EXPECT_EQ(count["rod"], 2);
   EXPECT_EQ(count["not understood"], 1);
+  for (std::size_t i = 1; i < all.size(); ++i)
+    EXPECT_EQ(all[i]["time_100ns"].get<std::int64_t>(),
+              kEpoch + all[i]["time_ns"].get<std::int64_t>() / 100)
+        << i;
   for (std::size_t i = 2; i < all.size(); ++i)
     EXPECT_GE(all[i]["time_100ns"], all[i - 1]["time_100ns"]) << i;
   for (const auto& line : all) {
@@ -73,9 +80,56 @@ TEST_F(JournalTest, TellsTheWholeOperation) {
   }
 }
 
-TEST_F(JournalTest, LeavesNothingUnderItsNameWithoutFinish) {
-  { auto journal = Journal::create(path_, {}).value(); }
-  EXPECT_FALSE(fs::exists(path_));
+TEST_F(JournalTest, EveryLineIsInTheFileBeforeTheNextComes) {
+  auto journal = Journal::create(path_, {}).value();
+  testing::ScriptedSession s({"L5"});
+  s.session().observe(journal.get());
+  s.says("start");
+  EXPECT_FALSE(fs::exists(path_)) << "named only when it is whole";
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder_)) files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 1u);
+  std::ifstream in(files[0]);
+  std::string line;
+  int count = 0;
+  for (; std::getline(in, line); ++count) EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+  EXPECT_EQ(count, 2) << "the header and the word";
+  journal.reset();
+  EXPECT_FALSE(fs::exists(path_)) << "nothing under its name without finish";
+}
+
+TEST_F(JournalTest, SaysWhatEndedTheSessionBeforeItsTime) {
+  auto journal = Journal::create(path_, {}).value();
+  testing::ScriptedSession s({"L5"});
+  s.session().observe(journal.get());
+  s.says("start");
+  ASSERT_TRUE(journal->finish("cable").ok());
+  const auto all = lines();
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[2]["what"], "ended");
+  EXPECT_EQ(all[2]["reason"], "cable");
+  EXPECT_EQ(all[2]["time_ns"], all[1]["time_ns"]);
+}
+
+TEST_F(JournalTest, GivesNoNumbersOfARegistrationThatThereIsNot) {
+  auto journal = Journal::create(path_, {}).value();
+  testing::ScriptedSession s({"L5"});
+  s.session().observe(journal.get());
+  s.unusable = "0 points, at least 100 needed";
+  s.says("start");
+  s.does({ClickerAction::kDoubleClick});
+  s.unusable.reset();
+  s.does({ClickerAction::kDoubleClick});
+  ASSERT_TRUE(journal->finish().ok());
+  std::vector<nlohmann::json> registrations;
+  for (const auto& line : lines())
+    if (line.value("what", "") == "registration") registrations.push_back(line);
+  ASSERT_EQ(registrations.size(), 2u);
+  EXPECT_EQ(registrations[0]["reason"], "0 points, at least 100 needed");
+  for (const char* key : {"points", "rmse_mm", "world_from_vertebra_mm", "predicted_tre_mm"}) {
+    EXPECT_FALSE(registrations[0].contains(key)) << key;
+    EXPECT_TRUE(registrations[1].contains(key)) << key;
+  }
 }
 
 TEST_F(JournalTest, RefusesAFolderThatIsNotThere) {

@@ -182,8 +182,13 @@ TEST_F(Guiding, HidesTheTriangleBeyond40mmAndShowsItWithin) {
 }
 
 TEST_F(Guiding, ALostToolHidesTheTriangleAndTheNumberSaysSo) {
-  s.tracker().guide.reset();
-  const Guidance& g = s.pairs(5);
+  // The tracker goes on predicting; the overlay stands for a moment, without a number.
+  s.tracker().guide_origin = Origin::kPredicted;
+  const Guidance& fresh = s.pair();
+  EXPECT_NE(find(shown(fresh), "H5 triangle"), nullptr);
+  EXPECT_EQ(find(shown(fresh), "H6 angle")->text, "--.-°");
+  EXPECT_EQ(drawn(fresh), told(fresh));
+  const Guidance& g = s.pairs(4);
   const ShownFrame frame = shown(g);
   EXPECT_EQ(find(frame, "H5 triangle"), nullptr);
   ASSERT_NE(find(frame, "H6 angle"), nullptr);
@@ -244,6 +249,66 @@ TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
   ASSERT_EQ(after.size(), 2u);
   EXPECT_NEAR((after[0] - before[0]).norm(), 0.150, kExact);
   EXPECT_NEAR(((after[0] - before[0]) - (after[1] - before[1])).norm(), 0.0, kExact);
+}
+
+TEST(SceneBuilder, ARodThatCantBeMadeHasNoLength) {
+  ScriptedSession s({"L5"});
+  s.accepts_first_level();
+  for (int i = 0; i < 3; ++i) s.says("next");
+  s.touches({0.02, 0.03, 0.00});
+  const Guidance& g = s.touches({0.02, 0.03, 0.00});
+  ASSERT_EQ(g.rods[0].heads.size(), 2u);
+  ASSERT_FALSE(g.rods[0].rod.has_value());
+  SceneBuilder builder;
+  render::Scene scene;
+  builder.update(g);
+  builder.write_scene(g, scene);
+  for (const render::TextItem& text : scene.texts) EXPECT_NE(text.label / 100, 10u);
+}
+
+TEST_F(Guiding, GradesByTheLimitsItWasGiven) {
+  const Guidance& g = s.pair();  // 5.7 degrees off
+  const auto colour = [&](const VisibilityRules& rules) {
+    SceneBuilder builder(rules);
+    render::Scene scene;
+    builder.update(g);
+    builder.write_scene(g, scene);
+    return scene.triangles.at(0).colour;
+  };
+  VisibilityRules lenient;
+  lenient.grades = {0.2, 0.4};
+  EXPECT_EQ(colour({}).r, look::kRed.r);
+  EXPECT_EQ(colour(lenient).r, look::kGreen.r);
+}
+
+TEST_F(Guiding, WhatIsDrawnTooLateLosesTriangleAndNumber) {
+  SceneBuilder builder;
+  render::Scene scene;
+  const Guidance& g = s.pair();
+  builder.update(g);
+  builder.write_scene(g, scene);
+  ASSERT_FALSE(scene.triangles.empty());
+  hide_tool_guidance(scene);
+  EXPECT_TRUE(scene.triangles.empty());
+  for (const render::LineItem& line : scene.lines) EXPECT_NE(line.label / 100, 5u);
+  render::Scene late;
+  builder.update(g, g.tool->pose_time + g.stale_after + Duration(1));
+  builder.write_scene(g, late);
+  const auto readout = [](const render::Scene& of) {
+    for (const render::TextItem& text : of.texts)
+      if (text.label / 100 == 6) return text.runs.at(0).text;
+    return std::string("absent");
+  };
+  EXPECT_EQ(readout(scene), readout(late));
+}
+
+TEST(VisibilityRules, NamesEveryProblem) {
+  VisibilityRules bad;
+  bad.triangle_within_m = 0.0;
+  bad.rod_moved_away_m = -1.0;
+  bad.grades = {0.2, 0.1};
+  EXPECT_EQ(bad.check().size(), 3u);
+  EXPECT_TRUE(VisibilityRules{}.check().empty());
 }
 
 TEST(SceneBuilder, MakesATubeOnceForARod) {
