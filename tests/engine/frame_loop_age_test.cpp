@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "engine/frame_loop.h"
+#include "engine/simulated_operation.h"
+#include "engine/tool_file.h"
 #include "hal/fake/failing.h"
 #include "tests/engine/scripted_pairs.h"
 #include "tests/engine/scripted_session.h"
@@ -183,6 +185,17 @@ TEST(LoopOptions, NamesEveryProblem) {
   bad.after_done = Duration(-1);
   EXPECT_EQ(bad.check().size(), 5u);
   EXPECT_TRUE(LoopOptions{}.check().empty());
+}
+
+TEST(OperationOptions, NamesTheProblemsOfAllItsParts) {
+  OperationOptions bad;
+  bad.tools = built_in_tools();
+  EXPECT_TRUE(bad.check().empty());
+  bad.method = "guess";
+  bad.session.stale_after = Duration::zero();
+  bad.loop.draw_every = -1;
+  bad.visibility.grades = {0.2, 0.1};
+  EXPECT_EQ(bad.check().size(), 4u);
 }
 
 }  // namespace
