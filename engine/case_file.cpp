@@ -25,18 +25,6 @@ constexpr double kMinLevelSpacing_m = 0.015;
 /// Height of a lumbar body and its disc (Panjabi et al. 1992: 24-27 mm; discs about 10 mm).
 constexpr double kStackSpacing_m = 0.037;
 
-Vec3 centre_of(const nav::TriangleMesh& mesh) {
-  if (mesh.vertices_m.empty()) return {};
-  Vec3 low = mesh.vertices_m.front();
-  Vec3 high = low;
-  for (const Vec3& v : mesh.vertices_m)
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], v[axis]);
-      high[axis] = std::max(high[axis], v[axis]);
-    }
-  return 0.5 * (low + high);
-}
-
 /// The label of a level that lies in this one; nullptr when it has its place for itself.
 const CaseLevel* overlapped_by(const Case& subject, std::size_t index) {
   const Point<Spine> centre = subject.levels[index].centre_in_spine();
@@ -54,7 +42,7 @@ void stack_if_they_overlap(Case& subject) {
   for (std::size_t i = 0; i < subject.levels.size(); ++i) {
     CaseLevel& level = subject.levels[i];
     const Vec3 place{0, 0, -kStackSpacing_m * static_cast<double>(i)};
-    level.spine_from_vertebra = {Mat3::identity(), place - centre_of(level.mesh)};
+    level.spine_from_vertebra = {Mat3::identity(), place - nav::bounds_of(level.mesh).centre()};
   }
 }
 
@@ -154,7 +142,7 @@ std::optional<std::string> screw_problem(const nav::SurfaceIndex& bone, double m
 }  // namespace
 
 Point<Spine> CaseLevel::centre_in_spine() const {
-  return spine_from_vertebra * Point<Vertebra>{centre_of(mesh)};
+  return spine_from_vertebra * Point<Vertebra>{nav::bounds_of(mesh).centre()};
 }
 
 const CaseLevel* Case::find(const std::string& label) const {
@@ -181,7 +169,7 @@ std::vector<std::string> Case::check() const {
       continue;
     }
     const nav::SurfaceIndex bone(level.mesh);
-    const double middle_x_m = centre_of(level.mesh).x;
+    const double middle_x_m = nav::bounds_of(level.mesh).centre().x;
     for (const nav::ScrewPlan& screw : level.screws)
       if (const auto problem = screw_problem(bone, middle_x_m, screw))
         problems.push_back(which + " " + *problem);

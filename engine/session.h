@@ -113,7 +113,6 @@ class Session {
   void finish_rod(Timestamp time);
   void update_rod(Timestamp time);
   void drop_region(Timestamp time);
-  void drop_unsaved();
   void begin_level();
   void say(std::string message, Timestamp time);
   [[nodiscard]] LevelState& level() { return levels_[level_]; }
@@ -135,6 +134,7 @@ class Session {
 
   nav::Digitizer digitizer_;
   DroppedRegion dropped_;
+  std::optional<Timestamp> asked_to_drop_saved_;  ///< "delete" with nothing unsaved
   std::vector<Point<World>> touch_;  ///< tips while the button is down, for a screw head
   bool touching_ = false;            ///< the button is down
   bool touch_begun_ = false;         ///< on this rod, by a press that no click has used yet

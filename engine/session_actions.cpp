@@ -2,10 +2,17 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "engine/session.h"
 
 namespace orthonav::engine {
+namespace {
+
+/// A saved region goes when "delete" is said twice within this time.
+constexpr Duration kSaidTwiceWithin = std::chrono::seconds(5);
+
+}  // namespace
 
 void Session::act(Action action, Event event, Timestamp time) {
   switch (action) {
@@ -68,7 +75,7 @@ void Session::act_on_level(Action action, Timestamp time) {
     case Action::kRegister:
       digitizer_.release(time);
       // What is not saved is not registered: the two clicks that ask for it are no strokes.
-      drop_unsaved();
+      digitizer_.drop();
       try_registration(time);
       return;
     case Action::kShowRegistration:
@@ -141,20 +148,27 @@ void Session::begin_level() {
 }
 
 void Session::drop_region(Timestamp time) {
+  std::optional<nav::Region> gone = digitizer_.drop();
+  const bool asked = std::exchange(asked_to_drop_saved_, std::nullopt) >= time - kSaidTwiceWithin;
+  if (!gone && asked) gone = digitizer_.drop_saved();
+  if (gone) {
+    // It fades instead of vanishing.
+    dropped_ = {std::move(*gone), time};
+    return;
+  }
+  // One word too many must not cost a good region.
   const auto regions = digitizer_.regions();
-  if (regions.empty()) return;
-  // Copied before it goes: it fades instead of vanishing.
-  const auto last = std::find_if(regions.rbegin(), regions.rend(),
-                                 [](const nav::Region& r) { return !r.samples.empty(); });
-  if (last != regions.rend()) dropped_ = {*last, time};
-  digitizer_.drop();
-}
-
-void Session::drop_unsaved() {
-  const auto regions = digitizer_.regions();
-  // An empty region must stay: dropping it would drop the saved one before it.
-  if (!regions.empty() && !regions.back().saved && !regions.back().samples.empty())
-    digitizer_.drop();
+  const auto last =
+      std::find_if(regions.rbegin(), regions.rend(), [](const nav::Region& r) { return r.saved; });
+  if (last == regions.rend()) {
+    say("nothing to delete", time);
+    return;
+  }
+  asked_to_drop_saved_ = time;
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "say delete again to drop the last saved %zu points",
+                last->samples.size());
+  say(text.data(), time);
 }
 
 void Session::try_registration(Timestamp time) {

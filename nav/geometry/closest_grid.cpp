@@ -9,14 +9,10 @@ namespace orthonav::nav {
 ClosestGrid::ClosestGrid(const TriangleMesh& mesh, const SurfaceIndex& surface, double cell_m,
                          double margin_m)
     : cell_m_(cell_m) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Vec3 low{kFar, kFar, kFar};
-  Vec3 high = -low;
-  for (const Vec3& v : mesh.vertices_m)
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], v[axis] - margin_m);
-      high[axis] = std::max(high[axis], v[axis] + margin_m);
-    }
+  const Bounds box = bounds_of(mesh);
+  const Vec3 margin{margin_m, margin_m, margin_m};
+  const Vec3 low = box.low - margin;
+  const Vec3 high = box.high + margin;
   low_m_ = low;
   std::size_t cells = 1;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -47,17 +47,9 @@ Status check_numbers(const TriangleMesh& mesh) {
   return {};
 }
 
-/// The largest extent along an axis, of the vertices that faces use.
+/// The largest extent along an axis.
 double extent_m(const TriangleMesh& mesh) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Vec3 low{kFar, kFar, kFar};
-  Vec3 high{-kFar, -kFar, -kFar};
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t v : t)
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], mesh.vertices_m[v][axis]);
-        high[axis] = std::max(high[axis], mesh.vertices_m[v][axis]);
-      }
+  const auto [low, high] = bounds_of(mesh);
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
@@ -123,6 +115,18 @@ double signed_volume_m3(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+Bounds bounds_of(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  Bounds box{mesh.vertices_m[mesh.triangles[0][0]], mesh.vertices_m[mesh.triangles[0][0]]};
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      for (int axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], mesh.vertices_m[v][axis]);
+        box.high[axis] = std::max(box.high[axis], mesh.vertices_m[v][axis]);
+      }
+  return box;
+}
 
 Result<TriangleMesh> checked_vertebra(TriangleMesh mesh) {
   if (const Status s = check_numbers(mesh); !s) return s.error();

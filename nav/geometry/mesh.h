@@ -18,6 +18,15 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// An axis-parallel box, metres.
+struct Bounds {
+  Vec3 low;
+  Vec3 high;
+  [[nodiscard]] Vec3 centre() const { return 0.5 * (low + high); }
+};
+/// Of the vertices that faces name; a stray vertex counts for nothing. Zero without faces.
+[[nodiscard]] Bounds bounds_of(const TriangleMesh& mesh);
+
 /// Refuses what can't be navigated on, with the reason: no faces, non-finite vertices, an index out
 /// of range, edges not shared by exactly two triangles (non-manifold or open), a size outside
 /// 30-250 mm (a vertebra is 60-130 mm across; the message names metres taken for millimetres).

@@ -13,8 +13,6 @@ namespace {
 constexpr double kClosest_m = 0.001;
 /// From T1 to the pelvis a rod is half a metre long; more is a slip of the unit.
 constexpr double kFarthest_m = 0.6;
-constexpr double kThinnest_m = 0.001;
-constexpr double kThickest_m = 0.015;
 constexpr double kSampling_m = 0.001;
 
 std::string millimetres(double m) {
@@ -24,7 +22,7 @@ std::string millimetres(double m) {
 }
 
 Status check(std::span<const Vec3> heads_m, double diameter_m) {
-  if (!(diameter_m >= kThinnest_m && diameter_m <= kThickest_m))
+  if (!(diameter_m >= kThinnestRod_m && diameter_m <= kThickestRod_m))
     return Error{"rod diameter is " + millimetres(diameter_m) + ", limit 1-15 mm"};
   if (heads_m.size() < 2)
     return Error{"rod needs at least 2 screw heads, got " + std::to_string(heads_m.size())};
@@ -48,7 +46,8 @@ std::vector<Vec3> in_order(std::span<const Vec3> heads_m) {
   std::vector<Vec3> sorted(heads_m.begin(), heads_m.end());
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](Vec3 a, Vec3 b) { return along(a) < along(b); });
-  if (along(heads_m.front()) > along(heads_m.back())) std::reverse(sorted.begin(), sorted.end());
+  const double middle = 0.5 * (along(sorted.front()) + along(sorted.back()));
+  if (along(heads_m.front()) > middle) std::reverse(sorted.begin(), sorted.end());
   return sorted;
 }
 

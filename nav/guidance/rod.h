@@ -24,8 +24,13 @@ struct RodTemplate {
   std::vector<RodBend> bends;  ///< at the inner heads
 };
 
+/// Diameters a rod may have.
+inline constexpr double kThinnestRod_m = 0.001;
+inline constexpr double kThickestRod_m = 0.015;
+
 /// A rod through the screw heads: ordered along their principal axis, joined by a centripetal
-/// Catmull-Rom spline. Refuses fewer than 2 heads, non-finite ones, and heads closer than 1 mm.
+/// Catmull-Rom spline. Refuses fewer than 2 heads, non-finite ones, neighbours closer than 1 mm or
+/// farther apart than 600 mm, and diameters outside the limits above.
 Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_m = 0.0055);
 
 }  // namespace orthonav::nav

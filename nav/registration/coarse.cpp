@@ -17,8 +17,8 @@ constexpr double kSameTurn_rad = 0.1;
 constexpr double kShift_m = 0.009;
 constexpr double kTurn_rad = 0.35;
 constexpr int kShakes = 8;
-/// Poses that are worth shaking; beyond these none has led to the right one.
-constexpr std::size_t kShaken = 24;
+/// Proper pairings of three axes and their signs: all are worth shaking once doubles are gone.
+constexpr std::size_t kPairings = 24;
 /// Enough points to tell a good pose from a bad one, few enough to try hundreds.
 constexpr std::size_t kThinned = 80;
 /// A shaken pose is better only when its RMSE falls by more than ICP's own slack.
@@ -162,7 +162,7 @@ bool differ_clearly(const VertebraModel& model, const Pose& a, const Pose& b) {
 std::vector<CoarsePose> coarse_poses(const VertebraModel& model,
                                      std::span<const Point<World>> points_in_world) {
   const Search search(model, points_in_world);
-  std::vector<CoarsePose> poses = search.distinct(search.starts(points_in_world), kShaken);
+  std::vector<CoarsePose> poses = search.distinct(search.starts(points_in_world), kPairings);
   for (CoarsePose& pose : poses) pose = search.shaken(pose);
   return search.distinct(std::move(poses), 2);
 }

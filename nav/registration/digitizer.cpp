@@ -1,5 +1,8 @@
 #include "nav/registration/digitizer.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace orthonav::nav {
 namespace {
 
@@ -36,12 +39,27 @@ bool Digitizer::add(const TrackedPose& world_from_marker, Point<Marker> tip_in_m
 }
 
 void Digitizer::save() {
-  if (!regions_.empty() && !regions_.back().samples.empty()) regions_.back().saved = true;
+  if (regions_.empty() || regions_.back().samples.empty()) return;
+  regions_.back().saved = true;
+  if (recording_) current();
 }
 
-void Digitizer::drop() {
-  if (!regions_.empty() && regions_.back().samples.empty()) regions_.pop_back();
-  if (!regions_.empty()) regions_.pop_back();
+std::optional<Region> Digitizer::drop() {
+  if (regions_.empty() || regions_.back().saved) return std::nullopt;
+  Region dropped = std::move(regions_.back());
+  regions_.pop_back();
+  if (recording_) current();
+  if (dropped.samples.empty()) return std::nullopt;
+  return dropped;
+}
+
+std::optional<Region> Digitizer::drop_saved() {
+  const auto last =
+      std::find_if(regions_.rbegin(), regions_.rend(), [](const Region& r) { return r.saved; });
+  if (last == regions_.rend()) return std::nullopt;
+  Region dropped = std::move(*last);
+  regions_.erase(std::next(last).base());
+  return dropped;
 }
 
 void Digitizer::clear() {

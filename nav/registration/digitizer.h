@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,8 +24,8 @@ struct Region {
 };
 
 /// Collects pointer tips while the button is held, only from measured poses (Liebmann et al. 2019,
-/// section 3.2). "save" closes the current region, "delete" drops it (or, when it is empty, the
-/// last saved one). One thread at a time.
+/// section 3.2). "save" closes the current region, "delete" drops it; what was saved goes by an
+/// explicit second word only. One thread at a time.
 class Digitizer {
  public:
   /// Starts recording into the current region, or into a new one after a save.
@@ -36,9 +37,11 @@ class Digitizer {
   bool add(const TrackedPose& world_from_marker, Point<Marker> tip_in_marker);
   /// Keeps the current region; without samples there is nothing to keep.
   void save();
-  /// Drops the current region, or the last saved one when the current one has no samples. Recording
-  /// goes on while the button is held.
-  void drop();
+  /// Drops the region that is not saved yet and returns it; nothing when it has no samples. Never
+  /// touches a saved one. Recording goes on while the button is held.
+  std::optional<Region> drop();
+  /// Drops the last saved region and returns it; nothing when there is none.
+  std::optional<Region> drop_saved();
   /// Forgets everything and stops recording.
   void clear();
   [[nodiscard]] bool recording() const { return recording_; }

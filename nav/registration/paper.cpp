@@ -54,7 +54,7 @@ void judge(const VertebraModel& model, const RegistrationOptions& options, Regis
         line("registration RMSE %.1f mm, limit %.1f mm", r.rmse_m * 1e3, options.max_rmse_m * 1e3));
   // Two starts that end in the same pose agree; only another pose is a rival.
   const bool rival = differ_clearly(model, r.world_from_vertebra, r.runner_up);
-  if (rival && r.runner_up_rmse_m < options.min_runner_up_ratio * r.rmse_m)
+  if (rival && !(r.runner_up_rmse_m >= options.min_runner_up_ratio * r.rmse_m))
     r.reasons.push_back(
         line("another pose fits nearly as well (%.2f times the RMSE, at least %.2f)",
              r.runner_up_rmse_m / r.rmse_m, options.min_runner_up_ratio));
@@ -66,25 +66,13 @@ void judge(const VertebraModel& model, const RegistrationOptions& options, Regis
   r.accepted = r.reasons.empty();
 }
 
-/// The middle of the model's box, between the pedicles or close to it.
-Point<Vertebra> centre_of(const TriangleMesh& mesh) {
-  Vec3 low = mesh.vertices_m.front();
-  Vec3 high = low;
-  for (const Vec3& v : mesh.vertices_m)
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], v[axis]);
-      high[axis] = std::max(high[axis], v[axis]);
-    }
-  return {0.5 * (low + high)};
-}
-
 void estimate_errors(const VertebraModel& model, std::span<const Point<World>> points,
                      Registration& r) {
   r.predicted_tre_m = std::numeric_limits<double>::infinity();
   const auto uncertainty = PoseUncertainty::estimate(model, r.world_from_vertebra, points);
   if (!uncertainty) return;
   r.uncertainty = *uncertainty;
-  r.predicted_tre_m = uncertainty->predicted_tre_m(centre_of(model.mesh()));
+  r.predicted_tre_m = uncertainty->predicted_tre_m({bounds_of(model.mesh()).centre()});
 }
 
 }  // namespace

@@ -71,9 +71,10 @@ struct Registration {
   double predicted_tre_m = 0.0;
 };
 
-/// The published method: PCA extreme points (paper eq. 1) pair into two configurations (eq. 2), ICP
-/// (Besl & McKay 1992) refines both on the reachable surface, the smaller RMSE wins. An Error means
-/// unusable input (too few, collinear, non-finite points).
+/// The published method: PCA extreme points (paper eq. 1) give the coarse poses, of which the two
+/// best configurations remain (nav/registration/coarse.h says where it goes further than eq. 2),
+/// ICP (Besl & McKay 1992) refines both on the reachable surface, the smaller RMSE wins. An Error
+/// means unusable input (too few, collinear, non-finite points).
 Result<Registration> register_paper(const VertebraModel& model,
                                     std::span<const Point<World>> points_in_world,
                                     const RegistrationOptions& options = {});

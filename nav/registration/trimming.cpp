@@ -20,22 +20,6 @@ const double kFlattest = std::sin(10.0 * kDegree);
 constexpr double kIslandShare = 0.02;
 constexpr double kSmallestCanal_m2 = 40e-6;
 
-struct Bounds {
-  Vec3 low;
-  Vec3 high;
-};
-
-Bounds bounds_of(const TriangleMesh& mesh) {
-  Bounds b{mesh.vertices_m[mesh.triangles[0][0]], mesh.vertices_m[mesh.triangles[0][0]]};
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t v : t)
-      for (int axis = 0; axis < 3; ++axis) {
-        b.low[axis] = std::min(b.low[axis], mesh.vertices_m[v][axis]);
-        b.high[axis] = std::max(b.high[axis], mesh.vertices_m[v][axis]);
-      }
-  return b;
-}
-
 std::vector<Vec3> directions_from_behind() {
   std::vector<Vec3> directions;
   for (const double up : {0.0, 20.0, -20.0, 40.0, -40.0})

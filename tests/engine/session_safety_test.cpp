@@ -122,5 +122,32 @@ TEST(StatusLine, ShowsDashesForAnErrorWithoutABound) {
   EXPECT_THAT(detail, ::testing::Not(::testing::HasSubstr("inf")));
 }
 
+TEST(Delete, KeepsASavedRegionUntilDeleteIsSaidTwice) {
+  ScriptedSession s;
+  digitizes(s);
+  s.strokes(3);
+  s.says("delete");
+  ASSERT_EQ(s.pairs(1).regions.size(), 1u) << "what was not saved goes at once";
+  EXPECT_EQ(s.says("delete").detail, "say delete again to drop the last saved 5 points");
+  s.pairs(200);  // more than 5 s: another matter
+  const Guidance& asked = s.says("delete");
+  ASSERT_EQ(asked.regions.size(), 1u);
+  EXPECT_EQ(asked.regions[0].samples.size(), 5u);
+  const Guidance& gone = s.says("delete");
+  EXPECT_EQ(gone.regions.size(), 0u);
+  ASSERT_NE(gone.dropped, nullptr) << "it fades";
+  EXPECT_EQ(s.says("delete").detail, "nothing to delete");
+}
+
+TEST(Delete, CostsNothingAfterAPressWithoutSamples) {
+  ScriptedSession s;
+  digitizes(s);
+  s.tracker().pointer.reset();  // hidden while the button is down
+  s.does({kPress, kRelease});
+  const Guidance& g = s.says("delete");
+  ASSERT_EQ(g.regions.size(), 1u);
+  EXPECT_TRUE(g.regions[0].saved);
+}
+
 }  // namespace
 }  // namespace orthonav::engine

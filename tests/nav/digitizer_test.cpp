@@ -98,32 +98,46 @@ TEST(Digitizer, SavesNothingWhereThereIsNothing) {
   EXPECT_EQ(digitizer.saved_count(), 1U);
 }
 
-TEST(Digitizer, DropsTheCurrentRegionThenTheLastSavedOne) {
+TEST(Digitizer, DropsOnlyWhatIsNotSaved) {
+  Digitizer digitizer;
+  stroke(digitizer, 0, 3);
+  digitizer.save();
+  stroke(digitizer, 1000, 4);
+  const auto dropped = digitizer.drop();
+  ASSERT_TRUE(dropped.has_value());
+  EXPECT_EQ(dropped->samples.size(), 4U);
+  EXPECT_FALSE(digitizer.drop().has_value());
+  EXPECT_EQ(digitizer.saved_count(), 3U);
+}
+
+TEST(Digitizer, DropsNothingButAnEmptyRegionAfterAPressWithoutSamples) {
+  Digitizer digitizer;
+  stroke(digitizer, 0, 3);
+  digitizer.save();
+  digitizer.press(at(1000));
+  EXPECT_FALSE(digitizer.drop().has_value());
+  EXPECT_EQ(digitizer.saved_count(), 3U);
+  EXPECT_TRUE(digitizer.recording());
+  EXPECT_TRUE(digitizer.add(pose(1033), kTip));
+}
+
+TEST(Digitizer, DropsSavedRegionsFromTheLastToTheFirst) {
   Digitizer digitizer;
   stroke(digitizer, 0, 3);
   digitizer.save();
   stroke(digitizer, 1000, 2);
   digitizer.save();
-  stroke(digitizer, 2000, 4);
-  digitizer.drop();
-  EXPECT_EQ(digitizer.saved_count(), 5U);
-  digitizer.drop();
+  stroke(digitizer, 2000, 4);  // open: stays
+  auto dropped = digitizer.drop_saved();
+  ASSERT_TRUE(dropped.has_value());
+  EXPECT_EQ(dropped->samples.size(), 2U);
   EXPECT_EQ(digitizer.saved_count(), 3U);
-  digitizer.drop();
-  EXPECT_EQ(digitizer.saved_count(), 0U);
-  digitizer.drop();  // nothing left to drop
-  EXPECT_TRUE(digitizer.regions().empty());
-}
-
-TEST(Digitizer, DropsTheLastSavedRegionWhenTheCurrentOneIsEmpty) {
-  Digitizer digitizer;
-  stroke(digitizer, 0, 3);
-  digitizer.save();
-  digitizer.press(at(1000));
-  digitizer.drop();
-  EXPECT_EQ(digitizer.saved_count(), 0U);
-  EXPECT_TRUE(digitizer.recording());
-  EXPECT_TRUE(digitizer.add(pose(1033), kTip));
+  dropped = digitizer.drop_saved();
+  ASSERT_TRUE(dropped.has_value());
+  EXPECT_EQ(dropped->samples.size(), 3U);
+  EXPECT_FALSE(digitizer.drop_saved().has_value());
+  ASSERT_EQ(digitizer.regions().size(), 1U);
+  EXPECT_EQ(digitizer.regions()[0].samples.size(), 4U);
 }
 
 TEST(Digitizer, KeepsRecordingIntoANewRegionAfterASaveMidStroke) {
