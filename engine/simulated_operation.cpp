@@ -48,9 +48,6 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   ObserverList observers({&witness, &end_note});
   for (SessionObserver* guest : guests.session) observers.add(guest);
   (*session)->observe(&observers);
-  if (guests.opened)
-    if (const Status opened = guests.opened(room, *method, **session); !opened)
-      return opened.error();
 
   std::unique_ptr<replay::RecordingHeadset> recorder;
   if (!options.record_folder.empty()) {
@@ -58,6 +55,9 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
     if (!made) return made.error();
     recorder = std::move(*made);
   }
+  if (guests.opened)
+    if (const Status opened = guests.opened(room, *method, **session); !opened)
+      return opened.error();
   SceneBuilder builder(options.visibility);
   FrameLoop loop(recorder ? static_cast<Headset&>(*recorder) : room, **session, builder,
                  options.loop);

@@ -139,7 +139,8 @@ TEST(DetectCommand, RefusesBadInputInOneLine) {
   const std::string good = folder.with("good.pgm", "P5 40 30 255\n" + std::string(1200, 'x'));
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"detect", good, "--family", "tag99h1"}, "unknown tag family 'tag99h1', known are tag36h11"},
-      {{"detect", good, "--max-hamming", "3"}, "max_hamming 3"},
+      {{"detect", good, "--max-hamming", "3"},
+       "--max-hamming: \"3\" must be a whole number from 0 to 2"},
       {{"detect", good, "--decimate", "0.3"}, "decimate"},
       {{"detect", good, folder.file("none.png")}, "none.png"},
       {{"detect", good, folder.with("cut.pgm", "P5 40 30 255\nxyz")}, "cut.pgm: PGM is cut short"},
