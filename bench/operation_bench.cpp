@@ -1,0 +1,70 @@
+// What a simulated operation on the built-in phantom costs for each stereo pair, until the first
+// vertebra is registered: the simulated room, and tracking with everything after it.
+// Nothing is drawn: drawing has its own thread and its own bench.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "engine/phantom.h"
+#include "engine/simulated_operation.h"
+#include "engine/tool_file.h"
+
+namespace orthonav {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+/// Wall time from the end of one pair's step to the end of the next one's.
+class PairTimes : public engine::LoopObserver {
+ public:
+  void stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
+               const engine::Guidance& /*guidance*/) override {
+    const WallClock::time_point now = WallClock::now();
+    if (last_ != WallClock::time_point{})
+      ms_.push_back(std::chrono::duration<double, std::milli>(now - last_).count());
+    last_ = now;
+  }
+  [[nodiscard]] const std::vector<double>& ms() const { return ms_; }
+
+ private:
+  WallClock::time_point last_{};
+  std::vector<double> ms_;
+};
+
+double quantile(std::vector<double> values, double part) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+}
+
+void operation(benchmark::State& state) {
+  for (auto _ : state) {
+    engine::OperationOptions options;
+    options.tools = engine::built_in_tools();
+    options.loop.draw_every = 0;
+    options.loop.max_frames = state.range(0);
+    PairTimes pairs;
+    const auto result = engine::run_operation(engine::phantom(), options, {.loop = &pairs});
+    if (!result) {
+      state.SkipWithError(result.error().message.c_str());
+      return;
+    }
+    const std::vector<double>& step = result->loop.step_wall_ms;
+    std::vector<double> room;
+    for (std::size_t i = 0; i + 1 < step.size() && i < pairs.ms().size(); ++i)
+      room.push_back(pairs.ms()[i] - step[i + 1]);
+    state.counters["pairs"] = static_cast<double>(step.size());
+    state.counters["room_ms_median"] = quantile(room, 0.5);
+    state.counters["room_ms_p99"] = quantile(room, 0.99);
+    state.counters["step_ms_median"] = quantile(step, 0.5);
+    state.counters["step_ms_p99"] = quantile(step, 0.99);
+  }
+}
+BENCHMARK(operation)->Arg(2400)->Iterations(1)->UseRealTime()->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace orthonav
+
+BENCHMARK_MAIN();
