@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "tests/nav/allocation_count.h"
+#include "tests/support/allocation_count.h"
 
 namespace orthonav::nav {
 namespace {

@@ -10,7 +10,7 @@
 #include "hal/api/random.h"
 #include "mesh_builder.h"
 #include "nav/geometry/triangle.h"
-#include "tests/nav/allocation_count.h"
+#include "tests/support/allocation_count.h"
 
 namespace orthonav::nav {
 namespace {

@@ -8,8 +8,8 @@
 #include "nav/tracking/tag_matching.h"
 #include "nav/tracking/tag_pose.h"
 #include "nav/tracking/tool_tracker.h"
-#include "tests/nav/allocation_count.h"
 #include "tests/nav/tag_scene.h"
+#include "tests/support/allocation_count.h"
 
 namespace orthonav::nav {
 namespace {

@@ -1,39 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <limits>
-#include <new>
-
 #include "render/shapes.h"
 #include "render/vulkan/mesh_cache.h"
 #include "tests/render/test_renderer.h"
-
-namespace {
-
-// Counts what passes through operator new anywhere in this program while `counting`.
-std::atomic<bool> counting{false};
-std::atomic<int> allocations{0};
-// More than this at once fails.
-std::atomic<std::size_t> largest{std::numeric_limits<std::size_t>::max()};
-
-void* counted(std::size_t size) {
-  if (counting) ++allocations;
-  void* memory = size > largest ? nullptr : std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size); }
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/allocation_count.h"
 
 namespace orthonav::render {
 namespace {
@@ -71,18 +41,16 @@ TEST(FrameLoop, AllocatesNothingAfterTheFirstFrames) {
   const std::vector<Scene> scenes = {moving_scene(0.00f), moving_scene(0.03f), moving_scene(0.05f)};
   std::vector<Image> images;
   for (const Scene& scene : scenes) ASSERT_TRUE(renderer->draw(scene, eyes, {}, images, error));
-  allocations = 0;
-  counting = true;
+  const std::size_t before = test::allocation_count();
   bool drawn = true;
   for (int i = 0; i < 6; ++i)
     drawn = renderer->draw(scenes[i % 3], eyes, {}, images, error) && drawn;
-  counting = false;
+  const std::size_t after = test::allocation_count();
   EXPECT_TRUE(drawn) << error;
-  EXPECT_EQ(allocations, 0);
-  counting = true;
+  EXPECT_EQ(after, before);
   const Scene copy = scenes[0];
-  counting = false;
-  EXPECT_GT(allocations, 0) << "the twin: the counter counts " << copy.lines.size();
+  EXPECT_GT(test::allocation_count(), after)
+      << "the twin: the counter counts " << copy.lines.size();
 }
 
 // The layer allocates all the time; what it says about such a loop is heard here instead.
@@ -105,10 +73,10 @@ TEST(FrameLoop, TellsARefusalWhenMemoryForTheImagesIsMissing) {
   std::string error;
   ASSERT_TRUE(renderer->draw(scene, views, {}, images, error)) << error;
   images.clear();
-  largest = 50000;  // an image has 96000 bytes
-  const bool drawn = renderer->draw(scene, views, {}, images, error);
-  largest = std::numeric_limits<std::size_t>::max();
-  EXPECT_FALSE(drawn);
+  {
+    const test::AllocationLimit limit(50000);  // an image has 96000 bytes
+    EXPECT_FALSE(renderer->draw(scene, views, {}, images, error));
+  }
   EXPECT_EQ(error, "renderer: out of host memory");
   EXPECT_TRUE(renderer->draw(scene, views, {}, images, error)) << error;
 }

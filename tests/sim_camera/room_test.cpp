@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "tests/sim_camera/allocations.h"
 #include "tests/sim_camera/detection.h"
 #include "tests/sim_camera/scene.h"
+#include "tests/support/allocation_count.h"
 
 namespace orthonav::sim {
 namespace {
@@ -190,16 +190,16 @@ TEST(RoomRenderer, NothingIsAllocatedAfterTheFirstFrame) {
     renderer->picture(states[1], view_of(state), picture);
   };
   frame(1);
-  const std::size_t before = test::allocations();
+  const std::size_t before = test::allocation_count();
   for (std::uint64_t i = 2; i < 12; ++i) {
     for (RoomState& moment : states)  // closer and closer: everything grows on the image
       moment.room_from_rig = {moment.room_from_rig.rotation(),
                               moment.room_from_rig.translation() + Vec3{-0.01, -0.015, 0}};
     frame(i);
   }
-  EXPECT_EQ(test::allocations(), before);
+  EXPECT_EQ(test::allocation_count(), before);
   const std::vector<int> one(10);  // the count does count
-  EXPECT_GT(test::allocations(), before);
+  EXPECT_GT(test::allocation_count(), before);
   EXPECT_EQ(one.size(), 10u);
 }
 

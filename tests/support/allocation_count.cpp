@@ -1,0 +1,43 @@
+#include "tests/support/allocation_count.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+// A file of its own: where the compiler can look into these functions, it takes them for a mistake.
+
+namespace {
+
+constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max();
+std::atomic<std::size_t> g_allocations{0};
+std::atomic<std::size_t> g_largest{kUnlimited};
+
+void* counted(std::size_t size) noexcept {
+  ++g_allocations;
+  return size > g_largest ? nullptr : std::malloc(size > 0 ? size : 1);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  if (void* memory = counted(size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new[](std::size_t size) { return operator new(size); }
+// std::stable_sort asks this way; what one pair of functions gives only that pair may take back.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace orthonav::test {
+
+std::size_t allocation_count() { return g_allocations; }
+
+AllocationLimit::AllocationLimit(std::size_t bytes) { g_largest = bytes; }
+AllocationLimit::~AllocationLimit() { g_largest = kUnlimited; }
+
+}  // namespace orthonav::test

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+
+namespace orthonav::test {
+
+/// How often `operator new` has been called in this process, by any thread. C libraries that call
+/// malloc are not counted. Link `orthonav_allocation_count`.
+std::size_t allocation_count();
+
+/// While one lives, an allocation of more than so many bytes fails with std::bad_alloc.
+class AllocationLimit {
+ public:
+  explicit AllocationLimit(std::size_t bytes);
+  ~AllocationLimit();
+  AllocationLimit(const AllocationLimit&) = delete;
+  AllocationLimit& operator=(const AllocationLimit&) = delete;
+};
+
+}  // namespace orthonav::test
