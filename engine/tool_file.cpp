@@ -1,5 +1,7 @@
 #include "engine/tool_file.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,6 +23,24 @@ std::optional<nav::ToolRole> role_from(const std::string& text) {
   return std::nullopt;
 }
 
+nav::MarkerDefinition marker_from(const JsonNode& node) {
+  return {node.text("family"), node.integer("id"), node.number("size_mm") * kMetresPerMm};
+}
+
+nav::AttachedMarker attached_from(const JsonNode& node) {
+  // The file's numbers are meant to be rigid; what is rounded to four digits still is.
+  constexpr double kMaxShear = 1e-3;
+  const std::vector<double> numbers = node.numbers("pose", 16);
+  std::array<double, 16> a{};
+  std::copy(numbers.begin(), numbers.end(), a.begin());
+  for (const std::size_t i : {3u, 7u, 11u}) a[i] *= kMetresPerMm;
+  const bool affine = a[12] == 0 && a[13] == 0 && a[14] == 0 && a[15] == 1;
+  if (!affine) node.refuse("pose", "must end with the row 0 0 0 1");
+  const auto pose = Transform<Marker, Tag>::from_row_major(a, kMaxShear);
+  if (!pose) node.refuse("pose", pose.error().message);
+  return {marker_from(node), pose ? *pose : Transform<Marker, Tag>{}};
+}
+
 nav::ToolGeometry tool_from(const JsonNode& node) {
   nav::ToolGeometry tool;
   tool.name = node.text("name");
@@ -29,10 +49,10 @@ nav::ToolGeometry tool_from(const JsonNode& node) {
     tool.role = *known;
   else
     node.refuse("role", "is \"" + role + "\", must be pointer, guide or reference");
-  const JsonNode marker = node.child("marker");
-  tool.marker.family = marker.text("family");
-  tool.marker.id = marker.integer("id");
-  tool.marker.size_m = marker.number("size_mm") * kMetresPerMm;
+  tool.marker = marker_from(node.child("marker"));
+  if (node.has("markers"))
+    for (const JsonNode& more : node.list("markers"))
+      tool.more_markers.push_back(attached_from(more));
   // A reference is nothing but its marker.
   if (tool.role != nav::ToolRole::kReference || node.has("tip_mm"))
     tool.tip_in_marker = {node.vec3("tip_mm") * kMetresPerMm};
@@ -60,6 +80,19 @@ Result<std::vector<nav::ToolGeometry>> tools_from(const JsonDocument& document,
 
 nlohmann::json list_of(Vec3 v) { return {v.x, v.y, v.z}; }
 
+nlohmann::ordered_json json_of(const nav::MarkerDefinition& marker) {
+  return {{"family", marker.family}, {"id", marker.id}, {"size_mm", marker.size_m / kMetresPerMm}};
+}
+
+nlohmann::ordered_json json_of(const nav::AttachedMarker& more) {
+  nlohmann::ordered_json entry = json_of(more.definition);
+  std::array<double, 16> a = more.marker_from_tag.row_major();
+  for (const std::size_t i : {3u, 7u, 11u}) a[i] /= kMetresPerMm;
+  for (std::size_t row = 0; row < 4; ++row)
+    entry["pose"].push_back({a[4 * row], a[4 * row + 1], a[4 * row + 2], a[4 * row + 3]});
+  return entry;
+}
+
 }  // namespace
 
 std::string to_text(nav::ToolRole role) {
@@ -86,9 +119,9 @@ std::string tools_text(const std::vector<nav::ToolGeometry>& tools) {
     nlohmann::ordered_json entry;
     entry["name"] = tool.name;
     entry["role"] = to_text(tool.role);
-    entry["marker"] = {{"family", tool.marker.family},
-                       {"id", tool.marker.id},
-                       {"size_mm", tool.marker.size_m / kMetresPerMm}};
+    entry["marker"] = json_of(tool.marker);
+    for (const nav::AttachedMarker& more : tool.more_markers)
+      entry["markers"].push_back(json_of(more));
     entry["tip_mm"] = list_of(tool.tip_in_marker.v / kMetresPerMm);
     entry["axis"] = list_of(tool.axis_in_marker.v);
     list.push_back(entry);

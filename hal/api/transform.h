@@ -16,6 +16,7 @@ struct Rig;          ///< the headset
 struct LeftCamera;   ///< vision axes: x right, y down, z forward (as the raw image lies)
 struct RightCamera;  ///< as LeftCamera
 struct Marker;       ///< a tag: x right, y up as the upright tag is seen, z out of its face
+struct Tag;          ///< a further tag on a rigid tool: axes as Marker
 struct Vertebra;     ///< a preoperative model, axes LPS
 struct Spine;        ///< how the levels lie together, axes LPS
 struct Eye;          ///< a display eye: x right, y up, -z forward

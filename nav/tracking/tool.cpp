@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <utility>
 
 #include "nav/tracking/marker_detector.h"
 
@@ -12,7 +14,7 @@ namespace {
 
 constexpr double kSmallestMarkerM = 0.005;
 constexpr double kLargestMarkerM = 0.2;
-constexpr double kFarthestTipM = 1.0;
+constexpr double kFarthestM = 1.0;
 constexpr double kUnitTolerance = 1e-3;
 
 std::string number(double value) {
@@ -21,51 +23,70 @@ std::string number(double value) {
   return text.data();
 }
 
-void check_marker(const ToolGeometry& tool, const std::string& name,
+void check_marker(const MarkerDefinition& marker, const std::string& name,
                   std::vector<std::string>& problems) {
-  if (!is_known_family(tool.marker.family))
-    problems.push_back(name + ": unknown tag family '" + tool.marker.family + "', known are " +
+  if (!is_known_family(marker.family))
+    problems.push_back(name + ": unknown tag family '" + marker.family + "', known are " +
                        known_families_text());
-  const int ids = family_size(tool.marker.family);
-  if (tool.marker.id < 0 || (ids > 0 && tool.marker.id >= ids))
-    problems.push_back(name + ": tag id " + std::to_string(tool.marker.id) + ", must be 0-" +
+  const int ids = family_size(marker.family);
+  if (marker.id < 0 || (ids > 0 && marker.id >= ids))
+    problems.push_back(name + ": tag id " + std::to_string(marker.id) + ", must be 0-" +
                        std::to_string(std::max(ids, 1) - 1));
-  if (!(tool.marker.size_m >= kSmallestMarkerM && tool.marker.size_m <= kLargestMarkerM))
-    problems.push_back(name + ": tag size " + number(tool.marker.size_m * 1e3) +
+  if (!(marker.size_m >= kSmallestMarkerM && marker.size_m <= kLargestMarkerM))
+    problems.push_back(name + ": tag size " + number(marker.size_m * 1e3) +
                        " mm, must be 5-200 mm");
 }
 
 void check_geometry(const ToolGeometry& tool, const std::string& name,
                     std::vector<std::string>& problems) {
   const double reach_m = tool.tip_in_marker.v.norm();
-  if (!(reach_m <= kFarthestTipM))
+  if (!(reach_m <= kFarthestM))
     problems.push_back(name + ": tip " + number(reach_m * 1e3) +
                        " mm from its marker, limit 1000 mm");
   const double length = tool.axis_in_marker.v.norm();
   if (!(std::abs(length - 1.0) <= kUnitTolerance))
     problems.push_back(name + ": axis has length " + number(length) + ", must be 1");
+  for (const AttachedMarker& more : tool.more_markers) {
+    check_marker(more.definition, name, problems);
+    const double distance_m = more.marker_from_tag.translation().norm();
+    if (!(distance_m <= kFarthestM))
+      problems.push_back(name + ": tag id " + std::to_string(more.definition.id) + " lies " +
+                         number(distance_m * 1e3) + " mm from its marker, limit 1000 mm");
+  }
+}
+
+std::string title_of(const std::vector<ToolGeometry>& tools, std::size_t i) {
+  return tools[i].name.empty() ? "tool " + std::to_string(i + 1) : "tool '" + tools[i].name + "'";
+}
+
+/// One tag cannot be in two places; `tags` are those of the tools before.
+void check_given_once(const MarkerDefinition& marker, const std::string& name,
+                      std::map<std::pair<std::string, int>, std::string>& tags,
+                      std::vector<std::string>& problems) {
+  const auto [given, is_new] = tags.try_emplace({marker.family, marker.id}, name);
+  if (!is_new)
+    problems.push_back(name + ": tag " + marker.family + " id " + std::to_string(marker.id) +
+                       " is already on " + given->second);
 }
 
 }  // namespace
 
 std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {
   std::vector<std::string> problems;
+  std::map<std::pair<std::string, int>, std::string> tags;
   if (tools.empty()) problems.push_back("no tools given");
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const ToolGeometry& tool = tools[i];
-    const std::string name =
-        tool.name.empty() ? "tool " + std::to_string(i + 1) : "tool '" + tool.name + "'";
+    const std::string name = title_of(tools, i);
     if (tool.name.empty()) problems.push_back(name + ": name is empty");
-    check_marker(tool, name, problems);
+    check_marker(tool.marker, name, problems);
     check_geometry(tool, name, problems);
-    for (std::size_t j = 0; j < i; ++j) {
+    for (std::size_t j = 0; j < i; ++j)
       if (!tool.name.empty() && tools[j].name == tool.name)
         problems.push_back(name + ": the name is given twice");
-      if (tools[j].marker.family == tool.marker.family && tools[j].marker.id == tool.marker.id)
-        problems.push_back(name + ": tag " + tool.marker.family + " id " +
-                           std::to_string(tool.marker.id) + " is already on '" + tools[j].name +
-                           "'");
-    }
+    check_given_once(tool.marker, name, tags, problems);
+    for (const AttachedMarker& more : tool.more_markers)
+      check_given_once(more.definition, name, tags, problems);
   }
   return problems;
 }

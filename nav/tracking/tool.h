@@ -15,6 +15,12 @@ struct MarkerDefinition {
   double size_m = 0.0;  ///< outer edge of the black border
 };
 
+/// A further tag of a rigid tool and where it sits.
+struct AttachedMarker {
+  MarkerDefinition definition;
+  Transform<Marker, Tag> marker_from_tag;
+};
+
 /// A rigid tool: where its tip and axis lie relative to its marker.
 struct ToolGeometry {
   std::string name;
@@ -23,10 +29,14 @@ struct ToolGeometry {
   Point<Marker> tip_in_marker;
   /// Unit vector from the tip back along the shaft, away from the patient.
   Direction<Marker> axis_in_marker{{0, 1, 0}};
+  /// Other tags of the same rigid body. A tracker may see by them or by `marker` alone; poses are
+  /// always those of `marker`.
+  std::vector<AttachedMarker> more_markers;
 };
 
-/// Every problem at once: empty names, unknown families, duplicate ids or names, sizes outside
-/// 5-200 mm, tips farther than 1 m, axes that are not unit vectors. Empty when all is well.
+/// Every problem at once: empty names, unknown families, duplicate names, a tag given twice on any
+/// tool, sizes outside 5-200 mm, tips or further tags farther than 1 m, axes that are not unit
+/// vectors. Empty when all is well.
 [[nodiscard]] std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools);
 /// Tag families that can be detected.
 [[nodiscard]] bool is_known_family(const std::string& family);

@@ -9,6 +9,7 @@ namespace orthonav::engine {
 namespace {
 
 using orthonav::testing::TemporaryFolder;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -104,6 +105,66 @@ TEST(ToolFile, RefusesTheSameTagOnTwoTools) {
   EXPECT_THAT(refusal(R"({"tools": [{"name": "a", "role": "pointer", )" + rest +
                       R"(, {"name": "b", "role": "guide", )" + rest + "]}"),
               HasSubstr("3"));
+}
+
+const std::string kTip = R"(, "tip_mm": [0, -150, 0])";
+
+/// A pointer with a second tag, turned and to the right, with this pose.
+std::string with_second_tag(const std::string& rows, const std::string& fields =
+                                                         R"("family": "tag36h11", "id": 4,
+                                                            "size_mm": 40)") {
+  return tool(kMarker + kTip + R"(, "markers": [{)" + fields + R"(, "pose": )" + rows + "}]");
+}
+const std::string kTurned = "[[0,0,1,20], [0,1,0,1.5], [-1,0,0,-20], [0,0,0,1]]";
+
+TEST(ToolFile, ReadsAndWritesFurtherTags) {
+  const TemporaryFolder folder;
+  const auto tools = load_tools(folder.with("tools.json", with_second_tag(kTurned)));
+  ASSERT_TRUE(tools.ok()) << tools.error().message;
+  ASSERT_EQ(tools->front().more_markers.size(), 1u);
+  const nav::AttachedMarker& second = tools->front().more_markers.front();
+  EXPECT_EQ(second.definition.id, 4);
+  EXPECT_DOUBLE_EQ(second.definition.size_m, 0.040);
+  const Point<Marker> right_of_second = second.marker_from_tag * Point<Tag>{{0.01, 0, 0}};
+  EXPECT_LT((right_of_second.v - Vec3{0.02, 0.0015, -0.03}).norm(), 1e-12);
+
+  const auto back = parse_tools(tools_text(*tools), "back");
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  ASSERT_EQ(back->front().more_markers.size(), 1u);
+  const nav::AttachedMarker& again = back->front().more_markers.front();
+  EXPECT_EQ(again.definition.family, "tag36h11");
+  EXPECT_EQ(again.definition.id, 4);
+  EXPECT_DOUBLE_EQ(again.definition.size_m, 0.040);
+  EXPECT_EQ(again.marker_from_tag.rotation(), second.marker_from_tag.rotation());
+  EXPECT_LT((again.marker_from_tag.translation() - second.marker_from_tag.translation()).norm(),
+            1e-15);
+}
+
+TEST(ToolFile, RefusesFurtherTagsThatAreNoRigidPart) {
+  EXPECT_THAT(refusal(with_second_tag("[[1,0,0,0], [0,1.01,0,0], [0,0,1,0], [0,0,0,1]]")),
+              HasSubstr("tools[0].markers[0].pose transform is not rigid"));
+  EXPECT_THAT(refusal(with_second_tag("[[1,0,0,0], [0,1,0,0], [0,0,-1,0], [0,0,0,1]]")),
+              HasSubstr("tools[0].markers[0].pose transform mirrors"));
+  EXPECT_THAT(refusal(with_second_tag("[[1,0,0,0], [0,1,0,0], [0,0,1,0], [0,0,9,1]]")),
+              HasSubstr("must end with the row 0 0 0 1"));
+  EXPECT_THAT(refusal(with_second_tag("[[1,0,0,0], [0,1,0,0], [0,0,1,0]]")),
+              HasSubstr("holds 12 numbers, must be 16"));
+  EXPECT_THAT(refusal(with_second_tag("5")), HasSubstr("markers[0].pose must be a list"));
+  EXPECT_THAT(refusal(with_second_tag("[[1,0,0,2000], [0,1,0,0], [0,0,1,0], [0,0,0,1]]")),
+              HasSubstr("lies 2000 mm from its marker"));
+}
+
+TEST(ToolFile, RefusesFurtherTagsThatAreIncompleteOrTwice) {
+  EXPECT_THAT(refusal(with_second_tag(kTurned, R"("family": "tag36h11", "id": 4)")),
+              HasSubstr("tools[0].markers[0].size_mm is missing"));
+  EXPECT_THAT(refusal(with_second_tag(kTurned, R"("id": 4, "size_mm": 40)")),
+              HasSubstr("tools[0].markers[0].family is missing"));
+  EXPECT_THAT(refusal(with_second_tag(kTurned, R"("family": "tag36h11", "id": 3, "size_mm": 4)")),
+              AllOf(HasSubstr("id 3 is already on tool 'pointer'"), HasSubstr("4 mm")));
+  EXPECT_THAT(refusal(tool(kMarker + kTip + R"(, "markers": {})")),
+              HasSubstr("tools[0].markers must be a list"));
+  EXPECT_THAT(refusal(tool(kMarker + kTip + R"(, "markers": [7])")),
+              HasSubstr("tools[0].markers[0] must be an object"));
 }
 
 TEST(ToolFile, RefusesWhatIsNotJsonOrNotThere) {

@@ -64,7 +64,7 @@ TEST_P(EveryFamily, IsDetectedWithItsCornersInOrder) {
 
 TEST_P(EveryFamily, HasTheNumberOfIdsSaid) {
   const std::string family(GetParam());
-  ToolGeometry tool{"t", ToolRole::kPointer, {family, family_size(family) - 1, 0.05}, {}, {}};
+  ToolGeometry tool{"t", ToolRole::kPointer, {family, family_size(family) - 1, 0.05}, {}, {}, {}};
   tool.axis_in_marker = {{0, 1, 0}};
   EXPECT_THAT(problems_of({tool}), IsEmpty());
   EXPECT_GT(test::tag_picture(family, family_size(family) - 1).cells, 0);
