@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
   add_detect_command(app, action);
   add_doctor_command(app, action);
   add_golden_command(app, action);
+  add_print_command(app, action);
   add_register_command(app, action);
   add_rod_command(app, action);
   add_run_command(app, action);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+
+namespace orthonav::tools {
+
+/// Whole numbers and ranges of them, "3" or "0-5,17", in the order given. Refuses whatever else,
+/// ranges that go down, a number that is there twice, and more than `most` of them.
+Result<std::vector<int>> number_list(const std::string& text, std::size_t most);
+
+}  // namespace orthonav::tools
