@@ -1,5 +1,6 @@
 #include <array>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,8 +24,16 @@ struct DetectArguments {
   std::optional<int> max_hamming;
   double min_margin = 25.0;
   double decimate = 1.0;
+  std::string refine = "edges";
   bool json = false;
 };
+
+const std::map<std::string, nav::Refinement>& refinements() {
+  static const std::map<std::string, nav::Refinement> all = {{"none", nav::Refinement::kNone},
+                                                             {"library", nav::Refinement::kLibrary},
+                                                             {"edges", nav::Refinement::kEdges}};
+  return all;
+}
 
 struct Seen {
   std::string image;
@@ -45,6 +54,7 @@ Result<std::vector<Seen>> detect_all(const DetectArguments& arguments) {
   options.max_hamming = arguments.max_hamming.value_or(default_hamming(arguments.families));
   options.min_decision_margin = arguments.min_margin;
   options.decimate = arguments.decimate;
+  options.refinement = refinements().at(arguments.refine);
   auto detector = nav::MarkerDetector::create(options);
   if (!detector) return detector.error();
   std::vector<Seen> all;
@@ -134,6 +144,12 @@ void add_detect_command(CLI::App& app, Action& action) {
       ->add_option("--decimate", arguments->decimate,
                    "Look for tags at this fraction of the resolution: 1, 1.5, 2, 3 or 4")
       ->check(finite_number(1, 4))
+      ->capture_default_str();
+  command
+      ->add_option("--refine", arguments->refine,
+                   "Corners: where the edges meet that are fitted to the grey levels (edges); as "
+                   "AprilTag refines them (library); as its quads have them (none)")
+      ->check(CLI::IsMember(refinements()))
       ->capture_default_str();
   command->add_flag("--json", arguments->json, "Everything as JSON");
   command->footer(std::string("\nCorners are in ") + kConvention + ",\nin the order " + kOrder +

@@ -15,7 +15,10 @@
 #include <cmath>
 #include <tuple>
 
+#include "nav/tracking/corner_refinement.h"
+#include "nav/tracking/detector_check.h"
 #include "nav/tracking/tool.h"
+#include "nav/tracking/wide_border.h"
 
 namespace orthonav::nav {
 namespace {
@@ -26,9 +29,24 @@ struct Family {
   int codes;
 };
 
-constexpr std::array<std::string_view, 9> kNames = {
+/// The library samples bits and grey levels by the cells that the family tells, counted from the
+/// outer edge of the border, and finds quads at that edge.
+apriltag_family_t* tag36h11b2_create() {
+  apriltag_family_t* family = tag36h11_create();
+  if (!family) return nullptr;
+  family->width_at_border += 2;
+  family->total_width += 2;
+  for (std::uint32_t i = 0; i < family->nbits; ++i) {
+    ++family->bit_x[i];
+    ++family->bit_y[i];
+  }
+  return family;
+}
+
+constexpr std::string_view kWideFamily = "tag36h11b2";
+constexpr std::array<std::string_view, 10> kNames = {
     "tag36h11",      "tag25h9",        "tag16h5",        "tagStandard41h12", "tagStandard52h13",
-    "tagCircle21h7", "tagCircle49h12", "tagCustom48h12", "tag36h10"};
+    "tagCircle21h7", "tagCircle49h12", "tagCustom48h12", "tag36h10",         kWideFamily};
 constexpr std::array<Family, kNames.size()> kFamilies = {{
     {tag36h11_create, tag36h11_destroy, 587},
     {tag25h9_create, tag25h9_destroy, 35},
@@ -39,59 +57,21 @@ constexpr std::array<Family, kNames.size()> kFamilies = {{
     {tagCircle49h12_create, tagCircle49h12_destroy, 65535},
     {tagCustom48h12_create, tagCustom48h12_destroy, 42211},
     {tag36h10_create, tag36h10_destroy, 2320},
+    {tag36h11b2_create, tag36h11_destroy, 587},
 }};
 
 // The library thresholds in tiles of so many (decimated) pixels.
 constexpr int kTilePx = 4;
 // Below, the library reads before the start of its tiles; no tag is that small.
 constexpr int kSmallestPx = 4 * kTilePx;
-// The library asserts on more.
-constexpr int kLargestPx = 32767;
+// The wider one parts what is more blurred, the narrower one leaves smaller cells readable; what
+// both find, the narrower one tells.
+constexpr std::array<int, 2> kThinningWindowsPx = {3, 2};
 // The look-up table of corrected codes grows with the square of the bits: gigabytes beyond.
 constexpr std::uint32_t kMostCodesWithTwoBits = 10000;
 
 std::size_t family_index(std::string_view name) {
   return static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
-}
-
-Status check(const DetectorOptions& options) {
-  if (options.families.empty()) return Error{"marker detector: no tag family given"};
-  for (std::size_t i = 0; i < options.families.size(); ++i) {
-    const std::string& name = options.families[i];
-    if (!is_known_family(name))
-      return Error{"unknown tag family '" + name + "', known are " + known_families_text()};
-    if (std::find(options.families.begin(), options.families.begin() + static_cast<long>(i),
-                  name) != options.families.begin() + static_cast<long>(i))
-      return Error{"tag family '" + name + "' is given twice"};
-  }
-  const double d = options.decimate;
-  if (d != 1.0 && d != 1.5 && d != 2.0 && d != 3.0 && d != 4.0)
-    return Error{"marker detector: decimate " + std::to_string(d) + ", must be 1, 1.5, 2, 3 or 4"};
-  if (options.max_hamming < 0 || options.max_hamming > 2)
-    return Error{"marker detector: max_hamming " + std::to_string(options.max_hamming) +
-                 ", must be 0, 1 or 2"};
-  if (!std::isfinite(options.min_decision_margin))
-    return Error{"marker detector: min_decision_margin is not finite"};
-  if (options.threads < 1 || options.threads > 64)
-    return Error{"marker detector: " + std::to_string(options.threads) + " threads, must be 1-64"};
-  return {};
-}
-
-Status check(const GreyImage& image) {
-  if (image.width_px <= 0 || image.height_px <= 0)
-    return Error{"image is empty (" + std::to_string(image.width_px) + " x " +
-                 std::to_string(image.height_px) + " px)"};
-  if (image.width_px > kLargestPx || image.height_px > kLargestPx)
-    return Error{"image is " + std::to_string(image.width_px) + " x " +
-                 std::to_string(image.height_px) + " px, limit " + std::to_string(kLargestPx)};
-  const auto expected =
-      static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
-  if (image.pixels.size() != expected)
-    return Error{"image of " + std::to_string(image.width_px) + " x " +
-                 std::to_string(image.height_px) + " px holds " +
-                 std::to_string(image.pixels.size()) + " bytes, " + std::to_string(expected) +
-                 " expected"};
-  return {};
 }
 
 // Clips to the image and widens to whole tiles plus one.
@@ -108,6 +88,15 @@ PixelBox aligned(const PixelBox& box, const GreyImage& image, int step_px) {
   const int x0 = low(box.x_px);
   const int y0 = low(box.y_px);
   return {x0, y0, high(right, image.width_px) - x0, high(bottom, image.height_px) - y0};
+}
+
+/// The same id in the same place.
+bool same_tag(const MarkerCorners& a, const MarkerCorners& b) {
+  const auto centre = [](const MarkerCorners& m) {
+    return 0.25 * (m.corners_px[0] + m.corners_px[1] + m.corners_px[2] + m.corners_px[3]);
+  };
+  const double edge_px = (a.corners_px[1] - a.corners_px[0]).norm();
+  return a.family == b.family && a.id == b.id && (centre(a) - centre(b)).norm() < 0.5 * edge_px;
 }
 
 bool comes_before(const MarkerCorners& a, const MarkerCorners& b) {
@@ -143,6 +132,10 @@ struct MarkerDetector::Library {
   int max_hamming = 0;
   double min_decision_margin = 0.0;
   int step_px = kTilePx;
+  bool refine_edges = false;
+  /// Looks for wide borders in the thinned image.
+  std::unique_ptr<Library> wide;
+  GreyImage thinned;
 
   Library() = default;
   Library(const Library&) = delete;
@@ -150,6 +143,22 @@ struct MarkerDetector::Library {
   ~Library() {
     if (detector) apriltag_detector_destroy(detector);
     for (const auto& [index, family] : families) kFamilies[index].destroy(family);
+  }
+
+  Status set_up(const DetectorOptions& options) {
+    detector = apriltag_detector_create();
+    if (!detector) return Error{"marker detector: the AprilTag library gave none"};
+    detector->nthreads = options.threads;
+    detector->quad_decimate = static_cast<float>(options.decimate);
+    detector->refine_edges = options.refinement == Refinement::kLibrary;
+    refine_edges = options.refinement == Refinement::kEdges;
+    max_hamming = options.max_hamming;
+    min_decision_margin = options.min_decision_margin;
+    // 1.5 maps 3 pixels to 2: 12 pixels are the fewest that make whole tiles.
+    step_px = options.decimate == 1.5 ? 12 : kTilePx * static_cast<int>(options.decimate);
+    for (const std::string& name : options.families)
+      if (Status status = add(name); !status) return status;
+    return {};
   }
 
   Status add(const std::string& name) {
@@ -182,6 +191,26 @@ struct MarkerDetector::Library {
     }
     found.push_back(marker);
   }
+
+  /// Appends what the crop shows; `offset_px` is added to its corners.
+  Status detect(const GreyImage& image, const PixelBox& crop, Vec2 offset_px,
+                std::vector<MarkerCorners>& found) {
+    const auto start =
+        static_cast<std::size_t>(crop.y_px) * static_cast<std::size_t>(image.width_px) +
+        static_cast<std::size_t>(crop.x_px);
+    // The library takes no const image but writes only to its own copies.
+    image_u8_t view = {crop.width_px, crop.height_px, image.width_px,
+                       const_cast<std::uint8_t*>(image.pixels.data() + start)};
+    zarray_t* seen = apriltag_detector_detect(detector, &view);
+    if (!seen) return Error{"the AprilTag library returned nothing (out of memory)"};
+    for (int i = 0; i < zarray_size(seen); ++i) {
+      apriltag_detection_t* detection = nullptr;
+      zarray_get(seen, i, &detection);
+      append(*detection, offset_px, found);
+    }
+    apriltag_detections_destroy(seen);
+    return {};
+  }
 };
 
 MarkerDetector::MarkerDetector(std::unique_ptr<Library> library) : library_(std::move(library)) {}
@@ -192,16 +221,14 @@ MarkerDetector::~MarkerDetector() = default;
 Result<MarkerDetector> MarkerDetector::create(const DetectorOptions& options) {
   if (Status status = check(options); !status) return status.error();
   auto library = std::make_unique<Library>();
-  library->detector = apriltag_detector_create();
-  if (!library->detector) return Error{"marker detector: the AprilTag library gave none"};
-  library->detector->nthreads = options.threads;
-  library->detector->quad_decimate = static_cast<float>(options.decimate);
-  library->max_hamming = options.max_hamming;
-  library->min_decision_margin = options.min_decision_margin;
-  // 1.5 maps 3 pixels to 2: 12 pixels are the fewest that make whole tiles.
-  library->step_px = options.decimate == 1.5 ? 12 : kTilePx * static_cast<int>(options.decimate);
-  for (const std::string& name : options.families)
-    if (Status status = library->add(name); !status) return status.error();
+  if (Status status = library->set_up(options); !status) return status.error();
+  const auto& families = options.families;
+  if (std::find(families.begin(), families.end(), kWideFamily) != families.end()) {
+    DetectorOptions wide = options;
+    wide.families = {std::string(kWideFamily)};
+    library->wide = std::make_unique<Library>();
+    if (Status status = library->wide->set_up(wide); !status) return status.error();
+  }
   return MarkerDetector(std::move(library));
 }
 
@@ -217,24 +244,39 @@ Status MarkerDetector::detect(const GreyImage& image, const PixelBox& box,
   const PixelBox crop = aligned(box, image, library_->step_px);
   const int smallest_px = kSmallestPx * library_->step_px / kTilePx;
   if (crop.width_px < smallest_px || crop.height_px < smallest_px) return {};
-
-  const auto start =
-      static_cast<std::size_t>(crop.y_px) * static_cast<std::size_t>(image.width_px) +
-      static_cast<std::size_t>(crop.x_px);
-  // The library takes no const image but writes only to its own copies.
-  image_u8_t view = {crop.width_px, crop.height_px, image.width_px,
-                     const_cast<std::uint8_t*>(image.pixels.data() + start)};
-  zarray_t* seen = apriltag_detector_detect(library_->detector, &view);
-  if (!seen) return Error{"the AprilTag library returned nothing (out of memory)"};
   const Vec2 offset_px{static_cast<double>(crop.x_px), static_cast<double>(crop.y_px)};
-  for (int i = 0; i < zarray_size(seen); ++i) {
-    apriltag_detection_t* detection = nullptr;
-    zarray_get(seen, i, &detection);
-    library_->append(*detection, offset_px, found);
-  }
-  apriltag_detections_destroy(seen);
+  if (Status status = library_->detect(image, crop, offset_px, found); !status) return status;
+  if (library_->refine_edges)
+    for (MarkerCorners& marker : found)
+      marker.corners_px = refined_corners(image, marker.corners_px);
+  if (library_->wide) look_for_wide_borders(image, crop, found);
   std::sort(found.begin(), found.end(), comes_before);
   return {};
+}
+
+void MarkerDetector::look_for_wide_borders(const GreyImage& image, const PixelBox& crop,
+                                           std::vector<MarkerCorners>& found) {
+  std::erase_if(found, [&](const MarkerCorners& marker) {
+    return marker.family == kWideFamily && !has_wide_border(image, marker.corners_px);
+  });
+  Library& wide = *library_->wide;
+  const PixelBox all{0, 0, crop.width_px, crop.height_px};
+  std::vector<MarkerCorners> more;
+  for (const int window_px : kThinningWindowsPx) {
+    thin(image, crop, window_px, wide.thinned);
+    const Vec2 offset_px = thinned_offset(window_px) +
+                           Vec2{static_cast<double>(crop.x_px), static_cast<double>(crop.y_px)};
+    more.clear();
+    if (!wide.detect(wide.thinned, all, offset_px, more)) return;
+    for (MarkerCorners& marker : more) {
+      // Twice, since the thinned outline begins nearly as far off as edges are looked for.
+      marker.corners_px = refined_corners(image, refined_corners(image, marker.corners_px));
+      if (!has_wide_border(image, marker.corners_px)) continue;
+      // Where squares touch the tag, its outline in the image itself is the worse one.
+      std::erase_if(found, [&](const MarkerCorners& other) { return same_tag(marker, other); });
+      found.push_back(marker);
+    }
+  }
 }
 
 }  // namespace orthonav::nav

@@ -10,6 +10,7 @@
 #include "hal/api/image.h"
 #include "hal/api/result.h"
 #include "hal/api/vec.h"
+#include "nav/tracking/pixel_box.h"
 
 namespace orthonav::nav {
 
@@ -24,11 +25,11 @@ struct MarkerCorners {
   int hamming = 0;
 };
 
-struct PixelBox {
-  int x_px = 0;
-  int y_px = 0;
-  int width_px = 0;
-  int height_px = 0;
+/// How the corners are found more exactly than the quad's outline gives them.
+enum class Refinement {
+  kNone,     ///< they are left as they are
+  kLibrary,  ///< the library's own
+  kEdges     ///< `refined_corners`
 };
 
 struct DetectorOptions {
@@ -37,9 +38,13 @@ struct DetectorOptions {
   int max_hamming = 1;    ///< corrected bits, 0-2; at most 1 for families of over 10,000 codes
   double min_decision_margin = 25.0;
   int threads = 1;
+  Refinement refinement = Refinement::kLibrary;
 };
 
-/// Names of the tag families that can be detected.
+/// Names of the tag families that can be detected. tag36h11b2 has the codes of tag36h11 inside a
+/// black border two cells wide, as Kalibr prints its AprilGrid; its size is the outer edge of that
+/// border, ten cells. Its tags are looked for in two thinned images as well (three times the work),
+/// and the corners found there are always refined by `refined_corners`.
 [[nodiscard]] std::span<const std::string_view> known_families();
 /// How many ids a family has; 0 for an unknown one.
 [[nodiscard]] int family_size(std::string_view family);
@@ -64,6 +69,8 @@ class MarkerDetector {
  private:
   struct Library;
   explicit MarkerDetector(std::unique_ptr<Library> library);
+  void look_for_wide_borders(const GreyImage& image, const PixelBox& crop,
+                             std::vector<MarkerCorners>& found);
   std::unique_ptr<Library> library_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 
 #include "tests/cli/command_line.h"
@@ -11,16 +12,20 @@
 namespace orthonav::test {
 namespace {
 
-using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Le;
+using ::testing::SizeIs;
 
 using Corners = std::array<std::array<double, 2>, 4>;
 
-// The photographs' truth comes from another version of the library: most corners agree to a third
-// of a pixel; a tag seen at 80° differs by 2.4 px along its long edge.
-constexpr double kMedianPx = 0.5;
-constexpr double kWorstPx = 3.0;
+// The photographs' truth is the library's quads without refinement; the tags are 20-40 px wide and
+// the pictures compressed, so that better corners differ from it by a third of a pixel. Half a
+// pixel, the mistake to be found, would make 0.7 px.
+constexpr double kMeanPx = 0.35;
+constexpr double kWorstPx = 1.5;
+// As the library finds them, to the digits of the truth and of the decoded pictures.
+constexpr double kSamePx = 0.02;
 
 nlohmann::json detected(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"detect", "--json"});
@@ -37,7 +42,8 @@ std::vector<int> ids_of(const nlohmann::json& image) {
 }
 
 // Lines `NAME  WIDTHxHEIGHT  …  ids=3 5h1 …`, where h1 stands for a corrected bit.
-void expect_as_listed(const std::string& folder) {
+// `more` tags may be found that are not listed.
+void expect_as_listed(const std::string& folder, std::size_t more) {
   std::istringstream lines(content_of(folder + "/detections_36h11.tsv"));
   int images = 0;
   for (std::string line; std::getline(lines, line); ++images) {
@@ -47,23 +53,30 @@ void expect_as_listed(const std::string& folder) {
     for (std::string id; listed >> id;) expected.push_back(std::stoi(id));
     std::sort(expected.begin(), expected.end());
     const auto json = detected({folder + "/" + name});
-    EXPECT_THAT(ids_of(json["images"][0]), ElementsAreArray(expected)) << name;
+    const std::vector<int> found = ids_of(json["images"][0]);
+    std::vector<int> missing;
+    std::set_difference(expected.begin(), expected.end(), found.begin(), found.end(),
+                        std::back_inserter(missing));
+    EXPECT_THAT(missing, IsEmpty()) << name;
+    EXPECT_THAT(found, SizeIs(Le(expected.size() + more))) << name;
   }
   EXPECT_GT(images, 0);
 }
 
-// Best agreement over the corner a list may start at and over tags with the same id.
-double nearest_px(const Corners& truth, const nlohmann::json& markers) {
-  double best = 1e9;
+// Distances of the corners, with the best agreement over the corner a list may start at and over
+// tags with the same id.
+std::array<double, 4> nearest_px(const Corners& truth, const nlohmann::json& markers) {
+  std::array<double, 4> best;
+  best.fill(1e9);
   for (const auto& marker : markers)
     for (std::size_t start = 0; start < 4; ++start) {
-      double worst = 0.0;
+      std::array<double, 4> errors;
       for (std::size_t i = 0; i < 4; ++i) {
         const auto& c = marker["corners_px"][(start + i) % 4];
-        worst = std::max(
-            worst, std::hypot(c[0].get<double>() - truth[i][0], c[1].get<double>() - truth[i][1]));
+        errors[i] = std::hypot(c[0].get<double>() - truth[i][0], c[1].get<double>() - truth[i][1]);
       }
-      best = std::min(best, worst);
+      const auto sum = [](const auto& a) { return std::accumulate(a.begin(), a.end(), 0.0); };
+      if (sum(errors) < sum(best)) best = errors;
     }
   return best;
 }
@@ -87,36 +100,56 @@ std::vector<Corners> truth_of(const std::string& file) {
 TEST(DetectCommand, FindsEveryTagOfThePhotographs) {
   const std::string folder = shared("recordings/apriltag-testdata");
   if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
-  expect_as_listed(folder);
+  // The truth has a tag more than the list, and it is found.
+  expect_as_listed(folder, 1);
 }
 
 TEST(DetectCommand, FindsEveryTagOfTheMeasuredSeries) {
   const std::string folder = shared("recordings/dt-apriltags");
   if (folder.empty()) GTEST_SKIP() << "the dt-apriltags images are not here";
-  expect_as_listed(folder);
+  expect_as_listed(folder, 0);
+}
+
+struct PhotographErrors {
+  std::vector<double> corners_px;
+  std::size_t unmatched_tags = 0;
+  double mean_px = 0.0;
+};
+
+PhotographErrors photograph_errors(const std::string& folder, const std::string& refinement) {
+  PhotographErrors errors;
+  for (const char* name :
+       {"33369213973_9d9bb4cc96_c", "34085369442_304b6bafd9_c", "34139872896_defdb2f8d9_c"}) {
+    const auto json = detected({folder + "/" + name + ".jpg", "--refine", refinement});
+    for (const Corners& truth : truth_of(folder + "/" + name + ".txt")) {
+      const auto nearest = nearest_px(truth, json["images"][0]["markers"]);
+      if (*std::max_element(nearest.begin(), nearest.end()) < 10.0)
+        errors.corners_px.insert(errors.corners_px.end(), nearest.begin(), nearest.end());
+      else
+        ++errors.unmatched_tags;
+    }
+  }
+  for (const double error : errors.corners_px)
+    errors.mean_px += error / static_cast<double>(errors.corners_px.size());
+  return errors;
 }
 
 TEST(DetectCommand, PutsCornersWhereThePhotographsTruthHasThem) {
   const std::string folder = shared("recordings/apriltag-testdata");
   if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
-  std::vector<double> errors;
-  std::size_t unmatched = 0;
-  for (const char* name :
-       {"33369213973_9d9bb4cc96_c", "34085369442_304b6bafd9_c", "34139872896_defdb2f8d9_c"}) {
-    const auto json = detected({folder + "/" + name + ".jpg"});
-    for (const Corners& truth : truth_of(folder + "/" + name + ".txt")) {
-      const double error = nearest_px(truth, json["images"][0]["markers"]);
-      if (error < 10.0)
-        errors.push_back(error);
-      else
-        ++unmatched;
-    }
-  }
-  EXPECT_LE(unmatched, 1u);  // one listed tag is not decoded with two corrected bits
-  ASSERT_GE(errors.size(), 46u);
-  std::sort(errors.begin(), errors.end());
-  EXPECT_LT(errors[errors.size() / 2], kMedianPx);
-  EXPECT_LT(errors.back(), kWorstPx);
+  const PhotographErrors errors = photograph_errors(folder, "edges");
+  EXPECT_EQ(errors.unmatched_tags, 0u);
+  ASSERT_EQ(errors.corners_px.size(), 4 * 47u);
+  EXPECT_LT(errors.mean_px, kMeanPx);
+  EXPECT_LT(*std::max_element(errors.corners_px.begin(), errors.corners_px.end()), kWorstPx);
+}
+
+TEST(DetectCommand, GivesTheLibrarysOwnCornersWhenAsked) {
+  const std::string folder = shared("recordings/apriltag-testdata");
+  if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
+  const PhotographErrors as_truth = photograph_errors(folder, "none");
+  EXPECT_LT(as_truth.mean_px, kSamePx);
+  EXPECT_GT(photograph_errors(folder, "library").mean_px, kMeanPx) << "the bound can be failed";
 }
 
 TEST(DetectCommand, SaysWhichPixelsItMeans) {

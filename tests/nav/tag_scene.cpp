@@ -126,7 +126,28 @@ std::array<Vec2, 4> corners_seen(const CameraModel& model,
 
 }  // namespace
 
+namespace {
+
+// The library knows no such family: a ring of black cells goes between code and white border.
+TagPicture with_wider_border(const TagPicture& tag) {
+  TagPicture wide;
+  wide.cells = tag.cells + 2;
+  wide.border_cells = tag.border_cells;
+  const auto is_white = [&](int column, int row) {
+    const int last = wide.cells - 1;
+    if (column == 0 || row == 0 || column == last || row == last) return true;
+    if (column == 1 || row == 1 || column == last - 1 || row == last - 1) return false;
+    return bool(tag.white[static_cast<std::size_t>((row - 1) * tag.cells + column - 1)]);
+  };
+  for (int row = 0; row < wide.cells; ++row)
+    for (int column = 0; column < wide.cells; ++column) wide.white.push_back(is_white(column, row));
+  return wide;
+}
+
+}  // namespace
+
 TagPicture tag_picture(const std::string& family, int id) {
+  if (family == "tag36h11b2") return with_wider_border(tag_picture("tag36h11", id));
   const Family& known = families().at(family);
   apriltag_family_t* made = known.create();
   image_u8_t* image = apriltag_to_image(made, id);
@@ -193,6 +214,34 @@ std::array<Vec2, 4> right_corners(const StereoCalibration& calibration, const Pl
 Transform<Rig, Marker> facing(Vec3 offset_m, Vec3 turn_rad) {
   // The rig looks along -z, so an unturned marker faces it.
   return {rotation_from_vector(turn_rad), Vec3{0.05, 0.0, -0.4} + offset_m};
+}
+
+GreyImage april_grid_picture(int columns, int rows, double cell_px, double spacing) {
+  std::vector<TagPicture> tags;
+  for (int id = 0; id < columns * rows; ++id) tags.push_back(tag_picture("tag36h11b2", id));
+  const double edge_px = 10 * cell_px;
+  const double pitch_px = (1 + spacing) * edge_px;
+  const auto grey = [&](Vec2 p) {
+    const int column = static_cast<int>(std::floor((p.x - spacing * edge_px) / pitch_px));
+    const int row = static_cast<int>(std::floor((p.y - spacing * edge_px) / pitch_px));
+    const Vec2 in{p.x - spacing * edge_px - column * pitch_px,
+                  p.y - spacing * edge_px - row * pitch_px};
+    const bool on_tag = in.x < edge_px && in.y < edge_px;
+    if (in.x >= edge_px && in.y >= edge_px && column < columns && row < rows) return kBlack;
+    if (!on_tag || column < 0 || row < 0 || column >= columns || row >= rows) return kWhite;
+    return grey_on(tags[static_cast<std::size_t>(row * columns + column)], edge_px,
+                   in.x - edge_px / 2, edge_px / 2 - in.y);
+  };
+  GreyImage image(static_cast<int>(columns * pitch_px + 2 * spacing * edge_px),
+                  static_cast<int>(rows * pitch_px + 2 * spacing * edge_px));
+  constexpr int kSide = 8;
+  for (int y = 0; y < image.height_px; ++y)
+    for (int x = 0; x < image.width_px; ++x) {
+      double sum = 0.0;
+      for (int ray = 0; ray < kSide * kSide; ++ray) sum += grey(place_of(x, y, ray, kSide));
+      image.at(x, y) = static_cast<std::uint8_t>(std::lround(sum / (kSide * kSide)));
+    }
+  return image;
 }
 
 GreyImage flat_picture(const std::string& family, int id, int width_px, int height_px, Vec2 corner,

@@ -45,4 +45,9 @@ Transform<Rig, Marker> facing(Vec3 offset_m = {}, Vec3 turn_rad = {});
 GreyImage flat_picture(const std::string& family, int id, int width_px, int height_px, Vec2 corner,
                        double cell_px);
 
+/// Kalibr's AprilGrid on white: tags of ids 0, 1, ... with a black border two cells wide, and small
+/// black squares between them that touch their corners. The first tag's outer edge begins at
+/// (10 cell_px · spacing) from the left and the top; the next is (1 + spacing) edges farther.
+GreyImage april_grid_picture(int columns, int rows, double cell_px, double spacing);
+
 }  // namespace orthonav::test
