@@ -4,87 +4,237 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <Eigen/Dense>
+#include <numeric>
+#include <optional>
+
+#include "hal/api/random.h"
+#include "nav/tracking/pivot_fit.h"
 
 namespace orthonav::nav {
 namespace {
 
-Eigen::Matrix3d as_eigen(const Mat3& m) {
-  Eigen::Matrix3d out;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) out(r, c) = m[r][static_cast<std::size_t>(c)];
-  return out;
-}
+using Poses = std::span<const Transform<World, Marker>>;
+using Indices = std::vector<std::size_t>;
 
-Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
+constexpr std::size_t kSampleSize = 3;
+constexpr std::size_t kBlocks = 10;
+// Tips that scatter normally by s in each direction lie within 1.538 s half of the time, and
+// within 4.5 s all but once in 3000 times.
+constexpr double kMedianOfMaxwell = 1.538;
+constexpr double kInlierSds = 4.5;
+// Below, numbers end rather than tips.
+constexpr double kLeastInlierM = 1e-4;
+constexpr int kMostRefits = 20;
+constexpr double kDegrees = 57.29577951308232;
 
-Error refused(const char* format, double value, double limit) {
+std::string with_numbers(const char* format, double value, double limit) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), format, value, limit);
-  return Error{text.data()};
+  return text.data();
 }
 
-struct Means {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-};
+Error refused(const char* format, double value, double limit) {
+  return Error{"pivot calibration: " + with_numbers(format, value, limit)};
+}
 
-Means means_of(std::span<const Transform<World, Marker>> poses) {
-  Means mean;
+Indices all_of(Poses poses) {
+  Indices all(poses.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+Indices within(const PivotFit& fit, Poses poses, double limit_m) {
+  Indices inliers;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (fit.miss_m(poses[i]) <= limit_m) inliers.push_back(i);
+  return inliers;
+}
+
+/// Squared misses, each counted up to the limit.
+double cost(const PivotFit& fit, Poses poses, double limit_m) {
+  double sum = 0.0;
   for (const auto& pose : poses) {
-    mean.rotation += as_eigen(pose.rotation());
-    mean.translation += as_eigen(pose.translation());
+    const double miss_m = std::min(fit.miss_m(pose), limit_m);
+    sum += miss_m * miss_m;
   }
-  mean.rotation /= static_cast<double>(poses.size());
-  mean.translation /= static_cast<double>(poses.size());
-  return mean;
+  return sum;
+}
+
+/// Three different poses of which the tip follows: neighbours in time hardly turn.
+std::optional<PivotFit> sampled(Poses poses, double least_spread_rad, Random& random) {
+  std::array<std::size_t, kSampleSize> sample{};
+  for (std::size_t& index : sample)
+    index = static_cast<std::size_t>(random.uniform() * static_cast<double>(poses.size()));
+  if (sample[0] == sample[1] || sample[0] == sample[2] || sample[1] == sample[2])
+    return std::nullopt;
+  const auto fit = fit_pivot(poses, sample);
+  return fit && fit->spread_rad >= least_spread_rad ? fit : std::nullopt;
+}
+
+/// The fit that most poses agree with; the plain one when no sample turns enough.
+std::optional<PivotFit> best_fit(Poses poses, const PivotOptions& options) {
+  Random random(options.seed);
+  std::optional<PivotFit> best = fit_pivot(poses, all_of(poses));
+  double best_cost = best ? cost(*best, poses, options.inlier_m) : 0.0;
+  for (int round = 0; round < options.rounds; ++round) {
+    auto fit = sampled(poses, 0.5 * options.min_spread_rad, random);
+    if (!fit) continue;
+    // A sample of three amplifies noise: what agrees with it says better where the pivot is.
+    if (const auto again = fit_pivot(poses, within(*fit, poses, 2.0 * options.inlier_m)))
+      fit = again;
+    const double fit_cost = cost(*fit, poses, options.inlier_m);
+    if (best && fit_cost >= best_cost) continue;
+    best = fit;
+    best_cost = fit_cost;
+  }
+  return best;
+}
+
+/// The limit for inliers that the scatter of the nearer poses calls for.
+double inlier_limit_m(const PivotFit& fit, Poses poses, double most_m) {
+  std::vector<double> misses;
+  for (const std::size_t i : within(fit, poses, most_m)) misses.push_back(fit.miss_m(poses[i]));
+  if (misses.empty()) return most_m;
+  const auto middle = misses.begin() + static_cast<long>(misses.size() / 2);
+  std::nth_element(misses.begin(), middle, misses.end());
+  return std::clamp(kInlierSds * *middle / kMedianOfMaxwell, kLeastInlierM, most_m);
+}
+
+/// Fits again to the inliers until they stay the same.
+Indices settled(Poses poses, double most_m, PivotFit& fit) {
+  Indices inliers;
+  for (int round = 0; round < kMostRefits; ++round) {
+    Indices now = within(fit, poses, inlier_limit_m(fit, poses, most_m));
+    const bool same = now == inliers;
+    inliers = std::move(now);
+    const auto again = fit_pivot(poses, inliers);
+    if (same || !again) break;
+    fit = *again;
+  }
+  return inliers;
+}
+
+double jackknife_sigma_m(Poses poses, const Indices& inliers) {
+  std::vector<Vec3> tips;
+  Vec3 mean;
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    Indices rest;
+    for (std::size_t i = 0; i < inliers.size(); ++i)
+      if (i * kBlocks / inliers.size() != block) rest.push_back(inliers[i]);
+    const auto fit = fit_pivot(poses, rest);
+    if (!fit) continue;
+    tips.push_back(fit->tip_in_marker.v);
+    mean += fit->tip_in_marker.v;
+  }
+  if (tips.size() < 2) return 0.0;
+  const auto count = static_cast<double>(tips.size());
+  double squared = 0.0;
+  for (const Vec3& tip : tips) squared += (tip - mean / count).squared_norm();
+  return std::sqrt((count - 1.0) / count * squared);
+}
+
+Status check_poses(Poses poses, const PivotOptions& options) {
+  if (const auto problems = options.check(); !problems.empty()) {
+    std::string line = "pivot calibration: ";
+    for (const std::string& problem : problems)
+      line += (&problem == &problems.front() ? "" : "; ") + problem;
+    return Error{line};
+  }
+  if (poses.size() < options.min_poses)
+    return refused("%.0f poses, at least %.0f are needed", static_cast<double>(poses.size()),
+                   static_cast<double>(options.min_poses));
+  for (const auto& pose : poses)
+    for (const double number : pose.row_major())
+      if (!std::isfinite(number)) return Error{"pivot calibration: a pose is not finite"};
+  return {};
+}
+
+Status check_result(const PivotCalibration& found, const PivotOptions& options) {
+  const double share = static_cast<double>(found.inliers) / static_cast<double>(found.poses);
+  if (!(found.spread_rad >= options.min_spread_rad))
+    return refused("the tool turned by %.3f rad RMS, at least %.3f is needed", found.spread_rad,
+                   options.min_spread_rad);
+  if (!(share >= options.min_inlier_share) || found.inliers < options.min_poses)
+    return refused(
+        "%.0f %% of the poses agree on a pivot, at least %.0f %% are needed "
+        "(did the tip slip?)",
+        100.0 * share, 100.0 * options.min_inlier_share);
+  if (!(found.rmse_m <= options.max_rmse_m))
+    return refused("residual %.2f mm RMS, limit %.2f mm (did the tip slip?)", found.rmse_m * 1e3,
+                   options.max_rmse_m * 1e3);
+  if (!(found.tip_sigma_m <= options.max_tip_sigma_m))
+    return refused("the tip is known to %.2f mm, limit %.2f mm (turn it further, for longer)",
+                   found.tip_sigma_m * 1e3, options.max_tip_sigma_m * 1e3);
+  return {};
+}
+
+Judgement judged(const PivotCalibration& found, const PivotOptions& options) {
+  Judgement judgement;
+  const double share = static_cast<double>(found.inliers) / static_cast<double>(found.poses);
+  if (found.spread_rad < options.note_spread_rad)
+    judgement.add(Verdict::kNote,
+                  with_numbers("turned by %.1f° RMS only, better %.1f°",
+                               found.spread_rad * kDegrees, options.note_spread_rad * kDegrees));
+  if (found.tip_sigma_m > options.note_tip_sigma_m)
+    judgement.add(Verdict::kNote,
+                  with_numbers("the tip is known to %.2f mm only, better %.2f mm",
+                               found.tip_sigma_m * 1e3, options.note_tip_sigma_m * 1e3));
+  if (share < options.note_inlier_share)
+    judgement.add(Verdict::kNote, with_numbers("%.0f %% of the poses agree, better %.0f %%",
+                                               100.0 * share, 100.0 * options.note_inlier_share));
+  if (judgement.reason.empty()) judgement.reason = "every figure is within its limit";
+  return judgement;
 }
 
 }  // namespace
 
-Result<PivotCalibration> pivot_calibration(std::span<const Transform<World, Marker>> poses,
-                                           const PivotOptions& options) {
-  const auto count = static_cast<double>(poses.size());
-  const std::size_t least = std::max<std::size_t>(options.min_poses, 3);
-  if (poses.size() < least)
-    return refused("pivot calibration: %.0f poses, at least %.0f are needed", count,
-                   static_cast<double>(least));
-  const Means mean = means_of(poses);
-  if (!mean.rotation.allFinite() || !mean.translation.allFinite())
-    return Error{"pivot calibration: a pose is not finite"};
+std::vector<std::string> PivotOptions::check() const {
+  std::vector<std::string> problems;
+  const auto positive = [&](const char* name, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
+  };
+  const auto share = [&](const char* name, double value) {
+    if (!(value > 0.0 && value <= 1.0))
+      problems.push_back(std::string(name) + " " + std::to_string(value) +
+                         ", must be above 0 and at most 1");
+  };
+  if (min_poses < kSampleSize)
+    problems.push_back("min_poses " + std::to_string(min_poses) + ", must be at least " +
+                       std::to_string(kSampleSize));
+  positive("min_spread_rad", min_spread_rad);
+  positive("max_rmse_m", max_rmse_m);
+  positive("inlier_m", inlier_m);
+  positive("max_tip_sigma_m", max_tip_sigma_m);
+  positive("note_spread_rad", note_spread_rad);
+  positive("note_tip_sigma_m", note_tip_sigma_m);
+  share("min_inlier_share", min_inlier_share);
+  share("note_inlier_share", note_inlier_share);
+  if (rounds < 1) problems.push_back("rounds " + std::to_string(rounds) + ", must be at least 1");
+  return problems;
+}
 
-  // The pivot is the mean of R·tip + t; without it, (R - mean R)·tip = -(t - mean t).
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const auto& pose : poses) {
-    const Eigen::Matrix3d turn = as_eigen(pose.rotation()) - mean.rotation;
-    normal += turn.transpose() * turn;
-    right -= turn.transpose() * (as_eigen(pose.translation()) - mean.translation);
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal);
-  PivotCalibration result;
-  result.spread_rad = std::sqrt(std::max(0.0, solver.eigenvalues()(0)) / count);
-  if (!(result.spread_rad >= options.min_spread_rad))
-    return refused("pivot calibration: the tool turned by %.3f rad RMS, at least %.3f is needed",
-                   result.spread_rad, options.min_spread_rad);
-  const Eigen::Vector3d tip = solver.eigenvectors() *
-                              solver.eigenvalues().cwiseInverse().asDiagonal() *
-                              solver.eigenvectors().transpose() * right;
-  const Eigen::Vector3d pivot = mean.rotation * tip + mean.translation;
-  double squared = 0.0;
-  for (const auto& pose : poses)
-    squared +=
-        (as_eigen(pose.rotation()) * tip + as_eigen(pose.translation()) - pivot).squaredNorm();
-  result.rmse_m = std::sqrt(squared / count);
-  if (!(result.rmse_m <= options.max_rmse_m))
-    return refused("pivot calibration: residual %.2f mm RMS, limit %.2f mm (did the tip slip?)",
-                   result.rmse_m * 1e3, options.max_rmse_m * 1e3);
-  // 3 n equations for 6 unknowns.
-  const double variance = squared / (3.0 * count - 6.0);
-  result.tip_sigma_m = std::sqrt(variance * solver.eigenvalues().cwiseInverse().sum());
-  result.tip_in_marker = {{tip.x(), tip.y(), tip.z()}};
-  result.pivot_in_world = {{pivot.x(), pivot.y(), pivot.z()}};
-  return result;
+Result<PivotCalibration> pivot_calibration(Poses poses, const PivotOptions& options) {
+  if (Status status = check_poses(poses, options); !status) return status.error();
+  std::optional<PivotFit> fit = best_fit(poses, options);
+  if (!fit)
+    return refused("the tool turned by %.3f rad RMS, at least %.3f is needed", 0.0,
+                   options.min_spread_rad);
+  const Indices inliers = settled(poses, options.inlier_m, *fit);
+  PivotCalibration found;
+  found.tip_in_marker = fit->tip_in_marker;
+  found.pivot_in_world = fit->pivot_in_world;
+  found.rmse_m = fit->rmse_m;
+  found.spread_rad = fit->spread_rad;
+  found.poses = poses.size();
+  found.inliers = inliers.size();
+  found.inlier.assign(poses.size(), false);
+  for (const std::size_t i : inliers) found.inlier[i] = true;
+  found.leave_out_m = inliers.size() > kBlocks ? jackknife_sigma_m(poses, inliers) : 0.0;
+  found.tip_sigma_m = std::max(fit->tip_sigma_m, found.leave_out_m);
+  if (Status status = check_result(found, options); !status) return status.error();
+  found.judgement = judged(found, options);
+  return found;
 }
 
 }  // namespace orthonav::nav

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "hal/api/result.h"
 #include "hal/api/transform.h"
+#include "nav/evaluation/verdict.h"
 
 namespace orthonav::nav {
 
@@ -14,22 +18,47 @@ struct PivotOptions {
   double min_spread_rad = 0.15;
   /// A larger residual means that the tip slipped.
   double max_rmse_m = 0.002;
+  /// A pose whose tip misses the pivot by more is no inlier. Three times what the published method
+  /// scatters 150 mm below a 40 mm tag; where poses scatter less, the limit follows them.
+  double inlier_m = 0.005;
+  /// Fewer inliers mean that no single pivot can be told: the tip moved, or did something else.
+  double min_inlier_share = 0.6;
+  double max_tip_sigma_m = 0.001;
+  /// What deserves a note.
+  double note_spread_rad = 0.25;
+  double note_tip_sigma_m = 0.0003;
+  double note_inlier_share = 0.9;
+  int rounds = 500;  ///< random samples tried
+  std::uint64_t seed = 1;
+
+  /// Every problem at once.
+  [[nodiscard]] std::vector<std::string> check() const;
 };
 
 /// The tip of a tool that was turned about it.
 struct PivotCalibration {
   Point<Marker> tip_in_marker;
   Point<World> pivot_in_world;
-  double rmse_m = 0.0;  ///< of the tips about the pivot, 3-D
+  double rmse_m = 0.0;  ///< of the inliers' tips about the pivot, 3-D
   /// RMS of the turning that fixes the tip where it is known worst; turning about one axis only
   /// gives 0, since the tip may then lie anywhere along it.
   double spread_rad = 0.0;
-  double tip_sigma_m = 0.0;  ///< predicted 3-D SD of the tip from residual and geometry
+  /// 3-D SD of the tip: the larger of what residual and geometry predict and of `leave_out_m`.
+  double tip_sigma_m = 0.0;
+  /// Jackknife SD from leaving out each tenth of the inliers in turn: it shows what drifts, which
+  /// the residual alone takes for noise.
+  double leave_out_m = 0.0;
+  std::size_t poses = 0;
+  std::vector<bool> inlier;  ///< of each pose
+  std::size_t inliers = 0;
+  Judgement judgement;  ///< pass or note; what fails is refused
 };
 
-/// Algebraic least squares over R·tip + t = pivot (Yaniv 2015, "Which pivot calibration?", the
-/// algebraic one-step method). Refuses too few poses, numbers that are not finite, too little
-/// turning and too large a residual, each with value and limit.
+/// Algebraic least squares over R·tip + t = pivot (`fit_pivot`) on the inliers that a search with
+/// random samples finds (RANSAC with truncated squares, Torr & Zisserman 2000), three poses a
+/// sample. Poses in the order of time. The same poses and options give the same bits. Refuses bad
+/// options, too few poses, numbers that are not finite, too little turning, too few inliers, too
+/// large a residual or uncertainty, each with value and limit.
 Result<PivotCalibration> pivot_calibration(std::span<const Transform<World, Marker>> poses,
                                            const PivotOptions& options = {});
 

@@ -313,7 +313,7 @@ TEST(PaperTracker, SurvivesTimeStandingStill) {
 TEST(PaperTracker, RefusesBadToolsOptionsAndCameras) {
   EXPECT_EQ(refusal({}), "");
   EXPECT_THAT(refusal({}, {tool("pointer", 3, 0.05), tool("guide", 3, 0.07)}),
-              HasSubstr("already on 'pointer'"));
+              HasSubstr("already on tool 'pointer'"));
   EXPECT_THAT(refusal({}, {}), HasSubstr("no tools"));
   EXPECT_THAT(refusal({.full_search_interval = 0}), HasSubstr("full_search_interval 0"));
   EXPECT_THAT(refusal({.decimate = 7}), HasSubstr("decimate"));

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace orthonav::nav {
+
+/// What a check of calibration or accuracy comes to: good; usable, but something should be known;
+/// not to be used.
+enum class Verdict { kPass, kNote, kFail };
+
+[[nodiscard]] constexpr std::string_view to_text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPass:
+      return "pass";
+    case Verdict::kNote:
+      return "note";
+    case Verdict::kFail:
+      return "fail";
+  }
+  return "fail";
+}
+
+/// A verdict and why: every finding with value and limit, joined by "; ".
+struct Judgement {
+  Verdict verdict = Verdict::kPass;
+  std::string reason;
+
+  /// Takes a finding in; the worst verdict stays.
+  void add(Verdict found, const std::string& why) {
+    verdict = std::max(verdict, found);
+    reason += (reason.empty() ? "" : "; ") + why;
+  }
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "hal/api/transform.h"
+
+namespace orthonav::nav {
+
+/// The algebraic one-step solution of R·tip + t = pivot over some poses (Yaniv 2015, "Which pivot
+/// calibration?").
+struct PivotFit {
+  Point<Marker> tip_in_marker;
+  Point<World> pivot_in_world;
+  /// RMS of the turning that fixes the tip where it is known worst; 0 when it may lie anywhere
+  /// along a line.
+  double spread_rad = 0.0;
+  double rmse_m = 0.0;       ///< of the tips about the pivot, 3-D
+  double tip_sigma_m = 0.0;  ///< predicted 3-D SD of the tip from residual and geometry
+
+  /// How far a pose's tip lies from the pivot.
+  [[nodiscard]] double miss_m(const Transform<World, Marker>& pose) const {
+    return (pose * tip_in_marker - pivot_in_world).norm();
+  }
+};
+
+/// Over the poses of these indices, three at least; nothing when the tip is not determined.
+[[nodiscard]] std::optional<PivotFit> fit_pivot(std::span<const Transform<World, Marker>> poses,
+                                                std::span<const std::size_t> chosen);
+
+}  // namespace orthonav::nav
