@@ -142,6 +142,40 @@ Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
   return tools_from(*document, name);
 }
 
+Result<nav::ToolGeometry> tool_named(const std::vector<nav::ToolGeometry>& tools,
+                                     const std::string& name) {
+  std::string names;
+  for (const nav::ToolGeometry& tool : tools) {
+    if (tool.name == name) return tool;
+    names += (names.empty() ? "" : ", ") + tool.name;
+  }
+  return Error{"no tool is named '" + name + "' (there are: " + names + ")"};
+}
+
+Result<std::string> changed_tools(const std::string& path, const std::string& tool,
+                                  const ToolChange& change) {
+  const Result<std::string> text = read_text(path);
+  if (!text) return text.error();
+  const auto tools = parse_tools(*text, path);
+  if (!tools) return tools.error();
+  if (const auto known = tool_named(*tools, tool); !known)
+    return Error{path + ": " + known.error().message};
+  auto root = nlohmann::ordered_json::parse(*text, nullptr, false);
+  if (root.is_discarded()) return Error{path + ": is not JSON"};
+  for (auto& entry : root["tools"]) {
+    if (entry["name"] != tool) continue;
+    if (change.tip_in_marker) entry["tip_mm"] = list_of(change.tip_in_marker->v / kMetresPerMm);
+    if (!change.more_markers) continue;
+    entry["markers"] = nlohmann::ordered_json::array();
+    for (const nav::AttachedMarker& more : *change.more_markers)
+      entry["markers"].push_back(json_of(more));
+  }
+  std::string changed =
+      root.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (const auto after = parse_tools(changed, path + " as changed"); !after) return after.error();
+  return changed;
+}
+
 std::vector<nav::ToolGeometry> built_in_tools() {
   const Result<JsonDocument> document =
       JsonDocument::parse(embedded::tools_json(), "data/tools.json");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,22 @@ Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>&
 [[nodiscard]] std::string tools_text(const std::vector<nav::ToolGeometry>& tools);
 Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
                                                    const std::string& name);
+
+/// What a calibration found out about a tool.
+struct ToolChange {
+  std::optional<Point<Marker>> tip_in_marker;
+  std::optional<std::vector<nav::AttachedMarker>> more_markers;
+};
+
+/// The text of a tools file in which one tool is changed; every other field, known here or not,
+/// stays as it is. Refuses what `load_tools` refuses, before and after, and a name that no tool
+/// has.
+Result<std::string> changed_tools(const std::string& path, const std::string& tool,
+                                  const ToolChange& change);
+
+/// The tool of this name; names what there is when none has it.
+Result<nav::ToolGeometry> tool_named(const std::vector<nav::ToolGeometry>& tools,
+                                     const std::string& name);
 
 /// The pointer, the drill guide and the patient reference of data/tools.json.
 [[nodiscard]] std::vector<nav::ToolGeometry> built_in_tools();

@@ -18,6 +18,7 @@ using Action = std::function<int()>;
 int bad_input(const std::string& message);
 
 // Each adds its subcommand to `app`; one file a subcommand.
+void add_calibrate_command(CLI::App& app, Action& action);
 void add_demo_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);

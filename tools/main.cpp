@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);
   Action action;
+  add_calibrate_command(app, action);
   add_demo_command(app, action);
   add_detect_command(app, action);
   add_doctor_command(app, action);

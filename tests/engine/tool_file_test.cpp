@@ -167,6 +167,42 @@ TEST(ToolFile, RefusesFurtherTagsThatAreIncompleteOrTwice) {
               HasSubstr("tools[0].markers[0] must be an object"));
 }
 
+TEST(ToolFile, ChangesOneToolAndNothingElse) {
+  const TemporaryFolder folder;
+  const std::string path = folder.with("tools.json", R"({"note": "theatre 2", "tools": [
+    {"name": "a", "role": "pointer", "serial": 17, "axis": [0, 0, 1],
+     "marker": {"family": "tag36h11", "id": 3, "size_mm": 50, "print": "A4"}, "tip_mm": [0, -1, 0]},
+    {"name": "b", "role": "guide",
+     "marker": {"family": "tag36h11", "id": 5, "size_mm": 50}, "tip_mm": [0, -2, 0]}]})");
+  const nav::AttachedMarker more{{"tag36h11", 9, 0.03}, {Mat3::identity(), {0.05, 0, 0}}};
+  const auto changed =
+      changed_tools(path, "a", {.tip_in_marker = {{{0.001, -0.1, 0}}}, .more_markers = {{more}}});
+  ASSERT_TRUE(changed.ok()) << changed.error().message;
+  EXPECT_THAT(*changed, AllOf(HasSubstr("\"theatre 2\""), HasSubstr("\"serial\": 17"),
+                              HasSubstr("\"print\": \"A4\"")));
+  const auto tools = parse_tools(*changed, "changed");
+  ASSERT_TRUE(tools.ok()) << tools.error().message;
+  ASSERT_EQ(tools->size(), 2u);
+  EXPECT_LT((tools->at(0).tip_in_marker.v - Vec3{0.001, -0.1, 0}).norm(), 1e-15);
+  EXPECT_EQ(tools->at(0).axis_in_marker.v, (Vec3{0, 0, 1}));
+  ASSERT_EQ(tools->at(0).more_markers.size(), 1u);
+  EXPECT_EQ(tools->at(0).more_markers[0].definition.id, 9);
+  EXPECT_EQ(tools->at(1).tip_in_marker.v, (Vec3{0, -0.002, 0}));
+  EXPECT_TRUE(load_tools(path)->at(0).more_markers.empty()) << "the file itself is not";
+}
+
+TEST(ToolFile, RefusesAChangeThatMakesABadFile) {
+  const TemporaryFolder folder;
+  const std::string path = folder.with("tools.json", tool(kMarker + kTip));
+  EXPECT_THAT(changed_tools(path, "hook", {}).error().message,
+              HasSubstr("no tool is named 'hook' (there are: pointer)"));
+  EXPECT_THAT(changed_tools(path, "pointer", {.tip_in_marker = {{{0, -1.5, 0}}}}).error().message,
+              HasSubstr("as changed: tool 'pointer': tip 1500 mm"));
+  const nav::AttachedMarker same{{"tag36h11", 3, 0.03}, {}};
+  EXPECT_FALSE(changed_tools(path, "pointer", {.more_markers = {{same}}}).ok());
+  EXPECT_TRUE(changed_tools(path, "pointer", {}).ok());
+}
+
 TEST(ToolFile, RefusesWhatIsNotJsonOrNotThere) {
   EXPECT_THAT(refusal("{\"tools\": [1, 2"), HasSubstr("is not JSON"));
   EXPECT_THAT(refusal(""), HasSubstr("is not JSON"));

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/nav/tag_scene.h"
+
+namespace orthonav::test {
+
+/// Records, in our recorder's layout, what two cameras like a HoloLens 2's see of these tags: a
+/// pair for each entry, 30 a second. The images carry noise of 2 grey levels.
+void record(const std::string& folder, const StereoCalibration& calibration,
+            const std::vector<std::vector<PlacedTag>>& pairs);
+
+}  // namespace orthonav::test

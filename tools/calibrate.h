@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "nav/evaluation/verdict.h"
+#include "tools/command.h"
+
+namespace orthonav::tools {
+
+// The parts of `calibrate`, one file each.
+void add_calibrate_pivot(CLI::App& calibrate, Action& action);
+
+/// Adds the verdict and why to what goes out as JSON.
+void add_judgement(const nav::Judgement& judgement, nlohmann::ordered_json& out);
+/// "pass: every figure is within its limit", a line.
+void print_judgement(const nav::Judgement& judgement);
+/// Says on standard error why nothing came of it; the exit code for "no".
+int refused(const std::string& reason);
+
+}  // namespace orthonav::tools

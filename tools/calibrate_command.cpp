@@ -1,0 +1,33 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "tools/calibrate.h"
+
+namespace orthonav::tools {
+
+void add_judgement(const nav::Judgement& judgement, nlohmann::ordered_json& out) {
+  out["verdict"] = nav::to_text(judgement.verdict);
+  out["reason"] = judgement.reason;
+}
+
+void print_judgement(const nav::Judgement& judgement) {
+  std::printf("%s: %s\n", std::string(nav::to_text(judgement.verdict)).c_str(),
+              judgement.reason.c_str());
+}
+
+int refused(const std::string& reason) {
+  std::fprintf(stderr, "orthonav: refused: %s\n", reason.c_str());
+  return kNo;
+}
+
+void add_calibrate_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("calibrate", "The tip of a tool, the stereo cameras, the tags of a tool");
+  command->require_subcommand(1);
+  add_calibrate_pivot(*command, action);
+  command->footer(
+      "\nExit code 0: the verdict is pass or note; 1: fail, with the reason on standard error;\n"
+      "2: bad input.");
+}
+
+}  // namespace orthonav::tools

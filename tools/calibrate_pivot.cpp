@@ -1,0 +1,153 @@
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "engine/atomic_file.h"
+#include "engine/method.h"
+#include "engine/tool_file.h"
+#include "nav/tracking/pivot.h"
+#include "tools/arguments.h"
+#include "tools/calibrate.h"
+#include "tools/json_output.h"
+#include "tools/recorded_pairs.h"
+
+namespace orthonav::tools {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+struct PivotArguments {
+  std::string recording;
+  std::string tools_file;
+  std::string tool;
+  std::string method = default_method();
+  std::string out;
+  double inlier_mm = 1e3 * nav::PivotOptions{}.inlier_m;
+  JsonOutput json;
+};
+
+struct Poses {
+  std::int64_t pairs = 0;
+  std::vector<Transform<World, Marker>> world_from_marker;
+};
+
+Result<Poses> measured_poses(const PivotArguments& arguments, const nav::ToolGeometry& tool) {
+  const auto method = engine::method_named(arguments.method);
+  if (!method) return method.error();
+  auto recording = replay::ReplayHeadset::open(arguments.recording);
+  if (!recording) return recording.error();
+  auto tracker = method->create_tracker((*recording)->cameras().calibration(), {tool}, {});
+  if (!tracker) return tracker.error();
+  Poses poses;
+  const Status status = for_each_pair(**recording, [&](const StereoFrame& frame) {
+    ++poses.pairs;
+    for (const nav::ToolState& state : (*tracker)->track(frame))
+      if (state.world_from_marker.origin == Origin::kMeasured)
+        poses.world_from_marker.push_back(state.world_from_marker.value);
+  });
+  if (!status) return status.error();
+  return poses;
+}
+
+nlohmann::ordered_json in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
+
+nlohmann::ordered_json as_json(const PivotArguments& arguments, const Poses& poses,
+                               const Result<nav::PivotCalibration>& found) {
+  nlohmann::ordered_json out = {{"tool", arguments.tool},
+                                {"method", arguments.method},
+                                {"pairs", poses.pairs},
+                                {"poses", poses.world_from_marker.size()}};
+  if (found) {
+    out["inliers"] = found->inliers;
+    out["tip_mm"] = in_mm(found->tip_in_marker.v);
+    out["tip_sigma_mm"] = found->tip_sigma_m * 1e3;
+    out["leave_out_mm"] = found->leave_out_m * 1e3;
+    out["rmse_mm"] = found->rmse_m * 1e3;
+    out["spread_deg"] = found->spread_rad * kDegrees;
+    add_judgement(found->judgement, out);
+  } else {
+    add_judgement({nav::Verdict::kFail, found.error().message}, out);
+  }
+  return out;
+}
+
+void print(const PivotArguments& arguments, const nav::PivotCalibration& found) {
+  const Vec3 tip_mm = found.tip_in_marker.v * 1e3;
+  std::printf("%s: tip %.3f %.3f %.3f mm, known to %.3f mm\n", arguments.tool.c_str(), tip_mm.x,
+              tip_mm.y, tip_mm.z, found.tip_sigma_m * 1e3);
+  std::printf("%zu of %zu poses agree, residual %.3f mm RMS, turned by %.1f° RMS\n", found.inliers,
+              found.poses, found.rmse_m * 1e3, found.spread_rad * kDegrees);
+  print_judgement(found.judgement);
+}
+
+int run_pivot(const PivotArguments& arguments) {
+  const auto tools = engine::load_tools(arguments.tools_file);
+  if (!tools) return bad_input(tools.error().message);
+  const auto tool = engine::tool_named(*tools, arguments.tool);
+  if (!tool) return bad_input(arguments.tools_file + ": " + tool.error().message);
+  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
+  // Before the work, so that an unwritable place is known at once.
+  if (!arguments.out.empty())
+    if (auto place = engine::AtomicFile::create(arguments.out); !place)
+      return bad_input(place.error().message);
+  const auto poses = measured_poses(arguments, *tool);
+  if (!poses) return bad_input(poses.error().message);
+
+  nav::PivotOptions options;
+  options.inlier_m = arguments.inlier_mm * 1e-3;
+  const auto found = nav::pivot_calibration(poses->world_from_marker, options);
+  if (found && !arguments.out.empty()) {
+    const auto changed = engine::changed_tools(arguments.tools_file, arguments.tool,
+                                               {.tip_in_marker = found->tip_in_marker});
+    if (!changed) return bad_input(changed.error().message);
+    if (const Status s = engine::write_file(arguments.out, *changed); !s)
+      return bad_input(s.error().message);
+  }
+  if (const Status s = arguments.json.write(as_json(arguments, *poses, found)); !s)
+    return bad_input(s.error().message);
+  if (!found) return refused(found.error().message);
+  if (!arguments.json.on_stdout()) print(arguments, *found);
+  return kDone;
+}
+
+constexpr const char* kFooter =
+    "\nSet the tip into a small hollow, record, and lean the tool all around the tip, 15° and "
+    "more\n"
+    "to every side, for half a minute. tip_sigma_mm: 3-D SD of the tip, from residual and "
+    "geometry\n"
+    "or from leaving out each tenth of the poses, whichever is larger. spread_deg: RMS turning in\n"
+    "the direction that fixes the tip worst. Exit code 1: refused, nothing written.";
+
+}  // namespace
+
+void add_calibrate_pivot(CLI::App& calibrate, Action& action) {
+  auto arguments = std::make_shared<PivotArguments>();
+  CLI::App* command =
+      calibrate.add_subcommand("pivot", "The tip of a tool from a recording of it pivoting");
+  command->add_option("RECORDING", arguments->recording, "Folder of a recording")->required();
+  command->add_option("--tools", arguments->tools_file, "Tool definitions (JSON)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--tool", arguments->tool, "Name of the tool")->required()->type_name("NAME");
+  command->add_option("--method", arguments->method, "Tracking")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      ->add_option("--inlier-mm", arguments->inlier_mm,
+                   "A pose whose tip misses the pivot by more is left out; where poses scatter "
+                   "less, the limit follows them")
+      ->check(finite_number(0.1, 50))
+      ->capture_default_str();
+  command
+      ->add_option("--out", arguments->out,
+                   "Writes the tools with the new tip there; may be the file of --tools")
+      ->check(some_text())
+      ->type_name("FILE");
+  arguments->json.add_to(*command);
+  command->footer(kFooter);
+  command->callback(
+      [arguments, &action] { action = [arguments] { return run_pivot(*arguments); }; });
+}
+
+}  // namespace orthonav::tools
