@@ -26,4 +26,5 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/orthonavConfigVersion.cm
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"
               "${PROJECT_BINARY_DIR}/orthonavConfigVersion.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindOpenCVCalib3d.cmake"
         DESTINATION "${orthonav_package_folder}")

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/api/camera_model.h"
+#include "hal/api/image.h"
+#include "hal/api/result.h"
+#include "hal/api/transform.h"
+#include "nav/calibration/chessboard.h"
+
+namespace orthonav::nav {
+
+// The door to OpenCV's calib3d. Pixels are ours on both sides: the first one's centre is at
+// (0.5, 0.5), OpenCV has it at (0, 0).
+
+using BoardCorners = std::vector<Vec2>;  ///< px, by rows, as `Chessboard::corner_m`
+
+/// The inner corners to a fraction of a pixel, in the order of `put_in_order`; nothing where the
+/// board is not seen as a whole.
+[[nodiscard]] std::optional<BoardCorners> find_chessboard(const GreyImage& image,
+                                                          const Chessboard& board);
+
+struct ImageSize {
+  int width_px = 0;
+  int height_px = 0;
+  friend bool operator==(ImageSize, ImageSize) = default;
+};
+
+struct CameraFit {
+  BrownConrady camera;
+  double rms_px = 0.0;  ///< of the corners, 2-D
+  double k3_sigma = 0.0;
+};
+
+/// One camera from views of the board (Zhang 2000). Without `with_k3` the third radial term is 0.
+Result<CameraFit> fit_camera(const Chessboard& board, ImageSize size,
+                             std::span<const BoardCorners> views, bool with_k3);
+
+struct StereoFit {
+  BrownConrady left;
+  BrownConrady right;
+  Transform<RightCamera, LeftCamera> right_from_left;
+  double rms_px = 0.0;                             ///< of the corners of both images, 2-D
+  std::vector<std::array<double, 2>> view_rms_px;  ///< left and right
+};
+
+/// Both cameras and how they lie to each other, everything refined together from these starting
+/// values. As many left views as right ones.
+Result<StereoFit> fit_stereo(const Chessboard& board, ImageSize size,
+                             std::span<const BoardCorners> left,
+                             std::span<const BoardCorners> right, const BrownConrady& left_start,
+                             const BrownConrady& right_start, bool with_k3);
+
+}  // namespace orthonav::nav

@@ -1,0 +1,279 @@
+#include "nav/calibration/stereo_board.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "nav/calibration/epipolar.h"
+#include "nav/calibration/stereo_jackknife.h"
+
+namespace orthonav::nav {
+namespace {
+
+constexpr double kSignificant = 3.0;
+// The image in so many fields across and down, to see how much of it the corners reach.
+constexpr int kFieldsAcross = 8;
+constexpr int kFieldsDown = 6;
+// Better than this, nothing is a mistake.
+constexpr double kNoMistakePx = 0.3;
+
+std::string with_numbers(const char* format, double value, double limit) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), format, value, limit);
+  return text.data();
+}
+
+Status check_views(const Chessboard& board, ImageSize size, std::span<const BoardView> views,
+                   const StereoBoardOptions& options) {
+  std::vector<std::string> problems = board.check();
+  for (std::string& problem : options.check()) problems.push_back(std::move(problem));
+  if (size.width_px <= 0 || size.height_px <= 0) problems.emplace_back("images without pixels");
+  for (const BoardView& view : views)
+    if (view.left_px.size() != board.corners() || view.right_px.size() != board.corners()) {
+      problems.emplace_back("a view has not as many corners as the board");
+      break;
+    }
+  if (views.size() < options.min_views)
+    problems.push_back("the board is seen in " + std::to_string(views.size()) +
+                       " pairs, at least " + std::to_string(options.min_views) + " are needed");
+  if (problems.empty()) return {};
+  std::string line = "stereo calibration: ";
+  for (const std::string& problem : problems)
+    line += (&problem == &problems.front() ? "" : "; ") + problem;
+  return Error{line};
+}
+
+/// Where half a turn of the board does not show, both cameras are taken to be upright alike.
+BoardViews aligned(const Chessboard& board, std::span<const BoardView> views) {
+  BoardViews split;
+  for (const BoardView& view : views) {
+    split.left.push_back(view.left_px);
+    split.right.push_back(view.right_px);
+    if (!board.looks_the_same_turned()) continue;
+    BoardCorners& right = split.right.back();
+    const Vec2 along_left = view.left_px.back() - view.left_px.front();
+    if (along_left.dot(right.back() - right.front()) < 0) std::reverse(right.begin(), right.end());
+  }
+  return split;
+}
+
+bool is_invertible(const BrownConrady& camera) {
+  return CameraModel::from_brown_conrady(camera).ok();
+}
+
+struct Start {
+  CameraFit left;
+  CameraFit right;
+  bool with_k3 = false;
+};
+
+Result<Start> start_with(const Chessboard& board, ImageSize size, const BoardViews& views,
+                         bool with_k3) {
+  const auto left = fit_camera(board, size, views.left, with_k3);
+  if (!left) return left.error();
+  const auto right = fit_camera(board, size, views.right, with_k3);
+  if (!right) return right.error();
+  return Start{*left, *right, with_k3};
+}
+
+Result<Start> each_by_itself(const Chessboard& board, ImageSize size, const BoardViews& views) {
+  const auto is_significant = [](const CameraFit& fit) {
+    return std::abs(fit.camera.k3) > kSignificant * fit.k3_sigma;
+  };
+  const auto full = start_with(board, size, views, true);
+  if (full && (is_significant(full->left) || is_significant(full->right)) &&
+      is_invertible(full->left.camera) && is_invertible(full->right.camera))
+    return full;
+  return start_with(board, size, views, false);
+}
+
+double view_rms_px(const StereoFit& fit, std::size_t view) {
+  const auto& [left, right] = fit.view_rms_px[view];
+  return std::sqrt(0.5 * (left * left + right * right));
+}
+
+/// The worst view, if it holds a mistake.
+std::optional<std::size_t> mistaken_view(const StereoFit& fit, double factor) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < fit.view_rms_px.size(); ++i) all.push_back(view_rms_px(fit, i));
+  const auto worst = std::max_element(all.begin(), all.end());
+  std::vector<double> sorted = all;
+  const auto middle = sorted.begin() + static_cast<long>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  if (*worst <= std::max(kNoMistakePx, factor * *middle)) return std::nullopt;
+  return static_cast<std::size_t>(worst - all.begin());
+}
+
+struct Fitted {
+  StereoFit fit;
+  Start start;
+  BoardViews used;
+  std::vector<std::size_t> numbers;  ///< of the views used
+};
+
+Result<Fitted> without_mistakes(const Chessboard& board, ImageSize size, BoardViews views,
+                                const StereoBoardOptions& options,
+                                std::vector<BoardViewResidual>& residuals) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < views.left.size(); ++i) numbers.push_back(i);
+  const auto most_left_out =
+      static_cast<std::size_t>(options.max_outlier_share * static_cast<double>(numbers.size()));
+  for (std::size_t left_out = 0;; ++left_out) {
+    const auto start = each_by_itself(board, size, views);
+    if (!start) return start.error();
+    const auto fit = fit_stereo(board, size, views.left, views.right, start->left.camera,
+                                start->right.camera, start->with_k3);
+    if (!fit) return fit.error();
+    const auto mistake = mistaken_view(*fit, options.outlier_factor);
+    if (!mistake || left_out == most_left_out || numbers.size() == options.min_views)
+      return Fitted{*fit, *start, views, numbers};
+    residuals[numbers[*mistake]] = {false, fit->view_rms_px[*mistake][0],
+                                    fit->view_rms_px[*mistake][1], 0.0};
+    views.leave_out(*mistake);
+    numbers.erase(numbers.begin() + static_cast<long>(*mistake));
+  }
+}
+
+/// RMS distance of the right corners from the epipolar lines.
+double epipolar_rms_px(const CameraModel& left, const CameraModel& right,
+                       const Transform<RightCamera, LeftCamera>& right_from_left,
+                       const BoardCorners& left_px, const BoardCorners& right_px) {
+  double squared = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < left_px.size(); ++i)
+    if (const auto off =
+            across_epipolar_px(left, right, right_from_left, left_px[i], right_px[i])) {
+      squared += *off * *off;
+      count += 1.0;
+    }
+  return count > 0 ? std::sqrt(squared / count) : 0.0;
+}
+
+double covered_share(ImageSize size, std::span<const BoardCorners> views) {
+  std::array<bool, kFieldsAcross * kFieldsDown> seen{};
+  for (const BoardCorners& view : views)
+    for (const Vec2 p : view) {
+      const int column =
+          std::clamp(static_cast<int>(p.x * kFieldsAcross / size.width_px), 0, kFieldsAcross - 1);
+      const int row =
+          std::clamp(static_cast<int>(p.y * kFieldsDown / size.height_px), 0, kFieldsDown - 1);
+      seen[static_cast<std::size_t>(row * kFieldsAcross + column)] = true;
+    }
+  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) /
+         static_cast<double>(seen.size());
+}
+
+Status fill_epipolar(const BoardViews& all, StereoBoardCalibration& result) {
+  const auto left = CameraModel::from_brown_conrady(result.left);
+  const auto right = CameraModel::from_brown_conrady(result.right);
+  if (!left || !right)
+    return Error{"stereo calibration: the lens model folds over (" +
+                 (left ? right : left).error().message + "): more views, up to the image's edges"};
+  double squared = 0.0;
+  for (std::size_t i = 0; i < result.views.size(); ++i) {
+    BoardViewResidual& view = result.views[i];
+    view.epipolar_rms_px =
+        epipolar_rms_px(*left, *right, result.right_from_left, all.left[i], all.right[i]);
+    if (view.used) squared += view.epipolar_rms_px * view.epipolar_rms_px;
+  }
+  result.epipolar_rms_px = std::sqrt(squared / static_cast<double>(result.used));
+  return {};
+}
+
+void judge_precision(const StereoBoardOptions& options, StereoBoardCalibration& result) {
+  Judgement& judgement = result.judgement;
+  if (!result.sigma) {
+    judgement.add(Verdict::kNote, "too few views to tell how exact it is");
+    return;
+  }
+  const double focal = result.sigma->focal_share;
+  const double baseline = result.sigma->baseline_m / result.baseline_m();
+  if (focal > options.note_focal_sigma_share)
+    judgement.add(
+        focal > options.max_focal_sigma_share ? Verdict::kFail : Verdict::kNote,
+        with_numbers("the focal length is known to %.2f %% only, better %.2f %% (tilt the board)",
+                     100 * focal, 100 * options.note_focal_sigma_share));
+  if (baseline > options.note_baseline_sigma_share)
+    judgement.add(Verdict::kNote,
+                  with_numbers("the baseline is known to %.2f %% only, better %.2f %%",
+                               100 * baseline, 100 * options.note_baseline_sigma_share));
+}
+
+void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
+  Judgement& judgement = result.judgement;
+  if (!(result.stereo_rms_px <= options.note_rms_px))
+    judgement.add(result.stereo_rms_px <= options.max_rms_px ? Verdict::kNote : Verdict::kFail,
+                  with_numbers("stereo RMS %.2f px, limit %.2f px", result.stereo_rms_px,
+                               result.stereo_rms_px <= options.max_rms_px ? options.note_rms_px
+                                                                          : options.max_rms_px));
+  if (result.used < result.views.size())
+    judgement.add(Verdict::kNote, std::to_string(result.views.size() - result.used) +
+                                      " views left out for their residuals");
+  if (result.used < options.note_views)
+    judgement.add(Verdict::kNote,
+                  with_numbers("%.0f views, better %.0f", static_cast<double>(result.used),
+                               static_cast<double>(options.note_views)));
+  if (result.covered_share < options.note_covered_share)
+    judgement.add(Verdict::kNote,
+                  with_numbers("the board reached %.0f %% of the image only, better %.0f %%",
+                               100 * result.covered_share, 100 * options.note_covered_share));
+  judge_precision(options, result);
+  if (judgement.reason.empty()) judgement.reason = "every figure is within its limit";
+}
+
+}  // namespace
+
+std::vector<std::string> StereoBoardOptions::check() const {
+  std::vector<std::string> problems;
+  const auto positive = [&](const char* name, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
+  };
+  if (min_views < 3)
+    problems.push_back("min_views " + std::to_string(min_views) + ", must be at least 3");
+  if (!(outlier_factor > 1.0))
+    problems.push_back("outlier_factor " + std::to_string(outlier_factor) + ", must be above 1");
+  if (!(max_outlier_share >= 0.0 && max_outlier_share < 1.0))
+    problems.push_back("max_outlier_share " + std::to_string(max_outlier_share) +
+                       ", must be at least 0 and below 1");
+  positive("max_rms_px", max_rms_px);
+  positive("max_focal_sigma_share", max_focal_sigma_share);
+  positive("note_rms_px", note_rms_px);
+  positive("note_focal_sigma_share", note_focal_sigma_share);
+  positive("note_baseline_sigma_share", note_baseline_sigma_share);
+  positive("note_covered_share", note_covered_share);
+  return problems;
+}
+
+Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSize size,
+                                                std::span<const BoardView> views,
+                                                const StereoBoardOptions& options) {
+  if (Status status = check_views(board, size, views, options); !status) return status.error();
+  const BoardViews all = aligned(board, views);
+  StereoBoardCalibration result;
+  result.views.resize(views.size());
+  const auto fitted = without_mistakes(board, size, all, options, result.views);
+  if (!fitted) return fitted.error();
+  const StereoFit& fit = fitted->fit;
+  result.left = fit.left;
+  result.right = fit.right;
+  result.right_from_left = fit.right_from_left;
+  result.left_rms_px = fitted->start.left.rms_px;
+  result.right_rms_px = fitted->start.right.rms_px;
+  result.stereo_rms_px = fit.rms_px;
+  result.used = fitted->numbers.size();
+  for (std::size_t i = 0; i < fitted->numbers.size(); ++i) {
+    BoardViewResidual& view = result.views[fitted->numbers[i]];
+    view.left_rms_px = fit.view_rms_px[i][0];
+    view.right_rms_px = fit.view_rms_px[i][1];
+  }
+  result.covered_share =
+      std::min(covered_share(size, fitted->used.left), covered_share(size, fitted->used.right));
+  if (Status status = fill_epipolar(all, result); !status) return status.error();
+  result.sigma = stereo_sigma(board, size, fitted->used, fit, fitted->start.with_k3);
+  judge(options, result);
+  return result;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nav/calibration/board_fit.h"
+#include "nav/evaluation/verdict.h"
+
+namespace orthonav::nav {
+
+/// The board in one pair of images.
+struct BoardView {
+  BoardCorners left_px;
+  BoardCorners right_px;
+};
+
+struct StereoBoardOptions {
+  std::size_t min_views = 3;
+  /// A view whose residual is so many times the middle one's holds a mistake and is left out.
+  double outlier_factor = 3.0;
+  /// But at most this share of the views.
+  double max_outlier_share = 0.25;
+  double max_rms_px = 1.0;
+  double max_focal_sigma_share = 0.02;
+  /// What deserves a note.
+  std::size_t note_views = 10;
+  double note_rms_px = 0.45;
+  double note_focal_sigma_share = 0.005;
+  double note_baseline_sigma_share = 0.005;
+  double note_covered_share = 0.5;
+
+  /// Every problem at once.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+struct BoardViewResidual {
+  bool used = true;
+  double left_rms_px = 0.0;
+  double right_rms_px = 0.0;
+  /// RMS distance of the right corners from the epipolar lines of the left ones.
+  double epipolar_rms_px = 0.0;
+};
+
+/// Jackknife SDs: the views in tenths, each left out in turn.
+struct StereoSigma {
+  double baseline_m = 0.0;
+  double rotation_rad = 0.0;        ///< 3-D, of the right camera to the left one
+  double focal_share = 0.0;         ///< the larger of both cameras, by the focal length
+  double principal_point_px = 0.0;  ///< the larger of both cameras, 2-D
+};
+
+struct StereoBoardCalibration {
+  BrownConrady left;
+  BrownConrady right;
+  Transform<RightCamera, LeftCamera> right_from_left;
+  double left_rms_px = 0.0;    ///< of the left camera calibrated by itself
+  double right_rms_px = 0.0;   ///< of the right one
+  double stereo_rms_px = 0.0;  ///< of both together
+  double epipolar_rms_px = 0.0;
+  double covered_share = 0.0;  ///< of the image that the corners reach, the smaller of both cameras
+  std::optional<StereoSigma> sigma;  ///< with four views at least
+  std::size_t used = 0;
+  std::vector<BoardViewResidual> views;  ///< as given; of a view left out, what it had then
+  Judgement judgement;
+
+  [[nodiscard]] double baseline_m() const { return right_from_left.translation().norm(); }
+};
+
+/// Two cameras from pairs of board images: each camera by itself (Zhang 2000), then everything
+/// together; views with mistakes are left out one by one. The third radial term is kept only where
+/// it is significant (3 SDs) in a camera, and where the model with it can be inverted. Refuses bad
+/// options, boards and counts, too few views, and lenses that the model can't describe.
+Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSize size,
+                                                std::span<const BoardView> views,
+                                                const StereoBoardOptions& options = {});
+
+}  // namespace orthonav::nav

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "nav/calibration/stereo_board.h"
+
+namespace orthonav::nav {
+
+/// Views of the board, the left and the right ones apart.
+struct BoardViews {
+  std::vector<BoardCorners> left;
+  std::vector<BoardCorners> right;
+
+  void leave_out(std::size_t view) {
+    left.erase(left.begin() + static_cast<long>(view));
+    right.erase(right.begin() + static_cast<long>(view));
+  }
+};
+
+/// How exact a stereo fit is, by leaving out each tenth of the views in turn (each view, where
+/// there are fewer than ten). Unlike what residuals predict, it sees a board that is not flat and
+/// corners that err together. Nothing with fewer than four views.
+[[nodiscard]] std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
+                                                      const BoardViews& views, const StereoFit& fit,
+                                                      bool with_k3);
+
+}  // namespace orthonav::nav
