@@ -38,6 +38,10 @@ constexpr std::array<Family, 9> kFamilies = {{
     {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
 }};
 
+// The detector's name for the one with the borders of the other two cells wide.
+constexpr const char* kWideFamily = "tag36h11b2";
+constexpr const char* kNarrowFamily = "tag36h11";
+
 // Everything is black but a ring of white one cell wide, outside the border (or, where the border
 // is reversed, the border itself), and the bits that are set.
 TagCells cells_of(const apriltag_family_t& family, int id) {
@@ -90,6 +94,10 @@ int TagCells::overhang_cells() const {
 }
 
 Result<TagCells> tag_cells(const std::string& family, int id, int border_width) {
+  if (family == kWideFamily) {
+    if (border_width == 1) return tag_cells(kNarrowFamily, id, 2);
+    return Error{family + std::string(" is ") + kNarrowFamily + " with borders 2 cells wide"};
+  }
   if (border_width != 1 && border_width != 2)
     return Error{"tag border of " + std::to_string(border_width) + " cells, must be 1 or 2"};
   for (const Family& known : kFamilies) {

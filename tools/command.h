@@ -19,6 +19,7 @@ int bad_input(const std::string& message);
 
 // Each adds its subcommand to `app`; one file a subcommand.
 void add_calibrate_command(CLI::App& app, Action& action);
+void add_accuracy_command(CLI::App& app, Action& action);
 void add_demo_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);

@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", ORTHONAV_VERSION);
   Action action;
   add_calibrate_command(app, action);
+  add_accuracy_command(app, action);
   add_demo_command(app, action);
   add_detect_command(app, action);
   add_doctor_command(app, action);

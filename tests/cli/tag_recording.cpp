@@ -22,14 +22,14 @@ void add_noise(GreyImage& image, Random& random) {
 }  // namespace
 
 void record(const std::string& folder, const StereoCalibration& calibration,
-            const std::vector<std::vector<PlacedTag>>& pairs) {
+            const std::vector<std::vector<PlacedTag>>& pairs, int rate_hz) {
   fake::Script script;
   script.calibration = calibration;
   Random random(21);
   for (const auto& tags : pairs) {
     const auto index = static_cast<std::int64_t>(script.camera.size());
-    StereoFrame frame =
-        stereo_frame(calibration, tags, Timestamp(Duration(1'000'000'000 + 33'333'300 * index)));
+    StereoFrame frame = stereo_frame(
+        calibration, tags, Timestamp(Duration(1'000'000'000 + 999'999'000 / rate_hz * index)));
     frame.sequence = index;
     add_noise(frame.left, random);
     add_noise(frame.right, random);

@@ -8,8 +8,8 @@
 namespace orthonav::test {
 
 /// Records, in our recorder's layout, what two cameras like a HoloLens 2's see of these tags: a
-/// pair for each entry, 30 a second. The images carry noise of 2 grey levels.
+/// pair for each entry, so many a second. The images carry noise of 2 grey levels.
 void record(const std::string& folder, const StereoCalibration& calibration,
-            const std::vector<std::vector<PlacedTag>>& pairs);
+            const std::vector<std::vector<PlacedTag>>& pairs, int rate_hz = 30);
 
 }  // namespace orthonav::test

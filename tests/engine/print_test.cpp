@@ -140,6 +140,18 @@ TEST(PrintedTags, ATagPrintedTooSmallIsSeen) {
   EXPECT_GT(farthest_mm(found.at(3), expected), kPlaceToleranceMm);
 }
 
+TEST(PrintedTags, HaveWideBordersWhereTheirFamilySaysSo) {
+  const auto sheets = tag_sheets({tag("tag36h11b2", 3, 0.040)}, {a4(), 1.0});
+  ASSERT_TRUE(sheets) << sheets.error().message;
+  const PlacedTag& at = sheets->placed[0];
+  const Corners expected = square(at.x_mm - 20, at.y_mm - 20, 40);
+  const GreyImage image = drawn(sheets->sheets[0]);
+  for (const auto& found : {detected_with_wide_borders(image), detected(image, "tag36h11b2")}) {
+    ASSERT_TRUE(found.contains(3));
+    EXPECT_LT(farthest_mm(found.at(3), expected), kPlaceToleranceMm);
+  }
+}
+
 TEST(PrintedTags, GoOnToFurtherPages) {
   std::vector<PrintedTag> tags;
   for (int id = 0; id < 20; ++id) tags.push_back(tag("tag36h11", id, 0.038));
@@ -282,6 +294,7 @@ TEST(PrintedBoard, HasBordersOfTwoCellsOnAnAprilGrid) {
   ASSERT_TRUE(sheet) << sheet.error().message;
   const GreyImage image = drawn(sheet->sheet);
   expect_every_tag_in_place(detected_with_wide_borders(image), board, *sheet);
+  expect_every_tag_in_place(detected(image, "tag36h11b2"), board, *sheet);
   // The other way round: each border is read as what it is.
   EXPECT_THAT(detected(image, "tag36h11"), IsEmpty());
   const auto plain = board_sheet(board_of(BoardKind::kTags), a4());

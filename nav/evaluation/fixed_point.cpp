@@ -1,0 +1,137 @@
+#include "nav/evaluation/fixed_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+#include <vector>
+
+namespace orthonav::nav {
+namespace {
+
+// Stretches begin and end at such blocks.
+constexpr double kBlock_s = 0.25;
+// A stretch that has not fitted for so many blocks more won't fit again.
+constexpr int kHopeless = 8;
+
+Eigen::Matrix3d as_eigen(const Mat3& m) {
+  Eigen::Matrix3d out;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) out(r, c) = m[r][static_cast<std::size_t>(c)];
+  return out;
+}
+
+Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
+
+/// Sums over poses from which the fit of any stretch follows. With q the tip where the tool says it
+/// is and d its offset, the tips R d + q shall be one point p.
+struct Sums {
+  double n = 0.0;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();       ///< R
+  Eigen::Vector3d tip = Eigen::Vector3d::Zero();            ///< q
+  Eigen::Vector3d tip_in_marker = Eigen::Vector3d::Zero();  ///< Rᵀq
+  double squares = 0.0;                                     ///< |q|²
+
+  void add(const Eigen::Matrix3d& R, const Eigen::Vector3d& q) {
+    n += 1.0;
+    rotation += R;
+    tip += q;
+    tip_in_marker += R.transpose() * q;
+    squares += q.squaredNorm();
+  }
+  friend Sums operator-(Sums a, const Sums& b) {
+    a.n -= b.n;
+    a.rotation -= b.rotation;
+    a.tip -= b.tip;
+    a.tip_in_marker -= b.tip_in_marker;
+    a.squares -= b.squares;
+    return a;
+  }
+};
+
+struct Fit {
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  double spread_rad = 0.0;
+  double rmse_m = 0.0;
+};
+
+Fit fit_of(const Sums& sums, double min_spread_rad) {
+  Fit fit;
+  const Eigen::Matrix3d normal =
+      sums.n * Eigen::Matrix3d::Identity() - sums.rotation.transpose() * sums.rotation / sums.n;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(normal);
+  fit.spread_rad = std::sqrt(std::max(0.0, solver.eigenvalues()(0)) / sums.n);
+  // Without turning the offset is open; the tip where it should be is then as good as any.
+  if (fit.spread_rad >= min_spread_rad)
+    fit.offset =
+        normal.ldlt().solve(sums.rotation.transpose() * sums.tip / sums.n - sums.tip_in_marker);
+  const Eigen::Vector3d p = (sums.tip + sums.rotation * fit.offset) / sums.n;
+  const double squares = sums.squares + sums.n * fit.offset.squaredNorm() +
+                         2.0 * fit.offset.dot(sums.tip_in_marker) - sums.n * p.squaredNorm();
+  fit.rmse_m = std::sqrt(std::max(0.0, squares) / sums.n);
+  return fit;
+}
+
+/// Sums over all poses before each block, and where each block begins.
+struct Blocks {
+  std::vector<Sums> before;
+  std::vector<std::size_t> first;
+};
+
+Blocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
+  Blocks blocks;
+  // Near the origin, or the squares lose the digits that matter.
+  const Vec3 origin_m = (poses[0].value * tip).v;
+  Sums sums;
+  double begins_s = 0.0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const double time_s = seconds(poses[i].time - poses[0].time);
+    if (i == 0 || time_s >= begins_s + kBlock_s) {
+      blocks.before.push_back(sums);
+      blocks.first.push_back(i);
+      begins_s = time_s;
+    }
+    sums.add(as_eigen(poses[i].value.rotation()), as_eigen((poses[i].value * tip).v - origin_m));
+  }
+  blocks.before.push_back(sums);
+  blocks.first.push_back(poses.size());
+  return blocks;
+}
+
+}  // namespace
+
+std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world_from_marker,
+                                              Point<Marker> tip, const FixedPointOptions& options) {
+  if (world_from_marker.empty()) return std::nullopt;
+  const Blocks blocks = blocks_of(world_from_marker, tip);
+  std::optional<FixedPoint> best;
+  double best_score = 0.0;
+  for (std::size_t from = 0; from + 1 < blocks.first.size(); ++from) {
+    int unfit = 0;
+    for (std::size_t to = from + 1; to < blocks.first.size() && unfit < kHopeless; ++to) {
+      const std::size_t first = blocks.first[from];
+      const std::size_t end = blocks.first[to];
+      const Fit fit = fit_of(blocks.before[to] - blocks.before[from], options.min_spread_rad);
+      if (fit.rmse_m > options.max_rmse_m || fit.offset.norm() > options.max_offset_m) {
+        // While the tool has turned too little for the offset, a wrong tip looks like a motion, but
+        // no larger one than its offset makes.
+        if (fit.spread_rad >= options.min_spread_rad ||
+            fit.rmse_m > 2.0 * options.max_offset_m + options.max_rmse_m)
+          ++unfit;
+        continue;
+      }
+      unfit = 0;
+      const double duration_s =
+          seconds(world_from_marker[end - 1].time - world_from_marker[first].time);
+      if (duration_s < options.min_duration_s || fit.spread_rad < options.min_spread_rad) continue;
+      const double ratio = fit.rmse_m / options.max_rmse_m;
+      const double score = duration_s * (1.0 - ratio * ratio);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = FixedPoint{first, end, {fit.offset.x(), fit.offset.y(), fit.offset.z()}, fit.rmse_m};
+    }
+  }
+  return best;
+}
+
+}  // namespace orthonav::nav

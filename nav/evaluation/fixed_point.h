@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "nav/tracking/tool_tracker.h"
+
+namespace orthonav::nav {
+
+struct FixedPointOptions {
+  double min_duration_s = 3.0;
+  double min_spread_rad = 0.15;  ///< as `PivotOptions` has it
+  double max_rmse_m = 0.005;
+  double max_offset_m = 0.03;  ///< of the point from where the tip should be
+};
+
+/// A point of the tool that stayed where it was while the tool turned about it.
+struct FixedPoint {
+  std::size_t first = 0;  ///< poses [first, end)
+  std::size_t end = 0;
+  Vec3 offset_m{};  ///< from the given tip, in the marker's axes
+  double rmse_m = 0.0;
+};
+
+/// The longest stretch of poses that turned about a fixed point near the tip, found with that point
+/// free (least squares as in `pivot_calibration`). A longer stretch that fits worse counts for
+/// less, so that arriving and leaving stay out of it: length × (1 - (RMSE / limit)²). Times must
+/// increase.
+[[nodiscard]] std::optional<FixedPoint> longest_fixed_point(
+    std::span<const TrackedPose> world_from_marker, Point<Marker> tip,
+    const FixedPointOptions& options);
+
+}  // namespace orthonav::nav

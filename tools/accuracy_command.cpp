@@ -1,0 +1,176 @@
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "engine/board_file.h"
+#include "engine/method.h"
+#include "engine/tool_file.h"
+#include "nav/evaluation/accuracy_test.h"
+#include "tools/accuracy_output.h"
+#include "tools/arguments.h"
+#include "tools/command.h"
+#include "tools/json_output.h"
+#include "tools/recorded_pairs.h"
+
+namespace orthonav::tools {
+namespace {
+
+// Whole images are searched in every other pair, and only while the pointer is not seen.
+constexpr int kFullSearchEvery = 2;
+
+/// Limits of one figure as they stand on the command line: Pass to, Note to, millimetres.
+struct LimitArgument {
+  const char* option;
+  const char* what;
+  nav::AccuracyLimits nav::AccuracyOptions::*limits;
+  std::vector<double> mm;
+};
+
+struct AccuracyArguments {
+  std::string recording;
+  std::string tools_file;
+  std::string pointer;
+  std::string board_file;
+  std::string method = default_method();
+  JsonOutput json;
+  std::vector<LimitArgument> limits = {
+      {"--single-point-mm",
+       "Of 95 % of the tips, held still",
+       &nav::AccuracyOptions::single_point_p95,
+       {}},
+      {"--turning-mm", "Of 95 % of the tips, turning", &nav::AccuracyOptions::turning_p95, {}},
+      {"--tip-bias-mm",
+       "Of the tip from where the tool file has it",
+       &nav::AccuracyOptions::tip_bias,
+       {}},
+      {"--distance-mean-mm",
+       "Of the mean error of the distances",
+       &nav::AccuracyOptions::distance_mean,
+       {}},
+      {"--distance-max-mm",
+       "Of the largest error of a distance",
+       &nav::AccuracyOptions::distance_max,
+       {}}};
+};
+
+Result<nav::ToolGeometry> chosen_pointer(const AccuracyArguments& arguments) {
+  const std::string& file = arguments.tools_file;
+  const auto tools = engine::load_tools(file);
+  if (!tools) return tools.error();
+  if (arguments.pointer.empty()) {
+    for (const nav::ToolGeometry& tool : *tools)
+      if (tool.role == nav::ToolRole::kPointer) return tool;
+    return Error{file + ": no tool has the role pointer, name one (--pointer)"};
+  }
+  const auto tool = engine::tool_named(*tools, arguments.pointer);
+  if (!tool) return Error{file + ": " + tool.error().message};
+  if (tool->role == nav::ToolRole::kReference)
+    return Error{file + ": '" + tool->name + "' is a reference, it has no tip"};
+  return *tool;
+}
+
+Result<std::vector<Vec3>> board_points_m(const AccuracyArguments& arguments) {
+  std::vector<Vec3> points_m;
+  if (arguments.board_file.empty()) return points_m;
+  const auto board = engine::load_board(arguments.board_file);
+  if (!board) return board.error();
+  for (const engine::TouchPoint& point : engine::touch_points(*board))
+    points_m.push_back({point.at_m.x, point.at_m.y, 0.0});
+  return points_m;
+}
+
+nav::AccuracyOptions options_of(const AccuracyArguments& arguments) {
+  nav::AccuracyOptions options;
+  for (const LimitArgument& limit : arguments.limits)
+    if (limit.mm.size() == 2) options.*limit.limits = {limit.mm[0] * 1e-3, limit.mm[1] * 1e-3};
+  return options;
+}
+
+Result<std::vector<nav::TrackedPose>> measured_poses(const AccuracyArguments& arguments,
+                                                     const nav::ToolGeometry& pointer) {
+  const auto method = engine::method_named(arguments.method);
+  if (!method) return method.error();
+  const auto recording = replay::ReplayHeadset::open(arguments.recording);
+  if (!recording) return recording.error();
+  nav::TrackerOptions options;
+  // Where a tag is predicted it is found as well as in the whole image, in a tenth of the time.
+  options.full_search_interval = kFullSearchEvery;
+  const auto tracker =
+      method->create_tracker((*recording)->cameras().calibration(), {pointer}, options);
+  if (!tracker) return tracker.error();
+  std::vector<nav::TrackedPose> poses;
+  const Status status = for_each_pair(**recording, [&](const StereoFrame& frame) {
+    for (const nav::ToolState& state : (*tracker)->track(frame))
+      if (state.world_from_marker.origin == Origin::kMeasured)
+        poses.push_back(state.world_from_marker);
+  });
+  if (!status) return status.error();
+  return poses;
+}
+
+int run_accuracy(const AccuracyArguments& arguments) {
+  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
+  const nav::AccuracyOptions options = options_of(arguments);
+  if (const auto problems = options.check(); !problems.empty()) return bad_input(problems.front());
+  const auto pointer = chosen_pointer(arguments);
+  if (!pointer) return bad_input(pointer.error().message);
+  const auto points_m = board_points_m(arguments);
+  if (!points_m) return bad_input(points_m.error().message);
+  const auto poses = measured_poses(arguments, *pointer);
+  if (!poses) return bad_input(poses.error().message);
+  const auto report = nav::accuracy_test(*poses, *pointer, *points_m, options);
+  if (!report) return bad_input(arguments.recording + ": " + report.error().message);
+
+  const AccuracySubject subject{pointer->name, arguments.method};
+  if (Status s = arguments.json.write(accuracy_json(subject, *report)); !s)
+    return bad_input(s.error().message);
+  if (!arguments.json.on_stdout()) std::fputs(accuracy_text(subject, *report).c_str(), stdout);
+  return report->verdict() == nav::Verdict::kFail ? kNo : kDone;
+}
+
+constexpr const char* kFooter =
+    "\nRecord a minute: rest the tip in a dimple and hold the pointer still (5 s), turn and tilt "
+    "it\n"
+    "there by 25 degrees to all sides (15 s), then touch the numbered corners of a board from\n"
+    "`orthonav print board` in their order, a second each, at least 5 cm from the dimple.\n"
+    "A figure passes up to PASS, is noted up to NOTE, fails beyond. Exit 0: pass or note; 1: "
+    "fail;\n"
+    "2: too few data or bad input.";
+
+}  // namespace
+
+void add_accuracy_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<AccuracyArguments>();
+  CLI::App* command = app.add_subcommand(
+      "accuracy", "The one-minute accuracy test of a pointer, in the spirit of ASTM F2554");
+  command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
+      ->required();
+  command->add_option("--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
+  command->add_option("--pointer", arguments->pointer, "Name of the tool; without it the pointer")
+      ->check(some_text());
+  command
+      ->add_option("--board", arguments->board_file,
+                   "Description of the board that was touched; without it no distances")
+      ->check(some_text());
+  command->add_option("--method", arguments->method, "Tracking")
+      ->type_name("NAME")
+      ->capture_default_str();
+  const nav::AccuracyOptions defaults;
+  for (LimitArgument& limit : arguments->limits) {
+    const nav::AccuracyLimits& given = defaults.*limit.limits;
+    char text[160];
+    std::snprintf(text, sizeof text, "%s; without it %g %g", limit.what, given.pass_m * 1e3,
+                  given.note_m * 1e3);
+    command->add_option(limit.option, limit.mm, text)
+        ->expected(2)
+        ->type_name("PASS NOTE")
+        ->check(finite_number(0.001, 100));
+  }
+  arguments->json.add_to(*command);
+  command->footer(kFooter);
+  command->callback(
+      [arguments, &action] { action = [arguments] { return run_accuracy(*arguments); }; });
+}
+
+}  // namespace orthonav::tools

@@ -1,0 +1,166 @@
+#include "tools/accuracy_output.h"
+
+#include <array>
+#include <cstdarg>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace orthonav::tools {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+double in_mm(double metres) { return metres * 1e3; }
+ordered_json in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
+
+ordered_json json_of(const nav::AccuracyPart& part) {
+  ordered_json out = {{"verdict", to_text(part.verdict())},
+                      {"start_s", part.start_s},
+                      {"end_s", part.end_s},
+                      {"limits", ordered_json::array()}};
+  for (const nav::Judged& figure : part.judged)
+    out["limits"].push_back({{"what", figure.what},
+                             {"value_mm", in_mm(figure.value_m)},
+                             {"pass_to_mm", in_mm(figure.limits.pass_m)},
+                             {"note_to_mm", in_mm(figure.limits.note_m)},
+                             {"verdict", to_text(figure.verdict)}});
+  if (!part.failure.empty()) out["failure"] = part.failure;
+  return out;
+}
+
+void add_spread(const nav::TipSpread& spread, ordered_json& out) {
+  out["samples"] = spread.samples;
+  out["rms_mm"] = in_mm(spread.rms_m);
+  out["p95_mm"] = in_mm(spread.p95_m);
+  out["max_mm"] = in_mm(spread.max_m);
+}
+
+ordered_json single_point_json(const nav::SinglePointPart& part) {
+  ordered_json out = json_of(part);
+  add_spread(part.spread, out);
+  if (part.predicted_rms_m) out["predicted_rms_mm"] = in_mm(*part.predicted_rms_m);
+  return out;
+}
+
+ordered_json turning_json(const nav::TurningPart& part) {
+  ordered_json out = json_of(part);
+  add_spread(part.spread, out);
+  out["largest_tilt_deg"] = part.largest_tilt_rad * kDegrees;
+  out["tip_bias_mm"] = in_mm(part.tip_bias_m);
+  out["tip_bias_sigma_mm"] = in_mm(part.tip_bias_sigma_m);
+  out["residual_rms_mm"] = in_mm(part.residual_rms_m);
+  out["by_tilt"] = ordered_json::array();
+  for (const nav::TiltBin& bin : part.bins) {
+    ordered_json entry = {{"from_deg", bin.from_rad * kDegrees},
+                          {"to_deg", bin.to_rad * kDegrees},
+                          {"samples", bin.samples}};
+    if (bin.samples > 0) {
+      entry["rms_mm"] = in_mm(bin.rms_m);
+      entry["max_mm"] = in_mm(bin.max_m);
+    }
+    out["by_tilt"].push_back(std::move(entry));
+  }
+  return out;
+}
+
+ordered_json distances_json(const nav::DistancePart& part) {
+  ordered_json out = json_of(part);
+  out["distances"] = part.distances;
+  out["mean_error_mm"] = in_mm(part.mean_error_m);
+  out["sd_mm"] = in_mm(part.sd_m);
+  out["rms_mm"] = in_mm(part.rms_m);
+  out["max_error_mm"] = in_mm(part.max_error_m);
+  out["fit_rmse_mm"] = in_mm(part.fit_rmse_m);
+  out["stray_rests"] = part.stray_rests;
+  out["points"] = ordered_json::array();
+  for (const nav::TouchedPoint& point : part.points)
+    out["points"].push_back({{"time_s", point.time_s},
+                             {"samples", point.samples},
+                             {"known_mm", in_mm(point.known_m)},
+                             {"residual_mm", in_mm(point.residual_m)}});
+  return out;
+}
+
+void append(std::string& text, const char* format, ...) __attribute__((format(printf, 2, 3)));
+void append(std::string& text, const char* format, ...) {
+  std::array<char, 400> line{};
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line.data(), line.size(), format, arguments);
+  va_end(arguments);
+  text += line.data();
+}
+
+void append_part(const char* name, const nav::AccuracyPart& part, std::string& text) {
+  append(text, "%s: %s (%.1f-%.1f s)\n", name, std::string(to_text(part.verdict())).c_str(),
+         part.start_s, part.end_s);
+  if (!part.failure.empty()) text += "  " + part.failure + "\n";
+  for (const nav::Judged& figure : part.judged)
+    append(text, "  %s %.2f mm: %s (pass to %.2f, note to %.2f)\n", figure.what.c_str(),
+           in_mm(figure.value_m), std::string(to_text(figure.verdict)).c_str(),
+           in_mm(figure.limits.pass_m), in_mm(figure.limits.note_m));
+}
+
+void append_spread(const nav::TipSpread& spread, std::string& text) {
+  append(text, "  RMS %.2f mm, max %.2f mm, %zu poses\n", in_mm(spread.rms_m), in_mm(spread.max_m),
+         spread.samples);
+}
+
+void append_turning(const nav::TurningPart& part, std::string& text) {
+  append_part("sensitivity to orientation", part, text);
+  append_spread(part.spread, text);
+  const Vec3 bias = part.tip_bias_m;
+  append(text,
+         "  tip bias %+.2f %+.2f %+.2f mm in the marker's axes (SD %.2f mm), %.2f mm RMS "
+         "without it\n",
+         in_mm(bias.x), in_mm(bias.y), in_mm(bias.z), in_mm(part.tip_bias_sigma_m),
+         in_mm(part.residual_rms_m));
+  for (const nav::TiltBin& bin : part.bins)
+    if (bin.samples > 0)
+      append(text, "  tilt %2.0f-%2.0f°: RMS %.2f mm, max %.2f mm, %zu poses\n",
+             bin.from_rad * kDegrees, bin.to_rad * kDegrees, in_mm(bin.rms_m), in_mm(bin.max_m),
+             bin.samples);
+}
+
+void append_distances(const nav::DistancePart& part, std::string& text) {
+  append_part("distances", part, text);
+  append(text, "  %zu distances of %zu points: mean error %+.2f mm, SD %.2f mm, RMS %.2f mm\n",
+         part.distances, part.points.size(), in_mm(part.mean_error_m), in_mm(part.sd_m),
+         in_mm(part.rms_m));
+  if (part.stray_rests > 0)
+    append(text, "  %zu rests that touched no point left out\n", part.stray_rests);
+}
+
+}  // namespace
+
+ordered_json accuracy_json(const AccuracySubject& subject, const nav::AccuracyReport& report) {
+  ordered_json out = {{"pointer", subject.pointer},
+                      {"method", subject.method},
+                      {"verdict", to_text(report.verdict())},
+                      {"measured_poses", report.samples},
+                      {"duration_s", report.duration_s},
+                      {"single_point", single_point_json(report.single_point)},
+                      {"turning", turning_json(report.turning)}};
+  if (report.distances) out["distances"] = distances_json(*report.distances);
+  return out;
+}
+
+std::string accuracy_text(const AccuracySubject& subject, const nav::AccuracyReport& report) {
+  std::string text = "accuracy test of " + subject.pointer + ", method " + subject.method;
+  append(text, ": %zu measured poses in %.1f s\n", report.samples, report.duration_s);
+  append_part("single-point repeatability", report.single_point, text);
+  append_spread(report.single_point.spread, text);
+  if (report.single_point.predicted_rms_m)
+    append(text, "  predicted RMS %.2f mm\n", in_mm(*report.single_point.predicted_rms_m));
+  append_turning(report.turning, text);
+  if (report.distances)
+    append_distances(*report.distances, text);
+  else
+    text += "distances: not tested (--board)\n";
+  return text + "verdict: " + std::string(to_text(report.verdict())) + "\n";
+}
+
+}  // namespace orthonav::tools

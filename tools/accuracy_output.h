@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "nav/evaluation/accuracy_test.h"
+
+namespace orthonav::tools {
+
+/// What was tested.
+struct AccuracySubject {
+  std::string pointer;
+  std::string method;
+};
+
+/// Every figure, units in the keys.
+[[nodiscard]] nlohmann::ordered_json accuracy_json(const AccuracySubject& subject,
+                                                   const nav::AccuracyReport& report);
+/// The same for people.
+[[nodiscard]] std::string accuracy_text(const AccuracySubject& subject,
+                                        const nav::AccuracyReport& report);
+
+}  // namespace orthonav::tools
