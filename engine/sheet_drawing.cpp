@@ -7,6 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "engine/text_outline.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -55,28 +57,33 @@ void draw(cairo_t* context, const SheetLine& line) {
   cairo_stroke(context);
 }
 
-void draw(cairo_t* context, const SheetText& text) {
-  cairo_save(context);
-  set_ink(context, text.white);
-  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, text.height_mm);
-  cairo_text_extents_t extents;
-  cairo_text_extents(context, text.text.c_str(), &extents);
-  cairo_translate(context, text.x_mm, text.y_mm);
-  if (text.upward) cairo_rotate(context, -std::numbers::pi / 2);
+void draw(cairo_t* context, const SheetText& text, const PrintFont& font) {
+  const TextOutline outline = font.outline(text.text);
   const double share = text.align == SheetAlign::kLeft     ? 0.0
                        : text.align == SheetAlign::kCentre ? 0.5
                                                            : 1.0;
-  cairo_move_to(context, -share * extents.x_advance, 0);
-  cairo_show_text(context, text.text.c_str());
+  cairo_save(context);
+  set_ink(context, text.white);
+  cairo_translate(context, text.x_mm, text.y_mm);
+  if (text.upward) cairo_rotate(context, -std::numbers::pi / 2);
+  cairo_scale(context, text.height_mm, text.height_mm);
+  cairo_translate(context, -share * outline.advance, 0.0);
+  for (const TextOutline::Step& step : outline.steps) {
+    const auto& to = step.to;
+    if (step.kind == TextOutline::Kind::kMove) cairo_move_to(context, to[0].x, to[0].y);
+    if (step.kind == TextOutline::Kind::kLine) cairo_line_to(context, to[0].x, to[0].y);
+    if (step.kind == TextOutline::Kind::kCubic)
+      cairo_curve_to(context, to[0].x, to[0].y, to[1].x, to[1].y, to[2].x, to[2].y);
+  }
+  cairo_fill(context);
   cairo_restore(context);
 }
 
-void draw(cairo_t* context, const Sheet& sheet) {
+void draw(cairo_t* context, const Sheet& sheet, const PrintFont& font) {
   for (const SheetCut& cut : sheet.cuts) draw(context, cut);
   for (const SheetShape& shape : sheet.shapes) draw(context, shape);
   for (const SheetLine& line : sheet.lines) draw(context, line);
-  for (const SheetText& text : sheet.texts) draw(context, text);
+  for (const SheetText& text : sheet.texts) draw(context, text, font);
 }
 
 cairo_status_t append(void* closure, const unsigned char* bytes, unsigned int length) {
@@ -88,6 +95,8 @@ cairo_status_t append(void* closure, const unsigned char* bytes, unsigned int le
 
 Result<std::string> pdf_of(std::span<const Sheet> sheets, const std::string& title) {
   if (sheets.empty()) return Error{"nothing to print"};
+  const auto font = PrintFont::open();
+  if (!font) return font.error();
   std::string bytes;
   const Surface surface(
       cairo_pdf_surface_create_for_stream(append, &bytes, sheets[0].width_mm * kPointsPerMm,
@@ -101,7 +110,7 @@ Result<std::string> pdf_of(std::span<const Sheet> sheets, const std::string& tit
                                sheet.height_mm * kPointsPerMm);
     const Context context(cairo_create(surface.get()), cairo_destroy);
     cairo_scale(context.get(), kPointsPerMm, kPointsPerMm);
-    draw(context.get(), sheet);
+    draw(context.get(), sheet, *font);
     cairo_show_page(context.get());
     if (Status s = status_of(cairo_status(context.get()), title); !s) return s.error();
   }
@@ -116,6 +125,8 @@ Result<GreyImage> image_of(const Sheet& sheet, double px_per_mm) {
   if (!(width >= 1 && height >= 1 && width * height <= kMostPixels))
     return Error{"page image: " + std::to_string(px_per_mm) +
                  " px/mm, must give 1 pixel to 200 megapixels"};
+  const auto font = PrintFont::open();
+  if (!font) return font.error();
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
                                                    static_cast<int>(height)),
                         cairo_surface_destroy);
@@ -124,7 +135,7 @@ Result<GreyImage> image_of(const Sheet& sheet, double px_per_mm) {
     cairo_set_source_rgb(context.get(), 1, 1, 1);
     cairo_paint(context.get());
     cairo_scale(context.get(), px_per_mm, px_per_mm);
-    draw(context.get(), sheet);
+    draw(context.get(), sheet, *font);
     if (Status s = status_of(cairo_status(context.get()), "page image"); !s) return s.error();
   }
   cairo_surface_flush(surface.get());
