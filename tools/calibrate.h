@@ -12,6 +12,7 @@ namespace orthonav::tools {
 // The parts of `calibrate`, one file each.
 void add_calibrate_pivot(CLI::App& calibrate, Action& action);
 void add_calibrate_stereo(CLI::App& calibrate, Action& action);
+void add_calibrate_tool(CLI::App& calibrate, Action& action);
 
 /// Adds the verdict and why to what goes out as JSON.
 void add_judgement(const nav::Judgement& judgement, nlohmann::ordered_json& out);

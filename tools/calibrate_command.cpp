@@ -26,6 +26,7 @@ void add_calibrate_command(CLI::App& app, Action& action) {
   command->require_subcommand(1);
   add_calibrate_pivot(*command, action);
   add_calibrate_stereo(*command, action);
+  add_calibrate_tool(*command, action);
   command->footer(
       "\nExit code 0: the verdict is pass or note; 1: fail, with the reason on standard error;\n"
       "2: bad input.");

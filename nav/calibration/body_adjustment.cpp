@@ -1,0 +1,278 @@
+#include "nav/calibration/body_adjustment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+#include <optional>
+
+#include "nav/calibration/cauchy.h"
+#include "nav/calibration/corner_residual.h"
+
+namespace orthonav::nav {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix2x6 = Eigen::Matrix<double, 2, 6, Eigen::RowMajor>;
+
+constexpr int kMostSteps = 100;
+// Steps in which the scale of the weights still follows the residuals.
+constexpr int kScaleSteps = 8;
+// Twice as far off as where the weight is a half.
+constexpr double kOutlierWeight = 0.2;
+constexpr double kFirstDamping = 1e-4;
+constexpr double kLeastDamping = 1e-12;
+// A step that must be damped more than this to be any good is none.
+constexpr double kMostDamping = 1e4;
+constexpr double kConverged = 1e-8;
+
+Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// The pose after a small shift and turn, both in the frame A.
+template <class A, class B>
+Transform<A, B> moved(const Transform<A, B>& pose, const Vector6& step) {
+  return {rotation_from_vector(from_eigen(step.tail<3>())) * pose.rotation(),
+          pose.translation() + from_eigen(step.head<3>())};
+}
+
+/// A corner's residual and what it changes with besides the body's pose.
+struct Row {
+  CornerResidual corner;
+  int tag_block = -1;
+  int camera_block = -1;
+};
+
+/// Where the things to be found stand in the vector of unknowns; -1 for what is known.
+struct Blocks {
+  int camera = -1;
+  std::vector<int> tags;
+  int count = 0;
+
+  explicit Blocks(const BodyProblem& problem) {
+    if (problem.find_right_camera) camera = count++;
+    for (const bool find : problem.find_tag) tags.push_back(find ? count++ : -1);
+  }
+};
+
+class System {
+ public:
+  explicit System(const BodyProblem& problem) : problem_(problem), blocks_(problem) {}
+
+  /// The corners' residual lengths, pair by pair; nothing where one does not project.
+  [[nodiscard]] std::optional<std::vector<double>> lengths_px(const BodyState& at) const {
+    std::vector<double> all;
+    bool good = true;
+    for (std::size_t i = 0; i < problem_.pairs.size(); ++i)
+      for_each_corner(at, i, false, [&](const std::optional<Row>& row) {
+        good = good && row.has_value();
+        if (row) all.push_back(row->corner.off_px.norm());
+      });
+    if (!good) return std::nullopt;
+    return all;
+  }
+
+  /// Normal equations at a state, with the poses of the body eliminated when solved.
+  void build(const BodyState& at, double scale_px) {
+    const int size = 6 * blocks_.count;
+    global_.setZero(size, size);
+    global_right_.setZero(size);
+    const std::size_t count = problem_.pairs.size();
+    body_.assign(count, Matrix6::Zero());
+    body_right_.assign(count, Vector6::Zero());
+    cross_.assign(count, Eigen::MatrixXd::Zero(size, 6));
+    for (std::size_t i = 0; i < count; ++i)
+      for_each_corner(at, i, true, [&](const std::optional<Row>& row) {
+        if (row) add(*row, i, scale_px);
+      });
+  }
+
+  /// The state after a damped step; nothing when it cannot be solved.
+  [[nodiscard]] std::optional<BodyState> stepped(const BodyState& at, double damping) const {
+    const int size = 6 * blocks_.count;
+    Eigen::MatrixXd reduced = global_;
+    reduced.diagonal() *= 1.0 + damping;
+    Eigen::VectorXd right = global_right_;
+    std::vector<Eigen::LDLT<Matrix6>> inverses;
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+      Matrix6 damped = body_[i];
+      damped.diagonal() *= 1.0 + damping;
+      inverses.emplace_back(damped);
+      if (!is_sound(inverses.back())) return std::nullopt;
+      reduced -= cross_[i] * inverses.back().solve(cross_[i].transpose());
+      right -= cross_[i] * inverses.back().solve(body_right_[i]);
+    }
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(size);
+    if (size > 0) {
+      const Eigen::LDLT<Eigen::MatrixXd> solver(reduced);
+      if (!is_sound(solver)) return std::nullopt;
+      step = solver.solve(right);
+    }
+    if (!step.allFinite()) return std::nullopt;
+    BodyState next = at;
+    move_global(step, next);
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+      const Vector6 own = inverses[i].solve(body_right_[i] - cross_[i].transpose() * step);
+      if (!own.allFinite()) return std::nullopt;
+      next.rig_from_marker[i] = moved(next.rig_from_marker[i], own);
+    }
+    return next;
+  }
+
+  /// The inverse of the reduced normal matrix, as last built; nothing when it has none.
+  [[nodiscard]] std::optional<Eigen::MatrixXd> covariance() const {
+    Eigen::MatrixXd reduced = global_;
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+      const Eigen::LDLT<Matrix6> inverse(body_[i]);
+      if (!is_sound(inverse)) return std::nullopt;
+      reduced -= cross_[i] * inverse.solve(cross_[i].transpose());
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> solver(reduced);
+    if (!is_sound(solver)) return std::nullopt;
+    const auto size = reduced.rows();
+    return Eigen::MatrixXd(solver.solve(Eigen::MatrixXd::Identity(size, size)));
+  }
+
+  [[nodiscard]] int blocks() const { return blocks_.count; }
+
+ private:
+  /// Positive definite, by a margin that rounding does not eat.
+  template <class Solver>
+  static bool is_sound(const Solver& solver) {
+    constexpr double kLeast = 1e-13;
+    const auto& d = solver.vectorD();
+    return solver.info() == Eigen::Success && d.minCoeff() > kLeast * d.maxCoeff() && d.allFinite();
+  }
+
+  template <class Visit>
+  void for_each_corner(const BodyState& at, std::size_t pair, bool derivatives, Visit visit) const {
+    const StereoCalibration& cameras = problem_.calibration;
+    for (const TagSighting& sighting : problem_.pairs[pair]) {
+      const std::size_t tag = sighting.tag;
+      const auto corners = corners_in_marker(problem_.size_m[tag]);
+      const auto one = [&](std::size_t i, const auto& model, const auto& camera_from_rig,
+                           Vec2 seen_px, int camera_block) -> std::optional<Row> {
+        const auto corner =
+            corner_residual(model, camera_from_rig, at.rig_from_marker[pair],
+                            at.marker_from_tag[tag], Point<Tag>{corners[i]}, seen_px, derivatives);
+        if (!corner) return std::nullopt;
+        return Row{*corner, blocks_.tags[tag], camera_block};
+      };
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (sighting.left_px)
+          visit(one(i, cameras.left, cameras.left_from_rig, (*sighting.left_px)[i], -1));
+        if (sighting.right_px)
+          visit(one(i, cameras.right, at.right_from_rig, (*sighting.right_px)[i], blocks_.camera));
+      }
+    }
+  }
+
+  void add(const Row& row, std::size_t pair, double scale_px) {
+    const double weight = cauchy_weight(row.corner.off_px.norm(), scale_px);
+    const Eigen::Vector2d off(row.corner.off_px.x, row.corner.off_px.y);
+    const Eigen::Map<const Matrix2x6> by_body(row.corner.by_body.data());
+    const Eigen::Map<const Matrix2x6> by_tag(row.corner.by_tag.data());
+    const Eigen::Map<const Matrix2x6> by_camera(row.corner.by_camera.data());
+    body_[pair] += weight * by_body.transpose() * by_body;
+    body_right_[pair] -= weight * by_body.transpose() * off;
+    const auto add_block = [&](int block, const Eigen::Map<const Matrix2x6>& j) {
+      if (block < 0) return;
+      global_.block<6, 6>(6 * block, 6 * block) += weight * j.transpose() * j;
+      global_right_.segment<6>(6 * block) -= weight * j.transpose() * off;
+      cross_[pair].middleRows<6>(6 * block) += weight * j.transpose() * by_body;
+    };
+    add_block(row.tag_block, by_tag);
+    add_block(row.camera_block, by_camera);
+    if (row.tag_block < 0 || row.camera_block < 0) return;
+    const Matrix6 between = weight * by_tag.transpose() * by_camera;
+    global_.block<6, 6>(6 * row.tag_block, 6 * row.camera_block) += between;
+    global_.block<6, 6>(6 * row.camera_block, 6 * row.tag_block) += between.transpose();
+  }
+
+  void move_global(const Eigen::VectorXd& step, BodyState& next) const {
+    if (blocks_.camera >= 0)
+      next.right_from_rig = moved(next.right_from_rig, step.segment<6>(6 * blocks_.camera));
+    for (std::size_t i = 0; i < blocks_.tags.size(); ++i)
+      if (blocks_.tags[i] >= 0)
+        next.marker_from_tag[i] =
+            moved(next.marker_from_tag[i], step.segment<6>(6 * blocks_.tags[i]));
+  }
+
+  const BodyProblem& problem_;
+  Blocks blocks_;
+  Eigen::MatrixXd global_;
+  Eigen::VectorXd global_right_;
+  std::vector<Matrix6> body_;
+  std::vector<Vector6> body_right_;
+  std::vector<Eigen::MatrixXd> cross_;
+};
+
+void summarize(const std::vector<double>& lengths_px, double scale_px, BodyFit& fit) {
+  double squared = 0.0;
+  double counted = 0.0;
+  for (const double length : lengths_px) {
+    const double weight = cauchy_weight(length, scale_px);
+    if (weight < kOutlierWeight) {
+      ++fit.outliers;
+      continue;
+    }
+    squared += length * length;
+    counted += 1.0;
+  }
+  fit.corners = lengths_px.size();
+  fit.rms_px = std::sqrt(squared / std::max(counted, 1.0));
+}
+
+/// The blocks on the diagonal, times the variance of one coordinate of a corner.
+std::vector<PoseCovariance> blocks_of(const Eigen::MatrixXd& inverse, double variance_px2) {
+  std::vector<PoseCovariance> blocks(static_cast<std::size_t>(inverse.rows() / 6));
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+    for (std::size_t i = 0; i < 36; ++i)
+      blocks[block][i] = variance_px2 * inverse(static_cast<Eigen::Index>(6 * block + i / 6),
+                                                static_cast<Eigen::Index>(6 * block + i % 6));
+  return blocks;
+}
+
+}  // namespace
+
+Result<BodyFit> adjust(const BodyProblem& problem, BodyState& state) {
+  System system(problem);
+  auto lengths_px = system.lengths_px(state);
+  if (!lengths_px) return Error{"a tag's corner does not project where the adjustment starts"};
+  if (lengths_px->empty()) return Error{"no tag is seen"};
+  double scale_px = cauchy_scale(*lengths_px);
+  double damping = kFirstDamping;
+  bool is_new = true;
+  for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
+    if (is_new && step < kScaleSteps) scale_px = cauchy_scale(*lengths_px);
+    if (is_new) system.build(state, scale_px);
+    is_new = false;
+    const double before = cauchy_cost(*lengths_px, scale_px);
+    auto next = system.stepped(state, damping);
+    const auto next_px = next ? system.lengths_px(*next) : std::nullopt;
+    const double after = next_px ? cauchy_cost(*next_px, scale_px) : before;
+    if (!next_px || !(after < before)) {
+      damping *= 10.0;
+      continue;
+    }
+    state = std::move(*next);
+    lengths_px = next_px;
+    is_new = true;
+    damping = std::max(kLeastDamping, damping * 0.1);
+    if (before - after < kConverged * before) break;
+  }
+  BodyFit fit;
+  summarize(*lengths_px, scale_px, fit);
+  if (system.blocks() == 0) return fit;
+  const auto fit_blocks = static_cast<std::size_t>(system.blocks());
+  system.build(state, scale_px);
+  const auto covariance = system.covariance();
+  if (!covariance) return Error{"the corners seen do not determine what is to be found"};
+  const double numbers = 2.0 * static_cast<double>(fit.corners);
+  const double unknowns = 6.0 * static_cast<double>(problem.pairs.size() + fit_blocks);
+  // What is fitted takes its share of the noise.
+  fit.covariances =
+      blocks_of(*covariance, scale_px * scale_px * numbers / std::max(1.0, numbers - unknowns));
+  return fit;
+}
+
+}  // namespace orthonav::nav

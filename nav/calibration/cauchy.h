@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace orthonav::nav {
+
+// Cauchy's loss for the lengths of residuals of two normal coordinates, 95 % efficient where all
+// are normal (Holland & Welsch 1977).
+
+inline constexpr double kCauchyConstant = 2.385;
+
+/// The SD of one coordinate from the middle length, which is 1.1774 of it; not below 0.02 px, where
+/// interpolation and not noise makes the residuals. `lengths_px` must not be empty.
+[[nodiscard]] inline double cauchy_scale(std::vector<double> lengths_px) {
+  const auto middle = lengths_px.begin() + static_cast<long>(lengths_px.size() / 2);
+  std::nth_element(lengths_px.begin(), middle, lengths_px.end());
+  return std::max(0.02, *middle / 1.1774);
+}
+
+[[nodiscard]] inline double cauchy_weight(double length_px, double scale_px) {
+  const double u = length_px / (kCauchyConstant * scale_px);
+  return 1.0 / (1.0 + u * u);
+}
+
+[[nodiscard]] inline double cauchy_cost(const std::vector<double>& lengths_px, double scale_px) {
+  double sum = 0.0;
+  for (const double length_px : lengths_px) sum -= std::log(cauchy_weight(length_px, scale_px));
+  return sum;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,74 @@
+#include "nav/calibration/pose_mean.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace orthonav::nav {
+namespace {
+
+using Pose = Transform<Tag, Tag>;
+
+constexpr double kRadianM = 0.05;
+// Nearer than this, weights no longer grow.
+constexpr double kNearM = 1e-6;
+constexpr int kSteps = 50;
+constexpr double kConvergedM = 1e-9;
+// The start is the best of so many, which is enough for more than half of them to be good.
+constexpr std::size_t kMostCandidates = 40;
+
+struct Difference {
+  Vec3 shift_m;
+  Vec3 turn_rad;
+  [[nodiscard]] double length_m() const {
+    return std::sqrt(shift_m.squared_norm() + kRadianM * kRadianM * turn_rad.squared_norm());
+  }
+};
+
+Difference difference(const Pose& from, const Pose& to) {
+  return {to.translation() - from.translation(),
+          vector_from_rotation(to.rotation() * from.rotation().transposed())};
+}
+
+double total_m(const Pose& centre, std::span<const Pose> poses) {
+  double sum = 0.0;
+  for (const Pose& pose : poses) sum += difference(centre, pose).length_m();
+  return sum;
+}
+
+/// The one of them that is nearest to all.
+Pose middle_one(std::span<const Pose> poses) {
+  const std::size_t stride = (poses.size() + kMostCandidates - 1) / kMostCandidates;
+  Pose best;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < poses.size(); i += stride) {
+    const double sum_m = total_m(poses[i], poses);
+    if (!(sum_m < least_m)) continue;
+    least_m = sum_m;
+    best = poses[i];
+  }
+  return best;
+}
+
+}  // namespace
+
+Pose median_pose(std::span<const Pose> poses) {
+  Pose centre = middle_one(poses);
+  for (int step = 0; step < kSteps; ++step) {
+    Difference mean;
+    double total = 0.0;
+    for (const Pose& pose : poses) {
+      const Difference off = difference(centre, pose);
+      const double weight = 1.0 / std::max(off.length_m(), kNearM);
+      mean.shift_m += weight * off.shift_m;
+      mean.turn_rad += weight * off.turn_rad;
+      total += weight;
+    }
+    mean = {mean.shift_m / total, mean.turn_rad / total};
+    centre = {rotation_from_vector(mean.turn_rad) * centre.rotation(),
+              centre.translation() + mean.shift_m};
+    if (mean.length_m() < kConvergedM) break;
+  }
+  return centre;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,286 @@
+#include "nav/calibration/tag_body.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "nav/calibration/body_start.h"
+
+namespace orthonav::nav {
+namespace {
+
+constexpr std::size_t kBlocks = 10;
+
+std::string with_numbers(const char* format, double value, double limit) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), format, value, limit);
+  return text.data();
+}
+
+std::string name_of(const MarkerDefinition& tag) {
+  return "tag " + tag.family + " id " + std::to_string(tag.id);
+}
+
+Error refused(const std::string& why) { return Error{"tool calibration: " + why}; }
+
+double middle(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions& options) {
+  std::vector<std::string> problems = options.check();
+  if (tags.size() < 2)
+    problems.push_back(std::to_string(tags.size()) + " tags, at least 2 are needed");
+  ToolGeometry tool;
+  tool.name = "tool";
+  if (!tags.empty()) tool.marker = tags.front();
+  for (std::size_t i = 1; i < tags.size(); ++i) tool.more_markers.push_back({tags[i], {}});
+  if (!tags.empty())
+    for (std::string& problem : problems_of({tool})) problems.push_back(std::move(problem));
+  if (problems.empty()) return {};
+  std::string line;
+  for (const std::string& problem : problems) line += (line.empty() ? "" : "; ") + problem;
+  return refused(line);
+}
+
+double median_size_ratio(std::span<const PairSightings> pairs, std::size_t tag) {
+  std::vector<double> ratios;
+  for (const PairSightings& pair : pairs)
+    for (const TagSighting& seen : pair)
+      if (seen.tag == tag && seen.pose) ratios.push_back(seen.pose->size_ratio);
+  return middle(std::move(ratios));
+}
+
+/// Tags that no chain of tags seen together connects with the first one.
+Status check_connected(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,
+                       const TagLayout& layout, std::size_t min_pairs) {
+  std::string names;
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    if (layout.reached[i]) continue;
+    const auto seen = std::count_if(pairs.begin(), pairs.end(), [&](const PairSightings& pair) {
+      return std::any_of(pair.begin(), pair.end(),
+                         [&](const TagSighting& s) { return s.tag == i; });
+    });
+    names += (names.empty() ? "" : ", ") + name_of(tags[i]) + " (seen in " + std::to_string(seen) +
+             " pairs)";
+  }
+  if (names.empty()) return {};
+  return refused(names + ": not seen in " + std::to_string(min_pairs) +
+                 " pairs together with tags that connect it with " + name_of(tags.front()));
+}
+
+Status check_sizes(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,
+                   double limit) {
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const double ratio = median_size_ratio(pairs, i);
+    if (ratio > 0.0 && !(std::abs(ratio - 1.0) <= limit))
+      return refused(name_of(tags[i]) +
+                     with_numbers(": its edges measure %.2f mm, given are %.2f mm",
+                                  ratio * tags[i].size_m * 1e3, tags[i].size_m * 1e3));
+  }
+  return {};
+}
+
+BodyProblem problem_of(const StereoCalibration& calibration,
+                       std::span<const MarkerDefinition> tags) {
+  BodyProblem problem;
+  problem.calibration = calibration;
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    problem.size_m.push_back(tags[i].size_m);
+    problem.find_tag.push_back(i > 0);
+  }
+  return problem;
+}
+
+/// Takes in the pairs that say something: two tags, and a pose to start from.
+void take_pairs(std::span<const PairSightings> pairs, std::size_t most, BodyProblem& problem,
+                BodyState& state) {
+  std::vector<const PairSightings*> useful;
+  for (const PairSightings& pair : pairs)
+    if (pair.size() >= 2) useful.push_back(&pair);
+  const std::size_t kept = std::min(most, useful.size());
+  for (std::size_t i = 0; i < kept; ++i) {
+    const PairSightings& pair = *useful[i * useful.size() / kept];
+    const auto pose = first_pose(problem, state, pair);
+    if (!pose) continue;
+    problem.pairs.push_back(pair);
+    state.rig_from_marker.push_back(*pose);
+  }
+}
+
+struct Sigma {
+  double m = 0.0;
+  double rad = 0.0;
+};
+
+/// Of each tag, from leaving out each tenth of the pairs in turn.
+std::vector<Sigma> jackknife(const BodyProblem& problem, const BodyState& whole) {
+  const std::size_t tags = problem.size_m.size();
+  const std::size_t pairs = problem.pairs.size();
+  std::vector<Sigma> sigma(tags);
+  if (pairs < 2 * kBlocks) return sigma;
+  std::vector<std::vector<Vec3>> shifts(tags);
+  std::vector<std::vector<Vec3>> turns(tags);
+  BodyProblem rest = problem;
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    BodyState state = whole;
+    rest.pairs.clear();
+    state.rig_from_marker.clear();
+    for (std::size_t i = 0; i < pairs; ++i) {
+      if (i * kBlocks / pairs == block) continue;
+      rest.pairs.push_back(problem.pairs[i]);
+      state.rig_from_marker.push_back(whole.rig_from_marker[i]);
+    }
+    // A tag that was seen in this tenth alone is not determined without it.
+    if (!adjust(rest, state)) continue;
+    for (std::size_t i = 0; i < tags; ++i) {
+      const auto& a = whole.marker_from_tag[i];
+      const auto& b = state.marker_from_tag[i];
+      shifts[i].push_back(b.translation() - a.translation());
+      turns[i].push_back(vector_from_rotation(b.rotation() * a.rotation().transposed()));
+    }
+  }
+  const auto sd = [](const std::vector<Vec3>& values) {
+    const auto count = static_cast<double>(values.size());
+    Vec3 mean;
+    for (const Vec3& v : values) mean += v / count;
+    double squared = 0.0;
+    for (const Vec3& v : values) squared += (v - mean).squared_norm();
+    return values.size() < 2 ? 0.0 : std::sqrt((count - 1.0) / count * squared);
+  };
+  for (std::size_t i = 0; i < tags; ++i) sigma[i] = {sd(shifts[i]), sd(turns[i])};
+  return sigma;
+}
+
+std::size_t pairs_with(std::span<const PairSightings> pairs, std::size_t tag) {
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(), [&](const PairSightings& pair) {
+        return std::any_of(pair.begin(), pair.end(),
+                           [&](const TagSighting& s) { return s.tag == tag; });
+      }));
+}
+
+TagBody body_of(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,
+                const BodyProblem& problem, const BodyState& state, const BodyFit& fit) {
+  TagBody body;
+  body.pairs = problem.pairs.size();
+  body.rms_px = fit.rms_px;
+  body.outlier_share = static_cast<double>(fit.outliers) / static_cast<double>(fit.corners);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    BodyTag tag{tags[i], state.marker_from_tag[i],   pairs_with(problem.pairs, i), 0,
+                0,       median_size_ratio(pairs, i)};
+    if (i > 0) {
+      const PoseCovariance& c = fit.covariances[i - 1];
+      tag.sigma_m = std::sqrt(c[0] + c[7] + c[14]);
+      tag.sigma_rad = std::sqrt(c[21] + c[28] + c[35]);
+    }
+    body.tags.push_back(tag);
+  }
+  return body;
+}
+
+Status check_rigid(const TagBody& body, const TagBodyOptions& options) {
+  if (!(body.rms_px <= options.max_rms_px))
+    return refused(
+        with_numbers("residual %.2f px RMS, limit %.2f px (do the tags move against "
+                     "each other?)",
+                     body.rms_px, options.max_rms_px));
+  if (!(body.outlier_share <= options.max_outlier_share))
+    return refused(
+        with_numbers("%.0f %% of the corners do not fit, limit %.0f %% (do the tags "
+                     "move against each other?)",
+                     100 * body.outlier_share, 100 * options.max_outlier_share));
+  return {};
+}
+
+Status check_sigma(const TagBody& body, const TagBodyOptions& options) {
+  for (const BodyTag& tag : body.tags)
+    if (!(tag.sigma_m <= options.max_sigma_m))
+      return refused(name_of(tag.definition) +
+                     with_numbers(": its place is known to %.2f mm, limit %.2f mm",
+                                  tag.sigma_m * 1e3, options.max_sigma_m * 1e3));
+  return {};
+}
+
+Judgement judged(const TagBody& body, const TagBodyOptions& options) {
+  constexpr double kDegrees = 57.29577951308232;
+  Judgement judgement;
+  for (const BodyTag& tag : body.tags) {
+    const std::string name = name_of(tag.definition);
+    if (tag.sigma_m > options.note_sigma_m)
+      judgement.add(Verdict::kNote,
+                    name + with_numbers(": its place is known to %.2f mm only, better %.2f mm",
+                                        tag.sigma_m * 1e3, options.note_sigma_m * 1e3));
+    if (tag.sigma_rad > options.note_sigma_rad)
+      judgement.add(
+          Verdict::kNote,
+          name + with_numbers(": its turn is known to %.2f° only, better %.2f°",
+                              tag.sigma_rad * kDegrees, options.note_sigma_rad * kDegrees));
+    if (std::abs(tag.size_ratio - 1.0) > options.note_size_deviation)
+      judgement.add(Verdict::kNote,
+                    name + with_numbers(": its edges measure %.2f mm, given are %.2f mm",
+                                        tag.size_ratio * tag.definition.size_m * 1e3,
+                                        tag.definition.size_m * 1e3));
+    if (tag.pairs < options.note_pairs)
+      judgement.add(Verdict::kNote, name + with_numbers(": seen in %.0f pairs only, better %.0f",
+                                                        static_cast<double>(tag.pairs),
+                                                        static_cast<double>(options.note_pairs)));
+  }
+  if (judgement.reason.empty()) judgement.reason = "every figure is within its limit";
+  return judgement;
+}
+
+}  // namespace
+
+std::vector<std::string> TagBodyOptions::check() const {
+  std::vector<std::string> problems;
+  const auto positive = [&](const char* name, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
+  };
+  if (min_pairs_together < 1) problems.emplace_back("min_pairs_together 0, must be at least 1");
+  if (max_pairs < min_pairs_together)
+    problems.push_back("max_pairs " + std::to_string(max_pairs) +
+                       ", must be at least min_pairs_together");
+  positive("max_rms_px", max_rms_px);
+  positive("max_outlier_share", max_outlier_share);
+  positive("max_sigma_m", max_sigma_m);
+  positive("max_size_deviation", max_size_deviation);
+  positive("note_sigma_m", note_sigma_m);
+  positive("note_sigma_rad", note_sigma_rad);
+  positive("note_size_deviation", note_size_deviation);
+  return problems;
+}
+
+Result<TagBody> calibrate_tag_body(const StereoCalibration& calibration,
+                                   std::span<const MarkerDefinition> tags,
+                                   std::span<const PairSightings> pairs,
+                                   const TagBodyOptions& options) {
+  if (Status status = check_input(tags, options); !status) return status.error();
+  if (Status status = check_sizes(tags, pairs, options.max_size_deviation); !status)
+    return status.error();
+  const TagLayout layout = first_layout(pairs, tags.size(), options.min_pairs_together);
+  if (Status status = check_connected(tags, pairs, layout, options.min_pairs_together); !status)
+    return status.error();
+  BodyProblem problem = problem_of(calibration, tags);
+  BodyState state{calibration.right_from_rig, layout.marker_from_tag, {}};
+  take_pairs(pairs, options.max_pairs, problem, state);
+  const auto fit = adjust(problem, state);
+  if (!fit) return refused(fit.error().message);
+  TagBody body = body_of(tags, pairs, problem, state, *fit);
+  if (Status status = check_rigid(body, options); !status) return status.error();
+  const std::vector<Sigma> left_out = jackknife(problem, state);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    body.tags[i].sigma_m = std::max(body.tags[i].sigma_m, left_out[i].m);
+    body.tags[i].sigma_rad = std::max(body.tags[i].sigma_rad, left_out[i].rad);
+  }
+  if (Status status = check_sigma(body, options); !status) return status.error();
+  body.judgement = judged(body, options);
+  return body;
+}
+
+}  // namespace orthonav::nav

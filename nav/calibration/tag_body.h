@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "nav/calibration/body_sightings.h"
+#include "nav/evaluation/verdict.h"
+
+namespace orthonav::nav {
+
+struct TagBodyOptions {
+  /// Two tags must be seen together by both cameras in so many pairs to count as connected.
+  std::size_t min_pairs_together = 10;
+  /// Pairs are thinned evenly to so many.
+  std::size_t max_pairs = 600;
+  /// Tags that move against each other leave a larger residual.
+  double max_rms_px = 0.5;
+  double max_outlier_share = 0.2;
+  double max_sigma_m = 0.001;
+  double max_size_deviation = 0.05;  ///< triangulated edge by the one given, less 1
+  /// What deserves a note.
+  double note_sigma_m = 0.0002;
+  double note_sigma_rad = 0.005;
+  double note_size_deviation = 0.02;
+  std::size_t note_pairs = 50;
+
+  /// Every problem at once.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+struct BodyTag {
+  MarkerDefinition definition;
+  Transform<Marker, Tag> marker_from_tag;
+  std::size_t pairs = 0;  ///< seen together with another tag
+  /// 3-D SDs: the larger of what the residuals predict and of a jackknife over tenths of the
+  /// recording; 0 for the first tag.
+  double sigma_m = 0.0;
+  double sigma_rad = 0.0;
+  double size_ratio = 0.0;  ///< middle triangulated edge by the size given
+};
+
+/// A rigid body of tags, the first of which is its marker.
+struct TagBody {
+  std::vector<BodyTag> tags;
+  std::size_t pairs = 0;  ///< used: with two tags or more
+  double rms_px = 0.0;    ///< of the corners, 2-D
+  double outlier_share = 0.0;
+  Judgement judgement;  ///< pass or note; what fails is refused
+};
+
+/// Where the tags lie to each other: relative poses averaged pair by pair (`first_layout`), then
+/// all corners of all pairs adjusted at once (`adjust`). Pairs in the order of time. Refuses bad
+/// options, fewer than two tags, tags that nothing connects with the first one (by name), sizes
+/// that the images contradict, and bodies that are not rigid, each with value and limit.
+Result<TagBody> calibrate_tag_body(const StereoCalibration& calibration,
+                                   std::span<const MarkerDefinition> tags,
+                                   std::span<const PairSightings> pairs,
+                                   const TagBodyOptions& options = {});
+
+}  // namespace orthonav::nav

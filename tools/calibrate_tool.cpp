@@ -1,0 +1,223 @@
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "engine/atomic_file.h"
+#include "engine/tool_file.h"
+#include "nav/calibration/tag_body.h"
+#include "tools/arguments.h"
+#include "tools/calibrate.h"
+#include "tools/json_output.h"
+#include "tools/number_list.h"
+#include "tools/recorded_pairs.h"
+
+namespace orthonav::tools {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr std::size_t kMostTags = 64;
+
+struct ToolArguments {
+  std::string recording;
+  std::string family = "tag36h11";
+  std::string ids;
+  std::string sizes_mm;
+  std::string out;
+  std::string tools_file;
+  std::string tool = "tool";
+  std::string role = "reference";
+  JsonOutput json;
+};
+
+/// "40", or a size for each tag: "40,30,30".
+Result<std::vector<double>> sizes_m(const std::string& text, std::size_t tags) {
+  std::vector<double> sizes;
+  std::istringstream fields(text);
+  for (std::string field; std::getline(fields, field, ',');) {
+    char* end = nullptr;
+    const double mm = std::strtod(field.c_str(), &end);
+    if (field.empty() || *end != '\0' || !(mm >= 5.0 && mm <= 200.0))
+      return Error{"--size-mm: \"" + field + "\" must be a size of 5-200 mm"};
+    sizes.push_back(mm * 1e-3);
+  }
+  if (sizes.size() == 1) sizes.resize(tags, sizes.front());
+  if (sizes.size() != tags)
+    return Error{"--size-mm: " + std::to_string(sizes.size()) + " sizes for " +
+                 std::to_string(tags) + " tags, must be one, or one each"};
+  return sizes;
+}
+
+Result<std::vector<nav::MarkerDefinition>> tags_from(const ToolArguments& arguments) {
+  const auto ids = number_list(arguments.ids, kMostTags);
+  if (!ids) return Error{"--ids: " + ids.error().message};
+  const auto sizes = sizes_m(arguments.sizes_mm, ids->size());
+  if (!sizes) return sizes.error();
+  std::vector<nav::MarkerDefinition> tags;
+  for (std::size_t i = 0; i < ids->size(); ++i)
+    tags.push_back({arguments.family, ids->at(i), sizes->at(i)});
+  return tags;
+}
+
+/// A tool of a tools file that is to get its tags must have the first one as its marker.
+Status check_marker(const ToolArguments& arguments, const nav::MarkerDefinition& first) {
+  if (arguments.tools_file.empty()) return {};
+  const auto tools = engine::load_tools(arguments.tools_file);
+  if (!tools) return tools.error();
+  const auto tool = engine::tool_named(*tools, arguments.tool);
+  if (!tool) return Error{arguments.tools_file + ": " + tool.error().message};
+  const nav::MarkerDefinition& marker = tool->marker;
+  if (marker.family != first.family || marker.id != first.id ||
+      std::abs(marker.size_m - first.size_m) > 1e-9)
+    return Error{arguments.tools_file + ": the marker of '" + arguments.tool + "' is " +
+                 marker.family + " id " + std::to_string(marker.id) + " of " +
+                 std::to_string(marker.size_m * 1e3) + " mm, the first of --ids must be the same"};
+  return {};
+}
+
+std::vector<nav::AttachedMarker> further_tags(const nav::TagBody& body) {
+  std::vector<nav::AttachedMarker> more;
+  for (std::size_t i = 1; i < body.tags.size(); ++i)
+    more.push_back({body.tags[i].definition, body.tags[i].marker_from_tag});
+  return more;
+}
+
+Result<std::string> tools_with(const ToolArguments& arguments, const nav::TagBody& body) {
+  if (!arguments.tools_file.empty())
+    return engine::changed_tools(arguments.tools_file, arguments.tool,
+                                 {.more_markers = further_tags(body)});
+  nav::ToolGeometry tool;
+  tool.name = arguments.tool;
+  for (const nav::ToolRole role :
+       {nav::ToolRole::kPointer, nav::ToolRole::kGuide, nav::ToolRole::kReference})
+    if (engine::to_text(role) == arguments.role) tool.role = role;
+  tool.marker = body.tags.front().definition;
+  tool.more_markers = further_tags(body);
+  const std::string text = engine::tools_text({tool});
+  if (const auto back = engine::parse_tools(text, arguments.out); !back) return back.error();
+  return text;
+}
+
+nlohmann::ordered_json pose_mm(const Transform<Marker, Tag>& pose) {
+  std::array<double, 16> a = pose.row_major();
+  for (const std::size_t i : {3u, 7u, 11u}) a[i] *= 1e3;
+  nlohmann::ordered_json rows;
+  for (std::size_t r = 0; r < 16; r += 4) rows.push_back({a[r], a[r + 1], a[r + 2], a[r + 3]});
+  return rows;
+}
+
+nlohmann::ordered_json as_json(const Result<nav::TagBody>& body, std::size_t pairs) {
+  nlohmann::ordered_json out = {{"pairs", pairs}};
+  if (!body) {
+    add_judgement({nav::Verdict::kFail, body.error().message}, out);
+    return out;
+  }
+  out["pairs_used"] = body->pairs;
+  out["rms_px"] = body->rms_px;
+  out["outlier_share"] = body->outlier_share;
+  for (const nav::BodyTag& tag : body->tags)
+    out["tags"].push_back({{"family", tag.definition.family},
+                           {"id", tag.definition.id},
+                           {"size_mm", tag.definition.size_m * 1e3},
+                           {"measured_size_mm", tag.definition.size_m * tag.size_ratio * 1e3},
+                           {"pose", pose_mm(tag.marker_from_tag)},
+                           {"pairs", tag.pairs},
+                           {"sigma_mm", tag.sigma_m * 1e3},
+                           {"sigma_deg", tag.sigma_rad * kDegrees}});
+  add_judgement(body->judgement, out);
+  return out;
+}
+
+void print(const nav::TagBody& body) {
+  std::printf("%zu pairs, residual %.3f px RMS, %.1f %% of the corners left out\n", body.pairs,
+              body.rms_px, 100 * body.outlier_share);
+  for (const nav::BodyTag& tag : body.tags) {
+    const Vec3 at_mm = tag.marker_from_tag.translation() * 1e3;
+    std::printf(
+        "%s id %d: at %.3f %.3f %.3f mm, known to %.3f mm and %.3f°; seen in %zu pairs, "
+        "edges measure %.2f mm\n",
+        tag.definition.family.c_str(), tag.definition.id, at_mm.x, at_mm.y, at_mm.z,
+        tag.sigma_m * 1e3, tag.sigma_rad * kDegrees, tag.pairs,
+        tag.definition.size_m * tag.size_ratio * 1e3);
+  }
+  print_judgement(body.judgement);
+}
+
+int run_tool(const ToolArguments& arguments) {
+  const auto tags = tags_from(arguments);
+  if (!tags) return bad_input(tags.error().message);
+  if (const Status s = check_marker(arguments, tags->front()); !s)
+    return bad_input(s.error().message);
+  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
+  if (auto place = engine::AtomicFile::create(arguments.out); !place)
+    return bad_input(place.error().message);
+  auto recording = replay::ReplayHeadset::open(arguments.recording);
+  if (!recording) return bad_input(recording.error().message);
+  const StereoCalibration& calibration = (*recording)->cameras().calibration();
+  auto collector = nav::SightingCollector::create(calibration, *tags);
+  if (!collector) return bad_input(collector.error().message);
+  const Status read =
+      for_each_pair(**recording, [&](const StereoFrame& frame) { collector->add(frame); });
+  if (!read) return bad_input(read.error().message);
+
+  const auto body = nav::calibrate_tag_body(calibration, *tags, collector->pairs());
+  if (body) {
+    const auto text = tools_with(arguments, *body);
+    if (!text) return bad_input(text.error().message);
+    if (const Status s = engine::write_file(arguments.out, *text); !s)
+      return bad_input(s.error().message);
+  }
+  if (const Status s = arguments.json.write(as_json(body, collector->pairs().size())); !s)
+    return bad_input(s.error().message);
+  if (!body) return refused(body.error().message);
+  if (!arguments.json.on_stdout()) print(*body);
+  return kDone;
+}
+
+constexpr const char* kFooter =
+    "\nTurn the tool slowly before the cameras so that each tag is seen together with a "
+    "neighbour,\n"
+    "in fifty pairs and more. The first of --ids becomes the tool's marker; poses of the others\n"
+    "are relative to it. Without --tools a file with this one tool is written, its tip at the\n"
+    "marker until `calibrate pivot` finds it. Exit code 1: refused, nothing written.";
+
+}  // namespace
+
+void add_calibrate_tool(CLI::App& calibrate, Action& action) {
+  auto arguments = std::make_shared<ToolArguments>();
+  CLI::App* command = calibrate.add_subcommand(
+      "tool", "Where several tags lie on one rigid tool, from a recording");
+  command->add_option("RECORDING", arguments->recording, "Folder of a recording")->required();
+  command->add_option("--family", arguments->family, "Tag family")->capture_default_str();
+  command->add_option("--ids", arguments->ids, "Tags of the tool, its marker first: 3,4,5 or 3-5")
+      ->required()
+      ->type_name("LIST");
+  command
+      ->add_option("--size-mm", arguments->sizes_mm,
+                   "Outer edge of the black borders: one for all, or one each: 40,30,30")
+      ->required()
+      ->type_name("LIST");
+  command->add_option("--out", arguments->out, "Where the tools file goes")
+      ->required()
+      ->check(some_text())
+      ->type_name("FILE");
+  command
+      ->add_option("--tools", arguments->tools_file,
+                   "Tools of which the one named gets these tags; may be the file of --out")
+      ->type_name("FILE");
+  command->add_option("--tool", arguments->tool, "Name of the tool")
+      ->check(some_text())
+      ->capture_default_str()
+      ->type_name("NAME");
+  command->add_option("--role", arguments->role, "Of a new tool")
+      ->check(CLI::IsMember({"pointer", "guide", "reference"}))
+      ->capture_default_str();
+  arguments->json.add_to(*command);
+  command->footer(kFooter);
+  command->callback(
+      [arguments, &action] { action = [arguments] { return run_tool(*arguments); }; });
+}
+
+}  // namespace orthonav::tools
