@@ -209,6 +209,10 @@ Status check_sigma(const TagBody& body, const TagBodyOptions& options) {
 Judgement judged(const TagBody& body, const TagBodyOptions& options) {
   constexpr double kDegrees = 57.29577951308232;
   Judgement judgement;
+  if (body.outlier_share > options.note_outlier_share)
+    judgement.add(Verdict::kNote,
+                  with_numbers("%.0f %% of the corners do not fit, better %.0f %%",
+                               100 * body.outlier_share, 100 * options.note_outlier_share));
   for (const BodyTag& tag : body.tags) {
     const std::string name = name_of(tag.definition);
     if (tag.sigma_m > options.note_sigma_m)
@@ -253,6 +257,7 @@ std::vector<std::string> TagBodyOptions::check() const {
   positive("note_sigma_m", note_sigma_m);
   positive("note_sigma_rad", note_sigma_rad);
   positive("note_size_deviation", note_size_deviation);
+  positive("note_outlier_share", note_outlier_share);
   return problems;
 }
 

@@ -14,15 +14,17 @@ struct TagBodyOptions {
   std::size_t min_pairs_together = 10;
   /// Pairs are thinned evenly to so many.
   std::size_t max_pairs = 600;
-  /// Tags that move against each other leave a larger residual.
+  /// Tags that move against each other leave more corners that do not fit (a quarter, from a
+  /// millimetre on), or a larger residual.
   double max_rms_px = 0.5;
-  double max_outlier_share = 0.2;
+  double max_outlier_share = 0.15;
   double max_sigma_m = 0.001;
   double max_size_deviation = 0.05;  ///< triangulated edge by the one given, less 1
   /// What deserves a note.
   double note_sigma_m = 0.0002;
   double note_sigma_rad = 0.005;
   double note_size_deviation = 0.02;
+  double note_outlier_share = 0.08;
   std::size_t note_pairs = 50;
 
   /// Every problem at once.
