@@ -3,17 +3,14 @@
 namespace orthonav::engine {
 
 Result<Method> method_named(const std::string& name) {
-  if (name == "best")
-    return Error{"--method best: not available in this version (available: paper)"};
-  if (name != "paper") return Error{"--method " + name + ": unknown (available: paper)"};
-  return Method{"paper",
-                [](const StereoCalibration& calibration, std::vector<nav::ToolGeometry> tools,
-                   const nav::TrackerOptions& options) {
-                  return nav::create_paper_tracker(calibration, std::move(tools), options);
-                },
-                [](const nav::VertebraModel& model, std::span<const Point<World>> points_in_world) {
-                  return nav::register_paper(model, points_in_world);
-                }};
+  // Registration has one method so far.
+  const Registrar registrar = [](const nav::VertebraModel& model,
+                                 std::span<const Point<World>> points_in_world) {
+    return nav::register_paper(model, points_in_world);
+  };
+  if (name == "best") return Method{name, &nav::create_best_tracker, registrar};
+  if (name == "paper") return Method{name, &nav::create_paper_tracker, registrar};
+  return Error{"--method " + name + ": unknown (available: best, paper)"};
 }
 
 }  // namespace orthonav::engine

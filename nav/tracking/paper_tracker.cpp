@@ -133,6 +133,7 @@ class PaperTracker final : public ToolTracker {
     if (!residual_px || !covariance) return false;
     states_[i].rig_from_marker = pose->rig_from_marker;
     states_[i].residual_px = *residual_px;
+    states_[i].cameras = 2;
     states_[i].world_from_marker = {*frame.world_from_rig * pose->rig_from_marker, frame.time,
                                     Origin::kMeasured,
                                     turned(*covariance, frame.world_from_rig->rotation())};
@@ -163,25 +164,6 @@ class PaperTracker final : public ToolTracker {
   std::int64_t pairs_ = 0;
   bool missing_ = true;
 };
-
-Status check(const StereoCalibration& calibration, const std::vector<ToolGeometry>& tools,
-             const TrackerOptions& options) {
-  std::string text;
-  for (const std::string& problem : problems_of(tools))
-    text += (text.empty() ? "" : "; ") + problem;
-  if (!text.empty()) return Error{"tools: " + text};
-  if (calibration.left.width_px() <= 0 || calibration.right.width_px() <= 0)
-    return Error{"tracker: the stereo calibration has no camera model"};
-  if (options.full_search_interval < 1)
-    return Error{"tracker: full_search_interval " + std::to_string(options.full_search_interval) +
-                 ", must be at least 1"};
-  if (options.coast < Duration::zero()) return Error{"tracker: coast is negative"};
-  if (!(options.corner_acceleration_px > 0.0) || !std::isfinite(options.corner_acceleration_px))
-    return Error{"tracker: corner_acceleration_px must be positive"};
-  if (!(options.corner_noise_px > 0.0) || !std::isfinite(options.corner_noise_px))
-    return Error{"tracker: corner_noise_px must be positive"};
-  return {};
-}
 
 }  // namespace
 

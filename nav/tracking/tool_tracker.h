@@ -19,7 +19,9 @@ struct ToolState {
   TrackedPose world_from_marker;
   /// The same relative to the headset, for quantities in which head pose and map drift cancel.
   Transform<Rig, Marker> rig_from_marker;
-  double residual_px = 0.0;  ///< RMS reprojection residual of the corners
+  double residual_px = 0.0;  ///< RMS reprojection residual of the corners; 0 with `best`
+  /// That a measured pose comes from: 1 means less sure, along the line of sight above all.
+  int cameras = 0;
 };
 
 struct TrackerOptions {
@@ -52,6 +54,16 @@ class ToolTracker {
 Result<std::unique_ptr<ToolTracker>> create_paper_tracker(const StereoCalibration& calibration,
                                                           std::vector<ToolGeometry> tools,
                                                           const TrackerOptions& options = {});
+
+/// The pose that makes the tool's tags, as they are printed, explain both images at once, started
+/// by a prediction (docs/tracking.md). Whole images are searched only for tools that are lost.
+Result<std::unique_ptr<ToolTracker>> create_best_tracker(const StereoCalibration& calibration,
+                                                         std::vector<ToolGeometry> tools,
+                                                         const TrackerOptions& options = {});
+
+/// Everything that keeps a tracker from being created, in one line.
+Status check(const StereoCalibration& calibration, const std::vector<ToolGeometry>& tools,
+             const TrackerOptions& options);
 
 /// Where the tool will be at `time`, from its two newest measured states (constant velocity,
 /// covariance grown accordingly); lost when `time` is more than `coast` past the newest one.

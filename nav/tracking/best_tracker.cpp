@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <cmath>
+
+#include "nav/tracking/pair_detector.h"
+#include "nav/tracking/tag_matching.h"
+#include "nav/tracking/tool_follower.h"
+#include "nav/tracking/tool_tracker.h"
+#include "nav/tracking/whole_search.h"
+
+namespace orthonav::nav {
+namespace {
+
+/// A lost tool is looked for around its last place for so long.
+constexpr Duration kRemembered = std::chrono::seconds(3);
+/// Room around a tag where it is looked for: by its extent, and in pixels.
+constexpr double kRoomOfExtent = 0.5;
+constexpr double kRoomPx = 30.0;
+/// Corners that were just detected are right to a small part of a cell; their pose is less so.
+constexpr double kDetectedDoubtPx = 1.0;
+constexpr double kFewestDoubtPx = 1.0;
+constexpr double kDoubtSd = 3.0;
+
+class BestTracker final : public ToolTracker {
+ public:
+  BestTracker(const StereoCalibration& calibration, std::vector<ToolGeometry> tools,
+              std::vector<ToolFollower> followers, const TrackerOptions& options,
+              std::unique_ptr<PairDetector> near, std::unique_ptr<WholeSearch> whole)
+      : geometry_(calibration),
+        solver_(calibration),
+        tools_(std::move(tools)),
+        options_(options),
+        near_(std::move(near)),
+        whole_(std::move(whole)) {
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}});
+      states_.push_back({i, {}, {}, 0.0});
+    }
+  }
+
+  std::span<const ToolState> track(const StereoFrame& frame) override {
+    ++pairs_;
+    whole_->finish();
+    std::size_t tracked = 0;
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      states_[i] = {i, {}, {}, 0.0};
+      states_[i].world_from_marker.time = frame.time;
+      if (frame.world_from_rig && follow(i, frame)) ++tracked;
+    }
+    if (!frame.world_from_rig || tracked == tools_.size()) return states_;
+    look_for_lost(frame, tracked > 0);
+    bool missing = false;
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      if (is_measured(i) || find(i, frame)) continue;
+      missing = true;
+      predict(i, frame);
+    }
+    // Beside tools that are tracked, the whole image is searched while the next pair is awaited.
+    if (missing && tracked > 0 && is_turn()) whole_->start(frame);
+    return states_;
+  }
+
+  [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
+
+ private:
+  struct Trail {
+    ToolFollower follower;
+    PoseFilter filter;
+    Transform<World, Marker> last_seen;
+    std::optional<Timestamp> last_time;
+  };
+
+  [[nodiscard]] bool is_measured(std::size_t i) const {
+    return states_[i].world_from_marker.origin == Origin::kMeasured;
+  }
+  [[nodiscard]] bool is_turn() const { return pairs_ % options_.full_search_interval == 0; }
+
+  bool follow(std::size_t i, const StereoFrame& frame) {
+    Trail& trail = trails_[i];
+    if (!trail.filter.alive() || frame.time <= trail.filter.time() ||
+        frame.time - trail.filter.time() > options_.coast)
+      return false;
+    const TrackedPose ahead = trail.filter.predicted(frame.time);
+    const Transform<Rig, Marker> expected = frame.world_from_rig->inverse() * ahead.value;
+    const double variance =
+        std::max({ahead.covariance[0], ahead.covariance[7], ahead.covariance[14]});
+    return take(i, frame, expected, kDoubtSd * std::sqrt(variance) + pixel_m(expected));
+  }
+
+  /// What a pixel covers at the tool's distance.
+  [[nodiscard]] static double pixel_m(const Transform<Rig, Marker>& pose) {
+    constexpr double kRadPerPx = 1.0 / 360.0;
+    return kFewestDoubtPx * kRadPerPx * pose.translation().norm();
+  }
+
+  bool take(std::size_t i, const StereoFrame& frame, const Transform<Rig, Marker>& expected,
+            double doubt_m) {
+    Trail& trail = trails_[i];
+    const auto fit = trail.follower.follow(frame, expected, doubt_m, solver_, search_);
+    if (!fit) return false;
+    TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
+                         Origin::kMeasured,
+                         turned(fit->covariance_in_rig, frame.world_from_rig->rotation())};
+    trail.filter.update(measured);
+    ToolState& state = states_[i];
+    state.world_from_marker = trail.filter.state();
+    state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
+    state.cameras = (fit->left ? 1 : 0) + (fit->right ? 1 : 0);
+    trail.last_seen = state.world_from_marker.value;
+    trail.last_time = frame.time;
+    return true;
+  }
+
+  void look_for_lost(const StereoFrame& frame, bool others_tracked) {
+    SearchPlan& left = near_->left_plan();
+    SearchPlan& right = near_->right_plan();
+    left.boxes.clear();
+    right.boxes.clear();
+    // With nothing to delay, at once.
+    left.everywhere = right.everywhere = !others_tracked && is_turn();
+    if (!left.everywhere)
+      for (std::size_t i = 0; i < tools_.size(); ++i)
+        if (!is_measured(i)) add_boxes(i, frame);
+    near_->detect(frame);
+  }
+
+  void add_boxes(std::size_t i, const StereoFrame& frame) {
+    const MarkerDefinition& marker = tools_[i].marker;
+    const auto from_whole = [&](std::span<const MarkerCorners> found, SearchPlan& plan) {
+      for (const MarkerCorners& seen : found)
+        if (seen.family == marker.family && seen.id == marker.id)
+          add_box(seen.corners_px, marker, plan);
+    };
+    from_whole(whole_->left(), near_->left_plan());
+    from_whole(whole_->right(), near_->right_plan());
+    const Trail& trail = trails_[i];
+    if (!trail.last_time || frame.time - *trail.last_time > kRemembered) return;
+    const auto rig_from_marker = frame.world_from_rig->inverse() * trail.last_seen;
+    const auto expect = [&](const CameraModel& camera, const auto& camera_from_rig,
+                            SearchPlan& plan) {
+      TagCorners corners;
+      const auto in_marker = corners_in_marker(marker.size_m);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const auto seen =
+            camera.project((camera_from_rig * (rig_from_marker * Point<Marker>{in_marker[k]})).v);
+        if (!seen) return;
+        corners[k] = *seen;
+      }
+      add_box(corners, marker, plan);
+    };
+    const StereoCalibration& c = solver_.calibration();
+    expect(c.left, c.left_from_rig, near_->left_plan());
+    expect(c.right, c.right_from_rig, near_->right_plan());
+  }
+
+  static void add_box(const TagCorners& corners, const MarkerDefinition& marker, SearchPlan& plan) {
+    Vec2 low = corners[0];
+    Vec2 high = low;
+    for (const Vec2 corner : corners) {
+      low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
+      high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
+    }
+    const double room = kRoomPx + kRoomOfExtent * std::max(high.x - low.x, high.y - low.y);
+    const auto whole = [](double v) { return static_cast<int>(std::floor(v)); };
+    plan.boxes.push_back(
+        {{whole(low.x - room), whole(low.y - room), whole(high.x - low.x + 2.0 * room) + 1,
+          whole(high.y - low.y + 2.0 * room) + 1},
+         marker.family,
+         marker.id});
+  }
+
+  bool find(std::size_t i, const StereoFrame& frame) {
+    const MarkerDefinition& marker = tools_[i].marker;
+    const TagMatch match = matched(near_->left(), near_->right(), marker.family, marker.id,
+                                   marker.size_m, geometry_, std::nullopt);
+    if (!match.both()) return false;
+    const auto pose =
+        geometry_.pose({match.left->corners_px, match.right->corners_px}, marker.size_m);
+    if (!pose) return false;
+    return take(i, frame, pose->rig_from_marker, kDetectedDoubtPx * pixel_m(pose->rig_from_marker));
+  }
+
+  void predict(std::size_t i, const StereoFrame& frame) {
+    Trail& trail = trails_[i];
+    if (!trail.filter.alive() || frame.time <= trail.filter.time()) return;
+    if (frame.time - trail.filter.time() > options_.coast) return trail.filter.stop();
+    ToolState& state = states_[i];
+    state.world_from_marker = trail.filter.predicted(frame.time);
+    state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
+  }
+
+  TagGeometry geometry_;
+  PhotometricSolver solver_;
+  TagSearch search_;
+  std::vector<ToolGeometry> tools_;
+  TrackerOptions options_;
+  std::unique_ptr<PairDetector> near_;
+  std::unique_ptr<WholeSearch> whole_;
+  std::vector<Trail> trails_;
+  std::vector<ToolState> states_;
+  std::int64_t pairs_ = -1;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<ToolTracker>> create_best_tracker(const StereoCalibration& calibration,
+                                                         std::vector<ToolGeometry> tools,
+                                                         const TrackerOptions& options) {
+  if (Status status = check(calibration, tools, options); !status) return status.error();
+  std::vector<ToolFollower> followers;
+  DetectorOptions detection;
+  detection.decimate = options.decimate;
+  detection.families.clear();
+  for (const ToolGeometry& tool : tools) {
+    Result<ToolFollower> follower = ToolFollower::create(tool);
+    if (!follower) return follower.error();
+    followers.push_back(std::move(follower).value());
+    if (std::find(detection.families.begin(), detection.families.end(), tool.marker.family) ==
+        detection.families.end())
+      detection.families.push_back(tool.marker.family);
+  }
+  Result<std::unique_ptr<PairDetector>> near = PairDetector::create(detection, options.parallel);
+  if (!near) return near.error();
+  Result<std::unique_ptr<WholeSearch>> whole = WholeSearch::create(detection, options.parallel);
+  if (!whole) return whole.error();
+  std::unique_ptr<ToolTracker> tracker =
+      std::make_unique<BestTracker>(calibration, std::move(tools), std::move(followers), options,
+                                    std::move(near).value(), std::move(whole).value());
+  return tracker;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,214 @@
+#include "nav/tracking/photometric_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+
+namespace orthonav::nav {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kBlurFloorPx = 0.25;
+constexpr double kBlurCeilingCells = 0.6;
+/// A logarithm of blur, or a share of grey, may change so much at once.
+constexpr double kLargestLightStep = 0.5;
+constexpr double kLargestStepCells = 0.5;
+constexpr double kVarianceFloor = 0.3;
+/// Once it has converged: what noise leaves.
+constexpr double kSettledPx = 0.05;
+
+struct Split {
+  Matrix6 pose;
+  Matrix6 light;
+  Matrix6 cross;  ///< pose rows, light columns
+  Vector6 pose_right;
+  Vector6 light_right;
+};
+
+Split split(const ViewEquations& e) {
+  Split s;
+  for (std::size_t r = 0; r < 6; ++r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    for (std::size_t c = 0; c < 6; ++c) {
+      const auto column = static_cast<Eigen::Index>(c);
+      s.pose(row, column) = e.sum(std::min(r, c), std::max(r, c));
+      s.light(row, column) = e.sum(6 + std::min(r, c), 6 + std::max(r, c));
+      s.cross(row, column) = e.sum(r, 6 + c);
+    }
+    s.pose_right(row) = e.sum(r, kColumns);
+    s.light_right(row) = e.sum(6 + r, kColumns);
+  }
+  return s;
+}
+
+/// Weak beliefs about the light, so that a view without white cells, or without edges, stays
+/// solvable.
+void add_prior(Split& s, const Photometry& light) {
+  const double grey = 1.0 / (50.0 * 50.0);
+  s.light(0, 0) += grey;
+  s.light(1, 1) += grey;
+  for (int i = 2; i < 4; ++i) {
+    s.light(i, i) += 1.0 / (0.3 * 0.3);
+    s.light_right(i) -= light.slope[static_cast<std::size_t>(i - 2)] / (0.3 * 0.3);
+  }
+  for (int i = 4; i < 6; ++i) s.light(i, i) += 1.0 / (0.5 * 0.5);
+}
+
+double pixels_a_cell(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose) {
+  const int w = camera.width_px();
+  const std::size_t middle =
+      static_cast<std::size_t>(camera.height_px() / 2) * static_cast<std::size_t>(w) +
+      static_cast<std::size_t>(w / 2);
+  const double per_px = (camera.lookup()[middle] - camera.lookup()[middle - 1]).norm();
+  return tag.cell_m() / (std::max(pose.translation_m.z, 1e-3) * per_px);
+}
+
+void apply(const Vector6& step, double px_a_cell, Photometry& light) {
+  const auto bounded = [](double v, double limit) { return std::clamp(v, -limit, limit); };
+  light.black += bounded(step(0), 60.0);
+  light.contrast = std::clamp(light.contrast + bounded(step(1), 80.0), 5.0, 400.0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    light.slope[i] = std::clamp(light.slope[i] + step(static_cast<Eigen::Index>(2 + i)), -0.8, 0.8);
+    light.blur_cells[i] =
+        std::clamp(light.blur_cells[i] *
+                       std::exp(bounded(step(static_cast<Eigen::Index>(4 + i)), kLargestLightStep)),
+                   kBlurFloorPx / px_a_cell, kBlurCeilingCells);
+  }
+}
+
+void learn_noise(const ViewEquations& e, Photometry& light) {
+  for (std::size_t side = 0; side < 2; ++side)
+    if (e.counts[side] > 40.0)
+      light.variance[side] = std::max(
+          kVarianceFloor, 0.5 * light.variance[side] + 0.5 * e.squares[side] / e.counts[side]);
+}
+
+/// A small motion of the tag, in its frame and in cells, by a small motion of the tool in its own
+/// frame, in metres.
+Matrix6 tag_by_tool(const Transform<Marker, Marker>& tool_from_tag, double cell_m) {
+  Matrix6 out = Matrix6::Zero();
+  const Mat3 turn = tool_from_tag.rotation().transposed();
+  const Vec3 arm = tool_from_tag.translation();
+  Eigen::Matrix3d r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) r(i, j) = turn[i][static_cast<std::size_t>(j)];
+  Eigen::Matrix3d cross;
+  cross << 0, -arm.z, arm.y, arm.z, 0, -arm.x, -arm.y, arm.x, 0;
+  out.topLeftCorner<3, 3>() = r / cell_m;
+  out.topRightCorner<3, 3>() = -r * cross / cell_m;
+  out.bottomRightCorner<3, 3>() = r;
+  return out;
+}
+
+}  // namespace
+
+PhotometricSolver::PhotometricSolver(const StereoCalibration& calibration)
+    : calibration_(calibration), left_rays_(calibration_.left), right_rays_(calibration_.right) {}
+
+CameraFromTag PhotometricSolver::camera_from_tag(const TagSighting& view,
+                                                 const Transform<Rig, Marker>& pose) const {
+  const Transform<Rig, Marker> rig_from_tag = pose * view.tool_from_tag;
+  if (view.right) {
+    const auto seen = calibration_.right_from_rig * rig_from_tag;
+    return {seen.rotation(), seen.translation()};
+  }
+  const auto seen = calibration_.left_from_rig * rig_from_tag;
+  return {seen.rotation(), seen.translation()};
+}
+
+std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
+                                                       const Transform<Rig, Marker>& start,
+                                                       double doubt_m, std::span<TagSighting> views,
+                                                       const PhotometricOptions& options) {
+  PhotometricFit fit;
+  fit.rig_from_marker = start;
+  equations_.resize(views.size());
+  double doubt = doubt_m;
+  for (TagSighting& view : views) view.used = true;
+  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
+    Matrix6 normal = Matrix6::Zero();
+    Vector6 right = Vector6::Zero();
+    fit.views = 0;
+    fit.left = fit.right = false;
+    double finest_px_m = 0.0;  // pixels a metre, of the best view
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      TagSighting& view = views[i];
+      if (!view.used) continue;
+      const CameraModel& camera = view.right ? calibration_.right : calibration_.left;
+      const CameraFromTag pose = camera_from_tag(view, fit.rig_from_marker);
+      const double px_a_cell = pixels_a_cell(camera, *view.tag, pose);
+      ViewEquations& e = equations_[i];
+      model_.linearize(view.right ? frame.right : frame.left, camera,
+                       view.right ? right_rays_ : left_rays_, *view.tag, pose, view.light,
+                       doubt / view.tag->cell_m(), e);
+      view.edge_pixels = e.edge_pixels;
+      view.kept_share = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
+      const double counted = e.counts[0] + e.counts[1];
+      view.noise_grey = counted > 0.0 ? std::sqrt((e.squares[0] + e.squares[1]) / counted) : 0.0;
+      if (e.pixels < 30.0 || view.kept_share < options.min_kept_share ||
+          view.light.contrast < options.min_contrast_grey) {
+        view.used = false;
+        continue;
+      }
+      Split s = split(e);
+      add_prior(s, view.light);
+      const Eigen::LLT<Matrix6> light(s.light);
+      const Matrix6 gain = light.solve(s.cross.transpose());
+      const Matrix6 reduced = s.pose - s.cross * gain;
+      const Vector6 reduced_right = s.pose_right - s.cross * light.solve(s.light_right);
+      const Matrix6 motion = tag_by_tool(view.tool_from_tag, view.tag->cell_m());
+      normal += motion.transpose() * reduced * motion;
+      right += motion.transpose() * reduced_right;
+      ++fit.views;
+      (view.right ? fit.right : fit.left) = true;
+      finest_px_m = std::max(finest_px_m, px_a_cell / view.tag->cell_m());
+    }
+    if (fit.views == 0) return std::nullopt;
+    const Eigen::LDLT<Matrix6> solver(normal);
+    Vector6 step = solver.solve(right);
+    if (solver.info() != Eigen::Success || !step.allFinite() || !solver.isPositive())
+      return std::nullopt;
+    // Back to the light of each view, with the pose's step taken into account.
+    double cell_m = 1.0;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      TagSighting& view = views[i];
+      if (!view.used) continue;
+      cell_m = std::min(cell_m, view.tag->cell_m());
+      Split s = split(equations_[i]);
+      add_prior(s, view.light);
+      const Matrix6 motion = tag_by_tool(view.tool_from_tag, view.tag->cell_m());
+      const Vector6 change =
+          s.light.llt().solve(s.light_right - s.cross.transpose() * (motion * step));
+      const CameraFromTag pose = camera_from_tag(view, fit.rig_from_marker);
+      apply(change,
+            pixels_a_cell(view.right ? calibration_.right : calibration_.left, *view.tag, pose),
+            view.light);
+    }
+    const double reach = 8.0 * cell_m;
+    const double size = std::max(step.head<3>().norm(), step.tail<3>().norm() * 0.5 * reach);
+    const double limit = kLargestStepCells * cell_m;
+    if (size > limit) step *= limit / size;
+    const Vec3 shift{step(0), step(1), step(2)};
+    const Vec3 turn{step(3), step(4), step(5)};
+    const Mat3& rotation = fit.rig_from_marker.rotation();
+    fit.rig_from_marker =
+        Transform<Rig, Marker>(orthonormalized(rotation * rotation_from_vector(turn)),
+                               fit.rig_from_marker.translation() + rotation * shift);
+    fit.iterations = iteration + 1;
+    const double size_px = std::min(size, limit) * finest_px_m;
+    doubt = std::max(std::min(0.3 * size, doubt), kSettledPx / finest_px_m);
+    const Matrix6 covariance = solver.solve(Matrix6::Identity());
+    for (int r = 0; r < 6; ++r)
+      for (int c = 0; c < 6; ++c)
+        fit.covariance[static_cast<std::size_t>(6 * r + c)] =
+            0.5 * (covariance(r, c) + covariance(c, r));
+    if (size_px < options.last_step_px && iteration > 0) break;
+  }
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (views[i].used) learn_noise(equations_[i], views[i].light);
+  return fit;
+}
+
+}  // namespace orthonav::nav

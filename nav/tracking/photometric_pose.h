@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/api/tracked.h"
+#include "nav/tracking/photometric_view.h"
+
+namespace orthonav::nav {
+
+/// One tag of a tool in one image, with the light that is remembered of it.
+struct TagSighting {
+  const BlurredTag* tag = nullptr;
+  Transform<Marker, Marker> tool_from_tag;  ///< the tool's frame is that of its first tag
+  bool right = false;                       ///< camera
+  Photometry light;
+  // Of the last fit:
+  double kept_share = 0.0;   ///< of the pixels, by robust weight
+  double edge_pixels = 0.0;  ///< pixels that tell of the pose
+  double noise_grey = 0.0;   ///< SD of the residuals that were kept
+  bool used = false;
+};
+
+struct PhotometricOptions {
+  int max_iterations = 8;
+  /// Corrections below end the search: a small part of the noise of the pose.
+  double last_step_px = 0.02;
+  /// A view in which less of the tag agrees with its template is not used.
+  double min_kept_share = 0.35;
+  double min_contrast_grey = 12.0;
+};
+
+struct PhotometricFit {
+  Transform<Rig, Marker> rig_from_marker;
+  /// In the frame of the marker: (translation m, rotation vector rad).
+  std::array<double, 36> covariance{};
+  int views = 0;  ///< sightings used
+  bool left = false;
+  bool right = false;
+  int iterations = 0;
+};
+
+/// The pose that explains every sighting at once: Gauss-Newton over SE(3), each view's light and
+/// blur eliminated by the Schur complement, weights by Tukey's biweight (docs/tracking.md).
+class PhotometricSolver {
+ public:
+  explicit PhotometricSolver(const StereoCalibration& calibration);
+
+  /// Improves a pose that is right to about half a cell; `doubt_m` says how far it may be off.
+  /// Updates the light of the sightings. Nothing when too little of the tags is to be seen.
+  [[nodiscard]] std::optional<PhotometricFit> solve(const StereoFrame& frame,
+                                                    const Transform<Rig, Marker>& start,
+                                                    double doubt_m, std::span<TagSighting> views,
+                                                    const PhotometricOptions& options = {});
+  [[nodiscard]] const StereoCalibration& calibration() const { return calibration_; }
+  /// Camera from tag for a sighting of a tool at a pose.
+  [[nodiscard]] CameraFromTag camera_from_tag(const TagSighting& view,
+                                              const Transform<Rig, Marker>& pose) const;
+
+ private:
+  StereoCalibration calibration_;
+  RayTable left_rays_;
+  RayTable right_rays_;
+  ViewModel model_;
+  std::vector<ViewEquations> equations_;
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "hal/api/camera_model.h"
+#include "hal/api/image.h"
+#include "hal/api/vec.h"
+#include "nav/tracking/tag_template.h"
+
+namespace orthonav::nav {
+
+/// The rays of a camera as the model of a view reads them: the unit-plane point of every pixel's
+/// centre, one array a coordinate, NaN where the camera sees nothing.
+struct RayTable {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<float> x;
+  std::vector<float> y;
+
+  explicit RayTable(const CameraModel& camera);
+};
+
+/// A tag's template with what interpolating in it needs: grey near the edges between a cell and its
+/// neighbours is a polynomial in how much of the blur's footprint lies over each of them.
+class BlurredTag {
+ public:
+  /// Of a template, `size_m` from outer edge to outer edge of the border.
+  BlurredTag(TagTemplate tag, double size_m);
+
+  [[nodiscard]] const TagTemplate& cells() const { return tag_; }
+  [[nodiscard]] double cell_m() const { return cell_m_; }
+  /// The nine coefficients of a cell: 1, left, right, above, below, and the four corners.
+  [[nodiscard]] const float* coefficients(int row, int column) const {
+    return coefficients_.data() + 12 * static_cast<std::size_t>(row * tag_.cells + column);
+  }
+
+ private:
+  TagTemplate tag_;
+  double cell_m_ = 0.0;
+  std::vector<float> coefficients_;
+};
+
+/// Where a camera sees a tag: camera from marker. Left or right does not matter here.
+struct CameraFromTag {
+  Mat3 rotation = Mat3::identity();
+  Vec3 translation_m{};
+};
+
+/// Light and lens of one tag in one image. Grey = (black + contrast · white) · shade, with
+/// white the blurred template in [0, 1] and shade = 1 + slope · (column, row) from the middle, in
+/// half widths of the template. Kept from pair to pair, since light changes slowly.
+struct Photometry {
+  double black = 30.0;
+  double contrast = 150.0;
+  std::array<double, 2> slope{};  ///< along columns and along rows
+  /// SD of the blur, in cells, across edges between columns and between rows; lens, pixel and
+  /// motion together.
+  std::array<double, 2> blur_cells{0.15, 0.15};
+  /// Variance of a grey value in black and in white areas.
+  std::array<double, 2> variance{4.0, 9.0};
+};
+
+/// Columns of the linear model of a view. The pose is perturbed in the frame of the tag: shift
+/// (in cells) and rotation vector.
+inline constexpr std::size_t kPoseColumns = 6;
+inline constexpr std::size_t kLightColumns = 6;  ///< black, contrast, slopes, logarithms of blur
+inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
+
+/// The sums of weighted least squares over the pixels of one view, and what they say of the fit.
+struct ViewEquations {
+  /// Upper triangle by rows of JᵀWJ over the columns and the residual as the last column.
+  std::array<double, (kColumns + 1) * (kColumns + 2) / 2> sums{};
+  double pixels = 0.0;       ///< that were compared
+  double kept = 0.0;         ///< of them by robust weight
+  double edge_pixels = 0.0;  ///< those with a slope of their own
+  double edge_kept = 0.0;
+  /// Of the residuals, by robust weight: in black and in white areas.
+  std::array<double, 2> squares{};
+  std::array<double, 2> counts{};
+
+  [[nodiscard]] double sum(std::size_t row, std::size_t column) const {
+    return sums[row * (kColumns + 1) - row * (row + 1) / 2 + column];
+  }
+};
+
+/// Compares the image with the model at a pose. `doubt_cells` is how far the pose may still be off:
+/// a pixel is only called an outlier when that does not explain it. Reuses its memory; one thread
+/// at a time.
+class ViewModel {
+ public:
+  ViewModel();
+  void linearize(const GreyImage& image, const CameraModel& camera, const RayTable& rays,
+                 const BlurredTag& tag, const CameraFromTag& pose, const Photometry& light,
+                 double doubt_cells, ViewEquations& out);
+
+ private:
+  static constexpr int kBlock = 64;
+  bool place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose);
+  void spread(const RayTable& rays, int y, const Photometry& light);
+  void collect(const GreyImage& image, const BlurredTag& tag, int y, const Photometry& light,
+               double doubt_cells, ViewEquations& out);
+  void add(int k, int x, std::uint8_t grey, const float* coefficients);
+  void finish(const Photometry& light, double doubt_cells, ViewEquations& out);
+
+  std::vector<float> row_;
+  std::vector<float> block_;
+  int filled_ = 0;
+  // Of the view at hand.
+  int x0_ = 0;
+  int x1_ = 0;
+  int y0_ = 0;
+  int y1_ = 0;
+  std::array<float, 9> plane_from_ray_{};  ///< (column, row, 1) in cells by a ray, up to scale
+  float depth_ = 1.0F;
+  Vec3 eye_cells_{};  ///< the camera's centre from the tag's middle: columns, rows, out of face
+  float half_ = 0.0F;
+};
+
+}  // namespace orthonav::nav

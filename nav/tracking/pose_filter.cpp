@@ -1,0 +1,125 @@
+#include "nav/tracking/pose_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+
+namespace orthonav::nav {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Matrix12 = Eigen::Matrix<double, 12, 12, Eigen::RowMajor>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+Eigen::Map<const Matrix12> as_eigen(const std::array<double, 144>& a) {
+  return Eigen::Map<const Matrix12>(a.data());
+}
+
+Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> as_eigen(const PoseCovariance& a) {
+  return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(a.data());
+}
+
+PoseCovariance as_array(const Matrix6& m) {
+  PoseCovariance out;
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c)
+      out[static_cast<std::size_t>(6 * r + c)] = 0.5 * (m(r, c) + m(c, r));
+  return out;
+}
+
+/// What a pose lacks to another: shift, and the rotation vector that is multiplied from the left.
+Vector6 difference(const PoseFilter::Pose& to, const PoseFilter::Pose& from) {
+  const Vec3 shift = to.translation() - from.translation();
+  const Vec3 turn = vector_from_rotation(to.rotation() * from.rotation().transposed());
+  Vector6 out;
+  out << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z;
+  return out;
+}
+
+PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 turn) {
+  return {orthonormalized(rotation_from_vector(turn) * pose.rotation()),
+          pose.translation() + shift};
+}
+
+double innovation(const Vector6& y, const Matrix12& p, const PoseCovariance& noise) {
+  const Matrix6 s = p.topLeftCorner<6, 6>() + as_eigen(noise);
+  return y.dot(s.ldlt().solve(y));
+}
+
+}  // namespace
+
+PoseFilter::Covariance PoseFilter::grown(double dt, double density_m, double density_rad) const {
+  Matrix12 p = as_eigen(covariance_);
+  p.topRows<6>() += dt * p.bottomRows<6>();
+  p.leftCols<6>() += dt * p.rightCols<6>();
+  for (int i = 0; i < 6; ++i) {
+    const double q = i < 3 ? density_m : density_rad;
+    p(i, i) += q * dt * dt * dt / 3.0;
+    p(i, i + 6) += q * dt * dt / 2.0;
+    p(i + 6, i) += q * dt * dt / 2.0;
+    p(i + 6, i + 6) += q * dt;
+  }
+  Covariance out;
+  Eigen::Map<Matrix12>(out.data()) = p;
+  return out;
+}
+
+Tracked<PoseFilter::Pose> PoseFilter::predicted(Timestamp time) const {
+  const double dt = seconds(time - time_);
+  const bool rest = at_rest_;
+  const Covariance p = grown(dt, rest ? 0.05 * options_.hand_m : options_.hand_m,
+                             rest ? 0.05 * options_.hand_rad : options_.hand_rad);
+  return {moved(pose_, dt * velocity_m_, dt * velocity_rad_), time, Origin::kPredicted,
+          as_array(as_eigen(p).topLeftCorner<6, 6>())};
+}
+
+void PoseFilter::start(const Tracked<Pose>& measured) {
+  alive_ = true;
+  at_rest_ = false;
+  time_ = measured.time;
+  pose_ = measured.value;
+  velocity_m_ = {};
+  velocity_rad_ = {};
+  Matrix12 p = Matrix12::Zero();
+  p.topLeftCorner<6, 6>() = as_eigen(measured.covariance);
+  for (int i = 6; i < 12; ++i)
+    p(i, i) = std::pow(i < 9 ? options_.first_speed_m : options_.first_speed_rad, 2);
+  Eigen::Map<Matrix12>(covariance_.data()) = p;
+  lasting_ = measured.covariance;
+}
+
+void PoseFilter::update(const Tracked<Pose>& measured) {
+  const double dt = seconds(measured.time - time_);
+  if (!alive_ || !(dt > 0.0)) return start(measured);
+  const Pose ahead = moved(pose_, dt * velocity_m_, dt * velocity_rad_);
+  const Vector6 y = difference(measured.value, ahead);
+  Covariance grown_p = grown(dt, options_.rest_m, options_.rest_rad);
+  at_rest_ = innovation(y, as_eigen(grown_p), measured.covariance) < options_.rest_limit;
+  if (!at_rest_) grown_p = grown(dt, options_.hand_m, options_.hand_rad);
+  const Matrix12 p = as_eigen(grown_p);
+  const Matrix6 s = p.topLeftCorner<6, 6>() + as_eigen(measured.covariance);
+  const Eigen::Matrix<double, 12, 6> gain = s.ldlt().solve(p.topRows<6>()).transpose();
+  const Vector12 step = gain * y;
+  pose_ = moved(ahead, {step(0), step(1), step(2)}, {step(3), step(4), step(5)});
+  velocity_m_ += {step(6), step(7), step(8)};
+  velocity_rad_ += {step(9), step(10), step(11)};
+  // Joseph's form, which rounding keeps symmetric and positive.
+  Matrix12 rest = Matrix12::Identity();
+  rest.leftCols<6>() -= gain;
+  Eigen::Map<Matrix12>(covariance_.data()) =
+      rest * p * rest.transpose() + gain * as_eigen(measured.covariance) * gain.transpose();
+  time_ = measured.time;
+  lasting_ = measured.covariance;
+}
+
+Tracked<PoseFilter::Pose> PoseFilter::state() const {
+  // The filter takes errors for independent from pair to pair; this share of them is not.
+  const Matrix6 p = as_eigen(covariance_).topLeftCorner<6, 6>();
+  const Matrix6 r = as_eigen(lasting_);
+  const double lasting = options_.lasting_share;
+  const double averaged = std::clamp(p.trace() / r.trace(), 0.0, 1.0);
+  return {pose_, time_, Origin::kMeasured, as_array(p + lasting * (1.0 - averaged) * r)};
+}
+
+}  // namespace orthonav::nav

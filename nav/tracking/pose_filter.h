@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+
+#include "hal/api/tracked.h"
+#include "hal/api/transform.h"
+
+namespace orthonav::nav {
+
+struct PoseFilterOptions {
+  /// Densities of the white acceleration of a tool at rest (m²/s³, rad²/s³): so small that a second
+  /// of pairs is averaged.
+  double rest_m = 2e-8;
+  double rest_rad = 2e-7;
+  /// Of one in a hand: 5 m/s² and 60 rad/s² held for 0.05 s.
+  double hand_m = 1.25;
+  double hand_rad = 180.0;
+  /// A pair whose innovation exceeds this (squared, normalised, 6 degrees of freedom: 1 in 1,000 at
+  /// rest) shows that the tool is in a hand.
+  double rest_limit = 22.5;
+  /// Part of a measurement's variance that the next one repeats: what the model does not know
+  /// averages out as little as it pleases.
+  double lasting_share = 0.15;
+  /// SD of an unknown velocity.
+  double first_speed_m = 0.5;
+  double first_speed_rad = 3.0;
+};
+
+/// A Kalman filter on SE(3) with constant velocity (Bar-Shalom, Li & Kirubarajan 2001, 6.2.2; the
+/// error is a shift and a left-multiplied rotation vector, Sola et al. 2018), in World. It knows
+/// two motions, rest and hand, and takes rest for as long as the measurements allow.
+class PoseFilter {
+ public:
+  using Pose = Transform<World, Marker>;
+
+  PoseFilter() = default;
+  explicit PoseFilter(const PoseFilterOptions& options) : options_(options) {}
+
+  [[nodiscard]] bool alive() const { return alive_; }
+  void stop() { alive_ = false; }
+  [[nodiscard]] Timestamp time() const { return time_; }
+  [[nodiscard]] bool at_rest() const { return at_rest_; }
+
+  /// Where the tool is at a later time; `alive` must hold.
+  [[nodiscard]] Tracked<Pose> predicted(Timestamp time) const;
+  /// Takes a measurement in, with its covariance in World. Starts when it is not alive.
+  void update(const Tracked<Pose>& measured);
+  /// The pose at the newest measurement, with the lasting part of its error in the covariance.
+  [[nodiscard]] Tracked<Pose> state() const;
+
+ private:
+  /// Position, rotation, velocity, angular velocity.
+  static constexpr int kSize = 12;
+  using Covariance = std::array<double, kSize * kSize>;
+
+  void start(const Tracked<Pose>& measured);
+  [[nodiscard]] Covariance grown(double dt_s, double density_m, double density_rad) const;
+
+  PoseFilterOptions options_;
+  bool alive_ = false;
+  bool at_rest_ = false;
+  Timestamp time_{};
+  Pose pose_;
+  Vec3 velocity_m_{};
+  Vec3 velocity_rad_{};
+  Covariance covariance_{};
+  PoseCovariance lasting_{};
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "hal/api/camera_model.h"
+#include "hal/api/image.h"
+#include "nav/tracking/photometric_view.h"
+
+namespace orthonav::nav {
+
+/// How far an image agrees with a tag at a place, judged in the middle of its cells.
+struct CellMatch {
+  Vec2 shift_px{};           ///< from where the pose puts the tag
+  double correlation = 0.0;  ///< of grey and template, over the cells in the image
+  double share = 0.0;        ///< of the cells that lie in the image
+};
+
+/// Looks for a tag around where a pose puts it, by its bits: a correlation over the middles of its
+/// cells, which no light changes. Reuses its memory.
+class TagSearch {
+ public:
+  /// At the pose itself.
+  [[nodiscard]] CellMatch match(const GreyImage& image, const CameraModel& camera,
+                                const BlurredTag& tag, const CameraFromTag& pose);
+  /// The best whole-pixel shift within `radius_px` (at most 40) of the pose last matched.
+  [[nodiscard]] CellMatch best_shift(const GreyImage& image, int radius_px) const;
+
+ private:
+  [[nodiscard]] CellMatch at(const GreyImage& image, int dx, int dy) const;
+
+  struct Cell {
+    int x_px = 0;
+    int y_px = 0;
+    float white = 0.0F;
+  };
+  std::vector<Cell> cells_;
+  std::size_t all_cells_ = 0;
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,155 @@
+#include "nav/tracking/tool_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+
+#include "nav/tracking/tag_pose.h"
+
+namespace orthonav::nav {
+namespace {
+
+/// Correlation of a tag's cells with its template: found where it is expected, found somewhere
+/// near, and still believed once measured. Texture reaches 0.4; a tag half hidden 0.6.
+constexpr double kFoundHere = 0.75;
+constexpr double kFoundNear = 0.6;
+constexpr double kBelieved = 0.55;
+/// Less of a tag in an image is not worth the risk.
+constexpr double kLeastShare = 0.5;
+/// Steeper than 80° a tag is a line.
+constexpr double kLeastCosine = 0.17;
+constexpr double kFarthestDoubtPx = 24.0;
+/// Where the search found nothing to shift, the pose is off by less than this part of a cell.
+constexpr double kUnshiftedCells = 0.3;
+
+const GreyImage& image_of(const StereoFrame& frame, const TagSighting& view) {
+  return view.right ? frame.right : frame.left;
+}
+
+const CameraModel& camera_of(const PhotometricSolver& solver, const TagSighting& view) {
+  return view.right ? solver.calibration().right : solver.calibration().left;
+}
+
+bool faces(const CameraFromTag& pose) {
+  const double distance = pose.translation_m.norm();
+  return pose.translation_m.z > 0.05 &&
+         -pose.rotation.column(2).dot(pose.translation_m) > kLeastCosine * distance;
+}
+
+/// Pixels by the unit plane, in the middle of the image.
+double focal_px(const CameraModel& camera) {
+  const auto w = static_cast<std::size_t>(camera.width_px());
+  const std::size_t middle = static_cast<std::size_t>(camera.height_px() / 2) * w + w / 2;
+  return 1.0 / (camera.lookup()[middle] - camera.lookup()[middle - 1]).norm();
+}
+
+/// Shifts in the images become a shift in space, by least squares.
+struct ShiftInSpace {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+
+  void add(const CameraModel& camera, const Mat3& camera_from_rig, Vec3 in_camera_m,
+           Vec2 shift_px) {
+    const Vec2 u{in_camera_m.x / in_camera_m.z, in_camera_m.y / in_camera_m.z};
+    const auto from = camera.project(u);
+    const auto to = from ? camera.unproject(*from + shift_px) : std::nullopt;
+    if (!to) return;
+    for (int k = 0; k < 2; ++k) {
+      const double slope = k == 0 ? u.x : u.y;
+      const Vec3 row = (camera_from_rig.row(k) - slope * camera_from_rig.row(2)) / in_camera_m.z;
+      const Eigen::Vector3d j(row.x, row.y, row.z);
+      normal += j * j.transpose();
+      right += j * (k == 0 ? to->x - u.x : to->y - u.y);
+    }
+  }
+  /// With one camera alone depth stays as it was.
+  [[nodiscard]] Vec3 solved() const {
+    const double weak = 1e-4 * std::max(normal.trace(), 1e-12);
+    const Eigen::Vector3d v = (normal + weak * Eigen::Matrix3d::Identity()).ldlt().solve(right);
+    return {v.x(), v.y(), v.z()};
+  }
+};
+
+}  // namespace
+
+Result<ToolFollower> ToolFollower::create(const ToolGeometry& tool) {
+  ToolFollower follower;
+  const auto tag = tag_template(tool.marker.family, tool.marker.id);
+  if (!tag)
+    return Error{"tool '" + tool.name + "': tag family '" + tool.marker.family + "' has no id " +
+                 std::to_string(tool.marker.id)};
+  follower.tags_.emplace_back(*tag, tool.marker.size_m);
+  for (std::size_t i = 0; i < follower.tags_.size(); ++i)
+    for (const bool right : {false, true}) {
+      TagSighting view;
+      view.right = right;
+      follower.views_.push_back(view);
+    }
+  follower.active_.reserve(follower.views_.size());
+  follower.active_index_.reserve(follower.views_.size());
+  return follower;
+}
+
+void ToolFollower::forget() {
+  for (TagSighting& view : views_) view.light = {};
+}
+
+bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>& pose,
+                                double doubt_m, const PhotometricSolver& solver,
+                                TagSearch& search) {
+  active_.clear();
+  active_index_.clear();
+  ShiftInSpace shift;
+  bool shifted = false;
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    TagSighting& view = views_[i];
+    view.tag = &tags_[i / 2];
+    const CameraFromTag seen = solver.camera_from_tag(view, pose);
+    if (!faces(seen)) continue;
+    const CameraModel& camera = camera_of(solver, view);
+    const GreyImage& image = image_of(frame, view);
+    CellMatch match = search.match(image, camera, *view.tag, seen);
+    if (match.share < kLeastShare) continue;
+    if (match.correlation < kFoundHere) {
+      const double px = focal_px(camera) * doubt_m / seen.translation_m.z;
+      match = search.best_shift(image, static_cast<int>(std::ceil(std::min(px, kFarthestDoubtPx))));
+      if (match.correlation < kFoundNear) continue;
+    }
+    shifted = shifted || match.shift_px.norm() > 0.0;
+    const Mat3& turn = view.right ? solver.calibration().right_from_rig.rotation()
+                                  : solver.calibration().left_from_rig.rotation();
+    shift.add(camera, turn, seen.translation_m, match.shift_px);
+    active_.push_back(view);
+    active_index_.push_back(i);
+  }
+  if (active_.empty()) return false;
+  if (shifted) pose = {pose.rotation(), pose.translation() + shift.solved()};
+  return true;
+}
+
+bool ToolFollower::looks_right(const StereoFrame& frame, const PhotometricFit& fit,
+                               const PhotometricSolver& solver, TagSearch& search) const {
+  for (const TagSighting& view : active_) {
+    if (!view.used) continue;
+    const CellMatch match = search.match(image_of(frame, view), camera_of(solver, view), *view.tag,
+                                         solver.camera_from_tag(view, fit.rig_from_marker));
+    if (match.correlation < kBelieved) return false;
+  }
+  return true;
+}
+
+std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
+                                            const Transform<Rig, Marker>& expected, double doubt_m,
+                                            PhotometricSolver& solver, TagSearch& search) {
+  Transform<Rig, Marker> start = expected;
+  if (!choose_views(frame, start, doubt_m, solver, search)) return std::nullopt;
+  const double cell_m = tags_.front().cell_m();
+  const auto fit = solver.solve(frame, start, std::min(doubt_m, kUnshiftedCells * cell_m), active_);
+  if (!fit || !looks_right(frame, *fit, solver, search)) return std::nullopt;
+  for (std::size_t i = 0; i < active_.size(); ++i)
+    if (active_[i].used) views_[active_index_[i]].light = active_[i].light;
+  return ToolFit{fit->rig_from_marker, turned(fit->covariance, fit->rig_from_marker.rotation()),
+                 fit->left, fit->right};
+}
+
+}  // namespace orthonav::nav

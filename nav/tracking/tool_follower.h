@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "nav/tracking/photometric_pose.h"
+#include "nav/tracking/pose_filter.h"
+#include "nav/tracking/tag_search.h"
+#include "nav/tracking/tool.h"
+
+namespace orthonav::nav {
+
+/// What a pair of images says of a tool.
+struct ToolFit {
+  Transform<Rig, Marker> rig_from_marker;
+  PoseCovariance covariance_in_rig{};
+  bool left = false;
+  bool right = false;
+};
+
+/// Finds a tool again near where it is expected and measures it photometrically, in whichever
+/// cameras see it. Holds what it learned of light and blur. The solver and the search are borrowed
+/// scratch.
+class ToolFollower {
+ public:
+  static Result<ToolFollower> create(const ToolGeometry& tool);
+
+  /// Nothing when no image shows the tool's tags within `doubt_m` of where it is expected, or what
+  /// is there does not look like them.
+  [[nodiscard]] std::optional<ToolFit> follow(const StereoFrame& frame,
+                                              const Transform<Rig, Marker>& expected,
+                                              double doubt_m, PhotometricSolver& solver,
+                                              TagSearch& search);
+  /// Forgets the light.
+  void forget();
+
+ private:
+  ToolFollower() = default;
+  bool choose_views(const StereoFrame& frame, Transform<Rig, Marker>& pose, double doubt_m,
+                    const PhotometricSolver& solver, TagSearch& search);
+  [[nodiscard]] bool looks_right(const StereoFrame& frame, const PhotometricFit& fit,
+                                 const PhotometricSolver& solver, TagSearch& search) const;
+
+  std::vector<BlurredTag> tags_;
+  std::vector<TagSighting> views_;   ///< every tag in both cameras
+  std::vector<TagSighting> active_;  ///< those in sight now
+  std::vector<std::size_t> active_index_;
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "nav/tracking/pair_detector.h"
+#include "nav/tracking/worker.h"
+
+namespace orthonav::nav {
+
+/// Searches the whole of a pair of images for tags while the next pair is awaited: begun at the end
+/// of one pair's tracking, its finds are there at the beginning of the next, so that they are the
+/// same however many threads there are.
+class WholeSearch {
+ public:
+  static Result<std::unique_ptr<WholeSearch>> create(const DetectorOptions& options, bool parallel);
+  WholeSearch(std::unique_ptr<PairDetector> detector, bool parallel);
+
+  /// Copies the images and begins; with one thread, searches at once.
+  void start(const StereoFrame& frame);
+  /// Waits for what was begun; its finds hold until the next call. Without, there are none.
+  void finish();
+  [[nodiscard]] std::span<const MarkerCorners> left() const;
+  [[nodiscard]] std::span<const MarkerCorners> right() const;
+
+ private:
+  static void run(void* self);
+
+  std::unique_ptr<PairDetector> detector_;
+  StereoFrame frame_;
+  bool begun_ = false;
+  bool found_ = false;
+  std::optional<Worker> worker_;
+};
+
+}  // namespace orthonav::nav
