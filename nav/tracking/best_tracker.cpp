@@ -124,7 +124,13 @@ class BestTracker final : public ToolTracker {
   }
 
   void add_boxes(std::size_t i, const StereoFrame& frame) {
-    const MarkerDefinition& marker = tools_[i].marker;
+    add_boxes(i, tools_[i].marker, {}, frame);
+    for (const AttachedMarker& more : tools_[i].more_markers)
+      add_boxes(i, more.definition, more.marker_from_tag, frame);
+  }
+
+  void add_boxes(std::size_t i, const MarkerDefinition& marker,
+                 const Transform<Marker, Tag>& marker_from_tag, const StereoFrame& frame) {
     const auto from_whole = [&](std::span<const MarkerCorners> found, SearchPlan& plan) {
       for (const MarkerCorners& seen : found)
         if (seen.family == marker.family && seen.id == marker.id)
@@ -134,14 +140,14 @@ class BestTracker final : public ToolTracker {
     from_whole(whole_->right(), near_->right_plan());
     const Trail& trail = trails_[i];
     if (!trail.last_time || frame.time - *trail.last_time > kRemembered) return;
-    const auto rig_from_marker = frame.world_from_rig->inverse() * trail.last_seen;
+    const auto rig_from_tag = frame.world_from_rig->inverse() * trail.last_seen * marker_from_tag;
     const auto expect = [&](const CameraModel& camera, const auto& camera_from_rig,
                             SearchPlan& plan) {
       TagCorners corners;
-      const auto in_marker = corners_in_marker(marker.size_m);
+      const auto in_tag = corners_in_marker(marker.size_m);
       for (std::size_t k = 0; k < 4; ++k) {
         const auto seen =
-            camera.project((camera_from_rig * (rig_from_marker * Point<Marker>{in_marker[k]})).v);
+            camera.project((camera_from_rig * (rig_from_tag * Point<Tag>{in_tag[k]})).v);
         if (!seen) return;
         corners[k] = *seen;
       }
@@ -169,14 +175,25 @@ class BestTracker final : public ToolTracker {
   }
 
   bool find(std::size_t i, const StereoFrame& frame) {
-    const MarkerDefinition& marker = tools_[i].marker;
+    if (find(i, tools_[i].marker, {}, frame)) return true;
+    for (const AttachedMarker& more : tools_[i].more_markers)
+      if (find(i, more.definition, more.marker_from_tag.inverse(), frame)) return true;
+    return false;
+  }
+
+  bool find(std::size_t i, const MarkerDefinition& marker,
+            const Transform<Tag, Marker>& tag_from_marker, const StereoFrame& frame) {
     const TagMatch match = matched(near_->left(), near_->right(), marker.family, marker.id,
                                    marker.size_m, geometry_, std::nullopt);
     if (!match.both()) return false;
     const auto pose =
         geometry_.pose({match.left->corners_px, match.right->corners_px}, marker.size_m);
     if (!pose) return false;
-    return take(i, frame, pose->rig_from_marker, kDetectedDoubtPx * pixel_m(pose->rig_from_marker));
+    // The geometry calls every tag's frame Marker.
+    const Transform<Rig, Tag> rig_from_tag(pose->rig_from_marker.rotation(),
+                                           pose->rig_from_marker.translation());
+    return take(i, frame, rig_from_tag * tag_from_marker,
+                kDetectedDoubtPx * pixel_m(pose->rig_from_marker));
   }
 
   void predict(std::size_t i, const StereoFrame& frame) {
@@ -210,13 +227,16 @@ Result<std::unique_ptr<ToolTracker>> create_best_tracker(const StereoCalibration
   DetectorOptions detection;
   detection.decimate = options.decimate;
   detection.families.clear();
+  const auto detect = [&](const std::string& family) {
+    auto& known = detection.families;
+    if (std::find(known.begin(), known.end(), family) == known.end()) known.push_back(family);
+  };
   for (const ToolGeometry& tool : tools) {
     Result<ToolFollower> follower = ToolFollower::create(tool);
     if (!follower) return follower.error();
     followers.push_back(std::move(follower).value());
-    if (std::find(detection.families.begin(), detection.families.end(), tool.marker.family) ==
-        detection.families.end())
-      detection.families.push_back(tool.marker.family);
+    detect(tool.marker.family);
+    for (const AttachedMarker& more : tool.more_markers) detect(more.definition.family);
   }
   Result<std::unique_ptr<PairDetector>> near = PairDetector::create(detection, options.parallel);
   if (!near) return near.error();

@@ -9,6 +9,10 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+constexpr int kLight = static_cast<int>(kLightColumns);
+using LightMatrix = Eigen::Matrix<double, kLight, kLight>;
+using LightVector = Eigen::Matrix<double, kLight, 1>;
+using CrossMatrix = Eigen::Matrix<double, 6, kLight>;
 
 constexpr double kBlurFloorPx = 0.25;
 constexpr double kBlurCeilingCells = 0.6;
@@ -21,39 +25,47 @@ constexpr double kSettledPx = 0.05;
 
 struct Split {
   Matrix6 pose;
-  Matrix6 light;
-  Matrix6 cross;  ///< pose rows, light columns
+  LightMatrix light;
+  CrossMatrix cross;
   Vector6 pose_right;
-  Vector6 light_right;
+  LightVector light_right;
 };
 
 Split split(const ViewEquations& e) {
   Split s;
-  for (std::size_t r = 0; r < 6; ++r) {
-    const auto row = static_cast<Eigen::Index>(r);
-    for (std::size_t c = 0; c < 6; ++c) {
+  const auto at = [&](std::size_t r, std::size_t c) {
+    return e.sum(std::min(r, c), std::max(r, c));
+  };
+  for (std::size_t r = 0; r < kColumns; ++r)
+    for (std::size_t c = 0; c < kColumns; ++c) {
+      const auto row = static_cast<Eigen::Index>(r);
       const auto column = static_cast<Eigen::Index>(c);
-      s.pose(row, column) = e.sum(std::min(r, c), std::max(r, c));
-      s.light(row, column) = e.sum(6 + std::min(r, c), 6 + std::max(r, c));
-      s.cross(row, column) = e.sum(r, 6 + c);
+      if (r < 6 && c < 6) s.pose(row, column) = at(r, c);
+      if (r < 6 && c >= 6) s.cross(row, column - 6) = at(r, c);
+      if (r >= 6 && c >= 6) s.light(row - 6, column - 6) = at(r, c);
     }
-    s.pose_right(row) = e.sum(r, kColumns);
-    s.light_right(row) = e.sum(6 + r, kColumns);
-  }
+  for (std::size_t r = 0; r < 6; ++r) s.pose_right(static_cast<Eigen::Index>(r)) = at(r, kColumns);
+  for (std::size_t r = 0; r < kLightColumns; ++r)
+    s.light_right(static_cast<Eigen::Index>(r)) = at(6 + r, kColumns);
   return s;
 }
 
 /// Weak beliefs about the light, so that a view without white cells, or without edges, stays
-/// solvable.
+/// solvable: SD of a step of grey and of blur, and of slopes, tails and skew about nothing.
 void add_prior(Split& s, const Photometry& light) {
-  const double grey = 1.0 / (50.0 * 50.0);
-  s.light(0, 0) += grey;
-  s.light(1, 1) += grey;
-  for (int i = 2; i < 4; ++i) {
-    s.light(i, i) += 1.0 / (0.3 * 0.3);
-    s.light_right(i) -= light.slope[static_cast<std::size_t>(i - 2)] / (0.3 * 0.3);
-  }
-  for (int i = 4; i < 6; ++i) s.light(i, i) += 1.0 / (0.5 * 0.5);
+  const auto step = [&](int i, double sd) { s.light(i, i) += 1.0 / (sd * sd); };
+  const auto about_zero = [&](int i, double value, double sd) {
+    step(i, sd);
+    s.light_right(i) -= value / (sd * sd);
+  };
+  step(0, 50.0);
+  step(1, 50.0);
+  about_zero(2, light.slope[0], 0.3);
+  about_zero(3, light.slope[1], 0.3);
+  step(4, 0.5);
+  step(5, 0.5);
+  about_zero(6, light.tails, 1.0);
+  about_zero(7, light.skew, 0.3);
 }
 
 double pixels_a_cell(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose) {
@@ -65,7 +77,7 @@ double pixels_a_cell(const CameraModel& camera, const BlurredTag& tag, const Cam
   return tag.cell_m() / (std::max(pose.translation_m.z, 1e-3) * per_px);
 }
 
-void apply(const Vector6& step, double px_a_cell, Photometry& light) {
+void apply(const LightVector& step, double px_a_cell, Photometry& light) {
   const auto bounded = [](double v, double limit) { return std::clamp(v, -limit, limit); };
   light.black += bounded(step(0), 60.0);
   light.contrast = std::clamp(light.contrast + bounded(step(1), 80.0), 5.0, 400.0);
@@ -76,6 +88,8 @@ void apply(const Vector6& step, double px_a_cell, Photometry& light) {
                        std::exp(bounded(step(static_cast<Eigen::Index>(4 + i)), kLargestLightStep)),
                    kBlurFloorPx / px_a_cell, kBlurCeilingCells);
   }
+  light.tails = std::clamp(light.tails + bounded(step(6), 1.0), -1.2, 3.0);
+  light.skew = std::clamp(light.skew + bounded(step(7), 0.5), -0.8, 0.8);
 }
 
 void learn_noise(const ViewEquations& e, Photometry& light) {
@@ -87,10 +101,10 @@ void learn_noise(const ViewEquations& e, Photometry& light) {
 
 /// A small motion of the tag, in its frame and in cells, by a small motion of the tool in its own
 /// frame, in metres.
-Matrix6 tag_by_tool(const Transform<Marker, Marker>& tool_from_tag, double cell_m) {
+Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m) {
   Matrix6 out = Matrix6::Zero();
-  const Mat3 turn = tool_from_tag.rotation().transposed();
-  const Vec3 arm = tool_from_tag.translation();
+  const Mat3 turn = marker_from_tag.rotation().transposed();
+  const Vec3 arm = marker_from_tag.translation();
   Eigen::Matrix3d r;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) r(i, j) = turn[i][static_cast<std::size_t>(j)];
@@ -109,7 +123,7 @@ PhotometricSolver::PhotometricSolver(const StereoCalibration& calibration)
 
 CameraFromTag PhotometricSolver::camera_from_tag(const TagSighting& view,
                                                  const Transform<Rig, Marker>& pose) const {
-  const Transform<Rig, Marker> rig_from_tag = pose * view.tool_from_tag;
+  const Transform<Rig, Tag> rig_from_tag = pose * view.marker_from_tag;
   if (view.right) {
     const auto seen = calibration_.right_from_rig * rig_from_tag;
     return {seen.rotation(), seen.translation()};
@@ -154,11 +168,11 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
       }
       Split s = split(e);
       add_prior(s, view.light);
-      const Eigen::LLT<Matrix6> light(s.light);
-      const Matrix6 gain = light.solve(s.cross.transpose());
+      const Eigen::LLT<LightMatrix> light(s.light);
+      const Eigen::Matrix<double, kLight, 6> gain = light.solve(s.cross.transpose());
       const Matrix6 reduced = s.pose - s.cross * gain;
       const Vector6 reduced_right = s.pose_right - s.cross * light.solve(s.light_right);
-      const Matrix6 motion = tag_by_tool(view.tool_from_tag, view.tag->cell_m());
+      const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
       normal += motion.transpose() * reduced * motion;
       right += motion.transpose() * reduced_right;
       ++fit.views;
@@ -178,8 +192,8 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
       cell_m = std::min(cell_m, view.tag->cell_m());
       Split s = split(equations_[i]);
       add_prior(s, view.light);
-      const Matrix6 motion = tag_by_tool(view.tool_from_tag, view.tag->cell_m());
-      const Vector6 change =
+      const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
+      const LightVector change =
           s.light.llt().solve(s.light_right - s.cross.transpose() * (motion * step));
       const CameraFromTag pose = camera_from_tag(view, fit.rig_from_marker);
       apply(change,

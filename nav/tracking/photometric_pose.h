@@ -14,8 +14,8 @@ namespace orthonav::nav {
 /// One tag of a tool in one image, with the light that is remembered of it.
 struct TagSighting {
   const BlurredTag* tag = nullptr;
-  Transform<Marker, Marker> tool_from_tag;  ///< the tool's frame is that of its first tag
-  bool right = false;                       ///< camera
+  Transform<Marker, Tag> marker_from_tag;  ///< poses of a tool are those of its first tag
+  bool right = false;                      ///< camera
   Photometry light;
   // Of the last fit:
   double kept_share = 0.0;   ///< of the pixels, by robust weight

@@ -1,15 +1,15 @@
 #include "nav/tracking/photometric_view.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace orthonav::nav {
 namespace {
 
-/// The blur's profile is (1 - t²)³ over ±3 SD: within 1 % of a Gaussian's, a polynomial, and zero
-/// beyond, so that a cell's grey depends on its neighbours alone.
-constexpr float kReachSd = 3.0F;
-constexpr float kDensity = 35.0F / 32.0F;
+/// Beyond so many SD the blur ends, so that a cell's grey depends on its neighbours alone: 3e-5 of
+/// it would lie there.
+constexpr float kReachSd = 4.0F;
 /// Tukey's biweight at 4.7 SD: 95 % efficient on clean noise.
 constexpr float kOutlierSd = 4.7F;
 constexpr std::uint8_t kSaturated = 254;
@@ -20,25 +20,31 @@ constexpr float kEdgeSlope = 0.1F;
 /// Where a corner lies outside the image, its place is known roughly.
 constexpr double kRoughPx = 24.0;
 
-/// Columns of what one row of pixels needs.
+/// Along one axis: the cell, and of its low and its high edge what of the blur's footprint lies
+/// beyond, the derivatives of that by the place, by the logarithm of the blur and by its tails, and
+/// the density at the edge.
+enum AxisColumn {
+  kCell,
+  kLow,
+  kHigh,
+  kLowSlope,
+  kHighSlope,
+  kLowBlur,
+  kHighBlur,
+  kLowTails,
+  kHighTails,
+  kLowDensity,
+  kHighDensity,
+  kAxisColumns
+};
+/// What one row of pixels needs: places across and up, the blur's scale, and both axes.
 enum RowColumn {
   kX,
   kY,
-  kColumn,
-  kLx,
-  kHx,
-  kDx,
-  kDhx,
-  kEx,
-  kEhx,
-  kRow,
-  kLy,
-  kHy,
-  kDy,
-  kDhy,
-  kEy,
-  kEhy,
-  kRowColumns
+  kScale,
+  kAcross,
+  kDown = kAcross + kAxisColumns,
+  kRowColumns = kDown + kAxisColumns
 };
 /// And of a block of pixels that are compared.
 enum BlockColumn {
@@ -50,52 +56,76 @@ enum BlockColumn {
   kTy,
   kTsx,
   kTsy,
+  kTt,
+  kTc,
   kWeight,
   kFirst,
   kBlockColumns = kFirst + kColumns + 1
 };
 
-/// How much of the footprint lies beyond an edge at distance `f`, and its derivatives by the
-/// distance and by the logarithm of the blur.
+/// e to the x for x in [-8, 0], to 3e-6 of it: a polynomial of 2 to the fraction, the whole part
+/// put into the exponent. The library's would not become vector instructions.
+inline float exponential(float x) {
+  const float y = x * 1.44269504F;
+  const int whole = static_cast<int>(y - 0.5F);
+  const float f = y - static_cast<float>(whole);
+  const float power =
+      1.0F +
+      f * (0.693147182F +
+           f * (0.240226507F + f * (0.0555041087F + f * (0.00961812911F + f * 0.00133335581F))));
+  return power * std::bit_cast<float>((whole + 127) << 23);
+}
+
+/// How much of a blur's footprint lies beyond an edge at distance `f`, and its derivatives. The
+/// profile is a Gaussian with an excess of kurtosis (Gram-Charlier's series to the fourth moment),
+/// its tail after Abramowitz & Stegun 1964, 7.1.26.
 struct Beyond {
   float share;
   float slope;
   float by_blur;
+  float by_tails;
+  float gaussian;
 };
-inline Beyond beyond(float f, float inverse_reach) {
-  const float t = std::min(f * inverse_reach, 1.0F);
+inline Beyond beyond(float f, float inverse_sd, float tails) {
+  const float t = std::min(f * inverse_sd, kReachSd);
+  const float reached = t < kReachSd ? 1.0F : 0.0F;
   const float s = t * t;
-  const float r = 1.0F - s;
-  const float density = kDensity * r * r * r;
-  const float share = 0.5F - kDensity * t * (1.0F - s * (1.0F - s * (0.6F - s * (1.0F / 7.0F))));
-  return {std::max(share, 0.0F), density * inverse_reach, density * t};
+  const float e = reached * exponential(-0.5F * s);
+  const float gaussian = 0.398942280F * e;
+  const float u = 1.0F / (1.0F + 0.3275911F * 0.707106781F * t);
+  const float tail =
+      u * (0.254829592F +
+           u * (-0.284496736F + u * (1.421413741F + u * (-1.453152027F + u * 1.061405429F))));
+  const float by_tails = (1.0F / 24.0F) * gaussian * t * (s - 3.0F);
+  const float density = gaussian * (1.0F + tails * (1.0F / 24.0F) * (3.0F + s * (s - 6.0F)));
+  return {0.5F * tail * e + tails * by_tails, density * inverse_sd, density * t, by_tails,
+          gaussian};
 }
 
-/// Along one axis: index of the cell, and what lies beyond its low and its high edge.
+/// Fills the columns of one axis.
 void along(const float* __restrict place, const float* __restrict scale, int n, float half,
-           float inverse_reach, float* __restrict out, std::ptrdiff_t stride) {
-  float* __restrict index = out;
-  float* __restrict low = out + stride;
-  float* __restrict high = out + 2 * stride;
-  float* __restrict d_low = out + 3 * stride;
-  float* __restrict d_high = out + 4 * stride;
-  float* __restrict e_low = out + 5 * stride;
-  float* __restrict e_high = out + 6 * stride;
+           float inverse_blur, float tails, float* __restrict out, std::ptrdiff_t stride) {
+  float* __restrict column[kAxisColumns];
+  for (int c = 0; c < kAxisColumns; ++c) column[c] = out + c * stride;
   for (int i = 0; i < n; ++i) {
     // In this order a place that is not a number becomes the low end.
     const float c = std::min(std::max(0.0F, place[i] + half), 2.0F * half - 1e-4F);
     const float cell = static_cast<float>(static_cast<int>(c));
     const float f = c - cell;
-    const float inverse = inverse_reach * scale[i];
-    const Beyond lower = beyond(f, inverse);
-    const Beyond upper = beyond(1.0F - f, inverse);
-    index[i] = cell;
-    low[i] = lower.share;
-    high[i] = upper.share;
-    d_low[i] = -lower.slope;
-    d_high[i] = upper.slope;
-    e_low[i] = lower.by_blur;
-    e_high[i] = upper.by_blur;
+    const float inverse = inverse_blur * scale[i];
+    const Beyond low = beyond(f, inverse, tails);
+    const Beyond high = beyond(1.0F - f, inverse, tails);
+    column[kCell][i] = cell;
+    column[kLow][i] = low.share;
+    column[kHigh][i] = high.share;
+    column[kLowSlope][i] = -low.slope;
+    column[kHighSlope][i] = high.slope;
+    column[kLowBlur][i] = low.by_blur;
+    column[kHighBlur][i] = high.by_blur;
+    column[kLowTails][i] = low.by_tails;
+    column[kHighTails][i] = high.by_tails;
+    column[kLowDensity][i] = low.gaussian;
+    column[kHighDensity][i] = high.gaussian;
   }
 }
 
@@ -224,45 +254,55 @@ void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
   const float* __restrict ray_y = rays.y.data() + start;
   float* __restrict across = row_.data() + kX * stride;
   float* __restrict up = row_.data() + kY * stride;
-  float* __restrict scale = row_.data() + kRowColumns * stride;
+  float* __restrict down = row_.data() + kRowColumns * stride;
+  float* __restrict scale = row_.data() + kScale * stride;
   const std::array<float, 9> m = plane_from_ray_;
   for (int i = 0; i < n; ++i) {
     const float w = m[6] * ray_x[i] + m[7] * ray_y[i] + m[8];
     const float depth = 1.0F / w;
     across[i] = (m[0] * ray_x[i] + m[1] * ray_y[i] + m[2]) * depth;
     up[i] = (m[3] * ray_x[i] + m[4] * ray_y[i] + m[5]) * depth;
+    down[i] = -up[i];
     scale[i] = depth_ * w;  // the blur covers more cells where the tag is farther
   }
-  // Rows count downwards.
-  float* __restrict down = row_.data() + kRow * stride;
-  for (int i = 0; i < n; ++i) down[i] = -up[i];
-  along(across, scale, n, half_, static_cast<float>(1.0 / (kReachSd * light.blur_cells[0])),
-        row_.data() + kColumn * stride, stride);
-  along(row_.data() + kRow * stride, scale, n, half_,
-        static_cast<float>(1.0 / (kReachSd * light.blur_cells[1])), row_.data() + kRow * stride,
-        stride);
+  const auto tails = static_cast<float>(light.tails);
+  along(across, scale, n, half_, static_cast<float>(1.0 / light.blur_cells[0]), tails,
+        row_.data() + kAcross * stride, stride);
+  along(down, scale, n, half_, static_cast<float>(1.0 / light.blur_cells[1]), tails,
+        row_.data() + kDown * stride, stride);
 }
 
-void ViewModel::add(int k, int x, std::uint8_t grey, const float* c) {
+// Bilinear in what lies beyond the edges, plus what the blur's correlation moves at corners (the
+// first term of Mehler's series).
+void ViewModel::add(int k, int i, std::uint8_t grey, float skew, const float* c) {
   const std::ptrdiff_t stride = x1_ - x0_;
-  const auto row = [&](int column) { return row_[static_cast<std::size_t>(column * stride + x)]; };
+  const float* row = row_.data() + i;
+  const float* x = row + kAcross * stride;
+  const float* y = row + kDown * stride;
+  const auto of = [stride](const float* axis, int column) { return axis[column * stride]; };
   float* out = block_.data() + k;
-  const float lx = row(kLx);
-  const float hx = row(kHx);
-  const float ly = row(kLy);
-  const float hy = row(kHy);
+  const float lx = of(x, kLow);
+  const float hx = of(x, kHigh);
+  const float ly = of(y, kLow);
+  const float hy = of(y, kHigh);
   const float left = c[1] + ly * c[5] + hy * c[6];
   const float right = c[2] + ly * c[7] + hy * c[8];
   const float above = c[3] + lx * c[5] + hx * c[7];
   const float below = c[4] + lx * c[6] + hx * c[8];
+  const float at_left = of(y, kLowDensity) * c[5] - of(y, kHighDensity) * c[6];
+  const float at_right = of(y, kLowDensity) * c[7] - of(y, kHighDensity) * c[8];
+  const float corners = of(x, kLowDensity) * at_left - of(x, kHighDensity) * at_right;
   out[kGrey * kBlock] = grey;
-  out[kBx * kBlock] = row(kX);
-  out[kBy * kBlock] = row(kY);
-  out[kT * kBlock] = c[0] + lx * left + hx * right + ly * c[3] + hy * c[4];
-  out[kTx * kBlock] = row(kDx) * left + row(kDhx) * right;
-  out[kTy * kBlock] = -(row(kDy) * above + row(kDhy) * below);
-  out[kTsx * kBlock] = row(kEx) * left + row(kEhx) * right;
-  out[kTsy * kBlock] = row(kEy) * above + row(kEhy) * below;
+  out[kBx * kBlock] = row[kX * stride];
+  out[kBy * kBlock] = row[kY * stride];
+  out[kT * kBlock] = c[0] + lx * left + hx * right + ly * c[3] + hy * c[4] + skew * corners;
+  out[kTx * kBlock] = of(x, kLowSlope) * left + of(x, kHighSlope) * right;
+  out[kTy * kBlock] = -(of(y, kLowSlope) * above + of(y, kHighSlope) * below);
+  out[kTsx * kBlock] = of(x, kLowBlur) * left + of(x, kHighBlur) * right;
+  out[kTsy * kBlock] = of(y, kLowBlur) * above + of(y, kHighBlur) * below;
+  out[kTt * kBlock] = of(x, kLowTails) * left + of(x, kHighTails) * right +
+                      of(y, kLowTails) * above + of(y, kHighTails) * below;
+  out[kTc * kBlock] = corners;
 }
 
 void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquations& out) {
@@ -279,6 +319,8 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
   const float* __restrict ty = column(kTy);
   const float* __restrict tsx = column(kTsx);
   const float* __restrict tsy = column(kTsy);
+  const float* __restrict tt = column(kTt);
+  const float* __restrict tc = column(kTc);
   float* __restrict weight = column(kWeight);
   float* __restrict j = column(kFirst);
   const float black = static_cast<float>(light.black);
@@ -321,7 +363,9 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
     j[9 * kBlock + k] = -base * y[k] * inverse_half;
     j[10 * kBlock + k] = g * tsx[k];
     j[11 * kBlock + k] = g * tsy[k];
-    j[12 * kBlock + k] = r;
+    j[12 * kBlock + k] = g * tt[k];
+    j[13 * kBlock + k] = g * tc[k];
+    j[14 * kBlock + k] = r;
   }
   std::array<float, kBlock> weighted;
   std::size_t place = 0;
@@ -359,18 +403,23 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
     const float x = r[kX * stride + i];
     const float up = r[kY * stride + i];
     if (!(std::abs(x) < half_ && std::abs(up) < half_) || pixels[i] >= kSaturated) continue;
-    const float column = r[kColumn * stride + i];
-    const float row = r[kRow * stride + i];
-    const float lx = r[kLx * stride + i];
-    const float hx = r[kHx * stride + i];
-    const float ly = r[kLy * stride + i];
-    const float hy = r[kHy * stride + i];
+    const float* across = r + kAcross * stride + i;
+    const float* down = r + kDown * stride + i;
+    const float column = across[kCell * stride];
+    const float row = down[kCell * stride];
+    // The densities are zero where the footprint does not reach an edge.
+    const float left = across[kLowDensity * stride];
+    const float right = across[kHighDensity * stride];
+    const float above = down[kLowDensity * stride];
+    const float below = down[kHighDensity * stride];
     // What lies outside the template is not known.
-    if ((column == 0.0F && lx > 0.0F) || (column == last && hx > 0.0F) ||
-        (row == 0.0F && ly > 0.0F) || (row == last && hy > 0.0F))
+    if ((column == 0.0F && left > 0.0F) || (column == last && right > 0.0F) ||
+        (row == 0.0F && above > 0.0F) || (row == last && below > 0.0F))
       continue;
-    if (lx + hx + ly + hy == 0.0F && ((i + x0_) % kFlatStep != 0 || y % kFlatStep != 0)) continue;
-    add(filled_++, i, pixels[i], tag.coefficients(static_cast<int>(row), static_cast<int>(column)));
+    if (left + right + above + below == 0.0F && ((i + x0_) % kFlatStep != 0 || y % kFlatStep != 0))
+      continue;
+    add(filled_++, i, pixels[i], static_cast<float>(light.skew),
+        tag.coefficients(static_cast<int>(row), static_cast<int>(column)));
     if (filled_ == kBlock) finish(light, doubt_cells, out);
   }
 }

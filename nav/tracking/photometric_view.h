@@ -58,6 +58,10 @@ struct Photometry {
   /// SD of the blur, in cells, across edges between columns and between rows; lens, pixel and
   /// motion together.
   std::array<double, 2> blur_cells{0.15, 0.15};
+  /// Excess kurtosis of the blur's profile: 0 for a Gaussian, more where a lens scatters light.
+  double tails = 0.0;
+  /// Correlation of the blur between columns and rows: of a tag seen obliquely, or of motion.
+  double skew = 0.0;
   /// Variance of a grey value in black and in white areas.
   std::array<double, 2> variance{4.0, 9.0};
 };
@@ -65,7 +69,8 @@ struct Photometry {
 /// Columns of the linear model of a view. The pose is perturbed in the frame of the tag: shift
 /// (in cells) and rotation vector.
 inline constexpr std::size_t kPoseColumns = 6;
-inline constexpr std::size_t kLightColumns = 6;  ///< black, contrast, slopes, logarithms of blur
+/// Black, contrast, slopes, logarithms of blur, tails, skew.
+inline constexpr std::size_t kLightColumns = 8;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 
 /// The sums of weighted least squares over the pixels of one view, and what they say of the fit.
@@ -101,7 +106,7 @@ class ViewModel {
   void spread(const RayTable& rays, int y, const Photometry& light);
   void collect(const GreyImage& image, const BlurredTag& tag, int y, const Photometry& light,
                double doubt_cells, ViewEquations& out);
-  void add(int k, int x, std::uint8_t grey, const float* coefficients);
+  void add(int k, int i, std::uint8_t grey, float skew, const float* coefficients);
   void finish(const Photometry& light, double doubt_cells, ViewEquations& out);
 
   std::vector<float> row_;

@@ -72,19 +72,27 @@ struct ShiftInSpace {
 
 }  // namespace
 
+Status ToolFollower::add(const MarkerDefinition& marker,
+                         const Transform<Marker, Tag>& marker_from_tag) {
+  auto tag = tag_template(marker.family, marker.id);
+  if (!tag)
+    return Error{"tag family '" + marker.family + "' has no id " + std::to_string(marker.id)};
+  tags_.emplace_back(std::move(*tag), marker.size_m);
+  for (const bool right : {false, true}) {
+    TagSighting view;
+    view.marker_from_tag = marker_from_tag;
+    view.right = right;
+    views_.push_back(view);
+  }
+  return {};
+}
+
 Result<ToolFollower> ToolFollower::create(const ToolGeometry& tool) {
   ToolFollower follower;
-  const auto tag = tag_template(tool.marker.family, tool.marker.id);
-  if (!tag)
-    return Error{"tool '" + tool.name + "': tag family '" + tool.marker.family + "' has no id " +
-                 std::to_string(tool.marker.id)};
-  follower.tags_.emplace_back(*tag, tool.marker.size_m);
-  for (std::size_t i = 0; i < follower.tags_.size(); ++i)
-    for (const bool right : {false, true}) {
-      TagSighting view;
-      view.right = right;
-      follower.views_.push_back(view);
-    }
+  Status added = follower.add(tool.marker, {});
+  for (std::size_t i = 0; i < tool.more_markers.size() && added; ++i)
+    added = follower.add(tool.more_markers[i].definition, tool.more_markers[i].marker_from_tag);
+  if (!added) return Error{"tool '" + tool.name + "': " + added.error().message};
   follower.active_.reserve(follower.views_.size());
   follower.active_index_.reserve(follower.views_.size());
   return follower;

@@ -38,6 +38,7 @@ class ToolFollower {
 
  private:
   ToolFollower() = default;
+  Status add(const MarkerDefinition& marker, const Transform<Marker, Tag>& marker_from_tag);
   bool choose_views(const StereoFrame& frame, Transform<Rig, Marker>& pose, double doubt_m,
                     const PhotometricSolver& solver, TagSearch& search);
   [[nodiscard]] bool looks_right(const StereoFrame& frame, const PhotometricFit& fit,
