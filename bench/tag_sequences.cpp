@@ -93,7 +93,8 @@ class Stage {
     state.room_from_rig = {
         turn, Vec3{0.0, 0.60, 0.33} +
                   0.012 * Vec3{head_.at(0, 0.4 * t), head_.at(1, 0.4 * t), head_.at(2, 0.4 * t)}};
-    const Transform<sim::Room, Rig> middle(rotation_from_vector({-0.8, 0.0, 0.0}), {0.0, 0.60, 0.33});
+    const Transform<sim::Room, Rig> middle(rotation_from_vector({-0.8, 0.0, 0.0}),
+                                           {0.0, 0.60, 0.33});
     for (std::size_t i = 0; i < 2; ++i) {
       const double time = kind_.speed * t;
       const auto w = [&](std::size_t axis) { return hands_[i].at(axis, time); };
@@ -108,8 +109,8 @@ class Stage {
     if (kind_.hand) {
       // A hand that wipes over the pointer's tag now and then.
       const double reach = 0.07 * std::sin(2.0 * std::numbers::pi * 0.45 * t);
-      state.hand = state.room_from_marker[0] * Point<Marker>{{0.045 + reach, 0.0, 0.05}};
-      state.hand_axis = Vec3{1.0, 0.2, 0.4}.normalized();
+      state.hand = state.room_from_marker[0] * Point<Marker>{{-0.045 + reach, 0.0, 0.05}};
+      state.hand_axis = Vec3{-1.0, 0.2, 0.4}.normalized();
     }
     return state;
   }

@@ -55,7 +55,7 @@ class BestTracker final : public ToolTracker {
       predict(i, frame);
     }
     // Beside tools that are tracked, the whole image is searched while the next pair is awaited.
-    if (missing && tracked > 0 && is_turn()) whole_->start(frame);
+    if (missing && (tracked > 0 || any_recent(frame.time)) && is_turn()) whole_->start(frame);
     return states_;
   }
 
@@ -73,6 +73,13 @@ class BestTracker final : public ToolTracker {
     return states_[i].world_from_marker.origin == Origin::kMeasured;
   }
   [[nodiscard]] bool is_turn() const { return pairs_ % options_.full_search_interval == 0; }
+
+  [[nodiscard]] bool any_recent(Timestamp time) const {
+    return std::any_of(trails_.begin(), trails_.end(), [&](const Trail& trail) {
+      return trail.last_time && time > *trail.last_time &&
+             time - *trail.last_time <= options_.coast;
+    });
+  }
 
   bool follow(std::size_t i, const StereoFrame& frame) {
     Trail& trail = trails_[i];
@@ -115,8 +122,8 @@ class BestTracker final : public ToolTracker {
     SearchPlan& right = near_->right_plan();
     left.boxes.clear();
     right.boxes.clear();
-    // With nothing to delay, at once.
-    left.everywhere = right.everywhere = !others_tracked && is_turn();
+    // With nothing to delay, and no idea where to look, at once.
+    left.everywhere = right.everywhere = !others_tracked && !any_recent(frame.time) && is_turn();
     if (!left.everywhere)
       for (std::size_t i = 0; i < tools_.size(); ++i)
         if (!is_measured(i)) add_boxes(i, frame);
@@ -240,6 +247,8 @@ Result<std::unique_ptr<ToolTracker>> create_best_tracker(const StereoCalibration
   }
   Result<std::unique_ptr<PairDetector>> near = PairDetector::create(detection, options.parallel);
   if (!near) return near.error();
+  // The whole image only says where to look closer.
+  detection.decimate = std::max(detection.decimate, 2.0);
   Result<std::unique_ptr<WholeSearch>> whole = WholeSearch::create(detection, options.parallel);
   if (!whole) return whole.error();
   std::unique_ptr<ToolTracker> tracker =

@@ -64,8 +64,9 @@ void add_prior(Split& s, const Photometry& light) {
   about_zero(3, light.slope[1], 0.3);
   step(4, 0.5);
   step(5, 0.5);
-  about_zero(6, light.tails, 1.0);
-  about_zero(7, light.skew, 0.3);
+  about_zero(6, light.tails[0], 1.0);
+  about_zero(7, light.tails[1], 1.0);
+  about_zero(8, light.skew, 0.3);
 }
 
 double pixels_a_cell(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose) {
@@ -88,8 +89,10 @@ void apply(const LightVector& step, double px_a_cell, Photometry& light) {
                        std::exp(bounded(step(static_cast<Eigen::Index>(4 + i)), kLargestLightStep)),
                    kBlurFloorPx / px_a_cell, kBlurCeilingCells);
   }
-  light.tails = std::clamp(light.tails + bounded(step(6), 1.0), -1.2, 3.0);
-  light.skew = std::clamp(light.skew + bounded(step(7), 0.5), -0.8, 0.8);
+  for (std::size_t i = 0; i < 2; ++i)
+    light.tails[i] = std::clamp(
+        light.tails[i] + bounded(step(static_cast<Eigen::Index>(6 + i)), 1.0), -1.2, 3.0);
+  light.skew = std::clamp(light.skew + bounded(step(8), 0.5), -0.8, 0.8);
 }
 
 void learn_noise(const ViewEquations& e, Photometry& light) {
@@ -140,7 +143,10 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
   fit.rig_from_marker = start;
   equations_.resize(views.size());
   double doubt = doubt_m;
-  for (TagSighting& view : views) view.used = true;
+  for (TagSighting& view : views) {
+    view.used = true;
+    view.cell_weights.clear();
+  }
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     Matrix6 normal = Matrix6::Zero();
     Vector6 right = Vector6::Zero();
@@ -156,7 +162,7 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
       ViewEquations& e = equations_[i];
       model_.linearize(view.right ? frame.right : frame.left, camera,
                        view.right ? right_rays_ : left_rays_, *view.tag, pose, view.light,
-                       doubt / view.tag->cell_m(), e);
+                       doubt / view.tag->cell_m(), view.cell_weights, e);
       view.edge_pixels = e.edge_pixels;
       view.kept_share = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
       const double counted = e.counts[0] + e.counts[1];
@@ -173,8 +179,10 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
       const Matrix6 reduced = s.pose - s.cross * gain;
       const Vector6 reduced_right = s.pose_right - s.cross * light.solve(s.light_right);
       const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
-      normal += motion.transpose() * reduced * motion;
-      right += motion.transpose() * reduced_right;
+      // What the model gets wrong shows along the edges, where it counts.
+      const double trust = e.edge_kept > 0.0 ? std::min(1.0, e.edge_kept / e.edge_squares) : 1.0;
+      normal += trust * motion.transpose() * reduced * motion;
+      right += trust * motion.transpose() * reduced_right;
       ++fit.views;
       (view.right ? fit.right : fit.left) = true;
       finest_px_m = std::max(finest_px_m, px_a_cell / view.tag->cell_m());

@@ -17,6 +17,7 @@ struct TagSighting {
   Transform<Marker, Tag> marker_from_tag;  ///< poses of a tool are those of its first tag
   bool right = false;                      ///< camera
   Photometry light;
+  std::vector<float> cell_weights;  ///< by cell: 0 where it is hidden
   // Of the last fit:
   double kept_share = 0.0;   ///< of the pixels, by robust weight
   double edge_pixels = 0.0;  ///< pixels that tell of the pose
@@ -29,7 +30,7 @@ struct PhotometricOptions {
   /// Corrections below end the search: a small part of the noise of the pose.
   double last_step_px = 0.02;
   /// A view in which less of the tag agrees with its template is not used.
-  double min_kept_share = 0.35;
+  double min_kept_share = 0.45;
   double min_contrast_grey = 12.0;
 };
 

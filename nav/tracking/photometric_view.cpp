@@ -13,6 +13,9 @@ constexpr float kReachSd = 4.0F;
 /// Tukey's biweight at 4.7 SD: 95 % efficient on clean noise.
 constexpr float kOutlierSd = 4.7F;
 constexpr std::uint8_t kSaturated = 254;
+/// Of its pixels so many agree with a cell that is hidden in part, and with one that is free.
+constexpr float kHiddenShare = 0.45F;
+constexpr float kFreeShare = 0.8F;
 /// Of areas without edges every so many columns and rows suffice: they tell the light only.
 constexpr int kFlatStep = 2;
 /// A slope (per cell, of the blurred template) from which on a pixel tells something of the pose.
@@ -56,7 +59,8 @@ enum BlockColumn {
   kTy,
   kTsx,
   kTsy,
-  kTt,
+  kTtx,
+  kTty,
   kTc,
   kWeight,
   kFirst,
@@ -265,11 +269,10 @@ void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
     down[i] = -up[i];
     scale[i] = depth_ * w;  // the blur covers more cells where the tag is farther
   }
-  const auto tails = static_cast<float>(light.tails);
-  along(across, scale, n, half_, static_cast<float>(1.0 / light.blur_cells[0]), tails,
-        row_.data() + kAcross * stride, stride);
-  along(down, scale, n, half_, static_cast<float>(1.0 / light.blur_cells[1]), tails,
-        row_.data() + kDown * stride, stride);
+  along(across, scale, n, half_, static_cast<float>(1.0 / light.blur_cells[0]),
+        static_cast<float>(light.tails[0]), row_.data() + kAcross * stride, stride);
+  along(down, scale, n, half_, static_cast<float>(1.0 / light.blur_cells[1]),
+        static_cast<float>(light.tails[1]), row_.data() + kDown * stride, stride);
 }
 
 // Bilinear in what lies beyond the edges, plus what the blur's correlation moves at corners (the
@@ -300,8 +303,8 @@ void ViewModel::add(int k, int i, std::uint8_t grey, float skew, const float* c)
   out[kTy * kBlock] = -(of(y, kLowSlope) * above + of(y, kHighSlope) * below);
   out[kTsx * kBlock] = of(x, kLowBlur) * left + of(x, kHighBlur) * right;
   out[kTsy * kBlock] = of(y, kLowBlur) * above + of(y, kHighBlur) * below;
-  out[kTt * kBlock] = of(x, kLowTails) * left + of(x, kHighTails) * right +
-                      of(y, kLowTails) * above + of(y, kHighTails) * below;
+  out[kTtx * kBlock] = of(x, kLowTails) * left + of(x, kHighTails) * right;
+  out[kTty * kBlock] = of(y, kLowTails) * above + of(y, kHighTails) * below;
   out[kTc * kBlock] = corners;
 }
 
@@ -319,7 +322,8 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
   const float* __restrict ty = column(kTy);
   const float* __restrict tsx = column(kTsx);
   const float* __restrict tsy = column(kTsy);
-  const float* __restrict tt = column(kTt);
+  const float* __restrict ttx = column(kTtx);
+  const float* __restrict tty = column(kTty);
   const float* __restrict tc = column(kTc);
   float* __restrict weight = column(kWeight);
   float* __restrict j = column(kFirst);
@@ -337,6 +341,8 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
   const float inverse_eye = static_cast<float>(1.0 / eye_cells_.z);
   std::array<float, kBlock> tukey;
   std::array<float, kBlock> steep;
+  std::array<float, kBlock> belief;
+  for (std::size_t k = 0; k < kBlock; ++k) belief[k] = believed_[cell_[k]];
   for (int k = 0; k < kBlock; ++k) {
     const float shade = 1.0F + slope_x * x[k] - slope_y * y[k];
     const float base = black + contrast * white[k];
@@ -349,7 +355,7 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
     const float kept = k < n ? t * t : 0.0F;
     tukey[static_cast<std::size_t>(k)] = kept;
     steep[static_cast<std::size_t>(k)] = slope;
-    weight[k] = kept / variance;
+    weight[k] = belief[static_cast<std::size_t>(k)] * kept / variance;
     const float s = inverse_eye * ((eye_x - x[k]) * tx[k] + (eye_y - y[k]) * ty[k]);
     j[0 * kBlock + k] = -g * tx[k];
     j[1 * kBlock + k] = -g * ty[k];
@@ -363,9 +369,10 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
     j[9 * kBlock + k] = -base * y[k] * inverse_half;
     j[10 * kBlock + k] = g * tsx[k];
     j[11 * kBlock + k] = g * tsy[k];
-    j[12 * kBlock + k] = g * tt[k];
-    j[13 * kBlock + k] = g * tc[k];
-    j[14 * kBlock + k] = r;
+    j[12 * kBlock + k] = g * ttx[k];
+    j[13 * kBlock + k] = g * tty[k];
+    j[14 * kBlock + k] = g * tc[k];
+    j[15 * kBlock + k] = r;
   }
   std::array<float, kBlock> weighted;
   std::size_t place = 0;
@@ -379,12 +386,15 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
   const float* residual = j + static_cast<std::ptrdiff_t>(kColumns) * kBlock;
   for (int k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const double kept = static_cast<double>(tukey[i]);
+    counted_[cell_[i]] += 1.0F;
+    kept_[cell_[i]] += tukey[i];
+    const double kept = static_cast<double>(belief[i] * tukey[i]);
     const bool edge = steep[i] > kEdgeSlope * kEdgeSlope;
     out.pixels += 1.0;
     out.kept += kept;
     out.edge_pixels += edge ? 1.0 : 0.0;
     out.edge_kept += edge ? kept : 0.0;
+    if (edge) out.edge_squares += static_cast<double>(weight[k] * residual[k] * residual[k]);
     const std::size_t side = white[k] > 0.5F ? 1 : 0;
     out.squares[side] += kept * static_cast<double>(residual[k] * residual[k]);
     out.counts[side] += kept;
@@ -418,22 +428,45 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
       continue;
     if (left + right + above + below == 0.0F && ((i + x0_) % kFlatStep != 0 || y % kFlatStep != 0))
       continue;
+    const int cell_row = static_cast<int>(row);
+    const int cell_column = static_cast<int>(column);
+    cell_[static_cast<std::size_t>(filled_)] =
+        static_cast<std::uint16_t>(cell_row * tag.cells().cells + cell_column);
     add(filled_++, i, pixels[i], static_cast<float>(light.skew),
-        tag.coefficients(static_cast<int>(row), static_cast<int>(column)));
+        tag.coefficients(cell_row, cell_column));
     if (filled_ == kBlock) finish(light, doubt_cells, out);
+  }
+}
+
+/// What hides a tag hides it in one piece: a cell with many outliers is doubted as a whole.
+void ViewModel::judge_cells(std::vector<float>& cell_weights) const {
+  cell_weights.resize(counted_.size());
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    const float share = counted_[i] > 0.0F ? kept_[i] / counted_[i] : 1.0F;
+    const float t = std::clamp((share - kHiddenShare) / (kFreeShare - kHiddenShare), 0.0F, 1.0F);
+    cell_weights[i] = t * t * (3.0F - 2.0F * t);
   }
 }
 
 void ViewModel::linearize(const GreyImage& image, const CameraModel& camera, const RayTable& rays,
                           const BlurredTag& tag, const CameraFromTag& pose, const Photometry& light,
-                          double doubt_cells, ViewEquations& out) {
+                          double doubt_cells, std::vector<float>& cell_weights,
+                          ViewEquations& out) {
   out = {};
   if (!place(camera, tag, pose)) return;
+  const std::size_t cells = tag.cells().white.size();
+  counted_.assign(cells, 0.0F);
+  kept_.assign(cells, 0.0F);
+  if (cell_weights.size() == cells)
+    believed_.assign(cell_weights.begin(), cell_weights.end());
+  else
+    believed_.assign(cells, 1.0F);
   for (int y = y0_; y < y1_; ++y) {
     spread(rays, y, light);
     collect(image, tag, y, light, doubt_cells, out);
   }
   finish(light, doubt_cells, out);
+  judge_cells(cell_weights);
 }
 
 }  // namespace orthonav::nav

@@ -58,8 +58,9 @@ struct Photometry {
   /// SD of the blur, in cells, across edges between columns and between rows; lens, pixel and
   /// motion together.
   std::array<double, 2> blur_cells{0.15, 0.15};
-  /// Excess kurtosis of the blur's profile: 0 for a Gaussian, more where a lens scatters light.
-  double tails = 0.0;
+  /// Excess kurtosis of the blur's profile along columns and along rows: 0 for a Gaussian, more
+  /// where a lens scatters light, less along a motion.
+  std::array<double, 2> tails{};
   /// Correlation of the blur between columns and rows: of a tag seen obliquely, or of motion.
   double skew = 0.0;
   /// Variance of a grey value in black and in white areas.
@@ -70,7 +71,7 @@ struct Photometry {
 /// (in cells) and rotation vector.
 inline constexpr std::size_t kPoseColumns = 6;
 /// Black, contrast, slopes, logarithms of blur, tails, skew.
-inline constexpr std::size_t kLightColumns = 8;
+inline constexpr std::size_t kLightColumns = 9;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 
 /// The sums of weighted least squares over the pixels of one view, and what they say of the fit.
@@ -81,6 +82,7 @@ struct ViewEquations {
   double kept = 0.0;         ///< of them by robust weight
   double edge_pixels = 0.0;  ///< those with a slope of their own
   double edge_kept = 0.0;
+  double edge_squares = 0.0;  ///< of their residuals, by robust weight and variance
   /// Of the residuals, by robust weight: in black and in white areas.
   std::array<double, 2> squares{};
   std::array<double, 2> counts{};
@@ -96,9 +98,11 @@ struct ViewEquations {
 class ViewModel {
  public:
   ViewModel();
+  /// `cell_weights` (one a cell; empty: not known) are how far each cell was found to be the tag's
+  /// the last time; they come back as found this time.
   void linearize(const GreyImage& image, const CameraModel& camera, const RayTable& rays,
                  const BlurredTag& tag, const CameraFromTag& pose, const Photometry& light,
-                 double doubt_cells, ViewEquations& out);
+                 double doubt_cells, std::vector<float>& cell_weights, ViewEquations& out);
 
  private:
   static constexpr int kBlock = 64;
@@ -108,10 +112,16 @@ class ViewModel {
                double doubt_cells, ViewEquations& out);
   void add(int k, int i, std::uint8_t grey, float skew, const float* coefficients);
   void finish(const Photometry& light, double doubt_cells, ViewEquations& out);
+  void judge_cells(std::vector<float>& cell_weights) const;
 
   std::vector<float> row_;
   std::vector<float> block_;
+  std::array<std::uint16_t, kBlock> cell_{};  ///< of each pixel of the block
   int filled_ = 0;
+  // By cell: weight of the last time, and of the pixels now how many there are and are kept.
+  std::vector<float> believed_;
+  std::vector<float> counted_;
+  std::vector<float> kept_;
   // Of the view at hand.
   int x0_ = 0;
   int x1_ = 0;

@@ -67,9 +67,8 @@ PoseFilter::Covariance PoseFilter::grown(double dt, double density_m, double den
 
 Tracked<PoseFilter::Pose> PoseFilter::predicted(Timestamp time) const {
   const double dt = seconds(time - time_);
-  const bool rest = at_rest_;
-  const Covariance p = grown(dt, rest ? 0.05 * options_.hand_m : options_.hand_m,
-                             rest ? 0.05 * options_.hand_rad : options_.hand_rad);
+  // A tool at rest may be taken up at any moment.
+  const Covariance p = grown(dt, options_.hand_m, options_.hand_rad);
   return {moved(pose_, dt * velocity_m_, dt * velocity_rad_), time, Origin::kPredicted,
           as_array(as_eigen(p).topLeftCorner<6, 6>())};
 }

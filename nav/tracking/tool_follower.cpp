@@ -14,6 +14,8 @@ namespace {
 constexpr double kFoundHere = 0.75;
 constexpr double kFoundNear = 0.6;
 constexpr double kBelieved = 0.55;
+/// A single camera must see so much of a tag: with less a wrong pose may explain the rest.
+constexpr double kKeptByOne = 0.7;
 /// Less of a tag in an image is not worth the risk.
 constexpr double kLeastShare = 0.5;
 /// Steeper than 80° a tag is a line.
@@ -128,6 +130,7 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
                                   : solver.calibration().left_from_rig.rotation();
     shift.add(camera, turn, seen.translation_m, match.shift_px);
     active_.push_back(view);
+    active_.back().cell_weights.swap(view.cell_weights);  // its memory, for nothing is allocated
     active_index_.push_back(i);
   }
   if (active_.empty()) return false;
@@ -137,11 +140,13 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
 
 bool ToolFollower::looks_right(const StereoFrame& frame, const PhotometricFit& fit,
                                const PhotometricSolver& solver, TagSearch& search) const {
+  const bool one_camera = fit.left != fit.right;
   for (const TagSighting& view : active_) {
     if (!view.used) continue;
     const CellMatch match = search.match(image_of(frame, view), camera_of(solver, view), *view.tag,
                                          solver.camera_from_tag(view, fit.rig_from_marker));
     if (match.correlation < kBelieved) return false;
+    if (one_camera && view.kept_share < kKeptByOne) return false;
   }
   return true;
 }
@@ -153,9 +158,13 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
   if (!choose_views(frame, start, doubt_m, solver, search)) return std::nullopt;
   const double cell_m = tags_.front().cell_m();
   const auto fit = solver.solve(frame, start, std::min(doubt_m, kUnshiftedCells * cell_m), active_);
-  if (!fit || !looks_right(frame, *fit, solver, search)) return std::nullopt;
-  for (std::size_t i = 0; i < active_.size(); ++i)
-    if (active_[i].used) views_[active_index_[i]].light = active_[i].light;
+  const bool right = fit && looks_right(frame, *fit, solver, search);
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    TagSighting& view = views_[active_index_[i]];
+    view.cell_weights.swap(active_[i].cell_weights);
+    if (right && active_[i].used) view.light = active_[i].light;
+  }
+  if (!right) return std::nullopt;
   return ToolFit{fit->rig_from_marker, turned(fit->covariance, fit->rig_from_marker.rotation()),
                  fit->left, fit->right};
 }
