@@ -20,6 +20,8 @@ constexpr double kBlurCeilingCells = 0.6;
 constexpr double kLargestLightStep = 0.5;
 constexpr double kLargestStepCells = 0.5;
 constexpr double kVarianceFloor = 0.3;
+constexpr double kNoiseShare = 0.3;  ///< of the newest pair in the noise that is remembered
+constexpr int kNewLightIterations = 4;
 /// Once it has converged: what noise leaves.
 constexpr double kSettledPx = 0.05;
 
@@ -58,8 +60,8 @@ void add_prior(Split& s, const Photometry& light) {
     step(i, sd);
     s.light_right(i) -= value / (sd * sd);
   };
-  step(0, 50.0);
-  step(1, 50.0);
+  step(0, 500.0);
+  step(1, 500.0);
   about_zero(2, light.slope[0], 0.3);
   about_zero(3, light.slope[1], 0.3);
   step(4, 0.5);
@@ -80,8 +82,8 @@ double pixels_a_cell(const CameraModel& camera, const BlurredTag& tag, const Cam
 
 void apply(const LightVector& step, double px_a_cell, Photometry& light) {
   const auto bounded = [](double v, double limit) { return std::clamp(v, -limit, limit); };
-  light.black += bounded(step(0), 60.0);
-  light.contrast = std::clamp(light.contrast + bounded(step(1), 80.0), 5.0, 400.0);
+  light.black += bounded(step(0), 100.0);
+  light.contrast = std::clamp(light.contrast + bounded(step(1), 150.0), 5.0, 400.0);
   for (std::size_t i = 0; i < 2; ++i) {
     light.slope[i] = std::clamp(light.slope[i] + step(static_cast<Eigen::Index>(2 + i)), -0.8, 0.8);
     light.blur_cells[i] =
@@ -95,11 +97,11 @@ void apply(const LightVector& step, double px_a_cell, Photometry& light) {
   light.skew = std::clamp(light.skew + bounded(step(8), 0.5), -0.8, 0.8);
 }
 
-void learn_noise(const ViewEquations& e, Photometry& light) {
+void learn_noise(const ViewEquations& e, double share, Photometry& light) {
   for (std::size_t side = 0; side < 2; ++side)
-    if (e.counts[side] > 40.0)
-      light.variance[side] = std::max(
-          kVarianceFloor, 0.5 * light.variance[side] + 0.5 * e.squares[side] / e.counts[side]);
+    if (e.counts[side] > 20.0)
+      light.variance[side] = std::max(kVarianceFloor, (1.0 - share) * light.variance[side] +
+                                                          share * e.squares[side] / e.counts[side]);
 }
 
 /// A small motion of the tag, in its frame and in cells, by a small motion of the tool in its own
@@ -143,10 +145,7 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
   fit.rig_from_marker = start;
   equations_.resize(views.size());
   double doubt = doubt_m;
-  for (TagSighting& view : views) {
-    view.used = true;
-    view.cell_weights.clear();
-  }
+  for (TagSighting& view : views) view.cell_weights.clear();
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     Matrix6 normal = Matrix6::Zero();
     Vector6 right = Vector6::Zero();
@@ -226,10 +225,20 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
       for (int c = 0; c < 6; ++c)
         fit.covariance[static_cast<std::size_t>(6 * r + c)] =
             0.5 * (covariance(r, c) + covariance(c, r));
-    if (size_px < options.last_step_px && iteration > 0) break;
+    // A light that is new is learnt on the way: what it is off by is no noise.
+    bool all_known = true;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (!views[i].used || views[i].light.known) continue;
+      all_known = false;
+      learn_noise(equations_[i], 1.0, views[i].light);
+    }
+    if (size_px < options.last_step_px && iteration >= (all_known ? 1 : kNewLightIterations)) break;
   }
-  for (std::size_t i = 0; i < views.size(); ++i)
-    if (views[i].used) learn_noise(equations_[i], views[i].light);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].used) continue;
+    if (views[i].light.known) learn_noise(equations_[i], kNoiseShare, views[i].light);
+    views[i].light.known = true;
+  }
   return fit;
 }
 

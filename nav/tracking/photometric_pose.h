@@ -22,11 +22,12 @@ struct TagSighting {
   double kept_share = 0.0;   ///< of the pixels, by robust weight
   double edge_pixels = 0.0;  ///< pixels that tell of the pose
   double noise_grey = 0.0;   ///< SD of the residuals that were kept
-  bool used = false;
+  /// In: whether to look at this view at all. Out: whether the fit rests on it.
+  bool used = true;
 };
 
 struct PhotometricOptions {
-  int max_iterations = 8;
+  int max_iterations = 10;
   /// Corrections below end the search: a small part of the noise of the pose.
   double last_step_px = 0.02;
   /// A view in which less of the tag agrees with its template is not used.
@@ -51,7 +52,8 @@ class PhotometricSolver {
   explicit PhotometricSolver(const StereoCalibration& calibration);
 
   /// Improves a pose that is right to about half a cell; `doubt_m` says how far it may be off.
-  /// Updates the light of the sightings. Nothing when too little of the tags is to be seen.
+  /// Only sightings with `used` set count; their light is updated, also by a fit that comes to
+  /// nothing. Nothing when too little of the tags is to be seen.
   [[nodiscard]] std::optional<PhotometricFit> solve(const StereoFrame& frame,
                                                     const Transform<Rig, Marker>& start,
                                                     double doubt_m, std::span<TagSighting> views,

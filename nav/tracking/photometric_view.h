@@ -63,8 +63,10 @@ struct Photometry {
   std::array<double, 2> tails{};
   /// Correlation of the blur between columns and rows: of a tag seen obliquely, or of motion.
   double skew = 0.0;
-  /// Variance of a grey value in black and in white areas.
-  std::array<double, 2> variance{4.0, 9.0};
+  /// Variance of a grey value in black and in white areas; at first so much that nothing is an
+  /// outlier.
+  std::array<double, 2> variance{2500.0, 2500.0};
+  bool known = false;  ///< from an earlier fit
 };
 
 /// Columns of the linear model of a view. The pose is perturbed in the frame of the tag: shift

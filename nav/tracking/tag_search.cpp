@@ -9,34 +9,53 @@ namespace {
 constexpr int kLargestRadiusPx = 40;
 /// Wide searches look at every second pixel first.
 constexpr int kFineRadiusPx = 6;
+constexpr double kFewestCells = 8.0;
 
-}  // namespace
-
-CellMatch TagSearch::at(const GreyImage& image, int dx, int dy) const {
+/// Of the grey of single pixels and a template of zeros and ones.
+struct Correlation {
   double n = 0.0;
   double grey = 0.0;
   double grey2 = 0.0;
   double white = 0.0;
   double both = 0.0;
-  for (const Cell& cell : cells_) {
-    const int x = cell.x_px + dx;
-    const int y = cell.y_px + dy;
-    if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px) continue;
+
+  void add(const GreyImage& image, int x, int y, float template_white) {
+    if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px) return;
     const double g = image.at(x, y);
+    const auto w = static_cast<double>(template_white);
     n += 1.0;
     grey += g;
     grey2 += g * g;
-    white += static_cast<double>(cell.white);
-    both += static_cast<double>(cell.white) * g;
+    white += w;
+    both += w * g;
   }
+  [[nodiscard]] double value() const {
+    // The template's squares are itself.
+    const double spread = (n * grey2 - grey * grey) * (n * white - white * white);
+    return n < kFewestCells || !(spread > 0.0) ? 0.0
+                                               : (n * both - grey * white) / std::sqrt(spread);
+  }
+};
+
+}  // namespace
+
+CellMatch TagSearch::at(const GreyImage& image, int dx, int dy) const {
+  Correlation all;
+  for (const Cell& cell : cells_) all.add(image, cell.x_px + dx, cell.y_px + dy, cell.white);
   CellMatch match;
   match.shift_px = {static_cast<double>(dx), static_cast<double>(dy)};
-  if (n < 8.0) return match;
-  match.share = n / static_cast<double>(all_cells_);
-  // The template is 0 or 1: its squares are itself.
-  const double spread = (n * grey2 - grey * grey) * (n * white - white * white);
-  match.correlation = spread > 0.0 ? (n * both - grey * white) / std::sqrt(spread) : 0.0;
+  match.share = all.n / static_cast<double>(all_cells_);
+  match.correlation = all.value();
   return match;
+}
+
+double TagSearch::code_at(const GreyImage& image, Vec2 shift_px) const {
+  Correlation code;
+  for (const Cell& cell : cells_)
+    if (cell.code)
+      code.add(image, cell.x_px + static_cast<int>(shift_px.x),
+               cell.y_px + static_cast<int>(shift_px.y), cell.white);
+  return code.value();
 }
 
 CellMatch TagSearch::match(const GreyImage& image, const CameraModel& camera, const BlurredTag& tag,
@@ -51,9 +70,12 @@ CellMatch TagSearch::match(const GreyImage& image, const CameraModel& camera, co
       const auto pixel = camera.project(pose.rotation * in_tag + pose.translation_m);
       if (!pixel) continue;
       cells_.push_back({static_cast<int>(std::floor(pixel->x)),
-                        static_cast<int>(std::floor(pixel->y)), tag.cells().at(row, column)});
+                        static_cast<int>(std::floor(pixel->y)), tag.cells().at(row, column),
+                        tag.cells().code[static_cast<std::size_t>(row * n + column)]});
     }
-  return at(image, 0, 0);
+  CellMatch here = at(image, 0, 0);
+  here.code = code_at(image, {});
+  return here;
 }
 
 CellMatch TagSearch::best_shift(const GreyImage& image, int radius_px) const {
@@ -70,6 +92,7 @@ CellMatch TagSearch::best_shift(const GreyImage& image, int radius_px) const {
   const int y0 = static_cast<int>(best.shift_px.y);
   for (int y = y0 - 1; step > 1 && y <= y0 + 1; ++y)
     for (int x = x0 - 1; x <= x0 + 1; ++x) look(x, y);
+  best.code = code_at(image, best.shift_px);
   return best;
 }
 

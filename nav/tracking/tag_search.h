@@ -13,6 +13,7 @@ namespace orthonav::nav {
 struct CellMatch {
   Vec2 shift_px{};           ///< from where the pose puts the tag
   double correlation = 0.0;  ///< of grey and template, over the cells in the image
+  double code = 0.0;         ///< the same over the cells that tell one id from another
   double share = 0.0;        ///< of the cells that lie in the image
 };
 
@@ -28,11 +29,13 @@ class TagSearch {
 
  private:
   [[nodiscard]] CellMatch at(const GreyImage& image, int dx, int dy) const;
+  [[nodiscard]] double code_at(const GreyImage& image, Vec2 shift_px) const;
 
   struct Cell {
     int x_px = 0;
     int y_px = 0;
     float white = 0.0F;
+    bool code = false;
   };
   std::vector<Cell> cells_;
   std::size_t all_cells_ = 0;

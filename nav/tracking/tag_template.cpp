@@ -11,6 +11,7 @@
 #include <apriltag/tagStandard41h12.h>
 #include <apriltag/tagStandard52h13.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -42,6 +43,7 @@ TagTemplate template_of(const apriltag_family_t& family, int id) {
   tag.cells = family.total_width;
   tag.border_cells = family.width_at_border;
   tag.white.assign(static_cast<std::size_t>(tag.cells * tag.cells), 0.0F);
+  tag.code.assign(tag.white.size(), false);
   const auto whiten = [&](int row, int column) {
     tag.white[static_cast<std::size_t>(row * tag.cells + column)] = 1.0F;
   };
@@ -55,16 +57,41 @@ TagTemplate template_of(const apriltag_family_t& family, int id) {
   }
   const int border = (family.total_width - family.width_at_border) / 2;
   const std::uint64_t code = family.codes[id];
-  for (std::uint32_t bit = 0; bit < family.nbits; ++bit)
-    if ((code >> (family.nbits - bit - 1)) & 1U)
-      whiten(static_cast<int>(family.bit_y[bit]) + border,
-             static_cast<int>(family.bit_x[bit]) + border);
+  for (std::uint32_t bit = 0; bit < family.nbits; ++bit) {
+    const int row = static_cast<int>(family.bit_y[bit]) + border;
+    const int column = static_cast<int>(family.bit_x[bit]) + border;
+    tag.code[static_cast<std::size_t>(row * tag.cells + column)] = true;
+    if ((code >> (family.nbits - bit - 1)) & 1U) whiten(row, column);
+  }
   return tag;
+}
+
+/// The same code inside a black border two cells wide.
+TagTemplate widened(const TagTemplate& tag) {
+  TagTemplate wide;
+  wide.cells = tag.cells + 2;
+  wide.border_cells = tag.border_cells + 2;
+  wide.white.assign(static_cast<std::size_t>(wide.cells * wide.cells), 0.0F);
+  wide.code.assign(wide.white.size(), false);
+  const int last = wide.cells - 1;
+  for (int row = 0; row < wide.cells; ++row)
+    for (int column = 0; column < wide.cells; ++column) {
+      const bool ring = row == 0 || column == 0 || row == last || column == last;
+      const bool code = std::min({row, column, last - row, last - column}) > 2;
+      const auto i = static_cast<std::size_t>(row * wide.cells + column);
+      wide.white[i] = ring ? 1.0F : (code ? tag.at(row - 1, column - 1) : 0.0F);
+      wide.code[i] = code;
+    }
+  return wide;
 }
 
 }  // namespace
 
 std::optional<TagTemplate> tag_template(std::string_view name, int id) {
+  if (name == "tag36h11b2") {
+    const auto plain = tag_template("tag36h11", id);
+    return plain ? std::optional(widened(*plain)) : std::nullopt;
+  }
   for (const Family& known : kFamilies) {
     if (known.name != name) continue;
     const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> family(known.create(),

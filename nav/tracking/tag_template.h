@@ -12,6 +12,7 @@ struct TagTemplate {
   int cells = 0;             ///< a side
   int border_cells = 0;      ///< a side of the square whose outer edge is the tag's size
   std::vector<float> white;  ///< row-major, 1: white, 0: black
+  std::vector<bool> code;    ///< row-major, whether the cell tells one id from another
 
   [[nodiscard]] float at(int row, int column) const {
     return white[static_cast<std::size_t>(row * cells + column)];

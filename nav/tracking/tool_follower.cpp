@@ -14,6 +14,8 @@ namespace {
 constexpr double kFoundHere = 0.75;
 constexpr double kFoundNear = 0.6;
 constexpr double kBelieved = 0.55;
+/// Of the cells that tell one id from another. Another id reaches 0.39 at most (11 of 36 differ).
+constexpr double kSameId = 0.5;
 /// A single camera must see so much of a tag: with less a wrong pose may explain the rest.
 constexpr double kKeptByOne = 0.7;
 /// Less of a tag in an image is not worth the risk.
@@ -95,25 +97,23 @@ Result<ToolFollower> ToolFollower::create(const ToolGeometry& tool) {
   for (std::size_t i = 0; i < tool.more_markers.size() && added; ++i)
     added = follower.add(tool.more_markers[i].definition, tool.more_markers[i].marker_from_tag);
   if (!added) return Error{"tool '" + tool.name + "': " + added.error().message};
-  follower.active_.reserve(follower.views_.size());
-  follower.active_index_.reserve(follower.views_.size());
+  follower.light_.resize(follower.views_.size());
   return follower;
 }
 
-void ToolFollower::forget() {
-  for (TagSighting& view : views_) view.light = {};
-}
+void ToolFollower::forget() { light_.assign(views_.size(), {}); }
 
 bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>& pose,
                                 double doubt_m, const PhotometricSolver& solver,
                                 TagSearch& search) {
-  active_.clear();
-  active_index_.clear();
   ShiftInSpace shift;
   bool shifted = false;
+  bool any = false;
   for (std::size_t i = 0; i < views_.size(); ++i) {
     TagSighting& view = views_[i];
     view.tag = &tags_[i / 2];
+    view.light = light_[i];
+    view.used = false;
     const CameraFromTag seen = solver.camera_from_tag(view, pose);
     if (!faces(seen)) continue;
     const CameraModel& camera = camera_of(solver, view);
@@ -125,15 +125,14 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
       match = search.best_shift(image, static_cast<int>(std::ceil(std::min(px, kFarthestDoubtPx))));
       if (match.correlation < kFoundNear) continue;
     }
+    if (match.code < kSameId) continue;
     shifted = shifted || match.shift_px.norm() > 0.0;
     const Mat3& turn = view.right ? solver.calibration().right_from_rig.rotation()
                                   : solver.calibration().left_from_rig.rotation();
     shift.add(camera, turn, seen.translation_m, match.shift_px);
-    active_.push_back(view);
-    active_.back().cell_weights.swap(view.cell_weights);  // its memory, for nothing is allocated
-    active_index_.push_back(i);
+    view.used = any = true;
   }
-  if (active_.empty()) return false;
+  if (!any) return false;
   if (shifted) pose = {pose.rotation(), pose.translation() + shift.solved()};
   return true;
 }
@@ -141,11 +140,11 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
 bool ToolFollower::looks_right(const StereoFrame& frame, const PhotometricFit& fit,
                                const PhotometricSolver& solver, TagSearch& search) const {
   const bool one_camera = fit.left != fit.right;
-  for (const TagSighting& view : active_) {
+  for (const TagSighting& view : views_) {
     if (!view.used) continue;
     const CellMatch match = search.match(image_of(frame, view), camera_of(solver, view), *view.tag,
                                          solver.camera_from_tag(view, fit.rig_from_marker));
-    if (match.correlation < kBelieved) return false;
+    if (match.correlation < kBelieved || match.code < kSameId) return false;
     if (one_camera && view.kept_share < kKeptByOne) return false;
   }
   return true;
@@ -157,14 +156,10 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
   Transform<Rig, Marker> start = expected;
   if (!choose_views(frame, start, doubt_m, solver, search)) return std::nullopt;
   const double cell_m = tags_.front().cell_m();
-  const auto fit = solver.solve(frame, start, std::min(doubt_m, kUnshiftedCells * cell_m), active_);
-  const bool right = fit && looks_right(frame, *fit, solver, search);
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    TagSighting& view = views_[active_index_[i]];
-    view.cell_weights.swap(active_[i].cell_weights);
-    if (right && active_[i].used) view.light = active_[i].light;
-  }
-  if (!right) return std::nullopt;
+  const auto fit = solver.solve(frame, start, std::min(doubt_m, kUnshiftedCells * cell_m), views_);
+  if (!fit || !looks_right(frame, *fit, solver, search)) return std::nullopt;
+  for (std::size_t i = 0; i < views_.size(); ++i)
+    if (views_[i].used) light_[i] = views_[i].light;
   return ToolFit{fit->rig_from_marker, turned(fit->covariance, fit->rig_from_marker.rotation()),
                  fit->left, fit->right};
 }
