@@ -2,14 +2,19 @@
 
 namespace orthonav::engine {
 
+Result<Registrar> registrar_named(const std::string& name) {
+  if (name == "best")
+    return Error{"--method best: not available in this version (available: paper)"};
+  if (name != "paper") return Error{"--method " + name + ": unknown (available: paper)"};
+  return Registrar(
+      [](const nav::VertebraModel& model, std::span<const Point<World>> points_in_world) {
+        return nav::register_paper(model, points_in_world);
+      });
+}
+
 Result<Method> method_named(const std::string& name) {
-  // Registration has one method so far.
-  const Registrar registrar = [](const nav::VertebraModel& model,
-                                 std::span<const Point<World>> points_in_world) {
-    return nav::register_paper(model, points_in_world);
-  };
-  if (name == "best") return Method{name, &nav::create_best_tracker, registrar};
-  if (name == "paper") return Method{name, &nav::create_paper_tracker, registrar};
+  if (name == "best") return Method{name, &nav::create_best_tracker, *registrar_named("paper")};
+  if (name == "paper") return Method{name, &nav::create_paper_tracker, *registrar_named("paper")};
   return Error{"--method " + name + ": unknown (available: best, paper)"};
 }
 

@@ -24,8 +24,11 @@ struct Method {
   Registrar registrar;
 };
 
-/// `paper`: the published method (Liebmann et al. 2019). Any other name is refused in one line that
-/// names what there is.
+/// `paper`: the published method (Liebmann et al. 2019). `best`: tools by the photometric pose of
+/// their tags (docs/tracking.md), registration as published. Any other name is refused in one line
+/// that names what there is.
 Result<Method> method_named(const std::string& name);
+/// Registration alone: `paper`.
+Result<Registrar> registrar_named(const std::string& name);
 
 }  // namespace orthonav::engine

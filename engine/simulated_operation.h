@@ -15,7 +15,7 @@
 namespace orthonav::engine {
 
 struct OperationOptions {
-  std::string method = "paper";
+  std::string method = "best";
   std::vector<std::string> levels;  ///< empty: the two lowest of the case
   std::vector<nav::ToolGeometry> tools;
   sim::SimOptions sim;

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 struct DemoArguments {
   std::string case_folder;
-  std::string method = "paper";
+  std::string method = "best";
   std::uint64_t seed = 1;
   std::string out = "orthonav-demo";
   std::vector<std::string> levels;
@@ -204,7 +204,7 @@ void add_demo_command(CLI::App& app, Action& action) {
   demo->add_option("--case", arguments->case_folder,
                    "case folder with case.json (default: the built-in phantom)")
       ->check(some_text());
-  demo->add_option("--method", arguments->method, "tracking and registration: paper")
+  demo->add_option("--method", arguments->method, "best or paper (the published one)")
       ->capture_default_str();
   demo->add_option("--seed", arguments->seed, "seed of every random number")
       ->check(seed_number())

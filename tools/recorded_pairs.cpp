@@ -19,6 +19,6 @@ Status for_each_pair(replay::ReplayHeadset& recording,
   }
 }
 
-std::string default_method() { return engine::method_named("best") ? "best" : "paper"; }
+std::string default_method() { return "best"; }
 
 }  // namespace orthonav::tools

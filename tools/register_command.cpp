@@ -147,12 +147,12 @@ void print(const Inputs& inputs, const nav::Registration& r) {
 }
 
 int run_register(const RegisterArguments& arguments) {
-  const auto method = engine::method_named(arguments.method);
-  if (!method) return bad_input(method.error().message);
+  const auto registrar = engine::registrar_named(arguments.method);
+  if (!registrar) return bad_input(registrar.error().message);
   if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
   const auto inputs = load(arguments);
   if (!inputs) return bad_input(inputs.error().message);
-  const auto registration = method->registrar(*inputs->model, inputs->points);
+  const auto registration = (*registrar)(*inputs->model, inputs->points);
   if (!registration) return bad_input(arguments.points + ": " + registration.error().message);
   if (const Status s = arguments.json.write(as_json(arguments, *inputs, *registration)); !s)
     return bad_input(s.error().message);

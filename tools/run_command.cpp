@@ -27,7 +27,7 @@ namespace {
 struct RunArguments {
   std::string headset = "sim:";
   std::string case_folder;
-  std::string method = "paper";
+  std::string method = "best";
   std::vector<std::string> levels;
   std::string tools_file;
   std::string record;
@@ -190,7 +190,7 @@ void add_run_command(CLI::App& app, Action& action) {
   run->add_option("--case", arguments->case_folder,
                   "case folder with case.json (default: the built-in phantom)")
       ->check(some_text());
-  run->add_option("--method", arguments->method, "tracking and registration: paper")
+  run->add_option("--method", arguments->method, "best or paper (the published one)")
       ->capture_default_str();
   run->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
       ->delimiter(',');

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct StudyArguments {
   std::string cases;
-  std::string method = "paper";
+  std::string method = "best";
   std::vector<std::string> levels;
   int runs = 20;
   std::uint64_t first_seed = 1;
@@ -126,7 +126,7 @@ void add_study_command(CLI::App& app, Action& action) {
       ->add_option("--cases", arguments->cases,
                    "case folder or a folder of them (default: the built-in phantom)")
       ->check(some_text());
-  study->add_option("--method", arguments->method, "tracking and registration: paper")
+  study->add_option("--method", arguments->method, "best or paper (the published one)")
       ->capture_default_str();
   study->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
       ->delimiter(',');

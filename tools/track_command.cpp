@@ -18,7 +18,7 @@ namespace {
 struct TrackArguments {
   std::string recording;
   std::string tools_file;
-  std::string method = "paper";
+  std::string method = "best";
   std::string csv;
   int full_search_every = 1;
   bool json = false;
@@ -135,7 +135,8 @@ void add_track_command(CLI::App& app, Action& action) {
   command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
       ->required();
   command->add_option("--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
-  command->add_option("--method", arguments->method, "tracking: paper")->capture_default_str();
+  command->add_option("--method", arguments->method, "tracking: best or paper")
+      ->capture_default_str();
   command->add_option("--csv", arguments->csv, "Where the poses go")->required();
   command
       ->add_option("--full-search-every", arguments->full_search_every,

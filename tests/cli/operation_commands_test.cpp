@@ -29,8 +29,8 @@ void expect_refusal(const Called& called, const std::string& reason) {
 TEST(DemoCommand, RefusesWhatItCannotDoAndLeavesNothing) {
   const ScratchFolder folder;
   const std::string out = folder.file("out");
-  expect_refusal(orthonav({"demo", "--out", out, "--method", "best"}),
-                 "best: not available in this version (available: paper)");
+  expect_refusal(orthonav({"demo", "--out", out, "--method", "nearest"}),
+                 "nearest: unknown (available: best, paper)");
   expect_refusal(orthonav({"demo", "--out", out, "--case", folder.file("none")}), "none");
   expect_refusal(orthonav({"demo", "--out", out, "--levels", "L5,T1"}),
                  "no level 'T1' (it has: L1, L2, L3, L4, L5)");
@@ -95,7 +95,7 @@ TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
                                 "6", "--json", "--record", recording});
   ASSERT_EQ(live.code, 0) << live.err;
   const json report = json::parse(live.out);
-  EXPECT_EQ(report["method"], "paper");
+  EXPECT_EQ(report["method"], "best");
   EXPECT_EQ(report["frames"]["displayed"], 6);
   EXPECT_EQ(report["levels"][0]["label"], "L5");
   EXPECT_EQ(report["levels"][0]["accepted"], false);
@@ -115,7 +115,7 @@ TEST(RunCommand, RefusesBadInput) {
   const ScratchFolder folder;
   expect_refusal(orthonav({"run", "--headset", "holo:"}), "unknown scheme");
   expect_refusal(orthonav({"run", "--headset", "replay:" + folder.file("none")}), "none");
-  expect_refusal(orthonav({"run", "--method", "best"}), "best: not available");
+  expect_refusal(orthonav({"run", "--method", "nearest"}), "nearest: unknown");
   expect_refusal(orthonav({"run", "--tools", folder.with("t.json", "{}")}), "t.json");
 }
 

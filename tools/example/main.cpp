@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   Operation operation = must(plan_operation(spine, {"L4"}));
   auto headset =
       must(open_headset("sim:?seed=3", {room_of(spine, operation, built_in_tools()), {}}));
-  const Method method = must(method_named("paper"));
+  const Method method = must(method_named("best"));
   auto tracker = must(method.create_tracker(headset->cameras().calibration(), built_in_tools(),
                                             {.full_search_interval = 10}));
   auto session = must(Session::create(std::move(operation), std::move(tracker), method.registrar));
