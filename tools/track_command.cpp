@@ -30,7 +30,7 @@ struct TrackSummary {
 };
 
 constexpr const char* kHeader =
-    "timestamp_100ns,id,px,py,pz,qx,qy,qz,qw,origin,sigma_mm,residual_px\n";
+    "timestamp_100ns,id,px,py,pz,qx,qy,qz,qw,origin,sigma_mm,residual_px,cameras\n";
 
 void append_row(const Headset& headset, const nav::ToolGeometry& tool, const nav::ToolState& state,
                 std::string& csv) {
@@ -43,9 +43,9 @@ void append_row(const Headset& headset, const nav::ToolGeometry& tool, const nav
   const double sigma_m = std::sqrt(pose.covariance[0] + pose.covariance[7] + pose.covariance[14]);
   std::array<char, 400> row{};
   std::snprintf(row.data(), row.size(),
-                "%lld,%d,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,measured,%.6g,%.6g\n",
+                "%lld,%d,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,measured,%.6g,%.6g,%d\n",
                 static_cast<long long>(headset.file_ticks_100ns(pose.time)), tool.marker.id, p.x,
-                p.y, p.z, q.x, q.y, q.z, q.w, sigma_m * 1e3, state.residual_px);
+                p.y, p.z, q.x, q.y, q.z, q.w, sigma_m * 1e3, state.residual_px, state.cameras);
   csv += row.data();
 }
 
@@ -121,9 +121,12 @@ int run_track(const TrackArguments& arguments) {
 }
 
 constexpr const char* kFooter =
-    "\nThe CSV has a row for each tag measured by both cameras in a pair: world_from_marker,\n"
-    "position in metres and unit quaternion; sigma_mm: predicted 3-D SD of the position from\n"
-    "corner noise; residual_px: RMS reprojection residual of the corners. Marker frame: origin at\n"
+    "\nThe CSV has a row for each tool measured in a pair: world_from_marker, position in metres "
+    "and\n"
+    "unit quaternion; sigma_mm: predicted 3-D SD of the position from the images' noise;\n"
+    "residual_px: RMS reprojection residual of the corners (paper; 0 with best, which has none);\n"
+    "cameras: 2, or 1 where one camera alone saw it (best only; less sure). Marker frame: origin "
+    "at\n"
     "the tag's centre, x right, y up as the upright tag is seen, z out of its face.";
 
 }  // namespace
