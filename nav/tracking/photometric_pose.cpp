@@ -21,7 +21,10 @@ constexpr double kLargestLightStep = 0.5;
 constexpr double kLargestStepCells = 0.5;
 constexpr double kVarianceFloor = 0.3;
 constexpr double kNoiseShare = 0.3;  ///< of the newest pair in the noise that is remembered
-constexpr int kNewLightIterations = 4;
+constexpr int kNewLightIterations = 5;
+constexpr double kFewestPixels = 30.0;
+/// A step leaves so much of itself to the next ones.
+constexpr double kLeftOfStep = 0.3;
 /// Once it has converged: what noise leaves.
 constexpr double kSettledPx = 0.05;
 
@@ -71,15 +74,6 @@ void add_prior(Split& s, const Photometry& light) {
   about_zero(8, light.skew, 0.3);
 }
 
-double pixels_a_cell(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose) {
-  const int w = camera.width_px();
-  const std::size_t middle =
-      static_cast<std::size_t>(camera.height_px() / 2) * static_cast<std::size_t>(w) +
-      static_cast<std::size_t>(w / 2);
-  const double per_px = (camera.lookup()[middle] - camera.lookup()[middle - 1]).norm();
-  return tag.cell_m() / (std::max(pose.translation_m.z, 1e-3) * per_px);
-}
-
 void apply(const LightVector& step, double px_a_cell, Photometry& light) {
   const auto bounded = [](double v, double limit) { return std::clamp(v, -limit, limit); };
   light.black += bounded(step(0), 100.0);
@@ -121,6 +115,24 @@ Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m
   return out;
 }
 
+/// Adds a view's equations of the tool's pose, its light eliminated (Schur's complement).
+void add_reduced(const ViewEquations& e, const Photometry& known, const Matrix6& motion,
+                 Matrix6& normal, Vector6& right) {
+  Split s = split(e);
+  add_prior(s, known);
+  const Eigen::LLT<LightMatrix> light(s.light);
+  const Eigen::Matrix<double, kLight, 6> gain = light.solve(s.cross.transpose());
+  // What the model gets wrong shows along the edges, where it counts.
+  const double trust = e.edge_kept > 0.0 ? std::min(1.0, e.edge_kept / e.edge_squares) : 1.0;
+  normal += trust * motion.transpose() * (s.pose - s.cross * gain) * motion;
+  right += trust * motion.transpose() * (s.pose_right - s.cross * light.solve(s.light_right));
+}
+
+Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 turn) {
+  return {orthonormalized(pose.rotation() * rotation_from_vector(turn)),
+          pose.translation() + pose.rotation() * shift};
+}
+
 }  // namespace
 
 PhotometricSolver::PhotometricSolver(const StereoCalibration& calibration)
@@ -137,6 +149,92 @@ CameraFromTag PhotometricSolver::camera_from_tag(const TagSighting& view,
   return {seen.rotation(), seen.translation()};
 }
 
+bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
+                               double doubt_m, const PhotometricOptions& options, TagSighting& view,
+                               ViewEquations& e) {
+  const BlurredTag& tag = *view.tag;
+  model_.linearize(view.right ? frame.right : frame.left, camera_of(view),
+                   view.right ? right_rays_ : left_rays_, tag, camera_from_tag(view, pose),
+                   view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
+  view.edge_pixels = e.edge_pixels;
+  view.kept_share = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
+  const double counted = e.counts[0] + e.counts[1];
+  view.noise_grey = counted > 0.0 ? std::sqrt((e.squares[0] + e.squares[1]) / counted) : 0.0;
+  return e.pixels >= kFewestPixels && view.kept_share >= options.min_kept_share &&
+         view.light.contrast >= options.min_contrast_grey;
+}
+
+double PhotometricSolver::pixels_a_metre(const TagSighting& view,
+                                         const Transform<Rig, Marker>& pose) const {
+  const CameraModel& camera = camera_of(view);
+  const auto w = static_cast<std::size_t>(camera.width_px());
+  const std::size_t middle = static_cast<std::size_t>(camera.height_px() / 2) * w + w / 2;
+  const double per_px = (camera.lookup()[middle] - camera.lookup()[middle - 1]).norm();
+  return 1.0 / (std::max(camera_from_tag(view, pose).translation_m.z, 1e-3) * per_px);
+}
+
+/// Back to the light of each view, with the pose's step taken into account.
+void PhotometricSolver::update_light(const std::array<double, 6>& step,
+                                     const Transform<Rig, Marker>& pose,
+                                     std::span<TagSighting> views) const {
+  const Eigen::Map<const Vector6> motion(step.data());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    TagSighting& view = views[i];
+    if (!view.used) continue;
+    const double cell_m = view.tag->cell_m();
+    Split s = split(equations_[i]);
+    add_prior(s, view.light);
+    const Vector6 of_tag = tag_by_tool(view.marker_from_tag, cell_m) * motion;
+    const LightVector change = s.light.llt().solve(s.light_right - s.cross.transpose() * of_tag);
+    apply(change, cell_m * pixels_a_metre(view, pose), view.light);
+  }
+}
+
+/// The pose's own equations: those of every view, its light eliminated.
+std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame& frame,
+                                                               double doubt_m,
+                                                               const PhotometricOptions& options,
+                                                               std::span<TagSighting> views,
+                                                               PhotometricFit& fit) {
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+  Step out;
+  fit.views = 0;
+  fit.left = fit.right = false;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    TagSighting& view = views[i];
+    if (!view.used) continue;
+    view.used = gather(frame, fit.rig_from_marker, doubt_m, options, view, equations_[i]);
+    if (!view.used) continue;
+    const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
+    add_reduced(equations_[i], view.light, motion, normal, right);
+    ++fit.views;
+    (view.right ? fit.right : fit.left) = true;
+    out.pixels_a_metre = std::max(out.pixels_a_metre, pixels_a_metre(view, fit.rig_from_marker));
+    out.cell_m = std::min(out.cell_m, view.tag->cell_m());
+  }
+  if (fit.views == 0) return std::nullopt;
+  const Eigen::LDLT<Matrix6> solver(normal);
+  Eigen::Map<Vector6> motion(out.motion.data());
+  motion = solver.solve(right);
+  if (solver.info() != Eigen::Success || !motion.allFinite() || !solver.isPositive())
+    return std::nullopt;
+  const Matrix6 covariance = solver.solve(Matrix6::Identity());
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c)
+      fit.covariance[static_cast<std::size_t>(6 * r + c)] =
+          0.5 * (covariance(r, c) + covariance(c, r));
+  update_light(out.motion, fit.rig_from_marker, views);
+  // Of the farthest cells, by shift and by turn.
+  out.size_m = std::max(motion.head<3>().norm(), motion.tail<3>().norm() * 4.0 * out.cell_m);
+  const double limit_m = kLargestStepCells * out.cell_m;
+  if (out.size_m > limit_m) {
+    motion *= limit_m / out.size_m;
+    out.size_m = limit_m;
+  }
+  return out;
+}
+
 std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
                                                        const Transform<Rig, Marker>& start,
                                                        double doubt_m, std::span<TagSighting> views,
@@ -146,93 +244,18 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
   equations_.resize(views.size());
   double doubt = doubt_m;
   for (TagSighting& view : views) view.cell_weights.clear();
-  for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
-    Matrix6 normal = Matrix6::Zero();
-    Vector6 right = Vector6::Zero();
-    fit.views = 0;
-    fit.left = fit.right = false;
-    double finest_px_m = 0.0;  // pixels a metre, of the best view
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      TagSighting& view = views[i];
-      if (!view.used) continue;
-      const CameraModel& camera = view.right ? calibration_.right : calibration_.left;
-      const CameraFromTag pose = camera_from_tag(view, fit.rig_from_marker);
-      const double px_a_cell = pixels_a_cell(camera, *view.tag, pose);
-      ViewEquations& e = equations_[i];
-      model_.linearize(view.right ? frame.right : frame.left, camera,
-                       view.right ? right_rays_ : left_rays_, *view.tag, pose, view.light,
-                       doubt / view.tag->cell_m(), view.cell_weights, e);
-      view.edge_pixels = e.edge_pixels;
-      view.kept_share = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
-      const double counted = e.counts[0] + e.counts[1];
-      view.noise_grey = counted > 0.0 ? std::sqrt((e.squares[0] + e.squares[1]) / counted) : 0.0;
-      if (e.pixels < 30.0 || view.kept_share < options.min_kept_share ||
-          view.light.contrast < options.min_contrast_grey) {
-        view.used = false;
-        continue;
-      }
-      Split s = split(e);
-      add_prior(s, view.light);
-      const Eigen::LLT<LightMatrix> light(s.light);
-      const Eigen::Matrix<double, kLight, 6> gain = light.solve(s.cross.transpose());
-      const Matrix6 reduced = s.pose - s.cross * gain;
-      const Vector6 reduced_right = s.pose_right - s.cross * light.solve(s.light_right);
-      const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
-      // What the model gets wrong shows along the edges, where it counts.
-      const double trust = e.edge_kept > 0.0 ? std::min(1.0, e.edge_kept / e.edge_squares) : 1.0;
-      normal += trust * motion.transpose() * reduced * motion;
-      right += trust * motion.transpose() * reduced_right;
-      ++fit.views;
-      (view.right ? fit.right : fit.left) = true;
-      finest_px_m = std::max(finest_px_m, px_a_cell / view.tag->cell_m());
-    }
-    if (fit.views == 0) return std::nullopt;
-    const Eigen::LDLT<Matrix6> solver(normal);
-    Vector6 step = solver.solve(right);
-    if (solver.info() != Eigen::Success || !step.allFinite() || !solver.isPositive())
-      return std::nullopt;
-    // Back to the light of each view, with the pose's step taken into account.
-    double cell_m = 1.0;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      TagSighting& view = views[i];
-      if (!view.used) continue;
-      cell_m = std::min(cell_m, view.tag->cell_m());
-      Split s = split(equations_[i]);
-      add_prior(s, view.light);
-      const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
-      const LightVector change =
-          s.light.llt().solve(s.light_right - s.cross.transpose() * (motion * step));
-      const CameraFromTag pose = camera_from_tag(view, fit.rig_from_marker);
-      apply(change,
-            pixels_a_cell(view.right ? calibration_.right : calibration_.left, *view.tag, pose),
-            view.light);
-    }
-    const double reach = 8.0 * cell_m;
-    const double size = std::max(step.head<3>().norm(), step.tail<3>().norm() * 0.5 * reach);
-    const double limit = kLargestStepCells * cell_m;
-    if (size > limit) step *= limit / size;
-    const Vec3 shift{step(0), step(1), step(2)};
-    const Vec3 turn{step(3), step(4), step(5)};
-    const Mat3& rotation = fit.rig_from_marker.rotation();
-    fit.rig_from_marker =
-        Transform<Rig, Marker>(orthonormalized(rotation * rotation_from_vector(turn)),
-                               fit.rig_from_marker.translation() + rotation * shift);
-    fit.iterations = iteration + 1;
-    const double size_px = std::min(size, limit) * finest_px_m;
-    doubt = std::max(std::min(0.3 * size, doubt), kSettledPx / finest_px_m);
-    const Matrix6 covariance = solver.solve(Matrix6::Identity());
-    for (int r = 0; r < 6; ++r)
-      for (int c = 0; c < 6; ++c)
-        fit.covariance[static_cast<std::size_t>(6 * r + c)] =
-            0.5 * (covariance(r, c) + covariance(c, r));
-    // A light that is new is learnt on the way: what it is off by is no noise.
-    bool all_known = true;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      if (!views[i].used || views[i].light.known) continue;
-      all_known = false;
-      learn_noise(equations_[i], 1.0, views[i].light);
-    }
-    if (size_px < options.last_step_px && iteration >= (all_known ? 1 : kNewLightIterations)) break;
+  while (fit.iterations < options.max_iterations) {
+    const auto taken = step(frame, doubt, options, views, fit);
+    if (!taken) return std::nullopt;
+    const auto& m = taken->motion;
+    fit.rig_from_marker = moved(fit.rig_from_marker, {m[0], m[1], m[2]}, {m[3], m[4], m[5]});
+    ++fit.iterations;
+    doubt =
+        std::max(std::min(kLeftOfStep * taken->size_m, doubt), kSettledPx / taken->pixels_a_metre);
+    const bool all_known = learn_new_light(views);
+    const int least = all_known ? 2 : kNewLightIterations;
+    if (taken->size_m * taken->pixels_a_metre < options.last_step_px && fit.iterations >= least)
+      break;
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!views[i].used) continue;
@@ -240,6 +263,17 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
     views[i].light.known = true;
   }
   return fit;
+}
+
+/// A light that is new is learnt on the way: what it is off by is no noise. True when none is new.
+bool PhotometricSolver::learn_new_light(std::span<TagSighting> views) const {
+  bool all_known = true;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].used || views[i].light.known) continue;
+    all_known = false;
+    learn_noise(equations_[i], 1.0, views[i].light);
+  }
+  return all_known;
 }
 
 }  // namespace orthonav::nav

@@ -64,6 +64,26 @@ class PhotometricSolver {
                                               const Transform<Rig, Marker>& pose) const;
 
  private:
+  struct Step {
+    std::array<double, 6> motion{};  ///< of the tool in its own frame: m, rad
+    double size_m = 0.0;             ///< what it moves the farthest cells by
+    double pixels_a_metre = 0.0;     ///< in the view nearest to the tag
+    double cell_m = 1.0;             ///< the smallest
+  };
+  std::optional<Step> step(const StereoFrame& frame, double doubt_m,
+                           const PhotometricOptions& options, std::span<TagSighting> views,
+                           PhotometricFit& fit);
+  bool gather(const StereoFrame& frame, const Transform<Rig, Marker>& pose, double doubt_m,
+              const PhotometricOptions& options, TagSighting& view, ViewEquations& e);
+  void update_light(const std::array<double, 6>& step, const Transform<Rig, Marker>& pose,
+                    std::span<TagSighting> views) const;
+  bool learn_new_light(std::span<TagSighting> views) const;
+  [[nodiscard]] double pixels_a_metre(const TagSighting& view,
+                                      const Transform<Rig, Marker>& pose) const;
+  [[nodiscard]] const CameraModel& camera_of(const TagSighting& view) const {
+    return view.right ? calibration_.right : calibration_.left;
+  }
+
   StereoCalibration calibration_;
   RayTable left_rays_;
   RayTable right_rays_;

@@ -1,25 +1,19 @@
 #include "nav/tracking/photometric_view.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+
+#include "nav/tracking/blur_profile.h"
 
 namespace orthonav::nav {
 namespace {
 
-/// Beyond so many SD the blur ends, so that a cell's grey depends on its neighbours alone: 3e-5 of
-/// it would lie there.
-constexpr float kReachSd = 4.0F;
-/// Tukey's biweight at 4.7 SD: 95 % efficient on clean noise.
-constexpr float kOutlierSd = 4.7F;
 constexpr std::uint8_t kSaturated = 254;
 /// Of its pixels so many agree with a cell that is hidden in part, and with one that is free.
 constexpr float kHiddenShare = 0.45F;
 constexpr float kFreeShare = 0.8F;
 /// Of areas without edges every so many columns and rows suffice: they tell the light only.
 constexpr int kFlatStep = 2;
-/// A slope (per cell, of the blurred template) from which on a pixel tells something of the pose.
-constexpr float kEdgeSlope = 0.1F;
 /// Where a corner lies outside the image, its place is known roughly.
 constexpr double kRoughPx = 24.0;
 
@@ -49,63 +43,6 @@ enum RowColumn {
   kDown = kAcross + kAxisColumns,
   kRowColumns = kDown + kAxisColumns
 };
-/// And of a block of pixels that are compared.
-enum BlockColumn {
-  kGrey,
-  kBx,
-  kBy,
-  kT,
-  kTx,
-  kTy,
-  kTsx,
-  kTsy,
-  kTtx,
-  kTty,
-  kTc,
-  kWeight,
-  kFirst,
-  kBlockColumns = kFirst + kColumns + 1
-};
-
-/// e to the x for x in [-8, 0], to 3e-6 of it: a polynomial of 2 to the fraction, the whole part
-/// put into the exponent. The library's would not become vector instructions.
-inline float exponential(float x) {
-  const float y = x * 1.44269504F;
-  const int whole = static_cast<int>(y - 0.5F);
-  const float f = y - static_cast<float>(whole);
-  const float power =
-      1.0F +
-      f * (0.693147182F +
-           f * (0.240226507F + f * (0.0555041087F + f * (0.00961812911F + f * 0.00133335581F))));
-  return power * std::bit_cast<float>((whole + 127) << 23);
-}
-
-/// How much of a blur's footprint lies beyond an edge at distance `f`, and its derivatives. The
-/// profile is a Gaussian with an excess of kurtosis (Gram-Charlier's series to the fourth moment),
-/// its tail after Abramowitz & Stegun 1964, 7.1.26.
-struct Beyond {
-  float share;
-  float slope;
-  float by_blur;
-  float by_tails;
-  float gaussian;
-};
-inline Beyond beyond(float f, float inverse_sd, float tails) {
-  const float t = std::min(f * inverse_sd, kReachSd);
-  const float reached = t < kReachSd ? 1.0F : 0.0F;
-  const float s = t * t;
-  const float e = reached * exponential(-0.5F * s);
-  const float gaussian = 0.398942280F * e;
-  const float u = 1.0F / (1.0F + 0.3275911F * 0.707106781F * t);
-  const float tail =
-      u * (0.254829592F +
-           u * (-0.284496736F + u * (1.421413741F + u * (-1.453152027F + u * 1.061405429F))));
-  const float by_tails = (1.0F / 24.0F) * gaussian * t * (s - 3.0F);
-  const float density = gaussian * (1.0F + tails * (1.0F / 24.0F) * (3.0F + s * (s - 6.0F)));
-  return {0.5F * tail * e + tails * by_tails, density * inverse_sd, density * t, by_tails,
-          gaussian};
-}
-
 /// Fills the columns of one axis.
 void along(const float* __restrict place, const float* __restrict scale, int n, float half,
            float inverse_blur, float tails, float* __restrict out, std::ptrdiff_t stride) {
@@ -160,53 +97,7 @@ Vec2 rough_pixel(const CameraModel& camera, Vec2 u) {
           h / 2 + 0.5 + (u.y - 0.5 * (c.y + d.y)) * (3 * h / 4 - h / 4) / (d.y - c.y)};
 }
 
-float dot(const float* __restrict a, const float* __restrict b) {
-  std::array<float, 8> lanes{};
-  for (int i = 0; i < 64; i += 8)
-    for (std::size_t l = 0; l < 8; ++l)
-      lanes[l] += a[i + static_cast<int>(l)] * b[i + static_cast<int>(l)];
-  return ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
-         ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
-}
-
 }  // namespace
-
-RayTable::RayTable(const CameraModel& camera)
-    : width_px(camera.width_px()), height_px(camera.height_px()) {
-  x.reserve(camera.lookup().size());
-  y.reserve(camera.lookup().size());
-  for (const Vec2 ray : camera.lookup()) {
-    x.push_back(static_cast<float>(ray.x));
-    y.push_back(static_cast<float>(ray.y));
-  }
-}
-
-BlurredTag::BlurredTag(TagTemplate tag, double size_m)
-    : tag_(std::move(tag)), cell_m_(tag_.cell_m(size_m)) {
-  const int n = tag_.cells;
-  coefficients_.assign(static_cast<std::size_t>(12 * n * n), 0.0F);
-  const auto at = [&](int row, int column) {
-    return tag_.at(std::clamp(row, 0, n - 1), std::clamp(column, 0, n - 1));
-  };
-  for (int row = 0; row < n; ++row)
-    for (int column = 0; column < n; ++column) {
-      float* c = coefficients_.data() + 12 * static_cast<std::size_t>(row * n + column);
-      const float here = at(row, column);
-      const float left = at(row, column - 1);
-      const float right = at(row, column + 1);
-      const float above = at(row - 1, column);
-      const float below = at(row + 1, column);
-      c[0] = here;
-      c[1] = left - here;
-      c[2] = right - here;
-      c[3] = above - here;
-      c[4] = below - here;
-      c[5] = at(row - 1, column - 1) - left - above + here;
-      c[6] = at(row + 1, column - 1) - left - below + here;
-      c[7] = at(row - 1, column + 1) - right - above + here;
-      c[8] = at(row + 1, column + 1) - right - below + here;
-    }
-}
 
 ViewModel::ViewModel() : block_(static_cast<std::size_t>(kBlockColumns) * kBlock, 0.0F) {}
 
@@ -306,99 +197,6 @@ void ViewModel::add(int k, int i, std::uint8_t grey, float skew, const float* c)
   out[kTtx * kBlock] = of(x, kLowTails) * left + of(x, kHighTails) * right;
   out[kTty * kBlock] = of(y, kLowTails) * above + of(y, kHighTails) * below;
   out[kTc * kBlock] = corners;
-}
-
-void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquations& out) {
-  const int n = filled_;
-  filled_ = 0;
-  if (n == 0) return;
-  float* const b = block_.data();
-  const auto column = [&](int c) { return b + c * kBlock; };
-  const float* __restrict grey = column(kGrey);
-  const float* __restrict x = column(kBx);
-  const float* __restrict y = column(kBy);
-  const float* __restrict white = column(kT);
-  const float* __restrict tx = column(kTx);
-  const float* __restrict ty = column(kTy);
-  const float* __restrict tsx = column(kTsx);
-  const float* __restrict tsy = column(kTsy);
-  const float* __restrict ttx = column(kTtx);
-  const float* __restrict tty = column(kTty);
-  const float* __restrict tc = column(kTc);
-  float* __restrict weight = column(kWeight);
-  float* __restrict j = column(kFirst);
-  const float black = static_cast<float>(light.black);
-  const float contrast = static_cast<float>(light.contrast);
-  const float slope_x = static_cast<float>(light.slope[0]) / half_;
-  const float slope_y = static_cast<float>(light.slope[1]) / half_;
-  const float dark = static_cast<float>(light.variance[0]);
-  const float more = static_cast<float>(light.variance[1] - light.variance[0]);
-  const float doubt = static_cast<float>(doubt_cells * doubt_cells);
-  const float limit = 1.0F / (kOutlierSd * kOutlierSd);
-  const float inverse_half = 1.0F / half_;
-  const float eye_x = static_cast<float>(eye_cells_.x);
-  const float eye_y = static_cast<float>(eye_cells_.y);
-  const float inverse_eye = static_cast<float>(1.0 / eye_cells_.z);
-  std::array<float, kBlock> tukey;
-  std::array<float, kBlock> steep;
-  std::array<float, kBlock> belief;
-  for (std::size_t k = 0; k < kBlock; ++k) belief[k] = believed_[cell_[k]];
-  for (int k = 0; k < kBlock; ++k) {
-    const float shade = 1.0F + slope_x * x[k] - slope_y * y[k];
-    const float base = black + contrast * white[k];
-    const float g = contrast * shade;
-    const float r = grey[k] - base * shade;
-    const float variance = dark + more * white[k];
-    const float slope = tx[k] * tx[k] + ty[k] * ty[k];
-    const float allowed = variance + g * g * doubt * slope;
-    const float t = std::max(1.0F - limit * r * r / allowed, 0.0F);
-    const float kept = k < n ? t * t : 0.0F;
-    tukey[static_cast<std::size_t>(k)] = kept;
-    steep[static_cast<std::size_t>(k)] = slope;
-    weight[k] = belief[static_cast<std::size_t>(k)] * kept / variance;
-    const float s = inverse_eye * ((eye_x - x[k]) * tx[k] + (eye_y - y[k]) * ty[k]);
-    j[0 * kBlock + k] = -g * tx[k];
-    j[1 * kBlock + k] = -g * ty[k];
-    j[2 * kBlock + k] = g * s;
-    j[3 * kBlock + k] = g * s * y[k];
-    j[4 * kBlock + k] = -g * s * x[k];
-    j[5 * kBlock + k] = g * (tx[k] * y[k] - ty[k] * x[k]);
-    j[6 * kBlock + k] = shade;
-    j[7 * kBlock + k] = shade * white[k];
-    j[8 * kBlock + k] = base * x[k] * inverse_half;
-    j[9 * kBlock + k] = -base * y[k] * inverse_half;
-    j[10 * kBlock + k] = g * tsx[k];
-    j[11 * kBlock + k] = g * tsy[k];
-    j[12 * kBlock + k] = g * ttx[k];
-    j[13 * kBlock + k] = g * tty[k];
-    j[14 * kBlock + k] = g * tc[k];
-    j[15 * kBlock + k] = r;
-  }
-  std::array<float, kBlock> weighted;
-  std::size_t place = 0;
-  for (std::size_t a = 0; a <= kColumns; ++a) {
-    const float* ja = j + static_cast<std::ptrdiff_t>(a) * kBlock;
-    for (std::size_t k = 0; k < kBlock; ++k) weighted[k] = weight[k] * ja[k];
-    for (std::size_t c = a; c <= kColumns; ++c)
-      out.sums[place++] +=
-          static_cast<double>(dot(weighted.data(), j + static_cast<std::ptrdiff_t>(c) * kBlock));
-  }
-  const float* residual = j + static_cast<std::ptrdiff_t>(kColumns) * kBlock;
-  for (int k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    counted_[cell_[i]] += 1.0F;
-    kept_[cell_[i]] += tukey[i];
-    const double kept = static_cast<double>(belief[i] * tukey[i]);
-    const bool edge = steep[i] > kEdgeSlope * kEdgeSlope;
-    out.pixels += 1.0;
-    out.kept += kept;
-    out.edge_pixels += edge ? 1.0 : 0.0;
-    out.edge_kept += edge ? kept : 0.0;
-    if (edge) out.edge_squares += static_cast<double>(weight[k] * residual[k] * residual[k]);
-    const std::size_t side = white[k] > 0.5F ? 1 : 0;
-    out.squares[side] += kept * static_cast<double>(residual[k] * residual[k]);
-    out.counts[side] += kept;
-  }
 }
 
 void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,

@@ -7,40 +7,9 @@
 #include "hal/api/camera_model.h"
 #include "hal/api/image.h"
 #include "hal/api/vec.h"
-#include "nav/tracking/tag_template.h"
+#include "nav/tracking/blurred_tag.h"
 
 namespace orthonav::nav {
-
-/// The rays of a camera as the model of a view reads them: the unit-plane point of every pixel's
-/// centre, one array a coordinate, NaN where the camera sees nothing.
-struct RayTable {
-  int width_px = 0;
-  int height_px = 0;
-  std::vector<float> x;
-  std::vector<float> y;
-
-  explicit RayTable(const CameraModel& camera);
-};
-
-/// A tag's template with what interpolating in it needs: grey near the edges between a cell and its
-/// neighbours is a polynomial in how much of the blur's footprint lies over each of them.
-class BlurredTag {
- public:
-  /// Of a template, `size_m` from outer edge to outer edge of the border.
-  BlurredTag(TagTemplate tag, double size_m);
-
-  [[nodiscard]] const TagTemplate& cells() const { return tag_; }
-  [[nodiscard]] double cell_m() const { return cell_m_; }
-  /// The nine coefficients of a cell: 1, left, right, above, below, and the four corners.
-  [[nodiscard]] const float* coefficients(int row, int column) const {
-    return coefficients_.data() + 12 * static_cast<std::size_t>(row * tag_.cells + column);
-  }
-
- private:
-  TagTemplate tag_;
-  double cell_m_ = 0.0;
-  std::vector<float> coefficients_;
-};
 
 /// Where a camera sees a tag: camera from marker. Left or right does not matter here.
 struct CameraFromTag {
@@ -108,16 +77,40 @@ class ViewModel {
 
  private:
   static constexpr int kBlock = 64;
+  /// What is kept of each pixel of a block, and what is made of it.
+  enum BlockColumn {
+    kGrey,
+    kBx,
+    kBy,
+    kT,
+    kTx,
+    kTy,
+    kTsx,
+    kTsy,
+    kTtx,
+    kTty,
+    kTc,
+    kVariance,
+    kSlope2,
+    kKept,
+    kWeight,
+    kFirst,
+    kBlockColumns = kFirst + kColumns + 1
+  };
   bool place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose);
   void spread(const RayTable& rays, int y, const Photometry& light);
   void collect(const GreyImage& image, const BlurredTag& tag, int y, const Photometry& light,
                double doubt_cells, ViewEquations& out);
   void add(int k, int i, std::uint8_t grey, float skew, const float* coefficients);
   void finish(const Photometry& light, double doubt_cells, ViewEquations& out);
+  void compare(const Photometry& light);
+  void weigh(const Photometry& light, double doubt_cells);
+  void sum_up(ViewEquations& out) const;
+  void count(int pixels, ViewEquations& out);
   void judge_cells(std::vector<float>& cell_weights) const;
 
   std::vector<float> row_;
-  std::vector<float> block_;
+  std::vector<float> block_;                  ///< kBlockColumns of kBlock
   std::array<std::uint16_t, kBlock> cell_{};  ///< of each pixel of the block
   int filled_ = 0;
   // By cell: weight of the last time, and of the pixels now how many there are and are kept.

@@ -29,8 +29,12 @@ OperationOptions one_level() {
   return options;
 }
 
-TEST(Operation, InAPerfectWorldEveryWireLiesOnItsPlan) {
+class EveryMethod : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Operation, EveryMethod, testing::Values("paper", "best"));
+
+TEST_P(EveryMethod, InAPerfectWorldEveryWireLiesOnItsPlan) {
   OperationOptions options = one_level();
+  options.method = GetParam();
   options.sim.magnitudes = sim::Magnitudes::perfect();
   const auto result = run_operation(phantom(), options);
   ASSERT_TRUE(result.ok()) << result.error().message;
@@ -116,7 +120,7 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
 
   auto recording = replay::ReplayHeadset::open(folder);
   ASSERT_TRUE(recording.ok()) << recording.error().message;
-  const auto method = method_named("paper");
+  const auto method = method_named(options.method);
   auto tracker = method->create_tracker((*recording)->cameras().calibration(),
                                         parse_tools((*recording)->tools_json(), "tools").value(),
                                         options.tracker);

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+
+namespace orthonav::nav {
+
+/// Beyond so many SD the blur ends, so that a cell's grey depends on its neighbours alone: 3e-5 of
+/// it would lie there.
+inline constexpr float kReachSd = 4.0F;
+
+/// e to the x for x in [-8, 0], to 3e-6 of it: a polynomial of 2 to the fraction, the whole part
+/// put into the exponent. The library's would not become vector instructions.
+inline float exponential(float x) {
+  const float y = x * 1.44269504F;
+  const int whole = static_cast<int>(y - 0.5F);
+  const float f = y - static_cast<float>(whole);
+  const float power =
+      1.0F +
+      f * (0.693147182F +
+           f * (0.240226507F + f * (0.0555041087F + f * (0.00961812911F + f * 0.00133335581F))));
+  return power * std::bit_cast<float>((whole + 127) << 23);
+}
+
+/// How much of a blur's footprint lies beyond an edge at distance `f`, and its derivatives. The
+/// profile is a Gaussian with an excess of kurtosis (Gram-Charlier's series to the fourth moment),
+/// its tail after Abramowitz & Stegun 1964, 7.1.26.
+struct Beyond {
+  float share;
+  float slope;
+  float by_blur;
+  float by_tails;
+  float gaussian;
+};
+inline Beyond beyond(float f, float inverse_sd, float tails) {
+  const float t = std::min(f * inverse_sd, kReachSd);
+  const float reached = t < kReachSd ? 1.0F : 0.0F;
+  const float s = t * t;
+  const float e = reached * exponential(-0.5F * s);
+  const float gaussian = 0.398942280F * e;
+  const float u = 1.0F / (1.0F + 0.3275911F * 0.707106781F * t);
+  const float tail =
+      u * (0.254829592F +
+           u * (-0.284496736F + u * (1.421413741F + u * (-1.453152027F + u * 1.061405429F))));
+  const float by_tails = (1.0F / 24.0F) * gaussian * t * (s - 3.0F);
+  const float density = gaussian * (1.0F + tails * (1.0F / 24.0F) * (3.0F + s * (s - 6.0F)));
+  return {0.5F * tail * e + tails * by_tails, density * inverse_sd, density * t, by_tails,
+          gaussian};
+}
+
+}  // namespace orthonav::nav

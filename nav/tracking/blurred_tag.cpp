@@ -1,0 +1,45 @@
+#include "nav/tracking/blurred_tag.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orthonav::nav {
+
+RayTable::RayTable(const CameraModel& camera)
+    : width_px(camera.width_px()), height_px(camera.height_px()) {
+  x.reserve(camera.lookup().size());
+  y.reserve(camera.lookup().size());
+  for (const Vec2 ray : camera.lookup()) {
+    x.push_back(static_cast<float>(ray.x));
+    y.push_back(static_cast<float>(ray.y));
+  }
+}
+
+BlurredTag::BlurredTag(TagTemplate tag, double size_m)
+    : tag_(std::move(tag)), cell_m_(tag_.cell_m(size_m)) {
+  const int n = tag_.cells;
+  coefficients_.assign(static_cast<std::size_t>(12 * n * n), 0.0F);
+  const auto at = [&](int row, int column) {
+    return tag_.at(std::clamp(row, 0, n - 1), std::clamp(column, 0, n - 1));
+  };
+  for (int row = 0; row < n; ++row)
+    for (int column = 0; column < n; ++column) {
+      float* c = coefficients_.data() + 12 * static_cast<std::size_t>(row * n + column);
+      const float here = at(row, column);
+      const float left = at(row, column - 1);
+      const float right = at(row, column + 1);
+      const float above = at(row - 1, column);
+      const float below = at(row + 1, column);
+      c[0] = here;
+      c[1] = left - here;
+      c[2] = right - here;
+      c[3] = above - here;
+      c[4] = below - here;
+      c[5] = at(row - 1, column - 1) - left - above + here;
+      c[6] = at(row + 1, column - 1) - left - below + here;
+      c[7] = at(row - 1, column + 1) - right - above + here;
+      c[8] = at(row + 1, column + 1) - right - below + here;
+    }
+}
+
+}  // namespace orthonav::nav

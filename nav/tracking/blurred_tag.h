@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "hal/api/camera_model.h"
+#include "nav/tracking/tag_template.h"
+
+namespace orthonav::nav {
+
+/// The rays of a camera as the model of a view reads them: the unit-plane point of every pixel's
+/// centre, one array a coordinate, NaN where the camera sees nothing.
+struct RayTable {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<float> x;
+  std::vector<float> y;
+
+  explicit RayTable(const CameraModel& camera);
+};
+
+/// A tag's template with what interpolating in it needs: grey near the edges between a cell and its
+/// neighbours is a polynomial in how much of the blur's footprint lies over each of them.
+class BlurredTag {
+ public:
+  /// Of a template, `size_m` from outer edge to outer edge of the border.
+  BlurredTag(TagTemplate tag, double size_m);
+
+  [[nodiscard]] const TagTemplate& cells() const { return tag_; }
+  [[nodiscard]] double cell_m() const { return cell_m_; }
+  /// The nine coefficients of a cell: 1, left, right, above, below, and the four corners.
+  [[nodiscard]] const float* coefficients(int row, int column) const {
+    return coefficients_.data() + 12 * static_cast<std::size_t>(row * tag_.cells + column);
+  }
+
+ private:
+  TagTemplate tag_;
+  double cell_m_ = 0.0;
+  std::vector<float> coefficients_;
+};
+
+}  // namespace orthonav::nav
