@@ -1,223 +1,57 @@
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <numbers>
-#include <optional>
+#include "tools/calibrate_stereo.h"
 
-#include "engine/grey_image_file.h"
-#include "nav/calibration/stereo_board.h"
+#include <memory>
+
 #include "tools/arguments.h"
 #include "tools/calibrate.h"
-#include "tools/count_progress.h"
-#include "tools/image_pairs.h"
-#include "tools/json_output.h"
 
 namespace orthonav::tools {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-struct StereoArguments {
-  std::string chessboard;
-  double square_mm = 25.0;
-  std::vector<std::string> left;
-  std::vector<std::string> right;
-  JsonOutput json;
-};
-
-/// What the images gave: the views of the board, and what else there was.
-struct Views {
-  nav::ImageSize size;
-  std::vector<nav::BoardView> views;
-  std::vector<ImagePair> pairs;      ///< of the views
-  std::vector<std::string> skipped;  ///< images without a board or without a partner
-};
-
-Result<nav::Chessboard> board_from(const StereoArguments& arguments) {
-  int columns = 0;
-  int rows = 0;
-  char rest = 0;
-  if (std::sscanf(arguments.chessboard.c_str(), "%2dx%2d%c", &columns, &rows, &rest) != 2)
-    return Error{"--chessboard: \"" + arguments.chessboard +
-                 "\" must be columns x rows of inner corners, such as 9x6"};
-  nav::Chessboard board{columns, rows, arguments.square_mm * 1e-3};
-  if (const auto problems = board.check(); !problems.empty()) return Error{problems.front()};
-  return board;
-}
-
-Result<std::optional<nav::BoardCorners>> corners_in(const std::string& path,
-                                                    const nav::Chessboard& board,
-                                                    nav::ImageSize& size) {
-  const auto image = engine::load_grey(path);
-  if (!image) return image.error();
-  const nav::ImageSize own{image->width_px, image->height_px};
-  if (size.width_px == 0) size = own;
-  if (!(own == size))
-    return Error{path + ": is " + std::to_string(own.width_px) + " x " +
-                 std::to_string(own.height_px) + " px, the images before are " +
-                 std::to_string(size.width_px) + " x " + std::to_string(size.height_px)};
-  return nav::find_chessboard(*image, board);
-}
-
-Result<Views> views_in(const StereoArguments& arguments, const nav::Chessboard& board) {
-  const auto left = expanded(arguments.left);
-  if (!left) return left.error();
-  const auto right = expanded(arguments.right);
-  if (!right) return right.error();
-  const auto images = paired(*left, *right);
-  if (!images) return images.error();
-  Views found;
-  found.skipped = images->alone;
-  CountProgress progress("pairs of images", static_cast<std::int64_t>(images->pairs.size()));
-  for (const ImagePair& pair : images->pairs) {
-    const auto in_left = corners_in(pair.left, board, found.size);
-    if (!in_left) return in_left.error();
-    const auto in_right = corners_in(pair.right, board, found.size);
-    if (!in_right) return in_right.error();
-    if (!*in_left) found.skipped.push_back(pair.left);
-    if (!*in_right) found.skipped.push_back(pair.right);
-    if (*in_left && *in_right) {
-      found.views.push_back({**in_left, **in_right});
-      found.pairs.push_back(pair);
-    }
-    progress.add_one();
-  }
-  return found;
-}
-
-nlohmann::ordered_json json_of(const BrownConrady& camera) {
-  return {{"width_px", camera.width_px},
-          {"height_px", camera.height_px},
-          {"fx_px", camera.fx_px},
-          {"fy_px", camera.fy_px},
-          {"cx_px", camera.cx_px},
-          {"cy_px", camera.cy_px},
-          {"k1", camera.k1},
-          {"k2", camera.k2},
-          {"p1", camera.p1},
-          {"p2", camera.p2},
-          {"k3", camera.k3}};
-}
-
-nlohmann::ordered_json json_of(const Transform<RightCamera, LeftCamera>& transform) {
-  std::array<double, 16> a = transform.row_major();
-  for (const std::size_t i : {3u, 7u, 11u}) a[i] *= 1e3;
-  nlohmann::ordered_json rows;
-  for (std::size_t r = 0; r < 16; r += 4) rows.push_back({a[r], a[r + 1], a[r + 2], a[r + 3]});
-  return rows;
-}
-
-nlohmann::ordered_json json_of(const Views& views, const nav::StereoBoardCalibration& found) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < found.views.size(); ++i) {
-    const nav::BoardViewResidual& view = found.views[i];
-    list.push_back({{"left", views.pairs[i].left},
-                    {"right", views.pairs[i].right},
-                    {"used", view.used},
-                    {"left_rms_px", view.left_rms_px},
-                    {"right_rms_px", view.right_rms_px},
-                    {"epipolar_rms_px", view.epipolar_rms_px}});
-  }
-  return list;
-}
-
-nlohmann::ordered_json as_json(const StereoArguments& arguments, const Views& views,
-                               const nav::StereoBoardCalibration& found) {
-  nlohmann::ordered_json out = {{"format", "orthonav stereo calibration"},
-                                {"format_version", 1},
-                                {"left", json_of(found.left)},
-                                {"right", json_of(found.right)},
-                                {"right_from_left_mm", json_of(found.right_from_left)},
-                                {"baseline_mm", found.baseline_m() * 1e3},
-                                {"left_rms_px", found.left_rms_px},
-                                {"right_rms_px", found.right_rms_px},
-                                {"stereo_rms_px", found.stereo_rms_px},
-                                {"epipolar_rms_px", found.epipolar_rms_px},
-                                {"covered_share", found.covered_share},
-                                {"chessboard", arguments.chessboard},
-                                {"square_mm", arguments.square_mm},
-                                {"views_used", found.used}};
-  if (found.sigma)
-    out["sigma"] = {{"baseline_mm", found.sigma->baseline_m * 1e3},
-                    {"rotation_deg", found.sigma->rotation_rad * kDegrees},
-                    {"focal_percent", found.sigma->focal_share * 100},
-                    {"principal_point_px", found.sigma->principal_point_px}};
-  add_judgement(found.judgement, out);
-  out["views"] = json_of(views, found);
-  out["skipped"] = views.skipped;
-  return out;
-}
-
-void print_camera(const char* side, const BrownConrady& c) {
-  std::printf(
-      "%s: focal %.3f %.3f px, principal point %.3f %.3f px, k1 %.5f k2 %.5f p1 %.6f "
-      "p2 %.6f k3 %.5f\n",
-      side, c.fx_px, c.fy_px, c.cx_px, c.cy_px, c.k1, c.k2, c.p1, c.p2, c.k3);
-}
-
-void print(const Views& views, const nav::StereoBoardCalibration& found) {
-  std::printf("RMS: left %.3f px, right %.3f px, stereo %.3f px, across epipolar lines %.3f px\n",
-              found.left_rms_px, found.right_rms_px, found.stereo_rms_px, found.epipolar_rms_px);
-  print_camera("left", found.left);
-  print_camera("right", found.right);
-  std::printf("baseline %.3f mm", found.baseline_m() * 1e3);
-  if (found.sigma)
-    std::printf(", known to %.3f mm; rotation known to %.3f°, focal length to %.3f %%",
-                found.sigma->baseline_m * 1e3, found.sigma->rotation_rad * kDegrees,
-                found.sigma->focal_share * 100);
-  std::printf("\n");
-  for (std::size_t i = 0; i < found.views.size(); ++i) {
-    const nav::BoardViewResidual& view = found.views[i];
-    std::printf("%s %s: left %.3f px, right %.3f px, epipolar %.3f px%s\n",
-                views.pairs[i].left.c_str(), views.pairs[i].right.c_str(), view.left_rms_px,
-                view.right_rms_px, view.epipolar_rms_px, view.used ? "" : " (left out)");
-  }
-  print_judgement(found.judgement);
-}
-
 int run_stereo(const StereoArguments& arguments) {
-  const auto board = board_from(arguments);
-  if (!board) return bad_input(board.error().message);
-  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
-  const auto views = views_in(arguments, *board);
-  if (!views) return bad_input(views.error().message);
-  for (const std::string& name : views->skipped)
-    std::fprintf(stderr, "orthonav: skipped: %s: no board of %s, or no partner\n", name.c_str(),
-                 arguments.chessboard.c_str());
-  const auto found = nav::calibrate_stereo(*board, views->size, views->views);
-  if (!found) return refused(found.error().message);
-  if (const Status s = arguments.json.write(as_json(arguments, *views, *found)); !s)
-    return bad_input(s.error().message);
-  if (!arguments.json.on_stdout()) print(*views, *found);
-  return found->judgement.verdict == nav::Verdict::kFail ? refused(found->judgement.reason) : kDone;
+  const bool images =
+      !arguments.chessboard.empty() || !arguments.left.empty() || !arguments.right.empty();
+  const bool recording = !arguments.recording.empty() || !arguments.board.empty();
+  if (images == recording)
+    return bad_input(
+        "calibrate stereo: give --chessboard, --left and --right, or a RECORDING "
+        "and --board");
+  if (recording && (arguments.recording.empty() || arguments.board.empty()))
+    return bad_input("calibrate stereo: a RECORDING needs --board, and --board a RECORDING");
+  if (images && (arguments.chessboard.empty() || arguments.left.empty() || arguments.right.empty()))
+    return bad_input("calibrate stereo: images need --chessboard, --left and --right");
+  return images ? run_stereo_images(arguments) : run_stereo_recording(arguments);
 }
 
 constexpr const char* kFooter =
-    "\nImages of a flat chessboard seen by both cameras at once, ten pairs and more, tilted every\n"
+    "\nImages: of a flat chessboard seen by both cameras at once, ten pairs and more, tilted "
+    "every\n"
     "way and up to the edges. They are paired by the numbers in their names. A board with an odd\n"
-    "and an even count is best: half a turn shows. Pixel coordinates: the top-left pixel's centre\n"
-    "is (0.5, 0.5). Exit code 1: too few views, or the verdict is fail.";
+    "and an even count is best: half a turn shows. A recording: of a board of tags (see `print\n"
+    "board`), moved all over both images; the lenses stay as the device has them, and what is "
+    "found\n"
+    "is how the cameras lie to each other. Pixel coordinates: the top-left pixel's centre is\n"
+    "(0.5, 0.5). Exit code 1: too few views, or the verdict is fail.";
 
 }  // namespace
 
 void add_calibrate_stereo(CLI::App& calibrate, Action& action) {
   auto arguments = std::make_shared<StereoArguments>();
-  CLI::App* command = calibrate.add_subcommand("stereo", "Two cameras from images of a chessboard");
+  CLI::App* command = calibrate.add_subcommand(
+      "stereo", "Two cameras, from images of a chessboard or a recording of a board of tags");
+  command->add_option("RECORDING", arguments->recording, "Folder of a recording");
+  command->add_option("--board", arguments->board, "The board in the recording (JSON)")
+      ->type_name("FILE");
   command
       ->add_option("--chessboard", arguments->chessboard,
                    "Inner corners across and down, such as 9x6")
-      ->required()
       ->type_name("COLUMNSxROWS");
   command->add_option("--square-mm", arguments->square_mm, "Edge of a square as printed")
       ->check(finite_number(1, 500))
       ->capture_default_str();
   command->add_option("--left", arguments->left, "Images of the left camera (PNG, JPEG, PGM)")
-      ->required()
       ->type_name("IMAGE");
   command->add_option("--right", arguments->right, "Images of the right camera")
-      ->required()
       ->type_name("IMAGE");
   arguments->json.add_to(*command);
   command->footer(kFooter);

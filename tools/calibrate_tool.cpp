@@ -1,4 +1,3 @@
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "tools/calibrate.h"
 #include "tools/json_output.h"
 #include "tools/number_list.h"
+#include "tools/pose_json.h"
 #include "tools/recorded_pairs.h"
 
 namespace orthonav::tools {
@@ -100,14 +100,6 @@ Result<std::string> tools_with(const ToolArguments& arguments, const nav::TagBod
   return text;
 }
 
-nlohmann::ordered_json pose_mm(const Transform<Marker, Tag>& pose) {
-  std::array<double, 16> a = pose.row_major();
-  for (const std::size_t i : {3u, 7u, 11u}) a[i] *= 1e3;
-  nlohmann::ordered_json rows;
-  for (std::size_t r = 0; r < 16; r += 4) rows.push_back({a[r], a[r + 1], a[r + 2], a[r + 3]});
-  return rows;
-}
-
 nlohmann::ordered_json as_json(const Result<nav::TagBody>& body, std::size_t pairs) {
   nlohmann::ordered_json out = {{"pairs", pairs}};
   if (!body) {
@@ -122,7 +114,7 @@ nlohmann::ordered_json as_json(const Result<nav::TagBody>& body, std::size_t pai
                            {"id", tag.definition.id},
                            {"size_mm", tag.definition.size_m * 1e3},
                            {"measured_size_mm", tag.definition.size_m * tag.size_ratio * 1e3},
-                           {"pose", pose_mm(tag.marker_from_tag)},
+                           {"pose", rows_mm(tag.marker_from_tag.row_major())},
                            {"pairs", tag.pairs},
                            {"sigma_mm", tag.sigma_m * 1e3},
                            {"sigma_deg", tag.sigma_rad * kDegrees}});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "nav/calibration/coverage.h"
 #include "nav/calibration/epipolar.h"
 #include "nav/calibration/stereo_jackknife.h"
 
@@ -12,9 +13,6 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kSignificant = 3.0;
-// The image in so many fields across and down, to see how much of it the corners reach.
-constexpr int kFieldsAcross = 8;
-constexpr int kFieldsDown = 6;
 // Better than this, nothing is a mistake.
 constexpr double kNoMistakePx = 0.3;
 
@@ -151,17 +149,10 @@ double epipolar_rms_px(const CameraModel& left, const CameraModel& right,
 }
 
 double covered_share(ImageSize size, std::span<const BoardCorners> views) {
-  std::array<bool, kFieldsAcross * kFieldsDown> seen{};
+  Coverage coverage(size.width_px, size.height_px);
   for (const BoardCorners& view : views)
-    for (const Vec2 p : view) {
-      const int column =
-          std::clamp(static_cast<int>(p.x * kFieldsAcross / size.width_px), 0, kFieldsAcross - 1);
-      const int row =
-          std::clamp(static_cast<int>(p.y * kFieldsDown / size.height_px), 0, kFieldsDown - 1);
-      seen[static_cast<std::size_t>(row * kFieldsAcross + column)] = true;
-    }
-  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) /
-         static_cast<double>(seen.size());
+    for (const Vec2 p : view) coverage.add(p);
+  return coverage.share();
 }
 
 Status fill_epipolar(const BoardViews& all, StereoBoardCalibration& result) {

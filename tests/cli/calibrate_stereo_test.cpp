@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "engine/board_file.h"
+#include "hal/api/random.h"
 #include "tests/cli/command_line.h"
+#include "tests/cli/tag_recording.h"
 
 namespace orthonav::test {
 namespace {
@@ -105,7 +108,11 @@ TEST_F(CalibrateStereo, RefusesInOneLineAndWritesNothing) {
       {stereo(text, text, {"--square-mm", "0"}), "--square-mm"},
       {orthonav({"calibrate", "stereo", "--chessboard", "6x6", "--left", text, "--right", text}),
        "as many rows"},
-      {orthonav({"calibrate", "stereo", "--left", text, "--right", text}), "--chessboard"}};
+      {orthonav({"calibrate", "stereo", "--left", text, "--right", text}), "need --chessboard"},
+      {orthonav({"calibrate", "stereo"}), "or a RECORDING and --board"},
+      {orthonav({"calibrate", "stereo", text}), "a RECORDING needs --board"},
+      {orthonav({"calibrate", "stereo", text, "--board", text, "--chessboard", "9x6"}),
+       "give --chessboard"}};
   for (const auto& [called, what] : cases) {
     EXPECT_EQ(called.code, 2) << what;
     EXPECT_THAT(called.err, HasSubstr(what));
@@ -114,6 +121,61 @@ TEST_F(CalibrateStereo, RefusesInOneLineAndWritesNothing) {
   }
   EXPECT_THAT(folder_.names(),
               ElementsAre("a.txt", "left01.jpg", "left02.jpg", "right01.jpg", "right02.pgm"));
+}
+
+// The right camera is turned by 2 mrad about the baseline's normal: 0.7 px across the lines.
+TEST(CalibrateStereoFromARecording, SaysByHowMuchTheDeviceIsOff) {
+  const ScratchFolder folder;
+  const std::string board = folder.file("board.json");
+  engine::Board printed;
+  printed.kind = engine::BoardKind::kTags;
+  printed.columns = 3;
+  printed.rows = 2;
+  printed.size_m = 0.04;
+  printed.gap_m = 0.01;
+  printed.ids = engine::consecutive_ids(printed.kind, 3, 2, 0);
+  ASSERT_TRUE(engine::save_board(board, printed).ok());
+
+  const StereoCalibration device = test_calibration();
+  StereoCalibration really = device;
+  really.right_from_rig =
+      Transform<RightCamera, RightCamera>(rotation_from_vector({0, 0.002, 0}), {}) *
+      device.right_from_rig;
+  std::vector<std::vector<PlacedTag>> pairs;
+  Random random(4);
+  for (int i = 0; i < 24; ++i) {
+    const Mat3 turn = rotation_from_vector(
+        {random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)});
+    const Vec3 place{random.uniform(-0.05, 0.1), random.uniform(-0.08, 0.08), -0.45};
+    pairs.emplace_back();
+    for (std::size_t tag = 0; tag < printed.ids.size(); ++tag) {
+      const auto corners = engine::tag_corners_m(printed, tag);
+      const Vec2 centre = 0.5 * (corners[0] + corners[2]) - Vec2{0.07, 0.045};
+      pairs.back().push_back(
+          {"tag36h11", printed.ids[tag], 0.04, {turn, place + turn * Vec3{centre.x, centre.y, 0}}});
+    }
+  }
+  const auto off_px = [&](const std::string& name, const StereoCalibration& cameras) {
+    record(folder.file(name), cameras, device, pairs);
+    const Called called =
+        orthonav({"calibrate", "stereo", folder.file(name), "--board", board, "--json"});
+    EXPECT_EQ(called.code, 0) << called.err;
+    const auto json = nlohmann::json::parse(called.out);
+    EXPECT_EQ(json["pairs"], 24);
+    EXPECT_LT(json["rms_px"], 0.1);
+    EXPECT_EQ(json["is_off"], json["off_px"] > 0.1) << json["reason"];
+    EXPECT_NEAR(json["size_ratio"], 1.0, 0.02);
+    EXPECT_NEAR(json["baseline_mm"], 99.1, 0.3);
+    return json["off_px"].get<double>();
+  };
+  EXPECT_NEAR(off_px("off", really), 0.002 * 360, 0.15);
+  EXPECT_LT(off_px("good", device), 0.05);
+
+  const std::string other = folder.with("chess.json", R"({"format": "orthonav board",
+    "kind": "chessboard", "columns": 9, "rows": 6, "size_mm": 20})");
+  const Called chess = orthonav({"calibrate", "stereo", folder.file("off"), "--board", other});
+  EXPECT_EQ(chess.code, 2);
+  EXPECT_THAT(chess.err, HasSubstr("is a chessboard, must be a board of tags"));
 }
 
 }  // namespace

@@ -23,13 +23,19 @@ void add_noise(GreyImage& image, Random& random) {
 
 void record(const std::string& folder, const StereoCalibration& calibration,
             const std::vector<std::vector<PlacedTag>>& pairs, int rate_hz) {
+  record(folder, calibration, calibration, pairs, rate_hz);
+}
+
+void record(const std::string& folder, const StereoCalibration& really,
+            const StereoCalibration& device, const std::vector<std::vector<PlacedTag>>& pairs,
+            int rate_hz) {
   fake::Script script;
-  script.calibration = calibration;
+  script.calibration = device;
   Random random(21);
   for (const auto& tags : pairs) {
     const auto index = static_cast<std::int64_t>(script.camera.size());
     StereoFrame frame = stereo_frame(
-        calibration, tags, Timestamp(Duration(1'000'000'000 + 999'999'000 / rate_hz * index)));
+        really, tags, Timestamp(Duration(1'000'000'000 + 999'999'000 / rate_hz * index)));
     frame.sequence = index;
     add_noise(frame.left, random);
     add_noise(frame.right, random);

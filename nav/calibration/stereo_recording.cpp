@@ -1,0 +1,245 @@
+#include "nav/calibration/stereo_recording.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "nav/calibration/body_start.h"
+#include "nav/calibration/coverage.h"
+#include "nav/calibration/epipolar.h"
+
+namespace orthonav::nav {
+namespace {
+
+constexpr std::size_t kBlocks = 10;
+
+std::string with_numbers(const char* format, double value, double limit) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, value, limit);
+  return text.data();
+}
+
+Error refused(const std::string& why) { return Error{"stereo calibration: " + why}; }
+
+/// Of the pairs that show two tags or more to both cameras, so many, and where the board is.
+void take_pairs(std::span<const PairSightings> pairs, std::size_t most, BodyProblem& problem,
+                BodyState& state) {
+  std::vector<PairSightings> useful;
+  for (PairSightings pair : pairs) {
+    std::erase_if(pair, [](const TagSighting& seen) { return !seen.pose; });
+    if (pair.size() >= 2) useful.push_back(std::move(pair));
+  }
+  const std::size_t kept = std::min(most, useful.size());
+  for (std::size_t i = 0; i < kept; ++i) {
+    PairSightings& pair = useful[i * useful.size() / kept];
+    const auto pose = first_pose(problem, state, pair);
+    if (!pose) continue;
+    problem.pairs.push_back(std::move(pair));
+    state.rig_from_marker.push_back(*pose);
+  }
+}
+
+double median_size_ratio(std::span<const PairSightings> pairs) {
+  std::vector<double> ratios;
+  for (const PairSightings& pair : pairs)
+    for (const TagSighting& seen : pair)
+      if (seen.pose) ratios.push_back(seen.pose->size_ratio);
+  if (ratios.empty()) return 1.0;
+  const auto middle = ratios.begin() + static_cast<long>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
+/// Distance of every right corner from its epipolar line, signed; NaN where a pixel has no
+/// direction, so that lists of two calibrations stay side by side.
+std::vector<double> across_px(const BodyProblem& problem,
+                              const Transform<RightCamera, Rig>& right_from_rig) {
+  const StereoCalibration& cameras = problem.calibration;
+  const auto right_from_left = right_from_rig * cameras.left_from_rig.inverse();
+  std::vector<double> all;
+  for (const PairSightings& pair : problem.pairs)
+    for (const TagSighting& seen : pair)
+      for (std::size_t i = 0; i < 4; ++i)
+        all.push_back(across_epipolar_px(cameras.left, cameras.right, right_from_left,
+                                         (*seen.left_px)[i], (*seen.right_px)[i])
+                          .value_or(std::nan("")));
+  return all;
+}
+
+double rms(const std::vector<double>& values) {
+  double squared = 0.0;
+  double count = 0.0;
+  for (const double v : values)
+    if (std::isfinite(v)) {
+      squared += v * v;
+      count += 1.0;
+    }
+  return std::sqrt(squared / std::max(count, 1.0));
+}
+
+/// RMS of what one calibration puts elsewhere across the lines than another.
+double rms_between(std::vector<double> a, const std::vector<double>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  return rms(a);
+}
+
+struct Sigma {
+  double turn_rad = 0.0;
+  double shift_m = 0.0;
+  double off_px = 0.0;
+};
+
+/// From leaving out each tenth of the pairs in turn.
+Sigma jackknife(const BodyProblem& problem, const BodyState& whole) {
+  const std::size_t pairs = problem.pairs.size();
+  const std::vector<double> all_px = across_px(problem, whole.right_from_rig);
+  double turn = 0.0;
+  double shift = 0.0;
+  double off = 0.0;
+  double blocks = 0.0;
+  BodyProblem rest = problem;
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    BodyState state = whole;
+    rest.pairs.clear();
+    state.rig_from_marker.clear();
+    for (std::size_t i = 0; i < pairs; ++i) {
+      if (i * kBlocks / pairs == block) continue;
+      rest.pairs.push_back(problem.pairs[i]);
+      state.rig_from_marker.push_back(whole.rig_from_marker[i]);
+    }
+    if (!adjust(rest, state)) continue;
+    const auto& a = whole.right_from_rig;
+    const auto& b = state.right_from_rig;
+    turn += std::pow(rotation_angle_rad(a.rotation(), b.rotation()), 2);
+    shift += (b.translation() - a.translation()).squared_norm();
+    off += std::pow(rms_between(across_px(problem, b), all_px), 2);
+    blocks += 1.0;
+  }
+  if (blocks < 2.0) return {};
+  const double factor = (blocks - 1.0) / blocks;
+  return {std::sqrt(factor * turn), std::sqrt(factor * shift), std::sqrt(factor * off)};
+}
+
+double covered_share(const BodyProblem& problem) {
+  const CameraModel& left = problem.calibration.left;
+  const CameraModel& right = problem.calibration.right;
+  Coverage on_left(left.width_px(), left.height_px());
+  Coverage on_right(right.width_px(), right.height_px());
+  for (const PairSightings& pair : problem.pairs)
+    for (const TagSighting& seen : pair)
+      for (std::size_t i = 0; i < 4; ++i) {
+        on_left.add((*seen.left_px)[i]);
+        on_right.add((*seen.right_px)[i]);
+      }
+  return std::min(on_left.share(), on_right.share());
+}
+
+StereoRecording result_of(const BodyProblem& problem, const BodyState& state, const BodyFit& fit) {
+  const StereoCalibration& device = problem.calibration;
+  StereoRecording result;
+  result.right_from_rig = state.right_from_rig;
+  result.right_from_left = state.right_from_rig * device.left_from_rig.inverse();
+  const auto measured_from_device = state.right_from_rig * device.right_from_rig.inverse();
+  result.turn_rad = vector_from_rotation(measured_from_device.rotation());
+  result.shift_m = measured_from_device.translation();
+  const std::vector<double> before_px = across_px(problem, device.right_from_rig);
+  const std::vector<double> after_px = across_px(problem, state.right_from_rig);
+  result.epipolar_before_px = rms(before_px);
+  result.epipolar_after_px = rms(after_px);
+  result.off_px = rms_between(before_px, after_px);
+  result.rms_px = fit.rms_px;
+  result.covered_share = covered_share(problem);
+  result.size_ratio = median_size_ratio(problem.pairs);
+  result.pairs = problem.pairs.size();
+  const Sigma sigma = jackknife(problem, state);
+  const PoseCovariance& c = fit.covariances.front();
+  result.turn_sigma_rad = std::max(std::sqrt(c[21] + c[28] + c[35]), sigma.turn_rad);
+  result.shift_sigma_m = std::max(std::sqrt(c[0] + c[7] + c[14]), sigma.shift_m);
+  result.off_sigma_px = sigma.off_px;
+  return result;
+}
+
+void judge(const StereoRecordingOptions& options, StereoRecording& result) {
+  Judgement& judgement = result.judgement;
+  result.is_off = result.off_px > options.min_off_px &&
+                  result.off_px > options.significance * result.off_sigma_px;
+  const std::string off =
+      with_numbers("%.3f ± %.3f px across the epipolar lines", result.off_px, result.off_sigma_px);
+  if (result.is_off) judgement.add(Verdict::kNote, "the device's calibration is off by " + off);
+  if (!(result.rms_px <= options.max_rms_px))
+    judgement.add(Verdict::kFail, with_numbers("residual %.2f px RMS, limit %.2f px (is the board "
+                                               "flat, are the lenses as the device says?)",
+                                               result.rms_px, options.max_rms_px));
+  if (result.off_sigma_px > options.note_sigma_px)
+    judgement.add(Verdict::kNote, with_numbers("known to %.2f px only, better %.2f px",
+                                               result.off_sigma_px, options.note_sigma_px));
+  if (result.covered_share < options.note_covered_share)
+    judgement.add(Verdict::kNote,
+                  with_numbers("the board reached %.0f %% of the image only, better %.0f %%",
+                               100 * result.covered_share, 100 * options.note_covered_share));
+  if (!result.is_off) judgement.add(Verdict::kPass, "the device's calibration holds: " + off);
+}
+
+Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& options) {
+  if (problem.pairs.size() < options.min_pairs)
+    return refused("both cameras see two tags of the board or more in " +
+                   std::to_string(problem.pairs.size()) + " pairs, at least " +
+                   std::to_string(options.min_pairs) + " are needed");
+  const double ratio = median_size_ratio(problem.pairs);
+  if (!(std::abs(ratio - 1.0) <= options.max_size_deviation))
+    return refused(
+        with_numbers("the tags' edges measure %.3f of the size given, must be within "
+                     "%.2f of it (was the board printed at 100 %%?)",
+                     ratio, options.max_size_deviation));
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> StereoRecordingOptions::check() const {
+  std::vector<std::string> problems;
+  const auto positive = [&](const char* name, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
+  };
+  if (min_pairs < kBlocks)
+    problems.push_back("min_pairs " + std::to_string(min_pairs) + ", must be at least " +
+                       std::to_string(kBlocks));
+  if (max_pairs < min_pairs)
+    problems.push_back("max_pairs " + std::to_string(max_pairs) + ", must be at least min_pairs");
+  positive("max_rms_px", max_rms_px);
+  positive("max_size_deviation", max_size_deviation);
+  positive("significance", significance);
+  positive("min_off_px", min_off_px);
+  positive("note_sigma_px", note_sigma_px);
+  positive("note_covered_share", note_covered_share);
+  return problems;
+}
+
+Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
+                                         std::span<const BoardTag> board,
+                                         std::span<const PairSightings> pairs,
+                                         const StereoRecordingOptions& options) {
+  if (const auto problems = options.check(); !problems.empty()) return refused(problems.front());
+  BodyProblem problem;
+  BodyState state;
+  problem.calibration = calibration;
+  problem.find_right_camera = true;
+  state.right_from_rig = calibration.right_from_rig;
+  for (const BoardTag& tag : board) {
+    problem.size_m.push_back(tag.definition.size_m);
+    problem.find_tag.push_back(false);
+    state.marker_from_tag.push_back(tag.board_from_tag);
+  }
+  take_pairs(pairs, options.max_pairs, problem, state);
+  if (Status status = check_pairs(problem, options); !status) return status.error();
+  const auto fit = adjust(problem, state);
+  if (!fit) return refused(fit.error().message);
+  StereoRecording result = result_of(problem, state, *fit);
+  judge(options, result);
+  return result;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,120 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "engine/board_file.h"
+#include "nav/calibration/stereo_recording.h"
+#include "tools/calibrate.h"
+#include "tools/calibrate_stereo.h"
+#include "tools/pose_json.h"
+#include "tools/recorded_pairs.h"
+
+namespace orthonav::tools {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+/// The family as it is detected: a border two cells wide makes another one.
+Result<std::string> detected_family(const std::string& path, const engine::Board& board) {
+  if (board.kind == engine::BoardKind::kChessboard)
+    return Error{path + ": is a chessboard, must be a board of tags"};
+  std::string family = board.family + (board.border_cells == 2 ? "b2" : "");
+  if (board.border_cells > 2 || !nav::is_known_family(family))
+    return Error{path + ": " + board.family + " with borders " +
+                 std::to_string(board.border_cells) + " cells wide can't be detected"};
+  return family;
+}
+
+Result<std::vector<nav::BoardTag>> tags_of(const std::string& path) {
+  const auto board = engine::load_board(path);
+  if (!board) return board.error();
+  const auto family = detected_family(path, *board);
+  if (!family) return family.error();
+  std::vector<nav::BoardTag> tags;
+  for (std::size_t i = 0; i < board->ids.size(); ++i) {
+    const std::vector<Vec2> corners = engine::tag_corners_m(*board, i);
+    const Vec2 centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    tags.push_back(
+        {{*family, board->ids[i], board->size_m}, {Mat3::identity(), {centre.x, centre.y, 0.0}}});
+  }
+  return tags;
+}
+
+nlohmann::ordered_json as_json(const StereoArguments& arguments,
+                               const StereoCalibration& calibration, std::size_t pairs,
+                               const Result<nav::StereoRecording>& found) {
+  nlohmann::ordered_json out = {{"format", "orthonav stereo calibration"},
+                                {"format_version", 1},
+                                {"source", "recording"},
+                                {"board", arguments.board},
+                                {"pairs", pairs}};
+  if (!found) {
+    add_judgement({nav::Verdict::kFail, found.error().message}, out);
+    return out;
+  }
+  out["pairs_used"] = found->pairs;
+  out["right_from_left_mm"] = rows_mm(found->right_from_left.row_major());
+  out["device_right_from_left_mm"] = rows_mm(calibration.right_from_left().row_major());
+  out["baseline_mm"] = found->right_from_left.translation().norm() * 1e3;
+  const Vec3 turn = found->turn_rad * kDegrees;
+  const Vec3 shift = found->shift_m * 1e3;
+  out["turn_deg"] = {turn.x, turn.y, turn.z};
+  out["turn_sigma_deg"] = found->turn_sigma_rad * kDegrees;
+  out["shift_mm"] = {shift.x, shift.y, shift.z};
+  out["shift_sigma_mm"] = found->shift_sigma_m * 1e3;
+  out["off_px"] = found->off_px;
+  out["off_sigma_px"] = found->off_sigma_px;
+  out["is_off"] = found->is_off;
+  out["epipolar_before_px"] = found->epipolar_before_px;
+  out["epipolar_after_px"] = found->epipolar_after_px;
+  out["rms_px"] = found->rms_px;
+  out["covered_share"] = found->covered_share;
+  out["size_ratio"] = found->size_ratio;
+  add_judgement(found->judgement, out);
+  return out;
+}
+
+void print(const nav::StereoRecording& found) {
+  const Vec3 turn = found.turn_rad * kDegrees;
+  const Vec3 shift = found.shift_m * 1e3;
+  std::printf(
+      "%zu pairs, residual %.3f px RMS; across epipolar lines %.3f px RMS as the device has "
+      "them, %.3f px as found\n",
+      found.pairs, found.rms_px, found.epipolar_before_px, found.epipolar_after_px);
+  std::printf(
+      "right camera turned by %.4f %.4f %.4f°, known to %.4f°; shifted by %.3f %.3f %.3f mm, "
+      "known to %.3f mm\n",
+      turn.x, turn.y, turn.z, found.turn_sigma_rad * kDegrees, shift.x, shift.y, shift.z,
+      found.shift_sigma_m * 1e3);
+  std::printf("baseline %.3f mm; the tags' edges measure %.4f of their size\n",
+              found.right_from_left.translation().norm() * 1e3, found.size_ratio);
+  print_judgement(found.judgement);
+}
+
+}  // namespace
+
+int run_stereo_recording(const StereoArguments& arguments) {
+  const auto board = tags_of(arguments.board);
+  if (!board) return bad_input(board.error().message);
+  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
+  auto recording = replay::ReplayHeadset::open(arguments.recording);
+  if (!recording) return bad_input(recording.error().message);
+  const StereoCalibration& calibration = (*recording)->cameras().calibration();
+  std::vector<nav::MarkerDefinition> tags;
+  for (const nav::BoardTag& tag : *board) tags.push_back(tag.definition);
+  auto collector = nav::SightingCollector::create(calibration, tags);
+  if (!collector) return bad_input(collector.error().message);
+  const Status read =
+      for_each_pair(**recording, [&](const StereoFrame& frame) { collector->add(frame); });
+  if (!read) return bad_input(read.error().message);
+  const auto found = nav::calibrate_stereo(calibration, *board, collector->pairs());
+  if (const Status s =
+          arguments.json.write(as_json(arguments, calibration, collector->pairs().size(), found));
+      !s)
+    return bad_input(s.error().message);
+  if (!found) return refused(found.error().message);
+  if (!arguments.json.on_stdout()) print(*found);
+  return found->judgement.verdict == nav::Verdict::kFail ? refused(found->judgement.reason) : kDone;
+}
+
+}  // namespace orthonav::tools
