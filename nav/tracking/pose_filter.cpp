@@ -88,6 +88,16 @@ void PoseFilter::start(const Tracked<Pose>& measured) {
   lasting_ = measured.covariance;
 }
 
+// A constant acceleration a moves the prediction by a·dt² and the mean over an exposure T by
+// a·T²/24.
+PoseCovariance PoseFilter::blurred(const PoseCovariance& noise,
+                                   const std::array<double, 6>& innovation, double dt) const {
+  const double share = std::pow(options_.exposure_s / dt, 2) / 24.0;
+  PoseCovariance out = noise;
+  for (std::size_t i = 0; i < 6; ++i) out[7 * i] += std::pow(share * innovation[i], 2);
+  return out;
+}
+
 void PoseFilter::update(const Tracked<Pose>& measured) {
   const double dt = seconds(measured.time - time_);
   if (!alive_ || !(dt > 0.0)) return start(measured);
@@ -97,7 +107,9 @@ void PoseFilter::update(const Tracked<Pose>& measured) {
   at_rest_ = innovation(y, as_eigen(grown_p), measured.covariance) < options_.rest_limit;
   if (!at_rest_) grown_p = grown(dt, options_.hand_m, options_.hand_rad);
   const Matrix12 p = as_eigen(grown_p);
-  const Matrix6 s = p.topLeftCorner<6, 6>() + as_eigen(measured.covariance);
+  lasting_ = blurred(measured.covariance, {y(0), y(1), y(2), y(3), y(4), y(5)}, dt);
+  const Matrix6 noise = as_eigen(lasting_);
+  const Matrix6 s = p.topLeftCorner<6, 6>() + noise;
   const Eigen::Matrix<double, 12, 6> gain = s.ldlt().solve(p.topRows<6>()).transpose();
   const Vector12 step = gain * y;
   pose_ = moved(ahead, {step(0), step(1), step(2)}, {step(3), step(4), step(5)});
@@ -107,9 +119,8 @@ void PoseFilter::update(const Tracked<Pose>& measured) {
   Matrix12 rest = Matrix12::Identity();
   rest.leftCols<6>() -= gain;
   Eigen::Map<Matrix12>(covariance_.data()) =
-      rest * p * rest.transpose() + gain * as_eigen(measured.covariance) * gain.transpose();
+      rest * p * rest.transpose() + gain * noise * gain.transpose();
   time_ = measured.time;
-  lasting_ = measured.covariance;
 }
 
 Tracked<PoseFilter::Pose> PoseFilter::state() const {

@@ -21,6 +21,9 @@ struct PoseFilterOptions {
   /// Part of a measurement's variance that the next one repeats: what the model does not know
   /// averages out as little as it pleases.
   double lasting_share = 0.15;
+  /// An image shows a tool's mean pose over the exposure; under acceleration that is not the one at
+  /// its middle. Exposures of headsets' cameras are no longer than this.
+  double exposure_s = 0.005;
   /// SD of an unknown velocity.
   double first_speed_m = 0.5;
   double first_speed_rad = 3.0;
@@ -54,6 +57,8 @@ class PoseFilter {
   using Covariance = std::array<double, kSize * kSize>;
 
   void start(const Tracked<Pose>& measured);
+  [[nodiscard]] PoseCovariance blurred(const PoseCovariance& noise,
+                                       const std::array<double, 6>& innovation, double dt_s) const;
   [[nodiscard]] Covariance grown(double dt_s, double density_m, double density_rad) const;
 
   PoseFilterOptions options_;
