@@ -168,22 +168,25 @@ class System {
 
   void add(const Row& row, std::size_t pair, double scale_px) {
     const double weight = cauchy_weight(row.corner.off_px.norm(), scale_px);
-    const Eigen::Vector2d off(row.corner.off_px.x, row.corner.off_px.y);
-    const Eigen::Map<const Matrix2x6> by_body(row.corner.by_body.data());
-    const Eigen::Map<const Matrix2x6> by_tag(row.corner.by_tag.data());
-    const Eigen::Map<const Matrix2x6> by_camera(row.corner.by_camera.data());
-    body_[pair] += weight * by_body.transpose() * by_body;
-    body_right_[pair] -= weight * by_body.transpose() * off;
-    const auto add_block = [&](int block, const Eigen::Map<const Matrix2x6>& j) {
+    const Eigen::Vector2d off(weight * row.corner.off_px.x, weight * row.corner.off_px.y);
+    const Matrix2x6 by_body = Eigen::Map<const Matrix2x6>(row.corner.by_body.data());
+    const Matrix2x6 by_tag = Eigen::Map<const Matrix2x6>(row.corner.by_tag.data());
+    const Matrix2x6 by_camera = Eigen::Map<const Matrix2x6>(row.corner.by_camera.data());
+    const Matrix2x6 weighted = weight * by_body;
+    body_[pair] += by_body.transpose() * weighted;
+    body_right_[pair] -= by_body.transpose() * off;
+    const auto add_block = [&](int block, const Matrix2x6& j) {
       if (block < 0) return;
-      global_.block<6, 6>(6 * block, 6 * block) += weight * j.transpose() * j;
-      global_right_.segment<6>(6 * block) -= weight * j.transpose() * off;
-      cross_[pair].middleRows<6>(6 * block) += weight * j.transpose() * by_body;
+      const Matrix2x6 own = weight * j;
+      global_.block<6, 6>(6 * block, 6 * block) += j.transpose() * own;
+      global_right_.segment<6>(6 * block) -= j.transpose() * off;
+      cross_[pair].middleRows<6>(6 * block) += j.transpose() * weighted;
     };
     add_block(row.tag_block, by_tag);
     add_block(row.camera_block, by_camera);
     if (row.tag_block < 0 || row.camera_block < 0) return;
-    const Matrix6 between = weight * by_tag.transpose() * by_camera;
+    const Matrix2x6 camera = weight * by_camera;
+    const Matrix6 between = by_tag.transpose() * camera;
     global_.block<6, 6>(6 * row.tag_block, 6 * row.camera_block) += between;
     global_.block<6, 6>(6 * row.camera_block, 6 * row.tag_block) += between.transpose();
   }
