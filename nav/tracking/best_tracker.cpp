@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "nav/tracking/pair_detector.h"
+#include "nav/tracking/planar_pose.h"
 #include "nav/tracking/tag_matching.h"
 #include "nav/tracking/tool_follower.h"
 #include "nav/tracking/tool_tracker.h"
@@ -18,6 +19,8 @@ constexpr double kRoomPx = 30.0;
 /// Corners that were just detected are right to a small part of a cell; their pose is less so.
 constexpr double kDetectedDoubtPx = 1.0;
 constexpr double kFewestDoubtPx = 1.0;
+/// One camera's corners tell the depth badly, which is a shift in the other image.
+constexpr double kOneCameraDoubtPx = 6.0;
 constexpr double kDoubtSd = 3.0;
 
 class BestTracker final : public ToolTracker {
@@ -99,11 +102,12 @@ class BestTracker final : public ToolTracker {
     return kFewestDoubtPx * kRadPerPx * pose.translation().norm();
   }
 
+  /// `by_both`: a tool is only believed when both cameras agree on it.
   bool take(std::size_t i, const StereoFrame& frame, const Transform<Rig, Marker>& expected,
-            double doubt_m) {
+            double doubt_m, bool by_both = false) {
     Trail& trail = trails_[i];
     const auto fit = trail.follower.follow(frame, expected, doubt_m, solver_, search_);
-    if (!fit) return false;
+    if (!fit || (by_both && !(fit->left && fit->right))) return false;
     TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
                          Origin::kMeasured,
                          turned(fit->covariance_in_rig, frame.world_from_rig->rotation())};
@@ -192,7 +196,7 @@ class BestTracker final : public ToolTracker {
             const Transform<Tag, Marker>& tag_from_marker, const StereoFrame& frame) {
     const TagMatch match = matched(near_->left(), near_->right(), marker.family, marker.id,
                                    marker.size_m, geometry_, std::nullopt);
-    if (!match.both()) return false;
+    if (!match.both()) return find_by_one(i, marker, tag_from_marker, match, frame);
     const auto pose =
         geometry_.pose({match.left->corners_px, match.right->corners_px}, marker.size_m);
     if (!pose) return false;
@@ -201,6 +205,35 @@ class BestTracker final : public ToolTracker {
                                            pose->rig_from_marker.translation());
     return take(i, frame, rig_from_tag * tag_from_marker,
                 kDetectedDoubtPx * pixel_m(pose->rig_from_marker));
+  }
+
+  /// Its corners were found in one image only; the other one may still show enough of the tag to
+  /// tell which of the two poses it has.
+  bool find_by_one(std::size_t i, const MarkerDefinition& marker,
+                   const Transform<Tag, Marker>& tag_from_marker, const TagMatch& match,
+                   const StereoFrame& frame) {
+    if (!match.left && !match.right) return false;
+    const StereoCalibration& c = solver_.calibration();
+    const CameraModel& camera = match.left ? c.left : c.right;
+    const MarkerCorners& seen = match.left ? *match.left : *match.right;
+    std::array<Vec2, 4> unit_plane;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto direction = camera.unproject(seen.corners_px[k]);
+      if (!direction) return false;
+      unit_plane[k] = *direction;
+    }
+    const auto poses = planar_poses(unit_plane, marker.size_m);
+    if (!poses) return false;
+    for (const CameraFromTag& pose : *poses) {
+      const Transform<Rig, Tag> rig_from_tag =
+          match.left ? c.left_from_rig.inverse() *
+                           Transform<LeftCamera, Tag>(pose.rotation, pose.translation_m)
+                     : c.right_from_rig.inverse() *
+                           Transform<RightCamera, Tag>(pose.rotation, pose.translation_m);
+      const Transform<Rig, Marker> start = rig_from_tag * tag_from_marker;
+      if (take(i, frame, start, kOneCameraDoubtPx * pixel_m(start), true)) return true;
+    }
+    return false;
   }
 
   void predict(std::size_t i, const StereoFrame& frame) {

@@ -105,6 +105,27 @@ TEST(BestTracker, PredictsThenLosesAndFindsAgainAtOnce) {
             2 * kTipM);
 }
 
+TEST(BestTracker, FindsAToolWhoseBorderOneCameraSeesOnlyInPart) {
+  Tracking t;
+  StereoFrame frame = t.frame(0);
+  const auto corners = test::left_corners(t.calibration, tags_at(0)[0]);
+  // A patch over one corner of the tag: no square there for a detector.
+  for (int y = -5; y <= 5; ++y)
+    for (int x = -5; x <= 5; ++x)
+      frame.left.at(static_cast<int>(corners[0].x) + x, static_cast<int>(corners[0].y) + y) = 130;
+  const auto states = t.tracker->track(frame);
+  ASSERT_EQ(states[0].world_from_marker.origin, Origin::kMeasured);
+  EXPECT_EQ(states[0].cameras, 2);
+  EXPECT_LT(tip_error_m(states[0], tags_at(0)[0]), 4 * kTipM);
+}
+
+TEST(BestTracker, DoesNotFindAToolThatOnlyOneCameraSees) {
+  Tracking t;
+  StereoFrame frame = t.frame(0);
+  hide(frame.right);
+  EXPECT_NE(t.tracker->track(frame)[0].world_from_marker.origin, Origin::kMeasured);
+}
+
 TEST(BestTracker, DoesNotTakeOneTagForAnother) {
   // The pointer's place is taken by a tag of another tool between two pairs.
   Tracking t;

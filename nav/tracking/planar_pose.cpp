@@ -1,0 +1,58 @@
+#include "nav/tracking/planar_pose.h"
+
+#include <cmath>
+#include <Eigen/Dense>
+
+namespace orthonav::nav {
+namespace {
+
+/// Unit plane from tag, tag coordinates in half sizes; scaled so that the last entry is 1.
+std::optional<Eigen::Matrix3d> homography(const std::array<Vec2, 4>& seen) {
+  constexpr std::array<Vec2, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  Eigen::Matrix<double, 8, 8> a = Eigen::Matrix<double, 8, 8>::Zero();
+  Eigen::Matrix<double, 8, 1> b;
+  for (int i = 0; i < 4; ++i) {
+    const Vec2 p = kCorners[static_cast<std::size_t>(i)];
+    const Vec2 u = seen[static_cast<std::size_t>(i)];
+    a.row(2 * i) << p.x, p.y, 1, 0, 0, 0, -u.x * p.x, -u.x * p.y;
+    a.row(2 * i + 1) << 0, 0, 0, p.x, p.y, 1, -u.y * p.x, -u.y * p.y;
+    b(2 * i) = u.x;
+    b(2 * i + 1) = u.y;
+  }
+  const Eigen::Matrix<double, 8, 1> h = a.fullPivLu().solve(b);
+  if (!h.allFinite() || !(a * h).isApprox(b, 1e-6)) return std::nullopt;
+  Eigen::Matrix3d out;
+  out << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), 1.0;
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::array<CameraFromTag, 2>> planar_poses(const std::array<Vec2, 4>& unit_plane,
+                                                         double size_m) {
+  const auto h = homography(unit_plane);
+  if (!h) return std::nullopt;
+  const double scale = 0.5 * (h->col(0).norm() + h->col(1).norm());
+  if (!(scale > 0.0) || !std::isfinite(scale)) return std::nullopt;
+  const auto vec = [&](int column) {
+    return Vec3{(*h)(0, column), (*h)(1, column), (*h)(2, column)};
+  };
+  // Both axes share what they lack to a right angle.
+  const Vec3 a = vec(0).normalized();
+  const Vec3 b = vec(1).normalized();
+  const Vec3 sum = (a + b).normalized();
+  const Vec3 difference = (a - b).normalized();
+  const Vec3 x = (sum + difference).normalized();
+  const Vec3 y = (sum - difference).normalized();
+  const Vec3 z = x.cross(y);
+  const Vec3 place = (0.5 * size_m / scale) * vec(2);
+  if (!z.is_finite() || !(place.z > 0.0) || !(z.dot(place) < 0.0)) return std::nullopt;
+  const Mat3 turn = Mat3::from_columns(x, y, z);
+  // Depth mirrored along the line of sight, and the tag's back turned to its front again.
+  const Vec3 sight = place.normalized();
+  const auto mirrored = [&](Vec3 v) { return v - 2.0 * v.dot(sight) * sight; };
+  const Mat3 other = Mat3::from_columns(mirrored(x), mirrored(y), -mirrored(z));
+  return std::array<CameraFromTag, 2>{{{turn, place}, {other, place}}};
+}
+
+}  // namespace orthonav::nav

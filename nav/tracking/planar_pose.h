@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "hal/api/vec.h"
+#include "nav/tracking/photometric_view.h"
+
+namespace orthonav::nav {
+
+/// The two poses of a square tag that one camera can't tell apart from its corners: they differ in
+/// which way the tag is tilted against the line of sight (Collins & Bartoli 2014, "Infinitesimal
+/// plane-based pose estimation", on the ambiguity). Rough: by decomposing the homography of the
+/// corners on the unit plane (Zhang 2000, section 3.1), in the order of `MarkerCorners`. Nothing
+/// when the corners make no square in front of the camera.
+[[nodiscard]] std::optional<std::array<CameraFromTag, 2>> planar_poses(
+    const std::array<Vec2, 4>& unit_plane, double size_m);
+
+}  // namespace orthonav::nav
