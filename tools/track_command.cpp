@@ -71,8 +71,34 @@ Result<TrackSummary> track_all(replay::ReplayHeadset& headset, nav::ToolTracker&
   }
 }
 
+constexpr double kMilli = 1e3;
+
+nlohmann::ordered_json as_json(const nav::StereoAlignment& found) {
+  const auto milli = [](Vec3 v) {
+    return nlohmann::ordered_json{kMilli * v.x, kMilli * v.y, kMilli * v.z};
+  };
+  return {{"right_camera_turned_mrad", milli(found.rotation_rad)},
+          {"sd_mrad", milli(found.sd_rad)},
+          {"significant", found.significant},
+          {"applied", found.applied}};
+}
+
+void print(const nav::StereoAlignment& found) {
+  const char* verdict = "within what can be told";
+  if (found.applied) verdict = "significant, applied to the poses";
+  if (!found.within_bounds)
+    verdict = "beyond the limit of 10 mrad: the calibration is not this headset's";
+  std::printf(
+      "right camera turned against its calibration by %.2f, %.2f, %.2f mrad"
+      " (SD %.2f, %.2f, %.2f): %s\n",
+      kMilli * found.rotation_rad.x, kMilli * found.rotation_rad.y, kMilli * found.rotation_rad.z,
+      kMilli * found.sd_rad.x, kMilli * found.sd_rad.y, kMilli * found.sd_rad.z, verdict);
+}
+
 void print(const TrackArguments& arguments, const TrackSummary& summary,
-           const replay::RecordingSummary& recording, std::span<const nav::ToolGeometry> tools) {
+           const replay::RecordingSummary& recording, const nav::ToolTracker& tracker) {
+  const std::span<const nav::ToolGeometry> tools = tracker.tools();
+  const auto alignment = tracker.alignment();
   if (arguments.json) {
     nlohmann::ordered_json out = {
         {"method", arguments.method},
@@ -83,6 +109,7 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
       out["tools"].push_back({{"name", tools[i].name},
                               {"id", tools[i].marker.id},
                               {"measured_pairs", summary.measured[i]}});
+    if (alignment) out["stereo_alignment"] = as_json(*alignment);
     std::printf("%s\n", out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return;
   }
@@ -93,6 +120,7 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
   for (std::size_t i = 0; i < tools.size(); ++i)
     std::printf("%s (id %d): measured in %lld\n", tools[i].name.c_str(), tools[i].marker.id,
                 static_cast<long long>(summary.measured[i]));
+  if (alignment) print(*alignment);
 }
 
 int run_track(const TrackArguments& arguments) {
@@ -116,7 +144,7 @@ int run_track(const TrackArguments& arguments) {
   if (!summary) return bad_input(summary.error().message);
   if (Status status = engine::write_file(arguments.csv, csv); !status)
     return bad_input(status.error().message);
-  print(arguments, *summary, (*headset)->summary(), (*tracker)->tools());
+  print(arguments, *summary, (*headset)->summary(), **tracker);
   return kDone;
 }
 

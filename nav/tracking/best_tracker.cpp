@@ -49,6 +49,7 @@ class BestTracker final : public ToolTracker {
       states_[i].world_from_marker.time = frame.time;
       if (frame.world_from_rig && follow(i, frame)) ++tracked;
     }
+    align();
     if (!frame.world_from_rig || tracked == tools_.size()) return states_;
     look_for_lost(frame, tracked > 0);
     bool missing = false;
@@ -63,6 +64,9 @@ class BestTracker final : public ToolTracker {
   }
 
   [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
+  [[nodiscard]] std::optional<StereoAlignment> alignment() const override {
+    return applied_ ? applied_ : aligning_.estimate();
+  }
 
  private:
   struct Trail {
@@ -71,6 +75,19 @@ class BestTracker final : public ToolTracker {
     Transform<World, Marker> last_seen;
     std::optional<Timestamp> last_time;
   };
+
+  /// Poses follow the cameras as they are, once it is certain that they are not as reported.
+  void align() {
+    const auto found = aligning_.estimate();
+    if (!found || !found->significant || !found->within_bounds) return;
+    solver_.turn_right_camera(found->rotation_rad);
+    geometry_ = TagGeometry(solver_.calibration());
+    const Vec3 before = applied_ ? applied_->rotation_rad : Vec3{};
+    applied_ = *found;
+    applied_->rotation_rad = before + found->rotation_rad;
+    applied_->applied = true;
+    aligning_.restart();
+  }
 
   [[nodiscard]] bool is_measured(std::size_t i) const {
     return states_[i].world_from_marker.origin == Origin::kMeasured;
@@ -108,6 +125,7 @@ class BestTracker final : public ToolTracker {
     Trail& trail = trails_[i];
     const auto fit = trail.follower.follow(frame, expected, doubt_m, solver_, search_);
     if (!fit || (by_both && !(fit->left && fit->right))) return false;
+    if (fit->alignment) aligning_.add(*fit->alignment);
     TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
                          Origin::kMeasured,
                          turned(fit->covariance_in_rig, frame.world_from_rig->rotation())};
@@ -254,6 +272,8 @@ class BestTracker final : public ToolTracker {
   std::unique_ptr<WholeSearch> whole_;
   std::vector<Trail> trails_;
   std::vector<ToolState> states_;
+  AlignmentEstimator aligning_;
+  std::optional<StereoAlignment> applied_;
   std::int64_t pairs_ = -1;
 };
 

@@ -115,22 +115,39 @@ Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m
   return out;
 }
 
-/// Adds a view's equations of the tool's pose, its light eliminated (Schur's complement).
-void add_reduced(const ViewEquations& e, const Photometry& known, const Matrix6& motion,
-                 Matrix6& normal, Vector6& right) {
+/// A view's equations of the tag's pose, its light eliminated (Schur's complement).
+struct Reduced {
+  Matrix6 normal;
+  Vector6 right;
+};
+Reduced reduced(const ViewEquations& e, const Photometry& known) {
   Split s = split(e);
   add_prior(s, known);
   const Eigen::LLT<LightMatrix> light(s.light);
   const Eigen::Matrix<double, kLight, 6> gain = light.solve(s.cross.transpose());
   // What the model gets wrong shows along the edges, where it counts.
   const double trust = e.edge_kept > 0.0 ? std::min(1.0, e.edge_kept / e.edge_squares) : 1.0;
-  normal += trust * motion.transpose() * (s.pose - s.cross * gain) * motion;
-  right += trust * motion.transpose() * (s.pose_right - s.cross * light.solve(s.light_right));
+  return {trust * (s.pose - s.cross * gain),
+          trust * (s.pose_right - s.cross * light.solve(s.light_right))};
 }
 
 Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 turn) {
   return {orthonormalized(pose.rotation() * rotation_from_vector(turn)),
           pose.translation() + pose.rotation() * shift};
+}
+
+/// A small motion of the tag, in its frame and in cells, by a small turn of the camera in its own.
+Eigen::Matrix<double, 6, 3> tag_by_camera_turn(const CameraFromTag& pose, double cell_m) {
+  Eigen::Matrix<double, 6, 3> out;
+  const Mat3 back = pose.rotation.transposed();
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 turn{};
+    turn[axis] = 1.0;
+    const Vec3 shift = back * turn.cross(pose.translation_m) / cell_m;
+    const Vec3 rotation = back * turn;
+    out.col(axis) << shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z;
+  }
+  return out;
 }
 
 }  // namespace
@@ -207,7 +224,9 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
     view.used = gather(frame, fit.rig_from_marker, doubt_m, options, view, equations_[i]);
     if (!view.used) continue;
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
-    add_reduced(equations_[i], view.light, motion, normal, right);
+    const Reduced own = reduced(equations_[i], view.light);
+    normal += motion.transpose() * own.normal * motion;
+    right += motion.transpose() * own.right;
     ++fit.views;
     (view.right ? fit.right : fit.left) = true;
     out.pixels_a_metre = std::max(out.pixels_a_metre, pixels_a_metre(view, fit.rig_from_marker));
@@ -274,6 +293,43 @@ bool PhotometricSolver::learn_new_light(std::span<TagSighting> views) const {
     learn_noise(equations_[i], 1.0, views[i].light);
   }
   return all_known;
+}
+
+std::optional<AlignmentEquations> PhotometricSolver::alignment(
+    const PhotometricFit& fit, std::span<const TagSighting> views) const {
+  if (!fit.left || !fit.right || equations_.size() != views.size()) return std::nullopt;
+  Matrix6 pose = Matrix6::Zero();
+  Eigen::Matrix<double, 6, 3> cross = Eigen::Matrix<double, 6, 3>::Zero();
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+  Vector6 pose_right = Vector6::Zero();
+  Eigen::Vector3d turn_right = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const TagSighting& view = views[i];
+    if (!view.used) continue;
+    const Reduced own = reduced(equations_[i], view.light);
+    const double cell_m = view.tag->cell_m();
+    const Matrix6 motion = tag_by_tool(view.marker_from_tag, cell_m);
+    pose += motion.transpose() * own.normal * motion;
+    pose_right += motion.transpose() * own.right;
+    if (!view.right) continue;
+    const Eigen::Matrix<double, 6, 3> by_turn =
+        tag_by_camera_turn(camera_from_tag(view, fit.rig_from_marker), cell_m);
+    cross += motion.transpose() * own.normal * by_turn;
+    turn += by_turn.transpose() * own.normal * by_turn;
+    turn_right += by_turn.transpose() * own.right;
+  }
+  const Eigen::LDLT<Matrix6> solver(pose);
+  AlignmentEquations out;
+  Eigen::Map<Eigen::Matrix3d>(out.information.data()) =
+      turn - cross.transpose() * solver.solve(cross);
+  Eigen::Map<Eigen::Vector3d>(out.right.data()) =
+      turn_right - cross.transpose() * solver.solve(pose_right);
+  return out;
+}
+
+void PhotometricSolver::turn_right_camera(Vec3 rotation_rad) {
+  const Transform<RightCamera, RightCamera> turn(rotation_from_vector(rotation_rad), {});
+  calibration_.right_from_rig = turn * calibration_.right_from_rig;
 }
 
 }  // namespace orthonav::nav

@@ -8,6 +8,7 @@
 #include "hal/api/devices.h"
 #include "hal/api/tracked.h"
 #include "nav/tracking/photometric_view.h"
+#include "nav/tracking/stereo_alignment.h"
 
 namespace orthonav::nav {
 
@@ -58,6 +59,11 @@ class PhotometricSolver {
                                                     const Transform<Rig, Marker>& start,
                                                     double doubt_m, std::span<TagSighting> views,
                                                     const PhotometricOptions& options = {});
+  /// What the last fit says of the right camera's rotation; nothing when one camera was used.
+  [[nodiscard]] std::optional<AlignmentEquations> alignment(
+      const PhotometricFit& fit, std::span<const TagSighting> views) const;
+  /// Turns the right camera by a rotation vector in its own frame.
+  void turn_right_camera(Vec3 rotation_rad);
   [[nodiscard]] const StereoCalibration& calibration() const { return calibration_; }
   /// Camera from tag for a sighting of a tool at a pose.
   [[nodiscard]] CameraFromTag camera_from_tag(const TagSighting& view,

@@ -161,7 +161,7 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
   for (std::size_t i = 0; i < views_.size(); ++i)
     if (views_[i].used) light_[i] = views_[i].light;
   return ToolFit{fit->rig_from_marker, turned(fit->covariance, fit->rig_from_marker.rotation()),
-                 fit->left, fit->right};
+                 fit->left, fit->right, solver.alignment(*fit, views_)};
 }
 
 }  // namespace orthonav::nav

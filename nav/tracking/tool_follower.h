@@ -18,6 +18,7 @@ struct ToolFit {
   PoseCovariance covariance_in_rig{};
   bool left = false;
   bool right = false;
+  std::optional<AlignmentEquations> alignment;  ///< where both cameras saw it
 };
 
 /// Finds a tool again near where it is expected and measures it photometrically, in whichever

@@ -7,6 +7,7 @@
 
 #include "hal/api/devices.h"
 #include "hal/api/tracked.h"
+#include "nav/tracking/stereo_alignment.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::nav {
@@ -46,6 +47,9 @@ class ToolTracker {
   /// One state for each tool, in the order of the tools.
   virtual std::span<const ToolState> track(const StereoFrame& frame) = 0;
   [[nodiscard]] virtual std::span<const ToolGeometry> tools() const = 0;
+  /// How the two cameras seem to be turned against their reported calibration; nothing from a
+  /// method that does not ask, or before it knows.
+  [[nodiscard]] virtual std::optional<StereoAlignment> alignment() const { return std::nullopt; }
 };
 
 /// The published method (Liebmann et al. 2019, section 3.1): AprilTag corners in both images,

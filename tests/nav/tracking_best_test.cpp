@@ -146,6 +146,47 @@ TEST(BestTracker, MeasuresNothingWithoutAHeadPose) {
   EXPECT_EQ(t.tracker->track(t.frame(2))[0].world_from_marker.origin, Origin::kMeasured);
 }
 
+/// The worst tip late in a sequence of which the cameras are not as reported.
+double worst_late_tip_m(const StereoCalibration& truth, const StereoCalibration& reported,
+                        std::optional<StereoAlignment>& found) {
+  auto tracker = create_best_tracker(reported, {tool("pointer", 3, 0.05), tool("guide", 5, 0.07)});
+  EXPECT_TRUE(tracker.ok());
+  double worst = 0.0;
+  for (int k = 0; k < 60; ++k) {
+    StereoFrame frame = test::stereo_frame(truth, tags_at(k), at(k));
+    frame.world_from_rig = Transform<World, Rig>{};
+    const auto states = (*tracker)->track(frame);
+    for (std::size_t i = 0; i < 2 && k > 50; ++i)
+      worst = std::max(worst, tip_error_m(states[i], tags_at(k)[i]));
+  }
+  found = (*tracker)->alignment();
+  return worst;
+}
+
+TEST(BestTracker, FindsHowTheCamerasAreTurnedAgainstTheirCalibration) {
+  const StereoCalibration truth = test::test_calibration();
+  StereoCalibration reported = truth;
+  // 0.7 px: what a real unit was off by.
+  const Vec3 off{0.0014, -0.0008, 0.0012};
+  reported.right_from_rig =
+      Transform<RightCamera, RightCamera>(rotation_from_vector(-off), {}) * truth.right_from_rig;
+  std::optional<StereoAlignment> found;
+  const double worst = worst_late_tip_m(truth, reported, found);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_TRUE(found->applied);
+  EXPECT_LT((found->rotation_rad - off).norm(), 0.0003);
+  EXPECT_LT(worst, 0.001);
+}
+
+TEST(BestTracker, LeavesAGoodCalibrationAlone) {
+  const StereoCalibration truth = test::test_calibration();
+  std::optional<StereoAlignment> found;
+  worst_late_tip_m(truth, truth, found);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_FALSE(found->applied);
+  EXPECT_LT(found->rotation_rad.norm(), 0.00015);
+}
+
 TEST(BestTracker, IsTheSameWithOneThreadAndTwo) {
   TrackerOptions one;
   one.parallel = false;
