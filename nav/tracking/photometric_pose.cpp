@@ -155,7 +155,7 @@ Eigen::Matrix<double, 6, 3> tag_by_camera_turn(const CameraFromTag& pose, double
 PhotometricSolver::PhotometricSolver(const StereoCalibration& calibration)
     : calibration_(calibration), left_rays_(calibration_.left), right_rays_(calibration_.right) {}
 
-CameraFromTag PhotometricSolver::camera_from_tag(const TagSighting& view,
+CameraFromTag PhotometricSolver::camera_from_tag(const TagView& view,
                                                  const Transform<Rig, Marker>& pose) const {
   const Transform<Rig, Tag> rig_from_tag = pose * view.marker_from_tag;
   if (view.right) {
@@ -167,7 +167,7 @@ CameraFromTag PhotometricSolver::camera_from_tag(const TagSighting& view,
 }
 
 bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
-                               double doubt_m, const PhotometricOptions& options, TagSighting& view,
+                               double doubt_m, const PhotometricOptions& options, TagView& view,
                                ViewEquations& e) {
   const BlurredTag& tag = *view.tag;
   model_.linearize(view.right ? frame.right : frame.left, camera_of(view),
@@ -181,7 +181,7 @@ bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Ma
          view.light.contrast >= options.min_contrast_grey;
 }
 
-double PhotometricSolver::pixels_a_metre(const TagSighting& view,
+double PhotometricSolver::pixels_a_metre(const TagView& view,
                                          const Transform<Rig, Marker>& pose) const {
   const CameraModel& camera = camera_of(view);
   const auto w = static_cast<std::size_t>(camera.width_px());
@@ -193,10 +193,10 @@ double PhotometricSolver::pixels_a_metre(const TagSighting& view,
 /// Back to the light of each view, with the pose's step taken into account.
 void PhotometricSolver::update_light(const std::array<double, 6>& step,
                                      const Transform<Rig, Marker>& pose,
-                                     std::span<TagSighting> views) const {
+                                     std::span<TagView> views) const {
   const Eigen::Map<const Vector6> motion(step.data());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    TagSighting& view = views[i];
+    TagView& view = views[i];
     if (!view.used) continue;
     const double cell_m = view.tag->cell_m();
     Split s = split(equations_[i]);
@@ -211,7 +211,7 @@ void PhotometricSolver::update_light(const std::array<double, 6>& step,
 std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame& frame,
                                                                double doubt_m,
                                                                const PhotometricOptions& options,
-                                                               std::span<TagSighting> views,
+                                                               std::span<TagView> views,
                                                                PhotometricFit& fit) {
   Matrix6 normal = Matrix6::Zero();
   Vector6 right = Vector6::Zero();
@@ -219,7 +219,7 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
   fit.views = 0;
   fit.left = fit.right = false;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    TagSighting& view = views[i];
+    TagView& view = views[i];
     if (!view.used) continue;
     view.used = gather(frame, fit.rig_from_marker, doubt_m, options, view, equations_[i]);
     if (!view.used) continue;
@@ -256,13 +256,13 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
 
 std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
                                                        const Transform<Rig, Marker>& start,
-                                                       double doubt_m, std::span<TagSighting> views,
+                                                       double doubt_m, std::span<TagView> views,
                                                        const PhotometricOptions& options) {
   PhotometricFit fit;
   fit.rig_from_marker = start;
   equations_.resize(views.size());
   double doubt = doubt_m;
-  for (TagSighting& view : views) view.cell_weights.clear();
+  for (TagView& view : views) view.cell_weights.clear();
   while (fit.iterations < options.max_iterations) {
     const auto taken = step(frame, doubt, options, views, fit);
     if (!taken) return std::nullopt;
@@ -285,7 +285,7 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
 }
 
 /// A light that is new is learnt on the way: what it is off by is no noise. True when none is new.
-bool PhotometricSolver::learn_new_light(std::span<TagSighting> views) const {
+bool PhotometricSolver::learn_new_light(std::span<TagView> views) const {
   bool all_known = true;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (!views[i].used || views[i].light.known) continue;
@@ -296,7 +296,7 @@ bool PhotometricSolver::learn_new_light(std::span<TagSighting> views) const {
 }
 
 std::optional<AlignmentEquations> PhotometricSolver::alignment(
-    const PhotometricFit& fit, std::span<const TagSighting> views) const {
+    const PhotometricFit& fit, std::span<const TagView> views) const {
   if (!fit.left || !fit.right || equations_.size() != views.size()) return std::nullopt;
   Matrix6 pose = Matrix6::Zero();
   Eigen::Matrix<double, 6, 3> cross = Eigen::Matrix<double, 6, 3>::Zero();
@@ -304,7 +304,7 @@ std::optional<AlignmentEquations> PhotometricSolver::alignment(
   Vector6 pose_right = Vector6::Zero();
   Eigen::Vector3d turn_right = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const TagSighting& view = views[i];
+    const TagView& view = views[i];
     if (!view.used) continue;
     const Reduced own = reduced(equations_[i], view.light);
     const double cell_m = view.tag->cell_m();

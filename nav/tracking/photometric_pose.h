@@ -13,7 +13,7 @@
 namespace orthonav::nav {
 
 /// One tag of a tool in one image, with the light that is remembered of it.
-struct TagSighting {
+struct TagView {
   const BlurredTag* tag = nullptr;
   Transform<Marker, Tag> marker_from_tag;  ///< poses of a tool are those of its first tag
   bool right = false;                      ///< camera
@@ -57,16 +57,16 @@ class PhotometricSolver {
   /// nothing. Nothing when too little of the tags is to be seen.
   [[nodiscard]] std::optional<PhotometricFit> solve(const StereoFrame& frame,
                                                     const Transform<Rig, Marker>& start,
-                                                    double doubt_m, std::span<TagSighting> views,
+                                                    double doubt_m, std::span<TagView> views,
                                                     const PhotometricOptions& options = {});
   /// What the last fit says of the right camera's rotation; nothing when one camera was used.
-  [[nodiscard]] std::optional<AlignmentEquations> alignment(
-      const PhotometricFit& fit, std::span<const TagSighting> views) const;
+  [[nodiscard]] std::optional<AlignmentEquations> alignment(const PhotometricFit& fit,
+                                                            std::span<const TagView> views) const;
   /// Turns the right camera by a rotation vector in its own frame.
   void turn_right_camera(Vec3 rotation_rad);
   [[nodiscard]] const StereoCalibration& calibration() const { return calibration_; }
   /// Camera from tag for a sighting of a tool at a pose.
-  [[nodiscard]] CameraFromTag camera_from_tag(const TagSighting& view,
+  [[nodiscard]] CameraFromTag camera_from_tag(const TagView& view,
                                               const Transform<Rig, Marker>& pose) const;
 
  private:
@@ -77,16 +77,16 @@ class PhotometricSolver {
     double cell_m = 1.0;             ///< the smallest
   };
   std::optional<Step> step(const StereoFrame& frame, double doubt_m,
-                           const PhotometricOptions& options, std::span<TagSighting> views,
+                           const PhotometricOptions& options, std::span<TagView> views,
                            PhotometricFit& fit);
   bool gather(const StereoFrame& frame, const Transform<Rig, Marker>& pose, double doubt_m,
-              const PhotometricOptions& options, TagSighting& view, ViewEquations& e);
+              const PhotometricOptions& options, TagView& view, ViewEquations& e);
   void update_light(const std::array<double, 6>& step, const Transform<Rig, Marker>& pose,
-                    std::span<TagSighting> views) const;
-  bool learn_new_light(std::span<TagSighting> views) const;
-  [[nodiscard]] double pixels_a_metre(const TagSighting& view,
+                    std::span<TagView> views) const;
+  bool learn_new_light(std::span<TagView> views) const;
+  [[nodiscard]] double pixels_a_metre(const TagView& view,
                                       const Transform<Rig, Marker>& pose) const;
-  [[nodiscard]] const CameraModel& camera_of(const TagSighting& view) const {
+  [[nodiscard]] const CameraModel& camera_of(const TagView& view) const {
     return view.right ? calibration_.right : calibration_.left;
   }
 

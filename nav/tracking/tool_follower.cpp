@@ -26,11 +26,11 @@ constexpr double kFarthestDoubtPx = 24.0;
 /// Where the search found nothing to shift, the pose is off by less than this part of a cell.
 constexpr double kUnshiftedCells = 0.3;
 
-const GreyImage& image_of(const StereoFrame& frame, const TagSighting& view) {
+const GreyImage& image_of(const StereoFrame& frame, const TagView& view) {
   return view.right ? frame.right : frame.left;
 }
 
-const CameraModel& camera_of(const PhotometricSolver& solver, const TagSighting& view) {
+const CameraModel& camera_of(const PhotometricSolver& solver, const TagView& view) {
   return view.right ? solver.calibration().right : solver.calibration().left;
 }
 
@@ -83,7 +83,7 @@ Status ToolFollower::add(const MarkerDefinition& marker,
     return Error{"tag family '" + marker.family + "' has no id " + std::to_string(marker.id)};
   tags_.emplace_back(std::move(*tag), marker.size_m);
   for (const bool right : {false, true}) {
-    TagSighting view;
+    TagView view;
     view.marker_from_tag = marker_from_tag;
     view.right = right;
     views_.push_back(view);
@@ -110,7 +110,7 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
   bool shifted = false;
   bool any = false;
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    TagSighting& view = views_[i];
+    TagView& view = views_[i];
     view.tag = &tags_[i / 2];
     view.light = light_[i];
     view.used = false;
@@ -140,7 +140,7 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
 bool ToolFollower::looks_right(const StereoFrame& frame, const PhotometricFit& fit,
                                const PhotometricSolver& solver, TagSearch& search) const {
   const bool one_camera = fit.left != fit.right;
-  for (const TagSighting& view : views_) {
+  for (const TagView& view : views_) {
     if (!view.used) continue;
     const CellMatch match = search.match(image_of(frame, view), camera_of(solver, view), *view.tag,
                                          solver.camera_from_tag(view, fit.rig_from_marker));

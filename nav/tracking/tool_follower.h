@@ -46,8 +46,8 @@ class ToolFollower {
                                  const PhotometricSolver& solver, TagSearch& search) const;
 
   std::vector<BlurredTag> tags_;
-  std::vector<TagSighting> views_;  ///< every tag in both cameras
-  std::vector<Photometry> light_;   ///< of the views, from the last good fit
+  std::vector<TagView> views_;     ///< every tag in both cameras
+  std::vector<Photometry> light_;  ///< of the views, from the last good fit
 };
 
 }  // namespace orthonav::nav

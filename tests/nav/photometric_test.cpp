@@ -37,9 +37,9 @@ Transform<Rig, Marker> roughly(const Transform<Rig, Marker>& pose) {
                                           {0.0007, -0.0006, 0.0012});
 }
 
-std::vector<TagSighting> both_views(const BlurredTag& tag) {
-  std::vector<TagSighting> views(2);
-  for (TagSighting& view : views) view.tag = &tag;
+std::vector<TagView> both_views(const BlurredTag& tag) {
+  std::vector<TagView> views(2);
+  for (TagView& view : views) view.tag = &tag;
   views[1].right = true;
   return views;
 }
@@ -126,7 +126,7 @@ TEST(PhotometricPose, OneCameraIsLessSure) {
   PhotometricSolver solver(shown.calibration);
   auto views = both_views(tag);
   const auto both = solver.solve(shown.frame, roughly(tilted()), 0.001, views);
-  std::vector<TagSighting> left(1);
+  std::vector<TagView> left(1);
   left[0].tag = &tag;
   const auto one = solver.solve(shown.frame, roughly(tilted()), 0.001, left);
   ASSERT_TRUE(both && one);
