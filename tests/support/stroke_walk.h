@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "nav/geometry/mesh.h"
+#include "tests/support/posterior_landmarks.h"
+#include "tests/support/stroke_lanes.h"
+
+namespace orthonav::test {
+
+/// A place of the tip on the bone, in the vertebra's frame.
+struct Touch {
+  Vec3 tip_m;      ///< centre of the tip's ball
+  Vec3 surface_m;  ///< where the ball rests on the bone
+  Vec3 normal;     ///< of the bone there, outward
+  Vec3 approach;   ///< unit, from the bone towards the pointer's handle
+};
+
+/// One unbroken movement of the tip over the bone, its places a fraction of a millimetre apart.
+struct Walk {
+  BoneRegion region = BoneRegion::kCrest;
+  std::vector<Touch> touches;
+  std::vector<double> arc_m;  ///< length from the start to each place
+
+  [[nodiscard]] double length_m() const { return arc_m.empty() ? 0.0 : arc_m.back(); }
+  /// The place nearest to `along_m` of it: one of its own, so that it lies on the bone.
+  [[nodiscard]] const Touch& at(double along_m) const;
+  /// What lies between two lengths.
+  [[nodiscard]] Walk part(double from_m, double to_m) const;
+};
+
+/// The bone as a straight pointer meets it that comes in along a line, without any idea of what a
+/// registration thinks reachable.
+class TouchableBone {
+ public:
+  TouchableBone(const nav::SurfaceIndex& surface, const PosteriorLandmarks& landmarks,
+                double tip_radius_m)
+      : surface_(&surface), marks_(landmarks), tip_radius_m_(tip_radius_m) {}
+
+  /// The strokes along a lane. They end where the tip would leave the region, fall off an edge or
+  /// into the canal.
+  [[nodiscard]] std::vector<Walk> walk(const Lane& lane) const;
+
+ private:
+  [[nodiscard]] bool belongs(BoneRegion region, const Touch& touch) const;
+  /// The tip moved in along -approach until it rests on the bone.
+  [[nodiscard]] std::optional<Touch> lower(Vec3 aim_m, Vec3 approach) const;
+
+  const nav::SurfaceIndex* surface_;
+  PosteriorLandmarks marks_;
+  double tip_radius_m_;
+};
+
+}  // namespace orthonav::test
