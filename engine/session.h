@@ -98,6 +98,7 @@ class Session {
   void write_step_text();
   void write_detail();
   void write_state_of_step();
+  [[nodiscard]] std::string tag_size_warning() const;
 
   // session_actions.cpp: what the table asks for.
   void act(Action action, Event event, Timestamp time);

@@ -57,10 +57,25 @@ void Session::write_detail() {
   const auto tool = active_tool();
   const bool lost = tool && seen_ != Seen::kMeasured && seen_ != Seen::kNever;
   if (lost) guidance_.detail = tracker_->tools()[*tool].name + " lost";
+  const std::string warning = lost ? std::string() : tag_size_warning();
+  if (!warning.empty()) guidance_.detail = warning;
+  const bool taken = lost || !warning.empty();
   if (!message_.empty())
-    guidance_.detail += (lost ? "; " : "") + message_;
-  else if (!lost)
+    guidance_.detail += (taken ? "; " : "") + message_;
+  else if (!taken)
     write_state_of_step();
+}
+
+/// Of the tool in use: a tag that is not as large as its tool's definition says gives wrong poses.
+std::string Session::tag_size_warning() const {
+  const auto tool = active_tool();
+  const auto size = tool ? tracker_->tag_size(*tool) : std::nullopt;
+  if (!size || !size->disagrees) return {};
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), "%s: tag %.1f %% %s than stated, check print and unit",
+                tracker_->tools()[*tool].name.c_str(), 100.0 * std::abs(size->share),
+                size->share > 0.0 ? "larger" : "smaller");
+  return text.data();
 }
 
 void Session::write_state_of_step() {

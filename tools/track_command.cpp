@@ -83,6 +83,27 @@ nlohmann::ordered_json as_json(const nav::StereoAlignment& found) {
           {"applied", found.applied}};
 }
 
+nlohmann::ordered_json as_json(const nav::TagSize& found) {
+  return {{"larger_percent", 100.0 * found.share},
+          {"sd_percent", 100.0 * found.sd},
+          {"disagrees", found.disagrees}};
+}
+
+/// On standard error, since it makes the result worthless.
+void warn_of_sizes(const nav::ToolTracker& tracker) {
+  const std::span<const nav::ToolGeometry> tools = tracker.tools();
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    const auto size = tracker.tag_size(i);
+    if (!size || !size->disagrees) continue;
+    const double stated_mm = kMilli * tools[i].marker.size_m;
+    std::fprintf(stderr,
+                 "orthonav: warning: %s: its tag is stated to measure %.2f mm but measures %.2f mm "
+                 "by the cameras (SD %.2f mm): check the print, the unit and the calibration\n",
+                 tools[i].name.c_str(), stated_mm, stated_mm * (1.0 + size->share),
+                 stated_mm * size->sd);
+  }
+}
+
 void print(const nav::StereoAlignment& found) {
   const char* verdict = "within what can be told";
   if (found.applied) verdict = "significant, applied to the poses";
@@ -105,10 +126,12 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
         {"pairs", summary.pairs},
         {"pairs_without_pose", recording.pairs_without_pose},
         {"unpaired_images", recording.left_unpaired + recording.right_unpaired}};
-    for (std::size_t i = 0; i < tools.size(); ++i)
+    for (std::size_t i = 0; i < tools.size(); ++i) {
       out["tools"].push_back({{"name", tools[i].name},
                               {"id", tools[i].marker.id},
                               {"measured_pairs", summary.measured[i]}});
+      if (const auto size = tracker.tag_size(i)) out["tools"].back()["tag_size"] = as_json(*size);
+    }
     if (alignment) out["stereo_alignment"] = as_json(*alignment);
     std::printf("%s\n", out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return;
@@ -145,6 +168,7 @@ int run_track(const TrackArguments& arguments) {
   if (Status status = engine::write_file(arguments.csv, csv); !status)
     return bad_input(status.error().message);
   print(arguments, *summary, (*headset)->summary(), **tracker);
+  warn_of_sizes(**tracker);
   return kDone;
 }
 

@@ -14,14 +14,15 @@ namespace {
 /// A lost tool is looked for around its last place for so long.
 constexpr Duration kRemembered = std::chrono::seconds(3);
 /// Room around a tag where it is looked for: by its extent, and in pixels.
-constexpr double kRoomOfExtent = 0.5;
-constexpr double kRoomPx = 30.0;
+constexpr BoxRoom kRoom{0.5, 30.0};
 /// Corners that were just detected are right to a small part of a cell; their pose is less so.
 constexpr double kDetectedDoubtPx = 1.0;
 constexpr double kFewestDoubtPx = 1.0;
 /// One camera's corners tell the depth badly, which is a shift in the other image.
 constexpr double kOneCameraDoubtPx = 6.0;
 constexpr double kDoubtSd = 3.0;
+/// SD of a tag's size by its corners, which blur pushes outward.
+constexpr double kCornersSizeSd = 0.03;
 
 class BestTracker final : public ToolTracker {
  public:
@@ -35,7 +36,7 @@ class BestTracker final : public ToolTracker {
         near_(std::move(near)),
         whole_(std::move(whole)) {
     for (std::size_t i = 0; i < tools_.size(); ++i) {
-      trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}});
+      trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}, {}});
       states_.push_back({i, {}, {}, 0.0});
     }
   }
@@ -67,6 +68,9 @@ class BestTracker final : public ToolTracker {
   [[nodiscard]] std::optional<StereoAlignment> alignment() const override {
     return applied_ ? applied_ : aligning_.estimate();
   }
+  [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override {
+    return trails_.at(tool).size.estimate();
+  }
 
  private:
   struct Trail {
@@ -74,12 +78,13 @@ class BestTracker final : public ToolTracker {
     PoseFilter filter;
     Transform<World, Marker> last_seen;
     std::optional<Timestamp> last_time;
+    TagSizeEstimator size;
   };
 
   /// Poses follow the cameras as they are, once it is certain that they are not as reported.
   void align() {
     const auto found = aligning_.estimate();
-    if (!found || !found->significant || !found->within_bounds) return;
+    if (!found || !found->significant || !found->within_bounds || may_be_of_wrong_size()) return;
     solver_.turn_right_camera(found->rotation_rad);
     geometry_ = TagGeometry(solver_.calibration());
     const Vec3 before = applied_ ? applied_->rotation_rad : Vec3{};
@@ -87,6 +92,15 @@ class BestTracker final : public ToolTracker {
     applied_->rotation_rad = before + found->rotation_rad;
     applied_->applied = true;
     aligning_.restart();
+    for (Trail& trail : trails_) trail.size.restart();
+  }
+
+  /// A wrong print looks like cameras that are turned towards each other.
+  [[nodiscard]] bool may_be_of_wrong_size() const {
+    return std::any_of(trails_.begin(), trails_.end(), [](const Trail& trail) {
+      const auto size = trail.size.estimate();
+      return size && size->notable;
+    });
   }
 
   [[nodiscard]] bool is_measured(std::size_t i) const {
@@ -113,10 +127,9 @@ class BestTracker final : public ToolTracker {
     return take(i, frame, expected, kDoubtSd * std::sqrt(variance) + pixel_m(expected));
   }
 
-  /// What a pixel covers at the tool's distance.
-  [[nodiscard]] static double pixel_m(const Transform<Rig, Marker>& pose) {
-    constexpr double kRadPerPx = 1.0 / 360.0;
-    return kFewestDoubtPx * kRadPerPx * pose.translation().norm();
+  /// What the pixels of doubt cover at the tool's distance.
+  [[nodiscard]] double pixel_m(const Transform<Rig, Marker>& pose) const {
+    return kFewestDoubtPx * pose.translation().norm() / solver_.focal_px(false);
   }
 
   /// `by_both`: a tool is only believed when both cameras agree on it.
@@ -126,6 +139,9 @@ class BestTracker final : public ToolTracker {
     const auto fit = trail.follower.follow(frame, expected, doubt_m, solver_, search_);
     if (!fit || (by_both && !(fit->left && fit->right))) return false;
     if (fit->alignment) aligning_.add(*fit->alignment);
+    if (fit->left && fit->right && trail.size.is_due())
+      if (const auto size = trail.follower.measured_size(frame, fit->rig_from_marker, solver_))
+        trail.size.add(*size);
     TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
                          Origin::kMeasured,
                          turned(fit->covariance_in_rig, frame.world_from_rig->rotation())};
@@ -163,7 +179,7 @@ class BestTracker final : public ToolTracker {
     const auto from_whole = [&](std::span<const MarkerCorners> found, SearchPlan& plan) {
       for (const MarkerCorners& seen : found)
         if (seen.family == marker.family && seen.id == marker.id)
-          add_box(seen.corners_px, marker, plan);
+          plan.add(seen.corners_px, kRoom, marker.family, marker.id);
     };
     from_whole(whole_->left(), near_->left_plan());
     from_whole(whole_->right(), near_->right_plan());
@@ -180,27 +196,11 @@ class BestTracker final : public ToolTracker {
         if (!seen) return;
         corners[k] = *seen;
       }
-      add_box(corners, marker, plan);
+      plan.add(corners, kRoom, marker.family, marker.id);
     };
     const StereoCalibration& c = solver_.calibration();
     expect(c.left, c.left_from_rig, near_->left_plan());
     expect(c.right, c.right_from_rig, near_->right_plan());
-  }
-
-  static void add_box(const TagCorners& corners, const MarkerDefinition& marker, SearchPlan& plan) {
-    Vec2 low = corners[0];
-    Vec2 high = low;
-    for (const Vec2 corner : corners) {
-      low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
-      high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
-    }
-    const double room = kRoomPx + kRoomOfExtent * std::max(high.x - low.x, high.y - low.y);
-    const auto whole = [](double v) { return static_cast<int>(std::floor(v)); };
-    plan.boxes.push_back(
-        {{whole(low.x - room), whole(low.y - room), whole(high.x - low.x + 2.0 * room) + 1,
-          whole(high.y - low.y + 2.0 * room) + 1},
-         marker.family,
-         marker.id});
   }
 
   bool find(std::size_t i, const StereoFrame& frame) {
@@ -214,15 +214,29 @@ class BestTracker final : public ToolTracker {
             const Transform<Tag, Marker>& tag_from_marker, const StereoFrame& frame) {
     const TagMatch match = matched(near_->left(), near_->right(), marker.family, marker.id,
                                    marker.size_m, geometry_, std::nullopt);
-    if (!match.both()) return find_by_one(i, marker, tag_from_marker, match, frame);
+    if (!match.both() && find_by_one(i, marker, tag_from_marker, match, frame)) return true;
+    if (match.both() && find_by_both(i, marker, tag_from_marker, match, frame)) return true;
+    if (const auto ratio = size_ratio(near_->left(), near_->right(), marker.family, marker.id,
+                                      marker.size_m, geometry_))
+      trails_[i].size.add({*ratio - 1.0, kCornersSizeSd});
+    return false;
+  }
+
+  bool find_by_both(std::size_t i, const MarkerDefinition& marker,
+                    const Transform<Tag, Marker>& tag_from_marker, const TagMatch& match,
+                    const StereoFrame& frame) {
     const auto pose =
         geometry_.pose({match.left->corners_px, match.right->corners_px}, marker.size_m);
     if (!pose) return false;
     // The geometry calls every tag's frame Marker.
     const Transform<Rig, Tag> rig_from_tag(pose->rig_from_marker.rotation(),
                                            pose->rig_from_marker.translation());
-    return take(i, frame, rig_from_tag * tag_from_marker,
-                kDetectedDoubtPx * pixel_m(pose->rig_from_marker));
+    const Transform<Rig, Marker> start = rig_from_tag * tag_from_marker;
+    const double doubt_m = kDetectedDoubtPx * pixel_m(pose->rig_from_marker);
+    if (take(i, frame, start, doubt_m)) return true;
+    // A lamp or the exposure may have changed since the light was learnt.
+    trails_[i].follower.forget();
+    return take(i, frame, start, doubt_m);
   }
 
   /// Its corners were found in one image only; the other one may still show enough of the tag to

@@ -1,9 +1,34 @@
 #include "nav/tracking/blurred_tag.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <utility>
 
 namespace orthonav::nav {
+namespace {
+
+/// By the two neighbours in a row that are nearest to the middle of the image and have directions.
+double focal_px_of(const CameraModel& camera) {
+  const std::span<const Vec2> rays = camera.lookup();
+  const int w = camera.width_px();
+  double nearest = 1e18;
+  double focal = 1.0;
+  for (int y = 0; y < camera.height_px(); ++y)
+    for (int x = 1; x < w; ++x) {
+      const double off = std::hypot(x - 0.5 * w, y - 0.5 * camera.height_px());
+      if (off >= nearest) continue;
+      const auto i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
+      const double step = (rays[i] - rays[i - 1]).norm();
+      if (!(step > 0.0)) continue;
+      nearest = off;
+      focal = 1.0 / step;
+    }
+  return focal;
+}
+
+}  // namespace
 
 RayTable::RayTable(const CameraModel& camera)
     : width_px(camera.width_px()), height_px(camera.height_px()) {
@@ -13,6 +38,7 @@ RayTable::RayTable(const CameraModel& camera)
     x.push_back(static_cast<float>(ray.x));
     y.push_back(static_cast<float>(ray.y));
   }
+  focal_px = focal_px_of(camera);
 }
 
 BlurredTag::BlurredTag(TagTemplate tag, double size_m)

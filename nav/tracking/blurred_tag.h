@@ -15,6 +15,8 @@ struct RayTable {
   int height_px = 0;
   std::vector<float> x;
   std::vector<float> y;
+  /// Pixels by the unit plane, near the middle of the image.
+  double focal_px = 1.0;
 
   explicit RayTable(const CameraModel& camera);
 };

@@ -1,6 +1,34 @@
 #include "nav/tracking/pair_detector.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace orthonav::nav {
+namespace {
+
+constexpr double kFarPx = 1e5;
+
+}  // namespace
+
+void SearchPlan::add(const TagCorners& corners_px, const BoxRoom& room, std::string_view family,
+                     int id) {
+  Vec2 low = corners_px[0];
+  Vec2 high = low;
+  for (const Vec2 corner : corners_px) {
+    low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
+    high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
+  }
+  const double extent_px = std::max(high.x - low.x, high.y - low.y);
+  const double room_px = room.px + room.of_extent * extent_px;
+  // Negated, so that what is not finite stays out as well.
+  if (!(std::abs(low.x) + std::abs(low.y) + extent_px + room_px < kFarPx)) return;
+  const auto whole = [](double v) { return static_cast<int>(std::floor(v)); };
+  boxes.push_back(
+      {{whole(low.x - room_px), whole(low.y - room_px), whole(high.x - low.x + 2.0 * room_px) + 1,
+        whole(high.y - low.y + 2.0 * room_px) + 1},
+       family,
+       id});
+}
 
 PairDetector::PairDetector(MarkerDetector left, MarkerDetector right, bool parallel)
     : left_{std::move(left), {}, nullptr, {}, {}}, right_{std::move(right), {}, nullptr, {}, {}} {

@@ -8,9 +8,16 @@
 
 #include "hal/api/devices.h"
 #include "nav/tracking/marker_detector.h"
+#include "nav/tracking/tag_pose.h"
 #include "nav/tracking/worker.h"
 
 namespace orthonav::nav {
+
+/// Room around a tag's expected corners on every side: by their extent, and in pixels.
+struct BoxRoom {
+  double of_extent = 0.0;
+  double px = 0.0;
+};
 
 /// Where to look in one image: everywhere, or in boxes that each concern one tag.
 struct SearchPlan {
@@ -21,6 +28,9 @@ struct SearchPlan {
   };
   bool everywhere = true;
   std::vector<Box> boxes;
+
+  /// Plans a box around a tag. Corners that are not finite, or far outside any image, plan none.
+  void add(const TagCorners& corners_px, const BoxRoom& room, std::string_view family, int id);
 };
 
 /// Detects tags in both images of a pair, at once when a second thread is given; the result is the

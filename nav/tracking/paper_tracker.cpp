@@ -14,7 +14,6 @@ namespace {
 constexpr double kBoxOfExtent = 0.35;
 constexpr double kBoxOfSd = 4.0;
 constexpr double kBoxPx = 6.0;
-constexpr double kFarPx = 1e5;
 
 class PaperTracker final : public ToolTracker {
  public:
@@ -85,21 +84,8 @@ class PaperTracker final : public ToolTracker {
                SearchPlan& plan) const {
     if (!is_recent(filter, time)) return;
     const CornerFilter::Prediction ahead = filter.predicted(time);
-    Vec2 low = ahead.corners_px[0];
-    Vec2 high = low;
-    for (const Vec2 corner : ahead.corners_px) {
-      low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
-      high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
-    }
-    const double extent_px = std::max(high.x - low.x, high.y - low.y);
-    const double room_px = kBoxOfExtent * extent_px + kBoxOfSd * ahead.sd_px + kBoxPx;
-    // Negated, so that what is not finite stays out as well.
-    if (!(std::abs(low.x) + std::abs(low.y) + extent_px + room_px < kFarPx)) return;
-    const auto whole = [](double v) { return static_cast<int>(std::floor(v)); };
-    const PixelBox box{whole(low.x - room_px), whole(low.y - room_px),
-                       whole(high.x - low.x + 2.0 * room_px) + 1,
-                       whole(high.y - low.y + 2.0 * room_px) + 1};
-    plan.boxes.push_back({box, tool.marker.family, tool.marker.id});
+    plan.add(ahead.corners_px, {kBoxOfExtent, kBoxOfSd * ahead.sd_px + kBoxPx}, tool.marker.family,
+             tool.marker.id);
   }
 
   [[nodiscard]] std::optional<TagPair> expected(const Trail& trail, Timestamp time) const {

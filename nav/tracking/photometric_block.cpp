@@ -124,7 +124,6 @@ void ViewModel::count(int pixels, ViewEquations& out) {
     out.pixels += 1.0;
     out.kept += kept;
     if (column(kSlope2)[k] > kEdgeSlope * kEdgeSlope) {
-      out.edge_pixels += 1.0;
       out.edge_kept += kept;
       out.edge_squares += static_cast<double>(column(kWeight)[k]) * squared;
     }

@@ -173,21 +173,14 @@ bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Ma
   model_.linearize(view.right ? frame.right : frame.left, camera_of(view),
                    view.right ? right_rays_ : left_rays_, tag, camera_from_tag(view, pose),
                    view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
-  view.edge_pixels = e.edge_pixels;
   view.kept_share = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
-  const double counted = e.counts[0] + e.counts[1];
-  view.noise_grey = counted > 0.0 ? std::sqrt((e.squares[0] + e.squares[1]) / counted) : 0.0;
   return e.pixels >= kFewestPixels && view.kept_share >= options.min_kept_share &&
          view.light.contrast >= options.min_contrast_grey;
 }
 
 double PhotometricSolver::pixels_a_metre(const TagView& view,
                                          const Transform<Rig, Marker>& pose) const {
-  const CameraModel& camera = camera_of(view);
-  const auto w = static_cast<std::size_t>(camera.width_px());
-  const std::size_t middle = static_cast<std::size_t>(camera.height_px() / 2) * w + w / 2;
-  const double per_px = (camera.lookup()[middle] - camera.lookup()[middle - 1]).norm();
-  return 1.0 / (std::max(camera_from_tag(view, pose).translation_m.z, 1e-3) * per_px);
+  return focal_px(view.right) / std::max(camera_from_tag(view, pose).translation_m.z, 1e-3);
 }
 
 /// Back to the light of each view, with the pose's step taken into account.

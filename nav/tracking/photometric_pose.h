@@ -20,9 +20,7 @@ struct TagView {
   Photometry light;
   std::vector<float> cell_weights;  ///< by cell: 0 where it is hidden
   // Of the last fit:
-  double kept_share = 0.0;   ///< of the pixels, by robust weight
-  double edge_pixels = 0.0;  ///< pixels that tell of the pose
-  double noise_grey = 0.0;   ///< SD of the residuals that were kept
+  double kept_share = 0.0;  ///< of the pixels, by robust weight
   /// In: whether to look at this view at all. Out: whether the fit rests on it.
   bool used = true;
 };
@@ -62,6 +60,10 @@ class PhotometricSolver {
   /// What the last fit says of the right camera's rotation; nothing when one camera was used.
   [[nodiscard]] std::optional<AlignmentEquations> alignment(const PhotometricFit& fit,
                                                             std::span<const TagView> views) const;
+  /// Pixels by the unit plane, near the middle of the left or the right image.
+  [[nodiscard]] double focal_px(bool right) const {
+    return right ? right_rays_.focal_px : left_rays_.focal_px;
+  }
   /// Turns the right camera by a rotation vector in its own frame.
   void turn_right_camera(Vec3 rotation_rad);
   [[nodiscard]] const StereoCalibration& calibration() const { return calibration_; }

@@ -49,9 +49,8 @@ inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 struct ViewEquations {
   /// Upper triangle by rows of JᵀWJ over the columns and the residual as the last column.
   std::array<double, (kColumns + 1) * (kColumns + 2) / 2> sums{};
-  double pixels = 0.0;       ///< that were compared
-  double kept = 0.0;         ///< of them by robust weight
-  double edge_pixels = 0.0;  ///< those with a slope of their own
+  double pixels = 0.0;  ///< that were compared
+  double kept = 0.0;    ///< of them by robust weight
   double edge_kept = 0.0;
   double edge_squares = 0.0;  ///< of their residuals, by robust weight and variance
   /// Of the residuals, by robust weight: in black and in white areas.

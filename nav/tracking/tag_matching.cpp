@@ -68,4 +68,18 @@ TagMatch matched(std::span<const MarkerCorners> left, std::span<const MarkerCorn
   return match;
 }
 
+std::optional<double> size_ratio(std::span<const MarkerCorners> left,
+                                 std::span<const MarkerCorners> right, std::string_view family,
+                                 int id, double size_m, const TagGeometry& geometry,
+                                 const MatchLimits& limits) {
+  const MarkerCorners* a = best_decoded(left, {family, id});
+  const MarkerCorners* b = best_decoded(right, {family, id});
+  if (!a || !b) return std::nullopt;
+  const TagPair pair{a->corners_px, b->corners_px};
+  const std::optional<TagPose> pose = geometry.pose(pair, size_m);
+  if (!pose || !is_consistent(pair, pose->size_ratio * size_m, geometry, limits))
+    return std::nullopt;
+  return pose->size_ratio;
+}
+
 }  // namespace orthonav::nav

@@ -36,4 +36,12 @@ struct TagMatch {
                                const std::optional<TagPair>& expected,
                                const MatchLimits& limits = {});
 
+/// The triangulated size of a tag that both cameras see, by the size given; nothing where they do
+/// not see one and the same square.
+[[nodiscard]] std::optional<double> size_ratio(std::span<const MarkerCorners> left,
+                                               std::span<const MarkerCorners> right,
+                                               std::string_view family, int id, double size_m,
+                                               const TagGeometry& geometry,
+                                               const MatchLimits& limits = {});
+
 }  // namespace orthonav::nav

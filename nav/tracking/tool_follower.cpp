@@ -4,6 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "nav/geometry/rays.h"
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
@@ -38,13 +39,6 @@ bool faces(const CameraFromTag& pose) {
   const double distance = pose.translation_m.norm();
   return pose.translation_m.z > 0.05 &&
          -pose.rotation.column(2).dot(pose.translation_m) > kLeastCosine * distance;
-}
-
-/// Pixels by the unit plane, in the middle of the image.
-double focal_px(const CameraModel& camera) {
-  const auto w = static_cast<std::size_t>(camera.width_px());
-  const std::size_t middle = static_cast<std::size_t>(camera.height_px() / 2) * w + w / 2;
-  return 1.0 / (camera.lookup()[middle] - camera.lookup()[middle - 1]).norm();
 }
 
 /// Shifts in the images become a shift in space, by least squares.
@@ -121,7 +115,7 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     CellMatch match = search.match(image, camera, *view.tag, seen);
     if (match.share < kLeastShare) continue;
     if (match.correlation < kFoundHere) {
-      const double px = focal_px(camera) * doubt_m / seen.translation_m.z;
+      const double px = solver.focal_px(view.right) * doubt_m / seen.translation_m.z;
       match = search.best_shift(image, static_cast<int>(std::ceil(std::min(px, kFarthestDoubtPx))));
       if (match.correlation < kFoundNear) continue;
     }
@@ -162,6 +156,39 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
     if (views_[i].used) light_[i] = views_[i].light;
   return ToolFit{fit->rig_from_marker, turned(fit->covariance, fit->rig_from_marker.rotation()),
                  fit->left, fit->right, solver.alignment(*fit, views_)};
+}
+
+std::optional<SizeEvidence> ToolFollower::measured_size(const StereoFrame& frame,
+                                                        const Transform<Rig, Marker>& pose,
+                                                        PhotometricSolver& solver) {
+  std::size_t tag = 0;
+  while (tag < tags_.size() && !(views_[2 * tag].used && views_[2 * tag + 1].used)) ++tag;
+  if (tag == tags_.size()) return std::nullopt;
+  const StereoCalibration& c = solver.calibration();
+  const std::array<Vec3, 2> eyes = {c.left_from_rig.inverse().translation(),
+                                    c.right_from_rig.inverse().translation()};
+  std::array<Vec3, 2> alone;  // the tag's middle by either camera
+  double variance = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    alone_ = views_[2 * tag + k];
+    const auto fit =
+        solver.solve(frame, pose, kUnshiftedCells * alone_.tag->cell_m(), {&alone_, 1});
+    if (!fit) return std::nullopt;
+    const Transform<Rig, Tag> rig_from_tag = fit->rig_from_marker * alone_.marker_from_tag;
+    alone[k] = rig_from_tag.translation();
+    const Vec3 sight = alone[k] - eyes[k];
+    const PoseCovariance in_rig = turned(fit->covariance, fit->rig_from_marker.rotation());
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b)
+        variance += 0.25 * sight[static_cast<int>(a)] * in_rig[6 * a + b] *
+                    sight[static_cast<int>(b)] / std::pow(sight.squared_norm(), 2);
+  }
+  const auto both = closest_point({eyes[0], alone[0] - eyes[0]}, {eyes[1], alone[1] - eyes[1]});
+  if (!both) return std::nullopt;
+  double share = 0.0;
+  for (std::size_t k = 0; k < 2; ++k)
+    share += 0.5 * ((both->point_m - eyes[k]).norm() / (alone[k] - eyes[k]).norm() - 1.0);
+  return SizeEvidence{share, std::sqrt(variance)};
 }
 
 }  // namespace orthonav::nav

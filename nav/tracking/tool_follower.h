@@ -8,6 +8,7 @@
 #include "nav/tracking/photometric_pose.h"
 #include "nav/tracking/pose_filter.h"
 #include "nav/tracking/tag_search.h"
+#include "nav/tracking/tag_size.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::nav {
@@ -34,6 +35,12 @@ class ToolFollower {
                                               const Transform<Rig, Marker>& expected,
                                               double doubt_m, PhotometricSolver& solver,
                                               TagSearch& search);
+  /// By which share a tag that both cameras saw in the last fit is larger than stated: each camera
+  /// alone tells how far away a tag of the stated size is, both together how far it is. Nothing
+  /// when no tag was seen by both.
+  [[nodiscard]] std::optional<SizeEvidence> measured_size(const StereoFrame& frame,
+                                                          const Transform<Rig, Marker>& pose,
+                                                          PhotometricSolver& solver);
   /// Forgets the light.
   void forget();
 
@@ -48,6 +55,7 @@ class ToolFollower {
   std::vector<BlurredTag> tags_;
   std::vector<TagView> views_;     ///< every tag in both cameras
   std::vector<Photometry> light_;  ///< of the views, from the last good fit
+  TagView alone_;                  ///< scratch
 };
 
 }  // namespace orthonav::nav

@@ -8,6 +8,7 @@
 #include "hal/api/devices.h"
 #include "hal/api/tracked.h"
 #include "nav/tracking/stereo_alignment.h"
+#include "nav/tracking/tag_size.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::nav {
@@ -50,6 +51,11 @@ class ToolTracker {
   /// How the two cameras seem to be turned against their reported calibration; nothing from a
   /// method that does not ask, or before it knows.
   [[nodiscard]] virtual std::optional<StereoAlignment> alignment() const { return std::nullopt; }
+  /// How large the tags of a tool seem, against what its definition says; nothing from a method
+  /// that does not ask, or before it knows.
+  [[nodiscard]] virtual std::optional<TagSize> tag_size(std::size_t /*tool*/) const {
+    return std::nullopt;
+  }
 };
 
 /// The published method (Liebmann et al. 2019, section 3.1): AprilTag corners in both images,

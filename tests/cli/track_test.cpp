@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -16,6 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr const char* kSample = "recordings/streamrecorder-sample";
@@ -91,6 +93,20 @@ TEST_F(TrackBadInput, IsRefusedOnOtherwiseGoodRecordings) {
   const Called called = track({});
   ASSERT_EQ(called.code, 0) << called.err;
   EXPECT_THAT(called.out, HasSubstr("3 stereo pairs"));
+}
+
+TEST_F(TrackCommand, WarnsOfATagThatIsNotOfTheStatedSize) {
+  std::string tools = content_of(sample_ + "/tools.json");
+  EXPECT_THAT(track({}).err, Not(HasSubstr("warning"))) << "the twin";
+  auto json = nlohmann::json::parse(tools);
+  for (auto& tool : json["tools"]) tool["marker"]["size_mm"] = 41.2;
+  const std::string wrong = folder_.file("tools.json");
+  std::ofstream(wrong) << json.dump();
+  const Called called =
+      orthonav({"track", sample_, "--tools", wrong, "--csv", folder_.file("poses.csv"), "--json"});
+  ASSERT_EQ(called.code, 0) << called.err;
+  EXPECT_THAT(called.err, HasSubstr("is stated to measure 41.20 mm but measures 40."));
+  EXPECT_TRUE(nlohmann::json::parse(called.out)["tools"][0]["tag_size"]["disagrees"]);
 }
 
 TEST_F(TrackCommand, WritesARowForEveryVisibleTagAndNoOther) {

@@ -29,6 +29,10 @@ class ScriptedTracker : public nav::ToolTracker {
   /// How the poses above came about.
   Origin pointer_origin = Origin::kMeasured;
   Origin guide_origin = Origin::kMeasured;
+  std::optional<nav::TagSize> size;  ///< of every tool
+  [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t /*tool*/) const override {
+    return size;
+  }
 
  private:
   std::vector<nav::ToolGeometry> tools_;

@@ -97,6 +97,17 @@ TEST_F(Guided, SaysTheErrorsToExpect) {
   EXPECT_THAT(s.pair().detail, ::testing::EndsWith(" expected"));
 }
 
+TEST_F(Guided, SaysWhenTheTagIsNotAsLargeAsStated) {
+  s.tracker().size = nav::TagSize{-0.032, 0.001, 12, true, false};
+  EXPECT_THAT(s.pair().detail, ::testing::StartsWith("RMSE")) << "the twin: not certain yet";
+  s.tracker().size->disagrees = true;
+  EXPECT_EQ(s.pair().detail, "guide: tag 3.2 % smaller than stated, check print and unit");
+  s.says("accept");
+  EXPECT_EQ(s.pair().detail,
+            "guide: tag 3.2 % smaller than stated, check print and unit; not possible now: "
+            "\"accept\"");
+}
+
 TEST_F(Guided, TheLossOfTheToolComesBeforeAnyMessage) {
   s.says("accept");
   s.tracker().guide.reset();

@@ -187,6 +187,63 @@ TEST(BestTracker, LeavesAGoodCalibrationAlone) {
   EXPECT_LT(found->rotation_rad.norm(), 0.00015);
 }
 
+/// Tracks resting tags that were printed at `share` of their stated size.
+std::unique_ptr<ToolTracker> tracked_at_size(double share, int pairs) {
+  Tracking t;
+  auto tags = tags_at(0);
+  for (test::PlacedTag& tag : tags) tag.size_m *= share;
+  StereoFrame frame = test::stereo_frame(t.calibration, tags, at(0));
+  frame.world_from_rig = Transform<World, Rig>{};
+  for (int k = 0; k < pairs; ++k) {
+    frame.time = at(k);
+    t.tracker->track(frame);
+  }
+  return std::move(t.tracker);
+}
+
+TEST(BestTracker, SaysThatTagsWerePrintedTooSmall) {
+  const auto tracker = tracked_at_size(0.96, 40);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto size = tracker->tag_size(i);
+    ASSERT_TRUE(size.has_value());
+    EXPECT_TRUE(size->disagrees) << size->share << " SD " << size->sd << " of "
+                                 << size->measurements;
+    EXPECT_NEAR(size->share, -0.04, 0.004);
+  }
+  const auto alignment = tracker->alignment();
+  EXPECT_FALSE(alignment && alignment->applied) << "a wrong print is no reason to turn a camera";
+}
+
+TEST(BestTracker, SaysThatTagsHaveAWrongUnitOrSize) {
+  const auto tracker = tracked_at_size(0.75, 40);
+  const auto size = tracker->tag_size(0);
+  ASSERT_TRUE(size.has_value());
+  EXPECT_TRUE(size->disagrees);
+  EXPECT_NEAR(size->share, -0.25, 0.03);
+}
+
+TEST(BestTracker, HasNothingToSayOfTagsOfTheirStatedSize) {
+  const auto tracker = tracked_at_size(1.0, 32);
+  const auto size = tracker->tag_size(0);
+  ASSERT_TRUE(size.has_value());
+  EXPECT_FALSE(size->disagrees);
+  EXPECT_NEAR(size->share, 0.0, 0.004);
+}
+
+TEST(BestTracker, GoesOnWhenTheLightChanges) {
+  Tracking t;
+  for (int k = 0; k < 5; ++k) t.tracker->track(t.frame(k));
+  for (int k = 5; k < 8; ++k) {
+    StereoFrame frame = t.frame(k);
+    for (GreyImage* image : {&frame.left, &frame.right})
+      for (std::uint8_t& grey : image->pixels) grey = static_cast<std::uint8_t>(grey * 2 / 5);
+    const auto states = t.tracker->track(frame);
+    EXPECT_EQ(states[0].world_from_marker.origin, Origin::kMeasured) << "pair " << k;
+    EXPECT_EQ(states[1].world_from_marker.origin, Origin::kMeasured) << "pair " << k;
+    EXPECT_LT(tip_error_m(states[0], tags_at(k)[0]), 2 * kTipM) << "pair " << k;
+  }
+}
+
 TEST(BestTracker, IsTheSameWithOneThreadAndTwo) {
   TrackerOptions one;
   one.parallel = false;
