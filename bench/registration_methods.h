@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/api/transform.h"
+#include "nav/guidance/screw.h"
+#include "nav/registration/registration.h"
+
+namespace orthonav::bench {
+
+/// A vertebra prepared once, and where it is measured.
+struct BenchLevel {
+  std::string case_name;
+  std::string label;
+  nav::TriangleMesh mesh;
+  std::vector<nav::ScrewPlan> screws;
+  std::shared_ptr<const nav::VertebraModel> model;
+  double prepare_ms = 0.0;
+
+  [[nodiscard]] std::string name() const { return case_name + "/" + label; }
+};
+
+/// What a method makes of some strokes.
+struct Fitted {
+  bool found = false;
+  Transform<World, Vertebra> world_from_vertebra;
+  bool accepted = false;
+  std::string reason;  ///< why not
+  double rmse_m = 0.0;
+  /// For methods that say how sure they are: covariance of the error at a place, by rows, m².
+  std::function<Mat3(Point<Vertebra>)> covariance;
+};
+
+/// Fits one level; not thread-safe, but several may run beside each other.
+using Fit = std::function<Fitted(std::span<const Point<World>>)>;
+
+struct RegistrationMethod {
+  std::string name;
+  /// Everything that has not to wait for the strokes.
+  std::function<Fit(const BenchLevel&)> prepare;
+  /// A peer says nothing of acceptance: it counts as accepted like the published method was, by the
+  /// RMSE alone.
+  bool judges = false;
+};
+
+/// Ours, then those peers that were found when the build was configured.
+[[nodiscard]] std::vector<RegistrationMethod> registration_methods();
+
+}  // namespace orthonav::bench

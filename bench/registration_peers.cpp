@@ -1,0 +1,60 @@
+#include "bench/registration_peers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hal/api/random.h"
+#include "nav/geometry/absolute_orientation.h"
+#include "nav/geometry/triangle.h"
+#include "nav/registration/principal_axes.h"
+
+namespace orthonav::bench {
+
+std::vector<Transform<Vertebra, World>> published_starts(const nav::VertebraModel& model,
+                                                         std::span<const Point<World>> points) {
+  std::vector<Vec3> strokes;
+  strokes.reserve(points.size());
+  for (const Point<World>& point : points) strokes.push_back(point.v);
+  const auto extremes = nav::extreme_points(strokes, nav::principal_axes(strokes));
+  constexpr bool kTurned[4][3] = {
+      {false, false, false}, {false, true, true}, {true, false, true}, {true, true, false}};
+  std::vector<nav::RigidFit> fits;
+  for (const auto& turned : kTurned) {
+    std::array<Vec3, 6> from = extremes;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (turned[axis]) std::swap(from[2 * axis], from[2 * axis + 1]);
+    const auto fit = nav::absolute_orientation(from, model.reachable_extremes());
+    if (fit) fits.push_back(*fit);
+  }
+  std::stable_sort(fits.begin(), fits.end(),
+                   [](const auto& a, const auto& b) { return a.rmse_m < b.rmse_m; });
+  std::vector<Transform<Vertebra, World>> starts;
+  for (std::size_t i = 0; i < std::min<std::size_t>(fits.size(), 2); ++i)
+    starts.emplace_back(fits[i].rotation, fits[i].translation_m);
+  return starts;
+}
+
+std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh, std::size_t count) {
+  std::vector<double> area_m2;
+  double sum_m2 = 0.0;
+  const auto corners = [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    return nav::Triangle{mesh.vertices_m[a], mesh.vertices_m[b], mesh.vertices_m[c]};
+  };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    area_m2.push_back(sum_m2 += nav::triangle_area_m2(corners(t)));
+  Random random(1);
+  std::vector<SurfaceSample> samples;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = std::lower_bound(area_m2.begin(), area_m2.end(), random.uniform() * sum_m2);
+    const nav::Triangle t =
+        corners(std::min(static_cast<std::size_t>(at - area_m2.begin()), area_m2.size() - 1));
+    const double root = std::sqrt(random.uniform());
+    const double along = random.uniform();
+    samples.push_back({(1.0 - root) * t[0] + root * (1.0 - along) * t[1] + root * along * t[2],
+                       nav::triangle_normal(t)});
+  }
+  return samples;
+}
+
+}  // namespace orthonav::bench

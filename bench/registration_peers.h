@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bench/registration_methods.h"
+
+namespace orthonav::bench {
+
+/// PCL's ICP and GICP, each from both published starts, the smaller RMSE taken. Where PCL was found
+/// (ORTHONAV_BENCH_PCL).
+[[nodiscard]] std::vector<RegistrationMethod> pcl_methods();
+
+/// Open3D's FPFH, RANSAC over matched features, ICP. Where Open3D was found
+/// (ORTHONAV_BENCH_OPEN3D).
+[[nodiscard]] std::vector<RegistrationMethod> open3d_methods();
+
+/// A published start: the six extreme points along the principal axes of strokes and model are
+/// paired and fitted (Liebmann et al. 2019, eq. 1). Axes have no sign: of the four proper ways to
+/// pair them the two that fit best, the better first. None for strokes on a line.
+[[nodiscard]] std::vector<Transform<Vertebra, World>> published_starts(
+    const nav::VertebraModel& model, std::span<const Point<World>> points);
+
+struct SurfaceSample {
+  Vec3 point_m;
+  Vec3 normal;
+};
+/// Places of a surface with the same density everywhere: what peers that know points alone get to
+/// see of the model. The same at every call.
+[[nodiscard]] std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh,
+                                                         std::size_t count);
+/// So many of them for a model: one a square millimetre or so.
+inline constexpr std::size_t kPeerModelPoints = 8000;
+
+}  // namespace orthonav::bench

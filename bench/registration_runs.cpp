@@ -1,0 +1,157 @@
+#include "bench/registration_runs.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "bench/predicted_coverage.h"
+#include "hal/api/random.h"
+
+namespace orthonav::bench {
+namespace {
+
+constexpr double kRight_m = 0.002;
+/// The published method's limit, by which peers count as accepted.
+constexpr double kPeerMaxRmse_m = 0.003;
+
+/// Each level has strokes of its own from a seed.
+test::DigitizedStrokes strokes_of(const BenchLevel& level, test::StrokeVariant variant,
+                                  std::uint64_t seed) {
+  auto strokes =
+      test::digitize_strokes(level.mesh, variant, Random(seed).fork(level.name()).next());
+  if (!strokes) {
+    std::fprintf(stderr, "%s: %s\n", level.name().c_str(), strokes.error().message.c_str());
+    std::exit(2);
+  }
+  return std::move(*strokes);
+}
+
+double rmse_m(const nav::VertebraModel& model, const Transform<World, Vertebra>& pose,
+              std::span<const Point<World>> points) {
+  const auto inverse = pose.inverse();
+  double sum_m2 = 0.0;
+  for (const Point<World>& point : points) {
+    const auto near = model.reachable_surface().nearest((inverse * point).v);
+    sum_m2 += near ? near->distance_m * near->distance_m : 1.0;
+  }
+  return std::sqrt(sum_m2 / static_cast<double>(points.size()));
+}
+
+/// Fits, and judges in the place of peers that don't.
+Fitted fitted_by(const RegistrationMethod& method, const Fit& fit, const BenchLevel& level,
+                 std::span<const Point<World>> points, double& ms) {
+  const auto begin = std::chrono::steady_clock::now();
+  Fitted fitted = fit(points);
+  const auto end = std::chrono::steady_clock::now();
+  ms = std::chrono::duration<double, std::milli>(end - begin).count();
+  if (method.judges || !fitted.found) return fitted;
+  fitted.rmse_m = rmse_m(*level.model, fitted.world_from_vertebra, points);
+  fitted.accepted = fitted.rmse_m <= kPeerMaxRmse_m;
+  return fitted;
+}
+
+void compare(const BenchLevel& level, const Transform<World, Vertebra>& truth, const Fitted& fitted,
+             Run& run) {
+  // In the model's frame: that is where the covariance is.
+  const auto moved = truth.inverse() * fitted.world_from_vertebra;
+  for (const nav::ScrewPlan& screw : level.screws)
+    for (const Point<Vertebra> at : {screw.entry, screw.target}) {
+      const Vec3 error_m = moved * at - at;
+      run.error_m = std::max(run.error_m, error_m.norm());
+      if (!fitted.covariance) continue;
+      const Mat3 covariance = fitted.covariance(at);
+      const PredictedCoverage predicted(covariance);
+      run.honest.push_back(
+          {predicted.in_ellipsoid(error_m, 0.68), predicted.in_ellipsoid(error_m, 0.95),
+           predicted.no_longer(error_m, 0.68), predicted.no_longer(error_m, 0.95)});
+    }
+}
+
+void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod>& methods,
+                   const RunOptions& options, std::vector<Run>& runs) {
+  std::vector<Fit> fits;
+  for (const auto& method : methods) fits.push_back(method.prepare(level));
+  for (const auto variant : options.variants)
+    for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
+      const auto strokes = strokes_of(level, variant, seed);
+      const auto points = strokes.tips();
+      for (std::size_t m = 0; m < methods.size(); ++m) {
+        Run run{variant, level.name(), strokes.coverage, seed, m};
+        const Fitted fitted = fitted_by(methods[m], fits[m], level, points, run.ms);
+        run.found = fitted.found;
+        run.accepted = fitted.accepted;
+        run.reason = fitted.reason;
+        run.rmse_m = fitted.rmse_m;
+        if (run.found) compare(level, strokes.world_from_vertebra, fitted, run);
+        runs.push_back(std::move(run));
+      }
+    }
+}
+
+/// Calls `work` for 0 to count - 1, some beside each other.
+template <class Work>
+void in_parallel(std::size_t count, unsigned jobs, const Work& work) {
+  std::atomic<std::size_t> next{0};
+  const auto take = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::jthread> threads;
+  for (unsigned j = 1; j < jobs; ++j) threads.emplace_back(take);
+  take();
+}
+
+template <class T>
+std::vector<T> joined(std::vector<std::vector<T>>& parts) {
+  std::vector<T> all;
+  for (auto& part : parts)
+    for (auto& one : part) all.push_back(std::move(one));
+  return all;
+}
+
+}  // namespace
+
+bool Run::right() const { return found && error_m < kRight_m; }
+
+std::vector<Run> measure(const std::vector<BenchLevel>& levels,
+                         const std::vector<RegistrationMethod>& methods,
+                         const RunOptions& options) {
+  std::vector<std::vector<Run>> parts(levels.size());
+  in_parallel(levels.size(), options.jobs,
+              [&](std::size_t i) { measure_level(levels[i], methods, options, parts[i]); });
+  return joined(parts);
+}
+
+std::vector<WrongLevelRun> measure_wrong_levels(const std::vector<BenchLevel>& levels,
+                                                const std::vector<RegistrationMethod>& methods,
+                                                const RunOptions& options) {
+  std::vector<std::vector<WrongLevelRun>> parts(levels.size());
+  in_parallel(levels.size(), options.jobs, [&](std::size_t i) {
+    const BenchLevel& stroked = levels[i];
+    std::vector<const BenchLevel*> neighbours;
+    if (i > 0 && levels[i - 1].case_name == stroked.case_name) neighbours.push_back(&levels[i - 1]);
+    if (i + 1 < levels.size() && levels[i + 1].case_name == stroked.case_name)
+      neighbours.push_back(&levels[i + 1]);
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      const Fit own = methods[m].prepare(stroked);
+      for (const BenchLevel* other : neighbours) {
+        const Fit fit = methods[m].prepare(*other);
+        for (const auto variant : options.variants)
+          for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
+            const auto points = strokes_of(stroked, variant, seed).tips();
+            double ms = 0.0;
+            const Fitted wrong = fitted_by(methods[m], fit, *other, points, ms);
+            const Fitted right = fitted_by(methods[m], own, stroked, points, ms);
+            parts[i].push_back({stroked.name(), other->name(), variant, m, wrong.accepted,
+                                right.found && (!wrong.found || right.rmse_m < wrong.rmse_m)});
+          }
+      }
+    }
+  });
+  return joined(parts);
+}
+
+}  // namespace orthonav::bench

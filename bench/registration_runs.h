@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/registration_methods.h"
+#include "tests/support/digitized_strokes.h"
+
+namespace orthonav::bench {
+
+/// One method on one set of strokes.
+struct Run {
+  test::StrokeVariant variant{};
+  std::string level;     ///< that was stroked
+  std::string coverage;  ///< what of it, in words
+  std::uint64_t seed = 0;
+  std::size_t method = 0;
+  bool found = false;
+  bool accepted = false;
+  std::string reason;
+  double rmse_m = 0.0;
+  double error_m = 0.0;  ///< the largest at an entry or a target
+  double ms = 0.0;
+  /// For each entry and target, where an error was predicted: whether the error is in the ellipsoid
+  /// that holds 68 (95) % of them, and whether it is no longer than 68 (95) % are to be.
+  struct Honest {
+    bool in_68 = false, in_95 = false, within_68 = false, within_95 = false;
+  };
+  std::vector<Honest> honest;
+
+  [[nodiscard]] bool right() const;
+  [[nodiscard]] bool silent_failure() const { return accepted && !right(); }
+};
+
+struct RunOptions {
+  std::vector<test::StrokeVariant> variants;
+  std::uint64_t seeds = 2;
+  unsigned jobs = 1;  ///< levels beside each other; the results don't depend on it, the times do
+};
+
+/// Every level stroked and fitted by every method. Sorted by level, variant, seed, method.
+[[nodiscard]] std::vector<Run> measure(const std::vector<BenchLevel>& levels,
+                                       const std::vector<RegistrationMethod>& methods,
+                                       const RunOptions& options);
+
+/// The strokes of one level fitted to another.
+struct WrongLevelRun {
+  std::string stroked;
+  std::string fitted;
+  test::StrokeVariant variant{};
+  std::size_t method = 0;
+  bool accepted = false;
+  bool right_fits_better = false;  ///< the same strokes on their own level have a smaller RMSE
+};
+
+/// Every level's strokes on each neighbour in its case.
+[[nodiscard]] std::vector<WrongLevelRun> measure_wrong_levels(
+    const std::vector<BenchLevel>& levels, const std::vector<RegistrationMethod>& methods,
+    const RunOptions& options);
+
+}  // namespace orthonav::bench

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "bench/registration_runs.h"
+
+namespace orthonav::bench {
+
+/// Markdown, to standard output: how often each method is right, what it accepts, errors, times.
+void print_success(const std::vector<Run>& runs, const std::vector<RegistrationMethod>& methods,
+                   const std::vector<test::StrokeVariant>& variants);
+/// Errors of each method against the first one's, over the runs that both get right.
+void print_against_first(const std::vector<Run>& runs,
+                         const std::vector<RegistrationMethod>& methods,
+                         const std::vector<test::StrokeVariant>& variants);
+/// How many errors lie within what was predicted, for the methods that predict.
+void print_honesty(const std::vector<Run>& runs, const std::vector<RegistrationMethod>& methods,
+                   const std::vector<test::StrokeVariant>& variants);
+void print_wrong_levels(const std::vector<WrongLevelRun>& runs,
+                        const std::vector<RegistrationMethod>& methods,
+                        const std::vector<test::StrokeVariant>& variants);
+/// A line a run.
+void print_each(const std::vector<Run>& runs, const std::vector<RegistrationMethod>& methods);
+
+}  // namespace orthonav::bench
