@@ -120,6 +120,11 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--levels", arguments.levels, "such as visible-human/L4")->delimiter(',');
   app.add_option("--anatomy", arguments.anatomy, "folder of case folders");
+  app.add_option(
+         "--deep", arguments.run.deepest_aside,
+         "how deep beside the canal the strokes go, as a share of its depth (1.1); from 1 on "
+         "over what trimming cuts off")
+      ->check(CLI::Range(0.3, 1.5));
   app.add_option("--jobs", arguments.run.jobs, "levels beside each other")
       ->check(CLI::Range(1, 64));
   app.add_flag("--wrong-level", arguments.wrong_level, "strokes fitted to the neighbouring levels");

@@ -20,9 +20,11 @@ constexpr double kPeerMaxRmse_m = 0.003;
 
 /// Each level has strokes of its own from a seed.
 test::DigitizedStrokes strokes_of(const BenchLevel& level, test::StrokeVariant variant,
-                                  std::uint64_t seed) {
-  auto strokes =
-      test::digitize_strokes(level.mesh, variant, Random(seed).fork(level.name()).next());
+                                  std::uint64_t seed, const RunOptions& options) {
+  test::StrokeMagnitudes magnitudes = test::magnitudes_of(variant);
+  magnitudes.deepest_aside = options.deepest_aside;
+  auto strokes = test::digitize_strokes(level.mesh, variant, Random(seed).fork(level.name()).next(),
+                                        magnitudes);
   if (!strokes) {
     std::fprintf(stderr, "%s: %s\n", level.name().c_str(), strokes.error().message.c_str());
     std::exit(2);
@@ -77,7 +79,7 @@ void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod
   for (const auto& method : methods) fits.push_back(method.prepare(level));
   for (const auto variant : options.variants)
     for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
-      const auto strokes = strokes_of(level, variant, seed);
+      const auto strokes = strokes_of(level, variant, seed, options);
       const auto points = strokes.tips();
       for (std::size_t m = 0; m < methods.size(); ++m) {
         Run run{variant, level.name(), strokes.coverage, seed, m};
@@ -141,7 +143,7 @@ std::vector<WrongLevelRun> measure_wrong_levels(const std::vector<BenchLevel>& l
         const Fit fit = methods[m].prepare(*other);
         for (const auto variant : options.variants)
           for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
-            const auto points = strokes_of(stroked, variant, seed).tips();
+            const auto points = strokes_of(stroked, variant, seed, options).tips();
             double ms = 0.0;
             const Fitted wrong = fitted_by(methods[m], fit, *other, points, ms);
             const Fitted right = fitted_by(methods[m], own, stroked, points, ms);

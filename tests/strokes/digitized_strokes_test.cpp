@@ -124,29 +124,33 @@ TEST_F(DigitizedStrokesTest, ReachEveryRegionWhenFull) {
     for (const DigitizedSample& s : strokes(level, StrokeVariant::kFull, level).samples)
       ++count[static_cast<std::size_t>(s.region)];
     for (int r = 0; r < kBoneRegions; ++r)
-      EXPECT_GE(count[static_cast<std::size_t>(r)], 20)
+      EXPECT_GE(count[static_cast<std::size_t>(r)], 15)
           << "level " << level << ", " << name_of(static_cast<BoneRegion>(r));
   }
 }
 
-TEST_F(DigitizedStrokesTest, HoldWhatTrimmingCutsOffButNeitherBodyNorCanal) {
-  std::size_t beyond = 0;
-  std::size_t all = 0;
-  for (std::size_t level = 0; level < meshes_.size(); ++level) {
-    const auto model = nav::VertebraModel::prepare(meshes_[level]).value();
-    const auto marks = find_posterior_landmarks(meshes_[level], *surfaces_[level]).value();
-    for (const DigitizedSample& s : strokes(level, StrokeVariant::kFull, level).samples) {
-      ++all;
-      beyond += model->reachable_surface().nearest(s.true_tip.v)->distance_m > 0.0005 ? 1 : 0;
-      const double aside_m = std::abs(s.true_tip.v.x - marks.midline_x_m);
-      ASSERT_GT(s.true_tip.v.y, marks.body_back_y_m - 0.0041) << "on the body";
-      if (aside_m < marks.canal_half_width_m) {
-        ASSERT_GT(s.true_tip.v.y, 0.5 * (marks.body_back_y_m + marks.arch_front_y_m)) << "in it";
+TEST_F(DigitizedStrokesTest, GoAsDeepAsToldAndThereBeyondWhatTrimmingKeeps) {
+  for (const double deepest : {0.7, 1.1, 1.25}) {
+    StrokeMagnitudes m = magnitudes_of(StrokeVariant::kFull);
+    m.deepest_aside = deepest;
+    double beyond = 0.0;
+    double all = 0.0;
+    for (std::size_t level = 0; level < meshes_.size(); ++level) {
+      const auto model = nav::VertebraModel::prepare(meshes_[level]).value();
+      const auto marks = find_posterior_landmarks(meshes_[level], *surfaces_[level]).value();
+      const double canal_m = marks.arch_front_y_m - marks.body_back_y_m;
+      for (const DigitizedSample& s : strokes(level, StrokeVariant::kFull, level, m).samples) {
+        all += 1.0;
+        beyond += model->reachable_surface().nearest(s.true_tip.v)->distance_m > 0.0005 ? 1.0 : 0.0;
+        const bool aside =
+            std::abs(s.true_tip.v.x - marks.midline_x_m) > 1.2 * marks.canal_half_width_m;
+        // Into the canal never, however deep the pointer goes beside it.
+        ASSERT_LE(marks.arch_front_y_m - s.true_tip.v.y, (aside ? deepest : 0.5) * canal_m + 1e-9);
       }
     }
+    EXPECT_LE(beyond / all, deepest < 1.0 ? 0.0005 : (deepest < 1.2 ? 0.02 : 0.06)) << deepest;
+    EXPECT_GE(beyond / all, deepest < 1.0 ? 0.0 : (deepest < 1.2 ? 0.001 : 0.01)) << deepest;
   }
-  EXPECT_GT(beyond, all / 200);
-  EXPECT_LT(beyond, all / 10);
 }
 
 TEST_F(DigitizedStrokesTest, CoverPartsOfAllKindsOnBothSides) {

@@ -137,7 +137,7 @@ Result<DigitizedStrokes> digitize_strokes(const nav::TriangleMesh& mesh, StrokeV
   Random hand = random.fork("hand");
   const auto count =
       static_cast<int>(hand.uniform(magnitudes.fewest_samples, magnitudes.most_samples + 1));
-  const TouchableBone bone(surface, *marks, magnitudes.tip_radius_m);
+  const TouchableBone bone(surface, *marks, {magnitudes.tip_radius_m, magnitudes.deepest_aside});
   const StrokeCoverage coverage = covered(bone, *marks, variant, count * kSpacing_m, hand);
   if (coverage.walks.empty()) return Error{"no place of the vertebra can be touched from behind"};
   std::vector<TipPlace> places = places_along(coverage.walks, count, hand);

@@ -36,7 +36,10 @@ struct StrokeMagnitudes {
   double least_outlier_m = 0.001;   ///< distance from the bone
   double largest_outlier_m = 0.010;
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end, whose centre is tracked
-  double farthest_m = 1.0;    ///< the vertebra's origin lies in such a ball of the world
+  /// How deep beside the canal the tip goes, as a share of the canal's depth. From about 1 on the
+  /// strokes go over the body's hind edge as well, which no registration from behind counts on.
+  double deepest_aside = 1.1;
+  double farthest_m = 1.0;  ///< the vertebra's origin lies in such a ball of the world
 };
 [[nodiscard]] StrokeMagnitudes magnitudes_of(StrokeVariant variant);
 

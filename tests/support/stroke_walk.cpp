@@ -16,6 +16,8 @@ constexpr double kShortestWalk_m = 0.006;
 constexpr double kOutside_m = 0.15;
 /// Cosine between the pointer and the surface's normal below which it can't be held on the bone.
 constexpr double kFlattest = 0.12;
+/// Over the canal: how far in front of its back wall the tip goes, as a share of its depth.
+constexpr double kDeepest = 0.5;
 /// How the handle slants along a lane.
 constexpr double kSlant_rad = 6.0 * kDegree;
 
@@ -45,16 +47,17 @@ Walk Walk::part(double from_m, double to_m) const {
 }
 
 bool TouchableBone::belongs(BoneRegion region, const Touch& touch) const {
-  constexpr double kBeforeCanal_m = 0.004;  // roots of transverse processes reach that far forward
   constexpr double kOverCrest_m = 0.002;
   if (touch.normal.dot(touch.approach) < kFlattest) return false;
   const double aside_m = touch.surface_m.x - marks_.midline_x_m;
   const double width_m = marks_.canal_half_width_m;
   const double y_m = touch.surface_m.y;
-  // Between the laminae one sees the body's back wall through the canal, which ligament closes.
-  const double canal_middle_y_m = 0.5 * (marks_.body_back_y_m + marks_.arch_front_y_m);
-  if (std::abs(aside_m) < 1.2 * width_m && y_m < canal_middle_y_m) return false;
-  if (y_m < marks_.body_back_y_m - kBeforeCanal_m) return false;
+  // Between the laminae one sees the body's back wall through the canal, which ligament closes, and
+  // beside the isthmus its hind edge, where the nerve root lies.
+  const double canal_m = marks_.arch_front_y_m - marks_.body_back_y_m;
+  const double depth_m = marks_.arch_front_y_m - y_m;
+  if (depth_m > (std::abs(aside_m) < 1.2 * width_m ? kDeepest : pointer_.deepest_aside) * canal_m)
+    return false;
   const int side = side_of(region);
   if (is_spinous_side(region)) return side * aside_m > -kOverCrest_m && std::abs(aside_m) < width_m;
   return std::abs(aside_m) < 2.6 * width_m && side * aside_m >= 0.0;
@@ -62,7 +65,7 @@ bool TouchableBone::belongs(BoneRegion region, const Touch& touch) const {
 
 std::optional<Touch> TouchableBone::lower(Vec3 aim_m, Vec3 approach) const {
   const Vec3 start_m = aim_m + kOutside_m * approach;
-  if (tip_radius_m_ <= 0.0) {
+  if (pointer_.tip_radius_m <= 0.0) {
     const auto hit = surface_->first_hit(start_m, -approach);
     if (!hit) return std::nullopt;
     return Touch{hit->point_m, hit->point_m, hit->normal, approach};
@@ -75,7 +78,7 @@ std::optional<Touch> TouchableBone::lower(Vec3 aim_m, Vec3 approach) const {
     const Vec3 centre_m = start_m - gone_m * approach;
     const auto near = surface_->nearest(centre_m);
     if (!near) return std::nullopt;
-    const double free_m = near->distance_m - tip_radius_m_;
+    const double free_m = near->distance_m - pointer_.tip_radius_m;
     if (free_m < kTouching_m)
       return Touch{centre_m, near->point_m, (centre_m - near->point_m).normalized(), approach};
     gone_m += free_m;

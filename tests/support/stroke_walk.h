@@ -30,13 +30,20 @@ struct Walk {
   [[nodiscard]] Walk part(double from_m, double to_m) const;
 };
 
+struct Pointer {
+  double tip_radius_m = 0.0;
+  /// How far in front of the canal's back wall the tip goes beside the canal, as a share of the
+  /// canal's depth: from 1 on it gets to the body's hind edge beside the isthmus.
+  double deepest_aside = 1.1;
+};
+
 /// The bone as a straight pointer meets it that comes in along a line, without any idea of what a
 /// registration thinks reachable.
 class TouchableBone {
  public:
   TouchableBone(const nav::SurfaceIndex& surface, const PosteriorLandmarks& landmarks,
-                double tip_radius_m)
-      : surface_(&surface), marks_(landmarks), tip_radius_m_(tip_radius_m) {}
+                const Pointer& pointer)
+      : surface_(&surface), marks_(landmarks), pointer_(pointer) {}
 
   /// The strokes along a lane. They end where the tip would leave the region, fall off an edge or
   /// into the canal.
@@ -49,7 +56,7 @@ class TouchableBone {
 
   const nav::SurfaceIndex* surface_;
   PosteriorLandmarks marks_;
-  double tip_radius_m_;
+  Pointer pointer_;
 };
 
 }  // namespace orthonav::test
