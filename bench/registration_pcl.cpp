@@ -43,7 +43,7 @@ Result<Transform<Vertebra, World>> pose_of(const Eigen::Matrix4f& m) {
 
 /// Refines both starts and takes the one with the smaller mean squared distance.
 template <class Icp>
-Fitted best_of_starts(Icp& icp, const nav::VertebraModel& model,
+Fitted best_of_starts(Icp& icp, std::span<const SurfaceSample> model,
                       std::span<const Point<World>> points) {
   Vec3 centre{};
   for (const Point<World>& point : points) centre += point.v / static_cast<double>(points.size());
@@ -69,8 +69,8 @@ Fitted best_of_starts(Icp& icp, const nav::VertebraModel& model,
 template <class Icp>
 Fit prepared(const BenchLevel& level) {
   const auto target = pcl::make_shared<Cloud>();
-  for (const SurfaceSample& s : surface_samples(level.model->reachable(), kPeerModelPoints))
-    target->push_back(point_mm(s.point_m));
+  const auto samples = surface_samples(level.model->reachable(), kPeerModelPoints);
+  for (const SurfaceSample& s : samples) target->push_back(point_mm(s.point_m));
   const auto icp = std::make_shared<Icp>();
   icp->setInputTarget(target);
   icp->setMaxCorrespondenceDistance(kFarthestPair_mm);
@@ -80,8 +80,8 @@ Fit prepared(const BenchLevel& level) {
   icp->setInputSource(target);
   Cloud aligned;
   icp->align(aligned);
-  return [icp, model = level.model](std::span<const Point<World>> points) {
-    return best_of_starts(*icp, *model, points);
+  return [icp, model = exposed(samples, level.screws)](std::span<const Point<World>> points) {
+    return best_of_starts(*icp, model, points);
   };
 }
 

@@ -10,12 +10,19 @@
 
 namespace orthonav::bench {
 
-std::vector<Transform<Vertebra, World>> published_starts(const nav::VertebraModel& model,
+std::vector<Transform<Vertebra, World>> published_starts(std::span<const SurfaceSample> model,
                                                          std::span<const Point<World>> points) {
+  const auto extremes_of = [](const std::vector<Vec3>& v) {
+    return nav::extreme_points(v, nav::principal_axes(v));
+  };
+  std::vector<Vec3> surface;
+  surface.reserve(model.size());
+  for (const SurfaceSample& sample : model) surface.push_back(sample.point_m);
+  const auto model_extremes = extremes_of(surface);
   std::vector<Vec3> strokes;
   strokes.reserve(points.size());
   for (const Point<World>& point : points) strokes.push_back(point.v);
-  const auto extremes = nav::extreme_points(strokes, nav::principal_axes(strokes));
+  const auto extremes = extremes_of(strokes);
   constexpr bool kTurned[4][3] = {
       {false, false, false}, {false, true, true}, {true, false, true}, {true, true, false}};
   std::vector<nav::RigidFit> fits;
@@ -23,7 +30,7 @@ std::vector<Transform<Vertebra, World>> published_starts(const nav::VertebraMode
     std::array<Vec3, 6> from = extremes;
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (turned[axis]) std::swap(from[2 * axis], from[2 * axis + 1]);
-    const auto fit = nav::absolute_orientation(from, model.reachable_extremes());
+    const auto fit = nav::absolute_orientation(from, model_extremes);
     if (fit) fits.push_back(*fit);
   }
   std::stable_sort(fits.begin(), fits.end(),
@@ -55,6 +62,21 @@ std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh, std::s
                        nav::triangle_normal(t)});
   }
   return samples;
+}
+
+std::vector<SurfaceSample> exposed(const std::vector<SurfaceSample>& samples,
+                                   const std::vector<nav::ScrewPlan>& screws) {
+  constexpr double kBeyondEntry_m = 0.005;
+  double low_m = 0.0;
+  double high_m = 0.0;
+  for (const nav::ScrewPlan& screw : screws) {
+    low_m = std::min(low_m, screw.entry.v.x - kBeyondEntry_m);
+    high_m = std::max(high_m, screw.entry.v.x + kBeyondEntry_m);
+  }
+  std::vector<SurfaceSample> kept;
+  for (const SurfaceSample& sample : samples)
+    if (sample.point_m.x > low_m && sample.point_m.x < high_m) kept.push_back(sample);
+  return kept;
 }
 
 }  // namespace orthonav::bench

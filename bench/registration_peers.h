@@ -15,12 +15,6 @@ namespace orthonav::bench {
 /// (ORTHONAV_BENCH_OPEN3D).
 [[nodiscard]] std::vector<RegistrationMethod> open3d_methods();
 
-/// A published start: the six extreme points along the principal axes of strokes and model are
-/// paired and fitted (Liebmann et al. 2019, eq. 1). Axes have no sign: of the four proper ways to
-/// pair them the two that fit best, the better first. None for strokes on a line.
-[[nodiscard]] std::vector<Transform<Vertebra, World>> published_starts(
-    const nav::VertebraModel& model, std::span<const Point<World>> points);
-
 struct SurfaceSample {
   Vec3 point_m;
   Vec3 normal;
@@ -29,6 +23,17 @@ struct SurfaceSample {
 /// see of the model. The same at every call.
 [[nodiscard]] std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh,
                                                          std::size_t count);
+/// The part of them that is exposed in such an operation, out to a little beyond the entry points:
+/// the published method trims its model to it by hand.
+[[nodiscard]] std::vector<SurfaceSample> exposed(const std::vector<SurfaceSample>& samples,
+                                                 const std::vector<nav::ScrewPlan>& screws);
+
+/// A published start: the six extreme points along the principal axes of strokes and model are
+/// paired and fitted (Liebmann et al. 2019, eq. 1). Axes have no sign: of the four proper ways to
+/// pair them the two that fit best, the better first. None for strokes on a line.
+[[nodiscard]] std::vector<Transform<Vertebra, World>> published_starts(
+    std::span<const SurfaceSample> model, std::span<const Point<World>> points);
+
 /// So many of them for a model: one a square millimetre or so.
 inline constexpr std::size_t kPeerModelPoints = 8000;
 
