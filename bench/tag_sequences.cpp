@@ -188,6 +188,63 @@ std::array<double, 2> visible_shares(Stage& stage, double t, const StereoFrame& 
           1.0 - hidden_share(clean.right, bare.right, c.right, c.right_from_rig, pose)};
 }
 
+std::array<double, 36> cramer_rao_bound(const Kind& kind, const StereoCalibration& calibration,
+                                        const Transform<Rig, Marker>& pose, std::size_t tool) {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  sim::Magnitudes magnitudes = sim::Magnitudes::perfect();
+  magnitudes.blur_sigma_px = 0.7;
+  const auto renderer = sim::RoomRenderer::create(room(), magnitudes);
+  sim::RoomState state;
+  state.room_from_marker.assign(2, {});
+  state.tool_present = {tool == 0, tool == 1};
+  // Half a pixel or so: greys are whole numbers.
+  constexpr double kStep = 0.0006;
+  const auto drawn = [&](std::size_t axis, double sign) {
+    std::array<double, 6> step{};
+    step[axis] = sign * (axis < 3 ? kStep : kStep / 0.02);
+    const Transform<Marker, Marker> moved(rotation_from_vector({step[3], step[4], step[5]}),
+                                          {step[0], step[1], step[2]});
+    const Transform<Rig, Marker> there = pose * moved;
+    state.room_from_marker[tool] = {there.rotation(), there.translation()};
+    StereoFrame frame;
+    const std::vector<sim::RoomState> states(1, state);
+    const StereoCalibration& c = calibration;
+    renderer->render(states, c.left, c.left_from_rig, 1, frame.left);
+    renderer->render(states, c.right, as_camera(c.right_from_rig), 1, frame.right);
+    return frame;
+  };
+  std::array<StereoFrame, 6> ahead;
+  std::array<StereoFrame, 6> behind;
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    ahead[axis] = drawn(axis, 1.0);
+    behind[axis] = drawn(axis, -1.0);
+  }
+  Matrix6 information = Matrix6::Zero();
+  const auto gather = [&](const GreyImage StereoFrame::*side, const CameraModel& camera,
+                          const auto& camera_from_rig) {
+    each_pixel(camera, camera_from_rig, pose, 0.5 * kTagM * 10.0 / 8.0, [&](std::size_t i) {
+      Eigen::Matrix<double, 6, 1> slope;
+      double light = 0.0;
+      for (std::size_t axis = 0; axis < 6; ++axis) {
+        const double a = (ahead[axis].*side).pixels[i];
+        const double b = (behind[axis].*side).pixels[i];
+        slope(static_cast<Eigen::Index>(axis)) =
+            kind.light * (a - b) / (2.0 * (axis < 3 ? kStep : kStep / 0.02));
+        light += kind.light * (a + b) / 12.0;
+      }
+      const double variance = kind.shot * light + kind.read * kind.read + 1.0 / 12.0;
+      information += slope * slope.transpose() / variance;
+    });
+  };
+  gather(&StereoFrame::left, calibration.left, calibration.left_from_rig);
+  gather(&StereoFrame::right, calibration.right, calibration.right_from_rig);
+  const Matrix6 bound = information.inverse();
+  std::array<double, 36> out;
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c) out[static_cast<std::size_t>(6 * r + c)] = bound(r, c);
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> sequence_names() { return {"moving", "still", "fast", "dim", "occluded"}; }
@@ -198,8 +255,6 @@ Sequence make_sequence(const std::string& name, int pairs, std::uint64_t seed) {
   Sequence out;
   out.name = name;
   out.calibration = stage.calibration();
-  out.shot_variance = kind.shot;
-  out.read_variance = kind.read * kind.read;
   for (const sim::RoomTool& tool : room().tools) {
     nav::ToolGeometry geometry;
     geometry.name = tool.name;
@@ -231,67 +286,11 @@ Sequence make_sequence(const std::string& name, int pairs, std::uint64_t seed) {
           visible_shares(stage, t, clean, out.rig_from_marker.back().back()));
     }
     out.frames.push_back(std::move(frame));
-    if (k % 10 == 0) out.clean.push_back(std::move(clean));
   }
-  return out;
-}
-
-std::array<double, 36> cramer_rao_bound(const Sequence& sequence, std::size_t pair,
-                                        std::size_t tool) {
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  const Kind kind = kind_of(sequence.name);
-  sim::Magnitudes magnitudes = sim::Magnitudes::perfect();
-  magnitudes.blur_sigma_px = 0.7;
-  const auto renderer = sim::RoomRenderer::create(room(), magnitudes);
-  const Transform<Rig, Marker>& pose = sequence.rig_from_marker[pair][tool];
-  sim::RoomState state;
-  state.room_from_marker.assign(2, {});
-  state.tool_present = {tool == 0, tool == 1};
-  // Half a pixel or so: greys are whole numbers.
-  constexpr double kStep = 0.0006;
-  const auto drawn = [&](std::size_t axis, double sign) {
-    std::array<double, 6> step{};
-    step[axis] = sign * (axis < 3 ? kStep : kStep / 0.02);
-    const Transform<Marker, Marker> moved(rotation_from_vector({step[3], step[4], step[5]}),
-                                          {step[0], step[1], step[2]});
-    const Transform<Rig, Marker> there = pose * moved;
-    state.room_from_marker[tool] = {there.rotation(), there.translation()};
-    StereoFrame frame;
-    const std::vector<sim::RoomState> states(1, state);
-    const StereoCalibration& c = sequence.calibration;
-    renderer->render(states, c.left, c.left_from_rig, 1, frame.left);
-    renderer->render(states, c.right, as_camera(c.right_from_rig), 1, frame.right);
-    return frame;
+  out.bound = [kind, calibration = out.calibration, poses = out.rig_from_marker](std::size_t pair,
+                                                                                 std::size_t tool) {
+    return cramer_rao_bound(kind, calibration, poses[pair][tool], tool);
   };
-  std::array<StereoFrame, 6> ahead;
-  std::array<StereoFrame, 6> behind;
-  for (std::size_t axis = 0; axis < 6; ++axis) {
-    ahead[axis] = drawn(axis, 1.0);
-    behind[axis] = drawn(axis, -1.0);
-  }
-  Matrix6 information = Matrix6::Zero();
-  const auto gather = [&](const GreyImage StereoFrame::*side, const CameraModel& camera,
-                          const auto& camera_from_rig) {
-    each_pixel(camera, camera_from_rig, pose, 0.5 * kTagM * 10.0 / 8.0, [&](std::size_t i) {
-      Eigen::Matrix<double, 6, 1> slope;
-      double light = 0.0;
-      for (std::size_t axis = 0; axis < 6; ++axis) {
-        const double a = (ahead[axis].*side).pixels[i];
-        const double b = (behind[axis].*side).pixels[i];
-        slope(static_cast<Eigen::Index>(axis)) =
-            kind.light * (a - b) / (2.0 * (axis < 3 ? kStep : kStep / 0.02));
-        light += kind.light * (a + b) / 12.0;
-      }
-      const double variance = kind.shot * light + kind.read * kind.read + 1.0 / 12.0;
-      information += slope * slope.transpose() / variance;
-    });
-  };
-  gather(&StereoFrame::left, sequence.calibration.left, sequence.calibration.left_from_rig);
-  gather(&StereoFrame::right, sequence.calibration.right, sequence.calibration.right_from_rig);
-  const Matrix6 bound = information.inverse();
-  std::array<double, 36> out;
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c) out[static_cast<std::size_t>(6 * r + c)] = bound(r, c);
   return out;
 }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <optional>
+
+#include "bench/tag_sequences.h"
+
+namespace orthonav::bench {
+
+/// The recorded sample of two tools, 40 mm tags, rendered by others with a real unit's stereo
+/// geometry; "recorded". It has no bound. Nothing where the sample is absent.
+[[nodiscard]] std::optional<Sequence> recorded_sequence();
+
+}  // namespace orthonav::bench

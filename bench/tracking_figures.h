@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/tag_sequences.h"
+#include "bench/tracking_methods.h"
+
+namespace orthonav::bench {
+
+/// How a method did on a sequence. Sums of squares over `count` poses, the first pairs left out.
+struct Figures {
+  std::vector<double> ms;
+  double visible = 0;  ///< tags that both cameras see nearly whole
+  double seen = 0;     ///< of these
+  int gap = 0;         ///< longest run of pairs in which such a tag was not seen
+  /// Poses of a tool that neither camera sees or with a corner farther than half the tag's size
+  /// from its place, and sightings in one image of an id or at a place that is not there.
+  int ghosts = 0;
+  double count = 0;  ///< poses that are no ghosts
+  double position = 0, rotation = 0, tip = 0, nees = 0, nees_count = 0;
+  double jitter = 0, jitters = 0;  ///< of tips at rest in World, from the third second on
+};
+
+[[nodiscard]] Figures measure(const Sequence& sequence, const Track& track);
+
+/// A table in Markdown.
+void print_head();
+void print_row(const Sequence& sequence, const std::string& method, const Figures& figures);
+/// The Cramér-Rao bound of every tenth pair or so; nothing for a sequence that has none.
+void print_bound(const Sequence& sequence);
+
+}  // namespace orthonav::bench

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/tag_sequences.h"
+#include "nav/tracking/marker_detector.h"
+
+namespace orthonav::bench {
+
+struct Seen {
+  bool seen = false;
+  Transform<Rig, Marker> rig_from_marker;
+  PoseCovariance covariance_in_rig{};
+  bool has_covariance = false;
+};
+
+/// A tag claimed in one image.
+struct Sighting {
+  bool right = false;  ///< camera
+  int id = 0;
+  Vec2 centre_px;
+};
+
+/// What a method says of a pair: an entry a tool, and what it saw in each image, if it says.
+struct Claims {
+  std::vector<Seen> tools;
+  std::vector<Sighting> sightings;
+};
+
+/// Tracks a pair on one thread. `claims` comes with an empty entry for each tool.
+using Track = std::function<void(const StereoFrame&, Claims&)>;
+
+struct Method {
+  std::string name;
+  std::function<Track(const Sequence&)> start;
+};
+
+/// Fills the tags of one image.
+using Detect = std::function<bool(const GreyImage&, std::vector<nav::MarkerCorners>&)>;
+/// A detector's corners, triangulated, absolute orientation, no filter.
+[[nodiscard]] Track tracked_by_corners(const Sequence& sequence, Detect detect);
+
+/// best, paper, AprilTag alone, and OpenCV's ArUco where it was there to build with.
+[[nodiscard]] std::vector<Method> tracking_methods();
+
+}  // namespace orthonav::bench
