@@ -55,6 +55,10 @@ Result<std::vector<BenchLevel>> load_levels(const Arguments& arguments) {
       levels.push_back(std::move(level));
     }
   }
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    for (std::size_t k = 0; k < levels.size(); ++k)
+      if (levels[i].case_name == levels[k].case_name && (k + 1 == i || i + 1 == k))
+        levels[i].neighbours.push_back({levels[k].label, levels[k].model.get()});
   if (levels.empty()) return Error{"no level of a case is found in " + arguments.anatomy};
   return levels;
 }

@@ -1,52 +1,68 @@
 #include "bench/registration_methods.h"
 
+#include <array>
+
 #include "bench/registration_peers.h"
 
 namespace orthonav::bench {
 namespace {
 
-/// Of the error at a place. A root mean square alone is taken to be the same in all directions.
-Mat3 predicted_covariance(const nav::Registration& registration, Point<Vertebra> at) {
-  const double rms_m = registration.uncertainty->predicted_tre_m(at);
-  Mat3 covariance;
-  for (int i = 0; i < 3; ++i) covariance[i][i] = rms_m * rms_m / 3.0;
-  return covariance;
+Mat3 predicted_covariance(const nav::PoseUncertainty& uncertainty, Point<Vertebra> at) {
+  const std::array<double, 9> c = uncertainty.covariance_at(at);
+  return {{{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}}};
 }
 
-using Register = Result<nav::Registration> (*)(const nav::VertebraModel&,
-                                               std::span<const Point<World>>,
-                                               const nav::RegistrationOptions&);
-
-RegistrationMethod ours(const std::string& name, Register method) {
-  const auto prepare = [method](const BenchLevel& level) -> Fit {
-    return [method, model = level.model](std::span<const Point<World>> points) {
-      Fitted fitted;
-      const auto r = method(*model, points, {});
-      if (!r) {
-        fitted.reason = r.error().message;
-        return fitted;
-      }
-      fitted.found = true;
-      fitted.world_from_vertebra = r->world_from_vertebra;
-      fitted.accepted = r->accepted;
-      for (const std::string& reason : r->reasons)
-        fitted.reason += (fitted.reason.empty() ? "" : "; ") + reason;
-      fitted.rmse_m = r->rmse_m;
-      if (r->uncertainty)
-        fitted.covariance = [registration = *r](Point<Vertebra> at) {
-          return predicted_covariance(registration, at);
-        };
-      return fitted;
+Fitted told_by(const Result<nav::Registration>& r) {
+  Fitted fitted;
+  if (!r) {
+    fitted.reason = r.error().message;
+    return fitted;
+  }
+  fitted.found = true;
+  fitted.world_from_vertebra = r->world_from_vertebra;
+  fitted.accepted = r->accepted;
+  for (const std::string& reason : r->reasons)
+    fitted.reason += (fitted.reason.empty() ? "" : "; ") + reason;
+  fitted.rmse_m = r->rmse_m;
+  fitted.fits_better = r->fits_better;
+  if (r->uncertainty)
+    fitted.covariance = [uncertainty = *r->uncertainty](Point<Vertebra> at) {
+      return predicted_covariance(uncertainty, at);
     };
-  };
-  return {name, prepare, true};
+  return fitted;
+}
+
+RegistrationMethod paper() {
+  return {"paper",
+          [](const BenchLevel& level) -> Fit {
+            return [model = level.model](std::span<const Point<World>> points) {
+              return told_by(nav::register_paper(*model, points));
+            };
+          },
+          true};
+}
+
+RegistrationMethod best() {
+  return {"best",
+          [](const BenchLevel& level) -> Fit {
+            nav::BestRegistrationOptions options;
+            for (const nav::ScrewPlan& screw : level.screws)
+              for (const Point<Vertebra> at : {screw.entry, screw.target})
+                options.targets.push_back(at);
+            options.neighbours = level.neighbours;
+            return [model = level.model, options](std::span<const Point<World>> points) {
+              return told_by(nav::register_best(*model, points, options));
+            };
+          },
+          true};
 }
 
 }  // namespace
 
 std::vector<RegistrationMethod> registration_methods() {
   std::vector<RegistrationMethod> methods{
-      ours("paper", nav::register_paper),
+      paper(),
+      best(),
   };
 #ifdef ORTHONAV_BENCH_PCL
   for (auto& peer : pcl_methods()) methods.push_back(std::move(peer));

@@ -20,6 +20,7 @@ struct BenchLevel {
   std::vector<nav::ScrewPlan> screws;
   std::shared_ptr<const nav::VertebraModel> model;
   double prepare_ms = 0.0;
+  std::vector<nav::NeighbourLevel> neighbours;  ///< of the same patient, beside it
 
   [[nodiscard]] std::string name() const { return case_name + "/" + label; }
 };
@@ -31,6 +32,7 @@ struct Fitted {
   bool accepted = false;
   std::string reason;  ///< why not
   double rmse_m = 0.0;
+  std::string fits_better;  ///< label of another level that the points fit as well or better
   /// For methods that say how sure they are: covariance of the error at a place, by rows, m².
   std::function<Mat3(Point<Vertebra>)> covariance;
 };

@@ -148,6 +148,7 @@ std::vector<WrongLevelRun> measure_wrong_levels(const std::vector<BenchLevel>& l
             const Fitted wrong = fitted_by(methods[m], fit, *other, points, ms);
             const Fitted right = fitted_by(methods[m], own, stroked, points, ms);
             parts[i].push_back({stroked.name(), other->name(), variant, m, wrong.accepted,
+                                wrong.fits_better == stroked.label,
                                 right.found && (!wrong.found || right.rmse_m < wrong.rmse_m)});
           }
       }

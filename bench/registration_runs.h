@@ -51,6 +51,7 @@ struct WrongLevelRun {
   test::StrokeVariant variant{};
   std::size_t method = 0;
   bool accepted = false;
+  bool right_named = false;        ///< the method says which level it is
   bool right_fits_better = false;  ///< the same strokes on their own level have a smaller RMSE
 };
 

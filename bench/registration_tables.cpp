@@ -125,20 +125,21 @@ void print_honesty(const std::vector<Run>& runs, const Methods& methods, const V
 void print_wrong_levels(const std::vector<WrongLevelRun>& runs, const Methods& methods,
                         const Variants& variants) {
   std::printf(
-      "| strokes | method | runs | accepted | share | the right level fits better |\n"
-      "|---|---|---:|---:|---:|---:|\n");
+      "| strokes | method | runs | accepted | share | the right level fits better | it is named |\n"
+      "|---|---|---:|---:|---:|---:|---:|\n");
   for (const auto variant : variants)
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      int all = 0, accepted = 0, better = 0;
+      int all = 0, accepted = 0, better = 0, named = 0;
       for (const WrongLevelRun& run : runs) {
         if (run.variant != variant || run.method != m) continue;
         ++all;
         accepted += run.accepted ? 1 : 0;
         better += run.right_fits_better ? 1 : 0;
+        named += run.right_named ? 1 : 0;
       }
-      std::printf("| %s | %s | %d | %d | %.1f %% | %.1f %% |\n", test::name_of(variant),
+      std::printf("| %s | %s | %d | %d | %.1f %% | %.1f %% | %.1f %% |\n", test::name_of(variant),
                   methods[m].name.c_str(), all, accepted, 100.0 * accepted / std::max(all, 1),
-                  100.0 * better / std::max(all, 1));
+                  100.0 * better / std::max(all, 1), 100.0 * named / std::max(all, 1));
     }
 }
 

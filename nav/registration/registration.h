@@ -11,6 +11,7 @@
 #include "hal/api/transform.h"
 #include "nav/geometry/closest_grid.h"
 #include "nav/geometry/mesh.h"
+#include "nav/registration/pose_search.h"
 #include "nav/registration/principal_axes.h"
 #include "nav/registration/tre.h"
 
@@ -31,6 +32,8 @@ class VertebraModel {
   /// Principal axes of the reachable surface (by area) and its extreme points along them.
   [[nodiscard]] const PrincipalAxes& reachable_axes() const { return reachable_axes_; }
   [[nodiscard]] const std::array<Vec3, 6>& reachable_extremes() const { return extremes_; }
+  /// For the search of every pose.
+  [[nodiscard]] const SearchField& search_field() const { return search_field_; }
 
  private:
   VertebraModel(TriangleMesh mesh, TriangleMesh reachable, SurfaceIndex surface);
@@ -41,6 +44,7 @@ class VertebraModel {
   ClosestGrid reachable_grid_;
   PrincipalAxes reachable_axes_;
   std::array<Vec3, 6> extremes_;
+  SearchField search_field_;
 };
 
 struct RegistrationOptions {
@@ -53,6 +57,30 @@ struct RegistrationOptions {
   double min_runner_up_ratio = 1.25;
   /// Error to expect at the model's centre (nav/registration/tre.h); above: refused.
   double max_predicted_tre_m = 0.003;
+};
+
+/// Another vertebra of the patient, which the strokes might belong to.
+struct NeighbourLevel {
+  std::string label;
+  const VertebraModel* model = nullptr;
+};
+
+struct BestRegistrationOptions {
+  std::size_t min_points = 100;
+  /// Where the pose must be sure: the plan's entries and targets. Without any, places where screws
+  /// usually go are taken.
+  std::vector<Point<Vertebra>> targets;
+  /// Root mean square error to expect at the worst of them; above: refused.
+  double max_predicted_tre_m = 0.0015;
+  /// What 95 of 100 errors are below, at the worst of them; above: refused.
+  double max_tre_95_m = 0.002;
+  /// By how much another pose must explain the points worse (log-likelihood ratio).
+  double min_margin = 12.0;
+  double max_noise_m = 0.0016;       ///< SD of the points about the surface
+  double min_inlier_share = 0.7;     ///< of the points that lie on the surface within the noise
+  double min_coverage_share = 0.10;  ///< of the reachable surface within 5 mm of a point
+  double tip_radius_m = 0.0;         ///< of a ball at the pointer's end
+  std::vector<NeighbourLevel> neighbours;
 };
 
 /// What registration says. `accepted` false: `reasons` tells why, nothing may be guided on it.
@@ -69,6 +97,18 @@ struct Registration {
   std::optional<PoseUncertainty> uncertainty;
   /// Root mean square error to expect at the centre of the model; infinite when a motion is open.
   double predicted_tre_m = 0.0;
+
+  // What `best` says besides; zero and empty with `paper`.
+  double tre_95_m = 0.0;          ///< at the worst target
+  double noise_m = 0.0;           ///< SD of the points about the surface, outliers left aside
+  double inlier_share = 0.0;      ///< of the points
+  double effective_points = 0.0;  ///< independent ones that would tell as much
+  double margin = 0.0;            ///< of the runner-up, log-likelihood ratio
+  double coverage_share = 0.0;    ///< of the reachable surface
+  /// The motion known worst, in words, and the part of the bone whose strokes would tell most.
+  std::string weakest;
+  std::string advice;
+  std::string fits_better;  ///< label of a neighbouring level that the points fit as well or better
 };
 
 /// The published method: PCA extreme points (paper eq. 1) give the coarse poses, of which the two
@@ -78,5 +118,16 @@ struct Registration {
 Result<Registration> register_paper(const VertebraModel& model,
                                     std::span<const Point<World>> points_in_world,
                                     const RegistrationOptions& options = {});
+
+/// Every pose is searched for, the best ones are fitted exactly and robustly
+/// (docs/registration.md). Accepted only when nothing else explains the points, the error to expect
+/// at every target is small, and no neighbouring level fits as well. `points_in_world` in the order
+/// of time.
+Result<Registration> register_best(const VertebraModel& model,
+                                   std::span<const Point<World>> points_in_world,
+                                   const BestRegistrationOptions& options = {});
+
+/// What keeps points from being registered at all: too few, not finite, all over the place, a line.
+Status check_points(std::span<const Point<World>> points, std::size_t min_points);
 
 }  // namespace orthonav::nav

@@ -67,6 +67,17 @@ Matrix6 information(const std::vector<Touch>& sorted, Vec3 centre_m) {
   return sum;
 }
 
+/// Of the standard normal distribution, by bisection: it is asked seldom.
+double normal_quantile(double probability) {
+  double low = -8.0;
+  double high = 8.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(-middle / std::sqrt(2.0)) < probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 Result<PoseUncertainty> PoseUncertainty::estimate(
@@ -99,14 +110,34 @@ Result<PoseUncertainty> PoseUncertainty::estimate(
   return result;
 }
 
-double PoseUncertainty::predicted_tre_m(Point<Vertebra> target) const {
+std::array<double, 9> PoseUncertainty::covariance_at(Point<Vertebra> target) const {
   const Matrix6 covariance =
       Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(covariance_.data());
   const Vec3 d = target.v - centre_m_;
   Eigen::Matrix<double, 3, 6> moves = Eigen::Matrix<double, 3, 6>::Zero();  // shift + turn × d
   moves.leftCols<3>().setIdentity();
   moves.rightCols<3>() << 0, d.z, -d.y, -d.z, 0, d.x, d.y, -d.x, 0;
-  return std::sqrt(std::max(0.0, (moves * covariance * moves.transpose()).trace()));
+  std::array<double, 9> out{};
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(out.data()) =
+      moves * covariance * moves.transpose();
+  return out;
+}
+
+double PoseUncertainty::predicted_tre_m(Point<Vertebra> target) const {
+  const std::array<double, 9> c = covariance_at(target);
+  return std::sqrt(std::max(0.0, c[0] + c[4] + c[8]));
+}
+
+double PoseUncertainty::tre_quantile_m(Point<Vertebra> target, double probability) const {
+  const std::array<double, 9> c = covariance_at(target);
+  const double mean = c[0] + c[4] + c[8];
+  double squares = 0.0;
+  for (const double v : c) squares += v * v;
+  if (!(mean > 0.0)) return 0.0;
+  const double freedom = mean * mean / squares;
+  const double k = 2.0 / (9.0 * freedom);
+  const double root = std::max(0.0, 1.0 - k + normal_quantile(probability) * std::sqrt(k));
+  return std::sqrt(mean * root * root * root);
 }
 
 }  // namespace orthonav::nav

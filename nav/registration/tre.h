@@ -25,8 +25,21 @@ class PoseUncertainty {
   static Result<PoseUncertainty> estimate(const VertebraModel& model,
                                           const Transform<World, Vertebra>& world_from_vertebra,
                                           std::span<const Point<World>> points_in_world);
+  PoseUncertainty() = default;
+  /// The covariance of (shift m, rotation vector rad) of the bone about a centre, row-major, in the
+  /// model's frame.
+  PoseUncertainty(Vec3 centre_m, const std::array<double, 36>& covariance)
+      : centre_m_(centre_m), covariance_(covariance) {}
+
   /// Root mean square of the error to expect at a target, metres.
   [[nodiscard]] double predicted_tre_m(Point<Vertebra> target) const;
+  /// Of the error at a target, 3x3 by rows, m², in the model's frame.
+  [[nodiscard]] std::array<double, 9> covariance_at(Point<Vertebra> target) const;
+  /// The error at a target is smaller with this probability (the distribution of a weighted sum of
+  /// squares by Satterthwaite 1946, its quantile by Wilson & Hilferty 1931).
+  [[nodiscard]] double tre_quantile_m(Point<Vertebra> target, double probability) const;
+  [[nodiscard]] Vec3 centre_m() const { return centre_m_; }
+  [[nodiscard]] const std::array<double, 36>& covariance() const { return covariance_; }
 
  private:
   Vec3 centre_m_;                        ///< of the points, in the model's frame

@@ -45,6 +45,7 @@ VertebraModel::VertebraModel(TriangleMesh mesh, TriangleMesh reachable, SurfaceI
       reachable_surface_(reachable_),
       reachable_grid_(reachable_, reachable_surface_, kGridCell_m, kGridMargin_m),
       reachable_axes_(axes_by_area(reachable_)),
-      extremes_(extreme_points(reachable_.vertices_m, reachable_axes_)) {}
+      extremes_(extreme_points(reachable_.vertices_m, reachable_axes_)),
+      search_field_(reachable_, reachable_surface_, surface_) {}
 
 }  // namespace orthonav::nav

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "nav/geometry/mesh.h"
+
+namespace orthonav::nav {
+
+/// Distance to a surface, looked up: sampled on a grid, in between trilinear. Negative inside the
+/// bone to 8 mm from the surface, positive elsewhere. Off by a few tenths of a cell where the
+/// surface bends within one: for finding poses, not for the last step. Immutable, thread-safe, no
+/// allocation in queries.
+class DistanceField {
+ public:
+  /// To the surface of `near`; the sign by the closed surface `bone`. Covers `mesh`, of which
+  /// `near` is the index, and `margin_m` around it.
+  DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near, const SurfaceIndex& bone,
+                double cell_m, double margin_m);
+
+  struct Value {
+    double distance_m = 0.0;
+    Vec3 gradient;  ///< about a unit vector
+  };
+  /// Nothing outside the grid, which is farther than the margin from the surface.
+  [[nodiscard]] std::optional<Value> at(Vec3 query_m) const;
+
+  [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+
+ private:
+  Bounds bounds_;
+  double cell_m_;
+  std::array<int, 3> size_{};  ///< samples along each axis
+  std::vector<float> distance_m_;
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "nav/registration/fit_covariance.h"
+#include "nav/registration/pose_search.h"
+#include "nav/registration/registration.h"
+#include "nav/registration/spread_points.h"
+#include "nav/registration/surface_fit.h"
+#include "nav/registration/weakness.h"
+
+namespace orthonav::nav {
+namespace {
+
+/// Enough points to tell candidates apart.
+constexpr std::size_t kPointsToCompare = 400;
+/// Poses are compared by squared distances truncated at so many SDs of the noise, or there.
+constexpr double kTruncateSd = 3.0;
+constexpr double kTruncateLeast_m = 0.0009;
+/// A pose that moves no target farther is not another one.
+constexpr double kSameAtTargets_m = 0.002;
+/// Points within this many SDs lie on the surface.
+constexpr double kInlierSd = 3.5;
+/// A level that explains the points nearly as well as this one does.
+constexpr double kLevelMargin = 6.0;
+
+std::string line(const char* format, double a, double b) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+struct Cloud {
+  std::vector<Vec3> all_m;  ///< about the centre, in the order of time
+  std::vector<Vec3> few_m;
+  Vec3 centre_m;
+};
+
+Cloud cloud_of(std::span<const Point<World>> points) {
+  constexpr double kReach_m = 0.075;
+  Cloud cloud;
+  for (const Point<World>& p : points) cloud.all_m.push_back(p.v);
+  const SpreadPoints spread(cloud.all_m, kReach_m);
+  cloud.centre_m = spread.centre_m();
+  for (Vec3& p : cloud.all_m) p -= cloud.centre_m;
+  const std::size_t step = std::max<std::size_t>(1, cloud.all_m.size() / kPointsToCompare);
+  for (std::size_t i = 0; i < cloud.all_m.size(); i += step) cloud.few_m.push_back(cloud.all_m[i]);
+  return cloud;
+}
+
+struct Candidate {
+  SurfaceFit fit;
+  double cost_m2 = 0.0;
+};
+
+/// Every pose that could be meant, fitted exactly, the best first.
+std::vector<Candidate> candidates(const VertebraModel& model, const Cloud& cloud,
+                                  double tip_radius_m, double& width_m) {
+  PoseSearchOptions search;
+  search.tip_radius_m = tip_radius_m;
+  SurfaceFitOptions fine;
+  fine.tip_radius_m = tip_radius_m;
+  fine.max_iterations = 6;
+  fine.last_step_m = 2e-5;
+  std::vector<Candidate> found;
+  double least_m = std::numeric_limits<double>::infinity();
+  std::vector<Vec3> in_world;
+  for (const Vec3& p : cloud.all_m) in_world.push_back(p + cloud.centre_m);
+  for (const FoundPose& pose : search_poses(model.search_field(), in_world, search))
+    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m,
+                                  centred(pose.world_from_vertebra, cloud.centre_m), fine)) {
+      least_m = std::min(least_m, fit->noise_m);
+      found.push_back({std::move(*fit), 0.0});
+    }
+  width_m = std::max(kTruncateSd * least_m, kTruncateLeast_m);
+  for (Candidate& c : found) c.cost_m2 = truncated_cost_m2(c.fit, width_m);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost_m2 < b.cost_m2; });
+  return found;
+}
+
+std::vector<Point<Vertebra>> targets_of(const VertebraModel& model,
+                                        const BestRegistrationOptions& options) {
+  if (!options.targets.empty()) return options.targets;
+  // Pedicle screws enter about 20 mm beside the midline and end in the body.
+  const Vec3 back = model.reachable_axes().centre_m;
+  std::vector<Point<Vertebra>> usual;
+  for (const double side : {1.0, -1.0}) {
+    usual.push_back({back + Vec3{side * 0.020, 0.0, 0.0}});
+    usual.push_back({back + Vec3{side * 0.008, -0.045, 0.0}});
+  }
+  return usual;
+}
+
+/// How far apart two poses put the farthest of the targets.
+double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Vertebra>& b,
+               std::span<const Point<Vertebra>> targets) {
+  double most = 0.0;
+  for (const Point<Vertebra>& target : targets)
+    most = std::max(most, (a * target - b * target).norm());
+  return most;
+}
+
+double rmse_m(const SurfaceFit& fit) {
+  double sum = 0.0;
+  for (const FittedPoint& p : fit.points) sum += p.residual_m * p.residual_m;
+  return std::sqrt(sum / static_cast<double>(fit.points.size()));
+}
+
+double inlier_share(const SurfaceFit& fit) {
+  const auto inliers = std::count_if(
+      fit.points.begin(), fit.points.end(),
+      [&](const FittedPoint& p) { return std::abs(p.residual_m) < kInlierSd * fit.noise_m; });
+  return static_cast<double>(inliers) / static_cast<double>(fit.points.size());
+}
+
+void estimate_errors(const VertebraModel& model, const SurfaceFit& fit,
+                     std::span<const Point<Vertebra>> targets, Registration& r) {
+  r.predicted_tre_m = r.tre_95_m = std::numeric_limits<double>::infinity();
+  const auto covariance = covariance_of(fit);
+  if (!covariance) {
+    r.weakest = "a motion of the bone is left wholly open";
+    return;
+  }
+  r.uncertainty = covariance->uncertainty;
+  r.effective_points = covariance->effective_points;
+  r.predicted_tre_m = r.tre_95_m = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    r.predicted_tre_m = std::max(r.predicted_tre_m, r.uncertainty->predicted_tre_m(target));
+    r.tre_95_m = std::max(r.tre_95_m, r.uncertainty->tre_quantile_m(target, 0.95));
+  }
+  const Weakness weakness = weakness_of(model, *r.uncertainty, targets);
+  r.weakest = weakness.motion;
+  r.advice = weakness.advice;
+}
+
+/// How much worse the best other pose explains the points.
+void compare_poses(const std::vector<Candidate>& found, const Cloud& cloud,
+                   std::span<const Point<Vertebra>> targets, Registration& r) {
+  r.margin = std::numeric_limits<double>::infinity();
+  r.runner_up = r.world_from_vertebra;
+  r.runner_up_rmse_m = r.rmse_m;
+  const double variance_m2 = r.noise_m * r.noise_m;
+  const double points = r.effective_points > 0.0 ? r.effective_points : 10.0;
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    const auto pose = world_from(found[i].fit.pose, cloud.centre_m);
+    if (apart_m(pose, r.world_from_vertebra, targets) < kSameAtTargets_m) continue;
+    r.runner_up = pose;
+    r.runner_up_rmse_m = rmse_m(found[i].fit);
+    r.margin = points * (found[i].cost_m2 - found[0].cost_m2) / (2.0 * variance_m2);
+    return;
+  }
+}
+
+/// The neighbouring level that explains the points best, if it does so nearly as well.
+void compare_levels(const Cloud& cloud, double own_cost_m2, double width_m,
+                    const BestRegistrationOptions& options, Registration& r) {
+  const double points = r.effective_points > 0.0 ? r.effective_points : 10.0;
+  double least = own_cost_m2 + 2.0 * kLevelMargin * r.noise_m * r.noise_m / points;
+  for (const NeighbourLevel& level : options.neighbours) {
+    double own_width = 0.0;
+    const auto found = candidates(*level.model, cloud, options.tip_radius_m, own_width);
+    if (found.empty()) continue;
+    const double cost = truncated_cost_m2(found[0].fit, std::min(width_m, own_width));
+    if (cost >= least) continue;
+    least = cost;
+    r.fits_better = level.label;
+  }
+}
+
+void judge(const BestRegistrationOptions& o, Registration& r) {
+  const auto refuse = [&](std::string reason) { r.reasons.push_back(std::move(reason)); };
+  if (!(r.noise_m <= o.max_noise_m))
+    refuse(line("the points scatter %.1f mm about the surface, limit %.1f mm", r.noise_m * 1e3,
+                o.max_noise_m * 1e3));
+  if (!(r.inlier_share >= o.min_inlier_share))
+    refuse(line("only %.0f %% of the points lie on the model, at least %.0f %%",
+                r.inlier_share * 100.0, o.min_inlier_share * 100.0));
+  if (!(r.coverage_share >= o.min_coverage_share))
+    refuse(line("only %.0f %% of the surface was stroked, at least %.0f %%",
+                r.coverage_share * 100.0, o.min_coverage_share * 100.0));
+  if (!(r.margin >= o.min_margin))
+    refuse(line("another pose fits nearly as well (margin %.1f, at least %.0f)", r.margin,
+                o.min_margin));
+  if (!(r.predicted_tre_m <= o.max_predicted_tre_m))
+    refuse(line("error expected at the screws %.1f mm, limit %.1f mm", r.predicted_tre_m * 1e3,
+                o.max_predicted_tre_m * 1e3) +
+           (r.weakest.empty() ? "" : ": " + r.weakest));
+  else if (!(r.tre_95_m <= o.max_tre_95_m))
+    refuse(line("1 of 20 errors at the screws would exceed %.1f mm, limit %.1f mm",
+                r.tre_95_m * 1e3, o.max_tre_95_m * 1e3) +
+           (r.weakest.empty() ? "" : ": " + r.weakest));
+  if (!r.fits_better.empty()) refuse("the points fit level " + r.fits_better + " as well");
+  r.accepted = r.reasons.empty();
+}
+
+}  // namespace
+
+Result<Registration> register_best(const VertebraModel& model,
+                                   std::span<const Point<World>> points_in_world,
+                                   const BestRegistrationOptions& options) {
+  if (const Status s = check_points(points_in_world, options.min_points); !s) return s.error();
+  const Cloud cloud = cloud_of(points_in_world);
+  double width_m = 0.0;
+  const std::vector<Candidate> found = candidates(model, cloud, options.tip_radius_m, width_m);
+  SurfaceFitOptions fine;
+  fine.tip_radius_m = options.tip_radius_m;
+  const auto fit = found.empty() ? std::nullopt
+                                 : fit_to_surface(model.reachable_surface(), cloud.all_m,
+                                                  found[0].fit.pose, fine);
+  if (!fit) return Error{"registration finds no pose: the strokes fit no part of the model"};
+  Registration r;
+  r.world_from_vertebra = world_from(fit->pose, cloud.centre_m);
+  r.rmse_m = rmse_m(*fit);
+  r.noise_m = fit->noise_m;
+  r.inlier_share = inlier_share(*fit);
+  r.iterations = fit->iterations;
+  r.points = points_in_world.size();
+  const std::vector<Point<Vertebra>> targets = targets_of(model, options);
+  estimate_errors(model, *fit, targets, r);
+  r.coverage_share = coverage_share(model, *fit);
+  compare_poses(found, cloud, targets, r);
+  compare_levels(cloud, truncated_cost_m2(found[0].fit, width_m), width_m, options, r);
+  judge(options, r);
+  return r;
+}
+
+}  // namespace orthonav::nav

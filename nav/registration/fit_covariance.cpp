@@ -1,0 +1,159 @@
+#include "nav/registration/fit_covariance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <Eigen/Dense>
+#include <map>
+#include <vector>
+
+namespace orthonav::nav {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// A larger step between two points begins another stroke.
+constexpr double kLeap_m = 0.008;
+/// Noise of a hand and a tracker is forgotten after so many points: 2 s at 30 Hz.
+constexpr int kLongestLag = 60;
+/// The autocorrelation is followed until it falls below that.
+constexpr double kForgotten = 0.05;
+constexpr double kCell_m = 0.005;
+/// Turns are compared with shifts at this lever.
+constexpr double kLever_m = 0.03;
+/// The motion least seen may be this much less visible than the best seen one.
+constexpr double kWeakest = 1e-6;
+
+Vector6 derivative(const FittedPoint& p) {
+  const Vec3 turn = p.arm_m.cross(p.gradient);
+  Vector6 j;
+  j << p.gradient.x, p.gradient.y, p.gradient.z, turn.x, turn.y, turn.z;
+  return j;
+}
+
+double influence(const FittedPoint& p) { return p.weight * p.residual_m; }
+
+/// Number of the stroke of each point; `ordered` false when steps are mostly leaps.
+struct Strokes {
+  std::vector<int> of;
+  bool ordered = true;
+};
+
+Strokes strokes_of(const SurfaceFit& fit) {
+  Strokes out;
+  int stroke = 0;
+  std::size_t leaps = 0;
+  for (std::size_t i = 0; i < fit.points.size(); ++i) {
+    if (i > 0 && (fit.points[i].arm_m - fit.points[i - 1].arm_m).norm() > kLeap_m) {
+      ++stroke;
+      ++leaps;
+    }
+    out.of.push_back(stroke);
+  }
+  out.ordered = 2 * leaps < fit.points.size();
+  return out;
+}
+
+/// Of the influences along strokes, from lag 0 on, as far as they are correlated.
+std::vector<double> autocovariance(const SurfaceFit& fit, const std::vector<int>& stroke) {
+  std::vector<double> out;
+  const std::size_t n = fit.points.size();
+  for (std::size_t lag = 0; lag <= kLongestLag && lag < n; ++lag) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t i = 0; i + lag < n; ++i) {
+      const FittedPoint& a = fit.points[i];
+      const FittedPoint& b = fit.points[i + lag];
+      if (stroke[i] != stroke[i + lag] || !(a.weight > 0.0) || !(b.weight > 0.0)) continue;
+      sum += influence(a) * influence(b);
+      count += 1.0;
+    }
+    const double value = count > 0.0 ? sum / count : 0.0;
+    if (lag > 0 && (count < 10.0 || value < kForgotten * out[0])) break;
+    out.push_back(value);
+  }
+  return out;
+}
+
+Matrix6 middle_along_strokes(const SurfaceFit& fit, const std::vector<Vector6>& j,
+                             const std::vector<int>& stroke, const std::vector<double>& gamma) {
+  Matrix6 out = Matrix6::Zero();
+  for (std::size_t lag = 0; lag < gamma.size(); ++lag) {
+    Matrix6 sum = Matrix6::Zero();
+    for (std::size_t i = 0; i + lag < j.size(); ++i)
+      if (stroke[i] == stroke[i + lag] && fit.points[i].weight > 0.0 &&
+          fit.points[i + lag].weight > 0.0)
+        sum.noalias() += j[i] * j[i + lag].transpose();
+    out += lag == 0 ? Matrix6(gamma[0] * sum) : Matrix6(gamma[lag] * (sum + sum.transpose()));
+  }
+  return out;
+}
+
+/// Every cell's points err alike.
+Matrix6 middle_by_cells(const SurfaceFit& fit, const std::vector<Vector6>& j, double gamma) {
+  std::map<std::array<long, 3>, Vector6> cells;
+  for (std::size_t i = 0; i < j.size(); ++i) {
+    if (!(fit.points[i].weight > 0.0)) continue;
+    const auto cell = [](double x) { return std::lround(x / kCell_m); };
+    const Vec3 p = fit.points[i].arm_m;
+    cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, Vector6::Zero()).first->second += j[i];
+  }
+  Matrix6 out = Matrix6::Zero();
+  for (const auto& [cell, sum] : cells) out += gamma * sum * sum.transpose();
+  return out;
+}
+
+}  // namespace
+
+std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
+  const Strokes strokes = strokes_of(fit);
+  std::vector<Vector6> j;
+  j.reserve(fit.points.size());
+  Matrix6 plain = Matrix6::Zero();
+  double slope = 0.0;  // mean derivative of the influence by the residual
+  double used = 0.0;
+  for (const FittedPoint& p : fit.points) {
+    j.push_back(derivative(p));
+    if (!(p.weight > 0.0)) continue;
+    plain += j.back() * j.back().transpose();
+    const double t = std::sqrt(p.weight);  // 1 - (r/c)^2
+    slope += t * (t - 4.0 * (1.0 - t));
+    used += 1.0;
+  }
+  if (used < 12.0) return std::nullopt;
+  slope = std::max(slope / used, 0.2);
+  Vector6 lever;
+  lever << 1, 1, 1, kLever_m, kLever_m, kLever_m;
+  const Matrix6 scaled =
+      lever.cwiseInverse().asDiagonal() * plain * lever.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled);
+  if (!(solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[5])) return std::nullopt;
+  const Matrix6 inverse =
+      lever.cwiseInverse().asDiagonal() *
+      (solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
+       solver.eigenvectors().transpose()) *
+      lever.cwiseInverse().asDiagonal();
+  const std::vector<double> gamma =
+      strokes.ordered ? autocovariance(fit, strokes.of) : std::vector<double>{[&] {
+        double sum = 0.0;
+        for (const FittedPoint& p : fit.points) sum += influence(p) * influence(p);
+        return sum / used;
+      }()};
+  const Matrix6 middle = strokes.ordered ? middle_along_strokes(fit, j, strokes.of, gamma)
+                                         : middle_by_cells(fit, j, gamma[0]);
+  Matrix6 covariance = inverse * middle * inverse / (slope * slope);
+  const Matrix6 independent = inverse * (gamma[0] * plain) * inverse / (slope * slope);
+  FitCovariance out;
+  const double repeated = std::max(1.0, (covariance * independent.inverse()).trace() / 6.0);
+  out.effective_points = used / repeated;
+  // Six numbers were fitted to them.
+  covariance *= out.effective_points / std::max(out.effective_points - 6.0, 1.0);
+  std::array<double, 36> flat{};
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(flat.data()) =
+      0.5 * (covariance + covariance.transpose());
+  out.uncertainty = PoseUncertainty(fit.pose.centre_m, flat);
+  return out;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "nav/registration/surface_fit.h"
+#include "nav/registration/tre.h"
+
+namespace orthonav::nav {
+
+/// How sure a fit is of its pose.
+struct FitCovariance {
+  PoseUncertainty uncertainty;
+  /// As many independent points would tell as much.
+  double effective_points = 0.0;
+};
+
+/// The covariance of a robust fit whose residuals are correlated from one point to the next: the
+/// sandwich of M-estimators (Huber & Ronchetti 2009, section 6.3), its middle by the residuals' own
+/// autocovariance along each stroke (Newey & West 1987, weights of Bartlett). Points in the order
+/// of time; where they are in none (most steps are leaps), neighbours within 5 mm count as one.
+/// Nothing when a motion is left open.
+[[nodiscard]] std::optional<FitCovariance> covariance_of(const SurfaceFit& fit);
+
+}  // namespace orthonav::nav

@@ -1,0 +1,49 @@
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "nav/registration/principal_axes.h"
+#include "nav/registration/registration.h"
+
+namespace orthonav::nav {
+namespace {
+
+/// Strokes narrower than this (standard deviation) along their second axis are a line.
+constexpr double kNarrowest_m = 0.001;
+/// Points of one vertebra are not farther than this (standard deviation) from their centre.
+constexpr double kWidest_m = 0.1;
+
+std::string line(const char* format, double a, double b) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+}  // namespace
+
+Status check_points(std::span<const Point<World>> points, std::size_t min_points) {
+  const std::size_t fewest = std::max<std::size_t>(min_points, 3);
+  if (points.size() < fewest)
+    return Error{"registration has " + std::to_string(points.size()) + " points, needs at least " +
+                 std::to_string(fewest)};
+  std::vector<Vec3> numbers(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].v.is_finite())
+      return Error{"registration point " + std::to_string(i + 1) + " is not finite"};
+    numbers[i] = points[i].v;
+  }
+  const PrincipalAxes axes = principal_axes(numbers);
+  if (!(axes.deviation_m[0] <= kWidest_m))
+    return Error{
+        line("registration points spread %.4g mm (standard deviation), limit %.0f mm: not "
+             "one vertebra, or not in the unit given",
+             axes.deviation_m[0] * 1e3, kWidest_m * 1e3)};
+  if (!(axes.deviation_m[1] >= kNarrowest_m))
+    return Error{
+        line("registration points lie on a line or in one place (%.3g mm wide, at least "
+             "%.0f mm)",
+             axes.deviation_m[1] * 1e3, kNarrowest_m * 1e3)};
+  return {};
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,62 @@
+#include "nav/registration/spread_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace orthonav::nav {
+namespace {
+
+constexpr double kCell_m = 0.004;
+
+/// The middle that outliers do not move: medians by coordinate.
+Vec3 middle_of(std::span<const Vec3> points_m) {
+  Vec3 middle;
+  std::vector<double> values(points_m.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < points_m.size(); ++i) values[i] = points_m[i][axis];
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), at, values.end());
+    middle[axis] = *at;
+  }
+  return middle;
+}
+
+/// The farthest of what is left from all before, again and again.
+void order_by_distance(std::vector<Vec3>& points_m, std::size_t count) {
+  std::vector<double> distance2(points_m.size(), 1e9);
+  for (std::size_t i = 0; i < std::min(count, points_m.size()); ++i) {
+    std::size_t farthest = i;
+    for (std::size_t k = i; k < points_m.size(); ++k)
+      if (distance2[k] > distance2[farthest]) farthest = k;
+    std::swap(points_m[i], points_m[farthest]);
+    std::swap(distance2[i], distance2[farthest]);
+    for (std::size_t k = i + 1; k < points_m.size(); ++k)
+      distance2[k] = std::min(distance2[k], (points_m[k] - points_m[i]).squared_norm());
+  }
+}
+
+}  // namespace
+
+SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
+  if (points_m.empty()) return;
+  const Vec3 middle = middle_of(points_m);
+  // One of each cell: the first that came.
+  std::map<std::array<long, 3>, Vec3> cells;
+  for (const Vec3& p : points_m) {
+    const Vec3 q = p - middle;
+    if (!(q.norm() < reach_m)) continue;
+    const auto cell = [](double v) { return std::lround(v / kCell_m); };
+    cells.try_emplace({cell(q.x), cell(q.y), cell(q.z)}, q);
+  }
+  Vec3 mean;
+  for (const auto& [cell, q] : cells) mean += q / static_cast<double>(cells.size());
+  centre_m_ = middle + mean;
+  for (const auto& [cell, q] : cells)
+    if ((q - mean).norm() < reach_m) points_m_.push_back(q - mean);
+  constexpr std::size_t kOrdered = 150;
+  order_by_distance(points_m_, kOrdered);
+}
+
+}  // namespace orthonav::nav

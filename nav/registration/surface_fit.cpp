@@ -1,0 +1,116 @@
+#include "nav/registration/surface_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+#include <optional>
+
+namespace orthonav::nav {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// Tukey's biweight is 95 % efficient at so many SDs.
+constexpr double kTukeySd = 4.685;
+/// SD by the median of absolute values, for a normal distribution.
+constexpr double kSdByMedian = 1.4826;
+/// Points farther than this from the surface are no matter where on it.
+constexpr double kFarthest_m = 0.012;
+constexpr double kDamping = 1e-9;
+
+void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double tip_radius_m,
+             SurfaceFit& fit) {
+  for (std::size_t i = 0; i < points_m.size(); ++i) {
+    FittedPoint& out = fit.points[i];
+    out.arm_m = fit.pose.rotation * points_m[i];
+    const Vec3 query = out.arm_m + fit.pose.centre_m;
+    const auto near = surface.nearest(query, kFarthest_m);
+    if (!near) {
+      out.residual_m = kFarthest_m;
+      out.gradient = {};
+      continue;
+    }
+    const Vec3 off = query - near->point_m;
+    const double side = off.dot(near->normal) < 0.0 ? -1.0 : 1.0;
+    out.residual_m = side * near->distance_m - tip_radius_m;
+    // On the surface itself only the face has a direction.
+    out.gradient = near->distance_m > 1e-7 ? (side / near->distance_m) * off : near->normal;
+  }
+}
+
+double spread_m(const SurfaceFit& fit, std::vector<double>& scratch) {
+  scratch.clear();
+  for (const FittedPoint& p : fit.points) scratch.push_back(std::abs(p.residual_m));
+  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+  std::nth_element(scratch.begin(), middle, scratch.end());
+  return kSdByMedian * *middle;
+}
+
+void weigh(double width_m, SurfaceFit& fit) {
+  for (FittedPoint& p : fit.points) {
+    const double t = std::max(0.0, 1.0 - p.residual_m * p.residual_m / (width_m * width_m));
+    p.weight = t * t;
+  }
+}
+
+/// How far it went, or nothing when the pose is open.
+std::optional<double> step(SurfaceFit& fit) {
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+  for (const FittedPoint& p : fit.points) {
+    if (!(p.weight > 0.0)) continue;
+    const Vec3 turn = p.arm_m.cross(p.gradient);
+    Vector6 j;
+    j << p.gradient.x, p.gradient.y, p.gradient.z, turn.x, turn.y, turn.z;
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(j, p.weight);
+    right -= p.weight * p.residual_m * j;
+  }
+  const double shift = kDamping * normal.topLeftCorner<3, 3>().trace();
+  const double turn = kDamping * normal.bottomRightCorner<3, 3>().trace();
+  for (int k = 0; k < 6; ++k) normal(k, k) += k < 3 ? shift : turn;
+  const Eigen::LDLT<Matrix6> solver(normal.selfadjointView<Eigen::Lower>());
+  const Vector6 x = solver.solve(right);
+  if (solver.info() != Eigen::Success || !x.allFinite() || !(normal.trace() > 0.0))
+    return std::nullopt;
+  constexpr double kLongest_m = 0.005;
+  constexpr double kLever_m = 0.03;
+  const double length = x.head<3>().norm() + kLever_m * x.tail<3>().norm();
+  const double scale = std::min(1.0, kLongest_m / std::max(length, 1e-12));
+  fit.pose.rotation =
+      orthonormalized(rotation_from_vector(scale * Vec3{x(3), x(4), x(5)}) * fit.pose.rotation);
+  fit.pose.centre_m += scale * Vec3{x(0), x(1), x(2)};
+  return length;
+}
+
+}  // namespace
+
+std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
+                                         std::span<const Vec3> points_m, const CentredPose& start,
+                                         const SurfaceFitOptions& options) {
+  if (points_m.size() < 6) return std::nullopt;
+  SurfaceFit fit;
+  fit.pose = start;
+  fit.points.resize(points_m.size());
+  std::vector<double> scratch;
+  for (bool last = false;; ++fit.iterations) {
+    measure(surface, points_m, options.tip_radius_m, fit);
+    fit.noise_m = std::clamp(spread_m(fit, scratch), options.least_noise_m, options.most_noise_m);
+    weigh(kTukeySd * fit.noise_m, fit);
+    if (last || fit.iterations == options.max_iterations) return fit;
+    const auto length = step(fit);
+    if (!length) return std::nullopt;
+    last = *length < options.last_step_m;
+  }
+}
+
+double truncated_cost_m2(const SurfaceFit& fit, double width_m) {
+  double sum = 0.0;
+  for (const FittedPoint& p : fit.points) {
+    const double r = std::min(std::abs(p.residual_m), width_m);
+    sum += r * r;
+  }
+  return sum / static_cast<double>(fit.points.size());
+}
+
+}  // namespace orthonav::nav

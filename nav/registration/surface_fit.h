@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nav/registration/surface_step.h"
+
+namespace orthonav::nav {
+
+struct SurfaceFitOptions {
+  int max_iterations = 12;
+  double last_step_m = 2e-6;  ///< ends it
+  double tip_radius_m = 0.0;  ///< of a ball at the pointer's end, whose centre the points are
+  /// What residuals are never taken to be smaller or larger than (SD).
+  double least_noise_m = 0.00015;
+  double most_noise_m = 0.002;
+};
+
+/// One point at the fitted pose.
+struct FittedPoint {
+  Vec3 arm_m;               ///< from the points' centre, in the vertebra's frame
+  Vec3 gradient;            ///< of the residual by the point's place
+  double residual_m = 0.0;  ///< outside the surface positive
+  double weight = 0.0;      ///< robust, 0 to 1
+};
+
+struct SurfaceFit {
+  CentredPose pose;
+  double noise_m = 0.0;  ///< SD of the residuals, outliers left aside
+  int iterations = 0;
+  std::vector<FittedPoint> points;  ///< in the order given
+};
+
+/// The pose at which the points lie on the surface itself, nearest points searched for exactly;
+/// weights by Tukey's biweight of a width that the residuals' own spread decides. Starts within a
+/// few millimetres of it. `points_m` are about their centre. Nothing when the pose is left open.
+[[nodiscard]] std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
+                                                       std::span<const Vec3> points_m,
+                                                       const CentredPose& start,
+                                                       const SurfaceFitOptions& options);
+
+/// Mean squared residual, truncated at `width_m`, outliers counting as that.
+[[nodiscard]] double truncated_cost_m2(const SurfaceFit& fit, double width_m);
+
+}  // namespace orthonav::nav

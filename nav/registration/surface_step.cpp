@@ -1,0 +1,77 @@
+#include "nav/registration/surface_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+
+namespace orthonav::nav {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// A step goes no farther than that.
+constexpr double kLongest_m = 0.008;
+constexpr double kWidest_rad = 0.3;
+/// Keeps directions in which nothing holds the bone from running away: by the trace.
+constexpr double kDamping = 1e-4;
+
+}  // namespace
+
+Transform<World, Vertebra> world_from(const CentredPose& pose, Vec3 points_centre_m) {
+  const Mat3 back = pose.rotation.transposed();
+  return {back, points_centre_m - back * pose.centre_m};
+}
+
+CentredPose centred(const Transform<World, Vertebra>& pose, Vec3 points_centre_m) {
+  const Transform<Vertebra, World> inverse = pose.inverse();
+  return {inverse.rotation(), (inverse * Point<World>{points_centre_m}).v};
+}
+
+bool FieldStep::improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const {
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+  int used = 0;
+  for (const Vec3& p : centred_m) {
+    const Vec3 arm = pose.rotation * p;
+    const auto value = field_->at(arm + pose.centre_m);
+    if (!value) continue;
+    const double r = value->distance_m - tip_radius_m_;
+    const double t = 1.0 - r * r / (width_m * width_m);
+    if (!(t > 0.0)) continue;
+    const Vec3 g = value->gradient;
+    const Vec3 turn = arm.cross(g);
+    Vector6 j;
+    j << g.x, g.y, g.z, turn.x, turn.y, turn.z;
+    const double weight = t * t;
+    normal.selfadjointView<Eigen::Lower>().rankUpdate(j, weight);
+    right -= weight * r * j;
+    ++used;
+  }
+  if (used < 6) return false;
+  const double shift = kDamping * normal.topLeftCorner<3, 3>().trace();
+  const double turn = kDamping * normal.bottomRightCorner<3, 3>().trace();
+  for (int k = 0; k < 6; ++k) normal(k, k) += k < 3 ? shift : turn;
+  const Vector6 step = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  if (!step.allFinite()) return false;
+  const double scale = std::min({1.0, kLongest_m / std::max(step.head<3>().norm(), 1e-12),
+                                 kWidest_rad / std::max(step.tail<3>().norm(), 1e-12)});
+  const Vec3 rotation{step(3), step(4), step(5)};
+  pose.rotation = orthonormalized(rotation_from_vector(scale * rotation) * pose.rotation);
+  pose.centre_m += scale * Vec3{step(0), step(1), step(2)};
+  return true;
+}
+
+double FieldStep::cost_m2(std::span<const Vec3> centred_m, double width_m,
+                          const CentredPose& pose) const {
+  double sum = 0.0;
+  for (const Vec3& p : centred_m) {
+    const auto value = field_->at(pose.rotation * p + pose.centre_m);
+    const double r =
+        value ? std::min(std::abs(value->distance_m - tip_radius_m_), width_m) : width_m;
+    sum += r * r;
+  }
+  return sum / static_cast<double>(std::max<std::size_t>(1, centred_m.size()));
+}
+
+}  // namespace orthonav::nav
