@@ -20,6 +20,8 @@ constexpr double kGlimpsed = 0.02;
 constexpr std::size_t kWarmUp = 5;
 /// A tool at rest has been averaged by then.
 constexpr std::size_t kSettled = 60;
+/// Fewer poses tell no jitter.
+constexpr std::size_t kFewestAtRest = 10;
 /// A tip that stays within this of one place in World is at rest.
 constexpr double kRestM = 1e-6;
 
@@ -96,6 +98,7 @@ struct TipPath {
 
 void add_jitter(const std::vector<TipPath>& paths, Figures& f) {
   for (const TipPath& path : paths) {
+    if (path.truth.size() < kFewestAtRest) continue;
     Vec3 mean{};
     for (const Vec3 p : path.found) mean += p / static_cast<double>(path.found.size());
     for (std::size_t i = 0; i < path.truth.size(); ++i)
