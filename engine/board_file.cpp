@@ -6,6 +6,7 @@
 
 #include "engine/atomic_file.h"
 #include "engine/json_document.h"
+#include "hal/api/joined.h"
 
 namespace orthonav::engine {
 namespace {
@@ -61,10 +62,7 @@ Result<Board> board_from(const JsonDocument& document, const std::string& name) 
   if (Status status = document.status(); !status) return status.error();
   const std::vector<std::string> problems = problems_of(board);
   if (problems.empty()) return board;
-  std::string line = name + ": ";
-  for (const std::string& problem : problems)
-    line += (&problem == &problems.front() ? "" : "; ") + problem;
-  return Error{line};
+  return Error{name + ": " + joined(problems)};
 }
 
 /// Millimetres whose digits were not made longer by the way through metres.

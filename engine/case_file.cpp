@@ -11,6 +11,7 @@
 #include "engine/mesh_file.h"
 #include "engine/operation.h"
 #include "engine/plan_file.h"
+#include "hal/api/joined.h"
 
 namespace orthonav::engine {
 namespace {
@@ -97,12 +98,6 @@ Status load_levels(const std::vector<Entry>& entries, double metres_per_unit, Ca
     subject.levels.push_back(std::move(level).value());
   }
   return {};
-}
-
-Error all_problems(const std::string& path, const std::vector<std::string>& problems) {
-  std::string line = path + ": ";
-  for (std::size_t i = 0; i < problems.size(); ++i) line += (i == 0 ? "" : "; ") + problems[i];
-  return Error{line};
 }
 
 std::string in_mm(double metres) {
@@ -201,7 +196,8 @@ Result<Case> load_case(const std::string& folder) {
     return status.error();
   if (Status status = document->status(); !status) return status.error();
   if (placed == 0) stack_if_they_overlap(subject);
-  if (const auto problems = subject.check(); !problems.empty()) return all_problems(path, problems);
+  if (const auto problems = subject.check(); !problems.empty())
+    return Error{path + ": " + joined(problems)};
   return subject;
 }
 

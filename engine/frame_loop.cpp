@@ -4,6 +4,8 @@
 #include <chrono>
 #include <thread>
 
+#include "hal/api/joined.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -21,12 +23,6 @@ class Stopwatch {
 
 /// A device without a frame is asked again after this.
 constexpr auto kIdle = std::chrono::milliseconds(1);
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string out;
-  for (const std::string& line : lines) out += (out.empty() ? "" : "; ") + line;
-  return out;
-}
 
 }  // namespace
 

@@ -4,14 +4,10 @@
 #include <array>
 #include <utility>
 
+#include "hal/api/joined.h"
+
 namespace orthonav::engine {
 namespace {
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string out;
-  for (const std::string& line : lines) out += (out.empty() ? "" : "; ") + line;
-  return out;
-}
 
 Result<std::size_t> only_tool(std::span<const nav::ToolGeometry> tools, nav::ToolRole role,
                               const char* name) {

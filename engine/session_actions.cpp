@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/session.h"
+#include "hal/api/joined.h"
 
 namespace orthonav::engine {
 namespace {
@@ -180,7 +181,7 @@ void Session::try_registration(Timestamp time) {
   if (!result) {
     reason = result.error().message;
   } else if (!result->accepted) {
-    for (const std::string& r : result->reasons) reason += (reason.empty() ? "" : "; ") + r;
+    reason = joined(result->reasons);
     if (reason.empty()) reason = "registration not accepted";
   }
   if (reason.empty()) {

@@ -5,6 +5,7 @@
 #include "engine/operation_plan.h"
 #include "engine/sim_scenario.h"
 #include "engine/tool_file.h"
+#include "hal/api/joined.h"
 #include "hal/replay/recorder.h"
 
 namespace orthonav::engine {
@@ -25,10 +26,7 @@ std::vector<std::string> OperationOptions::check() const {
 
 Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
                                       const OperationGuests& guests) {
-  std::string problems;
-  for (const std::string& problem : options.check())
-    problems += (problems.empty() ? "" : "; ") + problem;
-  if (!problems.empty()) return Error{problems};
+  if (const auto problems = options.check(); !problems.empty()) return Error{joined(problems)};
   const auto method = method_named(options.method);
   if (!method) return method.error();
   auto operation = plan_operation(source, options.levels);

@@ -9,6 +9,7 @@
 #include "embedded/tools_json.h"
 #include "engine/atomic_file.h"
 #include "engine/json_document.h"
+#include "hal/api/joined.h"
 
 namespace orthonav::engine {
 
@@ -72,10 +73,7 @@ Result<std::vector<nav::ToolGeometry>> tools_from(const JsonDocument& document,
   if (tools.empty()) return Error{name + ": tools is empty"};
   const std::vector<std::string> problems = nav::problems_of(tools);
   if (problems.empty()) return tools;
-  std::string line = name + ": ";
-  for (const std::string& problem : problems)
-    line += (&problem == &problems.front() ? "" : "; ") + problem;
-  return Error{line};
+  return Error{name + ": " + joined(problems)};
 }
 
 nlohmann::json list_of(Vec3 v) { return {v.x, v.y, v.z}; }

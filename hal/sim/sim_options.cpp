@@ -1,3 +1,4 @@
+#include "hal/api/joined.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/sim_headset.h"
 #include "hal/sim/stroke_plan.h"
@@ -12,11 +13,7 @@ constexpr double kFastestRate_hz = 240.0;
 
 Status SimOptions::check() const {
   const auto problems = magnitudes.check();
-  if (!problems.empty()) {
-    std::string all = problems.front();
-    for (std::size_t i = 1; i < problems.size(); ++i) all += "; " + problems[i];
-    return Error{all};
-  }
+  if (!problems.empty()) return Error{joined(problems)};
   if (!(frame_rate_hz >= 1.0 && frame_rate_hz <= kFastestRate_hz))
     return Error{"simulated frame rate is " + std::to_string(frame_rate_hz) +
                  " Hz, must lie in [1, 240]"};

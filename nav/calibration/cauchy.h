@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "nav/evaluation/median.h"
 
 namespace orthonav::nav {
 
@@ -14,9 +17,7 @@ inline constexpr double kCauchyConstant = 2.385;
 /// The SD of one coordinate from the middle length, which is 1.1774 of it; not below 0.02 px, where
 /// interpolation and not noise makes the residuals. `lengths_px` must not be empty.
 [[nodiscard]] inline double cauchy_scale(std::vector<double> lengths_px) {
-  const auto middle = lengths_px.begin() + static_cast<long>(lengths_px.size() / 2);
-  std::nth_element(lengths_px.begin(), middle, lengths_px.end());
-  return std::max(0.02, *middle / 1.1774);
+  return std::max(0.02, median(std::move(lengths_px)) / 1.1774);
 }
 
 [[nodiscard]] inline double cauchy_weight(double length_px, double scale_px) {

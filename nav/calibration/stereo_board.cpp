@@ -1,13 +1,14 @@
 #include "nav/calibration/stereo_board.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "hal/api/joined.h"
 #include "nav/calibration/coverage.h"
 #include "nav/calibration/epipolar.h"
 #include "nav/calibration/stereo_jackknife.h"
+#include "nav/evaluation/median.h"
+#include "nav/evaluation/wording.h"
 
 namespace orthonav::nav {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 constexpr double kSignificant = 3.0;
 // Better than this, nothing is a mistake.
 constexpr double kNoMistakePx = 0.3;
-
-std::string with_numbers(const char* format, double value, double limit) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), format, value, limit);
-  return text.data();
-}
 
 Status check_views(const Chessboard& board, ImageSize size, std::span<const BoardView> views,
                    const StereoBoardOptions& options) {
@@ -36,10 +31,7 @@ Status check_views(const Chessboard& board, ImageSize size, std::span<const Boar
     problems.push_back("the board is seen in " + std::to_string(views.size()) +
                        " pairs, at least " + std::to_string(options.min_views) + " are needed");
   if (problems.empty()) return {};
-  std::string line = "stereo calibration: ";
-  for (const std::string& problem : problems)
-    line += (&problem == &problems.front() ? "" : "; ") + problem;
-  return Error{line};
+  return Error{"stereo calibration: " + joined(problems)};
 }
 
 /// Where half a turn of the board does not show, both cameras are taken to be upright alike.
@@ -96,10 +88,7 @@ std::optional<std::size_t> mistaken_view(const StereoFit& fit, double factor) {
   std::vector<double> all;
   for (std::size_t i = 0; i < fit.view_rms_px.size(); ++i) all.push_back(view_rms_px(fit, i));
   const auto worst = std::max_element(all.begin(), all.end());
-  std::vector<double> sorted = all;
-  const auto middle = sorted.begin() + static_cast<long>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  if (*worst <= std::max(kNoMistakePx, factor * *middle)) return std::nullopt;
+  if (*worst <= std::max(kNoMistakePx, factor * median(all))) return std::nullopt;
   return static_cast<std::size_t>(worst - all.begin());
 }
 
@@ -217,10 +206,6 @@ void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
 
 std::vector<std::string> StereoBoardOptions::check() const {
   std::vector<std::string> problems;
-  const auto positive = [&](const char* name, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
-  };
   if (min_views < 3)
     problems.push_back("min_views " + std::to_string(min_views) + ", must be at least 3");
   if (!(outlier_factor > 1.0))
@@ -228,12 +213,13 @@ std::vector<std::string> StereoBoardOptions::check() const {
   if (!(max_outlier_share >= 0.0 && max_outlier_share < 1.0))
     problems.push_back("max_outlier_share " + std::to_string(max_outlier_share) +
                        ", must be at least 0 and below 1");
-  positive("max_rms_px", max_rms_px);
-  positive("max_focal_sigma_share", max_focal_sigma_share);
-  positive("note_rms_px", note_rms_px);
-  positive("note_focal_sigma_share", note_focal_sigma_share);
-  positive("note_baseline_sigma_share", note_baseline_sigma_share);
-  positive("note_covered_share", note_covered_share);
+  must_be_positive({{"max_rms_px", max_rms_px},
+                    {"max_focal_sigma_share", max_focal_sigma_share},
+                    {"note_rms_px", note_rms_px},
+                    {"note_focal_sigma_share", note_focal_sigma_share},
+                    {"note_baseline_sigma_share", note_baseline_sigma_share},
+                    {"note_covered_share", note_covered_share}},
+                   problems);
   return problems;
 }
 

@@ -1,25 +1,19 @@
 #include "nav/calibration/stereo_recording.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <optional>
+#include <utility>
 
 #include "nav/calibration/body_start.h"
 #include "nav/calibration/coverage.h"
 #include "nav/calibration/epipolar.h"
+#include "nav/evaluation/median.h"
+#include "nav/evaluation/wording.h"
 
 namespace orthonav::nav {
 namespace {
 
 constexpr std::size_t kBlocks = 10;
-
-std::string with_numbers(const char* format, double value, double limit) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, value, limit);
-  return text.data();
-}
 
 Error refused(const std::string& why) { return Error{"stereo calibration: " + why}; }
 
@@ -46,10 +40,7 @@ double median_size_ratio(std::span<const PairSightings> pairs) {
   for (const PairSightings& pair : pairs)
     for (const TagSighting& seen : pair)
       if (seen.pose) ratios.push_back(seen.pose->size_ratio);
-  if (ratios.empty()) return 1.0;
-  const auto middle = ratios.begin() + static_cast<long>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return ratios.empty() ? 1.0 : median(std::move(ratios));
 }
 
 /// Distance of every right corner from its epipolar line, signed; NaN where a pixel has no
@@ -200,21 +191,18 @@ Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& opt
 
 std::vector<std::string> StereoRecordingOptions::check() const {
   std::vector<std::string> problems;
-  const auto positive = [&](const char* name, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
-  };
   if (min_pairs < kBlocks)
     problems.push_back("min_pairs " + std::to_string(min_pairs) + ", must be at least " +
                        std::to_string(kBlocks));
   if (max_pairs < min_pairs)
     problems.push_back("max_pairs " + std::to_string(max_pairs) + ", must be at least min_pairs");
-  positive("max_rms_px", max_rms_px);
-  positive("max_size_deviation", max_size_deviation);
-  positive("significance", significance);
-  positive("min_off_px", min_off_px);
-  positive("note_sigma_px", note_sigma_px);
-  positive("note_covered_share", note_covered_share);
+  must_be_positive({{"max_rms_px", max_rms_px},
+                    {"max_size_deviation", max_size_deviation},
+                    {"significance", significance},
+                    {"min_off_px", min_off_px},
+                    {"note_sigma_px", note_sigma_px},
+                    {"note_covered_share", note_covered_share}},
+                   problems);
   return problems;
 }
 

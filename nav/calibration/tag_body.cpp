@@ -1,35 +1,24 @@
 #include "nav/calibration/tag_body.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+#include <utility>
 
+#include "hal/api/joined.h"
 #include "nav/calibration/body_start.h"
+#include "nav/evaluation/median.h"
+#include "nav/evaluation/wording.h"
 
 namespace orthonav::nav {
 namespace {
 
 constexpr std::size_t kBlocks = 10;
 
-std::string with_numbers(const char* format, double value, double limit) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), format, value, limit);
-  return text.data();
-}
-
 std::string name_of(const MarkerDefinition& tag) {
   return "tag " + tag.family + " id " + std::to_string(tag.id);
 }
 
 Error refused(const std::string& why) { return Error{"tool calibration: " + why}; }
-
-double middle(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions& options) {
   std::vector<std::string> problems = options.check();
@@ -42,17 +31,16 @@ Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions&
   if (!tags.empty())
     for (std::string& problem : problems_of({tool})) problems.push_back(std::move(problem));
   if (problems.empty()) return {};
-  std::string line;
-  for (const std::string& problem : problems) line += (line.empty() ? "" : "; ") + problem;
-  return refused(line);
+  return refused(joined(problems));
 }
 
+/// 0 where both cameras never saw it together.
 double median_size_ratio(std::span<const PairSightings> pairs, std::size_t tag) {
   std::vector<double> ratios;
   for (const PairSightings& pair : pairs)
     for (const TagSighting& seen : pair)
       if (seen.tag == tag && seen.pose) ratios.push_back(seen.pose->size_ratio);
-  return middle(std::move(ratios));
+  return ratios.empty() ? 0.0 : median(std::move(ratios));
 }
 
 /// Tags that no chain of tags seen together connects with the first one.
@@ -242,22 +230,19 @@ Judgement judged(const TagBody& body, const TagBodyOptions& options) {
 
 std::vector<std::string> TagBodyOptions::check() const {
   std::vector<std::string> problems;
-  const auto positive = [&](const char* name, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
-  };
   if (min_pairs_together < 1) problems.emplace_back("min_pairs_together 0, must be at least 1");
   if (max_pairs < min_pairs_together)
     problems.push_back("max_pairs " + std::to_string(max_pairs) +
                        ", must be at least min_pairs_together");
-  positive("max_rms_px", max_rms_px);
-  positive("max_outlier_share", max_outlier_share);
-  positive("max_sigma_m", max_sigma_m);
-  positive("max_size_deviation", max_size_deviation);
-  positive("note_sigma_m", note_sigma_m);
-  positive("note_sigma_rad", note_sigma_rad);
-  positive("note_size_deviation", note_size_deviation);
-  positive("note_outlier_share", note_outlier_share);
+  must_be_positive({{"max_rms_px", max_rms_px},
+                    {"max_outlier_share", max_outlier_share},
+                    {"max_sigma_m", max_sigma_m},
+                    {"max_size_deviation", max_size_deviation},
+                    {"note_sigma_m", note_sigma_m},
+                    {"note_sigma_rad", note_sigma_rad},
+                    {"note_size_deviation", note_size_deviation},
+                    {"note_outlier_share", note_outlier_share}},
+                   problems);
   return problems;
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "nav/evaluation/board_touches.h"
 #include "nav/evaluation/errors.h"
+#include "nav/evaluation/wording.h"
 #include "nav/tracking/pivot_fit.h"
 
 namespace orthonav::nav {
@@ -16,9 +16,7 @@ namespace {
 constexpr double kBin_rad = 10.0 * std::numbers::pi / 180.0;
 
 Error refused(const char* format, double value, double limit) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, value, limit);
-  return Error{text.data()};
+  return Error{with_numbers(format, value, limit)};
 }
 
 const Mat3& rotation_at(const PointerTrack& track, std::size_t i) {
@@ -249,14 +247,11 @@ Result<DistancePart> distance_part(const PointerTrack& track, const std::vector<
       judged("mean error of the distances", std::abs(part.mean_error_m), options.distance_mean));
   part.judged.push_back(
       judged("largest error of a distance", part.max_error_m, options.distance_max));
-  if (part.fit_rmse_m > options.max_board_rmse_m) {
-    std::array<char, 200> line{};
-    std::snprintf(line.data(), line.size(),
-                  "the touches lie %.1f mm RMS from the board's points, limit %.1f mm: another "
-                  "board, another order, or a wrong size",
-                  part.fit_rmse_m * 1e3, options.max_board_rmse_m * 1e3);
-    part.failure = line.data();
-  }
+  if (part.fit_rmse_m > options.max_board_rmse_m)
+    part.failure = with_numbers(
+        "the touches lie %.1f mm RMS from the board's points, limit %.1f mm: another board, "
+        "another order, or a wrong size",
+        part.fit_rmse_m * 1e3, options.max_board_rmse_m * 1e3);
   return part;
 }
 

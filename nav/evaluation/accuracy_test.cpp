@@ -1,20 +1,17 @@
 #include "nav/evaluation/accuracy_test.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "nav/evaluation/accuracy_parts.h"
 #include "nav/evaluation/fixed_point.h"
+#include "nav/evaluation/wording.h"
 
 namespace orthonav::nav {
 namespace {
 
 Error refused(const char* format, double value, double limit) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, value, limit);
-  return Error{text.data()};
+  return Error{with_numbers(format, value, limit)};
 }
 
 Status check_input(std::span<const Vec3> board_points_m, const AccuracyOptions& options) {
@@ -100,11 +97,9 @@ SortedRests sorted_rests(const PointerTrack& track, const FixedPoint& found,
 
 void note_slip(const std::optional<TipSlip>& slip, AccuracyPart& part) {
   if (!slip || !part.failure.empty()) return;
-  std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(),
-                "the tip slipped by %.1f mm about %.1f s into the recording: repeat the test",
-                slip->step_m * 1e3, slip->time_s);
-  part.failure = line.data();
+  part.failure =
+      with_numbers("the tip slipped by %.1f mm about %.1f s into the recording: repeat the test",
+                   slip->step_m * 1e3, slip->time_s);
 }
 
 void note_slips(const PointerTrack& track, const SortedRests& rests,

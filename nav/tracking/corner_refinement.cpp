@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "nav/evaluation/median.h"
 #include "nav/tracking/bilinear.h"
 
 namespace orthonav::nav {
@@ -102,10 +103,7 @@ std::optional<Line> robust_line(const std::vector<Crossing>& seen) {
   for (int round = 0; round < kReweightings && line; ++round) {
     for (std::size_t i = 0; i < seen.size(); ++i)
       off_px[i] = std::abs(cross(seen[i].place - line->point, line->direction));
-    std::vector<double> sorted = off_px;
-    const auto middle = sorted.begin() + static_cast<long>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double limit_px = kTukey * std::max(kLeastScalePx, kMadToSd * *middle);
+    const double limit_px = kTukey * std::max(kLeastScalePx, kMadToSd * median(off_px));
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const double u = std::min(off_px[i] / limit_px, 1.0);
       weights[i] = seen[i].steepness * (1 - u * u) * (1 - u * u);

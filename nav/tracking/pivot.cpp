@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <optional>
+#include <utility>
 
+#include "hal/api/joined.h"
 #include "hal/api/random.h"
+#include "nav/evaluation/median.h"
+#include "nav/evaluation/wording.h"
 #include "nav/tracking/pivot_fit.h"
 
 namespace orthonav::nav {
@@ -26,12 +29,6 @@ constexpr double kInlierSds = 4.5;
 constexpr double kLeastInlierM = 1e-4;
 constexpr int kMostRefits = 20;
 constexpr double kDegrees = 57.29577951308232;
-
-std::string with_numbers(const char* format, double value, double limit) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), format, value, limit);
-  return text.data();
-}
 
 Error refused(const char* format, double value, double limit) {
   return Error{"pivot calibration: " + with_numbers(format, value, limit)};
@@ -95,9 +92,8 @@ double inlier_limit_m(const PivotFit& fit, Poses poses, double most_m) {
   std::vector<double> misses;
   for (const std::size_t i : within(fit, poses, most_m)) misses.push_back(fit.miss_m(poses[i]));
   if (misses.empty()) return most_m;
-  const auto middle = misses.begin() + static_cast<long>(misses.size() / 2);
-  std::nth_element(misses.begin(), middle, misses.end());
-  return std::clamp(kInlierSds * *middle / kMedianOfMaxwell, kLeastInlierM, most_m);
+  return std::clamp(kInlierSds * median(std::move(misses)) / kMedianOfMaxwell, kLeastInlierM,
+                    most_m);
 }
 
 /// Fits again to the inliers until they stay the same.
@@ -134,12 +130,8 @@ double jackknife_sigma_m(Poses poses, const Indices& inliers) {
 }
 
 Status check_poses(Poses poses, const PivotOptions& options) {
-  if (const auto problems = options.check(); !problems.empty()) {
-    std::string line = "pivot calibration: ";
-    for (const std::string& problem : problems)
-      line += (&problem == &problems.front() ? "" : "; ") + problem;
-    return Error{line};
-  }
+  if (const auto problems = options.check(); !problems.empty())
+    return Error{"pivot calibration: " + joined(problems)};
   if (poses.size() < options.min_poses)
     return refused("%.0f poses, at least %.0f are needed", static_cast<double>(poses.size()),
                    static_cast<double>(options.min_poses));
@@ -190,10 +182,6 @@ Judgement judged(const PivotCalibration& found, const PivotOptions& options) {
 
 std::vector<std::string> PivotOptions::check() const {
   std::vector<std::string> problems;
-  const auto positive = [&](const char* name, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
-  };
   const auto share = [&](const char* name, double value) {
     if (!(value > 0.0 && value <= 1.0))
       problems.push_back(std::string(name) + " " + std::to_string(value) +
@@ -202,12 +190,13 @@ std::vector<std::string> PivotOptions::check() const {
   if (min_poses < kSampleSize)
     problems.push_back("min_poses " + std::to_string(min_poses) + ", must be at least " +
                        std::to_string(kSampleSize));
-  positive("min_spread_rad", min_spread_rad);
-  positive("max_rmse_m", max_rmse_m);
-  positive("inlier_m", inlier_m);
-  positive("max_tip_sigma_m", max_tip_sigma_m);
-  positive("note_spread_rad", note_spread_rad);
-  positive("note_tip_sigma_m", note_tip_sigma_m);
+  must_be_positive({{"min_spread_rad", min_spread_rad},
+                    {"max_rmse_m", max_rmse_m},
+                    {"inlier_m", inlier_m},
+                    {"max_tip_sigma_m", max_tip_sigma_m},
+                    {"note_spread_rad", note_spread_rad},
+                    {"note_tip_sigma_m", note_tip_sigma_m}},
+                   problems);
   share("min_inlier_share", min_inlier_share);
   share("note_inlier_share", note_inlier_share);
   if (rounds < 1) problems.push_back("rounds " + std::to_string(rounds) + ", must be at least 1");

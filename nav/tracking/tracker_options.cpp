@@ -1,16 +1,15 @@
 #include <cmath>
 #include <string>
 
+#include "hal/api/joined.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::nav {
 
 Status check(const StereoCalibration& calibration, const std::vector<ToolGeometry>& tools,
              const TrackerOptions& options) {
-  std::string text;
-  for (const std::string& problem : problems_of(tools))
-    text += (text.empty() ? "" : "; ") + problem;
-  if (!text.empty()) return Error{"tools: " + text};
+  if (const auto problems = problems_of(tools); !problems.empty())
+    return Error{"tools: " + joined(problems)};
   if (calibration.left.width_px() <= 0 || calibration.right.width_px() <= 0)
     return Error{"tracker: the stereo calibration has no camera model"};
   if (options.full_search_interval < 1)
