@@ -1,5 +1,6 @@
 #include "nav/calibration/body_start.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -90,6 +91,21 @@ std::optional<Transform<Rig, Marker>> first_pose(const BodyProblem& problem, con
     best = candidate;
   }
   return best;
+}
+
+void take_pairs(std::span<const PairSightings> pairs, std::size_t most, BodyProblem& problem,
+                BodyState& state) {
+  std::vector<const PairSightings*> useful;
+  for (const PairSightings& pair : pairs)
+    if (pair.size() >= 2) useful.push_back(&pair);
+  const std::size_t kept = std::min(most, useful.size());
+  for (std::size_t i = 0; i < kept; ++i) {
+    const PairSightings& pair = *useful[i * useful.size() / kept];
+    const auto pose = first_pose(problem, state, pair);
+    if (!pose) continue;
+    problem.pairs.push_back(pair);
+    state.rig_from_marker.push_back(*pose);
+  }
 }
 
 }  // namespace orthonav::nav

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "nav/calibration/body_adjustment.h"
@@ -23,5 +26,10 @@ struct TagLayout {
 [[nodiscard]] std::optional<Transform<Rig, Marker>> first_pose(const BodyProblem& problem,
                                                                const BodyState& state,
                                                                const PairSightings& pair);
+
+/// Takes the pairs that show two tags or more and have a first pose into problem and state, thinned
+/// evenly to `most`.
+void take_pairs(std::span<const PairSightings> pairs, std::size_t most, BodyProblem& problem,
+                BodyState& state);
 
 }  // namespace orthonav::nav

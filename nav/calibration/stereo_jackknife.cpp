@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nav/evaluation/tenths.h"
+
 namespace orthonav::nav {
 namespace {
 
-constexpr std::size_t kGroups = 10;
 constexpr std::size_t kFewestViews = 4;
 
 /// SD of the whole from the values without each of the groups.
@@ -54,7 +55,7 @@ std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
                                         bool with_k3) {
   const std::size_t count = views.left.size();
   if (count < kFewestViews) return std::nullopt;
-  const std::size_t groups = std::min(kGroups, count);
+  const std::size_t groups = std::min(kTenths, count);
   std::vector<StereoFit> fits;
   std::vector<Vec3> turns;
   for (std::size_t group = 0; group < groups; ++group) {

@@ -4,35 +4,25 @@
 #include <cmath>
 #include <utility>
 
+#include "nav/calibration/body_jackknife.h"
 #include "nav/calibration/body_start.h"
 #include "nav/calibration/coverage.h"
 #include "nav/calibration/epipolar.h"
 #include "nav/evaluation/median.h"
+#include "nav/evaluation/tenths.h"
 #include "nav/evaluation/wording.h"
 
 namespace orthonav::nav {
 namespace {
 
-constexpr std::size_t kBlocks = 10;
-
 Error refused(const std::string& why) { return Error{"stereo calibration: " + why}; }
 
-/// Of the pairs that show two tags or more to both cameras, so many, and where the board is.
-void take_pairs(std::span<const PairSightings> pairs, std::size_t most, BodyProblem& problem,
-                BodyState& state) {
-  std::vector<PairSightings> useful;
-  for (PairSightings pair : pairs) {
+/// What both cameras saw of the tags.
+std::vector<PairSightings> seen_by_both(std::span<const PairSightings> pairs) {
+  std::vector<PairSightings> both(pairs.begin(), pairs.end());
+  for (PairSightings& pair : both)
     std::erase_if(pair, [](const TagSighting& seen) { return !seen.pose; });
-    if (pair.size() >= 2) useful.push_back(std::move(pair));
-  }
-  const std::size_t kept = std::min(most, useful.size());
-  for (std::size_t i = 0; i < kept; ++i) {
-    PairSightings& pair = useful[i * useful.size() / kept];
-    const auto pose = first_pose(problem, state, pair);
-    if (!pose) continue;
-    problem.pairs.push_back(std::move(pair));
-    state.rig_from_marker.push_back(*pose);
-  }
+  return both;
 }
 
 double median_size_ratio(std::span<const PairSightings> pairs) {
@@ -84,32 +74,21 @@ struct Sigma {
 
 /// From leaving out each tenth of the pairs in turn.
 Sigma jackknife(const BodyProblem& problem, const BodyState& whole) {
-  const std::size_t pairs = problem.pairs.size();
   const std::vector<double> all_px = across_px(problem, whole.right_from_rig);
   double turn = 0.0;
   double shift = 0.0;
   double off = 0.0;
-  double blocks = 0.0;
-  BodyProblem rest = problem;
-  for (std::size_t block = 0; block < kBlocks; ++block) {
-    BodyState state = whole;
-    rest.pairs.clear();
-    state.rig_from_marker.clear();
-    for (std::size_t i = 0; i < pairs; ++i) {
-      if (i * kBlocks / pairs == block) continue;
-      rest.pairs.push_back(problem.pairs[i]);
-      state.rig_from_marker.push_back(whole.rig_from_marker[i]);
-    }
-    if (!adjust(rest, state)) continue;
+  double tenths = 0.0;
+  for (const BodyState& state : adjusted_without_tenths(problem, whole)) {
     const auto& a = whole.right_from_rig;
     const auto& b = state.right_from_rig;
     turn += std::pow(rotation_angle_rad(a.rotation(), b.rotation()), 2);
     shift += (b.translation() - a.translation()).squared_norm();
     off += std::pow(rms_between(across_px(problem, b), all_px), 2);
-    blocks += 1.0;
+    tenths += 1.0;
   }
-  if (blocks < 2.0) return {};
-  const double factor = (blocks - 1.0) / blocks;
+  if (tenths < 2.0) return {};
+  const double factor = (tenths - 1.0) / tenths;
   return {std::sqrt(factor * turn), std::sqrt(factor * shift), std::sqrt(factor * off)};
 }
 
@@ -191,9 +170,9 @@ Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& opt
 
 std::vector<std::string> StereoRecordingOptions::check() const {
   std::vector<std::string> problems;
-  if (min_pairs < kBlocks)
+  if (min_pairs < kTenths)
     problems.push_back("min_pairs " + std::to_string(min_pairs) + ", must be at least " +
-                       std::to_string(kBlocks));
+                       std::to_string(kTenths));
   if (max_pairs < min_pairs)
     problems.push_back("max_pairs " + std::to_string(max_pairs) + ", must be at least min_pairs");
   must_be_positive({{"max_rms_px", max_rms_px},
@@ -221,7 +200,7 @@ Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
     problem.find_tag.push_back(false);
     state.marker_from_tag.push_back(tag.board_from_tag);
   }
-  take_pairs(pairs, options.max_pairs, problem, state);
+  take_pairs(seen_by_both(pairs), options.max_pairs, problem, state);
   if (Status status = check_pairs(problem, options); !status) return status.error();
   const auto fit = adjust(problem, state);
   if (!fit) return refused(fit.error().message);

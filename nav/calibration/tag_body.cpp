@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "hal/api/joined.h"
+#include "nav/calibration/body_jackknife.h"
 #include "nav/calibration/body_start.h"
 #include "nav/evaluation/median.h"
+#include "nav/evaluation/tenths.h"
 #include "nav/evaluation/wording.h"
 
 namespace orthonav::nav {
 namespace {
-
-constexpr std::size_t kBlocks = 10;
 
 std::string name_of(const MarkerDefinition& tag) {
   return "tag " + tag.family + " id " + std::to_string(tag.id);
@@ -43,18 +43,22 @@ double median_size_ratio(std::span<const PairSightings> pairs, std::size_t tag) 
   return ratios.empty() ? 0.0 : median(std::move(ratios));
 }
 
+std::size_t pairs_with(std::span<const PairSightings> pairs, std::size_t tag) {
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(), [&](const PairSightings& pair) {
+        return std::any_of(pair.begin(), pair.end(),
+                           [&](const TagSighting& s) { return s.tag == tag; });
+      }));
+}
+
 /// Tags that no chain of tags seen together connects with the first one.
 Status check_connected(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,
                        const TagLayout& layout, std::size_t min_pairs) {
   std::string names;
   for (std::size_t i = 0; i < tags.size(); ++i) {
     if (layout.reached[i]) continue;
-    const auto seen = std::count_if(pairs.begin(), pairs.end(), [&](const PairSightings& pair) {
-      return std::any_of(pair.begin(), pair.end(),
-                         [&](const TagSighting& s) { return s.tag == i; });
-    });
-    names += (names.empty() ? "" : ", ") + name_of(tags[i]) + " (seen in " + std::to_string(seen) +
-             " pairs)";
+    names += (names.empty() ? "" : ", ") + name_of(tags[i]) + " (seen in " +
+             std::to_string(pairs_with(pairs, i)) + " pairs)";
   }
   if (names.empty()) return {};
   return refused(names + ": not seen in " + std::to_string(min_pairs) +
@@ -84,22 +88,6 @@ BodyProblem problem_of(const StereoCalibration& calibration,
   return problem;
 }
 
-/// Takes in the pairs that say something: two tags, and a pose to start from.
-void take_pairs(std::span<const PairSightings> pairs, std::size_t most, BodyProblem& problem,
-                BodyState& state) {
-  std::vector<const PairSightings*> useful;
-  for (const PairSightings& pair : pairs)
-    if (pair.size() >= 2) useful.push_back(&pair);
-  const std::size_t kept = std::min(most, useful.size());
-  for (std::size_t i = 0; i < kept; ++i) {
-    const PairSightings& pair = *useful[i * useful.size() / kept];
-    const auto pose = first_pose(problem, state, pair);
-    if (!pose) continue;
-    problem.pairs.push_back(pair);
-    state.rig_from_marker.push_back(*pose);
-  }
-}
-
 struct Sigma {
   double m = 0.0;
   double rad = 0.0;
@@ -108,30 +96,17 @@ struct Sigma {
 /// Of each tag, from leaving out each tenth of the pairs in turn.
 std::vector<Sigma> jackknife(const BodyProblem& problem, const BodyState& whole) {
   const std::size_t tags = problem.size_m.size();
-  const std::size_t pairs = problem.pairs.size();
   std::vector<Sigma> sigma(tags);
-  if (pairs < 2 * kBlocks) return sigma;
+  if (problem.pairs.size() < 2 * kTenths) return sigma;
   std::vector<std::vector<Vec3>> shifts(tags);
   std::vector<std::vector<Vec3>> turns(tags);
-  BodyProblem rest = problem;
-  for (std::size_t block = 0; block < kBlocks; ++block) {
-    BodyState state = whole;
-    rest.pairs.clear();
-    state.rig_from_marker.clear();
-    for (std::size_t i = 0; i < pairs; ++i) {
-      if (i * kBlocks / pairs == block) continue;
-      rest.pairs.push_back(problem.pairs[i]);
-      state.rig_from_marker.push_back(whole.rig_from_marker[i]);
-    }
-    // A tag that was seen in this tenth alone is not determined without it.
-    if (!adjust(rest, state)) continue;
+  for (const BodyState& state : adjusted_without_tenths(problem, whole))
     for (std::size_t i = 0; i < tags; ++i) {
       const auto& a = whole.marker_from_tag[i];
       const auto& b = state.marker_from_tag[i];
       shifts[i].push_back(b.translation() - a.translation());
       turns[i].push_back(vector_from_rotation(b.rotation() * a.rotation().transposed()));
     }
-  }
   const auto sd = [](const std::vector<Vec3>& values) {
     const auto count = static_cast<double>(values.size());
     Vec3 mean;
@@ -142,14 +117,6 @@ std::vector<Sigma> jackknife(const BodyProblem& problem, const BodyState& whole)
   };
   for (std::size_t i = 0; i < tags; ++i) sigma[i] = {sd(shifts[i]), sd(turns[i])};
   return sigma;
-}
-
-std::size_t pairs_with(std::span<const PairSightings> pairs, std::size_t tag) {
-  return static_cast<std::size_t>(
-      std::count_if(pairs.begin(), pairs.end(), [&](const PairSightings& pair) {
-        return std::any_of(pair.begin(), pair.end(),
-                           [&](const TagSighting& s) { return s.tag == tag; });
-      }));
 }
 
 TagBody body_of(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,

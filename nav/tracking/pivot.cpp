@@ -10,6 +10,7 @@
 #include "hal/api/joined.h"
 #include "hal/api/random.h"
 #include "nav/evaluation/median.h"
+#include "nav/evaluation/tenths.h"
 #include "nav/evaluation/wording.h"
 #include "nav/tracking/pivot_fit.h"
 
@@ -20,7 +21,6 @@ using Poses = std::span<const Transform<World, Marker>>;
 using Indices = std::vector<std::size_t>;
 
 constexpr std::size_t kSampleSize = 3;
-constexpr std::size_t kBlocks = 10;
 // Tips that scatter normally by s in each direction lie within 1.538 s half of the time, and
 // within 4.5 s all but once in 3000 times.
 constexpr double kMedianOfMaxwell = 1.538;
@@ -113,10 +113,9 @@ Indices settled(Poses poses, double most_m, PivotFit& fit) {
 double jackknife_sigma_m(Poses poses, const Indices& inliers) {
   std::vector<Vec3> tips;
   Vec3 mean;
-  for (std::size_t block = 0; block < kBlocks; ++block) {
-    Indices rest;
-    for (std::size_t i = 0; i < inliers.size(); ++i)
-      if (i * kBlocks / inliers.size() != block) rest.push_back(inliers[i]);
+  for (std::size_t tenth = 0; tenth < kTenths; ++tenth) {
+    Indices rest = without_tenth(inliers.size(), tenth);
+    for (std::size_t& i : rest) i = inliers[i];
     const auto fit = fit_pivot(poses, rest);
     if (!fit) continue;
     tips.push_back(fit->tip_in_marker.v);
@@ -219,7 +218,7 @@ Result<PivotCalibration> pivot_calibration(Poses poses, const PivotOptions& opti
   found.inliers = inliers.size();
   found.inlier.assign(poses.size(), false);
   for (const std::size_t i : inliers) found.inlier[i] = true;
-  found.leave_out_m = inliers.size() > kBlocks ? jackknife_sigma_m(poses, inliers) : 0.0;
+  found.leave_out_m = inliers.size() > kTenths ? jackknife_sigma_m(poses, inliers) : 0.0;
   found.tip_sigma_m = std::max(fit->tip_sigma_m, found.leave_out_m);
   if (Status status = check_result(found, options); !status) return status.error();
   found.judgement = judged(found, options);
