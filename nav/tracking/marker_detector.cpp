@@ -74,22 +74,6 @@ std::size_t family_index(std::string_view name) {
   return static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
 }
 
-// Clips to the image and widens to whole tiles plus one.
-PixelBox aligned(const PixelBox& box, const GreyImage& image, int step_px) {
-  const auto low = [step_px](long long v) {
-    return static_cast<int>(std::max<long long>(0, (v >= 0 ? v / step_px : -1) - 1) * step_px);
-  };
-  const auto high = [step_px](long long v, int size) {
-    if (v <= 0) return 0;
-    return static_cast<int>(std::min<long long>(size, ((v + step_px - 1) / step_px + 1) * step_px));
-  };
-  const long long right = static_cast<long long>(box.x_px) + box.width_px;
-  const long long bottom = static_cast<long long>(box.y_px) + box.height_px;
-  const int x0 = low(box.x_px);
-  const int y0 = low(box.y_px);
-  return {x0, y0, high(right, image.width_px) - x0, high(bottom, image.height_px) - y0};
-}
-
 /// The same id in the same place.
 bool same_tag(const MarkerCorners& a, const MarkerCorners& b) {
   const auto centre = [](const MarkerCorners& m) {
@@ -122,6 +106,19 @@ std::string known_families_text() {
 int family_size(std::string_view family) {
   const std::size_t index = family_index(family);
   return index < kFamilies.size() ? kFamilies[index].codes : 0;
+}
+
+std::optional<TagCode> tag_code(std::string_view family, int id) {
+  const std::size_t index = family_index(family);
+  if (index >= kFamilies.size() || id < 0 || id >= kFamilies[index].codes) return std::nullopt;
+  const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> table(
+      kFamilies[index].create(), kFamilies[index].destroy);
+  if (!table) return std::nullopt;
+  TagCode code{table->total_width, table->width_at_border, table->reversed_border, {}};
+  for (std::uint32_t bit = 0; bit < table->nbits; ++bit)
+    code.bits.push_back({static_cast<int>(table->bit_y[bit]), static_cast<int>(table->bit_x[bit]),
+                         ((table->codes[id] >> (table->nbits - bit - 1)) & 1U) != 0});
+  return code;
 }
 
 bool is_known_family(const std::string& family) { return family_index(family) < kNames.size(); }
@@ -241,7 +238,7 @@ Status MarkerDetector::detect(const GreyImage& image, const PixelBox& box,
   found.clear();
   if (Status status = check(image); !status) return status;
   if (box.width_px <= 0 || box.height_px <= 0) return {};
-  const PixelBox crop = aligned(box, image, library_->step_px);
+  const PixelBox crop = in_whole_steps(box, image, library_->step_px);
   const int smallest_px = kSmallestPx * library_->step_px / kTilePx;
   if (crop.width_px < smallest_px || crop.height_px < smallest_px) return {};
   const Vec2 offset_px{static_cast<double>(crop.x_px), static_cast<double>(crop.y_px)};

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,6 +49,21 @@ struct DetectorOptions {
 [[nodiscard]] std::span<const std::string_view> known_families();
 /// How many ids a family has; 0 for an unknown one.
 [[nodiscard]] int family_size(std::string_view family);
+/// One tag's code as the AprilTag library keeps it.
+struct TagCode {
+  struct Bit {
+    int row =
+        0;  ///< of its cell, counted from the outer edge of the border, negative outside of it
+    int column = 0;
+    bool white = false;
+  };
+  int cells = 0;              ///< a side of all that the family defines
+  int border_cells = 0;       ///< a side of the outer edge of the border
+  bool white_border = false;  ///< or black
+  std::vector<Bit> bits;
+};
+/// Nothing for a family or an id that does not exist.
+[[nodiscard]] std::optional<TagCode> tag_code(std::string_view family, int id);
 /// The names in one line, for messages.
 [[nodiscard]] std::string known_families_text();
 

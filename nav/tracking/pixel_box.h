@@ -1,5 +1,7 @@
 #pragma once
 
+#include "hal/api/image.h"
+
 namespace orthonav::nav {
 
 /// Whole pixels of an image.
@@ -9,5 +11,10 @@ struct PixelBox {
   int width_px = 0;
   int height_px = 0;
 };
+
+/// The part of the box inside the image, widened to whole steps from the image's first pixel and by
+/// one step more to all sides, where the image goes on. Empty boxes may come back with negative
+/// sides.
+[[nodiscard]] PixelBox in_whole_steps(const PixelBox& box, const GreyImage& image, int step_px);
 
 }  // namespace orthonav::nav
