@@ -39,12 +39,12 @@ DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
     }
 }
 
-std::optional<DistanceField::Value> DistanceField::at(Vec3 query_m) const {
+bool DistanceField::at(Vec3 query_m, Value& value) const {
   const Vec3 p = (query_m - bounds_.low) / cell_m_;
   // Negated, so that what is no number is outside as well.
   if (!(p.x >= 0.0 && p.y >= 0.0 && p.z >= 0.0 && p.x < size_[0] - 1 && p.y < size_[1] - 1 &&
         p.z < size_[2] - 1))
-    return std::nullopt;
+    return false;
   const auto x = static_cast<int>(p.x);
   const auto y = static_cast<int>(p.y);
   const auto z = static_cast<int>(p.z);
@@ -65,12 +65,11 @@ std::optional<DistanceField::Value> DistanceField::at(Vec3 query_m) const {
   const double high = high0 + fy * (high1 - high0);
   const double dx_low = da + fy * (db - da);
   const double dx_high = dc + fy * (de - dc);
-  Value value;
   value.distance_m = low + fz * (high - low);
   value.gradient = Vec3{dx_low + fz * (dx_high - dx_low),
                         (1.0 - fz) * (low1 - low0) + fz * (high1 - high0), high - low} /
                    cell_m_;
-  return value;
+  return true;
 }
 
 }  // namespace orthonav::nav

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "nav/geometry/mesh.h"
@@ -24,8 +23,8 @@ class DistanceField {
     double distance_m = 0.0;
     Vec3 gradient;  ///< about a unit vector
   };
-  /// Nothing outside the grid, which is farther than the margin from the surface.
-  [[nodiscard]] std::optional<Value> at(Vec3 query_m) const;
+  /// False outside the grid, which is farther than the margin from the surface.
+  [[nodiscard]] bool at(Vec3 query_m, Value& value) const;
 
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
 

@@ -14,13 +14,14 @@ constexpr std::size_t kLeafSize = 4;
 constexpr std::size_t kStack = 40;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-double squared_distance_to_box(Vec3 p, Vec3 low, Vec3 high) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double outside = std::max({low[axis] - p[axis], 0.0, p[axis] - high[axis]});
-    sum += outside * outside;
-  }
-  return sum;
+inline double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) {
+  const auto outside = [](double v, double from, double to) {
+    return std::max(std::max(from - v, v - to), 0.0);
+  };
+  const double x = outside(p.x, low.x, high.x);
+  const double y = outside(p.y, low.y, high.y);
+  const double z = outside(p.z, low.z, high.z);
+  return x * x + y * y + z * z;
 }
 
 struct Ray {

@@ -14,7 +14,7 @@ namespace orthonav::nav {
 namespace {
 
 /// Enough points to tell candidates apart.
-constexpr std::size_t kPointsToCompare = 400;
+constexpr std::size_t kPointsToCompare = 300;
 /// Poses are compared by squared distances truncated at so many SDs of the noise, or there.
 constexpr double kTruncateSd = 3.0;
 constexpr double kTruncateLeast_m = 0.0009;

@@ -31,8 +31,9 @@ constexpr std::size_t kPointsAdded = 40;
 constexpr std::size_t kPointsFirst = 48;
 constexpr std::size_t kPointsThen = 120;
 constexpr std::size_t kPointsLast = 300;
-constexpr std::size_t kKeptThen = 160;
-constexpr std::size_t kKeptLast = 32;
+constexpr std::size_t kKeptFirst = 700;
+constexpr std::size_t kKeptThen = 100;
+constexpr std::size_t kKeptLast = 20;
 
 /// Rotations spread evenly over all there are.
 std::vector<Mat3> all_rotations() {
@@ -189,11 +190,12 @@ SearchField::SearchField(const TriangleMesh& reachable, const SurfaceIndex& reac
   for (int z = 0; z < cells_.size[2]; ++z)
     for (int y = 0; y < cells_.size[1]; ++y)
       for (int x = 0; x < cells_.size[0]; ++x) {
-        const auto value =
-            field_.at(cells_.low_m + kSearchCell_m * Vec3{x + 0.5, y + 0.5, z + 0.5});
+        DistanceField::Value value;
+        const bool near =
+            field_.at(cells_.low_m + kSearchCell_m * Vec3{x + 0.5, y + 0.5, z + 0.5}, value);
         const double distance =
-            value ? std::min(std::abs(value->distance_m), kFarthest_m) : kFarthest_m;
-        const double factor = value && value->distance_m < 0.0 ? kInsideFactor : 1.0;
+            near ? std::min(std::abs(value.distance_m), kFarthest_m) : kFarthest_m;
+        const double factor = near && value.distance_m < 0.0 ? kInsideFactor : 1.0;
         cells_.cost.push_back(static_cast<std::uint8_t>(kCostPerM * factor * distance));
       }
 }
@@ -209,6 +211,7 @@ std::vector<FoundPose> search_poses(const SearchField& vertebra,
     PlaceScan places(vertebra, spread.first(kPointsAdded));
     for (const Mat3& rotation : all_rotations()) places.scan(rotation, poses);
   }
+  keep_best(poses, kKeptFirst);
   for (Scored& pose : poses)
     refine(vertebra, spread.first(kPointsFirst), {4, 0.012, 0.006}, options.tip_radius_m, pose);
   keep_best(poses, kKeptThen);

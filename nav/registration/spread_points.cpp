@@ -9,6 +9,8 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kCell_m = 0.004;
+/// So many of the points may be left out for lying in lonely cells.
+constexpr double kLonelyShare = 0.15;
 
 /// The middle that outliers do not move: medians by coordinate.
 Vec3 middle_of(std::span<const Vec3> points_m) {
@@ -43,18 +45,36 @@ SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
   if (points_m.empty()) return;
   const Vec3 middle = middle_of(points_m);
   // One of each cell: the first that came.
-  std::map<std::array<long, 3>, Vec3> cells;
+  struct Cell {
+    Vec3 point;
+    std::size_t count = 0;
+  };
+  std::map<std::array<long, 3>, Cell> by_place;
+  std::size_t all = 0;
   for (const Vec3& p : points_m) {
     const Vec3 q = p - middle;
     if (!(q.norm() < reach_m)) continue;
-    const auto cell = [](double v) { return std::lround(v / kCell_m); };
-    cells.try_emplace({cell(q.x), cell(q.y), cell(q.z)}, q);
+    const auto place = [](double v) { return std::lround(v / kCell_m); };
+    Cell& cell = by_place.try_emplace({place(q.x), place(q.y), place(q.z)}, Cell{q}).first->second;
+    ++cell.count;
+    ++all;
+  }
+  // Outliers are few but lie apart, where each would have a cell of its own.
+  std::vector<Cell> cells;
+  for (const auto& [place, cell] : by_place) cells.push_back(cell);
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const Cell& a, const Cell& b) { return a.count > b.count; });
+  auto room = static_cast<std::size_t>(kLonelyShare * static_cast<double>(all));
+  while (cells.size() > 6 && cells.back().count <= room &&
+         2 * cells.back().count < cells[cells.size() / 2].count) {
+    room -= cells.back().count;
+    cells.pop_back();
   }
   Vec3 mean;
-  for (const auto& [cell, q] : cells) mean += q / static_cast<double>(cells.size());
+  for (const Cell& cell : cells) mean += cell.point / static_cast<double>(cells.size());
   centre_m_ = middle + mean;
-  for (const auto& [cell, q] : cells)
-    if ((q - mean).norm() < reach_m) points_m_.push_back(q - mean);
+  for (const Cell& cell : cells)
+    if ((cell.point - mean).norm() < reach_m) points_m_.push_back(cell.point - mean);
   constexpr std::size_t kOrdered = 150;
   order_by_distance(points_m_, kOrdered);
 }

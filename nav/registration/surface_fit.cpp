@@ -18,6 +18,9 @@ constexpr double kSdByMedian = 1.4826;
 /// Points farther than this from the surface are no matter where on it.
 constexpr double kFarthest_m = 0.012;
 constexpr double kDamping = 1e-9;
+constexpr double kNowhere_m = 1e3;
+/// Rounding must not hide what lies just as far.
+constexpr double kHair = 1.0 + 1e-12;
 
 void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double tip_radius_m,
              SurfaceFit& fit) {
@@ -25,12 +28,16 @@ void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double
     FittedPoint& out = fit.points[i];
     out.arm_m = fit.pose.rotation * points_m[i];
     const Vec3 query = out.arm_m + fit.pose.centre_m;
-    const auto near = surface.nearest(query, kFarthest_m);
+    // The surface is no farther than the place that was nearest before.
+    const double within_m = std::min(kFarthest_m, (query - out.nearest_m).norm() * kHair);
+    const auto near = surface.nearest(query, within_m);
     if (!near) {
       out.residual_m = kFarthest_m;
       out.gradient = {};
+      out.nearest_m = {kNowhere_m, 0.0, 0.0};
       continue;
     }
+    out.nearest_m = near->point_m;
     const Vec3 off = query - near->point_m;
     const double side = off.dot(near->normal) < 0.0 ? -1.0 : 1.0;
     out.residual_m = side * near->distance_m - tip_radius_m;
@@ -91,7 +98,7 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
   if (points_m.size() < 6) return std::nullopt;
   SurfaceFit fit;
   fit.pose = start;
-  fit.points.resize(points_m.size());
+  fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
   std::vector<double> scratch;
   for (bool last = false;; ++fit.iterations) {
     measure(surface, points_m, options.tip_radius_m, fit);

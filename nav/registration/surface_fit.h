@@ -21,6 +21,7 @@ struct SurfaceFitOptions {
 struct FittedPoint {
   Vec3 arm_m;               ///< from the points' centre, in the vertebra's frame
   Vec3 gradient;            ///< of the residual by the point's place
+  Vec3 nearest_m;           ///< on the surface
   double residual_m = 0.0;  ///< outside the surface positive
   double weight = 0.0;      ///< robust, 0 to 1
 };

@@ -1,6 +1,7 @@
 #include "nav/registration/surface_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <Eigen/Dense>
 
@@ -29,30 +30,43 @@ CentredPose centred(const Transform<World, Vertebra>& pose, Vec3 points_centre_m
 }
 
 bool FieldStep::improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const {
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 right = Vector6::Zero();
+  // Sums of the lower triangle by rows, then of the right side: plain arrays, for this is where
+  // the time goes.
+  std::array<double, 27> sums{};
   int used = 0;
+  const double inverse_width2 = 1.0 / (width_m * width_m);
   for (const Vec3& p : centred_m) {
     const Vec3 arm = pose.rotation * p;
-    const auto value = field_->at(arm + pose.centre_m);
-    if (!value) continue;
-    const double r = value->distance_m - tip_radius_m_;
-    const double t = 1.0 - r * r / (width_m * width_m);
+    DistanceField::Value value;
+    if (!field_->at(arm + pose.centre_m, value)) continue;
+    const double r = value.distance_m - tip_radius_m_;
+    const double t = 1.0 - r * r * inverse_width2;
     if (!(t > 0.0)) continue;
-    const Vec3 g = value->gradient;
+    const Vec3 g = value.gradient;
     const Vec3 turn = arm.cross(g);
-    Vector6 j;
-    j << g.x, g.y, g.z, turn.x, turn.y, turn.z;
+    const std::array<double, 6> j = {g.x, g.y, g.z, turn.x, turn.y, turn.z};
     const double weight = t * t;
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(j, weight);
-    right -= weight * r * j;
+    std::size_t k = 0;
+    for (std::size_t row = 0; row < 6; ++row) {
+      const double weighted = weight * j[row];
+      for (std::size_t column = 0; column <= row; ++column) sums[k++] += weighted * j[column];
+      sums[21 + row] -= weighted * r;
+    }
     ++used;
   }
   if (used < 6) return false;
+  Matrix6 normal;
+  Vector6 right;
+  std::size_t k = 0;
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    for (Eigen::Index column = 0; column <= row; ++column)
+      normal(row, column) = normal(column, row) = sums[k++];
+    right(row) = sums[21 + static_cast<std::size_t>(row)];
+  }
   const double shift = kDamping * normal.topLeftCorner<3, 3>().trace();
   const double turn = kDamping * normal.bottomRightCorner<3, 3>().trace();
-  for (int k = 0; k < 6; ++k) normal(k, k) += k < 3 ? shift : turn;
-  const Vector6 step = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  for (int i = 0; i < 6; ++i) normal(i, i) += i < 3 ? shift : turn;
+  const Vector6 step = normal.ldlt().solve(right);
   if (!step.allFinite()) return false;
   const double scale = std::min({1.0, kLongest_m / std::max(step.head<3>().norm(), 1e-12),
                                  kWidest_rad / std::max(step.tail<3>().norm(), 1e-12)});
@@ -66,9 +80,10 @@ double FieldStep::cost_m2(std::span<const Vec3> centred_m, double width_m,
                           const CentredPose& pose) const {
   double sum = 0.0;
   for (const Vec3& p : centred_m) {
-    const auto value = field_->at(pose.rotation * p + pose.centre_m);
-    const double r =
-        value ? std::min(std::abs(value->distance_m - tip_radius_m_), width_m) : width_m;
+    DistanceField::Value value;
+    const double r = field_->at(pose.rotation * p + pose.centre_m, value)
+                         ? std::min(std::abs(value.distance_m - tip_radius_m_), width_m)
+                         : width_m;
     sum += r * r;
   }
   return sum / static_cast<double>(std::max<std::size_t>(1, centred_m.size()));
