@@ -1,21 +1,39 @@
 #include "engine/method.h"
 
 namespace orthonav::engine {
+namespace {
+
+Result<nav::Registration> by_paper(const RegistrationRequest& request) {
+  return nav::register_paper(request.model, request.points_in_world);
+}
+
+Result<nav::Registration> by_best(const RegistrationRequest& request) {
+  nav::BestRegistrationOptions options;
+  for (const nav::ScrewPlan& screw : request.screws) {
+    options.targets.push_back(screw.entry);
+    options.targets.push_back(screw.target);
+  }
+  for (const NeighbouringLevel& level : request.neighbours)
+    options.neighbours.push_back({level.label, level.model.get()});
+  return nav::register_best(request.model, request.points_in_world, options);
+}
+
+Error unknown(const std::string& name) {
+  return Error{"--method " + name + ": unknown (available: best, paper)"};
+}
+
+}  // namespace
 
 Result<Registrar> registrar_named(const std::string& name) {
-  if (name == "best")
-    return Error{"--method best: not available in this version (available: paper)"};
-  if (name != "paper") return Error{"--method " + name + ": unknown (available: paper)"};
-  return Registrar(
-      [](const nav::VertebraModel& model, std::span<const Point<World>> points_in_world) {
-        return nav::register_paper(model, points_in_world);
-      });
+  if (name == "best") return Registrar(&by_best);
+  if (name == "paper") return Registrar(&by_paper);
+  return unknown(name);
 }
 
 Result<Method> method_named(const std::string& name) {
-  if (name == "best") return Method{name, &nav::create_best_tracker, *registrar_named("paper")};
-  if (name == "paper") return Method{name, &nav::create_paper_tracker, *registrar_named("paper")};
-  return Error{"--method " + name + ": unknown (available: best, paper)"};
+  if (name == "best") return Method{name, &nav::create_best_tracker, &by_best};
+  if (name == "paper") return Method{name, &nav::create_paper_tracker, &by_paper};
+  return unknown(name);
 }
 
 }  // namespace orthonav::engine

@@ -6,13 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "engine/operation.h"
 #include "nav/registration/registration.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::engine {
 
-using Registrar = std::function<Result<nav::Registration>(
-    const nav::VertebraModel& model, std::span<const Point<World>> points_in_world)>;
+/// What is to be registered.
+struct RegistrationRequest {
+  const nav::VertebraModel& model;
+  std::span<const Point<World>> points_in_world;  ///< in the order of time
+  std::span<const nav::ScrewPlan> screws;         ///< where the pose must be sure; may be empty
+  std::span<const NeighbouringLevel> neighbours;
+};
+
+using Registrar = std::function<Result<nav::Registration>(const RegistrationRequest& request)>;
 
 /// One way of tracking and registering, under the name that reports carry.
 struct Method {
@@ -25,10 +33,10 @@ struct Method {
 };
 
 /// `paper`: the published method (Liebmann et al. 2019). `best`: tools by the photometric pose of
-/// their tags (docs/tracking.md), registration as published. Any other name is refused in one line
-/// that names what there is.
+/// their tags (docs/tracking.md), every pose of the bone searched for and judged
+/// (docs/registration.md). Any other name is refused in one line that names what there is.
 Result<Method> method_named(const std::string& name);
-/// Registration alone: `paper`.
+/// Registration alone.
 Result<Registrar> registrar_named(const std::string& name);
 
 }  // namespace orthonav::engine

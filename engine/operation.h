@@ -9,12 +9,20 @@
 
 namespace orthonav::engine {
 
+/// Another vertebra of the patient, next to one that is operated: strokes of it must not pass for
+/// strokes of that one.
+struct NeighbouringLevel {
+  std::string label;
+  std::shared_ptr<const nav::VertebraModel> model;
+};
+
 /// A level to be operated: its preoperative model, prepared, and its screws in the order in which
 /// they are guided.
 struct OperatedLevel {
   std::string label;
   std::shared_ptr<const nav::VertebraModel> model;
   std::vector<nav::ScrewPlan> screws;
+  std::vector<NeighbouringLevel> neighbours;  ///< above and below, where the case has them
 };
 
 /// What the surgeon is going to do. Levels in the order in which they are operated.

@@ -1,7 +1,10 @@
 #include "engine/operation_plan.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <set>
+#include <utility>
 
 namespace orthonav::engine {
 namespace {
@@ -12,13 +15,48 @@ std::string known_labels(const Case& source) {
   return out;
 }
 
-std::vector<std::string> two_lowest(const Case& source) {
+/// By height along the spine (+z superior), not by name: a case may call its levels anything.
+std::vector<const CaseLevel*> from_the_lowest(const Case& source) {
   std::vector<const CaseLevel*> levels;
   for (const CaseLevel& level : source.levels) levels.push_back(&level);
-  // Height along the spine (+z superior), not the name: a case may call its levels anything.
   std::stable_sort(levels.begin(), levels.end(), [](const CaseLevel* a, const CaseLevel* b) {
     return a->centre_in_spine().v.z < b->centre_in_spine().v.z;
   });
+  return levels;
+}
+
+/// The levels below and above.
+std::vector<std::string> beside(const Case& source, const std::string& label) {
+  const auto levels = from_the_lowest(source);
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    if (levels[i]->label != label) continue;
+    if (i > 0) out.push_back(levels[i - 1]->label);
+    if (i + 1 < levels.size()) out.push_back(levels[i + 1]->label);
+  }
+  return out;
+}
+
+/// Prepares each level once.
+class PreparedLevels {
+ public:
+  explicit PreparedLevels(const Case& source) : source_(source) {}
+
+  Result<std::shared_ptr<const nav::VertebraModel>> model(const std::string& label) {
+    if (const auto known = models_.find(label); known != models_.end()) return known->second;
+    auto model = nav::VertebraModel::prepare(source_.find(label)->mesh);
+    if (!model)
+      return Error{"case '" + source_.name + "', level '" + label + "': " + model.error().message};
+    return models_[label] = *model;
+  }
+
+ private:
+  const Case& source_;
+  std::map<std::string, std::shared_ptr<const nav::VertebraModel>> models_;
+};
+
+std::vector<std::string> two_lowest(const Case& source) {
+  const auto levels = from_the_lowest(source);
   std::vector<std::string> labels;
   for (std::size_t i = 0; i < std::min<std::size_t>(2, levels.size()); ++i)
     labels.push_back(levels[i]->label);
@@ -48,12 +86,17 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
   if (!ordered) return ordered.error();
   Operation operation;
   operation.case_name = source.name;
+  PreparedLevels prepared(source);
   for (const std::string& label : *ordered) {
-    const CaseLevel& level = *source.find(label);
-    auto model = nav::VertebraModel::prepare(level.mesh);
-    if (!model)
-      return Error{"case '" + source.name + "', level '" + label + "': " + model.error().message};
-    operation.levels.push_back({label, *model, level.screws});
+    const auto model = prepared.model(label);
+    if (!model) return model.error();
+    OperatedLevel level{label, *model, source.find(label)->screws, {}};
+    for (const std::string& next : beside(source, label)) {
+      const auto neighbour = prepared.model(next);
+      if (!neighbour) return neighbour.error();
+      level.neighbours.push_back({next, *neighbour});
+    }
+    operation.levels.push_back(std::move(level));
   }
   return operation;
 }

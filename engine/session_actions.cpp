@@ -176,7 +176,7 @@ void Session::try_registration(Timestamp time) {
   LevelState& now = level();
   ++now.attempts;
   const std::vector<Point<World>> points = digitizer_.saved_points();
-  const auto result = registrar_(*now.plan.model, points);
+  const auto result = registrar_({*now.plan.model, points, now.plan.screws, now.plan.neighbours});
   std::string reason;
   if (!result) {
     reason = result.error().message;

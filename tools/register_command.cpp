@@ -25,7 +25,7 @@ struct RegisterArguments {
   std::string units;  ///< empty: what the files say, else mm
   std::string frame;  ///< empty: what the files say, else LPS
   std::string plan;
-  std::string method = "paper";
+  std::string method = "best";
   JsonOutput json;
 };
 
@@ -152,7 +152,9 @@ int run_register(const RegisterArguments& arguments) {
   if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
   const auto inputs = load(arguments);
   if (!inputs) return bad_input(inputs.error().message);
-  const auto registration = (*registrar)(*inputs->model, inputs->points);
+  engine::RegistrationRequest request{*inputs->model, inputs->points, {}, {}};
+  if (inputs->plan) request.screws = inputs->plan->screws;
+  const auto registration = (*registrar)(request);
   if (!registration) return bad_input(arguments.points + ": " + registration.error().message);
   if (const Status s = arguments.json.write(as_json(arguments, *inputs, *registration)); !s)
     return bad_input(s.error().message);
@@ -195,7 +197,8 @@ void add_register_command(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"LPS", "RAS"}));
   command->add_option("--plan", arguments->plan, "Planned screws, for the error to expect there")
       ->type_name("PLAN");
-  command->add_option("--method", arguments->method, "registration: paper")->capture_default_str();
+  command->add_option("--method", arguments->method, "registration: best or paper")
+      ->capture_default_str();
   arguments->json.add_to(*command);
   command->footer(kFooter);
   command->callback(

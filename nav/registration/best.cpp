@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 
 #include "nav/registration/fit_covariance.h"
 #include "nav/registration/pose_search.h"
@@ -15,6 +16,9 @@ namespace {
 
 /// Enough points to tell candidates apart.
 constexpr std::size_t kPointsToCompare = 300;
+constexpr double kFieldNoise_m = 0.0005;
+constexpr double kHopeless = 3.0;
+constexpr std::size_t kFewestRivals = 2;
 /// Poses are compared by squared distances truncated at so many SDs of the noise, or there.
 constexpr double kTruncateSd = 3.0;
 constexpr double kTruncateLeast_m = 0.0009;
@@ -63,16 +67,22 @@ std::vector<Candidate> candidates(const VertebraModel& model, const Cloud& cloud
   fine.tip_radius_m = tip_radius_m;
   fine.max_iterations = 6;
   fine.last_step_m = 2e-5;
+  fine.counted_m = fine.farthest_m;
   std::vector<Candidate> found;
   double least_m = std::numeric_limits<double>::infinity();
+  std::optional<double> least_cost_m2;
   std::vector<Vec3> in_world;
   for (const Vec3& p : cloud.all_m) in_world.push_back(p + cloud.centre_m);
-  for (const FoundPose& pose : search_poses(model.search_field(), in_world, search))
+  for (const FoundPose& pose : search_poses(model.search_field(), in_world, search)) {
+    // The field is right to tenths of a millimetre: what it finds far worse is no rival.
+    if (found.size() >= kFewestRivals && pose.cost_m2 > kHopeless * (*least_cost_m2)) break;
+    if (!least_cost_m2) least_cost_m2 = std::max(pose.cost_m2, kFieldNoise_m * kFieldNoise_m);
     if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m,
                                   centred(pose.world_from_vertebra, cloud.centre_m), fine)) {
       least_m = std::min(least_m, fit->noise_m);
       found.push_back({std::move(*fit), 0.0});
     }
+  }
   width_m = std::max(kTruncateSd * least_m, kTruncateLeast_m);
   for (Candidate& c : found) c.cost_m2 = truncated_cost_m2(c.fit, width_m);
   std::stable_sort(found.begin(), found.end(),

@@ -23,15 +23,15 @@ constexpr double kFarthest_m = 0.010;
 constexpr double kInsideFactor = 1.5;
 constexpr double kCostPerM = 250.0 / (kInsideFactor * kFarthest_m);
 
-constexpr int kRotations = 1200;
+constexpr int kRotations = 1000;
 constexpr int kPlaceStep = 4;  ///< cells
 /// Centres of strokes lie within the box of the reachable surface, not on its rim.
 constexpr double kInset_m = 0.006;
-constexpr std::size_t kPointsAdded = 40;
+constexpr std::size_t kPointsAdded = 32;
 constexpr std::size_t kPointsFirst = 48;
 constexpr std::size_t kPointsThen = 120;
 constexpr std::size_t kPointsLast = 300;
-constexpr std::size_t kKeptFirst = 700;
+constexpr std::size_t kKeptFirst = 500;
 constexpr std::size_t kKeptThen = 100;
 constexpr std::size_t kKeptLast = 20;
 

@@ -15,24 +15,22 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr double kTukeySd = 4.685;
 /// SD by the median of absolute values, for a normal distribution.
 constexpr double kSdByMedian = 1.4826;
-/// Points farther than this from the surface are no matter where on it.
-constexpr double kFarthest_m = 0.012;
 constexpr double kDamping = 1e-9;
 constexpr double kNowhere_m = 1e3;
 /// Rounding must not hide what lies just as far.
 constexpr double kHair = 1.0 + 1e-12;
 
-void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double tip_radius_m,
-             SurfaceFit& fit) {
+void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double farthest_m,
+             double tip_radius_m, SurfaceFit& fit) {
   for (std::size_t i = 0; i < points_m.size(); ++i) {
     FittedPoint& out = fit.points[i];
     out.arm_m = fit.pose.rotation * points_m[i];
     const Vec3 query = out.arm_m + fit.pose.centre_m;
     // The surface is no farther than the place that was nearest before.
-    const double within_m = std::min(kFarthest_m, (query - out.nearest_m).norm() * kHair);
+    const double within_m = std::min(farthest_m, (query - out.nearest_m).norm() * kHair);
     const auto near = surface.nearest(query, within_m);
     if (!near) {
-      out.residual_m = kFarthest_m;
+      out.residual_m = farthest_m;
       out.gradient = {};
       out.nearest_m = {kNowhere_m, 0.0, 0.0};
       continue;
@@ -101,7 +99,8 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
   fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
   std::vector<double> scratch;
   for (bool last = false;; ++fit.iterations) {
-    measure(surface, points_m, options.tip_radius_m, fit);
+    measure(surface, points_m, last ? options.counted_m : options.farthest_m, options.tip_radius_m,
+            fit);
     fit.noise_m = std::clamp(spread_m(fit, scratch), options.least_noise_m, options.most_noise_m);
     weigh(kTukeySd * fit.noise_m, fit);
     if (last || fit.iterations == options.max_iterations) return fit;

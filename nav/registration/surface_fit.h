@@ -10,7 +10,9 @@ namespace orthonav::nav {
 
 struct SurfaceFitOptions {
   int max_iterations = 12;
-  double last_step_m = 2e-6;  ///< ends it
+  double last_step_m = 1e-5;  ///< ends it
+  double farthest_m = 0.005;  ///< farther points do not matter on the way
+  double counted_m = 0.012;   ///< and at the end count as so far
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end, whose centre the points are
   /// What residuals are never taken to be smaller or larger than (SD).
   double least_noise_m = 0.00015;

@@ -16,10 +16,9 @@ using testing::kStart;
 using testing::pairs;
 
 std::unique_ptr<Session> session() {
-  return Session::create(testing::operation_of({"L5"}),
-                         std::make_unique<testing::ScriptedTracker>(),
-                         [](const nav::VertebraModel&, std::span<const Point<World>>)
-                             -> Result<nav::Registration> { return Error{"none"}; })
+  return Session::create(
+             testing::operation_of({"L5"}), std::make_unique<testing::ScriptedTracker>(),
+             [](const RegistrationRequest&) -> Result<nav::Registration> { return Error{"none"}; })
       .value();
 }
 

@@ -101,9 +101,8 @@ ScriptedSession::ScriptedSession(std::vector<std::string> labels, SessionOptions
   registration.points = 300;
   auto tracker = std::make_unique<ScriptedTracker>();
   tracker_ = tracker.get();
-  auto registrar = [this](const nav::VertebraModel&,
-                          std::span<const Point<World>> points) -> Result<nav::Registration> {
-    registered_points.push_back(points.size());
+  auto registrar = [this](const RegistrationRequest& request) -> Result<nav::Registration> {
+    registered_points.push_back(request.points_in_world.size());
     if (unusable) return Error{*unusable};
     return registration;
   };
