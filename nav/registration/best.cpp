@@ -18,7 +18,6 @@ namespace {
 constexpr std::size_t kPointsToCompare = 300;
 constexpr double kFieldNoise_m = 0.0005;
 constexpr double kHopeless = 3.0;
-constexpr std::size_t kFewestRivals = 2;
 /// Poses are compared by squared distances truncated at so many SDs of the noise, or there.
 constexpr double kTruncateSd = 3.0;
 constexpr double kTruncateLeast_m = 0.0009;
@@ -53,29 +52,44 @@ Cloud cloud_of(std::span<const Point<World>> points) {
   return cloud;
 }
 
+/// How far apart two poses put the farthest of the targets.
+double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Vertebra>& b,
+               std::span<const Point<Vertebra>> targets) {
+  double most = 0.0;
+  for (const Point<Vertebra>& target : targets)
+    most = std::max(most, (a * target - b * target).norm());
+  return most;
+}
+
 struct Candidate {
   SurfaceFit fit;
   double cost_m2 = 0.0;
 };
 
 /// Every pose that could be meant, fitted exactly, the best first.
+/// Goes on until one is another pose at the targets, where any are given.
 std::vector<Candidate> candidates(const VertebraModel& model, const Cloud& cloud,
-                                  double tip_radius_m, double& width_m) {
+                                  std::span<const Point<Vertebra>> targets, double tip_radius_m,
+                                  double& width_m) {
   PoseSearchOptions search;
   search.tip_radius_m = tip_radius_m;
   SurfaceFitOptions fine;
   fine.tip_radius_m = tip_radius_m;
   fine.max_iterations = 6;
   fine.last_step_m = 2e-5;
-  fine.counted_m = fine.farthest_m;
   std::vector<Candidate> found;
   double least_m = std::numeric_limits<double>::infinity();
   std::optional<double> least_cost_m2;
+  std::optional<Transform<World, Vertebra>> first;
+  bool rivals = false;
   std::vector<Vec3> in_world;
   for (const Vec3& p : cloud.all_m) in_world.push_back(p + cloud.centre_m);
   for (const FoundPose& pose : search_poses(model.search_field(), in_world, search)) {
     // The field is right to tenths of a millimetre: what it finds far worse is no rival.
-    if (found.size() >= kFewestRivals && pose.cost_m2 > kHopeless * (*least_cost_m2)) break;
+    if (rivals && pose.cost_m2 > kHopeless * (*least_cost_m2)) break;
+    if (!first) first = pose.world_from_vertebra;
+    rivals = rivals || targets.empty() ||
+             apart_m(pose.world_from_vertebra, *first, targets) > kSameAtTargets_m;
     if (!least_cost_m2) least_cost_m2 = std::max(pose.cost_m2, kFieldNoise_m * kFieldNoise_m);
     if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m,
                                   centred(pose.world_from_vertebra, cloud.centre_m), fine)) {
@@ -101,15 +115,6 @@ std::vector<Point<Vertebra>> targets_of(const VertebraModel& model,
     usual.push_back({back + Vec3{side * 0.008, -0.045, 0.0}});
   }
   return usual;
-}
-
-/// How far apart two poses put the farthest of the targets.
-double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Vertebra>& b,
-               std::span<const Point<Vertebra>> targets) {
-  double most = 0.0;
-  for (const Point<Vertebra>& target : targets)
-    most = std::max(most, (a * target - b * target).norm());
-  return most;
 }
 
 double rmse_m(const SurfaceFit& fit) {
@@ -170,7 +175,7 @@ void compare_levels(const Cloud& cloud, double own_cost_m2, double width_m,
   double least = own_cost_m2 + 2.0 * kLevelMargin * r.noise_m * r.noise_m / points;
   for (const NeighbourLevel& level : options.neighbours) {
     double own_width = 0.0;
-    const auto found = candidates(*level.model, cloud, options.tip_radius_m, own_width);
+    const auto found = candidates(*level.model, cloud, {}, options.tip_radius_m, own_width);
     if (found.empty()) continue;
     const double cost = truncated_cost_m2(found[0].fit, std::min(width_m, own_width));
     if (cost >= least) continue;
@@ -212,8 +217,10 @@ Result<Registration> register_best(const VertebraModel& model,
                                    const BestRegistrationOptions& options) {
   if (const Status s = check_points(points_in_world, options.min_points); !s) return s.error();
   const Cloud cloud = cloud_of(points_in_world);
+  const std::vector<Point<Vertebra>> targets = targets_of(model, options);
   double width_m = 0.0;
-  const std::vector<Candidate> found = candidates(model, cloud, options.tip_radius_m, width_m);
+  const std::vector<Candidate> found =
+      candidates(model, cloud, targets, options.tip_radius_m, width_m);
   SurfaceFitOptions fine;
   fine.tip_radius_m = options.tip_radius_m;
   const auto fit = found.empty() ? std::nullopt
@@ -227,7 +234,6 @@ Result<Registration> register_best(const VertebraModel& model,
   r.inlier_share = inlier_share(*fit);
   r.iterations = fit->iterations;
   r.points = points_in_world.size();
-  const std::vector<Point<Vertebra>> targets = targets_of(model, options);
   estimate_errors(model, *fit, targets, r);
   r.coverage_share = coverage_share(model, *fit);
   compare_poses(found, cloud, targets, r);

@@ -16,9 +16,15 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 /// A larger step between two points begins another stroke.
 constexpr double kLeap_m = 0.008;
 /// Noise of a hand and a tracker is forgotten after so many points: 2 s at 30 Hz.
-constexpr int kLongestLag = 60;
-/// The autocorrelation is followed until it falls below that.
-constexpr double kForgotten = 0.05;
+constexpr std::size_t kLongestLag = 60;
+/// The autocorrelation is followed until it falls below that; what is smaller drowns in chance,
+/// and a fit that took part of it away. From there it is taken to fall as it did so far.
+constexpr double kDrowned = 0.12;
+constexpr double kForgotten = 0.01;
+/// From one point to the next the rest of the noise falls at least so far.
+constexpr double kSlowest = 0.97;
+/// Variance beyond what the residuals tell of: measured (docs/registration.md).
+constexpr double kUnseen = 1.15;
 constexpr double kCell_m = 0.005;
 /// Turns are compared with shifts at this lever.
 constexpr double kLever_m = 0.03;
@@ -59,7 +65,7 @@ Strokes strokes_of(const SurfaceFit& fit) {
 std::vector<double> autocovariance(const SurfaceFit& fit, const std::vector<int>& stroke) {
   std::vector<double> out;
   const std::size_t n = fit.points.size();
-  for (std::size_t lag = 0; lag <= kLongestLag && lag < n; ++lag) {
+  for (std::size_t lag = 0; lag < std::min(kLongestLag, n); ++lag) {
     double sum = 0.0;
     double count = 0.0;
     for (std::size_t i = 0; i + lag < n; ++i) {
@@ -70,9 +76,14 @@ std::vector<double> autocovariance(const SurfaceFit& fit, const std::vector<int>
       count += 1.0;
     }
     const double value = count > 0.0 ? sum / count : 0.0;
-    if (lag > 0 && (count < 10.0 || value < kForgotten * out[0])) break;
+    if (lag > 0 && (count < 10.0 || value < kDrowned * out[0])) break;
     out.push_back(value);
   }
+  if (out.size() < 3) return out;
+  const double falls =
+      std::min(kSlowest, std::pow(out.back() / out[1], 1.0 / static_cast<double>(out.size() - 2)));
+  while (out.size() < kLongestLag && out.back() > kForgotten * out[0])
+    out.push_back(falls * out.back());
   return out;
 }
 
@@ -147,8 +158,9 @@ std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
   FitCovariance out;
   const double repeated = std::max(1.0, (covariance * independent.inverse()).trace() / 6.0);
   out.effective_points = used / repeated;
-  // Six numbers were fitted to them.
-  covariance *= out.effective_points / std::max(out.effective_points - 6.0, 1.0);
+  // Six numbers were fitted to them, and some correlation (between strokes, of outliers that pass)
+  // shows in no residual.
+  covariance *= kUnseen * out.effective_points / std::max(out.effective_points - 6.0, 1.0);
   std::array<double, 36> flat{};
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(flat.data()) =
       0.5 * (covariance + covariance.transpose());

@@ -12,7 +12,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Tukey's biweight is 95 % efficient at so many SDs.
-constexpr double kTukeySd = 4.685;
+constexpr double kTukeySd = 3.6;
 /// SD by the median of absolute values, for a normal distribution.
 constexpr double kSdByMedian = 1.4826;
 constexpr double kDamping = 1e-9;
