@@ -8,6 +8,7 @@
 
 #include "engine/golden_vertebra.h"
 #include "engine/hologram_shapes.h"
+#include "hal/api/angle.h"
 #include "render/float3.h"
 #include "render/projection.h"
 #include "render/shapes.h"
@@ -16,8 +17,6 @@ namespace orthonav::engine {
 namespace {
 
 using render::Float3;
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 // One patient for all pictures, prone: posterior is up. Metres.
 constexpr Float3 kEntry = {0.0165f, 0.0320f, 0.0070f};

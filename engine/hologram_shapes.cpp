@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "hal/api/angle.h"
 #include "render/float3.h"
 #include "render/shapes.h"
 
@@ -28,7 +29,6 @@ constexpr float kReadoutOutward_m = 0.006f;
 constexpr float kHeadRadius_m = 0.0042f;  // a little wider than the rod, so that it shows around it
 constexpr float kBendRingRadius_m = 0.0042f;
 constexpr float kBendRingWidth_m = 0.0010f;
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 Colour faded(Colour colour, float opacity) {
   colour.a *= opacity;

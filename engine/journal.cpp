@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "hal/api/angle.h"
 
 namespace orthonav::engine {
 namespace {
@@ -16,8 +17,6 @@ Json entry(std::int64_t file_ticks, Timestamp time, const char* what) {
               {"time_ns", std::int64_t{time.time_since_epoch().count()}},
               {"what", what}};
 }
-
-double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
 /// Row-major, translation in mm.
 Json matrix_mm(std::array<double, 16> m) {

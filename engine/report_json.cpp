@@ -1,15 +1,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "engine/operation_result.h"
+#include "hal/api/angle.h"
 
 namespace orthonav::engine {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
 void put_mm(Json& object, const char* key, const std::optional<double>& metres) {
   if (metres) object[key] = *metres * 1e3;

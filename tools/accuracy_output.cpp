@@ -4,14 +4,13 @@
 #include <cstdarg>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "hal/api/angle.h"
 
 namespace orthonav::tools {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double in_mm(double metres) { return metres * 1e3; }
 ordered_json in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
@@ -48,14 +47,14 @@ ordered_json single_point_json(const nav::SinglePointPart& part) {
 ordered_json turning_json(const nav::TurningPart& part) {
   ordered_json out = json_of(part);
   add_spread(part.spread, out);
-  out["largest_tilt_deg"] = part.largest_tilt_rad * kDegrees;
+  out["largest_tilt_deg"] = part.largest_tilt_rad * kDegreesPerRadian;
   out["tip_bias_mm"] = in_mm(part.tip_bias_m);
   out["tip_bias_sigma_mm"] = in_mm(part.tip_bias_sigma_m);
   out["residual_rms_mm"] = in_mm(part.residual_rms_m);
   out["by_tilt"] = ordered_json::array();
   for (const nav::TiltBin& bin : part.bins) {
-    ordered_json entry = {{"from_deg", bin.from_rad * kDegrees},
-                          {"to_deg", bin.to_rad * kDegrees},
+    ordered_json entry = {{"from_deg", bin.from_rad * kDegreesPerRadian},
+                          {"to_deg", bin.to_rad * kDegreesPerRadian},
                           {"samples", bin.samples}};
     if (bin.samples > 0) {
       entry["rms_mm"] = in_mm(bin.rms_m);
@@ -121,8 +120,8 @@ void append_turning(const nav::TurningPart& part, std::string& text) {
   for (const nav::TiltBin& bin : part.bins)
     if (bin.samples > 0)
       append(text, "  tilt %2.0f-%2.0f°: RMS %.2f mm, max %.2f mm, %zu poses\n",
-             bin.from_rad * kDegrees, bin.to_rad * kDegrees, in_mm(bin.rms_m), in_mm(bin.max_m),
-             bin.samples);
+             bin.from_rad * kDegreesPerRadian, bin.to_rad * kDegreesPerRadian, in_mm(bin.rms_m),
+             in_mm(bin.max_m), bin.samples);
 }
 
 void append_distances(const nav::DistancePart& part, std::string& text) {

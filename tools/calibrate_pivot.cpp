@@ -1,11 +1,11 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "engine/atomic_file.h"
 #include "engine/method.h"
 #include "engine/tool_file.h"
+#include "hal/api/angle.h"
 #include "nav/tracking/pivot.h"
 #include "tools/arguments.h"
 #include "tools/calibrate.h"
@@ -14,8 +14,6 @@
 
 namespace orthonav::tools {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct PivotArguments {
   std::string recording;
@@ -64,7 +62,7 @@ nlohmann::ordered_json as_json(const PivotArguments& arguments, const Poses& pos
     out["tip_sigma_mm"] = found->tip_sigma_m * 1e3;
     out["leave_out_mm"] = found->leave_out_m * 1e3;
     out["rmse_mm"] = found->rmse_m * 1e3;
-    out["spread_deg"] = found->spread_rad * kDegrees;
+    out["spread_deg"] = found->spread_rad * kDegreesPerRadian;
     add_judgement(found->judgement, out);
   } else {
     add_judgement({nav::Verdict::kFail, found.error().message}, out);
@@ -77,7 +75,7 @@ void print(const PivotArguments& arguments, const nav::PivotCalibration& found) 
   std::printf("%s: tip %.3f %.3f %.3f mm, known to %.3f mm\n", arguments.tool.c_str(), tip_mm.x,
               tip_mm.y, tip_mm.z, found.tip_sigma_m * 1e3);
   std::printf("%zu of %zu poses agree, residual %.3f mm RMS, turned by %.1f° RMS\n", found.inliers,
-              found.poses, found.rmse_m * 1e3, found.spread_rad * kDegrees);
+              found.poses, found.rmse_m * 1e3, found.spread_rad * kDegreesPerRadian);
   print_judgement(found.judgement);
 }
 

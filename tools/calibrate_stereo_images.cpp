@@ -1,10 +1,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 
 #include "engine/grey_image_file.h"
+#include "hal/api/angle.h"
 #include "nav/calibration/stereo_board.h"
 #include "tools/calibrate.h"
 #include "tools/calibrate_stereo.h"
@@ -14,8 +14,6 @@
 
 namespace orthonav::tools {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// What the images gave: the views of the board, and what else there was.
 struct Views {
@@ -124,7 +122,7 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments, const Views& vi
                                 {"views_used", found.used}};
   if (found.sigma)
     out["sigma"] = {{"baseline_mm", found.sigma->baseline_m * 1e3},
-                    {"rotation_deg", found.sigma->rotation_rad * kDegrees},
+                    {"rotation_deg", found.sigma->rotation_rad * kDegreesPerRadian},
                     {"focal_percent", found.sigma->focal_share * 100},
                     {"principal_point_px", found.sigma->principal_point_px}};
   add_judgement(found.judgement, out);
@@ -148,7 +146,7 @@ void print(const Views& views, const nav::StereoBoardCalibration& found) {
   std::printf("baseline %.3f mm", found.baseline_m() * 1e3);
   if (found.sigma)
     std::printf(", known to %.3f mm; rotation known to %.3f°, focal length to %.3f %%",
-                found.sigma->baseline_m * 1e3, found.sigma->rotation_rad * kDegrees,
+                found.sigma->baseline_m * 1e3, found.sigma->rotation_rad * kDegreesPerRadian,
                 found.sigma->focal_share * 100);
   std::printf("\n");
   for (std::size_t i = 0; i < found.views.size(); ++i) {

@@ -1,8 +1,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "engine/board_file.h"
+#include "hal/api/angle.h"
 #include "nav/calibration/stereo_recording.h"
 #include "tools/calibrate.h"
 #include "tools/calibrate_stereo.h"
@@ -11,8 +11,6 @@
 
 namespace orthonav::tools {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// The family as it is detected: a border two cells wide makes another one.
 Result<std::string> detected_family(const std::string& path, const engine::Board& board) {
@@ -56,10 +54,10 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments,
   out["right_from_left_mm"] = rows_mm(found->right_from_left.row_major());
   out["device_right_from_left_mm"] = rows_mm(calibration.right_from_left().row_major());
   out["baseline_mm"] = found->right_from_left.translation().norm() * 1e3;
-  const Vec3 turn = found->turn_rad * kDegrees;
+  const Vec3 turn = found->turn_rad * kDegreesPerRadian;
   const Vec3 shift = found->shift_m * 1e3;
   out["turn_deg"] = {turn.x, turn.y, turn.z};
-  out["turn_sigma_deg"] = found->turn_sigma_rad * kDegrees;
+  out["turn_sigma_deg"] = found->turn_sigma_rad * kDegreesPerRadian;
   out["shift_mm"] = {shift.x, shift.y, shift.z};
   out["shift_sigma_mm"] = found->shift_sigma_m * 1e3;
   out["off_px"] = found->off_px;
@@ -75,7 +73,7 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments,
 }
 
 void print(const nav::StereoRecording& found) {
-  const Vec3 turn = found.turn_rad * kDegrees;
+  const Vec3 turn = found.turn_rad * kDegreesPerRadian;
   const Vec3 shift = found.shift_m * 1e3;
   std::printf(
       "%zu pairs, residual %.3f px RMS; across epipolar lines %.3f px RMS as the device has "
@@ -84,7 +82,7 @@ void print(const nav::StereoRecording& found) {
   std::printf(
       "right camera turned by %.4f %.4f %.4f°, known to %.4f°; shifted by %.3f %.3f %.3f mm, "
       "known to %.3f mm\n",
-      turn.x, turn.y, turn.z, found.turn_sigma_rad * kDegrees, shift.x, shift.y, shift.z,
+      turn.x, turn.y, turn.z, found.turn_sigma_rad * kDegreesPerRadian, shift.x, shift.y, shift.z,
       found.shift_sigma_m * 1e3);
   std::printf("baseline %.3f mm; the tags' edges measure %.4f of their size\n",
               found.right_from_left.translation().norm() * 1e3, found.size_ratio);

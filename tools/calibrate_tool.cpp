@@ -1,11 +1,11 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 
 #include "engine/atomic_file.h"
 #include "engine/tool_file.h"
+#include "hal/api/angle.h"
 #include "nav/calibration/tag_body.h"
 #include "tools/arguments.h"
 #include "tools/calibrate.h"
@@ -17,7 +17,6 @@
 namespace orthonav::tools {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::size_t kMostTags = 64;
 
 struct ToolArguments {
@@ -117,7 +116,7 @@ nlohmann::ordered_json as_json(const Result<nav::TagBody>& body, std::size_t pai
                            {"pose", rows_mm(tag.marker_from_tag.row_major())},
                            {"pairs", tag.pairs},
                            {"sigma_mm", tag.sigma_m * 1e3},
-                           {"sigma_deg", tag.sigma_rad * kDegrees}});
+                           {"sigma_deg", tag.sigma_rad * kDegreesPerRadian}});
   add_judgement(body->judgement, out);
   return out;
 }
@@ -131,7 +130,7 @@ void print(const nav::TagBody& body) {
         "%s id %d: at %.3f %.3f %.3f mm, known to %.3f mm and %.3f°; seen in %zu pairs, "
         "edges measure %.2f mm\n",
         tag.definition.family.c_str(), tag.definition.id, at_mm.x, at_mm.y, at_mm.z,
-        tag.sigma_m * 1e3, tag.sigma_rad * kDegrees, tag.pairs,
+        tag.sigma_m * 1e3, tag.sigma_rad * kDegreesPerRadian, tag.pairs,
         tag.definition.size_m * tag.size_ratio * 1e3);
   }
   print_judgement(body.judgement);

@@ -1,7 +1,8 @@
 #include "tools/operation_summary.h"
 
 #include <cstdio>
-#include <numbers>
+
+#include "hal/api/angle.h"
 
 namespace orthonav::tools {
 namespace {
@@ -12,8 +13,6 @@ std::string number(const std::optional<double>& value, double scale, const char*
   std::snprintf(text, sizeof text, "%.2f %s", *value * scale, unit);
   return text;
 }
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 }  // namespace
 
@@ -34,7 +33,7 @@ std::string operation_summary(const engine::OperationResult& result) {
            number(level.digitization_s, 1.0, "s") + "\n";
     for (const engine::ScrewOutcome& screw : level.screws)
       out += "  " + std::string(engine::name_of(screw.side)) + ": angle error " +
-             number(screw.angle_error_rad, kDegrees, "deg") + ", entry error " +
+             number(screw.angle_error_rad, kDegreesPerRadian, "deg") + ", entry error " +
              number(screw.entry_error_m, 1e3, "mm") + "\n";
   }
   for (const engine::RodOutcome& rod : result.rods)

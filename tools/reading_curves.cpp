@@ -1,6 +1,6 @@
 #include "tools/reading_curves.h"
 
-#include <numbers>
+#include "hal/api/angle.h"
 
 namespace orthonav::tools {
 
@@ -12,7 +12,7 @@ void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inpu
     screws_.push_back({guidance.step_text, frame.time, {}, {}, {}});
   Screw& screw = screws_.back();
   screw.time_s.push_back(seconds(frame.time - screw.begin));
-  screw.angle_deg.push_back(guidance.tool->measured->angle_rad * 180.0 / std::numbers::pi);
+  screw.angle_deg.push_back(degrees(guidance.tool->measured->angle_rad));
   screw.distance_mm.push_back(1e3 * guidance.tool->measured->tip_to_entry_m);
 }
 

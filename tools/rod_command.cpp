@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "engine/points_file.h"
+#include "hal/api/angle.h"
 #include "nav/guidance/rod.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
@@ -12,8 +12,6 @@
 
 namespace orthonav::tools {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 struct RodArguments {
   std::string heads;
@@ -47,7 +45,7 @@ nlohmann::ordered_json as_json(const nav::RodTemplate& rod) {
   for (const Vec3& head : rod.heads_m) out["heads_mm"].push_back(in_mm(head));
   for (const nav::RodBend& bend : rod.bends)
     out["bends"].push_back({{"arc_length_mm", bend.arc_length_m * 1e3},
-                            {"angle_deg", bend.angle_rad * kDegrees},
+                            {"angle_deg", bend.angle_rad * kDegreesPerRadian},
                             {"position_mm", in_mm(bend.position_m)}});
   for (const Vec3& p : rod.path_m) out["path_mm"].push_back(in_mm(p));
   return out;
@@ -57,7 +55,8 @@ void print(const nav::RodTemplate& rod) {
   std::printf("rod through %zu heads: length %.3f mm, diameter %.1f mm, %zu bends\n",
               rod.heads_m.size(), rod.length_m * 1e3, rod.diameter_m * 1e3, rod.bends.size());
   for (const nav::RodBend& bend : rod.bends)
-    std::printf("bend at %.1f mm: %.1f°\n", bend.arc_length_m * 1e3, bend.angle_rad * kDegrees);
+    std::printf("bend at %.1f mm: %.1f°\n", bend.arc_length_m * 1e3,
+                bend.angle_rad * kDegreesPerRadian);
 }
 
 int run_rod(const RodArguments& arguments) {

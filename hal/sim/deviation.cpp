@@ -2,14 +2,14 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <string>
+
+#include "hal/api/angle.h"
 
 namespace orthonav::sim {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
-constexpr double kDisagreement_rad = 1.0 * kRad;
+constexpr double kDisagreement_rad = 1.0 * kRadiansPerDegree;
 constexpr double kShortest_m = 1e-3;
 
 /// The number on the readout; nothing when it shows dashes.
@@ -17,7 +17,7 @@ std::optional<double> readout_rad(const std::string& text) {
   char* end = nullptr;
   const double degrees = std::strtod(text.c_str(), &end);
   if (end == text.c_str() || !std::isfinite(degrees) || degrees < 0.0) return std::nullopt;
-  return degrees * kRad;
+  return degrees * kRadiansPerDegree;
 }
 
 }  // namespace

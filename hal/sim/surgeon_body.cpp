@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hal/api/angle.h"
+
 namespace orthonav::sim {
 namespace {
 
@@ -16,7 +18,6 @@ constexpr double kReachForTool_s = 1.2;
 /// takes for a double click.
 constexpr double kClickDown_s = 0.08;
 constexpr double kBetweenClicks_s = 0.10;
-constexpr double kRad = std::numbers::pi / 180.0;
 
 }  // namespace
 
@@ -109,10 +110,12 @@ Vec3 SurgeonBody::best_view(Vec3 axis) {
   double least = 1e9;
   for (double azimuth = -80.0; azimuth <= 80.0; azimuth += 10.0)
     for (double elevation = 35.0; elevation <= 65.0; elevation += 5.0) {
-      const Vec3 view{std::cos(elevation * kRad) * std::cos(azimuth * kRad),
-                      std::sin(elevation * kRad),
-                      std::cos(elevation * kRad) * std::sin(azimuth * kRad)};
-      const double too_steep = std::max(0.0, 58.0 - angle_between_rad(view, axis) / kRad) / 8.0;
+      const Vec3 view{
+          std::cos(elevation * kRadiansPerDegree) * std::cos(azimuth * kRadiansPerDegree),
+          std::sin(elevation * kRadiansPerDegree),
+          std::cos(elevation * kRadiansPerDegree) * std::sin(azimuth * kRadiansPerDegree)};
+      const double too_steep =
+          std::max(0.0, 58.0 - angle_between_rad(view, axis) / kRadiansPerDegree) / 8.0;
       const double cost = too_steep * too_steep + std::pow((elevation - 50.0) / 15.0, 2) +
                           std::pow(azimuth / 40.0, 2);
       if (cost >= least) continue;

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "hal/api/angle.h"
 #include "hal/sim/deviation.h"
 #include "hal/sim/surgeon.h"
 
 namespace orthonav::sim {
 namespace {
 
-constexpr double kRad = std::numbers::pi / 180.0;
 /// Visual reaction to a moving target (Jeannerod 1988: 0.2-0.3 s).
 constexpr double kReaction_s = 0.25;
 /// Share of the seen deviation taken out in a second; times the reaction well below 1, or the hand
@@ -21,11 +21,11 @@ constexpr double kHold_s = 2.4;
 constexpr double kRoll_rad = 0.35;
 constexpr double kRolls = 2.0;
 /// An average further off than this is no last correction: he turns on.
-constexpr double kLastCorrection_rad = 1.0 * kRad;
+constexpr double kLastCorrection_rad = 1.0 * kRadiansPerDegree;
 constexpr int kFewestReadings = 5;
 constexpr double kLastMove_s = 0.4;
 /// Half the last digit of the readout: a zero can't be told from this.
-constexpr double kReadoutFloor_rad = 0.05 * kRad;
+constexpr double kReadoutFloor_rad = 0.05 * kRadiansPerDegree;
 /// Nobody turns for ever: after a while the surgeon is content with more.
 constexpr double kStrict_s = 6.0;
 constexpr double kDoublesEvery_s = 4.0;

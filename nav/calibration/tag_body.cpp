@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hal/api/angle.h"
 #include "hal/api/joined.h"
 #include "nav/calibration/body_jackknife.h"
 #include "nav/calibration/body_start.h"
@@ -162,7 +163,6 @@ Status check_sigma(const TagBody& body, const TagBodyOptions& options) {
 }
 
 Judgement judged(const TagBody& body, const TagBodyOptions& options) {
-  constexpr double kDegrees = 57.29577951308232;
   Judgement judgement;
   if (body.outlier_share > options.note_outlier_share)
     judgement.add(Verdict::kNote,
@@ -175,10 +175,10 @@ Judgement judged(const TagBody& body, const TagBodyOptions& options) {
                     name + with_numbers(": its place is known to %.2f mm only, better %.2f mm",
                                         tag.sigma_m * 1e3, options.note_sigma_m * 1e3));
     if (tag.sigma_rad > options.note_sigma_rad)
-      judgement.add(
-          Verdict::kNote,
-          name + with_numbers(": its turn is known to %.2f° only, better %.2f°",
-                              tag.sigma_rad * kDegrees, options.note_sigma_rad * kDegrees));
+      judgement.add(Verdict::kNote,
+                    name + with_numbers(": its turn is known to %.2f° only, better %.2f°",
+                                        tag.sigma_rad * kDegreesPerRadian,
+                                        options.note_sigma_rad * kDegreesPerRadian));
     if (std::abs(tag.size_ratio - 1.0) > options.note_size_deviation)
       judgement.add(Verdict::kNote,
                     name + with_numbers(": its edges measure %.2f mm, given are %.2f mm",

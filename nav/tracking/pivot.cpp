@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "hal/api/angle.h"
 #include "hal/api/joined.h"
 #include "hal/api/random.h"
 #include "nav/evaluation/median.h"
@@ -28,7 +29,6 @@ constexpr double kInlierSds = 4.5;
 // Below, numbers end rather than tips.
 constexpr double kLeastInlierM = 1e-4;
 constexpr int kMostRefits = 20;
-constexpr double kDegrees = 57.29577951308232;
 
 Error refused(const char* format, double value, double limit) {
   return Error{"pivot calibration: " + with_numbers(format, value, limit)};
@@ -163,9 +163,9 @@ Judgement judged(const PivotCalibration& found, const PivotOptions& options) {
   Judgement judgement;
   const double share = static_cast<double>(found.inliers) / static_cast<double>(found.poses);
   if (found.spread_rad < options.note_spread_rad)
-    judgement.add(Verdict::kNote,
-                  with_numbers("turned by %.1f° RMS only, better %.1f°",
-                               found.spread_rad * kDegrees, options.note_spread_rad * kDegrees));
+    judgement.add(Verdict::kNote, with_numbers("turned by %.1f° RMS only, better %.1f°",
+                                               found.spread_rad * kDegreesPerRadian,
+                                               options.note_spread_rad * kDegreesPerRadian));
   if (found.tip_sigma_m > options.note_tip_sigma_m)
     judgement.add(Verdict::kNote,
                   with_numbers("the tip is known to %.2f mm only, better %.2f mm",

@@ -75,7 +75,6 @@ Tracked<PoseFilter::Pose> PoseFilter::predicted(Timestamp time) const {
 
 void PoseFilter::start(const Tracked<Pose>& measured) {
   alive_ = true;
-  at_rest_ = false;
   time_ = measured.time;
   pose_ = measured.value;
   velocity_m_ = {};
@@ -104,8 +103,8 @@ void PoseFilter::update(const Tracked<Pose>& measured) {
   const Pose ahead = moved(pose_, dt * velocity_m_, dt * velocity_rad_);
   const Vector6 y = difference(measured.value, ahead);
   Covariance grown_p = grown(dt, options_.rest_m, options_.rest_rad);
-  at_rest_ = innovation(y, as_eigen(grown_p), measured.covariance) < options_.rest_limit;
-  if (!at_rest_) grown_p = grown(dt, options_.hand_m, options_.hand_rad);
+  const bool at_rest = innovation(y, as_eigen(grown_p), measured.covariance) < options_.rest_limit;
+  if (!at_rest) grown_p = grown(dt, options_.hand_m, options_.hand_rad);
   const Matrix12 p = as_eigen(grown_p);
   lasting_ = blurred(measured.covariance, {y(0), y(1), y(2), y(3), y(4), y(5)}, dt);
   const Matrix6 noise = as_eigen(lasting_);

@@ -42,7 +42,6 @@ class PoseFilter {
   [[nodiscard]] bool alive() const { return alive_; }
   void stop() { alive_ = false; }
   [[nodiscard]] Timestamp time() const { return time_; }
-  [[nodiscard]] bool at_rest() const { return at_rest_; }
 
   /// Where the tool is at a later time; `alive` must hold.
   [[nodiscard]] Tracked<Pose> predicted(Timestamp time) const;
@@ -63,7 +62,6 @@ class PoseFilter {
 
   PoseFilterOptions options_;
   bool alive_ = false;
-  bool at_rest_ = false;
   Timestamp time_{};
   Pose pose_;
   Vec3 velocity_m_{};
