@@ -23,6 +23,11 @@ constexpr double kTruncateSd = 3.0;
 constexpr double kTruncateLeast_m = 0.0009;
 /// A pose that moves no target farther is not another one.
 constexpr double kSameAtTargets_m = 0.002;
+/// Points that scatter more than a tracker's were stroked by a light hand, or over soft tissue:
+/// their mean height above the bone is asked for then, and used when it is as certain as that.
+constexpr double kLooseHand_m = 0.0005;
+constexpr double kCertainSd = 3.5;
+constexpr double kHighest_m = 0.004;
 /// Points within this many SDs lie on the surface.
 constexpr double kInlierSd = 3.5;
 /// A level that explains the points nearly as well as this one does.
@@ -61,10 +66,27 @@ double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Verte
   return most;
 }
 
+/// The tip does not dive into bone.
+bool is_credible_lift(double lift_m) { return lift_m > 0.0 && lift_m < kHighest_m; }
+
 struct Candidate {
   SurfaceFit fit;
   double cost_m2 = 0.0;
 };
+
+/// The points again, their mean height above the bone being unknown; returns the least noise.
+double refit_with_lift(const VertebraModel& model, const Cloud& cloud, SurfaceFitOptions fine,
+                       std::vector<Candidate>& candidates) {
+  fine.with_lift = true;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (Candidate& c : candidates) {
+    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m, c.fit.pose, fine);
+        fit && is_credible_lift(fit->lift_m))
+      c.fit = std::move(*fit);
+    least_m = std::min(least_m, c.fit.noise_m);
+  }
+  return least_m;
+}
 
 /// Every pose that could be meant, fitted exactly, the best first.
 /// Goes on until one is another pose at the targets, where any are given.
@@ -97,6 +119,7 @@ std::vector<Candidate> candidates(const VertebraModel& model, const Cloud& cloud
       found.push_back({std::move(*fit), 0.0});
     }
   }
+  if (least_m > kLooseHand_m) least_m = refit_with_lift(model, cloud, fine, found);
   width_m = std::max(kTruncateSd * least_m, kTruncateLeast_m);
   for (Candidate& c : found) c.cost_m2 = truncated_cost_m2(c.fit, width_m);
   std::stable_sort(found.begin(), found.end(),
@@ -130,10 +153,9 @@ double inlier_share(const SurfaceFit& fit) {
   return static_cast<double>(inliers) / static_cast<double>(fit.points.size());
 }
 
-void estimate_errors(const VertebraModel& model, const SurfaceFit& fit,
+void estimate_errors(const VertebraModel& model, const std::optional<FitCovariance>& covariance,
                      std::span<const Point<Vertebra>> targets, Registration& r) {
   r.predicted_tre_m = r.tre_95_m = std::numeric_limits<double>::infinity();
-  const auto covariance = covariance_of(fit);
   if (!covariance) {
     r.weakest = "a motion of the bone is left wholly open";
     return;
@@ -148,6 +170,30 @@ void estimate_errors(const VertebraModel& model, const SurfaceFit& fit,
   const Weakness weakness = weakness_of(model, *r.uncertainty, targets);
   r.weakest = weakness.motion;
   r.advice = weakness.advice;
+}
+
+struct CertainFit {
+  SurfaceFit fit;
+  std::optional<FitCovariance> covariance;
+};
+
+/// All points, from the best candidate's pose on.
+std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& cloud,
+                                    const SurfaceFit& start,
+                                    const BestRegistrationOptions& options) {
+  SurfaceFitOptions fine;
+  fine.tip_radius_m = options.tip_radius_m;
+  for (const bool with_lift : {true, false}) {
+    if (with_lift && !(start.noise_m > kLooseHand_m || start.with_lift)) continue;
+    fine.with_lift = with_lift;
+    auto fit = fit_to_surface(model.reachable_surface(), cloud.all_m, start.pose, fine);
+    if (!fit) continue;
+    auto covariance = covariance_of(*fit);
+    if (!with_lift || (is_credible_lift(fit->lift_m) && covariance &&
+                       fit->lift_m > kCertainSd * covariance->lift_sd_m))
+      return CertainFit{std::move(*fit), std::move(covariance)};
+  }
+  return std::nullopt;
 }
 
 /// How much worse the best other pose explains the points.
@@ -221,21 +267,20 @@ Result<Registration> register_best(const VertebraModel& model,
   double width_m = 0.0;
   const std::vector<Candidate> found =
       candidates(model, cloud, targets, options.tip_radius_m, width_m);
-  SurfaceFitOptions fine;
-  fine.tip_radius_m = options.tip_radius_m;
-  const auto fit = found.empty() ? std::nullopt
-                                 : fit_to_surface(model.reachable_surface(), cloud.all_m,
-                                                  found[0].fit.pose, fine);
-  if (!fit) return Error{"registration finds no pose: the strokes fit no part of the model"};
+  const auto certain =
+      found.empty() ? std::nullopt : final_fit(model, cloud, found[0].fit, options);
+  if (!certain) return Error{"registration finds no pose: the strokes fit no part of the model"};
+  const SurfaceFit& fit = certain->fit;
   Registration r;
-  r.world_from_vertebra = world_from(fit->pose, cloud.centre_m);
-  r.rmse_m = rmse_m(*fit);
-  r.noise_m = fit->noise_m;
-  r.inlier_share = inlier_share(*fit);
-  r.iterations = fit->iterations;
+  r.world_from_vertebra = world_from(fit.pose, cloud.centre_m);
+  r.rmse_m = rmse_m(fit);
+  r.noise_m = fit.noise_m;
+  r.lift_m = fit.lift_m;
+  r.inlier_share = inlier_share(fit);
+  r.iterations = fit.iterations;
   r.points = points_in_world.size();
-  estimate_errors(model, *fit, targets, r);
-  r.coverage_share = coverage_share(model, *fit);
+  estimate_errors(model, certain->covariance, targets, r);
+  r.coverage_share = coverage_share(model, fit);
   compare_poses(found, cloud, targets, r);
   compare_levels(cloud, truncated_cost_m2(found[0].fit, width_m), width_m, options, r);
   judge(options, r);

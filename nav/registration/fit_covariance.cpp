@@ -11,7 +11,9 @@ namespace orthonav::nav {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
+/// Pose and lift.
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 /// A larger step between two points begins another stroke.
 constexpr double kLeap_m = 0.008;
@@ -31,10 +33,10 @@ constexpr double kLever_m = 0.03;
 /// The motion least seen may be this much less visible than the best seen one.
 constexpr double kWeakest = 1e-6;
 
-Vector6 derivative(const FittedPoint& p) {
+Vector7 derivative(const FittedPoint& p, bool with_lift) {
   const Vec3 turn = p.arm_m.cross(p.gradient);
-  Vector6 j;
-  j << p.gradient.x, p.gradient.y, p.gradient.z, turn.x, turn.y, turn.z;
+  Vector7 j;
+  j << p.gradient.x, p.gradient.y, p.gradient.z, turn.x, turn.y, turn.z, with_lift ? -1.0 : 0.0;
   return j;
 }
 
@@ -87,45 +89,59 @@ std::vector<double> autocovariance(const SurfaceFit& fit, const std::vector<int>
   return out;
 }
 
-Matrix6 middle_along_strokes(const SurfaceFit& fit, const std::vector<Vector6>& j,
+Matrix7 middle_along_strokes(const SurfaceFit& fit, const std::vector<Vector7>& j,
                              const std::vector<int>& stroke, const std::vector<double>& gamma) {
-  Matrix6 out = Matrix6::Zero();
+  Matrix7 out = Matrix7::Zero();
   for (std::size_t lag = 0; lag < gamma.size(); ++lag) {
-    Matrix6 sum = Matrix6::Zero();
+    Matrix7 sum = Matrix7::Zero();
     for (std::size_t i = 0; i + lag < j.size(); ++i)
       if (stroke[i] == stroke[i + lag] && fit.points[i].weight > 0.0 &&
           fit.points[i + lag].weight > 0.0)
         sum.noalias() += j[i] * j[i + lag].transpose();
-    out += lag == 0 ? Matrix6(gamma[0] * sum) : Matrix6(gamma[lag] * (sum + sum.transpose()));
+    out += lag == 0 ? Matrix7(gamma[0] * sum) : Matrix7(gamma[lag] * (sum + sum.transpose()));
   }
   return out;
 }
 
 /// Every cell's points err alike.
-Matrix6 middle_by_cells(const SurfaceFit& fit, const std::vector<Vector6>& j, double gamma) {
-  std::map<std::array<long, 3>, Vector6> cells;
+Matrix7 middle_by_cells(const SurfaceFit& fit, const std::vector<Vector7>& j, double gamma) {
+  std::map<std::array<long, 3>, Vector7> cells;
   for (std::size_t i = 0; i < j.size(); ++i) {
     if (!(fit.points[i].weight > 0.0)) continue;
     const auto cell = [](double x) { return std::lround(x / kCell_m); };
     const Vec3 p = fit.points[i].arm_m;
-    cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, Vector6::Zero()).first->second += j[i];
+    cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, Vector7::Zero()).first->second += j[i];
   }
-  Matrix6 out = Matrix6::Zero();
+  Matrix7 out = Matrix7::Zero();
   for (const auto& [cell, sum] : cells) out += gamma * sum * sum.transpose();
   return out;
+}
+
+/// Nothing when a motion is left open.
+std::optional<Matrix7> inverse_of(const Matrix7& information) {
+  Vector7 lever;
+  lever << 1, 1, 1, kLever_m, kLever_m, kLever_m, 1;
+  const auto scale = lever.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix7> solver(Matrix7(scale * information * scale));
+  if (!(solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[6])) return std::nullopt;
+  return Matrix7(scale *
+                 (solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
+                  solver.eigenvectors().transpose()) *
+                 scale);
 }
 
 }  // namespace
 
 std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
   const Strokes strokes = strokes_of(fit);
-  std::vector<Vector6> j;
+  std::vector<Vector7> j;
   j.reserve(fit.points.size());
-  Matrix6 plain = Matrix6::Zero();
+  Matrix7 plain = Matrix7::Zero();
+  if (!fit.with_lift) plain(6, 6) = 1.0;
   double slope = 0.0;  // mean derivative of the influence by the residual
   double used = 0.0;
   for (const FittedPoint& p : fit.points) {
-    j.push_back(derivative(p));
+    j.push_back(derivative(p, fit.with_lift));
     if (!(p.weight > 0.0)) continue;
     plain += j.back() * j.back().transpose();
     const double t = std::sqrt(p.weight);  // 1 - (r/c)^2
@@ -134,33 +150,28 @@ std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
   }
   if (used < 12.0) return std::nullopt;
   slope = std::max(slope / used, 0.2);
-  Vector6 lever;
-  lever << 1, 1, 1, kLever_m, kLever_m, kLever_m;
-  const Matrix6 scaled =
-      lever.cwiseInverse().asDiagonal() * plain * lever.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled);
-  if (!(solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[5])) return std::nullopt;
-  const Matrix6 inverse =
-      lever.cwiseInverse().asDiagonal() *
-      (solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
-       solver.eigenvectors().transpose()) *
-      lever.cwiseInverse().asDiagonal();
+  const auto inverse = inverse_of(plain);
+  if (!inverse) return std::nullopt;
   const std::vector<double> gamma =
       strokes.ordered ? autocovariance(fit, strokes.of) : std::vector<double>{[&] {
         double sum = 0.0;
         for (const FittedPoint& p : fit.points) sum += influence(p) * influence(p);
         return sum / used;
       }()};
-  const Matrix6 middle = strokes.ordered ? middle_along_strokes(fit, j, strokes.of, gamma)
+  const Matrix7 middle = strokes.ordered ? middle_along_strokes(fit, j, strokes.of, gamma)
                                          : middle_by_cells(fit, j, gamma[0]);
-  Matrix6 covariance = inverse * middle * inverse / (slope * slope);
-  const Matrix6 independent = inverse * (gamma[0] * plain) * inverse / (slope * slope);
+  const Matrix7 whole = *inverse * middle * *inverse / (slope * slope);
+  Matrix6 covariance = whole.topLeftCorner<6, 6>();
+  const Matrix6 independent =
+      (*inverse * (gamma[0] * plain) * *inverse).topLeftCorner<6, 6>() / (slope * slope);
   FitCovariance out;
   const double repeated = std::max(1.0, (covariance * independent.inverse()).trace() / 6.0);
   out.effective_points = used / repeated;
   // Six numbers were fitted to them, and some correlation (between strokes, of outliers that pass)
   // shows in no residual.
-  covariance *= kUnseen * out.effective_points / std::max(out.effective_points - 6.0, 1.0);
+  const double more = kUnseen * out.effective_points / std::max(out.effective_points - 6.0, 1.0);
+  covariance *= more;
+  out.lift_sd_m = std::sqrt(more * whole(6, 6));
   std::array<double, 36> flat{};
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(flat.data()) =
       0.5 * (covariance + covariance.transpose());

@@ -101,6 +101,7 @@ struct Registration {
   // What `best` says besides; zero and empty with `paper`.
   double tre_95_m = 0.0;          ///< at the worst target
   double noise_m = 0.0;           ///< SD of the points about the surface, outliers left aside
+  double lift_m = 0.0;            ///< mean height of the tip above the bone; 0 where not certain
   double inlier_share = 0.0;      ///< of the points
   double effective_points = 0.0;  ///< independent ones that would tell as much
   double margin = 0.0;            ///< of the runner-up, log-likelihood ratio

@@ -8,8 +8,9 @@
 namespace orthonav::nav {
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
+/// Pose and lift.
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 /// Tukey's biweight is 95 % efficient at so many SDs.
 constexpr double kTukeySd = 3.6;
@@ -22,6 +23,7 @@ constexpr double kHair = 1.0 + 1e-12;
 
 void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double farthest_m,
              double tip_radius_m, SurfaceFit& fit) {
+  const double height_m = tip_radius_m + fit.lift_m;
   for (std::size_t i = 0; i < points_m.size(); ++i) {
     FittedPoint& out = fit.points[i];
     out.arm_m = fit.pose.rotation * points_m[i];
@@ -38,7 +40,7 @@ void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double
     out.nearest_m = near->point_m;
     const Vec3 off = query - near->point_m;
     const double side = off.dot(near->normal) < 0.0 ? -1.0 : 1.0;
-    out.residual_m = side * near->distance_m - tip_radius_m;
+    out.residual_m = side * near->distance_m - height_m;
     // On the surface itself only the face has a direction.
     out.gradient = near->distance_m > 1e-7 ? (side / near->distance_m) * off : near->normal;
   }
@@ -61,30 +63,36 @@ void weigh(double width_m, SurfaceFit& fit) {
 
 /// How far it went, or nothing when the pose is open.
 std::optional<double> step(SurfaceFit& fit) {
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 right = Vector6::Zero();
+  Matrix7 normal = Matrix7::Zero();
+  Vector7 right = Vector7::Zero();
   for (const FittedPoint& p : fit.points) {
     if (!(p.weight > 0.0)) continue;
     const Vec3 turn = p.arm_m.cross(p.gradient);
-    Vector6 j;
-    j << p.gradient.x, p.gradient.y, p.gradient.z, turn.x, turn.y, turn.z;
+    Vector7 j;
+    j << p.gradient.x, p.gradient.y, p.gradient.z, turn.x, turn.y, turn.z, -1.0;
     normal.selfadjointView<Eigen::Lower>().rankUpdate(j, p.weight);
     right -= p.weight * p.residual_m * j;
   }
   const double shift = kDamping * normal.topLeftCorner<3, 3>().trace();
-  const double turn = kDamping * normal.bottomRightCorner<3, 3>().trace();
+  const double turn = kDamping * normal.block<3, 3>(3, 3).trace();
   for (int k = 0; k < 6; ++k) normal(k, k) += k < 3 ? shift : turn;
-  const Eigen::LDLT<Matrix6> solver(normal.selfadjointView<Eigen::Lower>());
-  const Vector6 x = solver.solve(right);
-  if (solver.info() != Eigen::Success || !x.allFinite() || !(normal.trace() > 0.0))
+  if (!fit.with_lift) {
+    normal.row(6).setZero();
+    normal(6, 6) = 1.0;
+    right(6) = 0.0;
+  }
+  const Eigen::LDLT<Matrix7> solver(normal.selfadjointView<Eigen::Lower>());
+  const Vector7 x = solver.solve(right);
+  if (solver.info() != Eigen::Success || !x.allFinite() || !(normal.trace() > 1.0))
     return std::nullopt;
   constexpr double kLongest_m = 0.005;
   constexpr double kLever_m = 0.03;
-  const double length = x.head<3>().norm() + kLever_m * x.tail<3>().norm();
+  const double length = x.head<3>().norm() + kLever_m * x.segment<3>(3).norm() + std::abs(x(6));
   const double scale = std::min(1.0, kLongest_m / std::max(length, 1e-12));
   fit.pose.rotation =
       orthonormalized(rotation_from_vector(scale * Vec3{x(3), x(4), x(5)}) * fit.pose.rotation);
   fit.pose.centre_m += scale * Vec3{x(0), x(1), x(2)};
+  fit.lift_m += scale * x(6);
   return length;
 }
 
@@ -96,6 +104,7 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
   if (points_m.size() < 6) return std::nullopt;
   SurfaceFit fit;
   fit.pose = start;
+  fit.with_lift = options.with_lift;
   fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
   std::vector<double> scratch;
   for (bool last = false;; ++fit.iterations) {

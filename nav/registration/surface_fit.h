@@ -14,6 +14,9 @@ struct SurfaceFitOptions {
   double farthest_m = 0.005;  ///< farther points do not matter on the way
   double counted_m = 0.012;   ///< and at the end count as so far
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end, whose centre the points are
+  /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
+  /// unknowns: surfaces that face different ways tell it from a shift.
+  bool with_lift = false;
   /// What residuals are never taken to be smaller or larger than (SD).
   double least_noise_m = 0.00015;
   double most_noise_m = 0.002;
@@ -30,6 +33,8 @@ struct FittedPoint {
 
 struct SurfaceFit {
   CentredPose pose;
+  bool with_lift = false;
+  double lift_m = 0.0;   ///< residuals are about it
   double noise_m = 0.0;  ///< SD of the residuals, outliers left aside
   int iterations = 0;
   std::vector<FittedPoint> points;  ///< in the order given
