@@ -40,11 +40,11 @@ std::vector<std::string> beside(const Case& source, const std::string& label) {
 /// Prepares each level once.
 class PreparedLevels {
  public:
-  explicit PreparedLevels(const Case& source) : source_(source) {}
+  PreparedLevels(const Case& source, ModelCache& cache) : source_(source), cache_(cache) {}
 
   Result<std::shared_ptr<const nav::VertebraModel>> model(const std::string& label) {
     if (const auto known = models_.find(label); known != models_.end()) return known->second;
-    auto model = nav::VertebraModel::prepare(source_.find(label)->mesh);
+    auto model = cache_.prepared(source_.find(label)->mesh);
     if (!model)
       return Error{"case '" + source_.name + "', level '" + label + "': " + model.error().message};
     return models_[label] = *model;
@@ -52,6 +52,7 @@ class PreparedLevels {
 
  private:
   const Case& source_;
+  ModelCache& cache_;
   std::map<std::string, std::shared_ptr<const nav::VertebraModel>> models_;
 };
 
@@ -82,11 +83,17 @@ Result<std::vector<std::string>> levels_to_operate(const Case& source,
 }
 
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels) {
+  ModelCache none;
+  return plan_operation(source, labels, none);
+}
+
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
+                                 ModelCache& cache) {
   const auto ordered = levels_to_operate(source, labels);
   if (!ordered) return ordered.error();
   Operation operation;
   operation.case_name = source.name;
-  PreparedLevels prepared(source);
+  PreparedLevels prepared(source, cache);
   for (const std::string& label : *ordered) {
     const auto model = prepared.model(label);
     if (!model) return model.error();

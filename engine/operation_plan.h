@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/case_file.h"
+#include "engine/model_cache.h"
 #include "engine/operation.h"
 
 namespace orthonav::engine {
@@ -14,7 +15,10 @@ Result<std::vector<std::string>> levels_to_operate(const Case& source,
                                                    const std::vector<std::string>& labels = {});
 
 /// Prepares levels of a case for an operation, in the order of the case. `labels` empty: the two
-/// lowest of the spine. Refuses a label that the case does not have or that is named twice.
+/// lowest of the spine. Refuses a label that the case does not have or that is named twice. `cache`
+/// may have them from an earlier time; what it hadn't, it can `keep` afterwards.
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
+                                 ModelCache& cache);
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});
 
 }  // namespace orthonav::engine

@@ -29,7 +29,8 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   if (const auto problems = options.check(); !problems.empty()) return Error{joined(problems)};
   const auto method = method_named(options.method);
   if (!method) return method.error();
-  auto operation = plan_operation(source, options.levels);
+  ModelCache none;
+  auto operation = plan_operation(source, options.levels, guests.models ? *guests.models : none);
   if (!operation) return operation.error();
   auto headset = sim::SimHeadset::open(room_of(source, *operation, options.tools), options.sim);
   if (!headset) return headset.error();

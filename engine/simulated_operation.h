@@ -9,6 +9,7 @@
 #include "engine/case_file.h"
 #include "engine/frame_loop.h"
 #include "engine/method.h"
+#include "engine/model_cache.h"
 #include "engine/operation_result.h"
 #include "hal/sim/sim_headset.h"
 
@@ -35,6 +36,7 @@ struct OperationGuests {
   std::vector<SessionObserver*> session;
   LoopObserver* loop = nullptr;
   SnapshotSink* sink = nullptr;
+  ModelCache* models = nullptr;  ///< asked for prepared models; not told to keep any
   /// Called once the room is open and before the first frame; an Error ends the run.
   std::function<Status(sim::SimHeadset&, const Method&, const Session&)> opened;
 };

@@ -14,6 +14,7 @@
 #include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/demo_report.h"
+#include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/out_folder.h"
 #include "tools/progress.h"
@@ -155,9 +156,13 @@ class Demo {
     guests.session = {journal_.get()};
     guests.loop = &progress;
     guests.sink = view_.get();
+    engine::ModelCache models(out_->file("models"));
+    guests.models = &models;
     guests.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
       view_->look_at(headset, options.sim.magnitudes);
       began_ = true;
+      models.keep();
+      print_notes(models);
       return remove_earlier_results(out_->path());
     };
     return engine::run_operation(source, options, guests);

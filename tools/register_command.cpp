@@ -7,12 +7,14 @@
 
 #include "engine/mesh_file.h"
 #include "engine/method.h"
+#include "engine/model_cache.h"
 #include "engine/operation.h"
 #include "engine/plan_file.h"
 #include "engine/points_file.h"
 #include "nav/guidance/predicted_error.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
+#include "tools/model_notes.h"
 
 namespace orthonav::tools {
 namespace {
@@ -26,6 +28,7 @@ struct RegisterArguments {
   std::string frame;  ///< empty: what the files say, else LPS
   std::string plan;
   std::string method = "best";
+  std::string cache;  ///< folder; empty: nothing is kept
   JsonOutput json;
 };
 
@@ -72,10 +75,13 @@ Result<Inputs> load(const RegisterArguments& arguments) {
   auto mesh = load_model(arguments, inputs, axes);
   if (!mesh) return mesh.error();
   inputs.model_axes = engine::declared_axes(arguments.model).value_or(axes);
-  auto model = nav::VertebraModel::prepare(std::move(*mesh));
+  if (const Status s = load_points(arguments, inputs); !s) return s.error();
+  engine::ModelCache models(arguments.cache);
+  auto model = models.prepared(*mesh);
   if (!model) return Error{arguments.model + ": " + model.error().message};
   inputs.model = std::move(*model);
-  if (const Status s = load_points(arguments, inputs); !s) return s.error();
+  models.keep();
+  print_notes(models);
   return inputs;
 }
 
@@ -199,6 +205,10 @@ void add_register_command(CLI::App& app, Action& action) {
       ->type_name("PLAN");
   command->add_option("--method", arguments->method, "registration: best or paper")
       ->capture_default_str();
+  command
+      ->add_option("--cache", arguments->cache,
+                   "Folder that keeps the prepared model for the next time [nothing is kept]")
+      ->type_name("DIR");
   arguments->json.add_to(*command);
   command->footer(kFooter);
   command->callback(

@@ -1,10 +1,12 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "engine/atomic_file.h"
 #include "engine/evaluation.h"
 #include "engine/journal.h"
+#include "engine/model_cache.h"
 #include "engine/observer_list.h"
 #include "engine/operation_plan.h"
 #include "engine/operation_result.h"
@@ -17,6 +19,7 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/out_folder.h"
 #include "tools/progress.h"
@@ -95,7 +98,9 @@ class LiveRun {
     const auto source = load_checked_case(arguments_.case_folder);
     if (!source) return source.error();
     case_name_ = source->name;
-    auto operation = engine::plan_operation(*source, arguments_.levels);
+    if (!arguments_.out.empty())
+      models_ = engine::ModelCache((std::filesystem::path(arguments_.out) / "models").string());
+    auto operation = engine::plan_operation(*source, arguments_.levels, models_);
     if (!operation) return operation.error();
     OpenOptions open_options;
     open_options.room = engine::room_of(*source, *operation, engine::built_in_tools());
@@ -135,6 +140,8 @@ class LiveRun {
     if (!journal) return journal.error();
     journal_ = std::move(*journal);
     observers_.add(journal_.get());
+    models_.keep();
+    print_notes(models_);
     return {};
   }
 
@@ -166,6 +173,7 @@ class LiveRun {
 
   RunArguments arguments_;
   engine::Method method_;
+  engine::ModelCache models_;
   std::string case_name_;
   std::unique_ptr<Headset> headset_;
   std::unique_ptr<replay::RecordingHeadset> recorder_;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
+#include "hal/api/result.h"
 #include "nav/geometry/mesh.h"
 
 namespace orthonav::nav {
@@ -15,11 +17,21 @@ class ClosestGrid {
   /// Covers the mesh and `margin_m` around it; points outside take the border's cell.
   ClosestGrid(const TriangleMesh& mesh, const SurfaceIndex& surface, double cell_m,
               double margin_m);
+  /// The same from what `closest_m` gave, without the time that it takes to make. Refuses what is
+  /// not of this mesh: another number of cells, or places that are not the closest ones wherever
+  /// they are looked at (some hundred cells are).
+  static Result<ClosestGrid> restored(const TriangleMesh& mesh, const SurfaceIndex& surface,
+                                      double cell_m, double margin_m, std::vector<Vec3> closest_m);
+  /// Of every cell's centre, x running fastest.
+  [[nodiscard]] std::span<const Vec3> closest_m() const { return closest_m_; }
   [[nodiscard]] Vec3 nearest(Vec3 query_m) const {
     return closest_m_[cell(0, query_m) + cell(1, query_m) + cell(2, query_m)];
   }
 
  private:
+  ClosestGrid(const TriangleMesh& mesh, double cell_m, double margin_m);
+  [[nodiscard]] std::size_t cells() const;
+  [[nodiscard]] Vec3 centre_m(std::size_t cell) const;
   /// The axis' share of the index; NaN falls into the first cell.
   [[nodiscard]] std::size_t cell(int axis, Vec3 query_m) const {
     const auto k = static_cast<std::size_t>(axis);

@@ -1,6 +1,9 @@
 #include "nav/geometry/distance_field.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace orthonav::nav {
 namespace {
@@ -8,10 +11,14 @@ namespace {
 /// Farther from the surface nobody asks on which side a point lies.
 constexpr double kSigned_m = 0.008;
 
+float signed_distance_m(double distance_m, const SurfaceIndex& bone, Vec3 place_m) {
+  const bool inside = distance_m < kSigned_m && bone.contains(place_m);
+  return static_cast<float>(inside ? -distance_m : distance_m);
+}
+
 }  // namespace
 
-DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
-                             const SurfaceIndex& bone, double cell_m, double margin_m)
+DistanceField::DistanceField(const TriangleMesh& mesh, double cell_m, double margin_m)
     : cell_m_(cell_m) {
   const Bounds box = bounds_of(mesh);
   const Vec3 margin{margin_m, margin_m, margin_m};
@@ -20,23 +27,60 @@ DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
   for (std::size_t k = 0; k < 3; ++k)
     size_[k] = static_cast<int>(std::ceil(extent[static_cast<int>(k)] / cell_m)) + 1;
   bounds_.high = bounds_.low + cell_m * Vec3{size_[0] - 1.0, size_[1] - 1.0, size_[2] - 1.0};
-  distance_m_.reserve(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
-                      static_cast<std::size_t>(size_[2]));
-  for (int z = 0; z < size_[2]; ++z)
-    for (int y = 0; y < size_[1]; ++y) {
-      double before_m = 1e9;
-      for (int x = 0; x < size_[0]; ++x) {
-        const Vec3 query =
-            bounds_.low +
-            cell_m * Vec3{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-        // Nothing is farther than the neighbour's distance and the step to it.
-        const auto found = near.nearest(query, before_m + cell_m * (1.0 + 1e-9));
-        const double distance = found ? found->distance_m : before_m + cell_m;
-        const bool inside = distance < kSigned_m && bone.contains(query);
-        before_m = distance;
-        distance_m_.push_back(static_cast<float>(inside ? -distance : distance));
-      }
-    }
+}
+
+std::size_t DistanceField::count() const {
+  return static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
+         static_cast<std::size_t>(size_[2]);
+}
+
+Vec3 DistanceField::place_m(std::size_t sample) const {
+  const auto row = static_cast<std::size_t>(size_[0]);
+  const std::size_t slice = row * static_cast<std::size_t>(size_[1]);
+  return bounds_.low + cell_m_ * Vec3{static_cast<double>(sample % row),
+                                      static_cast<double>(sample % slice / row),
+                                      static_cast<double>(sample / slice)};
+}
+
+DistanceField::DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near,
+                             const SurfaceIndex& bone, double cell_m, double margin_m)
+    : DistanceField(mesh, cell_m, margin_m) {
+  const std::size_t samples = count();
+  const auto row = static_cast<std::size_t>(size_[0]);
+  distance_m_.reserve(samples);
+  double before_m = 0.0;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const Vec3 place = place_m(i);
+    // Nothing is farther than the neighbour's distance and the step to it.
+    const double within_m = i % row > 0 ? before_m + cell_m * (1.0 + 1e-9) : 1e9;
+    const auto found = near.nearest(place, within_m);
+    before_m = found ? found->distance_m : before_m + cell_m;
+    distance_m_.push_back(signed_distance_m(before_m, bone, place));
+  }
+}
+
+Result<DistanceField> DistanceField::restored(const TriangleMesh& mesh, const SurfaceIndex& near,
+                                              const SurfaceIndex& bone, double cell_m,
+                                              double margin_m, std::vector<float> samples_m) {
+  constexpr std::size_t kLookedAt = 300;
+  constexpr double kSame_m = 1e-7;  // floats of up to 0.3 m
+  DistanceField field(mesh, cell_m, margin_m);
+  const std::size_t samples = field.count();
+  if (samples_m.size() != samples)
+    return Error{"distances at " + std::to_string(samples_m.size()) + " places, the mesh has " +
+                 std::to_string(samples)};
+  if (!std::all_of(samples_m.begin(), samples_m.end(), [](float d) { return std::isfinite(d); }))
+    return Error{"distances are not all finite"};
+  for (std::size_t i = 0; i < samples; i += std::max<std::size_t>(1, samples / kLookedAt)) {
+    const Vec3 place = field.place_m(i);
+    const auto found = near.nearest(place);
+    const double right_m =
+        found ? static_cast<double>(signed_distance_m(found->distance_m, bone, place)) : 0.0;
+    if (!found || !(std::abs(static_cast<double>(samples_m[i]) - right_m) <= kSame_m))
+      return Error{"distances are of another mesh (place " + std::to_string(i) + ")"};
+  }
+  field.distance_m_ = std::move(samples_m);
+  return field;
 }
 
 bool DistanceField::at(Vec3 query_m, Value& value) const {

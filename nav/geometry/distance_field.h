@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "hal/api/result.h"
 #include "nav/geometry/mesh.h"
 
 namespace orthonav::nav {
@@ -18,6 +20,14 @@ class DistanceField {
   /// `near` is the index, and `margin_m` around it.
   DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near, const SurfaceIndex& bone,
                 double cell_m, double margin_m);
+  /// The same from what `samples_m` gave, without the time that it takes to make. Refuses what is
+  /// not of these surfaces: another number of samples, or distances that are wrong wherever they
+  /// are looked at (some hundred places are).
+  static Result<DistanceField> restored(const TriangleMesh& mesh, const SurfaceIndex& near,
+                                        const SurfaceIndex& bone, double cell_m, double margin_m,
+                                        std::vector<float> samples_m);
+  /// At the corners of the cells, x running fastest.
+  [[nodiscard]] std::span<const float> samples_m() const { return distance_m_; }
 
   struct Value {
     double distance_m = 0.0;
@@ -29,6 +39,10 @@ class DistanceField {
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
 
  private:
+  DistanceField(const TriangleMesh& mesh, double cell_m, double margin_m);
+  [[nodiscard]] std::size_t count() const;
+  [[nodiscard]] Vec3 place_m(std::size_t sample) const;
+
   Bounds bounds_;
   double cell_m_;
   std::array<int, 3> size_{};  ///< samples along each axis

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "nav/registration/spread_points.h"
 #include "nav/registration/surface_step.h"
@@ -178,8 +179,21 @@ void refine(const SearchField& vertebra, std::span<const Vec3> points_m, const S
 
 SearchField::SearchField(const TriangleMesh& reachable, const SurfaceIndex& reachable_surface,
                          const SurfaceIndex& bone)
-    : reachable_bounds_(bounds_of(reachable)),
-      field_(reachable, reachable_surface, bone, kFieldCell_m, kFieldMargin_m) {
+    : SearchField(bounds_of(reachable),
+                  DistanceField(reachable, reachable_surface, bone, kFieldCell_m, kFieldMargin_m)) {
+}
+
+Result<SearchField> SearchField::restored(const TriangleMesh& reachable,
+                                          const SurfaceIndex& reachable_surface,
+                                          const SurfaceIndex& bone, std::vector<float> samples_m) {
+  auto field = DistanceField::restored(reachable, reachable_surface, bone, kFieldCell_m,
+                                       kFieldMargin_m, std::move(samples_m));
+  if (!field) return field.error();
+  return SearchField(bounds_of(reachable), std::move(*field));
+}
+
+SearchField::SearchField(const Bounds& reachable_bounds, DistanceField field)
+    : reachable_bounds_(reachable_bounds), field_(std::move(field)) {
   const double pad_m = kReach_m + 2.0 * kSearchCell_m;
   const Vec3 pad{pad_m, pad_m, pad_m};
   cells_.low_m = reachable_bounds_.low - pad;

@@ -16,6 +16,10 @@ class SearchField {
  public:
   SearchField(const TriangleMesh& reachable, const SurfaceIndex& reachable_surface,
               const SurfaceIndex& bone);
+  /// The same from the samples of `field()`; refuses what is not of these surfaces.
+  static Result<SearchField> restored(const TriangleMesh& reachable,
+                                      const SurfaceIndex& reachable_surface,
+                                      const SurfaceIndex& bone, std::vector<float> samples_m);
 
   [[nodiscard]] const DistanceField& field() const { return field_; }
   /// What digitized points' centres are tried at.
@@ -31,6 +35,7 @@ class SearchField {
   [[nodiscard]] const Cells& cells() const { return cells_; }
 
  private:
+  SearchField(const Bounds& reachable_bounds, DistanceField field);
   Bounds reachable_bounds_;
   DistanceField field_;
   Cells cells_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,11 +18,30 @@
 
 namespace orthonav::nav {
 
+/// Raise it with every change after which the same mesh is prepared otherwise: what was kept of
+/// earlier preparations (engine/model_cache.h) is then made anew. A test holds it against the
+/// figures of a known bone.
+inline constexpr std::uint32_t kPreparationVersion = 1;
+
+/// What is slow to make of a vertebra, as plain numbers that can be kept.
+struct PreparedParts {
+  std::vector<std::uint32_t> reachable;  ///< faces, ascending
+  std::vector<Vec3> closest_m;           ///< of `reachable_grid`
+  std::vector<float> distance_m;         ///< of `search_field`
+};
+
 /// The preoperative vertebra, prepared once: its mesh (frame Vertebra: LPS axes, metres), the part
 /// a pointer can reach from behind, and their indices.
 class VertebraModel {
  public:
   static Result<std::shared_ptr<const VertebraModel>> prepare(TriangleMesh mesh);
+  /// The same, sooner, from the parts that an earlier preparation of this mesh gave. Refuses parts
+  /// that are not this mesh's as far as their counts and some hundred samples tell: enough against
+  /// mix-ups, not against malice. Parts with wrong numbers never crash.
+  static Result<std::shared_ptr<const VertebraModel>> restore(TriangleMesh mesh,
+                                                              PreparedParts parts);
+  [[nodiscard]] PreparedParts parts() const;
+
   [[nodiscard]] const TriangleMesh& mesh() const { return mesh_; }
   [[nodiscard]] const SurfaceIndex& surface() const { return surface_; }
   /// The posterior part: what is left after trimming what a pointer can't reach.
@@ -36,8 +56,10 @@ class VertebraModel {
   [[nodiscard]] const SearchField& search_field() const { return search_field_; }
 
  private:
-  VertebraModel(TriangleMesh mesh, TriangleMesh reachable, SurfaceIndex surface);
+  struct Surfaces;
+  VertebraModel(Surfaces surfaces, ClosestGrid grid, SearchField field);
   TriangleMesh mesh_;
+  std::vector<std::uint32_t> reachable_faces_;
   TriangleMesh reachable_;
   SurfaceIndex surface_;
   SurfaceIndex reachable_surface_;

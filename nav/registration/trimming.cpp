@@ -140,13 +140,15 @@ void drop_islands(const TriangleMesh& mesh, std::vector<bool>& kept) {
     if (kept[i] && area_m2[part[i]] < kIslandShare * total_m2) kept[i] = false;
 }
 
-TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<bool>& kept) {
+}  // namespace
+
+TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> faces) {
   constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> renamed(mesh.vertices_m.size(), kUnused);
   TriangleMesh part;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (!kept[i]) continue;
-    std::array<std::uint32_t, 3> t = mesh.triangles[i];
+  part.triangles.reserve(faces.size());
+  for (const std::uint32_t face : faces) {
+    std::array<std::uint32_t, 3> t = mesh.triangles[face];
     for (std::uint32_t& v : t) {
       if (renamed[v] == kUnused) {
         renamed[v] = static_cast<std::uint32_t>(part.vertices_m.size());
@@ -159,9 +161,8 @@ TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<bool>& kept) {
   return part;
 }
 
-}  // namespace
-
-TriangleMesh reachable_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface) {
+std::vector<std::uint32_t> faces_reachable_from_behind(const TriangleMesh& mesh,
+                                                       const SurfaceIndex& surface) {
   const double front_m = AxialView(surface, bounds_of(mesh))
                              .canal_front_m()
                              .value_or(-std::numeric_limits<double>::infinity());
@@ -173,7 +174,19 @@ TriangleMesh reachable_from_behind(const TriangleMesh& mesh, const SurfaceIndex&
     kept[i] = y_m > front_m && is_visible(surface, triangle, directions);
   }
   drop_islands(mesh, kept);
-  return part_of(mesh, kept);
+  std::vector<std::uint32_t> faces;
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i]) faces.push_back(static_cast<std::uint32_t>(i));
+  return faces;
+}
+
+TriangleMesh reachable_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface) {
+  return part_of(mesh, faces_reachable_from_behind(mesh, surface));
+}
+
+bool is_visible_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface,
+                            std::uint32_t face) {
+  return is_visible(surface, corners_of(mesh, mesh.triangles[face]), directions_from_behind());
 }
 
 }  // namespace orthonav::nav

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "nav/geometry/triangle.h"
@@ -23,29 +25,85 @@ PrincipalAxes axes_by_area(const TriangleMesh& mesh) {
   return principal_axes(centres_m, areas_m2);
 }
 
+Status check_faces(const TriangleMesh& mesh, const SurfaceIndex& surface,
+                   const std::vector<std::uint32_t>& faces) {
+  constexpr std::size_t kLookedAt = 300;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (faces[i] >= mesh.triangles.size() || (i > 0 && faces[i] <= faces[i - 1]))
+      return Error{"reachable faces are not in order, or not the mesh's"};
+  for (std::size_t i = 0; i < faces.size(); i += std::max<std::size_t>(1, faces.size() / kLookedAt))
+    if (!is_visible_from_behind(mesh, surface, faces[i]))
+      return Error{"reachable faces are of another mesh (face " + std::to_string(faces[i]) + ")"};
+  return {};
+}
+
 }  // namespace
+
+/// What both ways of making a model begin with.
+struct VertebraModel::Surfaces {
+  Surfaces(TriangleMesh whole, SurfaceIndex index, std::vector<std::uint32_t> faces)
+      : mesh(std::move(whole)),
+        surface(std::move(index)),
+        reachable_faces(std::move(faces)),
+        reachable(part_of(mesh, reachable_faces)),
+        reachable_surface(reachable) {}
+
+  TriangleMesh mesh;
+  SurfaceIndex surface;
+  std::vector<std::uint32_t> reachable_faces;
+  TriangleMesh reachable;
+  SurfaceIndex reachable_surface;
+};
 
 Result<std::shared_ptr<const VertebraModel>> VertebraModel::prepare(TriangleMesh mesh) {
   auto checked = checked_vertebra(std::move(mesh));
   if (!checked) return checked.error();
   SurfaceIndex surface(*checked);
-  TriangleMesh reachable = reachable_from_behind(*checked, surface);
-  if (reachable.triangles.empty())
+  std::vector<std::uint32_t> faces = faces_reachable_from_behind(*checked, surface);
+  if (faces.empty())
     return Error{
         "model has no surface that a pointer can reach from behind (+y): its axes must be "
         "LPS"};
+  Surfaces s(std::move(*checked), std::move(surface), std::move(faces));
+  ClosestGrid grid(s.reachable, s.reachable_surface, kGridCell_m, kGridMargin_m);
+  SearchField field(s.reachable, s.reachable_surface, s.surface);
   return std::shared_ptr<const VertebraModel>(
-      new VertebraModel(std::move(*checked), std::move(reachable), std::move(surface)));
+      new VertebraModel(std::move(s), std::move(grid), std::move(field)));
 }
 
-VertebraModel::VertebraModel(TriangleMesh mesh, TriangleMesh reachable, SurfaceIndex surface)
-    : mesh_(std::move(mesh)),
-      reachable_(std::move(reachable)),
-      surface_(std::move(surface)),
-      reachable_surface_(reachable_),
-      reachable_grid_(reachable_, reachable_surface_, kGridCell_m, kGridMargin_m),
+Result<std::shared_ptr<const VertebraModel>> VertebraModel::restore(TriangleMesh mesh,
+                                                                    PreparedParts parts) {
+  auto checked = checked_vertebra(std::move(mesh));
+  if (!checked) return checked.error();
+  if (parts.reachable.empty()) return Error{"no reachable faces"};
+  SurfaceIndex surface(*checked);
+  if (const Status s = check_faces(*checked, surface, parts.reachable); !s) return s.error();
+  Surfaces s(std::move(*checked), std::move(surface), std::move(parts.reachable));
+  auto grid = ClosestGrid::restored(s.reachable, s.reachable_surface, kGridCell_m, kGridMargin_m,
+                                    std::move(parts.closest_m));
+  if (!grid) return grid.error();
+  auto field = SearchField::restored(s.reachable, s.reachable_surface, s.surface,
+                                     std::move(parts.distance_m));
+  if (!field) return field.error();
+  return std::shared_ptr<const VertebraModel>(
+      new VertebraModel(std::move(s), std::move(*grid), std::move(*field)));
+}
+
+PreparedParts VertebraModel::parts() const {
+  const auto closest = reachable_grid_.closest_m();
+  const auto distance = search_field_.field().samples_m();
+  return {reachable_faces_, {closest.begin(), closest.end()}, {distance.begin(), distance.end()}};
+}
+
+VertebraModel::VertebraModel(Surfaces surfaces, ClosestGrid grid, SearchField field)
+    : mesh_(std::move(surfaces.mesh)),
+      reachable_faces_(std::move(surfaces.reachable_faces)),
+      reachable_(std::move(surfaces.reachable)),
+      surface_(std::move(surfaces.surface)),
+      reachable_surface_(std::move(surfaces.reachable_surface)),
+      reachable_grid_(std::move(grid)),
       reachable_axes_(axes_by_area(reachable_)),
       extremes_(extreme_points(reachable_.vertices_m, reachable_axes_)),
-      search_field_(reachable_, reachable_surface_, surface_) {}
+      search_field_(std::move(field)) {}
 
 }  // namespace orthonav::nav
