@@ -11,6 +11,7 @@
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/rod.h"
 #include "nav/guidance/screw.h"
+#include "nav/registration/check_points.h"
 #include "nav/registration/digitizer.h"
 #include "nav/registration/registration.h"
 #include "nav/tracking/tool.h"
@@ -25,6 +26,10 @@ struct LevelState {
   std::optional<nav::Registration> registration;
   /// What that registration leaves uncertain, screw by screw.
   std::vector<nav::PredictedScrewError> predicted;
+  /// What was touched on that registration to verify it, in order.
+  std::vector<nav::CheckPoint> check_points;
+  /// What the newest registration was warned of: a pointer whose tag is not as large as stated.
+  std::string warning;
   bool accepted = false;                 ///< by the surgeon; only then anything is guided on it
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration

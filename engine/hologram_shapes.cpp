@@ -18,6 +18,7 @@ using render::Label;
 using render::Scene;
 
 constexpr float kPathWidth_m = 0.001f;
+constexpr float kCheckRadius_m = 0.002f;
 constexpr float kEntryRadius_m = 0.0015f;
 constexpr float kEntryRingRadius_m = 0.003f;
 constexpr float kEntryRingWidth_m = 0.0006f;
@@ -165,6 +166,29 @@ void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
   text.runs = {{entry.text, look::kBlue}};
   if (entry.done) text.runs.push_back({" ✓", look::kGreen});
   scene.texts.push_back(std::move(text));
+}
+
+std::string distance_text(double distance_m) {
+  if (!std::isfinite(distance_m)) return "-- mm";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f mm", std::abs(distance_m) * 1e3);
+  return text.data();
+}
+
+void add_check_point(Scene& scene, Float3 position, const std::string& text, bool within,
+                     Label label) {
+  const render::Colour colour = within ? look::kGreen : look::kRed;
+  add_sphere(scene, position, kCheckRadius_m, colour, label);
+  render::TextItem item;
+  item.label = label;
+  item.position = position;
+  item.align = render::TextAlign::kLeft;
+  item.offset_right = 1.0f;
+  item.offset_up = -0.5f;
+  item.height_m = 0.0045f;
+  item.min_height_deg = 0.5f;
+  item.runs = {{text, colour}};
+  scene.texts.push_back(std::move(item));
 }
 
 Float3 trajectory_outer_end(Float3 entry, Float3 target) {

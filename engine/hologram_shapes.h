@@ -101,6 +101,13 @@ struct RodHologram {
 };
 void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 
+/// `0.4 mm`, without a sign, one decimal; `-- mm` for a distance that is not finite.
+[[nodiscard]] std::string distance_text(double distance_m);
+/// H12: a place touched to check the registration, with its distance from the surface; green where
+/// near enough, else red.
+void add_check_point(render::Scene& scene, render::Float3 position, const std::string& text,
+                     bool within, render::Label label);
+
 enum class ToolState { kMeasured, kPredicted, kLost };
 struct ToolDot {
   std::string name;

@@ -24,6 +24,20 @@ Json matrix_mm(std::array<double, 16> m) {
   return m;
 }
 
+/// What the method `best` says of a registration besides. What has no bound becomes null.
+void put_judgement(Json& line, const nav::Registration& result) {
+  line["noise_mm"] = result.noise_m * 1e3;
+  line["inlier_share"] = result.inlier_share;
+  line["effective_points"] = result.effective_points;
+  line["coverage_share"] = result.coverage_share;
+  line["margin"] = result.margin;
+  line["expected_tre_mm"] = result.predicted_tre_m * 1e3;
+  line["tre_95_mm"] = result.tre_95_m * 1e3;
+  line["weakest"] = result.weakest;
+  line["advice"] = result.advice;
+  if (!result.fits_better.empty()) line["fits_better"] = result.fits_better;
+}
+
 /// Labels come from files: bytes that are no UTF-8 must not end the journal. A line is out of this
 /// process as soon as it is written.
 void write_line(std::ostream& out, const Json& line) {
@@ -89,9 +103,29 @@ void Journal::registered(Timestamp time, const LevelState& level, const nav::Reg
     line["rmse_mm"] = result->rmse_m * 1e3;
     line["runner_up_rmse_mm"] = result->runner_up_rmse_m * 1e3;
     line["world_from_vertebra_mm"] = matrix_mm(result->world_from_vertebra.row_major());
+    if (result->tre_95_m > 0.0) put_judgement(line, *result);
   }
+  if (!level.warning.empty()) line["warning"] = level.warning;
   // Infinite, that is without a bound, becomes null.
   if (reason.empty()) line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
+  write_line(out_, line);
+}
+
+void Journal::check_point_recorded(Timestamp time, const LevelState& level) {
+  const nav::CheckPoint& point = level.check_points.back();
+  Json line = entry(file_ticks(time), time, "check point");
+  line["level"] = level.plan.label;
+  line["number"] = level.check_points.size();
+  line["in_world_mm"] = millimetres(point.place.v);
+  line["distance_mm"] = point.distance_m * 1e3;
+  line["within"] = point.within;
+  write_line(out_, line);
+}
+
+void Journal::check_point_dropped(Timestamp time, const LevelState& level) {
+  Json line = entry(file_ticks(time), time, "check point dropped");
+  line["level"] = level.plan.label;
+  line["number"] = level.check_points.size() + 1;
   write_line(out_, line);
 }
 

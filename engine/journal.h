@@ -35,6 +35,8 @@ class Journal : public SessionObserver {
   void not_understood(const Phrase& phrase) override;
   void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
                   const std::string& reason) override;
+  void check_point_recorded(Timestamp time, const LevelState& level) override;
+  void check_point_dropped(Timestamp time, const LevelState& level) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* last) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;

@@ -31,8 +31,10 @@ Result<Registrar> registrar_named(const std::string& name) {
 }
 
 Result<Method> method_named(const std::string& name) {
-  if (name == "best") return Method{name, &nav::create_best_tracker, &by_best};
-  if (name == "paper") return Method{name, &nav::create_paper_tracker, &by_paper};
+  if (name == "best")
+    return Method{name, &nav::create_best_tracker, &by_best, Verification::kByTouch, true};
+  if (name == "paper")
+    return Method{name, &nav::create_paper_tracker, &by_paper, Verification::kByEye, false};
   return unknown(name);
 }
 

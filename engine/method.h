@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/operation.h"
+#include "engine/workflow.h"
 #include "nav/registration/registration.h"
 #include "nav/tracking/tool_tracker.h"
 
@@ -30,6 +31,9 @@ struct Method {
                                                           const nav::TrackerOptions& options)>
       create_tracker;
   Registrar registrar;
+  Verification verification = Verification::kByTouch;
+  /// What was stroked so far is registered on the side, to tell what to expect and what to stroke.
+  bool coaching = false;
 };
 
 /// `paper`: the published method (Liebmann et al. 2019). `best`: tools by the photometric pose of

@@ -27,6 +27,12 @@ class ObserverList : public SessionObserver {
                   const std::string& reason) override {
     for (auto* o : observers_) o->registered(time, level, result, reason);
   }
+  void check_point_recorded(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) o->check_point_recorded(time, level);
+  }
+  void check_point_dropped(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) o->check_point_dropped(time, level);
+  }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* last) override {
     for (auto* o : observers_) o->screw_done(time, level, screw, last);

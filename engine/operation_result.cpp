@@ -19,6 +19,8 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
       level.predicted_tre_m = nav::worst_m(state.predicted);
       level.points = state.registration->points;
       level.digitization_s = state.digitization_s;
+      for (const nav::CheckPoint& point : state.check_points)
+        level.check_points_m.push_back(point.distance_m);
     }
     for (std::size_t s = 0; s < state.plan.screws.size(); ++s) {
       level.screws.push_back({state.plan.screws[s].side, state.screw_done[s], {}, {}});

@@ -30,6 +30,7 @@ struct LevelOutcome {
   /// Used by that registration; absent without one, as the time is.
   std::optional<std::size_t> points;
   std::optional<double> digitization_s;
+  std::vector<double> check_points_m;  ///< signed distances of the check points, in order
   std::vector<ScrewOutcome> screws;
 };
 

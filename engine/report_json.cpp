@@ -31,6 +31,8 @@ Json level_json(const LevelOutcome& level) {
   put_mm(out, "predicted_tre_mm", level.predicted_tre_m);
   if (level.points) out["points"] = *level.points;
   if (level.digitization_s) out["digitization_s"] = *level.digitization_s;
+  for (const double distance : level.check_points_m)
+    out["check_points_mm"].push_back(distance * 1e3);
   out["screws"] = Json::array();
   for (const ScrewOutcome& screw : level.screws) out["screws"].push_back(screw_json(screw));
   return out;

@@ -64,6 +64,7 @@ void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
   scene.texts.clear();
   add_paths(guidance, scene);
   if (visible_.vertebra) add_bone(guidance, scene);
+  if (visible_.check_points) add_check_points(guidance, scene);
   add_entries(guidance, scene);
   add_screw(guidance, scene);
   if (visible_.rods) add_rods(guidance, scene);
@@ -94,6 +95,13 @@ void SceneBuilder::add_bone(const Guidance& guidance, render::Scene& scene) {
   const LevelState& level = guidance.levels[guidance.level];
   add_vertebra(scene, surface_of(level),
                to_matrix(level.registration->world_from_vertebra.row_major()), label_of(2, 1));
+}
+
+void SceneBuilder::add_check_points(const Guidance& guidance, render::Scene& scene) {
+  std::size_t k = 0;
+  for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points)
+    add_check_point(scene, to_float3(point.place.v), distance_text(point.distance_m), point.within,
+                    label_of(12, std::min(++k, kMostInstances)));
 }
 
 void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {

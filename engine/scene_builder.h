@@ -36,6 +36,7 @@ class SceneBuilder {
 
   void add_paths(const Guidance& guidance, render::Scene& scene);
   void add_bone(const Guidance& guidance, render::Scene& scene);
+  void add_check_points(const Guidance& guidance, render::Scene& scene);
   void add_entries(const Guidance& guidance, render::Scene& scene);
   void add_screw(const Guidance& guidance, render::Scene& scene);
   void add_rods(const Guidance& guidance, render::Scene& scene);

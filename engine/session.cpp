@@ -66,14 +66,14 @@ std::vector<std::string> SessionOptions::check() const {
   if (fade < Duration::zero()) problems.push_back("fade must not be negative");
   if (!(max_touch_spread_m > 0.0 && max_touch_spread_m <= 0.01))
     problems.push_back("max_touch_spread_m must lie in (0, 0.01]");
+  for (const std::string& problem : check_points.check()) problems.push_back(problem);
   if (message_for <= Duration::zero()) problems.push_back("message_for must be positive");
   return problems;
 }
 
 Result<std::unique_ptr<Session>> Session::create(Operation operation,
                                                  std::unique_ptr<nav::ToolTracker> tracker,
-                                                 Registrar registrar,
-                                                 const SessionOptions& options) {
+                                                 Method method, const SessionOptions& options) {
   std::vector<std::string> problems = operation.check();
   for (const std::string& problem : options.check()) problems.push_back("session: " + problem);
   if (!problems.empty()) return Error{joined(problems)};
@@ -82,14 +82,13 @@ Result<std::unique_ptr<Session>> Session::create(Operation operation,
   const auto guide = only_tool(tracker->tools(), nav::ToolRole::kGuide, "guide");
   if (!guide) return guide.error();
   return std::unique_ptr<Session>(new Session(std::move(operation), std::move(tracker),
-                                              std::move(registrar), options, *pointer, *guide));
+                                              std::move(method), options, *pointer, *guide));
 }
 
-Session::Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker,
-                 Registrar registrar, const SessionOptions& options, std::size_t pointer,
-                 std::size_t guide)
+Session::Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker, Method method,
+                 const SessionOptions& options, std::size_t pointer, std::size_t guide)
     : tracker_(std::move(tracker)),
-      registrar_(std::move(registrar)),
+      method_(std::move(method)),
       options_(options),
       pointer_(pointer),
       guide_(guide) {
@@ -106,6 +105,7 @@ Session::Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker,
   for (const nav::ToolGeometry& tool : tracker_->tools())
     sights_.push_back({tool.name, tool.role, Origin::kLost});
   touch_.reserve(64);
+  if (method_.coaching) coach_ = std::make_unique<Coach>(method_.registrar);
 }
 
 const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
@@ -114,6 +114,7 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   track(frame);
   watch_active_tool(frame.time);
   collect_samples();
+  if (coach_ && step_ == Step::kDigitize) coach_->step(level().plan, digitizer_.regions());
   publish(frame, inputs.display_time);
   return guidance_;
 }
@@ -171,7 +172,7 @@ bool Session::precedes_the_hologram(Event event, Timestamp spoken) const {
 }
 
 void Session::handle(Event event, Timestamp time) {
-  const Cell cell = answer(step_, event);
+  const Cell cell = answer(step_, event, method_.verification);
   if (observer_) observer_->happened(time, step_, event, cell);
   // The step changes first, so that an action may raise the next event from where it now stands.
   step_ = cell.next;
@@ -187,7 +188,7 @@ void Session::track(const StereoFrame& frame) {
 }
 
 std::optional<std::size_t> Session::active_tool() const {
-  if (step_ == Step::kDigitize || step_ == Step::kRod) return pointer_;
+  if (step_ == Step::kDigitize || step_ == Step::kRod || checks_by_touch()) return pointer_;
   if (step_ == Step::kGuide) return guide_;
   return std::nullopt;
 }
@@ -218,7 +219,7 @@ void Session::collect_samples() {
   const nav::TrackedPose& pose = watches_[pointer_].newest();
   const Point<Marker> tip = tracker_->tools()[pointer_].tip_in_marker;
   if (step_ == Step::kDigitize && digitizer_.recording()) digitizer_.add(pose, tip);
-  if (step_ == Step::kRod && touching_ && pose.origin == Origin::kMeasured)
+  if (touching_ && (step_ == Step::kRod || checks_by_touch()) && pose.origin == Origin::kMeasured)
     touch_.push_back(pose.value * tip);
 }
 

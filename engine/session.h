@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/coach.h"
 #include "engine/guidance.h"
 #include "engine/method.h"
 #include "engine/operation.h"
@@ -25,10 +26,12 @@ struct SessionOptions {
   /// one said twice.
   double min_voice_confidence = 0.5;
   double rod_diameter_m = 0.0055;
-  /// A screw head whose tips scatter more than this over one click (root mean square about their
-  /// mean) was not touched at rest. Noise and tremor at the end of a 130 mm lever already make up
-  /// to 2.5 mm over three pairs in the simulated room; a moving tip makes 5 mm and more.
+  /// A screw head or a check point whose tips scatter more than this over one click (root mean
+  /// square about their mean) was not touched at rest. Noise and tremor at the end of a 130 mm
+  /// lever already make up to 2.5 mm over three pairs in the simulated room; a moving tip makes 5
+  /// mm and more.
   double max_touch_spread_m = 0.003;
+  nav::CheckPointRules check_points;
   /// A message to the surgeon goes by itself after so long.
   Duration message_for = std::chrono::seconds(3);
   /// A deleted path fades for so long.
@@ -52,8 +55,7 @@ class Session {
   /// Refuses an operation or options with problems, and tools without a pointer and a guide.
   static Result<std::unique_ptr<Session>> create(Operation operation,
                                                  std::unique_ptr<nav::ToolTracker> tracker,
-                                                 Registrar registrar,
-                                                 const SessionOptions& options = {});
+                                                 Method method, const SessionOptions& options = {});
 
   /// Hears everything from now on; null: nobody. Borrowed.
   void observe(SessionObserver* observer) { observer_ = observer; }
@@ -78,7 +80,7 @@ class Session {
  private:
   enum class Seen { kNever, kMeasured, kLost, kStale };
 
-  Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker, Registrar registrar,
+  Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker, Method method,
           const SessionOptions& options, std::size_t pointer, std::size_t guide);
 
   // session.cpp: the order of one step.
@@ -100,26 +102,38 @@ class Session {
   void write_state_of_step();
   [[nodiscard]] std::string tag_size_warning() const;
 
+  void write_what_to_check();
+  [[nodiscard]] bool checks_by_touch() const;
+
   // session_actions.cpp: what the table asks for.
   void act(Action action, Event event, Timestamp time);
   void act_on_regions(Action action, Timestamp time);
   void act_on_level(Action action, Timestamp time);
-  void act_on_rod(Action action, Timestamp time);
   void try_registration(Timestamp time);
+  void refuse_registration(const std::string& reason, const nav::Registration* result,
+                           Timestamp time);
   void finish_screw(Timestamp time);
-  void record_head(Timestamp time);
-  [[nodiscard]] Result<Point<World>> touched_head(Timestamp time) const;
-  void end_touch();
-  void drop_head(Timestamp time);
-  void finish_rod(Timestamp time);
-  void update_rod(Timestamp time);
   void drop_region(Timestamp time);
   void begin_level();
   void say(std::string message, Timestamp time);
+
+  // session_touch.cpp: places that the pointer's tip rests on.
+  void act_on_touch(Action action, Timestamp time);
+  void act_on_checks(Action action, Timestamp time);
+  void act_on_rod(Action action, Timestamp time);
+  [[nodiscard]] Result<Point<World>> touched_place(Timestamp time) const;
+  void end_touch();
+  void record_check(Timestamp time);
+  void drop_check(Timestamp time);
+  void judge_checks(Timestamp time);
+  void record_head(Timestamp time);
+  void drop_head(Timestamp time);
+  void finish_rod(Timestamp time);
+  void update_rod(Timestamp time);
   [[nodiscard]] LevelState& level() { return levels_[level_]; }
 
   std::unique_ptr<nav::ToolTracker> tracker_;
-  Registrar registrar_;
+  Method method_;
   SessionOptions options_;
   SessionObserver* observer_ = nullptr;
   std::size_t pointer_ = 0;  ///< indices into the tracker's tools
@@ -136,9 +150,9 @@ class Session {
   nav::Digitizer digitizer_;
   DroppedRegion dropped_;
   std::optional<Timestamp> asked_to_drop_saved_;  ///< "delete" with nothing unsaved
-  std::vector<Point<World>> touch_;  ///< tips while the button is down, for a screw head
-  bool touching_ = false;            ///< the button is down
-  bool touch_begun_ = false;         ///< on this rod, by a press that no click has used yet
+  std::vector<Point<World>> touch_;               ///< tips while the button is down
+  bool touching_ = false;                         ///< the button is down
+  bool touch_begun_ = false;  ///< in this step, by a press that no click has used yet
 
   std::span<const nav::ToolState> states_;
   std::vector<ToolWatch> watches_;
@@ -156,6 +170,7 @@ class Session {
   Timestamp message_until_{};
   std::optional<ToolGuidance> last_guidance_;  ///< newest of the selected screw
   Guidance guidance_;
+  std::unique_ptr<Coach> coach_;  ///< null: nobody is coached
 };
 
 }  // namespace orthonav::engine

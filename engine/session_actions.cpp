@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -35,16 +34,14 @@ void Session::act(Action action, Event event, Timestamp time) {
     case Action::kEndTouch:
       touching_ = false;
       return;  // the click that may follow uses the touch
-    case Action::kDropTouch:
-      end_touch();
-      say("head not recorded: hold too long", time);
-      return;
     default:
       break;
   }
   message_.clear();
   act_on_regions(action, time);
   act_on_level(action, time);
+  act_on_touch(action, time);
+  act_on_checks(action, time);
   act_on_rod(action, time);
 }
 
@@ -81,6 +78,8 @@ void Session::act_on_level(Action action, Timestamp time) {
       return;
     case Action::kShowRegistration:
       verify_visible_at_.reset();
+      level().check_points.clear();
+      end_touch();
       return;
     case Action::kAccept:
       level().accepted = true;
@@ -88,7 +87,9 @@ void Session::act_on_level(Action action, Timestamp time) {
     case Action::kClearLevel:
       level().registration.reset();
       level().predicted.clear();
+      level().check_points.clear();
       level().accepted = false;
+      if (coach_) coach_->forget();
       level().first_press.reset();
       // Wires driven on a registration that is thrown away are not undone; what was done stays.
       digitizer_.clear();
@@ -110,33 +111,6 @@ void Session::act_on_level(Action action, Timestamp time) {
   }
 }
 
-void Session::act_on_rod(Action action, Timestamp time) {
-  switch (action) {
-    case Action::kBeginRod:
-      end_touch();
-      return;
-    case Action::kBeginTouch:
-      touch_.clear();
-      touching_ = true;
-      touch_begun_ = true;
-      return;
-    case Action::kRecordHead:
-      record_head(time);
-      return;
-    case Action::kDropHead:
-      drop_head(time);
-      return;
-    case Action::kFinishRod:
-      finish_rod(time);
-      return;
-    case Action::kMoveRod:
-      rods_moved_away_ = !rods_moved_away_;
-      return;
-    default:
-      return;
-  }
-}
-
 void Session::begin_level() {
   const auto open = std::find_if(levels_.begin(), levels_.end(), [](const LevelState& level) {
     return std::find(level.screw_done.begin(), level.screw_done.end(), false) !=
@@ -145,6 +119,7 @@ void Session::begin_level() {
   level_ = open == levels_.end() ? 0 : static_cast<std::size_t>(open - levels_.begin());
   screw_ = 0;
   digitizer_.clear();
+  if (coach_) coach_->forget();
   last_guidance_.reset();
 }
 
@@ -175,8 +150,12 @@ void Session::drop_region(Timestamp time) {
 void Session::try_registration(Timestamp time) {
   LevelState& now = level();
   ++now.attempts;
+  now.warning = tag_size_warning();
+  // The trial under way has lost its use, and this one shall have the machine to itself.
+  if (coach_) coach_->forget();
   const std::vector<Point<World>> points = digitizer_.saved_points();
-  const auto result = registrar_({*now.plan.model, points, now.plan.screws, now.plan.neighbours});
+  const auto result =
+      method_.registrar({*now.plan.model, points, now.plan.screws, now.plan.neighbours});
   std::string reason;
   if (!result) {
     reason = result.error().message;
@@ -189,10 +168,19 @@ void Session::try_registration(Timestamp time) {
     now.predicted = nav::predicted_errors(*result, now.plan.screws);
     now.digitization_s = now.first_press ? seconds(time - *now.first_press) : 0.0;
   } else {
-    say("refused: " + reason, time);
+    refuse_registration(reason, result ? &*result : nullptr, time);
   }
   if (observer_) observer_->registered(time, now, result ? &*result : nullptr, reason);
   handle(reason.empty() ? Event::kRegistered : Event::kRegistrationRefused, time);
+}
+
+/// With what to do about it, if that is known.
+void Session::refuse_registration(const std::string& reason, const nav::Registration* result,
+                                  Timestamp time) {
+  std::string advice;
+  if (result) advice = result->fits_better.empty() ? result->advice : "make sure of the level";
+  say("refused: " + reason + (advice.empty() ? "" : "; " + advice), time);
+  if (result && coach_) coach_->tell(coaching_from(*result), digitizer_.saved_count());
 }
 
 void Session::finish_screw(Timestamp time) {
@@ -211,78 +199,6 @@ void Session::finish_screw(Timestamp time) {
     handle(Event::kAnotherLevel, time);
   else
     handle(Event::kNoScrewLeft, time);
-}
-
-void Session::end_touch() {
-  touch_.clear();
-  touching_ = false;
-  touch_begun_ = false;
-}
-
-Result<Point<World>> Session::touched_head(Timestamp time) const {
-  // The press fell into another rod, or before the rods.
-  if (!touch_begun_) return Error{"press again"};
-  if (touch_.empty()) {
-    // A click shorter than a frame: the pose of the pair just before it.
-    const ToolWatch& pointer = watches_[pointer_];
-    if (!pointer.fresh(time, options_.stale_after)) return Error{"pointer not seen"};
-    return pointer.last_measured_pose().value * tracker_->tools()[pointer_].tip_in_marker;
-  }
-  const auto count = static_cast<double>(touch_.size());
-  Vec3 sum{};
-  for (const Point<World>& tip : touch_) sum += tip.v;
-  const Vec3 mean = sum / count;
-  double squares = 0.0;
-  for (const Point<World>& tip : touch_) squares += (tip.v - mean).dot(tip.v - mean);
-  const double spread_m = std::sqrt(squares / count);
-  if (spread_m <= options_.max_touch_spread_m) return Point<World>{mean};
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "tip moved %.1f mm, limit %.1f mm", spread_m * 1e3,
-                options_.max_touch_spread_m * 1e3);
-  return Error{text.data()};
-}
-
-void Session::record_head(Timestamp time) {
-  const auto head = touched_head(time);
-  end_touch();
-  if (!head) {
-    say("head not recorded: " + head.error().message, time);
-    return;
-  }
-  rods_[rod_].heads.push_back(*head);
-  update_rod(time);
-  if (observer_) observer_->head_recorded(time, rods_[rod_].side, *head);
-}
-
-void Session::drop_head(Timestamp time) {
-  RodState& rod = rods_[rod_];
-  if (rod.heads.empty()) {
-    say("no head to delete", time);
-    return;
-  }
-  rod.heads.pop_back();
-  update_rod(time);
-  if (observer_) observer_->head_dropped(time, rod.side);
-}
-
-void Session::update_rod(Timestamp time) {
-  RodState& rod = rods_[rod_];
-  rod.rod.reset();
-  if (rod.heads.size() < 2) return;
-  std::vector<Vec3> heads;
-  for (const Point<World>& head : rod.heads) heads.push_back(head.v);
-  auto made = nav::rod_template(heads, options_.rod_diameter_m);
-  if (made)
-    rod.rod = std::move(*made);
-  else
-    say("no rod: " + made.error().message, time);
-}
-
-void Session::finish_rod(Timestamp time) {
-  if (observer_) observer_->rod_done(time, rods_[rod_]);
-  const bool another = rod_ + 1 < rods_.size();
-  if (another) ++rod_;
-  handle(another ? Event::kAnotherSide : Event::kNoSideLeft, time);
 }
 
 }  // namespace orthonav::engine

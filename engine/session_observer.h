@@ -20,6 +20,10 @@ class SessionObserver {
   /// none at all.
   virtual void registered(Timestamp /*time*/, const LevelState& /*level*/,
                           const nav::Registration* /*result*/, const std::string& /*reason*/) {}
+  /// A place was touched to verify the level's registration: the last of its check points.
+  virtual void check_point_recorded(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// The last of them was taken back; `level` is without it.
+  virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The surgeon declared the screw done; `last` is what he was guided by at the end, if anything.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,
                           const nav::ScrewPlan& /*screw*/, const ToolGuidance* /*last*/) {}

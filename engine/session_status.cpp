@@ -64,6 +64,25 @@ void Session::write_detail() {
     guidance_.detail += (taken ? "; " : "") + message_;
   else if (!taken)
     write_state_of_step();
+  else if (checks_by_touch()) {
+    // What is to be touched counts on beside a warning that stays.
+    guidance_.detail += "; ";
+    write_what_to_check();
+  }
+}
+
+bool Session::checks_by_touch() const {
+  return step_ == Step::kVerify && method_.verification == Verification::kByTouch;
+}
+
+void Session::write_what_to_check() {
+  const auto& points = level().check_points;
+  const nav::CheckVerdict verdict = nav::verdict_on(points, options_.check_points);
+  std::string& out = guidance_.detail;
+  if (!points.empty() && points.back().within)
+    out += "check point " + std::to_string(points.size()) + ": " +
+           millimetres(points.back().distance_m, 1) + " off; ";
+  out += verdict.passed ? "checked, worst " + millimetres(verdict.worst_m, 1) : verdict.advice;
 }
 
 /// Of the tool in use: a tag that is not as large as its tool's definition says gives wrong poses.
@@ -85,6 +104,10 @@ void Session::write_state_of_step() {
     std::size_t points = 0;
     for (const nav::Region& region : digitizer_.regions()) points += region.samples.size();
     out = std::to_string(points) + " points";
+    if (coach_ && coach_->newest()) out += " | " + text_of(*coach_->newest());
+  } else if (checks_by_touch() && registration) {
+    out = millimetres(nav::worst_m(level().predicted), 1) + " expected; ";
+    write_what_to_check();
   } else if ((step_ == Step::kVerify || step_ == Step::kAccepted) && registration) {
     out = "RMSE " + millimetres(registration->rmse_m, 2) + ", " +
           millimetres(nav::worst_m(level().predicted), 1) + " expected at the screws";

@@ -71,6 +71,12 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
       vertebra.points_in_world.push_back(level.registration->world_from_vertebra *
                                          Point<Vertebra>{landmark});
   }
+  if (visible.check_points)
+    for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points) {
+      ShownHologram& check = add(frame, "H12 check point");
+      check.text = distance_text(point.distance_m);
+      check.points_in_world.push_back(point.place);
+    }
 }
 
 void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility& visible,

@@ -39,8 +39,8 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   const std::vector<nav::ToolGeometry> tools = described_tools(room);
   auto tracker = method->create_tracker(room.cameras().calibration(), tools, options.tracker);
   if (!tracker) return tracker.error();
-  auto session = Session::create(std::move(*operation), std::move(*tracker), method->registrar,
-                                 options.session);
+  auto session =
+      Session::create(std::move(*operation), std::move(*tracker), *method, options.session);
   if (!session) return session.error();
   SimWitness witness(room);
   EndNote end_note;

@@ -26,6 +26,8 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   const LevelState* level = g.level < g.levels.size() ? &g.levels[g.level] : nullptr;
   // H2: what is to be verified, and only that; gone with a rejected registration.
   out.vertebra = g.step == Step::kVerify && level && level->registration.has_value();
+  // H12: with the surface that they were touched to check.
+  out.check_points = out.vertebra;
   // H3: entry points of everything that may be guided on, never faded by distance. An unaccepted
   // registration shows none: an entry point on display reads as "drill here".
   for (std::size_t i = 0; i < g.levels.size(); ++i)

@@ -30,6 +30,7 @@ struct Visibility {
   bool angle = false;                   ///< H6 with a number
   bool angle_lost = false;              ///< H6 without one
   bool rods = false;                    ///< H10
+  bool check_points = false;            ///< H12 of the current level
 };
 
 /// For a frame that lights up at `lights_up`, which may be later than the guidance expected.

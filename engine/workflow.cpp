@@ -7,38 +7,20 @@ constexpr std::array<std::string_view, kStepCount> kStepNames = {
     "setup", "digitize", "verify", "accepted", "guide", "rod", "done"};
 
 constexpr std::array<std::string_view, kEventCount> kEventNames = {
-    "press",
-    "release",
-    "click",
-    "double click",
-    "hold",
-    "\"start\"",
-    "\"save\"",
-    "\"delete\"",
-    "\"accept\"",
-    "\"reject\"",
-    "\"next\"",
-    "\"done\"",
-    "\"move rod\"",
-    "registered",
-    "registration refused",
-    "another screw",
-    "another level",
-    "no screw left",
-    "another side",
-    "no side left",
-    "tracking lost",
-    "pose stale",
-    "tracking regained",
+    "press",        "release",      "click",         "double click",  "hold",
+    "\"start\"",    "\"save\"",     "\"delete\"",    "\"accept\"",    "\"reject\"",
+    "\"next\"",     "\"done\"",     "\"move rod\"",  "registered",    "registration refused",
+    "checked",      "not checked",  "another screw", "another level", "no screw left",
+    "another side", "no side left", "tracking lost", "pose stale",    "tracking regained",
 };
 
 constexpr std::array<std::string_view, kActionCount> kActionNames = {
-    "refuse",        "ignore",      "begin level",  "start sampling",    "stop sampling",
-    "save region",   "drop region", "register",     "show registration", "count refusal",
-    "accept",        "clear level", "select screw", "finish screw",      "begin rod",
-    "begin touch",   "end touch",   "drop touch",   "record head",       "drop head",
-    "finish rod",    "move rod",    "finish",       "warn: tool lost",   "hide guidance",
-    "show guidance",
+    "refuse",       "ignore",         "begin level",        "start sampling",    "stop sampling",
+    "save region",  "drop region",    "register",           "show registration", "count refusal",
+    "judge checks", "ask for checks", "record check point", "drop check point",  "accept",
+    "clear level",  "select screw",   "finish screw",       "begin rod",         "begin touch",
+    "end touch",    "drop touch",     "record head",        "drop head",         "finish rod",
+    "move rod",     "finish",         "warn: tool lost",    "hide guidance",     "show guidance",
 };
 
 // A name forgotten at the end of an array would be empty.
@@ -83,6 +65,16 @@ void append_table(std::string& out) {
   }
 }
 
+void append_verify_by_eye(std::string& out) {
+  out += "Where the eye alone verifies (`paper`), `verify` answers instead:\n\n";
+  out += "| event | verify |\n|---|---|\n";
+  for (const Rule& rule : workflow_detail::kRulesByEye) {
+    out += "| " + std::string(name_of(rule.event)) + " | " + std::string(name_of(rule.action));
+    if (rule.next != rule.step) out += " → **" + std::string(name_of(rule.next)) + "**";
+    out += " |\n";
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
@@ -94,6 +86,8 @@ std::string workflow_diagram() {
   append_state_diagram(out);
   out += "\n";
   append_table(out);
+  out += "\n";
+  append_verify_by_eye(out);
   return out;
 }
 

@@ -29,6 +29,8 @@ enum class Event : std::uint8_t {
   kSayMoveRod,
   kRegistered,           ///< a registration passed its limits
   kRegistrationRefused,  ///< a registration failed its limits
+  kChecked,              ///< "accept" was said and the check points bear it out
+  kNotChecked,           ///< "accept" was said too early, or against the check points
   kAnotherScrew,         ///< the level has a further screw
   kAnotherLevel,         ///< the level is finished, a further one is planned
   kNoScrewLeft,          ///< every screw of the plan is done
@@ -38,7 +40,7 @@ enum class Event : std::uint8_t {
   kPoseStale,            ///< the step's tool was last measured longer ago than may be shown
   kTrackingRegained,     ///< the step's tool is measured again
 };
-inline constexpr std::size_t kEventCount = 23;
+inline constexpr std::size_t kEventCount = 25;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -52,6 +54,10 @@ enum class Action : std::uint8_t {
   kRegister,
   kShowRegistration,
   kCountRefusal,
+  kJudgeChecks,
+  kAskForChecks,
+  kRecordCheck,
+  kDropCheck,
   kAccept,
   kClearLevel,
   kSelectScrew,
@@ -69,7 +75,7 @@ enum class Action : std::uint8_t {
   kHideGuidance,
   kShowGuidance,
 };
-inline constexpr std::size_t kActionCount = 26;
+inline constexpr std::size_t kActionCount = 30;
 
 struct Cell {
   Step next = Step::kSetup;
@@ -117,16 +123,21 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDigitize, kPoseStale, kHideGuidance, kDigitize},
     {kDigitize, kTrackingRegained, kShowGuidance, kDigitize},
 
-    // The surgeon looks at the hologram on the bone: the only way on is his own word.
-    {kVerify, kSayAccept, kAccept, kAccepted},
+    // The surgeon looks at the hologram on the bone and touches places that were not stroked for it.
+    // The only way on is his own word, and it counts once the touched places bear it out.
+    {kVerify, kSayAccept, kJudgeChecks, kVerify},
+    {kVerify, kChecked, kAccept, kAccepted},
+    {kVerify, kNotChecked, kAskForChecks, kVerify},
     {kVerify, kSayReject, kClearLevel, kDigitize},
-    {kVerify, kPress, kIgnore, kVerify},
-    {kVerify, kRelease, kIgnore, kVerify},
-    {kVerify, kClick, kIgnore, kVerify},
-    {kVerify, kHold, kIgnore, kVerify},
-    {kVerify, kTrackingLost, kIgnore, kVerify},
-    {kVerify, kPoseStale, kIgnore, kVerify},
-    {kVerify, kTrackingRegained, kIgnore, kVerify},
+    {kVerify, kPress, kBeginTouch, kVerify},
+    {kVerify, kRelease, kEndTouch, kVerify},
+    {kVerify, kClick, kRecordCheck, kVerify},
+    {kVerify, kDoubleClick, kIgnore, kVerify},
+    {kVerify, kHold, kDropTouch, kVerify},
+    {kVerify, kSayDelete, kDropCheck, kVerify},
+    {kVerify, kTrackingLost, kWarnLost, kVerify},
+    {kVerify, kPoseStale, kHideGuidance, kVerify},
+    {kVerify, kTrackingRegained, kShowGuidance, kVerify},
 
     {kAccepted, kSayNext, kSelectScrew, kGuide},
     {kAccepted, kSayReject, kClearLevel, kDigitize},
@@ -177,44 +188,74 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDone, kPoseStale, kIgnore, kDone},
     {kDone, kTrackingRegained, kIgnore, kDone},
 });
+
+/// What `verify` answers instead where the surgeon's eye alone verifies.
+inline constexpr auto kRulesByEye = std::to_array<Rule>({
+    {kVerify, kSayAccept, kAccept, kAccepted},
+    {kVerify, kChecked, kRefuse, kVerify},
+    {kVerify, kNotChecked, kRefuse, kVerify},
+    {kVerify, kPress, kIgnore, kVerify},
+    {kVerify, kRelease, kIgnore, kVerify},
+    {kVerify, kClick, kIgnore, kVerify},
+    {kVerify, kDoubleClick, kRefuse, kVerify},
+    {kVerify, kHold, kIgnore, kVerify},
+    {kVerify, kSayDelete, kRefuse, kVerify},
+    {kVerify, kTrackingLost, kIgnore, kVerify},
+    {kVerify, kPoseStale, kIgnore, kVerify},
+    {kVerify, kTrackingRegained, kIgnore, kVerify},
+});
 // clang-format on
 
 using Table = std::array<std::array<Cell, kEventCount>, kStepCount>;
 
 /// Every cell starts as a refusal that stays where it is; the rules overwrite theirs.
-consteval Table make_table() {
+consteval Table make_table(bool by_eye) {
   Table table{};
   for (std::size_t step = 0; step < kStepCount; ++step)
     for (Cell& cell : table[step]) cell = {static_cast<Step>(step), kRefuse};
-  for (const Rule& rule : kRules)
+  const auto write = [&table](const Rule& rule) {
     table[static_cast<std::size_t>(rule.step)][static_cast<std::size_t>(rule.event)] = {
         rule.next, rule.action};
+  };
+  for (const Rule& rule : kRules) write(rule);
+  if (by_eye)
+    for (const Rule& rule : kRulesByEye) write(rule);
   return table;
 }
 
 /// Two rules for one cell would silently hide the first.
-consteval bool rules_are_unique() {
-  for (std::size_t i = 0; i < kRules.size(); ++i)
-    for (std::size_t j = i + 1; j < kRules.size(); ++j)
-      if (kRules[i].step == kRules[j].step && kRules[i].event == kRules[j].event) return false;
+consteval bool rules_are_unique(const auto& rules) {
+  for (std::size_t i = 0; i < rules.size(); ++i)
+    for (std::size_t j = i + 1; j < rules.size(); ++j)
+      if (rules[i].step == rules[j].step && rules[i].event == rules[j].event) return false;
   return true;
 }
-static_assert(rules_are_unique(), "two rules of the workflow share a cell");
+static_assert(rules_are_unique(kRules) && rules_are_unique(kRulesByEye),
+              "two rules of the workflow share a cell");
 }  // namespace workflow_detail
 
-inline constexpr workflow_detail::Table kWorkflow = workflow_detail::make_table();
+/// How a registration that passed by its numbers is verified before anything is guided on it.
+enum class Verification : std::uint8_t {
+  kByTouch,  ///< by eye, and by places of the bone that are touched for it
+  kByEye,    ///< by eye alone, as the published method has it
+};
+
+inline constexpr workflow_detail::Table kWorkflow = workflow_detail::make_table(false);
+inline constexpr workflow_detail::Table kWorkflowByEye = workflow_detail::make_table(true);
 
 /// The table's answer: every step answers every event.
-[[nodiscard]] constexpr Cell answer(Step step, Event event) {
-  return kWorkflow[static_cast<std::size_t>(step)][static_cast<std::size_t>(event)];
+[[nodiscard]] constexpr Cell answer(Step step, Event event,
+                                    Verification verification = Verification::kByTouch) {
+  const auto& table = verification == Verification::kByEye ? kWorkflowByEye : kWorkflow;
+  return table[static_cast<std::size_t>(step)][static_cast<std::size_t>(event)];
 }
 
 [[nodiscard]] std::string_view name_of(Step step);
 [[nodiscard]] std::string_view name_of(Event event);
 [[nodiscard]] std::string_view name_of(Action action);
 
-/// The workflow as docs/safety.md holds it: a mermaid diagram of the changes of step, then the
-/// whole table.
+/// The workflow as docs/safety.md holds it: a mermaid diagram of the changes of step, the whole
+/// table, and what `verify` answers instead where the eye alone verifies.
 [[nodiscard]] std::string workflow_diagram();
 
 }  // namespace orthonav::engine

@@ -116,8 +116,7 @@ class LiveRun {
     auto tracker = method_.create_tracker(headset_->cameras().calibration(), *tools,
                                           engine::OperationOptions().tracker);
     if (!tracker) return tracker.error();
-    auto session =
-        engine::Session::create(std::move(operation), std::move(*tracker), method_.registrar);
+    auto session = engine::Session::create(std::move(operation), std::move(*tracker), method_);
     if (!session) return session.error();
     session_ = std::move(*session);
     observers_.add(&end_note_);

@@ -16,7 +16,7 @@ struct Range {
 
 // The upper ends are far beyond any real room; past them the scene leaves the cameras' view, or the
 // surgeon can't finish.
-constexpr std::array<Range, 34> kRanges = {{
+constexpr std::array<Range, 35> kRanges = {{
     {"blur_sigma_px", &Magnitudes::blur_sigma_px, 0.0, 5.0},
     {"exposure_s", &Magnitudes::exposure_s, 0.0, 0.030},
     {"vignetting", &Magnitudes::vignetting, 0.0, 0.9},
@@ -37,6 +37,7 @@ constexpr std::array<Range, 34> kRanges = {{
     {"tremor_m", &Magnitudes::tremor_m, 0.0, 0.01},
     {"tremor_rad", &Magnitudes::tremor_rad, 0.0, 0.1},
     {"stroke_lift_m", &Magnitudes::stroke_lift_m, 0.0, 0.02},
+    {"touch_lift_m", &Magnitudes::touch_lift_m, 0.0, 0.02},
     {"stroke_pace_sd", &Magnitudes::stroke_pace_sd, 0.0, 1.0},
     {"bad_stroke_probability", &Magnitudes::bad_stroke_probability, 0.0, 0.9},
     {"bad_stroke_lift_m", &Magnitudes::bad_stroke_lift_m, 0.0, 0.05},

@@ -67,6 +67,9 @@ struct Magnitudes {
   /// 7-30 mm of way; never below the bone. Uncertain, and the one that the published registration
   /// RMSE was matched with (docs/accuracy.md).
   double stroke_lift_m = 0.0019;
+  /// SD of the tip above the bone when a single place is touched: pressed through soft tissue at
+  /// leisure, a fraction of what stroking leaves; never below the bone. Estimate.
+  double touch_lift_m = 0.0003;
   /// Relative SD of the stroking speed from region to region. Estimate.
   double stroke_pace_sd = 0.05;
   /// Share of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.

@@ -53,6 +53,7 @@ Surgeon::Surgeon(const RoomLayout& layout, const Magnitudes& magnitudes, const R
       heads_(&heads),
       body_(random.fork("hand"), magnitudes, slowness_of(magnitudes, random.fork("pace")),
             standing_at(layout)),
+      checking_(random.fork("checking")),
       regions_(layout.levels()),
       failures_(layout.levels()),
       life_(operate()) {
@@ -145,6 +146,7 @@ Script Surgeon::verify(std::size_t level) {
   const auto real = landmarks(layout_->room().levels[level]);
   std::array<Vec3, 4> apart{};
   const Timestamp patience = body_.now() + from_seconds(kPatience_s * kRepeats);
+  bool asked_to_touch = false;
   co_await body_.rest(1.0);
   for (double looked_s = 0.0; looked_s < kComparing_s; looked_s += kGlance_s) {
     co_await body_.rest(kGlance_s / body_.slowness());
@@ -155,15 +157,20 @@ Script Surgeon::verify(std::size_t level) {
       co_await body_.next_tick();
       model = eyes_->find("H2");
     }
+    asked_to_touch = asked_to_touch || told("touch ");
     for (std::size_t i = 0; i < real.size(); ++i) {
       const Point<Room> bone = layout_->room_from_vertebra(level) * Point<Vertebra>{real[i]};
       apart[i] += (kGlance_s / kComparing_s) * (eyes_->place(model->points_in_world[i]) - bone);
     }
   }
   const Vec3 perceived_shift = normal_vector(body_.random(), magnitudes_->overlay_comparison_m);
-  const bool fits = std::all_of(apart.begin(), apart.end(), [perceived_shift](Vec3 away) {
+  bool fits = std::all_of(apart.begin(), apart.end(), [perceived_shift](Vec3 away) {
     return (away + perceived_shift).norm() <= kAcceptedOverlay_m;  // NaN does not fit
   });
+  if (fits && asked_to_touch) {
+    co_await check_by_touch(level, fits);
+    if (!in_step(step)) co_return;
+  }
   body_.say(fits ? "accept" : "reject");
   if (!fits && ++failures_[level] >= kMaxFailures) give_up();
   if (!finished_) co_await await_change(step, fits ? "accept" : "reject");

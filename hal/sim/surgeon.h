@@ -58,6 +58,17 @@ class Surgeon {
   /// Waits until the status line leaves `step`; repeats the phrase each minute, then gives up.
   Script await_change(std::string step, std::string phrase);
 
+  // surgeon_checking.cpp
+  /// Touches spread places of the bone until the status line asks for no more; `fits` becomes false
+  /// when it says that the registration must go.
+  Script check_by_touch(std::size_t level, bool& fits);
+  Script touch_place(const std::string& step, const BoneSpot& place);
+  /// Spread over what can be stroked, each well away from those before it.
+  [[nodiscard]] std::vector<BoneSpot> places_to_check(std::size_t level);
+  [[nodiscard]] bool told(std::string_view words) const {
+    return eyes_->detail().find(words) != std::string_view::npos;
+  }
+
   // surgeon_digitizing.cpp
   Script digitize(std::size_t level);
   Script record(std::size_t level, const StrokeRegion& region, bool slips);
@@ -101,6 +112,7 @@ class Surgeon {
   const Eyes* eyes_;
   const std::vector<PlacedHead>* heads_;
   SurgeonBody body_;
+  Random checking_;  ///< of its own: who need not touch draws the same from the others
   std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
   std::vector<int> failures_;                       ///< refusals and rejections, for each level
   std::set<std::string> driven_;                    ///< guide steps whose wire is in

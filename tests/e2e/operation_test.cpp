@@ -126,7 +126,7 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
                                         options.tracker);
   ASSERT_TRUE(tracker.ok());
   auto session = Session::create(plan_operation(phantom(), options.levels).value(),
-                                 std::move(*tracker), method->registrar);
+                                 std::move(*tracker), *method);
   ASSERT_TRUE(session.ok());
   PoseLog again;
   again.session = session->get();

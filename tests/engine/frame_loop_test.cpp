@@ -16,9 +16,13 @@ using testing::kStart;
 using testing::pairs;
 
 std::unique_ptr<Session> session() {
-  return Session::create(
-             testing::operation_of({"L5"}), std::make_unique<testing::ScriptedTracker>(),
-             [](const RegistrationRequest&) -> Result<nav::Registration> { return Error{"none"}; })
+  return Session::create(testing::operation_of({"L5"}),
+                         std::make_unique<testing::ScriptedTracker>(),
+                         Method{"none",
+                                {},
+                                [](const RegistrationRequest&) -> Result<nav::Registration> {
+                                  return Error{"none"};
+                                }})
       .value();
 }
 

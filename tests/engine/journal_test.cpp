@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "tests/engine/scripted_session.h"
@@ -129,6 +130,65 @@ TEST_F(JournalTest, GivesNoNumbersOfARegistrationThatThereIsNot) {
   for (const char* key : {"points", "rmse_mm", "world_from_vertebra_mm", "predicted_tre_mm"}) {
     EXPECT_FALSE(registrations[0].contains(key)) << key;
     EXPECT_TRUE(registrations[1].contains(key)) << key;
+  }
+}
+
+TEST_F(JournalTest, TellsWhatBestSaysOfARegistrationAndThePlacesTouchedToCheckIt) {
+  auto journal = Journal::create(path_, {}).value();
+  testing::ScriptedSession s({"L5"}, {}, Verification::kByTouch);
+  s.session().observe(journal.get());
+  s.tracker().size = nav::TagSize{-0.032, 0.001, 12, true, true};
+  s.registration.noise_m = 0.0007;
+  s.registration.inlier_share = 0.97;
+  s.registration.effective_points = 120.0;
+  s.registration.margin = std::numeric_limits<double>::infinity();
+  s.registration.coverage_share = 0.6;
+  s.registration.predicted_tre_m = 0.0008;
+  s.registration.tre_95_m = 0.0014;
+  s.registration.weakest = "nods up and down";
+  s.registration.advice = "stroke the left upper lamina";
+  s.registration.fits_better = "L4";
+  s.registers_first_level();
+  s.touches({0.0, 0.0213, 0.0});
+  s.touches({0.02, 0.0251, 0.0});
+  s.says("delete");
+  ASSERT_TRUE(journal->finish().ok());
+  std::map<std::string, std::vector<nlohmann::json>> by_what;
+  for (const auto& line : lines())
+    if (line.contains("what")) by_what[line["what"]].push_back(line);
+  ASSERT_EQ(by_what["registration"].size(), 1u);
+  const auto& line = by_what["registration"][0];
+  EXPECT_DOUBLE_EQ(line["noise_mm"], 0.7);
+  EXPECT_DOUBLE_EQ(line["inlier_share"], 0.97);
+  EXPECT_DOUBLE_EQ(line["effective_points"], 120.0);
+  EXPECT_TRUE(line["margin"].is_null()) << "no rival at all";
+  EXPECT_DOUBLE_EQ(line["coverage_share"], 0.6);
+  EXPECT_DOUBLE_EQ(line["expected_tre_mm"], 0.8);
+  EXPECT_DOUBLE_EQ(line["tre_95_mm"], 1.4);
+  EXPECT_EQ(line["weakest"], "nods up and down");
+  EXPECT_EQ(line["advice"], "stroke the left upper lamina");
+  EXPECT_EQ(line["fits_better"], "L4");
+  EXPECT_EQ(line["warning"], "pointer: tag 3.2 % smaller than stated, check print and unit");
+  ASSERT_EQ(by_what["check point"].size(), 2u);
+  EXPECT_NEAR(by_what["check point"][0]["distance_mm"].get<double>(), 1.3, 1e-6);
+  EXPECT_EQ(by_what["check point"][0]["within"], true);
+  EXPECT_EQ(by_what["check point"][1]["number"], 2);
+  EXPECT_EQ(by_what["check point"][1]["within"], false);
+  EXPECT_NEAR(by_what["check point"][1]["in_world_mm"][1].get<double>(), 25.1, 1e-6);
+  ASSERT_EQ(by_what["check point dropped"].size(), 1u);
+  EXPECT_EQ(by_what["check point dropped"][0]["number"], 2);
+}
+
+TEST_F(JournalTest, SaysNothingOfBestWhereItWasNotAsked) {
+  auto journal = Journal::create(path_, {}).value();
+  testing::ScriptedSession s({"L5"});
+  s.session().observe(journal.get());
+  s.registers_first_level();
+  ASSERT_TRUE(journal->finish().ok());
+  for (const auto& line : lines()) {
+    if (line.value("what", "") != "registration") continue;
+    for (const char* key : {"noise_mm", "margin", "weakest", "advice", "warning", "tre_95_mm"})
+      EXPECT_FALSE(line.contains(key)) << key;
   }
 }
 

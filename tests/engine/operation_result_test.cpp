@@ -60,6 +60,21 @@ TEST(ReportJson, HoldsWhatTheFormatSays) {
   EXPECT_DOUBLE_EQ(json["frames"]["p99_ms"], 99.0);
 }
 
+TEST(ReportJson, HoldsTheDistancesOfCheckPointsWhereThereAreAny) {
+  EXPECT_FALSE(
+      nlohmann::json::parse(report_json(measured()))["levels"][0].contains("check_points_mm"));
+  testing::ScriptedSession s({"L5"}, {}, Verification::kByTouch);
+  s.registers_first_level();
+  s.touches({0.0, 0.0213, 0.0});
+  s.touches({0.02, 0.0195, 0.0});
+  const auto result = outcome_of(s.session().levels(), s.session().rods(), {});
+  const auto json = nlohmann::json::parse(report_json(result));
+  const auto& distances = json["levels"][0]["check_points_mm"];
+  ASSERT_EQ(distances.size(), 2u);
+  EXPECT_NEAR(distances[0].get<double>(), 1.3, 1e-6);
+  EXPECT_NEAR(distances[1].get<double>(), -0.5, 1e-6);
+}
+
 TEST(ReportJson, LeavesErrorsOutWhereThereIsNoTruth) {
   testing::ScriptedSession s({"L5"});
   s.accepts_first_level();

@@ -96,6 +96,37 @@ TEST(SceneBuilder, ShowsPathsWhileDigitizingAndNothingThatGuides) {
   EXPECT_EQ(find(frame, "H11 status")->text, "digitize L4 | 5 points");
 }
 
+TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
+  ScriptedSession s({"L4"}, {}, Verification::kByTouch);
+  s.registers_first_level();
+  EXPECT_THAT(drawn(s.pair()), ::testing::ElementsAre(1, 2, 11)) << "none yet";
+  s.touches({0.0, 0.0204, 0.0});
+  const Guidance& g = s.touches({0.02, 0.0231, 0.0});
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(1, 2, 11, 12));
+  EXPECT_EQ(drawn(g), told(g));
+  const ShownFrame frame = shown(g);
+  std::vector<std::string> texts;
+  for (const ShownHologram& hologram : frame.holograms) {
+    if (hologram.name != "H12 check point") continue;
+    texts.push_back(hologram.text);
+    ASSERT_EQ(hologram.points_in_world.size(), 1u);
+  }
+  EXPECT_THAT(texts, ::testing::ElementsAre("0.4 mm", "3.1 mm"));
+  SceneBuilder builder;
+  render::Scene scene;
+  builder.update(g);
+  builder.write_scene(g, scene);
+  const auto colour = [&](render::Label label) {
+    for (const auto& mesh : scene.meshes)
+      if (mesh.label == label) return mesh.colour;
+    return render::Colour{};
+  };
+  EXPECT_EQ(colour(1201), look::kGreen);
+  EXPECT_EQ(colour(1202), look::kRed);
+  // They go with the surface that they checked.
+  EXPECT_THAT(drawn(s.says("reject")), ::testing::Not(::testing::Contains(12)));
+}
+
 TEST(SceneBuilder, FadesADeletedRegionAndThenForgetsIt) {
   ScriptedSession s;
   s.tracker().pointer = pointer_at({0, 0.02, 0});

@@ -95,7 +95,8 @@ std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame)
   return states_;
 }
 
-ScriptedSession::ScriptedSession(std::vector<std::string> labels, SessionOptions options) {
+ScriptedSession::ScriptedSession(std::vector<std::string> labels, SessionOptions options,
+                                 Verification verification, bool coaching) {
   registration.accepted = true;
   registration.rmse_m = 0.0006;
   registration.points = 300;
@@ -106,7 +107,9 @@ ScriptedSession::ScriptedSession(std::vector<std::string> labels, SessionOptions
     if (unusable) return Error{*unusable};
     return registration;
   };
-  session_ = Session::create(operation_of(labels), std::move(tracker), registrar, options).value();
+  session_ = Session::create(operation_of(labels), std::move(tracker),
+                             {"scripted", {}, registrar, verification, coaching}, options)
+                 .value();
 }
 
 const Guidance& ScriptedSession::pair() {
@@ -162,12 +165,16 @@ const Guidance& ScriptedSession::accepts() {
   return says("accept");
 }
 
-const Guidance& ScriptedSession::accepts_first_level() {
+const Guidance& ScriptedSession::registers_first_level() {
   tracker_->pointer = pointer_at({0, 0.02, 0});
   says("start");
   strokes(5);
   says("save");
-  does({ClickerAction::kDoubleClick});
+  return does({ClickerAction::kDoubleClick});
+}
+
+const Guidance& ScriptedSession::accepts_first_level() {
+  registers_first_level();
   return accepts();
 }
 

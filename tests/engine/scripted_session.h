@@ -43,7 +43,8 @@ class ScriptedTracker : public nav::ToolTracker {
 class ScriptedSession {
  public:
   explicit ScriptedSession(std::vector<std::string> labels = {"L4", "L5"},
-                           SessionOptions options = {});
+                           SessionOptions options = {},
+                           Verification verification = Verification::kByEye, bool coaching = false);
 
   const Guidance& pair();
   const Guidance& pairs(int n);
@@ -55,6 +56,8 @@ class ScriptedSession {
   const Guidance& strokes(int n);
   /// A click of two pairs with the pointer's tip at `tip`.
   const Guidance& touches(Vec3 tip);
+  /// From setup to `verify` of the first level.
+  const Guidance& registers_first_level();
   /// Looks at the registration, then accepts it.
   const Guidance& accepts();
   /// From setup to `accepted` of the first level.

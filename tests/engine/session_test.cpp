@@ -216,8 +216,8 @@ TEST(SessionOptions, NamesEveryProblem) {
 TEST(Session, RefusesAnOperationWithoutScrewsOrWithDoubleLabels) {
   Operation operation = testing::operation_of({"L4", "L4"});
   operation.levels[0].screws.clear();
-  const auto made = Session::create(std::move(operation),
-                                    std::make_unique<testing::ScriptedTracker>(), Registrar{});
+  const auto made =
+      Session::create(std::move(operation), std::make_unique<testing::ScriptedTracker>(), Method{});
   ASSERT_FALSE(made.ok());
   EXPECT_THAT(made.error().message, HasSubstr("no screw"));
   EXPECT_THAT(made.error().message, HasSubstr("named twice"));
@@ -233,6 +233,14 @@ TEST(Method, AnUnknownOneIsRefusedInOneLine) {
   EXPECT_TRUE(registrar_named("paper").ok());
   EXPECT_TRUE(method_named("paper").ok());
   EXPECT_FALSE(method_named("Paper ").ok());
+}
+
+TEST(Method, OnlyThePublishedOneIsVerifiedByEyeAlone) {
+  EXPECT_EQ(method_named("best")->verification, Verification::kByTouch);
+  EXPECT_EQ(method_named("paper")->verification, Verification::kByEye);
+  EXPECT_EQ(Method{}.verification, Verification::kByTouch) << "nobody forgets it";
+  EXPECT_TRUE(method_named("best")->coaching);
+  EXPECT_FALSE(method_named("paper")->coaching);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
   // Raised by the session itself, in these steps only.
   constexpr std::pair<Step, Event> kRaised[] = {
       {Step::kDigitize, Event::kRegistered}, {Step::kDigitize, Event::kRegistrationRefused},
+      {Step::kVerify, Event::kChecked},      {Step::kVerify, Event::kNotChecked},
       {Step::kGuide, Event::kAnotherScrew},  {Step::kGuide, Event::kAnotherLevel},
       {Step::kGuide, Event::kNoScrewLeft},   {Step::kRod, Event::kAnotherSide},
       {Step::kRod, Event::kNoSideLeft}};
@@ -69,19 +70,47 @@ TEST(Workflow, EveryStepCanBeReachedAndAllButTheLastCanBeLeft) {
   }
 }
 
-TEST(Workflow, OnlyTheSurgeonsWordLeadsToGuidance) {
+class EveryVerification : public ::testing::TestWithParam<Verification> {};
+INSTANTIATE_TEST_SUITE_P(Workflow, EveryVerification,
+                         ::testing::Values(Verification::kByTouch, Verification::kByEye));
+
+TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
+  // What is raised on his "accept" when the touched places bear it out, else the word itself.
+  const Event accepting =
+      GetParam() == Verification::kByTouch ? Event::kChecked : Event::kSayAccept;
   for (std::size_t s = 0; s < kStepCount; ++s)
     for (std::size_t e = 0; e < kEventCount; ++e) {
       const auto step = static_cast<Step>(s);
       const auto event = static_cast<Event>(e);
-      const Step next = answer(step, event).next;
+      const Step next = answer(step, event, GetParam()).next;
       if (next == Step::kAccepted && step != Step::kAccepted) {
-        EXPECT_TRUE(step == Step::kVerify && event == Event::kSayAccept) << s << " " << e;
+        EXPECT_TRUE(step == Step::kVerify && event == accepting) << s << " " << e;
       }
       if (next == Step::kGuide && step != Step::kGuide) {
         EXPECT_TRUE(step == Step::kAccepted && event == Event::kSayNext) << s << " " << e;
       }
     }
+  EXPECT_EQ(answer(Step::kVerify, accepting, GetParam()), (Cell{Step::kAccepted, Action::kAccept}));
+}
+
+TEST(Workflow, VerifyingByTouchTheWordAloneAcceptsNothing) {
+  EXPECT_EQ(answer(Step::kVerify, Event::kSayAccept), (Cell{Step::kVerify, Action::kJudgeChecks}));
+  EXPECT_EQ(answer(Step::kVerify, Event::kNotChecked).next, Step::kVerify);
+}
+
+TEST(Workflow, VerifyingByEyeDiffersInVerifyAlone) {
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (std::size_t e = 0; e < kEventCount; ++e) {
+      const auto step = static_cast<Step>(s);
+      const auto event = static_cast<Event>(e);
+      if (step == Step::kVerify) continue;
+      EXPECT_EQ(answer(step, event, Verification::kByEye), answer(step, event)) << s << " " << e;
+    }
+  // The published way has nothing to click at and nothing to take back.
+  for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold})
+    EXPECT_EQ(answer(Step::kVerify, event, Verification::kByEye),
+              (Cell{Step::kVerify, Action::kIgnore}));
+  EXPECT_EQ(answer(Step::kVerify, Event::kSayDelete, Verification::kByEye).action, Action::kRefuse);
 }
 
 TEST(Workflow, LosingAToolNeverChangesTheStep) {
@@ -94,7 +123,7 @@ TEST(Workflow, LosingAToolNeverChangesTheStep) {
 }
 
 TEST(Workflow, AStalePoseHidesWhereverAToolIsUsed) {
-  for (const Step step : {Step::kDigitize, Step::kGuide, Step::kRod})
+  for (const Step step : {Step::kDigitize, Step::kVerify, Step::kGuide, Step::kRod})
     EXPECT_EQ(answer(step, Event::kPoseStale).action, Action::kHideGuidance) << name_of(step);
 }
 

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   const Method method = must(method_named("best"));
   auto tracker = must(method.create_tracker(headset->cameras().calibration(), built_in_tools(),
                                             {.full_search_interval = 10}));
-  auto session = must(Session::create(std::move(operation), std::move(tracker), method.registrar));
+  auto session = must(Session::create(std::move(operation), std::move(tracker), method));
   SceneBuilder builder;
   FrameLoop loop(*headset, *session, builder, {.max_frames = argc > 1 ? std::atoi(argv[1]) : 0});
   Printer printer;

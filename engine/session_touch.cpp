@@ -1,0 +1,173 @@
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "engine/session.h"
+
+namespace orthonav::engine {
+
+void Session::act_on_touch(Action action, Timestamp time) {
+  switch (action) {
+    case Action::kBeginTouch:
+      touch_.clear();
+      touching_ = true;
+      touch_begun_ = true;
+      return;
+    case Action::kDropTouch:
+      end_touch();
+      say(std::string(step_ == Step::kRod ? "head" : "check point") +
+              " not recorded: hold too long",
+          time);
+      return;
+    default:
+      return;
+  }
+}
+
+void Session::act_on_checks(Action action, Timestamp time) {
+  switch (action) {
+    case Action::kRecordCheck:
+      record_check(time);
+      return;
+    case Action::kDropCheck:
+      drop_check(time);
+      return;
+    case Action::kJudgeChecks:
+      judge_checks(time);
+      return;
+    case Action::kAskForChecks:
+      say("not accepted: " + nav::verdict_on(level().check_points, options_.check_points).advice,
+          time);
+      return;
+    default:
+      return;
+  }
+}
+
+void Session::act_on_rod(Action action, Timestamp time) {
+  switch (action) {
+    case Action::kBeginRod:
+      end_touch();
+      return;
+    case Action::kRecordHead:
+      record_head(time);
+      return;
+    case Action::kDropHead:
+      drop_head(time);
+      return;
+    case Action::kFinishRod:
+      finish_rod(time);
+      return;
+    case Action::kMoveRod:
+      rods_moved_away_ = !rods_moved_away_;
+      return;
+    default:
+      return;
+  }
+}
+
+void Session::end_touch() {
+  touch_.clear();
+  touching_ = false;
+  touch_begun_ = false;
+}
+
+Result<Point<World>> Session::touched_place(Timestamp time) const {
+  // The press fell into another step, or another rod.
+  if (!touch_begun_) return Error{"press again"};
+  if (touch_.empty()) {
+    // A click shorter than a frame: the pose of the pair just before it.
+    const ToolWatch& pointer = watches_[pointer_];
+    if (!pointer.fresh(time, options_.stale_after)) return Error{"pointer not seen"};
+    return pointer.last_measured_pose().value * tracker_->tools()[pointer_].tip_in_marker;
+  }
+  const auto count = static_cast<double>(touch_.size());
+  Vec3 sum{};
+  for (const Point<World>& tip : touch_) sum += tip.v;
+  const Vec3 mean = sum / count;
+  double squares = 0.0;
+  for (const Point<World>& tip : touch_) squares += (tip.v - mean).dot(tip.v - mean);
+  const double spread_m = std::sqrt(squares / count);
+  if (spread_m <= options_.max_touch_spread_m) return Point<World>{mean};
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "tip moved %.1f mm, limit %.1f mm", spread_m * 1e3,
+                options_.max_touch_spread_m * 1e3);
+  return Error{text.data()};
+}
+
+void Session::record_check(Timestamp time) {
+  LevelState& now = level();
+  const auto place = touched_place(time);
+  end_touch();
+  if (!place || now.check_points.size() >= nav::kMostCheckPoints) {
+    say("check point not recorded: " +
+            (place ? "there are " + std::to_string(nav::kMostCheckPoints) + " already"
+                   : place.error().message),
+        time);
+    return;
+  }
+  now.check_points.push_back(nav::check_point(
+      *now.plan.model, now.registration->world_from_vertebra, *place, options_.check_points));
+  if (observer_) observer_->check_point_recorded(time, now);
+}
+
+void Session::drop_check(Timestamp time) {
+  LevelState& now = level();
+  if (now.check_points.empty()) {
+    say("no check point to delete", time);
+    return;
+  }
+  now.check_points.pop_back();
+  if (observer_) observer_->check_point_dropped(time, now);
+}
+
+void Session::judge_checks(Timestamp time) {
+  const bool passed = nav::verdict_on(level().check_points, options_.check_points).passed;
+  handle(passed ? Event::kChecked : Event::kNotChecked, time);
+}
+
+void Session::record_head(Timestamp time) {
+  const auto head = touched_place(time);
+  end_touch();
+  if (!head) {
+    say("head not recorded: " + head.error().message, time);
+    return;
+  }
+  rods_[rod_].heads.push_back(*head);
+  update_rod(time);
+  if (observer_) observer_->head_recorded(time, rods_[rod_].side, *head);
+}
+
+void Session::drop_head(Timestamp time) {
+  RodState& rod = rods_[rod_];
+  if (rod.heads.empty()) {
+    say("no head to delete", time);
+    return;
+  }
+  rod.heads.pop_back();
+  update_rod(time);
+  if (observer_) observer_->head_dropped(time, rod.side);
+}
+
+void Session::update_rod(Timestamp time) {
+  RodState& rod = rods_[rod_];
+  rod.rod.reset();
+  if (rod.heads.size() < 2) return;
+  std::vector<Vec3> heads;
+  for (const Point<World>& head : rod.heads) heads.push_back(head.v);
+  auto made = nav::rod_template(heads, options_.rod_diameter_m);
+  if (made)
+    rod.rod = std::move(*made);
+  else
+    say("no rod: " + made.error().message, time);
+}
+
+void Session::finish_rod(Timestamp time) {
+  if (observer_) observer_->rod_done(time, rods_[rod_]);
+  const bool another = rod_ + 1 < rods_.size();
+  if (another) ++rod_;
+  handle(another ? Event::kAnotherSide : Event::kNoSideLeft, time);
+}
+
+}  // namespace orthonav::engine

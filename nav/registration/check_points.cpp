@@ -1,0 +1,107 @@
+#include "nav/registration/check_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace orthonav::nav {
+namespace {
+
+template <class... Values>
+std::string worded(const char* format, Values... values) {
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+double height_m(Vec3 a, Vec3 b, Vec3 c) {
+  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  return longest > 0.0 ? (b - a).cross(c - a).norm() / longest : 0.0;
+}
+
+/// How far the points have come: the most that lie apart from each other, up to three, and whether
+/// three of them lie off a line too.
+struct Spread {
+  std::size_t apart = 0;
+  bool off_line = false;
+};
+
+Spread spread_of(std::span<const CheckPoint> points, const CheckPointRules& rules) {
+  Spread spread;
+  spread.apart = points.empty() ? 0 : 1;
+  const auto apart = [&](std::size_t i, std::size_t j) {
+    return (points[i].place - points[j].place).norm() >= rules.apart_m;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!apart(i, j)) continue;
+      spread.apart = std::max<std::size_t>(spread.apart, 2);
+      for (std::size_t k = 0; k < j; ++k) {
+        if (!apart(i, k) || !apart(j, k)) continue;
+        spread.apart = 3;
+        if (height_m(points[i].place.v, points[j].place.v, points[k].place.v) >= rules.off_line_m)
+          spread.off_line = true;
+      }
+    }
+  return spread;
+}
+
+std::string advice_on(const Spread& spread, const CheckPointRules& rules) {
+  if (spread.apart == 0) return worded("touch 3 places, %.0f mm apart", rules.apart_m * 1e3);
+  if (spread.apart == 1)
+    return worded("touch 2 more places, %.0f mm from the others", rules.apart_m * 1e3);
+  if (spread.apart == 2)
+    return worded("touch 1 more place, %.0f mm from the others", rules.apart_m * 1e3);
+  return worded("touch 1 more place, %.0f mm off the line of the others", rules.off_line_m * 1e3);
+}
+
+}  // namespace
+
+std::vector<std::string> CheckPointRules::check() const {
+  std::vector<std::string> problems;
+  if (!(apart_m >= 0.005 && apart_m <= 0.05))
+    problems.push_back("check_points.apart_m must lie in [0.005, 0.05]");
+  if (!(within_m > 0.0 && within_m <= 0.005))
+    problems.push_back("check_points.within_m must lie in (0, 0.005]");
+  if (!(off_line_m >= 0.0 && off_line_m <= 0.5 * apart_m))
+    problems.push_back("check_points.off_line_m must lie in [0, half of apart_m]");
+  return problems;
+}
+
+CheckPoint check_point(const VertebraModel& model,
+                       const Transform<World, Vertebra>& world_from_vertebra, Point<World> touched,
+                       const CheckPointRules& rules) {
+  CheckPoint point;
+  point.place = touched;
+  point.distance_m = std::numeric_limits<double>::infinity();
+  const Vec3 in_vertebra = (world_from_vertebra.inverse() * touched).v;
+  if (!in_vertebra.is_finite()) return point;
+  const auto nearest = model.reachable_surface().nearest(in_vertebra);
+  if (!nearest) return point;
+  // The whole bone tells in from out; at an edge the nearest triangle's normal may not.
+  const double sign = model.surface().contains(in_vertebra) ? -1.0 : 1.0;
+  point.distance_m = sign * nearest->distance_m;
+  point.within = nearest->distance_m <= rules.within_m;
+  return point;
+}
+
+CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRules& rules) {
+  CheckVerdict verdict;
+  for (const CheckPoint& point : points)
+    verdict.worst_m = std::max(verdict.worst_m, std::abs(point.distance_m));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].within) continue;
+    verdict.advice =
+        worded("check point %zu is %.1f mm off, limit %.1f mm: reject and stroke again", i + 1,
+               std::abs(points[i].distance_m) * 1e3, rules.within_m * 1e3);
+    return verdict;
+  }
+  const Spread spread = spread_of(points, rules);
+  verdict.passed = spread.off_line;
+  if (!verdict.passed) verdict.advice = advice_on(spread, rules);
+  return verdict;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/api/transform.h"
+#include "nav/registration/registration.h"
+
+namespace orthonav::nav {
+
+/// When touched places of the bone confirm a registration: three that lie apart, not on one line,
+/// each near the surface. What the fit itself says can't show that it was told the wrong thing;
+/// three spread distances see every motion of a rigid body but those along the surface.
+struct CheckPointRules {
+  double apart_m = 0.015;     ///< each of the three from each other
+  double within_m = 0.002;    ///< of the surface, every check point
+  double off_line_m = 0.005;  ///< the least height of their triangle
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// More than so many say nothing new.
+inline constexpr std::size_t kMostCheckPoints = 20;
+
+/// A place of the bone, touched after the fit.
+struct CheckPoint {
+  Point<World> place;
+  double distance_m = 0.0;  ///< of the registered surface; positive outside of the bone
+  bool within = false;      ///< near enough
+};
+
+/// `touched` against the part of the model that a pointer reaches: a lamina's far face must not
+/// pass for its near one.
+[[nodiscard]] CheckPoint check_point(const VertebraModel& model,
+                                     const Transform<World, Vertebra>& world_from_vertebra,
+                                     Point<World> touched, const CheckPointRules& rules = {});
+
+struct CheckVerdict {
+  bool passed = false;
+  double worst_m = 0.0;  ///< the largest distance in size
+  std::string advice;    ///< what is wrong and what to do; empty when passed
+};
+
+/// One check point too far off, wherever it lies, and none of the others helps.
+[[nodiscard]] CheckVerdict verdict_on(std::span<const CheckPoint> points,
+                                      const CheckPointRules& rules = {});
+
+}  // namespace orthonav::nav
