@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 
 #include "engine/json_document.h"
+#include "engine/length_text.h"
 #include "engine/mesh_file.h"
 #include "engine/operation.h"
 #include "engine/plan_file.h"
@@ -98,12 +98,6 @@ Status load_levels(const std::vector<Entry>& entries, double metres_per_unit, Ca
     subject.levels.push_back(std::move(level).value());
   }
   return {};
-}
-
-std::string in_mm(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", metres * 1e3);
-  return text;
 }
 
 /// What tells that a screw is not of this bone, or is written in other axes; +x left, +y posterior.

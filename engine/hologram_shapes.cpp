@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/length_text.h"
 #include "hal/api/angle.h"
 #include "render/float3.h"
 #include "render/shapes.h"
@@ -63,12 +64,6 @@ void add_line(Scene& scene, std::vector<Float3> points, float width_m, Colour co
   scene.lines.push_back(std::move(line));
 }
 
-std::string millimetres(double length_m) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1f mm", 1e3 * length_m);
-  return text;
-}
-
 /// Hyphens as wide as digits and a leading blank of one digit's width, so that the number keeps
 /// its place while it changes.
 std::string fixed_width(const std::string& text) {
@@ -91,7 +86,7 @@ void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, La
   text.height_m = 0.0035f;
   text.min_height_deg = 0.35f;
   text.runs = {{angle_text(bend.angle_rad), look::kAmber},
-               {" at " + millimetres(bend.arc_length_m), look::kDimWhite}};
+               {" at " + in_mm(bend.arc_length_m), look::kDimWhite}};
   scene.texts.push_back(std::move(text));
 }
 
@@ -250,7 +245,7 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   text.position = rod.heads.back() + 0.012f * along + rod.shift;
   text.height_m = 0.005f;
   text.min_height_deg = 0.6f;
-  text.runs = {{millimetres(*rod.length_m), look::kWhite}};
+  text.runs = {{in_mm(*rod.length_m), look::kWhite}};
   scene.texts.push_back(std::move(text));
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/atomic_file.h"
 #include "engine/json_document.h"
+#include "engine/length_text.h"
 #include "engine/operation.h"
 #include "engine/slicer_markups.h"
 #include "engine/text_fields.h"
@@ -23,12 +24,6 @@ std::optional<nav::Side> side_from(const std::string& text) {
   if (text == "left") return nav::Side::kLeft;
   if (text == "right") return nav::Side::kRight;
   return std::nullopt;
-}
-
-std::string in_mm(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", metres * 1e3);
-  return text;
 }
 
 /// What is wrong with one screw; empty when nothing is. A radius of 0 means none was stated.

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "engine/length_text.h"
 #include "engine/session.h"
 
 namespace orthonav::engine {
@@ -10,10 +11,7 @@ namespace {
 
 /// "1.2 mm"; "-- mm" for what is not finite.
 std::string millimetres(double length_m, int decimals) {
-  if (!std::isfinite(length_m)) return "-- mm";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*f mm", decimals, length_m * 1e3);
-  return text.data();
+  return std::isfinite(length_m) ? in_mm(length_m, decimals) : "-- mm";
 }
 
 }  // namespace

@@ -9,13 +9,15 @@ SnapshotQueue::SnapshotQueue(WhenFull when_full) : when_full_(when_full), slots_
   }
 }
 
+void SnapshotQueue::drop_oldest() {
+  free_.push_back(ready_.front());
+  ready_.pop_front();
+  ++dropped_;
+}
+
 Snapshot* SnapshotQueue::acquire() {
   std::unique_lock lock(mutex_);
-  if (free_.empty() && when_full_ == WhenFull::kDropOldest && !ready_.empty()) {
-    free_.push_back(ready_.front());
-    ready_.pop_front();
-    ++dropped_;
-  }
+  if (free_.empty() && when_full_ == WhenFull::kDropOldest && !ready_.empty()) drop_oldest();
   changed_.wait(lock, [&] { return closed_ || !free_.empty(); });
   if (closed_) return nullptr;
   Snapshot* slot = free_.back();
@@ -35,11 +37,7 @@ Snapshot* SnapshotQueue::take() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || !ready_.empty(); });
   if (ready_.empty()) return nullptr;
-  while (when_full_ == WhenFull::kDropOldest && ready_.size() > 1) {
-    free_.push_back(ready_.front());
-    ready_.pop_front();
-    ++dropped_;
-  }
+  while (when_full_ == WhenFull::kDropOldest && ready_.size() > 1) drop_oldest();
   Snapshot* next = ready_.front();
   ready_.pop_front();
   return next;

@@ -47,6 +47,9 @@ class SnapshotQueue {
   [[nodiscard]] std::int64_t dropped() const;
 
  private:
+  /// Of those that wait to be drawn; the mutex must be held.
+  void drop_oldest();
+
   WhenFull when_full_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

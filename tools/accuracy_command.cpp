@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "engine/board_file.h"
-#include "engine/method.h"
 #include "engine/tool_file.h"
 #include "nav/evaluation/accuracy_test.h"
 #include "tools/accuracy_output.h"
@@ -87,28 +86,6 @@ nav::AccuracyOptions options_of(const AccuracyArguments& arguments) {
   return options;
 }
 
-Result<std::vector<nav::TrackedPose>> measured_poses(const AccuracyArguments& arguments,
-                                                     const nav::ToolGeometry& pointer) {
-  const auto method = engine::method_named(arguments.method);
-  if (!method) return method.error();
-  const auto recording = replay::ReplayHeadset::open(arguments.recording);
-  if (!recording) return recording.error();
-  nav::TrackerOptions options;
-  // Where a tag is predicted it is found as well as in the whole image, in a tenth of the time.
-  options.full_search_interval = kFullSearchEvery;
-  const auto tracker =
-      method->create_tracker((*recording)->cameras().calibration(), {pointer}, options);
-  if (!tracker) return tracker.error();
-  std::vector<nav::TrackedPose> poses;
-  const Status status = for_each_pair(**recording, [&](const StereoFrame& frame) {
-    for (const nav::ToolState& state : (*tracker)->track(frame))
-      if (state.world_from_marker.origin == Origin::kMeasured)
-        poses.push_back(state.world_from_marker);
-  });
-  if (!status) return status.error();
-  return poses;
-}
-
 int run_accuracy(const AccuracyArguments& arguments) {
   if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
   const nav::AccuracyOptions options = options_of(arguments);
@@ -117,9 +94,12 @@ int run_accuracy(const AccuracyArguments& arguments) {
   if (!pointer) return bad_input(pointer.error().message);
   const auto points_m = board_points_m(arguments);
   if (!points_m) return bad_input(points_m.error().message);
-  const auto poses = measured_poses(arguments, *pointer);
-  if (!poses) return bad_input(poses.error().message);
-  const auto report = nav::accuracy_test(*poses, *pointer, *points_m, options);
+  nav::TrackerOptions tracking;
+  // Where a tag is predicted it is found as well as in the whole image, in a tenth of the time.
+  tracking.full_search_interval = kFullSearchEvery;
+  const auto seen = measured_poses(arguments.recording, arguments.method, *pointer, tracking);
+  if (!seen) return bad_input(seen.error().message);
+  const auto report = nav::accuracy_test(seen->world_from_marker, *pointer, *points_m, options);
   if (!report) return bad_input(arguments.recording + ": " + report.error().message);
 
   const AccuracySubject subject{pointer->name, arguments.method};

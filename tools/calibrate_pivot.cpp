@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/atomic_file.h"
-#include "engine/method.h"
 #include "engine/tool_file.h"
 #include "hal/api/angle.h"
 #include "nav/tracking/pivot.h"
@@ -25,37 +24,14 @@ struct PivotArguments {
   JsonOutput json;
 };
 
-struct Poses {
-  std::int64_t pairs = 0;
-  std::vector<Transform<World, Marker>> world_from_marker;
-};
-
-Result<Poses> measured_poses(const PivotArguments& arguments, const nav::ToolGeometry& tool) {
-  const auto method = engine::method_named(arguments.method);
-  if (!method) return method.error();
-  auto recording = replay::ReplayHeadset::open(arguments.recording);
-  if (!recording) return recording.error();
-  auto tracker = method->create_tracker((*recording)->cameras().calibration(), {tool}, {});
-  if (!tracker) return tracker.error();
-  Poses poses;
-  const Status status = for_each_pair(**recording, [&](const StereoFrame& frame) {
-    ++poses.pairs;
-    for (const nav::ToolState& state : (*tracker)->track(frame))
-      if (state.world_from_marker.origin == Origin::kMeasured)
-        poses.world_from_marker.push_back(state.world_from_marker.value);
-  });
-  if (!status) return status.error();
-  return poses;
-}
-
 nlohmann::ordered_json in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
 
-nlohmann::ordered_json as_json(const PivotArguments& arguments, const Poses& poses,
+nlohmann::ordered_json as_json(const PivotArguments& arguments, const MeasuredPoses& seen,
                                const Result<nav::PivotCalibration>& found) {
   nlohmann::ordered_json out = {{"tool", arguments.tool},
                                 {"method", arguments.method},
-                                {"pairs", poses.pairs},
-                                {"poses", poses.world_from_marker.size()}};
+                                {"pairs", seen.pairs},
+                                {"poses", seen.world_from_marker.size()}};
   if (found) {
     out["inliers"] = found->inliers;
     out["tip_mm"] = in_mm(found->tip_in_marker.v);
@@ -89,12 +65,14 @@ int run_pivot(const PivotArguments& arguments) {
   if (!arguments.out.empty())
     if (auto place = engine::AtomicFile::create(arguments.out); !place)
       return bad_input(place.error().message);
-  const auto poses = measured_poses(arguments, *tool);
-  if (!poses) return bad_input(poses.error().message);
+  const auto seen = measured_poses(arguments.recording, arguments.method, *tool);
+  if (!seen) return bad_input(seen.error().message);
+  std::vector<Transform<World, Marker>> poses;
+  for (const nav::TrackedPose& pose : seen->world_from_marker) poses.push_back(pose.value);
 
   nav::PivotOptions options;
   options.inlier_m = arguments.inlier_mm * 1e-3;
-  const auto found = nav::pivot_calibration(poses->world_from_marker, options);
+  const auto found = nav::pivot_calibration(poses, options);
   if (found && !arguments.out.empty()) {
     const auto changed = engine::changed_tools(arguments.tools_file, arguments.tool,
                                                {.tip_in_marker = found->tip_in_marker});
@@ -102,7 +80,7 @@ int run_pivot(const PivotArguments& arguments) {
     if (const Status s = engine::write_file(arguments.out, *changed); !s)
       return bad_input(s.error().message);
   }
-  if (const Status s = arguments.json.write(as_json(arguments, *poses, found)); !s)
+  if (const Status s = arguments.json.write(as_json(arguments, *seen, found)); !s)
     return bad_input(s.error().message);
   if (!found) return refused(found.error().message);
   if (!arguments.json.on_stdout()) print(arguments, *found);

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/board_file.h"
 #include "hal/api/angle.h"
@@ -38,21 +39,20 @@ Result<std::vector<nav::BoardTag>> tags_of(const std::string& path) {
   return tags;
 }
 
-nlohmann::ordered_json as_json(const StereoArguments& arguments,
-                               const StereoCalibration& calibration, std::size_t pairs,
+nlohmann::ordered_json as_json(const StereoArguments& arguments, const RecordedSightings& seen,
                                const Result<nav::StereoRecording>& found) {
   nlohmann::ordered_json out = {{"format", "orthonav stereo calibration"},
                                 {"format_version", 1},
                                 {"source", "recording"},
                                 {"board", arguments.board},
-                                {"pairs", pairs}};
+                                {"pairs", seen.pairs.size()}};
   if (!found) {
     add_judgement({nav::Verdict::kFail, found.error().message}, out);
     return out;
   }
   out["pairs_used"] = found->pairs;
   out["right_from_left_mm"] = rows_mm(found->right_from_left.row_major());
-  out["device_right_from_left_mm"] = rows_mm(calibration.right_from_left().row_major());
+  out["device_right_from_left_mm"] = rows_mm(seen.calibration.right_from_left().row_major());
   out["baseline_mm"] = found->right_from_left.translation().norm() * 1e3;
   const Vec3 turn = found->turn_rad * kDegreesPerRadian;
   const Vec3 shift = found->shift_m * 1e3;
@@ -95,20 +95,12 @@ int run_stereo_recording(const StereoArguments& arguments) {
   const auto board = tags_of(arguments.board);
   if (!board) return bad_input(board.error().message);
   if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
-  auto recording = replay::ReplayHeadset::open(arguments.recording);
-  if (!recording) return bad_input(recording.error().message);
-  const StereoCalibration& calibration = (*recording)->cameras().calibration();
   std::vector<nav::MarkerDefinition> tags;
   for (const nav::BoardTag& tag : *board) tags.push_back(tag.definition);
-  auto collector = nav::SightingCollector::create(calibration, tags);
-  if (!collector) return bad_input(collector.error().message);
-  const Status read =
-      for_each_pair(**recording, [&](const StereoFrame& frame) { collector->add(frame); });
-  if (!read) return bad_input(read.error().message);
-  const auto found = nav::calibrate_stereo(calibration, *board, collector->pairs());
-  if (const Status s =
-          arguments.json.write(as_json(arguments, calibration, collector->pairs().size(), found));
-      !s)
+  const auto seen = recorded_sightings(arguments.recording, std::move(tags));
+  if (!seen) return bad_input(seen.error().message);
+  const auto found = nav::calibrate_stereo(seen->calibration, *board, seen->pairs);
+  if (const Status s = arguments.json.write(as_json(arguments, *seen, found)); !s)
     return bad_input(s.error().message);
   if (!found) return refused(found.error().message);
   if (!arguments.json.on_stdout()) print(*found);

@@ -144,23 +144,17 @@ int run_tool(const ToolArguments& arguments) {
   if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
   if (auto place = engine::AtomicFile::create(arguments.out); !place)
     return bad_input(place.error().message);
-  auto recording = replay::ReplayHeadset::open(arguments.recording);
-  if (!recording) return bad_input(recording.error().message);
-  const StereoCalibration& calibration = (*recording)->cameras().calibration();
-  auto collector = nav::SightingCollector::create(calibration, *tags);
-  if (!collector) return bad_input(collector.error().message);
-  const Status read =
-      for_each_pair(**recording, [&](const StereoFrame& frame) { collector->add(frame); });
-  if (!read) return bad_input(read.error().message);
+  const auto seen = recorded_sightings(arguments.recording, *tags);
+  if (!seen) return bad_input(seen.error().message);
 
-  const auto body = nav::calibrate_tag_body(calibration, *tags, collector->pairs());
+  const auto body = nav::calibrate_tag_body(seen->calibration, *tags, seen->pairs);
   if (body) {
     const auto text = tools_with(arguments, *body);
     if (!text) return bad_input(text.error().message);
     if (const Status s = engine::write_file(arguments.out, *text); !s)
       return bad_input(s.error().message);
   }
-  if (const Status s = arguments.json.write(as_json(body, collector->pairs().size())); !s)
+  if (const Status s = arguments.json.write(as_json(body, seen->pairs.size())); !s)
     return bad_input(s.error().message);
   if (!body) return refused(body.error().message);
   if (!arguments.json.on_stdout()) print(*body);

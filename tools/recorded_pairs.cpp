@@ -1,5 +1,7 @@
 #include "tools/recorded_pairs.h"
 
+#include <utility>
+
 #include "engine/method.h"
 #include "tools/count_progress.h"
 
@@ -17,6 +19,39 @@ Status for_each_pair(replay::ReplayHeadset& recording,
     use(frame);
     progress.add_one();
   }
+}
+
+Result<MeasuredPoses> measured_poses(const std::string& recording, const std::string& method,
+                                     const nav::ToolGeometry& tool,
+                                     const nav::TrackerOptions& options) {
+  const auto known = engine::method_named(method);
+  if (!known) return known.error();
+  const auto headset = replay::ReplayHeadset::open(recording);
+  if (!headset) return headset.error();
+  const auto tracker = known->create_tracker((*headset)->cameras().calibration(), {tool}, options);
+  if (!tracker) return tracker.error();
+  MeasuredPoses poses;
+  const Status read = for_each_pair(**headset, [&](const StereoFrame& frame) {
+    ++poses.pairs;
+    for (const nav::ToolState& state : (*tracker)->track(frame))
+      if (state.world_from_marker.origin == Origin::kMeasured)
+        poses.world_from_marker.push_back(state.world_from_marker);
+  });
+  if (!read) return read.error();
+  return poses;
+}
+
+Result<RecordedSightings> recorded_sightings(const std::string& recording,
+                                             std::vector<nav::MarkerDefinition> tags) {
+  const auto headset = replay::ReplayHeadset::open(recording);
+  if (!headset) return headset.error();
+  const StereoCalibration& calibration = (*headset)->cameras().calibration();
+  auto collector = nav::SightingCollector::create(calibration, std::move(tags));
+  if (!collector) return collector.error();
+  const Status read =
+      for_each_pair(**headset, [&](const StereoFrame& frame) { collector->add(frame); });
+  if (!read) return read.error();
+  return RecordedSightings{calibration, collector->pairs()};
 }
 
 std::string default_method() { return "best"; }

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "hal/replay/replay_headset.h"
+#include "nav/calibration/body_sightings.h"
+#include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::tools {
 
@@ -11,6 +15,24 @@ namespace orthonav::tools {
 /// failure.
 Status for_each_pair(replay::ReplayHeadset& recording,
                      const std::function<void(const StereoFrame&)>& use);
+
+/// The poses in which a tool was measured, in the order of time.
+struct MeasuredPoses {
+  std::int64_t pairs = 0;  ///< of the recording
+  std::vector<nav::TrackedPose> world_from_marker;
+};
+/// Tracks one tool through a recording; refuses an unknown method and what can't be read.
+Result<MeasuredPoses> measured_poses(const std::string& recording, const std::string& method,
+                                     const nav::ToolGeometry& tool,
+                                     const nav::TrackerOptions& options = {});
+
+/// What a recording's cameras saw of tags.
+struct RecordedSightings {
+  StereoCalibration calibration;
+  std::vector<nav::PairSightings> pairs;
+};
+Result<RecordedSightings> recorded_sightings(const std::string& recording,
+                                             std::vector<nav::MarkerDefinition> tags);
 
 /// The best method of tracking that this version has.
 [[nodiscard]] std::string default_method();

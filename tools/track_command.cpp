@@ -10,7 +10,7 @@
 #include "hal/replay/replay_headset.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
-#include "tools/count_progress.h"
+#include "tools/recorded_pairs.h"
 
 namespace orthonav::tools {
 namespace {
@@ -40,12 +40,12 @@ void append_row(const Headset& headset, const nav::ToolGeometry& tool, const nav
   Quaternion q = quaternion_from_rotation(pose.value.rotation());
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   q = {q.x / norm, q.y / norm, q.z / norm, q.w / norm};
-  const double sigma_m = std::sqrt(pose.covariance[0] + pose.covariance[7] + pose.covariance[14]);
   std::array<char, 400> row{};
   std::snprintf(row.data(), row.size(),
                 "%lld,%d,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,measured,%.6g,%.6g,%d\n",
                 static_cast<long long>(headset.file_ticks_100ns(pose.time)), tool.marker.id, p.x,
-                p.y, p.z, q.x, q.y, q.z, q.w, sigma_m * 1e3, state.residual_px, state.cameras);
+                p.y, p.z, q.x, q.y, q.z, q.w, shift_sigma_m(pose.covariance) * 1e3,
+                state.residual_px, state.cameras);
   csv += row.data();
 }
 
@@ -53,13 +53,7 @@ Result<TrackSummary> track_all(replay::ReplayHeadset& headset, nav::ToolTracker&
                                std::string& csv) {
   TrackSummary summary;
   summary.measured.resize(tracker.tools().size());
-  CountProgress progress("stereo pairs", headset.summary().pairs);
-  StereoFrame frame;
-  for (;;) {
-    const Result<Next> next = headset.cameras().next(frame);
-    if (!next) return next.error();
-    if (*next == Next::kEnd) return summary;
-    if (*next == Next::kNone) continue;
+  const Status read = for_each_pair(headset, [&](const StereoFrame& frame) {
     for (const nav::ToolState& state : tracker.track(frame)) {
       // A predicted pose is not a measured one and has no row.
       if (state.world_from_marker.origin != Origin::kMeasured) continue;
@@ -67,8 +61,9 @@ Result<TrackSummary> track_all(replay::ReplayHeadset& headset, nav::ToolTracker&
       ++summary.measured[state.tool];
     }
     ++summary.pairs;
-    progress.add_one();
-  }
+  });
+  if (!read) return read.error();
+  return summary;
 }
 
 constexpr double kMilli = 1e3;

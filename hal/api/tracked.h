@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "hal/api/time.h"
 
@@ -11,6 +12,13 @@ enum class Origin { kMeasured, kPredicted, kLost };
 
 /// 6×6 covariance, row-major, of (translation m, rotation vector rad), both in the parent frame.
 using PoseCovariance = std::array<double, 36>;
+/// Its 3-D SDs.
+[[nodiscard]] inline double shift_sigma_m(const PoseCovariance& c) {
+  return std::sqrt(c[0] + c[7] + c[14]);
+}
+[[nodiscard]] inline double turn_sigma_rad(const PoseCovariance& c) {
+  return std::sqrt(c[21] + c[28] + c[35]);
+}
 
 /// Truth has an age: a value with its time, how it was obtained and how sure it is.
 /// With `kLost` the value is meaningless and must not be read.

@@ -199,7 +199,7 @@ void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
                   with_numbers("the board reached %.0f %% of the image only, better %.0f %%",
                                100 * result.covered_share, 100 * options.note_covered_share));
   judge_precision(options, result);
-  if (judgement.reason.empty()) judgement.reason = "every figure is within its limit";
+  judgement.conclude();
 }
 
 }  // namespace

@@ -125,8 +125,8 @@ StereoRecording result_of(const BodyProblem& problem, const BodyState& state, co
   result.pairs = problem.pairs.size();
   const Sigma sigma = jackknife(problem, state);
   const PoseCovariance& c = fit.covariances.front();
-  result.turn_sigma_rad = std::max(std::sqrt(c[21] + c[28] + c[35]), sigma.turn_rad);
-  result.shift_sigma_m = std::max(std::sqrt(c[0] + c[7] + c[14]), sigma.shift_m);
+  result.turn_sigma_rad = std::max(turn_sigma_rad(c), sigma.turn_rad);
+  result.shift_sigma_m = std::max(shift_sigma_m(c), sigma.shift_m);
   result.off_sigma_px = sigma.off_px;
   return result;
 }

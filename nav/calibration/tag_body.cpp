@@ -131,8 +131,8 @@ TagBody body_of(std::span<const MarkerDefinition> tags, std::span<const PairSigh
                 0,       median_size_ratio(pairs, i)};
     if (i > 0) {
       const PoseCovariance& c = fit.covariances[i - 1];
-      tag.sigma_m = std::sqrt(c[0] + c[7] + c[14]);
-      tag.sigma_rad = std::sqrt(c[21] + c[28] + c[35]);
+      tag.sigma_m = shift_sigma_m(c);
+      tag.sigma_rad = turn_sigma_rad(c);
     }
     body.tags.push_back(tag);
   }
@@ -189,7 +189,7 @@ Judgement judged(const TagBody& body, const TagBodyOptions& options) {
                                                         static_cast<double>(tag.pairs),
                                                         static_cast<double>(options.note_pairs)));
   }
-  if (judgement.reason.empty()) judgement.reason = "every figure is within its limit";
+  judgement.conclude();
   return judgement;
 }
 

@@ -32,6 +32,10 @@ struct Judgement {
     verdict = std::max(verdict, found);
     reason += (reason.empty() ? "" : "; ") + why;
   }
+  /// Says so where there was no finding.
+  void conclude() {
+    if (reason.empty()) reason = "every figure is within its limit";
+  }
 };
 
 }  // namespace orthonav::nav

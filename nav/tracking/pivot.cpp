@@ -173,7 +173,7 @@ Judgement judged(const PivotCalibration& found, const PivotOptions& options) {
   if (share < options.note_inlier_share)
     judgement.add(Verdict::kNote, with_numbers("%.0f %% of the poses agree, better %.0f %%",
                                                100.0 * share, 100.0 * options.note_inlier_share));
-  if (judgement.reason.empty()) judgement.reason = "every figure is within its limit";
+  judgement.conclude();
   return judgement;
 }
 
