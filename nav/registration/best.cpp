@@ -28,6 +28,8 @@ constexpr double kSameAtTargets_m = 0.002;
 constexpr double kLooseHand_m = 0.0005;
 constexpr double kCertainSd = 3.5;
 constexpr double kHighest_m = 0.004;
+/// Of the least margin: a rival within it is looked at closer.
+constexpr double kDoubtful = 3.0;
 /// Points within this many SDs lie on the surface.
 constexpr double kInlierSd = 3.5;
 /// A level that explains the points nearly as well as this one does.
@@ -197,20 +199,41 @@ std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& clo
 }
 
 /// How much worse the best other pose explains the points.
-void compare_poses(const std::vector<Candidate>& found, const Cloud& cloud,
-                   std::span<const Point<Vertebra>> targets, Registration& r) {
+/// One that does so hardly is fitted to all points first, which may lead it to the same place.
+void compare_poses(const VertebraModel& model, const std::vector<Candidate>& found,
+                   const CertainFit& best, const Cloud& cloud, double width_m,
+                   std::span<const Point<Vertebra>> targets, const BestRegistrationOptions& options,
+                   Registration& r) {
   r.margin = std::numeric_limits<double>::infinity();
   r.runner_up = r.world_from_vertebra;
   r.runner_up_rmse_m = r.rmse_m;
-  const double variance_m2 = r.noise_m * r.noise_m;
   const double points = r.effective_points > 0.0 ? r.effective_points : 10.0;
+  const double unit_m2 = 2.0 * r.noise_m * r.noise_m / points;
+  SurfaceFitOptions fine;
+  fine.tip_radius_m = options.tip_radius_m;
+  fine.with_lift = best.fit.with_lift;
+  const double best_cost_m2 = truncated_cost_m2(best.fit, width_m);
   for (std::size_t i = 1; i < found.size(); ++i) {
-    const auto pose = world_from(found[i].fit.pose, cloud.centre_m);
-    if (apart_m(pose, r.world_from_vertebra, targets) < kSameAtTargets_m) continue;
-    r.runner_up = pose;
-    r.runner_up_rmse_m = rmse_m(found[i].fit);
-    r.margin = points * (found[i].cost_m2 - found[0].cost_m2) / (2.0 * variance_m2);
-    return;
+    CentredPose pose = found[i].fit.pose;
+    double rmse = rmse_m(found[i].fit);
+    double margin = (found[i].cost_m2 - found[0].cost_m2) / unit_m2;
+    const auto is_another = [&] {
+      return apart_m(world_from(pose, cloud.centre_m), r.world_from_vertebra, targets) >=
+             kSameAtTargets_m;
+    };
+    if (!is_another()) continue;
+    if (margin < kDoubtful * options.min_margin) {
+      const auto whole = fit_to_surface(model.reachable_surface(), cloud.all_m, pose, fine);
+      if (!whole) continue;
+      pose = whole->pose;
+      rmse = rmse_m(*whole);
+      margin = (truncated_cost_m2(*whole, width_m) - best_cost_m2) / unit_m2;
+      if (!is_another()) continue;
+    }
+    if (margin >= r.margin) continue;
+    r.runner_up = world_from(pose, cloud.centre_m);
+    r.runner_up_rmse_m = rmse;
+    r.margin = margin;
   }
 }
 
@@ -281,7 +304,7 @@ Result<Registration> register_best(const VertebraModel& model,
   r.points = points_in_world.size();
   estimate_errors(model, certain->covariance, targets, r);
   r.coverage_share = coverage_share(model, fit);
-  compare_poses(found, cloud, targets, r);
+  compare_poses(model, found, *certain, cloud, width_m, targets, options, r);
   compare_levels(cloud, truncated_cost_m2(found[0].fit, width_m), width_m, options, r);
   judge(options, r);
   return r;
