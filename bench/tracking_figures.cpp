@@ -187,6 +187,8 @@ void print_bound(const Sequence& sequence) {
   const std::size_t every = std::max<std::size_t>(sequence.frames.size() / 10, 1);
   for (std::size_t k = 0; k < sequence.frames.size(); k += every)
     for (std::size_t i = 0; i < sequence.tools.size(); ++i) {
+      const auto& share = sequence.visible[k][i];
+      if (std::min(share[0], share[1]) < kVisible) continue;
       const auto bound = sequence.bound(k, i);
       const Eigen::Map<const Eigen::Matrix<double, 6, 6>> c(bound.data());
       const Vec3 tip = sequence.tools[i].tip_in_marker.v;
@@ -197,6 +199,7 @@ void print_bound(const Sequence& sequence) {
                               (j * c * j.transpose()).trace());
       ++count;
     }
+  if (count == 0) return;
   sums /= count;
   std::printf(
       "| %-10s | %-20s | %23s | %7s | %3s | %6s | %11.3f | %10.3f | %7.3f | %20s | %15s |\n",

@@ -27,7 +27,7 @@ struct Figures {
 /// A table in Markdown.
 void print_head();
 void print_row(const Sequence& sequence, const std::string& method, const Figures& figures);
-/// The Cramér-Rao bound of every tenth pair or so; nothing for a sequence that has none.
+/// The Cramér-Rao bound of the visible tags of ten pairs; nothing for a sequence that has none.
 void print_bound(const Sequence& sequence);
 
 }  // namespace orthonav::bench
