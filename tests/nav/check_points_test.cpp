@@ -86,7 +86,7 @@ TEST_F(OnABall, ASideThatNoPointerReachesDoesNotCount) {
   // On the surface, but on the front: only a wrong registration puts a touched place there.
   const CheckPoint front = touch({0, -0.020, 0});
   EXPECT_FALSE(front.within);
-  EXPECT_GT(std::abs(front.distance_m), 0.010);
+  EXPECT_GT(std::abs(front.distance_m), 0.004) << "twice the limit";
 }
 
 TEST_F(OnABall, APlaceThatIsNoPlaceIsFarOff) {

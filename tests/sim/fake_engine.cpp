@@ -61,17 +61,43 @@ void FakeEngine::take(const ClickerEvent& event) {
   }
   if (event.action == ClickerAction::kRelease) pressed_ = false;
   if (event.action == ClickerAction::kDoubleClick && digitizing) double_clicked(event.time);
-  if (event.action == ClickerAction::kClick && step_.starts_with("rod")) {
-    reason_.clear();
-    if (options_.lost_touches-- > 0) {
-      reason_ = " | head not recorded: tip moved 3.2 mm, limit 3.0 mm";
-      return;
-    }
-    const RoomState state = headset_.state();
-    const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
-    heads_.push_back(headset_.world_from_room() * state.room_from_marker[pointer] *
-                     case_.room.tools[pointer].tip_in_marker);
+  const bool checking = options_.check_points > 0 && step_.starts_with("verify");
+  if (event.action == ClickerAction::kClick && (checking || step_.starts_with("rod"))) touched();
+}
+
+Point<World> FakeEngine::tip() const {
+  const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
+  return headset_.world_from_room() * headset_.state().room_from_marker[pointer] *
+         case_.room.tools[pointer].tip_in_marker;
+}
+
+void FakeEngine::touched() {
+  const bool head = step_.starts_with("rod");
+  reason_.clear();
+  if (options_.lost_touches-- > 0) {
+    reason_ = std::string(" | ") + (head ? "head" : "check point") +
+              " not recorded: tip moved 3.2 mm, limit 3.0 mm";
+    return;
   }
+  if (head) {
+    heads_.push_back(tip());
+    return;
+  }
+  levels_[level_label()].checks_in_vertebra.push_back(
+      (world_from_vertebra(level_label()).inverse() * tip()).v);
+  ask_for_checks();
+}
+
+/// As the engine words it.
+void FakeEngine::ask_for_checks() {
+  const int done = static_cast<int>(levels_[level_label()].checks_in_vertebra.size());
+  const int missing = options_.check_points - done;
+  if (options_.off && done > 1)
+    reason_ = " | check point 2 is 3.1 mm off, limit 2.0 mm: reject and stroke again";
+  else if (missing > 0)
+    reason_ = " | 0.5 mm expected; touch " + std::to_string(missing) + " more places";
+  else
+    reason_ = " | 0.5 mm expected; checked, worst 0.4 mm";
 }
 
 void FakeEngine::double_clicked(Timestamp time) {
@@ -83,10 +109,13 @@ void FakeEngine::double_clicked(Timestamp time) {
     return;
   }
   enter("verify " + level_label());
+  level.checks_in_vertebra.clear();
+  if (options_.check_points > 0) ask_for_checks();
 }
 
 void FakeEngine::take(const Phrase& phrase) {
   events_.push_back(time_text(phrase.time) + " " + phrase.text);
+  phrases_.push_back(phrase);
   if (options_.deaf) return;
   DigitizedLevel& level = levels_[level_label()];
   if (step_ == "setup" && phrase.text == "start") {

@@ -16,6 +16,7 @@ struct DigitizedLevel {
   int saved_samples = 0;
   int deleted_regions = 0;
   std::vector<Vec3> samples_in_vertebra;  ///< saved ones
+  std::vector<Vec3> checks_in_vertebra;   ///< touched in `verify`
 };
 
 struct EngineOptions {
@@ -24,7 +25,9 @@ struct EngineOptions {
   double blind_from_s = 0.0;  ///< the tools are lost in this span of time
   double blind_to_s = 0.0;
   bool deaf = false;     ///< hears no voice
-  int lost_touches = 0;  ///< the first touches of screw heads are not recorded
+  int lost_touches = 0;  ///< the first touches are not recorded
+  int check_points = 0;  ///< asked for in `verify`
+  bool off = false;      ///< what is touched then turns out too far off
 };
 
 /// Stands in for the engine: walks through the workflow as clicker and voice say and draws the
@@ -40,6 +43,7 @@ class FakeEngine {
   [[nodiscard]] const std::map<std::string, DigitizedLevel>& levels() const { return levels_; }
   [[nodiscard]] const std::vector<std::string>& history() const { return history_; }
   [[nodiscard]] const std::vector<std::string>& events() const { return events_; }
+  [[nodiscard]] const std::vector<Phrase>& phrases() const { return phrases_; }
   [[nodiscard]] const std::vector<Point<World>>& heads() const { return heads_; }
 
  private:
@@ -47,6 +51,9 @@ class FakeEngine {
   void take(const Phrase& phrase);
   void enter(const std::string& step);
   void double_clicked(Timestamp time);
+  void touched();
+  void ask_for_checks();
+  [[nodiscard]] Point<World> tip() const;
   void next_screw();
   void draw(const StereoFrame& frame);
   void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
@@ -70,6 +77,7 @@ class FakeEngine {
   std::vector<Point<World>> heads_;
   std::vector<std::string> history_{"setup"};
   std::vector<std::string> events_;
+  std::vector<Phrase> phrases_;
 };
 
 }  // namespace orthonav::sim
