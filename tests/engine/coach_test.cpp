@@ -2,11 +2,16 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <limits>
 #include <mutex>
+#include <tuple>
 
+#include "engine/operation_plan.h"
+#include "engine/phantom.h"
+#include "hal/api/random.h"
 #include "tests/engine/scripted_session.h"
 
 namespace orthonav::engine {
@@ -16,7 +21,6 @@ using testing::pointer_at;
 using testing::ScriptedSession;
 using enum ClickerAction;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 nav::Registration promising() {
   nav::Registration r;
@@ -174,6 +178,48 @@ TEST_F(CoachTest, EndsWithATrialUnderWay) {
   gate.set_open(true);
   other.reset();
   EXPECT_EQ(gate.asked, 1);
+}
+
+/// The reachable side of the phantom's L4 from its left to its right, 0.3 mm noisy.
+std::vector<nav::Sample> sweep_of(const nav::VertebraModel& model, std::size_t count) {
+  std::vector<Vec3> places = model.reachable().vertices_m;
+  std::sort(places.begin(), places.end(),
+            [](Vec3 a, Vec3 b) { return std::tuple(a.x, a.y, a.z) > std::tuple(b.x, b.y, b.z); });
+  const Transform<World, Vertebra> pose{rotation_from_vector({0.4, -1.2, 0.3}), {0.3, -0.9, 0.5}};
+  Random random(7);
+  std::vector<nav::Sample> samples;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 noise{random.normal(), random.normal(), random.normal()};
+    samples.push_back(
+        {pose * Point<Vertebra>{places[i * places.size() / count] + 0.0003 * noise}, {}});
+  }
+  return samples;
+}
+
+TEST(CoachByBest, ExpectsLessAsSamplesComeInAndTheSameEveryTime) {
+  const Operation operation = plan_operation(phantom(), {"L4"}).value();
+  const OperatedLevel& level = operation.levels[0];
+  const std::vector<nav::Sample> sweep = sweep_of(*level.model, 500);
+  std::vector<std::vector<double>> expected_m;
+  std::vector<std::string> last;
+  for (int run = 0; run < 2; ++run) {
+    Coach coach(registrar_named("best").value());
+    std::vector<nav::Region> regions(1);
+    expected_m.emplace_back();
+    for (const nav::Sample& sample : sweep) {
+      regions[0].samples.push_back(sample);
+      coach.step(level, regions);
+      expected_m.back().push_back(coach.newest() ? coach.newest()->expected_m : -1.0);
+    }
+    ASSERT_TRUE(coach.newest().has_value());
+    last.push_back(text_of(*coach.newest()));
+  }
+  EXPECT_EQ(expected_m[0], expected_m[1]) << "at the same pairs too";
+  EXPECT_EQ(last[0], last[1]);
+  const double early_m = expected_m[0][Coach::kFewestSamples + Coach::kPairsToAnswer];
+  EXPECT_GT(early_m, 0.0);
+  EXPECT_LT(expected_m[0].back(), 0.7 * early_m);
+  EXPECT_THAT(last[0], HasSubstr("enough to register"));
 }
 
 TEST(CoachedSession, ShowsItBesideThePointsAndRegistersNothingByIt) {
