@@ -18,6 +18,12 @@
 
 namespace orthonav::engine {
 
+/// A registration, passed or not, with the points that it was made of.
+struct RegistrationAttempt {
+  std::vector<Point<World>> points;
+  nav::Registration registration;
+};
+
 /// Where one level of the operation stands.
 struct LevelState {
   OperatedLevel plan;
@@ -30,6 +36,8 @@ struct LevelState {
   std::vector<nav::CheckPoint> check_points;
   /// What the newest registration was warned of: a pointer whose tag is not as large as stated.
   std::string warning;
+  /// The newest one that found a pose, whatever became of it: reports tell of it.
+  std::optional<RegistrationAttempt> newest;
   bool accepted = false;                 ///< by the surgeon; only then anything is guided on it
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration

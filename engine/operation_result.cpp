@@ -22,6 +22,10 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
       for (const nav::CheckPoint& point : state.check_points)
         level.check_points_m.push_back(point.distance_m);
     }
+    if (state.newest)
+      level.registered = RegisteredLevel{level.label,          {},
+                                         state.plan.model,     state.plan.screws,
+                                         state.newest->points, state.newest->registration};
     for (std::size_t s = 0; s < state.plan.screws.size(); ++s) {
       level.screws.push_back({state.plan.screws[s].side, state.screw_done[s], {}, {}});
       result.completed = result.completed && state.screw_done[s];

@@ -8,6 +8,7 @@
 
 #include "engine/frame_loop.h"
 #include "engine/guidance.h"
+#include "engine/registration_figures.h"
 #include "engine/session_observer.h"
 
 namespace orthonav::engine {
@@ -31,6 +32,8 @@ struct LevelOutcome {
   std::optional<std::size_t> points;
   std::optional<double> digitization_s;
   std::vector<double> check_points_m;  ///< signed distances of the check points, in order
+  /// The newest registration that found a pose, passed or not.
+  std::optional<RegisteredLevel> registered;
   std::vector<ScrewOutcome> screws;
 };
 

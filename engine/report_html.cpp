@@ -1,7 +1,6 @@
 #include "engine/report_html.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,8 +9,10 @@
 #include "embedded/report_css.h"
 #include "embedded/report_js.h"
 #include "engine/base64.h"
+#include "engine/html_text.h"
 #include "engine/operation_result.h"
 #include "engine/paper_table.h"
+#include "engine/registration_page.h"
 #include "nav/evaluation/errors.h"
 
 namespace orthonav::engine {
@@ -19,40 +20,10 @@ namespace {
 
 using nlohmann::json;
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  return out;
-}
-
-std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  std::string out = text;
-  // A true minus sign, as everywhere a person reads a number.
-  if (!out.empty() && out[0] == '-') out = "\u2212" + out.substr(1);
-  return out;
-}
-
 /// A figure of the report, or a dash where it is absent (no truth, not reached).
 std::string figure(const json& object, const char* key, int decimals) {
   if (!object.contains(key) || !object[key].is_number()) return "\u2013";
-  return number(object[key].get<double>(), decimals);
+  return html_number(object[key].get<double>(), decimals);
 }
 
 std::string text_of(const json& object, const char* key) {
@@ -68,16 +39,16 @@ void table_against_paper(const json& report, std::string& html) {
     const std::vector<double> values = values_of(report, row);
     const nav::Summary s = nav::summarize(values);
     html += "<tr><th scope=row>" + std::string(row.name) + " <small>" + std::string(row.unit) +
-            "</small></th><td>" + number(row.mean, row.decimals) + " \u00b1 " +
-            number(row.sd, row.decimals) + "</td>";
+            "</small></th><td>" + html_number(row.mean, row.decimals) + " \u00b1 " +
+            html_number(row.sd, row.decimals) + "</td>";
     if (s.count == 0) {
       html += "<td>\u2013</td><td>\u2013</td><td>0</td></tr>";
       continue;
     }
-    html += "<td class=ours>" + number(s.mean, row.decimals);
-    if (s.count > 1) html += " \u00b1 " + number(s.sd, row.decimals);
-    html += "</td><td>" + number(s.min, row.decimals) + "\u2013" + number(s.max, row.decimals) +
-            "</td><td>" + std::to_string(s.count) + "</td></tr>";
+    html += "<td class=ours>" + html_number(s.mean, row.decimals);
+    if (s.count > 1) html += " \u00b1 " + html_number(s.sd, row.decimals);
+    html += "</td><td>" + html_number(s.min, row.decimals) + "\u2013" +
+            html_number(s.max, row.decimals) + "</td><td>" + std::to_string(s.count) + "</td></tr>";
   }
   html += "</tbody></table></section>";
 }
@@ -107,14 +78,14 @@ void table_of_levels(const json& report, std::string& html) {
       html += "<tr>";
       if (i == 0) {
         const std::string span = "<td rowspan=" + std::to_string(rows) + ">";
-        html += span + escaped(text_of(level, "label")) + "</td>" + span + verdict_on(level) +
+        html += span + html_escaped(text_of(level, "label")) + "</td>" + span + verdict_on(level) +
                 "</td>" + span + figure(level, "rmse_mm", 2) + "</td>" + span +
                 figure(level, "tre_mm", 2) + "</td>" + span + figure(level, "predicted_tre_mm", 2) +
                 "</td>" + span + figure(level, "points", 0) + "</td>" + span +
                 figure(level, "digitization_s", 1) + "</td>";
       }
       if (i < screws.size())
-        html += "<td>" + escaped(text_of(screws[i], "side")) + "</td><td>" +
+        html += "<td>" + html_escaped(text_of(screws[i], "side")) + "</td><td>" +
                 figure(screws[i], "angle_error_deg", 2) + "</td><td>" +
                 figure(screws[i], "entry_error_mm", 2) + "</td>";
       else
@@ -143,13 +114,14 @@ void rod_and_frames(const json& report, std::string& html) {
 void pictures_and_video(const ReportContent& content, std::string& html) {
   if (!content.video.empty())
     html += "<section><h2>The surgeon's view</h2><video controls preload=metadata src=\"" +
-            escaped(content.video) + "\"></video></section>";
+            html_escaped(content.video) + "\"></video></section>";
   if (content.pictures.empty()) return;
   html += "<section><h2>Step by step</h2><div class=gallery>";
   for (const ReportPicture& picture : content.pictures)
-    html += "<figure><img alt=\"" + escaped(picture.title) + "\" src=\"data:image/png;base64," +
-            base64(picture.png) + "\"><figcaption><b>" + escaped(picture.title) + "</b> " +
-            escaped(picture.caption) + "</figcaption></figure>";
+    html += "<figure><img alt=\"" + html_escaped(picture.title) +
+            "\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption><b>" +
+            html_escaped(picture.title) + "</b> " + html_escaped(picture.caption) +
+            "</figcaption></figure>";
   html += "</div></section>";
 }
 
@@ -186,9 +158,9 @@ void timing_table(const std::vector<ReportTiming>& timings, std::string& html) {
   for (const ReportTiming& timing : timings) {
     const auto at = [&timing](double share) {
       const auto value = quantile(timing.ms, share);
-      return value ? number(*value, 2) : std::string("\u2013");
+      return value ? html_number(*value, 2) : std::string("\u2013");
     };
-    html += "<tr><th scope=row>" + escaped(timing.name) + "</th><td>" + at(0.5) + "</td><td>" +
+    html += "<tr><th scope=row>" + html_escaped(timing.name) + "</th><td>" + at(0.5) + "</td><td>" +
             at(0.99) + "</td><td>" + std::to_string(timing.ms.size()) + "</td></tr>";
   }
   html += "</tbody></table></section>";
@@ -251,15 +223,21 @@ Result<std::string> report_html(const ReportContent& content) {
   html += embedded::report_css();
   html +=
       "</style></head><body><header><h1>orthonav <span>operation report</span></h1><p>Case <b>" +
-      escaped(text_of(report, "case")) + "</b>, method <b>" + escaped(text_of(report, "method")) +
-      "</b>, seed <b>" + figure(report, "seed", 0) + "</b></p></header><main>";
+      html_escaped(text_of(report, "case")) + "</b>, method <b>" +
+      html_escaped(text_of(report, "method")) + "</b>, seed <b>" + figure(report, "seed", 0) +
+      "</b></p></header><main>";
   table_against_paper(report, html);
   html += "<ul class=notes>";
   if (const std::string why = text_of(report, "why_not"); !why.empty())
-    html += "<li><b>The operation did not come to its end</b>: " + escaped(why) + "</li>";
-  for (const std::string& note : content.notes) html += "<li>" + escaped(note) + "</li>";
+    html += "<li><b>The operation did not come to its end</b>: " + html_escaped(why) + "</li>";
+  for (const std::string& note : content.notes) html += "<li>" + html_escaped(note) + "</li>";
   html += "</ul>";
   table_of_levels(report, html);
+  for (const RegisteredLevel& level : content.registrations) {
+    const auto section = registration_section(level);
+    if (!section) return section;
+    html += *section;
+  }
   html += "<section id=plots><h2>Errors and readings</h2><div class=plots></div></section>";
   rod_and_frames(report, html);
   pictures_and_video(content, html);

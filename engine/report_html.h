@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/registration_figures.h"
 #include "hal/api/result.h"
 
 namespace orthonav::engine {
@@ -40,6 +41,7 @@ struct ReportTiming {
 struct ReportContent {
   std::string report_json;  ///< the text of report.json: the page shows just those figures
   std::string video;        ///< file name beside the page; empty: none
+  std::vector<RegisteredLevel> registrations;  ///< drawn, one section each
   std::vector<ReportPicture> pictures;
   std::vector<ReportPlot> plots;
   std::vector<ReportTiming> timings;

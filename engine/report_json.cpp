@@ -33,6 +33,7 @@ Json level_json(const LevelOutcome& level) {
   if (level.digitization_s) out["digitization_s"] = *level.digitization_s;
   for (const double distance : level.check_points_m)
     out["check_points_mm"].push_back(distance * 1e3);
+  if (level.registered) out["registration"] = registration_json(*level.registered, {});
   out["screws"] = Json::array();
   for (const ScrewOutcome& screw : level.screws) out["screws"].push_back(screw_json(screw));
   return out;

@@ -156,6 +156,8 @@ void Session::try_registration(Timestamp time) {
   const std::vector<Point<World>> points = digitizer_.saved_points();
   const auto result =
       method_.registrar({*now.plan.model, points, now.plan.screws, now.plan.neighbours});
+  now.newest.reset();
+  if (result) now.newest = RegistrationAttempt{points, *result};
   std::string reason;
   if (!result) {
     reason = result.error().message;

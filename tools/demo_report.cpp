@@ -30,6 +30,8 @@ std::string caption_of(const std::string& step) {
 }
 
 std::vector<std::string> notes_of(const DemoReport& report) {
+  if (!report.simulated)
+    return {"Errors against the truth are not known here. Not a medical device."};
   std::vector<std::string> notes;
   notes.push_back(report.perfect
                       ? "Simulated operating room with every source of error at zero."
@@ -53,8 +55,12 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
   if (report.video) content.video = "operation.mp4";
   content.plots = report.plots;
   content.notes = notes_of(report);
-  content.timings = {{"track a stereo pair and all that follows", result.loop.step_wall_ms},
-                     {"draw the surgeon's view (room and holograms)", result.loop.draw_wall_ms}};
+  content.timings = {{"track a stereo pair and all that follows", result.loop.step_wall_ms}};
+  if (!result.loop.draw_wall_ms.empty())
+    content.timings.push_back(
+        {"draw the surgeon's view (room and holograms)", result.loop.draw_wall_ms});
+  for (const engine::LevelOutcome& level : result.levels)
+    if (level.registered) content.registrations.push_back(*level.registered);
   for (const StepPicture& picture : report.pictures) {
     auto png = bytes_of(picture.path);
     if (!png) return png.error();

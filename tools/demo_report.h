@@ -11,7 +11,8 @@
 namespace orthonav::tools {
 
 struct DemoReport {
-  bool perfect = false;  ///< every source of error was at zero
+  bool simulated = true;
+  bool perfect = false;  ///< every source of error was at zero, in the simulated room
   bool video = false;    ///< operation.mp4 lies beside the page
   std::vector<engine::ReportPlot> plots;
   std::vector<StepPicture> pictures;

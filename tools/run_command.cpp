@@ -19,6 +19,7 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/demo_report.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/out_folder.h"
@@ -165,6 +166,7 @@ class LiveRun {
       if (first.ok()) first = status;
     };
     if (out_) note(engine::write_file(out_->file("report.json"), report));
+    if (out_) note(write_demo_report(out_->path(), result, {.simulated = room_ != nullptr}));
     if (journal_) note(journal_->finish());
     if (recorder_) note(recorder_->close());
     return first;
@@ -208,7 +210,8 @@ void add_run_command(CLI::App& app, Action& action) {
       ->check(whole_number(0));
   run->add_option("--record", arguments->record, "record the session into this new folder")
       ->check(some_text());
-  run->add_option("--out", arguments->out, "folder for report.json and session.orthonav")
+  run->add_option("--out", arguments->out,
+                  "folder for report.html, report.json and session.orthonav")
       ->check(some_text());
   run->add_flag("--json", arguments->json, "print the report as JSON");
   run->callback(

@@ -80,6 +80,13 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   EXPECT_FALSE(report.contains("why_not"));
   EXPECT_GT(report["levels"][0]["screws"][1]["angle_error_deg"].get<double>(), 0.0);
   EXPECT_GT(json::parse(content_of(out + "/timing.json"))["draw_wall"]["count"], 50);
+  const json registration = report["levels"][0]["registration"];
+  EXPECT_EQ(registration["accepted"], true);
+  EXPECT_EQ(registration["screws"].size(), 2u);
+  EXPECT_GT(registration["noise_mm"].get<double>(), 0.0);
+  const std::string page = content_of(out + "/report.html");
+  EXPECT_THAT(page, HasSubstr("Registration of L5"));
+  EXPECT_THAT(page, HasSubstr("aria-label=\"from above\""));
   std::istringstream journal(content_of(out + "/session.orthonav"));
   int lines = 0;
   for (std::string line; std::getline(journal, line); ++lines)

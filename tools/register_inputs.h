@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/operation.h"
+#include "engine/registration_figures.h"
+#include "hal/api/result.h"
+
+namespace orthonav::tools {
+
+struct RegisterArguments {
+  std::string model;
+  std::string points;
+  std::string units;  ///< empty: what the files say, else mm
+  std::string frame;  ///< empty: what the files say, else LPS
+  std::string plan;
+  std::string case_folder;
+  std::string level;  ///< of the case; with neither a folder nor a model, of the built-in phantom
+  std::string method = "best";
+  double tip_radius_mm = 0.0;
+  std::string cache;  ///< folder of prepared models; empty: nothing is kept
+};
+
+/// What is registered to what.
+struct RegisterInputs {
+  engine::OperatedLevel level;  ///< its label is empty where no case names it
+  std::vector<Point<World>> points;
+  engine::FigureFrame frame;
+};
+
+/// Reads and checks every file that the arguments name. Prepared models are kept once all is well;
+/// what went otherwise with them is told on standard error.
+Result<RegisterInputs> load_register_inputs(const RegisterArguments& arguments);
+
+}  // namespace orthonav::tools
