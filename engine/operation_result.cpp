@@ -26,6 +26,7 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
       level.registered = RegisteredLevel{level.label,          {},
                                          state.plan.model,     state.plan.screws,
                                          state.newest->points, state.newest->registration};
+    if (level.registered && state.registration) level.registered->check_points = state.check_points;
     for (std::size_t s = 0; s < state.plan.screws.size(); ++s) {
       level.screws.push_back({state.plan.screws[s].side, state.screw_done[s], {}, {}});
       result.completed = result.completed && state.screw_done[s];

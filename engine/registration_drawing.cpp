@@ -9,6 +9,7 @@
 #include "engine/image_file.h"
 #include "engine/operation.h"
 #include "engine/residual_colours.h"
+#include "hal/api/angle.h"
 
 namespace orthonav::engine {
 namespace {
@@ -113,7 +114,7 @@ std::string ellipse_svg(Point<Vertebra> place, const PlaceError& error, double m
   const double mean = 0.5 * (xx + yy);
   const double spread = std::hypot(0.5 * (xx - yy), xy);
   const double scale_mm = magnified * ellipsoid_scale() * 1e3;
-  const double angle_deg = 0.5 * std::atan2(2.0 * xy, xx - yy) * 57.29577951308232;
+  const double angle_deg = 0.5 * degrees(std::atan2(2.0 * xy, xx - yy));
   const Vec2 at = view.on_page_mm(place.v);
   return text("<ellipse rx=\"%.2f\" ry=\"%.2f\"", scale_mm * std::sqrt(mean + spread),
               scale_mm * std::sqrt(std::max(0.0, mean - spread))) +
@@ -140,6 +141,18 @@ std::string screws_svg(const RegisteredLevel& level, const RegistrationScene& sc
     out += text("<circle r=\".7\" cx=\"%.2f\" cy=\"%.2f\"/>", entry.x, entry.y) +
            text("<path class=\"target\" d=\"M%.2f %.2fm-1 0h2m-1-1v2\"/>", target.x, target.y);
     out += "</g>";
+  }
+  return out;
+}
+
+/// Places touched to verify the registration, which had no part in it.
+std::string checks_svg(const RegistrationScene& scene, const Viewpoint& view) {
+  std::string out;
+  for (const PlacedPoint& point : scene.checks) {
+    const Vec2 at = view.on_page_mm(point.place_m);
+    out += text("<path class=\"check\" d=\"M%.2f %.2fm0-1.5l1.5 1.5-1.5 1.5-1.5-1.5z\" fill=\"",
+                at.x, at.y) +
+           kResidualColours[residual_colour(point.residual_m, scene.full_colour_m)] + "\"/>";
   }
   return out;
 }
@@ -190,7 +203,7 @@ Result<RegistrationDrawing> registration_drawing(const RegisteredLevel& level,
       " preserveAspectRatio=\"none\" href=\"data:image/png;base64," +
       base64({reinterpret_cast<const std::uint8_t*>(png->data()), png->size()}) + "\"/>" +
       points_svg(scene, view.from, bone) + screws_svg(level, scene, view.from) +
-      margins_svg(view, area) + "</svg>";
+      checks_svg(scene, view.from) + margins_svg(view, area) + "</svg>";
   return RegistrationDrawing{std::move(svg), size};
 }
 
@@ -205,7 +218,10 @@ std::string registration_legend(const RegisteredLevel& level, const Registration
   out += "</b> +" + html_number(scene.full_colour_m * 1e3, 1) +
          " mm<em>points inside the bone, on it, outside it</em></span>";
   if (scene.off_bone > 0)
-    out += "<span><b class=cross>\u00d7</b>off the bone, without a say</span>";
+    out += std::string("<span><b class=cross>\u00d7</b>off the bone") +
+           (level.registration.noise_m > 0.0 ? ", without a say" : "") + "</span>";
+  if (!scene.checks.empty())
+    out += "<span><b class=cross>\u25c7</b>touched to verify it, not used in the fit</span>";
   out += swatch(hex(kStrokedBone), "stroked (within 5 mm)") +
          swatch(hex(kOpenBone), "not stroked") +
          swatch(hex(kUntouchable), "out of the pointer\u2019s reach");

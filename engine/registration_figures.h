@@ -9,6 +9,7 @@
 
 #include "engine/mesh_file.h"
 #include "nav/guidance/screw.h"
+#include "nav/registration/check_points.h"
 #include "nav/registration/registration.h"
 
 namespace orthonav::engine {
@@ -22,6 +23,7 @@ struct RegisteredLevel {
   std::vector<Point<World>> points;  ///< in the order of time
   nav::Registration registration;
   double tip_radius_m = 0.0;
+  std::vector<nav::CheckPoint> check_points;  ///< touched to verify it; not used in the fit
 };
 
 /// What a registration leaves uncertain at one place. Infinite, without covariance, where the

@@ -63,6 +63,8 @@ std::string rows_of_best(const RegisteredLevel& level) {
          row({"Scatter <small>mm</small>", mm(r.noise_m), r.noise_m <= limits.max_noise_m,
               at_most(mm(limits.max_noise_m, 1)),
               "standard deviation of the points on the bone about its surface"}) +
+         row({"Height of the tip above the bone <small>mm</small>", mm(r.lift_m), true, "",
+              "its mean over the strokes, as far as they tell it; taken into account"}) +
          row({"Independent points", whole(r.effective_points), true, "",
               "what the points are worth: neighbours share the tracker\u2019s error"}) +
          row({"Surface stroked", whole(r.coverage_share * 1e2) + " %",
@@ -106,6 +108,19 @@ std::string rows_of_error(const RegisteredLevel& level, bool best) {
   return out;
 }
 
+std::string row_of_checks(const RegisteredLevel& level) {
+  if (level.check_points.empty()) return "";
+  std::string distances;
+  bool all_within = true;
+  for (const nav::CheckPoint& check : level.check_points) {
+    distances += (distances.empty() ? "" : ", ") + mm(check.distance_m, 1);
+    all_within = all_within && check.within;
+  }
+  return row({"Check points <small>mm</small>", distances, all_within,
+              at_most(mm(nav::CheckPointRules{}.within_m, 1)),
+              "distances of places touched afterwards, which had no part in the fit"});
+}
+
 std::string figures(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   const bool best = r.noise_m > 0.0;
@@ -115,6 +130,7 @@ std::string figures(const RegisteredLevel& level) {
       row({"Points", whole(static_cast<double>(r.points)), true, "", "digitized and registered"}) +
       (best ? rows_of_best(level) : rows_of_paper(level));
   if (best || !level.screws.empty()) out += rows_of_error(level, best);
+  out += row_of_checks(level);
   return out + "</tbody></table>";
 }
 

@@ -24,7 +24,7 @@ std::vector<PlacedPoint> placed(const RegisteredLevel& level) {
     const auto surface = model.reachable_surface().nearest(place);
     if (!surface) continue;
     const double distance = surface->distance_m * (model.surface().contains(place) ? -1.0 : 1.0);
-    points.push_back({place, distance - level.tip_radius_m, false});
+    points.push_back({place, distance - level.tip_radius_m - level.registration.lift_m, false});
   }
   return points;
 }
@@ -80,6 +80,9 @@ RegistrationScene registration_scene(const RegisteredLevel& level) {
     scene.off_bone += p.off_bone ? 1 : 0;
   }
   scene.from_strokes_m = distances_from_strokes_m(level.model->reachable(), scene.points);
+  for (const nav::CheckPoint& check : level.check_points)
+    scene.checks.push_back({(level.registration.world_from_vertebra.inverse() * check.place).v,
+                            check.distance_m, !check.within});
   // Two digits after the point are none: to the next half of a millimetre.
   scene.full_colour_m = std::max(kLeastFullColour_m, std::ceil(3.0 * scatter / 0.0005) * 0.0005);
   scene.magnified = magnification(level);

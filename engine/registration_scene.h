@@ -8,16 +8,19 @@ namespace orthonav::engine {
 
 /// A digitized point at the registered pose.
 struct PlacedPoint {
-  Vec3 place_m;             ///< in the model's frame
-  double residual_m = 0.0;  ///< distance to the surface that can be touched; inside the bone < 0
-  bool off_bone = false;    ///< farther than the scatter of the others explains
+  Vec3 place_m;  ///< in the model's frame
+  /// Distance to the surface that can be touched, less the mean height of the tip above it where
+  /// the registration is certain of one; inside < 0.
+  double residual_m = 0.0;
+  bool off_bone = false;  ///< farther than the scatter of the others explains
 };
 
 /// What a drawing of a registration needs besides the model, worked out once for all views.
 struct RegistrationScene {
   /// At most some thousands, evenly taken: a drawing of a million is no clearer.
   std::vector<PlacedPoint> points;
-  std::size_t off_bone = 0;  ///< of those
+  std::size_t off_bone = 0;         ///< of those
+  std::vector<PlacedPoint> checks;  ///< touched to verify it
   /// How far each vertex of the touchable surface is from the nearest stroke on the bone.
   std::vector<double> from_strokes_m;
   double full_colour_m = 0.0;  ///< residual that has the last colour

@@ -193,7 +193,7 @@ std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& clo
     auto covariance = covariance_of(*fit);
     if (!with_lift || (is_credible_lift(fit->lift_m) && covariance &&
                        fit->lift_m > kCertainSd * covariance->lift_sd_m))
-      return CertainFit{std::move(*fit), std::move(covariance)};
+      return CertainFit{std::move(*fit), covariance};
   }
   return std::nullopt;
 }

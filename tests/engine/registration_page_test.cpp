@@ -70,6 +70,23 @@ TEST(RegistrationScene, CountsABallsRadiusAndTheInsideAsNegative) {
   EXPECT_NEAR(registration_scene(level).points.front().residual_m, -0.001, 1e-9);
 }
 
+TEST(RegistrationScene, TakesTheMeanHeightOfTheTipOff) {
+  RegisteredLevel level = exact();
+  level.registration.lift_m = 0.0005;
+  EXPECT_NEAR(registration_scene(level).points.back().residual_m, 0.0075, 1e-9);
+}
+
+TEST(RegistrationPage, ShowsWhatWasTouchedToVerify) {
+  RegisteredLevel level = exact();
+  EXPECT_THAT(registration_section(level).value(), Not(HasSubstr("class=\"check\"")));
+  level.check_points.push_back({level.points[0], 0.0004, true});
+  level.check_points.push_back({level.points[9], -0.0025, false});
+  const std::string page = registration_section(level).value();
+  EXPECT_THAT(page, AllOf(HasSubstr("class=\"check\""), HasSubstr("0.4, \u22122.5</td>"),
+                          HasSubstr("touched to verify it")));
+  EXPECT_THAT(page, HasSubstr("<td class=bad>0.4")) << "one is off";
+}
+
 TEST(RegistrationScene, IsThinnedOutWhereThereAreTooManyPoints) {
   RegisteredLevel level = exact();
   while (level.points.size() < 50000)
