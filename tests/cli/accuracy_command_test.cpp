@@ -37,8 +37,9 @@ engine::Board board() {
   return board;
 }
 
-/// Renders the whole test: what two cameras see of the pointer's tag, ten pairs a second.
-void record_test(const std::string& folder) {
+/// Renders the test, with the board or without: what two cameras see of the pointer's tag, ten
+/// pairs a second.
+void record_test(const std::string& folder, bool with_board) {
   AccuracyTrackOptions options;
   options.rate_hz = kRateHz;
   options.position_noise_m = options.rotation_noise_rad = 0.0;
@@ -46,8 +47,9 @@ void record_test(const std::string& folder) {
   options.still_s = 3.0;
   options.turning_s = 6.0;
   std::vector<Vec3> points_m;
-  for (const engine::TouchPoint& point : engine::touch_points(board()))
-    points_m.push_back({point.at_m.x, point.at_m.y, 0.0});
+  if (with_board)
+    for (const engine::TouchPoint& point : engine::touch_points(board()))
+      points_m.push_back({point.at_m.x, point.at_m.y, 0.0});
   const auto track = accuracy_track(options, points_m);
   // Between the dimple and the board when the pointer is held as at first.
   const auto rig_from_world = facing({0.1, 0.06, 0.0}) * track[15].value.inverse();
@@ -95,7 +97,9 @@ void expect_within_what_the_method_can(const json& report) {
 TEST(AccuracyCommand, MeasuresARenderedTest) {
   const ScratchFolder folder;
   const std::string recording = folder.file("recording");
-  record_test(recording);
+  record_test(recording, true);
+  const std::string in_the_dimple = folder.file("in-the-dimple");
+  record_test(in_the_dimple, false);
   ASSERT_TRUE(engine::save_board(folder.file("board.json"), board()));
   const std::string tools = folder.with("tools.json", tools_with_tip(4.0));
   const Called called = orthonav({"accuracy", recording, "--tools", tools, "--method", "paper",
@@ -106,18 +110,18 @@ TEST(AccuracyCommand, MeasuresARenderedTest) {
   expect_within_what_the_method_can(report);
 
   // Limits from the command line decide.
-  const Called wide =
-      orthonav({"accuracy", recording, "--tools", tools, "--method", "paper", "--single-point-mm",
-                "20", "30", "--turning-mm", "20", "30", "--tip-bias-mm", "20", "30"});
+  const Called wide = orthonav({"accuracy", in_the_dimple, "--tools", tools, "--method", "paper",
+                                "--single-point-mm", "20", "30", "--turning-mm", "20", "30",
+                                "--tip-bias-mm", "20", "30"});
   EXPECT_EQ(wide.code, 0) << wide.err;
   EXPECT_THAT(wide.out, StartsWith("accuracy test of pointer, method paper: "));
   EXPECT_THAT(wide.out, HasSubstr("distances: not tested (--board)"));
   EXPECT_THAT(wide.out, HasSubstr("verdict: pass"));
 
   // A tool file whose tip is elsewhere fails, and the report says where the tip is.
-  const Called biased =
-      orthonav({"accuracy", recording, "--tools", folder.with("biased.json", tools_with_tip(-4.0)),
-                "--pointer", "pointer", "--method", "paper", "--json", folder.file("out.json")});
+  const Called biased = orthonav(
+      {"accuracy", in_the_dimple, "--tools", folder.with("biased.json", tools_with_tip(-4.0)),
+       "--pointer", "pointer", "--method", "paper", "--json", folder.file("out.json")});
   EXPECT_EQ(biased.code, 1) << biased.err;
   EXPECT_THAT(biased.out, HasSubstr("sensitivity to orientation: fail"));
   EXPECT_THAT(biased.out, HasSubstr("verdict: fail"));

@@ -70,7 +70,7 @@ TEST(DistanceField, IsWithinHalfACellOfTheExactDistanceEverywhereAndMostlyWithin
   // to 3 cell^2 / (8 r) a direction across, at crests and in corners by parts of a cell.
   for (const Surface& s : {Surface(slab_bone(crooked_back)), Surface(test::sphere({}, 0.02, 40)),
                            Surface(test::box({-0.02, -0.02, -0.02}, {0.02, 0.03, 0.02}))}) {
-    const FieldErrors e = errors(field_of(s), s.index, 20000);
+    const FieldErrors e = errors(field_of(s), s.index, 8000);
     EXPECT_LT(e.worst_m, 0.5 * kCell_m);
     EXPECT_LT(e.median_m, 0.05 * kCell_m);
     EXPECT_GT(e.worst_m, 1e-6) << "not the exact distance: nothing would be measured here";
@@ -91,7 +91,7 @@ TEST(DistanceField, IsNegativeInsideAsDeepAsItSays) {
   Random random(5);
   int inside = 0;
   int deep = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 10000; ++i) {
     const Vec3 p = anywhere_in(field.bounds(), random);
     const double distance_m = s.index.nearest(p)->distance_m;
     DistanceField::Value value;
@@ -107,8 +107,8 @@ TEST(DistanceField, IsNegativeInsideAsDeepAsItSays) {
       ++deep;
     }
   }
-  EXPECT_GT(inside, 1000);
-  EXPECT_GT(deep, 20);
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(deep, 10);
 }
 
 TEST(DistanceField, PointsAwayFromTheSurfaceAndIsItsOwnDerivative) {

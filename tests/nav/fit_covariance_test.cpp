@@ -18,7 +18,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 /// Where screws end, seen from the back: the error there is what matters.
 const Point<Vertebra> kTargets[] = {
     {{0.012, -0.030, 0.004}}, {{-0.012, -0.030, 0.004}}, {{0.020, 0.000, 0.000}}};
-constexpr int kTrials = 240;
+constexpr int kTrials = 160;
 
 struct Noise {
   double white_m = 0.0003;
@@ -77,7 +77,7 @@ class FitCovarianceTest : public ::testing::Test {
   const SurfaceIndex surface_{mesh_};
 };
 
-/// 240 trials with three targets know an RMS to 4 %. The prediction has 7 % in reserve by design;
+/// 160 trials with three targets know an RMS to 5 %. The prediction has 7 % in reserve by design;
 /// the rest is for what it estimates from one set of residuals.
 constexpr double kHonest = 0.15;
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "anatomy.h"
 #include "engine/phantom.h"
@@ -30,34 +31,32 @@ struct Level {
   std::shared_ptr<const VertebraModel> model;
 };
 
-/// The built-in phantom's L3 to L5.
+/// The built-in phantom's levels, each made when it is first asked for.
 class RegisterBest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    for (const engine::CaseLevel& level : engine::phantom({"L3", "L4", "L5"}).levels)
-      levels_.push_back({level, VertebraModel::prepare(level.mesh).value()});
     full_ = digitize_strokes(l4().from.mesh, StrokeVariant::kFull, 1).value();
   }
   static void TearDownTestSuite() { levels_.clear(); }
   static const Level& level(const std::string& label) {
-    for (const Level& l : levels_)
-      if (l.from.label == label) return l;
-    throw std::runtime_error("no level " + label);
+    const auto known = levels_.find(label);
+    if (known != levels_.end()) return known->second;
+    Level made{engine::phantom({label}).levels.at(0), {}};
+    made.model = VertebraModel::prepare(made.from.mesh).value();
+    return levels_.emplace(label, std::move(made)).first->second;
   }
   static const Level& l4() { return level("L4"); }
-  static BestRegistrationOptions options(const Level& of) {
+  static BestRegistrationOptions options(const Level& of,
+                                         const std::vector<std::string>& neighbours = {}) {
     BestRegistrationOptions o;
     for (const ScrewPlan& screw : of.from.screws)
       o.targets.insert(o.targets.end(), {screw.entry, screw.target});
-    for (const Level& l : levels_)
-      if (l.from.label != of.from.label) o.neighbours.push_back({l.from.label, l.model.get()});
+    for (const std::string& label : neighbours)
+      o.neighbours.push_back({label, level(label).model.get()});
     return o;
   }
-  /// Without neighbours.
   static Result<Registration> registered(const Points& points) {
-    BestRegistrationOptions o = options(l4());
-    o.neighbours.clear();
-    return register_best(*l4().model, points, o);
+    return register_best(*l4().model, points, options(l4()));
   }
   static double error_m(const Level& of, const Transform<World, Vertebra>& pose,
                         const Transform<World, Vertebra>& truth) {
@@ -77,12 +76,12 @@ class RegisterBest : public ::testing::Test {
     EXPECT_THAT(r->reasons, Not(IsEmpty())) << what;
     EXPECT_NEAR(r->world_from_vertebra.rotation().determinant(), 1.0, 1e-9) << what;
   }
-  static inline std::vector<Level> levels_;
+  static inline std::map<std::string, Level> levels_;
   static inline DigitizedStrokes full_;
 };
 
 TEST_F(RegisterBest, AcceptsFullStrokesAndSaysHowSureItIs) {
-  const auto r = register_best(*l4().model, full_.tips(), options(l4()));
+  const auto r = register_best(*l4().model, full_.tips(), options(l4(), {"L3", "L5"}));
   ASSERT_TRUE(r.ok()) << r.error().message;
   EXPECT_TRUE(r->accepted);
   EXPECT_THAT(r->reasons, IsEmpty());
@@ -104,7 +103,7 @@ TEST_F(RegisterBest, IsNeverSilentlyWrongHoweverItWasStroked) {
   std::uint64_t seed = 20;
   int accepted = 0;
   for (const StrokeVariant variant : orthonav::test::kStrokeVariants)
-    for (int i = 0; i < 3; ++i, ++seed) {
+    for (int i = 0; i < 2; ++i, ++seed) {
       const auto strokes = digitize_strokes(l4().from.mesh, variant, seed).value();
       const auto r = registered(strokes.tips());
       ASSERT_TRUE(r.ok()) << r.error().message;
@@ -116,12 +115,12 @@ TEST_F(RegisterBest, IsNeverSilentlyWrongHoweverItWasStroked) {
             << name_of(variant) << " seed " << seed;
       }
     }
-  EXPECT_GE(accepted, 12) << "of 15: who refuses all is never wrong either";
+  EXPECT_GE(accepted, 8) << "of 10: who refuses all is never wrong either";
 }
 
 TEST_F(RegisterBest, SaysTheSameTwice) {
-  const auto a = register_best(*l4().model, full_.tips(), options(l4())).value();
-  const auto b = register_best(*l4().model, full_.tips(), options(l4())).value();
+  const auto a = registered(full_.tips()).value();
+  const auto b = registered(full_.tips()).value();
   EXPECT_EQ(a.world_from_vertebra.row_major(), b.world_from_vertebra.row_major());
   EXPECT_EQ(a.margin, b.margin);
   EXPECT_EQ(a.predicted_tre_m, b.predicted_tre_m);
@@ -149,11 +148,11 @@ TEST_F(RegisterBest, FindsTheSamePoseInAnyFrame) {
 }
 
 TEST_F(RegisterBest, NamesTheLevelThatWasStrokedInstead) {
-  for (const auto& [stroked, asked] :
-       {std::pair{"L3", "L4"}, {"L5", "L4"}, {"L4", "L3"}, {"L4", "L5"}}) {
+  for (const auto& [stroked, asked] : {std::pair{"L3", "L4"}, {"L5", "L4"}, {"L4", "L3"}}) {
     const auto strokes =
         digitize_strokes(level(stroked).from.mesh, StrokeVariant::kFull, 7).value();
-    const auto r = register_best(*level(asked).model, strokes.tips(), options(level(asked)));
+    const auto r =
+        register_best(*level(asked).model, strokes.tips(), options(level(asked), {stroked}));
     ASSERT_TRUE(r.ok()) << r.error().message;
     EXPECT_FALSE(r->accepted) << stroked << " on " << asked;
     EXPECT_EQ(r->fits_better, stroked);

@@ -97,7 +97,7 @@ TEST(StereoBoard, PredictsItsOwnErrors) {
   double turned_sigma = 0.0;
   double baseline = 0.0;
   double baseline_sigma = 0.0;
-  constexpr int kTrials = 12;
+  constexpr int kTrials = 8;
   for (int trial = 0; trial < kTrials; ++trial) {
     Random random(static_cast<std::uint64_t>(100 + trial));
     const auto found = calibrate_stereo(kBoard, kSize, views(14, random));
@@ -111,7 +111,7 @@ TEST(StereoBoard, PredictsItsOwnErrors) {
     baseline += std::pow(found->baseline_m() - cameras.right_from_left.translation().norm(), 2);
     baseline_sigma += std::pow(found->sigma->baseline_m, 2);
   }
-  // A dozen draws of few numbers, and a jackknife that is itself rough: within a factor of two.
+  // Eight draws of few numbers, and a jackknife that is itself rough: within a factor of two.
   EXPECT_GT(turned / turned_sigma, 0.25);
   EXPECT_LT(turned / turned_sigma, 4.0);
   EXPECT_GT(baseline / baseline_sigma, 0.25);

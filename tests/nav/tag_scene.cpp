@@ -85,6 +85,11 @@ Vec2 place_of(int x, int y, int ray, int rays_a_side) {
           y - 0.5 + 2.0 * (ray / rays_a_side + 0.5) / rays_a_side};
 }
 
+// The same for the first quarter of the footprint, which is the last one of the pixel before.
+Vec2 quarter_place_of(int x, int y, int ray) {
+  return place_of(x, y, ray / (kRaysASide / 2) * kRaysASide + ray % (kRaysASide / 2), kRaysASide);
+}
+
 void draw(const Camera& camera, const PlacedTag& tag, std::vector<double>& sums,
           std::vector<double>& covered) {
   const TagPicture cells = tag_picture(tag.family, tag.id);
@@ -95,21 +100,35 @@ void draw(const Camera& camera, const PlacedTag& tag, std::vector<double>& sums,
   if (eye.z < 0.0) return;
   const double border = double(cells.cells) / (cells.cells - 2 * cells.border_cells);
   const nav::PixelBox box = box_of(camera, tag, border);
-  for (int y = box.y_px; y < box.y_px + box.height_px; ++y)
-    for (int x = box.x_px; x < box.x_px + box.width_px; ++x)
-      for (int ray = 0; ray < kRaysASide * kRaysASide; ++ray) {
-        const auto unit = camera.model.unproject(place_of(x, y, ray, kRaysASide));
-        if (!unit) continue;
-        const Vec3 direction = turn * Vec3{unit->x, unit->y, 1.0};
-        const double along = -eye.z / direction.z;
-        if (!(along > 0.0)) continue;
-        const double grey =
-            grey_on(cells, tag.size_m, eye.x + along * direction.x, eye.y + along * direction.y);
-        if (grey < 0.0) continue;
-        const auto i = static_cast<std::size_t>(y * camera.model.width_px() + x);
-        sums[i] += grey;
-        covered[i] += 1.0;
+  const auto grey = [&](Vec2 place) {
+    const auto unit = camera.model.unproject(place);
+    if (!unit) return -1.0;
+    const Vec3 direction = turn * Vec3{unit->x, unit->y, 1.0};
+    const double along = -eye.z / direction.z;
+    if (!(along > 0.0)) return -1.0;
+    return grey_on(cells, tag.size_m, eye.x + along * direction.x, eye.y + along * direction.y);
+  };
+  // Footprints overlap: the quarter of one that is looked at here belongs to four pixels.
+  for (int y = box.y_px; y <= box.y_px + box.height_px; ++y)
+    for (int x = box.x_px; x <= box.x_px + box.width_px; ++x) {
+      double sum = 0.0;
+      double count = 0.0;
+      for (int ray = 0; ray < kRaysASide * kRaysASide / 4; ++ray) {
+        const double seen = grey(quarter_place_of(x, y, ray));
+        if (seen < 0.0) continue;
+        sum += seen;
+        count += 1.0;
       }
+      for (const int row : {y - 1, y})
+        for (const int column : {x - 1, x}) {
+          if (row < box.y_px || column < box.x_px || row == box.y_px + box.height_px ||
+              column == box.x_px + box.width_px)
+            continue;
+          const auto i = static_cast<std::size_t>(row * camera.model.width_px() + column);
+          sums[i] += sum;
+          covered[i] += count;
+        }
+    }
 }
 
 template <class CameraFrame>
@@ -184,9 +203,12 @@ GreyImage picture(const CameraModel& camera, const Transform<Rig, Marker>& rig_f
   std::vector<double> covered(image.pixels.size(), 0.0);
   for (const PlacedTag& tag : tags) draw({camera, rig_from_camera}, tag, sums, covered);
   constexpr double kRays = kRaysASide * kRaysASide;
+  std::fill(image.pixels.begin(), image.pixels.end(), static_cast<std::uint8_t>(kBackground));
   for (std::size_t i = 0; i < sums.size(); ++i)
-    image.pixels[i] = static_cast<std::uint8_t>(std::lround(
-        (sums[i] + kBackground * std::max(0.0, kRays - covered[i])) / std::max(kRays, covered[i])));
+    if (covered[i] > 0.0)
+      image.pixels[i] = static_cast<std::uint8_t>(
+          std::lround((sums[i] + kBackground * std::max(0.0, kRays - covered[i])) /
+                      std::max(kRays, covered[i])));
   return image;
 }
 
