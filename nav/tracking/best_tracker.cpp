@@ -145,7 +145,7 @@ class BestTracker final : public ToolTracker {
     TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
                          Origin::kMeasured,
                          turned(fit->covariance_in_rig, frame.world_from_rig->rotation())};
-    trail.filter.update(measured);
+    trail.filter.update(measured, trail.follower.exposure_s());
     ToolState& state = states_[i];
     state.world_from_marker = trail.filter.state();
     state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;

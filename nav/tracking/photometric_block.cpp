@@ -48,10 +48,19 @@ void ViewModel::compare(const Photometry& light) {
   const auto eye_x = static_cast<float>(eye_cells_.x);
   const auto eye_y = static_cast<float>(eye_cells_.y);
   const auto inverse_eye = static_cast<float>(1.0 / eye_cells_.z);
+  const auto bend = static_cast<float>(light.response[0]);
+  const auto bow = static_cast<float>(light.response[1]);
+  const auto ends = static_cast<float>(light.response[2]);
   for (int k = 0; k < kBlock; ++k) {
     const float shade = 1.0F + slope_x * x[k] - slope_y * y[k];
-    const float base = black + contrast * white[k];
-    const float g = contrast * shade;
+    const float odd = 1.0F - 2.0F * white[k];
+    const float middle = white[k] * (1.0F - white[k]);
+    const float answer = white[k] + middle * (bend + odd * (bow + ends * odd));
+    const float steep =
+        1.0F + bend * odd + bow * (1.0F - 6.0F * middle) + ends * odd * (1.0F - 8.0F * middle);
+    const float base = black + contrast * answer;
+    const float full = contrast * shade;
+    const float g = full * steep;
     const float s = inverse_eye * ((eye_x - x[k]) * tx[k] + (eye_y - y[k]) * ty[k]);
     j[0 * kBlock + k] = -g * tx[k];
     j[1 * kBlock + k] = -g * ty[k];
@@ -60,7 +69,7 @@ void ViewModel::compare(const Photometry& light) {
     j[4 * kBlock + k] = -g * s * x[k];
     j[5 * kBlock + k] = g * (tx[k] * y[k] - ty[k] * x[k]);
     j[6 * kBlock + k] = shade;
-    j[7 * kBlock + k] = shade * white[k];
+    j[7 * kBlock + k] = shade * answer;
     j[8 * kBlock + k] = base * x[k] * inverse_half;
     j[9 * kBlock + k] = -base * y[k] * inverse_half;
     j[10 * kBlock + k] = g * tsx[k];
@@ -68,7 +77,10 @@ void ViewModel::compare(const Photometry& light) {
     j[12 * kBlock + k] = g * ttx[k];
     j[13 * kBlock + k] = g * tty[k];
     j[14 * kBlock + k] = g * tc[k];
-    j[15 * kBlock + k] = grey[k] - base * shade;
+    j[15 * kBlock + k] = full * middle;
+    j[16 * kBlock + k] = full * middle * odd;
+    j[17 * kBlock + k] = full * middle * odd * odd;
+    j[18 * kBlock + k] = grey[k] - base * shade;
   }
 }
 

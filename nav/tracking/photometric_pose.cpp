@@ -56,7 +56,8 @@ Split split(const ViewEquations& e) {
 }
 
 /// Weak beliefs about the light, so that a view without white cells, or without edges, stays
-/// solvable: SD of a step of grey and of blur, and of slopes, tails and skew about nothing.
+/// solvable: SD of a step of grey and of blur, and of slopes, tails, skew and response about
+/// nothing.
 void add_prior(Split& s, const Photometry& light) {
   const auto step = [&](int i, double sd) { s.light(i, i) += 1.0 / (sd * sd); };
   const auto about_zero = [&](int i, double value, double sd) {
@@ -72,6 +73,9 @@ void add_prior(Split& s, const Photometry& light) {
   about_zero(6, light.tails[0], 1.0);
   about_zero(7, light.tails[1], 1.0);
   about_zero(8, light.skew, 0.3);
+  about_zero(9, light.response[0], 0.5);
+  about_zero(10, light.response[1], 0.5);
+  about_zero(11, light.response[2], 0.5);
 }
 
 void apply(const LightVector& step, double px_a_cell, Photometry& light) {
@@ -89,6 +93,10 @@ void apply(const LightVector& step, double px_a_cell, Photometry& light) {
     light.tails[i] = std::clamp(
         light.tails[i] + bounded(step(static_cast<Eigen::Index>(6 + i)), 1.0), -1.2, 3.0);
   light.skew = std::clamp(light.skew + bounded(step(8), 0.5), -0.8, 0.8);
+  // So far the response still rises everywhere.
+  light.response[0] = std::clamp(light.response[0] + bounded(step(9), 0.3), -0.9, 0.9);
+  light.response[1] = std::clamp(light.response[1] + bounded(step(10), 0.3), -0.9, 0.9);
+  light.response[2] = std::clamp(light.response[2] + bounded(step(11), 0.3), -0.9, 0.9);
 }
 
 void learn_noise(const ViewEquations& e, double share, Photometry& light) {

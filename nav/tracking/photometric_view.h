@@ -17,8 +17,9 @@ struct CameraFromTag {
   Vec3 translation_m{};
 };
 
-/// Light and lens of one tag in one image. Grey = (black + contrast · white) · shade, with
-/// white the blurred template in [0, 1] and shade = 1 + slope · (column, row) from the middle, in
+/// Light, lens and sensor of one tag in one image. Grey = (black + contrast · response(white)) ·
+/// shade, with white the blurred template in [0, 1], response(w) = w + bend · w (1 − w) + bow ·
+/// w (1 − w) (1 − 2w) + … = 1 + slope · (column, row) from the middle, in
 /// half widths of the template. Kept from pair to pair, since light changes slowly.
 struct Photometry {
   double black = 30.0;
@@ -32,6 +33,9 @@ struct Photometry {
   std::array<double, 2> tails{};
   /// Correlation of the blur between columns and rows: of a tag seen obliquely, or of motion.
   double skew = 0.0;
+  /// Departure of the sensor's response from a line: as of a gamma, which makes white areas grow,
+  /// and as of more contrast in the middle, in the last three places.
+  std::array<double, 3> response{};
   /// Variance of a grey value in black and in white areas; at first so much that nothing is an
   /// outlier.
   std::array<double, 2> variance{2500.0, 2500.0};
@@ -41,8 +45,8 @@ struct Photometry {
 /// Columns of the linear model of a view. The pose is perturbed in the frame of the tag: shift
 /// (in cells) and rotation vector.
 inline constexpr std::size_t kPoseColumns = 6;
-/// Black, contrast, slopes, logarithms of blur, tails, skew.
-inline constexpr std::size_t kLightColumns = 9;
+/// Black, contrast, slopes, logarithms of blur, tails, skew, response.
+inline constexpr std::size_t kLightColumns = 12;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 
 /// The sums of weighted least squares over the pixels of one view, and what they say of the fit.

@@ -42,6 +42,18 @@ PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 turn) {
           pose.translation() + shift};
 }
 
+/// A constant acceleration a moves the prediction by a dt² and the mean over an exposure T by
+/// a T² / 24: so much of the innovation is none of the pose at the middle.
+double of_exposure(double exposure_s, double dt_s) { return std::pow(exposure_s / dt_s, 2) / 24.0; }
+
+/// Taking it off helps little, since the prediction errs as well: it stays in the covariance.
+PoseCovariance blurred(const PoseCovariance& noise, const Vector6& innovation, double share) {
+  PoseCovariance out = noise;
+  for (std::size_t i = 0; i < 6; ++i)
+    out[7 * i] += std::pow(share * innovation(static_cast<int>(i)), 2);
+  return out;
+}
+
 double innovation(const Vector6& y, const Matrix12& p, const PoseCovariance& noise) {
   const Matrix6 s = p.topLeftCorner<6, 6>() + as_eigen(noise);
   return y.dot(s.ldlt().solve(y));
@@ -87,26 +99,18 @@ void PoseFilter::start(const Tracked<Pose>& measured) {
   lasting_ = measured.covariance;
 }
 
-// A constant acceleration a moves the prediction by a·dt² and the mean over an exposure T by
-// a·T²/24.
-PoseCovariance PoseFilter::blurred(const PoseCovariance& noise,
-                                   const std::array<double, 6>& innovation, double dt) const {
-  const double share = std::pow(options_.exposure_s / dt, 2) / 24.0;
-  PoseCovariance out = noise;
-  for (std::size_t i = 0; i < 6; ++i) out[7 * i] += std::pow(share * innovation[i], 2);
-  return out;
-}
-
-void PoseFilter::update(const Tracked<Pose>& measured) {
+void PoseFilter::update(const Tracked<Pose>& measured, double exposure_s) {
   const double dt = seconds(measured.time - time_);
   if (!alive_ || !(dt > 0.0)) return start(measured);
   const Pose ahead = moved(pose_, dt * velocity_m_, dt * velocity_rad_);
-  const Vector6 y = difference(measured.value, ahead);
+  Vector6 y = difference(measured.value, ahead);
   Covariance grown_p = grown(dt, options_.rest_m, options_.rest_rad);
   const bool at_rest = innovation(y, as_eigen(grown_p), measured.covariance) < options_.rest_limit;
   if (!at_rest) grown_p = grown(dt, options_.hand_m, options_.hand_rad);
   const Matrix12 p = as_eigen(grown_p);
-  lasting_ = blurred(measured.covariance, {y(0), y(1), y(2), y(3), y(4), y(5)}, dt);
+  const double share = of_exposure(exposure_s, dt);
+  lasting_ = blurred(measured.covariance, y, share);
+  y *= 1.0 - share;
   const Matrix6 noise = as_eigen(lasting_);
   const Matrix6 s = p.topLeftCorner<6, 6>() + noise;
   const Eigen::Matrix<double, 12, 6> gain = s.ldlt().solve(p.topRows<6>()).transpose();

@@ -20,10 +20,7 @@ struct PoseFilterOptions {
   double rest_limit = 18.5;
   /// Part of a measurement's variance that the next one repeats: what the model does not know
   /// averages out as little as it pleases.
-  double lasting_share = 0.15;
-  /// An image shows a tool's mean pose over the exposure; under acceleration that is not the one at
-  /// its middle. Exposures of headsets' cameras are no longer than this.
-  double exposure_s = 0.005;
+  double lasting_share = 0.10;
   /// SD of an unknown velocity.
   double first_speed_m = 0.5;
   double first_speed_rad = 3.0;
@@ -45,8 +42,9 @@ class PoseFilter {
 
   /// Where the tool is at a later time; `alive` must hold.
   [[nodiscard]] Tracked<Pose> predicted(Timestamp time) const;
-  /// Takes a measurement in, with its covariance in World. Starts when it is not alive.
-  void update(const Tracked<Pose>& measured);
+  /// Takes a measurement in, with its covariance in World: a mean over an exposure, which under
+  /// acceleration is not the pose at its middle. Starts when it is not alive.
+  void update(const Tracked<Pose>& measured, double exposure_s);
   /// The pose at the newest measurement, with the lasting part of its error in the covariance.
   [[nodiscard]] Tracked<Pose> state() const;
 
@@ -56,8 +54,6 @@ class PoseFilter {
   using Covariance = std::array<double, kSize * kSize>;
 
   void start(const Tracked<Pose>& measured);
-  [[nodiscard]] PoseCovariance blurred(const PoseCovariance& noise,
-                                       const std::array<double, 6>& innovation, double dt_s) const;
   [[nodiscard]] Covariance grown(double dt_s, double density_m, double density_rad) const;
 
   PoseFilterOptions options_;

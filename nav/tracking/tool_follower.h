@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/api/devices.h"
+#include "nav/tracking/exposure.h"
 #include "nav/tracking/photometric_pose.h"
 #include "nav/tracking/pose_filter.h"
 #include "nav/tracking/tag_search.h"
@@ -41,6 +42,8 @@ class ToolFollower {
   [[nodiscard]] std::optional<SizeEvidence> measured_size(const StereoFrame& frame,
                                                           const Transform<Rig, Marker>& pose,
                                                           PhotometricSolver& solver);
+  /// How long the cameras expose, as far as the tool's motion has told.
+  [[nodiscard]] double exposure_s() const { return exposure_.exposure_s(); }
   /// Forgets the light.
   void forget();
 
@@ -51,11 +54,14 @@ class ToolFollower {
                     const PhotometricSolver& solver, TagSearch& search);
   [[nodiscard]] bool looks_right(const StereoFrame& frame, const PhotometricFit& fit,
                                  const PhotometricSolver& solver, TagSearch& search) const;
+  void learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
+                      const PhotometricSolver& solver);
 
   std::vector<BlurredTag> tags_;
   std::vector<TagView> views_;     ///< every tag in both cameras
   std::vector<Photometry> light_;  ///< of the views, from the last good fit
-  TagView alone_;                  ///< scratch
+  ExposureEstimator exposure_;
+  TagView alone_;  ///< scratch
 };
 
 }  // namespace orthonav::nav

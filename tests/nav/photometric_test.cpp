@@ -100,6 +100,22 @@ TEST(PhotometricPose, FindsTheLightAndTheBlurByItself) {
   EXPECT_LT(tip_error_m(fit->rig_from_marker, tilted()), 3.0 * kExactTipM);
 }
 
+TEST(PhotometricPose, IsNotMisledByASensorThatIsNoLine) {
+  // As of a camera that encodes grey for a screen: white areas grow by a part of the blur.
+  Shown shown(tilted());
+  for (GreyImage* image : {&shown.frame.left, &shown.frame.right})
+    for (std::uint8_t& grey : image->pixels)
+      grey = static_cast<std::uint8_t>(250.0 * std::pow(grey / 250.0, 1.0 / 2.2) + 0.5);
+  const BlurredTag tag = drawn();
+  PhotometricSolver solver(shown.calibration);
+  auto views = both_views(tag);
+  const auto fit = solver.solve(shown.frame, roughly(tilted()), 0.001, views);
+  ASSERT_TRUE(fit.has_value());
+  EXPECT_GT(views[0].light.response[0], 0.3);
+  EXPECT_LT(tip_error_m(fit->rig_from_marker, tilted()), 3.0 * kExactTipM);
+  EXPECT_NEAR(fit->rig_from_marker.translation().z, tilted().translation().z, 0.00003);
+}
+
 TEST(PhotometricPose, GoesOnWhenAPartIsHidden) {
   Shown shown(tilted());
   const BlurredTag tag = drawn();
