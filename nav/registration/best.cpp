@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include "nav/registration/registration.h"
 #include "nav/registration/spread_points.h"
 #include "nav/registration/surface_fit.h"
+#include "nav/registration/verdict.h"
 #include "nav/registration/weakness.h"
 
 namespace orthonav::nav {
@@ -34,12 +34,6 @@ constexpr double kDoubtful = 3.0;
 constexpr double kInlierSd = 3.5;
 /// A level that explains the points nearly as well as this one does.
 constexpr double kLevelMargin = 6.0;
-
-std::string line(const char* format, double a, double b) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
 
 struct Cloud {
   std::vector<Vec3> all_m;  ///< about the centre, in the order of time
@@ -253,32 +247,6 @@ void compare_levels(const Cloud& cloud, double own_cost_m2, double width_m,
   }
 }
 
-void judge(const BestRegistrationOptions& o, Registration& r) {
-  const auto refuse = [&](std::string reason) { r.reasons.push_back(std::move(reason)); };
-  if (!(r.noise_m <= o.max_noise_m))
-    refuse(line("the points scatter %.1f mm about the surface, limit %.1f mm", r.noise_m * 1e3,
-                o.max_noise_m * 1e3));
-  if (!(r.inlier_share >= o.min_inlier_share))
-    refuse(line("only %.0f %% of the points lie on the model, at least %.0f %%",
-                r.inlier_share * 100.0, o.min_inlier_share * 100.0));
-  if (!(r.coverage_share >= o.min_coverage_share))
-    refuse(line("only %.0f %% of the surface was stroked, at least %.0f %%",
-                r.coverage_share * 100.0, o.min_coverage_share * 100.0));
-  if (!(r.margin >= o.min_margin))
-    refuse(line("another pose fits nearly as well (margin %.1f, at least %.0f)", r.margin,
-                o.min_margin));
-  if (!(r.predicted_tre_m <= o.max_predicted_tre_m))
-    refuse(line("error expected at the screws %.1f mm, limit %.1f mm", r.predicted_tre_m * 1e3,
-                o.max_predicted_tre_m * 1e3) +
-           (r.weakest.empty() ? "" : ": " + r.weakest));
-  else if (!(r.tre_95_m <= o.max_tre_95_m))
-    refuse(line("1 of 20 errors at the screws would exceed %.1f mm, limit %.1f mm",
-                r.tre_95_m * 1e3, o.max_tre_95_m * 1e3) +
-           (r.weakest.empty() ? "" : ": " + r.weakest));
-  if (!r.fits_better.empty()) refuse("the points fit level " + r.fits_better + " as well");
-  r.accepted = r.reasons.empty();
-}
-
 }  // namespace
 
 Result<Registration> register_best(const VertebraModel& model,
@@ -306,7 +274,8 @@ Result<Registration> register_best(const VertebraModel& model,
   r.coverage_share = coverage_share(model, fit);
   compare_poses(model, found, *certain, cloud, width_m, targets, options, r);
   compare_levels(cloud, truncated_cost_m2(found[0].fit, width_m), width_m, options, r);
-  judge(options, r);
+  r.reasons = reasons_against(r, options);
+  r.accepted = r.reasons.empty();
   return r;
 }
 

@@ -188,15 +188,8 @@ class BestTracker final : public ToolTracker {
     const auto rig_from_tag = frame.world_from_rig->inverse() * trail.last_seen * marker_from_tag;
     const auto expect = [&](const CameraModel& camera, const auto& camera_from_rig,
                             SearchPlan& plan) {
-      TagCorners corners;
-      const auto in_tag = corners_in_marker(marker.size_m);
-      for (std::size_t k = 0; k < 4; ++k) {
-        const auto seen =
-            camera.project((camera_from_rig * (rig_from_tag * Point<Tag>{in_tag[k]})).v);
-        if (!seen) return;
-        corners[k] = *seen;
-      }
-      plan.add(corners, kRoom, marker.family, marker.id);
+      if (const auto corners = corners_seen(camera, camera_from_rig * rig_from_tag, marker.size_m))
+        plan.add(*corners, kRoom, marker.family, marker.id);
     };
     const StereoCalibration& c = solver_.calibration();
     expect(c.left, c.left_from_rig, near_->left_plan());
@@ -245,23 +238,10 @@ class BestTracker final : public ToolTracker {
                    const Transform<Tag, Marker>& tag_from_marker, const TagMatch& match,
                    const StereoFrame& frame) {
     if (!match.left && !match.right) return false;
-    const StereoCalibration& c = solver_.calibration();
-    const CameraModel& camera = match.left ? c.left : c.right;
-    const MarkerCorners& seen = match.left ? *match.left : *match.right;
-    std::array<Vec2, 4> unit_plane;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const auto direction = camera.unproject(seen.corners_px[k]);
-      if (!direction) return false;
-      unit_plane[k] = *direction;
-    }
-    const auto poses = planar_poses(unit_plane, marker.size_m);
+    const auto poses = poses_by_one(solver_.calibration(), match.left ? *match.left : *match.right,
+                                    match.left == nullptr, marker.size_m);
     if (!poses) return false;
-    for (const CameraFromTag& pose : *poses) {
-      const Transform<Rig, Tag> rig_from_tag =
-          match.left ? c.left_from_rig.inverse() *
-                           Transform<LeftCamera, Tag>(pose.rotation, pose.translation_m)
-                     : c.right_from_rig.inverse() *
-                           Transform<RightCamera, Tag>(pose.rotation, pose.translation_m);
+    for (const Transform<Rig, Tag>& rig_from_tag : *poses) {
       const Transform<Rig, Marker> start = rig_from_tag * tag_from_marker;
       if (take(i, frame, start, kOneCameraDoubtPx * pixel_m(start), true)) return true;
     }
@@ -300,17 +280,11 @@ Result<std::unique_ptr<ToolTracker>> create_best_tracker(const StereoCalibration
   std::vector<ToolFollower> followers;
   DetectorOptions detection;
   detection.decimate = options.decimate;
-  detection.families.clear();
-  const auto detect = [&](const std::string& family) {
-    auto& known = detection.families;
-    if (std::find(known.begin(), known.end(), family) == known.end()) known.push_back(family);
-  };
+  detection.families = families_of(tools);
   for (const ToolGeometry& tool : tools) {
     Result<ToolFollower> follower = ToolFollower::create(tool);
     if (!follower) return follower.error();
     followers.push_back(std::move(follower).value());
-    detect(tool.marker.family);
-    for (const AttachedMarker& more : tool.more_markers) detect(more.definition.family);
   }
   Result<std::unique_ptr<PairDetector>> near = PairDetector::create(detection, options.parallel);
   if (!near) return near.error();

@@ -159,11 +159,7 @@ Result<std::unique_ptr<ToolTracker>> create_paper_tracker(const StereoCalibratio
   if (Status status = check(calibration, tools, options); !status) return status.error();
   DetectorOptions detection;
   detection.decimate = options.decimate;
-  detection.families.clear();
-  for (const ToolGeometry& tool : tools)
-    if (std::find(detection.families.begin(), detection.families.end(), tool.marker.family) ==
-        detection.families.end())
-      detection.families.push_back(tool.marker.family);
+  detection.families = families_of(tools);
   Result<std::unique_ptr<PairDetector>> detector =
       PairDetector::create(detection, options.parallel);
   if (!detector) return detector.error();

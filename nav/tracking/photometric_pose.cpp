@@ -4,6 +4,8 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "nav/tracking/photometric_light.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -14,12 +16,7 @@ using LightMatrix = Eigen::Matrix<double, kLight, kLight>;
 using LightVector = Eigen::Matrix<double, kLight, 1>;
 using CrossMatrix = Eigen::Matrix<double, 6, kLight>;
 
-constexpr double kBlurFloorPx = 0.25;
-constexpr double kBlurCeilingCells = 0.6;
-/// A logarithm of blur, or a share of grey, may change so much at once.
-constexpr double kLargestLightStep = 0.5;
 constexpr double kLargestStepCells = 0.5;
-constexpr double kVarianceFloor = 0.3;
 constexpr double kNoiseShare = 0.3;  ///< of the newest pair in the noise that is remembered
 constexpr int kNewLightIterations = 5;
 constexpr double kFewestPixels = 30.0;
@@ -55,55 +52,13 @@ Split split(const ViewEquations& e) {
   return s;
 }
 
-/// Weak beliefs about the light, so that a view without white cells, or without edges, stays
-/// solvable: SD of a step of grey and of blur, and of slopes, tails, skew and response about
-/// nothing.
 void add_prior(Split& s, const Photometry& light) {
-  const auto step = [&](int i, double sd) { s.light(i, i) += 1.0 / (sd * sd); };
-  const auto about_zero = [&](int i, double value, double sd) {
-    step(i, sd);
-    s.light_right(i) -= value / (sd * sd);
-  };
-  step(0, 500.0);
-  step(1, 500.0);
-  about_zero(2, light.slope[0], 0.3);
-  about_zero(3, light.slope[1], 0.3);
-  step(4, 0.5);
-  step(5, 0.5);
-  about_zero(6, light.tails[0], 1.0);
-  about_zero(7, light.tails[1], 1.0);
-  about_zero(8, light.skew, 0.3);
-  about_zero(9, light.response[0], 0.5);
-  about_zero(10, light.response[1], 0.5);
-  about_zero(11, light.response[2], 0.5);
-}
-
-void apply(const LightVector& step, double px_a_cell, Photometry& light) {
-  const auto bounded = [](double v, double limit) { return std::clamp(v, -limit, limit); };
-  light.black += bounded(step(0), 100.0);
-  light.contrast = std::clamp(light.contrast + bounded(step(1), 150.0), 5.0, 400.0);
-  for (std::size_t i = 0; i < 2; ++i) {
-    light.slope[i] = std::clamp(light.slope[i] + step(static_cast<Eigen::Index>(2 + i)), -0.8, 0.8);
-    light.blur_cells[i] =
-        std::clamp(light.blur_cells[i] *
-                       std::exp(bounded(step(static_cast<Eigen::Index>(4 + i)), kLargestLightStep)),
-                   kBlurFloorPx / px_a_cell, kBlurCeilingCells);
+  const LightPrior prior = light_prior(light);
+  for (int i = 0; i < kLight; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    s.light(i, i) += prior.weight[k];
+    s.light_right(i) += prior.right[k];
   }
-  for (std::size_t i = 0; i < 2; ++i)
-    light.tails[i] = std::clamp(
-        light.tails[i] + bounded(step(static_cast<Eigen::Index>(6 + i)), 1.0), -1.2, 3.0);
-  light.skew = std::clamp(light.skew + bounded(step(8), 0.5), -0.8, 0.8);
-  // So far the response still rises everywhere.
-  light.response[0] = std::clamp(light.response[0] + bounded(step(9), 0.3), -0.9, 0.9);
-  light.response[1] = std::clamp(light.response[1] + bounded(step(10), 0.3), -0.9, 0.9);
-  light.response[2] = std::clamp(light.response[2] + bounded(step(11), 0.3), -0.9, 0.9);
-}
-
-void learn_noise(const ViewEquations& e, double share, Photometry& light) {
-  for (std::size_t side = 0; side < 2; ++side)
-    if (e.counts[side] > 20.0)
-      light.variance[side] = std::max(kVarianceFloor, (1.0 - share) * light.variance[side] +
-                                                          share * e.squares[side] / e.counts[side]);
 }
 
 /// A small motion of the tag, in its frame and in cells, by a small motion of the tool in its own
@@ -204,7 +159,9 @@ void PhotometricSolver::update_light(const std::array<double, 6>& step,
     add_prior(s, view.light);
     const Vector6 of_tag = tag_by_tool(view.marker_from_tag, cell_m) * motion;
     const LightVector change = s.light.llt().solve(s.light_right - s.cross.transpose() * of_tag);
-    apply(change, cell_m * pixels_a_metre(view, pose), view.light);
+    LightStep step_of_light;
+    Eigen::Map<LightVector>(step_of_light.data()) = change;
+    apply(step_of_light, cell_m * pixels_a_metre(view, pose), view.light);
   }
 }
 

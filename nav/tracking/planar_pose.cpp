@@ -55,4 +55,26 @@ std::optional<std::array<CameraFromTag, 2>> planar_poses(const std::array<Vec2, 
   return std::array<CameraFromTag, 2>{{{turn, place}, {other, place}}};
 }
 
+std::optional<std::array<Transform<Rig, Tag>, 2>> poses_by_one(const StereoCalibration& calibration,
+                                                               const MarkerCorners& seen,
+                                                               bool right, double size_m) {
+  const CameraModel& camera = right ? calibration.right : calibration.left;
+  std::array<Vec2, 4> unit_plane;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto direction = camera.unproject(seen.corners_px[k]);
+    if (!direction) return std::nullopt;
+    unit_plane[k] = *direction;
+  }
+  const auto poses = planar_poses(unit_plane, size_m);
+  if (!poses) return std::nullopt;
+  const auto in_rig = [&](const CameraFromTag& p) -> Transform<Rig, Tag> {
+    if (right)
+      return calibration.right_from_rig.inverse() *
+             Transform<RightCamera, Tag>(p.rotation, p.translation_m);
+    return calibration.left_from_rig.inverse() *
+           Transform<LeftCamera, Tag>(p.rotation, p.translation_m);
+  };
+  return std::array<Transform<Rig, Tag>, 2>{in_rig((*poses)[0]), in_rig((*poses)[1])};
+}
+
 }  // namespace orthonav::nav

@@ -3,8 +3,11 @@
 #include <array>
 #include <optional>
 
+#include "hal/api/devices.h"
 #include "hal/api/vec.h"
+#include "nav/tracking/marker_detector.h"
 #include "nav/tracking/photometric_view.h"
+#include "nav/tracking/tool.h"
 
 namespace orthonav::nav {
 
@@ -15,5 +18,9 @@ namespace orthonav::nav {
 /// when the corners make no square in front of the camera.
 [[nodiscard]] std::optional<std::array<CameraFromTag, 2>> planar_poses(
     const std::array<Vec2, 4>& unit_plane, double size_m);
+
+/// The same in the rig, of a tag whose corners one camera sees.
+[[nodiscard]] std::optional<std::array<Transform<Rig, Tag>, 2>> poses_by_one(
+    const StereoCalibration& calibration, const MarkerCorners& seen, bool right, double size_m);
 
 }  // namespace orthonav::nav

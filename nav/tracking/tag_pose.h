@@ -56,6 +56,20 @@ class TagGeometry {
 /// The corners of an upright tag in its own frame, in the order of `MarkerCorners`.
 [[nodiscard]] std::array<Vec3, 4> corners_in_marker(double size_m);
 
+/// Where a camera sees the corners of a tag; nothing when one is out of its view.
+template <class CameraFrame>
+[[nodiscard]] std::optional<TagCorners> corners_seen(
+    const CameraModel& camera, const Transform<CameraFrame, Tag>& camera_from_tag, double size_m) {
+  TagCorners corners;
+  const auto in_tag = corners_in_marker(size_m);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto seen = camera.project((camera_from_tag * Point<Tag>{in_tag[k]}).v);
+    if (!seen) return std::nullopt;
+    corners[k] = *seen;
+  }
+  return corners;
+}
+
 /// A covariance in frame A seen from frame B, given B's view of A's axes.
 [[nodiscard]] PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a);
 

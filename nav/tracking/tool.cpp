@@ -91,4 +91,17 @@ std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {
   return problems;
 }
 
+std::vector<std::string> families_of(const std::vector<ToolGeometry>& tools) {
+  std::vector<std::string> families;
+  const auto add = [&](const std::string& family) {
+    if (std::find(families.begin(), families.end(), family) == families.end())
+      families.push_back(family);
+  };
+  for (const ToolGeometry& tool : tools) {
+    add(tool.marker.family);
+    for (const AttachedMarker& more : tool.more_markers) add(more.definition.family);
+  }
+  return families;
+}
+
 }  // namespace orthonav::nav

@@ -1,0 +1,62 @@
+#include "nav/tracking/photometric_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthonav::nav {
+namespace {
+
+constexpr double kBlurFloorPx = 0.25;
+constexpr double kBlurCeilingCells = 0.6;
+/// A logarithm of blur, or a share of grey, may change so much at once.
+constexpr double kLargestLightStep = 0.5;
+constexpr double kVarianceFloor = 0.3;
+
+double bounded(double v, double limit) { return std::clamp(v, -limit, limit); }
+
+}  // namespace
+
+LightPrior light_prior(const Photometry& light) {
+  LightPrior prior;
+  const auto step = [&](std::size_t i, double sd) { prior.weight[i] = 1.0 / (sd * sd); };
+  const auto about_zero = [&](std::size_t i, double value, double sd) {
+    step(i, sd);
+    prior.right[i] = -value / (sd * sd);
+  };
+  step(0, 500.0);
+  step(1, 500.0);
+  about_zero(2, light.slope[0], 0.3);
+  about_zero(3, light.slope[1], 0.3);
+  step(4, 0.5);
+  step(5, 0.5);
+  about_zero(6, light.tails[0], 1.0);
+  about_zero(7, light.tails[1], 1.0);
+  about_zero(8, light.skew, 0.3);
+  for (std::size_t i = 0; i < light.response.size(); ++i) about_zero(9 + i, light.response[i], 0.5);
+  return prior;
+}
+
+void apply(const LightStep& step, double px_a_cell, Photometry& light) {
+  light.black += bounded(step[0], 100.0);
+  light.contrast = std::clamp(light.contrast + bounded(step[1], 150.0), 5.0, 400.0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    light.slope[i] = std::clamp(light.slope[i] + step[2 + i], -0.8, 0.8);
+    light.blur_cells[i] =
+        std::clamp(light.blur_cells[i] * std::exp(bounded(step[4 + i], kLargestLightStep)),
+                   kBlurFloorPx / px_a_cell, kBlurCeilingCells);
+    light.tails[i] = std::clamp(light.tails[i] + bounded(step[6 + i], 1.0), -1.2, 3.0);
+  }
+  light.skew = std::clamp(light.skew + bounded(step[8], 0.5), -0.8, 0.8);
+  // Not far from where it would no longer rise everywhere.
+  for (std::size_t i = 0; i < light.response.size(); ++i)
+    light.response[i] = std::clamp(light.response[i] + bounded(step[9 + i], 0.3), -0.9, 0.9);
+}
+
+void learn_noise(const ViewEquations& e, double share, Photometry& light) {
+  for (std::size_t side = 0; side < 2; ++side)
+    if (e.counts[side] > 20.0)
+      light.variance[side] = std::max(kVarianceFloor, (1.0 - share) * light.variance[side] +
+                                                          share * e.squares[side] / e.counts[side]);
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+
+#include "nav/tracking/photometric_view.h"
+
+namespace orthonav::nav {
+
+/// By the light's columns of `ViewEquations`.
+using LightStep = std::array<double, kLightColumns>;
+
+/// Weak beliefs about the light, so that a view without white cells, or without edges, stays
+/// solvable: what they add to the diagonal of its normal equations and to their right-hand side.
+struct LightPrior {
+  LightStep weight{};
+  LightStep right{};
+};
+[[nodiscard]] LightPrior light_prior(const Photometry& light);
+
+/// Changes the light by a step, within what light and lenses do.
+void apply(const LightStep& step, double px_a_cell, Photometry& light);
+
+/// Takes in the noise about the model: `share` of what is remembered is that of these residuals.
+void learn_noise(const ViewEquations& equations, double share, Photometry& light);
+
+}  // namespace orthonav::nav
