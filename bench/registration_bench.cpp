@@ -24,6 +24,7 @@ struct Arguments {
   std::vector<std::string> methods;
   RunOptions run;
   bool wrong_level = false;
+  bool alone = false;
   bool each = false;
 };
 
@@ -55,7 +56,7 @@ Result<std::vector<BenchLevel>> load_levels(const Arguments& arguments) {
       levels.push_back(std::move(level));
     }
   }
-  for (std::size_t i = 0; i < levels.size(); ++i)
+  for (std::size_t i = 0; i < levels.size() && !arguments.alone; ++i)
     for (std::size_t k = 0; k < levels.size(); ++k)
       if (levels[i].case_name == levels[k].case_name && (k + 1 == i || i + 1 == k))
         levels[i].neighbours.push_back({levels[k].label, levels[k].model.get()});
@@ -132,6 +133,8 @@ int main(int argc, char** argv) {
   app.add_option("--jobs", arguments.run.jobs, "levels beside each other")
       ->check(CLI::Range(1, 64));
   app.add_flag("--wrong-level", arguments.wrong_level, "strokes fitted to the neighbouring levels");
+  app.add_flag("--alone", arguments.alone,
+               "one registration is timed, none of the levels beside are tried");
   app.add_flag("--each", arguments.each, "a line a run as well");
   CLI11_PARSE(app, argc, argv);
   return orthonav::bench::measured(arguments);

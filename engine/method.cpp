@@ -10,6 +10,7 @@ Result<nav::Registration> by_paper(const RegistrationRequest& request) {
 Result<nav::Registration> by_best(const RegistrationRequest& request) {
   nav::BestRegistrationOptions options;
   options.tip_radius_m = request.tip_radius_m;
+  options.point_sd_m.assign(request.point_sd_m.begin(), request.point_sd_m.end());
   for (const nav::ScrewPlan& screw : request.screws) {
     options.targets.push_back(screw.entry);
     options.targets.push_back(screw.target);

@@ -19,6 +19,8 @@ struct RegistrationRequest {
   std::span<const Point<World>> points_in_world;  ///< in the order of time
   std::span<const nav::ScrewPlan> screws;         ///< where the pose must be sure; may be empty
   std::span<const NeighbouringLevel> neighbours;
+  /// How exactly each was tracked (RMS of an axis); empty where nothing tells.
+  std::span<const double> point_sd_m{};
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; `paper` takes the end for a point
 };
 

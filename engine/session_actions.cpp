@@ -154,8 +154,9 @@ void Session::try_registration(Timestamp time) {
   // The trial under way has lost its use, and this one shall have the machine to itself.
   if (coach_) coach_->forget();
   const std::vector<Point<World>> points = digitizer_.saved_points();
+  const std::vector<double> sds_m = digitizer_.saved_point_sds_m();
   const auto result =
-      method_.registrar({*now.plan.model, points, now.plan.screws, now.plan.neighbours});
+      method_.registrar({*now.plan.model, points, now.plan.screws, now.plan.neighbours, sds_m});
   now.newest.reset();
   if (result) now.newest = RegistrationAttempt{points, *result};
   std::string reason;

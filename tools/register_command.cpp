@@ -87,9 +87,12 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
   const auto inputs = load_register_inputs(arguments);
   if (!inputs) return bad_input(inputs.error().message);
   const double tip_radius_m = arguments.tip_radius_mm * 1e-3;
-  const auto registration =
-      (*registrar)({*inputs->level.model, inputs->points, inputs->level.screws,
-                    inputs->level.neighbours, tip_radius_m});
+  const auto registration = (*registrar)({*inputs->level.model,
+                                          inputs->points,
+                                          inputs->level.screws,
+                                          inputs->level.neighbours,
+                                          {},
+                                          tip_radius_m});
   if (!registration) return bad_input(arguments.points + ": " + registration.error().message);
   const engine::RegisteredLevel level{inputs->level.label,  arguments.method, inputs->level.model,
                                       inputs->level.screws, inputs->points,   *registration,

@@ -168,6 +168,19 @@ void estimate_errors(const VertebraModel& model, const std::optional<FitCovarian
   r.advice = weakness.advice;
 }
 
+Status check_point_sds(std::span<const double> sd_m, std::size_t points) {
+  if (sd_m.empty()) return {};
+  if (sd_m.size() != points)
+    return Error{"registration: " + std::to_string(sd_m.size()) + " standard deviations of " +
+                 std::to_string(points) + " points"};
+  const auto bad =
+      std::find_if(sd_m.begin(), sd_m.end(), [](double sd) { return !(sd >= 0.0 && sd < 1.0); });
+  if (bad == sd_m.end()) return {};
+  return Error{"registration: standard deviation of point " +
+               std::to_string(bad - sd_m.begin() + 1) + " is " + std::to_string(*bad) +
+               " m, must be between 0 and 1 m"};
+}
+
 struct CertainFit {
   SurfaceFit fit;
   std::optional<FitCovariance> covariance;
@@ -179,6 +192,7 @@ std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& clo
                                     const BestRegistrationOptions& options) {
   SurfaceFitOptions fine;
   fine.tip_radius_m = options.tip_radius_m;
+  fine.point_sd_m = options.point_sd_m;
   for (const bool with_lift : {true, false}) {
     if (with_lift && !(start.noise_m > kLooseHand_m || start.with_lift)) continue;
     fine.with_lift = with_lift;
@@ -205,6 +219,7 @@ void compare_poses(const VertebraModel& model, const std::vector<Candidate>& fou
   const double unit_m2 = 2.0 * r.noise_m * r.noise_m / points;
   SurfaceFitOptions fine;
   fine.tip_radius_m = options.tip_radius_m;
+  fine.point_sd_m = options.point_sd_m;
   fine.with_lift = best.fit.with_lift;
   const double best_cost_m2 = truncated_cost_m2(best.fit, width_m);
   for (std::size_t i = 1; i < found.size(); ++i) {
@@ -253,6 +268,8 @@ Result<Registration> register_best(const VertebraModel& model,
                                    std::span<const Point<World>> points_in_world,
                                    const BestRegistrationOptions& options) {
   if (const Status s = check_points(points_in_world, options.min_points); !s) return s.error();
+  if (const Status s = check_point_sds(options.point_sd_m, points_in_world.size()); !s)
+    return s.error();
   const Cloud cloud = cloud_of(points_in_world);
   const std::vector<Point<Vertebra>> targets = targets_of(model, options);
   double width_m = 0.0;

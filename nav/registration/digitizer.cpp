@@ -1,6 +1,8 @@
 #include "nav/registration/digitizer.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 namespace orthonav::nav {
@@ -8,6 +10,22 @@ namespace {
 
 /// Two minutes at 30 Hz: recording does not allocate.
 constexpr std::size_t kReservedSamples = 3600;
+
+/// The tip moves by the shift and by the turn times the arm.
+double tip_sd_m(const TrackedPose& pose, Point<Marker> tip_in_marker) {
+  const Vec3 arm = pose.value.rotation() * tip_in_marker.v;
+  double variance = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 along{};
+    along[axis] = 1.0;
+    const Vec3 by_turn = arm.cross(along);
+    const std::array<double, 6> slope{along.x, along.y, along.z, by_turn.x, by_turn.y, by_turn.z};
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t k = 0; k < 6; ++k)
+        variance += slope[i] * pose.covariance[6 * i + k] * slope[k];
+  }
+  return variance > 0.0 && std::isfinite(variance) ? std::sqrt(variance / 3.0) : 0.0;
+}
 
 }  // namespace
 
@@ -33,7 +51,8 @@ bool Digitizer::add(const TrackedPose& world_from_marker, Point<Marker> tip_in_m
   if (world_from_marker.time < pressed_at_ || world_from_marker.time <= newest_) return false;
   const Point<World> tip_in_world = world_from_marker.value * tip_in_marker;
   if (!tip_in_world.v.is_finite()) return false;
-  current().samples.push_back({tip_in_world, world_from_marker.time});
+  current().samples.push_back(
+      {tip_in_world, world_from_marker.time, tip_sd_m(world_from_marker, tip_in_marker)});
   newest_ = world_from_marker.time;
   return true;
 }
@@ -75,6 +94,15 @@ std::vector<Point<World>> Digitizer::saved_points() const {
     if (region.saved)
       for (const Sample& sample : region.samples) points.push_back(sample.tip_in_world);
   return points;
+}
+
+std::vector<double> Digitizer::saved_point_sds_m() const {
+  std::vector<double> sds;
+  sds.reserve(saved_count());
+  for (const Region& region : regions_)
+    if (region.saved)
+      for (const Sample& sample : region.samples) sds.push_back(sample.tip_sd_m);
+  return sds;
 }
 
 std::size_t Digitizer::saved_count() const {

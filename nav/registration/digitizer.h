@@ -15,6 +15,7 @@ namespace orthonav::nav {
 struct Sample {
   Point<World> tip_in_world;
   Timestamp time{};
+  double tip_sd_m = 0.0;  ///< how exactly it was tracked: RMS of an axis; 0 where nothing tells
 };
 
 /// Consecutive samples between two saves: one region (lamina, spinous process, a facet).
@@ -47,6 +48,8 @@ class Digitizer {
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::span<const Region> regions() const { return regions_; }
   [[nodiscard]] std::vector<Point<World>> saved_points() const;
+  /// Of these points, in their order.
+  [[nodiscard]] std::vector<double> saved_point_sds_m() const;
   [[nodiscard]] std::size_t saved_count() const;
 
  private:

@@ -102,6 +102,9 @@ struct BestRegistrationOptions {
   double min_inlier_share = 0.7;     ///< of the points that lie on the surface within the noise
   double min_coverage_share = 0.10;  ///< of the reachable surface within 5 mm of a point
   double tip_radius_m = 0.0;         ///< of a ball at the pointer's end
+  /// How exactly each point was tracked (SD along an axis): those known better count for more.
+  /// Empty: all alike.
+  std::vector<double> point_sd_m;
   std::vector<NeighbourLevel> neighbours;
 };
 

@@ -16,6 +16,8 @@ using Vector7 = Eigen::Matrix<double, 7, 1>;
 constexpr double kTukeySd = 3.6;
 /// SD by the median of absolute values, for a normal distribution.
 constexpr double kSdByMedian = 1.4826;
+/// Of the residuals' variance at least so much is of no known origin.
+constexpr double kLeastRest = 0.1;
 constexpr double kDamping = 1e-9;
 constexpr double kNowhere_m = 1e3;
 /// Rounding must not hide what lies just as far.
@@ -54,10 +56,19 @@ double spread_m(const SurfaceFit& fit, std::vector<double>& scratch) {
   return kSdByMedian * *middle;
 }
 
-void weigh(double width_m, SurfaceFit& fit) {
-  for (FittedPoint& p : fit.points) {
-    const double t = std::max(0.0, 1.0 - p.residual_m * p.residual_m / (width_m * width_m));
-    p.weight = t * t;
+/// The residuals' spread holds what is known of the points' errors, on the average, and the rest:
+/// of bone and hand, which is the same for all.
+void weigh(std::span<const double> sd_m, SurfaceFit& fit) {
+  const double noise_m2 = fit.noise_m * fit.noise_m;
+  double known_m2 = 0.0;
+  for (const double sd : sd_m) known_m2 += sd * sd / static_cast<double>(sd_m.size());
+  const double rest_m2 = std::max(noise_m2 - known_m2, kLeastRest * noise_m2);
+  for (std::size_t i = 0; i < fit.points.size(); ++i) {
+    FittedPoint& p = fit.points[i];
+    const double own_m2 = sd_m.empty() ? noise_m2 : rest_m2 + sd_m[i] * sd_m[i];
+    const double t =
+        std::max(0.0, 1.0 - p.residual_m * p.residual_m / (kTukeySd * kTukeySd * own_m2));
+    p.weight = t * t * noise_m2 / own_m2;
   }
 }
 
@@ -102,6 +113,8 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
                                          std::span<const Vec3> points_m, const CentredPose& start,
                                          const SurfaceFitOptions& options) {
   if (points_m.size() < 6) return std::nullopt;
+  if (!options.point_sd_m.empty() && options.point_sd_m.size() != points_m.size())
+    return std::nullopt;
   SurfaceFit fit;
   fit.pose = start;
   fit.with_lift = options.with_lift;
@@ -111,7 +124,7 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
     measure(surface, points_m, last ? options.counted_m : options.farthest_m, options.tip_radius_m,
             fit);
     fit.noise_m = std::clamp(spread_m(fit, scratch), options.least_noise_m, options.most_noise_m);
-    weigh(kTukeySd * fit.noise_m, fit);
+    weigh(options.point_sd_m, fit);
     if (last || fit.iterations == options.max_iterations) return fit;
     const auto length = step(fit);
     if (!length) return std::nullopt;

@@ -17,6 +17,8 @@ struct SurfaceFitOptions {
   /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
   /// unknowns: surfaces that face different ways tell it from a shift.
   bool with_lift = false;
+  /// SD of each point, as far as it is known; empty: all alike.
+  std::span<const double> point_sd_m{};
   /// What residuals are never taken to be smaller or larger than (SD).
   double least_noise_m = 0.00015;
   double most_noise_m = 0.002;
@@ -28,7 +30,7 @@ struct FittedPoint {
   Vec3 gradient;            ///< of the residual by the point's place
   Vec3 nearest_m;           ///< on the surface
   double residual_m = 0.0;  ///< outside the surface positive
-  double weight = 0.0;      ///< robust, 0 to 1
+  double weight = 0.0;      ///< robust, 0 to 1, and by what is known of the point
 };
 
 struct SurfaceFit {

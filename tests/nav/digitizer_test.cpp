@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "tests/support/allocation_count.h"
@@ -28,6 +29,26 @@ void stroke(Digitizer& digitizer, int ms, int count) {
   digitizer.press(at(ms));
   for (int i = 0; i < count; ++i) EXPECT_TRUE(digitizer.add(pose(ms + 33 * i), kTip));
   digitizer.release(at(ms + 33 * count));
+}
+
+TEST(Digitizer, KnowsHowExactlyEachTipWasTracked) {
+  Digitizer digitizer;
+  digitizer.press(at(10));
+  TrackedPose sure = pose(33);
+  for (const std::size_t axis : {0U, 1U, 2U}) sure.covariance[7 * axis] = 1e-8;
+  EXPECT_TRUE(digitizer.add(sure, kTip));
+  // A turn of 2 mrad about x and about z moves a tip 150 mm below by 0.3 mm each.
+  TrackedPose turning = pose(66);
+  turning.covariance[7 * 3] = turning.covariance[7 * 5] = 4e-6;
+  turning.covariance[7 * 4] = 1.0;  // about the shaft: nothing moves
+  EXPECT_TRUE(digitizer.add(turning, kTip));
+  EXPECT_TRUE(digitizer.add(pose(99), kTip));
+  digitizer.save();
+  const auto sds_m = digitizer.saved_point_sds_m();
+  ASSERT_EQ(sds_m.size(), 3U);
+  EXPECT_NEAR(sds_m[0], 1e-4, 1e-12);
+  EXPECT_NEAR(sds_m[1], 0.0003 * std::sqrt(2.0 / 3.0), 1e-12);
+  EXPECT_EQ(sds_m[2], 0.0);
 }
 
 TEST(Digitizer, TakesTheTipOnlyWhileTheButtonIsHeld) {

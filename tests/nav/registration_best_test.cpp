@@ -208,6 +208,15 @@ TEST_F(RegisterBest, RefusesBadInputInOneLine) {
     broken[17].v.z = strange;
     EXPECT_THAT(refused(broken), HasSubstr("point 18 is not finite"));
   }
+  BestRegistrationOptions o = options(l4());
+  o.point_sd_m.assign(tips.size(), 0.0002);
+  EXPECT_TRUE(register_best(*l4().model, tips, o).ok());
+  o.point_sd_m[4] = std::nan("");
+  EXPECT_THAT(register_best(*l4().model, tips, o).error().message,
+              HasSubstr("standard deviation of point 5 is"));
+  o.point_sd_m.resize(7);
+  EXPECT_THAT(register_best(*l4().model, tips, o).error().message,
+              HasSubstr("7 standard deviations of"));
   Points in_millimetres = tips;
   for (Point<World>& p : in_millimetres) p.v = 1e3 * p.v;
   EXPECT_THAT(refused(in_millimetres), HasSubstr("unit"));
