@@ -29,6 +29,7 @@ struct StudyArguments {
   int jobs = 0;
   JsonOutput json{JsonOutput::Unasked::kStdout};
   bool perfect = false;
+  bool navigation_alone = false;
   std::vector<std::string> merged;
   JsonOutput merged_json{JsonOutput::Unasked::kStdout};
 };
@@ -67,6 +68,8 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   options.operation.tools = engine::built_in_tools();
   options.operation.loop.draw_every = 0;
   if (arguments.perfect) options.operation.sim.magnitudes = sim::Magnitudes::perfect();
+  if (arguments.navigation_alone)
+    options.operation.sim.magnitudes = sim::Magnitudes::navigation_alone();
   options.runs = arguments.runs;
   options.first_seed = arguments.first_seed;
   options.jobs = arguments.jobs > 0
@@ -142,7 +145,11 @@ void add_study_command(CLI::App& app, Action& action) {
       ->check(whole_number(0, 1024))
       ->capture_default_str();
   arguments->json.add_to(*study);
-  study->add_flag("--perfect", arguments->perfect, "every source of error at zero");
+  auto* perfect = study->add_flag("--perfect", arguments->perfect, "every source of error at zero");
+  study
+      ->add_flag("--navigation-alone", arguments->navigation_alone,
+                 "the eye, the aiming hand and the wire at zero, all else as documented")
+      ->excludes(perfect);
   auto* merge_command = study->add_subcommand("merge", "joins the results of shards");
   merge_command->add_option("files", arguments->merged, "results of shards")->required();
   arguments->merged_json.add_to(*merge_command);

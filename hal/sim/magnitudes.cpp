@@ -71,6 +71,16 @@ Magnitudes Magnitudes::perfect() {
   return none;
 }
 
+Magnitudes Magnitudes::navigation_alone() {
+  Magnitudes alone;
+  for (double Magnitudes::*later :
+       {&Magnitudes::entry_pick_m, &Magnitudes::head_pick_m, &Magnitudes::angle_reading_rad,
+        &Magnitudes::overlay_perception_m, &Magnitudes::overlay_comparison_m,
+        &Magnitudes::wire_skiving_m, &Magnitudes::wire_bending_rad})
+    alone.*later = 0.0;
+  return alone;
+}
+
 std::vector<std::string> Magnitudes::check() const {
   std::vector<std::string> problems;
   // Negated, so that NaN fails too.

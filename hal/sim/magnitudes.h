@@ -109,6 +109,9 @@ struct Magnitudes {
   double pace_sd = 0.2;
 
   static Magnitudes perfect();
+  /// As documented up to what the headset shows; then the eye, the aiming hand and the wire do as
+  /// they are told. What is left of an operation's errors is navigation's.
+  static Magnitudes navigation_alone();
   /// Everything wrong with the numbers, a line each: name, value, limit. Empty: fine.
   [[nodiscard]] std::vector<std::string> check() const;
 };

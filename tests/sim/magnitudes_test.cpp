@@ -16,6 +16,16 @@ TEST(Magnitudes, DefaultsAndThePerfectWorldAreFine) {
   EXPECT_THAT(Magnitudes::perfect().check(), IsEmpty());
 }
 
+TEST(Magnitudes, NavigationAloneKeepsWhatComesBeforeTheScreen) {
+  const Magnitudes documented;
+  const Magnitudes alone = Magnitudes::navigation_alone();
+  EXPECT_THAT(alone.check(), IsEmpty());
+  EXPECT_EQ(alone.wire_bending_rad, 0.0);
+  EXPECT_EQ(alone.overlay_perception_m, 0.0);
+  EXPECT_EQ(alone.stroke_lift_m, documented.stroke_lift_m);
+  EXPECT_EQ(alone.tremor_rad, documented.tremor_rad);
+}
+
 TEST(Magnitudes, PerfectWorldHasNoImperfectionLeft) {
   // Each double but the pace, read as memory: a magnitude forgotten in perfect() is found here.
   const Magnitudes none = Magnitudes::perfect();
