@@ -30,6 +30,7 @@ void put_judgement(Json& line, const nav::Registration& result) {
   line["inlier_share"] = result.inlier_share;
   line["effective_points"] = result.effective_points;
   line["coverage_share"] = result.coverage_share;
+  line["swept_share"] = result.swept_share;
   line["margin"] = result.margin;
   line["expected_tre_mm"] = result.predicted_tre_m * 1e3;
   line["tre_95_mm"] = result.tre_95_m * 1e3;

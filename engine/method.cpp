@@ -11,6 +11,7 @@ Result<nav::Registration> by_best(const RegistrationRequest& request) {
   nav::BestRegistrationOptions options;
   options.tip_radius_m = request.tip_radius_m;
   options.point_sd_m.assign(request.point_sd_m.begin(), request.point_sd_m.end());
+  options.shafts.assign(request.shafts.begin(), request.shafts.end());
   for (const nav::ScrewPlan& screw : request.screws) {
     options.targets.push_back(screw.entry);
     options.targets.push_back(screw.target);

@@ -70,6 +70,7 @@ void put_fit(Json& out, const nav::Registration& r) {
   out["inlier_share"] = r.inlier_share;
   out["effective_points"] = r.effective_points;
   out["coverage_share"] = r.coverage_share;
+  out["swept_share"] = r.swept_share;
 }
 
 }  // namespace

@@ -217,8 +217,10 @@ void Session::watch_active_tool(Timestamp now) {
 
 void Session::collect_samples() {
   const nav::TrackedPose& pose = watches_[pointer_].newest();
-  const Point<Marker> tip = tracker_->tools()[pointer_].tip_in_marker;
-  if (step_ == Step::kDigitize && digitizer_.recording()) digitizer_.add(pose, tip);
+  const nav::ToolGeometry& pointer = tracker_->tools()[pointer_];
+  const Point<Marker> tip = pointer.tip_in_marker;
+  if (step_ == Step::kDigitize && digitizer_.recording())
+    digitizer_.add(pose, tip, pointer.axis_in_marker);
   if (touching_ && (step_ == Step::kRod || checks_by_touch()) && pose.origin == Origin::kMeasured)
     touch_.push_back(pose.value * tip);
 }

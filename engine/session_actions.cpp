@@ -155,8 +155,9 @@ void Session::try_registration(Timestamp time) {
   if (coach_) coach_->forget();
   const std::vector<Point<World>> points = digitizer_.saved_points();
   const std::vector<double> sds_m = digitizer_.saved_point_sds_m();
-  const auto result =
-      method_.registrar({*now.plan.model, points, now.plan.screws, now.plan.neighbours, sds_m});
+  const std::vector<Vec3> shafts = digitizer_.saved_shafts();
+  const auto result = method_.registrar(
+      {*now.plan.model, points, now.plan.screws, now.plan.neighbours, sds_m, shafts});
   now.newest.reset();
   if (result) now.newest = RegistrationAttempt{points, *result};
   std::string reason;

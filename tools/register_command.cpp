@@ -92,6 +92,7 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
                                           inputs->level.screws,
                                           inputs->level.neighbours,
                                           {},
+                                          {},
                                           tip_radius_m});
   if (!registration) return bad_input(arguments.points + ": " + registration.error().message);
   const engine::RegisteredLevel level{inputs->level.label,  arguments.method, inputs->level.model,

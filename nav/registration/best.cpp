@@ -8,6 +8,7 @@
 #include "nav/registration/registration.h"
 #include "nav/registration/spread_points.h"
 #include "nav/registration/surface_fit.h"
+#include "nav/registration/swept_space.h"
 #include "nav/registration/verdict.h"
 #include "nav/registration/weakness.h"
 
@@ -168,17 +169,16 @@ void estimate_errors(const VertebraModel& model, const std::optional<FitCovarian
   r.advice = weakness.advice;
 }
 
-Status check_point_sds(std::span<const double> sd_m, std::size_t points) {
-  if (sd_m.empty()) return {};
-  if (sd_m.size() != points)
-    return Error{"registration: " + std::to_string(sd_m.size()) + " standard deviations of " +
-                 std::to_string(points) + " points"};
-  const auto bad =
-      std::find_if(sd_m.begin(), sd_m.end(), [](double sd) { return !(sd >= 0.0 && sd < 1.0); });
-  if (bad == sd_m.end()) return {};
-  return Error{"registration: standard deviation of point " +
-               std::to_string(bad - sd_m.begin() + 1) + " is " + std::to_string(*bad) +
-               " m, must be between 0 and 1 m"};
+/// Poses at which the pointer would have gone through bone are none, as long as another is left.
+void drop_impossible(const VertebraModel& model, const Cloud& cloud,
+                     std::span<const Point<World>> points, const BestRegistrationOptions& options,
+                     std::vector<Candidate>& found) {
+  const auto is_possible = [&](const Candidate& c) {
+    return swept_bone_share(model, world_from(c.fit.pose, cloud.centre_m), points,
+                            options.shafts) <= options.max_swept_share;
+  };
+  const auto impossible = std::stable_partition(found.begin(), found.end(), is_possible);
+  if (impossible != found.begin()) found.erase(impossible, found.end());
 }
 
 struct CertainFit {
@@ -273,8 +273,8 @@ Result<Registration> register_best(const VertebraModel& model,
   const Cloud cloud = cloud_of(points_in_world);
   const std::vector<Point<Vertebra>> targets = targets_of(model, options);
   double width_m = 0.0;
-  const std::vector<Candidate> found =
-      candidates(model, cloud, targets, options.tip_radius_m, width_m);
+  std::vector<Candidate> found = candidates(model, cloud, targets, options.tip_radius_m, width_m);
+  drop_impossible(model, cloud, points_in_world, options, found);
   const auto certain =
       found.empty() ? std::nullopt : final_fit(model, cloud, found[0].fit, options);
   if (!certain) return Error{"registration finds no pose: the strokes fit no part of the model"};
@@ -289,6 +289,7 @@ Result<Registration> register_best(const VertebraModel& model,
   r.points = points_in_world.size();
   estimate_errors(model, certain->covariance, targets, r);
   r.coverage_share = coverage_share(model, fit);
+  r.swept_share = swept_bone_share(model, r.world_from_vertebra, points_in_world, options.shafts);
   compare_poses(model, found, *certain, cloud, width_m, targets, options, r);
   compare_levels(cloud, truncated_cost_m2(found[0].fit, width_m), width_m, options, r);
   r.reasons = reasons_against(r, options);

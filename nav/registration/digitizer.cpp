@@ -27,6 +27,16 @@ double tip_sd_m(const TrackedPose& pose, Point<Marker> tip_in_marker) {
   return variance > 0.0 && std::isfinite(variance) ? std::sqrt(variance / 3.0) : 0.0;
 }
 
+/// One thing of every saved sample, in order.
+template <class T>
+std::vector<T> of_saved(std::span<const Region> regions, T Sample::*thing) {
+  std::vector<T> out;
+  for (const Region& region : regions)
+    if (region.saved)
+      for (const Sample& sample : region.samples) out.push_back(sample.*thing);
+  return out;
+}
+
 }  // namespace
 
 Region& Digitizer::current() {
@@ -46,13 +56,15 @@ void Digitizer::press(Timestamp time) {
 
 void Digitizer::release(Timestamp /*time*/) { recording_ = false; }
 
-bool Digitizer::add(const TrackedPose& world_from_marker, Point<Marker> tip_in_marker) {
+bool Digitizer::add(const TrackedPose& world_from_marker, Point<Marker> tip_in_marker,
+                    Direction<Marker> axis_in_marker) {
   if (!recording_ || world_from_marker.origin != Origin::kMeasured) return false;
   if (world_from_marker.time < pressed_at_ || world_from_marker.time <= newest_) return false;
   const Point<World> tip_in_world = world_from_marker.value * tip_in_marker;
   if (!tip_in_world.v.is_finite()) return false;
-  current().samples.push_back(
-      {tip_in_world, world_from_marker.time, tip_sd_m(world_from_marker, tip_in_marker)});
+  const Vec3 shaft = (world_from_marker.value * axis_in_marker).v;
+  current().samples.push_back({tip_in_world, world_from_marker.time, shaft.normalized(),
+                               tip_sd_m(world_from_marker, tip_in_marker)});
   newest_ = world_from_marker.time;
   return true;
 }
@@ -88,21 +100,15 @@ void Digitizer::clear() {
 }
 
 std::vector<Point<World>> Digitizer::saved_points() const {
-  std::vector<Point<World>> points;
-  points.reserve(saved_count());
-  for (const Region& region : regions_)
-    if (region.saved)
-      for (const Sample& sample : region.samples) points.push_back(sample.tip_in_world);
-  return points;
+  return of_saved(regions_, &Sample::tip_in_world);
 }
 
 std::vector<double> Digitizer::saved_point_sds_m() const {
-  std::vector<double> sds;
-  sds.reserve(saved_count());
-  for (const Region& region : regions_)
-    if (region.saved)
-      for (const Sample& sample : region.samples) sds.push_back(sample.tip_sd_m);
-  return sds;
+  return of_saved(regions_, &Sample::tip_sd_m);
+}
+
+std::vector<Vec3> Digitizer::saved_shafts() const {
+  return of_saved(regions_, &Sample::shaft_in_world);
 }
 
 std::size_t Digitizer::saved_count() const {

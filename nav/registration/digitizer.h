@@ -15,6 +15,7 @@ namespace orthonav::nav {
 struct Sample {
   Point<World> tip_in_world;
   Timestamp time{};
+  Vec3 shaft_in_world{};  ///< unit vector from the tip back along the pointer's shaft
   double tip_sd_m = 0.0;  ///< how exactly it was tracked: RMS of an axis; 0 where nothing tells
 };
 
@@ -35,7 +36,8 @@ class Digitizer {
   void release(Timestamp time);
   /// True when the pose became a sample: recording, measured, finite, no older than the press, and
   /// newer than the last sample (the same pose twice is one observation).
-  bool add(const TrackedPose& world_from_marker, Point<Marker> tip_in_marker);
+  bool add(const TrackedPose& world_from_marker, Point<Marker> tip_in_marker,
+           Direction<Marker> axis_in_marker = ToolGeometry{}.axis_in_marker);
   /// Keeps the current region; without samples there is nothing to keep.
   void save();
   /// Drops the region that is not saved yet and returns it; nothing when it has no samples. Never
@@ -50,6 +52,7 @@ class Digitizer {
   [[nodiscard]] std::vector<Point<World>> saved_points() const;
   /// Of these points, in their order.
   [[nodiscard]] std::vector<double> saved_point_sds_m() const;
+  [[nodiscard]] std::vector<Vec3> saved_shafts() const;
   [[nodiscard]] std::size_t saved_count() const;
 
  private:

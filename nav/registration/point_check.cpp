@@ -46,4 +46,17 @@ Status check_points(std::span<const Point<World>> points, std::size_t min_points
   return {};
 }
 
+Status check_point_sds(std::span<const double> sd_m, std::size_t points) {
+  if (sd_m.empty()) return {};
+  if (sd_m.size() != points)
+    return Error{"registration: " + std::to_string(sd_m.size()) + " standard deviations of " +
+                 std::to_string(points) + " points"};
+  const auto bad =
+      std::find_if(sd_m.begin(), sd_m.end(), [](double sd) { return !(sd >= 0.0 && sd < 1.0); });
+  if (bad == sd_m.end()) return {};
+  return Error{"registration: standard deviation of point " +
+               std::to_string(bad - sd_m.begin() + 1) + " is " + std::to_string(*bad) +
+               " m, must be between 0 and 1 m"};
+}
+
 }  // namespace orthonav::nav

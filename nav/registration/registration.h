@@ -105,6 +105,10 @@ struct BestRegistrationOptions {
   /// How exactly each point was tracked (SD along an axis): those known better count for more.
   /// Empty: all alike.
   std::vector<double> point_sd_m;
+  /// From the tip back along the pointer's shaft, unit vectors in World: where it was is no bone.
+  /// Empty: not known.
+  std::vector<Vec3> shafts;
+  double max_swept_share = 0.15;  ///< of the points whose shaft would go through bone
   std::vector<NeighbourLevel> neighbours;
 };
 
@@ -131,6 +135,7 @@ struct Registration {
   double effective_points = 0.0;  ///< independent ones that would tell as much
   double margin = 0.0;            ///< of the runner-up, log-likelihood ratio
   double coverage_share = 0.0;    ///< of the reachable surface
+  double swept_share = 0.0;       ///< of the points whose pointer would have gone through bone
   /// The motion known worst, in words, and the part of the bone whose strokes would tell most.
   std::string weakest;
   std::string advice;
@@ -155,5 +160,7 @@ Result<Registration> register_best(const VertebraModel& model,
 
 /// What keeps points from being registered at all: too few, not finite, all over the place, a line.
 Status check_points(std::span<const Point<World>> points, std::size_t min_points);
+/// What is wrong with standard deviations that shall be theirs; none are fine.
+Status check_point_sds(std::span<const double> sd_m, std::size_t points);
 
 }  // namespace orthonav::nav

@@ -26,6 +26,9 @@ std::vector<std::string> reasons_against(const Registration& r, const BestRegist
   if (!(r.coverage_share >= o.min_coverage_share))
     refuse(line("only %.0f %% of the surface was stroked, at least %.0f %%",
                 r.coverage_share * 100.0, o.min_coverage_share * 100.0));
+  if (!(r.swept_share <= o.max_swept_share))
+    refuse(line("the pointer would have gone through bone at %.0f %% of the points, limit %.0f %%",
+                r.swept_share * 100.0, o.max_swept_share * 100.0));
   if (!(r.margin >= o.min_margin))
     refuse(line("another pose fits nearly as well (margin %.1f, at least %.0f)", r.margin,
                 o.min_margin));

@@ -49,6 +49,9 @@ TEST(Digitizer, KnowsHowExactlyEachTipWasTracked) {
   EXPECT_NEAR(sds_m[0], 1e-4, 1e-12);
   EXPECT_NEAR(sds_m[1], 0.0003 * std::sqrt(2.0 / 3.0), 1e-12);
   EXPECT_EQ(sds_m[2], 0.0);
+  const auto shafts = digitizer.saved_shafts();
+  ASSERT_EQ(shafts.size(), 3U);
+  EXPECT_EQ(shafts[0], (Vec3{0.0, 1.0, 0.0}));
 }
 
 TEST(Digitizer, TakesTheTipOnlyWhileTheButtonIsHeld) {

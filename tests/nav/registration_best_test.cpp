@@ -8,6 +8,7 @@
 #include "anatomy.h"
 #include "engine/phantom.h"
 #include "nav/registration/registration.h"
+#include "nav/registration/swept_space.h"
 #include "slab_bone.h"
 #include "tests/support/digitized_strokes.h"
 
@@ -116,6 +117,30 @@ TEST_F(RegisterBest, IsNeverSilentlyWrongHoweverItWasStroked) {
       }
     }
   EXPECT_GE(accepted, 8) << "of 10: who refuses all is never wrong either";
+}
+
+TEST_F(RegisterBest, RefusesAPoseAtWhichThePointerGoesThroughBone) {
+  const Points tips = full_.tips();
+  const auto vertebra_from_world = full_.world_from_vertebra.inverse();
+  BestRegistrationOptions o = options(l4());
+  for (const Point<World>& tip : tips) {
+    const auto on_bone = l4().model->surface().nearest((vertebra_from_world * tip).v);
+    o.shafts.push_back(full_.world_from_vertebra.rotation() *
+                       (on_bone->normal + Vec3{0.0, 1.0, 0.0}).normalized());
+  }
+  EXPECT_LT(swept_bone_share(*l4().model, full_.world_from_vertebra, tips, o.shafts), 0.1);
+  const auto held = register_best(*l4().model, tips, o).value();
+  EXPECT_TRUE(held.accepted) << ::testing::PrintToString(held.reasons);
+  EXPECT_LT(held.swept_share, 0.1);
+  // As if the bone had been touched from within.
+  for (Vec3& shaft : o.shafts) shaft = -shaft;
+  const auto through = register_best(*l4().model, tips, o).value();
+  EXPECT_FALSE(through.accepted);
+  EXPECT_THAT(through.reasons, ::testing::Contains(HasSubstr("gone through bone")));
+  // Nothing is said of shafts that nobody knows.
+  EXPECT_EQ(swept_bone_share(*l4().model, full_.world_from_vertebra, tips, {}), 0.0);
+  const std::vector<Vec3> unknown(tips.size());
+  EXPECT_EQ(swept_bone_share(*l4().model, full_.world_from_vertebra, tips, unknown), 0.0);
 }
 
 TEST_F(RegisterBest, SaysTheSameTwice) {
