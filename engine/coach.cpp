@@ -1,9 +1,9 @@
 #include "engine/coach.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "engine/length_text.h"
 
 namespace orthonav::engine {
 namespace {
@@ -38,9 +38,7 @@ std::string text_of(const Coaching& coaching) {
   } else if (!std::isfinite(coaching.expected_m)) {
     out = "-- mm expected";
   } else {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), "%.1f mm expected", coaching.expected_m * 1e3);
-    out = text.data();
+    out = in_mm(coaching.expected_m) + " expected";
   }
   if (coaching.enough) return out + ", enough to register";
   return coaching.advice.empty() ? out : out + ", " + coaching.advice;

@@ -74,20 +74,29 @@ std::string fixed_width(const std::string& text) {
   return out;
 }
 
+/// A text beside a place, its middle as high: to the right by so many of its heights, or to the
+/// left where that is negative.
+void add_text_beside(Scene& scene, Float3 place, float offset_right, float height_m,
+                     float min_height_deg, std::vector<render::TextRun> runs, Label label) {
+  render::TextItem text;
+  text.label = label;
+  text.position = place;
+  text.align = offset_right < 0 ? render::TextAlign::kRight : render::TextAlign::kLeft;
+  text.offset_right = offset_right;
+  text.offset_up = -0.5f;
+  text.height_m = height_m;
+  text.min_height_deg = min_height_deg;
+  text.runs = std::move(runs);
+  scene.texts.push_back(std::move(text));
+}
+
 void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
   add_line(scene, render::make_ring(at, along, kBendRingRadius_m), kBendRingWidth_m, look::kAmber,
            label, 0, true);
-  render::TextItem text;
-  text.label = label;
-  text.position = at;
-  text.align = render::TextAlign::kLeft;
-  text.offset_right = 1.6f;
-  text.offset_up = -0.5f;
-  text.height_m = 0.0035f;
-  text.min_height_deg = 0.35f;
-  text.runs = {{angle_text(bend.angle_rad), look::kAmber},
-               {" at " + in_mm(bend.arc_length_m), look::kDimWhite}};
-  scene.texts.push_back(std::move(text));
+  add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f,
+                  {{angle_text(bend.angle_rad), look::kAmber},
+                   {" at " + in_mm(bend.arc_length_m), look::kDimWhite}},
+                  label);
 }
 
 }  // namespace
@@ -149,41 +158,21 @@ void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
   add_sphere(scene, entry.position, kEntryRadius_m, look::kBlue, label);
   add_line(scene, render::make_ring(entry.position, entry.surface_normal, kEntryRingRadius_m),
            kEntryRingWidth_m, look::kBlue, label, 0, true);
-  const bool right = entry.side == LabelSide::kRight;
-  render::TextItem text;
-  text.label = label;
-  text.position = entry.position;
-  text.align = right ? render::TextAlign::kLeft : render::TextAlign::kRight;
-  text.offset_right = right ? 1.2f : -1.2f;
-  text.offset_up = -0.5f;
-  text.height_m = 0.0045f;
-  text.min_height_deg = 0.5f;
-  text.runs = {{entry.text, look::kBlue}};
-  if (entry.done) text.runs.push_back({" ✓", look::kGreen});
-  scene.texts.push_back(std::move(text));
+  std::vector<render::TextRun> runs = {{entry.text, look::kBlue}};
+  if (entry.done) runs.push_back({" ✓", look::kGreen});
+  add_text_beside(scene, entry.position, entry.side == LabelSide::kRight ? 1.2f : -1.2f, 0.0045f,
+                  0.5f, std::move(runs), label);
 }
 
 std::string distance_text(double distance_m) {
-  if (!std::isfinite(distance_m)) return "-- mm";
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f mm", std::abs(distance_m) * 1e3);
-  return text.data();
+  return std::isfinite(distance_m) ? in_mm(std::abs(distance_m)) : "-- mm";
 }
 
 void add_check_point(Scene& scene, Float3 position, const std::string& text, bool within,
                      Label label) {
   const render::Colour colour = within ? look::kGreen : look::kRed;
   add_sphere(scene, position, kCheckRadius_m, colour, label);
-  render::TextItem item;
-  item.label = label;
-  item.position = position;
-  item.align = render::TextAlign::kLeft;
-  item.offset_right = 1.0f;
-  item.offset_up = -0.5f;
-  item.height_m = 0.0045f;
-  item.min_height_deg = 0.5f;
-  item.runs = {{text, colour}};
-  scene.texts.push_back(std::move(item));
+  add_text_beside(scene, position, 1.0f, 0.0045f, 0.5f, {{text, colour}}, label);
 }
 
 Float3 trajectory_outer_end(Float3 entry, Float3 target) {

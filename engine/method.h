@@ -21,8 +21,8 @@ struct RegistrationRequest {
   std::span<const NeighbouringLevel> neighbours;
   /// How exactly each was tracked (RMS of an axis); empty where nothing tells.
   std::span<const double> point_sd_m{};
-  std::span<const Vec3>
-      shafts{};               ///< the pointer's, from the tip back, a unit vector each; or none
+  /// The pointer's shaft at each, from the tip back, unit vectors; empty where nothing tells.
+  std::span<const Vec3> shafts{};
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; `paper` takes the end for a point
 };
 

@@ -1,8 +1,7 @@
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
+#include "engine/length_text.h"
 #include "engine/session.h"
 
 namespace orthonav::engine {
@@ -90,10 +89,7 @@ Result<Point<World>> Session::touched_place(Timestamp time) const {
   for (const Point<World>& tip : touch_) squares += (tip.v - mean).dot(tip.v - mean);
   const double spread_m = std::sqrt(squares / count);
   if (spread_m <= options_.max_touch_spread_m) return Point<World>{mean};
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "tip moved %.1f mm, limit %.1f mm", spread_m * 1e3,
-                options_.max_touch_spread_m * 1e3);
-  return Error{text.data()};
+  return Error{"tip moved " + in_mm(spread_m) + ", limit " + in_mm(options_.max_touch_spread_m)};
 }
 
 void Session::record_check(Timestamp time) {

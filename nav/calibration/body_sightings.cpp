@@ -1,7 +1,5 @@
 #include "nav/calibration/body_sightings.h"
 
-#include <algorithm>
-
 #include "nav/tracking/tag_matching.h"
 
 namespace orthonav::nav {
@@ -32,11 +30,7 @@ PairSightings sightings(std::span<const MarkerDefinition> tags, std::span<const 
 Result<SightingCollector> SightingCollector::create(const StereoCalibration& calibration,
                                                     std::vector<MarkerDefinition> tags) {
   DetectorOptions options;
-  options.families.clear();
-  for (const MarkerDefinition& tag : tags)
-    if (std::find(options.families.begin(), options.families.end(), tag.family) ==
-        options.families.end())
-      options.families.push_back(tag.family);
+  options.families = families_of(tags);
   options.refinement = Refinement::kEdges;
   auto detector = MarkerDetector::create(options);
   if (!detector) return detector.error();

@@ -58,10 +58,9 @@ double spread_m(const SurfaceFit& fit, std::vector<double>& scratch) {
 
 /// The residuals' spread holds what is known of the points' errors, on the average, and the rest:
 /// of bone and hand, which is the same for all.
-void weigh(std::span<const double> sd_m, SurfaceFit& fit) {
+/// `known_m2`: mean of the squares of `sd_m`.
+void weigh(std::span<const double> sd_m, double known_m2, SurfaceFit& fit) {
   const double noise_m2 = fit.noise_m * fit.noise_m;
-  double known_m2 = 0.0;
-  for (const double sd : sd_m) known_m2 += sd * sd / static_cast<double>(sd_m.size());
   const double rest_m2 = std::max(noise_m2 - known_m2, kLeastRest * noise_m2);
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
     FittedPoint& p = fit.points[i];
@@ -120,11 +119,14 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
   fit.with_lift = options.with_lift;
   fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
   std::vector<double> scratch;
+  double known_m2 = 0.0;
+  for (const double sd : options.point_sd_m)
+    known_m2 += sd * sd / static_cast<double>(points_m.size());
   for (bool last = false;; ++fit.iterations) {
     measure(surface, points_m, last ? options.counted_m : options.farthest_m, options.tip_radius_m,
             fit);
     fit.noise_m = std::clamp(spread_m(fit, scratch), options.least_noise_m, options.most_noise_m);
-    weigh(options.point_sd_m, fit);
+    weigh(options.point_sd_m, known_m2, fit);
     if (last || fit.iterations == options.max_iterations) return fit;
     const auto length = step(fit);
     if (!length) return std::nullopt;

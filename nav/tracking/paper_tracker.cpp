@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "nav/tracking/corner_filter.h"
@@ -159,7 +158,10 @@ Result<std::unique_ptr<ToolTracker>> create_paper_tracker(const StereoCalibratio
   if (Status status = check(calibration, tools, options); !status) return status.error();
   DetectorOptions detection;
   detection.decimate = options.decimate;
-  detection.families = families_of(tools);
+  // Each tool by its one marker, as published.
+  std::vector<MarkerDefinition> markers;
+  for (const ToolGeometry& tool : tools) markers.push_back(tool.marker);
+  detection.families = families_of(markers);
   Result<std::unique_ptr<PairDetector>> detector =
       PairDetector::create(detection, options.parallel);
   if (!detector) return detector.error();

@@ -91,17 +91,21 @@ std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {
   return problems;
 }
 
-std::vector<std::string> families_of(const std::vector<ToolGeometry>& tools) {
+std::vector<std::string> families_of(const std::vector<MarkerDefinition>& tags) {
   std::vector<std::string> families;
-  const auto add = [&](const std::string& family) {
-    if (std::find(families.begin(), families.end(), family) == families.end())
-      families.push_back(family);
-  };
-  for (const ToolGeometry& tool : tools) {
-    add(tool.marker.family);
-    for (const AttachedMarker& more : tool.more_markers) add(more.definition.family);
-  }
+  for (const MarkerDefinition& tag : tags)
+    if (std::find(families.begin(), families.end(), tag.family) == families.end())
+      families.push_back(tag.family);
   return families;
+}
+
+std::vector<std::string> families_of(const std::vector<ToolGeometry>& tools) {
+  std::vector<MarkerDefinition> tags;
+  for (const ToolGeometry& tool : tools) {
+    tags.push_back(tool.marker);
+    for (const AttachedMarker& more : tool.more_markers) tags.push_back(more.definition);
+  }
+  return families_of(tags);
 }
 
 }  // namespace orthonav::nav

@@ -38,7 +38,9 @@ struct ToolGeometry {
 /// tool, sizes outside 5-200 mm, tips or further tags farther than 1 m, axes that are not unit
 /// vectors. Empty when all is well.
 [[nodiscard]] std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools);
-/// Families of all their tags, each once.
+/// Families of the tags, each once.
+[[nodiscard]] std::vector<std::string> families_of(const std::vector<MarkerDefinition>& tags);
+/// Of all tags of the tools.
 [[nodiscard]] std::vector<std::string> families_of(const std::vector<ToolGeometry>& tools);
 /// Tag families that can be detected.
 [[nodiscard]] bool is_known_family(const std::string& family);

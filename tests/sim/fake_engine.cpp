@@ -18,6 +18,14 @@ std::string time_text(Timestamp time) { return std::to_string(time.time_since_ep
 
 }  // namespace
 
+SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes) {
+  SimOptions options;
+  options.seed = seed;
+  options.magnitudes = magnitudes;
+  options.render = false;
+  return options;
+}
+
 FakeEngine::FakeEngine(SimHeadset& headset, const TestCase& test_case, EngineOptions options)
     : headset_(headset), case_(test_case), options_(options) {
   order_ = test_case.room.operated;

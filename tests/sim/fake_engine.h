@@ -30,6 +30,9 @@ struct EngineOptions {
   bool off = false;      ///< what is touched then turns out too far off
 };
 
+/// For a simulation that renders nothing: who only talks to the engine needs no images.
+SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes = {});
+
 /// Stands in for the engine: walks through the workflow as clicker and voice say and draws the
 /// holograms that an engine without any error would draw, from the truth.
 class FakeEngine {

@@ -10,14 +10,6 @@ namespace {
 
 using testing::ElementsAre;
 
-SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes = {}) {
-  SimOptions options;
-  options.seed = seed;
-  options.magnitudes = magnitudes;
-  options.render = false;
-  return options;
-}
-
 /// The events without their times.
 std::vector<std::string> words_of(const FakeEngine& engine) {
   std::vector<std::string> words;

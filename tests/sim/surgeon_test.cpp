@@ -12,14 +12,6 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes = {}) {
-  SimOptions options;
-  options.seed = seed;
-  options.magnitudes = magnitudes;
-  options.render = false;
-  return options;
-}
-
 struct ScrewError {
   double angle_rad = 0.0;
   double entry_m = 0.0;
