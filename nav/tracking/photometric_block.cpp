@@ -13,6 +13,8 @@ namespace {
 constexpr float kOutlierSd = 4.7F;
 /// A slope (per cell, of the blurred template) from which on a pixel tells something of the pose.
 constexpr float kEdgeSlope = 0.1F;
+/// The square of one below which a pixel pulls at nothing.
+constexpr float kLeastSlope2 = 1e-4F;
 
 float dot(const float* __restrict a, const float* __restrict b) {
   std::array<float, 8> lanes{};
@@ -91,6 +93,7 @@ void ViewModel::weigh(const Photometry& light, double doubt_cells) {
   const float* __restrict tx = column(kTx);
   const float* __restrict ty = column(kTy);
   const float* __restrict residual = column(kFirst + static_cast<int>(kColumns));
+  float* __restrict noise = column(kVariance);
   float* __restrict slope2 = column(kSlope2);
   float* __restrict kept = column(kKept);
   float* __restrict weight = column(kWeight);
@@ -98,10 +101,12 @@ void ViewModel::weigh(const Photometry& light, double doubt_cells) {
   for (std::size_t k = 0; k < kBlock; ++k) belief[k] = believed_[cell_[k]];
   const auto dark = static_cast<float>(light.variance[0]);
   const auto more = static_cast<float>(light.variance[1] - light.variance[0]);
-  const auto doubt = static_cast<float>(std::pow(light.contrast * doubt_cells, 2));
+  const auto doubt =
+      static_cast<float>(std::pow(light.contrast * doubt_cells, 2) + light.edge_variance);
   const float limit = 1.0F / (kOutlierSd * kOutlierSd);
   for (int k = 0; k < kBlock; ++k) {
     const float variance = dark + more * white[k];
+    noise[k] = variance;
     slope2[k] = tx[k] * tx[k] + ty[k] * ty[k];
     const float allowed = variance + doubt * slope2[k];
     const float t = std::max(1.0F - limit * residual[k] * residual[k] / allowed, 0.0F);
@@ -135,13 +140,33 @@ void ViewModel::count(int pixels, ViewEquations& out) {
     const auto squared = static_cast<double>(residual[k] * residual[k]);
     out.pixels += 1.0;
     out.kept += kept;
-    if (column(kSlope2)[k] > kEdgeSlope * kEdgeSlope) {
-      out.edge_kept += kept;
-      out.edge_squares += static_cast<double>(column(kWeight)[k]) * squared;
-    }
-    const std::size_t side = column(kT)[k] > 0.5F ? 1 : 0;
-    out.squares[side] += kept * squared;
-    out.counts[side] += kept;
+    const auto white = static_cast<double>(column(kT)[k]);
+    const auto slope2 = static_cast<double>(column(kSlope2)[k]);
+    out.edge_squares += kept * slope2 * (squared - static_cast<double>(column(kVariance)[k]));
+    out.edge_shares += kept * slope2 * slope2;
+    const double steep = slope2 / (kEdgeSlope * kEdgeSlope);
+    const double flat = kept / (1.0 + steep * steep);
+    out.squares[0] += flat * (1.0 - white) * squared;
+    out.squares[1] += flat * white * squared;
+    out.shares[0] += flat * (1.0 - white) * (1.0 - white);
+    out.shares[1] += flat * (1.0 - white) * white;
+    out.shares[2] += flat * white * white;
+  }
+}
+
+/// Pieces lie about the corners of the cells, so that the two sides of an edge are in one.
+void ViewModel::score(int pixels) {
+  const auto column = [this](int c) { return block_.data() + c * kBlock; };
+  const float* residual = column(kFirst + static_cast<int>(kColumns));
+  for (int k = 0; k < pixels; ++k) {
+    if (column(kSlope2)[k] < kLeastSlope2) continue;
+    const auto across = static_cast<int>((column(kBx)[k] + half_ + 0.5F) / kPieceCells);
+    const auto down = static_cast<int>((half_ - column(kBy)[k] + 0.5F) / kPieceCells);
+    float* out =
+        scores_.data() + static_cast<std::size_t>(down * pieces_across() + across) * kColumns;
+    const float pull = column(kWeight)[k] * residual[k];
+    const float* j = column(kFirst) + k;
+    for (std::size_t i = 0; i < kColumns; ++i) out[i] += pull * j[i * kBlock];
   }
 }
 
@@ -156,6 +181,7 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
   std::fill(weight + n, weight + kBlock, 0.0F);
   sum_up(out);
   count(n, out);
+  score(n);
 }
 
 }  // namespace orthonav::nav

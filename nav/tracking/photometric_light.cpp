@@ -11,6 +11,10 @@ constexpr double kBlurCeilingCells = 0.6;
 /// A logarithm of blur, or a share of grey, may change so much at once.
 constexpr double kLargestLightStep = 0.5;
 constexpr double kVarianceFloor = 0.3;
+/// Pixels of black and of white below which nothing is learnt of their noise.
+constexpr double kFewestShares = 20.0;
+/// Neither black nor white is quieter than this share of all.
+constexpr double kLeastOfMean = 0.25;
 
 double bounded(double v, double limit) { return std::clamp(v, -limit, limit); }
 
@@ -53,10 +57,22 @@ void apply(const LightStep& step, double px_a_cell, Photometry& light) {
 }
 
 void learn_noise(const ViewEquations& e, double share, Photometry& light) {
-  for (std::size_t side = 0; side < 2; ++side)
-    if (e.counts[side] > 20.0)
-      light.variance[side] = std::max(kVarianceFloor, (1.0 - share) * light.variance[side] +
-                                                          share * e.squares[side] / e.counts[side]);
+  // Inverses are averaged: that of one pair now and then is large.
+  if (e.scatter > 0.0) light.scatter = 1.0 / ((1.0 - share) / light.scatter + share / e.scatter);
+  if (e.edge_shares > 0.0)
+    light.edge_variance =
+        (1.0 - share) * light.edge_variance + share * std::max(e.edge_squares / e.edge_shares, 0.0);
+  const auto [black, both, white] = e.shares;
+  const double determinant = black * white - both * both;
+  if (black < kFewestShares || white < kFewestShares || !(determinant > 0.0)) return;
+  const double mean = (e.squares[0] + e.squares[1]) / (black + 2.0 * both + white);
+  const std::array<double, 2> solved{(white * e.squares[0] - both * e.squares[1]) / determinant,
+                                     (black * e.squares[1] - both * e.squares[0]) / determinant};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double found = std::max(solved[side], kLeastOfMean * mean) / kRobustVariance;
+    light.variance[side] =
+        std::max(kVarianceFloor, (1.0 - share) * light.variance[side] + share * found);
+  }
 }
 
 }  // namespace orthonav::nav

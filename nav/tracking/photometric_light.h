@@ -20,7 +20,8 @@ struct LightPrior {
 /// Changes the light by a step, within what light and lenses do.
 void apply(const LightStep& step, double px_a_cell, Photometry& light);
 
-/// Takes in the noise about the model: `share` of what is remembered is that of these residuals.
+/// Takes in the noise and the scatter about the model: `share` of what is remembered is that of
+/// these residuals.
 void learn_noise(const ViewEquations& equations, double share, Photometry& light);
 
 }  // namespace orthonav::nav

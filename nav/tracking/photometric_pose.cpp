@@ -5,16 +5,13 @@
 #include <Eigen/Dense>
 
 #include "nav/tracking/photometric_light.h"
+#include "nav/tracking/photometric_reduced.h"
 
 namespace orthonav::nav {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-constexpr int kLight = static_cast<int>(kLightColumns);
-using LightMatrix = Eigen::Matrix<double, kLight, kLight>;
-using LightVector = Eigen::Matrix<double, kLight, 1>;
-using CrossMatrix = Eigen::Matrix<double, 6, kLight>;
 
 constexpr double kLargestStepCells = 0.5;
 constexpr double kNoiseShare = 0.3;  ///< of the newest pair in the noise that is remembered
@@ -24,42 +21,6 @@ constexpr double kFewestPixels = 30.0;
 constexpr double kLeftOfStep = 0.3;
 /// Once it has converged: what noise leaves.
 constexpr double kSettledPx = 0.05;
-
-struct Split {
-  Matrix6 pose;
-  LightMatrix light;
-  CrossMatrix cross;
-  Vector6 pose_right;
-  LightVector light_right;
-};
-
-Split split(const ViewEquations& e) {
-  Split s;
-  const auto at = [&](std::size_t r, std::size_t c) {
-    return e.sum(std::min(r, c), std::max(r, c));
-  };
-  for (std::size_t r = 0; r < kColumns; ++r)
-    for (std::size_t c = 0; c < kColumns; ++c) {
-      const auto row = static_cast<Eigen::Index>(r);
-      const auto column = static_cast<Eigen::Index>(c);
-      if (r < 6 && c < 6) s.pose(row, column) = at(r, c);
-      if (r < 6 && c >= 6) s.cross(row, column - 6) = at(r, c);
-      if (r >= 6 && c >= 6) s.light(row - 6, column - 6) = at(r, c);
-    }
-  for (std::size_t r = 0; r < 6; ++r) s.pose_right(static_cast<Eigen::Index>(r)) = at(r, kColumns);
-  for (std::size_t r = 0; r < kLightColumns; ++r)
-    s.light_right(static_cast<Eigen::Index>(r)) = at(6 + r, kColumns);
-  return s;
-}
-
-void add_prior(Split& s, const Photometry& light) {
-  const LightPrior prior = light_prior(light);
-  for (int i = 0; i < kLight; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    s.light(i, i) += prior.weight[k];
-    s.light_right(i) += prior.right[k];
-  }
-}
 
 /// A small motion of the tag, in its frame and in cells, by a small motion of the tool in its own
 /// frame, in metres.
@@ -76,22 +37,6 @@ Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m
   out.topRightCorner<3, 3>() = -r * cross / cell_m;
   out.bottomRightCorner<3, 3>() = r;
   return out;
-}
-
-/// A view's equations of the tag's pose, its light eliminated (Schur's complement).
-struct Reduced {
-  Matrix6 normal;
-  Vector6 right;
-};
-Reduced reduced(const ViewEquations& e, const Photometry& known) {
-  Split s = split(e);
-  add_prior(s, known);
-  const Eigen::LLT<LightMatrix> light(s.light);
-  const Eigen::Matrix<double, kLight, 6> gain = light.solve(s.cross.transpose());
-  // What the model gets wrong shows along the edges, where it counts.
-  const double trust = e.edge_kept > 0.0 ? std::min(1.0, e.edge_kept / e.edge_squares) : 1.0;
-  return {trust * (s.pose - s.cross * gain),
-          trust * (s.pose_right - s.cross * light.solve(s.light_right))};
 }
 
 Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 turn) {
@@ -136,6 +81,7 @@ bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Ma
   model_.linearize(view.right ? frame.right : frame.left, camera_of(view),
                    view.right ? right_rays_ : left_rays_, tag, camera_from_tag(view, pose),
                    view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
+  e.scatter = scatter(e, view.light, model_.scores());
   view.kept_share = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
   return e.pixels >= kFewestPixels && view.kept_share >= options.min_kept_share &&
          view.light.contrast >= options.min_contrast_grey;
@@ -155,12 +101,8 @@ void PhotometricSolver::update_light(const std::array<double, 6>& step,
     TagView& view = views[i];
     if (!view.used) continue;
     const double cell_m = view.tag->cell_m();
-    Split s = split(equations_[i]);
-    add_prior(s, view.light);
     const Vector6 of_tag = tag_by_tool(view.marker_from_tag, cell_m) * motion;
-    const LightVector change = s.light.llt().solve(s.light_right - s.cross.transpose() * of_tag);
-    LightStep step_of_light;
-    Eigen::Map<LightVector>(step_of_light.data()) = change;
+    const LightStep step_of_light = light_step(equations_[i], view.light, of_tag);
     apply(step_of_light, cell_m * pixels_a_metre(view, pose), view.light);
   }
 }
@@ -182,7 +124,7 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
     view.used = gather(frame, fit.rig_from_marker, doubt_m, options, view, equations_[i]);
     if (!view.used) continue;
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
-    const Reduced own = reduced(equations_[i], view.light);
+    const ReducedView own = reduced(equations_[i], view.light);
     normal += motion.transpose() * own.normal * motion;
     right += motion.transpose() * own.right;
     ++fit.views;
@@ -264,7 +206,7 @@ std::optional<AlignmentEquations> PhotometricSolver::alignment(
   for (std::size_t i = 0; i < views.size(); ++i) {
     const TagView& view = views[i];
     if (!view.used) continue;
-    const Reduced own = reduced(equations_[i], view.light);
+    const ReducedView own = reduced(equations_[i], view.light);
     const double cell_m = view.tag->cell_m();
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, cell_m);
     pose += motion.transpose() * own.normal * motion;

@@ -255,6 +255,8 @@ void ViewModel::linearize(const GreyImage& image, const CameraModel& camera, con
   const std::size_t cells = tag.cells().white.size();
   counted_.assign(cells, 0.0F);
   kept_.assign(cells, 0.0F);
+  const auto pieces = static_cast<std::size_t>(pieces_across());
+  scores_.assign(pieces * pieces * kColumns, 0.0F);
   if (cell_weights.size() == cells)
     believed_.assign(cell_weights.begin(), cell_weights.end());
   else

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "hal/api/camera_model.h"
@@ -39,6 +40,11 @@ struct Photometry {
   /// Variance of a grey value in black and in white areas; at first so much that nothing is an
   /// outlier.
   std::array<double, 2> variance{2500.0, 2500.0};
+  /// What is added to it along edges, by the square of the slope of the blurred template (per
+  /// cell): there the model is off by more than noise.
+  double edge_variance = 0.0;
+  /// How much more the edges pull at the pose than noise makes them (`scatter`).
+  double scatter = 1.0;
   bool known = false;  ///< from an earlier fit
 };
 
@@ -49,17 +55,24 @@ inline constexpr std::size_t kPoseColumns = 6;
 inline constexpr std::size_t kLightColumns = 12;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 
+/// What the robust weights leave of the variance of clean noise: E[w r²] / (E[w] σ²) of Tukey's
+/// biweight at 4.7 SD.
+inline constexpr double kRobustVariance = 0.829;
+
 /// The sums of weighted least squares over the pixels of one view, and what they say of the fit.
 struct ViewEquations {
   /// Upper triangle by rows of JᵀWJ over the columns and the residual as the last column.
   std::array<double, (kColumns + 1) * (kColumns + 2) / 2> sums{};
-  double pixels = 0.0;  ///< that were compared
-  double kept = 0.0;    ///< of them by robust weight
-  double edge_kept = 0.0;
-  double edge_squares = 0.0;  ///< of their residuals, by robust weight and variance
-  /// Of the residuals, by robust weight: in black and in white areas.
+  double pixels = 0.0;   ///< that were compared
+  double kept = 0.0;     ///< of them by robust weight
+  double scatter = 1.0;  ///< how much more the edges pull at the pose than noise makes them
+  /// Least squares, by robust weight, of the residuals' squares on how black and how white the
+  /// pixels are, away from edges: between the two the noise of light grows evenly.
   std::array<double, 2> squares{};
-  std::array<double, 2> counts{};
+  std::array<double, 3> shares{};  ///< black by black, black by white, white by white
+  /// Least squares of what the residuals' squares are beyond that on the slope's square.
+  double edge_squares = 0.0;
+  double edge_shares = 0.0;
 
   [[nodiscard]] double sum(std::size_t row, std::size_t column) const {
     return sums[row * (kColumns + 1) - row * (row + 1) / 2 + column];
@@ -77,9 +90,12 @@ class ViewModel {
   void linearize(const GreyImage& image, const CameraModel& camera, const RayTable& rays,
                  const BlurredTag& tag, const CameraFromTag& pose, const Photometry& light,
                  double doubt_cells, std::vector<float>& cell_weights, ViewEquations& out);
+  /// By piece of an edge, two cells long: what it pulls at each column (the sums of w r J).
+  [[nodiscard]] std::span<const float> scores() const { return scores_; }
 
  private:
   static constexpr int kBlock = 64;
+  static constexpr float kPieceCells = 2.0F;
   /// What is kept of each pixel of a block, and what is made of it.
   enum BlockColumn {
     kGrey,
@@ -110,8 +126,13 @@ class ViewModel {
   void weigh(const Photometry& light, double doubt_cells);
   void sum_up(ViewEquations& out) const;
   void count(int pixels, ViewEquations& out);
+  void score(int pixels);
+  [[nodiscard]] int pieces_across() const {
+    return static_cast<int>((2.0F * half_ + 0.5F) / kPieceCells) + 1;
+  }
   void judge_cells(std::vector<float>& cell_weights) const;
 
+  std::vector<float> scores_;
   std::vector<float> row_;
   std::vector<float> block_;                  ///< kBlockColumns of kBlock
   std::array<std::uint16_t, kBlock> cell_{};  ///< of each pixel of the block

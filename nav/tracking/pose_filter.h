@@ -15,12 +15,12 @@ struct PoseFilterOptions {
   /// Of one in a hand: 5 m/s² and 60 rad/s² held for 0.05 s.
   double hand_m = 1.25;
   double hand_rad = 180.0;
-  /// A pair whose innovation exceeds this (squared, normalised, 6 degrees of freedom: 1 in 200 at
-  /// rest) shows that the tool is in a hand.
-  double rest_limit = 18.5;
+  /// A pair whose innovation exceeds this (squared, normalised, 6 degrees of freedom: 1 in 2,000
+  /// at rest) shows that the tool is in a hand.
+  double rest_limit = 24.0;
   /// Part of a measurement's variance that the next one repeats: what the model does not know
   /// averages out as little as it pleases.
-  double lasting_share = 0.10;
+  double lasting_share = 0.05;
   /// SD of an unknown velocity.
   double first_speed_m = 0.5;
   double first_speed_rad = 3.0;
