@@ -96,6 +96,14 @@ struct Guidance {
   std::span<const RodState> rods;
   bool rods_moved_away = false;
   std::span<const ToolSight> tools;
+  /// Where the head was in the newest pair that told: some holograms face it.
+  std::optional<Transform<World, Rig>> head;
+  bool twin = false;  ///< the virtual twin was asked for
+  /// How far the saved samples lie from the registered surface, region after region; empty without
+  /// a registration to be verified.
+  std::span<const float> residuals_m;
+  /// Places of the current level that are still to be touched to verify it.
+  std::span<const Point<World>> to_check;
 };
 
 }  // namespace orthonav::engine

@@ -1,10 +1,12 @@
 #include "engine/hologram_shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <utility>
 
+#include "engine/hologram_parts.h"
 #include "engine/length_text.h"
 #include "hal/api/angle.h"
 #include "render/float3.h"
@@ -19,7 +21,9 @@ using render::Label;
 using render::Scene;
 
 constexpr float kPathWidth_m = 0.001f;
-constexpr float kCheckRadius_m = 0.002f;
+constexpr float kNear_m = 0.001f;
+constexpr float kFar_m = 0.002f;
+constexpr float kDiamond_m = 0.004f;  // from tip to tip
 constexpr float kEntryRadius_m = 0.0015f;
 constexpr float kEntryRingRadius_m = 0.003f;
 constexpr float kEntryRingWidth_m = 0.0006f;
@@ -32,38 +36,6 @@ constexpr float kHeadRadius_m = 0.0042f;  // a little wider than the rod, so tha
 constexpr float kBendRingRadius_m = 0.0042f;
 constexpr float kBendRingWidth_m = 0.0010f;
 
-Colour faded(Colour colour, float opacity) {
-  colour.a *= opacity;
-  return colour;
-}
-
-/// One immutable sphere for all, so that the renderer keeps one copy of it.
-const std::shared_ptr<const render::MeshData>& unit_sphere() {
-  static const auto mesh = std::make_shared<const render::MeshData>(render::make_sphere(1.0f));
-  return mesh;
-}
-
-void add_sphere(Scene& scene, Float3 centre, float radius_m, Colour colour, Label label) {
-  render::MeshItem item;
-  item.label = label;
-  item.mesh = unit_sphere();
-  item.world_from_model = render::placed_at(centre, radius_m);
-  item.colour = colour;
-  scene.meshes.push_back(std::move(item));
-}
-
-void add_line(Scene& scene, std::vector<Float3> points, float width_m, Colour colour, Label label,
-              float dash_m = 0, bool closed = false) {
-  render::LineItem line;
-  line.label = label;
-  line.points = std::move(points);
-  line.width_m = width_m;
-  line.colour = colour;
-  line.dash_m = dash_m;
-  line.closed = closed;
-  scene.lines.push_back(std::move(line));
-}
-
 /// Hyphens as wide as digits and a leading blank of one digit's width, so that the number keeps
 /// its place while it changes.
 std::string fixed_width(const std::string& text) {
@@ -74,20 +46,9 @@ std::string fixed_width(const std::string& text) {
   return out;
 }
 
-/// A text beside a place, its middle as high: to the right by so many of its heights, or to the
-/// left where that is negative.
-void add_text_beside(Scene& scene, Float3 place, float offset_right, float height_m,
-                     float min_height_deg, std::vector<render::TextRun> runs, Label label) {
-  render::TextItem text;
-  text.label = label;
-  text.position = place;
-  text.align = offset_right < 0 ? render::TextAlign::kRight : render::TextAlign::kLeft;
-  text.offset_right = offset_right;
-  text.offset_up = -0.5f;
-  text.height_m = height_m;
-  text.min_height_deg = min_height_deg;
-  text.runs = std::move(runs);
-  scene.texts.push_back(std::move(text));
+void add_diamond(Scene& scene, Float3 centre, Colour colour, Label label) {
+  static const auto mesh = std::make_shared<const render::MeshData>(render::make_octahedron(1.0f));
+  add_mesh(scene, mesh, render::placed_at(centre, 0.5f * kDiamond_m), colour, label);
 }
 
 void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
@@ -143,6 +104,23 @@ void add_sampled_path(Scene& scene, std::span<const Float3> samples, PathState s
            faded(colour, std::fmin(opacity, 1.0f)), label);
 }
 
+void add_residual_path(Scene& scene, std::span<const Float3> samples,
+                       std::span<const float> distances_m, Label label) {
+  const auto band = [&](std::size_t i) {
+    const float away = std::abs(distances_m[i]);
+    return away <= kNear_m ? Grade::kGood : (away <= kFar_m ? Grade::kFair : Grade::kPoor);
+  };
+  const std::size_t count = std::min(samples.size(), distances_m.size());
+  for (std::size_t first = 0; first + 1 < count;) {
+    std::size_t last = first + 1;
+    while (last + 1 < count && band(last) == band(first)) ++last;
+    const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(first);
+    add_line(scene, {begin, begin + static_cast<std::ptrdiff_t>(last - first + 1)}, kPathWidth_m,
+             colour_of(band(first)), label);
+    first = last;
+  }
+}
+
 void add_vertebra(Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, Label label) {
   render::MeshItem item;
@@ -159,6 +137,7 @@ void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
   add_line(scene, render::make_ring(entry.position, entry.surface_normal, kEntryRingRadius_m),
            kEntryRingWidth_m, look::kBlue, label, 0, true);
   std::vector<render::TextRun> runs = {{entry.text, look::kBlue}};
+  if (entry.text.empty() && !entry.done) return;
   if (entry.done) runs.push_back({" ✓", look::kGreen});
   add_text_beside(scene, entry.position, entry.side == LabelSide::kRight ? 1.2f : -1.2f, 0.0045f,
                   0.5f, std::move(runs), label);
@@ -171,8 +150,12 @@ std::string distance_text(double distance_m) {
 void add_check_point(Scene& scene, Float3 position, const std::string& text, bool within,
                      Label label) {
   const render::Colour colour = within ? look::kGreen : look::kRed;
-  add_sphere(scene, position, kCheckRadius_m, colour, label);
+  add_diamond(scene, position, colour, label);
   add_text_beside(scene, position, 1.0f, 0.0045f, 0.5f, {{text, colour}}, label);
+}
+
+void add_place_to_check(Scene& scene, Float3 position, Label label) {
+  add_diamond(scene, position, look::kCyan, label);
 }
 
 Float3 trajectory_outer_end(Float3 entry, Float3 target) {
@@ -196,11 +179,15 @@ void add_deviation_triangle(Scene& scene, Float3 a, Float3 b, Float3 c, Grade gr
            true);
 }
 
+Float3 readout_place(Float3 a, Float3 b) {
+  return b + kReadoutOutward_m * render::unit_or(b - a, {0, 1, 0});
+}
+
 void add_angle_readout(Scene& scene, Float3 a, Float3 b, const std::string& text, Grade grade,
                        Label label) {
   render::TextItem item;
   item.label = label;
-  item.position = b + kReadoutOutward_m * render::unit_or(b - a, {0, 1, 0});
+  item.position = readout_place(a, b);
   item.align = render::TextAlign::kLeft;
   item.offset_right = 0.9f;  // clear of B even when the eye looks down the tool's axis
   item.height_m = 0.007f;

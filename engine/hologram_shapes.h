@@ -25,6 +25,8 @@ inline constexpr render::Colour kAmber{1.0f, 0.42f, 0.0f, 1};
 inline constexpr render::Colour kRed{1.0f, 0.06f, 0.04f, 1};
 inline constexpr render::Colour kWhite{1, 1, 1, 1};
 inline constexpr render::Colour kDimWhite{0.42f, 0.42f, 0.42f, 1};
+inline constexpr render::Colour kCyan{0.02f, 0.72f, 0.80f, 1};
+inline constexpr render::Colour kRing{0.30f, 0.30f, 0.30f, 1};
 inline constexpr render::Colour kTitanium{0.46f, 0.48f, 0.52f, 1};
 }  // namespace look
 
@@ -51,6 +53,11 @@ enum class PathState { kRecording, kSaved };
 /// H1: ribbon through consecutive samples. `opacity` in [0, 1] fades a deleted region out.
 void add_sampled_path(render::Scene& scene, std::span<const render::Float3> samples,
                       PathState state, render::Label label, float opacity = 1.0f);
+
+/// H1 once it is registered: green where a sample lies within 1 mm of the surface, amber within 2,
+/// red beyond. One distance a sample; samples without one are left out.
+void add_residual_path(render::Scene& scene, std::span<const render::Float3> samples,
+                       std::span<const float> distances_m, render::Label label);
 
 /// H2: the registered surface, bright where it turns away from the eye.
 void add_vertebra(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh,
@@ -84,6 +91,9 @@ void add_deviation_triangle(render::Scene& scene, render::Float3 a, render::Floa
 void add_angle_readout(render::Scene& scene, render::Float3 a, render::Float3 b,
                        const std::string& text, Grade grade, render::Label label);
 
+/// Where H6 stands for a tool's axis from A to B.
+[[nodiscard]] render::Float3 readout_place(render::Float3 a, render::Float3 b);
+
 struct RodBendMark {
   render::Float3 position;
   double angle_rad = 0.0;
@@ -103,10 +113,13 @@ void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 
 /// `0.4 mm`, without a sign, one decimal; `-- mm` for a distance that is not finite.
 [[nodiscard]] std::string distance_text(double distance_m);
-/// H12: a place touched to check the registration, with its distance from the surface; green where
-/// near enough, else red.
+/// H12: a diamond at a place touched to check the registration, with its distance from the surface;
+/// green where near enough, else red.
 void add_check_point(render::Scene& scene, render::Float3 position, const std::string& text,
                      bool within, render::Label label);
+
+/// H12: a place that is still to be touched.
+void add_place_to_check(render::Scene& scene, render::Float3 position, render::Label label);
 
 enum class ToolState { kMeasured, kPredicted, kLost };
 struct ToolDot {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/screw_holograms.h"
 #include "render/shapes.h"
 
 namespace orthonav::engine {
@@ -13,6 +14,9 @@ constexpr render::Label label_of(std::uint32_t hologram, std::size_t instance) {
   return 100 * hologram + static_cast<render::Label>(instance);
 }
 constexpr std::size_t kMostInstances = 99;
+constexpr render::Label kCross = label_of(7, 1);  // its dots: the next
+constexpr render::Label kTwin = label_of(8, 1);
+constexpr render::Label kTwinTool = label_of(8, 2);
 
 std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh) {
   auto data = std::make_shared<render::MeshData>();
@@ -26,9 +30,13 @@ std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh)
 }  // namespace
 
 void hide_tool_guidance(render::Scene& scene) {
-  const auto of_triangle = [](const auto& item) { return item.label / 100 == 5; };
-  std::erase_if(scene.triangles, of_triangle);
-  std::erase_if(scene.lines, of_triangle);
+  const auto of_tool = [](const auto& item) {
+    return item.label / 100 == 5 || item.label / 100 == 9 || item.label == kTwinTool;
+  };
+  std::erase_if(scene.triangles, of_tool);
+  std::erase_if(scene.lines, of_tool);
+  std::erase_if(scene.texts, of_tool);
+  take_dots_off(scene, kCross);
   for (render::TextItem& text : scene.texts) {
     if (text.label / 100 != 6) continue;
     render::Scene dashes;
@@ -36,10 +44,6 @@ void hide_tool_guidance(render::Scene& scene) {
     text.runs = dashes.texts.front().runs;
     text.rim = dashes.texts.front().rim;
   }
-}
-
-render::Float3 to_float3(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 render::Matrix4 to_matrix(const std::array<double, 16>& row_major) {
@@ -72,11 +76,17 @@ void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
 }
 
 void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
+  std::size_t measured = 0;  // samples of saved regions so far
   const auto add = [&](const nav::Region& region, std::size_t k, float opacity) {
     points_.clear();
     for (const nav::Sample& sample : region.samples)
       points_.push_back(to_float3(sample.tip_in_world.v));
+    const std::size_t first = measured;
+    if (region.saved) measured += points_.size();
     if (points_.size() < 2) return;
+    if (region.saved && measured <= guidance.residuals_m.size())
+      return add_residual_path(scene, points_, guidance.residuals_m.subspan(first, points_.size()),
+                               label_of(1, std::min(k, kMostInstances)));
     add_sampled_path(scene, points_, region.saved ? PathState::kSaved : PathState::kRecording,
                      label_of(1, std::min(k, kMostInstances)), opacity);
   };
@@ -99,6 +109,8 @@ void SceneBuilder::add_bone(const Guidance& guidance, render::Scene& scene) {
 
 void SceneBuilder::add_check_points(const Guidance& guidance, render::Scene& scene) {
   std::size_t k = 0;
+  for (const Point<World>& place : guidance.to_check)
+    add_place_to_check(scene, to_float3(place.v), label_of(12, std::min(++k, kMostInstances)));
   for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points)
     add_check_point(scene, to_float3(point.place.v), distance_text(point.distance_m), point.within,
                     label_of(12, std::min(++k, kMostInstances)));
@@ -136,18 +148,46 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
     const nav::ScrewGuidance& shown = guidance.tool->shown;
     std::optional<double> angle_rad;
     if (visible_.angle) angle_rad = guidance.tool->measured->angle_rad;
-    const Grade grade = angle_rad
-                            ? grade_of(*angle_rad, rules_.grades)
-                            : std::max(grade_of(shown.angle_rad, rules_.grades), Grade::kFair);
+    const Grade grade = grade_of_tool(guidance, visible_, rules_);
     const render::Float3 a = to_float3(shown.a.v);
     const render::Float3 b = to_float3(shown.b.v);
     add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade, label_of(5, 1));
     add_angle_readout(scene, a, b, angle_text(angle_rad), grade, label_of(6, 1));
   }
+  if (visible_.depth) add_depth_to_go(guidance, scene);
+  if (visible_.cross) add_target_cross(scene, cross_of(guidance, visible_, rules_), kCross);
+  if (visible_.twin) add_virtual_twin(guidance, line, scene);
   if (visible_.angle_lost && !visible_.triangle)
     // Where the number would be with the tool on the plan.
     add_angle_readout(scene, to_float3(line.entry.v), to_float3(line.outside.v),
                       angle_text(std::nullopt), Grade::kPoor, label_of(6, 1));
+}
+
+void SceneBuilder::add_depth_to_go(const Guidance& guidance, render::Scene& scene) {
+  const nav::ScrewGuidance& measured = *guidance.tool->measured;
+  const nav::ScrewGuidance& shown = guidance.tool->shown;
+  if (const auto text = depth_text(measured.depth_m, measured.to_target_m))
+    add_depth(scene, to_float3(shown.a.v), to_float3(shown.b.v), *text, measured.to_target_m < 0.0,
+              label_of(9, 1));
+}
+
+void SceneBuilder::add_virtual_twin(const Guidance& guidance, const TrajectoryLine& line,
+                                    render::Scene& scene) {
+  const LevelState& level = guidance.levels[guidance.level];
+  const VirtualTwin twin = twin_of(level, guidance.screw);
+  parts_ = {};
+  add_vertebra(parts_, surface_of(level),
+               to_matrix(level.registration->world_from_vertebra.row_major()), kTwin);
+  const render::Float3 entry = to_float3(line.entry.v);
+  add_planned_trajectory(parts_, entry, to_float3(line.target.v), kTwin);
+  add_twin(scene, twin, parts_, kTwin);
+  if (!visible_.triangle) return;
+  const nav::ScrewGuidance& shown = guidance.tool->shown;
+  parts_ = {};
+  add_deviation_triangle(parts_, to_float3(shown.a.v), to_float3(shown.b.v), to_float3(shown.c.v),
+                         grade_of_tool(guidance, visible_, rules_), kTwinTool);
+  add_tool(parts_, to_float3(shown.tip.v), to_float3(shown.b - shown.a), kTwinTool);
+  add_twin(scene, twin, parts_, kTwinTool);
 }
 
 void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {

@@ -39,6 +39,8 @@ class SceneBuilder {
   void add_check_points(const Guidance& guidance, render::Scene& scene);
   void add_entries(const Guidance& guidance, render::Scene& scene);
   void add_screw(const Guidance& guidance, render::Scene& scene);
+  void add_depth_to_go(const Guidance& guidance, render::Scene& scene);
+  void add_virtual_twin(const Guidance& guidance, const TrajectoryLine& line, render::Scene& scene);
   void add_rods(const Guidance& guidance, render::Scene& scene);
   void add_status(const Guidance& guidance, render::Scene& scene);
   const std::shared_ptr<const render::MeshData>& surface_of(const LevelState& level);
@@ -52,13 +54,13 @@ class SceneBuilder {
   std::vector<Tube> tubes_;
   std::vector<render::Float3> points_;
   std::vector<ToolDot> dots_;
+  render::Scene parts_;  ///< of the twin
 };
 
 /// Takes the deviation triangle out of a scene and the number off its readout: the pose they came
 /// from has grown too old before they were drawn.
 void hide_tool_guidance(render::Scene& scene);
 
-[[nodiscard]] render::Float3 to_float3(Vec3 v);
 [[nodiscard]] render::Matrix4 to_matrix(const std::array<double, 16>& row_major);
 
 }  // namespace orthonav::engine

@@ -22,7 +22,7 @@ Result<std::size_t> only_tool(std::span<const nav::ToolGeometry> tools, nav::Too
 }
 
 std::optional<Event> command(const std::string& text) {
-  constexpr std::array<std::pair<std::string_view, Event>, 8> kCommands = {{
+  constexpr std::array<std::pair<std::string_view, Event>, 9> kCommands = {{
       {"start", Event::kSayStart},
       {"save", Event::kSaySave},
       {"delete", Event::kSayDelete},
@@ -31,6 +31,7 @@ std::optional<Event> command(const std::string& text) {
       {"next", Event::kSayNext},
       {"done", Event::kSayDone},
       {"move rod", Event::kSayMoveRod},
+      {"twin", Event::kSayTwin},
   }};
   for (const auto& [phrase, event] : kCommands)
     if (phrase == text) return event;
@@ -246,6 +247,12 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   out.rods = rods_;
   out.rods_moved_away = rods_moved_away_;
   out.tools = sights_;
+  if (frame.world_from_rig) out.head = frame.world_from_rig;
+  out.twin = twin_;
+  out.residuals_m =
+      step_ == Step::kVerify ? std::span<const float>(residuals_m_) : std::span<const float>{};
+  out.to_check = step_ == Step::kVerify ? std::span<const Point<World>>(to_check_)
+                                        : std::span<const Point<World>>{};
   publish_tool_guidance(frame.time, display_time);
   write_step_text();
   write_detail();

@@ -123,6 +123,8 @@ class Session {
   void act_on_rod(Action action, Timestamp time);
   [[nodiscard]] Result<Point<World>> touched_place(Timestamp time) const;
   void end_touch();
+  void measure_residuals();
+  void propose_checks();
   void record_check(Timestamp time);
   void drop_check(Timestamp time);
   void judge_checks(Timestamp time);
@@ -146,6 +148,10 @@ class Session {
   std::vector<RodState> rods_;  ///< left, right
   std::size_t rod_ = 0;
   bool rods_moved_away_ = false;
+  bool twin_ = false;
+  std::vector<float> residuals_m_;             ///< of the points of the registration to be verified
+  std::vector<Point<World>> places_to_check_;  ///< on the level to be verified
+  std::vector<Point<World>> to_check_;         ///< of them those that were not touched yet
 
   nav::Digitizer digitizer_;
   DroppedRegion dropped_;

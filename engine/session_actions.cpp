@@ -79,6 +79,8 @@ void Session::act_on_level(Action action, Timestamp time) {
     case Action::kShowRegistration:
       verify_visible_at_.reset();
       level().check_points.clear();
+      measure_residuals();
+      propose_checks();
       end_touch();
       return;
     case Action::kAccept:
@@ -103,6 +105,9 @@ void Session::act_on_level(Action action, Timestamp time) {
       last_guidance_.reset();
       return;
     }
+    case Action::kToggleTwin:
+      twin_ = !twin_;
+      return;
     case Action::kFinishScrew:
       finish_screw(time);
       return;

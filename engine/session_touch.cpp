@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/length_text.h"
@@ -92,6 +93,27 @@ Result<Point<World>> Session::touched_place(Timestamp time) const {
   return Error{"tip moved " + in_mm(spread_m) + ", limit " + in_mm(options_.max_touch_spread_m)};
 }
 
+void Session::measure_residuals() {
+  const LevelState& now = level();
+  const auto vertebra_from_world = now.registration->world_from_vertebra.inverse();
+  residuals_m_.clear();
+  for (const Point<World>& point : now.newest->points) {
+    const auto nearest =
+        now.plan.model->reachable_surface().nearest((vertebra_from_world * point).v);
+    residuals_m_.push_back(nearest ? static_cast<float>(nearest->distance_m)
+                                   : std::numeric_limits<float>::infinity());
+  }
+}
+
+void Session::propose_checks() {
+  const LevelState& now = level();
+  places_to_check_.clear();
+  if (method_.verification == Verification::kByTouch)
+    places_to_check_ = nav::places_to_check(*now.plan.model, now.registration->world_from_vertebra,
+                                            now.newest->points, options_.check_points);
+  to_check_ = places_to_check_;
+}
+
 void Session::record_check(Timestamp time) {
   LevelState& now = level();
   const auto place = touched_place(time);
@@ -105,6 +127,7 @@ void Session::record_check(Timestamp time) {
   }
   now.check_points.push_back(nav::check_point(
       *now.plan.model, now.registration->world_from_vertebra, *place, options_.check_points));
+  to_check_ = nav::still_to_check(places_to_check_, now.check_points);
   if (observer_) observer_->check_point_recorded(time, now);
 }
 
@@ -115,6 +138,7 @@ void Session::drop_check(Timestamp time) {
     return;
   }
   now.check_points.pop_back();
+  to_check_ = nav::still_to_check(places_to_check_, now.check_points);
   if (observer_) observer_->check_point_dropped(time, now);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "engine/hologram_shapes.h"
+#include "engine/screw_holograms.h"
 
 namespace orthonav::engine {
 namespace {
@@ -22,6 +23,8 @@ std::array<Vec3, 4> landmarks_m(const nav::TriangleMesh& mesh) {
         [&](Vec3 a, Vec3 b) { return a.dot(kDirections[d]) < b.dot(kDirections[d]); });
   return found;
 }
+
+Point<World> to_point(render::Float3 p) { return {{p.x, p.y, p.z}}; }
 
 }  // namespace
 
@@ -50,7 +53,7 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   write_status(guidance, frame);
   write_digitizing(guidance, visible, frame);
   write_entries(guidance, visible, frame);
-  write_screw(guidance, visible, frame);
+  write_screw(guidance, visible, rules, frame);
   if (visible.rods) write_rods(guidance, rules, frame);
   frame.holograms.resize(used_);
 }
@@ -77,6 +80,9 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
       check.text = distance_text(point.distance_m);
       check.points_in_world.push_back(point.place);
     }
+  if (visible.check_points)
+    for (const Point<World>& place : guidance.to_check)
+      add(frame, "H12 to check").points_in_world.push_back(place);
 }
 
 void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility& visible,
@@ -96,8 +102,19 @@ void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility&
   }
 }
 
+void ShownFrameWriter::write_cross(const Guidance& guidance, const Visibility& visible,
+                                   const VisibilityRules& rules, ShownFrame& frame) {
+  const TargetCross cross = cross_of(guidance, visible, rules);
+  const CrossPlaces places = places_of(cross);
+  ShownHologram& shown = add(frame, "H7 cross");
+  if (cross.lost) shown.text = "tool lost";
+  shown.points_in_world.push_back(to_point(places.middle));
+  if (!cross.reading) return;
+  for (const render::Float3 dot : places.dots) shown.points_in_world.push_back(to_point(dot));
+}
+
 void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& visible,
-                                   ShownFrame& frame) {
+                                   const VisibilityRules& rules, ShownFrame& frame) {
   if (visible.trajectory) {
     const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
     ShownHologram& trajectory = add(frame, "H4 trajectory");
@@ -108,6 +125,18 @@ void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& v
     add(frame, "H5 triangle").points_in_world = {shown.a, shown.b, shown.c};
   }
   if (visible.angle) add(frame, "H6 angle").text = angle_text(guidance.tool->measured->angle_rad);
+  if (visible.cross) write_cross(guidance, visible, rules, frame);
+  if (visible.twin) {
+    const VirtualTwin twin = twin_of(guidance.levels[guidance.level], guidance.screw);
+    const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
+    ShownHologram& shown = add(frame, "H8 twin");
+    for (const Point<World>& place : {line.entry, line.target})
+      shown.points_in_world.push_back(to_point(in_twin(twin, to_float3(place.v))));
+  }
+  if (visible.depth)
+    if (const auto text =
+            depth_text(guidance.tool->measured->depth_m, guidance.tool->measured->to_target_m))
+      add(frame, "H9 depth").text = *text;
   if (visible.angle_lost) add(frame, "H6 angle").text = angle_text(std::nullopt);
 }
 

@@ -16,7 +16,10 @@ class ShownFrameWriter {
   ShownHologram& add(ShownFrame& frame, const char* name);
   void write_digitizing(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
   void write_entries(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
-  void write_screw(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
+  void write_screw(const Guidance& guidance, const Visibility& visible,
+                   const VisibilityRules& rules, ShownFrame& frame);
+  void write_cross(const Guidance& guidance, const Visibility& visible,
+                   const VisibilityRules& rules, ShownFrame& frame);
   void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
   void write_status(const Guidance& guidance, ShownFrame& frame);
 

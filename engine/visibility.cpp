@@ -49,6 +49,15 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   // A lost value says so in the place of the number, never with the last number, nor with one that
   // was predicted.
   out.angle_lost = out.trajectory && !out.angle && (out.triangle || !fresh);
+  // H7: with the trajectory that it measures against, once it is known where the eyes are. Its dots
+  // are numbers in another shape: of one stereo pair, never of a prediction.
+  out.cross = out.trajectory && g.head.has_value();
+  out.cross_dots = out.cross && fresh && g.tool->measured.has_value();
+  out.cross_lost = out.cross && !fresh;
+  // H8: only where the surgeon asked for it, since it takes his eyes off the patient.
+  out.twin = out.trajectory && g.twin;
+  // H9: under the angle, and with it.
+  out.depth = out.angle;
   // H10: from the first head until the end.
   out.rods = g.step == Step::kRod || g.step == Step::kDone;
 }

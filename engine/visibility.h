@@ -29,6 +29,11 @@ struct Visibility {
   bool triangle = false;                ///< H5
   bool angle = false;                   ///< H6 with a number
   bool angle_lost = false;              ///< H6 without one
+  bool cross = false;                   ///< H7 of the selected screw
+  bool cross_dots = false;              ///< where the tool stands on it
+  bool cross_lost = false;              ///< it says that the tool is lost
+  bool twin = false;                    ///< H8
+  bool depth = false;                   ///< H9
   bool rods = false;                    ///< H10
   bool check_points = false;            ///< H12 of the current level
 };

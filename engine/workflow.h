@@ -27,6 +27,7 @@ enum class Event : std::uint8_t {
   kSayNext,
   kSayDone,
   kSayMoveRod,
+  kSayTwin,
   kRegistered,           ///< a registration passed its limits
   kRegistrationRefused,  ///< a registration failed its limits
   kChecked,              ///< "accept" was said and the check points bear it out
@@ -40,7 +41,7 @@ enum class Event : std::uint8_t {
   kPoseStale,            ///< the step's tool was last measured longer ago than may be shown
   kTrackingRegained,     ///< the step's tool is measured again
 };
-inline constexpr std::size_t kEventCount = 25;
+inline constexpr std::size_t kEventCount = 26;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -70,12 +71,13 @@ enum class Action : std::uint8_t {
   kDropHead,
   kFinishRod,
   kMoveRod,
+  kToggleTwin,
   kFinish,
   kWarnLost,
   kHideGuidance,
   kShowGuidance,
 };
-inline constexpr std::size_t kActionCount = 30;
+inline constexpr std::size_t kActionCount = 31;
 
 struct Cell {
   Step next = Step::kSetup;
@@ -152,6 +154,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     // A registration that turns out wrong while guiding can be thrown away at any screw.
     {kGuide, kSayNext, kFinishScrew, kGuide},
     {kGuide, kSayReject, kClearLevel, kDigitize},
+    {kGuide, kSayTwin, kToggleTwin, kGuide},
     {kGuide, kAnotherScrew, kSelectScrew, kGuide},
     {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
     {kGuide, kNoScrewLeft, kBeginRod, kRod},

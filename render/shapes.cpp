@@ -107,6 +107,25 @@ MeshData make_sphere(float radius_m, int slices, int stacks) {
   return mesh;
 }
 
+MeshData make_octahedron(float radius_m) {
+  MeshData mesh;
+  if (!(radius_m > 0) || !std::isfinite(radius_m)) return mesh;
+  for (const float x : {1.0f, -1.0f})
+    for (const float y : {1.0f, -1.0f})
+      for (const float z : {1.0f, -1.0f}) {
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.push_back({x * radius_m, 0, 0});
+        mesh.positions.push_back({0, y * radius_m, 0});
+        mesh.positions.push_back({0, 0, z * radius_m});
+        const float third = 1.0f / std::sqrt(3.0f);
+        mesh.normals.insert(mesh.normals.end(), 3, {x * third, y * third, z * third});
+        const bool outward = x * y * z > 0;
+        mesh.indices.insert(mesh.indices.end(),
+                            {first, first + (outward ? 1 : 2), first + (outward ? 2 : 1)});
+      }
+  return mesh;
+}
+
 MeshData make_cylinder(Float3 from, Float3 to, float radius_m, int slices) {
   const std::array<Float3, 2> path = {from, to};
   return make_tube(path, radius_m, slices);

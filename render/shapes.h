@@ -19,6 +19,9 @@ namespace orthonav::render {
 /// Around the origin; scale and place it with `MeshItem::world_from_model`.
 [[nodiscard]] MeshData make_sphere(float radius_m, int slices = 24, int stacks = 12);
 
+/// Around the origin, its six tips on the axes; flat faces.
+[[nodiscard]] MeshData make_octahedron(float radius_m);
+
 /// From one end's centre to the other's, with flat caps.
 [[nodiscard]] MeshData make_cylinder(Float3 from, Float3 to, float radius_m, int slices = 24);
 

@@ -12,12 +12,19 @@ ScrewGuidance guide(const Transform<World, Vertebra>& world_from_vertebra, const
   ScrewGuidance g;
   // The tool's axis points out of the patient, so the plan's outward side is compared with it.
   g.angle_rad = angle_between_rad(tool_outward, -inward);
+  g.tip = tip_in_world;
   g.a = entry;
   g.b = entry + kTriangleReach_m * tool_outward;
   g.c = entry - kTriangleReach_m * inward;
   g.tip_to_entry_m = tip_from_entry.norm();
+  const auto off_axis = [&](Vec3 from_entry) {
+    return from_entry - inward * from_entry.dot(inward);
+  };
+  g.tip_offset_m = off_axis(tip_from_entry);
+  g.top_offset_m = off_axis(tip_from_entry + kTriangleReach_m * tool_outward);
   g.tip_off_axis_m = tip_from_entry.cross(inward).norm();
   g.depth_m = tip_from_entry.dot(inward);
+  g.to_target_m = (target - entry).norm() - g.depth_m;
   return g;
 }
 

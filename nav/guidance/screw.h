@@ -28,12 +28,17 @@ struct Axis {
 /// What guides the surgeon to one screw; the paper's triangle A-B-C and 3D angle, and depth.
 struct ScrewGuidance {
   double angle_rad = 0.0;       ///< between tool axis and planned trajectory, in [0, pi]
+  Point<World> tip;             ///< of the tool
   Point<World> a;               ///< entry point
   Point<World> b;               ///< on the tool's direction, |AB| = reach
   Point<World> c;               ///< on the planned axis outside the bone, |AC| = reach
   double tip_to_entry_m = 0.0;  ///< distance of the tip from the entry point
   double tip_off_axis_m = 0.0;  ///< distance of the tip from the planned axis
   double depth_m = 0.0;         ///< of the tip past the entry along the planned axis; < 0: before
+  double to_target_m = 0.0;     ///< of the tip from the target along the planned axis; < 0: past it
+  /// At right angles to the planned axis, from it: of the tip, and of the tool's axis `reach` up.
+  Vec3 tip_offset_m;
+  Vec3 top_offset_m;
 };
 
 inline constexpr double kTriangleReach_m = 0.080;

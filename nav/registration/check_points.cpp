@@ -9,6 +9,9 @@
 namespace orthonav::nav {
 namespace {
 
+/// A touch so near to a proposed place was meant for it.
+constexpr double kTouchedWithin_m = 0.008;
+
 template <class... Values>
 std::string worded(const char* format, Values... values) {
   std::array<char, 128> text{};
@@ -85,6 +88,53 @@ CheckPoint check_point(const VertebraModel& model,
   point.distance_m = sign * nearest->distance_m;
   point.within = nearest->distance_m <= rules.within_m;
   return point;
+}
+
+std::vector<Point<World>> places_to_check(const VertebraModel& model,
+                                          const Transform<World, Vertebra>& world_from_vertebra,
+                                          std::span<const Point<World>> stroked,
+                                          const CheckPointRules& rules) {
+  const auto vertebra_from_world = world_from_vertebra.inverse();
+  std::vector<Vec3> bare;
+  Vec3 sum{};
+  for (const Point<World>& point : stroked) {
+    const auto nearest = model.reachable_surface().nearest((vertebra_from_world * point).v);
+    if (!nearest || nearest->distance_m > rules.within_m) continue;
+    bare.push_back((world_from_vertebra * Point<Vertebra>{nearest->point_m}).v);
+    sum += bare.back();
+  }
+  std::vector<Point<World>> places;
+  if (bare.empty()) return places;
+  const Vec3 middle = sum / static_cast<double>(bare.size());
+  // Each as far as can be: from the middle, from the first, from the line of the first two.
+  const auto take = [&](const auto& distance, double at_least_m) {
+    const Vec3 best = *std::max_element(bare.begin(), bare.end(),
+                                        [&](Vec3 a, Vec3 b) { return distance(a) < distance(b); });
+    if (!(distance(best) >= at_least_m)) return false;
+    places.push_back(Point<World>{best});
+    return true;
+  };
+  if (!take([&](Vec3 p) { return (p - middle).norm(); }, 0.0)) return places;
+  const Vec3 first = places[0].v;
+  if (!take([&](Vec3 p) { return (p - first).norm(); }, rules.apart_m)) return places;
+  const Vec3 second = places[1].v;
+  const auto off_line = [&](Vec3 p) {
+    const bool apart = (p - first).norm() >= rules.apart_m && (p - second).norm() >= rules.apart_m;
+    return apart ? height_m(first, second, p) : -1.0;
+  };
+  take(off_line, rules.off_line_m);
+  return places;
+}
+
+std::vector<Point<World>> still_to_check(std::span<const Point<World>> places,
+                                         std::span<const CheckPoint> touched) {
+  std::vector<Point<World>> open;
+  for (const Point<World>& place : places)
+    if (std::none_of(touched.begin(), touched.end(), [&](const CheckPoint& point) {
+          return (point.place - place).norm() < kTouchedWithin_m;
+        }))
+      open.push_back(place);
+  return open;
 }
 
 CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRules& rules) {

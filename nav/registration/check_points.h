@@ -38,6 +38,16 @@ struct CheckPoint {
                                      const Transform<World, Vertebra>& world_from_vertebra,
                                      Point<World> touched, const CheckPointRules& rules = {});
 
+/// Three places on the registered surface to touch, where the bone is known to be bare since it was
+/// stroked there: as far apart as can be, and off one line. Fewer where the strokes allow no more.
+[[nodiscard]] std::vector<Point<World>> places_to_check(
+    const VertebraModel& model, const Transform<World, Vertebra>& world_from_vertebra,
+    std::span<const Point<World>> stroked, const CheckPointRules& rules = {});
+
+/// Those of them that no check point lies near, within 8 mm.
+[[nodiscard]] std::vector<Point<World>> still_to_check(std::span<const Point<World>> places,
+                                                       std::span<const CheckPoint> touched);
+
 struct CheckVerdict {
   bool passed = false;
   double worst_m = 0.0;  ///< the largest distance in size

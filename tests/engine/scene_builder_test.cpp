@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/hologram_cross.h"
 #include "tests/engine/scripted_session.h"
 
 namespace orthonav::engine {
@@ -99,7 +100,8 @@ TEST(SceneBuilder, ShowsPathsWhileDigitizingAndNothingThatGuides) {
 TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
   ScriptedSession s({"L4"}, {}, Verification::kByTouch);
   s.registers_first_level();
-  EXPECT_THAT(drawn(s.pair()), ::testing::ElementsAre(1, 2, 11)) << "none yet";
+  // What was stroked there says where the bone is bare.
+  EXPECT_EQ(find(shown(s.pair()), "H12 check point"), nullptr) << "none yet";
   s.touches({0.0, 0.0204, 0.0});
   const Guidance& g = s.touches({0.02, 0.0231, 0.0});
   EXPECT_THAT(drawn(g), ::testing::ElementsAre(1, 2, 11, 12));
@@ -121,8 +123,9 @@ TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
       if (mesh.label == label) return mesh.colour;
     return render::Colour{};
   };
-  EXPECT_EQ(colour(1201), look::kGreen);
-  EXPECT_EQ(colour(1202), look::kRed);
+  const auto open = static_cast<render::Label>(g.to_check.size());
+  EXPECT_EQ(colour(1201 + open), look::kGreen);
+  EXPECT_EQ(colour(1202 + open), look::kRed);
   // They go with the surface that they checked.
   EXPECT_THAT(drawn(s.says("reject")), ::testing::Not(::testing::Contains(12)));
 }
@@ -185,7 +188,7 @@ TEST(SceneBuilder, PutsHologramsWhereTheRegistrationSays) {
 
 TEST_F(Guiding, ShowsPlanTriangleAndAngle) {
   const Guidance& g = s.pair();
-  EXPECT_THAT(drawn(g), ::testing::ElementsAre(3, 4, 5, 6, 11));
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(3, 4, 5, 6, 7, 9, 11));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame frame = shown(g);
   EXPECT_EQ(find(frame, "H6 angle")->text, "5.7°");  // 0.1 rad
@@ -198,6 +201,58 @@ TEST_F(Guiding, ShowsPlanTriangleAndAngle) {
   EXPECT_NEAR((triangle[0].v - kLeftEntry).norm(), 0.0, kExact);
   EXPECT_NEAR((triangle[1] - triangle[0]).norm(), nav::kTriangleReach_m, kExact);
   EXPECT_NEAR((triangle[2] - triangle[0]).norm(), nav::kTriangleReach_m, kExact);
+}
+
+TEST_F(Guiding, TheCrossHasADotForTheTipAndOneForTheToolFartherUp) {
+  // 2 mm beside the plan towards the patient's left, parallel to it.
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.0);
+  const Guidance& g = s.pairs(2);
+  const ShownFrame frame = shown(g);
+  const auto& points = find(frame, "H7 cross")->points_in_world;
+  ASSERT_EQ(points.size(), 3u);
+  const double drawn_m = static_cast<double>(kCrossScale) * 0.002;
+  EXPECT_NEAR((points[1] - points[0]).norm(), drawn_m, 1e-6);
+  EXPECT_NEAR((points[2] - points[1]).norm(), 0.0, 1e-6) << "parallel";
+  EXPECT_EQ(find(frame, "H7 cross")->text, "");
+  // Turned about its tip: the tip's dot stays, the other goes.
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.02);
+  const ShownFrame turned = shown(s.pairs(2));
+  const auto& after = find(turned, "H7 cross")->points_in_world;
+  EXPECT_NEAR((after[1] - points[1]).norm(), 0.0, 1e-6);
+  EXPECT_GT((after[2] - points[2]).norm(), 0.003);
+}
+
+TEST_F(Guiding, TheCrossShowsNoDotOfAPredictionAndSaysWhenTheToolIsLost) {
+  s.tracker().guide_origin = Origin::kPredicted;
+  const ShownFrame predicted = shown(s.pair());
+  EXPECT_EQ(find(predicted, "H7 cross")->points_in_world.size(), 1u);
+  EXPECT_EQ(find(predicted, "H7 cross")->text, "");
+  EXPECT_EQ(find(predicted, "H9 depth"), nullptr);
+  const ShownFrame lost = shown(s.pairs(4));
+  EXPECT_EQ(find(lost, "H7 cross")->points_in_world.size(), 1u);
+  EXPECT_EQ(find(lost, "H7 cross")->text, "tool lost");
+}
+
+TEST_F(Guiding, SaysHowFarItIsToTheEntryAndThenToTheTarget) {
+  EXPECT_EQ(find(shown(s.pair()), "H9 depth")->text, "10.0 mm to entry");
+  s.tracker().guide = guide_at(kLeftEntry - Vec3{0, 0.004, 0}, 0.0);
+  const std::string inside = find(shown(s.pairs(2)), "H9 depth")->text;
+  EXPECT_THAT(inside, ::testing::EndsWith(" mm to target"));
+  s.tracker().guide = guide_at(kLeftEntry - Vec3{0, 0.039, 0}, 0.0);
+  EXPECT_THAT(find(shown(s.pairs(2)), "H9 depth")->text, ::testing::EndsWith(" mm past target"));
+}
+
+TEST_F(Guiding, TheTwinComesAndGoesOnRequest) {
+  EXPECT_EQ(find(shown(s.pair()), "H8 twin"), nullptr);
+  const Guidance& g = s.says("twin");
+  EXPECT_THAT(drawn(g), ::testing::Contains(8));
+  EXPECT_EQ(drawn(g), told(g));
+  const ShownFrame frame = shown(g);
+  const auto& twin = find(frame, "H8 twin")->points_in_world;
+  const auto& line = find(frame, "H4 trajectory")->points_in_world;
+  ASSERT_EQ(twin.size(), 2u);
+  EXPECT_NEAR((twin[1] - twin[0]).norm(), 2.0 * (line[2] - line[1]).norm(), 1e-6);
+  EXPECT_EQ(find(shown(s.says("twin")), "H8 twin"), nullptr);
 }
 
 TEST_F(Guiding, HidesTheTriangleBeyond40mmAndShowsItWithin) {
@@ -331,6 +386,18 @@ TEST_F(Guiding, WhatIsDrawnTooLateLosesTriangleAndNumber) {
     return std::string("absent");
   };
   EXPECT_EQ(readout(scene), readout(late));
+  const auto cross = [](const render::Scene& of) {
+    std::vector<std::pair<render::Label, std::string>> items;
+    for (const render::MeshItem& mesh : of.meshes)
+      if (mesh.label / 100 == 7) items.emplace_back(mesh.label, "surface");
+    for (const render::LineItem& line : of.lines)
+      if (line.label / 100 == 7) items.emplace_back(line.label, "line");
+    for (const render::TextItem& text : of.texts)
+      if (text.label / 100 == 7) items.emplace_back(text.label, text.runs.at(0).text);
+    return items;
+  };
+  EXPECT_EQ(cross(scene), cross(late));
+  EXPECT_EQ(cross(late).back().second, "tool lost");
 }
 
 TEST(VisibilityRules, NamesEveryProblem) {

@@ -96,5 +96,37 @@ TEST_F(OnABall, APlaceThatIsNoPlaceIsFarOff) {
   EXPECT_THAT(verdict_on({&nowhere, 1}).advice, HasSubstr("check point 1"));
 }
 
+TEST(CheckPoints, AreProposedOnTheSurfaceWhereItWasStrokedFarApart) {
+  const auto model = VertebraModel::prepare(test::box({-0.03, -0.02, -0.025}, {0.03, 0.02, 0.025}));
+  ASSERT_TRUE(model.ok()) << model.error().message;
+  const Transform<World, Vertebra> pose(rotation_from_vector({0.2, -0.4, 0.1}), {0.3, 0.1, -0.5});
+  std::vector<Point<World>> stroked;
+  for (int x = -25; x <= 25; x += 5)
+    for (int z = -20; z <= 20; z += 5)
+      stroked.push_back(pose * Point<Vertebra>{{x * 1e-3, 0.0204, z * 1e-3}});
+  stroked.push_back(pose * Point<Vertebra>{{0.09, 0.05, 0.0}});  // off the bone
+  const auto places = places_to_check(**model, pose, stroked);
+  ASSERT_EQ(places.size(), 3u);
+  std::vector<CheckPoint> touched;
+  for (const Point<World>& place : places) {
+    touched.push_back(check_point(**model, pose, place));
+    EXPECT_NEAR(touched.back().distance_m, 0.0, 1e-9);
+  }
+  EXPECT_TRUE(verdict_on(touched).passed) << verdict_on(touched).advice;
+  touched.pop_back();
+  const auto open = still_to_check(places, touched);
+  ASSERT_EQ(open.size(), 1u);
+  EXPECT_EQ(open[0].v, places[2].v);
+}
+
+TEST(CheckPoints, AreNotProposedWhereStrokesAllowNone) {
+  const auto model = VertebraModel::prepare(test::box({-0.03, -0.02, -0.025}, {0.03, 0.02, 0.025}));
+  ASSERT_TRUE(model.ok());
+  const Transform<World, Vertebra> pose;
+  EXPECT_TRUE(places_to_check(**model, pose, {}).empty());
+  const Point<World> near[] = {Point<World>{{0, 0.02, 0}}, Point<World>{{0.004, 0.02, 0}}};
+  EXPECT_EQ(places_to_check(**model, pose, near).size(), 1u);
+}
+
 }  // namespace
 }  // namespace orthonav::nav

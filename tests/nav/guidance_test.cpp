@@ -76,5 +76,18 @@ TEST(Guide, SaysHowFarTheTipIsFromAxisAndEntry) {
   EXPECT_NEAR(before.depth_m, -0.005, kRounding_m);
 }
 
+TEST(Guide, SaysWhereTipAndTopStandBesideThePlannedAxis) {
+  const Scene s;
+  const auto g =
+      guide(s.world_from_vertebra, s.plan, s.at({0.012, 0.03, 0.027}), s.turned({0, 1, 0}));
+  EXPECT_LT((g.tip_offset_m - s.turned({0.002, 0, -0.003})).norm(), 1e-14);
+  EXPECT_LT((g.top_offset_m - g.tip_offset_m).norm(), 1e-14) << "parallel to the plan";
+  EXPECT_NEAR(g.to_target_m, 0.045 + 0.010, 1e-14);
+  const auto tilted =
+      guide(s.world_from_vertebra, s.plan, s.at({0.012, 0.03, 0.027}), s.turned({0.6, 0.8, 0}));
+  EXPECT_LT((tilted.top_offset_m - s.turned({0.002 + 0.6 * kTriangleReach_m, 0, -0.003})).norm(),
+            1e-14);
+}
+
 }  // namespace
 }  // namespace orthonav::nav

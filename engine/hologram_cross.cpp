@@ -1,0 +1,177 @@
+#include "engine/hologram_cross.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <span>
+#include <utility>
+
+#include "engine/hologram_parts.h"
+#include "render/float3.h"
+#include "render/shapes.h"
+
+namespace orthonav::engine {
+namespace {
+
+using render::Float3;
+using render::Label;
+using render::Scene;
+
+constexpr float kRingWidth_m = 0.0005f;
+constexpr float kDotRadius_m = 0.0014f;
+constexpr float kHollowRadius_m = 0.0021f;
+constexpr float kHollowWidth_m = 0.0007f;
+constexpr float kArrow_m = 0.0030f;
+/// Past the outermost ring by so much of it a dot is held at the rim.
+constexpr float kRim = 1.12f;
+constexpr float kDiagonal = 0.70710678f;
+constexpr double kDeepest_m = 0.9995;
+
+/// The offset from the planned axis as the eyes see it on the disc: across, up.
+std::array<float, 2> on_disc(const TargetCross& cross, Float3 right, Float3 towards_eye,
+                             Float3 offset) {
+  const Float3 axis = dot(cross.outward, towards_eye) < 0 ? -1.0f * cross.outward : cross.outward;
+  const Float3 across =
+      render::unit_or(right - dot(right, axis) * axis, render::any_perpendicular(axis));
+  return {dot(offset, across), dot(offset, render::cross(axis, across))};
+}
+
+/// A small triangle that points off the disc.
+std::array<Float3, 3> arrow(const CrossPlaces& places, std::size_t i) {
+  const Float3 side = render::cross(places.towards[i], render::cross(places.right, places.up));
+  return {places.dots[i] + kArrow_m * places.towards[i], places.dots[i] + 0.6f * kArrow_m * side,
+          places.dots[i] - 0.6f * kArrow_m * side};
+}
+
+void add_dots(Scene& scene, const TargetCross& cross, const CrossPlaces& places, Label label) {
+  const render::Colour colour = colour_of(cross.reading->grade);
+  const std::array<Float3, 3> tip = arrow(places, 0);
+  const std::array<Float3, 3> top = arrow(places, 1);
+  if (places.outside[0])
+    scene.triangles.push_back({label, tip, colour});
+  else
+    add_sphere(scene, places.dots[0], kDotRadius_m, colour, label);
+  if (places.outside[1])
+    add_line(scene, {top.begin(), top.end()}, kHollowWidth_m, colour, label, 0, true);
+  else
+    add_line(scene,
+             render::make_ring(places.dots[1], render::cross(places.right, places.up),
+                               kHollowRadius_m, 24),
+             kHollowWidth_m, colour, label, 0, true);
+}
+
+void add_ring_text(Scene& scene, const CrossPlaces& places, float ring_m, Label label) {
+  char text[16];
+  std::snprintf(text, sizeof(text), ring_m == kCrossRings_m.back() ? "%.0f mm" : "%.0f",
+                static_cast<double>(ring_m) * 1e3);
+  add_text_beside(scene,
+                  places.middle + kDiagonal * kCrossScale * ring_m * (places.right - places.up),
+                  0.25f, 0.0030f, 0.5f, {{text, look::kDimWhite}}, label);
+}
+
+render::TextItem lost_text(Float3 middle, Label label) {
+  render::TextItem text;
+  text.label = label;
+  text.position = middle;
+  text.offset_up = -0.5f;
+  text.height_m = 0.0045f;
+  text.min_height_deg = 0.5f;
+  text.runs = {{"tool lost", look::kRed}};
+  return text;
+}
+
+}  // namespace
+
+CrossPlaces places_of(const TargetCross& cross) {
+  const auto facing = [&](Float3 place) {
+    return render::unit_or(cross.viewer.eye - place, {0, 1, 0});
+  };
+  const auto right_of = [&](Float3 towards_eye) {
+    return render::unit_or(render::cross(cross.viewer.up, towards_eye),
+                           render::any_perpendicular(towards_eye));
+  };
+  CrossPlaces places;
+  const Float3 from_site = facing(cross.site);
+  const Float3 right = right_of(from_site);
+  places.middle =
+      cross.site + kCrossAbove_m * render::cross(from_site, right) - kCrossAside_m * right;
+  const Float3 towards_eye = facing(places.middle);
+  places.right = right_of(towards_eye);
+  places.up = render::cross(towards_eye, places.right);
+  places.dots.fill(places.middle);
+  if (!cross.reading) return places;
+  const std::array<Float3, 2> offsets = {cross.reading->tip_offset, cross.reading->top_offset};
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const auto [across, up] = on_disc(cross, places.right, towards_eye, offsets[i]);
+    const float away = std::hypot(across, up);
+    const float rim = kRim * kCrossRings_m.back();
+    places.outside[i] = !(away <= rim);
+    const Float3 from_middle = across * places.right + up * places.up;
+    places.towards[i] = render::unit_or(from_middle, places.up);
+    places.dots[i] =
+        places.middle + kCrossScale * (places.outside[i] ? rim * places.towards[i] : from_middle);
+  }
+  return places;
+}
+
+void add_target_cross(Scene& scene, const TargetCross& cross, Label label) {
+  const CrossPlaces places = places_of(cross);
+  const Float3 normal = render::cross(places.right, places.up);
+  // Nothing to be read where there is no tool: the outer ring says what the words are about.
+  const std::span<const float> rings_m =
+      cross.lost ? std::span(kCrossRings_m).last(1) : std::span(kCrossRings_m);
+  for (const float ring_m : rings_m) {
+    add_line(scene, render::make_ring(places.middle, normal, kCrossScale * ring_m), kRingWidth_m,
+             look::kRing, label, 0, true);
+    if (!cross.lost) add_ring_text(scene, places, ring_m, label);
+  }
+  if (cross.lost)
+    scene.texts.push_back(lost_text(places.middle, label));
+  else if (cross.reading)
+    add_dots(scene, cross, places, label + 1);
+}
+
+void take_dots_off(Scene& scene, Label label) {
+  const auto is_dot = [&](const auto& item) { return item.label == label + 1; };
+  std::erase_if(scene.meshes, is_dot);
+  std::erase_if(scene.lines, is_dot);
+  std::erase_if(scene.triangles, is_dot);
+  const auto is_cross = [&](const auto& item) { return item.label == label; };
+  std::erase_if(scene.texts, is_cross);
+  const auto outermost = std::find_if(scene.lines.rbegin(), scene.lines.rend(), is_cross);
+  if (outermost == scene.lines.rend()) return;
+  Float3 middle{};
+  for (const Float3 point : outermost->points)
+    middle = middle + 1.0f / static_cast<float>(outermost->points.size()) * point;
+  render::LineItem ring = *outermost;
+  std::erase_if(scene.lines, is_cross);
+  scene.lines.push_back(std::move(ring));
+  scene.texts.push_back(lost_text(middle, label));
+}
+
+std::optional<std::string> depth_text(double depth_m, double to_target_m) {
+  const bool before = depth_m < 0.0;
+  const double left_m = before ? -depth_m : to_target_m;
+  if (!(std::abs(left_m) < kDeepest_m)) return std::nullopt;
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f mm %s", std::abs(left_m) * 1e3,
+                before ? "to entry" : (left_m < 0.0 ? "past target" : "to target"));
+  return text;
+}
+
+void add_depth(Scene& scene, Float3 a, Float3 b, const std::string& text, bool past_target,
+               Label label) {
+  render::TextItem item;
+  item.label = label;
+  item.position = readout_place(a, b);
+  item.align = render::TextAlign::kLeft;
+  // Under the angle, whose height it follows down to the least that is read.
+  item.offset_right = 1.6f;
+  item.offset_up = -1.9f;
+  item.height_m = 0.004f;
+  item.min_height_deg = 0.45f;
+  item.runs = {{text, past_target ? look::kRed : look::kWhite}};
+  scene.texts.push_back(std::move(item));
+}
+
+}  // namespace orthonav::engine

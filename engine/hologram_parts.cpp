@@ -1,0 +1,69 @@
+#include "engine/hologram_parts.h"
+
+#include <utility>
+
+#include "render/shapes.h"
+
+namespace orthonav::engine {
+
+using render::Colour;
+using render::Float3;
+using render::Label;
+using render::Scene;
+
+Colour faded(Colour colour, float opacity) {
+  colour.a *= opacity;
+  return colour;
+}
+
+namespace {
+
+/// One immutable sphere for all, so that the renderer keeps one copy of it.
+const std::shared_ptr<const render::MeshData>& unit_sphere() {
+  static const auto mesh = std::make_shared<const render::MeshData>(render::make_sphere(1.0f));
+  return mesh;
+}
+
+}  // namespace
+
+void add_mesh(Scene& scene, std::shared_ptr<const render::MeshData> mesh,
+              const render::Matrix4& world_from_model, Colour colour, Label label) {
+  render::MeshItem item;
+  item.label = label;
+  item.mesh = std::move(mesh);
+  item.world_from_model = world_from_model;
+  item.colour = colour;
+  scene.meshes.push_back(std::move(item));
+}
+
+void add_sphere(Scene& scene, Float3 centre, float radius_m, Colour colour, Label label) {
+  add_mesh(scene, unit_sphere(), render::placed_at(centre, radius_m), colour, label);
+}
+
+void add_line(Scene& scene, std::vector<Float3> points, float width_m, Colour colour, Label label,
+              float dash_m, bool closed) {
+  render::LineItem line;
+  line.label = label;
+  line.points = std::move(points);
+  line.width_m = width_m;
+  line.colour = colour;
+  line.dash_m = dash_m;
+  line.closed = closed;
+  scene.lines.push_back(std::move(line));
+}
+
+void add_text_beside(Scene& scene, Float3 place, float offset_right, float height_m,
+                     float min_height_deg, std::vector<render::TextRun> runs, Label label) {
+  render::TextItem text;
+  text.label = label;
+  text.position = place;
+  text.align = offset_right < 0 ? render::TextAlign::kRight : render::TextAlign::kLeft;
+  text.offset_right = offset_right;
+  text.offset_up = -0.5f;
+  text.height_m = height_m;
+  text.min_height_deg = min_height_deg;
+  text.runs = std::move(runs);
+  scene.texts.push_back(std::move(text));
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,53 @@
+#include "engine/screw_holograms.h"
+
+#include <algorithm>
+
+namespace orthonav::engine {
+namespace {
+
+/// The middle of the level's entry points.
+Point<World> site_of(const LevelState& level) {
+  Vec3 sum{};
+  for (const nav::ScrewPlan& screw : level.plan.screws) sum += screw.entry.v;
+  const Point<Vertebra> middle{sum / static_cast<double>(level.plan.screws.size())};
+  return level.registration->world_from_vertebra * middle;
+}
+
+}  // namespace
+
+render::Float3 to_float3(Vec3 v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+Grade grade_of_tool(const Guidance& guidance, const Visibility& visible,
+                    const VisibilityRules& rules) {
+  if (visible.angle || visible.cross_dots)
+    return grade_of(guidance.tool->measured->angle_rad, rules.grades);
+  return std::max(grade_of(guidance.tool->shown.angle_rad, rules.grades), Grade::kFair);
+}
+
+TargetCross cross_of(const Guidance& guidance, const Visibility& visible,
+                     const VisibilityRules& rules) {
+  const LevelState& level = guidance.levels[guidance.level];
+  const TrajectoryLine line = trajectory_of(level, guidance.screw);
+  TargetCross cross;
+  cross.site = to_float3(site_of(level).v);
+  cross.outward = to_float3((line.entry - line.target).normalized());
+  cross.viewer.eye = to_float3(guidance.head->translation());
+  cross.viewer.up = to_float3(guidance.head->rotation().column(1));
+  cross.lost = visible.cross_lost;
+  if (visible.cross_dots)
+    cross.reading = CrossReading{to_float3(guidance.tool->measured->tip_offset_m),
+                                 to_float3(guidance.tool->measured->top_offset_m),
+                                 grade_of_tool(guidance, visible, rules)};
+  return cross;
+}
+
+VirtualTwin twin_of(const LevelState& level, std::size_t screw) {
+  const auto& world_from_vertebra = level.registration->world_from_vertebra;
+  const double away = level.plan.screws[screw].entry.v.x > 0.0 ? -1.0 : 1.0;
+  return {to_float3(site_of(level).v),
+          to_float3((world_from_vertebra * Direction<Vertebra>{{away, 0.0, 0.0}}).v)};
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "engine/guidance.h"
+#include "engine/hologram_cross.h"
+#include "engine/hologram_twin.h"
+#include "engine/shown_frame.h"
+#include "engine/visibility.h"
+
+namespace orthonav::engine {
+
+// What the holograms of the selected screw are made of, for whoever draws or tells them.
+
+[[nodiscard]] render::Float3 to_float3(Vec3 v);
+
+/// Of H5 and H6. What is only predicted has no number and is never called good.
+[[nodiscard]] Grade grade_of_tool(const Guidance& guidance, const Visibility& visible,
+                                  const VisibilityRules& rules);
+
+/// H7 over the level's site; the guidance knows the head.
+[[nodiscard]] TargetCross cross_of(const Guidance& guidance, const Visibility& visible,
+                                   const VisibilityRules& rules);
+
+/// H8 on the side that the selected screw is not on, clear of the hand.
+[[nodiscard]] VirtualTwin twin_of(const LevelState& level, std::size_t screw);
+
+}  // namespace orthonav::engine
