@@ -101,7 +101,8 @@ void PhotometricSolver::update_light(const std::array<double, 6>& step,
     TagView& view = views[i];
     if (!view.used) continue;
     const double cell_m = view.tag->cell_m();
-    const Vector6 of_tag = tag_by_tool(view.marker_from_tag, cell_m) * motion;
+    std::array<double, 6> of_tag;
+    Eigen::Map<Vector6>(of_tag.data()) = tag_by_tool(view.marker_from_tag, cell_m) * motion;
     const LightStep step_of_light = light_step(equations_[i], view.light, of_tag);
     apply(step_of_light, cell_m * pixels_a_metre(view, pose), view.light);
   }
@@ -125,8 +126,10 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
     if (!view.used) continue;
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
     const ReducedView own = reduced(equations_[i], view.light);
-    normal += motion.transpose() * own.normal * motion;
-    right += motion.transpose() * own.right;
+    const Eigen::Map<const Matrix6> own_normal(own.normal.data());
+    const Eigen::Map<const Vector6> own_right(own.right.data());
+    normal += motion.transpose() * own_normal * motion;
+    right += motion.transpose() * own_right;
     ++fit.views;
     (view.right ? fit.right : fit.left) = true;
     out.pixels_a_metre = std::max(out.pixels_a_metre, pixels_a_metre(view, fit.rig_from_marker));
@@ -207,16 +210,18 @@ std::optional<AlignmentEquations> PhotometricSolver::alignment(
     const TagView& view = views[i];
     if (!view.used) continue;
     const ReducedView own = reduced(equations_[i], view.light);
+    const Eigen::Map<const Matrix6> own_normal(own.normal.data());
+    const Eigen::Map<const Vector6> own_right(own.right.data());
     const double cell_m = view.tag->cell_m();
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, cell_m);
-    pose += motion.transpose() * own.normal * motion;
-    pose_right += motion.transpose() * own.right;
+    pose += motion.transpose() * own_normal * motion;
+    pose_right += motion.transpose() * own_right;
     if (!view.right) continue;
     const Eigen::Matrix<double, 6, 3> by_turn =
         tag_by_camera_turn(camera_from_tag(view, fit.rig_from_marker), cell_m);
-    cross += motion.transpose() * own.normal * by_turn;
-    turn += by_turn.transpose() * own.normal * by_turn;
-    turn_right += by_turn.transpose() * own.right;
+    cross += motion.transpose() * own_normal * by_turn;
+    turn += by_turn.transpose() * own_normal * by_turn;
+    turn_right += by_turn.transpose() * own_right;
   }
   const Eigen::LDLT<Matrix6> solver(pose);
   AlignmentEquations out;

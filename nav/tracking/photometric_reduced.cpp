@@ -73,17 +73,20 @@ struct Eliminated {
 ReducedView reduced(const ViewEquations& equations, const Photometry& known) {
   const Eliminated e(equations, known);
   const double trust = 1.0 / std::max(known.scatter, 1.0);
-  return {trust * e.normal,
-          trust * (e.split.pose_right - e.split.cross * e.light.solve(e.split.light_right))};
+  ReducedView view;
+  Eigen::Map<Matrix6>(view.normal.data()) = trust * e.normal;
+  Eigen::Map<Vector6>(view.right.data()) =
+      trust * (e.split.pose_right - e.split.cross * e.light.solve(e.split.light_right));
+  return view;
 }
 
 LightStep light_step(const ViewEquations& equations, const Photometry& known,
-                     const Vector6& of_tag) {
+                     const std::array<double, 6>& of_tag) {
   Split s = split(equations);
   add_prior(s, known);
   LightStep step;
-  Eigen::Map<LightVector>(step.data()) =
-      s.light.llt().solve(s.light_right - s.cross.transpose() * of_tag);
+  Eigen::Map<LightVector>(step.data()) = s.light.llt().solve(
+      s.light_right - s.cross.transpose() * Eigen::Map<const Vector6>(of_tag.data()));
   return step;
 }
 
