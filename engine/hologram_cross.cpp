@@ -60,13 +60,15 @@ void add_dots(Scene& scene, const TargetCross& cross, const CrossPlaces& places,
              kHollowWidth_m, colour, label, 0, true);
 }
 
+/// By turns on the right and on the left, or 1 and 2 would read as 12.
 void add_ring_text(Scene& scene, const CrossPlaces& places, float ring_m, Label label) {
   char text[16];
   std::snprintf(text, sizeof(text), ring_m == kCrossRings_m.back() ? "%.0f mm" : "%.0f",
                 static_cast<double>(ring_m) * 1e3);
-  add_text_beside(scene,
-                  places.middle + kDiagonal * kCrossScale * ring_m * (places.right - places.up),
-                  0.25f, 0.0030f, 0.5f, {{text, look::kDimWhite}}, label);
+  const float side = ring_m == kCrossRings_m[1] ? -1.0f : 1.0f;
+  add_text_beside(
+      scene, places.middle + kDiagonal * kCrossScale * ring_m * (side * places.right - places.up),
+      0.25f * side, 0.0030f, 0.5f, {{text, look::kDimWhite}}, label);
 }
 
 render::TextItem lost_text(Float3 middle, Label label) {

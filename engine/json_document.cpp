@@ -154,6 +154,36 @@ Vec3 JsonNode::vec3(const char* key) const {
   return {values[0], values[1], values[2]};
 }
 
+std::vector<Vec3> JsonNode::vec3s(const char* key) const {
+  constexpr std::size_t kMost = 1'000'000;
+  std::vector<Vec3> out;
+  const json* found = value_->find(key);
+  if (found == nullptr) {
+    refuse(key, "is missing");
+    return out;
+  }
+  if (!found->is_array() || found->size() > kMost) {
+    refuse(key, "must be a list of at most 1000000 points");
+    return out;
+  }
+  for (const json& element : *found) {
+    std::vector<double> values;
+    if (!element.is_array() || !flatten(element, 1, values) || values.size() != 3) {
+      refuse(key, "point " + std::to_string(out.size() + 1) + " must be 3 finite numbers");
+      return out;
+    }
+    out.push_back({values[0], values[1], values[2]});
+  }
+  return out;
+}
+
+bool JsonNode::flag_or(const char* key, bool fallback) const {
+  const json* found = value_->find(key);
+  if (found == nullptr) return fallback;
+  if (!found->is_boolean()) refuse(key, "must be true or false");
+  return found->is_boolean() ? found->get<bool>() : fallback;
+}
+
 JsonNode JsonNode::child(const char* key) const {
   static const json kNothing;
   const json* found = value_->find(key);

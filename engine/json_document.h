@@ -29,6 +29,9 @@ class JsonNode {
   /// Exactly `count` finite numbers; nested lists (a matrix by rows) are flattened.
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count) const;
   [[nodiscard]] Vec3 vec3(const char* key) const;
+  /// A list of such, 1,000,000 at most.
+  [[nodiscard]] std::vector<Vec3> vec3s(const char* key) const;
+  [[nodiscard]] bool flag_or(const char* key, bool fallback) const;
   [[nodiscard]] JsonNode child(const char* key) const;
   /// The objects of a list.
   [[nodiscard]] std::vector<JsonNode> list(const char* key) const;

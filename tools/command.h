@@ -25,6 +25,7 @@ void add_detect_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
 void add_golden_command(CLI::App& app, Action& action);
 void add_print_command(CLI::App& app, Action& action);
+void add_render_command(CLI::App& app, Action& action);
 void add_register_command(CLI::App& app, Action& action);
 void add_rod_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);

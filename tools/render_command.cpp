@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <array>
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/golden_scenes.h"
+#include "engine/image_file.h"
+#include "engine/scene_file.h"
+#include "tools/command.h"
+
+namespace orthonav::tools {
+namespace {
+
+struct RenderArguments {
+  std::string scene;
+  std::string out;
+  std::string eye = "both";
+  std::string size;
+  std::string blend = "additive";
+  std::string background = "black";
+  std::string device;
+};
+
+/// "WxH" in pixels of one eye.
+Status read_size(const std::string& text, engine::SceneFile& file) {
+  if (text.empty()) return {};
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2)
+    return Error{"--size: is \"" + text + "\", must be WIDTHxHEIGHT in px, as 1268x720"};
+  // The same field of view across; another shape shows more or less above and below.
+  for (render::View& view : file.eyes) {
+    const float shape = static_cast<float>(height) / static_cast<float>(std::max(width, 1));
+    view.tan_up = view.tan_down = 0.5f * (view.tan_left + view.tan_right) * shape;
+  }
+  file.width_px = width;
+  file.height_px = height;
+  return {};
+}
+
+Result<std::optional<render::Image>> background_of(const std::string& name, int width_px,
+                                                   int height_px) {
+  if (name == "black") return std::optional<render::Image>{};
+  if (name == "wound") return std::optional(engine::golden_background(width_px, height_px));
+  auto image = engine::read_png(name);
+  if (!image) return image.error();
+  if (image->width_px != width_px || image->height_px != height_px)
+    return Error{name + ": is " + std::to_string(image->width_px) + "x" +
+                 std::to_string(image->height_px) + " px, must be " + std::to_string(width_px) +
+                 "x" + std::to_string(height_px) + " as one eye"};
+  return std::optional(std::move(*image));
+}
+
+render::Image side_by_side(const std::vector<render::Image>& images) {
+  if (images.size() == 1) return images.front();
+  const int width = images.front().width_px;
+  render::Image joined{2 * width, images.front().height_px, {}};
+  for (int y = 0; y < joined.height_px; ++y)
+    for (const render::Image& image : images) {
+      const auto row = image.rgba.begin() + std::ptrdiff_t{4} * width * y;
+      joined.rgba.insert(joined.rgba.end(), row, row + std::ptrdiff_t{4} * width);
+    }
+  return joined;
+}
+
+int render_scene(const RenderArguments& arguments) {
+  auto file = engine::load_scene(arguments.scene);
+  if (!file) return bad_input(file.error().message);
+  if (const Status size = read_size(arguments.size, *file); !size)
+    return bad_input(size.error().message);
+  if (arguments.eye == "left") file->eyes.resize(1);
+  if (arguments.eye == "right") file->eyes.erase(file->eyes.begin());
+  render::RendererOptions options;
+  options.width_px = file->width_px;
+  options.height_px = file->height_px;
+  options.device = arguments.device;
+  options.blend = arguments.blend == "over" ? render::Blend::kOver : render::Blend::kAdditive;
+  const auto background = background_of(arguments.background, options.width_px, options.height_px);
+  if (!background) return bad_input(background.error().message);
+  std::string error;
+  const auto renderer = render::Renderer::create(options, error);
+  if (!renderer) return bad_input(error);
+  std::vector<const render::Image*> backgrounds;
+  if (*background) backgrounds.assign(file->eyes.size(), &**background);
+  std::vector<render::Image> images;
+  if (!renderer->draw(file->scene, file->eyes, backgrounds, images, error))
+    return bad_input(arguments.scene + ": " + error);
+  const Status written = engine::write_png(arguments.out, side_by_side(images));
+  if (!written) return bad_input(written.error().message);
+  std::printf("%s: %zu eye%s, %dx%d px each, drawn by %s\n", arguments.out.c_str(), images.size(),
+              images.size() == 1 ? "" : "s", options.width_px, options.height_px,
+              renderer->device().name.c_str());
+  return kDone;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<RenderArguments>();
+  CLI::App* command =
+      app.add_subcommand("render", "Draw the holograms of a scene file into a picture");
+  command->add_option("scene", arguments->scene, "Scene file (docs/scene-files.md)")->required();
+  command->add_option("--out", arguments->out, "PNG to write; both eyes side by side")->required();
+  command->add_option("--eye", arguments->eye, "left, right or both")
+      ->check(CLI::IsMember({"left", "right", "both"}))
+      ->capture_default_str();
+  command->add_option("--size", arguments->size, "WIDTHxHEIGHT of one eye, px (the file's)");
+  command->add_option("--blend", arguments->blend, "additive as a headset, over as a preview")
+      ->check(CLI::IsMember({"additive", "over"}))
+      ->capture_default_str();
+  command
+      ->add_option("--background", arguments->background,
+                   "black, wound, or a PNG of one eye's size")
+      ->capture_default_str();
+  command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
+  command->callback(
+      [&action, arguments] { action = [arguments] { return render_scene(*arguments); }; });
+}
+
+}  // namespace orthonav::tools
