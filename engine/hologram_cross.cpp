@@ -27,6 +27,17 @@ constexpr float kRim = 1.12f;
 constexpr float kDiagonal = 0.70710678f;
 constexpr double kDeepest_m = 0.9995;
 
+/// From a place to the eyes, unit.
+Float3 towards(const Viewer& viewer, Float3 place) {
+  return render::unit_or(viewer.eye - place, {0, 1, 0});
+}
+
+/// To the right as eyes in that direction see it, unit.
+Float3 right_of(const Viewer& viewer, Float3 towards_eye) {
+  return render::unit_or(render::cross(viewer.up, towards_eye),
+                         render::any_perpendicular(towards_eye));
+}
+
 /// The offset from the planned axis as the eyes see it on the disc: across, up.
 std::array<float, 2> on_disc(const TargetCross& cross, Float3 right, Float3 towards_eye,
                              Float3 offset) {
@@ -84,21 +95,21 @@ render::TextItem lost_text(Float3 middle, Label label) {
 
 }  // namespace
 
+LabelSide clear_side(Float3 site, Float3 outward, const Viewer& viewer, LabelSide until_now) {
+  constexpr float kLeans = 0.15f;
+  const float lean = dot(outward, right_of(viewer, towards(viewer, site)));
+  if (!(std::abs(lean) > kLeans)) return until_now;
+  return lean > 0 ? LabelSide::kLeft : LabelSide::kRight;
+}
+
 CrossPlaces places_of(const TargetCross& cross) {
-  const auto facing = [&](Float3 place) {
-    return render::unit_or(cross.viewer.eye - place, {0, 1, 0});
-  };
-  const auto right_of = [&](Float3 towards_eye) {
-    return render::unit_or(render::cross(cross.viewer.up, towards_eye),
-                           render::any_perpendicular(towards_eye));
-  };
   CrossPlaces places;
-  const Float3 from_site = facing(cross.site);
-  const Float3 right = right_of(from_site);
-  places.middle =
-      cross.site + kCrossAbove_m * render::cross(from_site, right) - kCrossAside_m * right;
-  const Float3 towards_eye = facing(places.middle);
-  places.right = right_of(towards_eye);
+  const Float3 from_site = towards(cross.viewer, cross.site);
+  const Float3 right = right_of(cross.viewer, from_site);
+  const float aside_m = cross.side == LabelSide::kLeft ? -kCrossAside_m : kCrossAside_m;
+  places.middle = cross.site + kCrossAbove_m * render::cross(from_site, right) + aside_m * right;
+  const Float3 towards_eye = towards(cross.viewer, places.middle);
+  places.right = right_of(cross.viewer, towards_eye);
   places.up = render::cross(towards_eye, places.right);
   places.dots.fill(places.middle);
   if (!cross.reading) return places;

@@ -21,13 +21,14 @@ struct CrossReading {
   Grade grade = Grade::kPoor;
 };
 
-/// H7: a target that faces the eyes, above the site as they see it and to the left, clear of the
-/// tool and of the number to its right. Its rings are at 1, 2 and 5 mm,
+/// H7: a target that faces the eyes, above the site as they see it and to a side, clear of the tool
+/// and of the number beside it. Its rings are at 1, 2 and 5 mm,
 /// drawn larger than life: 1 mm takes 4.
 struct TargetCross {
   render::Float3 site;
   render::Float3 outward;  ///< unit, along the planned axis out of the bone
   Viewer viewer;
+  LabelSide side = LabelSide::kLeft;    ///< of the site, as the eyes see it
   std::optional<CrossReading> reading;  ///< absent: rings without dots
   bool lost = false;                    ///< says so in the place of the dots
 };
@@ -47,6 +48,9 @@ struct CrossPlaces {
   std::array<bool, 2> outside = {};         ///< past the rim
   std::array<render::Float3, 2> towards{};  ///< unit, from the middle to the dot
 };
+/// The side that the planned axis does not lean to; kept while it hardly leans, lest it jump.
+[[nodiscard]] LabelSide clear_side(render::Float3 site, render::Float3 outward,
+                                   const Viewer& viewer, LabelSide until_now);
 [[nodiscard]] CrossPlaces places_of(const TargetCross& cross);
 
 /// Rings carry `label`, the dots the next one.

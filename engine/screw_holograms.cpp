@@ -13,6 +13,10 @@ Point<World> site_of(const LevelState& level) {
   return level.registration->world_from_vertebra * middle;
 }
 
+Viewer viewer_of(const Transform<World, Rig>& head) {
+  return {to_float3(head.translation()), to_float3(head.rotation().column(1))};
+}
+
 }  // namespace
 
 render::Float3 to_float3(Vec3 v) {
@@ -33,14 +37,21 @@ TargetCross cross_of(const Guidance& guidance, const Visibility& visible,
   TargetCross cross;
   cross.site = to_float3(site_of(level).v);
   cross.outward = to_float3((line.entry - line.target).normalized());
-  cross.viewer.eye = to_float3(guidance.head->translation());
-  cross.viewer.up = to_float3(guidance.head->rotation().column(1));
+  cross.viewer = viewer_of(*guidance.head);
+  cross.side = visible.cross_side;
   cross.lost = visible.cross_lost;
   if (visible.cross_dots)
     cross.reading = CrossReading{to_float3(guidance.tool->measured->tip_offset_m),
                                  to_float3(guidance.tool->measured->top_offset_m),
                                  grade_of_tool(guidance, visible, rules)};
   return cross;
+}
+
+LabelSide clear_side_of(const LevelState& level, std::size_t screw,
+                        const Transform<World, Rig>& head, LabelSide until_now) {
+  const TrajectoryLine line = trajectory_of(level, screw);
+  return clear_side(to_float3(site_of(level).v), to_float3((line.entry - line.target).normalized()),
+                    viewer_of(head), until_now);
 }
 
 VirtualTwin twin_of(const LevelState& level, std::size_t screw) {

@@ -20,6 +20,10 @@ namespace orthonav::engine {
 [[nodiscard]] TargetCross cross_of(const Guidance& guidance, const Visibility& visible,
                                    const VisibilityRules& rules);
 
+/// The side of the site on which H7 hangs clear of the tool.
+[[nodiscard]] LabelSide clear_side_of(const LevelState& level, std::size_t screw,
+                                      const Transform<World, Rig>& head, LabelSide until_now);
+
 /// H8 on the side that the selected screw is not on, clear of the hand.
 [[nodiscard]] VirtualTwin twin_of(const LevelState& level, std::size_t screw);
 

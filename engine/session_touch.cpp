@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -97,11 +98,21 @@ void Session::measure_residuals() {
   const LevelState& now = level();
   const auto vertebra_from_world = now.registration->world_from_vertebra.inverse();
   residuals_m_.clear();
+  std::vector<float> each_m;
   for (const Point<World>& point : now.newest->points) {
     const auto nearest =
         now.plan.model->reachable_surface().nearest((vertebra_from_world * point).v);
-    residuals_m_.push_back(nearest ? static_cast<float>(nearest->distance_m)
-                                   : std::numeric_limits<float>::infinity());
+    each_m.push_back(nearest ? static_cast<float>(nearest->distance_m)
+                             : std::numeric_limits<float>::infinity());
+  }
+  // One sample says little: the mean over a stretch of the stroke, or it is a speckle.
+  constexpr std::size_t kStretch = 10;
+  for (std::size_t i = 0; i < each_m.size(); ++i) {
+    const std::size_t first = i - std::min(i, kStretch);
+    const std::size_t last = std::min(i + kStretch + 1, each_m.size());
+    float sum = 0.0f;
+    for (std::size_t k = first; k < last; ++k) sum += each_m[k];
+    residuals_m_.push_back(sum / static_cast<float>(last - first));
   }
 }
 

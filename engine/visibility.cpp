@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "engine/screw_holograms.h"
+
 namespace orthonav::engine {
 
 std::vector<std::string> VisibilityRules::check() const {
@@ -17,8 +19,10 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
                        Visibility& out) {
   std::vector<std::size_t> entries = std::move(out.entries_of);  // keeps its buffer
   entries.clear();
+  const LabelSide cross_side = out.cross_side;
   out = {};
   out.entries_of = std::move(entries);
+  out.cross_side = cross_side;
   if (g.blank) return;
   // H1: the surgeon still compares the paths with the hologram while he verifies; after acceptance
   // they would only cover the bone.
@@ -52,6 +56,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   // H7: with the trajectory that it measures against, once it is known where the eyes are. Its dots
   // are numbers in another shape: of one stereo pair, never of a prediction.
   out.cross = out.trajectory && g.head.has_value();
+  if (out.cross) out.cross_side = clear_side_of(*level, g.screw, *g.head, cross_side);
   out.cross_dots = out.cross && fresh && g.tool->measured.has_value();
   out.cross_lost = out.cross && !fresh;
   // H8: only where the surgeon asked for it, since it takes his eyes off the patient.
