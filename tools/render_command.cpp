@@ -9,6 +9,7 @@
 
 #include "engine/golden_scenes.h"
 #include "engine/image_file.h"
+#include "engine/optical_model.h"
 #include "engine/scene_file.h"
 #include "tools/command.h"
 
@@ -23,6 +24,8 @@ struct RenderArguments {
   std::string blend = "additive";
   std::string background = "black";
   std::string device;
+  bool optics = false;
+  engine::OpticalModel model;
 };
 
 /// "WxH" in pixels of one eye.
@@ -68,7 +71,33 @@ render::Image side_by_side(const std::vector<render::Image>& images) {
   return joined;
 }
 
+/// One line a hologram: how it stands out in the light that was stated.
+void print_contrasts(const render::Image& light, const render::LabelImage& labels,
+                     const render::Image& background, const engine::OpticalModel& model) {
+  std::printf("hologram  pixels  contrast  faintest tenth\n");
+  for (const engine::HologramContrast& c : engine::contrasts(light, labels, background, model)) {
+    const bool legible = c.median >= engine::kLegibleContrast;
+    std::printf("H%-3u #%-3u %6d  %7.1f:1  %7.1f:1%s\n", c.label / 100, c.label % 100, c.pixels,
+                c.median, c.faint, legible ? "" : "  hard to make out (below 3:1)");
+  }
+}
+
+/// The holograms before a background as an optical see-through display shows them.
+Status see_through(const RenderArguments& arguments, const engine::SceneFile& file,
+                   const render::Image& background, render::Renderer& renderer,
+                   std::vector<render::Image>& images) {
+  std::string error;
+  std::vector<render::LabelImage> labels;
+  if (!renderer.draw_labels(file.scene, file.eyes, labels, error)) return Error{error};
+  print_contrasts(images.front(), labels.front(), background, arguments.model);
+  for (render::Image& image : images)
+    image = engine::through_combiner(image, background, arguments.model);
+  return {};
+}
+
 int render_scene(const RenderArguments& arguments) {
+  if (const auto problems = arguments.model.check(); !problems.empty())
+    return bad_input(problems.front());
   auto file = engine::load_scene(arguments.scene);
   if (!file) return bad_input(file.error().message);
   if (const Status size = read_size(arguments.size, *file); !size)
@@ -86,10 +115,18 @@ int render_scene(const RenderArguments& arguments) {
   const auto renderer = render::Renderer::create(options, error);
   if (!renderer) return bad_input(error);
   std::vector<const render::Image*> backgrounds;
-  if (*background) backgrounds.assign(file->eyes.size(), &**background);
+  if (*background && !arguments.optics) backgrounds.assign(file->eyes.size(), &**background);
   std::vector<render::Image> images;
   if (!renderer->draw(file->scene, file->eyes, backgrounds, images, error))
     return bad_input(arguments.scene + ": " + error);
+  if (arguments.optics) {
+    const render::Image behind =
+        *background ? **background
+                    : render::Image{options.width_px, options.height_px,
+                                    std::vector<std::uint8_t>(images.front().rgba.size(), 0)};
+    if (const Status seen = see_through(arguments, *file, behind, *renderer, images); !seen)
+      return bad_input(seen.error().message);
+  }
   const Status written = engine::write_png(arguments.out, side_by_side(images));
   if (!written) return bad_input(written.error().message);
   std::printf("%s: %zu eye%s, %dx%d px each, drawn by %s\n", arguments.out.c_str(), images.size(),
@@ -118,6 +155,16 @@ void add_render_command(CLI::App& app, Action& action) {
                    "black, wound, or a PNG of one eye's size")
       ->capture_default_str();
   command->add_option("--device", arguments->device, "Part of the Vulkan device's name");
+  command->add_flag("--optics", arguments->optics,
+                    "See the holograms through a combiner in a lit room; prints their contrasts");
+  command->add_option("--display", arguments->model.display_cd_m2, "White of the display, cd/m2")
+      ->capture_default_str();
+  command->add_option("--ambient", arguments->model.ambient_lux, "Light on the background, lux")
+      ->capture_default_str();
+  command
+      ->add_option("--transmission", arguments->model.combiner_share,
+                   "Share of the world's light that the combiner passes")
+      ->capture_default_str();
   command->callback(
       [&action, arguments] { action = [arguments] { return render_scene(*arguments); }; });
 }

@@ -59,6 +59,23 @@ TEST(RenderCommand, RefusesWhatItCannotDrawAndWritesNothing) {
   EXPECT_THAT(refused(kLine, {"--background", folder.file("absent.png")}), HasSubstr("absent.png"));
 }
 
+TEST(RenderCommand, SaysHowHologramsStandOutInALitRoom) {
+  const ScratchFolder folder;
+  const std::string scene = scene_file(folder, kLine);
+  const auto seen = [&](const char* lux) {
+    return orthonav({"render", scene, "--out", folder.file(std::string(lux) + ".png"), "--size",
+                     "320x180", "--background", "wound", "--optics", "--ambient", lux});
+  };
+  const Called dim = seen("300");
+  EXPECT_EQ(dim.code, 0) << dim.err;
+  EXPECT_THAT(dim.out, HasSubstr("H99  #1"));
+  EXPECT_THAT(dim.out, testing::Not(HasSubstr("hard to make out")));
+  EXPECT_THAT(seen("90000").out, HasSubstr("hard to make out"));
+  const Called wrong = seen("-5");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("ambient light must lie in [0, 200000] lux"));
+}
+
 TEST(RenderCommand, DrawsATextOf10000Digits) {
   const ScratchFolder folder;
   const std::string text =

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+
+namespace orthonav::engine {
+
+/// An optical see-through display in a lit room. The eye sees the world through the combiner, and
+/// the display's light on top of it.
+struct OpticalModel {
+  double display_cd_m2 = 500.0;  ///< of full white, at the eye
+  double ambient_lux = 1000.0;   ///< on what is behind; an operating field takes 10,000 and more
+  double combiner_share = 0.40;  ///< of the world's light that passes
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// How a hologram stands out: luminance with it by luminance without it, over the pixels of its
+/// label; 1 is invisible.
+struct HologramContrast {
+  render::Label label = 0;
+  int pixels = 0;
+  double median = 1.0;
+  double faint = 1.0;  ///< of the tenth of its pixels that stand out least
+};
+
+/// Text and lines below this are hard to make out (WCAG 2.1, 1.4.11: graphical objects).
+inline constexpr double kLegibleContrast = 3.0;
+
+/// Of the holograms as drawn additively on black (`light`), before a background whose linear grey
+/// is taken for its reflectance; all three of one size. In order of the labels.
+[[nodiscard]] std::vector<HologramContrast> contrasts(const render::Image& light,
+                                                      const render::LabelImage& labels,
+                                                      const render::Image& background,
+                                                      const OpticalModel& model);
+
+/// What the eye sees, exposed so that the brightest of display and background together is white.
+[[nodiscard]] render::Image through_combiner(const render::Image& light,
+                                             const render::Image& background,
+                                             const OpticalModel& model);
+
+}  // namespace orthonav::engine
