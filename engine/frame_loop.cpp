@@ -200,6 +200,7 @@ void FrameLoop::count_displayed(const Guidance& guidance, SnapshotQueue* queue,
   if (last_display_)
     report.intervals_ms.push_back(seconds(guidance.display_time - *last_display_) * 1e3);
   last_display_ = guidance.display_time;
+  report.photon_ages_ms.push_back(seconds(guidance.display_time - guidance.frame_time) * 1e3);
   const std::int64_t frame = report.displayed++;
   if (queue && frame % options_.draw_every == 0) capture(*queue, guidance, frame);
 }
@@ -212,7 +213,7 @@ void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int
   snapshot->step_text = guidance.step_text;
   snapshot->blank = guidance.blank;
   snapshot->expires.reset();
-  if (builder_.visible().triangle)
+  if (builder_.visible().triangle || builder_.visible().cross_dots)
     snapshot->expires = guidance.tool->pose_time + guidance.stale_after;
   builder_.write_scene(guidance, snapshot->scene);
   if (observer_) observer_->captured(*snapshot);

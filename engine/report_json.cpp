@@ -95,6 +95,8 @@ std::string report_json(const OperationResult& result) {
   out["frames"] = Json{{"displayed", result.loop.displayed}};
   put_quantile(out["frames"], "median_ms", result.loop.intervals_ms, 0.5);
   put_quantile(out["frames"], "p99_ms", result.loop.intervals_ms, 0.99);
+  put_quantile(out["frames"], "capture_to_photon_median_ms", result.loop.photon_ages_ms, 0.5);
+  put_quantile(out["frames"], "capture_to_photon_p99_ms", result.loop.photon_ages_ms, 0.99);
   return text_of(out);
 }
 

@@ -38,6 +38,7 @@ struct RunArguments {
   std::string out;
   std::int64_t frames = 0;
   bool json = false;
+  bool stats = false;
 };
 
 /// The file that was named; else what the headset itself knows of its tools; else the built-in.
@@ -50,6 +51,18 @@ Result<std::vector<nav::ToolGeometry>> tools_of(const RunArguments& arguments,
   if (recording && !recording->tools_json().empty())
     return engine::parse_tools(recording->tools_json(), "tools.json of the recording");
   return engine::built_in_tools();
+}
+
+/// Medians and p99 of what a frame takes, on standard error beside the other messages.
+void print_stats(const engine::LoopReport& loop) {
+  const auto line = [](const char* what, const std::vector<double>& ms) {
+    const auto median = engine::quantile(ms, 0.5);
+    const auto p99 = engine::quantile(ms, 0.99);
+    if (median && p99) std::fprintf(stderr, "%-28s %8.1f ms, p99 %8.1f ms\n", what, *median, *p99);
+  };
+  line("between frames", loop.intervals_ms);
+  line("capture to photon", loop.photon_ages_ms);
+  line("tracking a pair (wall clock)", loop.step_wall_ms);
 }
 
 /// Opens everything, then runs; members in the order in which they borrow from one another.
@@ -161,6 +174,7 @@ class LiveRun {
   Status finish(const engine::OperationResult& result) {
     const std::string report = engine::report_json(result);
     std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
+    if (arguments_.stats) print_stats(result.loop);
     Status first;
     const auto note = [&first](const Status& status) {
       if (first.ok()) first = status;
@@ -213,6 +227,8 @@ void add_run_command(CLI::App& app, Action& action) {
   run->add_option("--out", arguments->out,
                   "folder for report.html, report.json and session.orthonav")
       ->check(some_text());
+  run->add_flag("--stats", arguments->stats,
+                "print frame intervals, ages from capture to photon and tracking times");
   run->add_flag("--json", arguments->json, "print the report as JSON");
   run->callback(
       [arguments, &action] { action = [arguments] { return LiveRun(*arguments).run(); }; });

@@ -55,6 +55,8 @@ TEST(FrameLoop, ShowsEveryPairAndEndsWithTheStream) {
   ASSERT_EQ(report->intervals_ms.size(), 9u);
   // The device's clock, exactly: 33.333 ms.
   EXPECT_NEAR(report->intervals_ms[0], 33.333, 1e-9);
+  ASSERT_EQ(report->photon_ages_ms.size(), 10u);
+  EXPECT_GT(report->photon_ages_ms[0], 0.0);
 }
 
 TEST(FrameLoop, StopsAfterTheFramesAskedFor) {
