@@ -1,5 +1,8 @@
 #include "engine/sim_scenario.h"
 
+#include "engine/tool_file.h"
+#include "hal/replay/replay_headset.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -39,6 +42,15 @@ std::vector<nav::ToolGeometry> described_tools(const sim::SimHeadset& headset) {
                      tool.tip_in_marker,
                      {tool.axis_in_marker}});
   return tools;
+}
+
+Result<std::vector<nav::ToolGeometry>> tools_known_to(const Headset& headset) {
+  if (const auto* room = dynamic_cast<const sim::SimHeadset*>(&headset))
+    return described_tools(*room);
+  const auto* recording = dynamic_cast<const replay::ReplayHeadset*>(&headset);
+  if (recording && !recording->tools_json().empty())
+    return parse_tools(recording->tools_json(), "tools.json of the recording");
+  return built_in_tools();
 }
 
 }  // namespace orthonav::engine

@@ -17,4 +17,8 @@ namespace orthonav::engine {
 /// What a planning file of that room says of its tools: slightly off, as calibrations are.
 [[nodiscard]] std::vector<nav::ToolGeometry> described_tools(const sim::SimHeadset& headset);
 
+/// What a headset itself knows of the tools in use: a room's planning file, a recording's
+/// tools.json; else the built-in ones.
+Result<std::vector<nav::ToolGeometry>> tools_known_to(const Headset& headset);
+
 }  // namespace orthonav::engine

@@ -24,6 +24,7 @@ void add_demo_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
 void add_golden_command(CLI::App& app, Action& action);
+void add_preview_command(CLI::App& app, Action& action);
 void add_print_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_register_command(CLI::App& app, Action& action);

@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   add_detect_command(app, action);
   add_doctor_command(app, action);
   add_golden_command(app, action);
+  add_preview_command(app, action);
   add_print_command(app, action);
   add_register_command(app, action);
   add_render_command(app, action);

@@ -15,7 +15,6 @@
 #include "engine/tool_file.h"
 #include "hal/open/open.h"
 #include "hal/replay/recorder.h"
-#include "hal/replay/replay_headset.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
@@ -40,18 +39,6 @@ struct RunArguments {
   bool json = false;
   bool stats = false;
 };
-
-/// The file that was named; else what the headset itself knows of its tools; else the built-in.
-Result<std::vector<nav::ToolGeometry>> tools_of(const RunArguments& arguments,
-                                                const Headset& headset) {
-  if (!arguments.tools_file.empty()) return engine::load_tools(arguments.tools_file);
-  if (const auto* room = dynamic_cast<const sim::SimHeadset*>(&headset))
-    return engine::described_tools(*room);
-  const auto* recording = dynamic_cast<const replay::ReplayHeadset*>(&headset);
-  if (recording && !recording->tools_json().empty())
-    return engine::parse_tools(recording->tools_json(), "tools.json of the recording");
-  return engine::built_in_tools();
-}
 
 /// Medians and p99 of what a frame takes, on standard error beside the other messages.
 void print_stats(const engine::LoopReport& loop) {
@@ -125,7 +112,8 @@ class LiveRun {
   }
 
   Status start(engine::Operation operation) {
-    const auto tools = tools_of(arguments_, *headset_);
+    const auto tools = arguments_.tools_file.empty() ? engine::tools_known_to(*headset_)
+                                                     : engine::load_tools(arguments_.tools_file);
     if (!tools) return tools.error();
     auto tracker = method_.create_tracker(headset_->cameras().calibration(), *tools,
                                           engine::OperationOptions().tracker);

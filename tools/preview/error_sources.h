@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "hal/sim/magnitudes.h"
+
+namespace orthonav::preview {
+
+/// One imperfection of the simulated room as a slider shows it.
+struct ErrorSource {
+  const char* group;
+  const char* name;
+  const char* unit;
+  double sim::Magnitudes::*value;
+  double scale;  ///< shown = scale * value
+  double most;   ///< of what is shown; the least is `least`
+  double least = 0.0;
+};
+
+/// Those that a person would turn, in groups.
+[[nodiscard]] std::span<const ErrorSource> error_sources();
+
+}  // namespace orthonav::preview

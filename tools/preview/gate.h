@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+
+#include "hal/api/time.h"
+
+namespace orthonav::preview {
+
+/// Decides when the next camera pair may come: paused, step by step, at some pace against the
+/// wall's clock, or as fast as it goes. Where the headset's clock follows its pairs, as in the
+/// simulated room and in a recording, a closed gate stops that clock. Thread-safe.
+class Gate {
+ public:
+  /// `wall` must outlive it.
+  explicit Gate(const Clock& wall) : wall_(wall) {}
+
+  void pause(bool paused);
+  [[nodiscard]] bool paused() const;
+  /// While paused: lets so many pairs more through.
+  void step(int pairs = 1);
+  /// Seconds of the headset's clock in one of the wall's; 0: as fast as it goes.
+  void set_speed(double speed);
+  [[nodiscard]] double speed() const;
+  /// As fast as it goes until so many pairs have passed, then as before.
+  void run_to(std::int64_t pairs);
+  /// Pairs that passed since the start.
+  [[nodiscard]] std::int64_t passed() const;
+  /// None is on its way either.
+  [[nodiscard]] bool at_rest() const;
+  /// Another stream begins: counts from 0, wants to run nowhere.
+  void restart();
+
+  // For the camera.
+  /// True: one is on its way, until one of the two below is called.
+  [[nodiscard]] bool may_pass();
+  /// A pair with this time went through.
+  void pass(Timestamp time);
+  /// None came.
+  void none_came();
+
+ private:
+  /// Of headset and wall at the same moment.
+  struct Anchor {
+    Timestamp pair;
+    Timestamp wall;
+  };
+
+  /// The mutex must be held.
+  [[nodiscard]] bool is_open();
+
+  const Clock& wall_;
+  mutable std::mutex mutex_;
+  bool paused_ = false;
+  double speed_ = 1.0;
+  int steps_ = 0;
+  bool on_its_way_ = false;
+  std::int64_t passed_ = 0;
+  std::int64_t run_to_ = 0;
+  std::optional<Timestamp> last_;
+  std::optional<Anchor> anchor_;
+};
+
+/// The wall's clock, for pacing what people watch.
+class WallClock : public Clock {
+ public:
+  [[nodiscard]] Timestamp now() const override;
+};
+
+}  // namespace orthonav::preview

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+
+namespace orthonav::preview {
+
+/// What was typed since the devices were last asked: one thread types, another asks. It has no
+/// times: what is typed happens at the moment for which the devices are asked next, by the
+/// headset's own clock, so that nothing happens while that clock stands still.
+class Keyboard {
+ public:
+  void button(bool down);
+  void say(std::string phrase);
+  /// Nobody hears the headset's own clicker and voice any more, or again.
+  void mute(bool muted);
+  [[nodiscard]] bool muted() const;
+
+  // For the devices. Each appends and forgets.
+  void take_button(std::vector<bool>& downs);
+  void take_phrases(std::vector<std::string>& phrases);
+
+ private:
+  mutable std::mutex mutex_;
+  bool muted_ = false;
+  std::vector<bool> downs_;
+  std::vector<std::string> phrases_;
+};
+
+/// The headset's clicker and the keyboard's as one button: who presses first has it until the
+/// release, and what the other does meanwhile is lost.
+class SharedClicker : public Clicker {
+ public:
+  SharedClicker(Clicker& inner, Keyboard& keyboard) : inner_(inner), keyboard_(keyboard) {}
+
+ private:
+  enum class Hand { kNobody, kInner, kKeyboard };
+  Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override;
+  void offer(Hand hand, const ClickerEvent& event, std::vector<ClickerEvent>& events);
+
+  Clicker& inner_;
+  Keyboard& keyboard_;
+  ClickTimer timer_;
+  ButtonState state_;
+  Hand hand_ = Hand::kNobody;
+  std::vector<bool> downs_;
+  std::vector<ClickerEvent> offered_;
+};
+
+/// Both voices, what is typed after what was heard.
+class SharedVoice : public Voice {
+ public:
+  SharedVoice(Voice& inner, Keyboard& keyboard) : inner_(inner), keyboard_(keyboard) {}
+
+ private:
+  Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override;
+
+  Voice& inner_;
+  Keyboard& keyboard_;
+  std::vector<std::string> typed_;
+};
+
+}  // namespace orthonav::preview

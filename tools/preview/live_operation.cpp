@@ -1,0 +1,114 @@
+#include "tools/preview/live_operation.h"
+
+#include <utility>
+
+#include "engine/operation_plan.h"
+#include "engine/sim_scenario.h"
+#include "engine/tool_file.h"
+#include "hal/open/open.h"
+
+namespace orthonav::preview {
+namespace {
+
+engine::LoopOptions loop_options() {
+  engine::LoopOptions options;
+  // Whoever pauses a headset whose clock goes on has not lost it.
+  options.longest_silence = std::chrono::hours(24);
+  // Nothing is drawn in the loop: the newest moment counts.
+  options.drop_late_snapshots = true;
+  return options;
+}
+
+ToolSeen seen(const nav::ToolGeometry& tool, const nav::TrackedPose& pose) {
+  ToolSeen seen{tool.name, pose.origin, shift_sigma_m(pose.covariance), {}, {}};
+  if (pose.origin == Origin::kLost) return seen;
+  const double half = 0.5 * tool.marker.size_m;
+  const std::array<Vec3, 4> corners = {
+      {{-half, half, 0.0}, {half, half, 0.0}, {half, -half, 0.0}, {-half, -half, 0.0}}};
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    seen.tag_in_world[i] = pose.value * Point<Marker>{corners[i]};
+  seen.tip_in_world = pose.value * tool.tip_in_marker;
+  return seen;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LiveOperation>> LiveOperation::open(const OperationSource& source,
+                                                           const sim::SimOptions& room, Gate& gate,
+                                                           Keyboard& keyboard, Timeline& timeline) {
+  OpenOptions options;
+  options.room = engine::room_of(source.source, source.operation, engine::built_in_tools());
+  options.sim = room;
+  auto headset = open_headset(source.headset, options);
+  if (!headset) return headset.error();
+  std::unique_ptr<LiveOperation> live(
+      new LiveOperation(std::move(*headset), gate, keyboard, timeline));
+  if (const Status ready = live->prepare(source); !ready) return ready.error();
+  return live;
+}
+
+LiveOperation::LiveOperation(std::unique_ptr<Headset> headset, Gate& gate, Keyboard& keyboard,
+                             Timeline& timeline)
+    : headset_(std::move(headset)),
+      room_(dynamic_cast<sim::SimHeadset*>(headset_.get())),
+      gate_(gate),
+      gated_(*headset_, gate, keyboard),
+      timeline_(timeline) {}
+
+LiveOperation::~LiveOperation() {
+  if (loop_) loop_->stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+Status LiveOperation::prepare(const OperationSource& source) {
+  const auto tools = source.tools_file.empty() ? engine::tools_known_to(*headset_)
+                                               : engine::load_tools(source.tools_file);
+  if (!tools) return tools.error();
+  auto tracker = source.method.create_tracker(headset_->cameras().calibration(), *tools,
+                                              {.full_search_interval = 10});
+  if (!tracker) return tracker.error();
+  auto session = engine::Session::create(source.operation, std::move(*tracker), source.method);
+  if (!session) return session.error();
+  session_ = std::move(*session);
+  loop_ = std::make_unique<engine::FrameLoop>(gated_, *session_, builder_, loop_options());
+  loop_->observe(this);
+  loop_->draw_into(this);
+  return {};
+}
+
+void LiveOperation::start() {
+  thread_ = std::thread([this] { run(); });
+}
+
+void LiveOperation::run() {
+  if (const auto report = loop_->run(); !report) outcome_ = report.error();
+  ended_ = true;
+}
+
+void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*inputs*/,
+                            const engine::Guidance& guidance) {
+  moment_.tracking_ms = gated_.since_pair_ms();
+  moment_.camera_ms = gated_.camera_ms();
+  moment_.pair = gate_.passed();
+  moment_.sequence = frame.sequence;
+  moment_.time = frame.time;
+  moment_.step = guidance.step;
+  moment_.world_from_rig = headset_->head().world_from_rig(frame.time);
+  if (room_) moment_.room = room_->state();
+  moment_.tools.clear();
+  const auto tools = session_->tracker().tools();
+  const auto states = session_->tool_states();
+  for (std::size_t i = 0; i < tools.size() && i < states.size(); ++i)
+    moment_.tools.push_back(seen(tools[i], states[i].world_from_marker));
+  moment_.detail = guidance.detail;
+}
+
+/// Follows `stepped` for the same pair; or comes without one, when guidance is taken back.
+void LiveOperation::captured(const engine::Snapshot& snapshot) {
+  moment_.step_text = snapshot.step_text;
+  if (snapshot.blank) moment_.detail = "ended";
+  moment_.scene = snapshot.scene;
+  timeline_.push(std::make_shared<const Moment>(moment_));
+}
+
+}  // namespace orthonav::preview

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "engine/case_file.h"
+#include "engine/frame_loop.h"
+#include "engine/method.h"
+#include "hal/sim/sim_headset.h"
+#include "tools/preview/preview_headset.h"
+#include "tools/preview/timeline.h"
+
+namespace orthonav::preview {
+
+/// What is to be previewed; made once, used for every start.
+struct OperationSource {
+  std::string headset = "sim:";
+  engine::Case source;
+  engine::Method method;
+  engine::Operation operation;  ///< its models are shared by all starts
+  std::string tools_file;       ///< empty: what the headset itself knows of its tools
+};
+
+/// An operation that goes on in a thread of its own: pairs through the gate, moments into the
+/// timeline. Nothing but that and the keyboard reaches it.
+class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink {
+ public:
+  /// `room`: of a simulated one. Gate, keyboard and timeline must outlive it.
+  static Result<std::unique_ptr<LiveOperation>> open(const OperationSource& source,
+                                                     const sim::SimOptions& room, Gate& gate,
+                                                     Keyboard& keyboard, Timeline& timeline);
+  ~LiveOperation() override;
+  LiveOperation(const LiveOperation&) = delete;
+  LiveOperation& operator=(const LiveOperation&) = delete;
+
+  void start();
+  /// Nothing more will come.
+  [[nodiscard]] bool ended() const { return ended_; }
+  /// How it ended; read once it has.
+  [[nodiscard]] const Status& outcome() const { return outcome_; }
+  [[nodiscard]] std::string name() const { return headset_->name(); }
+  /// Null where the headset is no simulated one.
+  [[nodiscard]] const sim::SimHeadset* room() const { return room_; }
+
+ private:
+  LiveOperation(std::unique_ptr<Headset> headset, Gate& gate, Keyboard& keyboard,
+                Timeline& timeline);
+  Status prepare(const OperationSource& source);
+  void run();
+  void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
+               const engine::Guidance& guidance) override;
+  void captured(const engine::Snapshot& snapshot) override;
+  Status draw(const engine::Snapshot& /*snapshot*/) override { return {}; }
+
+  std::unique_ptr<Headset> headset_;
+  sim::SimHeadset* room_ = nullptr;  ///< the headset, where it is the simulated one
+  Gate& gate_;
+  PreviewHeadset gated_;
+  Timeline& timeline_;
+  std::unique_ptr<engine::Session> session_;
+  engine::SceneBuilder builder_;
+  std::unique_ptr<engine::FrameLoop> loop_;
+  Moment moment_;  ///< of the pair being worked on
+  std::atomic<bool> ended_ = false;
+  Status outcome_;
+  std::thread thread_;
+};
+
+}  // namespace orthonav::preview

@@ -1,0 +1,28 @@
+#include "tools/preview/lost_display.h"
+
+#include <X11/Xlib.h>
+
+// As glfw3native.h declares it, which wants the headers of Xlib's extensions besides.
+extern "C" Display* glfwGetX11Display(void);  // NOLINT(readability-identifier-naming)
+
+namespace orthonav::preview {
+namespace {
+
+// The handlers of Xlib belong to the process, and so does what they say.
+bool lost = false;
+
+}  // namespace
+
+void watch_display() {
+  lost = false;
+  Display* display = glfwGetX11Display();
+  if (!display) return;
+  // The default prints two lines and exits.
+  XSetIOErrorHandler([](Display*) { return 0; });
+  XSetIOErrorExitHandler(
+      display, [](Display*, void*) { lost = true; }, nullptr);
+}
+
+bool display_is_lost() { return lost; }
+
+}  // namespace orthonav::preview

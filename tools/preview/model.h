@@ -1,0 +1,88 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "tools/preview/camera.h"
+#include "tools/preview/gate.h"
+#include "tools/preview/hologram_filter.h"
+#include "tools/preview/keyboard.h"
+#include "tools/preview/keys.h"
+#include "tools/preview/timeline.h"
+
+namespace orthonav::preview {
+
+/// How the moment is looked at; when neither changes, neither does the picture.
+struct Look {
+  Camera camera;
+  HologramFilter holograms;
+  bool tools = false;  ///< drawn as lines where they are tracked
+  friend bool operator==(const Look&, const Look&) = default;
+};
+
+/// What only the program around can do.
+struct Wishes {
+  bool screenshot = false;
+  bool video = false;  ///< begin, or end
+  bool restart = false;
+  bool quit = false;
+};
+
+/// What keys, mouse and panel do, without a window: the same calls come from all of them and from
+/// a script. Time goes on through the gate, clicks and words go to the keyboard, looking back goes
+/// to the timeline. One thread.
+class PreviewModel {
+ public:
+  /// All three must outlive it.
+  PreviewModel(Gate& gate, Keyboard& keyboard, Timeline& timeline)
+      : gate_(gate), keyboard_(keyboard), timeline_(timeline) {}
+
+  /// A key goes down or up; its repetitions are no business of ours.
+  void key(Key key, bool down);
+  void pause(bool paused);
+  void step_on();
+  void step_back();
+  /// Shows that pair, paused: one that has passed at once, one that is to come as soon as it has.
+  void scrub_to(std::int64_t pair);
+  /// What comes is shown again.
+  void live() { looked_at_.reset(); }
+  void set_speed(double speed) { gate_.set_speed(speed); }
+  void orbit(bool orbits);
+  void mute(bool muted) { keyboard_.mute(muted); }
+  /// From where the newest picture was seen; an orbit begins there.
+  void seen_from(const Transform<sim::Room, Eye>& stage_from_eye) { eye_ = stage_from_eye; }
+  /// Another operation begins.
+  void restarted() { live(); }
+
+  /// The moment to be looked at; null before the first.
+  [[nodiscard]] std::shared_ptr<const Moment> shown() const;
+  /// Paused, and nothing more comes of what had passed: two pictures of it are the same.
+  [[nodiscard]] bool at_rest() const;
+  /// At something else than the newest.
+  [[nodiscard]] bool looks_back() const;
+  [[nodiscard]] Look& look() { return look_; }
+  [[nodiscard]] bool panel() const { return panel_; }
+  [[nodiscard]] bool help() const { return help_; }
+  [[nodiscard]] const Gate& gate() const { return gate_; }
+  [[nodiscard]] const Keyboard& keyboard() const { return keyboard_; }
+  [[nodiscard]] const Timeline& timeline() const { return timeline_; }
+  [[nodiscard]] Wishes take_wishes() { return std::exchange(wishes_, {}); }
+  [[nodiscard]] Wishes& wishes() { return wishes_; }
+
+ private:
+  void obey(const KeyBinding& binding);
+  void change_speed(bool faster);
+
+  Gate& gate_;
+  Keyboard& keyboard_;
+  Timeline& timeline_;
+  Look look_;
+  Transform<sim::Room, Eye> eye_;
+  std::shared_ptr<const Moment> looked_at_;  ///< null: the newest
+  bool clicker_down_ = false;
+  bool panel_ = true;
+  bool help_ = false;
+  Wishes wishes_;
+};
+
+}  // namespace orthonav::preview

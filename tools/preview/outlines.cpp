@@ -1,0 +1,70 @@
+#include "tools/preview/outlines.h"
+
+#include <array>
+#include <utility>
+
+#include "engine/screw_holograms.h"
+
+namespace orthonav::preview {
+namespace {
+
+constexpr render::Label kNoHologram = 9000;
+/// That of no hologram.
+constexpr render::Colour kToolColour{0.85f, 0.20f, 0.75f, 1.0f};
+constexpr render::Colour kHeadColour{0.45f, 0.45f, 0.50f, 1.0f};
+constexpr float kWidth_m = 0.0012f;
+/// How far before the eyes the frame of what they see is drawn.
+constexpr double kBefore_m = 0.08;
+
+void add_line(render::Scene& scene, std::vector<render::Float3> points, render::Colour colour,
+              bool closed) {
+  render::LineItem line;
+  line.label = kNoHologram;
+  line.points = std::move(points);
+  line.width_m = kWidth_m;
+  line.colour = colour;
+  line.closed = closed;
+  scene.lines.push_back(std::move(line));
+}
+
+void add_tool(const ToolSeen& tool, render::Scene& scene) {
+  std::vector<render::Float3> corners;
+  for (const Point<World>& corner : tool.tag_in_world)
+    corners.push_back(engine::to_float3(corner.v));
+  add_line(scene, std::move(corners), kToolColour, true);
+  const Vec3 middle = 0.5 * (tool.tag_in_world[0].v + tool.tag_in_world[2].v);
+  add_line(scene, {engine::to_float3(middle), engine::to_float3(tool.tip_in_world.v)}, kToolColour,
+           false);
+  render::TextItem name;
+  name.label = kNoHologram;
+  name.runs = {{tool.name, kToolColour}};
+  name.position = engine::to_float3(0.5 * (tool.tag_in_world[0].v + tool.tag_in_world[1].v));
+  name.min_height_deg = 0.6f;
+  name.offset_up = 1.0f;
+  scene.texts.push_back(std::move(name));
+}
+
+void add_head(const Transform<World, Rig>& world_from_rig, render::Scene& scene) {
+  const double side = 0.5 * kBefore_m;
+  const std::array<Vec3, 4> corners = {{{-side, side, -kBefore_m},
+                                        {side, side, -kBefore_m},
+                                        {side, -side, -kBefore_m},
+                                        {-side, -side, -kBefore_m}}};
+  const render::Float3 eye = engine::to_float3(world_from_rig.translation());
+  std::vector<render::Float3> frame;
+  for (const Vec3& corner : corners) {
+    frame.push_back(engine::to_float3((world_from_rig * Point<Rig>{corner}).v));
+    add_line(scene, {eye, frame.back()}, kHeadColour, false);
+  }
+  add_line(scene, std::move(frame), kHeadColour, true);
+}
+
+}  // namespace
+
+void add_outlines(const Moment& moment, bool with_head, render::Scene& scene) {
+  for (const ToolSeen& tool : moment.tools)
+    if (tool.origin != Origin::kLost) add_tool(tool, scene);
+  if (with_head) add_head(moment.world_from_rig.value, scene);
+}
+
+}  // namespace orthonav::preview

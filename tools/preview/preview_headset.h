@@ -1,0 +1,60 @@
+#pragma once
+
+#include "hal/api/devices.h"
+#include "tools/preview/gate.h"
+#include "tools/preview/keyboard.h"
+
+namespace orthonav::preview {
+
+/// A headset whose pairs come through a gate and whose button and voice are shared with the
+/// keyboard; everything else is the headset's own.
+class PreviewHeadset : public Headset {
+ public:
+  /// All three must outlive it.
+  PreviewHeadset(Headset& inner, Gate& gate, Keyboard& keyboard)
+      : inner_(inner),
+        cameras_(inner.cameras(), gate),
+        clicker_(inner.clicker(), keyboard),
+        voice_(inner.voice(), keyboard) {}
+
+  [[nodiscard]] std::string name() const override { return inner_.name(); }
+  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
+    return inner_.epoch_ticks_100ns();
+  }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return inner_.head(); }
+  [[nodiscard]] Clicker& clicker() override { return clicker_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+  [[nodiscard]] Display& display() override { return inner_.display(); }
+  /// Wall time that the newest pair took to be there: rendered, or read from a recording.
+  [[nodiscard]] double camera_ms() const { return cameras_.camera_ms(); }
+  /// Wall time since it was there.
+  [[nodiscard]] double since_pair_ms() const { return cameras_.since_pair_ms(); }
+
+ private:
+  class GatedCameras : public StereoCamera {
+   public:
+    GatedCameras(StereoCamera& inner, Gate& gate) : inner_(inner), gate_(gate) {}
+    [[nodiscard]] double camera_ms() const { return camera_ms_; }
+    [[nodiscard]] double since_pair_ms() const;
+
+   private:
+    [[nodiscard]] const StereoCalibration& do_calibration() const override {
+      return inner_.calibration();
+    }
+    Result<Next> do_next(StereoFrame& frame) override;
+
+    StereoCamera& inner_;
+    Gate& gate_;
+    double camera_ms_ = 0.0;
+    Timestamp there_{};  ///< by the wall
+  };
+
+  Headset& inner_;
+  GatedCameras cameras_;
+  SharedClicker clicker_;
+  SharedVoice voice_;
+};
+
+}  // namespace orthonav::preview

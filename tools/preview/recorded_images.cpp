@@ -1,0 +1,87 @@
+#include "tools/preview/recorded_images.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hal/replay/recording.h"
+
+namespace orthonav::preview {
+namespace {
+
+/// Bilinear between pixel centres; the edge goes on outwards.
+std::uint8_t sample(const GreyImage& image, Vec2 at) {
+  const double x = std::clamp(at.x - 0.5, 0.0, static_cast<double>(image.width_px - 1));
+  const double y = std::clamp(at.y - 0.5, 0.0, static_cast<double>(image.height_px - 1));
+  const int left = static_cast<int>(x);
+  const int top = static_cast<int>(y);
+  const int right = std::min(left + 1, image.width_px - 1);
+  const int below = std::min(top + 1, image.height_px - 1);
+  const double fx = x - left;
+  const double fy = y - top;
+  const double value = (1 - fy) * ((1 - fx) * image.at(left, top) + fx * image.at(right, top)) +
+                       fy * ((1 - fx) * image.at(left, below) + fx * image.at(right, below));
+  return static_cast<std::uint8_t>(value + 0.5);
+}
+
+}  // namespace
+
+struct RecordedImages::Source {
+  replay::Recording recording;
+};
+
+Result<RecordedImages> RecordedImages::open(const std::filesystem::path& folder) {
+  auto recording = replay::read_recording(folder);
+  if (!recording) return recording.error();
+  return RecordedImages(std::make_unique<Source>(Source{std::move(*recording)}));
+}
+
+RecordedImages::RecordedImages(std::unique_ptr<Source> source) : source_(std::move(source)) {}
+RecordedImages::RecordedImages(RecordedImages&& other) noexcept = default;
+RecordedImages& RecordedImages::operator=(RecordedImages&& other) noexcept = default;
+RecordedImages::~RecordedImages() = default;
+
+std::int64_t RecordedImages::pairs() const {
+  return static_cast<std::int64_t>(source_->recording.pairs.size());
+}
+
+Vec3 RecordedImages::eye_in_rig() const {
+  return source_->recording.calibration.left_from_rig.inverse().translation();
+}
+
+void RecordedImages::make_map(const render::View& view, const render::Image& picture) {
+  const StereoCalibration& cameras = source_->recording.calibration;
+  const Mat3& camera_from_eye = cameras.left_from_rig.rotation();
+  map_tan_ = view.tan_left;
+  map_.resize(picture.rgba.size() / 4);
+  const double across = static_cast<double>(view.tan_left + view.tan_right);
+  const double down = static_cast<double>(view.tan_up + view.tan_down);
+  std::size_t pixel = 0;
+  for (int y = 0; y < picture.height_px; ++y)
+    for (int x = 0; x < picture.width_px; ++x) {
+      const Vec3 ray{across * (x + 0.5) / picture.width_px - static_cast<double>(view.tan_left),
+                     static_cast<double>(view.tan_up) - down * (y + 0.5) / picture.height_px, -1.0};
+      map_[pixel++] = cameras.left.project(camera_from_eye * ray).value_or(Vec2{-1.0, -1.0});
+    }
+}
+
+void RecordedImages::draw(std::int64_t sequence, const render::View& view, render::Image& picture) {
+  auto& pairs = source_->recording.pairs;
+  const auto found =
+      std::lower_bound(pairs.begin(), pairs.end(), sequence,
+                       [](const auto& pair, std::int64_t s) { return pair.sequence < s; });
+  if (found == pairs.end() || found->sequence != sequence) return;
+  if (read_ != sequence) {
+    read_ = -1;
+    if (!source_->recording.left.read(found->left, image_)) return;
+    read_ = sequence;
+  }
+  if (map_.size() * 4 != picture.rgba.size() || map_tan_ != view.tan_left) make_map(view, picture);
+  for (std::size_t i = 0; i < map_.size(); ++i) {
+    if (map_[i].x < 0.0) continue;
+    const std::uint8_t grey = sample(image_, map_[i]);
+    std::fill_n(picture.rgba.begin() + static_cast<long>(4 * i), 3, grey);
+  }
+}
+
+}  // namespace orthonav::preview

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "hal/api/camera_model.h"
+#include "hal/api/image.h"
+#include "hal/api/result.h"
+#include "hal/api/vec.h"
+#include "render/renderer.h"
+
+namespace orthonav::preview {
+
+/// The left camera's images of a recording, straightened: as an eye in the camera's place with the
+/// headset's axes sees them. Reads each when it is asked for, in any order. One thread.
+class RecordedImages {
+ public:
+  static Result<RecordedImages> open(const std::filesystem::path& folder);
+  RecordedImages(RecordedImages&& other) noexcept;
+  RecordedImages& operator=(RecordedImages&& other) noexcept;
+  ~RecordedImages();
+
+  /// How many pairs there are.
+  [[nodiscard]] std::int64_t pairs() const;
+  /// Where the left camera is in the headset.
+  [[nodiscard]] Vec3 eye_in_rig() const;
+  /// Draws the image with this sequence number into the picture; what the camera does not see, or
+  /// an image that cannot be read, leaves the picture as it is.
+  void draw(std::int64_t sequence, const render::View& view, render::Image& picture);
+
+ private:
+  struct Source;
+  explicit RecordedImages(std::unique_ptr<Source> source);
+  void make_map(const render::View& view, const render::Image& picture);
+
+  std::unique_ptr<Source> source_;
+  std::int64_t read_ = -1;  ///< sequence number of `image_`
+  GreyImage image_;
+  /// For each pixel of the picture the camera's pixel; x < 0: none.
+  std::vector<Vec2> map_;
+  float map_tan_ = 0.0f;
+};
+
+}  // namespace orthonav::preview

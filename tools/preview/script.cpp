@@ -1,0 +1,175 @@
+#include "tools/preview/script.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+
+namespace orthonav::preview {
+namespace {
+
+/// Longer than any step of an operation takes on a slow machine.
+constexpr Duration kPatience = std::chrono::seconds(300);
+
+/// A word and what follows it.
+enum class Follows { kNothing, kText, kKey, kNumber, kTwoNumbers };
+struct Word {
+  std::string_view word;
+  Follows follows;
+};
+constexpr auto kWords = std::to_array<Word>({
+    {"key", Follows::kKey},          // down and up
+    {"press", Follows::kKey},        // down
+    {"release", Follows::kKey},      // up
+    {"until", Follows::kText},       // waits until the step begins with this
+    {"first", Follows::kText},       // the same, then pauses and shows its first pair
+    {"pause", Follows::kNothing},    // waits until nothing moves any more
+    {"pairs", Follows::kNumber},     // waits until so many more have passed
+    {"scrub", Follows::kNumber},     // pauses, and waits until that pair is shown
+    {"wait", Follows::kNumber},      // lets so many pictures of the window go by
+    {"drag", Follows::kTwoNumbers},  // orbits by hundredths of the picture's height
+    {"zoom", Follows::kNumber},
+    {"hide", Follows::kNumber},
+    {"show", Follows::kNumber},
+    {"resize", Follows::kTwoNumbers},
+    {"screenshot", Follows::kText},
+});
+
+std::optional<std::array<double, 2>> numbers(const std::string& text, int count) {
+  std::istringstream in(text);
+  std::array<double, 2> values{};
+  for (int i = 0; i < count; ++i)
+    if (!(in >> values[static_cast<std::size_t>(i)])) return std::nullopt;
+  std::string more;
+  if (in >> more) return std::nullopt;
+  return values;
+}
+
+std::string trimmed(const std::string& text) {
+  const auto from = text.find_first_not_of(" \t\r");
+  if (from == std::string::npos) return {};
+  return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
+}
+
+}  // namespace
+
+std::vector<std::string_view> script_words() {
+  std::vector<std::string_view> words;
+  for (const Word& word : kWords) words.push_back(word.word);
+  return words;
+}
+
+Result<Script> Script::load(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf())) return Error{path.string() + ": cannot be read"};
+  return parse(text.str(), path.string());
+}
+
+Result<Script> Script::parse(const std::string& text, const std::string& name) {
+  Script script(name, {});
+  std::istringstream in(text);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    line = trimmed(line.substr(0, line.find('#')));
+    if (line.empty()) continue;
+    const auto space = line.find(' ');
+    ScriptLine parsed{number, line.substr(0, space), {}};
+    if (space != std::string::npos) parsed.rest = trimmed(line.substr(space));
+    if (const Status known = script.check(parsed); !known) return known.error();
+    script.lines_.push_back(std::move(parsed));
+  }
+  return script;
+}
+
+Error Script::error(const ScriptLine& line, const std::string& why) const {
+  return Error{name_ + ":" + std::to_string(line.number) + ": " + line.word + ": " + why};
+}
+
+Status Script::check(const ScriptLine& line) const {
+  const auto word = std::find_if(kWords.begin(), kWords.end(),
+                                 [&](const Word& w) { return w.word == line.word; });
+  if (word == kWords.end()) return error(line, "is no word of a script");
+  switch (word->follows) {
+    case Follows::kNothing:
+      if (!line.rest.empty()) return error(line, "stands alone");
+      return {};
+    case Follows::kText:
+      if (line.rest.empty()) return error(line, "lacks what follows it");
+      return {};
+    case Follows::kKey:
+      if (!key_named(line.rest)) return error(line, "there is no key \"" + line.rest + "\"");
+      return {};
+    case Follows::kNumber:
+      if (!numbers(line.rest, 1)) return error(line, "needs a number");
+      return {};
+    case Follows::kTwoNumbers:
+      break;
+  }
+  if (!numbers(line.rest, 2)) return error(line, "needs two numbers");
+  return {};
+}
+
+Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended) {
+  while (!done()) {
+    const ScriptLine& line = lines_[next_];
+    if (perform(line, model, stage) == Did::kWait) {
+      if (!waits_since_) waits_since_ = now;
+      if (ended && line.word != "wait")
+        return error(line, "waits for " + line.rest + ", but nothing more comes");
+      if (now - *waits_since_ > kPatience)
+        return error(line, "waited " + std::to_string(seconds(now - *waits_since_)) + " s for " +
+                               line.rest + " (limit " + std::to_string(seconds(kPatience)) + " s)");
+      return {};
+    }
+    waits_since_.reset();
+    wait_for_pair_.reset();
+    waited_ = 0;
+    ++next_;
+    // A picture is of what was done before it: one a call.
+    if (line.word == "screenshot" || line.word == "resize") return {};
+  }
+  return {};
+}
+
+Script::Did Script::perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage) {
+  const auto two = numbers(line.rest, 2).value_or(std::array<double, 2>{});
+  const double one = numbers(line.rest, 1).value_or(std::array<double, 2>{})[0];
+  const auto shown = model.shown();
+  if (line.word == "key" || line.word == "press" || line.word == "release") {
+    if (line.word != "release") model.key(*key_named(line.rest), true);
+    if (line.word != "press") model.key(*key_named(line.rest), false);
+  } else if (line.word == "until") {
+    if (!shown || shown->step_text.rfind(line.rest, 0) != 0) return Did::kWait;
+  } else if (line.word == "first") {
+    const auto first = model.timeline().first_of(line.rest);
+    if (!first) return Did::kWait;
+    model.scrub_to(first->pair);
+  } else if (line.word == "pause") {
+    if (!model.gate().paused()) model.pause(true);
+    if (!model.at_rest()) return Did::kWait;
+  } else if (line.word == "pairs" || line.word == "scrub") {
+    const auto more = static_cast<std::int64_t>(one);
+    const bool absolute = line.word == "scrub";
+    if (!wait_for_pair_) {
+      wait_for_pair_ = absolute ? more : model.gate().passed() + more;
+      if (absolute) model.scrub_to(more);
+    }
+    if (!shown || shown->pair < *wait_for_pair_) return Did::kWait;
+  } else if (line.word == "wait") {
+    if (waited_++ < static_cast<int>(one)) return Did::kWait;
+  } else if (line.word == "drag") {
+    model.look().camera.turn(0.01 * Vec2{two[0], two[1]});
+  } else if (line.word == "zoom") {
+    model.look().camera.zoom(one);
+  } else if (line.word == "hide" || line.word == "show") {
+    model.look().holograms.show(static_cast<unsigned>(one), line.word == "show");
+  } else if (line.word == "resize") {
+    stage.resize(static_cast<int>(two[0]), static_cast<int>(two[1]));
+  } else if (line.word == "screenshot") {
+    stage.screenshot(line.rest);
+  }
+  return Did::kDone;
+}
+
+}  // namespace orthonav::preview

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/api/time.h"
+#include "tools/preview/model.h"
+
+namespace orthonav::preview {
+
+/// What a script asks of the program around.
+struct ScriptStage {
+  std::function<void(int width_px, int height_px)> resize;
+  std::function<void(const std::string& name)> screenshot;
+};
+
+/// A line of a script: a word and what belongs to it.
+struct ScriptLine {
+  int number = 0;
+  std::string word;
+  std::string rest;
+};
+
+/// Every word that a line can begin with.
+[[nodiscard]] std::vector<std::string_view> script_words();
+
+/// Synthetic input from a file, a line at a time; docs/preview.md lists the words. It acts through
+/// the same calls as keys and mouse.
+class Script {
+ public:
+  /// Refuses what it does not know, with file and line.
+  static Result<Script> load(const std::filesystem::path& path);
+  static Result<Script> parse(const std::string& text, const std::string& name);
+
+  /// Does what is due; lines that wait are left for the next call. `now` is the wall's time: what
+  /// waits too long is an Error. `ended`: nothing more will come.
+  Status go_on(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended);
+  [[nodiscard]] bool done() const { return next_ == lines_.size(); }
+
+ private:
+  enum class Did { kDone, kWait };
+  Script(std::string name, std::vector<ScriptLine> lines)
+      : name_(std::move(name)), lines_(std::move(lines)) {}
+  [[nodiscard]] Status check(const ScriptLine& line) const;
+  [[nodiscard]] Error error(const ScriptLine& line, const std::string& why) const;
+  Did perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage);
+
+  std::string name_;
+  std::vector<ScriptLine> lines_;
+  std::size_t next_ = 0;
+  std::optional<Timestamp> waits_since_;
+  std::optional<std::int64_t> wait_for_pair_;
+  int waited_ = 0;  ///< pictures
+};
+
+}  // namespace orthonav::preview

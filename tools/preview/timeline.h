@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/workflow.h"
+#include "hal/api/tracked.h"
+#include "hal/api/transform.h"
+#include "hal/sim/room.h"
+#include "render/scene.h"
+
+namespace orthonav::preview {
+
+/// How a tool was seen.
+struct ToolSeen {
+  std::string name;
+  Origin origin = Origin::kLost;
+  double shift_sigma_m = 0.0;
+  // Unless lost:
+  std::array<Point<World>, 4> tag_in_world;  ///< its corners
+  Point<World> tip_in_world;
+};
+
+/// All that can be looked at of one camera pair; a plain value.
+struct Moment {
+  std::int64_t pair = 0;      ///< counts from 1: how many pairs had passed
+  std::int64_t sequence = 0;  ///< the headset's own number of it
+  Timestamp time{};           ///< mid-exposure
+  engine::Step step = engine::Step::kSetup;
+  std::string step_text;
+  std::string detail;
+  std::vector<ToolSeen> tools;
+  double camera_ms = 0.0;    ///< wall time: the pair itself
+  double tracking_ms = 0.0;  ///< and what was made of it
+  Tracked<Transform<World, Rig>> world_from_rig;
+  std::optional<sim::RoomState> room;  ///< where it is a simulated one
+  render::Scene scene;
+};
+
+/// The moments so far, to look back at: the newest, and those before it evenly spread. When there
+/// are too many every other one goes, so that a bounded space covers the whole time. Thread-safe.
+class Timeline {
+ public:
+  explicit Timeline(std::size_t most = 4096) : most_(most < 2 ? 2 : most) {}
+
+  /// A further one; of the same pair as the last: instead of that.
+  void push(std::shared_ptr<const Moment> moment);
+  void clear();
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] std::shared_ptr<const Moment> newest() const;
+  /// The last one at or before that pair; before the first: the first. Null when there is none.
+  [[nodiscard]] std::shared_ptr<const Moment> at(std::int64_t pair) const;
+  /// The first one whose step begins with this; null when there is none.
+  [[nodiscard]] std::shared_ptr<const Moment> first_of(std::string_view step) const;
+  /// The neighbours of `at(pair)`; at the ends the end itself.
+  [[nodiscard]] std::shared_ptr<const Moment> before(std::int64_t pair) const;
+  [[nodiscard]] std::shared_ptr<const Moment> after(std::int64_t pair) const;
+
+ private:
+  /// The mutex must be held.
+  [[nodiscard]] std::size_t index_of(std::int64_t pair) const;
+
+  /// Whether a moment stays once it is no longer the newest; the first always does.
+  [[nodiscard]] bool keeps(std::int64_t pair) const { return (pair - 1) % stride_ == 0; }
+
+  std::size_t most_;
+  std::int64_t stride_ = 1;
+  mutable std::mutex mutex_;
+  std::vector<std::shared_ptr<const Moment>> moments_;
+};
+
+}  // namespace orthonav::preview

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "hal/api/result.h"
+#include "hal/api/vec.h"
+#include "render/renderer.h"
+#include "tools/preview/keys.h"
+
+namespace orthonav::preview {
+
+/// What came in of keys and mouse over the picture; what the panel takes is not told.
+struct WindowInput {
+  std::function<void(Key key, bool down)> key;
+  /// By so much of the picture's height, to the right and down; `pan` with shift or another button.
+  std::function<void(Vec2 by, bool pan)> drag;
+  std::function<void(double steps)> scroll;
+};
+
+/// A desktop window with one picture and Dear ImGui on top, by GLFW and OpenGL. Bears any size, no
+/// size, and any number of changes of it: what can't be seen is not drawn. Main thread only; one at
+/// a time.
+class Window {
+ public:
+  /// An Error when there is no display or no OpenGL.
+  static Result<std::unique_ptr<Window>> open(const std::string& title, int width_px, int height_px,
+                                              WindowInput input);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Takes what came in, waiting for it no longer than so many seconds.
+  void poll(double wait_s);
+  [[nodiscard]] bool closed() const;
+  /// The display has gone, and does not come back.
+  [[nodiscard]] bool lost() const;
+  void resize(int width_px, int height_px);
+  void set_title(const std::string& title);
+  /// The picture from now on.
+  void upload(const render::Image& picture);
+  /// Draws the picture to the left of `panel_px` and the panels that `panels` makes of Dear ImGui.
+  void draw(int panel_px, const std::function<void()>& panels);
+  /// What was drawn, until it is presented; empty when nothing can be seen.
+  [[nodiscard]] render::Image screenshot() const;
+  void present();
+  [[nodiscard]] int width_px() const { return width_px_; }
+  [[nodiscard]] int height_px() const { return height_px_; }
+
+ private:
+  struct Glfw;
+  Window(std::unique_ptr<Glfw> glfw, WindowInput input);
+  void place_picture(int panel_px);
+
+  std::unique_ptr<Glfw> glfw_;
+  WindowInput input_;
+  int width_px_ = 0;  ///< of what is drawn into; 0: nothing can be seen
+  int height_px_ = 0;
+  int picture_width_px_ = 0;
+  int picture_height_px_ = 0;
+  unsigned texture_ = 0;
+  double shown_height_px_ = 1.0;  ///< of the picture in the window
+};
+
+}  // namespace orthonav::preview

@@ -1,0 +1,136 @@
+#include <memory>
+#include <optional>
+
+#include "engine/operation_plan.h"
+#include "tools/arguments.h"
+#include "tools/case_source.h"
+#include "tools/command.h"
+#include "tools/model_notes.h"
+#include "tools/preview/preview_app.h"
+
+namespace orthonav::tools {
+namespace {
+
+struct PreviewArguments {
+  std::string headset = "sim:";
+  std::string case_folder;
+  std::string method = "best";
+  std::vector<std::string> levels;
+  std::string tools_file;
+  std::string script;
+  std::string models;
+  bool perfect = false;
+  std::optional<double> pace;
+  preview::PreviewOptions options;
+};
+
+int preview_window(PreviewArguments arguments) {
+  preview::OperationSource source;
+  source.headset = arguments.headset;
+  source.tools_file = arguments.tools_file;
+  auto method = engine::method_named(arguments.method);
+  if (!method) return bad_input(method.error().message);
+  source.method = std::move(*method);
+  auto loaded = load_checked_case(arguments.case_folder);
+  if (!loaded) return bad_input(loaded.error().message);
+  source.source = std::move(*loaded);
+  const auto levels = engine::levels_to_operate(source.source, arguments.levels);
+  if (!levels) return bad_input("--levels: " + levels.error().message);
+  std::optional<preview::Script> script;
+  if (!arguments.script.empty()) {
+    auto parsed = preview::Script::load(arguments.script);
+    if (!parsed) return bad_input(parsed.error().message);
+    script = std::move(*parsed);
+  }
+  if (arguments.perfect) arguments.options.room.magnitudes = sim::Magnitudes::perfect();
+  if (arguments.pace) arguments.options.room.magnitudes.pace = *arguments.pace;
+
+  preview::PreviewApp app(arguments.options, std::move(script));
+  if (const Status opened = app.open_window(); !opened) return bad_input(opened.error().message);
+  engine::ModelCache models(arguments.models);
+  auto operation = engine::plan_operation(source.source, arguments.levels, models);
+  if (!operation) return bad_input(operation.error().message);
+  source.operation = std::move(*operation);
+  models.keep();
+  print_notes(models);
+  if (const Status opened = app.open_operation(std::move(source)); !opened)
+    return bad_input(opened.error().message);
+  const Status done = app.run();
+  return done ? kDone : bad_input(done.error().message);
+}
+
+/// `WIDTHxHEIGHT` in pixels, each even, for a video's sake.
+std::string check_size(const std::string& text) {
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%4dx%4d%c", &width, &height, &rest) != 2)
+    return "\"" + text + "\" is not WIDTHxHEIGHT, as 960x540";
+  if (width < 160 || width > 3840 || height < 120 || height > 2160)
+    return text + " must lie from 160x120 to 3840x2160";
+  if (width % 2 != 0 || height % 2 != 0) return text + " must be even";
+  return {};
+}
+
+void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArguments>& arguments) {
+  preview
+      .add_option_function<std::string>(
+          "--size",
+          [arguments](const std::string& text) {
+            std::sscanf(text.c_str(), "%4dx%4d", &arguments->options.stage.width_px,
+                        &arguments->options.stage.height_px);
+          },
+          "of the picture in pixels (default: 1120x720)")
+      ->check(CLI::Validator(check_size, "WIDTHxHEIGHT"));
+  preview.add_option("--out", arguments->options.out, "folder for screenshots and videos")
+      ->check(some_text())
+      ->capture_default_str();
+  preview
+      .add_option("--speed", arguments->options.speed,
+                  "seconds of the operation in a second; 0: as fast as it goes")
+      ->check(finite_number(0.0, 100.0))
+      ->capture_default_str();
+  preview.add_flag("--paused", arguments->options.paused, "wait after the first pair");
+  preview.add_option("--script", arguments->script, "do what this file says, then quit")
+      ->check(some_text());
+  preview.add_option("--device", arguments->options.stage.device,
+                     "part of the name of the Vulkan device");
+}
+
+}  // namespace
+
+void add_preview_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<PreviewArguments>();
+  auto* preview = app.add_subcommand(
+      "preview", "A window with the holograms over the simulated room or a recording");
+  preview->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH")
+      ->check(some_text())
+      ->capture_default_str();
+  preview
+      ->add_option("--case", arguments->case_folder,
+                   "case folder with case.json (default: the built-in phantom)")
+      ->check(some_text());
+  preview->add_option("--seed", arguments->options.room.seed, "seed of every random number")
+      ->check(seed_number())
+      ->capture_default_str();
+  preview->add_option("--method", arguments->method, "best or paper (the published one)")
+      ->capture_default_str();
+  preview->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
+      ->delimiter(',');
+  preview
+      ->add_option("--tools", arguments->tools_file,
+                   "tool definitions (default: the headset's own, else the built-in)")
+      ->check(some_text());
+  preview->add_flag("--perfect", arguments->perfect, "every source of error at zero");
+  preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
+      ->check(some_text());
+  add_window_options(*preview, arguments);
+  // For tests: a hasty surgeon is through in a fraction of the frames.
+  preview->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
+      ->check(finite_number(0.5, 4))
+      ->group("");
+  preview->callback(
+      [arguments, &action] { action = [arguments] { return preview_window(*arguments); }; });
+}
+
+}  // namespace orthonav::tools
