@@ -6,8 +6,14 @@
 
 #include "render/draw_order.h"
 #include "render/float3.h"
+#include "render/thinned.h"
 
 namespace orthonav::render {
+namespace {
+
+constexpr std::size_t kFewPoints = 256;  // a line of so few is cheap as it is
+
+}  // namespace
 
 Matrix4 world_from_caps(const TextItem& item, const Head& head) {
   const Float3 p = item.position;
@@ -27,7 +33,8 @@ Matrix4 world_from_caps(const TextItem& item, const Head& head) {
           towards.x, towards.y, towards.z, 0, at.x, at.y, at.z, 1};
 }
 
-void FrameItems::build(const Scene& scene, const std::vector<View>& views, const Font& font) {
+void FrameItems::build(const Scene& scene, const std::vector<View>& views, const Font& font,
+                       float least_rad) {
   veils_.clear();
   solids_.clear();
   triangles_.clear();
@@ -36,19 +43,24 @@ void FrameItems::build(const Scene& scene, const std::vector<View>& views, const
   data_.clear();
   most_segments_ = 0;
   const Head head = head_of(views);
+  eyes_.clear();
+  for (const View& view : views)
+    eyes_.push_back(transformed(rigid_inverse(view.eye_from_world), {0, 0, 0}));
   sort_for_drawing(scene.meshes, head, order_);
   for (const std::uint32_t i : order_) {
     const MeshItem& item = scene.meshes[i];
-    (is_opaque(item) ? solids_ : veils_).push_back(&item);
+    (is_opaque(item) ? solids_ : veils_).push_back({&item, {}});
   }
   sort_for_drawing(scene.triangles, head, order_);
   for (const std::uint32_t i : order_) {
     const TriangleItem& item = scene.triangles[i];
-    triangles_.push_back({item.label, item.colour, 0, static_cast<std::uint32_t>(data_.size()), 3});
+    triangles_.push_back(
+        {item.label, item.colour, 0, static_cast<std::uint32_t>(data_.size()), 3, {}});
     for (const Float3 p : item.corners) data_.push_back({p.x, p.y, p.z, 1});
   }
   sort_for_drawing(scene.lines, head, order_);
-  for (const std::uint32_t i : order_) add_line(scene.lines[i]);
+  lines_of_scene_ = scene.lines.data();
+  for (const std::uint32_t i : order_) add_line(scene.lines[i], least_rad);
   sort_for_drawing(scene.texts, head, order_);
   for (const std::uint32_t i : order_) add_text(scene.texts[i], head, font);
 }
@@ -58,11 +70,13 @@ void FrameItems::add_segment(Float3 a, Float3 b) {
   data_.push_back({b.x, b.y, b.z, 1});
 }
 
-void FrameItems::add_line(const LineItem& item) {
+void FrameItems::add_line(const LineItem& item, float least_rad) {
   if (item.points.empty()) return;
   const auto first = static_cast<std::uint32_t>(data_.size());
   if (item.dash_m > 0) {
     add_dashes(item);
+  } else if (item.points.size() > kFewPoints && least_rad > 0) {
+    return add_many(item, least_rad);
   } else {
     for (std::size_t i = 1; i < item.points.size(); ++i) {
       add_segment(item.points[i - 1], item.points[i]);
@@ -70,10 +84,42 @@ void FrameItems::add_line(const LineItem& item) {
     if (item.closed && item.points.size() > 2) add_segment(item.points.back(), item.points.front());
     if (item.points.size() == 1) add_segment(item.points[0], item.points[0]);
   }
+  end_line(item, first, true);
+}
+
+void FrameItems::end_line(const LineItem& item, std::uint32_t first, bool rounded) {
   const auto count = (static_cast<std::uint32_t>(data_.size()) - first) / 2;
   if (count == 0) return;
-  lines_.push_back({item.label, item.colour, item.width_m, first, count});
+  const auto id = static_cast<std::uint32_t>(&item - lines_of_scene_);
+  lines_.push_back({item.label, item.colour, item.width_m, first, count, {}, id, rounded});
   most_segments_ = std::max(most_segments_, count);
+}
+
+/// Two spans of a line of many points: segments at its ends and at its corners, and the others.
+void FrameItems::add_many(const LineItem& item, float least_rad) {
+  thin(item.points, eyes_, least_rad, thinned_);
+  if (item.closed) thinned_.push_back(thinned_.front());
+  const std::size_t points = thinned_.size();
+  const auto follows_on = [&](std::size_t i) {
+    return i > 0 && i + 1 < points &&
+           bends_gently(thinned_[i - 1], thinned_[i], thinned_[i + 1], eyes_);
+  };
+  plain_.clear();
+  const auto first = static_cast<std::uint32_t>(data_.size());
+  bool gentle_before = false;
+  for (std::size_t i = 1; i < points; ++i) {
+    const bool gentle_after = follows_on(i);
+    if (gentle_before && gentle_after) {
+      plain_.push_back(i);
+    } else {
+      add_segment(thinned_[i - 1], thinned_[i]);
+    }
+    gentle_before = gentle_after;
+  }
+  end_line(item, first, true);
+  const auto second = static_cast<std::uint32_t>(data_.size());
+  for (const std::size_t i : plain_) add_segment(thinned_[i - 1], thinned_[i]);
+  end_line(item, second, false);
 }
 
 void FrameItems::add_dashes(const LineItem& item) {
@@ -115,8 +161,12 @@ void FrameItems::add_text(const TextItem& item, const Head& head, const Font& fo
                      across * static_cast<float>(source.u1), down * static_cast<float>(source.v1)});
     data_.push_back({glyph.colour.r, glyph.colour.g, glyph.colour.b, glyph.colour.a});
   }
-  texts_.push_back({item.label, world_from_caps(item, head), item.rim, first,
-                    static_cast<std::uint32_t>(glyphs_.size())});
+  texts_.push_back({item.label,
+                    world_from_caps(item, head),
+                    item.rim,
+                    first,
+                    static_cast<std::uint32_t>(glyphs_.size()),
+                    {}});
 }
 
 }  // namespace orthonav::render

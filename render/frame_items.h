@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "render/projection.h"
 #include "render/scene.h"
+#include "render/screen_bounds.h"
 #include "render/text/font.h"
 #include "render/text/text_layout.h"
 
@@ -18,6 +21,11 @@ struct Float4 {
   float w = 0;
 };
 
+struct MeshDraw {
+  const MeshItem* item = nullptr;
+  PixelRect bounds;  ///< of FrameItems::place, as in all that follow
+};
+
 /// A line as pairs of points (dashes are cut already) or a triangle as three corners, in the data.
 struct SpanDraw {
   Label label = 0;
@@ -25,6 +33,9 @@ struct SpanDraw {
   float width_m = 0;
   std::uint32_t first = 0;  ///< in FrameItems::data
   std::uint32_t count = 0;  ///< segments of a line; corners of a triangle
+  PixelRect bounds{};
+  std::uint32_t item = 0;  ///< spans of one line have the same
+  bool rounded = true;     ///< its segments end in discs; otherwise they follow on one another
 };
 
 /// A line of text: glyphs as three Float4 each (rectangle in cap heights, texture, ink).
@@ -34,16 +45,31 @@ struct TextDraw {
   Colour rim;
   std::uint32_t first = 0;
   std::uint32_t count = 0;  ///< glyphs
+  PixelRect bounds{};
 };
 
-/// A scene made ready for the shaders, in drawing order. Reused between frames: build() allocates
-/// only when a frame is larger than all before it.
+/// The size of a pass's images.
+struct PixelSize {
+  int width_px = 0;
+  int height_px = 0;
+};
+
+/// A scene made ready for the shaders, in drawing order. Reused between frames: it allocates only
+/// when a frame is larger than all before it.
 class FrameItems {
  public:
-  void build(const Scene& scene, const std::vector<View>& views, const Font& font);
+  /// Of lines with many points, those are left out whose absence shows under less than `least_rad`.
+  void build(const Scene& scene, const std::vector<View>& views, const Font& font,
+             float least_rad = 0);
 
-  [[nodiscard]] const std::vector<const MeshItem*>& veils() const { return veils_; }
-  [[nodiscard]] const std::vector<const MeshItem*>& solids() const { return solids_; }
+  /// Finds where in the views of one pass each item may show, and the regions that hold them all:
+  /// no two share a pixel, and each item lies in one. `box_of` tells a mesh's box.
+  void place(std::span<const View> views, PixelSize size,
+             const std::function<Box(const MeshItem&)>& box_of);
+  [[nodiscard]] const std::vector<PixelRect>& regions() const { return regions_; }
+
+  [[nodiscard]] const std::vector<MeshDraw>& veils() const { return veils_; }
+  [[nodiscard]] const std::vector<MeshDraw>& solids() const { return solids_; }
   [[nodiscard]] const std::vector<SpanDraw>& triangles() const { return triangles_; }
   [[nodiscard]] const std::vector<SpanDraw>& lines() const { return lines_; }
   [[nodiscard]] const std::vector<TextDraw>& texts() const { return texts_; }
@@ -52,19 +78,30 @@ class FrameItems {
   [[nodiscard]] std::uint32_t most_segments() const { return most_segments_; }
 
  private:
-  void add_line(const LineItem& item);
+  void add_line(const LineItem& item, float least_rad);
   void add_segment(Float3 a, Float3 b);
+  void add_many(const LineItem& item, float least_rad);
+  void end_line(const LineItem& item, std::uint32_t first, bool rounded);
   void add_dashes(const LineItem& item);
   void add_text(const TextItem& item, const Head& head, const Font& font);
 
-  std::vector<const MeshItem*> veils_;
-  std::vector<const MeshItem*> solids_;
+  [[nodiscard]] PixelRect bounds_of(const SpanDraw& draw, std::uint32_t points,
+                                    ScreenBounds& bounds) const;
+  [[nodiscard]] PixelRect bounds_of(const TextDraw& draw, ScreenBounds& bounds) const;
+
+  std::vector<MeshDraw> veils_;
+  std::vector<MeshDraw> solids_;
   std::vector<SpanDraw> triangles_;
   std::vector<SpanDraw> lines_;
   std::vector<TextDraw> texts_;
   std::vector<Float4> data_;
   std::vector<PlacedGlyph> glyphs_;
   std::vector<std::uint32_t> order_;
+  std::vector<Float3> eyes_;
+  std::vector<Float3> thinned_;
+  std::vector<std::size_t> plain_;  ///< segments by their second point
+  const LineItem* lines_of_scene_ = nullptr;
+  std::vector<PixelRect> regions_;
   std::uint32_t most_segments_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,13 @@ struct RendererOptions {
   bool validation = false;
   MessageSink messages;  ///< empty: one of the renderer's own
   EyesAPass eyes_a_pass = EyesAPass::kProbe;
+  /// Surfaces of many triangles are drawn with fewer where that costs no more than this error, a
+  /// mean over triangles (single points may lie four times as far off); 0: every triangle. What is
+  /// too much to be drawn at all is made coarser all the same, with a note.
+  float surface_error_m = 2e-5f;
+  /// Where compiled pipelines are kept for the next start. Absent: the user's cache folder
+  /// (XDG_CACHE_HOME or ~/.cache); empty: nowhere.
+  std::optional<std::string> cache_folder;
 };
 
 struct DeviceInfo {
@@ -57,8 +65,10 @@ struct DeviceInfo {
 
 /// Where the time of one frame went, milliseconds of wall time.
 struct FrameTiming {
-  double record_ms = 0;
-  double gpu_ms = 0;  ///< submit to fence
+  double record_ms = 0;  ///< checks, layout, commands
+  double submit_ms = 0;  ///< handing over to the driver
+  double gpu_ms = 0;     ///< from there to the fence
+  double read_ms = 0;    ///< into the images
   double total_ms = 0;
 };
 
@@ -84,6 +94,9 @@ class Renderer {
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;
   /// What the validation layer said so far; empty when silent or off.
   [[nodiscard]] virtual const std::vector<std::string>& validation_messages() const = 0;
+  /// What was drawn otherwise than asked for, one line each, such as a surface with fewer
+  /// triangles.
+  [[nodiscard]] virtual const std::vector<std::string>& notes() const = 0;
 };
 
 /// Every Vulkan device of this machine, with the reason where one can't be used.

@@ -19,6 +19,6 @@ layout(push_constant) uniform Item {
   mat4 place;
   vec4 colour;  // linear, not premultiplied
   vec4 extra;   // line: width in metres; text: colour of the rim
-  uvec4 ids;    // label, first vec4 of the item's data, style, -
+  uvec4 ids;    // label, first vec4 of the item's data, style, line: 1 for discs at the ends
 }
 item;

@@ -6,6 +6,7 @@ layout(set = 0, binding = 1) readonly buffer Data { vec4 data[]; };
 
 // A segment is drawn as a pill of 14 corners: half a circle around either end.
 const uint kCorners = 14u;
+// One that follows on others smoothly is drawn with four of them alone, without its discs.
 const float kLeastRadius_px = 0.75;
 
 vec4 to_pixels(vec4 clip) {
@@ -55,6 +56,8 @@ void main() {
   float turn = radians(30.0) * float(corner % 7u);
   vec2 across = vec2(-along.y, along.x);
   vec2 offset = (first ? 1.0 : -1.0) * (cos(turn) * across - sin(turn) * along);
+  // Without discs, a little longer: it closes the gap where the line bends gently.
+  if (item.ids.w == 0u) offset += (first ? -0.13 : 0.13) * along;
   vec2 at = end.xy + radius * offset;
   gl_Position = vec4((2.0 * at / frame.target.xy - 1.0) * end.w, end.z, end.w);
 }

@@ -1,5 +1,7 @@
 #include "render/text/text_layout.h"
 
+#include <algorithm>
+
 namespace orthonav::render {
 namespace {
 
@@ -81,6 +83,17 @@ void lay_out(const Font& font, const TextItem& item, std::vector<PlacedGlyph>& g
                           item.offset_up + glyph.top, &glyph, run.colour});
       }
       pen += glyph.advance + extra_advance(item);
+    }
+  }
+}
+
+void find_missing(const Font& font, const TextItem& item, std::vector<char32_t>& missing) {
+  for (const TextRun& run : item.runs) {
+    std::string_view rest = run.text;
+    while (const auto code = take_code_point(rest)) {
+      const bool known =
+          font.has(*code) || std::find(missing.begin(), missing.end(), *code) != missing.end();
+      if (!known) missing.push_back(*code);
     }
   }
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 constexpr std::array<VkDescriptorType, 4> kTypes = {
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 
 Sampler make_sampler(VkDevice device, VkFilter filter) {
@@ -85,8 +85,10 @@ Bindings::Bindings(const Device& device)
   check(vkAllocateDescriptorSets(device_, &info, &set_), "descriptor set");
 }
 
-void Bindings::bind_frame(const Buffer& frame) const { bind_buffer(0, frame.get()); }
-void Bindings::bind_data(const Buffer& data) const { bind_buffer(1, data.get()); }
+void Bindings::bind_frames(const Buffer& frames) const {
+  bind_buffer(0, frames.get(), sizeof(GpuFrame));
+}
+void Bindings::bind_data(const Buffer& data) const { bind_buffer(1, data.get(), VK_WHOLE_SIZE); }
 void Bindings::bind_atlas(const DeviceImage& atlas) const {
   bind_image(2, atlas.view(), smooth_.get());
 }
@@ -94,8 +96,8 @@ void Bindings::bind_background(const DeviceImage& background) const {
   bind_image(3, background.view(), nearest_.get());
 }
 
-void Bindings::bind_buffer(std::uint32_t binding, VkBuffer buffer) const {
-  const VkDescriptorBufferInfo info = {buffer, 0, VK_WHOLE_SIZE};
+void Bindings::bind_buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize range) const {
+  const VkDescriptorBufferInfo info = {buffer, 0, range};
   write(binding, &info, nullptr);
 }
 

@@ -10,7 +10,8 @@ namespace orthonav::render {
 class Bindings {
  public:
   explicit Bindings(const Device& device);
-  void bind_frame(const Buffer& frame) const;
+  /// One GpuFrame a pass, kFrameStride apart.
+  void bind_frames(const Buffer& frames) const;
   void bind_data(const Buffer& data) const;
   void bind_atlas(const DeviceImage& atlas) const;
   void bind_background(const DeviceImage& background) const;
@@ -18,7 +19,7 @@ class Bindings {
   [[nodiscard]] const VkDescriptorSet& set() const { return set_; }
 
  private:
-  void bind_buffer(std::uint32_t binding, VkBuffer buffer) const;
+  void bind_buffer(std::uint32_t binding, VkBuffer buffer, VkDeviceSize range) const;
   void bind_image(std::uint32_t binding, VkImageView view, VkSampler sampler) const;
   void write(std::uint32_t binding, const VkDescriptorBufferInfo* buffer,
              const VkDescriptorImageInfo* image) const;

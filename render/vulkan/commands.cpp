@@ -39,7 +39,10 @@ void Commands::run() {
   info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   info.commandBufferCount = 1;
   info.pCommandBuffers = &buffer_;
+  const auto start = std::chrono::steady_clock::now();
   check(vkQueueSubmit(queue_, 1, &info, finished_.get()), "drawing");
+  submit_ms_ =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   const VkResult result = vkWaitForFences(device_, 1, &finished_.get(), VK_TRUE,
                                           static_cast<std::uint64_t>(patience_.count()));
   if (result == VK_SUCCESS) return;
@@ -75,16 +78,25 @@ void change_layout(VkCommandBuffer commands, const LayoutChange& change) {
   vkCmdPipelineBarrier(commands, before, after, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-void fill_image(VkCommandBuffer commands, const Buffer& from, const DeviceImage& to,
-                VkExtent2D extent, std::uint32_t filled_layers, std::uint32_t layers) {
-  change_layout(commands, {to.get(), layers, VK_IMAGE_LAYOUT_UNDEFINED,
+void fill_image(VkCommandBuffer commands, const ImageFill& fill,
+                std::span<const PixelRect> regions) {
+  change_layout(commands, {fill.to.get(), fill.layers, VK_IMAGE_LAYOUT_UNDEFINED,
                            VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL});
-  VkBufferImageCopy region = {};
-  region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, filled_layers};
-  region.imageExtent = {extent.width, extent.height, 1};
-  vkCmdCopyBufferToImage(commands, from.get(), to.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                         &region);
-  change_layout(commands, {to.get(), layers, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+  for (const PixelRect& region : regions) {
+    VkBufferImageCopy copy = {};
+    copy.bufferOffset =
+        fill.offset +
+        fill.texel_bytes * (std::size_t{fill.extent.width} * region.top + region.left);
+    copy.bufferRowLength = fill.extent.width;
+    copy.bufferImageHeight = fill.extent.height;
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, fill.filled_layers};
+    copy.imageOffset = {region.left, region.top, 0};
+    copy.imageExtent = {static_cast<std::uint32_t>(region.width()),
+                        static_cast<std::uint32_t>(region.height()), 1};
+    vkCmdCopyBufferToImage(commands, fill.from.get(), fill.to.get(),
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+  }
+  change_layout(commands, {fill.to.get(), fill.layers, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                            VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <span>
 
+#include "render/pixel_rect.h"
 #include "render/vulkan/device.h"
 #include "render/vulkan/handle.h"
 #include "render/vulkan/memory.h"
@@ -18,6 +20,8 @@ class Commands {
   /// Runs the batch and waits for it. Throws on a lost device or one that takes longer than the
   /// patience; not before the device is idle, so that the caller may destroy what the batch used.
   void run();
+  /// Of the last batch: what handing it over took, in milliseconds.
+  [[nodiscard]] double submit_ms() const { return submit_ms_; }
   /// Whether a batch that was handed over did not come back in order: draw no more with the device.
   [[nodiscard]] bool lost() const { return lost_; }
 
@@ -28,6 +32,7 @@ class Commands {
   VkCommandBuffer buffer_ = VK_NULL_HANDLE;
   Fence finished_;
   std::chrono::nanoseconds patience_;
+  double submit_ms_ = 0;
   bool lost_ = false;
 };
 
@@ -40,8 +45,18 @@ struct LayoutChange {
 /// A barrier between the transfers before it and the shaders or transfers after it.
 void change_layout(VkCommandBuffer commands, const LayoutChange& change);
 
-/// Fills layers of an image from a buffer, one layer after the other, and readies it for shaders.
-void fill_image(VkCommandBuffer commands, const Buffer& from, const DeviceImage& to,
-                VkExtent2D extent, std::uint32_t filled_layers, std::uint32_t layers);
+/// An image of some layers to be filled from a buffer that holds all of it, layer after layer.
+struct ImageFill {
+  const Buffer& from;
+  const DeviceImage& to;
+  VkExtent2D extent;
+  std::size_t texel_bytes = 4;
+  std::uint32_t filled_layers = 1;
+  std::uint32_t layers = 1;
+  VkDeviceSize offset = 0;  ///< where the first layer begins in the buffer
+};
+/// Fills some regions, the rest is undefined, and readies the image for shaders.
+void fill_image(VkCommandBuffer commands, const ImageFill& fill,
+                std::span<const PixelRect> regions);
 
 }  // namespace orthonav::render

@@ -27,7 +27,9 @@ FrameItems covering_items(const Font& font) {
   Scene scene;
   scene.triangles.push_back({kLabel, {Float3{-9, -9, -1}, {9, -9, -1}, {0, 9, -1}}, {}});
   FrameItems items;
-  items.build(scene, {View{}, View{}}, font);
+  const std::vector<View> views(kViews);
+  items.build(scene, views, font);
+  items.place(views, {kSide_px, kSide_px}, [](const MeshItem&) { return Box{}; });
   return items;
 }
 
@@ -35,7 +37,7 @@ FrameItems covering_items(const Font& font) {
 
 bool draws_both_eyes_whole(const Device& device, Commands& commands, const Bindings& bindings,
                            const Font& font) {
-  const FramePass pass(device, bindings.layout(), small_target(), Blend::kAdditive);
+  const FramePass pass(device, VK_NULL_HANDLE, bindings.layout(), small_target(), Blend::kAdditive);
   const FrameItems items = covering_items(font);
   GpuFrame content;
   for (GpuEye& eye : content.eyes) eye.clip_from_world = clip_from_world(View{});
@@ -49,7 +51,7 @@ bool draws_both_eyes_whole(const Device& device, Commands& commands, const Bindi
   constexpr std::size_t kPixels = std::size_t{kViews} * kSide_px * kSide_px;
   const Buffer readback(device, kPixels * sizeof(Label), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                         BufferPlace::kReadback);
-  bindings.bind_frame(frame);
+  bindings.bind_frames(frame);
   bindings.bind_data(data);
   const MeshCache no_meshes;
   const Buffer no_lines;

@@ -9,33 +9,55 @@ namespace {
 
 constexpr std::uint32_t kLastStencil = 255;
 
-/// One frame being written down.
+VkRect2D rect_of(const PixelRect& region) {
+  return {
+      {region.left, region.top},
+      {static_cast<std::uint32_t>(region.width()), static_cast<std::uint32_t>(region.height())}};
+}
+
+/// Orders what was copied into the buffer before what follows.
+void wait_for_copies(VkCommandBuffer commands, const Buffer& readback, VkPipelineStageFlags stage,
+                     VkAccessFlags access) {
+  VkBufferMemoryBarrier barrier = {};
+  barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER;
+  barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+  barrier.dstAccessMask = access;
+  barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.buffer = readback.get();
+  barrier.size = VK_WHOLE_SIZE;
+  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, stage, 0, 0, nullptr, 1, &barrier,
+                       0, nullptr);
+}
+
+/// One region of a frame being written down.
 class Recording {
  public:
-  Recording(VkCommandBuffer commands, const FrameSources& sources)
-      : commands_(commands), sources_(sources) {}
+  Recording(VkCommandBuffer commands, const FrameSources& sources, const PixelRect& region)
+      : commands_(commands), sources_(sources), region_(region) {}
 
   void begin() const {
-    const TargetSpec& spec = sources_.pass.targets.spec();
     std::array<VkClearValue, 3> clear = {};
     // Colour to opaque black; a label to 0 everywhere.
-    if (spec.kind == PassKind::kColour) clear[0].color.float32[3] = 1.0f;
+    if (sources_.pass.targets.spec().kind == PassKind::kColour) clear[0].color.float32[3] = 1.0f;
     clear[1].depthStencil = {1.0f, 0};
     VkRenderPassBeginInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = sources_.pass.targets.pass();
     info.framebuffer = sources_.pass.targets.framebuffer();
-    info.renderArea = {{0, 0}, {spec.width, spec.height}};
+    info.renderArea = rect_of(region_);
     info.clearValueCount = 2;
     info.pClearValues = clear.data();
     vkCmdBeginRenderPass(commands_, &info, VK_SUBPASS_CONTENTS_INLINE);
+    vkCmdSetScissor(commands_, 0, 1, &info.renderArea);
     vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS, sources_.bindings.layout(),
-                            0, 1, &sources_.bindings.set(), 0, nullptr);
+                            0, 1, &sources_.bindings.set(), 1, &sources_.frame_offset);
   }
 
   void background() const {
     if (!sources_.has_background) return;
-    bind(Stage::kBackground);
+    bool bound = false;
+    if (!shows(region_, Stage::kBackground, bound)) return;
     vkCmdDraw(commands_, 3, 1, 0, 0);
   }
 
@@ -44,12 +66,7 @@ class Recording {
     // Solids hide veils; veils hide one another, but nothing else: once they are drawn, the depth
     // is made anew from the solids alone.
     mesh_stage(Stage::kDepth, items.solids());
-    mesh_stage(Stage::kVeil, items.veils());
-    if (items.solids().empty()) {
-      if (!items.veils().empty()) clear(VK_IMAGE_ASPECT_DEPTH_BIT);
-      return;
-    }
-    if (!items.veils().empty()) {
+    if (mesh_stage(Stage::kVeil, items.veils())) {
       clear(VK_IMAGE_ASPECT_DEPTH_BIT);
       mesh_stage(Stage::kDepth, items.solids());
     }
@@ -57,34 +74,45 @@ class Recording {
   }
 
   void triangles() const {
-    if (sources_.items.triangles().empty()) return;
-    bind(Stage::kTriangle);
+    bool bound = false;
     for (const SpanDraw& draw : sources_.items.triangles()) {
+      if (!shows(draw.bounds, Stage::kTriangle, bound)) continue;
       push({kIdentity, draw.colour, {}, {draw.label, draw.first}});
       vkCmdDraw(commands_, draw.count, 1, 0, 0);
     }
   }
 
   void lines() const {
-    if (sources_.items.lines().empty()) return;
-    bind(Stage::kLine);
-    vkCmdBindIndexBuffer(commands_, sources_.line_indices.get(), 0, VK_INDEX_TYPE_UINT32);
+    bool bound = false;
     std::uint32_t stencil = 0;
+    std::uint32_t item = 0;
     for (const SpanDraw& draw : sources_.items.lines()) {
-      if (stencil == kLastStencil) {
-        clear(VK_IMAGE_ASPECT_STENCIL_BIT);
-        stencil = 0;
+      if (!shows(draw.bounds, Stage::kLine, bound)) continue;
+      if (stencil == 0)
+        vkCmdBindIndexBuffer(commands_, sources_.line_indices.get(), 0, VK_INDEX_TYPE_UINT32);
+      if (stencil == 0 || draw.item != item) {
+        if (stencil == kLastStencil) {
+          clear(VK_IMAGE_ASPECT_STENCIL_BIT);
+          stencil = 0;
+        }
+        vkCmdSetStencilReference(commands_, VK_STENCIL_FACE_FRONT_AND_BACK, ++stencil);
+        item = draw.item;
       }
-      vkCmdSetStencilReference(commands_, VK_STENCIL_FACE_FRONT_AND_BACK, ++stencil);
-      push({kIdentity, draw.colour, {draw.width_m}, {draw.label, draw.first}});
-      vkCmdDrawIndexed(commands_, draw.count * kIndicesPerSegment, 1, 0, 0, 0);
+      const std::uint32_t rounded = draw.rounded ? 1 : 0;
+      push({kIdentity, draw.colour, {draw.width_m}, {draw.label, draw.first, 0, rounded}});
+      if (draw.rounded) {
+        vkCmdDrawIndexed(commands_, draw.count * kIndicesPerSegment, 1, 0, 0, 0);
+      } else {
+        vkCmdDrawIndexed(commands_, draw.count * kIndicesPerQuad, 1,
+                         kIndicesPerSegment * line_capacity(sources_.line_indices), 0, 0);
+      }
     }
   }
 
   void texts() const {
-    if (sources_.items.texts().empty()) return;
-    bind(Stage::kText);
+    bool bound = false;
     for (const TextDraw& draw : sources_.items.texts()) {
+      if (!shows(draw.bounds, Stage::kText, bound)) continue;
       const Colour& rim = draw.rim;
       push({draw.world_from_caps, {}, {rim.r, rim.g, rim.b, rim.a}, {draw.label, draw.first}});
       vkCmdDraw(commands_, 6 * draw.count, 1, 0, 0);
@@ -94,29 +122,32 @@ class Recording {
   void end_and_copy() const {
     vkCmdEndRenderPass(commands_);
     const TargetSpec& spec = sources_.pass.targets.spec();
-    VkBufferImageCopy region = {};
-    region.bufferOffset = sources_.readback_offset;
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, spec.views};
-    region.imageExtent = {spec.width, spec.height, 1};
+    // Rows of regions side by side take turns in the buffer: one copy after the other.
+    wait_for_copies(commands_, sources_.readback, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                    VK_ACCESS_TRANSFER_WRITE_BIT);
+    // Into its place in the whole image, so that reading needs to know regions alone.
+    const auto pixel = std::size_t{spec.width} * region_.top + region_.left;
+    VkBufferImageCopy copy = {};
+    copy.bufferOffset = sources_.readback_offset + 4 * pixel;
+    copy.bufferRowLength = spec.width;
+    copy.bufferImageHeight = spec.height;
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, spec.views};
+    copy.imageOffset = {region_.left, region_.top, 0};
+    const VkRect2D rect = rect_of(region_);
+    copy.imageExtent = {rect.extent.width, rect.extent.height, 1};
     vkCmdCopyImageToBuffer(commands_, sources_.pass.targets.result(),
-                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, sources_.readback.get(), 1,
-                           &region);
-    VkBufferMemoryBarrier barrier = {};
-    barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER;
-    barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.buffer = sources_.readback.get();
-    barrier.size = VK_WHOLE_SIZE;
-    vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0,
-                         0, nullptr, 1, &barrier, 0, nullptr);
+                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, sources_.readback.get(), 1, &copy);
   }
 
  private:
-  void bind(Stage stage) const {
-    vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                      sources_.pass.pipelines.get(stage));
+  /// Whether it shows in this region; binds the stage's pipeline before the first that does.
+  bool shows(const PixelRect& bounds, Stage stage, bool& bound) const {
+    if (!touch(bounds, region_)) return false;
+    if (!bound) {
+      vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                        sources_.pass.pipelines.get(stage));
+    }
+    return bound = true;
   }
 
   void push(const GpuItem& item) const {
@@ -127,20 +158,19 @@ class Recording {
 
   /// Depth or stencil of every view, as at the frame's beginning.
   void clear(VkImageAspectFlags aspect) const {
-    const TargetSpec& spec = sources_.pass.targets.spec();
     VkClearAttachment attachment = {};
     attachment.aspectMask = aspect;
     attachment.clearValue.depthStencil = {1.0f, 0};
-    const VkClearRect everywhere = {{{0, 0}, {spec.width, spec.height}}, 0, 1};
+    const VkClearRect everywhere = {rect_of(region_), 0, 1};
     vkCmdClearAttachments(commands_, 1, &attachment, 1, &everywhere);
   }
 
-  void mesh_stage(Stage stage, const std::vector<const MeshItem*>& meshes) const {
-    if (meshes.empty()) return;
-    bind(stage);
-    for (const MeshItem* item : meshes) {
+  /// Whether there was anything to draw.
+  bool mesh_stage(Stage stage, const std::vector<MeshDraw>& meshes) const {
+    bool bound = false;
+    for (const auto& [item, bounds] : meshes) {
       const GpuMesh* copy = sources_.meshes.find(item->mesh);
-      if (copy == nullptr || copy->index_count == 0) continue;
+      if (copy == nullptr || copy->index_count == 0 || !shows(bounds, stage, bound)) continue;
       const std::uint32_t style = item->style == MeshStyle::kRim ? 1 : 0;
       push({item->world_from_model, item->colour, {}, {item->label, 0, style}});
       const VkBuffer vertices = copy->vertices.get();
@@ -149,23 +179,28 @@ class Recording {
       vkCmdBindIndexBuffer(commands_, copy->indices.get(), 0, VK_INDEX_TYPE_UINT32);
       vkCmdDrawIndexed(commands_, copy->index_count, 1, 0, 0, 0);
     }
+    return bound;
   }
 
   VkCommandBuffer commands_;
   const FrameSources& sources_;
+  PixelRect region_;
 };
 
 }  // namespace
 
 void record_frame(VkCommandBuffer commands, const FrameSources& sources) {
-  const Recording frame(commands, sources);
-  frame.begin();
-  frame.background();
-  frame.meshes();
-  frame.triangles();
-  frame.lines();
-  frame.texts();
-  frame.end_and_copy();
+  for (const PixelRect& region : sources.items.regions()) {
+    const Recording part(commands, sources, region);
+    part.begin();
+    part.background();
+    part.meshes();
+    part.triangles();
+    part.lines();
+    part.texts();
+    part.end_and_copy();
+  }
+  wait_for_copies(commands, sources.readback, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
 }  // namespace orthonav::render

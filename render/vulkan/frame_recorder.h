@@ -10,8 +10,9 @@ namespace orthonav::render {
 
 /// Images and the pipelines that fit them.
 struct FramePass {
-  FramePass(const Device& device, VkPipelineLayout layout, const TargetSpec& spec, Blend blend)
-      : targets(device, spec), pipelines(device, layout, targets, blend) {}
+  FramePass(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
+            const TargetSpec& spec, Blend blend)
+      : targets(device, spec), pipelines(device, cache, layout, targets, blend) {}
   Targets targets;
   Pipelines pipelines;
 };
@@ -19,6 +20,12 @@ struct FramePass {
 /// Corners and indices of one segment of a line, as line.vert expects them.
 inline constexpr std::uint32_t kCornersPerSegment = 14;
 inline constexpr std::uint32_t kIndicesPerSegment = 36;
+/// Of one without discs at its ends. In the buffer of indices these come after all the others.
+inline constexpr std::uint32_t kIndicesPerQuad = 6;
+/// How many segments a buffer of indices serves.
+[[nodiscard]] inline std::uint32_t line_capacity(const Buffer& indices) {
+  return static_cast<std::uint32_t>(indices.size() / (4 * (kIndicesPerSegment + kIndicesPerQuad)));
+}
 
 /// What the commands of one frame are made of; nothing here is owned.
 struct FrameSources {
@@ -29,10 +36,12 @@ struct FrameSources {
   const Buffer& line_indices;
   const Buffer& readback;
   VkDeviceSize readback_offset = 0;
+  std::uint32_t frame_offset = 0;  ///< of the pass's GpuFrame in the bound buffer
   bool has_background = false;
 };
 
-/// Records drawing and the copy of the result into the readback buffer. The rules of depth and
+/// Records drawing the regions that hold holograms, and the copy of each into its place in the
+/// readback buffer; what lies outside is not touched. The rules of depth and
 /// order that it follows are in docs/decisions/0021-holograms-need-no-order.md.
 void record_frame(VkCommandBuffer commands, const FrameSources& sources);
 

@@ -23,12 +23,15 @@ struct GpuFrame {
   std::array<std::uint32_t, 4> mode{};  ///< over?, background?
 };
 static_assert(sizeof(GpuFrame) == 2 * 96 + 48);
+/// From one pass's frame to the next in their buffer: what every device can be asked for.
+inline constexpr std::uint32_t kFrameStride = 256;
+static_assert(sizeof(GpuFrame) <= kFrameStride);
 
 struct GpuItem {
   Matrix4 place = kIdentity;
   Colour colour;
   std::array<float, 4> extra{};
-  std::array<std::uint32_t, 4> ids{};  ///< label, first, style
+  std::array<std::uint32_t, 4> ids{};  ///< label, first, style, rounded
 };
 static_assert(sizeof(GpuItem) == 112, "fits the 128 bytes that every device has");
 

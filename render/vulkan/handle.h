@@ -55,6 +55,7 @@ using RenderPass = Handle<VkRenderPass, vkDestroyRenderPass>;
 using Framebuffer = Handle<VkFramebuffer, vkDestroyFramebuffer>;
 using ShaderModule = Handle<VkShaderModule, vkDestroyShaderModule>;
 using Pipeline = Handle<VkPipeline, vkDestroyPipeline>;
+using PipelineCacheHandle = Handle<VkPipelineCache, vkDestroyPipelineCache>;
 using PipelineLayout = Handle<VkPipelineLayout, vkDestroyPipelineLayout>;
 using DescriptorSetLayout = Handle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
 using DescriptorPool = Handle<VkDescriptorPool, vkDestroyDescriptorPool>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "render/vulkan/handle.h"
@@ -16,10 +17,27 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 // After so many lines nothing new is to be learned, and a frame loop would fill the memory.
 constexpr std::size_t kMostMessages = 200;
 
+// Advice that does not fit here; everything else that the layer says is passed on.
+constexpr std::array<std::string_view, 4> kUseless = {
+    // The extension is the one through which it speaks.
+    "UNASSIGNED-BestPractices-vkCreateInstance-specialuse-extension-debugging",
+    // Of memory for each small buffer there are a few dozen pieces, all kept; a device has room for
+    // 4096 at the least.
+    "UNASSIGNED-BestPractices-vkAllocateMemory-small-allocation",
+    "UNASSIGNED-BestPractices-vkBindMemory-small-dedicated-allocation",
+    // One vertex shader serves depth, colour and labels, so that they agree to the bit; a driver
+    // leaves out what a fragment shader does not read.
+    "UNASSIGNED-CoreValidation-Shader-OutputNotConsumed"};
+
+bool is_useless(const char* id) {
+  return id != nullptr && std::find(kUseless.begin(), kUseless.end(), id) != kUseless.end();
+}
+
 VKAPI_ATTR VkBool32 VKAPI_CALL listen(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                       VkDebugUtilsMessageTypeFlagsEXT,
                                       const VkDebugUtilsMessengerCallbackDataEXT* data,
                                       void* messages) {
+  if (is_useless(data->pMessageIdName)) return VK_FALSE;
   auto& lines = *static_cast<std::vector<std::string>*>(messages);
   std::string line = data->pMessage != nullptr ? data->pMessage : "";
   std::replace(line.begin(), line.end(), '\n', ' ');
@@ -32,7 +50,8 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>& mess
   info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
   info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                          VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                     VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   info.pfnUserCallback = listen;
   info.pUserData = &messages;
   return info;
@@ -60,13 +79,14 @@ Instance::Instance(bool validation, MessageSink messages)
   application.pApplicationName = "orthonav";
   application.apiVersion = VK_API_VERSION_1_1;
   VkDebugUtilsMessengerCreateInfoEXT listener = messenger_info(*messages_);
-  const VkValidationFeatureEnableEXT synchronization =
-      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  const std::array<VkValidationFeatureEnableEXT, 2> enabled = {
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+      VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT};
   VkValidationFeaturesEXT features = {};
   features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
   features.pNext = &listener;
-  features.enabledValidationFeatureCount = 1;
-  features.pEnabledValidationFeatures = &synchronization;
+  features.enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size());
+  features.pEnabledValidationFeatures = enabled.data();
   const std::array<const char*, 2> extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
                                                  VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   VkInstanceCreateInfo info = {};

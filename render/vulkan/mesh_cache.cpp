@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/decimated.h"
 #include "render/scene_check.h"
 #include "render/vulkan/gpu_types.h"
 
@@ -37,6 +38,20 @@ Buffer uploaded(const Device& device, Commands& commands, const void* bytes, std
   return buffer;
 }
 
+GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh) {
+  GpuMesh copy;
+  copy.index_count = static_cast<std::uint32_t>(mesh.indices.size());
+  copy.box = box_of(mesh);
+  if (copy.index_count == 0) return copy;
+  const std::vector<GpuVertex> vertices = vertices_of(mesh);
+  copy.vertices = uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
+                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  copy.indices =
+      uploaded(device, commands, mesh.indices.data(), mesh.indices.size() * sizeof(std::uint32_t),
+               VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  return copy;
+}
+
 }  // namespace
 
 const GpuMesh* MeshCache::find(const std::shared_ptr<const MeshData>& mesh) const {
@@ -56,19 +71,16 @@ bool MeshCache::touch(const std::shared_ptr<const MeshData>& mesh) {
 }
 
 std::string MeshCache::add(const Device& device, Commands& commands,
-                           const std::shared_ptr<const MeshData>& mesh) {
+                           const std::shared_ptr<const MeshData>& mesh, const MeshDetail& detail) {
   if (const auto problem = problem_of_mesh(*mesh)) return *problem;
   Entry entry;
   entry.mesh = mesh;
-  entry.copy.index_count = static_cast<std::uint32_t>(mesh->indices.size());
-  if (entry.copy.index_count > 0) {
-    const std::vector<GpuVertex> vertices = vertices_of(*mesh);
-    entry.copy.vertices =
-        uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
-                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    entry.copy.indices =
-        uploaded(device, commands, mesh->indices.data(),
-                 mesh->indices.size() * sizeof(std::uint32_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  if (mesh->indices.size() > 3 * detail.enough_triangles) {
+    entry.copy = copy_of(
+        device, commands,
+        decimated(simplified(*mesh, detail.enough_triangles, detail.error), detail.most_triangles));
+  } else {
+    entry.copy = copy_of(device, commands, *mesh);
   }
   entries_.push_back(std::move(entry));
   return {};

@@ -5,16 +5,25 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "render/screen_bounds.h"
 #include "render/vulkan/commands.h"
 #include "render/vulkan/memory.h"
 
 namespace orthonav::render {
+
+/// How finely a mesh is drawn. What is given in lengths is so in the mesh's own.
+struct MeshDetail {
+  float error = 0;                        ///< that leaving triangles out may cost; 0: all stay
+  std::size_t enough_triangles = 14'000;  ///< fewer are not worth the trouble
+  std::size_t most_triangles = 250'000;   ///< whatever the error
+};
 
 /// The copy of a mesh on the device.
 struct GpuMesh {
   Buffer vertices;
   Buffer indices;
   std::uint32_t index_count = 0;  ///< 0: an empty mesh draws nothing
+  Box box;
 };
 
 /// Device copies of meshes, keyed by pointer. A copy goes when nobody else holds the mesh any more,
@@ -24,9 +33,11 @@ class MeshCache {
  public:
   /// The copy of a mesh, or nullptr.
   [[nodiscard]] const GpuMesh* find(const std::shared_ptr<const MeshData>& mesh) const;
-  /// Checks and uploads a mesh that has no copy yet. Its problem comes back as a line; empty: none.
+  /// Checks and uploads a mesh that has no copy yet, with as many triangles as `detail` asks for.
+  /// Its problem comes back as a line; empty: none.
   [[nodiscard]] std::string add(const Device& device, Commands& commands,
-                                const std::shared_ptr<const MeshData>& mesh);
+                                const std::shared_ptr<const MeshData>& mesh,
+                                const MeshDetail& detail = {});
   /// Marks the frame's end: drops what is unused.
   void end_frame();
   /// Marks a mesh as used in this frame; false when it has no copy yet.

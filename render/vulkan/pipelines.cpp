@@ -145,14 +145,14 @@ struct States {
   VkPipelineVertexInputStateCreateInfo input = {};
   VkPipelineInputAssemblyStateCreateInfo assembly = {};
   VkViewport viewport = {};
-  VkRect2D scissor = {};
   VkPipelineViewportStateCreateInfo viewports = {};
   VkPipelineRasterizationStateCreateInfo raster = {};
   VkPipelineMultisampleStateCreateInfo multisample = {};
   VkPipelineDepthStencilStateCreateInfo depth = {};
   VkPipelineColorBlendAttachmentState attachment = {};
   VkPipelineColorBlendStateCreateInfo blend = {};
-  VkDynamicState reference = VK_DYNAMIC_STATE_STENCIL_REFERENCE;
+  std::array<VkDynamicState, 2> changing = {VK_DYNAMIC_STATE_SCISSOR,
+                                            VK_DYNAMIC_STATE_STENCIL_REFERENCE};
   VkPipelineDynamicStateCreateInfo dynamic = {};
 
   States(const Recipe& recipe, const TargetSpec& target, Blend mode) {
@@ -167,12 +167,10 @@ struct States {
     assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     viewport = {0, 0, static_cast<float>(target.width), static_cast<float>(target.height), 0, 1};
-    scissor = {{0, 0}, {target.width, target.height}};
     viewports.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
     viewports.viewportCount = 1;
     viewports.pViewports = &viewport;
     viewports.scissorCount = 1;
-    viewports.pScissors = &scissor;
     raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
     raster.polygonMode = VK_POLYGON_MODE_FILL;
     // Half of a closed surface turns away and never shows.
@@ -187,8 +185,8 @@ struct States {
     blend.attachmentCount = 1;
     blend.pAttachments = &attachment;
     dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-    dynamic.dynamicStateCount = recipe.stencil ? 1 : 0;
-    dynamic.pDynamicStates = &reference;
+    dynamic.dynamicStateCount = recipe.stencil ? 2 : 1;
+    dynamic.pDynamicStates = changing.data();
   }
   States(const States&) = delete;
   States& operator=(const States&) = delete;
@@ -203,8 +201,8 @@ VkPipelineShaderStageCreateInfo stage_info(VkShaderStageFlagBits stage, VkShader
   return info;
 }
 
-Pipeline make_pipeline(const Device& device, VkPipelineLayout layout, const Targets& targets,
-                       const Recipe& recipe, Blend blend) {
+Pipeline make_pipeline(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
+                       const Targets& targets, const Recipe& recipe, Blend blend) {
   const ShaderModule vertex = make_module(device.get(), recipe.vertex);
   const ShaderModule fragment =
       recipe.fragment.empty() ? ShaderModule() : make_module(device.get(), recipe.fragment);
@@ -227,20 +225,19 @@ Pipeline make_pipeline(const Device& device, VkPipelineLayout layout, const Targ
   info.layout = layout;
   info.renderPass = targets.pass();
   VkPipeline pipeline = VK_NULL_HANDLE;
-  check(vkCreateGraphicsPipelines(device.get(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-        "pipeline");
+  check(vkCreateGraphicsPipelines(device.get(), cache, 1, &info, nullptr, &pipeline), "pipeline");
   return {device.get(), pipeline};
 }
 
 }  // namespace
 
-Pipelines::Pipelines(const Device& device, VkPipelineLayout layout, const Targets& targets,
-                     Blend blend) {
+Pipelines::Pipelines(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
+                     const Targets& targets, Blend blend) {
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const PassKind kind = targets.spec().kind;
     if (stage == Stage::kBackground && kind == PassKind::kLabels) continue;
-    pipelines_[i] = make_pipeline(device, layout, targets, recipe_of(stage, kind), blend);
+    pipelines_[i] = make_pipeline(device, cache, layout, targets, recipe_of(stage, kind), blend);
   }
 }
 

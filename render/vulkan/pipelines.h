@@ -21,7 +21,9 @@ enum class Stage {
 /// One pipeline a stage, for one kind of target.
 class Pipelines {
  public:
-  Pipelines(const Device& device, VkPipelineLayout layout, const Targets& targets, Blend blend);
+  /// `cache` may be null.
+  Pipelines(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
+            const Targets& targets, Blend blend);
   [[nodiscard]] VkPipeline get(Stage stage) const {
     return pipelines_[static_cast<std::size_t>(stage)].get();
   }

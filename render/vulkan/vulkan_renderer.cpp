@@ -2,27 +2,27 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <new>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
+#include "render/float3.h"
 #include "render/projection.h"
 #include "render/scene_check.h"
 #include "render/vulkan/eyes_probe.h"
 #include "render/vulkan/gpu_types.h"
+#include "render/vulkan/readback.h"
 
 namespace orthonav::render {
 namespace {
-
-constexpr std::uint32_t kMostViews = 2;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
 }
-
-/// Twice what is needed, so that a growing scene settles soon.
-VkDeviceSize grown(std::size_t bytes) { return std::max<std::size_t>(2 * bytes, 4096); }
 
 RendererOptions checked(const RendererOptions& options) {
   if (const auto problem = problem_of_options(options)) throw std::runtime_error(*problem);
@@ -38,19 +38,6 @@ VkPhysicalDevice fitting(VkPhysicalDevice physical, const RendererOptions& optio
   return physical;
 }
 
-void write_line_indices(const Buffer& buffer) {
-  auto* out = reinterpret_cast<std::uint32_t*>(buffer.mapped());
-  const auto segments = static_cast<std::uint32_t>(buffer.size() / (4 * kIndicesPerSegment));
-  for (std::uint32_t segment = 0; segment < segments; ++segment) {
-    const std::uint32_t first = segment * kCornersPerSegment;
-    for (std::uint32_t corner = 1; corner + 1 < kCornersPerSegment; ++corner) {
-      *out++ = first;
-      *out++ = first + corner;
-      *out++ = first + corner + 1;
-    }
-  }
-}
-
 }  // namespace
 
 VulkanRenderer::VulkanRenderer(const RendererOptions& options)
@@ -59,18 +46,19 @@ VulkanRenderer::VulkanRenderer(const RendererOptions& options)
       physical_(fitting(choose_device(instance_, options.device), options)),
       info_(describe(physical_)),
       device_(physical_),
+      cache_(device_, physical_, options.cache_folder.value_or(user_cache_folder())),
       commands_(device_),
       bindings_(device_) {
   const std::size_t both = kMostViews * image_bytes();
   background_staging_ =
       Buffer(device_, both, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::kUpload);
   readback_ = Buffer(device_, both, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::kReadback);
-  frame_ =
-      Buffer(device_, sizeof(GpuFrame), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, BufferPlace::kUpload);
+  frames_ = Buffer(device_, kMostViews * kFrameStride, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                   BufferPlace::kUpload);
   upload_atlas();
   upload_blank_background();
   views_a_pass_ = views_a_pass();  // binds buffers of its own
-  bindings_.bind_frame(frame_);
+  bindings_.bind_frames(frames_);
   prepare_data();
 }
 
@@ -102,7 +90,8 @@ void VulkanRenderer::upload_atlas() {
   const Buffer staging(device_, font_.atlas().size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                        BufferPlace::kUpload);
   staging.write(font_.atlas().data(), font_.atlas().size());
-  fill_image(commands_.begin(), staging, atlas_, {spec.width, spec.height}, 1, 1);
+  const PixelRect all{0, 0, static_cast<int>(spec.width), static_cast<int>(spec.height)};
+  fill_image(commands_.begin(), {staging, atlas_, {spec.width, spec.height}, 1, 1, 1}, {&all, 1});
   commands_.run();
   bindings_.bind_atlas(atlas_);
 }
@@ -116,8 +105,11 @@ void VulkanRenderer::upload_blank_background() {
   spec.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
   background_ = DeviceImage(device_, spec);
   std::memset(background_staging_.mapped(), 0, background_staging_.size());
-  fill_image(commands_.begin(), background_staging_, background_, {spec.width, spec.height},
-             kMostViews, kMostViews);
+  const PixelRect all{0, 0, options_.width_px, options_.height_px};
+  fill_image(
+      commands_.begin(),
+      {background_staging_, background_, {spec.width, spec.height}, 4, kMostViews, kMostViews},
+      {&all, 1});
   commands_.run();
   bindings_.bind_background(background_);
 }
@@ -131,9 +123,45 @@ const FramePass& VulkanRenderer::pass_for(PassKind kind, std::size_t views) {
     spec.height = static_cast<std::uint32_t>(options_.height_px);
     spec.views = static_cast<std::uint32_t>(views);
     spec.samples = options_.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
-    pass = std::make_unique<FramePass>(device_, bindings_.layout(), spec, options_.blend);
+    pass = std::make_unique<FramePass>(device_, cache_.get(), bindings_.layout(), spec,
+                                       options_.blend);
   }
   return *pass;
+}
+
+std::string VulkanRenderer::add_mesh(const MeshItem& item, const std::string& name) {
+  const Matrix4& place = item.world_from_model;
+  MeshDetail detail;
+  detail.error = options_.surface_error_m / length({place[0], place[1], place[2]});
+  std::string flaw = meshes_.add(device_, commands_, item.mesh, detail);
+  if (!flaw.empty()) return flaw;
+  const std::size_t drawn = meshes_.find(item.mesh)->index_count / 3;
+  const std::size_t given = item.mesh->indices.size() / 3;
+  if (given > detail.most_triangles) {
+    note(name + ": drawn with " + std::to_string(drawn) + " of its " + std::to_string(given) +
+         " triangles, limit " + std::to_string(detail.most_triangles));
+  }
+  return {};
+}
+
+/// After so many there is nothing new to learn, and a frame loop would fill the memory.
+void VulkanRenderer::note(std::string line) {
+  constexpr std::size_t kMostNotes = 200;
+  if (notes_.size() < kMostNotes) notes_.push_back(std::move(line));
+}
+
+/// Of each character that the font lacks, once: a box stands in its place.
+void VulkanRenderer::note_missing_glyphs(const Scene& scene) {
+  for (const TextItem& item : scene.texts) {
+    std::size_t noted = missing_glyphs_.size();
+    find_missing(font_, item, missing_glyphs_);
+    for (; noted < missing_glyphs_.size(); ++noted) {
+      char code[16];
+      std::snprintf(code, sizeof(code), "U+%04X", static_cast<unsigned>(missing_glyphs_[noted]));
+      note("scene: text " + std::to_string(&item - scene.texts.data()) + " (label " +
+           std::to_string(item.label) + "): the font has no " + code + ", drawn as a box");
+    }
+  }
 }
 
 std::string VulkanRenderer::problem_of(const Scene& scene, const std::vector<View>& views,
@@ -144,97 +172,27 @@ std::string VulkanRenderer::problem_of(const Scene& scene, const std::vector<Vie
   const auto problem =
       problem_of_backgrounds(backgrounds, views, options_.width_px, options_.height_px);
   if (problem) return *problem;
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    const MeshItem& item = scene.meshes[i];
+  for (const MeshItem& item : scene.meshes) {
     if (meshes_.touch(item.mesh)) continue;
-    const std::string flaw = meshes_.add(device_, commands_, item.mesh);
-    if (flaw.empty()) continue;
-    return "scene: mesh " + std::to_string(i) + " (label " + std::to_string(item.label) +
-           "): " + flaw;
+    const std::string name = "scene: mesh " + std::to_string(&item - scene.meshes.data()) +
+                             " (label " + std::to_string(item.label) + ")";
+    const std::string flaw = add_mesh(item, name);
+    if (!flaw.empty()) return name + ": " + flaw;
   }
   return {};
 }
 
-void VulkanRenderer::write_frame(const View* views, std::size_t count, bool has_background) {
-  const auto width = static_cast<float>(options_.width_px);
-  const auto height = static_cast<float>(options_.height_px);
-  GpuFrame frame;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Float3 eye = transformed(rigid_inverse(views[i].eye_from_world), {0, 0, 0});
-    const View& view = views[i];
-    frame.eyes[i] = {
-        clip_from_world(view),
-        {eye.x, eye.y, eye.z, 1},
-        {width / (view.tan_left + view.tan_right), height / (view.tan_up + view.tan_down), 0, 0}};
-  }
-  frame.target = {width, height, 0, 0};
-  frame.font = {font_.header().reach, kRimWidth, kNearPlane_m, 0};
-  frame.mode = {options_.blend == Blend::kOver ? 1u : 0u, has_background ? 1u : 0u, 0, 0};
-  frame_.write(&frame, sizeof(frame));
-}
-
-void VulkanRenderer::prepare_data() {
-  const std::size_t bytes = items_.data().size() * sizeof(Float4);
-  if (data_.size() < bytes || data_.size() == 0) {
-    data_ = Buffer(device_, grown(bytes), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::kUpload);
-    bindings_.bind_data(data_);
-  }
-  data_.write(items_.data().data(), bytes);
-  const std::size_t index_bytes = 4ul * kIndicesPerSegment * items_.most_segments();
-  if (line_indices_.size() < index_bytes || line_indices_.size() == 0) {
-    line_indices_ =
-        Buffer(device_, grown(index_bytes), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, BufferPlace::kUpload);
-    write_line_indices(line_indices_);
-  }
-}
-
-void VulkanRenderer::draw_views(PassKind kind, const std::vector<View>& views,
-                                const std::vector<const Image*>& backgrounds, std::size_t first,
-                                std::size_t count) {
-  const FramePass& pass = pass_for(kind, count);
-  write_frame(&views[first], count, !backgrounds.empty());
-  const VkCommandBuffer batch = commands_.begin();
-  if (!backgrounds.empty()) {
-    for (std::size_t i = 0; i < count; ++i) {
-      background_staging_.write(backgrounds[first + i]->rgba.data(), image_bytes(),
-                                i * image_bytes());
-    }
-    fill_image(batch, background_staging_, background_,
-               {pass.targets.spec().width, pass.targets.spec().height},
-               static_cast<std::uint32_t>(count), kMostViews);
-  }
-  record_frame(batch, {pass, bindings_, meshes_, items_, line_indices_, readback_,
-                       first * image_bytes(), !backgrounds.empty()});
-  const auto submitted = std::chrono::steady_clock::now();
-  commands_.run();
-  timing_.gpu_ms += milliseconds_since(submitted);
-}
-
-void VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                               const std::vector<const Image*>& backgrounds) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::string problem = problem_of(scene, views, backgrounds);
-  if (!problem.empty()) throw std::runtime_error(problem);
-  items_.build(scene, views, font_);
-  prepare_data();
-  const std::size_t at_once = std::min(views.size(), views_a_pass_);
-  for (std::size_t first = 0; first < views.size(); first += at_once) {
-    draw_views(kind, views, backgrounds, first, at_once);
-  }
-  timing_.record_ms = milliseconds_since(start) - timing_.gpu_ms;
-}
-
-template <class Picture, class Element>
+template <class Picture, class Take>
 void VulkanRenderer::read_back(std::size_t views, std::vector<Picture>& pictures,
-                               std::vector<Element> Picture::*elements) const {
+                               const Take& take_picture) {
+  const auto start = std::chrono::steady_clock::now();
   pictures.resize(views);
   for (std::size_t i = 0; i < views; ++i) {
     pictures[i].width_px = options_.width_px;
     pictures[i].height_px = options_.height_px;
-    auto& values = pictures[i].*elements;
-    values.resize(image_bytes() / sizeof(Element));
-    std::memcpy(values.data(), readback_.mapped() + i * image_bytes(), image_bytes());
+    take_picture(i, readback_.mapped() + i * image_bytes(), pictures[i]);
   }
+  timing_.read_ms = milliseconds_since(start);
 }
 
 /// The line for the exception in flight.
@@ -275,7 +233,9 @@ bool VulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
                           std::string& error) {
   return attempt(error, [&] {
     draw_into(PassKind::kColour, scene, views, backgrounds);
-    read_back(views.size(), images, &Image::rgba);
+    read_back(views.size(), images, [&](std::size_t i, const std::byte* drawn, Image& image) {
+      take(drawn, drawn_[i], backgrounds.empty() ? nullptr : backgrounds[i], image);
+    });
   });
 }
 
@@ -283,7 +243,9 @@ bool VulkanRenderer::draw_labels(const Scene& scene, const std::vector<View>& vi
                                  std::vector<LabelImage>& images, std::string& error) {
   return attempt(error, [&] {
     draw_into(PassKind::kLabels, scene, views, {});
-    read_back(views.size(), images, &LabelImage::labels);
+    read_back(views.size(), images, [&](std::size_t i, const std::byte* drawn, LabelImage& image) {
+      take(drawn, drawn_[i], image);
+    });
   });
 }
 

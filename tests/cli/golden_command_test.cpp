@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "tests/cli/command_line.h"
 
@@ -43,6 +45,38 @@ TEST(GoldenCommand, DrawsTheSameBitsWithAnyNumberOfThreads) {
     }
   }
   EXPECT_EQ(compared, 3 * 9);
+}
+
+/// The pictures of three scenes on a processor with no more than these instructions, by file name.
+std::map<std::string, std::string> drawn_with(const char* instructions) {
+  const ScratchFolder folder;
+  setenv("GALLIUM_OVERRIDE_CPU_CAPS", instructions, 1);
+  const Called called =
+      orthonav({"golden", "render", "guidance", "h10_rod", "h5_red", "--out", folder.file("out")});
+  unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
+  EXPECT_EQ(called.code, 0) << called.err;
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.file("out"))) {
+    files[entry.path().filename().string()] = content_of(entry.path().string());
+  }
+  EXPECT_EQ(files.size(), 9u);
+  return files;
+}
+
+// docs/decisions/0027-pictures-to-the-bit.md says what is measured beyond this.
+TEST(GoldenCommand, DrawsTheSameBitsWithAVXAloneAndTheSameLabelsWithout) {
+  const auto all = drawn_with("");
+  const auto avx = drawn_with("avx");
+  const auto sse = drawn_with("sse4.1");
+  bool differ = false;
+  for (const auto& [name, bytes] : all) {
+    EXPECT_TRUE(avx.at(name) == bytes) << name;
+    if (name.find(".labels.") != std::string::npos) {
+      EXPECT_TRUE(sse.at(name) == bytes) << name;
+    }
+    differ = differ || sse.at(name) != bytes;
+  }
+  EXPECT_TRUE(differ) << "the twin: without AVX, other code ran";
 }
 
 TEST(GoldenCommand, ReviewFindsApprovedScenesAlikeAndChangedOnesNot) {

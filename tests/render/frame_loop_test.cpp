@@ -34,6 +34,7 @@ TEST(FrameLoop, AllocatesNothingAfterTheFirstFrames) {
   options.width_px = 200;
   options.height_px = 120;
   options.device = "llvmpipe";
+  options.cache_folder = "";
   std::string error;
   const auto renderer = Renderer::create(options, error);
   ASSERT_NE(renderer, nullptr) << error;

@@ -27,6 +27,7 @@ class TestRenderer {
     options.validation = true;
     options.messages = validation_.sink();
     options.eyes_a_pass = eyes_a_pass;
+    options.cache_folder = "";
     std::string error;
     renderer_ = Renderer::create(options, error);
     EXPECT_NE(renderer_, nullptr) << error;

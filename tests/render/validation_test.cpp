@@ -42,6 +42,21 @@ TEST(Validation, HearsAnInvalidCall) {
   EXPECT_EQ(*messages, instance.messages());
 }
 
+TEST(Validation, HearsABadPractice) {
+  const auto messages = std::make_shared<std::vector<std::string>>();
+  const Instance instance(true, messages);
+  const Device device(choose_device(instance, "llvmpipe"));
+  // A pool that may be reset by halves costs more; nothing is wrong with it otherwise.
+  VkCommandPoolCreateInfo info = {};
+  info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+  info.queueFamilyIndex = device.queue_family();
+  VkCommandPool pool = VK_NULL_HANDLE;
+  check(vkCreateCommandPool(device.get(), &info, nullptr, &pool), "command pool");
+  vkDestroyCommandPool(device.get(), pool, nullptr);
+  EXPECT_THAT(*messages, Contains(HasSubstr("BestPractices")));
+}
+
 TEST(Validation, FailsATestForWhatIsLeftBehind) {
   EXPECT_NONFATAL_FAILURE(
       {
@@ -58,6 +73,7 @@ TEST(Validation, HearsTheRenderersOwnMessagesAfterItIsGone) {
   RendererOptions options;
   options.width_px = options.height_px = 64;
   options.device = "llvmpipe";
+  options.cache_folder = "";
   options.validation = true;
   options.messages = messages;
   std::string error;

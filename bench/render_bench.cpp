@@ -1,0 +1,187 @@
+// A full frame of guidance in both eyes, beside VTK drawing the same in the same run, frame by
+// frame in turn, so that whatever else the machine does falls on both. Prints a table in Markdown.
+//   xvfb-run -a build/bench/bench/bench_render [--frames N] [--width PX] [--height PX] [--save]
+#include <unistd.h>
+
+#include <algorithm>
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/render_scene.h"
+#include "bench/vtk_window.h"
+#include "render/renderer.h"
+
+namespace orthonav::bench {
+namespace {
+
+struct Options {
+  int frames = 200;
+  int width_px = 1268;
+  int height_px = 720;
+  bool save = false;
+};
+
+/// Times of one phase over all frames.
+class Phase {
+ public:
+  void add(double ms) { ms_.push_back(ms); }
+  [[nodiscard]] double quantile(double share) const {
+    std::vector<double> sorted = ms_;
+    std::sort(sorted.begin(), sorted.end());
+    if (sorted.empty()) return 0;
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+  }
+  [[nodiscard]] std::string text() const {
+    char line[64];
+    std::snprintf(line, sizeof(line), "%.1f / %.1f", quantile(0.5), quantile(0.99));
+    return line;
+  }
+
+ private:
+  std::vector<double> ms_;
+};
+
+/// Resident memory of this process.
+double resident_mib() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+struct Row {
+  Phase record, submit, gpu, read, total;
+  double memory_mib = 0;
+};
+
+void print_row(const std::string& name, int samples, const Row& row) {
+  std::printf("| %s | %d | %s | %s | %s | %s | %s | %.0f |\n", name.c_str(), samples,
+              row.record.text().c_str(), row.submit.text().c_str(), row.gpu.text().c_str(),
+              row.read.text().c_str(), row.total.text().c_str(), row.memory_mib);
+}
+
+std::unique_ptr<render::Renderer> make_renderer(const Options& options, int samples,
+                                                float surface_error_m) {
+  render::RendererOptions wanted;
+  wanted.width_px = options.width_px;
+  wanted.height_px = options.height_px;
+  wanted.samples = samples;
+  wanted.device = "llvmpipe";
+  wanted.surface_error_m = surface_error_m;
+  std::string error;
+  auto renderer = render::Renderer::create(wanted, error);
+  if (!renderer) {
+    std::fprintf(stderr, "%s\n", error.c_str());
+    std::exit(1);
+  }
+  return renderer;
+}
+
+class Ours {
+ public:
+  Ours(const Options& options, int samples, float surface_error_m, const FullScene& full)
+      : before_mib_(resident_mib()),
+        renderer_(make_renderer(options, samples, surface_error_m)),
+        full_(full) {}
+
+  void draw(int frame, Row* row) {
+    std::string error;
+    if (!renderer_->draw(full_.scene, swayed(full_.views, frame), {}, images_, error)) {
+      std::fprintf(stderr, "%s\n", error.c_str());
+      std::exit(1);
+    }
+    if (row == nullptr) return;
+    const render::FrameTiming timing = renderer_->last_timing();
+    row->record.add(timing.record_ms);
+    row->submit.add(timing.submit_ms);
+    row->gpu.add(timing.gpu_ms);
+    row->read.add(timing.read_ms);
+    row->total.add(timing.total_ms);
+  }
+  [[nodiscard]] double before_mib() const { return before_mib_; }
+  [[nodiscard]] std::string name() const { return renderer_->device().name; }
+
+ private:
+  double before_mib_;
+  std::unique_ptr<render::Renderer> renderer_;
+  const FullScene& full_;
+  std::vector<render::Image> images_;
+};
+
+void draw_peer(VtkWindow& window, const FullScene& full, int frame, Row* row) {
+  const VtkTiming timing = window.draw(swayed(full.views, frame));
+  if (row == nullptr) return;
+  row->record.add(timing.render_ms);
+  row->gpu.add(timing.wait_ms);
+  row->read.add(timing.read_ms);
+  row->total.add(timing.total_ms);
+}
+
+/// Memory is what each one adds to the process with its first frames.
+void compare(const Options& options, int samples, const FullScene& full) {
+  constexpr int kWarmUp = 5;
+  Row ours, all_triangles, peers;
+  Ours renderer(options, samples, render::RendererOptions{}.surface_error_m, full);
+  for (int i = 0; i < kWarmUp; ++i) renderer.draw(i, nullptr);
+  ours.memory_mib = resident_mib() - renderer.before_mib();
+  Ours whole(options, samples, 0, full);
+  for (int i = 0; i < kWarmUp; ++i) whole.draw(i, nullptr);
+  all_triangles.memory_mib = resident_mib() - whole.before_mib();
+  const double between_mib = resident_mib();
+  std::unique_ptr<VtkWindow> window;
+  if (std::getenv("DISPLAY") != nullptr) {
+    window = VtkWindow::create(full.scene, full.views.size(), options.width_px, options.height_px,
+                               samples);
+  }
+  for (int i = 0; window && i < kWarmUp; ++i) draw_peer(*window, full, i, nullptr);
+  peers.memory_mib = resident_mib() - between_mib;
+  for (int i = 0; i < options.frames; ++i) {
+    renderer.draw(i, &ours);
+    whole.draw(i, &all_triangles);
+    if (window) draw_peer(*window, full, i, &peers);
+  }
+  print_row("orthonav, " + renderer.name(), samples, ours);
+  print_row("orthonav, every triangle", samples, all_triangles);
+  if (!window) return;
+  print_row("VTK " + window->name(), samples, peers);
+  std::printf("\nRatio of the medians with %d samples: %.3f, with every triangle %.3f\n\n", samples,
+              ours.total.quantile(0.5) / peers.total.quantile(0.5),
+              all_triangles.total.quantile(0.5) / peers.total.quantile(0.5));
+  if (options.save) window->save("vtk_" + std::to_string(samples) + ".png");
+}
+
+void run(const Options& options) {
+  const FullScene full = full_scene();
+  std::size_t triangles = 0;
+  for (const auto& item : full.scene.meshes) triangles += item.mesh->indices.size() / 3;
+  std::printf("%zu surfaces of %zu triangles, %zu lines, %zu triangles, %zu texts; %zu eyes of ",
+              full.scene.meshes.size(), triangles, full.scene.lines.size(),
+              full.scene.triangles.size(), full.scene.texts.size(), full.views.size());
+  std::printf("%dx%d px; %d frames; ms as median / p99\n\n", options.width_px, options.height_px,
+              options.frames);
+  std::printf("| renderer | samples | record | submit | GPU side | read | total | memory, MiB |\n");
+  std::printf("|---|---|---|---|---|---|---|---|\n");
+  for (const int samples : {4, 1}) compare(options, samples, full);
+}
+
+}  // namespace
+}  // namespace orthonav::bench
+
+int main(int argc, char** argv) {
+  orthonav::bench::Options options;
+  CLI::App app("Frame times of a full guidance scene, beside VTK");
+  app.add_option("--frames", options.frames, "frames measured");
+  app.add_option("--width", options.width_px, "of one eye, px");
+  app.add_option("--height", options.height_px, "of one eye, px");
+  app.add_flag("--save", options.save, "saves what VTK drew as vtk_SAMPLES.png");
+  CLI11_PARSE(app, argc, argv);
+  if (std::getenv("DISPLAY") == nullptr)
+    std::puts("No X display, so no VTK: run it through xvfb-run -a");
+  orthonav::bench::run(options);
+}

@@ -1,0 +1,43 @@
+#include "render/vulkan/readback.h"
+
+#include <cstring>
+
+namespace orthonav::render {
+namespace {
+
+/// Four bytes a pixel, as all images have.
+void take_regions(const std::byte* drawn, std::span<const PixelRect> regions, int width_px,
+                  void* pixels) {
+  auto* out = static_cast<std::byte*>(pixels);
+  for (const PixelRect& region : regions) {
+    for (int y = region.top; y < region.bottom; ++y) {
+      const std::size_t at = 4 * (static_cast<std::size_t>(y) * width_px + region.left);
+      std::memcpy(out + at, drawn + at, 4 * static_cast<std::size_t>(region.width()));
+    }
+  }
+}
+
+std::size_t pixels_of(const Image& image) {
+  return static_cast<std::size_t>(image.width_px) * image.height_px;
+}
+
+}  // namespace
+
+void take(const std::byte* drawn, std::span<const PixelRect> regions, const Image* background,
+          Image& image) {
+  image.rgba.resize(4 * pixels_of(image));
+  if (background != nullptr) {
+    std::memcpy(image.rgba.data(), background->rgba.data(), image.rgba.size());
+  } else {
+    std::memset(image.rgba.data(), 0, image.rgba.size());
+  }
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  take_regions(drawn, regions, image.width_px, image.rgba.data());
+}
+
+void take(const std::byte* drawn, std::span<const PixelRect> regions, LabelImage& image) {
+  image.labels.assign(static_cast<std::size_t>(image.width_px) * image.height_px, 0);
+  take_regions(drawn, regions, image.width_px, image.labels.data());
+}
+
+}  // namespace orthonav::render
