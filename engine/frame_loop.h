@@ -57,7 +57,8 @@ struct LoopReport {
   bool done = false;  ///< the workflow reached its end
   Timestamp last_frame{};
   std::vector<double> intervals_ms;  ///< device clock, between displayed frames
-  /// Device clock, from the middle of a pair's exposure until its frame lights up: capture to photon.
+  /// Device clock, from the middle of a pair's exposure until its frame lights up: capture to
+  /// photon.
   std::vector<double> photon_ages_ms;
   /// Tracking and everything after it, for each pair; without waiting for the drawing.
   std::vector<double> step_wall_ms;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/render_values.h"
 #include "engine/screw_holograms.h"
 #include "render/shapes.h"
 
@@ -17,15 +18,6 @@ constexpr std::size_t kMostInstances = 99;
 constexpr render::Label kCross = label_of(7, 1);  // its dots: the next
 constexpr render::Label kTwin = label_of(8, 1);
 constexpr render::Label kTwinTool = label_of(8, 2);
-
-std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh) {
-  auto data = std::make_shared<render::MeshData>();
-  for (const Vec3 v : mesh.vertices_m) data->positions.push_back(to_float3(v));
-  for (const auto& triangle : mesh.triangles)
-    data->indices.insert(data->indices.end(), triangle.begin(), triangle.end());
-  data->normals = render::smooth_normals(data->positions, data->indices);
-  return data;
-}
 
 }  // namespace
 
@@ -44,13 +36,6 @@ void hide_tool_guidance(render::Scene& scene) {
     text.runs = dashes.texts.front().runs;
     text.rim = dashes.texts.front().rim;
   }
-}
-
-render::Matrix4 to_matrix(const std::array<double, 16>& row_major) {
-  render::Matrix4 out{};
-  for (std::size_t r = 0; r < 4; ++r)
-    for (std::size_t c = 0; c < 4; ++c) out[4 * c + r] = static_cast<float>(row_major[4 * r + c]);
-  return out;
 }
 
 void SceneBuilder::update(const Guidance& guidance, Timestamp lights_up) {

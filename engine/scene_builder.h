@@ -61,6 +61,4 @@ class SceneBuilder {
 /// from has grown too old before they were drawn.
 void hide_tool_guidance(render::Scene& scene);
 
-[[nodiscard]] render::Matrix4 to_matrix(const std::array<double, 16>& row_major);
-
 }  // namespace orthonav::engine

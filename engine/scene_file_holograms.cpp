@@ -14,6 +14,7 @@
 #include "engine/hologram_parts.h"
 #include "engine/hologram_twin.h"
 #include "engine/mesh_file.h"
+#include "engine/render_values.h"
 #include "hal/api/angle.h"
 #include "nav/guidance/rod.h"
 #include "render/float3.h"
@@ -29,12 +30,8 @@ using render::Scene;
 constexpr double kFarthest_mm = 10'000.0;
 constexpr Label kFree = 99;
 
-Float3 as_float3(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 Float3 direction_from(const JsonNode& node, const char* key) {
-  const Float3 given = as_float3(node.vec3(key));
+  const Float3 given = to_float3(node.vec3(key));
   const float length = render::length(given);
   if (!(length > 1e-6f)) node.refuse(key, "has no direction");
   return render::unit_or(given, {0, 1, 0});
@@ -42,7 +39,7 @@ Float3 direction_from(const JsonNode& node, const char* key) {
 
 std::vector<Float3> places_from(const JsonNode& node, const char* key) {
   std::vector<Float3> places;
-  for (const Vec3 place_mm : node.vec3s(key)) places.push_back(as_float3(place_mm * 1e-3));
+  for (const Vec3 place_mm : node.vec3s(key)) places.push_back(to_float3(place_mm * 1e-3));
   return places;
 }
 
@@ -86,19 +83,14 @@ void add_bone(const JsonNode& node, const std::string& folder, Label label, Scen
   const auto path = std::filesystem::path(folder) / node.text("mesh");
   const auto mesh = load_mesh(path.string(), metres ? 1.0 : 1e-3);
   if (!mesh) return node.refuse("mesh", mesh.error().message);
-  auto data = std::make_shared<render::MeshData>();
-  for (const Vec3 v : mesh->vertices_m) data->positions.push_back(as_float3(v));
-  for (const auto& triangle : mesh->triangles)
-    data->indices.insert(data->indices.end(), triangle.begin(), triangle.end());
-  data->normals = render::smooth_normals(data->positions, data->indices);
   render::Matrix4 place = render::kIdentity;
   if (node.has("world_from_vertebra")) {
-    const std::vector<double> rows = node.numbers("world_from_vertebra", 16);
-    for (std::size_t r = 0; r < 4; ++r)
-      for (std::size_t c = 0; c < 4; ++c)
-        place[4 * c + r] = static_cast<float>(rows[4 * r + c] * (c == 3 && r < 3 ? 1e-3 : 1.0));
+    std::array<double, 16> rows{};
+    std::ranges::copy(node.numbers("world_from_vertebra", rows.size()), rows.begin());
+    for (const std::size_t shift : {3U, 7U, 11U}) rows[shift] *= 1e-3;
+    place = to_matrix(rows);
   }
-  add_vertebra(scene, std::move(data), place, label);
+  add_vertebra(scene, mesh_data(*mesh), place, label);
 }
 
 void add_entry_point(const JsonNode& node, Label label, Scene& scene) {
@@ -139,17 +131,17 @@ void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
   for (const Vec3 head_mm : node.vec3s("heads_mm")) heads_m.push_back(head_mm * 1e-3);
   RodHologram hologram;
   std::vector<Float3> heads;
-  for (const Vec3 head : heads_m) heads.push_back(as_float3(head));
+  for (const Vec3 head : heads_m) heads.push_back(to_float3(head));
   std::vector<RodBendMark> bends;
   if (heads.size() > 1) {
     const auto rod = nav::rod_template(heads_m, diameter_m);
     if (!rod) return node.refuse("heads_mm", rod.error().message);
     std::vector<Float3> path;
-    for (const Vec3 p : rod->path_m) path.push_back(as_float3(p));
+    for (const Vec3 p : rod->path_m) path.push_back(to_float3(p));
     hologram.tube = std::make_shared<const render::MeshData>(
         render::make_tube(path, static_cast<float>(0.5 * rod->diameter_m)));
     for (const nav::RodBend& bend : rod->bends)
-      bends.push_back({as_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
+      bends.push_back({to_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
     hologram.length_m = rod->length_m;
   }
   hologram.heads = heads;
@@ -267,7 +259,7 @@ Float3 place_from(const JsonNode& node, const char* key) {
   const Vec3 place_mm = node.vec3(key);
   for (const double mm : {place_mm.x, place_mm.y, place_mm.z})
     if (!(std::abs(mm) <= kFarthest_mm)) node.refuse(key, "must lie within 10000 mm of the origin");
-  return as_float3(place_mm * 1e-3);
+  return to_float3(place_mm * 1e-3);
 }
 
 void add_hologram(const JsonNode& node, const std::string& folder, std::size_t k, Scene& scene) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/render_values.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -18,10 +20,6 @@ Viewer viewer_of(const Transform<World, Rig>& head) {
 }
 
 }  // namespace
-
-render::Float3 to_float3(Vec3 v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
 
 Grade grade_of_tool(const Guidance& guidance, const Visibility& visible,
                     const VisibilityRules& rules) {

@@ -10,8 +10,6 @@ namespace orthonav::engine {
 
 // What the holograms of the selected screw are made of, for whoever draws or tells them.
 
-[[nodiscard]] render::Float3 to_float3(Vec3 v);
-
 /// Of H5 and H6. What is only predicted has no number and is never called good.
 [[nodiscard]] Grade grade_of_tool(const Guidance& guidance, const Visibility& visible,
                                   const VisibilityRules& rules);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "engine/hologram_shapes.h"
+#include "engine/render_values.h"
 #include "engine/screw_holograms.h"
 
 namespace orthonav::engine {

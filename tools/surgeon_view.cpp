@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/render_values.h"
+
 namespace orthonav::tools {
 namespace {
 

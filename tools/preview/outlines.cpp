@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "engine/screw_holograms.h"
+#include "engine/render_values.h"
 
 namespace orthonav::preview {
 namespace {

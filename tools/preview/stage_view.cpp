@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/render_values.h"
 #include "engine/scene_builder.h"
 #include "tools/preview/outlines.h"
 
