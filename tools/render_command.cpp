@@ -119,6 +119,8 @@ int render_scene(const RenderArguments& arguments) {
   std::vector<render::Image> images;
   if (!renderer->draw(file->scene, file->eyes, backgrounds, images, error))
     return bad_input(arguments.scene + ": " + error);
+  for (const std::string& note : renderer->notes())
+    std::fprintf(stderr, "orthonav: %s\n", note.c_str());
   if (arguments.optics) {
     const render::Image behind =
         *background ? **background

@@ -76,6 +76,20 @@ TEST(RenderCommand, SaysHowHologramsStandOutInALitRoom) {
   EXPECT_THAT(wrong.err, HasSubstr("ambient light must lie in [0, 200000] lux"));
 }
 
+TEST(RenderCommand, SaysWhichCharacterTheFontLacks) {
+  const ScratchFolder folder;
+  const auto drawn = [&](const std::string& text) {
+    const std::string scene = scene_file(
+        folder,
+        R"({"type": "text", "position_mm": [0, 0, 0], "height_mm": 5, "text": ")" + text + "\"}");
+    return orthonav({"render", scene, "--out", folder.file("out.png"), "--size", "320x180"});
+  };
+  const Called strange = drawn("12.4 中");
+  EXPECT_EQ(strange.code, 0);
+  EXPECT_THAT(strange.err, HasSubstr("U+4E2D"));
+  EXPECT_EQ(drawn("12.4°").err, "") << "the twin";
+}
+
 TEST(RenderCommand, DrawsATextOf10000Digits) {
   const ScratchFolder folder;
   const std::string text =
