@@ -31,8 +31,11 @@ function(orthonav_warnings target)
   endif()
 endfunction()
 
-# orthonav_test(NAME libs...) makes one test binary of every .cpp in the calling folder.
+# orthonav_test(NAME [SHARDS N] libs...) makes one test binary of every .cpp in the calling folder.
+# Each test is a process of its own; with SHARDS N all run in N processes, for tests that share what is
+# slow to make.
 function(orthonav_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "SHARDS" "")
   find_package(GTest REQUIRED)
   include(GoogleTest)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
@@ -40,12 +43,21 @@ function(orthonav_test name)
     return()
   endif()
   add_executable(test_${name} ${sources})
-  target_link_libraries(test_${name} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
+  target_link_libraries(test_${name} PRIVATE ${test_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_compile_definitions(test_${name} PRIVATE
     ORTHONAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     ORTHONAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   orthonav_warnings(test_${name})
+  if(test_SHARDS)
+    foreach(shard RANGE 1 ${test_SHARDS})
+      math(EXPR index "${shard} - 1")
+      add_test(NAME ${name}.shard_${shard} COMMAND test_${name} --gtest_brief=1)
+      set_tests_properties(${name}.shard_${shard} PROPERTIES TIMEOUT 1200 COST 300 ENVIRONMENT
+        "GTEST_TOTAL_SHARDS=${test_SHARDS};GTEST_SHARD_INDEX=${index}")
+    endforeach()
+    return()
+  endif()
   gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
                        PROPERTIES TIMEOUT 600)
 endfunction()

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include "engine/golden_images.h"
 #include "render/projection.h"
@@ -32,6 +33,16 @@ constexpr PixelStep kAstray = {60, 60};
 
 class Golden : public testing::TestWithParam<std::string> {
  protected:
+  // One painter for all: a device and its shaders take longer than a picture.
+  static void SetUpTestSuite() {
+    validation_ = std::make_unique<render::SilentValidation>();
+    painter_ = std::make_unique<GoldenPainter>(GoldenPainter::kPinnedDevice, true,
+                                               validation_->sink());
+  }
+  static void TearDownTestSuite() {
+    painter_.reset();
+    validation_.reset();
+  }
   void SetUp() override {
     for (GoldenScene& scene : golden_scenes()) {
       if (scene.name == GetParam()) golden_ = std::move(scene);
@@ -39,7 +50,7 @@ class Golden : public testing::TestWithParam<std::string> {
     ASSERT_EQ(golden_.name, GetParam());
   }
   GoldenImages painted(const GoldenScene& scene) {
-    Result<GoldenImages> images = painter_.paint(scene);
+    Result<GoldenImages> images = painter_->paint(scene);
     EXPECT_TRUE(images.ok()) << images.error().message;
     return images.ok() ? std::move(*images) : GoldenImages{};
   }
@@ -54,9 +65,14 @@ class Golden : public testing::TestWithParam<std::string> {
     return one;
   }
   GoldenScene golden_;
-  render::SilentValidation validation_;
-  GoldenPainter painter_{GoldenPainter::kPinnedDevice, true, validation_.sink()};
+  void TearDown() override { EXPECT_THAT(painter_->validation_messages(), IsEmpty()); }
+
+  static std::unique_ptr<render::SilentValidation> validation_;
+  static std::unique_ptr<GoldenPainter> painter_;
 };
+
+std::unique_ptr<render::SilentValidation> Golden::validation_;
+std::unique_ptr<GoldenPainter> Golden::painter_;
 
 TEST_P(Golden, LooksAsApproved) {
   const auto expected = read_goldens(kFolder, golden_.name);
