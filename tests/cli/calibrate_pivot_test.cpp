@@ -71,7 +71,8 @@ TEST_F(CalibratePivot, FindsTheTipAndWritesItIntoTheTools) {
   const auto json = nlohmann::json::parse(called.out);
   EXPECT_EQ(json["method"], "best");
   EXPECT_EQ(json["pairs"], kPairs);
-  EXPECT_GE(json["inliers"], kPairs - 5);
+  // Poses that lean most are less exact than the others, whose scatter sets the limit.
+  EXPECT_GE(json["inliers"], kPairs * 85 / 100);
   EXPECT_GT(json["spread_deg"], 10.0);
   EXPECT_NE(json["verdict"], "fail");
   const auto tools = engine::load_tools(out);
