@@ -36,8 +36,8 @@ class Golden : public testing::TestWithParam<std::string> {
   // One painter for all: a device and its shaders take longer than a picture.
   static void SetUpTestSuite() {
     validation_ = std::make_unique<render::SilentValidation>();
-    painter_ = std::make_unique<GoldenPainter>(GoldenPainter::kPinnedDevice, true,
-                                               validation_->sink());
+    painter_ =
+        std::make_unique<GoldenPainter>(GoldenPainter::kPinnedDevice, true, validation_->sink());
   }
   static void TearDownTestSuite() {
     painter_.reset();
