@@ -81,10 +81,8 @@ GoldenScene check(const std::string& name, const std::string& what, double dista
 GoldenScene to_check() {
   GoldenScene golden =
       start("h12_to_check", "three cyan diamonds", close_view({0, 0.042f, 0.002f}));
-  const std::array<Float3, 3> places = {
-      {{0, 0.062f, -0.016f}, {0.021f, 0.036f, 0.010f}, {-0.021f, 0.036f, 0.010f}}};
   render::Label label = 1200;
-  for (const Float3 place : places) {
+  for (const Float3 place : kPlacesToCheck) {
     add_place_to_check(golden.scene, place, ++label);
     golden.covered.push_back({label, place});
     golden.centred.push_back({label, place});

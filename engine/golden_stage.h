@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ inline constexpr render::Float3 kOtherEntry = {-0.0165f, 0.0320f, 0.0070f};
 inline constexpr render::Float3 kOtherTarget = {-0.0080f, -0.0110f, 0.0040f};
 inline constexpr render::Float3 kNormal = {0.25f, 0.95f, 0.15f};
 inline constexpr render::Float3 kOtherNormal = {-0.25f, 0.95f, 0.15f};
+
+/// Spread over the bone, to be touched for verification.
+inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {
+    {{0, 0.062f, -0.016f}, {0.021f, 0.036f, 0.010f}, {-0.021f, 0.036f, 0.010f}}};
 
 /// Unit, along the plan out of the bone.
 [[nodiscard]] render::Float3 planned_direction();

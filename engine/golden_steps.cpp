@@ -12,9 +12,6 @@ namespace {
 
 using render::Float3;
 
-constexpr std::array<Float3, 3> kChecked = {
-    {{0, 0.062f, -0.016f}, {0.021f, 0.036f, 0.010f}, {-0.021f, 0.036f, 0.010f}}};
-
 GoldenScene step(const std::string& name, const std::string& what, const std::string& status,
                  ToolState tool = ToolState::kMeasured) {
   GoldenScene golden = start_wide(name, what + ", both eyes", surgeon_views());
@@ -57,11 +54,12 @@ GoldenScene guiding(const std::string& name, const std::string& what, const std:
   return golden;
 }
 
-void add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool lost) {
+void add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool lost,
+                  const Viewer& viewer = surgeon()) {
   TargetCross cross;
   cross.site = 0.5f * (kEntry + kOtherEntry);
   cross.outward = planned_direction();
-  cross.viewer = surgeon();
+  cross.viewer = viewer;
   cross.reading = reading;
   cross.lost = lost;
   add_target_cross(golden.scene, cross, 701);
@@ -109,7 +107,7 @@ GoldenScene verifying() {
   for (std::size_t i = 50; i < 70; ++i) distances_m[i] = 0.0016f;
   add_residual_path(golden.scene, samples, distances_m, 101);
   render::Label label = 1200;
-  for (const Float3 place : kChecked) add_place_to_check(golden.scene, place, ++label);
+  for (const Float3 place : kPlacesToCheck) add_place_to_check(golden.scene, place, ++label);
   return golden;
 }
 
@@ -119,8 +117,8 @@ GoldenScene checked() {
   add_bone(golden);
   constexpr std::array<double, 3> kDistances_m = {0.0004, 0.0011, 0.0031};
   render::Label label = 1200;
-  for (std::size_t i = 0; i < kChecked.size(); ++i)
-    add_check_point(golden.scene, kChecked[i], distance_text(kDistances_m[i]),
+  for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i)
+    add_check_point(golden.scene, kPlacesToCheck[i], distance_text(kDistances_m[i]),
                     kDistances_m[i] <= 0.002, ++label);
   return golden;
 }
@@ -212,12 +210,8 @@ void add_view_scenes(std::vector<GoldenScene>& scenes) {
       std::erase_if(golden.scene.meshes, of_cross);
       std::erase_if(golden.scene.lines, of_cross);
       std::erase_if(golden.scene.texts, of_cross);
-      TargetCross cross;
-      cross.site = 0.5f * (kEntry + kOtherEntry);
-      cross.outward = planned_direction();
-      cross.viewer = surgeon(distance_m, kRolls_deg[i]);
-      cross.reading = CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair};
-      add_target_cross(golden.scene, cross, 701);
+      add_cross_to(golden, CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair},
+                   false, surgeon(distance_m, kRolls_deg[i]));
       scenes.push_back(std::move(golden));
     }
 }

@@ -49,26 +49,26 @@ std::array<float, 2> on_disc(const TargetCross& cross, Float3 right, Float3 towa
 
 /// A small triangle that points off the disc.
 std::array<Float3, 3> arrow(const CrossPlaces& places, std::size_t i) {
-  const Float3 side = render::cross(places.towards[i], render::cross(places.right, places.up));
+  const Float3 side = render::cross(places.towards[i], places.normal);
   return {places.dots[i] + kArrow_m * places.towards[i], places.dots[i] + 0.6f * kArrow_m * side,
           places.dots[i] - 0.6f * kArrow_m * side};
 }
 
+/// An arrow where the dot lies outside, else a ring.
+std::vector<Float3> hollow(const CrossPlaces& places, std::size_t i) {
+  if (!places.outside[i])
+    return render::make_ring(places.dots[i], places.normal, kHollowRadius_m, 24);
+  const std::array<Float3, 3> corners = arrow(places, i);
+  return {corners.begin(), corners.end()};
+}
+
 void add_dots(Scene& scene, const TargetCross& cross, const CrossPlaces& places, Label label) {
   const render::Colour colour = colour_of(cross.reading->grade);
-  const std::array<Float3, 3> tip = arrow(places, 0);
-  const std::array<Float3, 3> top = arrow(places, 1);
   if (places.outside[0])
-    scene.triangles.push_back({label, tip, colour});
+    scene.triangles.push_back({label, arrow(places, 0), colour});
   else
     add_sphere(scene, places.dots[0], kDotRadius_m, colour, label);
-  if (places.outside[1])
-    add_line(scene, {top.begin(), top.end()}, kHollowWidth_m, colour, label, 0, true);
-  else
-    add_line(scene,
-             render::make_ring(places.dots[1], render::cross(places.right, places.up),
-                               kHollowRadius_m, 24),
-             kHollowWidth_m, colour, label, 0, true);
+  add_line(scene, hollow(places, 1), kHollowWidth_m, colour, label, 0, true);
 }
 
 /// By turns on the right and on the left, or 1 and 2 would read as 12.
@@ -111,6 +111,7 @@ CrossPlaces places_of(const TargetCross& cross) {
   const Float3 towards_eye = towards(cross.viewer, places.middle);
   places.right = right_of(cross.viewer, towards_eye);
   places.up = render::cross(towards_eye, places.right);
+  places.normal = render::cross(places.right, places.up);
   places.dots.fill(places.middle);
   if (!cross.reading) return places;
   const std::array<Float3, 2> offsets = {cross.reading->tip_offset, cross.reading->top_offset};
@@ -129,13 +130,12 @@ CrossPlaces places_of(const TargetCross& cross) {
 
 void add_target_cross(Scene& scene, const TargetCross& cross, Label label) {
   const CrossPlaces places = places_of(cross);
-  const Float3 normal = render::cross(places.right, places.up);
   // Nothing to be read where there is no tool: the outer ring says what the words are about.
   const std::span<const float> rings_m =
       cross.lost ? std::span(kCrossRings_m).last(1) : std::span(kCrossRings_m);
   for (const float ring_m : rings_m) {
-    add_line(scene, render::make_ring(places.middle, normal, kCrossScale * ring_m), kRingWidth_m,
-             look::kRing, label, 0, true);
+    add_line(scene, render::make_ring(places.middle, places.normal, kCrossScale * ring_m),
+             kRingWidth_m, look::kRing, label, 0, true);
     if (!cross.lost) add_ring_text(scene, places, ring_m, label);
   }
   if (cross.lost)

@@ -22,8 +22,8 @@ struct CrossReading {
 };
 
 /// H7: a target that faces the eyes, above the site as they see it and to a side, clear of the tool
-/// and of the number beside it. Its rings are at 1, 2 and 5 mm,
-/// drawn larger than life: 1 mm takes 4.
+/// and of the number beside it. Its rings are at 1, 2 and 5 mm, drawn larger than life: 1 mm takes
+/// 4.
 struct TargetCross {
   render::Float3 site;
   render::Float3 outward;  ///< unit, along the planned axis out of the bone
@@ -44,6 +44,7 @@ struct CrossPlaces {
   render::Float3 middle;
   render::Float3 right;  ///< unit, of the disc
   render::Float3 up;
+  render::Float3 normal;                    ///< towards the eyes
   std::array<render::Float3, 2> dots;       ///< tip, top
   std::array<bool, 2> outside = {};         ///< past the rim
   std::array<render::Float3, 2> towards{};  ///< unit, from the middle to the dot

@@ -4,31 +4,28 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
+
+#include "hal/api/srgb.h"
 
 namespace orthonav::engine {
 namespace {
 
 constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};  // ITU-R BT.709
 
-double linear(std::uint8_t encoded) {
-  const double v = encoded / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 const std::array<double, 256>& linear_table() {
   static const std::array<double, 256> table = [] {
     std::array<double, 256> values{};
     for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = linear(static_cast<std::uint8_t>(i));
+      values[i] = linear_from_srgb(static_cast<double>(i) / 255.0);
     return values;
   }();
   return table;
 }
 
 std::uint8_t encoded(double v) {
-  const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(s, 0.0, 1.0)));
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb_from_linear(v), 0.0, 1.0)));
 }
 
 /// Luminance behind the combiner of a white, matte surface.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/json_document.h"
+#include "engine/render_values.h"
 #include "engine/scene_file_holograms.h"
 #include "hal/api/angle.h"
 #include "render/float3.h"
@@ -18,14 +19,9 @@ constexpr int kSmallest_px = 16;
 constexpr int kLargest_px = 8192;
 constexpr std::size_t kMostHolograms = 1000;
 
-double number_between(const JsonNode& node, const char* key, double fallback, double low,
-                      double high, const char* unit) {
-  if (!node.has(key)) return fallback;
-  const double value = node.number(key);
-  if (!(value >= low && value <= high))
-    node.refuse(key, "is " + std::to_string(value) + ", must lie in [" + std::to_string(low) +
-                         ", " + std::to_string(high) + "] " + unit);
-  return value;
+double number_or(const JsonNode& node, const char* key, double fallback, double low, double high,
+                 const char* unit) {
+  return node.has(key) ? number_between(node, key, low, high, unit) : fallback;
 }
 
 void read_view(const JsonNode& view, SceneFile& file) {
@@ -33,18 +29,15 @@ void read_view(const JsonNode& view, SceneFile& file) {
   const render::Float3 target = place_from(view, "target_mm");
   if (render::length(target - eye) < 1e-3f) view.refuse("target_mm", "is where the eye is");
   render::Float3 up{0, 1, 0};
-  if (view.has("up")) {
-    const Vec3 given = view.vec3("up");
-    up = {static_cast<float>(given.x), static_cast<float>(given.y), static_cast<float>(given.z)};
-  }
+  if (view.has("up")) up = to_float3(view.vec3("up"));
   if (render::length(render::cross(up, target - eye)) < 1e-6f)
     view.refuse("up", "must not lie along the line of sight");
-  file.width_px = static_cast<int>(
-      number_between(view, "width_px", file.width_px, kSmallest_px, kLargest_px, "px"));
+  file.width_px =
+      static_cast<int>(number_or(view, "width_px", file.width_px, kSmallest_px, kLargest_px, "px"));
   file.height_px = static_cast<int>(
-      number_between(view, "height_px", file.height_px, kSmallest_px, kLargest_px, "px"));
-  const double width_deg = number_between(view, "width_deg", 43.0, 1.0, 150.0, "deg");
-  const double apart_mm = number_between(view, "eyes_apart_mm", 63.0, 0.0, 100.0, "mm");
+      number_or(view, "height_px", file.height_px, kSmallest_px, kLargest_px, "px"));
+  const double width_deg = number_or(view, "width_deg", 43.0, 1.0, 150.0, "deg");
+  const double apart_mm = number_or(view, "eyes_apart_mm", 63.0, 0.0, 100.0, "mm");
   const auto across = static_cast<float>(std::tan(0.5 * width_deg * kRadiansPerDegree));
   const float high =
       across * static_cast<float>(file.height_px) / static_cast<float>(file.width_px);

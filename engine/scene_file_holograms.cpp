@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -247,12 +246,17 @@ Label hologram_number(const std::string& type) {
   return found == kKinds.end() ? 0 : found->number;
 }
 
+double number_between(const JsonNode& node, const char* key, double low, double high,
+                      const char* unit) {
+  const double value = node.number(key);
+  if (!(value >= low && value <= high))
+    node.refuse(key, "is " + std::to_string(value) + ", must lie in [" + std::to_string(low) +
+                         ", " + std::to_string(high) + "] " + unit);
+  return value;
+}
+
 float length_from(const JsonNode& node, const char* key, double low_mm, double high_mm) {
-  const double value_mm = node.number(key);
-  if (!(value_mm >= low_mm && value_mm <= high_mm))
-    node.refuse(key, "is " + std::to_string(value_mm) + ", must lie in [" + std::to_string(low_mm) +
-                         ", " + std::to_string(high_mm) + "] mm");
-  return static_cast<float>(value_mm * 1e-3);
+  return static_cast<float>(number_between(node, key, low_mm, high_mm, "mm") * 1e-3);
 }
 
 Float3 place_from(const JsonNode& node, const char* key) {

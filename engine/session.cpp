@@ -249,10 +249,12 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   out.tools = sights_;
   if (frame.world_from_rig) out.head = frame.world_from_rig;
   out.twin = twin_;
-  out.residuals_m =
-      step_ == Step::kVerify ? std::span<const float>(residuals_m_) : std::span<const float>{};
-  out.to_check = step_ == Step::kVerify ? std::span<const Point<World>>(to_check_)
-                                        : std::span<const Point<World>>{};
+  out.residuals_m = {};
+  out.to_check = {};
+  if (step_ == Step::kVerify) {
+    out.residuals_m = residuals_m_;
+    out.to_check = to_check_;
+  }
   publish_tool_guidance(frame.time, display_time);
   write_step_text();
   write_detail();

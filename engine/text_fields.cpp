@@ -6,7 +6,6 @@
 #include <cmath>
 
 namespace orthonav::engine {
-namespace {
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
@@ -14,8 +13,6 @@ std::string_view trimmed(std::string_view text) {
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
-
-}  // namespace
 
 std::vector<std::string> split(std::string_view line, char separator) {
   std::vector<std::string> fields;

@@ -7,6 +7,8 @@
 
 namespace orthonav::engine {
 
+/// Without spaces, tabs and carriage returns around it.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
 /// The fields of one line; spaces, tabs and a carriage return around a field are dropped.
 [[nodiscard]] std::vector<std::string> split(std::string_view line, char separator);
 /// The lines of a text, with or without carriage returns.

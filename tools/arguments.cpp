@@ -53,4 +53,12 @@ CLI::Validator some_text() {
   return {check, "", "text"};
 }
 
+std::optional<std::array<int, 2>> size_from(const std::string& text) {
+  std::array<int, 2> size{};
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d%c", size.data(), size.data() + 1, &rest) != 2)
+    return std::nullopt;
+  return size;
+}
+
 }  // namespace orthonav::tools

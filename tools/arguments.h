@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 
 namespace orthonav::tools {
 
@@ -18,5 +21,8 @@ namespace orthonav::tools {
 [[nodiscard]] CLI::Validator finite_number(double low, double high);
 /// Any text but none: an unset variable of a script must not mean a default.
 [[nodiscard]] CLI::Validator some_text();
+
+/// `WIDTHxHEIGHT` in whole pixels and nothing else.
+[[nodiscard]] std::optional<std::array<int, 2>> size_from(const std::string& text);
 
 }  // namespace orthonav::tools

@@ -61,11 +61,9 @@ int preview_window(PreviewArguments arguments) {
 
 /// `WIDTHxHEIGHT` in pixels, each even, for a video's sake.
 std::string check_size(const std::string& text) {
-  int width = 0;
-  int height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%4dx%4d%c", &width, &height, &rest) != 2)
-    return "\"" + text + "\" is not WIDTHxHEIGHT, as 960x540";
+  const auto size = size_from(text);
+  if (!size) return "\"" + text + "\" is not WIDTHxHEIGHT, as 960x540";
+  const auto [width, height] = *size;
   if (width < 160 || width > 3840 || height < 120 || height > 2160)
     return text + " must lie from 160x120 to 3840x2160";
   if (width % 2 != 0 || height % 2 != 0) return text + " must be even";
@@ -77,8 +75,9 @@ void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArgument
       .add_option_function<std::string>(
           "--size",
           [arguments](const std::string& text) {
-            std::sscanf(text.c_str(), "%4dx%4d", &arguments->options.stage.width_px,
-                        &arguments->options.stage.height_px);
+            const auto size = size_from(text).value_or(std::array<int, 2>{});
+            arguments->options.stage.width_px = size[0];
+            arguments->options.stage.height_px = size[1];
           },
           "of the picture in pixels (default: 1120x720)")
       ->check(CLI::Validator(check_size, "WIDTHxHEIGHT"));

@@ -11,6 +11,8 @@
 #include "engine/image_file.h"
 #include "engine/optical_model.h"
 #include "engine/scene_file.h"
+#include "engine/side_by_side.h"
+#include "tools/arguments.h"
 #include "tools/command.h"
 
 namespace orthonav::tools {
@@ -31,11 +33,9 @@ struct RenderArguments {
 /// "WxH" in pixels of one eye.
 Status read_size(const std::string& text, engine::SceneFile& file) {
   if (text.empty()) return {};
-  int width = 0;
-  int height = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2)
-    return Error{"--size: is \"" + text + "\", must be WIDTHxHEIGHT in px, as 1268x720"};
+  const auto size = size_from(text);
+  if (!size) return Error{"--size: is \"" + text + "\", must be WIDTHxHEIGHT in px, as 1268x720"};
+  const auto [width, height] = *size;
   // The same field of view across; another shape shows more or less above and below.
   for (render::View& view : file.eyes) {
     const float shape = static_cast<float>(height) / static_cast<float>(std::max(width, 1));
@@ -57,18 +57,6 @@ Result<std::optional<render::Image>> background_of(const std::string& name, int 
                  std::to_string(image->height_px) + " px, must be " + std::to_string(width_px) +
                  "x" + std::to_string(height_px) + " as one eye"};
   return std::optional(std::move(*image));
-}
-
-render::Image side_by_side(const std::vector<render::Image>& images) {
-  if (images.size() == 1) return images.front();
-  const int width = images.front().width_px;
-  render::Image joined{2 * width, images.front().height_px, {}};
-  for (int y = 0; y < joined.height_px; ++y)
-    for (const render::Image& image : images) {
-      const auto row = image.rgba.begin() + std::ptrdiff_t{4} * width * y;
-      joined.rgba.insert(joined.rgba.end(), row, row + std::ptrdiff_t{4} * width);
-    }
-  return joined;
 }
 
 /// One line a hologram: how it stands out in the light that was stated.
@@ -129,7 +117,8 @@ int render_scene(const RenderArguments& arguments) {
     if (const Status seen = see_through(arguments, *file, behind, *renderer, images); !seen)
       return bad_input(seen.error().message);
   }
-  const Status written = engine::write_png(arguments.out, side_by_side(images));
+  const Status written =
+      engine::write_png(arguments.out, engine::side_by_side(images, &render::Image::rgba, 4));
   if (!written) return bad_input(written.error().message);
   std::printf("%s: %zu eye%s, %dx%d px each, drawn by %s\n", arguments.out.c_str(), images.size(),
               images.size() == 1 ? "" : "s", options.width_px, options.height_px,

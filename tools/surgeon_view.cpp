@@ -4,18 +4,9 @@
 #include <numbers>
 
 #include "engine/render_values.h"
+#include "tools/eye_in_rig.h"
 
 namespace orthonav::tools {
-namespace {
-
-/// Rig and Eye have the same axes; the eye lies between the two cameras' right half, 30 mm behind
-/// them and a little below.
-constexpr Vec3 kEyeInRig{0.081, -0.010, 0.030};
-
-Transform<Rig, Eye> rig_from_eye() { return {Mat3::identity(), kEyeInRig}; }
-
-}  // namespace
-
 Result<std::unique_ptr<SurgeonView>> SurgeonView::create(const SurgeonViewOptions& options) {
   render::RendererOptions renderer_options;
   renderer_options.width_px = options.width_px;

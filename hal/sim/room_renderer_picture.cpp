@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/api/srgb.h"
+
 namespace orthonav::sim {
 namespace {
 
@@ -20,8 +22,7 @@ Transform<LeftCamera, Room> camera_from_room_of(const PinholeView& view) {
 
 std::uint8_t encoded(float linear) {
   const double v = static_cast<double>(std::clamp(linear, 0.0F, 1.0F));
-  const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * s));
+  return static_cast<std::uint8_t>(std::lround(255.0 * srgb_from_linear(v)));
 }
 
 std::array<float, 3> bone_colour(float lit, float height) {

@@ -1,5 +1,7 @@
 #include "render/vulkan/commands.h"
 
+#include "render/vulkan/elapsed.h"
+
 namespace orthonav::render {
 
 Commands::Commands(const Device& device, std::chrono::nanoseconds patience)
@@ -41,8 +43,7 @@ void Commands::run() {
   info.pCommandBuffers = &buffer_;
   const auto start = std::chrono::steady_clock::now();
   check(vkQueueSubmit(queue_, 1, &info, finished_.get()), "drawing");
-  submit_ms_ =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  submit_ms_ = milliseconds_since(start);
   const VkResult result = vkWaitForFences(device_, 1, &finished_.get(), VK_TRUE,
                                           static_cast<std::uint64_t>(patience_.count()));
   if (result == VK_SUCCESS) return;

@@ -12,17 +12,13 @@
 #include "render/float3.h"
 #include "render/projection.h"
 #include "render/scene_check.h"
+#include "render/vulkan/elapsed.h"
 #include "render/vulkan/eyes_probe.h"
 #include "render/vulkan/gpu_types.h"
 #include "render/vulkan/readback.h"
 
 namespace orthonav::render {
 namespace {
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
 
 RendererOptions checked(const RendererOptions& options) {
   if (const auto problem = problem_of_options(options)) throw std::runtime_error(*problem);

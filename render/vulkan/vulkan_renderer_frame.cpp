@@ -6,6 +6,7 @@
 
 #include "render/projection.h"
 #include "render/text/text_layout.h"
+#include "render/vulkan/elapsed.h"
 #include "render/vulkan/gpu_types.h"
 #include "render/vulkan/vulkan_renderer.h"
 
@@ -13,11 +14,6 @@ namespace orthonav::render {
 namespace {
 
 constexpr float kUnseen_px = 0.1f;  // less than half the distance between samples
-
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
 
 /// Twice what is needed, so that a growing scene settles soon.
 VkDeviceSize grown(std::size_t bytes) { return std::max<std::size_t>(2 * bytes, 4096); }

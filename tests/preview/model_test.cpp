@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "hal/fake/scripted.h"
+#include "tests/preview/model_bench.h"
 #include "tools/preview/error_sources.h"
 
 namespace orthonav::preview {
@@ -14,13 +14,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 /// A model with so many moments behind it.
-struct Bench {
-  fake::ManualClock wall;
-  Gate gate{wall};
-  Keyboard keyboard;
-  Timeline timeline;
-  PreviewModel model{gate, keyboard, timeline};
-
+struct Bench : ModelBench {
   void pass(int pairs) {
     for (int i = 0; i < pairs && gate.may_pass(); ++i) {
       gate.pass(Timestamp(Duration(33'000'000 * (gate.passed() + 1))));

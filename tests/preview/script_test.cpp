@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hal/fake/scripted.h"
+#include "tests/preview/model_bench.h"
 
 namespace orthonav::preview {
 namespace {
@@ -10,12 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-struct Bench {
-  fake::ManualClock wall;
-  Gate gate{wall};
-  Keyboard keyboard;
-  Timeline timeline;
-  PreviewModel model{gate, keyboard, timeline};
+struct Bench : ModelBench {
   std::vector<std::string> taken;
   ScriptStage stage{[this](int w, int h) { taken.push_back(std::to_string(w * 10000 + h)); },
                     [this](const std::string& name) { taken.push_back(name); }};

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/hologram_parts.h"
 #include "engine/render_values.h"
 
 namespace orthonav::preview {
@@ -18,13 +19,7 @@ constexpr double kBefore_m = 0.08;
 
 void add_line(render::Scene& scene, std::vector<render::Float3> points, render::Colour colour,
               bool closed) {
-  render::LineItem line;
-  line.label = kNoHologram;
-  line.points = std::move(points);
-  line.width_m = kWidth_m;
-  line.colour = colour;
-  line.closed = closed;
-  scene.lines.push_back(std::move(line));
+  engine::add_line(scene, std::move(points), kWidth_m, colour, kNoHologram, 0, closed);
 }
 
 void add_tool(const ToolSeen& tool, render::Scene& scene) {

@@ -5,27 +5,9 @@
 #include <utility>
 
 #include "hal/replay/recording.h"
+#include "nav/tracking/bilinear.h"
 
 namespace orthonav::preview {
-namespace {
-
-/// Bilinear between pixel centres; the edge goes on outwards.
-std::uint8_t sample(const GreyImage& image, Vec2 at) {
-  const double x = std::clamp(at.x - 0.5, 0.0, static_cast<double>(image.width_px - 1));
-  const double y = std::clamp(at.y - 0.5, 0.0, static_cast<double>(image.height_px - 1));
-  const int left = static_cast<int>(x);
-  const int top = static_cast<int>(y);
-  const int right = std::min(left + 1, image.width_px - 1);
-  const int below = std::min(top + 1, image.height_px - 1);
-  const double fx = x - left;
-  const double fy = y - top;
-  const double value = (1 - fy) * ((1 - fx) * image.at(left, top) + fx * image.at(right, top)) +
-                       fy * ((1 - fx) * image.at(left, below) + fx * image.at(right, below));
-  return static_cast<std::uint8_t>(value + 0.5);
-}
-
-}  // namespace
-
 struct RecordedImages::Source {
   replay::Recording recording;
 };
@@ -79,7 +61,7 @@ void RecordedImages::draw(std::int64_t sequence, const render::View& view, rende
   if (map_.size() * 4 != picture.rgba.size() || map_tan_ != view.tan_left) make_map(view, picture);
   for (std::size_t i = 0; i < map_.size(); ++i) {
     if (map_[i].x < 0.0) continue;
-    const std::uint8_t grey = sample(image_, map_[i]);
+    const std::uint8_t grey = static_cast<std::uint8_t>(nav::grey_at(image_, map_[i]) + 0.5);
     std::fill_n(picture.rgba.begin() + static_cast<long>(4 * i), 3, grey);
   }
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <sstream>
+
+#include "engine/json_document.h"
+#include "engine/text_fields.h"
 
 namespace orthonav::preview {
 namespace {
@@ -45,12 +47,6 @@ std::optional<std::array<double, 2>> numbers(const std::string& text, int count)
   return values;
 }
 
-std::string trimmed(const std::string& text) {
-  const auto from = text.find_first_not_of(" \t\r");
-  if (from == std::string::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
-}
-
 }  // namespace
 
 std::vector<std::string_view> script_words() {
@@ -60,10 +56,9 @@ std::vector<std::string_view> script_words() {
 }
 
 Result<Script> Script::load(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) return Error{path.string() + ": cannot be read"};
-  return parse(text.str(), path.string());
+  const auto text = engine::read_text(path.string());
+  if (!text) return text.error();
+  return parse(*text, path.string());
 }
 
 Result<Script> Script::parse(const std::string& text, const std::string& name) {
@@ -71,11 +66,12 @@ Result<Script> Script::parse(const std::string& text, const std::string& name) {
   std::istringstream in(text);
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    line = trimmed(line.substr(0, line.find('#')));
+    line = engine::trimmed(std::string_view(line).substr(0, line.find('#')));
     if (line.empty()) continue;
     const auto space = line.find(' ');
     ScriptLine parsed{number, line.substr(0, space), {}};
-    if (space != std::string::npos) parsed.rest = trimmed(line.substr(space));
+    if (space != std::string::npos)
+      parsed.rest = engine::trimmed(std::string_view(line).substr(space));
     if (const Status known = script.check(parsed); !known) return known.error();
     script.lines_.push_back(std::move(parsed));
   }

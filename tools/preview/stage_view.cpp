@@ -6,15 +6,12 @@
 #include <numbers>
 
 #include "engine/render_values.h"
-#include "engine/scene_builder.h"
+#include "tools/eye_in_rig.h"
 #include "tools/preview/outlines.h"
 
 namespace orthonav::preview {
 namespace {
 
-/// Rig and Eye have the same axes; the eye lies between the two cameras' right half, 30 mm behind
-/// them and a little below.
-constexpr Vec3 kEyeInRig{0.081, -0.010, 0.030};
 /// Where nothing is known of what is behind: a dark grey on which every hologram is read.
 constexpr std::array<std::uint8_t, 4> kEmpty = {34, 37, 42, 255};
 
@@ -55,8 +52,7 @@ void StageView::look_at_recording(RecordedImages images) {
 }
 
 Transform<sim::Room, Eye> StageView::eye_of(const Moment& moment) const {
-  if (moment.room)
-    return moment.room->room_from_rig * Transform<Rig, Eye>{{Mat3::identity()}, kEyeInRig};
+  if (moment.room) return moment.room->room_from_rig * tools::rig_from_eye();
   // Without a room the stage is the map itself, and the eye is the camera whose image is behind.
   const Transform<sim::Room, World> stage_from_world;
   const Vec3 eye = recording_ ? recording_->eye_in_rig() : Vec3{};
