@@ -52,7 +52,10 @@ class SceneBuilder {
   // The renderer keeps its copies by pointer: one surface a level, one tube a rod, made once.
   std::map<const nav::VertebraModel*, std::shared_ptr<const render::MeshData>> surfaces_;
   std::vector<Tube> tubes_;
+  // Reused from frame to frame.
   std::vector<render::Float3> points_;
+  std::vector<RodBendMark> bends_;
+  std::string text_;
   std::vector<ToolDot> dots_;
   render::Scene parts_;  ///< of the twin
 };

@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "render/item_list.h"
 
 namespace orthonav::render {
 
@@ -53,6 +56,7 @@ struct MeshItem {
   Colour colour;
   MeshStyle style = MeshStyle::kSolid;
 };
+inline void renew(MeshItem& item) { item = {}; }
 
 /// A line through world points, `width_m` wide towards the eye, never thinner than 1.5 px.
 struct LineItem {
@@ -63,6 +67,12 @@ struct LineItem {
   bool closed = false;
   float dash_m = 0;  ///< length of a dash and of the gap after it; 0 is solid
 };
+inline void renew(LineItem& item) {
+  std::vector<Float3> points = std::move(item.points);
+  points.clear();
+  item = {};
+  item.points = std::move(points);
+}
 
 /// A filled triangle, seen from both sides.
 struct TriangleItem {
@@ -70,11 +80,16 @@ struct TriangleItem {
   std::array<Float3, 3> corners;
   Colour colour;
 };
+inline void renew(TriangleItem& item) { item = {}; }
 
 struct TextRun {
   std::string text;  ///< UTF-8
   Colour colour;
 };
+inline void renew(TextRun& run) {
+  run.text.clear();
+  run.colour = {};
+}
 
 enum class TextPlace {
   kWorld,  ///< at `position` in the world, facing the eyes, upright to the head
@@ -86,7 +101,7 @@ enum class TextAlign { kLeft, kCentre, kRight };
 /// `min_height_deg` of visual angle.
 struct TextItem {
   Label label = 0;
-  std::vector<TextRun> runs;
+  ItemList<TextRun> runs;
   Float3 position;
   TextPlace place = TextPlace::kWorld;
   TextAlign align = TextAlign::kCentre;
@@ -97,13 +112,27 @@ struct TextItem {
   float offset_right = 0;
   float offset_up = 0;
 };
+inline void renew(TextItem& item) {
+  ItemList<TextRun> runs = std::move(item.runs);
+  runs.clear();
+  item = {};
+  item.runs = std::move(runs);
+}
 
 /// Everything one frame shows. Plain values: equal scenes give equal images.
 struct Scene {
-  std::vector<MeshItem> meshes;
-  std::vector<LineItem> lines;
-  std::vector<TriangleItem> triangles;
-  std::vector<TextItem> texts;
+  ItemList<MeshItem> meshes;
+  ItemList<LineItem> lines;
+  ItemList<TriangleItem> triangles;
+  ItemList<TextItem> texts;
+
+  /// Empties it; what its items hold is there for the next frame's.
+  void clear() {
+    meshes.clear();
+    lines.clear();
+    triangles.clear();
+    texts.clear();
+  }
 };
 
 /// One eye: where it is and what it sees. Tangents of the half angles, all positive.

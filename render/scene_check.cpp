@@ -108,7 +108,7 @@ Problem problem_of(const TextItem& item) {
 }
 
 template <class Item>
-Problem first_problem(const std::vector<Item>& items, const char* kind) {
+Problem first_problem(const ItemList<Item>& items, const char* kind) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (const Problem problem = problem_of(items[i])) {
       return std::string("scene: ") + kind + " " + std::to_string(i) + " (label " +
