@@ -102,6 +102,9 @@ struct Guidance {
   /// How far the saved samples lie from the registered surface, region after region; empty without
   /// a registration to be verified.
   std::span<const float> residuals_m;
+  /// One a vertex of the level's model: 1 where a pointer could have stroked and none did, 0 where
+  /// the bone was stroked or can't be; empty without a registration to be verified.
+  std::span<const float> bare;
   /// Places of the current level that are still to be touched to verify it.
   std::span<const Point<World>> to_check;
 };

@@ -121,6 +121,7 @@ void add_residual_path(Scene& scene, std::span<const Float3> samples,
 void add_vertebra(Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, Label label) {
   add_mesh(scene, std::move(mesh), world_from_model, look::kBone, label);
+  scene.meshes.back().tint = look::kBare;
   scene.meshes.back().style = render::MeshStyle::kRim;
 }
 

@@ -82,7 +82,7 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
 
 void SceneBuilder::add_bone(const Guidance& guidance, render::Scene& scene) {
   const LevelState& level = guidance.levels[guidance.level];
-  add_vertebra(scene, surface_of(level),
+  add_vertebra(scene, tinted_surface_of(level, guidance.bare),
                to_matrix(level.registration->world_from_vertebra.row_major()), label_of(2, 1));
 }
 
@@ -211,6 +211,21 @@ const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const Le
   auto& surface = surfaces_[level.plan.model.get()];
   if (!surface) surface = mesh_data(level.plan.model->mesh());
   return surface;
+}
+
+const std::shared_ptr<const render::MeshData>& SceneBuilder::tinted_surface_of(
+    const LevelState& level, std::span<const float> tints) {
+  const auto& surface = surface_of(level);
+  if (tints.size() != surface->positions.size()) return surface;
+  const bool known = tinted_from_ == surface.get() &&
+                     std::equal(tints.begin(), tints.end(), tinted_->tints.begin());
+  if (!known) {
+    auto tinted = std::make_shared<render::MeshData>(*surface);
+    tinted->tints.assign(tints.begin(), tints.end());
+    tinted_ = std::move(tinted);
+    tinted_from_ = surface.get();
+  }
+  return tinted_;
 }
 
 const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t i,

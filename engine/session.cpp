@@ -250,9 +250,11 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   if (frame.world_from_rig) out.head = frame.world_from_rig;
   out.twin = twin_;
   out.residuals_m = {};
+  out.bare = {};
   out.to_check = {};
   if (step_ == Step::kVerify) {
     out.residuals_m = residuals_m_;
+    out.bare = bare_;
     out.to_check = to_check_;
   }
   publish_tool_guidance(frame.time, display_time);

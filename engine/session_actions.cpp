@@ -5,6 +5,7 @@
 
 #include "engine/session.h"
 #include "hal/api/joined.h"
+#include "nav/registration/left_bare.h"
 
 namespace orthonav::engine {
 namespace {
@@ -80,6 +81,8 @@ void Session::act_on_level(Action action, Timestamp time) {
       verify_visible_at_.reset();
       level().check_points.clear();
       measure_residuals();
+      bare_ = nav::left_bare(*level().plan.model, level().registration->world_from_vertebra,
+                             level().newest->points);
       propose_checks();
       end_touch();
       return;

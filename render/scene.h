@@ -42,6 +42,8 @@ struct MeshData {
   std::vector<Float3> positions;
   std::vector<Float3> normals;         ///< one a vertex, unit length
   std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
+  /// From 0, the item's colour, to 1, its tint: one a vertex, or none for the colour alone.
+  std::vector<float> tints;
 };
 
 enum class MeshStyle {
@@ -54,6 +56,7 @@ struct MeshItem {
   std::shared_ptr<const MeshData> mesh;
   Matrix4 world_from_model = kIdentity;  ///< rotation, shift and uniform scale; never a mirror
   Colour colour;
+  Colour tint;  ///< where the mesh says so; as opaque as `colour`
   MeshStyle style = MeshStyle::kSolid;
 };
 inline void renew(MeshItem& item) { item = {}; }

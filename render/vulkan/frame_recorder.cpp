@@ -172,7 +172,11 @@ class Recording {
       const GpuMesh* copy = sources_.meshes.find(item->mesh);
       if (copy == nullptr || copy->index_count == 0 || !shows(bounds, stage, bound)) continue;
       const std::uint32_t style = item->style == MeshStyle::kRim ? 1 : 0;
-      push({item->world_from_model, item->colour, {}, {item->label, 0, style}});
+      const Colour& tint = item->tint;
+      push({item->world_from_model,
+            item->colour,
+            {tint.r, tint.g, tint.b},
+            {item->label, 0, style}});
       const VkBuffer vertices = copy->vertices.get();
       const VkDeviceSize offset = 0;
       vkCmdBindVertexBuffers(commands_, 0, 1, &vertices, &offset);

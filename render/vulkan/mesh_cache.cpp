@@ -14,7 +14,7 @@ constexpr int kMostIdleFrames = 300;  // five seconds of a headset's frames
 std::vector<GpuVertex> vertices_of(const MeshData& mesh) {
   std::vector<GpuVertex> vertices(mesh.positions.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    vertices[i] = {mesh.positions[i], mesh.normals[i]};
+    vertices[i] = {mesh.positions[i], mesh.normals[i], mesh.tints.empty() ? 0 : mesh.tints[i]};
   }
   return vertices;
 }

@@ -139,9 +139,10 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const Recipe& recipe) {
 /// The fixed-function states, kept together because they point at one another.
 struct States {
   VkVertexInputBindingDescription binding = {0, sizeof(GpuVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  std::array<VkVertexInputAttributeDescription, 2> attributes = {
+  std::array<VkVertexInputAttributeDescription, 3> attributes = {
       {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, position)},
-       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, normal)}}};
+       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, normal)},
+       {2, 0, VK_FORMAT_R32_SFLOAT, offsetof(GpuVertex, tint)}}};
   VkPipelineVertexInputStateCreateInfo input = {};
   VkPipelineInputAssemblyStateCreateInfo assembly = {};
   VkViewport viewport = {};
@@ -160,8 +161,8 @@ struct States {
     if (recipe.mesh) {
       input.vertexBindingDescriptionCount = 1;
       input.pVertexBindingDescriptions = &binding;
-      // A depth pipeline runs the same shader and so takes the normals too.
-      input.vertexAttributeDescriptionCount = 2;
+      // A depth pipeline runs the same shader and so takes the normals and tints too.
+      input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());
       input.pVertexAttributeDescriptions = attributes.data();
     }
     assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
