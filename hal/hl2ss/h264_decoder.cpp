@@ -66,11 +66,14 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create() {
 void H264Decoder::restart() {
   avcodec_flush_buffers(codec_->context);
   codec_->waits_for_key = true;
+  order_.restart();
 }
 
 Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::int64_t unit,
                                                         GreyImage& image) {
   Codec& codec = *codec_;
+  Status whole = order_.follow(access_unit);
+  if (!whole) restart();
   if (const int code = av_new_packet(codec.packet, static_cast<int>(access_unit.size())); code < 0)
     return Error{"H.264 decoder: " + reason(code)};
   std::copy(access_unit.begin(), access_unit.end(), codec.packet->data);
@@ -83,6 +86,8 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
   }
   auto picture = take_picture(image);
   if (!picture) restart();
+  // A key frame stands on nothing, whatever is missing before it; else the loss is to be told.
+  if (!whole && !(picture && *picture)) return whole.error();
   return picture;
 }
 

@@ -7,6 +7,7 @@
 #include "hal/api/image.h"
 #include "hal/api/result.h"
 #include "hal/hl2ss/bytes.h"
+#include "hal/hl2ss/h264_order.h"
 
 namespace orthonav::hl2ss {
 
@@ -32,6 +33,7 @@ class H264Decoder {
   Result<std::optional<std::int64_t>> take_picture(GreyImage& image);
 
   std::unique_ptr<Codec> codec_;
+  H264Order order_;
 };
 
 }  // namespace orthonav::hl2ss

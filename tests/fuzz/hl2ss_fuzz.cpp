@@ -2,9 +2,11 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "hal/hl2ss/h264_order.h"
 #include "hal/hl2ss/packet.h"
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/spatial_input.h"
+#include "hal/hl2ss/standin_message.h"
 #include "hal/hl2ss/video.h"
 #include "hal/hl2ss/voice.h"
 
@@ -51,6 +53,10 @@ void read_alone(Bytes input) {
   if (words && *words) insist((*words)->bytes <= input.size());
   const auto voice = hl2ss::read_voice_answer(input);
   if (voice && *voice) insist((*voice)->bytes <= input.size());
+  const auto standin = hl2ss::read_standin_message(input);
+  if (standin && *standin) insist((*standin)->bytes <= input.size());
+  hl2ss::H264Order order;
+  (void)order.follow(input);
   const auto spatial = hl2ss::read_spatial_input(input);
   if (spatial && spatial->world_from_head)
     insist(spatial->world_from_head->translation().is_finite());
