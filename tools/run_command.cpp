@@ -13,11 +13,13 @@
 #include "engine/sim_scenario.h"
 #include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
+#include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/open/open.h"
 #include "hal/replay/recorder.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/connection_report.h"
 #include "tools/demo_report.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
@@ -163,6 +165,9 @@ class LiveRun {
     const std::string report = engine::report_json(result);
     std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
     if (arguments_.stats) print_stats(result.loop);
+    if (const auto* connected = dynamic_cast<const hl2ss::Hl2ssHeadset*>(headset_.get());
+        connected && arguments_.stats)
+      std::fputs(connection_report(connected->statistics()).c_str(), stderr);
     Status first;
     const auto note = [&first](const Status& status) {
       if (first.ok()) first = status;
@@ -195,7 +200,7 @@ class LiveRun {
 void add_run_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<RunArguments>();
   auto* run = app.add_subcommand("run", "An operation with a headset, simulated or recorded");
-  run->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH")
+  run->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH, hl2ss://HOST")
       ->check(some_text())
       ->capture_default_str();
   run->add_option("--case", arguments->case_folder,

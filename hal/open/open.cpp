@@ -5,13 +5,14 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/replay/replay_headset.h"
 
 namespace orthonav {
 
 namespace {
 
-constexpr const char* kKnownSchemes = "known are sim: and replay:PATH";
+constexpr const char* kKnownSchemes = "known are sim:, replay:PATH and hl2ss://HOST";
 constexpr const char* kKnownSimKeys = "known are seed=N, perfect and realtime";
 
 sim::RoomTool default_pointer() {
@@ -93,8 +94,12 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const Open
     if (rest.empty()) return bad_uri(uri, "names no folder after replay:");
     return as_headset(replay::ReplayHeadset::open(rest));
   }
-  if (scheme == "openxr" || scheme == "hl2ss")
-    return bad_uri(uri, scheme + ": is not supported yet; " + kKnownSchemes);
+  if (scheme == "hl2ss") {
+    auto chosen = hl2ss::options_of(rest);
+    if (!chosen) return bad_uri(uri, chosen.error().message);
+    return as_headset(hl2ss::Hl2ssHeadset::open(*chosen));
+  }
+  if (scheme == "openxr") return bad_uri(uri, scheme + ": is not supported yet; " + kKnownSchemes);
   return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes);
 }
 
