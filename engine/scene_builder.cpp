@@ -179,7 +179,7 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
   tubes_.resize(guidance.rods.size());
   for (std::size_t i = 0; i < guidance.rods.size(); ++i) {
     const RodState& rod = guidance.rods[i];
-    if (rod.heads.empty()) continue;
+    if (!rod.visible()) continue;
     std::vector<RodBendMark> bends;
     RodHologram hologram;
     hologram.tube = tube_of(i, rod);

@@ -110,6 +110,8 @@ Session::Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker,
 }
 
 const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
+  // Nothing that was measured in another map may answer an event.
+  watch_map(frame);
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
   answer_inputs(inputs);
   track(frame);
@@ -192,6 +194,12 @@ std::optional<std::size_t> Session::active_tool() const {
   if (step_ == Step::kDigitize || step_ == Step::kRod || checks_by_touch()) return pointer_;
   if (step_ == Step::kGuide) return guide_;
   return std::nullopt;
+}
+
+void Session::watch_map(const StereoFrame& frame) {
+  const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
+  map_epoch_ = frame.map_epoch;
+  if (moved) handle(Event::kMapMoved, frame.time);
 }
 
 void Session::watch_active_tool(Timestamp now) {

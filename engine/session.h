@@ -90,6 +90,7 @@ class Session {
   void click(const ClickerEvent& event);
   void handle(Event event, Timestamp time);
   void track(const StereoFrame& frame);
+  void watch_map(const StereoFrame& frame);
   void watch_active_tool(Timestamp now);
   void collect_samples();
   void publish(const StereoFrame& frame, Timestamp display_time);
@@ -132,6 +133,9 @@ class Session {
   void drop_head(Timestamp time);
   void finish_rod(Timestamp time);
   void update_rod(Timestamp time);
+
+  // session_map.cpp: the map that everything in World depends on.
+  void forget_map(Timestamp time);
   [[nodiscard]] LevelState& level() { return levels_[level_]; }
 
   std::unique_ptr<nav::ToolTracker> tracker_;
@@ -140,6 +144,8 @@ class Session {
   SessionObserver* observer_ = nullptr;
   std::size_t pointer_ = 0;  ///< indices into the tracker's tools
   std::size_t guide_ = 0;
+
+  std::optional<std::int64_t> map_epoch_;  ///< of the newest pair
 
   Step step_ = Step::kSetup;
   std::vector<LevelState> levels_;

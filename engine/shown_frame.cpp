@@ -144,7 +144,7 @@ void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& v
 void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRules& rules,
                                   ShownFrame& frame) {
   for (const RodState& rod : guidance.rods) {
-    if (rod.heads.empty()) continue;
+    if (!rod.visible()) continue;
     const Vec3 shift = rod_shift_m(guidance, rod, rules);
     ShownHologram& hologram = add(frame, "H10 rod");
     for (const Point<World>& head : rod.heads) hologram.points_in_world.push_back(head + shift);
