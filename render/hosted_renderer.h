@@ -88,6 +88,8 @@ class HostedRenderer {
   /// Waits for every frame in flight and lets go of the images: the host may destroy them.
   [[nodiscard]] virtual bool finish(std::string& error) = 0;
 
+  /// The device is gone: every call fails from here on.
+  [[nodiscard]] virtual bool lost() const = 0;
   [[nodiscard]] virtual const DeviceInfo& device() const = 0;
   /// Of the last frame; its device time is not known.
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;

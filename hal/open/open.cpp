@@ -5,13 +5,14 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/open/open_openxr.h"
 #include "hal/replay/replay_headset.h"
 
 namespace orthonav {
 
 namespace {
 
-constexpr const char* kKnownSchemes = "known are sim: and replay:PATH";
+constexpr const char* kKnownSchemes = "known are sim:, replay:PATH and openxr:+URI";
 constexpr const char* kKnownSimKeys = "known are seed=N, perfect and realtime";
 
 sim::RoomTool default_pointer() {
@@ -93,8 +94,8 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const Open
     if (rest.empty()) return bad_uri(uri, "names no folder after replay:");
     return as_headset(replay::ReplayHeadset::open(rest));
   }
-  if (scheme == "openxr" || scheme == "hl2ss")
-    return bad_uri(uri, scheme + ": is not supported yet; " + kKnownSchemes);
+  if (scheme == "openxr") return open_openxr(uri, rest, options);
+  if (scheme == "hl2ss") return bad_uri(uri, scheme + ": is not supported yet; " + kKnownSchemes);
   return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes);
 }
 

@@ -31,6 +31,7 @@ class HostedVulkanRenderer final : public HostedRenderer {
   [[nodiscard]] bool draw(const Scene& scene, const std::vector<View>& views,
                           std::span<const std::uint32_t> images, std::string& error) override;
   [[nodiscard]] bool finish(std::string& error) override;
+  [[nodiscard]] bool lost() const override { return lost_; }
   [[nodiscard]] const DeviceInfo& device() const override { return info_; }
   [[nodiscard]] FrameTiming last_timing() const override { return timing_; }
   [[nodiscard]] const std::vector<std::string>& validation_messages() const override {

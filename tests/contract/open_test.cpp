@@ -35,7 +35,7 @@ GreyImage first_image(const std::string& uri) {
 
 TEST(OpenHeadset, NamesWhatItKnowsWhenItKnowsNothingOfAUri) {
   for (const char* uri : {"kinect:", "sim", "", "Sim:", "http://host/"})
-    EXPECT_THAT(refusal(uri), AllOf(HasSubstr("known are sim: and replay:PATH"), HasSubstr(uri),
+    EXPECT_THAT(refusal(uri), AllOf(HasSubstr("known are sim:, replay:PATH"), HasSubstr(uri),
                                     Not(HasSubstr("\n"))));
 }
 
@@ -54,7 +54,6 @@ TEST(OpenHeadset, TakesWholeSeedsOnly) {
 }
 
 TEST(OpenHeadset, SaysWhatIsNotSupportedYet) {
-  EXPECT_THAT(refusal("openxr:"), HasSubstr("openxr: is not supported yet"));
   EXPECT_THAT(refusal("hl2ss://192.168.0.2"), HasSubstr("hl2ss: is not supported yet"));
 }
 
