@@ -51,12 +51,8 @@ std::vector<Image> as_drawn_into_images(const Scene& scene, const std::vector<Vi
   return images;
 }
 
-/// Both eyes of image `index`, each from its layer or chain.
 std::vector<std::vector<std::uint8_t>> both(TestImages& images, std::size_t index) {
-  const EyeTargets& targets = images.targets();
-  if (targets.layers == 2)
-    return {images.read(targets.chains[0][index], 0), images.read(targets.chains[0][index], 1)};
-  return {images.read(targets.chains[0][index], 0), images.read(targets.chains[1][index], 0)};
+  return {images.read(0, index), images.read(1, index)};
 }
 
 struct Way {

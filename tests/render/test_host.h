@@ -1,11 +1,11 @@
 #pragma once
 
-#include <vulkan/vulkan.h>
-
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "render/hosted_renderer.h"
+#include "tests/support/image_chain.h"
 
 namespace orthonav::render {
 
@@ -25,34 +25,18 @@ class TestHost : public VulkanHost {
   std::uint32_t asked_version = 0;
 };
 
-/// Chains of images of two each, as a runtime would hand them out, which are read back one by one.
+/// Images for both eyes, as a runtime would hand them out, which are read back one by one.
 class TestImages {
  public:
   TestImages(const VulkanObjects& objects, VkFormat format, int width_px, int height_px,
              std::uint32_t layers);
-  ~TestImages();
-  TestImages(const TestImages&) = delete;
-  TestImages& operator=(const TestImages&) = delete;
-
   [[nodiscard]] const EyeTargets& targets() const { return targets_; }
-  /// The bytes of one layer, which must be in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL and stays
-  /// so.
-  [[nodiscard]] std::vector<std::uint8_t> read(std::uint64_t image, std::uint32_t layer,
-                                               int pixel_bytes = 4);
+  /// What an eye sees in image `image` of its chain.
+  [[nodiscard]] std::vector<std::uint8_t> read(std::size_t eye, std::size_t image);
 
  private:
-  void make_readback();
-  [[nodiscard]] std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags flags) const;
-  void copy_layer(VkCommandBuffer commands, VkImage image, std::uint32_t layer);
-
-  VulkanObjects objects_;
-  VkDevice device_;
-  VkQueue queue_ = VK_NULL_HANDLE;
   EyeTargets targets_;
-  std::vector<VkDeviceMemory> memory_;
-  VkBuffer buffer_ = VK_NULL_HANDLE;
-  VkCommandPool pool_ = VK_NULL_HANDLE;
-  std::uint8_t* mapped_ = nullptr;
+  std::vector<std::unique_ptr<testing::ImageChain>> chains_;
 };
 
 }  // namespace orthonav::render
