@@ -149,8 +149,10 @@ struct View {
 
 /// How holograms meet what is behind them.
 enum class Blend {
-  kAdditive,  ///< optical see-through: background + hologram
-  kOver       ///< preview: hologram over background by its opacity
+  kAdditive,      ///< optical see-through: background + hologram
+  kOver,          ///< preview: hologram over background by its opacity
+  kPremultiplied  ///< over nothing, for somebody else to put over the world: colour times opacity,
+                  ///< and the opacity itself as alpha
 };
 
 }  // namespace orthonav::render

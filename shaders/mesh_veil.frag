@@ -23,5 +23,5 @@ void main() {
   float opacity = item.ids.z == 1u ? min(item.colour.a * light, 1.0) : item.colour.a;
   float kept = frame.mode.x == 1u ? 1.0 - opacity : 1.0;
   vec3 added = shade * min(item.colour.a * light, 1.0);
-  colour = vec4(below * kept + added, 1);
+  colour = vec4(below * kept + added, opacity);
 }

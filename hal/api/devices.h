@@ -10,6 +10,7 @@
 #include "hal/api/camera_model.h"
 #include "hal/api/display.h"
 #include "hal/api/image.h"
+#include "hal/api/pixel_display.h"
 #include "hal/api/result.h"
 #include "hal/api/time.h"
 #include "hal/api/tracked.h"
@@ -183,6 +184,10 @@ class Headset {
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;
   [[nodiscard]] virtual Display& display() = 0;
+  /// The display where it takes pixels; null otherwise.
+  [[nodiscard]] virtual PixelDisplay* pixels() { return nullptr; }
+  /// The headset whose cameras these are, where this one borrowed them; else this one.
+  [[nodiscard]] virtual Headset& owner_of_cameras() { return *this; }
 };
 
 }  // namespace orthonav

@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/open/open_openxr.h"
 #include "hal/replay/replay_headset.h"
 
 namespace orthonav {
 
 namespace {
 
-constexpr const char* kKnownSchemes = "known are sim:, replay:PATH and hl2ss://HOST";
+constexpr const char* kKnownSchemes = "known are sim:, replay:PATH, hl2ss://HOST and openxr:+URI";
 constexpr const char* kKnownSimKeys = "known are seed=N, perfect and realtime";
 
 sim::RoomTool default_pointer() {
@@ -99,7 +100,7 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const Open
     if (!chosen) return bad_uri(uri, chosen.error().message);
     return as_headset(hl2ss::Hl2ssHeadset::open(*chosen));
   }
-  if (scheme == "openxr") return bad_uri(uri, scheme + ": is not supported yet; " + kKnownSchemes);
+  if (scheme == "openxr") return open_openxr(uri, rest, options);
   return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes);
 }
 

@@ -104,9 +104,11 @@ ShaderModule make_module(VkDevice device, std::string_view spirv) {
 
 VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind kind, Blend blend) {
   VkPipelineColorBlendAttachmentState state = {};
-  // Images come out opaque: the clear writes alpha 1 and nothing touches it.
+  // Images come out opaque: the clear writes alpha 1 and nothing touches it. Only where somebody
+  // else puts them over the world, alpha says how much of it is hidden.
   state.colorWriteMask =
       VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+  if (blend == Blend::kPremultiplied) state.colorWriteMask |= VK_COLOR_COMPONENT_A_BIT;
   if (recipe.fragment.empty()) state.colorWriteMask = 0;
   state.blendEnable = recipe.blends && kind == PassKind::kColour;
   state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
@@ -114,7 +116,7 @@ VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind k
       blend == Blend::kAdditive ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.colorBlendOp = VK_BLEND_OP_ADD;
   state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.alphaBlendOp = VK_BLEND_OP_ADD;
   return state;
 }
