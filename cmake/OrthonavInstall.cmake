@@ -27,4 +27,5 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/orthonavConfigVersion.cm
 install(FILES "${PROJECT_BINARY_DIR}/orthonavConfig.cmake"
               "${PROJECT_BINARY_DIR}/orthonavConfigVersion.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindOpenCVCalib3d.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindPocketSphinx.cmake"
         DESTINATION "${orthonav_package_folder}")

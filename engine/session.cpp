@@ -21,18 +21,19 @@ Result<std::size_t> only_tool(std::span<const nav::ToolGeometry> tools, nav::Too
   return *found;
 }
 
+constexpr std::array<std::pair<std::string_view, Event>, 9> kCommands = {{
+    {"start", Event::kSayStart},
+    {"save", Event::kSaySave},
+    {"delete", Event::kSayDelete},
+    {"accept", Event::kSayAccept},
+    {"reject", Event::kSayReject},
+    {"next", Event::kSayNext},
+    {"done", Event::kSayDone},
+    {"move rod", Event::kSayMoveRod},
+    {"twin", Event::kSayTwin},
+}};
+
 std::optional<Event> command(const std::string& text) {
-  constexpr std::array<std::pair<std::string_view, Event>, 9> kCommands = {{
-      {"start", Event::kSayStart},
-      {"save", Event::kSaySave},
-      {"delete", Event::kSayDelete},
-      {"accept", Event::kSayAccept},
-      {"reject", Event::kSayReject},
-      {"next", Event::kSayNext},
-      {"done", Event::kSayDone},
-      {"move rod", Event::kSayMoveRod},
-      {"twin", Event::kSayTwin},
-  }};
   for (const auto& [phrase, event] : kCommands)
     if (phrase == text) return event;
   return std::nullopt;
@@ -55,6 +56,12 @@ Event event_of(ClickerAction action) {
 }
 
 }  // namespace
+
+std::vector<std::string> spoken_commands() {
+  std::vector<std::string> commands;
+  for (const auto& command : kCommands) commands.emplace_back(command.first);
+  return commands;
+}
 
 std::vector<std::string> SessionOptions::check() const {
   std::vector<std::string> problems;

@@ -15,7 +15,9 @@
 #include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
 #include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/open/joined_headset.h"
 #include "hal/open/open.h"
+#include "hal/open/open_parts.h"
 #include "hal/replay/recorder.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
@@ -36,6 +38,8 @@ struct RunArguments {
   std::string method = "best";
   std::vector<std::string> levels;
   std::string tools_file;
+  std::string clicker = "headset";
+  std::string voice = "headset";
   std::string record;
   std::string out;
   std::int64_t frames = 0;
@@ -149,7 +153,20 @@ class LiveRun {
     auto headset = open_headset(arguments_.headset, open_options);
     if (!headset) return headset.error();
     headset_ = std::move(*headset);
+    if (const Status joined = join_parts(); !joined) return joined;
     return start(std::move(*operation));
+  }
+
+  Status join_parts() {
+    OtherParts parts;
+    auto clicker = open_clicker(arguments_.clicker, headset_->clock());
+    if (!clicker) return clicker.error();
+    parts.clicker = std::move(*clicker);
+    auto voice = open_voice(arguments_.voice, engine::spoken_commands(), headset_->clock());
+    if (!voice) return voice.error();
+    parts.voice = std::move(*voice);
+    joined_ = std::make_unique<JoinedHeadset>(*headset_, std::move(parts));
+    return {};
   }
 
   Status start(engine::Operation operation) {
@@ -190,10 +207,10 @@ class LiveRun {
 
   /// Last of all, for a recording that was begun stays.
   Status start_recording(const std::vector<nav::ToolGeometry>& tools) {
-    used_ = headset_.get();
+    used_ = joined_.get();
     if (arguments_.record.empty()) return {};
     auto recorder =
-        replay::RecordingHeadset::around(*headset_, arguments_.record, {engine::tools_text(tools)});
+        replay::RecordingHeadset::around(*joined_, arguments_.record, {engine::tools_text(tools)});
     if (!recorder) return recorder.error();
     recorder_ = std::move(*recorder);
     used_ = recorder_.get();
@@ -224,6 +241,7 @@ class LiveRun {
   engine::ModelCache models_;
   std::string case_name_;
   std::unique_ptr<Headset> headset_;
+  std::unique_ptr<JoinedHeadset> joined_;  ///< with the clicker and the voice asked for
   std::unique_ptr<replay::RecordingHeadset> recorder_;
   Headset* used_ = nullptr;
   const sim::SimHeadset* room_ = nullptr;  ///< the headset, where it is the simulated one
@@ -243,6 +261,14 @@ void add_run_command(CLI::App& app, Action& action) {
   auto* run = app.add_subcommand("run", "An operation with a headset, simulated or recorded");
   run->add_option("--headset", arguments->headset,
                   "URI: sim:, replay:PATH, hl2ss://HOST, openxr:+URI")
+      ->check(some_text())
+      ->capture_default_str();
+  run->add_option("--clicker", arguments->clicker,
+                  "headset, none, evdev:[PATH|NAME] or keyboard:[NAME] (docs/headsets.md)")
+      ->check(some_text())
+      ->capture_default_str();
+  run->add_option("--voice", arguments->voice,
+                  "headset, none, mic:[NAME] or wav:FILE (docs/voice.md)")
       ->check(some_text())
       ->capture_default_str();
   run->add_option("--case", arguments->case_folder,

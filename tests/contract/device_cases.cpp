@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "hal/fake/failing.h"
+#include "hal/open/joined_headset.h"
 #include "hal/open/open.h"
+#include "hal/open/open_parts.h"
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/sim_camera/scene.h"
+#include "tests/support/event_file.h"
 #include "tests/support/scripted_session.h"
 #include "tests/support/session_log.h"
 #include "tests/support/stream_recorder_folder.h"
@@ -173,6 +176,21 @@ std::unique_ptr<Headset> open_surgeon() {
   return std::make_unique<Prompting>(checked(open_headset("sim:?seed=11", options)), "digitize L3");
 }
 
+/// The scripted headset with a clicker from elsewhere: recorded events that begin with its clock.
+std::unique_ptr<Headset> open_joined() {
+  auto folder = std::make_unique<TemporaryFolder>();
+  EventBytes bytes;
+  for (const int t : {0, 40, 80}) {
+    bytes.key(KEY_ENTER, 1, std::chrono::milliseconds(t));
+    bytes.key(KEY_ENTER, 0, std::chrono::milliseconds(t + 20));
+  }
+  auto inner = open_fake();
+  auto clicker = open_clicker("evdev:" + folder->with("events", bytes.bytes()), inner->clock());
+  EXPECT_TRUE(clicker.ok()) << clicker.error().message;
+  auto joined = std::make_unique<JoinedHeadset>(*inner, OtherParts{*std::move(clicker), nullptr});
+  return keeping(std::make_pair(std::move(folder), std::move(inner)), std::move(joined));
+}
+
 /// Records a headset to its end and opens what was recorded.
 std::unique_ptr<Headset> open_replayed(std::unique_ptr<Headset> live) {
   auto folder = std::make_unique<TemporaryFolder>();
@@ -193,6 +211,7 @@ std::vector<DeviceCase> device_cases() {
           {"faultless", open_faultless},
           {"allowed_faults", open_with_allowed_faults},
           {"recorder", open_recorder},
+          {"joined", open_joined},
           {"replay", [] { return open_replayed(open_fake()); }},
           {"stream_recorder", open_stream_recorder, false},
           {"sim", open_sim, false},

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/desktop/phrase_recognizer.h"
+#include "hal/desktop/speech_cleaner.h"
+#include "hal/desktop/speech_segments.h"
+
+namespace orthonav::desktop {
+
+/// When a command counts without the wake word before it.
+enum class Waking {
+  kAlways,   ///< never: every command needs the wake word
+  kInNoise,  ///< where the voice stands out clearly from the background
+  kNever     ///< always
+};
+
+struct SpotterOptions {
+  std::vector<std::string> commands;  ///< lower case: "save", "move rod"
+  std::string wake_word = "ortho";
+  Waking waking = Waking::kInNoise;
+  /// A room is quiet where the loudest syllable stands out by so much.
+  double quiet_above_db = 26.0;
+  /// What a command needs in evidence (`Recognition::evidence`) to be as likely right as wrong.
+  double least_evidence = 0.3;
+  double least_evidence_of_delete = 1.0;  ///< it takes away what cannot be said back
+  SegmentOptions segments;
+  CleanerOptions cleaner;
+  std::filesystem::path acoustic_model = default_acoustic_model();
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// A command as it was spoken.
+struct SpokenCommand {
+  std::string text;         ///< one of the commands, without the wake word
+  double confidence = 0.0;  ///< in [0, 1]; below 0.5 it rather was something else
+  std::int64_t begin = 0;   ///< samples at `kSpeechRateHz` since the stream began
+  std::int64_t end = 0;
+};
+
+/// Finds commands in a stream of sound: stretches of speech between two silences, short enough for
+/// a command, cleaned and recognised. The same samples give the same commands, however they are cut
+/// into calls. One thread at a time.
+class CommandSpotter {
+ public:
+  /// Refuses options with problems, a model that is not there, and words without a pronunciation.
+  static Result<std::unique_ptr<CommandSpotter>> create(const SpotterOptions& options);
+  /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them; those that are
+  /// hardly likely are left out. Takes up to 0.2 s of work where a segment ends.
+  void push(std::span<const std::int16_t> samples, std::vector<SpokenCommand>& commands);
+
+ private:
+  SpotterOptions options_;
+  SpeechSegmenter segmenter_;
+  std::unique_ptr<PhraseRecognizer> recognizer_;
+  std::vector<SpeechSegment> segments_;  // reused
+
+  explicit CommandSpotter(const SpotterOptions& options);
+  void judge(const SpeechSegment& segment, std::vector<SpokenCommand>& commands);
+};
+
+}  // namespace orthonav::desktop

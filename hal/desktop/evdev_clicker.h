@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/desktop/input_folder.h"
+#include "hal/desktop/key_events.h"
+
+namespace orthonav::desktop {
+
+struct ClickerOptions {
+  std::string device;  ///< path of a device node, file or FIFO; or a part of a device's name
+  KeyChoice keys = {clicker_keys(), true};
+  bool full_keyboard = false;         ///< may be found by itself; such a one is never grabbed
+  std::string folder = "/dev/input";  ///< where devices come and go
+  /// A contact bounces for a few milliseconds; a release counts once it has lasted for so long.
+  Duration debounce = std::chrono::milliseconds(15);
+  Duration double_within = std::chrono::milliseconds(300);
+  Duration hold_after = std::chrono::milliseconds(500);
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// Keys of a Bluetooth clicker, a keyboard or a foot pedal as one button: down while any of the
+/// chosen keys is. A device that goes away releases the button; when it comes back it is taken up
+/// again. `poll` does all the work and never waits.
+class EvdevClicker : public Clicker {
+ public:
+  /// Borrows the headset's clock. Refuses options with problems, and a path that is there but no
+  /// device; a device that is not there yet is waited for.
+  static Result<std::unique_ptr<EvdevClicker>> open(const ClickerOptions& options,
+                                                    const Clock& clock);
+  /// Of the device in use; empty while there is none.
+  [[nodiscard]] std::string device_name() const { return keys_ ? keys_->name() : std::string(); }
+
+ private:
+  struct Change {
+    bool down = false;
+    Timestamp time{};
+  };
+
+  ClickerOptions options_;
+  const Clock& clock_;
+  Timestamp opened_at_{};
+  std::optional<InputFolder> folder_;
+  std::unique_ptr<KeyEvents> keys_;
+  bool finished_ = false;        ///< a file that failed is not read again
+  std::vector<KeyEvent> read_;   // reused
+  std::vector<int> down_;        ///< codes of the keys that are down
+  std::vector<Change> changes_;  ///< of the button, not told yet
+  ClickTimer timer_;
+  Timestamp told_until_ = Timestamp::min();
+
+  EvdevClicker(const ClickerOptions& options, const Clock& clock);
+  Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override;
+  Status find();
+  Status take_up(const std::string& path);
+  Status read_keys();
+  void press_or_release(int code, bool down, Timestamp time);
+  void tell(Timestamp until, std::vector<ClickerEvent>& events);
+};
+
+}  // namespace orthonav::desktop

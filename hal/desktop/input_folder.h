@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/api/result.h"
+
+namespace orthonav::desktop {
+
+/// The folder in which the kernel lists input devices, watched for what comes and goes (inotify).
+class InputFolder {
+ public:
+  static Result<InputFolder> watch(const std::string& folder);
+  InputFolder(InputFolder&& other) noexcept
+      : folder_(std::move(other.folder_)), watch_(std::exchange(other.watch_, -1)) {}
+  InputFolder& operator=(InputFolder&&) = delete;
+  ~InputFolder();
+  /// Whether anything came, went or changed its permissions since the last call. Does not block.
+  bool changed();
+  /// Paths of the event devices, in order of their numbers.
+  [[nodiscard]] std::vector<std::string> devices() const;
+
+ private:
+  InputFolder(std::string folder, int watch) : folder_(std::move(folder)), watch_(watch) {}
+
+  std::string folder_;
+  int watch_ = -1;
+};
+
+}  // namespace orthonav::desktop

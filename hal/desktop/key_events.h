@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/api/time.h"
+
+namespace orthonav::desktop {
+
+/// A key of a device went down or up.
+struct KeyEvent {
+  int code = 0;  ///< as in linux/input-event-codes.h
+  bool down = false;
+  Duration at{};  ///< by the source's own clock: CLOCK_MONOTONIC of a device, any of a file
+  friend bool operator==(const KeyEvent&, const KeyEvent&) = default;
+};
+
+/// Where the key events come from.
+class KeyEvents {
+ public:
+  virtual ~KeyEvents() = default;
+  /// Appends what has come since the last call, at most a bounded number; does not block. An Error:
+  /// the source is gone for good.
+  virtual Status read(std::vector<KeyEvent>& events) = 0;
+  /// Its times are those of CLOCK_MONOTONIC; otherwise they count from the source's start.
+  [[nodiscard]] virtual bool live() const = 0;
+  [[nodiscard]] virtual std::string name() const = 0;
+};
+
+/// Which keys make a button, and whether the device is kept from everybody else.
+struct KeyChoice {
+  std::vector<int> codes;
+  bool grab = true;
+};
+
+/// What presenters, camera remotes and foot pedals send: volume up and down, enter, page up and
+/// down, space, and the buttons of gamepads and mice.
+[[nodiscard]] const std::vector<int>& clicker_keys();
+/// The code of "enter", "KEY_ENTER", "volumeup", "BTN_0"; nothing where there is none.
+[[nodiscard]] int key_code(const std::string& name);
+
+/// A device node through libevdev. Refuses what is no event device, can't be read, or has none of
+/// the chosen keys; a full keyboard is never grabbed, for one could not stop the program any more.
+[[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_evdev_keys(const std::string& path,
+                                                                 const KeyChoice& choice);
+/// Recorded `struct input_event`s, from a file or a FIFO into which somebody writes them.
+[[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path);
+
+/// What a device node is, without keeping it: for choosing one, and for the doctor.
+struct KeyDevice {
+  std::string path;
+  std::string name;
+  bool full_keyboard = false;
+  bool has_clicker_key = false;
+};
+[[nodiscard]] Result<KeyDevice> describe_evdev(const std::string& path);
+
+}  // namespace orthonav::desktop

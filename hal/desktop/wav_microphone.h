@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "hal/api/microphone.h"
+
+namespace orthonav::desktop {
+
+/// A sound file (anything that libsndfile reads; several channels are averaged) as a microphone
+/// that hears it as the clock goes on, from the moment of opening. At the file's end it is silent.
+/// Borrows the clock. Refuses what is no sound file, is longer than an hour, or has more than 16
+/// channels.
+[[nodiscard]] Result<std::unique_ptr<Microphone>> open_wav_microphone(
+    const std::filesystem::path& path, const Clock& clock);
+
+}  // namespace orthonav::desktop

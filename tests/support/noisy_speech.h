@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/api/random.h"
+#include "tests/support/synthetic_speech.h"
+
+namespace orthonav::testing {
+
+enum class Noise { kWhite, kPink, kBabble };
+[[nodiscard]] const char* name_of(Noise noise);
+
+/// `count` samples of unit power. Babble: six voices that read at once, none of which says a
+/// command.
+[[nodiscard]] std::vector<double> noise_of(Noise noise, std::size_t count, Random& random);
+
+/// Root mean square over the 10 ms frames within 30 dB of the loudest: what a signal-to-noise ratio
+/// is a ratio to.
+[[nodiscard]] double active_rms(std::span<const std::int16_t> samples);
+
+/// Sound that grows: silence, speech, and at last noise under all of it.
+class Soundtrack {
+ public:
+  static constexpr double kSpeechRms = 3000.0;
+  void silence(double length_s);
+  /// Appends speech at `kSpeechRms`; where it begins and ends, in samples.
+  std::pair<std::int64_t, std::int64_t> speech(std::span<const std::int16_t> samples);
+  /// With noise `snr_db` below the speech.
+  [[nodiscard]] std::vector<std::int16_t> with_noise(Noise noise, double snr_db,
+                                                     Random& random) const;
+
+ private:
+  std::vector<double> samples_;
+};
+
+}  // namespace orthonav::testing
