@@ -25,6 +25,7 @@ void Session::forget_map(Timestamp time) {
   asked_to_drop_saved_.reset();
   end_touch();
   residuals_m_.clear();
+  bare_.clear();
   places_to_check_.clear();
   to_check_.clear();
   verify_visible_at_.reset();
