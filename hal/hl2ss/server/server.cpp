@@ -240,8 +240,8 @@ class RunningServer final : public Server {
       const auto pose = jumped_from_world_ * *frame.world_from_rig;
       head = Transform<World, Eye>(pose.rotation(), pose.translation());
     }
-    for (const std::int64_t later : {0, 166'667})
-      sides_.spatial.send({{packet_bytes(ticks + later, spatial_input_bytes(head))}});
+    for (const std::int64_t earlier : {166'667, 0})
+      sides_.spatial.send({{packet_bytes(ticks - earlier, spatial_input_bytes(head))}});
     if (sides_.hears.load())
       sides_.microphone.send(
           {{packet_bytes(ticks, tone_bytes(kSamplesAPair * pairs_, kSamplesAPair))}});
