@@ -23,7 +23,7 @@ namespace {
 constexpr int kTurnMs = 5;
 constexpr auto kIdle = std::chrono::milliseconds(1);
 /// A client that is not done with a pair by then missed it.
-constexpr auto kPatience = std::chrono::seconds(2);
+constexpr auto kPatience = std::chrono::seconds(10);
 constexpr auto kImpatience = std::chrono::milliseconds(20);
 /// Sensor ticks are another clock than the stamps, and the cameras' stamps differ a little.
 constexpr std::int64_t kSensorTicksAhead = 7'654'321;
@@ -186,10 +186,12 @@ class RunningServer final : public Server {
       wait_for_client(whole ? std::optional(frame.time) : std::nullopt);
     }
   }
-  /// Until it is done with the pair, or is back. One that missed a pair (a codec may need more to
-  /// go on) is not waited for long until it follows again.
+  /// Until it is done with the pair, or is back. After a fault it may need more to go on (a key
+  /// frame, a new connection), so that it is not waited for long until it follows again.
   void wait_for_client(std::optional<Timestamp> pair_time) {
-    const auto deadline = HostClock::now() + (follows_ ? kPatience : kImpatience);
+    if (!pair_time) follows_ = false;
+    const bool patient = follows_ || !is_wanted();
+    const auto deadline = HostClock::now() + (patient ? kPatience : kImpatience);
     const auto waits = [&] { return !is_wanted() || (pair_time && !sides_.took(*pair_time)); };
     while (!stop_ && waits() && HostClock::now() < deadline) sides_.wait_for_took();
     if (pair_time) follows_ = !waits();
