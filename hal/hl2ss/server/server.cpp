@@ -189,12 +189,13 @@ class RunningServer final : public Server {
   /// Until it is done with the pair, or is back. After a fault it may need more to go on (a key
   /// frame, a new connection), so that it is not waited for long until it follows again.
   void wait_for_client(std::optional<Timestamp> pair_time) {
-    if (!pair_time) follows_ = false;
-    const bool patient = follows_ || !is_wanted();
-    const auto deadline = HostClock::now() + (patient ? kPatience : kImpatience);
-    const auto waits = [&] { return !is_wanted() || (pair_time && !sides_.took(*pair_time)); };
-    while (!stop_ && waits() && HostClock::now() < deadline) sides_.wait_for_took();
-    if (pair_time) follows_ = !waits();
+    const auto deadline = HostClock::now() + (follows_ && pair_time ? kPatience : kImpatience);
+    while (!stop_ && pair_time && is_wanted() && !sides_.took(*pair_time) &&
+           HostClock::now() < deadline)
+      sides_.wait_for_took();
+    follows_ = pair_time && sides_.took(*pair_time);
+    const auto back_by = HostClock::now() + kPatience;
+    while (!stop_ && !is_wanted() && HostClock::now() < back_by) sides_.wait_for_took();
   }
 
   /// Whether all of it was sent whole and at once.
