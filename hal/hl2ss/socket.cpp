@@ -168,6 +168,13 @@ Result<std::size_t> send_some(const Socket& socket, Bytes bytes) {
   return Error{reason(errno)};
 }
 
+Status reach(const Endpoint& host, int port, HostTime deadline) {
+  const auto socket = begin_connect(host, port);
+  if (!socket) return socket.error();
+  if (!wait_for(*socket, POLLOUT, deadline)) return Error{"does not answer"};
+  return connect_outcome(*socket);
+}
+
 Result<std::vector<std::uint8_t>> ask(const Endpoint& host, int port, Bytes request,
                                       std::size_t answer_bytes, HostTime deadline) {
   for (;;) {

@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "hal/hl2ss/probe.h"
 #include "tests/hl2ss/served_room.h"
 
 namespace orthonav::hl2ss {
@@ -170,6 +171,19 @@ TEST(Opening, SaysWhichPortDoesNotAnswer) {
   EXPECT_THAT(headset.error().message,
               ::testing::AllOf(::testing::HasSubstr("127.0.0.1: port 19000: "),
                                ::testing::HasSubstr("refused")));
+}
+
+TEST(Probing, TellsWhichPortsAnswer) {
+  ServedRoom room(black_session(1.0));
+  Hl2ssOptions options = room.client_options();
+  const auto ports = probe(options);
+  ASSERT_TRUE(ports.ok());
+  ASSERT_EQ(ports->size(), 6u);
+  for (const ProbedPort& port : *ports) EXPECT_EQ(port.trouble, "") << port.name;
+  options.first_port = 19000;
+  const auto closed = probe(options);
+  ASSERT_TRUE(closed.ok());
+  for (const ProbedPort& port : *closed) EXPECT_NE(port.trouble, "") << port.name;
 }
 
 TEST(Serving, SaysWhichPortIsTaken) {
