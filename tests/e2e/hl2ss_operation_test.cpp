@@ -148,8 +148,8 @@ TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
   EXPECT_TRUE(done.map_moves.empty());
 }
 
-/// Every fault at once, and a world that jumps while a screw is being guided: the level is registered
-/// anew, and the wires are as true as ever.
+/// Every fault at once, and a world that jumps while a screw is being guided: the level is
+/// registered anew, and the wires are as true as ever.
 TEST(OverTcp, SurvivesEveryFaultAndAJumpWhileGuiding) {
   hl2ss::Faults faults = *hl2ss::faults_of("all");
   faults.stall = 0.002;  // a third of a second each
@@ -162,6 +162,32 @@ TEST(OverTcp, SurvivesEveryFaultAndAJumpWhileGuiding) {
     EXPECT_LT(wire.angle_deg, kPerfectAngle_deg) << wire.side;
     EXPECT_LT(wire.entry_m, kPerfectEntry_m) << wire.side;
   }
+}
+
+/// What the headset is told to listen for is what a session understands.
+TEST(OverTcp, TheHeadsetListensForTheWordsOfTheWorkflow) {
+  const Case spine = phantom();
+  ModelCache models;
+  auto operation = *plan_operation(spine, {"L5"}, models);
+  const Method method = *method_named("best");
+  auto headset = *sim::SimHeadset::open(room_of(spine, operation, built_in_tools()), {});
+  auto tracker = *method.create_tracker(headset->cameras().calibration(), built_in_tools(), {});
+  auto session = *Session::create(std::move(operation), std::move(tracker), method);
+  class Misheard : public SessionObserver {
+   public:
+    std::vector<std::string> phrases;
+    void not_understood(const Phrase& phrase) override { phrases.push_back(phrase.text); }
+  } misheard;
+  session->observe(&misheard);
+  std::vector<Phrase> phrases;
+  for (const std::string& text : hl2ss::workflow_phrases()) phrases.push_back({text, 1.0, {}});
+  phrases.push_back({"accepted", 1.0, {}});
+  Inputs inputs;
+  inputs.phrases = phrases;
+  StereoFrame frame;
+  ASSERT_TRUE(headset->cameras().next(frame).ok());
+  session->step(frame, inputs);
+  EXPECT_THAT(misheard.phrases, ::testing::ElementsAre("accepted"));
 }
 
 }  // namespace
