@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/command.h"
+#include "tools/headset_probe.h"
 #include "tools/machine.h"
 
 namespace orthonav::tools {
@@ -12,6 +13,7 @@ namespace {
 struct DoctorArguments {
   bool json = false;
   std::string root = "/";
+  std::string headset;
 };
 
 const char* word_for(Finding finding) {
@@ -53,7 +55,12 @@ std::string as_text(const std::vector<Offer>& offers, bool ready) {
 }
 
 int run_doctor(const DoctorArguments& arguments) {
-  const std::vector<Offer> offers = offers_of_machine(arguments.root);
+  std::vector<Offer> offers = offers_of_machine(arguments.root);
+  if (!arguments.headset.empty()) {
+    const auto ports = offers_of_headset(arguments.headset);
+    if (!ports) return bad_input(ports.error().message);
+    offers.insert(offers.end(), ports->begin(), ports->end());
+  }
   const bool ready = std::none_of(offers.begin(), offers.end(), [](const Offer& offer) {
     return offer.finding == Finding::kMissing;
   });
@@ -71,6 +78,8 @@ void add_doctor_command(CLI::App& app, Action& action) {
       "What this machine offers, what is missing and how to get it (exit 1: the demo "
       "can't run)");
   command->add_flag("--json", arguments->json, "Everything as JSON");
+  command->add_option("--headset", arguments->headset,
+                      "hl2ss://HOST: which of the headset's ports answer");
   command->add_option("--root", arguments->root, "Look at files under this folder")->group("");
   command->callback(
       [arguments, &action] { action = [arguments] { return run_doctor(*arguments); }; });

@@ -15,6 +15,8 @@ class ArrivalMeter {
   }
   /// False for a packet stamped no later than one before it: counted, not measured.
   bool heard(Timestamp stamp, HostTime at);
+  /// A packet of a stream that has no rhythm.
+  void counted() { ++statistics_.packets; }
   void connected() {
     ++statistics_.connections;
     last_.reset();

@@ -1,5 +1,6 @@
 #include "hal/hl2ss/calibration.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,6 +12,39 @@ namespace orthonav::hl2ss {
 namespace {
 
 constexpr std::size_t kTableBytes = kImageBytes * sizeof(float);
+constexpr double kHalfPixel = 0.5;
+
+using Table = std::vector<Vec2>;
+
+/// A line of `count` entries, `stride` apart, resampled half a step on (`ahead` 0.5) or back
+/// (-0.5): cubic through the four nearest (Lagrange), which is exact to 1e-9 for a lens, and
+/// carried on so past the ends. Between entries without a direction there is none.
+void shift_line(const Vec2* from, Vec2* to, std::size_t count, std::size_t stride, double ahead) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double place = static_cast<double>(i) + ahead;
+    const double first = std::clamp(std::floor(place) - 1.0, 0.0, static_cast<double>(count - 4));
+    const double t = place - first;
+    const std::array<double, 4> weights = {-(t - 1) * (t - 2) * (t - 3) / 6,
+                                           t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2,
+                                           t * (t - 1) * (t - 2) / 6};
+    Vec2 sum{};
+    for (std::size_t k = 0; k < 4; ++k)
+      sum = sum + weights[k] * from[(static_cast<std::size_t>(first) + k) * stride];
+    to[i * stride] = sum;
+  }
+}
+
+/// The table half a pixel to the right and down, or back.
+Table shifted(const Table& table, double ahead) {
+  Table by_rows(table.size());
+  Table both(table.size());
+  constexpr std::size_t kColumns = kImageWidthPx;
+  for (std::size_t row = 0; row < kImageHeightPx; ++row)
+    shift_line(&table[row * kColumns], &by_rows[row * kColumns], kColumns, 1, ahead);
+  for (std::size_t column = 0; column < kColumns; ++column)
+    shift_line(&by_rows[column], &both[column], kImageHeightPx, kColumns, ahead);
+  return both;
+}
 
 template <class A>
 Result<Transform<A, Rig>> read_extrinsics(Bytes bytes) {
@@ -31,13 +65,14 @@ Result<CameraCalibration<A>> read_calibration(Bytes answer) {
   if (answer.size() != kCalibrationBytes)
     return Error{"calibration: " + std::to_string(answer.size()) + " bytes, must be " +
                  std::to_string(kCalibrationBytes)};
-  std::vector<Vec2> unit_plane(kImageBytes);
+  Table unit_plane(kImageBytes);
   for (std::size_t i = 0; i < kImageBytes; ++i)
     unit_plane[i] = {number_at<float>(answer, 4 * i),
                      number_at<float>(answer, kTableBytes + 4 * i)};
   const auto extrinsics = read_extrinsics<A>(answer.subspan(2 * kTableBytes, kPoseBytes));
   if (!extrinsics) return extrinsics.error();
-  auto camera = CameraModel::from_lookup(kImageWidthPx, kImageHeightPx, std::move(unit_plane));
+  auto camera =
+      CameraModel::from_lookup(kImageWidthPx, kImageHeightPx, shifted(unit_plane, kHalfPixel));
   if (!camera) return Error{"calibration: " + camera.error().message};
   return CameraCalibration<A>{std::move(*camera), *extrinsics};
 }
@@ -56,8 +91,9 @@ std::vector<std::uint8_t> calibration_bytes(const CameraModel& camera,
                                             const std::array<double, 16>& row_major) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(kCalibrationBytes);
-  for (const Vec2 direction : camera.lookup()) append(bytes, static_cast<float>(direction.x));
-  for (const Vec2 direction : camera.lookup()) append(bytes, static_cast<float>(direction.y));
+  const Table corners = shifted({camera.lookup().begin(), camera.lookup().end()}, -kHalfPixel);
+  for (const Vec2 direction : corners) append(bytes, static_cast<float>(direction.x));
+  for (const Vec2 direction : corners) append(bytes, static_cast<float>(direction.y));
   for (std::size_t column = 0; column < 4; ++column)
     for (std::size_t row = 0; row < 4; ++row)
       append(bytes, static_cast<float>(row_major[4 * row + column]));

@@ -125,7 +125,7 @@ void VoiceStream::hear(const VoiceResult& result, HostTime at) {
     return meter_.damaged("voice: phrase " + std::to_string(result.index) + " of " +
                           std::to_string(phrases_.size()));
   const Timestamp time = spoken_at(result, at);
-  meter_.heard(time, at);
+  meter_.counted();
   inbox_.put({phrases_[result.index], result.confidence_of_phrase(), time});
 }
 

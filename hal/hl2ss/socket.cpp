@@ -21,6 +21,8 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr auto kTryAgain = milliseconds(50);
+/// Where nobody listens for so long nobody will.
+constexpr auto kRefusedFor = std::chrono::seconds(1);
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
@@ -65,11 +67,13 @@ Status send_all(const Socket& socket, Bytes bytes, HostTime deadline) {
 }
 
 Result<std::vector<std::uint8_t>> ask_once(const Endpoint& host, int port, Bytes request,
-                                           std::size_t answer_bytes, HostTime deadline) {
+                                           std::size_t answer_bytes, HostTime deadline,
+                                           bool& connected) {
   const auto socket = begin_connect(host, port);
   if (!socket) return socket.error();
   if (!wait_for(*socket, POLLOUT, deadline)) return Error{"does not answer"};
-  if (const Status connected = connect_outcome(*socket); !connected) return connected.error();
+  if (const Status outcome = connect_outcome(*socket); !outcome) return outcome.error();
+  connected = true;
   if (const Status sent = send_all(*socket, request, deadline); !sent) return sent.error();
   std::vector<std::uint8_t> answer(answer_bytes);
   std::size_t have = 0;
@@ -168,11 +172,21 @@ Result<std::size_t> send_some(const Socket& socket, Bytes bytes) {
   return Error{reason(errno)};
 }
 
+Status reach(const Endpoint& host, int port, HostTime deadline) {
+  const auto socket = begin_connect(host, port);
+  if (!socket) return socket.error();
+  if (!wait_for(*socket, POLLOUT, deadline)) return Error{"does not answer"};
+  return connect_outcome(*socket);
+}
+
 Result<std::vector<std::uint8_t>> ask(const Endpoint& host, int port, Bytes request,
                                       std::size_t answer_bytes, HostTime deadline) {
+  bool connected = false;
+  const HostTime refused_by = HostClock::now() + kRefusedFor;
   for (;;) {
-    auto answer = ask_once(host, port, request, answer_bytes, deadline);
-    if (answer || HostClock::now() + kTryAgain >= deadline) {
+    auto answer = ask_once(host, port, request, answer_bytes, deadline, connected);
+    const HostTime last = connected ? deadline : std::min(deadline, refused_by);
+    if (answer || HostClock::now() + kTryAgain >= last) {
       if (answer) return answer;
       return Error{"port " + std::to_string(port) + ": " + answer.error().message};
     }

@@ -61,6 +61,8 @@ Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> r
 /// How many bytes went at once.
 Result<std::size_t> send_some(const Socket& socket, Bytes bytes);
 
+/// Connects and closes again. Blocks until `deadline` at most.
+Status reach(const Endpoint& host, int port, HostTime deadline);
 /// Connects, sends `request` and waits for `answer_bytes` bytes; tries again while the port is
 /// taken by somebody who leaves. Blocks until `deadline` at most.
 Result<std::vector<std::uint8_t>> ask(const Endpoint& host, int port, Bytes request,

@@ -56,20 +56,18 @@ void write(std::vector<std::uint8_t>& bytes, const StandinTook& took) {
   append_time(bytes, took.pair_time);
 }
 
-Result<StandinMessage> read_hello(ByteReader& reader) {
+Status read(ByteReader& reader, StandinHello& hello) {
   if (reader.take<std::uint32_t>() != kMagic)
     return Error{"stand-in: no greeting of a stand-in (another server?)"};
-  StandinHello hello;
   hello.paced = reader.take<std::uint8_t>() != 0;
   hello.display_latency = Duration(reader.take<std::int64_t>());
   hello.clock = take_time(reader);
   if (hello.display_latency < Duration::zero() || hello.display_latency > std::chrono::seconds(1))
     return Error{"stand-in: display latency must lie within 0 to 1 s"};
-  return StandinMessage{hello};
+  return {};
 }
 
-Result<StandinMessage> read_clicks(ByteReader& reader) {
-  StandinClicks clicks;
+Status read(ByteReader& reader, StandinClicks& clicks) {
   const auto count = reader.take<std::uint32_t>();
   for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
     const auto action = reader.take<std::uint8_t>();
@@ -77,11 +75,18 @@ Result<StandinMessage> read_clicks(ByteReader& reader) {
       return Error{"stand-in: unknown action of the clicker, " + std::to_string(action)};
     clicks.events.push_back({static_cast<ClickerAction>(action), take_time(reader)});
   }
-  return StandinMessage{std::move(clicks)};
+  return {};
 }
 
-Result<StandinMessage> read_shown(ByteReader& reader) {
-  StandinShown shown;
+Status read(ByteReader& reader, StandinUpTo& up_to) {
+  up_to.pair_time = take_time(reader);
+  up_to.clock = take_time(reader);
+  return {};
+}
+
+Status read(ByteReader& /*reader*/, StandinEnd& /*end*/) { return {}; }
+
+Status read(ByteReader& reader, StandinShown& shown) {
   shown.frame.display_time = take_time(reader);
   shown.frame.pose_time = take_time(reader);
   const auto count = reader.take<std::uint32_t>();
@@ -97,27 +102,23 @@ Result<StandinMessage> read_shown(ByteReader& reader) {
       hologram.points_in_world.push_back(point);
     }
   }
-  return StandinMessage{std::move(shown)};
+  return {};
 }
 
-Result<StandinMessage> read_kind(std::uint8_t kind, ByteReader& reader) {
-  switch (kind) {
-    case 0:
-      return read_hello(reader);
-    case 1:
-      return read_clicks(reader);
-    case 2: {
-      const Timestamp pair_time = take_time(reader);
-      return StandinMessage{StandinUpTo{pair_time, take_time(reader)}};
-    }
-    case 3:
-      return StandinMessage{StandinEnd{}};
-    case 4:
-      return read_shown(reader);
-    case 5:
-      return StandinMessage{StandinTook{take_time(reader)}};
-    default:
-      return Error{"stand-in: unknown message " + std::to_string(kind)};
+Status read(ByteReader& reader, StandinTook& took) {
+  took.pair_time = take_time(reader);
+  return {};
+}
+
+/// Makes `message` one of that kind.
+template <std::size_t kind = 0>
+Status become(StandinMessage& message, std::uint8_t wanted) {
+  if constexpr (kind == std::variant_size_v<StandinMessage>) {
+    return Error{"stand-in: unknown message " + std::to_string(wanted)};
+  } else {
+    if (wanted != kind) return become<kind + 1>(message, wanted);
+    message.emplace<kind>();
+    return {};
   }
 }
 
@@ -141,12 +142,16 @@ Result<std::optional<ReadStandinMessage>> read_standin_message(Bytes bytes) {
                  std::to_string(kMaxStandinBytes)};
   if (bytes.size() < kHeadBytes + size) return Answer{};
   ByteReader reader(bytes.subspan(kHeadBytes, size));
-  auto message = read_kind(bytes[4], reader);
-  if (!message) return message.error();
+  ReadStandinMessage answer;
+  answer.bytes = kHeadBytes + size;
+  if (const Status known = become(answer.message, bytes[4]); !known) return known.error();
+  const Status taken =
+      std::visit([&reader](auto& each) { return read(reader, each); }, answer.message);
+  if (!taken) return taken.error();
   if (!reader.ok() || reader.left() > 0)
     return Error{"stand-in: message " + std::to_string(bytes[4]) + " of " + std::to_string(size) +
                  " bytes does not fit its contents"};
-  return Answer{ReadStandinMessage{std::move(*message), kHeadBytes + size}};
+  return Answer{std::move(answer)};
 }
 
 }  // namespace orthonav::hl2ss

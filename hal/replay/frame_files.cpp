@@ -116,6 +116,31 @@ void append_frame(std::string& line, const FrameRow& row) {
   append_number(line, std::int64_t{row.clock.time_since_epoch().count()});
 }
 
+Result<std::vector<MapRow>> read_map_moves(const std::filesystem::path& path) {
+  std::vector<MapRow> rows;
+  std::vector<std::string_view> fields;
+  Status status =
+      for_each_row(path, kMaxFramesBytes, kMapHeader, [&](std::string_view line) -> Status {
+        split(line, fields);
+        const auto sequence = parse_integer(fields[0]);
+        const auto epoch = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
+        if (!sequence || !epoch) return Error{"must be two whole numbers"};
+        const bool follows =
+            rows.empty() || (*sequence > rows.back().sequence && *epoch > rows.back().map_epoch);
+        if (!follows) return Error{"does not come after the line above it"};
+        rows.push_back({*sequence, *epoch});
+        return {};
+      });
+  if (!status) return status.error();
+  return rows;
+}
+
+void append_map_move(std::string& line, const MapRow& row) {
+  append_number(line, row.sequence);
+  line += ',';
+  append_number(line, row.map_epoch);
+}
+
 Result<RecordedDevice> read_device(const std::filesystem::path& path) {
   RecordedDevice device;
   Status status = for_each_row(path, kMaxDeviceBytes, kDeviceHeader,

@@ -25,6 +25,14 @@ struct FrameRow {
 Result<std::vector<FrameRow>> read_frames(const std::filesystem::path& path);
 void append_frame(std::string& line, const FrameRow& row);
 
+/// map.csv: the first pair of each map but the first; there is none while the map stays.
+struct MapRow {
+  std::int64_t sequence = 0;
+  std::int64_t map_epoch = 0;
+};
+Result<std::vector<MapRow>> read_map_moves(const std::filesystem::path& path);
+void append_map_move(std::string& line, const MapRow& row);
+
 /// device.csv
 Result<RecordedDevice> read_device(const std::filesystem::path& path);
 std::string device_text(const RecordedDevice& device);

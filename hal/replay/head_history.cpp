@@ -15,6 +15,7 @@ Tracked<Transform<World, Rig>> HeadHistory::at(Timestamp time, Timestamp known_u
   const auto after = std::upper_bound(samples_.begin(), known, time, later);
   if (after == samples_.begin()) return answer;
   const HeadSample& before = *(after - 1);
+  if (before.map_epoch != (known - 1)->map_epoch) return answer;
   if (before.time == time) {
     answer.value = before.world_from_rig;
     answer.origin = Origin::kMeasured;
@@ -35,7 +36,7 @@ Tracked<Transform<World, Rig>> HeadHistory::at(Timestamp time, Timestamp known_u
   answer.value = before.world_from_rig;
   if (after - samples_.begin() < 2) return answer;
   const HeadSample& earlier = *(after - 2);
-  if (before.time <= earlier.time + kMaxGap)
+  if (before.time <= earlier.time + kMaxGap && before.map_epoch == earlier.map_epoch)
     answer.value =
         interpolated(earlier.world_from_rig, before.world_from_rig, fraction(earlier, before));
   return answer;

@@ -12,11 +12,12 @@ namespace orthonav::replay {
 struct HeadSample {
   Timestamp time{};
   Transform<World, Rig> world_from_rig;
+  std::int64_t map_epoch = 0;
 };
 
 /// The recorded poses of a head, strictly increasing in time, as a tracker that knows only the past
 /// would answer from them: measured between two of them, predicted at constant velocity beyond the
-/// newest, lost where they lie more than HeadTracker::kMaxHeadPrediction apart.
+/// newest, lost where they lie more than HeadTracker::kMaxHeadPrediction apart or in another map.
 class HeadHistory {
  public:
   HeadHistory() = default;

@@ -49,9 +49,11 @@ inline constexpr const char* kDeviceFile = "device.csv";
 inline constexpr const char* kFramesFile = "frames.csv";
 inline constexpr const char* kEventsFile = "events.csv";
 inline constexpr const char* kHeadFile = "head.csv";
+inline constexpr const char* kMapFile = "map.csv";
 inline constexpr const char* kToolsFile = "tools.json";
 inline constexpr const char* kDeviceHeader = "key,value";
 inline constexpr const char* kFramesHeader = "sequence,time_ns,ticks_100ns,clock_ns";
+inline constexpr const char* kMapHeader = "sequence,map_epoch";
 inline constexpr const char* kEventsHeader = "device,what,confidence,time_ns,available_ns,text";
 inline constexpr const char* kHeadHeader =
     "sequence,at_ns,origin,m11,m12,m13,m14,m21,m22,m23,m24,m31,m32,m33,m34,m41,m42,m43,m44,"

@@ -93,8 +93,10 @@ Status add_poses(const std::filesystem::path& folder, Recording& recording) {
   // The right camera's file says the same again; it is read for its damage only.
   if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) return same.error();
   std::map<std::int64_t, Timestamp> exact_times;
+  std::map<std::int64_t, std::int64_t> map_epochs;
   for (RecordedPair& pair : recording.pairs) {
     exact_times.emplace(pair.left.ticks, pair.time);
+    map_epochs.emplace(pair.left.ticks, pair.map_epoch);
     const auto found = poses->find(pair.left.ticks);
     if (found != poses->end())
       pair.world_from_rig = found->second;
@@ -109,9 +111,22 @@ Status add_poses(const std::filesystem::path& folder, Recording& recording) {
                           ? Result<Timestamp>(exact->second)
                           : time_of(path, ticks, recording.epoch_ticks_100ns);
     if (!time) return time.error();
-    samples.push_back({*time, pose});
+    // A pose without a pair lies in the map of the pair after it, or of the last one.
+    const auto epoch = map_epochs.lower_bound(ticks);
+    samples.push_back(
+        {*time, pose, (epoch == map_epochs.end() ? std::prev(epoch) : epoch)->second});
   }
   recording.head = HeadHistory(std::move(samples));
+  return {};
+}
+
+Status add_map_moves(const std::filesystem::path& folder, Recording& recording) {
+  if (!is_there(folder / kMapFile)) return {};
+  const auto rows = read_map_moves(folder / kMapFile);
+  if (!rows) return rows.error();
+  for (const MapRow& row : *rows)
+    for (RecordedPair& pair : recording.pairs)
+      if (pair.sequence >= row.sequence) pair.map_epoch = row.map_epoch;
   return {};
 }
 
@@ -169,6 +184,7 @@ Result<Recording> read_recording(const std::filesystem::path& folder) {
   recording.left = std::move(*left);
   recording.right = std::move(*right);
   if (Status s = add_device(folder, recording); !s) return s.error();
+  if (Status s = add_map_moves(folder, recording); !s) return s.error();
   if (Status s = add_poses(folder, recording); !s) return s.error();
   if (Status s = add_own_files(folder, recording); !s) return s.error();
   auto calibration = read_calibration(folder);

@@ -22,6 +22,7 @@ struct RecordedPair {
   ImageMember left;
   ImageMember right;
   std::optional<Transform<World, Rig>> world_from_rig;
+  std::int64_t map_epoch = 0;
 };
 
 /// What device.csv says; the defaults are those of a recording without it.

@@ -149,12 +149,23 @@ Status RecordingWriter::frame(const StereoFrame& frame, Timestamp clock) {
     if (Status s = left_poses_.write(line_); !s) return s;
     if (Status s = right_poses_.write(line_); !s) return s;
   }
+  if (Status s = note_map(frame); !s) return s;
   line_.clear();
   append_frame(line_, {frame.sequence, frame.time, ticks, clock});
   if (Status s = frames_.write(line_); !s) return s;
   last_ticks_ = ticks;
   ++pairs_;
   return {};
+}
+
+Status RecordingWriter::note_map(const StereoFrame& frame) {
+  if (frame.map_epoch == map_epoch_) return {};
+  if (!map_.is_open())
+    if (Status s = map_.open(part_ / kMapFile, kMapHeader); !s) return s;
+  map_epoch_ = frame.map_epoch;
+  line_.clear();
+  append_map_move(line_, {frame.sequence, frame.map_epoch});
+  return map_.write(line_);
 }
 
 Status RecordingWriter::event(const Delivered<ClickerEvent>& event) {
@@ -182,6 +193,8 @@ Status RecordingWriter::close() {
   for (LineFile* file : {&left_poses_, &right_poses_, &frames_, &events_, &head_})
     if (Status s = file->close(); !s) return s;
   if (pairs_ == 0) return file_error(part_, "holds no pair: not a recording");
+  if (map_.is_open())
+    if (Status s = map_.close(); !s) return s;
   std::error_code code;
   std::filesystem::rename(part_, folder_, code);
   if (code) return file_error(part_, "cannot be renamed: " + code.message());

@@ -23,6 +23,7 @@ class LineFile {
   Status open(const std::filesystem::path& path, const char* header);
   Status write(const std::string& line);
   Status close();
+  [[nodiscard]] bool is_open() const { return file_ != nullptr; }
 
  private:
   struct Close {
@@ -71,6 +72,8 @@ class RecordingWriter {
   Status close();
 
  private:
+  Status note_map(const StereoFrame& frame);
+
   std::filesystem::path folder_;
   std::filesystem::path part_;
   std::int64_t epoch_ticks_ = 0;
@@ -81,6 +84,8 @@ class RecordingWriter {
   LineFile left_poses_;
   LineFile right_poses_;
   LineFile frames_;
+  LineFile map_;  ///< opened by the first move
+  std::int64_t map_epoch_ = 0;
   LineFile events_;
   LineFile head_;
   std::string line_;

@@ -45,6 +45,7 @@ class ReplayCamera : public StereoCamera {
     if (Status s = recording_.left.read(pair.left, frame.left); !s) return s.error();
     if (Status s = recording_.right.read(pair.right, frame.right); !s) return s.error();
     frame.sequence = pair.sequence;
+    frame.map_epoch = pair.map_epoch;
     frame.time = pair.time;
     frame.world_from_rig = pair.world_from_rig;
     progress_.clock = pair.clock;

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "hal/fake/failing.h"
+#include "hal/hl2ss/server/server.h"
 #include "hal/open/joined_headset.h"
 #include "hal/open/open.h"
 #include "hal/open/open_parts.h"
@@ -165,6 +168,61 @@ std::unique_ptr<Headset> open_sim() {
   return checked(open_headset("sim:?seed=11", options));
 }
 
+/// Answers once there is an answer: what comes over a network comes in its own time.
+class Waiting : public Headset {
+ public:
+  explicit Waiting(std::unique_ptr<Headset> inner) : inner_(std::move(inner)), cameras_(*inner_) {}
+  [[nodiscard]] std::string name() const override { return inner_->name(); }
+  [[nodiscard]] const Clock& clock() const override { return inner_->clock(); }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
+    return inner_->epoch_ticks_100ns();
+  }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return inner_->head(); }
+  [[nodiscard]] Clicker& clicker() override { return inner_->clicker(); }
+  [[nodiscard]] Voice& voice() override { return inner_->voice(); }
+  [[nodiscard]] Display& display() override { return inner_->display(); }
+
+ private:
+  class Cameras : public StereoCamera {
+   public:
+    explicit Cameras(Headset& inner) : inner_(inner) {}
+
+   private:
+    [[nodiscard]] const StereoCalibration& do_calibration() const override {
+      return inner_.cameras().calibration();
+    }
+    Result<Next> do_next(StereoFrame& frame) override {
+      const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+      for (;;) {
+        auto answer = inner_.cameras().next(frame);
+        const bool late = std::chrono::steady_clock::now() > until;
+        if (!answer || *answer != Next::kNone || late) return answer;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+      }
+    }
+    Headset& inner_;
+  };
+  std::unique_ptr<Headset> inner_;
+  Cameras cameras_;
+};
+
+/// The table with its tools, seen over the network through a server of our own.
+std::unique_ptr<Headset> open_served_sim(const std::string& profile) {
+  hl2ss::ServerOptions options;
+  options.first_port = 0;
+  options.paced = true;
+  auto server =
+      hl2ss::Server::start(options, [] { return Result<std::unique_ptr<Headset>>(open_sim()); });
+  EXPECT_TRUE(server.ok()) << server.error().message;
+  if (!server) return nullptr;
+  auto headset = checked(open_headset(
+      "hl2ss://127.0.0.1?port=" + std::to_string((*server)->first_port()) +
+      "&standin=" + std::to_string((*server)->standin_port()) + "&profile=" + profile));
+  if (!headset) return nullptr;
+  return keeping(std::move(*server), std::make_unique<Waiting>(std::move(headset)));
+}
+
 /// The scripted surgeon, told by the display to digitize: presses, clicks and speaks.
 std::unique_ptr<Headset> open_surgeon() {
   OpenOptions options;
@@ -216,6 +274,9 @@ std::vector<DeviceCase> device_cases() {
           {"stream_recorder", open_stream_recorder, false},
           {"sim", open_sim, false},
           {"replayed_sim", [] { return open_replayed(open_sim()); }, false},
+          {"hl2ss_raw", [] { return open_served_sim("raw"); }, false},
+          {"hl2ss_h264", [] { return open_served_sim("h264"); }, false},
+          {"replayed_hl2ss", [] { return open_replayed(open_served_sim("raw")); }, false},
           {"surgeon", open_surgeon, true, false},
           {"replayed_surgeon", [] { return open_replayed(open_surgeon()); }, true, false}};
 }

@@ -84,6 +84,23 @@ TEST(Recorder, RecordsAReplayAsTheSameFiles) {
   EXPECT_EQ(files, kFilesOfARecording);
 }
 
+TEST(Recorder, KeepsWhenTheMapMoved) {
+  fake::Script script = scripted_session();
+  std::int64_t epoch = 0;
+  for (fake::CameraStep& step : script.camera)
+    if (auto* frame = std::get_if<StereoFrame>(&step)) frame->map_epoch = epoch++ / 4;
+  const TemporaryFolder folder;
+  const SessionLog live = record(std::make_unique<fake::FakeHeadset>(script), folder / "session");
+  EXPECT_TRUE(std::filesystem::exists(folder / "session" / "map.csv"));
+  auto replayed = ReplayHeadset::open(folder / "session");
+  ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+  const SessionLog log = play(**replayed);
+  ASSERT_EQ(log.moments.size(), live.moments.size());
+  for (std::size_t i = 0; i < log.moments.size(); ++i)
+    EXPECT_EQ(log.moments[i].frame.map_epoch, live.moments[i].frame.map_epoch) << i;
+  EXPECT_GT(log.moments.back().frame.map_epoch, 0);
+}
+
 TEST(Recorder, WritesTheLayoutThatOtherReadersKnow) {
   const TemporaryFolder folder;
   record(headset(), folder / "session");

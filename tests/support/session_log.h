@@ -72,6 +72,7 @@ inline void expect_same(const SessionLog& a, const SessionLog& b) {
     const auto& y = b.moments[i];
     EXPECT_EQ(x.frame.sequence, y.frame.sequence);
     EXPECT_EQ(x.frame.time, y.frame.time);
+    EXPECT_EQ(x.frame.map_epoch, y.frame.map_epoch);
     EXPECT_TRUE(x.frame.left == y.frame.left);
     EXPECT_TRUE(x.frame.right == y.frame.right);
     EXPECT_EQ(x.frame.world_from_rig, y.frame.world_from_rig);

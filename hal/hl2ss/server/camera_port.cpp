@@ -68,12 +68,12 @@ Result<bool> CameraPort::send(const Image& image) {
   auto packet = image_packet(image.ticks, *picture, {image.sensor_ticks, kExposureNs, 100});
   if (request->mode == Mode::kVideoAndPose) append_pose(packet, image.world_from_rig);
   std::vector<Chunk> chunks;
-  const bool whole = !(image.spoil && spoiled(packet, chunks));
+  const Fate fate = image.spoil ? spoil(packet, chunks) : Fate::kUntouched;
   const bool held = !held_back_.empty();
-  if (whole) chunks.push_back({std::move(packet)});
+  if (fate == Fate::kUntouched) chunks.push_back({std::move(packet)});
   if (held && !chunks.empty()) chunks.push_back({std::exchange(held_back_, {})});
   port_.send(std::move(chunks));
-  return whole;
+  return fate != Fate::kBroken;
 }
 
 bool CameraPort::strikes(double probability) {
@@ -82,31 +82,31 @@ bool CameraPort::strikes(double probability) {
   return strike;
 }
 
-/// Whether a fault struck; `chunks` is what is sent instead.
-bool CameraPort::spoiled(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks) {
+/// What becomes of a packet; unless it is untouched, `chunks` is what is sent instead.
+CameraPort::Fate CameraPort::spoil(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks) {
   const auto half = packet.begin() + static_cast<std::ptrdiff_t>(packet.size() / 2);
-  if (strikes(faults_.lose)) return true;
+  if (strikes(faults_.lose)) return Fate::kBroken;
   if (strikes(faults_.reorder) && held_back_.empty()) {
     held_back_ = std::move(packet);
-    return true;
+    return Fate::kBroken;
   }
   if (strikes(faults_.stall)) {
     chunks.push_back({std::move(packet), kStall});
-    return true;
+    return Fate::kLate;
   }
   if (strikes(faults_.half)) {
     chunks.push_back({{packet.begin(), half}, kHalfPause});
     chunks.push_back({{half, packet.end()}});
-    return true;
+    return Fate::kLate;
   }
   if (strikes(faults_.cut)) {
     chunks.push_back({{packet.begin(), half}, {}, true});
-    return true;
+    return Fate::kBroken;
   }
-  if (!strikes(faults_.corrupt)) return false;
+  if (!strikes(faults_.corrupt)) return Fate::kUntouched;
   corrupt(packet);
   chunks.push_back({std::move(packet)});
-  return true;
+  return Fate::kBroken;
 }
 
 void CameraPort::corrupt(std::vector<std::uint8_t>& packet) {

@@ -29,7 +29,7 @@ class CameraPort {
     std::optional<Transform<World, Rig>> world_from_rig;
     bool spoil = true;  ///< faults may strike it
   };
-  /// Sends it; answers whether it went out whole, in its turn and at once.
+  /// Sends it; answers whether it will arrive whole and in its turn.
   Result<bool> send(const Image& image);
   [[nodiscard]] std::int64_t faults_done() const { return faults_done_; }
   /// Of the exposure, as it is told with each image.
@@ -39,7 +39,8 @@ class CameraPort {
   Result<std::size_t> understand(Bytes said);
   Result<std::vector<std::uint8_t>> pictured(const VideoRequest& request, const GreyImage& picture);
   bool strikes(double probability);
-  bool spoiled(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks);
+  enum class Fate { kUntouched, kLate, kBroken };
+  Fate spoil(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks);
   void corrupt(std::vector<std::uint8_t>& packet);
 
   std::vector<std::uint8_t> calibration_;

@@ -13,9 +13,8 @@
 #include "hal/api/joined.h"
 #include "hal/hl2ss/calibration.h"
 #include "hal/hl2ss/server/camera_port.h"
-#include "hal/hl2ss/server/packets.h"
+#include "hal/hl2ss/server/pair_sender.h"
 #include "hal/hl2ss/server/side_ports.h"
-#include "hal/hl2ss/spatial_input.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -23,12 +22,8 @@ namespace {
 constexpr int kTurnMs = 5;
 constexpr auto kIdle = std::chrono::milliseconds(1);
 /// A client that is not done with a pair by then missed it.
-constexpr auto kPatience = std::chrono::seconds(2);
+constexpr auto kPatience = std::chrono::seconds(10);
 constexpr auto kImpatience = std::chrono::milliseconds(20);
-/// Sensor ticks are another clock than the stamps, and the cameras' stamps differ a little.
-constexpr std::int64_t kSensorTicksAhead = 7'654'321;
-constexpr std::int64_t kRightLaterTicks = 1'500;
-constexpr int kSamplesAPair = kMicrophoneHz / 30;
 constexpr int kFirstFreePort = 20000;
 constexpr int kPortStep = 20;
 
@@ -40,8 +35,8 @@ class RunningServer final : public Server {
         headset_(std::move(first)),
         left_(calibration_of(Side::kLeft), options.faults, Random(options.seed).fork("left")),
         right_(calibration_of(Side::kRight), options.faults, Random(options.seed).fork("right")),
-        random_(Random(options.seed).fork("pairs")),
-        sides_(options.utc_offset_ticks) {}
+        sides_(options.utc_offset_ticks),
+        sender_(options.faults, options.seed, left_, right_, sides_) {}
   ~RunningServer() override {
     stop_ = true;
     if (producer_.joinable()) producer_.join();
@@ -109,10 +104,11 @@ class RunningServer final : public Server {
   }
   /// What the client shows, the wearer sees.
   void show() {
+    const Transform<World, World> back = sender_.world_from_jumped();
     for (ShownFrame& frame : sides_.take_shown()) {
       const std::lock_guard lock(headset_mutex_);
       for (ShownHologram& hologram : frame.holograms)
-        for (Point<World>& point : hologram.points_in_world) point = world_from_jumped_ * point;
+        for (Point<World>& point : hologram.points_in_world) point = back * point;
       if (headset_ && in_session_) (void)headset_->display().shown(frame);
     }
     sides_.publish_took();
@@ -145,9 +141,7 @@ class RunningServer final : public Server {
       headset_ = std::move(*opened);
     }
     in_session_ = true;
-    jumped_from_world_ = {};
-    world_from_jumped_ = Transform<World, World>{};
-    pairs_ = 0;
+    sender_.restart();
     note([](ServerReport& report) {
       ++report.sessions;
       report.is_streaming = true;
@@ -186,79 +180,27 @@ class RunningServer final : public Server {
       wait_for_client(whole ? std::optional(frame.time) : std::nullopt);
     }
   }
-  /// Until it is done with the pair, or is back. One that missed a pair (a codec may need more to
-  /// go on) is not waited for long until it follows again.
+  /// Until it is done with the pair, or is back. After a fault it may need more to go on (a key
+  /// frame, a new connection), so that it is not waited for long until it follows again.
   void wait_for_client(std::optional<Timestamp> pair_time) {
-    const auto deadline = HostClock::now() + (follows_ ? kPatience : kImpatience);
-    const auto waits = [&] { return !is_wanted() || (pair_time && !sides_.took(*pair_time)); };
-    while (!stop_ && waits() && HostClock::now() < deadline) sides_.wait_for_took();
-    if (pair_time) follows_ = !waits();
+    const auto deadline = HostClock::now() + (follows_ && pair_time ? kPatience : kImpatience);
+    while (!stop_ && pair_time && is_wanted() && !sides_.took(*pair_time) &&
+           HostClock::now() < deadline)
+      sides_.wait_for_took();
+    follows_ = pair_time && sides_.took(*pair_time);
+    const auto back_by = HostClock::now() + kPatience;
+    while (!stop_ && !is_wanted() && HostClock::now() < back_by) sides_.wait_for_took();
   }
 
-  /// Whether all of it was sent whole and at once.
+  /// Whether the client can be done with it.
   bool send_pair(const StereoFrame& frame) {
-    const std::int64_t number = pairs_++;
-    note([](ServerReport& report) { ++report.pairs; });
-    if (std::count(options_.faults.jump_at.begin(), options_.faults.jump_at.end(), number) > 0)
-      jump();
-    send_events(frame);
-    const bool gap = strikes(options_.faults.gap);
-    const bool unlocated = strikes(options_.faults.unlocated);
-    if (gap) return false;
-    CameraPort::Image image;
-    image.ticks = ticks_100ns(frame.time);
-    image.sensor_ticks = static_cast<std::uint64_t>(image.ticks + kSensorTicksAhead);
-    image.picture = &frame.left;
-    // The first images open the connection: they come as they are.
-    image.spoil = number > 2;
-    if (frame.world_from_rig && !unlocated)
-      image.world_from_rig = jumped_from_world_ * *frame.world_from_rig;
-    bool whole = send_image(left_, image);
-    image.ticks += kRightLaterTicks;
-    image.picture = &frame.right;
-    whole = send_image(right_, image) && whole;
+    const auto whole = sender_.send(*headset_, frame);
     note([&](ServerReport& report) {
-      report.faults = struck_ + left_.faults_done() + right_.faults_done();
+      ++report.pairs;
+      report.faults = sender_.faults_done();
+      if (!whole) report.last_trouble = whole.error().message;
     });
-    return whole;
-  }
-  bool send_image(CameraPort& camera, const CameraPort::Image& image) {
-    const auto sent = camera.send(image);
-    if (!sent) note([&](ServerReport& report) { report.last_trouble = sent.error().message; });
-    return sent && *sent;
-  }
-  void send_events(const StereoFrame& frame) {
-    std::vector<ClickerEvent> clicks;
-    std::vector<Phrase> phrases;
-    (void)headset_->clicker().poll(frame.time, clicks);
-    (void)headset_->voice().poll(frame.time, phrases);
-    sides_.tell(clicks, phrases, {frame.time, headset_->clock().now()});
-    const std::int64_t ticks = ticks_100ns(frame.time);
-    // Two packets a pair, as on the headset. The head is the rig here: nobody navigates by it.
-    std::optional<Transform<World, Eye>> head;
-    if (frame.world_from_rig) {
-      const auto pose = jumped_from_world_ * *frame.world_from_rig;
-      head = Transform<World, Eye>(pose.rotation(), pose.translation());
-    }
-    for (const std::int64_t later : {0, 166'667})
-      sides_.spatial.send({{packet_bytes(ticks + later, spatial_input_bytes(head))}});
-    if (sides_.hears.load())
-      sides_.microphone.send(
-          {{packet_bytes(ticks, tone_bytes(kSamplesAPair * pairs_, kSamplesAPair))}});
-  }
-  void jump() {
-    const Faults& faults = options_.faults;
-    jumped_from_world_ =
-        Transform<World, World>(rotation_from_vector({0, faults.jump_rad, 0}), faults.jump_m) *
-        jumped_from_world_;
-    const std::lock_guard lock(headset_mutex_);
-    world_from_jumped_ = jumped_from_world_.inverse();
-    ++struck_;
-  }
-  bool strikes(double probability) {
-    const bool strike = pairs_ > 3 && random_.uniform() < probability;
-    struck_ += strike ? 1 : 0;
-    return strike;
+    return whole && *whole;
   }
   void note(auto what) {
     const std::lock_guard lock(report_mutex_);
@@ -270,19 +212,14 @@ class RunningServer final : public Server {
   std::mutex headset_mutex_;  ///< of its coming and going; its parts may be used from two threads
   std::unique_ptr<Headset> headset_;
   bool in_session_ = false;
-  Transform<World, World> world_from_jumped_;
   CameraPort left_;
   CameraPort right_;
-  Random random_;
   SidePorts sides_;
+  PairSender sender_;
   int first_port_ = 0;
   std::atomic<bool> stop_ = false;
 
-  // Of the headset's thread.
-  Transform<World, World> jumped_from_world_;
-  std::int64_t pairs_ = 0;
-  std::int64_t struck_ = 0;
-  bool follows_ = true;
+  bool follows_ = true;  ///< the client took the last pair; of the headset's thread
 
   mutable std::mutex report_mutex_;
   ServerReport report_;

@@ -1,0 +1,97 @@
+// Half an hour of a headset over TCP, as fast as it goes: what a pair costs from its last byte on,
+// and whether memory grows. Usage: bench_hl2ss [SECONDS of headset time, default 1800] [raw|h264]
+
+#include <unistd.h>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/hl2ss/server/server.h"
+#include "hal/sim/sim_headset.h"
+
+namespace orthonav {
+namespace {
+
+double resident_mib() {
+  std::ifstream in("/proc/self/statm");
+  long pages = 0;
+  long resident = 0;
+  in >> pages >> resident;
+  return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+int measure(double limit_s, hl2ss::VideoProfile profile) {
+  sim::RoomDescription room;
+  sim::RoomTool pointer;
+  pointer.name = "pointer";
+  pointer.id = 3;
+  pointer.size_m = 0.05;
+  pointer.tip_in_marker = {{0.0, -0.15, 0.0}};
+  room.tools = {pointer};
+  sim::SimOptions sim;
+  sim.surgeon = false;
+  sim.render = false;
+  sim.limit_s = limit_s;
+  hl2ss::ServerOptions options;
+  options.first_port = 0;
+  options.paced = true;
+  auto server = hl2ss::Server::start(options, [&]() -> Result<std::unique_ptr<Headset>> {
+    auto opened = sim::SimHeadset::open(room, sim);
+    if (!opened) return opened.error();
+    return std::unique_ptr<Headset>(std::move(*opened));
+  });
+  if (!server) return std::fprintf(stderr, "%s\n", server.error().message.c_str()), 2;
+  hl2ss::Hl2ssOptions client;
+  client.host = "127.0.0.1";
+  client.first_port = (*server)->first_port();
+  client.standin_port = (*server)->standin_port();
+  client.profile = profile;
+  auto headset = hl2ss::Hl2ssHeadset::open(client);
+  if (!headset) return std::fprintf(stderr, "%s\n", headset.error().message.c_str()), 2;
+  StereoFrame frame;
+  std::int64_t pairs = 0;
+  double warm_mib = 0.0;
+  double most_mib = 0.0;
+  for (;;) {
+    const auto next = (*headset)->cameras().next(frame);
+    if (next && *next == Next::kEnd) break;
+    if (!next || *next == Next::kNone) {
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+      continue;
+    }
+    ++pairs;
+    if (pairs == 1000) warm_mib = resident_mib();
+    if (pairs % 1000 == 0) most_mib = std::max(most_mib, resident_mib());
+  }
+  const hl2ss::Statistics figures = (*headset)->statistics();
+  std::printf(
+      "%lld pairs; resident after 1000 pairs %.1f MiB, most %.1f MiB, at the end %.1f MiB\n",
+      static_cast<long long>(pairs), warm_mib, most_mib, resident_mib());
+  std::printf("last byte to pair published: median %.3f ms, p99 %.3f ms, most %.3f ms\n",
+              quantile(figures.publish_ms, 0.5), quantile(figures.publish_ms, 0.99),
+              quantile(figures.publish_ms, 1.0));
+  std::printf("last byte to pair taken:     median %.3f ms, p99 %.3f ms, most %.3f ms\n",
+              quantile(figures.take_ms, 0.5), quantile(figures.take_ms, 0.99),
+              quantile(figures.take_ms, 1.0));
+  return 0;
+}
+
+}  // namespace
+}  // namespace orthonav
+
+int main(int argc, char** argv) {
+  const double limit_s = argc > 1 ? std::atof(argv[1]) : 1800.0;
+  const bool h264 = argc > 2 && std::string(argv[2]) == "h264";
+  return orthonav::measure(limit_s, h264 ? orthonav::hl2ss::VideoProfile::kH264Base
+                                         : orthonav::hl2ss::VideoProfile::kRaw);
+}

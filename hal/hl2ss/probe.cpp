@@ -1,0 +1,37 @@
+#include "hal/hl2ss/probe.h"
+
+#include <array>
+#include <utility>
+
+#include "hal/hl2ss/socket.h"
+
+namespace orthonav::hl2ss {
+namespace {
+
+constexpr std::array<std::pair<const char*, Service>, 6> kServices = {{
+    {"left camera", Service::kLeftFront},
+    {"right camera", Service::kRightFront},
+    {"remote configuration", Service::kConfiguration},
+    {"microphone", Service::kMicrophone},
+    {"spatial input", Service::kSpatialInput},
+    {"voice", Service::kVoice},
+}};
+constexpr auto kPatience = std::chrono::seconds(1);
+
+}  // namespace
+
+Result<std::vector<ProbedPort>> probe(const Hl2ssOptions& options) {
+  const auto host = resolve(options.host);
+  if (!host) return host.error();
+  std::vector<ProbedPort> ports;
+  for (const auto& [name, service] : kServices) {
+    ProbedPort& each = ports.emplace_back();
+    each.name = name;
+    each.port = options.first_port + offset_of(service);
+    if (const Status reached = reach(*host, each.port, HostClock::now() + kPatience); !reached)
+      each.trouble = reached.error().message;
+  }
+  return ports;
+}
+
+}  // namespace orthonav::hl2ss

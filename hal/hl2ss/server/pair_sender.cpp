@@ -1,0 +1,94 @@
+#include "hal/hl2ss/server/pair_sender.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "hal/hl2ss/server/packets.h"
+#include "hal/hl2ss/spatial_input.h"
+
+namespace orthonav::hl2ss {
+namespace {
+
+/// Sensor ticks are another clock than the stamps, and the cameras' stamps differ a little.
+constexpr std::int64_t kSensorTicksAhead = 7'654'321;
+constexpr std::int64_t kRightLaterTicks = 1'500;
+constexpr std::int64_t kHalfPairTicks = 166'667;
+constexpr int kSamplesAPair = kMicrophoneHz / 30;
+/// The first pairs open the connection: they come as they are.
+constexpr std::int64_t kUntouchedPairs = 3;
+
+}  // namespace
+
+void PairSender::restart() {
+  const std::lock_guard lock(mutex_);
+  jumped_from_world_ = {};
+  pairs_ = 0;
+}
+
+Transform<World, World> PairSender::world_from_jumped() const {
+  const std::lock_guard lock(mutex_);
+  return jumped_from_world_.inverse();
+}
+
+std::int64_t PairSender::faults_done() const {
+  return struck_ + left_.faults_done() + right_.faults_done();
+}
+
+Result<bool> PairSender::send(Headset& headset, const StereoFrame& frame) {
+  const std::int64_t number = pairs_++;
+  if (std::count(faults_.jump_at.begin(), faults_.jump_at.end(), number) > 0) jump();
+  send_events(headset, frame);
+  const bool gap = strikes(faults_.gap);
+  const bool unlocated = strikes(faults_.unlocated);
+  if (gap) return false;
+  CameraPort::Image image;
+  image.ticks = ticks_100ns(frame.time);
+  image.sensor_ticks = static_cast<std::uint64_t>(image.ticks + kSensorTicksAhead);
+  image.picture = &frame.left;
+  image.spoil = number >= kUntouchedPairs;
+  if (frame.world_from_rig && !unlocated)
+    image.world_from_rig = jumped_from_world_ * *frame.world_from_rig;
+  const auto left = left_.send(image);
+  image.ticks += kRightLaterTicks;
+  image.picture = &frame.right;
+  const auto right = right_.send(image);
+  if (!left) return left;
+  if (!right) return right;
+  return *left && *right;
+}
+
+void PairSender::send_events(Headset& headset, const StereoFrame& frame) {
+  std::vector<ClickerEvent> clicks;
+  std::vector<Phrase> phrases;
+  (void)headset.clicker().poll(frame.time, clicks);
+  (void)headset.voice().poll(frame.time, phrases);
+  sides_.tell(clicks, phrases, {frame.time, headset.clock().now()});
+  const std::int64_t ticks = ticks_100ns(frame.time);
+  // Two packets a pair, as on the headset. The head is the rig here: nobody navigates by it.
+  std::optional<Transform<World, Eye>> head;
+  if (frame.world_from_rig) {
+    const auto pose = jumped_from_world_ * *frame.world_from_rig;
+    head = Transform<World, Eye>(pose.rotation(), pose.translation());
+  }
+  for (const std::int64_t earlier : {kHalfPairTicks, std::int64_t{0}})
+    sides_.spatial.send({{packet_bytes(ticks - earlier, spatial_input_bytes(head))}});
+  if (sides_.hears.load())
+    sides_.microphone.send(
+        {{packet_bytes(ticks, tone_bytes(kSamplesAPair * pairs_, kSamplesAPair))}});
+}
+
+void PairSender::jump() {
+  const std::lock_guard lock(mutex_);
+  jumped_from_world_ =
+      Transform<World, World>(rotation_from_vector({0, faults_.jump_rad, 0}), faults_.jump_m) *
+      jumped_from_world_;
+  ++struck_;
+}
+
+bool PairSender::strikes(double probability) {
+  const bool strike = pairs_ > kUntouchedPairs && random_.uniform() < probability;
+  struck_ += strike ? 1 : 0;
+  return strike;
+}
+
+}  // namespace orthonav::hl2ss

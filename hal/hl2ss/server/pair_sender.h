@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "hal/api/devices.h"
+#include "hal/api/random.h"
+#include "hal/hl2ss/server/camera_port.h"
+#include "hal/hl2ss/server/side_ports.h"
+
+namespace orthonav::hl2ss {
+
+/// Sends what a headset said up to one pair, through every port, in a world that may jump. One
+/// thread, but for `world_from_jumped`.
+class PairSender {
+ public:
+  PairSender(const Faults& faults, std::uint64_t seed, CameraPort& left, CameraPort& right,
+             SidePorts& sides)
+      : faults_(faults),
+        random_(Random(seed).fork("pairs")),
+        left_(left),
+        right_(right),
+        sides_(sides) {}
+  /// A new session begins.
+  void restart();
+  /// Whether all of it will arrive whole and in its turn.
+  Result<bool> send(Headset& headset, const StereoFrame& frame);
+  /// What takes the client's positions back to the headset's own.
+  [[nodiscard]] Transform<World, World> world_from_jumped() const;
+  /// Done on purpose so far, by the cameras' ports too.
+  [[nodiscard]] std::int64_t faults_done() const;
+
+ private:
+  void send_events(Headset& headset, const StereoFrame& frame);
+  void jump();
+  bool strikes(double probability);
+
+  Faults faults_;
+  Random random_;
+  CameraPort& left_;
+  CameraPort& right_;
+  SidePorts& sides_;
+  std::int64_t pairs_ = 0;
+  std::int64_t struck_ = 0;
+  mutable std::mutex mutex_;  ///< of the world
+  Transform<World, World> jumped_from_world_;
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,194 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "engine/evaluation.h"
+#include "engine/observer_list.h"
+#include "engine/operation_plan.h"
+#include "engine/phantom.h"
+#include "engine/sim_scenario.h"
+#include "engine/simulated_operation.h"
+#include "engine/tool_file.h"
+#include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/hl2ss/server/server.h"
+#include "nav/evaluation/errors.h"
+
+namespace orthonav::engine {
+namespace {
+
+// As for the direct run in a perfect world; single precision of poses and calibration adds less
+// than a hundredth of it.
+constexpr double kPerfectAngle_deg = 0.3;
+constexpr double kPerfectEntry_m = 0.0003;
+// H.264 at 12 Mbit/s moves a tag's edges by a small part of a pixel.
+constexpr double kCodecEntry_m = 0.0006;
+constexpr double kCodecAngle_deg = 0.6;
+
+/// A wire as it was driven, against its plan.
+struct Wire {
+  std::string side;
+  double angle_deg = 0.0;
+  double entry_m = 0.0;
+};
+
+/// Passes everything on, and keeps the wires when its session ends.
+class Witnessed : public Headset {
+ public:
+  Witnessed(std::unique_ptr<sim::SimHeadset> inner, sim::Truth& truth)
+      : inner_(std::move(inner)), truth_(truth) {}
+  ~Witnessed() override { truth_ = inner_->truth(); }
+  [[nodiscard]] std::string name() const override { return inner_->name(); }
+  [[nodiscard]] const Clock& clock() const override { return inner_->clock(); }
+  [[nodiscard]] StereoCamera& cameras() override { return inner_->cameras(); }
+  [[nodiscard]] HeadTracker& head() override { return inner_->head(); }
+  [[nodiscard]] Clicker& clicker() override { return inner_->clicker(); }
+  [[nodiscard]] Voice& voice() override { return inner_->voice(); }
+  [[nodiscard]] Display& display() override { return inner_->display(); }
+
+ private:
+  std::unique_ptr<sim::SimHeadset> inner_;
+  sim::Truth& truth_;
+};
+
+/// Steps at which the map was found to have moved, and whether anything of it was shown then.
+class MapLog : public SessionObserver {
+ public:
+  std::vector<Step> moved;
+  void happened(Timestamp, Step from, Event event, Cell) override {
+    if (event == Event::kMapMoved) moved.push_back(from);
+  }
+};
+
+struct Operated {
+  OperationResult result;
+  std::vector<Wire> wires;
+  std::vector<Step> map_moves;
+  hl2ss::Statistics statistics;
+};
+
+/// One level from pixels over TCP, by a brisk surgeon in a perfect world.
+Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
+  Operated done;
+  const Case spine = phantom();
+  ModelCache models;
+  auto operation = *plan_operation(spine, {"L5"}, models);
+  const auto plans = operation.levels[0].screws;
+  const auto model = operation.levels[0].model;
+  const auto room = room_of(spine, operation, built_in_tools());
+  sim::SimOptions sim;
+  sim.magnitudes = sim::Magnitudes::perfect();
+  sim.magnitudes.pace = 4.0;
+  sim::Truth truth;
+  hl2ss::ServerOptions options;
+  options.first_port = 0;
+  options.paced = true;
+  options.faults = faults;
+  auto server = *hl2ss::Server::start(options, [&]() -> Result<std::unique_ptr<Headset>> {
+    auto opened = sim::SimHeadset::open(room, sim);
+    if (!opened) return opened.error();
+    return std::unique_ptr<Headset>(std::make_unique<Witnessed>(std::move(*opened), truth));
+  });
+  hl2ss::Hl2ssOptions client;
+  client.host = "127.0.0.1";
+  client.first_port = server->first_port();
+  client.standin_port = server->standin_port();
+  client.profile = profile;
+  auto headset = hl2ss::Hl2ssHeadset::open(client);
+  EXPECT_TRUE(headset.ok()) << headset.error().message;
+  if (!headset) return done;
+  const Method method = *method_named("best");
+  auto tracker = method.create_tracker((*headset)->cameras().calibration(), built_in_tools(),
+                                       OperationOptions().tracker);
+  auto session = Session::create(std::move(operation), std::move(*tracker), method);
+  MapLog map_log;
+  (*session)->observe(&map_log);
+  SceneBuilder builder;
+  LoopOptions loop;
+  loop.draw_every = 0;
+  FrameLoop frames(**headset, **session, builder, loop);
+  auto report = frames.run();
+  EXPECT_TRUE(report.ok()) << report.error().message;
+  if (!report) return done;
+  done.result = outcome_of((*session)->levels(), (*session)->rods(), std::move(*report));
+  done.statistics = (*headset)->statistics();
+  done.map_moves = map_log.moved;
+  headset->reset();
+  server.reset();
+  for (const sim::DrivenWire& wire : truth.wires)
+    for (const nav::ScrewPlan& plan : plans) {
+      if (wire.side != name_of(plan.side)) continue;
+      const nav::ScrewError error =
+          nav::screw_error(plan, {wire.entry, wire.direction}, model->surface());
+      done.wires.push_back(
+          {wire.side, error.angle_rad * 180.0 / std::numbers::pi, error.entry_m.value_or(1.0)});
+    }
+  return done;
+}
+
+TEST(OverTcp, RawAWholeOperationIsAsExactAsTheDirectRun) {
+  const Operated done = operate(hl2ss::VideoProfile::kRaw, {});
+  EXPECT_TRUE(done.result.completed);
+  ASSERT_EQ(done.wires.size(), 2u);
+  for (const Wire& wire : done.wires) {
+    EXPECT_LT(wire.angle_deg, kPerfectAngle_deg) << wire.side;
+    EXPECT_LT(wire.entry_m, kPerfectEntry_m) << wire.side;
+  }
+  EXPECT_TRUE(done.map_moves.empty());
+}
+
+TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
+  const Operated done = operate(hl2ss::VideoProfile::kH264Base, {});
+  EXPECT_TRUE(done.result.completed);
+  ASSERT_EQ(done.wires.size(), 2u);
+  for (const Wire& wire : done.wires) {
+    EXPECT_LT(wire.angle_deg, kCodecAngle_deg) << wire.side;
+    EXPECT_LT(wire.entry_m, kCodecEntry_m) << wire.side;
+  }
+  EXPECT_TRUE(done.map_moves.empty());
+}
+
+/// Every fault at once, and a world that jumps while a screw is being guided: the level is
+/// registered anew, and the wires are as true as ever.
+TEST(OverTcp, SurvivesEveryFaultAndAJumpWhileGuiding) {
+  hl2ss::Faults faults = *hl2ss::faults_of("all");
+  faults.stall = 0.002;  // a third of a second each
+  faults.jump_at = {1200};
+  const Operated done = operate(hl2ss::VideoProfile::kRaw, faults);
+  EXPECT_TRUE(done.result.completed);
+  EXPECT_THAT(done.map_moves, ::testing::ElementsAre(Step::kGuide));
+  EXPECT_GE(done.wires.size(), 2u);
+  for (const Wire& wire : done.wires) {
+    EXPECT_LT(wire.angle_deg, kPerfectAngle_deg) << wire.side;
+    EXPECT_LT(wire.entry_m, kPerfectEntry_m) << wire.side;
+  }
+}
+
+/// What the headset is told to listen for is what a session understands.
+TEST(OverTcp, TheHeadsetListensForTheWordsOfTheWorkflow) {
+  const Case spine = phantom();
+  ModelCache models;
+  auto operation = *plan_operation(spine, {"L5"}, models);
+  const Method method = *method_named("best");
+  auto headset = *sim::SimHeadset::open(room_of(spine, operation, built_in_tools()), {});
+  auto tracker = *method.create_tracker(headset->cameras().calibration(), built_in_tools(), {});
+  auto session = *Session::create(std::move(operation), std::move(tracker), method);
+  class Misheard : public SessionObserver {
+   public:
+    std::vector<std::string> phrases;
+    void not_understood(const Phrase& phrase) override { phrases.push_back(phrase.text); }
+  } misheard;
+  session->observe(&misheard);
+  std::vector<Phrase> phrases;
+  for (const std::string& text : hl2ss::workflow_phrases()) phrases.push_back({text, 1.0, {}});
+  phrases.push_back({"accepted", 1.0, {}});
+  Inputs inputs;
+  inputs.phrases = phrases;
+  StereoFrame frame;
+  ASSERT_TRUE(headset->cameras().next(frame).ok());
+  session->step(frame, inputs);
+  EXPECT_THAT(misheard.phrases, ::testing::ElementsAre("accepted"));
+}
+
+}  // namespace
+}  // namespace orthonav::engine

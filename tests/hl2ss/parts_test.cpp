@@ -1,0 +1,284 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "hal/hl2ss/arrival_meter.h"
+#include "hal/hl2ss/boot_clock.h"
+#include "hal/hl2ss/map_watch.h"
+#include "hal/hl2ss/options.h"
+#include "hal/hl2ss/pairer.h"
+#include "hal/hl2ss/server/faults.h"
+
+namespace orthonav::hl2ss {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+
+constexpr HostTime kStart{seconds(5000)};
+constexpr std::uint64_t kSecond = 10'000'000;
+
+CameraImage image_of(std::uint64_t sensor_ticks) {
+  CameraImage image;
+  image.sensor_ticks = sensor_ticks;
+  return image;
+}
+
+/// Adds an image of `ticks`; the ticks of the pair that it makes, or 0.
+std::uint64_t add(Pairer& pairer, Side side, std::uint64_t ticks) {
+  CameraImage image = image_of(ticks);
+  const auto pair = pairer.add(side, image);
+  return pair ? pair->left.sensor_ticks : 0;
+}
+
+TEST(Pairer, PairsBySensorTicksWhicheverComesFirst) {
+  Pairer pairer;
+  EXPECT_EQ(add(pairer, Side::kLeft, 100'000), 0u);
+  EXPECT_EQ(add(pairer, Side::kRight, 433'333), 0u);
+  EXPECT_EQ(add(pairer, Side::kRight, 100'000), 100'000u) << "out of order on its side";
+  EXPECT_EQ(add(pairer, Side::kLeft, 433'333), 433'333u);
+  EXPECT_EQ(pairer.unpaired(), 0);
+}
+
+TEST(Pairer, NeverGoesBackAndNeverMixesMoments) {
+  Pairer pairer;
+  add(pairer, Side::kLeft, 1'000'000);
+  EXPECT_EQ(add(pairer, Side::kRight, 1'020'001), 0u) << "2 ms apart";
+  add(pairer, Side::kLeft, 1'333'333);
+  EXPECT_EQ(add(pairer, Side::kRight, 1'333'333), 1'333'333u);
+  EXPECT_EQ(add(pairer, Side::kRight, 1'000'000), 0u) << "its moment is over";
+  EXPECT_EQ(pairer.unpaired(), 3);
+}
+
+TEST(Pairer, HoldsNoMoreThanAFew) {
+  Pairer pairer;
+  for (std::uint64_t i = 1; i <= 1000; ++i) add(pairer, Side::kLeft, i * 333'333);
+  EXPECT_EQ(pairer.unpaired(), 996);
+  EXPECT_EQ(add(pairer, Side::kRight, 1000 * 333'333ull), 1000 * 333'333ull);
+}
+
+TEST(Pairer, IsNotBlockedByTicksFromNowhere) {
+  Pairer pairer;
+  for (std::uint64_t i = 0; i < 10; ++i) add(pairer, Side::kLeft, (1ull << 63) + i * 100'000);
+  add(pairer, Side::kLeft, 500'000);
+  EXPECT_EQ(add(pairer, Side::kRight, 500'000), 500'000u);
+}
+
+TEST(StampReader, TurnsStampsIntoTimes) {
+  StampReader stamps;
+  EXPECT_EQ(stamps.time_of(3 * kSecond, kStart), Timestamp(seconds(3)));
+  EXPECT_EQ(stamps.time_of(2 * kSecond, kStart), Timestamp(seconds(2))) << "a little late";
+  EXPECT_EQ(stamps.base_ticks(), 0);
+}
+
+TEST(StampReader, CountsFiletimeFrom1970) {
+  StampReader stamps;
+  const auto time = stamps.time_of(133'000'000'000'000'000, kStart);
+  ASSERT_TRUE(time.has_value());
+  EXPECT_EQ(ticks_100ns(*time) + stamps.base_ticks(), 133'000'000'000'000'000);
+}
+
+TEST(StampReader, TakesNoStampFromNowhere) {
+  StampReader stamps;
+  ASSERT_TRUE(stamps.time_of(1000 * kSecond, kStart));
+  const HostTime soon = kStart + milliseconds(33);
+  EXPECT_FALSE(stamps.time_of(1'000'000 * kSecond, soon)) << "the future";
+  EXPECT_FALSE(stamps.time_of(10 * kSecond, soon)) << "long ago";
+  EXPECT_FALSE(stamps.time_of(~0ull, soon));
+  EXPECT_EQ(stamps.time_of(1001 * kSecond, soon), Timestamp(seconds(1001)));
+  EXPECT_EQ(stamps.restarts(), 0);
+}
+
+TEST(StampReader, GoesOnWhenTheHeadsetsClockBeginsAnew) {
+  StampReader stamps;
+  ASSERT_TRUE(stamps.time_of(1000 * kSecond, kStart));
+  std::optional<Timestamp> time;
+  int doubted = 0;
+  HostTime at = kStart + seconds(60);
+  for (std::uint64_t i = 0; i < 100 && !time; ++i, ++doubted, at += milliseconds(33))
+    time = stamps.time_of(5 * kSecond + i * 333'333, at);
+  ASSERT_TRUE(time.has_value());
+  EXPECT_EQ(doubted, 20);
+  EXPECT_EQ(stamps.restarts(), 1);
+  EXPECT_GT(*time, Timestamp(seconds(1059))) << "never back";
+  EXPECT_LT(*time, Timestamp(seconds(1062)));
+}
+
+TEST(BootClock, TakesTheOffsetOfThePacketThatWasUnderwayShortest) {
+  BootClock clock;
+  const HostTime now = HostClock::now();
+  clock.heard(Timestamp(seconds(100)) - milliseconds(30), now);
+  clock.heard(Timestamp(seconds(100)) - milliseconds(4), now);
+  clock.heard(Timestamp(seconds(100)) - milliseconds(90), now);
+  const Duration offset = clock.offset();
+  EXPECT_EQ(Timestamp(seconds(100)) - milliseconds(4),
+            Timestamp(std::chrono::duration_cast<Duration>(now.time_since_epoch())) + offset);
+  EXPECT_EQ(clock.spread(), Duration::zero()) << "of one second";
+  EXPECT_GE(clock.now(), Timestamp(seconds(100)) - milliseconds(4));
+}
+
+TEST(BootClock, NeverGoesBackAndKnowsWhatItHeard) {
+  BootClock clock;
+  const HostTime now = HostClock::now();
+  clock.heard(Timestamp(seconds(500)), now);
+  const Timestamp before = clock.now();
+  EXPECT_GE(before, Timestamp(seconds(500)));
+  clock.heard(Timestamp(seconds(400)), now);
+  EXPECT_GE(clock.now(), before);
+}
+
+TEST(BootClock, StandsStillWhilePaced) {
+  BootClock clock;
+  clock.paced(Timestamp(seconds(7)), HostClock::now());
+  EXPECT_EQ(clock.now(), Timestamp(seconds(7)));
+  clock.heard(Timestamp(seconds(9)), HostClock::now());
+  EXPECT_EQ(clock.now(), Timestamp(seconds(7)));
+  clock.paced(Timestamp(seconds(8)), HostClock::now());
+  EXPECT_EQ(clock.now(), Timestamp(seconds(8)));
+  clock.unpaced();
+  EXPECT_GE(clock.now(), Timestamp(seconds(8)));
+  EXPECT_LT(clock.now(), Timestamp(seconds(60)));
+}
+
+TEST(ArrivalMeter, MeasuresGapsJitterAndOrder) {
+  ArrivalMeter meter("left camera", Duration(33'333'333));
+  const auto hears = [&](int stamp_ms, int at_ms) {
+    return meter.heard(Timestamp(milliseconds(stamp_ms)), kStart + milliseconds(at_ms));
+  };
+  EXPECT_TRUE(hears(0, 10));
+  EXPECT_TRUE(hears(33, 43));
+  EXPECT_EQ(meter.statistics().jitter_ms, 0.0);
+  EXPECT_TRUE(hears(66, 92)) << "16 ms late";
+  EXPECT_NEAR(meter.statistics().jitter_ms, 1.0, 1e-9);
+  EXPECT_TRUE(hears(165, 175));
+  EXPECT_FALSE(hears(132, 176));
+  EXPECT_EQ(meter.statistics().gaps, 1);
+  EXPECT_EQ(meter.statistics().longest_gap, milliseconds(99));
+  EXPECT_EQ(meter.statistics().out_of_order, 1);
+  EXPECT_EQ(meter.statistics().packets, 5);
+}
+
+Timestamp pair_time(int n) { return Timestamp(Duration(33'333'333) * n); }
+
+/// A head that moves briskly: half a metre a second, and turns.
+Transform<World, Rig> head_at(int n) {
+  const double t = n / 30.0;
+  return {rotation_from_vector({0.0, 1.2 * t, 0.2}), {0.5 * t, 1.6, 0.1}};
+}
+
+TEST(MapWatch, LetsAHeadMove) {
+  MapWatch watch;
+  for (int n = 0; n < 300; ++n) {
+    if (n % 17 == 5) continue;  // gaps
+    EXPECT_FALSE(watch.moved(pair_time(n), head_at(n))) << n;
+  }
+}
+
+TEST(MapWatch, LetsAHeadStartAndStopAsFastAsHeadsDo) {
+  MapWatch watch;
+  double speed = 0.0;
+  double place = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    speed += n % 20 < 5 ? 20.0 / 30.0 : (n % 20 >= 15 ? -20.0 / 30.0 : 0.0);
+    if (std::abs(speed) > 1.5) speed = std::copysign(1.5, speed);
+    place += speed / 30.0;
+    EXPECT_FALSE(watch.moved(pair_time(n), {Mat3::identity(), {place, 0, 0}})) << n;
+  }
+}
+
+TEST(MapWatch, FindsAJumpOnceAndGoesOn) {
+  const Transform<World, World> moved(rotation_from_vector({0, 0.3, 0}), {0.06, 0, 0});
+  MapWatch watch;
+  int moves = 0;
+  for (int n = 0; n < 60; ++n)
+    moves += watch.moved(pair_time(n), n < 30 ? head_at(n) : moved * head_at(n)) ? 1 : 0;
+  EXPECT_EQ(moves, 1);
+}
+
+TEST(MapWatch, FindsAShiftOfSixCentimetres) {
+  for (const double shift_m : {0.06, 0.02}) {
+    MapWatch watch;
+    int moves = 0;
+    for (int n = 0; n < 20; ++n)
+      moves += watch.moved(pair_time(n), {Mat3::identity(), {n < 10 ? 0.0 : shift_m, 0, 0}});
+    EXPECT_EQ(moves, shift_m > 0.05 ? 1 : 0) << "the smaller one may be a head's start";
+  }
+}
+
+TEST(MapWatch, VouchesForNothingAfterALongSilence) {
+  for (const int silence_s : {9, 11}) {
+    MapWatch watch;
+    EXPECT_FALSE(watch.moved(pair_time(0), head_at(0)));
+    EXPECT_EQ(watch.moved(pair_time(0) + seconds(silence_s), head_at(0)), silence_s > 10);
+  }
+}
+
+TEST(HeadTrack, KnowsBetweenPosesAndALittleBeyond) {
+  HeadTrack head;
+  for (int n = 0; n < 5; ++n) head.add(pair_time(n), head_at(n), 0);
+  EXPECT_EQ(head.world_from_rig(pair_time(3)).origin, Origin::kMeasured);
+  EXPECT_EQ(head.world_from_rig(pair_time(3) + milliseconds(10)).origin, Origin::kMeasured);
+  const auto ahead = head.world_from_rig(pair_time(5));
+  EXPECT_EQ(ahead.origin, Origin::kPredicted);
+  EXPECT_LT((ahead.value.translation() - head_at(5).translation()).norm(), 1e-9);
+  EXPECT_EQ(head.world_from_rig(pair_time(4) + milliseconds(101)).origin, Origin::kLost);
+  EXPECT_EQ(head.world_from_rig(Timestamp(-Duration(1))).origin, Origin::kLost);
+}
+
+TEST(HeadTrack, KnowsNothingOfAnotherMapNorAcrossAGap) {
+  HeadTrack head;
+  head.add(pair_time(0), head_at(0), 0);
+  head.add(pair_time(1), head_at(1), 1);
+  EXPECT_EQ(head.world_from_rig(pair_time(0)).origin, Origin::kLost);
+  EXPECT_EQ(head.world_from_rig(pair_time(1)).origin, Origin::kMeasured);
+  head.add(pair_time(9), head_at(9), 1);
+  EXPECT_EQ(head.world_from_rig(pair_time(5)).origin, Origin::kLost);
+  head.lose();
+  EXPECT_EQ(head.world_from_rig(pair_time(9)).origin, Origin::kLost);
+}
+
+TEST(Uri, NamesHostProfileAndPorts) {
+  const auto plain = options_of("//192.168.1.7");
+  ASSERT_TRUE(plain.ok());
+  EXPECT_EQ(plain->host, "192.168.1.7");
+  EXPECT_EQ(plain->first_port, 3800);
+  EXPECT_EQ(plain->profile, VideoProfile::kRaw);
+  const auto all = options_of("//[::1]?profile=h264&port=21000&standin=21019");
+  ASSERT_TRUE(all.ok());
+  EXPECT_EQ(all->host, "::1");
+  EXPECT_EQ(all->first_port, 21000);
+  EXPECT_EQ(all->standin_port, 21019);
+  EXPECT_EQ(all->profile, VideoProfile::kH264Base);
+}
+
+TEST(Uri, IsRefusedWithWhatIsKnown) {
+  const auto refusal = [](const char* text) {
+    const auto options = options_of(text);
+    return options ? "accepted" : options.error().message;
+  };
+  EXPECT_THAT(refusal("192.168.1.7"), HasSubstr("//HOST"));
+  EXPECT_THAT(refusal("//"), HasSubstr("names no host"));
+  EXPECT_THAT(refusal("//a/b"), HasSubstr("must be a name or an address"));
+  EXPECT_THAT(refusal("//a?prot=1"), HasSubstr("profile=raw|h264, port=BASE and standin=PORT"));
+  EXPECT_THAT(refusal("//a?profile=hevc"), HasSubstr("raw or h264"));
+  EXPECT_THAT(refusal("//a?port=0"), HasSubstr("from 1 to 65517"));
+  EXPECT_THAT(refusal("//a?port=65535"), HasSubstr("from 1 to 65517"));
+  EXPECT_THAT(refusal("//a?port=1&port=2"), HasSubstr("twice"));
+  EXPECT_THAT(refusal("//a?"), HasSubstr("unknown key \"\""));
+}
+
+TEST(Faults, AreReadFromText) {
+  const auto faults = faults_of("gap=0.25,jump=12,jump=40");
+  ASSERT_TRUE(faults.ok());
+  EXPECT_EQ(faults->gap, 0.25);
+  EXPECT_EQ(faults->jump_at, (std::vector<std::int64_t>{12, 40}));
+  EXPECT_GT(faults_of("all")->corrupt, 0.0);
+  EXPECT_EQ(faults_of("")->gap, 0.0);
+  EXPECT_THAT(faults_of("gap").error().message, HasSubstr("known are gap, lose"));
+  EXPECT_THAT(faults_of("gap=2").error().message, HasSubstr("gap must lie in [0, 1]"));
+  EXPECT_THAT(faults_of("gap=nan").error().message, HasSubstr("gap must lie"));
+}
+
+}  // namespace
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "tools/machine.h"
+
+namespace orthonav::tools {
+
+/// Which ports of the headset at `uri` (hl2ss://HOST) answer. An Error for another URI.
+[[nodiscard]] Result<std::vector<Offer>> offers_of_headset(const std::string& uri);
+
+}  // namespace orthonav::tools
