@@ -83,10 +83,10 @@ class Surgeon {
 
   // surgeon_guiding.cpp
   Script guide(std::size_t level, std::string side);
-  Script find_entry(std::size_t level, const std::string& label, Aim& aim);
+  Script find_entry(const std::string& step, std::size_t level, const std::string& label, Aim& aim);
   /// Averages what is seen of entry and axis for a while; `found` stays false when the step ends.
-  Script look_at_entry(const std::string& label, double look_s, bool& found, Vec3& entry,
-                       Vec3& outwards);
+  Script look_at_entry(const std::string& step, const std::string& label, double look_s,
+                       bool& found, Vec3& entry, Vec3& outwards);
   Script set_on(const Aim& aim);
   Script drive_wire(std::size_t level, const std::string& side, const Aim& aim);
   [[nodiscard]] BoneSpot put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) const;

@@ -22,7 +22,7 @@ Script Surgeon::guide(std::size_t level, std::string side) {
     const std::string label = layout_->room().levels[level].label + " " + side;
     co_await body_.take(ToolKind::kGuide, layout_->site(level));
     Aim aim;
-    co_await find_entry(level, label, aim);
+    co_await find_entry(step, level, label, aim);
     if (!in_step(step) || finished_) co_return;
     co_await set_on(aim);
     co_await turn_tool(step, aim);
@@ -57,14 +57,15 @@ BoneSpot Surgeon::put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) cons
           (room_from_vertebra * Direction<Vertebra>{spot.normal}).v};
 }
 
-Script Surgeon::find_entry(std::size_t level, const std::string& label, Aim& aim) {
+Script Surgeon::find_entry(const std::string& step, std::size_t level, const std::string& label,
+                           Aim& aim) {
   const Vec3 perceived_shift = normal_vector(body_.random(), magnitudes_->overlay_perception_m) +
                                normal_vector(body_.random(), magnitudes_->entry_pick_m);
   // First a glance for the direction, to stand right; then a look for the place.
   for (const double look_s : {kGlance_s, kLook_s}) {
     bool found = false;
     Vec3 entry;
-    co_await look_at_entry(label, look_s, found, entry, aim.outwards);
+    co_await look_at_entry(step, label, look_s, found, entry, aim.outwards);
     if (!found) co_return;
     aim.on_bone = put_on_bone(level, entry + perceived_shift, aim.outwards);
     body_.look({aim.on_bone.point}, body_.best_view(aim.outwards));
@@ -72,9 +73,8 @@ Script Surgeon::find_entry(std::size_t level, const std::string& label, Aim& aim
   }
 }
 
-Script Surgeon::look_at_entry(const std::string& label, double look_s, bool& found, Vec3& entry,
-                              Vec3& outwards) {
-  const std::string step(eyes_->step());
+Script Surgeon::look_at_entry(const std::string& step, const std::string& label, double look_s,
+                              bool& found, Vec3& entry, Vec3& outwards) {
   const Timestamp patience = body_.now() + from_seconds(kLongPatience_s);
   Vec3 entries;
   Vec3 axes;
