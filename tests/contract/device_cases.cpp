@@ -4,6 +4,7 @@
 
 #include "hal/fake/failing.h"
 #include "hal/open/open.h"
+#include "hal/openxr/openxr_headset.h"
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/sim_camera/scene.h"
@@ -131,6 +132,11 @@ std::unique_ptr<Headset> open_recorder() {
   return keeping(std::move(folder), std::move(recorder));
 }
 
+/// Another headset's cameras beside a display that nobody has opened.
+std::unique_ptr<Headset> open_openxr() {
+  return openxr::OpenxrHeadset::around(open_fake(), openxr::RigOnHead{});
+}
+
 std::unique_ptr<Headset> open_stream_recorder() {
   const std::vector<std::int64_t> ticks = {0, 333'333, 666'667, 4'000'000, 4'333'333};
   auto folder = std::make_unique<StreamRecorderFolder>(ticks, ticks);
@@ -193,6 +199,7 @@ std::vector<DeviceCase> device_cases() {
           {"faultless", open_faultless},
           {"allowed_faults", open_with_allowed_faults},
           {"recorder", open_recorder},
+          {"openxr", open_openxr},
           {"replay", [] { return open_replayed(open_fake()); }},
           {"stream_recorder", open_stream_recorder, false},
           {"sim", open_sim, false},

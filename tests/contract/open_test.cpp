@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
+
 namespace orthonav {
 namespace {
 
@@ -55,6 +59,40 @@ TEST(OpenHeadset, TakesWholeSeedsOnly) {
 
 TEST(OpenHeadset, SaysWhatIsNotSupportedYet) {
   EXPECT_THAT(refusal("hl2ss://192.168.0.2"), HasSubstr("hl2ss: is not supported yet"));
+}
+
+TEST(OpenHeadset, WantsCamerasForAnOpenxrHeadset) {
+  EXPECT_THAT(refusal("openxr:"), HasSubstr("openxr:+sim:"));
+  EXPECT_THAT(refusal("openxr:+"), HasSubstr("openxr:+sim:"));
+  EXPECT_THAT(refusal("openxr:+openxr:+sim:"), HasSubstr("can't be another one's"));
+  EXPECT_THAT(refusal("openxr:+sim:?sead=3"), HasSubstr("\"sead\""));
+  EXPECT_THAT(refusal("openxr:?rug=x+sim:"), HasSubstr("known is rig=FILE"));
+}
+
+TEST(OpenHeadset, WantsARigOfCamerasOnTheHead) {
+  EXPECT_THAT(refusal("openxr:+hl2ss://host"), HasSubstr("need rig=FILE"));
+  EXPECT_THAT(refusal("openxr:?rig=/nowhere.json+sim:"), HasSubstr("/nowhere.json: can't be read"));
+}
+
+TEST(OpenHeadset, ChecksTheRigFile) {
+  const testing::TemporaryFolder folder;
+  const auto refused = [&](const std::string& text) {
+    const std::string path = (folder.path() / "rig.json").string();
+    std::ofstream(path) << text;
+    return refusal("openxr:?rig=" + path + "+sim:");
+  };
+  EXPECT_EQ(refused(R"({"view_from_rig": [[1,0,0,-50],[0,1,0,10],[0,0,1,-30],[0,0,0,1]]})"),
+            "accepted");
+  EXPECT_THAT(refused("{"), HasSubstr("is no JSON"));
+  EXPECT_THAT(refused("[]"), HasSubstr("four rows of four numbers"));
+  EXPECT_THAT(refused(R"({"view_from_rig": [[1,0,0],[0,1,0],[0,0,1],[0,0,0]]})"),
+              HasSubstr("four rows of four numbers"));
+  EXPECT_THAT(refused(R"({"view_from_rig": [[-1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})"),
+              HasSubstr("mirror"));
+  EXPECT_THAT(refused(R"({"view_from_rig": [[1,0,0,2000],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})"),
+              HasSubstr("limit 1000"));
+  EXPECT_THAT(refused(R"({"view_from_rig": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,1]]})"),
+              HasSubstr("0 0 0 1"));
 }
 
 TEST(OpenHeadset, PassesOnWhyARecordingCannotBeOpened) {
