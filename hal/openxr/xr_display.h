@@ -73,6 +73,8 @@ class XrDisplay : public PixelDisplay {
     Origin origin = Origin::kLost;
   };
 
+  Result<GraphicsNeeds> connect();
+  Result<EyeImages> make_all(const GraphicsObjects& objects, const ImageTaste& taste);
   Status make_session(const GraphicsObjects& objects);
   Status make_spaces();
   /// The first thing that ends the session, if any event does.
@@ -107,7 +109,7 @@ class XrDisplay : public PixelDisplay {
   XrSession session_ = XR_NULL_HANDLE;
   XrReferenceSpaceType space_type_ = XR_REFERENCE_SPACE_TYPE_LOCAL;
   SessionState state_;
-  bool instance_lost_ = false;
+  bool instance_lost_ = false;  ///< or no good: the next `open` begins with a new one
   bool had_session_ = false;
   bool end_asked_ = false;
   Swapchains swapchains_;

@@ -19,6 +19,19 @@ DisplayTurn over(const char* why) {
   return turn;
 }
 
+/// Eyes of a head whose place is not known, beside the origin as far as eyes are apart.
+void stand_still(std::array<XrView, 2>& views) {
+  constexpr double kHalfApart_m = 0.0315;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    XrPosef& pose = views[eye].pose;
+    pose.position = {};
+    const auto turned = transform_of<Space, Eye>(pose);
+    if (!turned) continue;
+    const Vec3 at = (*turned * Direction<Eye>{{eye == 0 ? -kHalfApart_m : kHalfApart_m, 0, 0}}).v;
+    pose.position = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+  }
+}
+
 }  // namespace
 
 DisplayTurn XrDisplay::lost(const std::string& what, XrResult result) {
@@ -173,7 +186,13 @@ EyeViews XrDisplay::views() {
       XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
   constexpr XrViewStateFlags kTracked =
       XR_VIEW_STATE_ORIENTATION_TRACKED_BIT | XR_VIEW_STATE_POSITION_TRACKED_BIT;
-  if (XR_FAILED(located) || count != 2 || (state.viewStateFlags & kKnown) != kKnown) return views;
+  if (XR_FAILED(located) || count != 2) return views;
+  const bool turns_only = mount_.placement == Placement::kElsewhere &&
+                          (state.viewStateFlags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT;
+  if (turns_only)
+    stand_still(located_);
+  else if ((state.viewStateFlags & kKnown) != kKnown)
+    return views;
   std::optional<Transform<World, Space>> world_from_space;
   {
     const std::lock_guard lock(mutex_);

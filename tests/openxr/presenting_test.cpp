@@ -68,6 +68,7 @@ std::vector<Variant> runtimes() {
       {"local_only", srgb([&](RuntimeTraits& t) { t.spaces = plain; })},
       {"no_controller", srgb([](RuntimeTraits& t) { t.controller = false; })},
       {"untracked_position", srgb([](RuntimeTraits& t) { t.position_tracked = false; })},
+      {"turns_only", srgb([](RuntimeTraits& t) { t.position_known = false; })},
       {"young_vulkan", srgb([](RuntimeTraits& t) { t.least_vulkan = XR_MAKE_VERSION(1, 2, 0); })}};
   // Eight bits of linear light: both images round at each of a few blends, sRGB's steps in the
   // light being up to 2.2 of 255.

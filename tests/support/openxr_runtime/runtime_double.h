@@ -33,7 +33,8 @@ struct RuntimeTraits {
   bool controller = true;  ///< a khr/simple_controller in the right hand
   bool converts_time = true;
   bool valid = true;             ///< poses are known at all
-  bool position_tracked = true;  ///< false: they are guessed
+  bool position_known = true;    ///< false: the headset only turns
+  bool position_tracked = true;  ///< false: it is guessed
   XrVersion least_vulkan = XR_MAKE_VERSION(1, 0, 0);
   XrVersion most_vulkan = XR_MAKE_VERSION(1, 3, 0);
   std::int64_t period_ns = 10'000'000;
