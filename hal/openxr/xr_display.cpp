@@ -70,7 +70,10 @@ Result<EyeImages> XrDisplay::make_all(const GraphicsObjects& objects, const Imag
   if (const Status made = make_session(objects); !made) return made.error();
   if (const Status attached = button_.attach(session_); !attached) return attached.error();
   if (const Status made = make_spaces(); !made) return made.error();
-  if (const Status made = swapchains_.create(session_, setup_, taste); !made) return made.error();
+  near_m_ = taste.near_m();
+  const bool depth = runtime_->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
+  if (const Status made = swapchains_.create(session_, setup_, taste, depth); !made)
+    return made.error();
   return swapchains_.images();
 }
 

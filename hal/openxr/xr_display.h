@@ -113,6 +113,7 @@ class XrDisplay : public PixelDisplay {
   bool had_session_ = false;
   bool end_asked_ = false;
   Swapchains swapchains_;
+  double near_m_ = 0.0;  ///< where depth is 0
   SelectButton button_;
   XrTime display_time_ = 0;  ///< of the frame begun
   std::array<XrView, 2> located_{};

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "hal/openxr/xr_display.h"
 #include "hal/openxr/xr_error.h"
@@ -213,11 +214,19 @@ EyeViews XrDisplay::views() {
 Status XrDisplay::finish_turn(bool drawn) {
   const XrResult released = swapchains_.release();
   std::array<XrCompositionLayerProjectionView, 2> eyes = {};
+  std::array<XrCompositionLayerDepthInfoKHR, 2> depths = {};
   for (std::size_t eye = 0; drawn && eye < 2; ++eye) {
     eyes[eye].type = XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW;
     eyes[eye].pose = located_[eye].pose;
     eyes[eye].fov = located_[eye].fov;
     eyes[eye].subImage = swapchains_.part_of(eye);
+    if (!swapchains_.has_depth()) continue;
+    depths[eye].type = XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR;
+    depths[eye].subImage = swapchains_.depth_of(eye);
+    depths[eye].maxDepth = 1.0f;
+    depths[eye].nearZ = static_cast<float>(near_m_);
+    depths[eye].farZ = std::numeric_limits<float>::infinity();
+    eyes[eye].next = &depths[eye];
   }
   XrCompositionLayerProjection layer = {XR_TYPE_COMPOSITION_LAYER_PROJECTION};
   // What we write is premultiplied; where nothing is drawn, the world is seen.

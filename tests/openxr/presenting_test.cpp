@@ -3,6 +3,7 @@
 
 #include "engine/golden_scenes.h"
 #include "tests/openxr/drawn_frames.h"
+#include "tests/render/test_scenes.h"
 
 namespace orthonav::testing {
 namespace {
@@ -135,6 +136,35 @@ TEST_F(RuntimeTest, DrawsEveryKindOfGoldenSceneAsItIs) {
     presenter_.reset();
   }
   EXPECT_EQ(compared, 3u);
+}
+
+TEST_F(RuntimeTest, TellsHowFarThingsAreWhereTheRuntimeAsks) {
+  RuntimeTraits traits;
+  traits.takes_depth = true;
+  traits.formats = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_D16_UNORM, VK_FORMAT_D32_SFLOAT};
+  runtime().reset(traits);
+  runtime().set_head([](XrTime) { return XrPosef{{0, 0, 0, 1}, {}}; });
+  open();
+  ASSERT_TRUE(present().ok());
+  // A solid ball of 50 mm radius, a triangle far behind it.
+  render::Scene scene =
+      render::sphere_scene(render::MeshStyle::kSolid, {1, 1, 1, 1}, {0, 0, -1}, 301);
+  scene.triangles.push_back({501, {render::Float3{-9, -9, -3}, {9, -9, -3}, {0, 0.5f, -3}}, {}});
+  ASSERT_TRUE(show(scene).ok());
+  ASSERT_TRUE(eventually([&] { return count_drawn() >= 3; }));
+  presenter_->stop();
+  const auto pairs = matched(drawn(), runtime().frames());
+  ASSERT_FALSE(pairs.empty());
+  FrameComparison comparison(160, 120, render::Blend::kAdditive);
+  EXPECT_EQ(comparison.compare(pairs[0].first, pairs[0].second).most, 0);
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const std::vector<float>& depth_m = pairs[0].second.depth_m[eye];
+    ASSERT_EQ(depth_m.size(), 160u * 120u);
+    const float nearest = *std::min_element(depth_m.begin(), depth_m.end());
+    EXPECT_NEAR(nearest, 0.95f, 0.005f) << "the ball's front";
+    EXPECT_NEAR(depth_m[160 * 118 + 80], 3.0f, 0.01f) << "the triangle below";
+    EXPECT_FALSE(depth_m[4] < 1e3f) << "nothing in the corner";
+  }
 }
 
 /// A control that must fail: frames are not all alike.
