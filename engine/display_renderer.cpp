@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/render_values.h"
+#include "render/projection.h"
 
 namespace orthonav::engine {
 namespace {
@@ -41,6 +42,10 @@ class Taste : public ImageTaste {
  public:
   explicit Taste(const render::HostedRenderer& renderer) : renderer_(renderer) {}
   [[nodiscard]] int suits(std::int64_t format) const override { return renderer_.suits(format); }
+  [[nodiscard]] int suits_depth(std::int64_t format) const override {
+    return renderer_.suits_depth(format);
+  }
+  [[nodiscard]] double near_m() const override { return static_cast<double>(render::kNearPlane_m); }
   [[nodiscard]] bool takes_layers() const override { return renderer_.takes_layers(); }
 
  private:
@@ -82,8 +87,9 @@ Result<std::unique_ptr<DisplayRenderer>> DisplayRenderer::start(PixelDisplay& di
   const auto images =
       display.start(objects_of(made->renderer_->objects()), Taste(*made->renderer_));
   if (!images) return images.error();
-  const render::EyeTargets targets = {images->format, images->width_px, images->height_px,
-                                      images->layers, images->chains};
+  const render::EyeTargets targets = {images->format,      images->width_px, images->height_px,
+                                      images->layers,      images->chains,   images->depth_format,
+                                      images->depth_chains};
   if (!made->renderer_->use(targets, error)) return Error{error};
   return made;
 }

@@ -56,6 +56,10 @@ struct EyeTargets {
   /// Of each image. 2, where the renderer takes that: one chain for both eyes; 1: a chain an eye.
   std::uint32_t layers = 1;
   std::vector<std::vector<std::uint64_t>> chains;  ///< VkImage, single sample
+  /// Images of the same size and layers that get the depth of what shows: 0 at `kNearPlane_m`, 1 at
+  /// infinity. Chains like the others, or none.
+  std::int64_t depth_format = 0;
+  std::vector<std::vector<std::uint64_t>> depth_chains;
 };
 
 /// Draws scenes into such images, two frames at a time: while the device draws one, the next is
@@ -73,6 +77,8 @@ class HostedRenderer {
   /// Whether images of this VkFormat can be drawn into, and how well they suit: the higher the
   /// better, 0 not at all. sRGB formats are encoded, all others hold linear light.
   [[nodiscard]] virtual int suits(std::int64_t format) const = 0;
+  /// The same of depth images.
+  [[nodiscard]] virtual int suits_depth(std::int64_t format) const = 0;
   /// Whether the device draws both eyes in one pass, into an image of two layers. If not, each eye
   /// gets a chain of its own: llvmpipe of Mesa 22.3 loses parts of the second layer.
   [[nodiscard]] virtual bool takes_layers() const = 0;
@@ -81,8 +87,9 @@ class HostedRenderer {
   /// What takes time before the views need to be known: waits for the oldest frame in flight,
   /// checks the scene, uploads new meshes. Then `draw` of the same scene follows.
   [[nodiscard]] virtual bool prepare(const Scene& scene, std::string& error) = 0;
-  /// Draws `scene` for both eyes into image `images[i]` of chain i and returns once the device has
-  /// its orders. The images are left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL.
+  /// Draws `scene` for both eyes into image `images[i]` of chain i, those of depth after the
+  /// others, and returns once the device has its orders. The images are left as colour attachments,
+  /// and as depth and stencil attachments.
   [[nodiscard]] virtual bool draw(const Scene& scene, const std::vector<View>& views,
                                   std::span<const std::uint32_t> images, std::string& error) = 0;
   /// Waits for every frame in flight and lets go of the images: the host may destroy them.

@@ -9,6 +9,7 @@
 
 #include "engine/phantom.h"
 #include "engine/video_writer.h"
+#include "hal/openxr/openxr_headset.h"
 #include "render/renderer.h"
 
 namespace orthonav::tools {
@@ -62,11 +63,16 @@ Offer openxr_runtime(const fs::path& root) {
                                             home.empty() ? fs::path() : fs::path(home) / in_home,
                                             root / "etc/xdg/openxr/1/active_runtime.json",
                                             root / "usr/share/openxr/1/active_runtime.json"});
-  if (!found.empty())
-    return {"OpenXR runtime", Finding::kOptional, found + ", but this version has no openxr: yet",
-            "use sim: or replay:PATH"};
-  return {"OpenXR runtime", Finding::kOptional, "none active; this version has no openxr: yet",
-          "use sim: or replay:PATH"};
+  if (found.empty())
+    return {"OpenXR runtime", Finding::kOptional, "none active; openxr:+URI needs one",
+            "install the headset's (or Monado) and name its manifest in XR_RUNTIME_JSON or "
+            "~/.config/openxr/1/active_runtime.json"};
+  // Only this machine's own can be asked.
+  if (root != "/") return {"OpenXR runtime", Finding::kFound, found, ""};
+  const auto runtime = openxr::describe_runtime();
+  if (runtime) return {"OpenXR runtime", Finding::kFound, *runtime + " (" + found + ")", ""};
+  return {"OpenXR runtime", Finding::kOptional, runtime.error().message,
+          "start the runtime and connect the headset"};
 }
 
 Offer video_encoder() {
@@ -127,7 +133,8 @@ std::vector<Offer> offers_of_machine(const std::string& root) {
   offers.push_back(validation_layer(root));
   offers.push_back(video_encoder());
   offers.push_back(phantom_case());
-  offers.push_back({"Headset", Finding::kFound, "sim: (simulated), replay:PATH (recorded)", ""});
+  offers.push_back({"Headset", Finding::kFound,
+                    "sim: (simulated), replay:PATH (recorded), openxr:+URI (shown)", ""});
   offers.push_back(openxr_runtime(root));
   offers.push_back(microphone(root));
   std::vector<Offer> clickers = keyboards(root);

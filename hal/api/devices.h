@@ -10,7 +10,6 @@
 #include "hal/api/camera_model.h"
 #include "hal/api/display.h"
 #include "hal/api/image.h"
-#include "hal/api/pixel_display.h"
 #include "hal/api/result.h"
 #include "hal/api/time.h"
 #include "hal/api/tracked.h"
@@ -165,6 +164,8 @@ class Voice {
 
   std::optional<Timestamp> last_time_;
 };
+
+class PixelDisplay;  // hal/api/pixel_display.h
 
 /// A headset and what hangs on it. Every part lives as long as the headset.
 class Headset {

@@ -53,6 +53,9 @@ struct EyeImages {
   int height_px = 0;
   std::uint32_t layers = 1;  ///< 2: one chain for both eyes; 1: a chain an eye
   std::vector<std::vector<std::uint64_t>> chains;  ///< VkImage, single sample
+  /// Where the display asks how far things are: chains like the others, or none.
+  std::int64_t depth_format = 0;
+  std::vector<std::vector<std::uint64_t>> depth_chains;
 };
 
 /// Says of a VkFormat how well it suits who draws, 0 not at all; and whether he takes two layers.
@@ -60,6 +63,9 @@ class ImageTaste {
  public:
   virtual ~ImageTaste() = default;
   [[nodiscard]] virtual int suits(std::int64_t format) const = 0;
+  /// The same of depth, which is 0 at `near_m` and 1 at infinity.
+  [[nodiscard]] virtual int suits_depth(std::int64_t format) const = 0;
+  [[nodiscard]] virtual double near_m() const = 0;
   [[nodiscard]] virtual bool takes_layers() const = 0;
 };
 
@@ -109,7 +115,7 @@ class PixelDisplay {
   virtual Result<EyeImages> start(const GraphicsObjects& objects, const ImageTaste& taste) = 0;
 
   virtual DisplayTurn next_turn() = 0;
-  /// Which image of each chain to draw this frame into.
+  /// Which image of each chain to draw this frame into, those of depth after the others.
   virtual Result<std::vector<std::uint32_t>> acquire() = 0;
   /// Where the eyes will be when the frame begun lights up, as known this moment.
   virtual EyeViews views() = 0;

@@ -25,6 +25,8 @@ class Cameras : public StereoCamera {
     return inner_.calibration();
   }
   Result<Next> do_next(StereoFrame& frame) override {
+    // Buffers are reused, and a device whose map never moves does not touch this.
+    frame.map_epoch = 0;
     auto answer = inner_.next(frame);
     if (!answer || *answer != Next::kFrame) return answer;
     if (mounted_) {

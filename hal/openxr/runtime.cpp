@@ -14,9 +14,9 @@ namespace {
 constexpr std::array<const char*, 2> kNeeded = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
                                                 XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
 // Switched on where they are offered. Some are younger than the loader's headers.
-constexpr std::array<const char*, 4> kWelcome = {
-    XR_MSFT_HAND_INTERACTION_EXTENSION_NAME, "XR_EXT_hand_interaction",
-    "XR_ML_ml2_controller_interaction", "XR_EXT_local_floor"};
+constexpr std::array<const char*, 5> kWelcome = {
+    XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, XR_MSFT_HAND_INTERACTION_EXTENSION_NAME,
+    "XR_EXT_hand_interaction", "XR_ML_ml2_controller_interaction", "XR_EXT_local_floor"};
 
 Error no_runtime(XrResult result) {
   return Error{"openxr: no runtime answers (" + name_of(result) +

@@ -18,45 +18,61 @@ Result<std::vector<std::int64_t>> formats_of(XrSession session) {
   return formats;
 }
 
-/// Of equally good ones the runtime's favourite, which comes first.
-Result<std::int64_t> best_format(XrSession session, const ImageTaste& taste) {
-  const auto formats = formats_of(session);
-  if (!formats) return formats.error();
+using Suits = int (ImageTaste::*)(std::int64_t) const;
+
+/// Of equally good ones the runtime's favourite, which comes first; 0 where none suits.
+std::int64_t best_format(const std::vector<std::int64_t>& formats, const ImageTaste& taste,
+                         Suits suits) {
   std::int64_t best = 0;
   int most = 0;
-  std::string offered;
-  for (const std::int64_t format : *formats) {
-    offered += " " + std::to_string(format);
-    if (taste.suits(format) <= most) continue;
-    most = taste.suits(format);
+  for (const std::int64_t format : formats) {
+    if ((taste.*suits)(format) <= most) continue;
+    most = (taste.*suits)(format);
     best = format;
   }
-  if (most == 0)
-    return Error{"openxr: none of the image formats can be drawn into; offered:" + offered};
   return best;
+}
+
+Error no_format(const std::vector<std::int64_t>& formats) {
+  std::string offered;
+  for (const std::int64_t format : formats) offered += " " + std::to_string(format);
+  return Error{"openxr: none of the image formats can be drawn into; offered:" + offered};
 }
 
 }  // namespace
 
-Status Swapchains::create(XrSession session, const ViewSetup& setup, const ImageTaste& taste) {
-  const auto format = best_format(session, taste);
-  if (!format) return format.error();
-  images_ = {*format, setup.width_px, setup.height_px, taste.takes_layers() ? 2u : 1u, {}};
+Status Swapchains::create(XrSession session, const ViewSetup& setup, const ImageTaste& taste,
+                          bool depth) {
+  const auto formats = formats_of(session);
+  if (!formats) return formats.error();
+  const std::int64_t format = best_format(*formats, taste, &ImageTaste::suits);
+  if (format == 0) return no_format(*formats);
+  images_ = {format, setup.width_px, setup.height_px, taste.takes_layers() ? 2u : 1u, {}, 0, {}};
+  if (depth) images_.depth_format = best_format(*formats, taste, &ImageTaste::suits_depth);
   if (images_.layers == 2) {
-    if (add_chain(session)) return {};
+    if (add_chains(session, Content::kColour) && add_chains(session, Content::kDepth)) return {};
     // A runtime need not take layers: one swapchain an eye then.
     destroy();
     images_.layers = 1;
   }
-  for (int eye = 0; eye < 2; ++eye)
-    if (const Status added = add_chain(session); !added) return added;
+  if (const Status added = add_chains(session, Content::kColour); !added) return added;
+  return add_chains(session, Content::kDepth);
+}
+
+Status Swapchains::add_chains(XrSession session, Content content) {
+  if (content == Content::kDepth && images_.depth_format == 0) return {};
+  for (std::uint32_t chain = 0; chain < 2 / images_.layers; ++chain)
+    if (const Status added = add_chain(session, content); !added) return added;
   return {};
 }
 
-Status Swapchains::add_chain(XrSession session) {
+Status Swapchains::add_chain(XrSession session, Content content) {
+  const bool depth = content == Content::kDepth;
   XrSwapchainCreateInfo info = {XR_TYPE_SWAPCHAIN_CREATE_INFO};
-  info.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT;
-  info.format = images_.format;
+  info.usageFlags =
+      XR_SWAPCHAIN_USAGE_SAMPLED_BIT | (depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                              : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT);
+  info.format = depth ? images_.depth_format : images_.format;
   info.sampleCount = 1;  // what has more is resolved into it
   info.width = static_cast<std::uint32_t>(images_.width_px);
   info.height = static_cast<std::uint32_t>(images_.height_px);
@@ -77,7 +93,7 @@ Status Swapchains::add_chain(XrSession session) {
   std::vector<std::uint64_t> handles;
   for (const XrSwapchainImageVulkan2KHR& image : images)
     handles.push_back(reinterpret_cast<std::uint64_t>(image.image));
-  images_.chains.push_back(std::move(handles));
+  (depth ? images_.depth_chains : images_.chains).push_back(std::move(handles));
   return {};
 }
 
@@ -85,6 +101,7 @@ void Swapchains::destroy() {
   for (const Chain& chain : chains_) xrDestroySwapchain(chain.handle);
   chains_.clear();
   images_.chains.clear();
+  images_.depth_chains.clear();
 }
 
 XrResult Swapchains::acquire(Chain& chain) {
@@ -125,11 +142,12 @@ XrResult Swapchains::release() {
   return first;
 }
 
-XrSwapchainSubImage Swapchains::part_of(std::size_t eye) const {
+XrSwapchainSubImage Swapchains::part(std::size_t first_chain, std::size_t eye) const {
+  const bool layered = images_.layers == 2;
   XrSwapchainSubImage part = {};
-  part.swapchain = chains_[images_.layers == 2 ? 0 : eye].handle;
+  part.swapchain = chains_[first_chain + (layered ? 0 : eye)].handle;
   part.imageRect.extent = {images_.width_px, images_.height_px};
-  part.imageArrayIndex = images_.layers == 2 ? static_cast<std::uint32_t>(eye) : 0;
+  part.imageArrayIndex = layered ? static_cast<std::uint32_t>(eye) : 0;
   return part;
 }
 

@@ -17,7 +17,8 @@ class Swapchains {
   Swapchains& operator=(const Swapchains&) = delete;
 
   /// In the format that suits who draws best; an Error when none does.
-  Status create(XrSession session, const ViewSetup& setup, const ImageTaste& taste);
+  /// With depth where it is wanted and a format of it suits.
+  Status create(XrSession session, const ViewSetup& setup, const ImageTaste& taste, bool depth);
   void destroy();
   [[nodiscard]] const EyeImages& images() const { return images_; }
 
@@ -27,7 +28,11 @@ class Swapchains {
   /// Whatever was acquired and waited for.
   XrResult release();
   /// Where an eye's picture lies.
-  [[nodiscard]] XrSwapchainSubImage part_of(std::size_t eye) const;
+  [[nodiscard]] XrSwapchainSubImage part_of(std::size_t eye) const { return part(0, eye); }
+  [[nodiscard]] bool has_depth() const { return !images_.depth_chains.empty(); }
+  [[nodiscard]] XrSwapchainSubImage depth_of(std::size_t eye) const {
+    return part(images_.chains.size(), eye);
+  }
 
  private:
   struct Chain {
@@ -36,10 +41,13 @@ class Swapchains {
     bool acquired = false;
     bool waited = false;
   };
-  Status add_chain(XrSession session);
+  enum class Content { kColour, kDepth };
+  Status add_chains(XrSession session, Content content);
+  Status add_chain(XrSession session, Content content);
+  [[nodiscard]] XrSwapchainSubImage part(std::size_t first_chain, std::size_t eye) const;
   XrResult acquire(Chain& chain);
 
-  std::vector<Chain> chains_;
+  std::vector<Chain> chains_;  ///< of colour, then of depth
   EyeImages images_;
 };
 

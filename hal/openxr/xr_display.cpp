@@ -12,7 +12,20 @@ XrDisplay::~XrDisplay() {
   button_.destroy();
 }
 
+/// Whatever goes wrong on the way, the next attempt starts from nothing.
 Result<GraphicsNeeds> XrDisplay::open() {
+  auto needs = connect();
+  instance_lost_ = !needs.ok();
+  return needs;
+}
+
+Result<EyeImages> XrDisplay::start(const GraphicsObjects& objects, const ImageTaste& taste) {
+  auto images = make_all(objects, taste);
+  instance_lost_ = !images.ok();
+  return images;
+}
+
+Result<GraphicsNeeds> XrDisplay::connect() {
   if (!runtime_ || instance_lost_) {
     button_.destroy();
     {
@@ -24,7 +37,6 @@ Result<GraphicsNeeds> XrDisplay::open() {
     if (const Status made = button_.create(**runtime); !made) return made.error();
     const std::lock_guard lock(mutex_);
     runtime_ = std::move(*runtime);
-    instance_lost_ = false;
   }
   if (const Status found = runtime_->find_headset(); !found) return found.error();
   const auto name = runtime_->headset_name();
@@ -54,11 +66,14 @@ Result<void*> XrDisplay::create_device(void* physical, GraphicsFunction get_proc
   return runtime_->create_vulkan_device(physical, get_proc, info);
 }
 
-Result<EyeImages> XrDisplay::start(const GraphicsObjects& objects, const ImageTaste& taste) {
+Result<EyeImages> XrDisplay::make_all(const GraphicsObjects& objects, const ImageTaste& taste) {
   if (const Status made = make_session(objects); !made) return made.error();
   if (const Status attached = button_.attach(session_); !attached) return attached.error();
   if (const Status made = make_spaces(); !made) return made.error();
-  if (const Status made = swapchains_.create(session_, setup_, taste); !made) return made.error();
+  near_m_ = taste.near_m();
+  const bool depth = runtime_->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
+  if (const Status made = swapchains_.create(session_, setup_, taste, depth); !made)
+    return made.error();
   return swapchains_.images();
 }
 
@@ -148,7 +163,12 @@ XrDisplay::Located XrDisplay::locate_viewer(XrTime at) const {
       XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
   constexpr XrSpaceLocationFlags kTracked =
       XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
-  if ((location.locationFlags & kKnown) != kKnown) return {};
+  // Cameras elsewhere need no place in the room: a headset that only turns stands still.
+  if (mount_.placement == Placement::kElsewhere &&
+      (location.locationFlags & kKnown) == XR_SPACE_LOCATION_ORIENTATION_VALID_BIT)
+    location.pose.position = {};
+  else if ((location.locationFlags & kKnown) != kKnown)
+    return {};
   const auto pose = transform_of<Space, Viewer>(location.pose);
   if (!pose) return {};
   const bool tracked = (location.locationFlags & kTracked) == kTracked;

@@ -73,6 +73,8 @@ class XrDisplay : public PixelDisplay {
     Origin origin = Origin::kLost;
   };
 
+  Result<GraphicsNeeds> connect();
+  Result<EyeImages> make_all(const GraphicsObjects& objects, const ImageTaste& taste);
   Status make_session(const GraphicsObjects& objects);
   Status make_spaces();
   /// The first thing that ends the session, if any event does.
@@ -107,10 +109,11 @@ class XrDisplay : public PixelDisplay {
   XrSession session_ = XR_NULL_HANDLE;
   XrReferenceSpaceType space_type_ = XR_REFERENCE_SPACE_TYPE_LOCAL;
   SessionState state_;
-  bool instance_lost_ = false;
+  bool instance_lost_ = false;  ///< or no good: the next `open` begins with a new one
   bool had_session_ = false;
   bool end_asked_ = false;
   Swapchains swapchains_;
+  double near_m_ = 0.0;  ///< where depth is 0
   SelectButton button_;
   XrTime display_time_ = 0;  ///< of the frame begun
   std::array<XrView, 2> located_{};

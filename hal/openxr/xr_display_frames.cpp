@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "hal/openxr/xr_display.h"
 #include "hal/openxr/xr_error.h"
@@ -17,6 +18,19 @@ DisplayTurn over(const char* why) {
   turn.kind = DisplayTurn::Kind::kOver;
   turn.why = why;
   return turn;
+}
+
+/// Eyes of a head whose place is not known, beside the origin as far as eyes are apart.
+void stand_still(std::array<XrView, 2>& views) {
+  constexpr double kHalfApart_m = 0.0315;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    XrPosef& pose = views[eye].pose;
+    pose.position = {};
+    const auto turned = transform_of<Space, Eye>(pose);
+    if (!turned) continue;
+    const Vec3 at = (*turned * Direction<Eye>{{eye == 0 ? -kHalfApart_m : kHalfApart_m, 0, 0}}).v;
+    pose.position = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+  }
 }
 
 }  // namespace
@@ -173,7 +187,13 @@ EyeViews XrDisplay::views() {
       XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
   constexpr XrViewStateFlags kTracked =
       XR_VIEW_STATE_ORIENTATION_TRACKED_BIT | XR_VIEW_STATE_POSITION_TRACKED_BIT;
-  if (XR_FAILED(located) || count != 2 || (state.viewStateFlags & kKnown) != kKnown) return views;
+  if (XR_FAILED(located) || count != 2) return views;
+  const bool turns_only = mount_.placement == Placement::kElsewhere &&
+                          (state.viewStateFlags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT;
+  if (turns_only)
+    stand_still(located_);
+  else if ((state.viewStateFlags & kKnown) != kKnown)
+    return views;
   std::optional<Transform<World, Space>> world_from_space;
   {
     const std::lock_guard lock(mutex_);
@@ -194,11 +214,19 @@ EyeViews XrDisplay::views() {
 Status XrDisplay::finish_turn(bool drawn) {
   const XrResult released = swapchains_.release();
   std::array<XrCompositionLayerProjectionView, 2> eyes = {};
+  std::array<XrCompositionLayerDepthInfoKHR, 2> depths = {};
   for (std::size_t eye = 0; drawn && eye < 2; ++eye) {
     eyes[eye].type = XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW;
     eyes[eye].pose = located_[eye].pose;
     eyes[eye].fov = located_[eye].fov;
     eyes[eye].subImage = swapchains_.part_of(eye);
+    if (!swapchains_.has_depth()) continue;
+    depths[eye].type = XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR;
+    depths[eye].subImage = swapchains_.depth_of(eye);
+    depths[eye].maxDepth = 1.0f;
+    depths[eye].nearZ = static_cast<float>(near_m_);
+    depths[eye].farZ = std::numeric_limits<float>::infinity();
+    eyes[eye].next = &depths[eye];
   }
   XrCompositionLayerProjection layer = {XR_TYPE_COMPOSITION_LAYER_PROJECTION};
   // What we write is premultiplied; where nothing is drawn, the world is seen.

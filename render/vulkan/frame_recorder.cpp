@@ -41,13 +41,13 @@ class Recording {
     // Colour to black, opaque or not there at all; a label to 0 everywhere.
     if (sources_.pass.targets.spec().kind == PassKind::kColour)
       clear[0].color.float32[3] = sources_.pass.clear_alpha;
-    clear[1].depthStencil = {1.0f, 0};
+    clear[draws_depth() ? 0 : 1].depthStencil = {1.0f, 0};
     VkRenderPassBeginInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = sources_.pass.targets.pass();
     info.framebuffer = sources_.pass.targets.framebuffer(sources_.outer);
     info.renderArea = rect_of(region_);
-    info.clearValueCount = 2;
+    info.clearValueCount = draws_depth() ? 1 : 2;
     info.pClearValues = clear.data();
     vkCmdBeginRenderPass(commands_, &info, VK_SUBPASS_CONTENTS_INLINE);
     vkCmdSetScissor(commands_, 0, 1, &info.renderArea);
@@ -67,6 +67,10 @@ class Recording {
     // Solids hide veils; veils hide one another, but nothing else: once they are drawn, the depth
     // is made anew from the solids alone.
     mesh_stage(Stage::kDepth, items.solids());
+    if (draws_depth()) {
+      mesh_stage(Stage::kVeil, items.veils());
+      return;
+    }
     if (mesh_stage(Stage::kVeil, items.veils())) {
       clear(VK_IMAGE_ASPECT_DEPTH_BIT);
       mesh_stage(Stage::kDepth, items.solids());
@@ -85,20 +89,17 @@ class Recording {
 
   void lines() const {
     bool bound = false;
+    bool first = true;
     std::uint32_t stencil = 0;
     std::uint32_t item = 0;
     for (const SpanDraw& draw : sources_.items.lines()) {
       if (!shows(draw.bounds, Stage::kLine, bound)) continue;
-      if (stencil == 0)
+      if (first)
         vkCmdBindIndexBuffer(commands_, sources_.line_indices.get(), 0, VK_INDEX_TYPE_UINT32);
-      if (stencil == 0 || draw.item != item) {
-        if (stencil == kLastStencil) {
-          clear(VK_IMAGE_ASPECT_STENCIL_BIT);
-          stencil = 0;
-        }
-        vkCmdSetStencilReference(commands_, VK_STENCIL_FACE_FRONT_AND_BACK, ++stencil);
-        item = draw.item;
-      }
+      // Depth may be written as often as one likes: it needs no stencil.
+      if (!draws_depth() && (first || draw.item != item)) next_stencil(stencil);
+      first = false;
+      item = draw.item;
       const std::uint32_t rounded = draw.rounded ? 1 : 0;
       push({kIdentity, draw.colour, {draw.width_m}, {draw.label, draw.first, 0, rounded}});
       if (draw.rounded) {
@@ -150,6 +151,9 @@ class Recording {
   }
 
  private:
+  [[nodiscard]] bool draws_depth() const {
+    return sources_.pass.targets.spec().kind == PassKind::kDepth;
+  }
   /// Whether it shows in this region; binds the stage's pipeline before the first that does.
   bool shows(const PixelRect& bounds, Stage stage, bool& bound) const {
     if (!touch(bounds, region_)) return false;
@@ -158,6 +162,14 @@ class Recording {
                         sources_.pass.pipelines.get(stage));
     }
     return bound = true;
+  }
+
+  void next_stencil(std::uint32_t& stencil) const {
+    if (stencil == kLastStencil) {
+      clear(VK_IMAGE_ASPECT_STENCIL_BIT);
+      stencil = 0;
+    }
+    vkCmdSetStencilReference(commands_, VK_STENCIL_FACE_FRONT_AND_BACK, ++stencil);
   }
 
   void push(const GpuItem& item) const {

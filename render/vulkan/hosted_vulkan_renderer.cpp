@@ -32,10 +32,24 @@ int rank_of(VkFormat format) {
   }
 }
 
+/// 16 bits of a depth that reaches infinity tell too little at arm's length.
+int depth_rank_of(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_D32_SFLOAT:
+      return 3;
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+      return 2;
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
 /// Every image that a pass may end in, chain after chain.
-std::vector<VkImage> outer_images(const EyeTargets& targets) {
+std::vector<VkImage> outer_images(const std::vector<std::vector<std::uint64_t>>& chains) {
   std::vector<VkImage> outer;
-  for (const auto& chain : targets.chains) {
+  for (const auto& chain : chains) {
     for (const std::uint64_t image : chain) outer.push_back(reinterpret_cast<VkImage>(image));
   }
   return outer;
@@ -54,11 +68,26 @@ std::string problem_of(const EyeTargets& targets, std::uint32_t most_px, bool ta
            std::to_string(targets.chains.size()) + " chains; needs 2 in 1 or 1 in 2";
   if (targets.layers == 2 && !takes_layers)
     return "renderer: host's images have 2 layers, which this device does not draw whole";
-  for (const auto& chain : targets.chains)
-    if (chain.empty() || chain.size() != targets.chains.front().size())
-      return "renderer: a chain of " + std::to_string(chain.size()) + " images beside one of " +
-             std::to_string(targets.chains.front().size());
+  if (!targets.depth_chains.empty() && targets.depth_chains.size() != chains)
+    return "renderer: " + std::to_string(targets.depth_chains.size()) +
+           " chains of depth images beside " + std::to_string(chains);
+  for (const auto* all : {&targets.chains, &targets.depth_chains})
+    for (const auto& chain : *all)
+      if (chain.empty() || chain.size() != all->front().size())
+        return "renderer: a chain of " + std::to_string(chain.size()) + " images beside one of " +
+               std::to_string(all->front().size());
   return {};
+}
+
+/// Whether there is an image of that number in each chain, those of depth after the others.
+bool holds(const EyeTargets& targets, std::span<const std::uint32_t> images) {
+  const std::size_t chains = targets.chains.size();
+  if (images.size() != chains + targets.depth_chains.size()) return false;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto& chain = i < chains ? targets.chains[i] : targets.depth_chains[i - chains];
+    if (images[i] >= chain.size()) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -83,14 +112,20 @@ VulkanObjects HostedVulkanRenderer::objects() const {
   return {instance_.get(), physical_, device_.get(), device_.queue_family(), 0};
 }
 
-int HostedVulkanRenderer::suits(std::int64_t format) const {
-  const int rank = rank_of(static_cast<VkFormat>(format));
-  if (rank == 0) return 0;
+bool HostedVulkanRenderer::offers(std::int64_t format, VkFormatFeatureFlags feature) const {
   VkFormatProperties properties;
   vkGetPhysicalDeviceFormatProperties(physical_, static_cast<VkFormat>(format), &properties);
-  const bool blends =
-      properties.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
-  return blends ? rank : 0;
+  return (properties.optimalTilingFeatures & feature) != 0;
+}
+
+int HostedVulkanRenderer::suits(std::int64_t format) const {
+  const int rank = rank_of(static_cast<VkFormat>(format));
+  return rank > 0 && offers(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) ? rank : 0;
+}
+
+int HostedVulkanRenderer::suits_depth(std::int64_t format) const {
+  const int rank = depth_rank_of(static_cast<VkFormat>(format));
+  return rank > 0 && offers(format, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) ? rank : 0;
 }
 
 void HostedVulkanRenderer::upload_blank_background() {
@@ -136,22 +171,32 @@ bool HostedVulkanRenderer::use(const EyeTargets& targets, std::string& error) {
     const std::string problem =
         problem_of(targets, properties.limits.maxImageDimension2D, takes_layers());
     if (!problem.empty()) throw std::runtime_error(problem);
+    if (!targets.depth_chains.empty() && suits_depth(targets.depth_format) == 0)
+      throw std::runtime_error("renderer: can't draw depth into VkFormat " +
+                               std::to_string(targets.depth_format));
     if (suits(targets.format) == 0)
       throw std::runtime_error("renderer: can't draw into VkFormat " +
                                std::to_string(targets.format));
     drawing_.wait_for_all();
     pass_.reset();
+    depth_pass_.reset();
     TargetSpec spec;
     spec.width = static_cast<std::uint32_t>(targets.width_px);
     spec.height = static_cast<std::uint32_t>(targets.height_px);
     spec.samples = options_.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     spec.colour = static_cast<VkFormat>(targets.format);
     spec.views = targets.layers;
-    spec.outer = outer_images(targets);
+    spec.outer = outer_images(targets.chains);
     pass_ = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
                                         options_.blend);
+    if (!targets.depth_chains.empty()) {
+      spec.kind = PassKind::kDepth;
+      spec.depth = static_cast<VkFormat>(targets.depth_format);
+      spec.outer = outer_images(targets.depth_chains);
+      depth_pass_ = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
+                                                options_.blend);
+    }
     targets_ = targets;
-    images_a_chain_ = targets.chains.front().size();
   });
 }
 
@@ -175,10 +220,15 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
   const Buffer nobody_reads;
   for (std::size_t first = 0; first < views.size(); first += at_once) {
     drawing_.place(std::span(views).subspan(first, at_once), first, size, false);
-    record_outer_frame(
-        batch, {*pass_, slot.bindings, drawing_.meshes(), drawing_.items(), slot.line_indices,
-                nobody_reads, 0, static_cast<std::uint32_t>(first * kFrameStride), false,
-                first * images_a_chain_ + images[first]});
+    const auto frame = static_cast<std::uint32_t>(first * kFrameStride);
+    const auto draw = [&](const FramePass& pass, std::size_t outer) {
+      record_outer_frame(batch, {pass, slot.bindings, drawing_.meshes(), drawing_.items(),
+                                 slot.line_indices, nobody_reads, 0, frame, false, outer});
+    };
+    draw(*pass_, first * targets_.chains.front().size() + images[first]);
+    if (depth_pass_)
+      draw(*depth_pass_,
+           first * targets_.depth_chains.front().size() + images[targets_.chains.size() + first]);
   }
 }
 
@@ -187,9 +237,7 @@ bool HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& vie
   const bool drawn = attempt(error, [&] {
     const auto start = std::chrono::steady_clock::now();
     if (const auto problem = problem_of_views(views)) throw std::runtime_error(*problem);
-    const bool inside = std::all_of(images.begin(), images.end(),
-                                    [this](std::uint32_t i) { return i < images_a_chain_; });
-    if (!pass_ || views.size() != kMostViews || images.size() != targets_.chains.size() || !inside)
+    if (!pass_ || views.size() != kMostViews || !holds(targets_, images))
       throw std::runtime_error("renderer: no such images of the host's");
     drawing_.build(scene, views, {targets_.width_px, targets_.height_px});
     record(views, images);
@@ -206,6 +254,7 @@ bool HostedVulkanRenderer::finish(std::string& error) {
   return attempt(error, [&] {
     drawing_.wait_for_all();
     pass_.reset();
+    depth_pass_.reset();
   });
 }
 

@@ -25,6 +25,7 @@ class HostedVulkanRenderer final : public HostedRenderer {
 
   [[nodiscard]] VulkanObjects objects() const override;
   [[nodiscard]] int suits(std::int64_t format) const override;
+  [[nodiscard]] int suits_depth(std::int64_t format) const override;
   [[nodiscard]] bool takes_layers() const override { return drawing_.views_a_pass() == 2; }
   [[nodiscard]] bool use(const EyeTargets& targets, std::string& error) override;
   [[nodiscard]] bool prepare(const Scene& scene, std::string& error) override;
@@ -43,6 +44,7 @@ class HostedVulkanRenderer final : public HostedRenderer {
   template <class Work>
   bool attempt(std::string& error, const Work& work);
   void upload_blank_background();
+  [[nodiscard]] bool offers(std::int64_t format, VkFormatFeatureFlags feature) const;
   void record(const std::vector<View>& views, std::span<const std::uint32_t> images);
 
   RendererOptions options_;
@@ -53,8 +55,8 @@ class HostedVulkanRenderer final : public HostedRenderer {
   SceneDrawing drawing_;
   DeviceImage background_;  ///< of one pixel: shaders want one bound
   EyeTargets targets_;
-  std::size_t images_a_chain_ = 0;
   std::unique_ptr<FramePass> pass_;
+  std::unique_ptr<FramePass> depth_pass_;  ///< where the host wants depth
   FrameTiming timing_;
   bool lost_ = false;
 };

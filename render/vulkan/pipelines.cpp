@@ -12,6 +12,7 @@
 #include "embedded/mesh_solid_frag.h"
 #include "embedded/mesh_veil_frag.h"
 #include "embedded/mesh_vert.h"
+#include "embedded/text_depth_frag.h"
 #include "embedded/text_frag.h"
 #include "embedded/text_label_frag.h"
 #include "embedded/text_vert.h"
@@ -87,6 +88,16 @@ Recipe recipe_of(Stage stage, PassKind kind) {
   }
   return overlay_recipe(embedded::text_vert(),
                         labels ? embedded::text_label_frag() : embedded::text_frag(), false);
+}
+
+/// As it is drawn, but for its depth alone; text stands in front of everything.
+Recipe depth_recipe_of(Stage stage) {
+  Recipe recipe = recipe_of(stage, PassKind::kLabels);
+  recipe.fragment = stage == Stage::kText ? embedded::text_depth_frag() : std::string_view{};
+  recipe.stencil = false;
+  recipe.depth_test = recipe.depth_write = true;
+  recipe.depth_compare = stage == Stage::kText ? VK_COMPARE_OP_ALWAYS : VK_COMPARE_OP_LESS;
+  return recipe;
 }
 
 ShaderModule make_module(VkDevice device, std::string_view spirv) {
@@ -185,7 +196,7 @@ struct States {
     depth = depth_state(recipe);
     attachment = blend_state(recipe, target.kind, mode);
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    blend.attachmentCount = 1;
+    blend.attachmentCount = target.kind == PassKind::kDepth ? 0 : 1;
     blend.pAttachments = &attachment;
     dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
     dynamic.dynamicStateCount = recipe.stencil ? 2 : 1;
@@ -239,8 +250,10 @@ Pipelines::Pipelines(const Device& device, VkPipelineCache cache, VkPipelineLayo
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const PassKind kind = targets.spec().kind;
-    if (stage == Stage::kBackground && kind == PassKind::kLabels) continue;
-    pipelines_[i] = make_pipeline(device, cache, layout, targets, recipe_of(stage, kind), blend);
+    if (stage == Stage::kBackground && kind != PassKind::kColour) continue;
+    const Recipe recipe =
+        kind == PassKind::kDepth ? depth_recipe_of(stage) : recipe_of(stage, kind);
+    pipelines_[i] = make_pipeline(device, cache, layout, targets, recipe, blend);
   }
 }
 

@@ -60,13 +60,24 @@ VkRenderPassMultiviewCreateInfo all_at_once(const std::uint32_t& view_mask) {
   return multiview;
 }
 
+/// Of an image that is drawn into.
+VkImageAspectFlags aspects_of(VkFormat depth) {
+  const bool stencil =
+      depth == VK_FORMAT_D24_UNORM_S8_UINT || depth == VK_FORMAT_D32_SFLOAT_S8_UINT;
+  return VK_IMAGE_ASPECT_DEPTH_BIT |
+         (stencil ? VkImageAspectFlags{VK_IMAGE_ASPECT_STENCIL_BIT} : 0);
+}
+
 ImageView view_of(const Device& device, const TargetSpec& spec, VkImage outer) {
   VkImageViewCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
   info.image = outer;
   info.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
-  info.format = spec.colour;
-  info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, spec.views};
+  const bool depth = spec.kind == PassKind::kDepth;
+  info.format = depth ? spec.depth : spec.colour;
+  const VkImageAspectFlags aspects =
+      depth ? aspects_of(spec.depth) : VkImageAspectFlags{VK_IMAGE_ASPECT_COLOR_BIT};
+  info.subresourceRange = {aspects, 0, 1, 0, spec.views};
   VkImageView view = VK_NULL_HANDLE;
   check(vkCreateImageView(device.get(), &info, nullptr, &view), "view of a host's image");
   return {device.get(), view};
@@ -75,10 +86,21 @@ ImageView view_of(const Device& device, const TargetSpec& spec, VkImage outer) {
 }  // namespace
 
 Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
-  const bool labels = spec.kind == PassKind::kLabels;
-  if (labels) spec_.samples = VK_SAMPLE_COUNT_1_BIT;
+  if (spec.kind != PassKind::kColour) spec_.samples = VK_SAMPLE_COUNT_1_BIT;
+  if (spec.kind == PassKind::kLabels) spec_.colour = kLabelFormat;
+  for (const VkImage outer : spec_.outer) outer_.push_back(view_of(device, spec_, outer));
+  if (spec.kind == PassKind::kDepth) {
+    make_depth_pass(device);
+  } else {
+    make_images(device);
+    make_pass(device);
+  }
+  make_framebuffers(device);
+}
+
+void Targets::make_images(const Device& device) {
   ImageSpec image;
-  image.format = labels ? kLabelFormat : spec_.colour;
+  image.format = spec_.colour;
   image.width = spec_.width;
   image.height = spec_.height;
   image.layers = spec_.views;
@@ -86,7 +108,6 @@ Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
   image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if (!resolves()) image.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   if (resolves() || spec_.outer.empty()) colour_ = DeviceImage(device, image);
-  for (const VkImage outer : spec_.outer) outer_.push_back(view_of(device, spec_, outer));
   if (resolves() && spec_.outer.empty()) {
     ImageSpec result = image;
     result.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -98,8 +119,6 @@ Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
   depth.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
   depth.aspect = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
   depth_ = DeviceImage(device, depth);
-  make_pass(device, image.format);
-  make_framebuffers(device);
 }
 
 void Targets::make_framebuffers(const Device& device) {
@@ -118,6 +137,10 @@ Framebuffer Targets::framebuffer_of(const Device& device, VkImageView result) co
   info.renderPass = pass();
   info.attachmentCount = resolves() ? 3 : 2;
   info.pAttachments = views.data();
+  if (spec_.kind == PassKind::kDepth) {
+    info.attachmentCount = 1;
+    info.pAttachments = &result;
+  }
   info.width = spec_.width;
   info.height = spec_.height;
   info.layers = 1;  // multiview picks the layers
@@ -139,8 +162,8 @@ std::array<VkAttachmentDescription, 3> Targets::attachments(VkFormat colour, VkF
           attachment(colour, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE, kKeep, read)};
 }
 
-void Targets::make_pass(const Device& device, VkFormat format) {
-  const auto described = attachments(format, device.depth_format());
+void Targets::make_pass(const Device& device) {
+  const auto described = attachments(spec_.colour, device.depth_format());
   const VkAttachmentReference colour = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
   const VkAttachmentReference depth = {1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
   const VkAttachmentReference result = {2, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -152,17 +175,44 @@ void Targets::make_pass(const Device& device, VkFormat format) {
   if (resolves()) subpass.pResolveAttachments = &result;
   const std::array<VkSubpassDependency, 2> dependencies = {before_drawing(),
                                                            before_reading(!spec_.outer.empty())};
-  const std::uint32_t view_mask = (1u << spec_.views) - 1;
-  const VkRenderPassMultiviewCreateInfo multiview = all_at_once(view_mask);
   VkRenderPassCreateInfo info = {};
-  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
-  info.pNext = &multiview;
   info.attachmentCount = resolves() ? 3 : 2;
   info.pAttachments = described.data();
   info.subpassCount = 1;
   info.pSubpasses = &subpass;
   info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
   info.pDependencies = dependencies.data();
+  set_pass(device, info);
+}
+
+void Targets::make_depth_pass(const Device& device) {
+  VkAttachmentDescription described =
+      attachment(spec_.depth, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_CLEAR,
+                 VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
+  const VkAttachmentReference depth = {0, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+  VkSubpassDescription subpass = {};
+  subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  subpass.pDepthStencilAttachment = &depth;
+  VkSubpassDependency after = before_reading(true);
+  after.srcStageMask = VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+  after.srcAccessMask = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+  const std::array<VkSubpassDependency, 2> dependencies = {before_drawing(), after};
+  VkRenderPassCreateInfo info = {};
+  info.attachmentCount = 1;
+  info.pAttachments = &described;
+  info.subpassCount = 1;
+  info.pSubpasses = &subpass;
+  info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
+  info.pDependencies = dependencies.data();
+  set_pass(device, info);
+}
+
+/// All views at once.
+void Targets::set_pass(const Device& device, VkRenderPassCreateInfo info) {
+  const std::uint32_t view_mask = (1u << spec_.views) - 1;
+  const VkRenderPassMultiviewCreateInfo multiview = all_at_once(view_mask);
+  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
+  info.pNext = &multiview;
   VkRenderPass pass = VK_NULL_HANDLE;
   check(vkCreateRenderPass(device.get(), &info, nullptr, &pass), "render pass");
   pass_ = RenderPass(device.get(), pass);

@@ -7,15 +7,20 @@
 
 namespace orthonav::render {
 
-enum class PassKind { kColour, kLabels };
+enum class PassKind {
+  kColour,
+  kLabels,
+  kDepth  ///< of everything that shows, for somebody else to know how far it is
+};
 
 struct TargetSpec {
   PassKind kind = PassKind::kColour;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t views = 1;
-  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  ///< labels have one, whatever is asked
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  ///< one but for colour, whatever is asked
   VkFormat colour = kColourFormat;
+  VkFormat depth = VK_FORMAT_UNDEFINED;  ///< of the outer images, where depth alone is drawn
   /// Somebody else's images of as many layers as there are views, where the result goes, one of
   /// them at a time; empty: into an image of the targets' own.
   std::vector<VkImage> outer;
@@ -39,7 +44,10 @@ class Targets {
  private:
   [[nodiscard]] std::array<VkAttachmentDescription, 3> attachments(VkFormat colour,
                                                                    VkFormat depth) const;
-  void make_pass(const Device& device, VkFormat format);
+  void make_images(const Device& device);
+  void make_pass(const Device& device);
+  void make_depth_pass(const Device& device);
+  void set_pass(const Device& device, VkRenderPassCreateInfo info);
   void make_framebuffers(const Device& device);
   Framebuffer framebuffer_of(const Device& device, VkImageView result) const;
 

@@ -9,6 +9,7 @@
 #include "hal/open/joined_headset.h"
 #include "hal/open/open.h"
 #include "hal/open/open_parts.h"
+#include "hal/openxr/openxr_headset.h"
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/sim_camera/scene.h"
@@ -135,6 +136,11 @@ std::unique_ptr<Headset> open_recorder() {
   auto folder = std::make_unique<TemporaryFolder>();
   auto recorder = checked(replay::RecordingHeadset::create(open_fake(), *folder / "session"));
   return keeping(std::move(folder), std::move(recorder));
+}
+
+/// Another headset's cameras beside a display that nobody has opened.
+std::unique_ptr<Headset> open_openxr() {
+  return openxr::OpenxrHeadset::around(open_fake(), openxr::RigOnHead{});
 }
 
 std::unique_ptr<Headset> open_stream_recorder() {
@@ -270,6 +276,7 @@ std::vector<DeviceCase> device_cases() {
           {"allowed_faults", open_with_allowed_faults},
           {"recorder", open_recorder},
           {"joined", open_joined},
+          {"openxr", open_openxr},
           {"replay", [] { return open_replayed(open_fake()); }},
           {"stream_recorder", open_stream_recorder, false},
           {"sim", open_sim, false},

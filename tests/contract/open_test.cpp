@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
+
 namespace orthonav {
 namespace {
 
@@ -52,6 +56,40 @@ TEST(OpenHeadset, NamesTheKnownKeys) {
 TEST(OpenHeadset, TakesWholeSeedsOnly) {
   for (const char* seed : {"", "-1", "1.5", "0x10", "three", "18446744073709551616", " 1", "1 "})
     EXPECT_THAT(refusal(std::string("sim:?seed=") + seed), HasSubstr("not a whole number")) << seed;
+}
+
+TEST(OpenHeadset, WantsCamerasForAnOpenxrHeadset) {
+  EXPECT_THAT(refusal("openxr:"), HasSubstr("openxr:+sim:"));
+  EXPECT_THAT(refusal("openxr:+"), HasSubstr("openxr:+sim:"));
+  EXPECT_THAT(refusal("openxr:+openxr:+sim:"), HasSubstr("can't be another one's"));
+  EXPECT_THAT(refusal("openxr:+sim:?sead=3"), HasSubstr("\"sead\""));
+  EXPECT_THAT(refusal("openxr:?rug=x+sim:"), HasSubstr("known is rig=FILE"));
+}
+
+TEST(OpenHeadset, WantsARigOfCamerasOnTheHead) {
+  EXPECT_THAT(refusal("openxr:+hl2ss://host"), HasSubstr("need rig=FILE"));
+  EXPECT_THAT(refusal("openxr:?rig=/nowhere.json+sim:"), HasSubstr("/nowhere.json: can't be read"));
+}
+
+TEST(OpenHeadset, ChecksTheRigFile) {
+  const testing::TemporaryFolder folder;
+  const auto refused = [&](const std::string& text) {
+    const std::string path = (folder.path() / "rig.json").string();
+    std::ofstream(path) << text;
+    return refusal("openxr:?rig=" + path + "+sim:");
+  };
+  EXPECT_EQ(refused(R"({"view_from_rig": [[1,0,0,-50],[0,1,0,10],[0,0,1,-30],[0,0,0,1]]})"),
+            "accepted");
+  EXPECT_THAT(refused("{"), HasSubstr("is no JSON"));
+  EXPECT_THAT(refused("[]"), HasSubstr("four rows of four numbers"));
+  EXPECT_THAT(refused(R"({"view_from_rig": [[1,0,0],[0,1,0],[0,0,1],[0,0,0]]})"),
+              HasSubstr("four rows of four numbers"));
+  EXPECT_THAT(refused(R"({"view_from_rig": [[-1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})"),
+              HasSubstr("mirror"));
+  EXPECT_THAT(refused(R"({"view_from_rig": [[1,0,0,2000],[0,1,0,0],[0,0,1,0],[0,0,0,1]]})"),
+              HasSubstr("limit 1000"));
+  EXPECT_THAT(refused(R"({"view_from_rig": [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,1,1]]})"),
+              HasSubstr("0 0 0 1"));
 }
 
 TEST(OpenHeadset, PassesOnWhyARecordingCannotBeOpened) {

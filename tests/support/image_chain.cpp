@@ -12,31 +12,40 @@ void expect(VkResult result, const char* what) {
   std::abort();
 }
 
-VkImageMemoryBarrier barrier(VkImage image, std::uint32_t layer, VkImageLayout from,
-                             VkImageLayout to) {
+VkImageMemoryBarrier barrier(VkImage image, VkImageAspectFlags aspect, std::uint32_t layer,
+                             bool reads) {
+  const bool colour = aspect == VK_IMAGE_ASPECT_COLOR_BIT;
+  const VkImageLayout attached = colour ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
+                                        : VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+  const VkAccessFlags written =
+      colour ? VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT : VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
   VkImageMemoryBarrier change = {};
   change.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
-  const bool reads = to == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
-  change.srcAccessMask = reads ? VkAccessFlags{VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT} : 0;
+  change.srcAccessMask = reads ? written : 0;
   change.dstAccessMask = reads ? VkAccessFlags{VK_ACCESS_TRANSFER_READ_BIT} : 0;
-  change.oldLayout = from;
-  change.newLayout = to;
+  change.oldLayout = reads ? attached : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+  change.newLayout = reads ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL : attached;
   change.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   change.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   change.image = image;
-  change.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, layer, 1};
+  change.subresourceRange = {aspect, 0, 1, layer, 1};
   return change;
 }
+
+constexpr VkPipelineStageFlags kAttached =
+    VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
 
 }  // namespace
 
 ImageChain::ImageChain(const render::VulkanObjects& objects, VkFormat format, int width_px,
-                       int height_px, std::uint32_t layers, std::size_t count)
+                       int height_px, std::uint32_t layers, std::size_t count,
+                       VkImageAspectFlags aspect)
     : objects_(objects),
       device_(static_cast<VkDevice>(objects.device)),
       width_px_(width_px),
       height_px_(height_px),
-      layers_(layers) {
+      layers_(layers),
+      aspect_(aspect) {
   vkGetDeviceQueue(device_, objects.queue_family, objects.queue_index, &queue_);
   for (std::size_t i = 0; i < count; ++i) add_image(format);
   make_readback();
@@ -51,7 +60,9 @@ void ImageChain::add_image(VkFormat format) {
   info.mipLevels = 1;
   info.arrayLayers = layers_;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
-  info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  info.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+               (aspect_ == VK_IMAGE_ASPECT_COLOR_BIT ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT
+                                                     : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
   VkImage image = VK_NULL_HANDLE;
   expect(vkCreateImage(device_, &info, nullptr, &image), "image");
   VkMemoryRequirements needs;
@@ -111,17 +122,15 @@ std::vector<std::uint64_t> ImageChain::handles() const {
 }
 
 void ImageChain::copy_layer(VkCommandBuffer commands, VkImage image, std::uint32_t layer) {
-  const auto there = barrier(image, layer, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                             VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
-  vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-                       VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1, &there);
+  const auto there = barrier(image, aspect_, layer, true);
+  vkCmdPipelineBarrier(commands, kAttached, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
+                       nullptr, 1, &there);
   VkBufferImageCopy copy = {};
-  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1};
+  copy.imageSubresource = {aspect_, 0, layer, 1};
   copy.imageExtent = {static_cast<std::uint32_t>(width_px_), static_cast<std::uint32_t>(height_px_),
                       1};
   vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer_, 1, &copy);
-  const auto back = barrier(image, layer, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  const auto back = barrier(image, aspect_, layer, false);
   VkBufferMemoryBarrier seen = {};
   seen.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER;
   seen.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
@@ -130,8 +139,7 @@ void ImageChain::copy_layer(VkCommandBuffer commands, VkImage image, std::uint32
   seen.buffer = buffer_;
   seen.size = VK_WHOLE_SIZE;
   vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                       VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-                       0, 0, nullptr, 1, &seen, 1, &back);
+                       VK_PIPELINE_STAGE_HOST_BIT | kAttached, 0, 0, nullptr, 1, &seen, 1, &back);
 }
 
 std::vector<std::uint8_t> ImageChain::read(std::size_t image, std::uint32_t layer,

@@ -14,15 +14,15 @@ namespace orthonav::testing {
 class ImageChain {
  public:
   ImageChain(const render::VulkanObjects& objects, VkFormat format, int width_px, int height_px,
-             std::uint32_t layers, std::size_t count = 2);
+             std::uint32_t layers, std::size_t count = 2,
+             VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT);
   ~ImageChain();
   ImageChain(const ImageChain&) = delete;
   ImageChain& operator=(const ImageChain&) = delete;
 
   [[nodiscard]] const std::vector<VkImage>& images() const { return images_; }
   [[nodiscard]] std::vector<std::uint64_t> handles() const;
-  /// The bytes of one layer, which must be in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL and stays
-  /// so.
+  /// The bytes of one layer, which must be an attachment of colour or of depth, and stays so.
   [[nodiscard]] std::vector<std::uint8_t> read(std::size_t image, std::uint32_t layer,
                                                int pixel_bytes = 4);
 
@@ -38,6 +38,7 @@ class ImageChain {
   int width_px_;
   int height_px_;
   std::uint32_t layers_;
+  VkImageAspectFlags aspect_;
   std::vector<VkImage> images_;
   std::vector<VkDeviceMemory> memory_;
   VkBuffer buffer_ = VK_NULL_HANDLE;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <thread>
 
 #include "tests/support/openxr_runtime/double_state.h"
@@ -33,11 +34,17 @@ XrResult XRAPI_CALL create_swapchain(XrSession, const XrSwapchainCreateInfo* inf
   if (info->width == 0 || info->width > 4096 || info->height == 0 || info->height > 4096)
     return d.violated("a swapchain of no size", XR_ERROR_SWAPCHAIN_RECT_INVALID);
   if (info->arraySize > d.traits.most_layers) return XR_ERROR_FEATURE_UNSUPPORTED;
+  const bool depth = info->format == VK_FORMAT_D32_SFLOAT;
+  const auto wanted = depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                            : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT;
+  if ((info->usageFlags & wanted) == 0)
+    return d.violated("images that can't be drawn into", XR_ERROR_FEATURE_UNSUPPORTED);
   auto* chain = new DoubleSwapchain;
   chain->info = *info;
   chain->chain = std::make_unique<ImageChain>(
       d.session->objects, static_cast<VkFormat>(info->format), static_cast<int>(info->width),
-      static_cast<int>(info->height), info->arraySize, 3);
+      static_cast<int>(info->height), info->arraySize, 3,
+      depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT);
   d.session->swapchains.insert(chain);
   *handle = reinterpret_cast<XrSwapchain>(chain);
   return XR_SUCCESS;
@@ -154,22 +161,49 @@ XrResult XRAPI_CALL begin_frame(XrSession, const XrFrameBeginInfo*) {
   return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
 }
 
-/// Why a view can't be shown; empty when it can.
-std::string flaw_of(Double& d, const XrCompositionLayerProjectionView& view) {
-  const DoubleSwapchain* chain = chain_of(d, view.subImage.swapchain);
+/// Why a part of an image can't be shown; empty when it can.
+std::string flaw_of(Double& d, const XrSwapchainSubImage& part) {
+  const DoubleSwapchain* chain = chain_of(d, part.swapchain);
   if (chain == nullptr) return "a view of no swapchain";
   if (!chain->released) return "a view of an image that was never released";
-  const XrRect2Di& rect = view.subImage.imageRect;
+  const XrRect2Di& rect = part.imageRect;
   if (rect.offset.x < 0 || rect.offset.y < 0 || rect.extent.width <= 0 || rect.extent.height <= 0 ||
       rect.offset.x + rect.extent.width > static_cast<int>(chain->info.width) ||
       rect.offset.y + rect.extent.height > static_cast<int>(chain->info.height))
     return "a view outside its image";
-  if (view.subImage.imageArrayIndex >= chain->info.arraySize) return "a view of a layer too many";
+  if (part.imageArrayIndex >= chain->info.arraySize) return "a view of a layer too many";
+  return {};
+}
+
+std::string flaw_of(Double& d, const XrCompositionLayerProjectionView& view) {
+  if (std::string flaw = flaw_of(d, view.subImage); !flaw.empty()) return flaw;
   const XrQuaternionf& q = view.pose.orientation;
   if (std::fabs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) > 0.01f)
     return "a view with a pose that is none";
   if (!(view.fov.angleLeft < view.fov.angleRight && view.fov.angleDown < view.fov.angleUp))
     return "a view of nothing";
+  return {};
+}
+
+/// The depth that hangs on a view, if any does.
+std::string take_depth(Double& d, const XrCompositionLayerProjectionView& view,
+                       std::vector<float>& metres) {
+  const auto* depth = static_cast<const XrCompositionLayerDepthInfoKHR*>(view.next);
+  if (depth == nullptr) return {};
+  if (!d.traits.takes_depth || depth->type != XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR)
+    return "a view with what was not switched on";
+  if (std::string flaw = flaw_of(d, depth->subImage); !flaw.empty()) return flaw;
+  if (!(depth->minDepth >= 0 && depth->minDepth < depth->maxDepth && depth->maxDepth <= 1 &&
+        depth->nearZ > 0 && depth->nearZ < depth->farZ))
+    return "a depth of no range";
+  DoubleSwapchain& chain = *chain_of(d, depth->subImage.swapchain);
+  if (chain.info.format != VK_FORMAT_D32_SFLOAT) return "a depth that is none";
+  const auto bytes = chain.chain->read(*chain.released, depth->subImage.imageArrayIndex);
+  metres.resize(bytes.size() / sizeof(float));
+  std::memcpy(metres.data(), bytes.data(), bytes.size());
+  // The hyperbola of a projection with the far plane anywhere, also at infinity.
+  for (float& value : metres)
+    value = 1.0f / (1.0f / depth->nearZ + value * (1.0f / depth->farZ - 1.0f / depth->nearZ));
   return {};
 }
 
@@ -191,6 +225,8 @@ XrResult take_layer(Double& d, const XrFrameEndInfo& info, SubmittedFrame& frame
     frame.format = chain.info.format;
     if (d.traits.frames_kept > 0)
       frame.pixels[eye] = chain.chain->read(*chain.released, view.subImage.imageArrayIndex);
+    if (const std::string flaw = take_depth(d, view, frame.depth_m[eye]); !flaw.empty())
+      return d.violated(flaw, XR_ERROR_VALIDATION_FAILURE);
   }
   return XR_SUCCESS;
 }

@@ -23,6 +23,7 @@ XrResult XRAPI_CALL enumerate_extensions(const char* layer, std::uint32_t capaci
   if (layer != nullptr) return XR_ERROR_API_LAYER_NOT_PRESENT;
   add(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME, 2);
   if (d.traits.converts_time) add(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME, 1);
+  if (d.traits.takes_depth) add(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, 5);
   return enumerate(all, capacity, count, properties);
 }
 
@@ -38,7 +39,8 @@ XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info, XrInstance
   for (std::uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
     const std::string name = info->enabledExtensionNames[i];
     if (name != XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME &&
-        name != XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME)
+        name != XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME &&
+        !(d.traits.takes_depth && name == XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME))
       return d.violated("extension " + name + " was not offered", XR_ERROR_EXTENSION_NOT_PRESENT);
   }
   d.instance = true;

@@ -134,6 +134,7 @@ XrResult XRAPI_CALL locate_space(XrSpace viewer, XrSpace base, XrTime time,
   if (of->type != XR_REFERENCE_SPACE_TYPE_VIEW || in->type == XR_REFERENCE_SPACE_TYPE_VIEW)
     return d.violated("spaces that this runtime can't relate", XR_ERROR_RUNTIME_FAILURE);
   location->pose = d.viewer_at(time);
+  if (!d.traits.position_known) location->pose.position = {1e30f, -1e30f, 1e30f};
   location->locationFlags = d.flags();
   return XR_SUCCESS;
 }
@@ -149,6 +150,8 @@ XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrView
   for (std::size_t eye = 0; eye < 2; ++eye) {
     XrPosef offset = {{0, 0, 0, 1}, {eye == 0 ? -0.0315f : 0.0315f, 0, 0}};
     both[eye].pose = multiplied(d.viewer_at(info->displayTime), offset);
+    // What is not known may be anything.
+    if (!d.traits.position_known) both[eye].pose.position = {1e30f, -1e30f, 1e30f};
     const float inner = 0.40f;
     const float outer = 0.50f;
     both[eye].fov = {eye == 0 ? -outer : -inner, eye == 0 ? inner : outer, 0.36f, -0.40f};

@@ -209,6 +209,7 @@ XrPosef Double::viewer_at(XrTime time) const {
 
 XrSpaceLocationFlags Double::flags() const {
   if (!traits.valid) return 0;
+  if (!traits.position_known) return XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
   XrSpaceLocationFlags flags = XR_SPACE_LOCATION_ORIENTATION_VALID_BIT |
                                XR_SPACE_LOCATION_POSITION_VALID_BIT |
                                XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT;

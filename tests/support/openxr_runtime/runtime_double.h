@@ -32,8 +32,10 @@ struct RuntimeTraits {
   bool headset = true;
   bool controller = true;  ///< a khr/simple_controller in the right hand
   bool converts_time = true;
+  bool takes_depth = false;      ///< `formats` has VK_FORMAT_D32_SFLOAT then
   bool valid = true;             ///< poses are known at all
-  bool position_tracked = true;  ///< false: they are guessed
+  bool position_known = true;    ///< false: the headset only turns
+  bool position_tracked = true;  ///< false: it is guessed
   XrVersion least_vulkan = XR_MAKE_VERSION(1, 0, 0);
   XrVersion most_vulkan = XR_MAKE_VERSION(1, 3, 0);
   std::int64_t period_ns = 10'000'000;
@@ -56,6 +58,8 @@ struct SubmittedFrame {
   std::array<XrFovf, 2> fovs{};
   /// Left and right as the images hold them, four bytes a pixel, row by row; empty without a layer.
   std::array<std::vector<std::uint8_t>, 2> pixels;
+  /// How far away along the view's axis, where it was told; infinite where nothing is.
+  std::array<std::vector<float>, 2> depth_m;
 };
 
 /// An OpenXR runtime for tests: a library that the Khronos loader loads through XR_RUNTIME_JSON. It

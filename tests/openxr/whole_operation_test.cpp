@@ -1,0 +1,168 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "engine/operation_plan.h"
+#include "engine/phantom.h"
+#include "engine/sim_scenario.h"
+#include "engine/simulated_operation.h"
+#include "engine/tool_file.h"
+#include "hal/sim/sim_headset.h"
+#include "tests/openxr/drawn_frames.h"
+
+namespace orthonav::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Key;
+
+/// A brisk surgeon's operation of one level, without errors, on the headset under test.
+class OperationOnOpenxr : public RuntimeTest {
+ protected:
+  void SetUp() override {
+    RuntimeTraits traits;
+    traits.stepped = false;
+    traits.period_ns = 15'000'000;
+    traits.frames_kept = 8;
+    runtime().reset(traits);
+    const engine::Case spine = engine::phantom();
+    engine::ModelCache models;
+    auto operation = engine::plan_operation(spine, {"L5"}, models);
+    ASSERT_TRUE(operation.ok()) << operation.error().message;
+    sim::SimOptions options;
+    options.magnitudes = sim::Magnitudes::perfect();
+    options.magnitudes.pace = 4.0;
+    auto room = sim::SimHeadset::open(engine::room_of(spine, *operation, engine::built_in_tools()),
+                                      options);
+    ASSERT_TRUE(room.ok()) << room.error().message;
+    const auto tools = engine::described_tools(**room);
+    auto method = engine::method_named("best");
+    ASSERT_TRUE(method.ok());
+    auto tracker = method->create_tracker((*room)->cameras().calibration(), tools,
+                                          {.full_search_interval = 10});
+    ASSERT_TRUE(tracker.ok());
+    headset_ = openxr::OpenxrHeadset::around(std::move(*room), {});
+    auto session = engine::Session::create(std::move(*operation), std::move(*tracker), *method);
+    ASSERT_TRUE(session.ok());
+    session_ = std::move(*session);
+  }
+
+  engine::LoopReport run(engine::LoopObserver* observer = nullptr) {
+    EXPECT_TRUE(present().ok());
+    engine::LoopOptions options;
+    options.drop_late_snapshots = true;
+    engine::SceneBuilder builder;
+    engine::FrameLoop loop(*headset_, *session_, builder, options);
+    loop.draw_into(presenter_.get());
+    loop.observe(observer);
+    auto report = loop.run();
+    EXPECT_TRUE(report.ok()) << report.error().message;
+    return report ? *report : engine::LoopReport{};
+  }
+
+  std::unique_ptr<engine::Session> session_;
+};
+
+/// At the first pair of each step: what was submitted last beside what the renderer makes of it.
+class Watch : public engine::LoopObserver {
+ public:
+  Watch(RuntimeDouble& runtime, std::function<std::vector<DrawnScene>()> drawn)
+      : runtime_(runtime), drawn_(std::move(drawn)) {}
+  void stepped(const StereoFrame&, const engine::Inputs&, const engine::Guidance& now) override {
+    pairs_in_step_ = now.step == step_ ? pairs_in_step_ + 1 : 0;
+    step_ = now.step;
+    // Some pairs into each step, so that its holograms have come up.
+    if (pairs_in_step_ == 10 && !frames_.contains(step_)) frames_[step_] = runtime_.frames();
+  }
+  [[nodiscard]] const std::map<engine::Step, std::vector<SubmittedFrame>>& frames() const {
+    return frames_;
+  }
+
+ private:
+  RuntimeDouble& runtime_;
+  std::function<std::vector<DrawnScene>()> drawn_;
+  std::map<engine::Step, std::vector<SubmittedFrame>> frames_;
+  engine::Step step_ = engine::Step::kSetup;
+  int pairs_in_step_ = 0;
+};
+
+/// The drawn scene that belongs to a frame: the one that was drawn for its eyes.
+const DrawnScene* scene_of(const SubmittedFrame& frame, const std::vector<DrawnScene>& drawn,
+                           std::int64_t first_drawn) {
+  const std::int64_t index = frame.number - first_drawn;
+  return index >= 0 && index < static_cast<std::int64_t>(drawn.size())
+             ? &drawn[static_cast<std::size_t>(index)]
+             : nullptr;
+}
+
+TEST_F(OperationOnOpenxr, GoesThroughWithEachStepsFramesAsTheRendererDrawsThem) {
+  Watch watch(runtime(), [this] { return drawn(); });
+  const engine::LoopReport report = run(&watch);
+  EXPECT_TRUE(report.done);
+  EXPECT_EQ(report.draw_failures, 0) << report.last_failure;
+  const auto presented = presenter_->stop();
+  EXPECT_EQ(presented.losses, 0);
+  EXPECT_GT(presented.drawn, 100);
+  EXPECT_THAT(watch.frames(),
+              AllOf(Contains(Key(engine::Step::kDigitize)), Contains(Key(engine::Step::kVerify)),
+                    Contains(Key(engine::Step::kGuide)), Contains(Key(engine::Step::kRod))));
+  // Once the first snapshot is there and the runtime wants pixels, every frame has some.
+  const std::vector<DrawnScene> all = drawn();
+  const auto last = runtime().frames();
+  std::int64_t first_drawn = -1;
+  for (const auto& frame : last)
+    if (frame.layers > 0) first_drawn = frame.number + 1 - static_cast<std::int64_t>(all.size());
+  FrameComparison comparison(160, 120, render::Blend::kAdditive);
+  for (const auto& [step, frames] : watch.frames()) {
+    ASSERT_FALSE(frames.empty());
+    const DrawnScene* scene = scene_of(frames.back(), all, first_drawn);
+    ASSERT_NE(scene, nullptr);
+    const auto difference = comparison.compare(*scene, frames.back());
+    EXPECT_EQ(difference.most, 0) << engine::name_of(step);
+    EXPECT_GT(difference.lit_px, 20u) << engine::name_of(step);
+  }
+}
+
+TEST_F(OperationOnOpenxr, ComesToItsEndThroughALossOfTheRuntimeAndOfTheSession) {
+  runtime().at_frame(30, [] { runtime_double().lose_session(true); });
+  runtime().at_frame(80, [] { runtime_double().lose_instance(false); });
+  const engine::LoopReport report = run();
+  EXPECT_TRUE(report.done);
+  const auto presented = presenter_->stop();
+  EXPECT_EQ(presented.losses, 2);
+  EXPECT_EQ(runtime().sessions(), 3);
+  EXPECT_THAT(presented.problems, Contains(HasSubstr("XR_ERROR_INSTANCE_LOST")));
+}
+
+TEST_F(OperationOnOpenxr, ARecentringTakesTheRegistrationBackAndItIsMadeAnew) {
+  class Recentre : public engine::LoopObserver {
+   public:
+    void stepped(const StereoFrame& frame, const engine::Inputs&,
+                 const engine::Guidance& now) override {
+      if (now.step == engine::Step::kGuide && !told_) {
+        told_ = true;
+        runtime_double().recentre({{0, 0, 0, 1}, {0.4f, 0, 0}}, true, 1);
+      }
+      if (told_ && frame.map_epoch == 1 && !answered_) {
+        answered_ = true;
+        step_then_ = now.step;
+        registered_then_ = now.levels[now.level].registration.has_value();
+      }
+    }
+    bool told_ = false;
+    bool answered_ = false;
+    bool registered_then_ = true;
+    engine::Step step_then_ = engine::Step::kDone;
+  } recentre;
+  const engine::LoopReport report = run(&recentre);
+  ASSERT_TRUE(recentre.answered_);
+  EXPECT_EQ(recentre.step_then_, engine::Step::kDigitize);
+  EXPECT_FALSE(recentre.registered_then_);
+  EXPECT_TRUE(report.done) << "the surgeon digitizes again";
+}
+
+}  // namespace
+}  // namespace orthonav::testing
