@@ -205,8 +205,9 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
                                                                 : ToolState::kLost;
     dots_.push_back({tool.name, state});
   }
-  const std::string text =
-      guidance.detail.empty() ? guidance.step_text : guidance.step_text + " | " + guidance.detail;
+  std::string text = guidance.step_text;
+  for (const std::string* part : {&guidance.detail, &guidance.heard})
+    if (!part->empty()) text += " | " + *part;
   add_status_line(scene, text, dots_, label_of(11, 1));
 }
 

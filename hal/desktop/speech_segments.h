@@ -59,6 +59,9 @@ class SpeechSegmenter {
   Biquad high_pass_;
   double smooth_energy_ = 0.0;
   std::optional<double> background_db_;
+  double least_db_ = 0.0;             ///< since the last three quarters of a second began
+  double previous_least_db_ = -80.0;  ///< in those before
+  int frames_of_least_ = 0;
   int loud_frames_ = 0;   ///< in a row, before a segment
   int quiet_frames_ = 0;  ///< in a row, within one
   bool speaking_ = false;
@@ -68,7 +71,7 @@ class SpeechSegmenter {
   std::int64_t last_loud_ = 0;
 
   void end_frame(std::vector<SpeechSegment>& segments);
-  void follow_background(double level_db);
+  void follow_background(double level_db, bool loud);
   void forget();
 };
 
