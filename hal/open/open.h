@@ -15,7 +15,8 @@ struct OpenOptions {
 };
 
 /// Opens a headset by URI: `sim:` (the simulated operating room; `sim:?seed=3&perfect&realtime`),
-/// `replay:PATH` (a recording). An unknown scheme or key is refused with the known ones named.
+/// `replay:PATH` (a recording; `replay:PATH?pace=fast`, `realtime` or `step`). An unknown scheme or
+/// key is refused with the known ones named.
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
                                               const OpenOptions& options = {});
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hal/fake/scripted.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/support/hololens1_folder.h"
 
@@ -98,6 +99,39 @@ TEST(Hololens1, ComesBackAsItWasWritten) {
   }
   EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kEnd);
   EXPECT_EQ((*replay)->summary().pairs_without_pose, 1);
+}
+
+TEST(ReplayPace, FollowsTheWallInRealTime) {
+  const Hololens1Folder folder(skewed_cameras(), frames_of_noise());
+  fake::ManualClock wall;
+  const auto replay = ReplayHeadset::open(folder.path(), {ReplayPace::kRealtime, &wall});
+  ASSERT_TRUE(replay.ok());
+  StereoFrame frame;
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  wall.advance(std::chrono::milliseconds(34));  // it begins a nominal frame before its first pair
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  EXPECT_GE((*replay)->clock().now(), frame.time);
+  wall.advance(std::chrono::milliseconds(66));  // two more: the first of them is missed
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
+  EXPECT_EQ(frame.sequence, 2);
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  wall.advance(std::chrono::seconds(1));
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kEnd);
+}
+
+TEST(ReplayPace, WaitsForEachStep) {
+  const Hololens1Folder folder(skewed_cameras(), frames_of_noise());
+  const auto replay = ReplayHeadset::open(folder.path(), {ReplayPace::kStepped, nullptr});
+  ASSERT_TRUE(replay.ok());
+  StereoFrame frame;
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  (*replay)->step();
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kFrame);
+  EXPECT_EQ(frame.sequence, 0);
+  EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kNone);
+  EXPECT_EQ((*replay)->clock().now(), frame.time);
 }
 
 /// Each convention read the other way round would be off by far more than the tolerance.
