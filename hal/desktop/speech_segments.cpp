@@ -96,6 +96,8 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
       too_long_ = false;
       quiet_frames_ = 0;
       begin_ = taken_ - loud_frames_ * static_cast<std::int64_t>(kFrameSamples);
+      isolated_ =
+          begin_ - last_loud_ >= static_cast<std::int64_t>(samples_of(options_.quiet_before_ms));
       last_loud_ = taken_;
       loudest_db_ = above_db;
     }
@@ -107,7 +109,7 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
   quiet_frames_ = loud ? 0 : quiet_frames_ + 1;
   if (taken_ - begin_ > static_cast<std::int64_t>(samples_of(options_.max_ms))) too_long_ = true;
   if (quiet_frames_ * kFrameMs >= options_.end_ms) {
-    if (!too_long_) segments.push_back({kept_, begin_, last_loud_, loudest_db_});
+    if (!too_long_ && isolated_) segments.push_back({kept_, begin_, last_loud_, loudest_db_});
     speaking_ = false;
     loud_frames_ = 0;
   }

@@ -108,7 +108,7 @@ TEST(TrackHololens1, FindsATagWhereItWas) {
     StereoFrame frame =
         stereo_frame(calibration, {tag}, Timestamp(std::chrono::milliseconds(33 * i)));
     frame.world_from_rig =
-        Transform<World, Rig>(rotation_from_vector({0.4, 0.2 * i, -1.0}), {0.3, 1.5, 0.1 * i});
+        Transform<World, Rig>(rotation_from_vector({0.4, 0.01 * i, -1.0}), {0.3, 1.5, 0.002 * i});
     frames.push_back(frame);
   }
   const orthonav::testing::Hololens1Folder recording(calibration, frames);
