@@ -61,7 +61,7 @@ std::unique_ptr<CommandSpotter> new_spotter(const Options& bench, Waking waking)
   options.commands = engine::spoken_commands();
   options.waking = waking;
   if (bench.least_evidence)
-    options.least_evidence = options.least_evidence_of_delete = *bench.least_evidence;
+    for (auto& [command, least] : options.least_evidence) least = *bench.least_evidence;
   auto spotter = CommandSpotter::create(options);
   if (spotter) return std::move(*spotter);
   std::fprintf(stderr, "%s\n", spotter.error().message.c_str());

@@ -1,6 +1,7 @@
 option(ORTHONAV_BUILD_TESTS "Build the tests" ON)
 option(ORTHONAV_BUILD_BENCH "Build the benchmarks" OFF)
 set(ORTHONAV_SANITIZE "" CACHE STRING "Sanitizers for every target: address,undefined or thread")
+option(ORTHONAV_FUZZ "Build the fuzzers of tests/fuzz (clang)" OFF)
 option(ORTHONAV_COVERAGE "Instrument for line coverage" OFF)
 
 set(CMAKE_CXX_STANDARD 20)
@@ -28,6 +29,14 @@ if(ORTHONAV_SANITIZE)
   add_compile_options("-fsanitize=${ORTHONAV_SANITIZE}" -fno-omit-frame-pointer
                       -fno-sanitize-recover=all)
   add_link_options("-fsanitize=${ORTHONAV_SANITIZE}")
+endif()
+if(ORTHONAV_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "ORTHONAV_FUZZ needs clang: libFuzzer comes with it")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
 endif()
 if(ORTHONAV_COVERAGE)
   add_compile_options(--coverage -fprofile-update=atomic)

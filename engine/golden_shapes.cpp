@@ -1,5 +1,6 @@
 #include "engine/golden_stage.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -54,6 +55,16 @@ GoldenScene vertebra() {
                     {201, {0.0445f, 0.030f, 0.009f}},
                     {201, {-0.0445f, 0.030f, 0.009f}},
                     {201, {0.0185f, 0.033f, 0.014f}}};
+  return golden;
+}
+
+GoldenScene bare_vertebra() {
+  GoldenScene golden = start("h2_bare", "the same, bluish on the right, where no stroke came near",
+                             close_view({0, 0.02f, 0}));
+  auto partly = std::make_shared<render::MeshData>(*make_golden_vertebra());
+  for (const Float3 place : partly->positions)
+    partly->tints.push_back(std::clamp(500.0f * (-0.004f - place.x), 0.0f, 1.0f));
+  add_vertebra(golden.scene, std::move(partly), render::kIdentity, 201);
   return golden;
 }
 
@@ -117,6 +128,7 @@ void add_shape_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(fading(0.5f));
   scenes.push_back(residuals());
   scenes.push_back(vertebra());
+  scenes.push_back(bare_vertebra());
   scenes.push_back(turned_vertebra());
   scenes.push_back(
       entry("h3_entry", "blue sphere in a ring, L4 left", "L4 left", false, LabelSide::kLeft));

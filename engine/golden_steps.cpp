@@ -207,9 +207,9 @@ void add_view_scenes(std::vector<GoldenScene>& scenes) {
       golden.views = surgeon_views(distance_m, kRolls_deg[i]);
       // The cross faces the eyes from wherever they are.
       const auto of_cross = [](const auto& item) { return item.label / 100 == 7; };
-      std::erase_if(golden.scene.meshes, of_cross);
-      std::erase_if(golden.scene.lines, of_cross);
-      std::erase_if(golden.scene.texts, of_cross);
+      golden.scene.meshes.erase_if(of_cross);
+      golden.scene.lines.erase_if(of_cross);
+      golden.scene.texts.erase_if(of_cross);
       add_cross_to(golden, CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair},
                    false, surgeon(distance_m, kRolls_deg[i]));
       scenes.push_back(std::move(golden));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,6 +43,14 @@ struct LevelState {
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration
   std::vector<bool> screw_done;
+  /// Finished, and the map has moved since: kept for the report, shown nowhere.
+  bool map_moved = false;
+
+  [[nodiscard]] bool finished() const {
+    return std::find(screw_done.begin(), screw_done.end(), false) == screw_done.end();
+  }
+  /// World's vertebra may be shown and guided on.
+  [[nodiscard]] bool usable() const { return accepted && registration && !map_moved; }
 };
 
 /// One rod: the heads as they were touched, and the template once there are two.
@@ -49,6 +58,11 @@ struct RodState {
   nav::Side side = nav::Side::kLeft;
   std::vector<Point<World>> heads;
   std::optional<nav::RodTemplate> rod;
+  bool done = false;
+  /// Finished, and the map has moved since: kept for the report, shown nowhere.
+  bool map_moved = false;
+
+  [[nodiscard]] bool visible() const { return !heads.empty() && !map_moved; }
 };
 
 /// How well a tool is seen right now, for the status line.
@@ -103,6 +117,9 @@ struct Guidance {
   /// How far the saved samples lie from the registered surface, region after region; empty without
   /// a registration to be verified.
   std::span<const float> residuals_m;
+  /// One a vertex of the level's model: 1 where a pointer could have stroked and none did, 0 where
+  /// the bone was stroked or can't be; empty without a registration to be verified.
+  std::span<const float> bare;
   /// Places of the current level that are still to be touched to verify it.
   std::span<const Point<World>> to_check;
 };

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <span>
-#include <utility>
 
 #include "engine/hologram_parts.h"
+#include "engine/length_text.h"
 #include "render/float3.h"
-#include "render/shapes.h"
 
 namespace orthonav::engine {
 namespace {
@@ -54,21 +53,17 @@ std::array<Float3, 3> arrow(const CrossPlaces& places, std::size_t i) {
           places.dots[i] - 0.6f * kArrow_m * side};
 }
 
-/// An arrow where the dot lies outside, else a ring.
-std::vector<Float3> hollow(const CrossPlaces& places, std::size_t i) {
-  if (!places.outside[i])
-    return render::make_ring(places.dots[i], places.normal, kHollowRadius_m, 24);
-  const std::array<Float3, 3> corners = arrow(places, i);
-  return {corners.begin(), corners.end()};
-}
-
 void add_dots(Scene& scene, const TargetCross& cross, const CrossPlaces& places, Label label) {
   const render::Colour colour = colour_of(cross.reading->grade);
   if (places.outside[0])
     scene.triangles.push_back({label, arrow(places, 0), colour});
   else
     add_sphere(scene, places.dots[0], kDotRadius_m, colour, label);
-  add_line(scene, hollow(places, 1), kHollowWidth_m, colour, label, 0, true);
+  if (places.outside[1])
+    add_line(scene, arrow(places, 1), kHollowWidth_m, colour, label, 0, true);
+  else
+    add_ring(scene, places.dots[1], places.normal, kHollowRadius_m, kHollowWidth_m, colour, label,
+             24);
 }
 
 /// By turns on the right and on the left, or 1 and 2 would read as 12.
@@ -77,20 +72,19 @@ void add_ring_text(Scene& scene, const CrossPlaces& places, float ring_m, Label 
   std::snprintf(text, sizeof(text), ring_m == kCrossRings_m.back() ? "%.0f mm" : "%.0f",
                 static_cast<double>(ring_m) * 1e3);
   const float side = ring_m == kCrossRings_m[1] ? -1.0f : 1.0f;
-  add_text_beside(
-      scene, places.middle + kDiagonal * kCrossScale * ring_m * (side * places.right - places.up),
-      0.25f * side, 0.0030f, 0.5f, {{text, look::kDimWhite}}, label);
+  const Float3 place =
+      places.middle + kDiagonal * kCrossScale * ring_m * (side * places.right - places.up);
+  add_run(add_text_beside(scene, place, 0.25f * side, 0.0030f, 0.5f, label), text, look::kDimWhite);
 }
 
-render::TextItem lost_text(Float3 middle, Label label) {
-  render::TextItem text;
+void add_lost_text(Scene& scene, Float3 middle, Label label) {
+  render::TextItem& text = scene.texts.emplace_back();
   text.label = label;
   text.position = middle;
   text.offset_up = -0.5f;
   text.height_m = 0.0045f;
   text.min_height_deg = 0.5f;
-  text.runs = {{"tool lost", look::kRed}};
-  return text;
+  add_run(text, "tool lost", look::kRed);
 }
 
 }  // namespace
@@ -134,47 +128,53 @@ void add_target_cross(Scene& scene, const TargetCross& cross, Label label) {
   const std::span<const float> rings_m =
       cross.lost ? std::span(kCrossRings_m).last(1) : std::span(kCrossRings_m);
   for (const float ring_m : rings_m) {
-    add_line(scene, render::make_ring(places.middle, places.normal, kCrossScale * ring_m),
-             kRingWidth_m, look::kRing, label, 0, true);
+    add_ring(scene, places.middle, places.normal, kCrossScale * ring_m, kRingWidth_m, look::kRing,
+             label);
     if (!cross.lost) add_ring_text(scene, places, ring_m, label);
   }
   if (cross.lost)
-    scene.texts.push_back(lost_text(places.middle, label));
+    add_lost_text(scene, places.middle, label);
   else if (cross.reading)
     add_dots(scene, cross, places, label + 1);
 }
 
 void take_dots_off(Scene& scene, Label label) {
   const auto is_dot = [&](const auto& item) { return item.label == label + 1; };
-  std::erase_if(scene.meshes, is_dot);
-  std::erase_if(scene.lines, is_dot);
-  std::erase_if(scene.triangles, is_dot);
+  scene.meshes.erase_if(is_dot);
+  scene.lines.erase_if(is_dot);
+  scene.triangles.erase_if(is_dot);
   const auto is_cross = [&](const auto& item) { return item.label == label; };
-  std::erase_if(scene.texts, is_cross);
-  const auto outermost = std::find_if(scene.lines.rbegin(), scene.lines.rend(), is_cross);
-  if (outermost == scene.lines.rend()) return;
+  scene.texts.erase_if(is_cross);
+  const render::LineItem* outermost = nullptr;
+  for (const render::LineItem& line : scene.lines)
+    if (is_cross(line)) outermost = &line;
+  if (!outermost) return;
   Float3 middle{};
   for (const Float3 point : outermost->points)
     middle = middle + 1.0f / static_cast<float>(outermost->points.size()) * point;
-  render::LineItem ring = *outermost;
-  std::erase_if(scene.lines, is_cross);
-  scene.lines.push_back(std::move(ring));
-  scene.texts.push_back(lost_text(middle, label));
+  scene.lines.erase_if(
+      [&](const render::LineItem& line) { return is_cross(line) && &line != outermost; });
+  add_lost_text(scene, middle, label);
+}
+
+bool write_depth_text(double depth_m, double to_target_m, std::string& text) {
+  const bool before = depth_m < 0.0;
+  const double left_m = before ? -depth_m : to_target_m;
+  text.clear();
+  if (!(std::abs(left_m) < kDeepest_m)) return false;
+  text = in_mm(std::abs(left_m));
+  text += before ? " to entry" : (left_m < 0.0 ? " past target" : " to target");
+  return true;
 }
 
 std::optional<std::string> depth_text(double depth_m, double to_target_m) {
-  const bool before = depth_m < 0.0;
-  const double left_m = before ? -depth_m : to_target_m;
-  if (!(std::abs(left_m) < kDeepest_m)) return std::nullopt;
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1f mm %s", std::abs(left_m) * 1e3,
-                before ? "to entry" : (left_m < 0.0 ? "past target" : "to target"));
-  return text;
+  std::string text;
+  return write_depth_text(depth_m, to_target_m, text) ? std::optional(text) : std::nullopt;
 }
 
-void add_depth(Scene& scene, Float3 a, Float3 b, const std::string& text, bool past_target,
+void add_depth(Scene& scene, Float3 a, Float3 b, std::string_view text, bool past_target,
                Label label) {
-  render::TextItem item;
+  render::TextItem& item = scene.texts.emplace_back();
   item.label = label;
   item.position = readout_place(a, b);
   item.align = render::TextAlign::kLeft;
@@ -183,8 +183,7 @@ void add_depth(Scene& scene, Float3 a, Float3 b, const std::string& text, bool p
   item.offset_up = -1.9f;
   item.height_m = 0.004f;
   item.min_height_deg = 0.45f;
-  item.runs = {{text, past_target ? look::kRed : look::kWhite}};
-  scene.texts.push_back(std::move(item));
+  add_run(item, text, past_target ? look::kRed : look::kWhite);
 }
 
 }  // namespace orthonav::engine

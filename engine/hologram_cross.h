@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "engine/hologram_shapes.h"
 
@@ -61,8 +62,10 @@ void take_dots_off(render::Scene& scene, render::Label label);
 
 /// H9: `12.3 mm to entry`, `31.0 mm to target`, `1.2 mm past target`; absent for what is no depth.
 [[nodiscard]] std::optional<std::string> depth_text(double depth_m, double to_target_m);
+/// The same into a text that is there already; false and empty for what is no depth.
+[[nodiscard]] bool write_depth_text(double depth_m, double to_target_m, std::string& text);
 /// H9: under H6, which stands beside `b` (as `add_angle_readout`); past the target it warns in red.
-void add_depth(render::Scene& scene, render::Float3 a, render::Float3 b, const std::string& text,
+void add_depth(render::Scene& scene, render::Float3 a, render::Float3 b, std::string_view text,
                bool past_target, render::Label label);
 
 }  // namespace orthonav::engine

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
-#include <string>
-#include <vector>
+#include <span>
+#include <string_view>
 
 #include "engine/hologram_shapes.h"
 
@@ -18,12 +19,21 @@ void add_mesh(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh
 void add_sphere(render::Scene& scene, render::Float3 centre, float radius_m, render::Colour colour,
                 render::Label label);
 
-void add_line(render::Scene& scene, std::vector<render::Float3> points, float width_m,
+void add_line(render::Scene& scene, std::span<const render::Float3> points, float width_m,
               render::Colour colour, render::Label label, float dash_m = 0, bool closed = false);
+inline void add_line(render::Scene& scene, std::initializer_list<render::Float3> points,
+                     float width_m, render::Colour colour, render::Label label, float dash_m = 0,
+                     bool closed = false) {
+  add_line(scene, std::span(points.begin(), points.size()), width_m, colour, label, dash_m, closed);
+}
+
+void add_ring(render::Scene& scene, render::Float3 centre, render::Float3 normal, float radius_m,
+              float width_m, render::Colour colour, render::Label label, int points = 48);
 
 /// A text beside a place, its middle as high: to the right by so many of its heights, or to the
-/// left where that is negative.
-void add_text_beside(render::Scene& scene, render::Float3 place, float offset_right, float height_m,
-                     float min_height_deg, std::vector<render::TextRun> runs, render::Label label);
+/// left where that is negative. Its words are added to what comes back.
+render::TextItem& add_text_beside(render::Scene& scene, render::Float3 place, float offset_right,
+                                  float height_m, float min_height_deg, render::Label label);
+void add_run(render::TextItem& item, std::string_view text, render::Colour colour);
 
 }  // namespace orthonav::engine

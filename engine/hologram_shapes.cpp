@@ -38,7 +38,7 @@ constexpr float kBendRingWidth_m = 0.0010f;
 
 /// Hyphens as wide as digits and a leading blank of one digit's width, so that the number keeps
 /// its place while it changes.
-std::string fixed_width(const std::string& text) {
+std::string fixed_width(std::string_view text) {
   std::string out;
   const std::size_t point = text.find('.');
   if (point == 1) out += "\u2007";
@@ -52,12 +52,11 @@ void add_diamond(Scene& scene, Float3 centre, Colour colour, Label label) {
 }
 
 void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
-  add_line(scene, render::make_ring(at, along, kBendRingRadius_m), kBendRingWidth_m, look::kAmber,
-           label, 0, true);
-  add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f,
-                  {{angle_text(bend.angle_rad), look::kAmber},
-                   {" at " + in_mm(bend.arc_length_m), look::kDimWhite}},
-                  label);
+  add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::kAmber, label);
+  render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
+  add_run(text, angle_text(bend.angle_rad), look::kAmber);
+  add_run(text, " at ", look::kDimWhite);
+  add_run(text, in_mm(bend.arc_length_m), look::kDimWhite);
 }
 
 }  // namespace
@@ -100,8 +99,7 @@ void add_sampled_path(Scene& scene, std::span<const Float3> samples, PathState s
                       float opacity) {
   if (samples.empty() || !(opacity > 0)) return;
   const Colour colour = state == PathState::kRecording ? look::kYellow : look::kOrange;
-  add_line(scene, {samples.begin(), samples.end()}, kPathWidth_m,
-           faded(colour, std::fmin(opacity, 1.0f)), label);
+  add_line(scene, samples, kPathWidth_m, faded(colour, std::fmin(opacity, 1.0f)), label);
 }
 
 void add_residual_path(Scene& scene, std::span<const Float3> samples,
@@ -114,44 +112,39 @@ void add_residual_path(Scene& scene, std::span<const Float3> samples,
   for (std::size_t first = 0; first + 1 < count;) {
     std::size_t last = first + 1;
     while (last + 1 < count && band(last) == band(first)) ++last;
-    const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(first);
-    add_line(scene, {begin, begin + static_cast<std::ptrdiff_t>(last - first + 1)}, kPathWidth_m,
-             colour_of(band(first)), label);
+    add_line(scene, samples.subspan(first, last - first + 1), kPathWidth_m, colour_of(band(first)),
+             label);
     first = last;
   }
 }
 
 void add_vertebra(Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, Label label) {
-  render::MeshItem item;
-  item.label = label;
-  item.mesh = std::move(mesh);
-  item.world_from_model = world_from_model;
-  item.colour = look::kBone;
-  item.style = render::MeshStyle::kRim;
-  scene.meshes.push_back(std::move(item));
+  add_mesh(scene, std::move(mesh), world_from_model, look::kBone, label);
+  scene.meshes.back().tint = look::kBare;
+  scene.meshes.back().style = render::MeshStyle::kRim;
 }
 
 void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
   add_sphere(scene, entry.position, kEntryRadius_m, look::kBlue, label);
-  add_line(scene, render::make_ring(entry.position, entry.surface_normal, kEntryRingRadius_m),
-           kEntryRingWidth_m, look::kBlue, label, 0, true);
-  std::vector<render::TextRun> runs = {{entry.text, look::kBlue}};
+  add_ring(scene, entry.position, entry.surface_normal, kEntryRingRadius_m, kEntryRingWidth_m,
+           look::kBlue, label);
   if (entry.text.empty() && !entry.done) return;
-  if (entry.done) runs.push_back({" ✓", look::kGreen});
-  add_text_beside(scene, entry.position, entry.side == LabelSide::kRight ? 1.2f : -1.2f, 0.0045f,
-                  0.5f, std::move(runs), label);
+  const float beside = entry.side == LabelSide::kRight ? 1.2f : -1.2f;
+  render::TextItem& text = add_text_beside(scene, entry.position, beside, 0.0045f, 0.5f, label);
+  add_run(text, entry.text, look::kBlue);
+  if (entry.done) add_run(text, " ✓", look::kGreen);
 }
 
 std::string distance_text(double distance_m) {
   return std::isfinite(distance_m) ? in_mm(std::abs(distance_m)) : "-- mm";
 }
 
-void add_check_point(Scene& scene, Float3 position, const std::string& text, bool within,
+void add_check_point(Scene& scene, Float3 position, std::string_view text, bool within,
                      Label label) {
   const render::Colour colour = within ? look::kGreen : look::kRed;
   add_diamond(scene, position, colour, label);
-  add_text_beside(scene, position, 1.0f, 0.0045f, 0.5f, {{text, colour}}, label);
+  add_run(add_text_beside(scene, position, 1.0f, 0.0045f, 0.5f, label), text, colour);
 }
 
 void add_place_to_check(Scene& scene, Float3 position, Label label) {
@@ -183,28 +176,28 @@ Float3 readout_place(Float3 a, Float3 b) {
   return b + kReadoutOutward_m * render::unit_or(b - a, {0, 1, 0});
 }
 
-void add_angle_readout(Scene& scene, Float3 a, Float3 b, const std::string& text, Grade grade,
+void add_angle_readout(Scene& scene, Float3 a, Float3 b, std::string_view text, Grade grade,
                        Label label) {
-  render::TextItem item;
+  render::TextItem& item = scene.texts.emplace_back();
   item.label = label;
   item.position = readout_place(a, b);
   item.align = render::TextAlign::kLeft;
   item.offset_right = 0.9f;  // clear of B even when the eye looks down the tool's axis
   item.height_m = 0.007f;
   item.min_height_deg = 0.8f;
-  item.runs = {{fixed_width(text), look::kWhite}};
   item.rim = colour_of(grade);
-  scene.texts.push_back(std::move(item));
+  add_run(item, fixed_width(text), look::kWhite);
+}
+
+void take_angle_off(render::TextItem& readout) {
+  readout.rim = colour_of(Grade::kPoor);
+  readout.runs.clear();
+  add_run(readout, fixed_width(angle_text(std::nullopt)), look::kWhite);
 }
 
 void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   if (rod.tube && !rod.tube->indices.empty()) {
-    render::MeshItem tube;
-    tube.label = label;
-    tube.mesh = rod.tube;
-    tube.world_from_model = render::placed_at(rod.shift);
-    tube.colour = look::kTitanium;
-    scene.meshes.push_back(std::move(tube));
+    add_mesh(scene, rod.tube, render::placed_at(rod.shift), look::kTitanium, label);
   }
   for (const Float3 head : rod.heads) {
     add_sphere(scene, head + rod.shift, kHeadRadius_m, look::kBlue, label);
@@ -212,44 +205,41 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   const Float3 along = rod.heads.empty()
                            ? Float3{0, 1, 0}
                            : render::unit_or(rod.heads.back() - rod.heads.front(), {0, 1, 0});
-  for (const RodBendMark& bend : rod.bends) {
+  for (const RodBendMark& bend : rod.bends)
     add_bend(scene, bend, bend.position + rod.shift, along, label);
-  }
   if (rod.heads.size() < 2 || !rod.length_m) return;
-  render::TextItem text;
+  render::TextItem& text = scene.texts.emplace_back();
   text.label = label;
   text.position = rod.heads.back() + 0.012f * along + rod.shift;
   text.height_m = 0.005f;
   text.min_height_deg = 0.6f;
-  text.runs = {{in_mm(*rod.length_m), look::kWhite}};
-  scene.texts.push_back(std::move(text));
+  add_run(text, in_mm(*rod.length_m), look::kWhite);
 }
 
-void add_status_line(Scene& scene, const std::string& text, std::span<const ToolDot> tools,
+void add_status_line(Scene& scene, std::string_view text, std::span<const ToolDot> tools,
                      Label label) {
-  render::TextItem item;
+  render::TextItem& item = scene.texts.emplace_back();
   item.label = label;
   item.place = render::TextPlace::kView;
   item.position = {0, -0.096f, -0.5f};  // 11° below straight ahead
   item.height_m = 0.003f;
   item.min_height_deg = 0.5f;
-  item.runs = {{text, look::kDimWhite}};
+  add_run(item, text, look::kDimWhite);
   for (const ToolDot& tool : tools) {
     // The shape says it as well as the colour does.
     switch (tool.state) {
       case ToolState::kMeasured:
-        item.runs.push_back({"  ● ", look::kGreen});
+        add_run(item, "  ● ", look::kGreen);
         break;
       case ToolState::kPredicted:
-        item.runs.push_back({"  ◐ ", look::kAmber});
+        add_run(item, "  ◐ ", look::kAmber);
         break;
       case ToolState::kLost:
-        item.runs.push_back({"  ○ ", look::kRed});
+        add_run(item, "  ○ ", look::kRed);
         break;
     }
-    item.runs.push_back({tool.name, look::kDimWhite});
+    add_run(item, tool.name, look::kDimWhite);
   }
-  scene.texts.push_back(std::move(item));
 }
 
 }  // namespace orthonav::engine

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/scene.h"
@@ -19,6 +20,7 @@ namespace look {
 inline constexpr render::Colour kYellow{1.0f, 0.78f, 0.04f, 1};
 inline constexpr render::Colour kOrange{1.0f, 0.30f, 0.02f, 1};
 inline constexpr render::Colour kBone{0.92f, 0.86f, 0.74f, 0.35f};
+inline constexpr render::Colour kBare{0.10f, 0.42f, 1.0f, 0.35f};
 inline constexpr render::Colour kBlue{0.12f, 0.36f, 1.0f, 1};
 inline constexpr render::Colour kGreen{0.04f, 0.90f, 0.13f, 1};
 inline constexpr render::Colour kAmber{1.0f, 0.42f, 0.0f, 1};
@@ -59,7 +61,8 @@ void add_sampled_path(render::Scene& scene, std::span<const render::Float3> samp
 void add_residual_path(render::Scene& scene, std::span<const render::Float3> samples,
                        std::span<const float> distances_m, render::Label label);
 
-/// H2: the registered surface, bright where it turns away from the eye.
+/// H2: the registered surface, bright where it turns away from the eye; in `look::kBare` where its
+/// tints say that no stroke came near.
 void add_vertebra(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, render::Label label);
 
@@ -69,7 +72,7 @@ enum class LabelSide { kLeft, kRight };  ///< as seen by the eyes
 struct EntryHologram {
   render::Float3 position;
   render::Float3 surface_normal;  ///< outward, any length
-  std::string text;
+  std::string_view text;
   bool done = false;  ///< the screw is in: a tick behind the text
   LabelSide side = LabelSide::kRight;
 };
@@ -89,7 +92,10 @@ void add_deviation_triangle(render::Scene& scene, render::Float3 a, render::Floa
 
 /// H6: `text` (of angle_text) beside B, outward of it, so that it never covers A.
 void add_angle_readout(render::Scene& scene, render::Float3 a, render::Float3 b,
-                       const std::string& text, Grade grade, render::Label label);
+                       std::string_view text, Grade grade, render::Label label);
+
+/// The number off a readout that was drawn: dashes in its place.
+void take_angle_off(render::TextItem& readout);
 
 /// Where H6 stands for a tool's axis from A to B.
 [[nodiscard]] render::Float3 readout_place(render::Float3 a, render::Float3 b);
@@ -115,7 +121,7 @@ void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 [[nodiscard]] std::string distance_text(double distance_m);
 /// H12: a diamond at a place touched to check the registration, with its distance from the surface;
 /// green where near enough, else red.
-void add_check_point(render::Scene& scene, render::Float3 position, const std::string& text,
+void add_check_point(render::Scene& scene, render::Float3 position, std::string_view text,
                      bool within, render::Label label);
 
 /// H12: a place that is still to be touched.
@@ -123,13 +129,13 @@ void add_place_to_check(render::Scene& scene, render::Float3 position, render::L
 
 enum class ToolState { kMeasured, kPredicted, kLost };
 struct ToolDot {
-  std::string name;
+  std::string_view name;
   ToolState state = ToolState::kLost;
 };
 
 /// H11: one line low in view; a filled dot for a measured tool, a half one for a predicted, an
 /// empty one for a lost tool.
-void add_status_line(render::Scene& scene, const std::string& text, std::span<const ToolDot> tools,
+void add_status_line(render::Scene& scene, std::string_view text, std::span<const ToolDot> tools,
                      render::Label label);
 
 }  // namespace orthonav::engine

@@ -20,7 +20,9 @@ void add_tool(render::Scene& scene, Float3 tip, Float3 axis, render::Label label
 
 void add_twin(render::Scene& scene, const VirtualTwin& twin, const render::Scene& parts,
               render::Label label) {
-  for (render::MeshItem item : parts.meshes) {
+  for (const render::MeshItem& part : parts.meshes) {
+    render::MeshItem& item = scene.meshes.emplace_back();
+    item = part;
     render::Matrix4& m = item.world_from_model;
     const Float3 moved = in_twin(twin, {m[12], m[13], m[14]});
     for (const std::size_t i : {0U, 1U, 2U, 4U, 5U, 6U, 8U, 9U, 10U}) m[i] *= kTwinScale;
@@ -28,14 +30,14 @@ void add_twin(render::Scene& scene, const VirtualTwin& twin, const render::Scene
     m[13] = moved.y;
     m[14] = moved.z;
     item.label = label;
-    scene.meshes.push_back(std::move(item));
   }
-  for (render::LineItem item : parts.lines) {
+  for (const render::LineItem& part : parts.lines) {
+    render::LineItem& item = scene.lines.emplace_back();
+    item = part;
     for (Float3& point : item.points) point = in_twin(twin, point);
     item.width_m *= kTwinScale;
     item.dash_m *= kTwinScale;
     item.label = label;
-    scene.lines.push_back(std::move(item));
   }
   for (render::TriangleItem item : parts.triangles) {
     for (Float3& corner : item.corners) corner = in_twin(twin, corner);

@@ -25,16 +25,13 @@ void hide_tool_guidance(render::Scene& scene) {
   const auto of_tool = [](const auto& item) {
     return item.label / 100 == 5 || item.label / 100 == 9 || item.label == kTwinTool;
   };
-  std::erase_if(scene.triangles, of_tool);
-  std::erase_if(scene.lines, of_tool);
-  std::erase_if(scene.texts, of_tool);
+  scene.triangles.erase_if(of_tool);
+  scene.lines.erase_if(of_tool);
+  scene.texts.erase_if(of_tool);
   take_dots_off(scene, kCross);
   for (render::TextItem& text : scene.texts) {
     if (text.label / 100 != 6) continue;
-    render::Scene dashes;
-    add_angle_readout(dashes, {}, {}, angle_text(std::nullopt), Grade::kPoor, text.label);
-    text.runs = dashes.texts.front().runs;
-    text.rim = dashes.texts.front().rim;
+    take_angle_off(text);
   }
 }
 
@@ -47,10 +44,7 @@ void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
 }
 
 void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
-  scene.meshes.clear();
-  scene.lines.clear();
-  scene.triangles.clear();
-  scene.texts.clear();
+  scene.clear();
   add_paths(guidance, scene);
   if (visible_.vertebra) add_bone(guidance, scene);
   if (visible_.check_points) add_check_points(guidance, scene);
@@ -88,7 +82,7 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
 
 void SceneBuilder::add_bone(const Guidance& guidance, render::Scene& scene) {
   const LevelState& level = guidance.levels[guidance.level];
-  add_vertebra(scene, surface_of(level),
+  add_vertebra(scene, tinted_surface_of(level, guidance.bare),
                to_matrix(level.registration->world_from_vertebra.row_major()), label_of(2, 1));
 }
 
@@ -114,7 +108,10 @@ void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
       entry.position = to_float3((world_from_vertebra * screw.entry).v);
       entry.surface_normal =
           to_float3((world_from_vertebra * Direction<Vertebra>{outward.normalized()}).v);
-      if (visible_.entry_labels) entry.text = level.plan.label + " " + name_of(screw.side);
+      text_.clear();
+      if (visible_.entry_labels)
+        text_.append(level.plan.label).append(" ").append(name_of(screw.side));
+      entry.text = text_;
       entry.done = level.screw_done[s];
       // From behind, where the surgeon looks from, the patient's left is on the left.
       entry.side = screw.side == nav::Side::kLeft ? LabelSide::kLeft : LabelSide::kRight;
@@ -151,8 +148,8 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
 void SceneBuilder::add_depth_to_go(const Guidance& guidance, render::Scene& scene) {
   const nav::ScrewGuidance& measured = *guidance.tool->measured;
   const nav::ScrewGuidance& shown = guidance.tool->shown;
-  if (const auto text = depth_text(measured.depth_m, measured.to_target_m))
-    add_depth(scene, to_float3(shown.a.v), to_float3(shown.b.v), *text, measured.to_target_m < 0.0,
+  if (write_depth_text(measured.depth_m, measured.to_target_m, text_))
+    add_depth(scene, to_float3(shown.a.v), to_float3(shown.b.v), text_, measured.to_target_m < 0.0,
               label_of(9, 1));
 }
 
@@ -160,7 +157,7 @@ void SceneBuilder::add_virtual_twin(const Guidance& guidance, const TrajectoryLi
                                     render::Scene& scene) {
   const LevelState& level = guidance.levels[guidance.level];
   const VirtualTwin twin = twin_of(level, guidance.screw);
-  parts_ = {};
+  parts_.clear();
   add_vertebra(parts_, surface_of(level),
                to_matrix(level.registration->world_from_vertebra.row_major()), kTwin);
   const render::Float3 entry = to_float3(line.entry.v);
@@ -168,7 +165,7 @@ void SceneBuilder::add_virtual_twin(const Guidance& guidance, const TrajectoryLi
   add_twin(scene, twin, parts_, kTwin);
   if (!visible_.triangle) return;
   const nav::ScrewGuidance& shown = guidance.tool->shown;
-  parts_ = {};
+  parts_.clear();
   add_deviation_triangle(parts_, to_float3(shown.a.v), to_float3(shown.b.v), to_float3(shown.c.v),
                          grade_of_tool(guidance, visible_, rules_), kTwinTool);
   add_tool(parts_, to_float3(shown.tip.v), to_float3(shown.b - shown.a), kTwinTool);
@@ -179,19 +176,19 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
   tubes_.resize(guidance.rods.size());
   for (std::size_t i = 0; i < guidance.rods.size(); ++i) {
     const RodState& rod = guidance.rods[i];
-    if (rod.heads.empty()) continue;
-    std::vector<RodBendMark> bends;
+    if (!rod.visible()) continue;
     RodHologram hologram;
     hologram.tube = tube_of(i, rod);
     points_.clear();
     for (const Point<World>& head : rod.heads) points_.push_back(to_float3(head.v));
     hologram.heads = points_;
+    bends_.clear();
     if (rod.rod) {
       for (const nav::RodBend& bend : rod.rod->bends)
-        bends.push_back({to_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
+        bends_.push_back({to_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
       hologram.length_m = rod.rod->length_m;
     }
-    hologram.bends = bends;
+    hologram.bends = bends_;
     hologram.shift = to_float3(rod_shift_m(guidance, rod, rules_));
     add_rod(scene, hologram, label_of(10, i + 1));
   }
@@ -205,16 +202,31 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
                                                                 : ToolState::kLost;
     dots_.push_back({tool.name, state});
   }
-  std::string text = guidance.step_text;
+  text_ = guidance.step_text;
   for (const std::string* part : {&guidance.detail, &guidance.heard})
-    if (!part->empty()) text += " | " + *part;
-  add_status_line(scene, text, dots_, label_of(11, 1));
+    if (!part->empty()) text_.append(" | ").append(*part);
+  add_status_line(scene, text_, dots_, label_of(11, 1));
 }
 
 const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const LevelState& level) {
   auto& surface = surfaces_[level.plan.model.get()];
   if (!surface) surface = mesh_data(level.plan.model->mesh());
   return surface;
+}
+
+const std::shared_ptr<const render::MeshData>& SceneBuilder::tinted_surface_of(
+    const LevelState& level, std::span<const float> tints) {
+  const auto& surface = surface_of(level);
+  if (tints.size() != surface->positions.size()) return surface;
+  const bool known = tinted_from_ == surface.get() &&
+                     std::equal(tints.begin(), tints.end(), tinted_->tints.begin());
+  if (!known) {
+    auto tinted = std::make_shared<render::MeshData>(*surface);
+    tinted->tints.assign(tints.begin(), tints.end());
+    tinted_ = std::move(tinted);
+    tinted_from_ = surface.get();
+  }
+  return tinted_;
 }
 
 const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t i,

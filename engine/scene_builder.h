@@ -44,6 +44,8 @@ class SceneBuilder {
   void add_rods(const Guidance& guidance, render::Scene& scene);
   void add_status(const Guidance& guidance, render::Scene& scene);
   const std::shared_ptr<const render::MeshData>& surface_of(const LevelState& level);
+  const std::shared_ptr<const render::MeshData>& tinted_surface_of(const LevelState& level,
+                                                                   std::span<const float> tints);
   const std::shared_ptr<const render::MeshData>& tube_of(std::size_t i, const RodState& rod);
 
   VisibilityRules rules_;
@@ -52,7 +54,12 @@ class SceneBuilder {
   // The renderer keeps its copies by pointer: one surface a level, one tube a rod, made once.
   std::map<const nav::VertebraModel*, std::shared_ptr<const render::MeshData>> surfaces_;
   std::vector<Tube> tubes_;
+  std::shared_ptr<const render::MeshData> tinted_;  ///< of the registration shown last
+  const render::MeshData* tinted_from_ = nullptr;   ///< the surface that it was made of
+  // Reused from frame to frame.
   std::vector<render::Float3> points_;
+  std::vector<RodBendMark> bends_;
+  std::string text_;
   std::vector<ToolDot> dots_;
   render::Scene parts_;  ///< of the twin
 };

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "engine/hologram_cross.h"
@@ -97,7 +99,8 @@ void add_entry_point(const JsonNode& node, Label label, Scene& scene) {
   EntryHologram entry;
   entry.position = place_from(node, "position_mm");
   entry.surface_normal = direction_from(node, "normal");
-  entry.text = node.text_or("text", "");
+  const std::string text = node.text_or("text", "");
+  entry.text = text;
   entry.done = node.flag_or("done", false);
   entry.side = word_from(node, "side", kSides) == 1 ? LabelSide::kLeft : LabelSide::kRight;
   add_entry(scene, entry, label);
@@ -151,11 +154,12 @@ void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
 
 void add_status(const JsonNode& node, Label label, Scene& scene) {
   constexpr std::array<const char*, 3> kStates = {"measured", "predicted", "lost"};
+  std::deque<std::string> names;  // that stay where they are
   std::vector<ToolDot> tools;
   if (node.has("tools"))
     for (const JsonNode& tool : node.list("tools"))
-      tools.push_back(
-          {tool.text("name"), static_cast<ToolState>(word_from(tool, "state", kStates))});
+      tools.push_back({names.emplace_back(tool.text("name")),
+                       static_cast<ToolState>(word_from(tool, "state", kStates))});
   add_status_line(scene, node.text("text"), tools, label);
 }
 
@@ -182,12 +186,11 @@ void add_free_line(const JsonNode& node, Label label, Scene& scene) {
 }
 
 void add_free_text(const JsonNode& node, Label label, Scene& scene) {
-  render::TextItem text;
+  render::TextItem& text = scene.texts.emplace_back();
   text.label = label;
   text.position = place_from(node, "position_mm");
   text.height_m = length_from(node, "height_mm", 0.1, 100.0);
-  text.runs = {{node.text("text"), colour_from(node)}};
-  scene.texts.push_back(std::move(text));
+  add_run(text, node.text("text"), colour_from(node));
 }
 
 void add_twin_of(const JsonNode& node, const std::string& folder, Label label, Scene& scene) {

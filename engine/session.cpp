@@ -118,6 +118,8 @@ Session::Session(Operation operation, std::unique_ptr<nav::ToolTracker> tracker,
 }
 
 const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
+  // Nothing that was measured in another map may answer an event.
+  watch_map(frame);
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
   answer_inputs(inputs);
   track(frame);
@@ -204,6 +206,12 @@ std::optional<std::size_t> Session::active_tool() const {
   return std::nullopt;
 }
 
+void Session::watch_map(const StereoFrame& frame) {
+  const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
+  map_epoch_ = frame.map_epoch;
+  if (moved) handle(Event::kMapMoved, frame.time);
+}
+
 void Session::watch_active_tool(Timestamp now) {
   const auto tool = active_tool();
   if (tool != seen_tool_) {
@@ -260,9 +268,11 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   if (frame.world_from_rig) out.head = frame.world_from_rig;
   out.twin = twin_;
   out.residuals_m = {};
+  out.bare = {};
   out.to_check = {};
   if (step_ == Step::kVerify) {
     out.residuals_m = residuals_m_;
+    out.bare = bare_;
     out.to_check = to_check_;
   }
   publish_tool_guidance(frame.time, display_time);

@@ -96,6 +96,7 @@ class Session {
   void click(const ClickerEvent& event);
   void handle(Event event, Timestamp time);
   void track(const StereoFrame& frame);
+  void watch_map(const StereoFrame& frame);
   void watch_active_tool(Timestamp now);
   void collect_samples();
   void publish(const StereoFrame& frame, Timestamp display_time);
@@ -138,6 +139,9 @@ class Session {
   void drop_head(Timestamp time);
   void finish_rod(Timestamp time);
   void update_rod(Timestamp time);
+
+  // session_map.cpp: the map that everything in World depends on.
+  void forget_map(Timestamp time);
   [[nodiscard]] LevelState& level() { return levels_[level_]; }
 
   std::unique_ptr<nav::ToolTracker> tracker_;
@@ -147,6 +151,8 @@ class Session {
   std::size_t pointer_ = 0;  ///< indices into the tracker's tools
   std::size_t guide_ = 0;
 
+  std::optional<std::int64_t> map_epoch_;  ///< of the newest pair
+
   Step step_ = Step::kSetup;
   std::vector<LevelState> levels_;
   std::size_t level_ = 0;
@@ -155,6 +161,7 @@ class Session {
   std::size_t rod_ = 0;
   bool rods_moved_away_ = false;
   bool twin_ = false;
+  std::vector<float> bare_;
   std::vector<float> residuals_m_;             ///< of the points of the registration to be verified
   std::vector<Point<World>> places_to_check_;  ///< on the level to be verified
   std::vector<Point<World>> to_check_;         ///< of them those that were not touched yet

@@ -5,6 +5,7 @@
 
 #include "engine/session.h"
 #include "hal/api/joined.h"
+#include "nav/registration/left_bare.h"
 
 namespace orthonav::engine {
 namespace {
@@ -31,6 +32,9 @@ void Session::act(Action action, Event event, Timestamp time) {
       return;
     case Action::kCountRefusal:
       return;  // the reason was said where it arose
+    case Action::kForgetMap:
+      forget_map(time);
+      return;
     case Action::kEndTouch:
       touching_ = false;
       return;  // the click that may follow uses the touch
@@ -80,6 +84,8 @@ void Session::act_on_level(Action action, Timestamp time) {
       verify_visible_at_.reset();
       level().check_points.clear();
       measure_residuals();
+      bare_ = nav::left_bare(*level().plan.model, level().registration->world_from_vertebra,
+                             level().newest->points);
       propose_checks();
       end_touch();
       return;
@@ -117,10 +123,8 @@ void Session::act_on_level(Action action, Timestamp time) {
 }
 
 void Session::begin_level() {
-  const auto open = std::find_if(levels_.begin(), levels_.end(), [](const LevelState& level) {
-    return std::find(level.screw_done.begin(), level.screw_done.end(), false) !=
-           level.screw_done.end();
-  });
+  const auto open = std::find_if(levels_.begin(), levels_.end(),
+                                 [](const LevelState& level) { return !level.finished(); });
   level_ = open == levels_.end() ? 0 : static_cast<std::size_t>(open - levels_.begin());
   screw_ = 0;
   digitizer_.clear();
@@ -198,13 +202,10 @@ void Session::finish_screw(Timestamp time) {
   if (observer_)
     observer_->screw_done(time, now, now.plan.screws[screw_],
                           last_guidance_ ? &*last_guidance_ : nullptr);
-  const auto unfinished = [](const LevelState& state) {
-    return std::find(state.screw_done.begin(), state.screw_done.end(), false) !=
-           state.screw_done.end();
-  };
-  if (unfinished(now))
+  const auto finished = [](const LevelState& state) { return state.finished(); };
+  if (!finished(now))
     handle(Event::kAnotherScrew, time);
-  else if (std::any_of(levels_.begin(), levels_.end(), unfinished))
+  else if (!std::all_of(levels_.begin(), levels_.end(), finished))
     handle(Event::kAnotherLevel, time);
   else
     handle(Event::kNoScrewLeft, time);

@@ -196,6 +196,7 @@ void Session::update_rod(Timestamp time) {
 
 void Session::finish_rod(Timestamp time) {
   if (observer_) observer_->rod_done(time, rods_[rod_]);
+  rods_[rod_].done = true;
   const bool another = rod_ + 1 < rods_.size();
   if (another) ++rod_;
   handle(another ? Event::kAnotherSide : Event::kNoSideLeft, time);

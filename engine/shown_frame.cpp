@@ -14,7 +14,7 @@ namespace {
 /// Of a path the newest samples are enough to see where the pen is.
 constexpr std::size_t kLatestSamples = 8;
 
-/// The four landmarks by which a person compares the hologram with the bone.
+/// The four that stand out: behind, to either side, above.
 std::array<Vec3, 4> landmarks_m(const nav::TriangleMesh& mesh) {
   constexpr std::array<Vec3, 4> kDirections = {{{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}};
   std::array<Vec3, 4> found{};
@@ -71,7 +71,10 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
   if (visible.vertebra) {
     const LevelState& level = guidance.levels[guidance.level];
     ShownHologram& vertebra = add(frame, "H2 vertebra");
-    for (const Vec3 landmark : landmarks_m(level.plan.model->mesh()))
+    const nav::VertebraModel& model = *level.plan.model;
+    const auto [known, is_new] = landmarks_m_.try_emplace(&model);
+    if (is_new) known->second = landmarks_m(model.mesh());
+    for (const Vec3 landmark : known->second)
       vertebra.points_in_world.push_back(level.registration->world_from_vertebra *
                                          Point<Vertebra>{landmark});
   }
@@ -134,17 +137,18 @@ void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& v
     for (const Point<World>& place : {line.entry, line.target})
       shown.points_in_world.push_back(to_point(in_twin(twin, to_float3(place.v))));
   }
-  if (visible.depth)
-    if (const auto text =
-            depth_text(guidance.tool->measured->depth_m, guidance.tool->measured->to_target_m))
-      add(frame, "H9 depth").text = *text;
+  if (visible.depth) {
+    const nav::ScrewGuidance& measured = *guidance.tool->measured;
+    if (write_depth_text(measured.depth_m, measured.to_target_m, text_))
+      add(frame, "H9 depth").text = text_;
+  }
   if (visible.angle_lost) add(frame, "H6 angle").text = angle_text(std::nullopt);
 }
 
 void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRules& rules,
                                   ShownFrame& frame) {
   for (const RodState& rod : guidance.rods) {
-    if (rod.heads.empty()) continue;
+    if (!rod.visible()) continue;
     const Vec3 shift = rod_shift_m(guidance, rod, rules);
     ShownHologram& hologram = add(frame, "H10 rod");
     for (const Point<World>& head : rod.heads) hologram.points_in_world.push_back(head + shift);

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+
 #include "engine/visibility.h"
 #include "hal/api/display.h"
 
@@ -24,6 +29,9 @@ class ShownFrameWriter {
   void write_status(const Guidance& guidance, ShownFrame& frame);
 
   std::size_t used_ = 0;
+  std::string text_;
+  /// By which a person compares the hologram with the bone; found once for a model.
+  std::map<const nav::VertebraModel*, std::array<Vec3, 4>> landmarks_m_;
 };
 
 /// The planned trajectory in the world: its outer end, the entry, the target.

@@ -35,12 +35,12 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   // H3: entry points of everything that may be guided on, never faded by distance. An unaccepted
   // registration shows none: an entry point on display reads as "drill here".
   for (std::size_t i = 0; i < g.levels.size(); ++i)
-    if (g.levels[i].accepted && g.levels[i].registration) out.entries_of.push_back(i);
+    if (g.levels[i].usable()) out.entries_of.push_back(i);
   // Once every screw is in, the names would only cover the rod's lengths.
   out.entry_labels = g.step != Step::kRod && g.step != Step::kDone;
   // H4: of the selected screw; it depends on the registration alone, so a lost tool leaves it.
-  out.trajectory = g.step == Step::kGuide && level && level->accepted &&
-                   level->registration.has_value() && g.screw < level->plan.screws.size();
+  out.trajectory =
+      g.step == Step::kGuide && level && level->usable() && g.screw < level->plan.screws.size();
   // H5, H6: on a pose younger than the limit at the moment when the frame lights up. A frozen
   // triangle is worse than none.
   const bool fresh =
@@ -68,7 +68,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
 }
 
 Vec3 rod_shift_m(const Guidance& guidance, const RodState& rod, const VisibilityRules& rules) {
-  if (!guidance.rods_moved_away || rod.heads.empty()) return {};
+  if (!guidance.rods_moved_away || !rod.visible()) return {};
   constexpr Vec3 kUp{0, 1, 0};
   const Vec3 along = rod.heads.back() - rod.heads.front();
   Vec3 side = along.cross(kUp);
@@ -77,11 +77,13 @@ Vec3 rod_shift_m(const Guidance& guidance, const RodState& rod, const Visibility
   // leads off the other rod.
   Vec3 centre_of_rods{};
   double count = 0.0;
-  for (const RodState& other : guidance.rods)
+  for (const RodState& other : guidance.rods) {
+    if (!other.visible()) continue;
     for (const Point<World>& head : other.heads) {
       centre_of_rods += head.v;
       count += 1.0;
     }
+  }
   const Vec3 outward = rod.heads.front().v - centre_of_rods / count;
   const double sign = outward.dot(side) < 0.0 ? -1.0 : 1.0;
   return side.normalized() * (sign * rules.rod_moved_away_m);

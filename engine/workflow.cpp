@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
     "\"move rod\"",  "\"twin\"",          "registered",    "registration refused",
     "checked",       "not checked",       "another screw", "another level",
     "no screw left", "another side",      "no side left",  "tracking lost",
-    "pose stale",    "tracking regained",
+    "pose stale",    "tracking regained", "map moved",
 };
 
 constexpr std::array<std::string_view, kActionCount> kActionNames = {
@@ -48,6 +48,7 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "warn: tool lost",
     "hide guidance",
     "show guidance",
+    "forget map",
 };
 
 // A name forgotten at the end of an array would be empty.

@@ -40,8 +40,9 @@ enum class Event : std::uint8_t {
   kTrackingLost,         ///< the step's tool is no longer measured
   kPoseStale,            ///< the step's tool was last measured longer ago than may be shown
   kTrackingRegained,     ///< the step's tool is measured again
+  kMapMoved,             ///< the headset's map is another one: positions in it mean nothing now
 };
-inline constexpr std::size_t kEventCount = 26;
+inline constexpr std::size_t kEventCount = 27;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -76,8 +77,9 @@ enum class Action : std::uint8_t {
   kWarnLost,
   kHideGuidance,
   kShowGuidance,
+  kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 31;
+inline constexpr std::size_t kActionCount = 32;
 
 struct Cell {
   Step next = Step::kSetup;
@@ -100,6 +102,9 @@ using enum Action;
 
 // clang-format off
 inline constexpr auto kRules = std::to_array<Rule>({
+    // When the map moves, what was measured in it is forgotten wherever anything was measured; a level
+    // that is not finished is digitized again.
+
     // Nothing is tracked for guidance before the operation starts.
     {kSetup, kSayStart, kBeginLevel, kDigitize},
     {kSetup, kPress, kIgnore, kSetup},
@@ -109,6 +114,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kSetup, kTrackingLost, kIgnore, kSetup},
     {kSetup, kPoseStale, kIgnore, kSetup},
     {kSetup, kTrackingRegained, kIgnore, kSetup},
+    {kSetup, kMapMoved, kIgnore, kSetup},
 
     // Samples while the button is down; a double click asks for the registration. Its two clicks
     // come as clicks too and mean nothing of their own.
@@ -124,6 +130,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDigitize, kTrackingLost, kWarnLost, kDigitize},
     {kDigitize, kPoseStale, kHideGuidance, kDigitize},
     {kDigitize, kTrackingRegained, kShowGuidance, kDigitize},
+    {kDigitize, kMapMoved, kForgetMap, kDigitize},
 
     // The surgeon looks at the hologram on the bone and touches places that were not stroked for it.
     // The only way on is his own word, and it counts once the touched places bear it out.
@@ -140,6 +147,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kVerify, kTrackingLost, kWarnLost, kVerify},
     {kVerify, kPoseStale, kHideGuidance, kVerify},
     {kVerify, kTrackingRegained, kShowGuidance, kVerify},
+    {kVerify, kMapMoved, kForgetMap, kDigitize},
 
     {kAccepted, kSayNext, kSelectScrew, kGuide},
     {kAccepted, kSayReject, kClearLevel, kDigitize},
@@ -150,6 +158,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kAccepted, kTrackingLost, kIgnore, kAccepted},
     {kAccepted, kPoseStale, kIgnore, kAccepted},
     {kAccepted, kTrackingRegained, kIgnore, kAccepted},
+    {kAccepted, kMapMoved, kForgetMap, kDigitize},
 
     // A registration that turns out wrong while guiding can be thrown away at any screw.
     {kGuide, kSayNext, kFinishScrew, kGuide},
@@ -165,6 +174,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kTrackingLost, kWarnLost, kGuide},
     {kGuide, kPoseStale, kHideGuidance, kGuide},
     {kGuide, kTrackingRegained, kShowGuidance, kGuide},
+    {kGuide, kMapMoved, kForgetMap, kDigitize},
 
     // Heads are touched with the pointer's tip; the tip is averaged while the button is down. A
     // button held too long makes no click, so its touch is dropped and the surgeon told.
@@ -181,6 +191,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kRod, kTrackingLost, kWarnLost, kRod},
     {kRod, kPoseStale, kHideGuidance, kRod},
     {kRod, kTrackingRegained, kShowGuidance, kRod},
+    {kRod, kMapMoved, kForgetMap, kRod},
 
     {kDone, kSayMoveRod, kMoveRod, kDone},
     {kDone, kPress, kIgnore, kDone},
@@ -190,6 +201,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDone, kTrackingLost, kIgnore, kDone},
     {kDone, kPoseStale, kIgnore, kDone},
     {kDone, kTrackingRegained, kIgnore, kDone},
+    {kDone, kMapMoved, kForgetMap, kDone},
 });
 
 /// What `verify` answers instead where the surgeon's eye alone verifies.

@@ -20,6 +20,7 @@ MeshData compacted(const MeshData& mesh, const std::vector<std::uint32_t>& indic
       places[index] = static_cast<std::uint32_t>(out.positions.size());
       out.positions.push_back(mesh.positions[index]);
       out.normals.push_back(mesh.normals[index]);
+      if (!mesh.tints.empty()) out.tints.push_back(mesh.tints[index]);
     }
     out.indices.push_back(places[index]);
   }

@@ -91,8 +91,7 @@ bool content_less(const TextItem& a, const TextItem& b) {
 }
 
 template <class Item>
-void sort_items(const std::vector<Item>& items, const Head& head,
-                std::vector<std::uint32_t>& order) {
+void sort_items(std::span<const Item> items, const Head& head, std::vector<std::uint32_t>& order) {
   order.resize(items.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
@@ -106,19 +105,19 @@ void sort_items(const std::vector<Item>& items, const Head& head,
 
 }  // namespace
 
-void sort_for_drawing(const std::vector<MeshItem>& items, const Head& head,
+void sort_for_drawing(std::span<const MeshItem> items, const Head& head,
                       std::vector<std::uint32_t>& order) {
   sort_items(items, head, order);
 }
-void sort_for_drawing(const std::vector<LineItem>& items, const Head& head,
+void sort_for_drawing(std::span<const LineItem> items, const Head& head,
                       std::vector<std::uint32_t>& order) {
   sort_items(items, head, order);
 }
-void sort_for_drawing(const std::vector<TriangleItem>& items, const Head& head,
+void sort_for_drawing(std::span<const TriangleItem> items, const Head& head,
                       std::vector<std::uint32_t>& order) {
   sort_items(items, head, order);
 }
-void sort_for_drawing(const std::vector<TextItem>& items, const Head& head,
+void sort_for_drawing(std::span<const TextItem> items, const Head& head,
                       std::vector<std::uint32_t>& order) {
   sort_items(items, head, order);
 }

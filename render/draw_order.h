@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/projection.h"
@@ -13,13 +14,13 @@ namespace orthonav::render {
 /// first (by the middle of the item), then by label, then by content. Equal items are alike, so
 /// that any order of them gives the same frame. Fills `order` with indices; allocates only while
 /// `order` grows.
-void sort_for_drawing(const std::vector<MeshItem>& items, const Head& head,
+void sort_for_drawing(std::span<const MeshItem> items, const Head& head,
                       std::vector<std::uint32_t>& order);
-void sort_for_drawing(const std::vector<LineItem>& items, const Head& head,
+void sort_for_drawing(std::span<const LineItem> items, const Head& head,
                       std::vector<std::uint32_t>& order);
-void sort_for_drawing(const std::vector<TriangleItem>& items, const Head& head,
+void sort_for_drawing(std::span<const TriangleItem> items, const Head& head,
                       std::vector<std::uint32_t>& order);
-void sort_for_drawing(const std::vector<TextItem>& items, const Head& head,
+void sort_for_drawing(std::span<const TextItem> items, const Head& head,
                       std::vector<std::uint32_t>& order);
 
 }  // namespace orthonav::render

@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "render/item_list.h"
 
 namespace orthonav::render {
 
@@ -39,6 +42,8 @@ struct MeshData {
   std::vector<Float3> positions;
   std::vector<Float3> normals;         ///< one a vertex, unit length
   std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
+  /// From 0, the item's colour, to 1, its tint: one a vertex, or none for the colour alone.
+  std::vector<float> tints;
 };
 
 enum class MeshStyle {
@@ -51,8 +56,10 @@ struct MeshItem {
   std::shared_ptr<const MeshData> mesh;
   Matrix4 world_from_model = kIdentity;  ///< rotation, shift and uniform scale; never a mirror
   Colour colour;
+  Colour tint;  ///< where the mesh says so; as opaque as `colour`
   MeshStyle style = MeshStyle::kSolid;
 };
+inline void renew(MeshItem& item) { item = {}; }
 
 /// A line through world points, `width_m` wide towards the eye, never thinner than 1.5 px.
 struct LineItem {
@@ -63,6 +70,12 @@ struct LineItem {
   bool closed = false;
   float dash_m = 0;  ///< length of a dash and of the gap after it; 0 is solid
 };
+inline void renew(LineItem& item) {
+  std::vector<Float3> points = std::move(item.points);
+  points.clear();
+  item = {};
+  item.points = std::move(points);
+}
 
 /// A filled triangle, seen from both sides.
 struct TriangleItem {
@@ -70,11 +83,16 @@ struct TriangleItem {
   std::array<Float3, 3> corners;
   Colour colour;
 };
+inline void renew(TriangleItem& item) { item = {}; }
 
 struct TextRun {
   std::string text;  ///< UTF-8
   Colour colour;
 };
+inline void renew(TextRun& run) {
+  run.text.clear();
+  run.colour = {};
+}
 
 enum class TextPlace {
   kWorld,  ///< at `position` in the world, facing the eyes, upright to the head
@@ -86,7 +104,7 @@ enum class TextAlign { kLeft, kCentre, kRight };
 /// `min_height_deg` of visual angle.
 struct TextItem {
   Label label = 0;
-  std::vector<TextRun> runs;
+  ItemList<TextRun> runs;
   Float3 position;
   TextPlace place = TextPlace::kWorld;
   TextAlign align = TextAlign::kCentre;
@@ -97,13 +115,27 @@ struct TextItem {
   float offset_right = 0;
   float offset_up = 0;
 };
+inline void renew(TextItem& item) {
+  ItemList<TextRun> runs = std::move(item.runs);
+  runs.clear();
+  item = {};
+  item.runs = std::move(runs);
+}
 
 /// Everything one frame shows. Plain values: equal scenes give equal images.
 struct Scene {
-  std::vector<MeshItem> meshes;
-  std::vector<LineItem> lines;
-  std::vector<TriangleItem> triangles;
-  std::vector<TextItem> texts;
+  ItemList<MeshItem> meshes;
+  ItemList<LineItem> lines;
+  ItemList<TriangleItem> triangles;
+  ItemList<TextItem> texts;
+
+  /// Empties it; what its items hold is there for the next frame's.
+  void clear() {
+    meshes.clear();
+    lines.clear();
+    triangles.clear();
+    texts.clear();
+  }
 };
 
 /// One eye: where it is and what it sees. Tangents of the half angles, all positive.
@@ -117,8 +149,10 @@ struct View {
 
 /// How holograms meet what is behind them.
 enum class Blend {
-  kAdditive,  ///< optical see-through: background + hologram
-  kOver       ///< preview: hologram over background by its opacity
+  kAdditive,      ///< optical see-through: background + hologram
+  kOver,          ///< preview: hologram over background by its opacity
+  kPremultiplied  ///< over nothing, for somebody else to put over the world: colour times opacity,
+                  ///< and the opacity itself as alpha
 };
 
 }  // namespace orthonav::render

@@ -70,6 +70,7 @@ Problem problem_of(const MeshItem& item) {
   if (!(volume(item.world_from_model) > 0)) return "has a place that mirrors or flattens it";
   if (!is_uniform(item.world_from_model)) return "has a place that shears or scales unevenly";
   if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
+  if (!is_colour(item.tint)) return "has a tint outside 0 to 1";
   return std::nullopt;
 }
 
@@ -108,7 +109,7 @@ Problem problem_of(const TextItem& item) {
 }
 
 template <class Item>
-Problem first_problem(const std::vector<Item>& items, const char* kind) {
+Problem first_problem(const ItemList<Item>& items, const char* kind) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (const Problem problem = problem_of(items[i])) {
       return std::string("scene: ") + kind + " " + std::to_string(i) + " (label " +
@@ -150,6 +151,12 @@ std::optional<std::string> problem_of_mesh(const MeshData& mesh) {
     return std::to_string(mesh.normals.size()) + " normals for " +
            std::to_string(mesh.positions.size()) + " vertices";
   }
+  if (!mesh.tints.empty() && mesh.tints.size() != mesh.positions.size()) {
+    return std::to_string(mesh.tints.size()) + " tints for " +
+           std::to_string(mesh.positions.size()) + " vertices";
+  }
+  for (std::size_t i = 0; i < mesh.tints.size(); ++i)
+    if (!is_between(mesh.tints[i], 0, 1)) return "tint " + std::to_string(i) + " is outside 0 to 1";
   if (mesh.indices.size() % 3 != 0) {
     return std::to_string(mesh.indices.size()) + " indices, expected three a triangle";
   }

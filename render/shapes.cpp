@@ -162,17 +162,22 @@ MeshData make_tube(std::span<const Float3> path, float radius_m, int slices) {
   return mesh;
 }
 
-std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m, int points) {
-  if (!(radius_m > 0) || !std::isfinite(radius_m) || !is_finite(centre)) return {};
+void set_ring(std::vector<Float3>& ring, Float3 centre, Float3 normal, float radius_m, int points) {
+  ring.clear();
+  if (!(radius_m > 0) || !std::isfinite(radius_m) || !is_finite(centre)) return;
   const Float3 axis = unit_or(normal, {0, 1, 0});
   const Float3 side = any_perpendicular(axis);
   const Float3 up = cross(axis, side);
   const int count = std::clamp(points, 3, kMostSlices);
-  std::vector<Float3> ring;
   for (int k = 0; k < count; ++k) {
     const float turn = kTau * static_cast<float>(k) / static_cast<float>(count);
     ring.push_back(centre + (radius_m * std::cos(turn)) * side + (radius_m * std::sin(turn)) * up);
   }
+}
+
+std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m, int points) {
+  std::vector<Float3> ring;
+  set_ring(ring, centre, normal, radius_m, points);
   return ring;
 }
 

@@ -28,7 +28,9 @@ namespace orthonav::render {
 /// A round tube along a path, with flat caps; the section is carried along without twist.
 [[nodiscard]] MeshData make_tube(std::span<const Float3> path, float radius_m, int slices = 16);
 
-/// The points of a circle, to be drawn as a closed line.
+/// The points of a circle, to be drawn as a closed line; what the list held is replaced.
+void set_ring(std::vector<Float3>& ring, Float3 centre, Float3 normal, float radius_m,
+              int points = 48);
 [[nodiscard]] std::vector<Float3> make_ring(Float3 centre, Float3 normal, float radius_m,
                                             int points = 48);
 

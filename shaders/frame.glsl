@@ -18,7 +18,7 @@ frame;
 layout(push_constant) uniform Item {
   mat4 place;
   vec4 colour;  // linear, not premultiplied
-  vec4 extra;   // line: width in metres; text: colour of the rim
+  vec4 extra;   // line: width in metres; text: colour of the rim; mesh: tint
   uvec4 ids;    // label, first vec4 of the item's data, style, line: 1 for discs at the ends
 }
 item;

@@ -7,6 +7,7 @@ layout(set = 0, binding = 3) uniform sampler2DArray background;
 
 layout(location = 0) in vec3 normal_in_world;
 layout(location = 1) in vec3 towards_eye;
+layout(location = 2) in vec3 shade;
 layout(location = 0) out vec4 colour;
 
 // Only the nearest veil shows, so this replaces what it finds instead of blending with it: the
@@ -21,6 +22,6 @@ void main() {
   // A rim's light is its opacity: where it is thin, the bone shows through.
   float opacity = item.ids.z == 1u ? min(item.colour.a * light, 1.0) : item.colour.a;
   float kept = frame.mode.x == 1u ? 1.0 - opacity : 1.0;
-  vec3 added = item.colour.rgb * min(item.colour.a * light, 1.0);
-  colour = vec4(below * kept + added, 1);
+  vec3 added = shade * min(item.colour.a * light, 1.0);
+  colour = vec4(below * kept + added, opacity);
 }

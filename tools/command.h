@@ -30,6 +30,7 @@ void add_render_command(CLI::App& app, Action& action);
 void add_register_command(CLI::App& app, Action& action);
 void add_rod_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);
+void add_serve_hl2ss_command(CLI::App& app, Action& action);
 void add_study_command(CLI::App& app, Action& action);
 void add_track_command(CLI::App& app, Action& action);
 

@@ -60,6 +60,7 @@ int run(int argc, char** argv) {
   add_render_command(app, action);
   add_rod_command(app, action);
   add_run_command(app, action);
+  add_serve_hl2ss_command(app, action);
   add_study_command(app, action);
   add_track_command(app, action);
   try {

@@ -10,9 +10,11 @@
 #include "engine/observer_list.h"
 #include "engine/operation_plan.h"
 #include "engine/operation_result.h"
+#include "engine/presenter.h"
 #include "engine/sim_scenario.h"
 #include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
+#include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/open/joined_headset.h"
 #include "hal/open/open.h"
 #include "hal/open/open_parts.h"
@@ -20,6 +22,7 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/connection_report.h"
 #include "tools/demo_report.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
@@ -56,6 +59,17 @@ void print_stats(const engine::LoopReport& loop) {
   line("tracking a pair (wall clock)", loop.step_wall_ms);
 }
 
+void print_present_stats(const engine::PresentReport& report) {
+  std::fprintf(stderr, "%-28s %lld asked for, %lld drawn, %lld with guidance too old\n",
+               "display frames", static_cast<long long>(report.frames),
+               static_cast<long long>(report.drawn), static_cast<long long>(report.hidden));
+  const auto median = engine::quantile(report.latch_ms, 0.5);
+  const auto p99 = engine::quantile(report.latch_ms, 0.99);
+  if (median && p99)
+    std::fprintf(stderr, "%-28s %8.1f ms, p99 %8.1f ms\n", "head pose to submission", *median,
+                 *p99);
+}
+
 /// Opens everything, then runs; members in the order in which they borrow from one another.
 class LiveRun {
  public:
@@ -68,9 +82,16 @@ class LiveRun {
     options.max_frames = arguments_.frames;
     engine::SceneBuilder builder;
     OperationProgress progress(nullptr);
+    if (headset_->pixels()) {
+      options.draw_every = 1;
+      options.drop_late_snapshots = true;
+    }
     engine::FrameLoop loop(*used_, *session_, builder, options);
     loop.observe(&progress);
+    if (const Status presenting = present(loop); !presenting)
+      return ended(presenting.error().message);
     auto report = loop.run();
+    end_presenting();
     if (!report) return ended(report.error().message);
     engine::OperationResult result =
         engine::outcome_of(session_->levels(), session_->rods(), std::move(*report));
@@ -94,6 +115,26 @@ class LiveRun {
     if (recorder_)
       if (const Status done = recorder_->close(); !done) reason += "; " + done.error().message;
     return bad_input(reason);
+  }
+
+  /// Where the headset takes pixels.
+  Status present(engine::FrameLoop& loop) {
+    if (!headset_->pixels()) return {};
+    engine::PresenterOptions options;
+    options.on_over = [&loop] { loop.stop(); };
+    auto presenter = engine::Presenter::start(*headset_->pixels(), options);
+    if (!presenter) return presenter.error();
+    presenter_ = std::move(*presenter);
+    loop.draw_into(presenter_.get());
+    return {};
+  }
+
+  void end_presenting() {
+    if (!presenter_) return;
+    const engine::PresentReport report = presenter_->stop();
+    for (const std::string& problem : report.problems)
+      std::fprintf(stderr, "%s\n", problem.c_str());
+    if (arguments_.stats) print_present_stats(report);
   }
 
   Status open() {
@@ -132,8 +173,9 @@ class LiveRun {
   }
 
   Status start(engine::Operation operation) {
-    const auto tools = arguments_.tools_file.empty() ? engine::tools_known_to(*headset_)
-                                                     : engine::load_tools(arguments_.tools_file);
+    const auto tools = arguments_.tools_file.empty()
+                           ? engine::tools_known_to(headset_->owner_of_cameras())
+                           : engine::load_tools(arguments_.tools_file);
     if (!tools) return tools.error();
     auto tracker = method_.create_tracker(headset_->cameras().calibration(), *tools,
                                           engine::OperationOptions().tracker);
@@ -142,7 +184,7 @@ class LiveRun {
     if (!session) return session.error();
     session_ = std::move(*session);
     observers_.add(&end_note_);
-    room_ = dynamic_cast<const sim::SimHeadset*>(headset_.get());
+    room_ = dynamic_cast<const sim::SimHeadset*>(&headset_->owner_of_cameras());
     if (room_) observers_.add(&witness_.emplace(*room_));
     if (const Status opened = open_journal(); !opened) return opened;
     session_->observe(&observers_);
@@ -183,6 +225,9 @@ class LiveRun {
     const std::string report = engine::report_json(result);
     std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
     if (arguments_.stats) print_stats(result.loop);
+    if (const auto* connected = dynamic_cast<const hl2ss::Hl2ssHeadset*>(headset_.get());
+        connected && arguments_.stats)
+      std::fputs(connection_report(connected->statistics()).c_str(), stderr);
     Status first;
     const auto note = [&first](const Status& status) {
       if (first.ok()) first = status;
@@ -209,6 +254,7 @@ class LiveRun {
   std::unique_ptr<engine::Journal> journal_;
   engine::ObserverList observers_;
   std::unique_ptr<engine::Session> session_;
+  std::unique_ptr<engine::Presenter> presenter_;
 };
 
 }  // namespace
@@ -216,7 +262,8 @@ class LiveRun {
 void add_run_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<RunArguments>();
   auto* run = app.add_subcommand("run", "An operation with a headset, simulated or recorded");
-  run->add_option("--headset", arguments->headset, "URI: sim:, replay:PATH")
+  run->add_option("--headset", arguments->headset,
+                  "URI: sim:, replay:PATH, hl2ss://HOST, openxr:+URI")
       ->check(some_text())
       ->capture_default_str();
   run->add_option("--clicker", arguments->clicker,

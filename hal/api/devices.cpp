@@ -37,13 +37,17 @@ Status check_image(const char* which, const GreyImage& image, const CameraModel&
 }
 
 Status check_frame(const StereoFrame& frame, const StereoCalibration& calibration,
-                   std::optional<Timestamp> last_time, std::int64_t last_sequence) {
+                   std::optional<Timestamp> last_time, std::int64_t last_sequence,
+                   std::int64_t last_map_epoch) {
   if (last_time && frame.time <= *last_time)
     return Error{"camera pair: time " + in_seconds(frame.time) + " does not come after " +
                  in_seconds(*last_time)};
   if (frame.sequence <= last_sequence)
     return Error{"camera pair: sequence number " + std::to_string(frame.sequence) +
                  " does not come after " + std::to_string(last_sequence)};
+  if (frame.map_epoch < last_map_epoch)
+    return Error{"camera pair: map epoch " + std::to_string(frame.map_epoch) + " comes after " +
+                 std::to_string(last_map_epoch)};
   if (auto status = check_image("left", frame.left, calibration.left); !status) return status;
   if (auto status = check_image("right", frame.right, calibration.right); !status) return status;
   if (frame.world_from_rig && !is_rigid(*frame.world_from_rig))
@@ -101,12 +105,15 @@ Result<Next> StereoCamera::next(StereoFrame& frame) {
   }
   if (*answer == Next::kEnd) ended_ = true;
   if (*answer != Next::kFrame) return answer;
-  if (Status status = check_frame(frame, calibration(), last_time_, last_sequence_); !status) {
+  if (Status status =
+          check_frame(frame, calibration(), last_time_, last_sequence_, last_map_epoch_);
+      !status) {
     empty(frame);
     return status.error();
   }
   last_time_ = frame.time;
   last_sequence_ = frame.sequence;
+  last_map_epoch_ = frame.map_epoch;
   return answer;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "hal/api/camera_model.h"
 #include "hal/api/display.h"
 #include "hal/api/image.h"
+#include "hal/api/pixel_display.h"
 #include "hal/api/result.h"
 #include "hal/api/time.h"
 #include "hal/api/tracked.h"
@@ -31,6 +33,9 @@ struct StereoCalibration {
 /// Two images taken at the same moment. The buffers are reused from frame to frame.
 struct StereoFrame {
   std::int64_t sequence = 0;
+  /// Which map World is. It increases when the device's map has moved or was replaced (recentered,
+  /// relocalised, lost and found again): then no position in World from before means anything.
+  std::int64_t map_epoch = 0;
   Timestamp time{};  ///< mid-exposure
   GreyImage left;
   GreyImage right;
@@ -45,9 +50,10 @@ enum class Next {
 };
 
 /// Pull interface of the camera pair. Contract, kept by the public call for every device: times
-/// strictly increase, both images have the calibration's size, sequence numbers increase, a pose is
-/// a rigid motion; after kEnd there is only kEnd. A frame that breaks it is answered with an Error
-/// and not passed on (`frame` comes back empty); the stream goes on with the next good frame.
+/// strictly increase, both images have the calibration's size, sequence numbers increase, the map's
+/// epoch never decreases, a pose is a rigid motion; after kEnd there is only kEnd. A frame that
+/// breaks it is answered with an Error and not passed on (`frame` comes back empty); the stream
+/// goes on with the next good frame.
 class StereoCamera {
  public:
   virtual ~StereoCamera() = default;
@@ -61,12 +67,14 @@ class StereoCamera {
 
   std::optional<Timestamp> last_time_;
   std::int64_t last_sequence_ = -1;
+  std::int64_t last_map_epoch_ = std::numeric_limits<std::int64_t>::min();
   bool ended_ = false;
 };
 
 /// Where the head is, was or will be. Contract: the answer's time is the time asked for; asked
 /// further ahead than `kMaxHeadPrediction` past the newest measurement it is lost. What is no rigid
-/// motion or belongs to another time is answered as lost. Thread-safe.
+/// motion or belongs to another time is answered as lost, and so is a time before the map moved
+/// (`StereoFrame::map_epoch`): answers are in the newest map. Thread-safe.
 class HeadTracker {
  public:
   static constexpr Duration kMaxHeadPrediction = std::chrono::milliseconds(100);
@@ -176,6 +184,10 @@ class Headset {
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;
   [[nodiscard]] virtual Display& display() = 0;
+  /// The display where it takes pixels; null otherwise.
+  [[nodiscard]] virtual PixelDisplay* pixels() { return nullptr; }
+  /// The headset whose cameras these are, where this one borrowed them; else this one.
+  [[nodiscard]] virtual Headset& owner_of_cameras() { return *this; }
 };
 
 }  // namespace orthonav

@@ -5,13 +5,15 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/open/open_openxr.h"
 #include "hal/replay/replay_headset.h"
 
 namespace orthonav {
 
 namespace {
 
-constexpr const char* kKnownSchemes = "known are sim: and replay:PATH";
+constexpr const char* kKnownSchemes = "known are sim:, replay:PATH, hl2ss://HOST and openxr:+URI";
 constexpr const char* kKnownSimKeys = "known are seed=N, perfect and realtime";
 
 sim::RoomTool default_pointer() {
@@ -113,8 +115,12 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const Open
     if (!chosen) return chosen.error();
     return as_headset(replay::ReplayHeadset::open(chosen->first, chosen->second));
   }
-  if (scheme == "openxr" || scheme == "hl2ss")
-    return bad_uri(uri, scheme + ": is not supported yet; " + kKnownSchemes);
+  if (scheme == "hl2ss") {
+    auto chosen = hl2ss::options_of(rest);
+    if (!chosen) return bad_uri(uri, chosen.error().message);
+    return as_headset(hl2ss::Hl2ssHeadset::open(*chosen));
+  }
+  if (scheme == "openxr") return open_openxr(uri, rest, options);
   return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes);
 }
 

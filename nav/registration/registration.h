@@ -47,6 +47,10 @@ class VertebraModel {
   /// The posterior part: what is left after trimming what a pointer can't reach.
   [[nodiscard]] const TriangleMesh& reachable() const { return reachable_; }
   [[nodiscard]] const SurfaceIndex& reachable_surface() const { return reachable_surface_; }
+  /// Its faces in `mesh()`, ascending.
+  [[nodiscard]] const std::vector<std::uint32_t>& reachable_faces() const {
+    return reachable_faces_;
+  }
   /// Its closest points, roughly and fast.
   [[nodiscard]] const ClosestGrid& reachable_grid() const { return reachable_grid_; }
   /// Principal axes of the reachable surface (by area) and its extreme points along them.

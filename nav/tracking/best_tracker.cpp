@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nav/tracking/pair_detector.h"
 #include "nav/tracking/planar_pose.h"
@@ -44,6 +45,7 @@ class BestTracker final : public ToolTracker {
   std::span<const ToolState> track(const StereoFrame& frame) override {
     ++pairs_;
     whole_->finish();
+    if (std::exchange(map_epoch_, frame.map_epoch) != frame.map_epoch) forget_map();
     std::size_t tracked = 0;
     for (std::size_t i = 0; i < tools_.size(); ++i) {
       states_[i] = {i, {}, {}, 0.0};
@@ -80,6 +82,14 @@ class BestTracker final : public ToolTracker {
     std::optional<Timestamp> last_time;
     TagSizeEstimator size;
   };
+
+  /// Where the tools were in another map says nothing about where they are in this one.
+  void forget_map() {
+    for (Trail& trail : trails_) {
+      trail.filter.stop();
+      trail.last_time.reset();
+    }
+  }
 
   /// Poses follow the cameras as they are, once it is certain that they are not as reported.
   void align() {
@@ -269,6 +279,7 @@ class BestTracker final : public ToolTracker {
   AlignmentEstimator aligning_;
   std::optional<StereoAlignment> applied_;
   std::int64_t pairs_ = -1;
+  std::int64_t map_epoch_ = 0;
 };
 
 }  // namespace

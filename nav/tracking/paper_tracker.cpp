@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include "nav/tracking/corner_filter.h"
 #include "nav/tracking/pair_detector.h"
@@ -30,6 +31,7 @@ class PaperTracker final : public ToolTracker {
   }
 
   std::span<const ToolState> track(const StereoFrame& frame) override {
+    if (std::exchange(map_epoch_, frame.map_epoch) != frame.map_epoch) forget_map();
     plan(frame.time);
     detector_->detect(frame);
     ++pairs_;
@@ -51,6 +53,11 @@ class PaperTracker final : public ToolTracker {
     TrackedPose older;
     TrackedPose newer;
   };
+
+  /// Poses of another map predict nothing; corners are the images' own.
+  void forget_map() {
+    for (Trail& trail : trails_) trail.older = trail.newer = {};
+  }
 
   [[nodiscard]] bool is_recent(const CornerFilter& filter, Timestamp time) const {
     return filter.alive() && time > filter.time() && time - filter.time() <= options_.coast;
@@ -147,6 +154,7 @@ class PaperTracker final : public ToolTracker {
   std::vector<Trail> trails_;
   std::vector<ToolState> states_;
   std::int64_t pairs_ = 0;
+  std::int64_t map_epoch_ = 0;
   bool missing_ = true;
 };
 

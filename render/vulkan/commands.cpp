@@ -35,6 +35,11 @@ VkCommandBuffer Commands::begin() {
 }
 
 void Commands::run() {
+  submit();
+  wait();
+}
+
+void Commands::submit() {
   check(vkEndCommandBuffer(buffer_), "command buffer");
   check(vkResetFences(device_, 1, &finished_.get()), "fence");
   VkSubmitInfo info = {};
@@ -44,6 +49,12 @@ void Commands::run() {
   const auto start = std::chrono::steady_clock::now();
   check(vkQueueSubmit(queue_, 1, &info, finished_.get()), "drawing");
   submit_ms_ = milliseconds_since(start);
+  underway_ = true;
+}
+
+void Commands::wait() {
+  if (!underway_) return;
+  underway_ = false;
   const VkResult result = vkWaitForFences(device_, 1, &finished_.get(), VK_TRUE,
                                           static_cast<std::uint64_t>(patience_.count()));
   if (result == VK_SUCCESS) return;

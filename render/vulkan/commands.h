@@ -10,16 +10,21 @@
 
 namespace orthonav::render {
 
-/// Records and runs commands, one batch at a time, each to its end.
+/// Records and runs commands, one batch at a time.
 class Commands {
  public:
   explicit Commands(const Device& device,
                     std::chrono::nanoseconds patience = std::chrono::seconds(10));
   /// Starts a new batch; what was recorded before is forgotten.
   VkCommandBuffer begin();
-  /// Runs the batch and waits for it. Throws on a lost device or one that takes longer than the
-  /// patience; not before the device is idle, so that the caller may destroy what the batch used.
+  /// Hands the batch over and waits for its end.
   void run();
+  /// Hands the batch over; `wait` before the next `begin`.
+  void submit();
+  /// Until what was handed over has ended; at once when nothing was. Throws on a lost device or one
+  /// that takes longer than the patience; not before the device is idle, so that the caller may
+  /// destroy what the batch used.
+  void wait();
   /// Of the last batch: what handing it over took, in milliseconds.
   [[nodiscard]] double submit_ms() const { return submit_ms_; }
   /// Whether a batch that was handed over did not come back in order: draw no more with the device.
@@ -34,6 +39,7 @@ class Commands {
   std::chrono::nanoseconds patience_;
   double submit_ms_ = 0;
   bool lost_ = false;
+  bool underway_ = false;
 };
 
 struct LayoutChange {

@@ -138,6 +138,15 @@ VkPhysicalDevice choose_device(const Instance& instance, const std::string& want
                            "; there is: " + seen);
 }
 
+VkPhysicalDevice device_of(VulkanHost& host, const Instance& instance) {
+  std::string error;
+  auto* physical = static_cast<VkPhysicalDevice>(host.physical_device(instance.get(), error));
+  if (physical == VK_NULL_HANDLE) throw std::runtime_error(error);
+  const DeviceInfo info = describe(physical);
+  if (!info.usable) throw std::runtime_error("renderer: " + info.name + ": " + info.reason);
+  return physical;
+}
+
 std::optional<std::string> problem_of_size(const VkPhysicalDeviceLimits& limits, int width_px,
                                            int height_px) {
   const std::uint32_t most_across =
@@ -152,7 +161,7 @@ std::optional<std::string> problem_of_size(const VkPhysicalDeviceLimits& limits,
          std::to_string(most_down) + " px";
 }
 
-Device::Device(VkPhysicalDevice physical) {
+Device::Device(VkPhysicalDevice physical, VulkanHost* host) {
   queue_family_ = graphics_family(physical).value();
   depth_format_ = depth_format_of(physical);
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
@@ -170,7 +179,14 @@ Device::Device(VkPhysicalDevice physical) {
   info.pNext = &multiview;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  check(vkCreateDevice(physical, &info, nullptr, &device_), "Vulkan device");
+  if (host != nullptr) {
+    std::string error;
+    device_ = static_cast<VkDevice>(host->create_device(
+        physical, reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr), &info, error));
+    if (device_ == VK_NULL_HANDLE) throw std::runtime_error(error);
+  } else {
+    check(vkCreateDevice(physical, &info, nullptr, &device_), "Vulkan device");
+  }
   vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
 }
 

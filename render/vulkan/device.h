@@ -21,6 +21,9 @@ inline constexpr VkFormat kLabelFormat = VK_FORMAT_R32_UINT;
 /// discrete before integrated before virtual before CPU. Throws std::runtime_error with one line.
 [[nodiscard]] VkPhysicalDevice choose_device(const Instance& instance, const std::string& wanted);
 
+/// The device that the host wants to be used. Throws std::runtime_error with one line.
+[[nodiscard]] VkPhysicalDevice device_of(VulkanHost& host, const Instance& instance);
+
 /// Why the device can't hold one eye's image; nothing when it can.
 [[nodiscard]] std::optional<std::string> problem_of_size(const VkPhysicalDeviceLimits& limits,
                                                          int width_px, int height_px);
@@ -28,7 +31,8 @@ inline constexpr VkFormat kLabelFormat = VK_FORMAT_R32_UINT;
 /// A logical device with one graphics queue.
 class Device {
  public:
-  explicit Device(VkPhysicalDevice physical);
+  /// With a host it is the host who makes it.
+  explicit Device(VkPhysicalDevice physical, VulkanHost* host = nullptr);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

@@ -38,13 +38,14 @@ class Recording {
 
   void begin() const {
     std::array<VkClearValue, 3> clear = {};
-    // Colour to opaque black; a label to 0 everywhere.
-    if (sources_.pass.targets.spec().kind == PassKind::kColour) clear[0].color.float32[3] = 1.0f;
+    // Colour to black, opaque or not there at all; a label to 0 everywhere.
+    if (sources_.pass.targets.spec().kind == PassKind::kColour)
+      clear[0].color.float32[3] = sources_.pass.clear_alpha;
     clear[1].depthStencil = {1.0f, 0};
     VkRenderPassBeginInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = sources_.pass.targets.pass();
-    info.framebuffer = sources_.pass.targets.framebuffer();
+    info.framebuffer = sources_.pass.targets.framebuffer(sources_.outer);
     info.renderArea = rect_of(region_);
     info.clearValueCount = 2;
     info.pClearValues = clear.data();
@@ -119,8 +120,17 @@ class Recording {
     }
   }
 
-  void end_and_copy() const {
+  void everything() const {
+    begin();
+    background();
+    meshes();
+    triangles();
+    lines();
+    texts();
     vkCmdEndRenderPass(commands_);
+  }
+
+  void copy() const {
     const TargetSpec& spec = sources_.pass.targets.spec();
     // Rows of regions side by side take turns in the buffer: one copy after the other.
     wait_for_copies(commands_, sources_.readback, VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -172,7 +182,11 @@ class Recording {
       const GpuMesh* copy = sources_.meshes.find(item->mesh);
       if (copy == nullptr || copy->index_count == 0 || !shows(bounds, stage, bound)) continue;
       const std::uint32_t style = item->style == MeshStyle::kRim ? 1 : 0;
-      push({item->world_from_model, item->colour, {}, {item->label, 0, style}});
+      const Colour& tint = item->tint;
+      push({item->world_from_model,
+            item->colour,
+            {tint.r, tint.g, tint.b},
+            {item->label, 0, style}});
       const VkBuffer vertices = copy->vertices.get();
       const VkDeviceSize offset = 0;
       vkCmdBindVertexBuffers(commands_, 0, 1, &vertices, &offset);
@@ -192,15 +206,16 @@ class Recording {
 void record_frame(VkCommandBuffer commands, const FrameSources& sources) {
   for (const PixelRect& region : sources.items.regions()) {
     const Recording part(commands, sources, region);
-    part.begin();
-    part.background();
-    part.meshes();
-    part.triangles();
-    part.lines();
-    part.texts();
-    part.end_and_copy();
+    part.everything();
+    part.copy();
   }
   wait_for_copies(commands, sources.readback, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+}
+
+void record_outer_frame(VkCommandBuffer commands, const FrameSources& sources) {
+  const TargetSpec& spec = sources.pass.targets.spec();
+  const PixelRect whole{0, 0, static_cast<int>(spec.width), static_cast<int>(spec.height)};
+  Recording(commands, sources, whole).everything();
 }
 
 }  // namespace orthonav::render

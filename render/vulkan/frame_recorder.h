@@ -12,9 +12,12 @@ namespace orthonav::render {
 struct FramePass {
   FramePass(const Device& device, VkPipelineCache cache, VkPipelineLayout layout,
             const TargetSpec& spec, Blend blend)
-      : targets(device, spec), pipelines(device, cache, layout, targets, blend) {}
+      : targets(device, spec),
+        pipelines(device, cache, layout, targets, blend),
+        clear_alpha(blend == Blend::kPremultiplied ? 0.0f : 1.0f) {}
   Targets targets;
   Pipelines pipelines;
+  float clear_alpha;  ///< of a pixel without hologram
 };
 
 /// Corners and indices of one segment of a line, as line.vert expects them.
@@ -34,15 +37,19 @@ struct FrameSources {
   const MeshCache& meshes;
   const FrameItems& items;
   const Buffer& line_indices;
-  const Buffer& readback;
+  const Buffer& readback;  ///< empty where the target is somebody else's image
   VkDeviceSize readback_offset = 0;
   std::uint32_t frame_offset = 0;  ///< of the pass's GpuFrame in the bound buffer
   bool has_background = false;
+  std::size_t outer = 0;  ///< which of the targets' outer images
 };
 
 /// Records drawing the regions that hold holograms, and the copy of each into its place in the
 /// readback buffer; what lies outside is not touched. The rules of depth and
 /// order that it follows are in docs/decisions/0021-holograms-need-no-order.md.
 void record_frame(VkCommandBuffer commands, const FrameSources& sources);
+
+/// Records drawing the whole of one of the targets' outer images, which nobody copies.
+void record_outer_frame(VkCommandBuffer commands, const FrameSources& sources);
 
 }  // namespace orthonav::render

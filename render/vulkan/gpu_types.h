@@ -38,7 +38,8 @@ static_assert(sizeof(GpuItem) == 112, "fits the 128 bytes that every device has"
 struct GpuVertex {
   Float3 position;
   Float3 normal;
+  float tint = 0;
 };
-static_assert(sizeof(GpuVertex) == 24);
+static_assert(sizeof(GpuVertex) == 28);
 
 }  // namespace orthonav::render

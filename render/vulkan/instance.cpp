@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -67,9 +68,29 @@ bool has_validation_layer() {
   });
 }
 
+/// What the renderer needs, or more where the host does.
+std::uint32_t api_version_for(const VulkanHost* host) {
+  if (host == nullptr) return VK_API_VERSION_1_1;
+  const auto [least, most] = host->versions();
+  const auto packed = [](VulkanVersion v) { return VK_MAKE_API_VERSION(0, v.major, v.minor, 0); };
+  if (packed(most) < VK_API_VERSION_1_1) {
+    throw std::runtime_error("renderer: the host allows Vulkan " + std::to_string(most.major) +
+                             "." + std::to_string(most.minor) + " at the most, needs 1.1");
+  }
+  return std::max(packed(least), VK_API_VERSION_1_1);
+}
+
+VkInstance made_by(VulkanHost& host, const VkInstanceCreateInfo& info) {
+  std::string error;
+  void* instance =
+      host.create_instance(reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr), &info, error);
+  if (instance == nullptr) throw std::runtime_error(error);
+  return static_cast<VkInstance>(instance);
+}
+
 }  // namespace
 
-Instance::Instance(bool validation, MessageSink messages)
+Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
     : messages_(messages ? std::move(messages) : std::make_shared<std::vector<std::string>>()) {
   if (validation && !has_validation_layer()) {
     throw VulkanFailure(VK_ERROR_LAYER_NOT_PRESENT, "validation layer");
@@ -77,7 +98,7 @@ Instance::Instance(bool validation, MessageSink messages)
   VkApplicationInfo application = {};
   application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   application.pApplicationName = "orthonav";
-  application.apiVersion = VK_API_VERSION_1_1;
+  application.apiVersion = api_version_for(host);
   VkDebugUtilsMessengerCreateInfoEXT listener = messenger_info(*messages_);
   const std::array<VkValidationFeatureEnableEXT, 2> enabled = {
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
@@ -99,7 +120,11 @@ Instance::Instance(bool validation, MessageSink messages)
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
   }
-  check(vkCreateInstance(&info, nullptr, &instance_), "Vulkan");
+  if (host != nullptr) {
+    instance_ = made_by(*host, info);
+  } else {
+    check(vkCreateInstance(&info, nullptr, &instance_), "Vulkan");
+  }
   keep_drivers_for_leak_check();
   if (!validation) return;
   const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/hosted_renderer.h"
 #include "render/renderer.h"
 
 namespace orthonav::render {
@@ -14,8 +15,9 @@ namespace orthonav::render {
 class Instance {
  public:
   /// Throws VulkanFailure when there is no Vulkan here, or no validation layer where asked for.
-  /// Messages go to `messages`, or to a sink of its own where that is empty.
-  explicit Instance(bool validation, MessageSink messages = nullptr);
+  /// Messages go to `messages`, or to a sink of its own where that is empty. With a host it is the
+  /// host who makes it.
+  explicit Instance(bool validation, MessageSink messages = nullptr, VulkanHost* host = nullptr);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;

@@ -14,7 +14,7 @@ constexpr int kMostIdleFrames = 300;  // five seconds of a headset's frames
 std::vector<GpuVertex> vertices_of(const MeshData& mesh) {
   std::vector<GpuVertex> vertices(mesh.positions.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    vertices[i] = {mesh.positions[i], mesh.normals[i]};
+    vertices[i] = {mesh.positions[i], mesh.normals[i], mesh.tints.empty() ? 0 : mesh.tints[i]};
   }
   return vertices;
 }
@@ -88,8 +88,9 @@ std::string MeshCache::add(const Device& device, Commands& commands,
 
 void MeshCache::end_frame() {
   for (Entry& entry : entries_) ++entry.idle_frames;
-  std::erase_if(entries_, [](const Entry& entry) {
-    return entry.mesh.use_count() == 1 || entry.idle_frames > kMostIdleFrames;
+  std::erase_if(entries_, [this](const Entry& entry) {
+    const bool drawing = entry.idle_frames <= frames_in_flight_;
+    return !drawing && (entry.mesh.use_count() == 1 || entry.idle_frames > kMostIdleFrames);
   });
 }
 

@@ -31,6 +31,8 @@ struct GpuMesh {
 /// pointer never means two meshes.
 class MeshCache {
  public:
+  /// `frames_in_flight`: that may still be drawing when a frame ends; no copy goes under them.
+  explicit MeshCache(int frames_in_flight = 0) : frames_in_flight_(frames_in_flight) {}
   /// The copy of a mesh, or nullptr.
   [[nodiscard]] const GpuMesh* find(const std::shared_ptr<const MeshData>& mesh) const;
   /// Checks and uploads a mesh that has no copy yet, with as many triangles as `detail` asks for.
@@ -50,6 +52,7 @@ class MeshCache {
     GpuMesh copy;
     int idle_frames = 0;
   };
+  int frames_in_flight_;
   std::vector<Entry> entries_;
 };
 

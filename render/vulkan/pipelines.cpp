@@ -104,9 +104,11 @@ ShaderModule make_module(VkDevice device, std::string_view spirv) {
 
 VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind kind, Blend blend) {
   VkPipelineColorBlendAttachmentState state = {};
-  // Images come out opaque: the clear writes alpha 1 and nothing touches it.
+  // Images come out opaque: the clear writes alpha 1 and nothing touches it. Only where somebody
+  // else puts them over the world, alpha says how much of it is hidden.
   state.colorWriteMask =
       VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
+  if (blend == Blend::kPremultiplied) state.colorWriteMask |= VK_COLOR_COMPONENT_A_BIT;
   if (recipe.fragment.empty()) state.colorWriteMask = 0;
   state.blendEnable = recipe.blends && kind == PassKind::kColour;
   state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
@@ -114,7 +116,7 @@ VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind k
       blend == Blend::kAdditive ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.colorBlendOp = VK_BLEND_OP_ADD;
   state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   state.alphaBlendOp = VK_BLEND_OP_ADD;
   return state;
 }
@@ -139,9 +141,10 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const Recipe& recipe) {
 /// The fixed-function states, kept together because they point at one another.
 struct States {
   VkVertexInputBindingDescription binding = {0, sizeof(GpuVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  std::array<VkVertexInputAttributeDescription, 2> attributes = {
+  std::array<VkVertexInputAttributeDescription, 3> attributes = {
       {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, position)},
-       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, normal)}}};
+       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(GpuVertex, normal)},
+       {2, 0, VK_FORMAT_R32_SFLOAT, offsetof(GpuVertex, tint)}}};
   VkPipelineVertexInputStateCreateInfo input = {};
   VkPipelineInputAssemblyStateCreateInfo assembly = {};
   VkViewport viewport = {};
@@ -160,8 +163,8 @@ struct States {
     if (recipe.mesh) {
       input.vertexBindingDescriptionCount = 1;
       input.pVertexBindingDescriptions = &binding;
-      // A depth pipeline runs the same shader and so takes the normals too.
-      input.vertexAttributeDescriptionCount = 2;
+      // A depth pipeline runs the same shader and so takes the normals and tints too.
+      input.vertexAttributeDescriptionCount = static_cast<std::uint32_t>(attributes.size());
       input.pVertexAttributeDescriptions = attributes.data();
     }
     assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;

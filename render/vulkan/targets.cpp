@@ -36,13 +36,16 @@ VkSubpassDependency before_drawing() {
   return dependency;
 }
 
-VkSubpassDependency before_copying() {
+/// Before the result is copied; before somebody else samples or copies his image.
+VkSubpassDependency before_reading(bool outer) {
   VkSubpassDependency dependency = {};
   dependency.dstSubpass = VK_SUBPASS_EXTERNAL;
   dependency.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
   dependency.dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT;
   dependency.srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
   dependency.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
+  if (outer) dependency.dstStageMask |= VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+  if (outer) dependency.dstAccessMask |= VK_ACCESS_SHADER_READ_BIT;
   return dependency;
 }
 
@@ -57,21 +60,34 @@ VkRenderPassMultiviewCreateInfo all_at_once(const std::uint32_t& view_mask) {
   return multiview;
 }
 
+ImageView view_of(const Device& device, const TargetSpec& spec, VkImage outer) {
+  VkImageViewCreateInfo info = {};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+  info.image = outer;
+  info.viewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY;
+  info.format = spec.colour;
+  info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, spec.views};
+  VkImageView view = VK_NULL_HANDLE;
+  check(vkCreateImageView(device.get(), &info, nullptr, &view), "view of a host's image");
+  return {device.get(), view};
+}
+
 }  // namespace
 
 Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
   const bool labels = spec.kind == PassKind::kLabels;
   if (labels) spec_.samples = VK_SAMPLE_COUNT_1_BIT;
   ImageSpec image;
-  image.format = labels ? kLabelFormat : kColourFormat;
+  image.format = labels ? kLabelFormat : spec_.colour;
   image.width = spec_.width;
   image.height = spec_.height;
   image.layers = spec_.views;
   image.samples = spec_.samples;
   image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if (!resolves()) image.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  colour_ = DeviceImage(device, image);
-  if (resolves()) {
+  if (resolves() || spec_.outer.empty()) colour_ = DeviceImage(device, image);
+  for (const VkImage outer : spec_.outer) outer_.push_back(view_of(device, spec_, outer));
+  if (resolves() && spec_.outer.empty()) {
     ImageSpec result = image;
     result.samples = VK_SAMPLE_COUNT_1_BIT;
     result.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
@@ -83,11 +99,20 @@ Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
   depth.aspect = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
   depth_ = DeviceImage(device, depth);
   make_pass(device, image.format);
-  make_framebuffer(device);
+  make_framebuffers(device);
 }
 
-void Targets::make_framebuffer(const Device& device) {
-  const std::array<VkImageView, 3> views = {colour_.view(), depth_.view(), result_.view()};
+void Targets::make_framebuffers(const Device& device) {
+  for (const ImageView& outer : outer_)
+    framebuffers_.push_back(framebuffer_of(device, outer.get()));
+  if (outer_.empty())
+    framebuffers_.push_back(framebuffer_of(device, resolves() ? result_.view() : colour_.view()));
+}
+
+/// `result`: the view that is read in the end.
+Framebuffer Targets::framebuffer_of(const Device& device, VkImageView result) const {
+  const std::array<VkImageView, 3> views = {resolves() ? colour_.view() : result, depth_.view(),
+                                            result};
   VkFramebufferCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
   info.renderPass = pass();
@@ -98,20 +123,20 @@ void Targets::make_framebuffer(const Device& device) {
   info.layers = 1;  // multiview picks the layers
   VkFramebuffer framebuffer = VK_NULL_HANDLE;
   check(vkCreateFramebuffer(device.get(), &info, nullptr, &framebuffer), "framebuffer");
-  framebuffer_ = Framebuffer(device.get(), framebuffer);
+  return {device.get(), framebuffer};
 }
 
 /// Colour, depth and, where samples are resolved, the result.
 std::array<VkAttachmentDescription, 3> Targets::attachments(VkFormat colour, VkFormat depth) const {
   constexpr auto kDrop = VK_ATTACHMENT_STORE_OP_DONT_CARE;
   constexpr auto kKeep = VK_ATTACHMENT_STORE_OP_STORE;
+  const VkImageLayout read = spec_.outer.empty() ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL
+                                                 : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   return {attachment(colour, spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, resolves() ? kDrop : kKeep,
-                     resolves() ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
-                                : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+                     resolves() ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : read),
           attachment(depth, spec_.samples, VK_ATTACHMENT_LOAD_OP_CLEAR, kDrop,
                      VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-          attachment(colour, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE, kKeep,
-                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+          attachment(colour, VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_LOAD_OP_DONT_CARE, kKeep, read)};
 }
 
 void Targets::make_pass(const Device& device, VkFormat format) {
@@ -125,7 +150,8 @@ void Targets::make_pass(const Device& device, VkFormat format) {
   subpass.pColorAttachments = &colour;
   subpass.pDepthStencilAttachment = &depth;
   if (resolves()) subpass.pResolveAttachments = &result;
-  const std::array<VkSubpassDependency, 2> dependencies = {before_drawing(), before_copying()};
+  const std::array<VkSubpassDependency, 2> dependencies = {before_drawing(),
+                                                           before_reading(!spec_.outer.empty())};
   const std::uint32_t view_mask = (1u << spec_.views) - 1;
   const VkRenderPassMultiviewCreateInfo multiview = all_at_once(view_mask);
   VkRenderPassCreateInfo info = {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "render/vulkan/memory.h"
 
@@ -14,17 +15,24 @@ struct TargetSpec {
   std::uint32_t height = 0;
   std::uint32_t views = 1;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  ///< labels have one, whatever is asked
+  VkFormat colour = kColourFormat;
+  /// Somebody else's images of as many layers as there are views, where the result goes, one of
+  /// them at a time; empty: into an image of the targets' own.
+  std::vector<VkImage> outer;
 };
 
 /// The images of one kind of frame, one layer a view, and the pass that draws into all layers at
-/// once. The result is left ready to be copied from.
+/// once. The result is left ready to be copied from, or in somebody else's image as an attachment.
 class Targets {
  public:
   Targets(const Device& device, const TargetSpec& spec);
   [[nodiscard]] const TargetSpec& spec() const { return spec_; }
   [[nodiscard]] VkRenderPass pass() const { return pass_.get(); }
-  [[nodiscard]] VkFramebuffer framebuffer() const { return framebuffer_.get(); }
-  /// The single-sample image to read.
+  /// `outer`: an index into the outer images, where there are some.
+  [[nodiscard]] VkFramebuffer framebuffer(std::size_t outer = 0) const {
+    return framebuffers_[outer].get();
+  }
+  /// The single-sample image to read, where it is the targets' own.
   [[nodiscard]] VkImage result() const { return resolves() ? result_.get() : colour_.get(); }
   [[nodiscard]] bool resolves() const { return spec_.samples != VK_SAMPLE_COUNT_1_BIT; }
 
@@ -32,14 +40,16 @@ class Targets {
   [[nodiscard]] std::array<VkAttachmentDescription, 3> attachments(VkFormat colour,
                                                                    VkFormat depth) const;
   void make_pass(const Device& device, VkFormat format);
-  void make_framebuffer(const Device& device);
+  void make_framebuffers(const Device& device);
+  Framebuffer framebuffer_of(const Device& device, VkImageView result) const;
 
   TargetSpec spec_;
   DeviceImage colour_;
   DeviceImage depth_;
   DeviceImage result_;  ///< of the resolve; empty with one sample
+  std::vector<ImageView> outer_;
   RenderPass pass_;
-  Framebuffer framebuffer_;
+  std::vector<Framebuffer> framebuffers_;
 };
 
 }  // namespace orthonav::render

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/hologram_cross.h"
+#include "render/float3.h"
 #include "tests/engine/scripted_session.h"
 
 namespace orthonav::engine {
@@ -170,6 +171,29 @@ TEST(SceneBuilder, ShowsTheBoneToVerifyButNoEntryPointsYet) {
   EXPECT_NEAR(landmarks[1].v.x, 0.030, kExact);
   EXPECT_NEAR(landmarks[2].v.x, -0.030, kExact);
   EXPECT_NEAR(landmarks[3].v.z, 0.025, kExact);
+}
+
+TEST(SceneBuilder, TintsTheBoneWhereNoStrokeCameNear) {
+  ScriptedSession s;
+  const Guidance& g = s.registers_first_level();
+  SceneBuilder builder;
+  render::Scene scene;
+  builder.update(g);
+  builder.write_scene(g, scene);
+  const auto mesh = scene.meshes.at(0).mesh;
+  ASSERT_EQ(mesh->tints.size(), mesh->positions.size());
+  EXPECT_EQ(*std::max_element(mesh->tints.begin(), mesh->tints.end()), 1.0f);
+  for (std::size_t i = 0; i < mesh->tints.size(); ++i) {
+    // Strokes went over the middle of the box's back.
+    const render::Float3 p = mesh->positions[i];
+    const float away = render::length(p - render::Float3{0, 0.02f, 0});
+    if (away < 0.003f) {
+      EXPECT_EQ(mesh->tints[i], 0.0f);
+    }
+  }
+  // The renderer keeps its copy by pointer.
+  builder.write_scene(s.pair(), scene);
+  EXPECT_EQ(scene.meshes.at(0).mesh, mesh);
 }
 
 TEST(SceneBuilder, PutsHologramsWhereTheRegistrationSays) {

@@ -117,6 +117,7 @@ const Guidance& ScriptedSession::pair() {
   StereoFrame frame;
   frame.time = now_;
   frame.world_from_rig = Transform<World, Rig>{};
+  frame.map_epoch = map_epoch;
   Inputs inputs;
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;

@@ -71,6 +71,7 @@ class ScriptedSession {
   std::optional<std::string> unusable;         ///< or why there is none
   std::vector<std::size_t> registered_points;  ///< of each registration asked for
   Duration latency = std::chrono::milliseconds(16);
+  std::int64_t map_epoch = 0;  ///< of the next pairs
 
  private:
   Timestamp now_ = from_ticks_100ns(10'000'000);

@@ -35,7 +35,7 @@ std::vector<std::size_t> number_ends(const std::string& text) {
 
 template <class Items>
 void erase_label(Items& items, render::Label label, bool equal) {
-  std::erase_if(items, [&](const auto& item) { return (item.label == label) == equal; });
+  items.erase_if([&](const auto& item) { return (item.label == label) == equal; });
 }
 
 void dim(render::Colour& colour) {

@@ -93,6 +93,13 @@ TEST_F(BadScene, MeshesThatCantBeDrawnAreNamed) {
   scene_.meshes[0].mesh = std::make_shared<MeshData>(data);
   EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("normals for"));
   data = make_sphere(0.05f);
+  data.tints.assign(3, 0.5f);
+  scene_.meshes[0].mesh = std::make_shared<MeshData>(data);
+  EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("3 tints for"));
+  data.tints.assign(data.positions.size(), 1.5f);
+  scene_.meshes[0].mesh = std::make_shared<MeshData>(data);
+  EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("tint 0 is outside"));
+  data = make_sphere(0.05f);
   data.indices.pop_back();
   scene_.meshes[0].mesh = std::make_shared<MeshData>(data);
   EXPECT_THAT(renderer_.error_of(scene_), HasSubstr("three a triangle"));

@@ -12,8 +12,8 @@ TEST(Eyes, TogetherSeeWhatEachSeesAlone) {
   // Text turns to the point between the eyes, and what lies farther is told from there; one of a
   // kind has no order.
   scene.texts.clear();
-  scene.lines.resize(1);
-  scene.triangles.resize(1);
+  scene.lines = {scene.lines[0]};
+  scene.triangles = {scene.triangles[0]};
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
   std::vector<Image> both;
   std::string error;

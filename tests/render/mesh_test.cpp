@@ -22,6 +22,23 @@ TEST(Triangle, ShowsFromBothSides) {
   EXPECT_NEAR(front->centre_x_px, 100, 0.3);
 }
 
+TEST(Mesh, TakesItsTintWhereItSaysSo) {
+  TestRenderer renderer;
+  for (const MeshStyle style : {MeshStyle::kSolid, MeshStyle::kRim}) {
+    Scene scene = sphere_scene(style, {1, 0, 0, 1}, {0, 0, -1}, 301);
+    scene.meshes[0].tint = {0, 0, 1, 1};
+    auto left = std::make_shared<MeshData>(*scene.meshes[0].mesh);
+    for (const Float3 p : left->positions) left->tints.push_back(p.x < 0 ? 1.0f : 0.0f);
+    const Image plain = renderer.draw(scene, TestRenderer::straight_ahead());
+    scene.meshes[0].mesh = left;
+    const Image image = renderer.draw(scene, TestRenderer::straight_ahead());
+    EXPECT_EQ(pixel(image, 106, 60), pixel(plain, 106, 60));
+    const auto there = pixel(image, 94, 60);
+    EXPECT_EQ(there[0], 0);
+    EXPECT_EQ(there[2], pixel(plain, 94, 60)[0]);
+  }
+}
+
 TEST(Mesh, SolidHidesALineBehindItAndAVeilDoesNot) {
   TestRenderer renderer;
   Scene scene = sphere_scene(MeshStyle::kSolid, {1, 0, 0, 1}, {0, 0, -1}, 301);

@@ -115,7 +115,7 @@ TEST(Regions, DrawnTogetherAreAsDrawnAlone) {
   right.triangles.clear();
   for (TextItem& text : right.texts) text.position.x += 0.35f;
   Scene both = left;
-  both.meshes.insert(both.meshes.end(), right.meshes.begin(), right.meshes.end());
+  for (const MeshItem& item : right.meshes) both.meshes.push_back(item);
   both.texts = right.texts;
   const Image alone = renderer.draw(left, view);
   const Image others = renderer.draw(right, view);

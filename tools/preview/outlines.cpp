@@ -17,26 +17,25 @@ constexpr float kWidth_m = 0.0012f;
 /// How far before the eyes the frame of what they see is drawn.
 constexpr double kBefore_m = 0.08;
 
-void add_line(render::Scene& scene, std::vector<render::Float3> points, render::Colour colour,
-              bool closed) {
-  engine::add_line(scene, std::move(points), kWidth_m, colour, kNoHologram, 0, closed);
+void add_line(render::Scene& scene, const std::vector<render::Float3>& points,
+              render::Colour colour, bool closed) {
+  engine::add_line(scene, points, kWidth_m, colour, kNoHologram, 0, closed);
 }
 
 void add_tool(const ToolSeen& tool, render::Scene& scene) {
   std::vector<render::Float3> corners;
   for (const Point<World>& corner : tool.tag_in_world)
     corners.push_back(engine::to_float3(corner.v));
-  add_line(scene, std::move(corners), kToolColour, true);
+  add_line(scene, corners, kToolColour, true);
   const Vec3 middle = 0.5 * (tool.tag_in_world[0].v + tool.tag_in_world[2].v);
   add_line(scene, {engine::to_float3(middle), engine::to_float3(tool.tip_in_world.v)}, kToolColour,
            false);
-  render::TextItem name;
+  render::TextItem& name = scene.texts.emplace_back();
   name.label = kNoHologram;
-  name.runs = {{tool.name, kToolColour}};
+  engine::add_run(name, tool.name, kToolColour);
   name.position = engine::to_float3(0.5 * (tool.tag_in_world[0].v + tool.tag_in_world[1].v));
   name.min_height_deg = 0.6f;
   name.offset_up = 1.0f;
-  scene.texts.push_back(std::move(name));
 }
 
 void add_head(const Transform<World, Rig>& world_from_rig, render::Scene& scene) {
@@ -51,7 +50,7 @@ void add_head(const Transform<World, Rig>& world_from_rig, render::Scene& scene)
     frame.push_back(engine::to_float3((world_from_rig * Point<Rig>{corner}).v));
     add_line(scene, {eye, frame.back()}, kHeadColour, false);
   }
-  add_line(scene, std::move(frame), kHeadColour, true);
+  add_line(scene, frame, kHeadColour, true);
 }
 
 }  // namespace

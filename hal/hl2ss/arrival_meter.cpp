@@ -1,0 +1,26 @@
+#include "hal/hl2ss/arrival_meter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthonav::hl2ss {
+
+bool ArrivalMeter::heard(Timestamp stamp, HostTime at) {
+  ++statistics_.packets;
+  if (last_ && stamp <= last_->stamp) {
+    ++statistics_.out_of_order;
+    return false;
+  }
+  if (last_) {
+    const Duration between = stamp - last_->stamp;
+    if (2 * between > 3 * interval_) ++statistics_.gaps;
+    statistics_.longest_gap = std::max(statistics_.longest_gap, between);
+    const double deviation_ms =
+        std::abs(seconds(std::chrono::duration_cast<Duration>(at - last_->at) - between)) * 1e3;
+    statistics_.jitter_ms += (deviation_ms - statistics_.jitter_ms) / 16.0;
+  }
+  last_ = Arrival{stamp, at};
+  return true;
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "hal/hl2ss/socket.h"
+#include "hal/hl2ss/statistics.h"
+
+namespace orthonav::hl2ss {
+
+/// Counts a stream's packets, measures how evenly they come and which are missing.
+class ArrivalMeter {
+ public:
+  ArrivalMeter(std::string name, Duration interval) : interval_(interval) {
+    statistics_.name = std::move(name);
+  }
+  /// False for a packet stamped no later than one before it: counted, not measured.
+  bool heard(Timestamp stamp, HostTime at);
+  void connected() {
+    ++statistics_.connections;
+    last_.reset();
+  }
+  void trouble(std::string what) { statistics_.last_trouble = std::move(what); }
+  void damaged(std::string what) {
+    ++statistics_.damaged;
+    trouble(std::move(what));
+  }
+  void received(std::size_t bytes) { statistics_.bytes += static_cast<std::int64_t>(bytes); }
+  [[nodiscard]] const StreamStatistics& statistics() const { return statistics_; }
+
+ private:
+  struct Arrival {
+    Timestamp stamp{};
+    HostTime at{};
+  };
+  Duration interval_;
+  std::optional<Arrival> last_;
+  StreamStatistics statistics_;
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hal/api/result.h"
+#include "hal/hl2ss/bytes.h"
+
+namespace orthonav::hl2ss {
+
+/// Finds pictures that are missing in a stream of H.264 access units (Annex B), by `frame_num` of
+/// their slice headers (ITU-T H.264, 7.3.2.1, 7.3.3 and 7.4.3). libavcodec decodes what follows a
+/// missing picture without a word, and what it then shows is another picture.
+class H264Order {
+ public:
+  /// Takes the next access unit; an Error when a picture that it stands on never came.
+  Status follow(Bytes access_unit);
+  void restart() { last_.reset(); }
+
+ private:
+  struct Picture {
+    std::uint32_t frame_num = 0;
+    bool is_reference = false;
+  };
+  Status follow(const Picture& next, bool is_key);
+
+  std::uint32_t frame_num_bits_ = 0;  ///< 0: no parameter set was seen yet
+  std::optional<Picture> last_;
+};
+
+}  // namespace orthonav::hl2ss

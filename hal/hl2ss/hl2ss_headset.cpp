@@ -1,0 +1,178 @@
+#include "hal/hl2ss/hl2ss_headset.h"
+
+#include <thread>
+#include <utility>
+
+#include "hal/hl2ss/calibration.h"
+#include "hal/hl2ss/receiver.h"
+
+namespace orthonav::hl2ss {
+namespace {
+
+/// The display is no part of the protocol: one refresh of a HoloLens 2 at 60 Hz.
+constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
+/// A server without the configuration's port is none the worse for us.
+constexpr Duration kConfigurationWithin = std::chrono::milliseconds(500);
+constexpr std::uint8_t kAskUtcOffset = 1;
+
+Error trouble_with(const std::string& host, const std::string& what) {
+  return Error{"hl2ss: " + host + ": " + what};
+}
+
+Result<StereoCalibration> ask_calibration(const Endpoint& endpoint, const Hl2ssOptions& options,
+                                          HostTime deadline) {
+  const auto request = request_bytes({Mode::kCalibration});
+  const auto answer = [&](Service service) {
+    return ask(endpoint, options.first_port + offset_of(service), request, kCalibrationBytes,
+               deadline);
+  };
+  const auto left_bytes = answer(Service::kLeftFront);
+  if (!left_bytes) return left_bytes.error();
+  auto left = read_left_calibration(*left_bytes);
+  if (!left) return Error{"left camera: " + left.error().message};
+  const auto right_bytes = answer(Service::kRightFront);
+  if (!right_bytes) return right_bytes.error();
+  auto right = read_right_calibration(*right_bytes);
+  if (!right) return Error{"right camera: " + right.error().message};
+  return StereoCalibration{std::move(left->camera), std::move(right->camera), left->camera_from_rig,
+                           right->camera_from_rig};
+}
+
+/// 0 where nobody tells it: stamps then count from a moment without a name.
+std::int64_t ask_utc_offset(const Endpoint& endpoint, const Hl2ssOptions& options) {
+  const std::uint8_t request[] = {kAskUtcOffset};
+  const auto answer = ask(endpoint, options.first_port + offset_of(Service::kConfiguration),
+                          request, sizeof(std::uint64_t), HostClock::now() + kConfigurationWithin);
+  if (!answer) return 0;
+  const auto offset = number_at<std::uint64_t>(*answer, 0);
+  // Past the year 2300 it is none.
+  return offset <= 220'000'000'000'000'000u ? static_cast<std::int64_t>(offset) : 0;
+}
+
+class Cameras final : public StereoCamera {
+ public:
+  Cameras(Receiver& receiver, StereoCalibration calibration)
+      : receiver_(receiver), calibration_(std::move(calibration)) {}
+
+ private:
+  [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
+  Result<Next> do_next(StereoFrame& frame) override {
+    StandinStream* standin = receiver_.standin();
+    // Asking for the next pair says that the last one was done with.
+    if (standin && taken_) standin->send(StandinTook{*std::exchange(taken_, std::nullopt)});
+    if (auto trouble = receiver_.pairs().trouble()) return std::move(*trouble);
+    const bool ended = standin && standin->has_ended();
+    const auto waiting = receiver_.pairs().waiting();
+    if (!waiting) return ended ? Next::kEnd : Next::kNone;
+    if (standin && !standin->admits(*waiting)) return Next::kNone;
+    if (!receiver_.pairs().take(frame)) return Next::kNone;
+    taken_ = frame.time;
+    return Next::kFrame;
+  }
+
+  Receiver& receiver_;
+  StereoCalibration calibration_;
+  std::optional<Timestamp> taken_;  ///< handed out, and not told to the stand-in yet
+};
+
+class InboxClicker final : public Clicker {
+ public:
+  explicit InboxClicker(Receiver& receiver) : receiver_(receiver) {}
+
+ private:
+  Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override {
+    receiver_.clicks().take_until(until, events);
+    return {};
+  }
+  Receiver& receiver_;
+};
+
+class InboxVoice final : public Voice {
+ public:
+  explicit InboxVoice(Receiver& receiver) : receiver_(receiver) {}
+
+ private:
+  Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
+    receiver_.phrases().take_until(until, phrases);
+    return {};
+  }
+  Receiver& receiver_;
+};
+
+class RemoteDisplay final : public Display {
+ public:
+  explicit RemoteDisplay(Receiver& receiver) : receiver_(receiver) {}
+
+ private:
+  [[nodiscard]] Duration do_latency() const override {
+    const auto told = receiver_.standin() ? receiver_.standin()->display_latency() : std::nullopt;
+    return told.value_or(kDisplayLatency);
+  }
+  Status do_shown(const ShownFrame& frame) override {
+    if (receiver_.standin()) receiver_.standin()->send(StandinShown{frame});
+    return {};
+  }
+  Receiver& receiver_;
+};
+
+class ConnectedHeadset final : public Hl2ssHeadset {
+ public:
+  ConnectedHeadset(std::string host, std::unique_ptr<Receiver> receiver,
+                   StereoCalibration calibration, std::int64_t epoch_ticks)
+      : host_(std::move(host)),
+        epoch_ticks_(epoch_ticks),
+        receiver_(std::move(receiver)),
+        cameras_(*receiver_, std::move(calibration)),
+        clicker_(*receiver_),
+        voice_(*receiver_),
+        display_(*receiver_) {}
+  [[nodiscard]] std::string name() const override { return "hl2ss://" + host_; }
+  [[nodiscard]] const Clock& clock() const override { return receiver_->clock(); }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override { return epoch_ticks_; }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return receiver_->head(); }
+  [[nodiscard]] Clicker& clicker() override { return clicker_; }
+  [[nodiscard]] Voice& voice() override { return voice_; }
+  [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] Microphone& microphone() override { return receiver_->microphone(); }
+  [[nodiscard]] Statistics statistics() const override { return receiver_->statistics(); }
+
+ private:
+  std::string host_;
+  std::int64_t epoch_ticks_;
+  std::unique_ptr<Receiver> receiver_;
+  Cameras cameras_;
+  InboxClicker clicker_;
+  InboxVoice voice_;
+  RemoteDisplay display_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& options) {
+  const auto endpoint = resolve(options.host);
+  if (!endpoint) return trouble_with(options.host, endpoint.error().message);
+  const HostTime deadline = HostClock::now() + options.open_within;
+  auto calibration = ask_calibration(*endpoint, options, deadline);
+  if (!calibration) return trouble_with(options.host, calibration.error().message);
+  const std::int64_t utc_offset = ask_utc_offset(*endpoint, options);
+  auto receiver = Receiver::start(*endpoint, options, utc_offset);
+  if (!receiver) return trouble_with(options.host, receiver.error().message);
+  while (!(*receiver)->has_heard() ||
+         ((*receiver)->standin() && !(*receiver)->standin()->display_latency())) {
+    if (HostClock::now() >= deadline) {
+      const std::string why = (*receiver)->troubles();
+      return trouble_with(options.host, "no image within " +
+                                            std::to_string(seconds(options.open_within)) + " s" +
+                                            (why.empty() ? "" : "; " + why));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  const std::int64_t base = (*receiver)->base_ticks();
+  // Stamps that are FILETIME already need no offset.
+  const std::int64_t epoch = base != 0 ? base : utc_offset;
+  return std::unique_ptr<Hl2ssHeadset>(std::make_unique<ConnectedHeadset>(
+      options.host, std::move(*receiver), std::move(*calibration), epoch));
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include "hal/api/devices.h"
+#include "hal/api/microphone.h"
+#include "hal/hl2ss/options.h"
+#include "hal/hl2ss/statistics.h"
+
+namespace orthonav::hl2ss {
+
+/// A HoloLens 2 over the network (docs/hl2ss.md). A pair's time is its left image's stamp on the
+/// headset's boot clock, its pose the left packet's. When the connection is lost the head is lost,
+/// no pairs come and `next` says so once; it is made again for as long as the headset lives.
+///
+/// The clicker has no events and the display shows nothing, unless a stand-in is connected.
+class Hl2ssHeadset : public Headset {
+ public:
+  /// Blocks until both calibrations and a first image came, `open_within` at most. An Error names
+  /// the port that failed and why.
+  static Result<std::unique_ptr<Hl2ssHeadset>> open(const Hl2ssOptions& options);
+  /// The headset's microphones; listened to from the first call on. Lives as long as the headset.
+  [[nodiscard]] virtual Microphone& microphone() = 0;
+  /// How the connection does.
+  [[nodiscard]] virtual Statistics statistics() const = 0;
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "hal/api/time.h"
+
+namespace orthonav::hl2ss {
+
+/// Events from the receiving thread, taken by time. Full, it drops the oldest. Thread-safe.
+template <class Event>
+class Inbox {
+ public:
+  void put(Event event) {
+    const std::lock_guard lock(mutex_);
+    // What came late may be stamped before what came early; the contract wants an order.
+    if (last_ && event.time < *last_) event.time = *last_;
+    last_ = event.time;
+    if (events_.size() == kMost) events_.pop_front();
+    events_.push_back(std::move(event));
+  }
+  void take_until(Timestamp until, std::vector<Event>& to) {
+    const std::lock_guard lock(mutex_);
+    while (!events_.empty() && events_.front().time <= until) {
+      to.push_back(std::move(events_.front()));
+      events_.pop_front();
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMost = 256;
+  std::mutex mutex_;
+  std::deque<Event> events_;
+  std::optional<Timestamp> last_;
+};
+
+}  // namespace orthonav::hl2ss

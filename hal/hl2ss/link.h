@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/hl2ss/arrival_meter.h"
+#include "hal/hl2ss/socket.h"
+
+namespace orthonav::hl2ss {
+
+/// What understands the bytes of one port. All calls come from the thread that runs the links.
+class Conversation {
+ public:
+  virtual ~Conversation() = default;
+  /// What is said first on each new connection.
+  [[nodiscard]] virtual std::vector<std::uint8_t> opening() = 0;
+  /// Room for bytes, and that so many came at this time. An Error ends the connection: what follows
+  /// can't be understood.
+  virtual std::span<std::uint8_t> room() = 0;
+  virtual Status received(std::size_t count, HostTime at) = 0;
+  /// What is to be said now, if anything; asked whenever time has passed.
+  [[nodiscard]] virtual std::vector<std::uint8_t> more(HostTime /*now*/) { return {}; }
+  virtual void disconnected() = 0;
+};
+
+/// One port of the headset: connects, reconnects after a pause that doubles up to two seconds,
+/// gives up a connection that is silent for too long. Nothing here waits.
+class Link {
+ public:
+  struct Options {
+    int port = 0;
+    Duration longest_silence = std::chrono::seconds(3);
+  };
+  /// Meter and conversation are borrowed; both hear of everything that happens here.
+  Link(const Endpoint& host, Options options, ArrivalMeter& meter, Conversation& conversation)
+      : host_(host), options_(options), meter_(meter), conversation_(conversation) {}
+
+  /// What poll() is to watch: -1 for nothing.
+  [[nodiscard]] int fd() const { return socket_.fd(); }
+  [[nodiscard]] short events() const;
+  /// Does what is due; `revents` is what poll() saw.
+  void step(short revents, HostTime now);
+  [[nodiscard]] bool is_connected() const { return state_ == State::kConnected; }
+  [[nodiscard]] Duration round_trip() const { return round_trip_; }
+
+ private:
+  static constexpr Duration kFirstPause = std::chrono::milliseconds(50);
+  enum class State { kPausing, kConnecting, kConnected };
+  void begin(HostTime now);
+  void finish_connecting(HostTime now);
+  void read(HostTime now);
+  void write();
+  void drop(const std::string& why, HostTime now);
+
+  Endpoint host_;
+  Options options_;
+  ArrivalMeter& meter_;
+  Conversation& conversation_;
+  Socket socket_;
+  State state_ = State::kPausing;
+  HostTime due_{};  ///< end of the pause, or of waiting for the connection
+  HostTime heard_{};
+  Duration pause_ = kFirstPause;
+  Duration round_trip_{};
+  std::vector<std::uint8_t> unsent_;
+};
+
+}  // namespace orthonav::hl2ss

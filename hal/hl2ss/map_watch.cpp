@@ -1,0 +1,106 @@
+#include "hal/hl2ss/map_watch.h"
+
+#include <algorithm>
+
+namespace orthonav::hl2ss {
+namespace {
+
+// A head at work stays below these. A false alarm costs a registration, a missed move a wrong
+// hologram: at 30 Hz a move of more than 5 cm or 9 degrees is found.
+constexpr double kMaxAcceleration = 30.0;       // m/s²
+constexpr double kMaxTurnAcceleration = 100.0;  // rad/s²
+constexpr double kMaxSpeed = 2.0;               // m/s
+constexpr double kMaxTurnSpeed = 8.0;           // rad/s
+constexpr double kNoiseM = 0.010;
+constexpr double kNoiseRad = 0.020;
+/// Beyond this two poses tell no speed.
+constexpr Duration kSpeedWithin = std::chrono::milliseconds(110);
+/// While nobody looks a head does not go farther than this.
+constexpr double kMaxUnseenS = 0.25;
+/// After so long without a pose nobody can vouch for the map.
+constexpr Duration kVouchedFor = std::chrono::seconds(10);
+
+}  // namespace
+
+bool MapWatch::is_possible(const Seen& next) const {
+  const Duration passed = next.time - last_->time;
+  if (passed > kVouchedFor) return false;
+  const double dt_s = std::min(seconds(passed), kMaxUnseenS);
+  const auto within = [&](const Transform<World, Rig>& expected, double limit_m, double limit_rad) {
+    const auto& pose = next.world_from_rig;
+    return (pose.translation() - expected.translation()).norm() <= limit_m &&
+           rotation_angle_rad(pose.rotation(), expected.rotation()) <= limit_rad;
+  };
+  if (!within(last_->world_from_rig, kNoiseM + kMaxSpeed * dt_s, kNoiseRad + kMaxTurnSpeed * dt_s))
+    return false;
+  if (!before_ || passed > kSpeedWithin) return true;
+  const double before_s = seconds(last_->time - before_->time);
+  const auto expected = interpolated(before_->world_from_rig, last_->world_from_rig,
+                                     1.0 + seconds(passed) / before_s);
+  // The speed is one of the past interval's middle.
+  const double lever_s2 = dt_s * 0.5 * (dt_s + before_s);
+  return within(expected, kNoiseM + kMaxAcceleration * lever_s2,
+                kNoiseRad + kMaxTurnAcceleration * lever_s2);
+}
+
+bool MapWatch::moved(Timestamp time, const Transform<World, Rig>& world_from_rig) {
+  const Seen next{time, world_from_rig};
+  const bool is_moved = last_ && (broken_off_ || !is_possible(next));
+  broken_off_ = false;
+  before_.reset();
+  if (last_ && !is_moved && time - last_->time <= kSpeedWithin) before_ = last_;
+  last_ = next;
+  return is_moved;
+}
+
+void HeadTrack::add(Timestamp time, const Transform<World, Rig>& world_from_rig,
+                    std::int64_t map_epoch) {
+  const std::lock_guard lock(mutex_);
+  if (map_epoch != map_epoch_) samples_.clear();
+  map_epoch_ = map_epoch;
+  if (!samples_.empty() && time <= samples_.back().time) return;
+  if (samples_.size() == kMaxSamples) samples_.pop_front();
+  samples_.push_back({time, world_from_rig});
+}
+
+void HeadTrack::lose() {
+  const std::lock_guard lock(mutex_);
+  samples_.clear();
+}
+
+std::optional<Timestamp> HeadTrack::do_newest_measurement() const {
+  const std::lock_guard lock(mutex_);
+  if (samples_.empty()) return std::nullopt;
+  return samples_.back().time;
+}
+
+Tracked<Transform<World, Rig>> HeadTrack::do_world_from_rig(Timestamp at) const {
+  constexpr Duration kMaxGap = HeadTracker::kMaxHeadPrediction;
+  const std::lock_guard lock(mutex_);
+  Tracked<Transform<World, Rig>> answer;
+  answer.time = at;
+  const auto after =
+      std::upper_bound(samples_.begin(), samples_.end(), at,
+                       [](Timestamp time, const Sample& sample) { return time < sample.time; });
+  if (after == samples_.begin()) return answer;
+  const Sample& before = *(after - 1);
+  answer.value = before.world_from_rig;
+  const auto along = [at](const Sample& a, const Sample& b) {
+    return interpolated(a.world_from_rig, b.world_from_rig,
+                        seconds(at - a.time) / seconds(b.time - a.time));
+  };
+  if (before.time == at) {
+    answer.origin = Origin::kMeasured;
+  } else if (after != samples_.end()) {
+    if (after->time - before.time > kMaxGap) return answer;
+    answer.value = along(before, *after);
+    answer.origin = Origin::kMeasured;
+  } else if (at - before.time <= kMaxGap) {
+    answer.origin = Origin::kPredicted;
+    const bool has_speed = samples_.size() > 1 && before.time - (after - 2)->time <= kMaxGap;
+    if (has_speed) answer.value = along(*(after - 2), before);
+  }
+  return answer;
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/api/time.h"
+#include "hal/hl2ss/protocol.h"
+#include "hal/hl2ss/voice.h"
+
+namespace orthonav::hl2ss {
+
+struct Hl2ssOptions {
+  std::string host;
+  VideoProfile profile = VideoProfile::kRaw;
+  int first_port = kFirstPort;
+  int standin_port = 0;  ///< of our own server's side channel; 0: none
+  std::uint32_t bitrate = 12'000'000;
+  std::vector<std::string> phrases = workflow_phrases();
+  /// Opening waits no longer for calibrations and the first image.
+  Duration open_within = std::chrono::seconds(8);
+};
+
+/// What follows `hl2ss:` in a URI: `//HOST[?profile=raw|h264&port=BASE&standin=PORT]`. An Error
+/// says what is wrong and names the known keys.
+Result<Hl2ssOptions> options_of(std::string_view after_scheme);
+
+}  // namespace orthonav::hl2ss

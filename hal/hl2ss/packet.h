@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/hl2ss/bytes.h"
+
+namespace orthonav::hl2ss {
+
+/// One packet of a stream; the spans look into the assembler.
+struct Packet {
+  std::uint64_t ticks = 0;  ///< of 100 ns, of the headset's boot clock
+  Bytes payload;
+  Bytes pose;  ///< 64 bytes, or none
+};
+
+struct PacketFormat {
+  std::size_t max_payload = 0;  ///< a larger size is damage or malice
+  bool has_pose = false;
+};
+
+/// Cuts a stream of bytes into packets, however it was torn on the way. Memory stays below one
+/// largest packet and one read.
+class PacketAssembler {
+ public:
+  PacketAssembler(std::string stream, const PacketFormat& format);
+
+  /// Room for the next bytes of the stream; `received` says how many were written there.
+  std::span<std::uint8_t> room();
+  void received(std::size_t count);
+  /// The next whole packet, nothing when more bytes are needed, or why the stream can't be followed
+  /// any more: its sizes are wrong, so that nobody knows where a packet begins. Valid until `room`.
+  Result<std::optional<Packet>> next();
+  /// Forgets what came.
+  void restart();
+
+ private:
+  std::string stream_;
+  PacketFormat format_;
+  std::vector<std::uint8_t> buffer_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+};
+
+}  // namespace orthonav::hl2ss

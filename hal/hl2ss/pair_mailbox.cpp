@@ -1,0 +1,85 @@
+#include "hal/hl2ss/pair_mailbox.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orthonav::hl2ss {
+namespace {
+
+/// Latencies of so many pairs are kept.
+constexpr std::size_t kMostFigures = 4096;
+
+void copy(const GreyImage& from, GreyImage& to) {
+  to.width_px = from.width_px;
+  to.height_px = from.height_px;
+  to.pixels.assign(from.pixels.begin(), from.pixels.end());
+}
+
+}  // namespace
+
+void PairMailbox::note(std::vector<double>& figures, std::size_t& next, HostTime since) const {
+  const double ms = std::chrono::duration<double, std::milli>(HostClock::now() - since).count();
+  if (figures.size() < kMostFigures)
+    figures.push_back(ms);
+  else
+    figures[next++ % kMostFigures] = ms;
+}
+
+bool PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
+  const std::lock_guard lock(mutex_);
+  if (last_time_ && pair.left.time <= *last_time_) return false;
+  figures_.dropped += waits_ ? 1 : 0;
+  newest_.sequence = next_sequence_++;
+  newest_.map_epoch = map_epoch;
+  newest_.time = pair.left.time;
+  newest_.world_from_rig = pair.left.world_from_rig;
+  std::swap(newest_.left, pair.left.image);
+  std::swap(newest_.right, pair.right.image);
+  arrived_ = std::max(pair.left.arrived, pair.right.arrived);
+  last_time_ = newest_.time;
+  waits_ = true;
+  ++figures_.pairs;
+  note(figures_.publish_ms, next_publish_, arrived_);
+  return true;
+}
+
+std::optional<Timestamp> PairMailbox::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return waits_ ? std::optional(newest_.time) : std::nullopt;
+}
+
+bool PairMailbox::take(StereoFrame& frame) {
+  const std::lock_guard lock(mutex_);
+  if (!waits_) return false;
+  waits_ = false;
+  frame.sequence = newest_.sequence;
+  frame.map_epoch = newest_.map_epoch;
+  frame.time = newest_.time;
+  frame.world_from_rig = newest_.world_from_rig;
+  copy(newest_.left, frame.left);
+  copy(newest_.right, frame.right);
+  note(figures_.take_ms, next_take_, arrived_);
+  return true;
+}
+
+void PairMailbox::fail(Error trouble) {
+  const std::lock_guard lock(mutex_);
+  trouble_ = std::move(trouble);
+}
+
+std::optional<Error> PairMailbox::trouble() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(trouble_, std::nullopt);
+}
+
+void PairMailbox::clear() {
+  const std::lock_guard lock(mutex_);
+  waits_ = false;
+}
+
+PairMailbox::Figures PairMailbox::figures() const {
+  const std::lock_guard lock(mutex_);
+  return figures_;
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/hl2ss/pairer.h"
+
+namespace orthonav::hl2ss {
+
+/// The newest pair, until somebody takes it or a newer one replaces it: what is late is dropped,
+/// never queued. Thread-safe; times increase.
+class PairMailbox {
+ public:
+  /// False, and nothing is put, for a pair that is not later than the one before it.
+  bool put(const Pairer::Pair& pair, std::int64_t map_epoch);
+  /// The time of the pair that waits.
+  [[nodiscard]] std::optional<Timestamp> waiting() const;
+  /// Copies it into `frame`; false when none waits.
+  bool take(StereoFrame& frame);
+  /// What went wrong since the last question; the pair that waited is void with it.
+  void fail(Error trouble);
+  [[nodiscard]] std::optional<Error> trouble();
+  /// What was put is void: nobody may guide on it any more.
+  void clear();
+
+  struct Figures {
+    std::int64_t pairs = 0;
+    std::int64_t dropped = 0;
+    std::vector<double> publish_ms;
+    std::vector<double> take_ms;
+  };
+  [[nodiscard]] Figures figures() const;
+
+ private:
+  void note(std::vector<double>& figures, std::size_t& next, HostTime since) const;
+
+  mutable std::mutex mutex_;
+  StereoFrame newest_;
+  bool waits_ = false;
+  std::optional<Timestamp> last_time_;
+  std::int64_t next_sequence_ = 0;
+  HostTime arrived_{};
+  std::optional<Error> trouble_;
+  Figures figures_;
+  std::size_t next_publish_ = 0;
+  std::size_t next_take_ = 0;
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,67 @@
+#include "hal/hl2ss/pairer.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace orthonav::hl2ss {
+namespace {
+
+/// 1 ms where sensor ticks are of 100 ns; both images of a pair say the same in fact.
+constexpr std::uint64_t kWithinTicks = 10'000;
+
+std::uint64_t apart(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : b - a; }
+
+}  // namespace
+
+Pairer::Slot& Pairer::free_slot(Slots& slots) {
+  const auto free =
+      std::find_if(slots.begin(), slots.end(), [](const Slot& s) { return !s.waits; });
+  if (free != slots.end()) return *free;
+  ++unpaired_;
+  return *std::min_element(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) {
+    return a.image.sensor_ticks < b.image.sensor_ticks;
+  });
+}
+
+std::optional<Pairer::Pair> Pairer::add(Side side, CameraImage& image) {
+  const auto mine = static_cast<std::size_t>(side);
+  if (last_ticks_ && image.sensor_ticks <= *last_ticks_) {
+    ++unpaired_;
+    return std::nullopt;
+  }
+  Slot& slot = free_slot(waiting_[mine]);
+  std::swap(slot.image, image);
+  slot.waits = true;
+  Slots& others = waiting_[1 - mine];
+  const std::uint64_t ticks = slot.image.sensor_ticks;
+  const auto nearest =
+      std::min_element(others.begin(), others.end(), [ticks](const Slot& a, const Slot& b) {
+        if (a.waits != b.waits) return a.waits;
+        return apart(a.image.sensor_ticks, ticks) < apart(b.image.sensor_ticks, ticks);
+      });
+  if (!nearest->waits || apart(nearest->image.sensor_ticks, ticks) > kWithinTicks)
+    return std::nullopt;
+  const std::uint64_t newest = std::max(ticks, nearest->image.sensor_ticks);
+  last_ticks_ = newest;
+  slot.waits = nearest->waits = false;
+  for (Slots& slots : waiting_)
+    for (Slot& older : slots)
+      if (older.waits && older.image.sensor_ticks <= newest) {
+        older.waits = false;
+        ++unpaired_;
+      }
+  CameraImage& left = side == Side::kLeft ? slot.image : nearest->image;
+  CameraImage& right = side == Side::kLeft ? nearest->image : slot.image;
+  return Pair{left, right};
+}
+
+void Pairer::forget() {
+  for (Slots& slots : waiting_)
+    for (Slot& slot : slots) {
+      unpaired_ += slot.waits ? 1 : 0;
+      slot.waits = false;
+    }
+  last_ticks_.reset();
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,185 @@
+#include "hal/hl2ss/receiver.h"
+
+#include <poll.h>
+
+#include <algorithm>
+
+namespace orthonav::hl2ss {
+namespace {
+
+constexpr Duration kFrameInterval = std::chrono::nanoseconds(33'333'333);
+constexpr Duration kSpatialInterval = kFrameInterval / 2;
+constexpr Duration kSilence = std::chrono::seconds(3);
+/// A stand-in that waits for its client is silent for as long as that thinks.
+constexpr Duration kPacedSilence = std::chrono::minutes(2);
+/// What is due by time is looked at this often.
+constexpr int kTurnMs = 10;
+
+}  // namespace
+
+Result<std::unique_ptr<Receiver>> Receiver::start(const Endpoint& host, const Hl2ssOptions& options,
+                                                  std::int64_t filetime_offset) {
+  auto receiver = std::unique_ptr<Receiver>(new Receiver(host, options));
+  if (const Status added = receiver->add_cameras(); !added) return added.error();
+  if (const Status added = receiver->add_events(filetime_offset); !added) return added.error();
+  receiver->thread_ = std::thread([self = receiver.get()] { self->run(); });
+  return receiver;
+}
+
+Receiver::~Receiver() {
+  stop_ = true;
+  wake_up_.wake();
+  if (thread_.joinable()) thread_.join();
+}
+
+template <class Make>
+auto& Receiver::add(const std::string& name, int port, Duration interval, Duration longest_silence,
+                    Make make) {
+  Stream stream;
+  stream.meter = std::make_unique<ArrivalMeter>(name, interval);
+  auto conversation = make(*stream.meter);
+  auto& made = *conversation;
+  stream.conversation = std::move(conversation);
+  stream.link = std::make_unique<Link>(host_, Link::Options{port, longest_silence}, *stream.meter,
+                                       *stream.conversation);
+  streams_.push_back(std::move(stream));
+  return made;
+}
+
+Status Receiver::add_cameras() {
+  const Duration silence = options_.standin_port > 0 ? kPacedSilence : kSilence;
+  ImageSink& sink = *this;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    std::unique_ptr<H264Decoder> decoder;
+    if (options_.profile != VideoProfile::kRaw) {
+      auto made = H264Decoder::create();
+      if (!made) return made.error();
+      decoder = std::move(*made);
+    }
+    const VideoRequest request{Mode::kVideoAndPose, 1, options_.profile, options_.bitrate};
+    const Service service = side == Side::kLeft ? Service::kLeftFront : Service::kRightFront;
+    add(side == Side::kLeft ? "left camera" : "right camera",
+        options_.first_port + offset_of(service), kFrameInterval, silence,
+        [&](ArrivalMeter& meter) {
+          return std::make_unique<VideoStream>(side, request, std::move(decoder), meter, time_,
+                                               sink);
+        });
+  }
+  return {};
+}
+
+Status Receiver::add_events(std::int64_t filetime_offset) {
+  const auto port = [this](Service service) { return options_.first_port + offset_of(service); };
+  const Duration silence = options_.standin_port > 0 ? kPacedSilence : kSilence;
+  add("spatial input", port(Service::kSpatialInput), kSpatialInterval, silence,
+      [this](ArrivalMeter& meter) { return std::make_unique<SpatialStream>(meter, time_); });
+  auto vocabulary = vocabulary_bytes(options_.phrases);
+  if (!vocabulary) return vocabulary.error();
+  add("voice", port(Service::kVoice), Duration::max() / 2, kSilence, [&](ArrivalMeter& meter) {
+    return std::make_unique<VoiceStream>(options_.phrases, std::move(*vocabulary), filetime_offset,
+                                         meter, time_, phrases_);
+  });
+  if (options_.standin_port > 0)
+    standin_ = &add("stand-in", options_.standin_port, Duration::max() / 2, kPacedSilence,
+                    [this](ArrivalMeter&) {
+                      return std::make_unique<StandinStream>(time_, clicks_, wake_up_);
+                    });
+  return {};
+}
+
+Microphone& Receiver::microphone() {
+  const std::lock_guard lock(mutex_);
+  if (!sound_)
+    sound_ = &add("microphone", options_.first_port + offset_of(Service::kMicrophone),
+                  std::chrono::milliseconds(21), kSilence, [this](ArrivalMeter& meter) {
+                    return std::make_unique<SoundStream>(meter, time_);
+                  });
+  wake_up_.wake();
+  return *sound_;
+}
+
+void Receiver::run() {
+  std::vector<pollfd> watched;
+  while (!stop_) {
+    {
+      const std::lock_guard lock(mutex_);
+      watched.assign(1, {wake_up_.fd(), POLLIN, 0});
+      for (const Stream& stream : streams_)
+        watched.push_back({stream.link->fd(), stream.link->events(), 0});
+    }
+    if (::poll(watched.data(), watched.size(), kTurnMs) < 0) continue;
+    if (watched[0].revents != 0) wake_up_.clear();
+    const std::lock_guard lock(mutex_);
+    const HostTime now = HostClock::now();
+    for (std::size_t i = 0; i + 1 < watched.size(); ++i) {
+      Link& link = *streams_[i].link;
+      const bool was_connected = link.is_connected();
+      link.step(watched[i + 1].revents, now);
+      if (!was_connected && link.is_connected()) time_.clock.round_trip(link.round_trip());
+    }
+  }
+}
+
+void Receiver::take(Side side, CameraImage& image) {
+  heard_ = true;
+  if (time_.stamps.restarts() != restarts_) {
+    // The headset was started anew, and its map with it.
+    restarts_ = time_.stamps.restarts();
+    pairer_.forget();
+    map_.break_off();
+  }
+  if (const auto pair = pairer_.add(side, image)) publish(*pair);
+}
+
+void Receiver::publish(const Pairer::Pair& pair) {
+  // The right camera's pose is of a moment that may differ; the pair stands at the left one's.
+  const auto& pose = pair.left.world_from_rig;
+  if (pose && map_.moved(pair.left.time, *pose)) ++map_epoch_;
+  if (!pairs_.put(pair, map_epoch_)) {
+    ++late_pairs_;
+    return;
+  }
+  if (pose) head_.add(pair.left.time, *pose, map_epoch_);
+}
+
+void Receiver::lost(Side /*side*/) {
+  pairer_.forget();
+  pairs_.clear();
+  head_.lose();
+  pairs_.fail(Error{"hl2ss: " + options_.host + ": connection lost"});
+}
+
+std::int64_t Receiver::base_ticks() const {
+  const std::lock_guard lock(mutex_);
+  return time_.stamps.base_ticks();
+}
+
+Statistics Receiver::statistics() const {
+  const std::lock_guard lock(mutex_);
+  Statistics all;
+  for (const Stream& stream : streams_) all.streams.push_back(stream.meter->statistics());
+  PairMailbox::Figures figures = pairs_.figures();
+  all.pairs = figures.pairs;
+  all.dropped = figures.dropped;
+  all.publish_ms = std::move(figures.publish_ms);
+  all.take_ms = std::move(figures.take_ms);
+  all.unpaired = pairer_.unpaired() + 2 * late_pairs_;
+  all.map_moves = map_epoch_;
+  all.clock_restarts = time_.stamps.restarts();
+  all.clock_offset = time_.clock.offset();
+  all.clock_spread_ms = seconds(time_.clock.spread()) * 1e3;
+  return all;
+}
+
+std::string Receiver::troubles() const {
+  const std::lock_guard lock(mutex_);
+  std::string all;
+  for (const Stream& stream : streams_) {
+    const StreamStatistics& each = stream.meter->statistics();
+    if (stream.link->is_connected() || each.last_trouble.empty()) continue;
+    all += (all.empty() ? "" : "; ") + each.name + ": " + each.last_trouble;
+  }
+  return all;
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,138 @@
+#include "hal/hl2ss/server/camera_port.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "hal/hl2ss/server/packets.h"
+
+namespace orthonav::hl2ss {
+namespace {
+
+constexpr Duration kStall = std::chrono::milliseconds(300);
+constexpr Duration kHalfPause = std::chrono::milliseconds(40);
+
+void overwrite(std::vector<std::uint8_t>& bytes, std::size_t at, Number auto value) {
+  std::memcpy(bytes.data() + at, &value, sizeof(value));
+}
+
+}  // namespace
+
+bool CameraPort::is_streaming() const {
+  const std::lock_guard lock(mutex_);
+  return request_.has_value();
+}
+
+Result<std::size_t> CameraPort::understand(Bytes said) {
+  const auto read = read_video_request(said);
+  if (!read) return read.error();
+  if (!*read) return std::size_t{0};
+  if ((*read)->request.mode == Mode::kCalibration) {
+    port_.send({Chunk{calibration_}});
+  } else {
+    const std::lock_guard lock(mutex_);
+    request_ = (*read)->request;
+    ++stream_;
+  }
+  return (*read)->bytes;
+}
+
+Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& request,
+                                                       const GreyImage& picture) {
+  if (request.profile == VideoProfile::kRaw) return picture.pixels;
+  std::int64_t stream = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    stream = stream_;
+  }
+  // A new client must get a key frame first.
+  if (!encoder_ || encoded_stream_ != stream) {
+    auto encoder = H264Encoder::create(request.bitrate);
+    if (!encoder) return encoder.error();
+    encoder_ = std::move(*encoder);
+    encoded_stream_ = stream;
+  }
+  return encoder_->encode(picture);
+}
+
+Result<bool> CameraPort::send(const Image& image) {
+  std::optional<VideoRequest> request;
+  {
+    const std::lock_guard lock(mutex_);
+    request = request_;
+  }
+  if (!request || images_++ % request->divisor != 0) return false;
+  const auto picture = pictured(*request, *image.picture);
+  if (!picture) return picture.error();
+  auto packet = image_packet(image.ticks, *picture, {image.sensor_ticks, kExposureNs, 100});
+  if (request->mode == Mode::kVideoAndPose) append_pose(packet, image.world_from_rig);
+  std::vector<Chunk> chunks;
+  const bool whole = !(image.spoil && spoiled(packet, chunks));
+  const bool held = !held_back_.empty();
+  if (whole) chunks.push_back({std::move(packet)});
+  if (held && !chunks.empty()) chunks.push_back({std::exchange(held_back_, {})});
+  port_.send(std::move(chunks));
+  return whole;
+}
+
+bool CameraPort::strikes(double probability) {
+  const bool strike = random_.uniform() < probability;
+  faults_done_ += strike ? 1 : 0;
+  return strike;
+}
+
+/// Whether a fault struck; `chunks` is what is sent instead.
+bool CameraPort::spoiled(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks) {
+  const auto half = packet.begin() + static_cast<std::ptrdiff_t>(packet.size() / 2);
+  if (strikes(faults_.lose)) return true;
+  if (strikes(faults_.reorder) && held_back_.empty()) {
+    held_back_ = std::move(packet);
+    return true;
+  }
+  if (strikes(faults_.stall)) {
+    chunks.push_back({std::move(packet), kStall});
+    return true;
+  }
+  if (strikes(faults_.half)) {
+    chunks.push_back({{packet.begin(), half}, kHalfPause});
+    chunks.push_back({{half, packet.end()}});
+    return true;
+  }
+  if (strikes(faults_.cut)) {
+    chunks.push_back({{packet.begin(), half}, {}, true});
+    return true;
+  }
+  if (!strikes(faults_.corrupt)) return false;
+  corrupt(packet);
+  chunks.push_back({std::move(packet)});
+  return true;
+}
+
+void CameraPort::corrupt(std::vector<std::uint8_t>& packet) {
+  constexpr std::size_t kSizeAt = 8;
+  const std::size_t pose_at = packet.size() - kPoseBytes;
+  switch (random_.next() % 6) {
+    case 0:
+      return overwrite(packet, pose_at + 12 * 4, std::numeric_limits<float>::quiet_NaN());
+    case 1:
+      return overwrite(packet, kSizeAt, std::numeric_limits<std::uint32_t>::max());
+    case 2: {  // an image that lacks a row, in a packet that is whole
+      packet.erase(packet.begin() + kPacketHeaderBytes,
+                   packet.begin() + kPacketHeaderBytes +
+                       std::min<std::ptrdiff_t>(
+                           640, static_cast<std::ptrdiff_t>(pose_at - kPacketHeaderBytes)));
+      const std::size_t rest = packet.size() - kPacketHeaderBytes - kPoseBytes;
+      return overwrite(packet, kSizeAt, static_cast<std::uint32_t>(rest));
+    }
+    case 3:
+      return overwrite(packet, 0, random_.next());
+    case 4:  // an hour back
+      return overwrite(packet, 0, number_at<std::uint64_t>(packet, 0) - 36'000'000'000u);
+    default:  // noise in the trailer and the pose
+      for (std::size_t at = pose_at - kImageTrailerBytes; at < packet.size(); ++at)
+        packet[at] = static_cast<std::uint8_t>(random_.next());
+  }
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "hal/api/random.h"
+#include "hal/hl2ss/server/faults.h"
+#include "hal/hl2ss/server/h264_encoder.h"
+#include "hal/hl2ss/server/port.h"
+#include "hal/hl2ss/video.h"
+
+namespace orthonav::hl2ss {
+
+/// A front camera's port: answers with the calibration, or streams what it is given, spoiled as the
+/// faults say.
+class CameraPort {
+ public:
+  /// `calibration` is the whole answer in mode 2.
+  CameraPort(std::vector<std::uint8_t> calibration, const Faults& faults, Random random)
+      : calibration_(std::move(calibration)), faults_(faults), random_(random) {}
+  [[nodiscard]] Port& port() { return port_; }
+  [[nodiscard]] bool is_streaming() const;
+
+  struct Image {
+    std::int64_t ticks = 0;
+    std::uint64_t sensor_ticks = 0;
+    const GreyImage* picture = nullptr;
+    std::optional<Transform<World, Rig>> world_from_rig;
+    bool spoil = true;  ///< faults may strike it
+  };
+  /// Sends it; answers whether it went out whole, in its turn and at once.
+  Result<bool> send(const Image& image);
+  [[nodiscard]] std::int64_t faults_done() const { return faults_done_; }
+  /// Of the exposure, as it is told with each image.
+  static constexpr std::uint64_t kExposureNs = 4'000'000;
+
+ private:
+  Result<std::size_t> understand(Bytes said);
+  Result<std::vector<std::uint8_t>> pictured(const VideoRequest& request, const GreyImage& picture);
+  bool strikes(double probability);
+  bool spoiled(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks);
+  void corrupt(std::vector<std::uint8_t>& packet);
+
+  std::vector<std::uint8_t> calibration_;
+  Faults faults_;
+  Random random_;
+  mutable std::mutex mutex_;  ///< of the next two
+  std::optional<VideoRequest> request_;
+  std::int64_t stream_ = 0;  ///< counts the requests
+  std::int64_t encoded_stream_ = -1;
+  std::int64_t images_ = 0;
+  std::unique_ptr<H264Encoder> encoder_;
+  std::vector<std::uint8_t> held_back_;
+  std::int64_t faults_done_ = 0;
+  Port port_{{[this](Bytes said) { return understand(said); }, [] {},
+              [this] {
+                const std::lock_guard lock(mutex_);
+                request_.reset();
+              }}};
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,76 @@
+#include "hal/hl2ss/server/faults.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "hal/api/joined.h"
+
+namespace orthonav::hl2ss {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, double Faults::*>, 8> kProbabilities = {{
+    {"gap", &Faults::gap},
+    {"lose", &Faults::lose},
+    {"unlocated", &Faults::unlocated},
+    {"reorder", &Faults::reorder},
+    {"stall", &Faults::stall},
+    {"half", &Faults::half},
+    {"cut", &Faults::cut},
+    {"corrupt", &Faults::corrupt},
+}};
+constexpr const char* kKnown =
+    "known are gap, lose, unlocated, reorder, stall, half, cut, corrupt (probabilities), "
+    "jump=PAIR and all";
+/// Of each fault where all are asked for.
+constexpr double kALittle = 0.01;
+
+Status apply(std::string_view item, Faults& faults) {
+  if (item == "all") {
+    for (const auto& [name, member] : kProbabilities) faults.*member = kALittle;
+    return {};
+  }
+  const std::size_t equals = std::min(item.find('='), item.size());
+  const std::string_view key = item.substr(0, equals);
+  const std::string_view value = item.substr(std::min(equals + 1, item.size()));
+  double number = 0.0;
+  const char* end = value.data() + value.size();
+  const auto [rest, code] = std::from_chars(value.data(), end, number);
+  const bool is_number = !value.empty() && code == std::errc{} && rest == end;
+  if (key == "jump" && is_number && number >= 0.0 && number <= 1e9) {
+    faults.jump_at.push_back(static_cast<std::int64_t>(number));
+    return {};
+  }
+  for (const auto& [name, member] : kProbabilities)
+    if (key == name && is_number) {
+      faults.*member = number;
+      return {};
+    }
+  return Error{"faults: \"" + std::string(item) + "\" is not understood; " + kKnown};
+}
+
+}  // namespace
+
+std::vector<std::string> Faults::check() const {
+  std::vector<std::string> problems;
+  for (const auto& [name, member] : kProbabilities)
+    if (!(this->*member >= 0.0 && this->*member <= 1.0))
+      problems.push_back(std::string(name) + " must lie in [0, 1]");
+  return problems;
+}
+
+Result<Faults> faults_of(std::string_view text) {
+  Faults faults;
+  while (!text.empty()) {
+    const std::size_t comma = text.find(',');
+    if (const Status applied = apply(text.substr(0, comma), faults); !applied)
+      return applied.error();
+    text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
+  }
+  const auto problems = faults.check();
+  if (!problems.empty()) return Error{"faults: " + joined(problems)};
+  return faults;
+}
+
+}  // namespace orthonav::hl2ss

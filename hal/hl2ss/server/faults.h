@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/api/vec.h"
+
+namespace orthonav::hl2ss {
+
+/// What goes wrong on purpose: probabilities for each pair, drawn from the seed.
+struct Faults {
+  double gap = 0.0;        ///< the pair is never sent
+  double lose = 0.0;       ///< one of its two images is never sent
+  double unlocated = 0.0;  ///< it is sent without a pose
+  double reorder = 0.0;    ///< one of its images comes after the next one
+  double stall = 0.0;      ///< nothing comes for 0.3 s after it
+  double half = 0.0;       ///< half a packet, a pause, the other half
+  double cut = 0.0;        ///< half a packet, then the connection is closed
+  double corrupt = 0.0;    ///< one of: NaN pose, size of 4 GiB, short image, stamp far off, noise
+  /// World jumps by this much with the pairs of these numbers.
+  std::vector<std::int64_t> jump_at;
+  Vec3 jump_m{0.3, 0.05, -0.2};
+  double jump_rad = 0.4;  ///< about +y
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// "gap=0.02,cut=0.005,jump=300", or "all" for a little of each.
+Result<Faults> faults_of(std::string_view text);
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "hal/api/time.h"
+#include "hal/hl2ss/socket.h"
+
+namespace orthonav::hl2ss {
+
+/// Bytes to be sent, and what happens after them.
+struct Chunk {
+  std::vector<std::uint8_t> bytes;
+  Duration pause{};    ///< nothing is sent for so long afterwards
+  bool close = false;  ///< the connection is closed afterwards
+};
+
+/// One port of the server: one client at a time, as on the headset. Runs on the server's network
+/// thread; `send` and the questions may come from any.
+class Port {
+ public:
+  struct Talk {
+    /// Takes what the client said: how many bytes were understood, 0 when more are needed. An Error
+    /// ends the connection.
+    std::function<Result<std::size_t>(Bytes)> understand;
+    std::function<void()> came = [] {};
+    std::function<void()> left = [] {};
+  };
+  explicit Port(Talk talk) : talk_(std::move(talk)) {}
+  Status listen(const Endpoint& host, int port);
+
+  [[nodiscard]] int fd() const;
+  [[nodiscard]] short events() const;
+  void step(short revents, HostTime now);
+
+  /// All of these chunks in this order, or none of them where too much waits already: a client that
+  /// is too slow misses whole packets.
+  void send(std::vector<Chunk> chunks);
+  [[nodiscard]] bool has_client() const { return has_client_.load(); }
+
+ private:
+  void read();
+  void write(HostTime now);
+  void close();
+
+  Talk talk_;
+  Socket listener_;
+  Socket client_;
+  std::atomic<bool> has_client_ = false;
+  std::vector<std::uint8_t> heard_;
+  mutable std::mutex mutex_;  ///< of what follows
+  std::deque<Chunk> queue_;
+  std::size_t queued_bytes_ = 0;
+  std::size_t sent_of_first_ = 0;
+  HostTime silent_until_{};
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "hal/api/devices.h"
+#include "hal/hl2ss/protocol.h"
+#include "hal/hl2ss/server/faults.h"
+
+namespace orthonav::hl2ss {
+
+struct ServerOptions {
+  std::string host = "127.0.0.1";  ///< the address to listen at
+  int first_port = kFirstPort;     ///< 0: the first free range from 20000 on
+  /// A side channel for our own client at first_port + 19 (docs/hl2ss.md).
+  bool standin = true;
+  /// The next pair comes when the client is done with the last one; needs the side channel. False:
+  /// at the headset's own pace.
+  bool paced = false;
+  /// Of the headset's stamps from UTC, in ticks of 100 ns.
+  std::int64_t utc_offset_ticks = 133'000'000'000'000'000;
+  Faults faults;
+  std::uint64_t seed = 1;  ///< of the faults
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// What a server did so far.
+struct ServerReport {
+  std::int64_t sessions = 0;
+  std::int64_t pairs = 0;   ///< taken from the served headset
+  std::int64_t faults = 0;  ///< done on purpose, of any kind
+  bool is_streaming = false;
+  std::string last_trouble;
+};
+
+/// Speaks hl2ss for any headset, so that developers and tests have a HoloLens 2 without one. A
+/// session begins when both front cameras are asked for (and our own client is there, if it is
+/// paced): then a headset is opened, and closed when its stream ends.
+class Server {
+ public:
+  using OpenHeadset = std::function<Result<std::unique_ptr<Headset>>()>;
+  /// An Error names the port that is taken. `open` is called once at the start, for the
+  /// calibration, and for each session after the first.
+  static Result<std::unique_ptr<Server>> start(const ServerOptions& options, OpenHeadset open);
+  virtual ~Server() = default;
+  [[nodiscard]] virtual int first_port() const = 0;
+  [[nodiscard]] virtual int standin_port() const = 0;
+  [[nodiscard]] virtual ServerReport report() const = 0;
+};
+
+inline constexpr int kStandinOffset = 19;
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "hal/hl2ss/server/port.h"
+#include "hal/hl2ss/standin_message.h"
+#include "hal/hl2ss/voice.h"
+
+namespace orthonav::hl2ss {
+
+/// The ports beside the cameras: configuration, microphone, spatial input, voice, and the side
+/// channel to our own client.
+class SidePorts {
+ public:
+  explicit SidePorts(std::int64_t utc_offset_ticks) : utc_offset_ticks_(utc_offset_ticks) {}
+
+  /// A session begins, or our own client comes into one.
+  void greet(const StandinHello& hello);
+  void end();
+  /// What happened up to a pair. Phrases wait until they are asked for.
+  void tell(const std::vector<ClickerEvent>& clicks, const std::vector<Phrase>& phrases,
+            const StandinUpTo& up_to);
+  /// What the client showed since the last question.
+  std::vector<ShownFrame> take_shown();
+  /// Whether the client is done with the pair of this time; waiting ends when it says something.
+  [[nodiscard]] bool took(Timestamp pair_time) const;
+  void wait_for_took();
+  /// What was shown has been passed on: who waits may go on.
+  void publish_took();
+
+  std::atomic<bool> hears = false;  ///< somebody listens to the microphone
+
+ private:
+  Result<std::size_t> configure(Bytes said);
+  Result<std::size_t> listen(Bytes said);
+  Result<std::size_t> recognize(Bytes said);
+  Result<std::size_t> hear_client(Bytes said);
+  void send_to_client(const StandinMessage& message);
+  [[nodiscard]] std::vector<VoiceResult> results();
+
+  std::int64_t utc_offset_ticks_;
+  mutable std::mutex mutex_;
+  std::condition_variable took_changed_;
+  std::optional<std::vector<std::string>> vocabulary_;
+  std::vector<Phrase> phrases_;
+  std::vector<ShownFrame> shown_;
+  std::optional<StandinHello> hello_;
+  Timestamp heard_took_ = Timestamp::min();
+  Timestamp took_ = Timestamp::min();
+
+ public:
+  Port configuration{{[this](Bytes said) { return configure(said); }}};
+  Port microphone{{[this](Bytes said) { return listen(said); }, [] {}, [this] { hears = false; }}};
+  Port spatial{{[](Bytes said) -> Result<std::size_t> { return said.size(); }}};
+  Port voice{{[this](Bytes said) { return recognize(said); }, [] {},
+              [this] {
+                const std::lock_guard lock(mutex_);
+                vocabulary_.reset();
+              }}};
+  Port standin{{[this](Bytes said) { return hear_client(said); },
+                [this] {
+                  if (const auto hello = hello_now()) send_to_client(*hello);
+                }}};
+
+ private:
+  [[nodiscard]] std::optional<StandinHello> hello_now() const {
+    const std::lock_guard lock(mutex_);
+    return hello_;
+  }
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <sys/socket.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/api/result.h"
+#include "hal/hl2ss/bytes.h"
+
+namespace orthonav::hl2ss {
+
+/// This machine's own time: for deadlines, and to compare with the headset's clock. Never mixed.
+using HostClock = std::chrono::steady_clock;
+using HostTime = HostClock::time_point;
+
+/// A file descriptor that is closed when it goes.
+class Socket {
+ public:
+  Socket() = default;
+  explicit Socket(int fd) : fd_(fd) {}
+  Socket(Socket&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  Socket& operator=(Socket&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+  ~Socket();
+  [[nodiscard]] int fd() const { return fd_; }
+  [[nodiscard]] bool is_open() const { return fd_ >= 0; }
+
+ private:
+  int fd_ = -1;
+};
+
+/// A host's address; the port is told with each connection.
+struct Endpoint {
+  sockaddr_storage address{};
+  socklen_t length = 0;
+};
+/// By name or number; asks the network's names and blocks for as long as that takes.
+Result<Endpoint> resolve(const std::string& host);
+
+/// Begins to connect without waiting.
+Result<Socket> begin_connect(Endpoint host, int port);
+/// How a connection that was begun came out, once its socket can be written.
+Status connect_outcome(const Socket& socket);
+/// Listens at a port of `host`, for one client at a time. Port 0: any free one.
+Result<Socket> listen_at(Endpoint host, int port);
+/// The waiting client, if there is one.
+std::optional<Socket> accept_one(const Socket& listener);
+
+/// How many bytes came at once; 0: none now. An Error when the other side closed or reset.
+Result<std::size_t> receive_some(const Socket& socket, std::span<std::uint8_t> room);
+/// How many bytes went at once.
+Result<std::size_t> send_some(const Socket& socket, Bytes bytes);
+
+/// Connects, sends `request` and waits for `answer_bytes` bytes; tries again while the port is
+/// taken by somebody who leaves. Blocks until `deadline` at most.
+Result<std::vector<std::uint8_t>> ask(const Endpoint& host, int port, Bytes request,
+                                      std::size_t answer_bytes, HostTime deadline);
+
+/// Wakes a thread that waits in poll().
+class WakeUp {
+ public:
+  WakeUp();
+  void wake() const;
+  /// To be called once woken.
+  void clear() const;
+  [[nodiscard]] int fd() const { return event_.fd(); }
+
+ private:
+  Socket event_;
+};
+
+}  // namespace orthonav::hl2ss

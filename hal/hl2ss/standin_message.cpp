@@ -1,0 +1,152 @@
+#include "hal/hl2ss/standin_message.h"
+
+#include <string>
+
+namespace orthonav::hl2ss {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x314e534f;  // "OSN1"
+constexpr std::size_t kHeadBytes = 5;
+
+void append_time(std::vector<std::uint8_t>& bytes, Timestamp time) {
+  append(bytes, std::int64_t{time.time_since_epoch().count()});
+}
+Timestamp take_time(ByteReader& reader) { return Timestamp(Duration(reader.take<std::int64_t>())); }
+
+void append_text(std::vector<std::uint8_t>& bytes, const std::string& text) {
+  append(bytes, static_cast<std::uint32_t>(text.size()));
+  bytes.insert(bytes.end(), text.begin(), text.end());
+}
+std::string take_text(ByteReader& reader) {
+  const Bytes letters = reader.take_bytes(reader.take<std::uint32_t>());
+  return {letters.begin(), letters.end()};
+}
+
+void write(std::vector<std::uint8_t>& bytes, const StandinHello& hello) {
+  append(bytes, kMagic);
+  append(bytes, static_cast<std::uint8_t>(hello.paced));
+  append(bytes, std::int64_t{hello.display_latency.count()});
+  append_time(bytes, hello.clock);
+}
+void write(std::vector<std::uint8_t>& bytes, const StandinClicks& clicks) {
+  append(bytes, static_cast<std::uint32_t>(clicks.events.size()));
+  for (const ClickerEvent& event : clicks.events) {
+    append(bytes, static_cast<std::uint8_t>(event.action));
+    append_time(bytes, event.time);
+  }
+}
+void write(std::vector<std::uint8_t>& bytes, const StandinUpTo& up_to) {
+  append_time(bytes, up_to.pair_time);
+  append_time(bytes, up_to.clock);
+}
+void write(std::vector<std::uint8_t>& /*bytes*/, const StandinEnd& /*end*/) {}
+void write(std::vector<std::uint8_t>& bytes, const StandinShown& shown) {
+  append_time(bytes, shown.frame.display_time);
+  append_time(bytes, shown.frame.pose_time);
+  append(bytes, static_cast<std::uint32_t>(shown.frame.holograms.size()));
+  for (const ShownHologram& hologram : shown.frame.holograms) {
+    append_text(bytes, hologram.name);
+    append_text(bytes, hologram.text);
+    append(bytes, static_cast<std::uint32_t>(hologram.points_in_world.size()));
+    for (const Point<World>& point : hologram.points_in_world)
+      for (int i = 0; i < 3; ++i) append(bytes, point.v[i]);
+  }
+}
+void write(std::vector<std::uint8_t>& bytes, const StandinTook& took) {
+  append_time(bytes, took.pair_time);
+}
+
+Result<StandinMessage> read_hello(ByteReader& reader) {
+  if (reader.take<std::uint32_t>() != kMagic)
+    return Error{"stand-in: no greeting of a stand-in (another server?)"};
+  StandinHello hello;
+  hello.paced = reader.take<std::uint8_t>() != 0;
+  hello.display_latency = Duration(reader.take<std::int64_t>());
+  hello.clock = take_time(reader);
+  if (hello.display_latency < Duration::zero() || hello.display_latency > std::chrono::seconds(1))
+    return Error{"stand-in: display latency must lie within 0 to 1 s"};
+  return StandinMessage{hello};
+}
+
+Result<StandinMessage> read_clicks(ByteReader& reader) {
+  StandinClicks clicks;
+  const auto count = reader.take<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
+    const auto action = reader.take<std::uint8_t>();
+    if (action > static_cast<std::uint8_t>(ClickerAction::kHold))
+      return Error{"stand-in: unknown action of the clicker, " + std::to_string(action)};
+    clicks.events.push_back({static_cast<ClickerAction>(action), take_time(reader)});
+  }
+  return StandinMessage{std::move(clicks)};
+}
+
+Result<StandinMessage> read_shown(ByteReader& reader) {
+  StandinShown shown;
+  shown.frame.display_time = take_time(reader);
+  shown.frame.pose_time = take_time(reader);
+  const auto count = reader.take<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
+    ShownHologram& hologram = shown.frame.holograms.emplace_back();
+    hologram.name = take_text(reader);
+    hologram.text = take_text(reader);
+    const auto points = reader.take<std::uint32_t>();
+    for (std::uint32_t k = 0; k < points && reader.ok(); ++k) {
+      Point<World> point;
+      for (int axis = 0; axis < 3; ++axis) point.v[axis] = reader.take<double>();
+      if (!point.v.is_finite()) return Error{"stand-in: a point that is not finite"};
+      hologram.points_in_world.push_back(point);
+    }
+  }
+  return StandinMessage{std::move(shown)};
+}
+
+Result<StandinMessage> read_kind(std::uint8_t kind, ByteReader& reader) {
+  switch (kind) {
+    case 0:
+      return read_hello(reader);
+    case 1:
+      return read_clicks(reader);
+    case 2: {
+      const Timestamp pair_time = take_time(reader);
+      return StandinMessage{StandinUpTo{pair_time, take_time(reader)}};
+    }
+    case 3:
+      return StandinMessage{StandinEnd{}};
+    case 4:
+      return read_shown(reader);
+    case 5:
+      return StandinMessage{StandinTook{take_time(reader)}};
+    default:
+      return Error{"stand-in: unknown message " + std::to_string(kind)};
+  }
+}
+
+}  // namespace
+
+void append(std::vector<std::uint8_t>& bytes, const StandinMessage& message) {
+  const std::size_t head = bytes.size();
+  append(bytes, std::uint32_t{0});
+  append(bytes, static_cast<std::uint8_t>(message.index()));
+  std::visit([&bytes](const auto& each) { write(bytes, each); }, message);
+  const auto size = static_cast<std::uint32_t>(bytes.size() - head - kHeadBytes);
+  std::memcpy(bytes.data() + head, &size, sizeof(size));
+}
+
+Result<std::optional<ReadStandinMessage>> read_standin_message(Bytes bytes) {
+  using Answer = std::optional<ReadStandinMessage>;
+  if (bytes.size() < kHeadBytes) return Answer{};
+  const auto size = number_at<std::uint32_t>(bytes, 0);
+  if (size > kMaxStandinBytes)
+    return Error{"stand-in: message of " + std::to_string(size) + " bytes, limit " +
+                 std::to_string(kMaxStandinBytes)};
+  if (bytes.size() < kHeadBytes + size) return Answer{};
+  ByteReader reader(bytes.subspan(kHeadBytes, size));
+  auto message = read_kind(bytes[4], reader);
+  if (!message) return message.error();
+  if (!reader.ok() || reader.left() > 0)
+    return Error{"stand-in: message " + std::to_string(bytes[4]) + " of " + std::to_string(size) +
+                 " bytes does not fit its contents"};
+  return Answer{ReadStandinMessage{std::move(*message), kHeadBytes + size}};
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <optional>
+
+#include "hal/hl2ss/inbox.h"
+#include "hal/hl2ss/packet_stream.h"
+#include "hal/hl2ss/standin_message.h"
+
+namespace orthonav::hl2ss {
+
+/// The client's end of the side channel to our own server. Thread-safe but for the conversation.
+class StandinStream final : public Conversation {
+ public:
+  StandinStream(HeadsetTime& time, Inbox<ClickerEvent>& inbox, const WakeUp& wake_up)
+      : time_(time), inbox_(inbox), wake_up_(wake_up) {}
+  [[nodiscard]] std::vector<std::uint8_t> opening() override { return {}; }
+  std::span<std::uint8_t> room() override;
+  Status received(std::size_t count, HostTime at) override;
+  [[nodiscard]] std::vector<std::uint8_t> more(HostTime now) override;
+  void disconnected() override;
+
+  void send(const StandinMessage& message);
+  /// Whether a pair of this time may be handed out: the server told what happened up to it. A pair
+  /// that may sets the clock of a paced server.
+  bool admits(Timestamp pair_time);
+  /// No pair will come any more.
+  [[nodiscard]] bool has_ended() const;
+  [[nodiscard]] std::optional<Duration> display_latency() const;
+
+ private:
+  Status take(const StandinMessage& message);
+
+  HeadsetTime& time_;
+  Inbox<ClickerEvent>& inbox_;
+  const WakeUp& wake_up_;
+  mutable std::mutex mutex_;
+  std::vector<std::uint8_t> buffer_;
+  std::size_t have_ = 0;
+  std::vector<std::uint8_t> unsent_;
+  std::optional<StandinHello> hello_;  ///< present while connected
+  std::deque<StandinUpTo> up_to_;      ///< of pairs not handed out yet
+  bool ended_ = false;
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+
+#include "hal/api/result.h"
+#include "hal/api/transform.h"
+#include "hal/hl2ss/bytes.h"
+#include "hal/hl2ss/protocol.h"
+
+namespace orthonav::hl2ss {
+
+/// What a front camera is asked for.
+struct VideoRequest {
+  Mode mode = Mode::kVideoAndPose;
+  std::uint8_t divisor = 1;  ///< every so-manieth frame
+  VideoProfile profile = VideoProfile::kRaw;
+  std::uint32_t bitrate = 1;  ///< bit/s; means nothing for raw images, but must not be 0
+};
+/// As it goes over the wire, without encoder options.
+[[nodiscard]] std::vector<std::uint8_t> request_bytes(const VideoRequest& request);
+
+/// What a server makes of the bytes it got: the request and how many bytes it took; nothing while
+/// bytes are missing. HEVC and unknown profiles or modes, a divisor or bitrate of 0 are errors.
+struct ReadVideoRequest {
+  VideoRequest request;
+  std::size_t bytes = 0;
+};
+Result<std::optional<ReadVideoRequest>> read_video_request(Bytes bytes);
+
+/// What lies behind an image.
+struct ImageTrailer {
+  std::uint64_t sensor_ticks = 0;  ///< the same for left and right
+  std::uint64_t exposure_ns = 0;
+  std::uint32_t gain = 0;
+};
+
+/// A payload cut in two; `image` is one raw picture or one access unit of a codec.
+struct ImagePayload {
+  Bytes image;
+  ImageTrailer trailer;
+};
+/// Nothing for a payload without an image (up to 24 bytes), which is no fault.
+[[nodiscard]] std::optional<ImagePayload> split_image(Bytes payload);
+
+/// world_from_rig of a packet: 16 float32, row-major for row vectors. Nothing while the headset is
+/// not located (last element 0); an Error for what is neither that nor a rigid motion.
+Result<std::optional<Transform<World, Rig>>> read_pose(Bytes pose);
+void append_pose(std::vector<std::uint8_t>& bytes,
+                 const std::optional<Transform<World, Rig>>& world_from_rig);
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "hal/hl2ss/h264_decoder.h"
+#include "hal/hl2ss/packet_stream.h"
+#include "hal/hl2ss/pairer.h"
+#include "hal/hl2ss/video.h"
+
+namespace orthonav::hl2ss {
+
+/// Who gets the pictures of the front cameras.
+class ImageSink {
+ public:
+  virtual ~ImageSink() = default;
+  /// May swap the image's buffers for others.
+  virtual void take(Side side, CameraImage& image) = 0;
+  virtual void lost(Side side) = 0;
+};
+
+/// One front camera with poses, raw or decoded.
+class VideoStream final : public PacketStream {
+ public:
+  /// `decoder` is null for raw images.
+  VideoStream(Side side, const VideoRequest& request, std::unique_ptr<H264Decoder> decoder,
+              ArrivalMeter& meter, HeadsetTime& time, ImageSink& sink)
+      : PacketStream(side == Side::kLeft ? "left camera" : "right camera", {kMaxImagePayload, true},
+                     meter, time),
+        side_(side),
+        request_(request),
+        decoder_(std::move(decoder)),
+        sink_(sink) {}
+  [[nodiscard]] std::vector<std::uint8_t> opening() override;
+  void disconnected() override;
+
+ private:
+  /// What is known of an access unit that the decoder has not given back yet.
+  struct Underway {
+    std::int64_t unit = 0;
+    std::uint64_t sensor_ticks = 0;
+    Timestamp time{};
+    std::optional<Transform<World, Rig>> world_from_rig;
+  };
+  Status take(const Packet& packet, const Stamped& stamped) override;
+  Status take_raw(Bytes picture);
+  Result<bool> take_h264(Bytes access_unit, bool in_order);
+
+  Side side_;
+  VideoRequest request_;
+  std::unique_ptr<H264Decoder> decoder_;
+  ImageSink& sink_;
+  CameraImage image_;
+  std::deque<Underway> underway_;
+  std::int64_t units_ = 0;
+};
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "hal/open/open.h"
+
+namespace orthonav {
+
+/// `openxr:` with what follows it: `[?rig=FILE]+URI`, where URI is the headset whose cameras it
+/// takes. One line names what is wrong.
+Result<std::unique_ptr<Headset>> open_openxr(const std::string& uri, std::string_view rest,
+                                             const OpenOptions& options);
+
+}  // namespace orthonav

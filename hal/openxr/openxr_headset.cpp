@@ -1,0 +1,131 @@
+#include "hal/openxr/openxr_headset.h"
+
+#include <utility>
+
+#include "hal/openxr/shared_clicker.h"
+#include "hal/openxr/xr_display.h"
+
+namespace orthonav::openxr {
+namespace {
+
+Mount mount_of(const RigOnHead& rig) {
+  const auto rig_from_view = rig.view_from_rig.inverse();
+  return {rig.mounted ? Placement::kMounted : Placement::kElsewhere,
+          {rig_from_view.rotation(), rig_from_view.translation()}};
+}
+
+/// The other headset's pairs, with poses and maps of the display where they are mounted on it.
+class Cameras : public StereoCamera {
+ public:
+  Cameras(StereoCamera& inner, const XrDisplay& display, bool mounted)
+      : inner_(inner), display_(display), mounted_(mounted) {}
+
+ private:
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return inner_.calibration();
+  }
+  Result<Next> do_next(StereoFrame& frame) override {
+    auto answer = inner_.next(frame);
+    if (!answer || *answer != Next::kFrame) return answer;
+    if (mounted_) {
+      const auto pose = display_.world_from_rig(frame.time);
+      frame.world_from_rig.reset();
+      if (pose.origin == Origin::kMeasured) frame.world_from_rig = pose.value;
+    }
+    frame.map_epoch += display_.map_epoch(frame.time);
+    return answer;
+  }
+
+  StereoCamera& inner_;
+  const XrDisplay& display_;
+  bool mounted_;
+};
+
+class Head : public HeadTracker {
+ public:
+  Head(const HeadTracker& inner, const XrDisplay& display, bool mounted)
+      : inner_(inner), display_(display), mounted_(mounted) {}
+
+ private:
+  [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
+    return mounted_ ? display_.world_from_rig(at) : inner_.world_from_rig(at);
+  }
+
+  const HeadTracker& inner_;
+  const XrDisplay& display_;
+  bool mounted_;
+};
+
+/// Frames in words go to the other headset too: a simulated wearer reads them there.
+class Words : public Display {
+ public:
+  Words(Display& inner, const Clock& clock, const XrDisplay& display, bool mounted)
+      : inner_(inner), clock_(clock), display_(display), mounted_(mounted) {}
+
+ private:
+  [[nodiscard]] Duration do_latency() const override {
+    if (mounted_) return display_.latency();
+    const Timestamp now = clock_.now();
+    return inner_.predicted_display_time(now) - now;
+  }
+  Status do_shown(const ShownFrame& frame) override { return inner_.shown(frame); }
+
+  Display& inner_;
+  const Clock& clock_;
+  const XrDisplay& display_;
+  bool mounted_;
+};
+
+class Composite : public OpenxrHeadset {
+ public:
+  Composite(std::unique_ptr<Headset> cameras, const RigOnHead& rig)
+      : inner_(std::move(cameras)),
+        pixels_(mount_of(rig), inner_->clock(), inner_->head()),
+        cameras_(inner_->cameras(), pixels_, rig.mounted),
+        head_(inner_->head(), pixels_, rig.mounted),
+        clicker_(pixels_, inner_->clicker()),
+        words_(inner_->display(), inner_->clock(), pixels_, rig.mounted) {}
+
+  [[nodiscard]] std::string name() const override {
+    const std::string runtime = pixels_.name();
+    return "openxr (" + (runtime.empty() ? "" : runtime + ", ") + "cameras: " + inner_->name() +
+           ")";
+  }
+  [[nodiscard]] const Clock& clock() const override { return inner_->clock(); }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
+    return inner_->epoch_ticks_100ns();
+  }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return head_; }
+  [[nodiscard]] Clicker& clicker() override { return clicker_; }
+  [[nodiscard]] Voice& voice() override { return inner_->voice(); }
+  [[nodiscard]] Display& display() override { return words_; }
+  [[nodiscard]] PixelDisplay* pixels() override { return &pixels_; }
+  [[nodiscard]] Headset& owner_of_cameras() override { return inner_->owner_of_cameras(); }
+
+ private:
+  std::unique_ptr<Headset> inner_;
+  XrDisplay pixels_;
+  Cameras cameras_;
+  Head head_;
+  SharedClicker clicker_;
+  Words words_;
+};
+
+}  // namespace
+
+std::unique_ptr<OpenxrHeadset> OpenxrHeadset::around(std::unique_ptr<Headset> cameras,
+                                                     const RigOnHead& rig) {
+  return std::make_unique<Composite>(std::move(cameras), rig);
+}
+
+Result<std::string> describe_runtime() {
+  auto runtime = Runtime::connect();
+  if (!runtime) return runtime.error();
+  if (const Status found = (*runtime)->find_headset(); !found) return found.error();
+  const auto headset = (*runtime)->headset_name();
+  if (!headset) return headset.error();
+  return (*runtime)->name() + ", " + *headset;
+}
+
+}  // namespace orthonav::openxr

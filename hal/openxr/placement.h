@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/openxr/xr_values.h"
+
+namespace orthonav::openxr {
+
+/// How the cameras' world and the display's space belong together.
+enum class Placement {
+  /// The cameras are mounted on the headset: World is the runtime's space, and a pair's pose is the
+  /// headset's.
+  kMounted,
+  /// The cameras are elsewhere, in a simulation or a recording: World is theirs, and the space is
+  /// laid into it such that the wearer begins where they are.
+  kElsewhere
+};
+
+/// Where World is in the runtime's space, and which of its maps this is. A move is announced ahead
+/// of its time: asked for a time before it, the answer is the old one. One thread at a time.
+class WorldAnchor {
+ public:
+  explicit WorldAnchor(Placement placement);
+
+  /// Nothing until it is laid.
+  [[nodiscard]] std::optional<Transform<World, Space>> world_from_space(XrTime at) const;
+  /// Counts moves.
+  [[nodiscard]] std::int64_t epoch(XrTime at) const;
+  /// Lays World so that the viewer is at `world_from_viewer`, where that is still open.
+  void lay(XrTime at, const Transform<World, Viewer>& world_from_viewer,
+           const Transform<Space, Viewer>& space_from_viewer);
+  /// From then on the runtime's space is a new one; where it is in the one before, if that is
+  /// known.
+  void move(XrTime from, const std::optional<Transform<Space, Space>>& old_from_new);
+
+ private:
+  struct Stretch {
+    XrTime from = 0;
+    std::int64_t epoch = 0;
+    std::optional<Transform<World, Space>> world_from_space;
+  };
+  [[nodiscard]] const Stretch& at(XrTime time) const;
+
+  Placement placement_;
+  std::vector<Stretch> stretches_;  ///< in order of time, the newest few
+};
+
+}  // namespace orthonav::openxr

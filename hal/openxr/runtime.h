@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/api/pixel_display.h"
+#include "hal/api/result.h"
+#include "hal/openxr/xr.h"
+
+namespace orthonav::openxr {
+
+/// The connection with the OpenXR runtime of this machine: an instance and, once it is found, the
+/// headset. Its calls are thread-safe, as the runtime's are; who destroys it must be alone.
+class Runtime {
+ public:
+  /// One line when there is none, or one that lacks what is needed.
+  static Result<std::unique_ptr<Runtime>> connect();
+  ~Runtime();
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+
+  /// "Monado(XRT) 21.0.0"
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] XrInstance instance() const { return instance_; }
+  /// Whether this optional extension is there and switched on.
+  [[nodiscard]] bool has(const char* extension) const;
+
+  /// Looks for a headset; it may be plugged in later.
+  Status find_headset();
+  [[nodiscard]] XrSystemId system() const { return system_; }
+  /// "Simulated HMD"
+  [[nodiscard]] Result<std::string> headset_name() const;
+
+  /// The runtime's time now. It counts from an epoch of its own.
+  [[nodiscard]] Result<XrTime> now() const;
+
+  // XR_KHR_vulkan_enable2
+  [[nodiscard]] Result<std::array<GraphicsVersion, 2>> vulkan_versions() const;
+  Result<void*> create_vulkan_instance(GraphicsFunction get_proc, const void* info) const;
+  [[nodiscard]] Result<void*> vulkan_device(void* vulkan_instance) const;
+  Result<void*> create_vulkan_device(void* physical, GraphicsFunction get_proc,
+                                     const void* info) const;
+
+ private:
+  struct Functions {
+    PFN_xrConvertTimespecTimeToTimeKHR time_from_timespec = nullptr;
+    PFN_xrGetVulkanGraphicsRequirements2KHR requirements = nullptr;
+    PFN_xrCreateVulkanInstanceKHR create_instance = nullptr;
+    PFN_xrGetVulkanGraphicsDevice2KHR graphics_device = nullptr;
+    PFN_xrCreateVulkanDeviceKHR create_device = nullptr;
+  };
+
+  Runtime(XrInstance instance, std::vector<std::string> extensions)
+      : instance_(instance), extensions_(std::move(extensions)) {}
+  Status load_functions();
+
+  XrInstance instance_ = XR_NULL_HANDLE;
+  std::vector<std::string> extensions_;
+  std::string name_;
+  XrSystemId system_ = XR_NULL_SYSTEM_ID;
+  Functions functions_;
+};
+
+}  // namespace orthonav::openxr

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "hal/api/pixel_display.h"
+#include "hal/openxr/view_setup.h"
+
+namespace orthonav::openxr {
+
+/// The images of both eyes: one swapchain of two layers, or one an eye. Between `acquire` and
+/// `release` one image of each chain belongs to the application.
+class Swapchains {
+ public:
+  Swapchains() = default;
+  ~Swapchains() { destroy(); }
+  Swapchains(const Swapchains&) = delete;
+  Swapchains& operator=(const Swapchains&) = delete;
+
+  /// In the format that suits who draws best; an Error when none does.
+  Status create(XrSession session, const ViewSetup& setup, const ImageTaste& taste);
+  void destroy();
+  [[nodiscard]] const EyeImages& images() const { return images_; }
+
+  /// XR_TIMEOUT_EXPIRED when an image is not free in time: this frame goes without pixels, the next
+  /// may ask again.
+  XrResult acquire(std::vector<std::uint32_t>& indices);
+  /// Whatever was acquired and waited for.
+  XrResult release();
+  /// Where an eye's picture lies.
+  [[nodiscard]] XrSwapchainSubImage part_of(std::size_t eye) const;
+
+ private:
+  struct Chain {
+    XrSwapchain handle = XR_NULL_HANDLE;
+    std::uint32_t index = 0;
+    bool acquired = false;
+    bool waited = false;
+  };
+  Status add_chain(XrSession session);
+  XrResult acquire(Chain& chain);
+
+  std::vector<Chain> chains_;
+  EyeImages images_;
+};
+
+}  // namespace orthonav::openxr

@@ -1,0 +1,32 @@
+#pragma once
+
+// OpenXR's headers, for the files of this folder. They speak of Vulkan; here its handles are names
+// of things that are passed on, and its headers stay in render/.
+
+#include <ctime>
+
+struct VkInstance_T;
+struct VkPhysicalDevice_T;
+struct VkDevice_T;
+struct VkImage_T;
+struct VkInstanceCreateInfo;
+struct VkDeviceCreateInfo;
+struct VkAllocationCallbacks;
+using VkInstance = VkInstance_T*;
+using VkPhysicalDevice = VkPhysicalDevice_T*;
+using VkDevice = VkDevice_T*;
+using VkImage = VkImage_T*;
+static_assert(sizeof(void*) == 8, "where pointers are shorter, VkImage is a number");
+using PFN_vkGetInstanceProcAddr = void (*)();
+// Enumerations, which are ints to C.
+using VkResult = int;
+using VkFormat = int;
+using VkFilter = int;
+using VkSamplerMipmapMode = int;
+using VkSamplerAddressMode = int;
+using VkComponentSwizzle = int;
+
+#define XR_USE_GRAPHICS_API_VULKAN
+#define XR_USE_TIMESPEC
+#include <openxr/openxr.h>
+#include <openxr/openxr_platform.h>

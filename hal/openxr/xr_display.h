@@ -1,0 +1,119 @@
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/api/devices.h"
+#include "hal/openxr/placement.h"
+#include "hal/openxr/runtime.h"
+#include "hal/openxr/select_button.h"
+#include "hal/openxr/session_state.h"
+#include "hal/openxr/swapchains.h"
+
+namespace orthonav::openxr {
+
+/// What the display and the cameras have to know of one another.
+struct Mount {
+  Placement placement = Placement::kElsewhere;
+  /// Of the cameras' rig on the head. Elsewhere: where the wearer begins.
+  Transform<Rig, Viewer> rig_from_viewer;
+};
+
+/// A button that changed, by the headset's clock.
+struct ButtonChange {
+  bool down = false;
+  Timestamp time{};
+};
+
+/// The display of an OpenXR headset: session, images, frames. The thread that presents calls what
+/// PixelDisplay has; the rest may be asked from any thread, also while there is no session.
+class XrDisplay : public PixelDisplay {
+ public:
+  /// `clock` is the headset's; `cameras_head` tells where the cameras are. Both must outlive it.
+  XrDisplay(const Mount& mount, const Clock& clock, const HeadTracker& cameras_head)
+      : mount_(mount), clock_(clock), cameras_head_(cameras_head), anchor_(mount.placement) {}
+  ~XrDisplay() override;
+  XrDisplay(const XrDisplay&) = delete;
+  XrDisplay& operator=(const XrDisplay&) = delete;
+
+  Result<GraphicsNeeds> open() override;
+  Result<void*> create_instance(GraphicsFunction get_proc, const void* info) override;
+  Result<void*> physical_device(void* instance) override;
+  Result<void*> create_device(void* physical, GraphicsFunction get_proc, const void* info) override;
+  Result<EyeImages> start(const GraphicsObjects& objects, const ImageTaste& taste) override;
+  DisplayTurn next_turn() override;
+  Result<std::vector<std::uint32_t>> acquire() override;
+  EyeViews views() override;
+  Status finish_turn(bool drawn) override;
+  void ask_to_end() override;
+  void close() override;
+
+  // From any thread.
+  /// "Monado(XRT) 21.0.0, Simulated HMD"; empty before it was opened.
+  [[nodiscard]] std::string name() const;
+  /// Where the mounted cameras were or will be. kPredicted where the runtime knows a pose without
+  /// tracking it; kLost where it knows none.
+  [[nodiscard]] Tracked<Transform<World, Rig>> world_from_rig(Timestamp at) const;
+  /// Which map World is at that time.
+  [[nodiscard]] std::int64_t map_epoch(Timestamp at) const;
+  /// From submitting to light, as last predicted.
+  [[nodiscard]] Duration latency() const { return latency_.load(); }
+  /// Changes up to `until`, in order.
+  void take_button(Timestamp until, std::vector<ButtonChange>& changes);
+
+ private:
+  /// A pose of the viewer and how well it is known.
+  struct Located {
+    Transform<Space, Viewer> space_from_viewer;
+    Origin origin = Origin::kLost;
+  };
+
+  Status make_session(const GraphicsObjects& objects);
+  Status make_spaces();
+  /// The first thing that ends the session, if any event does.
+  std::optional<DisplayTurn> take_events();
+  std::optional<DisplayTurn> take_state(XrSessionState state);
+  void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
+  void poll_button();
+  DisplayTurn begin_frame();
+  [[nodiscard]] DisplayTurn lost(const std::string& what, XrResult result);
+  void lay_world(XrTime at);
+  [[nodiscard]] Located locate_viewer(XrTime at) const;
+  /// Both clocks read at once.
+  [[nodiscard]] std::optional<XrTime> xr_time(Timestamp at) const;
+  [[nodiscard]] std::optional<Timestamp> timestamp(XrTime at) const;
+
+  Mount mount_;
+  const Clock& clock_;
+  const HeadTracker& cameras_head_;
+  std::atomic<Duration> latency_{std::chrono::milliseconds(20)};
+
+  // Changed by the presenting thread under the mutex; read by others under it.
+  mutable std::mutex mutex_;
+  std::unique_ptr<Runtime> runtime_;
+  std::string headset_name_;
+  XrSpace space_ = XR_NULL_HANDLE;
+  XrSpace viewer_ = XR_NULL_HANDLE;
+  WorldAnchor anchor_;
+  std::deque<ButtonChange> button_changes_;
+
+  // Of the presenting thread alone.
+  ViewSetup setup_;
+  XrSession session_ = XR_NULL_HANDLE;
+  XrReferenceSpaceType space_type_ = XR_REFERENCE_SPACE_TYPE_LOCAL;
+  SessionState state_;
+  bool instance_lost_ = false;
+  bool had_session_ = false;
+  bool end_asked_ = false;
+  Swapchains swapchains_;
+  SelectButton button_;
+  XrTime display_time_ = 0;  ///< of the frame begun
+  std::array<XrView, 2> located_{};
+};
+
+}  // namespace orthonav::openxr

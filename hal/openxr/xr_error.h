@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "hal/api/result.h"
+#include "hal/openxr/xr.h"
+
+namespace orthonav::openxr {
+
+/// "XR_ERROR_FORM_FACTOR_UNAVAILABLE", or the number of what came after 1.0.20.
+[[nodiscard]] std::string name_of(XrResult result);
+/// "openxr: begin a frame: XR_ERROR_SESSION_NOT_RUNNING".
+[[nodiscard]] Error error_of(const std::string& what, XrResult result);
+/// Success as Status.
+[[nodiscard]] Status status_of(const std::string& what, XrResult result);
+/// Nothing but a new session helps.
+[[nodiscard]] bool is_loss(XrResult result);
+
+/// "2.1.0"
+[[nodiscard]] std::string version_text(XrVersion version);
+
+}  // namespace orthonav::openxr

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "render/hosted_renderer.h"
+#include "render/vulkan/device.h"
+#include "render/vulkan/instance.h"
+#include "render/vulkan/scene_drawing.h"
+
+namespace orthonav::render {
+
+/// Two frames in flight on a host's device: each has a command buffer, a fence and buffers of its
+/// own; what they draw through (samples, depth) they share, one after the other in the queue.
+class HostedVulkanRenderer final : public HostedRenderer {
+ public:
+  static constexpr std::size_t kFramesInFlight = 2;
+
+  /// Throws VulkanFailure or std::runtime_error with one line.
+  HostedVulkanRenderer(const RendererOptions& options, VulkanHost& host);
+  ~HostedVulkanRenderer() override;
+  HostedVulkanRenderer(const HostedVulkanRenderer&) = delete;
+  HostedVulkanRenderer& operator=(const HostedVulkanRenderer&) = delete;
+
+  [[nodiscard]] VulkanObjects objects() const override;
+  [[nodiscard]] int suits(std::int64_t format) const override;
+  [[nodiscard]] bool takes_layers() const override { return drawing_.views_a_pass() == 2; }
+  [[nodiscard]] bool use(const EyeTargets& targets, std::string& error) override;
+  [[nodiscard]] bool prepare(const Scene& scene, std::string& error) override;
+  [[nodiscard]] bool draw(const Scene& scene, const std::vector<View>& views,
+                          std::span<const std::uint32_t> images, std::string& error) override;
+  [[nodiscard]] bool finish(std::string& error) override;
+  [[nodiscard]] bool lost() const override { return lost_; }
+  [[nodiscard]] const DeviceInfo& device() const override { return info_; }
+  [[nodiscard]] FrameTiming last_timing() const override { return timing_; }
+  [[nodiscard]] const std::vector<std::string>& validation_messages() const override {
+    return instance_.messages();
+  }
+  [[nodiscard]] const std::vector<std::string>& notes() const override { return drawing_.notes(); }
+
+ private:
+  template <class Work>
+  bool attempt(std::string& error, const Work& work);
+  void upload_blank_background();
+  void record(const std::vector<View>& views, std::span<const std::uint32_t> images);
+
+  RendererOptions options_;
+  Instance instance_;
+  VkPhysicalDevice physical_;
+  DeviceInfo info_;
+  Device device_;
+  SceneDrawing drawing_;
+  DeviceImage background_;  ///< of one pixel: shaders want one bound
+  EyeTargets targets_;
+  std::size_t images_a_chain_ = 0;
+  std::unique_ptr<FramePass> pass_;
+  FrameTiming timing_;
+  bool lost_ = false;
+};
+
+}  // namespace orthonav::render

@@ -1,0 +1,218 @@
+#include "render/vulkan/scene_drawing.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "render/float3.h"
+#include "render/projection.h"
+#include "render/scene_check.h"
+#include "render/text/text_layout.h"
+#include "render/vulkan/eyes_probe.h"
+#include "render/vulkan/gpu_types.h"
+
+namespace orthonav::render {
+namespace {
+
+constexpr float kUnseen_px = 0.1f;  // less than half the distance between samples
+
+/// Twice what is needed, so that a growing scene settles soon.
+VkDeviceSize grown(std::size_t bytes) { return std::max<std::size_t>(2 * bytes, 4096); }
+
+void write_line_indices(const Buffer& buffer) {
+  auto* out = reinterpret_cast<std::uint32_t*>(buffer.mapped());
+  const std::uint32_t segments = line_capacity(buffer);
+  for (std::uint32_t segment = 0; segment < segments; ++segment) {
+    const std::uint32_t first = segment * kCornersPerSegment;
+    for (std::uint32_t corner = 1; corner + 1 < kCornersPerSegment; ++corner) {
+      *out++ = first;
+      *out++ = first + corner;
+      *out++ = first + corner + 1;
+    }
+  }
+  for (std::uint32_t segment = 0; segment < segments; ++segment) {
+    constexpr std::array<std::uint32_t, kIndicesPerQuad> kSides = {0, 6, 7, 0, 7, 13};
+    for (const std::uint32_t corner : kSides) *out++ = segment * kCornersPerSegment + corner;
+  }
+}
+
+/// What a line may be off by without a trace: kUnseen_px where pixels are smallest.
+float unseen_rad(const std::vector<View>& views, PixelSize size) {
+  float least = std::numeric_limits<float>::max();
+  for (const View& view : views) {
+    const float across = (view.tan_left + view.tan_right) / static_cast<float>(size.width_px);
+    const float down = (view.tan_up + view.tan_down) / static_cast<float>(size.height_px);
+    // Aside of the axis, a pixel is seen under a smaller angle.
+    const float aside = std::max({view.tan_left, view.tan_right, view.tan_up, view.tan_down});
+    least = std::min(least, std::min(across, down) / (1 + 2 * aside * aside));
+  }
+  return kUnseen_px * least;
+}
+
+}  // namespace
+
+FrameSlot::FrameSlot(const Device& device)
+    : commands(device),
+      bindings(device),
+      frames(device, kMostViews * kFrameStride, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+             BufferPlace::kUpload) {}
+
+SceneDrawing::SceneDrawing(const RendererOptions& options, const Device& device,
+                           VkPhysicalDevice physical, std::size_t slots)
+    : options_(options),
+      device_(device),
+      cache_(device, physical, options.cache_folder.value_or(user_cache_folder())),
+      meshes_(static_cast<int>(slots) - 1) {
+  for (std::size_t i = 0; i < slots; ++i) slots_.push_back(std::make_unique<FrameSlot>(device));
+  upload_atlas();
+}
+
+void SceneDrawing::upload_atlas() {
+  const FontFileHeader& header = font_.header();
+  ImageSpec spec;
+  spec.format = VK_FORMAT_R8_UNORM;
+  spec.width = header.width_px;
+  spec.height = header.height_px;
+  spec.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  spec.view = VK_IMAGE_VIEW_TYPE_2D;
+  atlas_ = DeviceImage(device_, spec);
+  const Buffer staging(device_, font_.atlas().size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                       BufferPlace::kUpload);
+  staging.write(font_.atlas().data(), font_.atlas().size());
+  const PixelRect all{0, 0, static_cast<int>(spec.width), static_cast<int>(spec.height)};
+  fill_image(slot().commands.begin(), {staging, atlas_, {spec.width, spec.height}, 1, 1, 1},
+             {&all, 1});
+  slot().commands.run();
+  for (const auto& slot : slots_) slot->bindings.bind_atlas(atlas_);
+}
+
+void SceneDrawing::bind_background(const DeviceImage& background) {
+  for (const auto& slot : slots_) slot->bindings.bind_background(background);
+}
+
+void SceneDrawing::choose_views_a_pass() {
+  if (options_.eyes_a_pass != EyesAPass::kProbe) {
+    views_a_pass_ = options_.eyes_a_pass == EyesAPass::kTwo ? 2 : 1;
+  } else {
+    // Binds buffers of its own.
+    const bool both = draws_both_eyes_whole(device_, slot().commands, slot().bindings, font_);
+    views_a_pass_ = both ? 2 : 1;
+  }
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    now_ = i;
+    slot().bindings.bind_frames(slot().frames);
+    prepare_data();
+  }
+}
+
+FrameSlot& SceneDrawing::next_slot() {
+  now_ = (now_ + 1) % slots_.size();
+  slot().commands.wait();
+  return slot();
+}
+
+void SceneDrawing::wait_for_all() {
+  for (const auto& slot : slots_) slot->commands.wait();
+}
+
+bool SceneDrawing::lost() const {
+  return std::any_of(slots_.begin(), slots_.end(),
+                     [](const auto& slot) { return slot->commands.lost(); });
+}
+
+std::string SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
+  const Matrix4& place = item.world_from_model;
+  MeshDetail detail;
+  detail.error = options_.surface_error_m / length({place[0], place[1], place[2]});
+  std::string flaw = meshes_.add(device_, slot().commands, item.mesh, detail);
+  if (!flaw.empty()) return flaw;
+  const std::size_t drawn = meshes_.find(item.mesh)->index_count / 3;
+  const std::size_t given = item.mesh->indices.size() / 3;
+  if (given > detail.most_triangles) {
+    note(name + ": drawn with " + std::to_string(drawn) + " of its " + std::to_string(given) +
+         " triangles, limit " + std::to_string(detail.most_triangles));
+  }
+  return {};
+}
+
+/// After so many there is nothing new to learn, and a frame loop would fill the memory.
+void SceneDrawing::note(std::string line) {
+  constexpr std::size_t kMostNotes = 200;
+  if (notes_.size() < kMostNotes) notes_.push_back(std::move(line));
+}
+
+/// Of each character that the font lacks, once: a box stands in its place.
+void SceneDrawing::note_missing_glyphs(const Scene& scene) {
+  for (const TextItem& item : scene.texts) {
+    std::size_t noted = missing_glyphs_.size();
+    find_missing(font_, item, missing_glyphs_);
+    for (; noted < missing_glyphs_.size(); ++noted) {
+      char code[16];
+      std::snprintf(code, sizeof(code), "U+%04X", static_cast<unsigned>(missing_glyphs_[noted]));
+      note("scene: text " + std::to_string(&item - scene.texts.data()) + " (label " +
+           std::to_string(item.label) + "): the font has no " + code + ", drawn as a box");
+    }
+  }
+}
+
+std::string SceneDrawing::take(const Scene& scene) {
+  if (const auto problem = problem_of_scene(scene)) return *problem;
+  for (const MeshItem& item : scene.meshes) {
+    if (meshes_.touch(item.mesh)) continue;
+    const std::string name = "scene: mesh " + std::to_string(&item - scene.meshes.data()) +
+                             " (label " + std::to_string(item.label) + ")";
+    const std::string flaw = add_mesh(item, name);
+    if (!flaw.empty()) return name + ": " + flaw;
+  }
+  note_missing_glyphs(scene);
+  return {};
+}
+
+void SceneDrawing::build(const Scene& scene, const std::vector<View>& views, PixelSize size) {
+  items_.build(scene, views, font_, unseen_rad(views, size));
+  prepare_data();
+}
+
+void SceneDrawing::prepare_data() {
+  FrameSlot& slot = this->slot();
+  const std::size_t bytes = items_.data().size() * sizeof(Float4);
+  if (slot.data.size() < bytes || slot.data.size() == 0) {
+    slot.data =
+        Buffer(device_, grown(bytes), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::kUpload);
+    slot.bindings.bind_data(slot.data);
+  }
+  slot.data.write(items_.data().data(), bytes);
+  const std::size_t index_bytes =
+      4ul * (kIndicesPerSegment + kIndicesPerQuad) * items_.most_segments();
+  if (slot.line_indices.size() < index_bytes || slot.line_indices.size() == 0) {
+    slot.line_indices =
+        Buffer(device_, grown(index_bytes), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, BufferPlace::kUpload);
+    write_line_indices(slot.line_indices);
+  }
+}
+
+void SceneDrawing::place(std::span<const View> views, std::size_t first, PixelSize size,
+                         bool has_background) {
+  items_.place(views, size, [this](const MeshItem& item) {
+    const GpuMesh* copy = meshes_.find(item.mesh);
+    return copy != nullptr ? copy->box : Box{};
+  });
+  const auto width = static_cast<float>(size.width_px);
+  const auto height = static_cast<float>(size.height_px);
+  GpuFrame frame;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Float3 eye = transformed(rigid_inverse(views[i].eye_from_world), {0, 0, 0});
+    const View& view = views[i];
+    frame.eyes[i] = {
+        clip_from_world(view),
+        {eye.x, eye.y, eye.z, 1},
+        {width / (view.tan_left + view.tan_right), height / (view.tan_up + view.tan_down), 0, 0}};
+  }
+  frame.target = {width, height, 0, 0};
+  frame.font = {font_.header().reach, kRimWidth, kNearPlane_m, 0};
+  frame.mode = {options_.blend == Blend::kAdditive ? 0u : 1u, has_background ? 1u : 0u, 0, 0};
+  slot().frames.write(&frame, sizeof(frame), first * kFrameStride);
+}
+
+}  // namespace orthonav::render

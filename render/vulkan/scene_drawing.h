@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/frame_items.h"
+#include "render/renderer.h"
+#include "render/vulkan/bindings.h"
+#include "render/vulkan/commands.h"
+#include "render/vulkan/device.h"
+#include "render/vulkan/frame_recorder.h"
+#include "render/vulkan/mesh_cache.h"
+#include "render/vulkan/pipeline_cache.h"
+
+namespace orthonav::render {
+
+inline constexpr std::uint32_t kMostViews = 2;
+
+/// What a frame keeps to itself until the device has drawn it.
+struct FrameSlot {
+  explicit FrameSlot(const Device& device);
+  Commands commands;
+  Bindings bindings;
+  Buffer frames;        ///< a GpuFrame a pass
+  Buffer data;          ///< FrameItems::data
+  Buffer line_indices;  ///< of as many segments as were ever needed
+};
+
+/// What drawing into images of one's own and of somebody else's have in common: a scene is checked,
+/// its meshes are uploaded, it is laid out and written where the shaders find it. Frames take turns
+/// in the slots. After the first frames it allocates nothing.
+class SceneDrawing {
+ public:
+  /// Throws VulkanFailure or std::runtime_error with one line. `device` must outlive it.
+  SceneDrawing(const RendererOptions& options, const Device& device, VkPhysicalDevice physical,
+               std::size_t slots);
+
+  /// What is behind the holograms, for all slots; before the first frame.
+  void bind_background(const DeviceImage& background);
+  /// How many views a pass draws, as the options say or the device shows; needs a background.
+  void choose_views_a_pass();
+  [[nodiscard]] std::size_t views_a_pass() const { return views_a_pass_; }
+
+  /// Turns to the next slot and waits until the device is done with it.
+  FrameSlot& next_slot();
+  [[nodiscard]] FrameSlot& slot() { return *slots_[now_]; }
+  void wait_for_all();
+  [[nodiscard]] bool lost() const;
+
+  /// Checks the scene and uploads its meshes; its problem as a line, or empty.
+  std::string take(const Scene& scene);
+  /// Lays the scene out for these views in images of this size, into the current slot.
+  void build(const Scene& scene, const std::vector<View>& views, PixelSize size);
+  /// Of the pass whose first view is `first`: places its items and tells the shaders of its views.
+  void place(std::span<const View> views, std::size_t first, PixelSize size, bool has_background);
+  /// Marks the frame's end, however it ended.
+  void end_frame() { meshes_.end_frame(); }
+
+  [[nodiscard]] const FrameItems& items() const { return items_; }
+  [[nodiscard]] const MeshCache& meshes() const { return meshes_; }
+  [[nodiscard]] VkPipelineCache cache() const { return cache_.get(); }
+  /// The same in all slots.
+  [[nodiscard]] VkPipelineLayout layout() const { return slots_.front()->bindings.layout(); }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  void upload_atlas();
+  void prepare_data();
+  std::string add_mesh(const MeshItem& item, const std::string& name);
+  void note(std::string line);
+  void note_missing_glyphs(const Scene& scene);
+
+  RendererOptions options_;
+  const Device& device_;
+  PipelineCache cache_;
+  std::vector<std::unique_ptr<FrameSlot>> slots_;
+  std::size_t now_ = 0;
+  Font font_;
+  FrameItems items_;
+  MeshCache meshes_;
+  DeviceImage atlas_;
+  std::vector<std::string> notes_;
+  std::vector<char32_t> missing_glyphs_;  ///< noted already
+  std::size_t views_a_pass_ = 2;
+};
+
+}  // namespace orthonav::render

@@ -1,0 +1,216 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/render/test_host.h"
+#include "tests/render/test_renderer.h"
+#include "tests/render/test_scenes.h"
+
+namespace orthonav::render {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWidth_px = 200;
+constexpr int kHeight_px = 120;
+
+/// A renderer on a host's device with the validation layer listening until it is gone.
+struct Hosted {
+  explicit Hosted(Blend blend = Blend::kAdditive, int samples = 4,
+                  EyesAPass eyes = EyesAPass::kProbe) {
+    RendererOptions options;
+    options.blend = blend;
+    options.samples = samples;
+    options.validation = true;
+    options.messages = validation.sink();
+    options.eyes_a_pass = eyes;
+    options.cache_folder = "";
+    std::string error;
+    renderer = HostedRenderer::create(options, host, error);
+    EXPECT_NE(renderer, nullptr) << error;
+  }
+  SilentValidation validation;
+  TestHost host;
+  std::unique_ptr<HostedRenderer> renderer;
+};
+
+std::vector<View> eyes() { return stereo_pair(TestRenderer::straight_ahead()); }
+
+void draw(HostedRenderer& renderer, const Scene& scene, const std::vector<View>& views,
+          const std::vector<std::uint32_t>& images) {
+  std::string error;
+  ASSERT_TRUE(renderer.prepare(scene, error)) << error;
+  ASSERT_TRUE(renderer.draw(scene, views, images, error)) << error;
+}
+
+std::vector<Image> as_drawn_into_images(const Scene& scene, const std::vector<View>& views,
+                                        Blend blend, int samples) {
+  TestRenderer plain(kWidth_px, kHeight_px, blend, samples);
+  std::vector<Image> images;
+  std::string error;
+  EXPECT_TRUE(plain->draw(scene, views, {}, images, error)) << error;
+  return images;
+}
+
+std::vector<std::vector<std::uint8_t>> both(TestImages& images, std::size_t index) {
+  return {images.read(0, index), images.read(1, index)};
+}
+
+struct Way {
+  const char* name;
+  std::uint32_t layers;
+  int samples;
+  EyesAPass eyes;
+};
+void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
+
+class HostedRendererInEveryWay : public ::testing::TestWithParam<Way> {};
+
+TEST_P(HostedRendererInEveryWay, DrawsTheSameBitsAsIntoImages) {
+  const Way way = GetParam();
+  const Scene scene = crowded_scene();
+  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, way.samples);
+  Hosted hosted(Blend::kAdditive, way.samples, way.eyes);
+  TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px,
+                    way.layers);
+  std::string error;
+  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  draw(*hosted.renderer, scene, eyes(), std::vector<std::uint32_t>(2 / way.layers, 1));
+  const auto drawn = both(images, 1);
+  EXPECT_TRUE(drawn[0] == expected[0].rgba);
+  EXPECT_TRUE(drawn[1] == expected[1].rgba);
+  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+}
+
+INSTANTIATE_TEST_SUITE_P(Hosts, HostedRendererInEveryWay,
+                         ::testing::Values(Way{"chains", 1, 4, EyesAPass::kProbe},
+                                           Way{"single_sample", 1, 1, EyesAPass::kProbe},
+                                           Way{"told_one", 1, 4, EyesAPass::kOne}),
+                         [](const auto& way) { return std::string(way.param.name); });
+
+/// llvmpipe resolves into the first layer alone and puts lines and triangles there, but a surface
+/// in single samples it draws whole.
+TEST(HostedRenderer, DrawsBothLayersInOnePass) {
+  const Scene scene = sphere_scene(MeshStyle::kRim, {0.2f, 0.8f, 1, 1}, {0, 0, -1}, 301);
+  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, 1);
+  Hosted hosted(Blend::kAdditive, 1, EyesAPass::kTwo);
+  TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 2);
+  std::string error;
+  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  draw(*hosted.renderer, scene, eyes(), {1});
+  const auto drawn = both(images, 1);
+  EXPECT_TRUE(drawn[0] == expected[0].rgba);
+  EXPECT_TRUE(drawn[1] == expected[1].rgba);
+  EXPECT_FALSE(drawn[0] == drawn[1]);
+  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+}
+
+TEST(HostedRenderer, KeepsTwoFramesInFlightApart) {
+  Hosted hosted;
+  TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
+  std::string error;
+  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  // The first frame's mesh is gone before the second is recorded: its copy must not be.
+  Scene first = sphere_scene(MeshStyle::kSolid, {1, 0, 0, 1}, {-0.1f, 0, -1}, 301);
+  const Scene copy_of_first = sphere_scene(MeshStyle::kSolid, {1, 0, 0, 1}, {-0.1f, 0, -1}, 301);
+  const Scene second = sphere_scene(MeshStyle::kSolid, {0, 1, 0, 1}, {0.1f, 0, -1}, 302);
+  draw(*hosted.renderer, first, eyes(), {0, 0});
+  first = {};
+  draw(*hosted.renderer, second, eyes(), {1, 1});
+  const auto red = both(images, 0);
+  const auto green = both(images, 1);
+  const auto expected_red = as_drawn_into_images(copy_of_first, eyes(), Blend::kAdditive, 4);
+  const auto expected_green = as_drawn_into_images(second, eyes(), Blend::kAdditive, 4);
+  EXPECT_TRUE(red[0] == expected_red[0].rgba);
+  EXPECT_TRUE(green[1] == expected_green[1].rgba);
+  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+}
+
+TEST(HostedRenderer, TakesSwappedAndLinearFormats) {
+  const Scene scene = crowded_scene();
+  const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, 4);
+  Hosted hosted;
+  TestImages swapped(hosted.renderer->objects(), VK_FORMAT_B8G8R8A8_SRGB, kWidth_px, kHeight_px, 1);
+  std::string error;
+  ASSERT_TRUE(hosted.renderer->use(swapped.targets(), error)) << error;
+  draw(*hosted.renderer, scene, eyes(), {0, 0});
+  auto bytes = both(swapped, 0)[0];
+  for (std::size_t i = 0; i < bytes.size(); i += 4) std::swap(bytes[i], bytes[i + 2]);
+  EXPECT_TRUE(bytes == expected[0].rgba);
+  EXPECT_GT(hosted.renderer->suits(VK_FORMAT_R8G8B8A8_SRGB),
+            hosted.renderer->suits(VK_FORMAT_R16G16B16A16_SFLOAT));
+  EXPECT_GT(hosted.renderer->suits(VK_FORMAT_R16G16B16A16_SFLOAT),
+            hosted.renderer->suits(VK_FORMAT_R8G8B8A8_UNORM));
+  EXPECT_EQ(hosted.renderer->suits(VK_FORMAT_D32_SFLOAT), 0);
+  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+}
+
+TEST(HostedRenderer, WritesOpacityAsAlphaForACompositor) {
+  Scene scene = sphere_scene(MeshStyle::kSolid, {1, 1, 1, 1}, {0, 0, -1}, 301);
+  scene.triangles.push_back(
+      {501, {Float3{-0.3f, -0.1f, -1}, {-0.1f, -0.1f, -1}, {-0.2f, 0.1f, -1}}, {1, 0, 0, 0.5f}});
+  const auto over_black = as_drawn_into_images(scene, eyes(), Blend::kOver, 4);
+  Hosted hosted(Blend::kPremultiplied);
+  TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
+  std::string error;
+  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  draw(*hosted.renderer, scene, eyes(), {0, 0});
+  const auto bytes = both(images, 0)[0];
+  const auto at = [&](int x, int y) { return 4ul * (static_cast<std::size_t>(y) * kWidth_px + x); };
+  // Over black a premultiplied colour is itself.
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    if (i % 4 != 3) {
+      ASSERT_EQ(bytes[i], over_black[0].rgba[i]) << "byte " << i;
+    }
+  EXPECT_EQ(bytes[at(2, 2) + 3], 0);
+  EXPECT_EQ(bytes[at(106, 60) + 3], 255);
+  EXPECT_NEAR(bytes[at(66, 62) + 3], 128, 1);
+  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+}
+
+TEST(HostedRenderer, SaysWhatAHostAsksThatCannotBe) {
+  RendererOptions options;
+  options.cache_folder = "";
+  std::string error;
+  TestHost old;
+  old.allowed = {VulkanVersion{1, 0}, VulkanVersion{1, 0}};
+  EXPECT_EQ(HostedRenderer::create(options, old, error), nullptr);
+  EXPECT_THAT(error, HasSubstr("Vulkan 1.0"));
+  TestHost refusing;
+  refusing.refusal = "the runtime has no device";
+  EXPECT_EQ(HostedRenderer::create(options, refusing, error), nullptr);
+  EXPECT_EQ(error, "the runtime has no device");
+  TestHost young;
+  young.allowed = {VulkanVersion{1, 2}, VulkanVersion{1, 3}};
+  EXPECT_NE(HostedRenderer::create(options, young, error), nullptr) << error;
+  EXPECT_EQ(young.asked_version, VK_API_VERSION_1_2);
+}
+
+TEST(HostedRenderer, RefusesImagesThatDoNotFit) {
+  Hosted hosted;
+  TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
+  std::string error;
+  EyeTargets targets = images.targets();
+  targets.chains.pop_back();
+  EXPECT_FALSE(hosted.renderer->use(targets, error));
+  EXPECT_THAT(error, HasSubstr("1 layers in 1 chains"));
+  targets = images.targets();
+  targets.format = VK_FORMAT_R32_UINT;
+  EXPECT_FALSE(hosted.renderer->use(targets, error));
+  EXPECT_THAT(error, HasSubstr("VkFormat"));
+  targets = images.targets();
+  targets.width_px = 1 << 20;
+  EXPECT_FALSE(hosted.renderer->use(targets, error));
+  EXPECT_THAT(error, HasSubstr("limit"));
+  TestImages layered(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 2);
+  EXPECT_FALSE(hosted.renderer->takes_layers());
+  EXPECT_FALSE(hosted.renderer->use(layered.targets(), error));
+  EXPECT_THAT(error, HasSubstr("does not draw whole"));
+  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  ASSERT_TRUE(hosted.renderer->prepare({}, error)) << error;
+  EXPECT_FALSE(hosted.renderer->draw({}, eyes(), std::vector<std::uint32_t>{0, 2}, error));
+  EXPECT_THAT(error, HasSubstr("no such images"));
+  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+}
+
+}  // namespace
+}  // namespace orthonav::render

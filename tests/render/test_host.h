@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/hosted_renderer.h"
+#include "tests/support/image_chain.h"
+
+namespace orthonav::render {
+
+/// A host that makes what it is asked for, on the software rasterizer.
+class TestHost : public VulkanHost {
+ public:
+  std::array<VulkanVersion, 2> allowed = {VulkanVersion{1, 0}, VulkanVersion{1, 3}};
+  /// Answers so instead of making a device.
+  std::string refusal;
+
+  [[nodiscard]] std::array<VulkanVersion, 2> versions() const override { return allowed; }
+  void* create_instance(VulkanFunction get, const void* info, std::string& error) override;
+  void* physical_device(void* instance, std::string& error) override;
+  void* create_device(void* physical, VulkanFunction get, const void* info,
+                      std::string& error) override;
+  /// What the renderer asked the instance to be of.
+  std::uint32_t asked_version = 0;
+};
+
+/// Images for both eyes, as a runtime would hand them out, which are read back one by one.
+class TestImages {
+ public:
+  TestImages(const VulkanObjects& objects, VkFormat format, int width_px, int height_px,
+             std::uint32_t layers);
+  [[nodiscard]] const EyeTargets& targets() const { return targets_; }
+  /// What an eye sees in image `image` of its chain.
+  [[nodiscard]] std::vector<std::uint8_t> read(std::size_t eye, std::size_t image);
+
+ private:
+  EyeTargets targets_;
+  std::vector<std::unique_ptr<testing::ImageChain>> chains_;
+};
+
+}  // namespace orthonav::render

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "render/hosted_renderer.h"
+
+namespace orthonav::testing {
+
+/// A ring of images on a device that somebody else draws with, as a runtime hands them out, which
+/// are read back one by one. Aborts when Vulkan fails: there is no test to be failed everywhere.
+class ImageChain {
+ public:
+  ImageChain(const render::VulkanObjects& objects, VkFormat format, int width_px, int height_px,
+             std::uint32_t layers, std::size_t count = 2);
+  ~ImageChain();
+  ImageChain(const ImageChain&) = delete;
+  ImageChain& operator=(const ImageChain&) = delete;
+
+  [[nodiscard]] const std::vector<VkImage>& images() const { return images_; }
+  [[nodiscard]] std::vector<std::uint64_t> handles() const;
+  /// The bytes of one layer, which must be in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL and stays
+  /// so.
+  [[nodiscard]] std::vector<std::uint8_t> read(std::size_t image, std::uint32_t layer,
+                                               int pixel_bytes = 4);
+
+ private:
+  void add_image(VkFormat format);
+  void make_readback();
+  void copy_layer(VkCommandBuffer commands, VkImage image, std::uint32_t layer);
+  VkDeviceMemory memory_for(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags);
+
+  render::VulkanObjects objects_;
+  VkDevice device_;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  int width_px_;
+  int height_px_;
+  std::uint32_t layers_;
+  std::vector<VkImage> images_;
+  std::vector<VkDeviceMemory> memory_;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  std::uint8_t* mapped_ = nullptr;
+};
+
+}  // namespace orthonav::testing

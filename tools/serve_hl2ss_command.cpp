@@ -1,0 +1,146 @@
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "engine/operation_plan.h"
+#include "engine/sim_scenario.h"
+#include "engine/tool_file.h"
+#include "hal/hl2ss/server/server.h"
+#include "tools/arguments.h"
+#include "tools/case_source.h"
+#include "tools/command.h"
+
+namespace orthonav::tools {
+namespace {
+
+struct ServeArguments {
+  hl2ss::ServerOptions server;
+  std::string case_folder;
+  std::vector<std::string> levels;
+  std::uint64_t seed = 1;
+  bool perfect = false;
+  double pace = 1.0;
+  std::string faults;
+  std::int64_t sessions = 0;
+};
+
+constexpr auto kLookEvery = std::chrono::milliseconds(20);
+
+/// The headset that each session gets: the same simulated operation from its beginning.
+Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) {
+  const auto source = load_checked_case(arguments.case_folder);
+  if (!source) return source.error();
+  engine::ModelCache models;
+  const auto operation = engine::plan_operation(*source, arguments.levels, models);
+  if (!operation) return operation.error();
+  auto room = engine::room_of(*source, *operation, engine::built_in_tools());
+  sim::SimOptions options;
+  options.seed = arguments.seed;
+  if (arguments.perfect) options.magnitudes = sim::Magnitudes::perfect();
+  options.magnitudes.pace = arguments.pace;
+  options.pace = arguments.server.paced ? sim::Pace::kFast : sim::Pace::kRealtime;
+  return hl2ss::Server::OpenHeadset([room, options]() -> Result<std::unique_ptr<Headset>> {
+    auto opened = sim::SimHeadset::open(room, options);
+    if (!opened) return opened.error();
+    return std::unique_ptr<Headset>(std::move(*opened));
+  });
+}
+
+void say_where(const hl2ss::Server& server, const hl2ss::ServerOptions& options) {
+  const std::string side =
+      options.standin ? "&standin=" + std::to_string(server.standin_port()) : std::string();
+  std::fprintf(stderr,
+               "serving a HoloLens 2 at %s, ports from %d on; in another window:\n"
+               "  orthonav run --headset 'hl2ss://%s?port=%d%s'\n",
+               options.host.c_str(), server.first_port(), options.host.c_str(), server.first_port(),
+               side.c_str());
+}
+
+/// Tells of each session as it begins and ends, until there were enough.
+int watch(const hl2ss::Server& server, std::int64_t sessions) {
+  bool was_streaming = false;
+  std::int64_t pairs_before = 0;
+  std::int64_t faults_before = 0;
+  for (;;) {
+    std::this_thread::sleep_for(kLookEvery);
+    const hl2ss::ServerReport report = server.report();
+    if (report.is_streaming && !was_streaming)
+      std::fprintf(stderr, "session %lld begins\n", static_cast<long long>(report.sessions));
+    if (!report.is_streaming && was_streaming) {
+      std::fprintf(stderr, "session %lld ended: %lld pairs, %lld faults on purpose\n",
+                   static_cast<long long>(report.sessions),
+                   static_cast<long long>(report.pairs - pairs_before),
+                   static_cast<long long>(report.faults - faults_before));
+      pairs_before = report.pairs;
+      faults_before = report.faults;
+    }
+    if (!report.is_streaming && report.sessions == 0 && !report.last_trouble.empty())
+      return bad_input(report.last_trouble);
+    was_streaming = report.is_streaming;
+    if (sessions > 0 && report.sessions >= sessions && !report.is_streaming) {
+      // The last words are still underway.
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      return kDone;
+    }
+  }
+}
+
+int serve(ServeArguments arguments) {
+  const auto faults = hl2ss::faults_of(arguments.faults);
+  if (!faults) return bad_input("--faults: " + faults.error().message);
+  arguments.server.faults = *faults;
+  arguments.server.seed = arguments.seed;
+  const auto sessions = sessions_of(arguments);
+  if (!sessions) return bad_input(sessions.error().message);
+  const auto server = hl2ss::Server::start(arguments.server, *sessions);
+  if (!server) return bad_input(server.error().message);
+  say_where(**server, arguments.server);
+  return watch(**server, arguments.sessions);
+}
+
+}  // namespace
+
+void add_serve_hl2ss_command(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<ServeArguments>();
+  auto* serve_hl2ss = app.add_subcommand(
+      "serve-hl2ss", "A stand-in for a HoloLens 2: a simulated operation over hl2ss's protocol");
+  hl2ss::ServerOptions& server = arguments->server;
+  serve_hl2ss
+      ->add_option("--port", server.first_port,
+                   "first port (a HoloLens 2: 3800; the side channel is 19 higher)")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  serve_hl2ss
+      ->add_option("--host", server.host, "address to listen at; 0.0.0.0: for other machines too")
+      ->check(some_text())
+      ->capture_default_str();
+  serve_hl2ss
+      ->add_option("--case", arguments->case_folder,
+                   "case folder with case.json (default: the built-in phantom)")
+      ->check(some_text());
+  serve_hl2ss
+      ->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
+      ->delimiter(',');
+  serve_hl2ss->add_option("--seed", arguments->seed, "of the simulation and the faults")
+      ->capture_default_str();
+  serve_hl2ss->add_flag("--perfect", arguments->perfect, "a room without noise or error");
+  serve_hl2ss->add_option("--pace", arguments->pace, "of the surgeon, 1: as most people work")
+      ->capture_default_str();
+  serve_hl2ss->add_flag("--paced", server.paced,
+                        "the next pair comes when the client is done with the last one, as fast as "
+                        "it can (default: 30 pairs a second)");
+  serve_hl2ss
+      ->add_option("--faults", arguments->faults,
+                   "probabilities for each pair: gap=P, lose=P, unlocated=P, reorder=P, stall=P, "
+                   "half=P, cut=P, corrupt=P; jump=N: World jumps at pair N; all: 0.01 of each")
+      ->check(some_text());
+  serve_hl2ss
+      ->add_option("--sessions", arguments->sessions, "end after so many sessions (0: no end)")
+      ->check(whole_number(0))
+      ->capture_default_str();
+  serve_hl2ss->callback(
+      [arguments, &action] { action = [arguments] { return serve(*arguments); }; });
+}
+
+}  // namespace orthonav::tools
