@@ -96,6 +96,7 @@ struct Guidance {
   Timestamp pose_time{};     ///< of the pair in which the step's tool was last measured
   Step step = Step::kSetup;
   std::string step_text;  ///< "guide L4 left"
+  std::string heard;      ///< the newest phrase: "heard: save"; empty: none
   std::string detail;     ///< "refused: registration RMSE 3.4 mm, limit 3.0 mm"; empty: nothing
   std::span<const LevelState> levels;
   std::size_t level = 0;  ///< being operated, an index into `levels`

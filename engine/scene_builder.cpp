@@ -203,7 +203,8 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
     dots_.push_back({tool.name, state});
   }
   text_ = guidance.step_text;
-  if (!guidance.detail.empty()) text_.append(" | ").append(guidance.detail);
+  for (const std::string* part : {&guidance.detail, &guidance.heard})
+    if (!part->empty()) text_.append(" | ").append(*part);
   add_status_line(scene, text_, dots_, label_of(11, 1));
 }
 

@@ -76,6 +76,7 @@ std::vector<std::string> SessionOptions::check() const {
     problems.push_back("max_touch_spread_m must lie in (0, 0.01]");
   for (const std::string& problem : check_points.check()) problems.push_back(problem);
   if (message_for <= Duration::zero()) problems.push_back("message_for must be positive");
+  if (heard_for < Duration::zero()) problems.push_back("heard_for must not be negative");
   return problems;
 }
 
@@ -134,6 +135,7 @@ const Guidance& Session::expire(Timestamp display_time) {
   guidance_.tool.reset();
   for (ToolSight& sight : sights_) sight.origin = Origin::kLost;
   write_step_text();
+  guidance_.heard.clear();
   guidance_.detail = "no camera images";
   return guidance_;
 }
@@ -165,6 +167,7 @@ void Session::click(const ClickerEvent& event) { handle(event_of(event.action), 
 void Session::hear(const Phrase& phrase) {
   const auto event = command(phrase.text);
   const bool sure = phrase.confidence >= options_.min_voice_confidence;
+  if (event) echo(phrase, sure);
   if (!event || !sure) {
     if (!sure) say("not understood", phrase.time);
     if (observer_) observer_->not_understood(phrase);

@@ -34,6 +34,8 @@ struct SessionOptions {
   nav::CheckPointRules check_points;
   /// A message to the surgeon goes by itself after so long.
   Duration message_for = std::chrono::seconds(3);
+  /// What was heard stays on the status line for so long.
+  Duration heard_for = std::chrono::seconds(2);
   /// A deleted path fades for so long.
   Duration fade = std::chrono::milliseconds(300);
 
@@ -89,6 +91,7 @@ class Session {
   // session.cpp: the order of one step.
   void answer_inputs(const Inputs& inputs);
   void hear(const Phrase& phrase);
+  void echo(const Phrase& phrase, bool sure);
   [[nodiscard]] bool precedes_the_hologram(Event event, Timestamp spoken) const;
   void click(const ClickerEvent& event);
   void handle(Event event, Timestamp time);
@@ -184,6 +187,8 @@ class Session {
   /// What the surgeon must be told, until he does something that is taken, or for a while.
   std::string message_;
   Timestamp message_until_{};
+  std::string heard_;  ///< the newest phrase, for a while
+  Timestamp heard_until_{};
   std::optional<ToolGuidance> last_guidance_;  ///< newest of the selected screw
   Guidance guidance_;
   std::unique_ptr<Coach> coach_;  ///< null: nobody is coached

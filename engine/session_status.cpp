@@ -21,6 +21,12 @@ void Session::say(std::string message, Timestamp time) {
   message_until_ = time + options_.message_for;
 }
 
+/// A surgeon who was misheard must see it at once, and one who was heard need not ask.
+void Session::echo(const Phrase& phrase, bool sure) {
+  heard_ = "heard: " + phrase.text + (sure ? "" : "? not sure");
+  heard_until_ = phrase.time + options_.heard_for;
+}
+
 void Session::write_step_text() {
   std::array<char, 160> text{};
   const std::string& label = level().plan.label;
@@ -51,6 +57,8 @@ void Session::write_step_text() {
 /// The loss of the tool comes first: no message may cover it.
 void Session::write_detail() {
   if (guidance_.frame_time >= message_until_) message_.clear();
+  if (guidance_.frame_time >= heard_until_) heard_.clear();
+  guidance_.heard = heard_;
   guidance_.detail.clear();
   const auto tool = active_tool();
   const bool lost = tool && seen_ != Seen::kMeasured && seen_ != Seen::kNever;

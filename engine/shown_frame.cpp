@@ -158,9 +158,11 @@ void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRule
 void ShownFrameWriter::write_status(const Guidance& guidance, ShownFrame& frame) {
   ShownHologram& status = add(frame, "H11 status");
   status.text = guidance.step_text;
-  if (guidance.detail.empty()) return;
-  status.text += " | ";
-  status.text += guidance.detail;
+  if (!guidance.detail.empty()) {
+    status.text += " | ";
+    status.text += guidance.detail;
+  }
+  if (!guidance.heard.empty()) add(frame, "H11 heard").text = guidance.heard;
 }
 
 }  // namespace orthonav::engine

@@ -9,6 +9,7 @@
 
 #include "engine/phantom.h"
 #include "engine/video_writer.h"
+#include "hal/desktop/phrase_recognizer.h"
 #include "hal/openxr/openxr_headset.h"
 #include "render/renderer.h"
 
@@ -100,8 +101,18 @@ Offer microphone(const fs::path& root) {
   for (std::string line; std::getline(list, line);)
     if (line.find("capture") != std::string::npos)
       return {"Microphone", Finding::kFound, line.substr(0, line.find("capture")) + "capture", ""};
-  return {"Microphone", Finding::kOptional, "none; voice commands need one on a real headset",
+  return {"Microphone", Finding::kOptional, "none; --voice mic: needs one, --voice wav:FILE none",
           "plug one in; the kernel lists it in /proc/asound/pcm"};
+}
+
+/// What `--voice mic:` and `wav:` recognise words with.
+Offer voice_model(const fs::path& root) {
+  const fs::path model = root / desktop::default_acoustic_model().relative_path();
+  if (!first_existing({model / "mdef"}).empty())
+    return {"Voice model", Finding::kFound, model.string(), ""};
+  return {"Voice model", Finding::kOptional,
+          model.string() + " is not there; voice commands need it",
+          "apt install pocketsphinx-en-us"};
 }
 
 /// A clicker is a keyboard to the kernel: names and event devices of everything with keys.
@@ -134,13 +145,14 @@ std::vector<Offer> offers_of_machine(const std::string& root) {
   offers.push_back(video_encoder());
   offers.push_back(phantom_case());
   offers.push_back({"Headset", Finding::kFound,
-                    "sim: (simulated), replay:PATH (recorded), openxr:+URI (shown)", ""});
+                    "sim: (simulated), replay:PATH (recorded), hl2ss://HOST, openxr:+URI", ""});
   offers.push_back(openxr_runtime(root));
   offers.push_back(microphone(root));
+  offers.push_back(voice_model(root));
   std::vector<Offer> clickers = keyboards(root);
   if (clickers.empty())
     clickers.push_back({"Clicker or keyboard", Finding::kOptional,
-                        "none; a real headset needs one (the simulated surgeon has his own)",
+                        "none; --clicker evdev: needs one (the simulated surgeon has his own)",
                         "pair a Bluetooth clicker or plug in a keyboard"});
   std::move(clickers.begin(), clickers.end(), std::back_inserter(offers));
   return offers;

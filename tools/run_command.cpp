@@ -153,6 +153,9 @@ class LiveRun {
     auto headset = open_headset(arguments_.headset, open_options);
     if (!headset) return headset.error();
     headset_ = std::move(*headset);
+    if (arguments_.headset.ends_with("?pace=step"))
+      return Error{"headset URI \"" + arguments_.headset +
+                   "\": nobody steps here; known paces are fast and realtime"};
     if (const Status joined = join_parts(); !joined) return joined;
     return start(std::move(*operation));
   }

@@ -25,8 +25,9 @@ double confidence_of(double evidence, double least) {
 std::vector<std::string> SpotterOptions::check() const {
   std::vector<std::string> problems;
   if (commands.empty()) problems.push_back("voice: no command to listen for");
-  if (!std::isfinite(least_evidence) || !std::isfinite(least_evidence_of_delete))
-    problems.push_back("voice: least_evidence must be finite");
+  bool finite = std::isfinite(least_evidence_of_others);
+  for (const auto& [command, least] : least_evidence) finite = finite && std::isfinite(least);
+  if (!finite) problems.push_back("voice: least_evidence must be finite");
   if (segments.margin_ms < 400) problems.push_back("voice: margin_ms must be at least 400");
   if (segments.max_ms < 500 || segments.max_ms > 10000)
     problems.push_back("voice: max_ms must lie in [500, 10000]");
@@ -69,8 +70,9 @@ void CommandSpotter::judge(const SpeechSegment& segment, std::vector<SpokenComma
   SpokenCommand spoken{recognition->text, 0.0, segment.begin, segment.end};
   const bool woken = spoken.text.starts_with(options_.wake_word + " ");
   if (woken) spoken.text.erase(0, options_.wake_word.size() + 1);
+  const auto own = options_.least_evidence.find(spoken.text);
   const double least =
-      spoken.text == "delete" ? options_.least_evidence_of_delete : options_.least_evidence;
+      own == options_.least_evidence.end() ? options_.least_evidence_of_others : own->second;
   spoken.confidence = confidence_of(recognition->evidence, least);
   const bool quiet = segment.above_background_db >= options_.quiet_above_db;
   // It was heard, and is not acted upon: the status line says so.

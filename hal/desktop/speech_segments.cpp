@@ -14,10 +14,10 @@ constexpr std::size_t kFrameSamples = kSpeechRateHz / 1000 * kFrameMs;
 constexpr double kSilenceDb = -80.0;
 // Over 50 ms: the pitch and the babble of a room are evened out, a syllable is not.
 constexpr double kSmoothing = 0.3;
-// The background is the mean level while nobody speaks, over a third of a second. While somebody
-// does it may only creep up, so that what hums on for ever ends up as background.
+// The background is the mean level while nobody speaks, over a third of a second; and never less
+// than the least level of the last second and a half.
 constexpr double kFollow = 0.03;
-constexpr double kCreepDb = 0.02;
+constexpr int kFramesOfLeast = 75;
 
 std::size_t samples_of(int ms) { return static_cast<std::size_t>(kSpeechRateHz / 1000 * ms); }
 
@@ -67,13 +67,17 @@ void SpeechSegmenter::push(std::span<const std::int16_t> samples,
   }
 }
 
-void SpeechSegmenter::follow_background(double level_db) {
+void SpeechSegmenter::follow_background(double level_db, bool loud) {
   if (!background_db_)
     background_db_ = level_db;
-  else if (!speaking_ || level_db < *background_db_)
+  else if (!(loud || speaking_) || level_db < *background_db_)
     *background_db_ += kFollow * (std::min(level_db, *background_db_ + 6.0) - *background_db_);
-  else
-    *background_db_ += kCreepDb;
+  // Whoever speaks pauses; what does not is a fan that was switched on.
+  least_db_ = std::min(least_db_, level_db);
+  if (++frames_of_least_ < kFramesOfLeast) return;
+  const double before_db = std::exchange(previous_least_db_, std::exchange(least_db_, 0.0));
+  background_db_ = std::max(*background_db_, std::min(before_db, previous_least_db_));
+  frames_of_least_ = 0;
 }
 
 void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
@@ -84,7 +88,7 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
   frame_energy_ = 0.0;
   const double above_db = background_db_ ? level_db - *background_db_ : 0.0;
   const bool loud = above_db > options_.above_background_db;
-  if (!loud || speaking_) follow_background(level_db);
+  follow_background(level_db, loud);
   if (!speaking_) {
     loud_frames_ = loud ? loud_frames_ + 1 : 0;
     if (loud_frames_ * kFrameMs >= options_.begin_ms) {
@@ -92,6 +96,8 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
       too_long_ = false;
       quiet_frames_ = 0;
       begin_ = taken_ - loud_frames_ * static_cast<std::int64_t>(kFrameSamples);
+      isolated_ =
+          begin_ - last_loud_ >= static_cast<std::int64_t>(samples_of(options_.quiet_before_ms));
       last_loud_ = taken_;
       loudest_db_ = above_db;
     }
@@ -103,7 +109,7 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
   quiet_frames_ = loud ? 0 : quiet_frames_ + 1;
   if (taken_ - begin_ > static_cast<std::int64_t>(samples_of(options_.max_ms))) too_long_ = true;
   if (quiet_frames_ * kFrameMs >= options_.end_ms) {
-    if (!too_long_) segments.push_back({kept_, begin_, last_loud_, loudest_db_});
+    if (!too_long_ && isolated_) segments.push_back({kept_, begin_, last_loud_, loudest_db_});
     speaking_ = false;
     loud_frames_ = 0;
   }

@@ -14,9 +14,10 @@ inline constexpr int kSpeechRateHz = 16000;
 struct SegmentOptions {
   double above_background_db = 8.0;  ///< louder than the background by so much
   int begin_ms = 50;                 ///< loud for so long begins a segment
-  int end_ms = 200;                  ///< quiet for so long ends it
+  int end_ms = 260;                  ///< quiet for so long ends it
+  int quiet_before_ms = 500;         ///< a command follows such a pause; a sentence's word does not
   int margin_ms = 400;               ///< kept before what was loud
-  int max_ms = 2000;                 ///< speech that goes on for longer is no command
+  int max_ms = 1600;                 ///< speech that goes on for longer is no command
 };
 
 /// A stretch of sound between two silences.
@@ -59,16 +60,20 @@ class SpeechSegmenter {
   Biquad high_pass_;
   double smooth_energy_ = 0.0;
   std::optional<double> background_db_;
+  double least_db_ = 0.0;             ///< since the last three quarters of a second began
+  double previous_least_db_ = -80.0;  ///< in those before
+  int frames_of_least_ = 0;
   int loud_frames_ = 0;   ///< in a row, before a segment
   int quiet_frames_ = 0;  ///< in a row, within one
   bool speaking_ = false;
   double loudest_db_ = 0.0;  ///< of the segment, above its background
   bool too_long_ = false;
+  bool isolated_ = false;
   std::int64_t begin_ = 0;
   std::int64_t last_loud_ = 0;
 
   void end_frame(std::vector<SpeechSegment>& segments);
-  void follow_background(double level_db);
+  void follow_background(double level_db, bool loud);
   void forget();
 };
 

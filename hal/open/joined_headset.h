@@ -30,6 +30,8 @@ class JoinedHeadset : public Headset {
   }
   [[nodiscard]] Voice& voice() override { return parts_.voice ? *parts_.voice : headset_.voice(); }
   [[nodiscard]] Display& display() override { return headset_.display(); }
+  [[nodiscard]] PixelDisplay* pixels() override { return headset_.pixels(); }
+  [[nodiscard]] Headset& owner_of_cameras() override { return headset_.owner_of_cameras(); }
 
  private:
   Headset& headset_;

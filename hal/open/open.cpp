@@ -70,6 +70,25 @@ Result<sim::SimOptions> sim_options(const std::string& uri, std::string_view res
   return options;
 }
 
+/// Folder and pace of "PATH?pace=...".
+Result<std::pair<std::string, replay::ReplayOptions>> replay_options(const std::string& uri,
+                                                                     const std::string& rest) {
+  // A folder's name may hold a question mark.
+  const std::size_t question = rest.rfind("?pace");
+  const std::string folder = rest.substr(0, question);
+  if (folder.empty()) return bad_uri(uri, "names no folder after replay:");
+  replay::ReplayOptions options;
+  if (question == std::string::npos) return std::pair(folder, options);
+  const std::string pace = rest.substr(question);
+  if (pace == "?pace=realtime")
+    options.pace = replay::ReplayPace::kRealtime;
+  else if (pace == "?pace=step")
+    options.pace = replay::ReplayPace::kStepped;
+  else if (pace != "?pace=fast")
+    return bad_uri(uri, "pace is unknown; known are fast, realtime and step");
+  return std::pair(folder, options);
+}
+
 template <class T>
 Result<std::unique_ptr<Headset>> as_headset(Result<std::unique_ptr<T>> opened) {
   if (!opened) return opened.error();
@@ -92,8 +111,9 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const Open
     return as_headset(sim::SimHeadset::open(std::move(room), *chosen));
   }
   if (scheme == "replay") {
-    if (rest.empty()) return bad_uri(uri, "names no folder after replay:");
-    return as_headset(replay::ReplayHeadset::open(rest));
+    const auto chosen = replay_options(uri, rest);
+    if (!chosen) return chosen.error();
+    return as_headset(replay::ReplayHeadset::open(chosen->first, chosen->second));
   }
   if (scheme == "hl2ss") {
     auto chosen = hl2ss::options_of(rest);

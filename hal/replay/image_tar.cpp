@@ -75,13 +75,14 @@ class PgmHeader {
 
 }  // namespace
 
-Result<ImageTar> ImageTar::open(const std::filesystem::path& path) {
+Result<ImageTar> ImageTar::open(const std::filesystem::path& path, ImageLayout layout) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
   if (!std::filesystem::exists(status)) return file_error(path, "no such file");
   if (!std::filesystem::is_regular_file(status)) return file_error(path, "is not a file");
   ImageTar tar;
   tar.path_ = path;
+  tar.layout_ = std::move(layout);
   tar.file_.reset(std::fopen(path.c_str(), "rb"));
   if (!tar.file_) return file_error(path, "cannot be opened");
   if (Status indexed = tar.index(); !indexed) return indexed.error();
@@ -123,17 +124,26 @@ Status ImageTar::index() {
   return {};
 }
 
+/// Of "<prefix><digits>.pgm".
+std::optional<std::int64_t> ImageTar::ticks_in(std::string_view name) const {
+  constexpr std::string_view kEnding = ".pgm";
+  if (!name.starts_with(layout_.prefix) || !name.ends_with(kEnding) ||
+      name.size() <= layout_.prefix.size() + kEnding.size())
+    return std::nullopt;
+  name.remove_prefix(layout_.prefix.size());
+  name.remove_suffix(kEnding.size());
+  const bool digits =
+      std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  return digits ? parse_integer(name) : std::nullopt;
+}
+
 Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t offset,
                               std::uint64_t size, std::uint64_t file_size) {
   const std::string name(name_text);
   const std::string member = "member \"" + printable(name) + "\"";
-  const std::size_t dot = name.rfind(".pgm");
-  const bool named = dot != std::string::npos && dot + 4 == name.size() && dot > 0 &&
-                     std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(dot),
-                                 [](unsigned char c) { return std::isdigit(c) != 0; });
-  const auto ticks =
-      named ? parse_integer(std::string_view(name).substr(0, dot)) : std::optional<std::int64_t>{};
-  if (!plain || !ticks) return file_error(path_, member + " is no image named <ticks>.pgm");
+  const auto ticks = ticks_in(name);
+  if (!plain || !ticks)
+    return file_error(path_, member + " is no image named " + layout_.prefix + "<ticks>.pgm");
   if (offset > file_size || size > file_size - offset)
     return file_error(path_, member + " is cut off: the archive is truncated at " +
                                  std::to_string(file_size) + " bytes");

@@ -5,6 +5,7 @@
 
 #include "hal/replay/calibration_files.h"
 #include "hal/replay/frame_files.h"
+#include "hal/replay/hololens1_files.h"
 #include "hal/replay/layout.h"
 #include "hal/replay/pairing.h"
 #include "hal/replay/text.h"
@@ -12,6 +13,14 @@
 namespace orthonav::replay {
 
 namespace {
+
+/// What a recorder calls its two front cameras.
+struct Sensors {
+  const char* left;
+  const char* right;
+};
+constexpr Sensors kStreamRecorder{kLeftSensor, kRightSensor};
+constexpr Sensors kHololens1{kHololens1Left, kHololens1Right};
 
 bool is_there(const std::filesystem::path& path) {
   std::error_code code;
@@ -22,9 +31,9 @@ Status check_folder(const std::filesystem::path& folder) {
   std::error_code code;
   if (!is_there(folder)) return file_error(folder, "no such recording");
   if (!std::filesystem::is_directory(folder, code))
-    return file_error(folder, "is no folder; a recording is a folder with \"VLC LF.tar\" in it");
-  if (is_there(folder / "vlc_lf.tar"))
-    return file_error(folder, "is a HoloLens 1 recording, which is not supported yet");
+    return file_error(
+        folder,
+        "is no folder; a recording is a folder with \"VLC LF.tar\" or \"vlc_lf.tar\" in it");
   return {};
 }
 
@@ -39,10 +48,11 @@ Result<Timestamp> time_of(const std::filesystem::path& path, std::int64_t ticks,
 }
 
 /// The pairs of a StreamRecorder folder: found by time, numbered in order.
-Status add_paired(const std::filesystem::path& folder, Recording& recording) {
+Status add_paired(const std::filesystem::path& folder, const Sensors& sensors,
+                  Recording& recording) {
   const auto& left = recording.left.members();
   const auto& right = recording.right.members();
-  const auto path = tar_of(folder, kLeftSensor);
+  const auto path = tar_of(folder, sensors.left);
   // The lists are sorted: their ends tell whether every difference fits.
   for (const std::int64_t ticks :
        {left.front().ticks, left.back().ticks, right.front().ticks, right.back().ticks})
@@ -54,8 +64,9 @@ Status add_paired(const std::filesystem::path& folder, Recording& recording) {
     recording.pairs.push_back({sequence, time, time, l, r, std::nullopt});
   }
   if (recording.pairs.empty())
-    return file_error(folder, "holds no stereo pair: no two images of " + std::string(kLeftSensor) +
-                                  " and " + kRightSensor + " lie within 1 ms");
+    return file_error(folder, "holds no stereo pair: no two images of " +
+                                  std::string(sensors.left) + " and " + sensors.right +
+                                  " lie within 1 ms");
   return {};
 }
 
@@ -86,26 +97,22 @@ Status add_listed(const std::filesystem::path& folder, Recording& recording) {
   return {};
 }
 
-Status add_poses(const std::filesystem::path& folder, Recording& recording) {
-  const auto path = poses_of(folder, kLeftSensor);
-  const auto poses = read_poses(path);
-  if (!poses) return poses.error();
-  // The right camera's file says the same again; it is read for its damage only.
-  if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) return same.error();
+Status add_poses(const std::filesystem::path& path, const PosesByTicks& poses,
+                 Recording& recording) {
   std::map<std::int64_t, Timestamp> exact_times;
   std::map<std::int64_t, std::int64_t> map_epochs;
   for (RecordedPair& pair : recording.pairs) {
     exact_times.emplace(pair.left.ticks, pair.time);
     map_epochs.emplace(pair.left.ticks, pair.map_epoch);
-    const auto found = poses->find(pair.left.ticks);
-    if (found != poses->end())
+    const auto found = poses.find(pair.left.ticks);
+    if (found != poses.end())
       pair.world_from_rig = found->second;
     else
       ++recording.summary.pairs_without_pose;
   }
   std::vector<HeadSample> samples;
-  samples.reserve(poses->size());
-  for (const auto& [ticks, pose] : *poses) {
+  samples.reserve(poses.size());
+  for (const auto& [ticks, pose] : poses) {
     const auto exact = exact_times.find(ticks);
     const auto time = exact != exact_times.end()
                           ? Result<Timestamp>(exact->second)
@@ -150,6 +157,12 @@ Status add_own_files(const std::filesystem::path& folder, Recording& recording) 
   return {};
 }
 
+/// A recording that does not say it began one nominal frame before its first pair.
+Timestamp nominal_start(const Recording& recording) {
+  constexpr Duration kNominalFrame = std::chrono::nanoseconds(33'333'333);
+  return recording.pairs.front().clock - kNominalFrame;
+}
+
 Status add_device(const std::filesystem::path& folder, Recording& recording) {
   RecordedDevice device;
   if (is_there(folder / kDeviceFile)) {
@@ -161,14 +174,68 @@ Status add_device(const std::filesystem::path& folder, Recording& recording) {
   recording.epoch_ticks_100ns = device.epoch_ticks_100ns.value_or(epoch_of(first_ticks));
   recording.display_latency = device.display_latency;
   const bool listed = is_there(folder / kFramesFile);
-  if (Status s = listed ? add_listed(folder, recording) : add_paired(folder, recording); !s)
+  if (Status s =
+          listed ? add_listed(folder, recording) : add_paired(folder, kStreamRecorder, recording);
+      !s)
     return s;
-  // A recording that does not say it began one nominal frame before its first pair.
-  constexpr Duration kNominalFrame = std::chrono::nanoseconds(33'333'333);
-  const Timestamp first = recording.pairs.front().clock;
-  recording.clock_start = device.clock_start.value_or(first - kNominalFrame);
-  if (recording.clock_start > first)
+  recording.clock_start = device.clock_start.value_or(nominal_start(recording));
+  if (recording.clock_start > recording.pairs.front().clock)
     return file_error(folder / kDeviceFile, "clock_start_ns lies after the first pair's clock_ns");
+  return {};
+}
+
+Status open_archives(const std::filesystem::path& folder, const Sensors& sensors,
+                     Recording& recording) {
+  // HoloLens 1 puts its images into folders, with the backslash of its system.
+  const auto layout = [&](const char* sensor) {
+    return ImageLayout{sensors.left == kHololens1Left ? std::string(sensor) + "\\" : ""};
+  };
+  auto left = ImageTar::open(tar_of(folder, sensors.left), layout(sensors.left));
+  if (!left) return left.error();
+  auto right = ImageTar::open(tar_of(folder, sensors.right), layout(sensors.right));
+  if (!right) return right.error();
+  recording.left = std::move(*left);
+  recording.right = std::move(*right);
+  return {};
+}
+
+/// StreamRecorder's and our own.
+Status read_hololens2(const std::filesystem::path& folder, Recording& recording) {
+  if (Status s = open_archives(folder, kStreamRecorder, recording); !s) return s;
+  if (Status s = add_device(folder, recording); !s) return s;
+  if (Status s = add_map_moves(folder, recording); !s) return s;
+  const auto path = poses_of(folder, kLeftSensor);
+  const auto poses = read_poses(path);
+  if (!poses) return poses.error();
+  // The right camera's file says the same again; it is read for its damage only.
+  if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) return same.error();
+  if (Status s = add_poses(path, *poses, recording); !s) return s;
+  if (Status s = add_own_files(folder, recording); !s) return s;
+  auto calibration = read_calibration(folder);
+  if (!calibration) return calibration.error();
+  recording.calibration = std::move(*calibration);
+  return {};
+}
+
+Status read_hololens1(const std::filesystem::path& folder, Recording& recording) {
+  if (Status s = open_archives(folder, kHololens1, recording); !s) return s;
+  recording.epoch_ticks_100ns = epoch_of(recording.left.members().front().ticks);
+  if (Status s = add_paired(folder, kHololens1, recording); !s) return s;
+  recording.clock_start = nominal_start(recording);
+  const auto left = read_hololens1_left(folder);
+  if (!left) return left.error();
+  const auto right = read_hololens1_right(folder);
+  if (!right) return right.error();
+  if (Status s = add_poses(folder / (std::string(kHololens1Left) + ".csv"), left->world_from_rig,
+                           recording);
+      !s)
+    return s;
+  auto left_camera = read_hololens1_camera(folder, kHololens1Left);
+  if (!left_camera) return left_camera.error();
+  auto right_camera = read_hololens1_camera(folder, kHololens1Right);
+  if (!right_camera) return right_camera.error();
+  recording.calibration = {std::move(*left_camera), std::move(*right_camera), left->camera_from_rig,
+                           right->camera_from_rig};
   return {};
 }
 
@@ -176,20 +243,11 @@ Status add_device(const std::filesystem::path& folder, Recording& recording) {
 
 Result<Recording> read_recording(const std::filesystem::path& folder) {
   if (Status s = check_folder(folder); !s) return s.error();
-  auto left = ImageTar::open(tar_of(folder, kLeftSensor));
-  if (!left) return left.error();
-  auto right = ImageTar::open(tar_of(folder, kRightSensor));
-  if (!right) return right.error();
   Recording recording;
-  recording.left = std::move(*left);
-  recording.right = std::move(*right);
-  if (Status s = add_device(folder, recording); !s) return s.error();
-  if (Status s = add_map_moves(folder, recording); !s) return s.error();
-  if (Status s = add_poses(folder, recording); !s) return s.error();
-  if (Status s = add_own_files(folder, recording); !s) return s.error();
-  auto calibration = read_calibration(folder);
-  if (!calibration) return calibration.error();
-  recording.calibration = std::move(*calibration);
+  const bool hololens1 = is_there(tar_of(folder, kHololens1Left));
+  if (Status s = hololens1 ? read_hololens1(folder, recording) : read_hololens2(folder, recording);
+      !s)
+    return s.error();
   RecordingSummary& summary = recording.summary;
   summary.pairs = static_cast<std::int64_t>(recording.pairs.size());
   summary.left_unpaired =

@@ -1,6 +1,7 @@
 #include "hal/replay/replay_headset.h"
 
 #include <atomic>
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -17,23 +18,46 @@ struct Progress {
   std::atomic<std::int64_t> sequence{-1};
 };
 
+class SteadyClock : public Clock {
+ public:
+  [[nodiscard]] Timestamp now() const override {
+    return Timestamp(std::chrono::steady_clock::now().time_since_epoch());
+  }
+};
+
 class ReplayClock : public Clock {
  public:
-  explicit ReplayClock(const Progress& progress) : progress_(progress) {}
-  [[nodiscard]] Timestamp now() const override { return progress_.clock.load(); }
+  ReplayClock(const Progress& progress, const ReplayOptions& options, Timestamp start)
+      : progress_(progress),
+        wall_(options.wall ? *options.wall : steady_),
+        realtime_(options.pace == ReplayPace::kRealtime),
+        start_(start),
+        opened_(wall_.now()) {}
+  [[nodiscard]] Timestamp now() const override {
+    return realtime_ ? start_ + (wall_.now() - opened_) : progress_.clock.load();
+  }
 
  private:
   const Progress& progress_;
+  SteadyClock steady_;
+  const Clock& wall_;
+  bool realtime_;
+  Timestamp start_;
+  Timestamp opened_;
 };
 
 class ReplayCamera : public StereoCamera {
  public:
-  ReplayCamera(Recording& recording, Progress& progress)
-      : recording_(recording), progress_(progress) {}
+  ReplayCamera(Recording& recording, Progress& progress, const Clock& clock, ReplayPace pace)
+      : recording_(recording), progress_(progress), clock_(clock), pace_(pace) {}
+  void step() { ++steps_; }
 
  private:
   Recording& recording_;
   Progress& progress_;
+  const Clock& clock_;
+  ReplayPace pace_;
+  std::atomic<std::int64_t> steps_{0};  ///< asked for and not taken yet
   std::size_t next_ = 0;
 
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
@@ -41,6 +65,7 @@ class ReplayCamera : public StereoCamera {
   }
   Result<Next> do_next(StereoFrame& frame) override {
     if (next_ == recording_.pairs.size()) return Next::kEnd;
+    if (!due()) return Next::kNone;
     const RecordedPair& pair = recording_.pairs[next_++];
     if (Status s = recording_.left.read(pair.left, frame.left); !s) return s.error();
     if (Status s = recording_.right.read(pair.right, frame.right); !s) return s.error();
@@ -52,6 +77,20 @@ class ReplayCamera : public StereoCamera {
     progress_.frame_time = pair.time;
     progress_.sequence = pair.sequence;
     return Next::kFrame;
+  }
+  /// Whether the next pair may come; in real time the newest that is due becomes the next.
+  bool due() {
+    if (pace_ == ReplayPace::kFast) return true;
+    if (pace_ == ReplayPace::kStepped) {
+      if (steps_ == 0) return false;
+      --steps_;
+      return true;
+    }
+    const std::vector<RecordedPair>& pairs = recording_.pairs;
+    const Timestamp now = clock_.now();
+    if (pairs[next_].clock > now) return false;
+    while (next_ + 1 < pairs.size() && pairs[next_ + 1].clock <= now) ++next_;
+    return true;
   }
 };
 
@@ -124,8 +163,11 @@ class ReplayDisplay : public Display {
 
 class Replay : public ReplayHeadset {
  public:
-  Replay(std::string name, Recording recording)
-      : name_(std::move(name)), recording_(std::move(recording)) {
+  Replay(std::string name, Recording recording, const ReplayOptions& options)
+      : name_(std::move(name)),
+        recording_(std::move(recording)),
+        clock_(progress_, options, recording_.clock_start),
+        cameras_(recording_, progress_, clock_, options.pace) {
     progress_.clock = recording_.clock_start;
   }
   [[nodiscard]] std::string name() const override { return name_; }
@@ -138,6 +180,7 @@ class Replay : public ReplayHeadset {
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
+  void step() override { cameras_.step(); }
   [[nodiscard]] const RecordingSummary& summary() const override { return recording_.summary; }
   [[nodiscard]] const std::string& tools_json() const override { return recording_.tools_json; }
 
@@ -145,8 +188,8 @@ class Replay : public ReplayHeadset {
   std::string name_;
   Recording recording_;
   Progress progress_;
-  ReplayClock clock_{progress_};
-  ReplayCamera cameras_{recording_, progress_};
+  ReplayClock clock_;
+  ReplayCamera cameras_;
   ReplayHead head_{recording_, progress_};
   ReplayClicker clicker_{recording_};
   ReplayVoice voice_{recording_};
@@ -155,11 +198,12 @@ class Replay : public ReplayHeadset {
 
 }  // namespace
 
-Result<std::unique_ptr<ReplayHeadset>> ReplayHeadset::open(const std::filesystem::path& folder) {
+Result<std::unique_ptr<ReplayHeadset>> ReplayHeadset::open(const std::filesystem::path& folder,
+                                                           const ReplayOptions& options) {
   auto recording = read_recording(folder);
   if (!recording) return recording.error();
   return std::unique_ptr<ReplayHeadset>(
-      std::make_unique<Replay>("replay:" + folder.string(), std::move(*recording)));
+      std::make_unique<Replay>("replay:" + folder.string(), std::move(*recording), options));
 }
 
 }  // namespace orthonav::replay

@@ -21,10 +21,23 @@ struct RecordingSummary {
 /// Two images belong together when their sensor times agree within this.
 inline constexpr Duration kPairWithin = std::chrono::milliseconds(1);
 
-/// A recorded session as a headset. Reads the folders of HoloLens 2's StreamRecorder and those of
-/// our own recorder, which holds more (docs/recordings.md) and comes back to the bit.
+/// How fast a recording goes by.
+enum class ReplayPace {
+  kFast,      ///< a pair at each call of cameras().next(); the clock is the time of the last one
+  kRealtime,  ///< the clock goes on as the wall's; who asks late misses pairs, as with a camera
+  kStepped    ///< a pair after each `step()`, else the clock stands still
+};
+
+struct ReplayOptions {
+  ReplayPace pace = ReplayPace::kFast;
+  const Clock* wall = nullptr;  ///< of kRealtime, borrowed; null: the machine's steady clock
+};
+
+/// A recorded session as a headset. Reads the folders of HoloLens 2's StreamRecorder, of HoloLens
+/// 1's HoloLensForCV, and those of our own recorder, which holds more (docs/recordings.md) and
+/// comes back to the bit; which of them it is, its files tell.
 ///
-/// Frames come as fast as they are asked for; the clock is the time of the last one. The time of a
+/// The time of a
 /// pair is its left image's. The head is known up to the last frame, predicted beyond it, lost
 /// where two recorded poses lie more than HeadTracker::kMaxHeadPrediction apart. The display shows
 /// nothing; its latency is the recorded one.
@@ -32,7 +45,10 @@ class ReplayHeadset : public Headset {
  public:
   /// Refuses, in one line that names file, field, value and limit, whatever is missing, truncated,
   /// not finite, mirrored or of the wrong size; images themselves are read when they are due.
-  static Result<std::unique_ptr<ReplayHeadset>> open(const std::filesystem::path& folder);
+  static Result<std::unique_ptr<ReplayHeadset>> open(const std::filesystem::path& folder,
+                                                     const ReplayOptions& options = {});
+  /// Lets one more pair through, where the pace is kStepped. Thread-safe.
+  virtual void step() = 0;
   [[nodiscard]] virtual const RecordingSummary& summary() const = 0;
   /// Text of the recording's tools.json; empty when it has none.
   [[nodiscard]] virtual const std::string& tools_json() const = 0;

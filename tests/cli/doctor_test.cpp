@@ -72,8 +72,12 @@ TEST(Doctor, FindsMicrophoneClickerAndRuntimeWhereTheKernelListsThem) {
                           "I: Bus=0003\nN: Name=\"A mouse\"\nH: Handlers=mouse0 event3\n");
   std::ignore = root.with("dev/input/event7", "");
   std::ignore = root.with("etc/xdg/openxr/1/active_runtime.json", "{}");
+  const std::string model = "usr/share/pocketsphinx/model/en-us/en-us";
+  std::filesystem::create_directories(root.file(model));
+  std::ignore = root.with(model + "/mdef", "");
   const Called called = orthonav({"doctor", "--json", "--root", root.file("")});
   EXPECT_EQ(offer(called, "Microphone")["finding"], "found");
+  EXPECT_EQ(offer(called, "Voice model")["finding"], "found");
   EXPECT_EQ(offer(called, "Clicker or keyboard")["finding"], "found");
   EXPECT_THAT(offer(called, "Clicker or keyboard")["what"].get<std::string>(),
               HasSubstr("Clicker 2"));
@@ -85,7 +89,8 @@ TEST(Doctor, SaysHowToGetWhatIsAbsent) {
   const ScratchFolder root;
   const Called called = orthonav({"doctor", "--json", "--root", root.file("")});
   for (const char* name :
-       {"Vulkan validation layer", "Microphone", "Clicker or keyboard", "OpenXR runtime"}) {
+       {"Vulkan validation layer", "Microphone", "Voice model", "Clicker or keyboard",
+        "OpenXR runtime"}) {
     EXPECT_EQ(offer(called, name)["finding"], "absent") << name;
     const nlohmann::json how = offer(called, name).value("how_to_get_it", nlohmann::json());
     EXPECT_TRUE(how.is_string() && !how.get<std::string>().empty()) << name << ": " << how;

@@ -10,6 +10,8 @@
 
 #include "hal/api/transform.h"
 #include "tests/cli/command_line.h"
+#include "tests/nav/tag_scene.h"
+#include "tests/support/hololens1_folder.h"
 
 namespace orthonav::test {
 namespace {
@@ -93,6 +95,42 @@ TEST_F(TrackBadInput, IsRefusedOnOtherwiseGoodRecordings) {
   const Called called = track({});
   ASSERT_EQ(called.code, 0) << called.err;
   EXPECT_THAT(called.out, HasSubstr("3 stereo pairs"));
+}
+
+/// A HoloLens 1's recording of a tag whose poses are known: every convention of that format stands
+/// between the file and this answer.
+TEST(TrackHololens1, FindsATagWhereItWas) {
+  const StereoCalibration calibration = test_calibration();
+  PlacedTag tag;
+  tag.rig_from_marker = facing({0.02, -0.01, 0.03}, {0.3, -0.2, 0.4});
+  std::vector<StereoFrame> frames;
+  for (int i = 0; i < 3; ++i) {
+    StereoFrame frame =
+        stereo_frame(calibration, {tag}, Timestamp(std::chrono::milliseconds(33 * i)));
+    frame.world_from_rig =
+        Transform<World, Rig>(rotation_from_vector({0.4, 0.01 * i, -1.0}), {0.3, 1.5, 0.002 * i});
+    frames.push_back(frame);
+  }
+  const orthonav::testing::Hololens1Folder recording(calibration, frames);
+  const ScratchFolder folder;
+  const std::string tools =
+      folder.with("tools.json",
+                  R"({"tools": [{"name": "pointer", "role": "pointer", "tip_mm": [0, -150, 0],
+          "axis": [0, -1, 0], "marker": {"family": "tag36h11", "id": 3, "size_mm": 50}}]})");
+  const Called called = orthonav(
+      {"track", recording.path().string(), "--tools", tools, "--csv", folder.file("poses.csv")});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const auto rows = rows_of(content_of(folder.file("poses.csv")));
+  ASSERT_EQ(rows.size(), frames.size());
+  std::size_t i = 0;
+  for (const auto& [key, row] : rows) {
+    const auto expected = *frames[i].world_from_rig * tag.rig_from_marker;
+    EXPECT_EQ(key.first,
+              orthonav::testing::Hololens1Folder::kStart + ticks_100ns(frames[i++].time));
+    EXPECT_LT((row.position - expected.translation()).norm(), kWorstPositionM);
+    EXPECT_LT(rotation_angle_rad(rotation_from_quaternion(row.rotation), expected.rotation()),
+              kWorstRotationRad);
+  }
 }
 
 TEST_F(TrackCommand, WarnsOfATagThatIsNotOfTheStatedSize) {

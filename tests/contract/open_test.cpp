@@ -95,6 +95,9 @@ TEST(OpenHeadset, ChecksTheRigFile) {
 TEST(OpenHeadset, PassesOnWhyARecordingCannotBeOpened) {
   EXPECT_THAT(refusal("replay:/nowhere/at/all"), HasSubstr("/nowhere/at/all"));
   EXPECT_THAT(refusal("replay:"), HasSubstr("names no folder"));
+  EXPECT_THAT(refusal("replay:?pace=fast"), HasSubstr("names no folder"));
+  EXPECT_THAT(refusal("replay:/x?pace=slow"), HasSubstr("known are fast, realtime and step"));
+  EXPECT_THAT(refusal("replay:/nowhere?pace=step"), HasSubstr("/nowhere: no such recording"));
 }
 
 TEST(OpenHeadset, SeedsTheSimulation) {

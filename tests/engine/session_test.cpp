@@ -44,6 +44,15 @@ TEST(Session, DoesNotActOnWhatItHardlyUnderstood) {
   EXPECT_EQ(s.says("start", 0.5).step, Step::kDigitize);
 }
 
+TEST(Session, ShowsForAWhileWhatItHeard) {
+  ScriptedSession s;
+  EXPECT_EQ(s.says("start").heard, "heard: start");
+  EXPECT_EQ(s.says("delete", 0.4).heard, "heard: delete? not sure");
+  EXPECT_EQ(s.pairs(50).heard, "heard: delete? not sure");
+  EXPECT_EQ(s.pairs(15).heard, "") << "two seconds later";
+  EXPECT_EQ(s.says("no command").heard, "");
+}
+
 TEST(Session, SamplesWhileTheButtonIsDownAndNotAfter) {
   ScriptedSession s;
   s.tracker().pointer = pointer_at({0, 0.02, 0});

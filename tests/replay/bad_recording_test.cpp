@@ -224,7 +224,7 @@ TEST(BadFolder, NamesAMissingOrForeignFolder) {
   EXPECT_THAT(refusal(folder / "file"), HasSubstr("is no folder"));
   EXPECT_THAT(refusal(folder.path()), AllOf(HasSubstr("VLC LF.tar"), HasSubstr("no such file")));
   write_text(folder / "vlc_lf.tar", "x");
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("HoloLens 1"));
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("vlc_lf.tar: is no tar archive"));
   std::filesystem::create_directory(folder / "VLC LF.tar");
   std::filesystem::remove(folder / "vlc_lf.tar");
   EXPECT_THAT(refusal(folder.path()), AllOf(HasSubstr("VLC LF.tar"), HasSubstr("is not a file")));

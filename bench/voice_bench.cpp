@@ -1,0 +1,223 @@
+// Commands and other speech, spoken by espeak-ng, against noise: how many are heard, how many are
+// heard that nobody said, and how long it takes. --tuning runs the voices and texts on which the
+// thresholds were chosen; without it those that had no part in that. Nothing is stored.
+#include <algorithm>
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "bench/voice_texts.h"
+#include "engine/session.h"
+#include "hal/desktop/command_spotter.h"
+#include "tests/support/noisy_speech.h"
+
+namespace orthonav::bench {
+namespace {
+
+using namespace orthonav::desktop;
+using namespace orthonav::testing;
+
+constexpr double kClean = 60.0;  ///< dB: a silent room
+const std::vector<std::string> kTuningVoices = {
+    "en-us-nyc", "en-us+f4", "en-gb-x-gbclan+m2", "en-gb-x-gbcwmd+f5", "en-us+m6", "gmw/en+f4"};
+const std::vector<std::string> kTestVoices = {"en-us",         "en-us+f2",          "gmw/en+m3",
+                                              "en-gb-x-rp+f1", "en-gb-scotland+m1", "en-029+f3",
+                                              "en-us+m7"};
+
+struct Options {
+  bool tuning = false;
+  bool single = false;
+  bool quick = false;
+  bool show = false;
+  double minutes = 10.0;
+  std::optional<double> least_evidence;  ///< of every command, in place of its own
+};
+
+struct Tally {
+  int said = 0;
+  int heard = 0;     ///< as what was said, surely
+  int mistaken = 0;  ///< surely, as another command
+};
+
+struct Figures {
+  std::map<std::string, Tally> by_command;
+  std::map<std::string, Tally> by_condition;
+  std::vector<double> latencies_ms;
+  Tally all;
+};
+
+/// What this thread has worked: the time on a free core, however busy the machine is.
+double worked_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+std::unique_ptr<CommandSpotter> new_spotter(const Options& bench, Waking waking) {
+  SpotterOptions options;
+  options.commands = engine::spoken_commands();
+  options.waking = waking;
+  if (bench.least_evidence)
+    for (auto& [command, least] : options.least_evidence) least = *bench.least_evidence;
+  auto spotter = CommandSpotter::create(options);
+  if (spotter) return std::move(*spotter);
+  std::fprintf(stderr, "%s\n", spotter.error().message.c_str());
+  std::exit(2);
+}
+
+/// Feeds 10 ms at a time, as a microphone does; calls `heard(command, samples fed, ms of work)`.
+template <class Heard>
+void listen(CommandSpotter& spotter, std::span<const std::int16_t> sound, Heard heard) {
+  constexpr std::size_t kStep = 160;
+  std::vector<SpokenCommand> commands;
+  for (std::size_t at = 0; at < sound.size(); at += kStep) {
+    commands.clear();
+    const double start_ms = worked_ms();
+    spotter.push(sound.subspan(at, std::min(kStep, sound.size() - at)), commands);
+    const double work_ms = worked_ms() - start_ms;
+    for (const SpokenCommand& command : commands) heard(command, at + kStep, work_ms);
+  }
+}
+
+void say_one(CommandSpotter& spotter, const std::string& command, const Options& options,
+             const Speaker& speaker, Noise noise, double snr_db, Random& random, Figures& figures) {
+  const auto said = spoken(options.single ? command : "ortho " + command, speaker);
+  if (!said) return;
+  Soundtrack track;
+  track.silence(1.5);
+  const auto [begin, end] = track.speech(*said);
+  track.silence(0.6);
+  const auto sound = track.with_noise(noise, snr_db, random);
+  bool heard = false;
+  bool mistaken = false;
+  listen(spotter, sound, [&, end = end](const SpokenCommand& found, std::size_t fed, double ms) {
+    if (options.show)
+      std::printf("%s %d %s %.0f dB: %s %.2f\n", speaker.voice.c_str(), speaker.words_a_minute,
+                  command.c_str(), snr_db, found.text.c_str(), found.confidence);
+    if (found.confidence < 0.5) return;
+    if (found.text == command && !heard) {
+      heard = true;
+      figures.latencies_ms.push_back((static_cast<double>(fed) - static_cast<double>(end)) / 16.0 +
+                                     ms);
+    } else if (found.text != command) {
+      mistaken = true;
+    }
+  });
+  std::string condition = "clean";
+  if (snr_db < kClean)
+    condition = std::to_string(static_cast<int>(snr_db)) + " dB " + name_of(noise);
+  for (Tally* tally :
+       {&figures.by_command[command], &figures.by_condition[condition], &figures.all}) {
+    tally->said += 1;
+    tally->heard += heard ? 1 : 0;
+    tally->mistaken += mistaken ? 1 : 0;
+  }
+}
+
+void print(const char* name, const std::map<std::string, Tally>& tallies) {
+  for (const auto& [key, tally] : tallies)
+    std::printf("%-10s %-12s said %4d  heard %6.1f %%  mistaken %5.1f %%\n", name, key.c_str(),
+                tally.said, 100.0 * tally.heard / tally.said, 100.0 * tally.mistaken / tally.said);
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[std::min(values.size() - 1,
+                         static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+}
+
+void measure_recall(const Options& options) {
+  const auto& voices = options.tuning ? kTuningVoices : kTestVoices;
+  // Recall tells what the recogniser hears; whether a single word counts in noise is a rule.
+  const Waking waking = options.single ? Waking::kNever : Waking::kAlways;
+  Random random(options.tuning ? 11 : 12);
+  Figures figures;
+  std::size_t turn = 0;
+  const std::vector<int> speeds =
+      options.quick ? std::vector<int>{150} : std::vector<int>{120, 160, 200};
+  for (const std::string& voice : voices) {
+    // One surgeon each: the recogniser follows a voice.
+    const auto spotter = new_spotter(options, waking);
+    for (const double snr_db : {kClean, 20.0, 15.0, 10.0})
+      for (const int speed : speeds)
+        for (const std::string& command : engine::spoken_commands()) {
+          const auto noise = static_cast<Noise>(turn++ % 3);
+          say_one(*spotter, command, options, {voice, speed}, noise, snr_db, random, figures);
+        }
+    turn += 1;  // every command meets every noise
+  }
+  std::printf("\n%s, %zu voices\n", options.single ? "single words" : "with the wake word",
+              voices.size());
+  print("command", figures.by_command);
+  print("condition", figures.by_condition);
+  print("all", {{"", figures.all}});
+  std::printf("latency after the phrase's end: median %.0f ms, p99 %.0f ms\n",
+              quantile(figures.latencies_ms, 0.5), quantile(figures.latencies_ms, 0.99));
+}
+
+void measure_false_accepts(const Options& options, Waking waking, double snr_db) {
+  const auto& voices = options.tuning ? kTuningVoices : kTestVoices;
+  const std::span<const std::string_view> talk =
+      options.tuning ? std::span<const std::string_view>(kTuningTalk)
+                     : std::span<const std::string_view>(kTestTalk);
+  const auto spotter = new_spotter(options, waking);
+  Random random(options.tuning ? 21 : 22);
+  std::map<std::string, int> accepted;
+  double heard_s = 0.0;
+  int total = 0;
+  for (std::size_t i = 0; heard_s < 60.0 * options.minutes; ++i) {
+    const std::string text(talk[i % talk.size()]);
+    const int speed = 130 + static_cast<int>(20 * (i % 4));
+    const auto said = spoken(text, {voices[(i / 3) % voices.size()], speed});
+    if (!said) continue;
+    Soundtrack track;
+    track.speech(*said);
+    track.silence(random.uniform(0.3, 1.2));
+    const auto sound = track.with_noise(static_cast<Noise>(i / 10 % 3), snr_db, random);
+    heard_s += static_cast<double>(sound.size()) / kSpeechRateHz;
+    listen(*spotter, sound, [&](const SpokenCommand& found, std::size_t, double) {
+      if (options.show)
+        std::printf("\"%s\" %.0f dB: %s %.2f\n", text.c_str(), snr_db, found.text.c_str(),
+                    found.confidence);
+      if (found.confidence < 0.5) return;
+      accepted[found.text] += 1;
+      total += 1;
+    });
+  }
+  std::printf("%-28s %4.1f dB, %.1f min: %.1f false accepts in 10 min, %d of them delete\n",
+              waking == Waking::kNever    ? "single words and wake word"
+              : waking == Waking::kAlways ? "wake word alone"
+                                          : "wake word in noise",
+              snr_db, heard_s / 60.0, 600.0 * total / heard_s, accepted["delete"]);
+}
+
+int run(const Options& options) {
+  std::printf("voice, %s set\n", options.tuning ? "tuning" : "test");
+  Options single = options;
+  single.single = true;
+  measure_recall(single);
+  measure_recall(options);
+  std::printf("\nother speech\n");
+  for (const Waking waking : {Waking::kNever, Waking::kInNoise, Waking::kAlways})
+    for (const double snr_db : {kClean, 20.0, 10.0}) measure_false_accepts(options, waking, snr_db);
+  return 0;
+}
+
+}  // namespace
+}  // namespace orthonav::bench
+
+int main(int argc, char** argv) {
+  orthonav::bench::Options options;
+  CLI::App app("Recall, false accepts and latency of voice commands");
+  app.add_flag("--tuning", options.tuning, "the voices and texts that thresholds were chosen on");
+  app.add_flag("--quick", options.quick, "one speed instead of three");
+  app.add_flag("--show", options.show, "everything that was heard");
+  app.add_option("--minutes", options.minutes, "of other speech")->capture_default_str();
+  app.add_option("--least-evidence", options.least_evidence, "of every command");
+  CLI11_PARSE(app, argc, argv);
+  return orthonav::bench::run(options);
+}
