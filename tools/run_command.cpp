@@ -165,7 +165,8 @@ class LiveRun {
     auto clicker = open_clicker(arguments_.clicker, headset_->clock());
     if (!clicker) return clicker.error();
     parts.clicker = std::move(*clicker);
-    auto voice = open_voice(arguments_.voice, engine::spoken_commands(), headset_->clock());
+    auto voice =
+        open_voice(arguments_.voice, engine::spoken_commands(), headset_->clock(), headset_.get());
     if (!voice) return voice.error();
     parts.voice = std::move(*voice);
     joined_ = std::make_unique<JoinedHeadset>(*headset_, std::move(parts));
@@ -271,7 +272,7 @@ void add_run_command(CLI::App& app, Action& action) {
       ->check(some_text())
       ->capture_default_str();
   run->add_option("--voice", arguments->voice,
-                  "headset, none, mic:[NAME] or wav:FILE (docs/voice.md)")
+                  "headset, none, mic:[NAME], headset-mic: or wav:FILE (docs/voice.md)")
       ->check(some_text())
       ->capture_default_str();
   run->add_option("--case", arguments->case_folder,

@@ -165,6 +165,7 @@ class Voice {
   std::optional<Timestamp> last_time_;
 };
 
+class Microphone;    // hal/api/microphone.h
 class PixelDisplay;  // hal/api/pixel_display.h
 
 /// A headset and what hangs on it. Every part lives as long as the headset.
@@ -185,6 +186,9 @@ class Headset {
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;
   [[nodiscard]] virtual Display& display() = 0;
+  /// What it hears, where it lets others listen; null otherwise. Listened to from the first call
+  /// on.
+  [[nodiscard]] virtual Microphone* microphone() { return nullptr; }
   /// The display where it takes pixels; null otherwise.
   [[nodiscard]] virtual PixelDisplay* pixels() { return nullptr; }
   /// The headset whose cameras these are, where this one borrowed them; else this one.

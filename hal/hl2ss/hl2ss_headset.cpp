@@ -134,7 +134,7 @@ class ConnectedHeadset final : public Hl2ssHeadset {
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
-  [[nodiscard]] Microphone& microphone() override { return receiver_->microphone(); }
+  [[nodiscard]] Microphone* microphone() override { return &receiver_->microphone(); }
   [[nodiscard]] Statistics statistics() const override { return receiver_->statistics(); }
 
  private:

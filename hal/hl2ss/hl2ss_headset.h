@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "hal/api/devices.h"
-#include "hal/api/microphone.h"
 #include "hal/hl2ss/options.h"
 #include "hal/hl2ss/statistics.h"
 
@@ -19,8 +18,6 @@ class Hl2ssHeadset : public Headset {
   /// Blocks until both calibrations and a first image came, `open_within` at most. An Error names
   /// the port that failed and why.
   static Result<std::unique_ptr<Hl2ssHeadset>> open(const Hl2ssOptions& options);
-  /// The headset's microphones; listened to from the first call on. Lives as long as the headset.
-  [[nodiscard]] virtual Microphone& microphone() = 0;
   /// How the connection does.
   [[nodiscard]] virtual Statistics statistics() const = 0;
 };

@@ -30,6 +30,9 @@ class JoinedHeadset : public Headset {
   }
   [[nodiscard]] Voice& voice() override { return parts_.voice ? *parts_.voice : headset_.voice(); }
   [[nodiscard]] Display& display() override { return headset_.display(); }
+  [[nodiscard]] Microphone* microphone() override { return headset_.microphone(); }
+  [[nodiscard]] PixelDisplay* pixels() override { return headset_.pixels(); }
+  [[nodiscard]] Headset& owner_of_cameras() override { return headset_.owner_of_cameras(); }
   [[nodiscard]] PixelDisplay* pixels() override { return headset_.pixels(); }
   [[nodiscard]] Headset& owner_of_cameras() override { return headset_.owner_of_cameras(); }
 

@@ -16,7 +16,7 @@ namespace orthonav {
 namespace {
 
 constexpr const char* kClickers = "known are headset, none, evdev:[PATH|NAME] and keyboard:[NAME]";
-constexpr const char* kVoices = "known are headset, none, mic:[NAME] and wav:FILE";
+constexpr const char* kVoices = "known are headset, none, mic:[NAME], headset-mic: and wav:FILE";
 constexpr const char* kClickerKeys =
     "known are keys=NAME,..., double_ms=N, hold_ms=N, debounce_ms=N and share";
 constexpr const char* kVoiceKeys = "known is wake=always, wake=noise or wake=never";
@@ -111,6 +111,28 @@ Status apply(const std::string& key, const std::optional<std::string>& value,
   return {};
 }
 
+/// A headset's microphone, which the headset goes on owning.
+class BorrowedMicrophone final : public Microphone {
+ public:
+  explicit BorrowedMicrophone(Microphone& owned) : owned_(owned) {}
+
+ private:
+  [[nodiscard]] int do_sample_rate_hz() const override { return owned_.sample_rate_hz(); }
+  Result<std::size_t> do_read(std::span<std::int16_t> samples) override {
+    return owned_.read(samples);
+  }
+  [[nodiscard]] std::optional<Timestamp> do_newest_sample_time() const override {
+    return owned_.newest_sample_time();
+  }
+  Microphone& owned_;
+};
+
+Result<std::unique_ptr<Microphone>> microphone_of(const std::string& uri, Headset* headset) {
+  Microphone* owned = headset ? headset->microphone() : nullptr;
+  if (!owned) return bad_part("voice", uri, "this headset has no microphone to listen to");
+  return std::unique_ptr<Microphone>(std::make_unique<BorrowedMicrophone>(*owned));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Clicker>> open_clicker(const std::string& uri, const Clock& clock) {
@@ -133,12 +155,12 @@ Result<std::unique_ptr<Clicker>> open_clicker(const std::string& uri, const Cloc
 
 Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
                                           const std::vector<std::string>& commands,
-                                          const Clock& clock) {
+                                          const Clock& clock, Headset* headset) {
   if (uri == "headset") return std::unique_ptr<Voice>();
   if (uri == "none") return std::unique_ptr<Voice>(std::make_unique<NoVoice>());
   const auto cut = cut_up("voice", uri);
   if (!cut) return cut.error();
-  if (cut->scheme != "mic" && cut->scheme != "wav")
+  if (cut->scheme != "mic" && cut->scheme != "wav" && cut->scheme != "headset-mic")
     return bad_part("voice", uri, std::string("is unknown; ") + kVoices);
   desktop::SpotterOptions options;
   options.commands = commands;
@@ -155,7 +177,9 @@ Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
   }
   const bool file = cut->scheme == "wav";
   auto microphone = file ? desktop::open_wav_microphone(cut->rest, clock)
-                         : desktop::open_portaudio_microphone(cut->rest, clock);
+                    : cut->scheme == "headset-mic"
+                        ? microphone_of(uri, headset)
+                        : desktop::open_portaudio_microphone(cut->rest, clock);
   if (!microphone) return microphone.error();
   return desktop::open_spotted_voice(
       std::move(*microphone), options,

@@ -36,6 +36,14 @@ TEST(OpenClicker, NamesWhatItKnows) {
   EXPECT_THAT(clicker_refusal("evdev:x?share&share"), HasSubstr("twice"));
 }
 
+TEST(OpenVoice, SaysThatAHeadsetHasNoMicrophone) {
+  EXPECT_THAT(voice_refusal("headset-mic:"), HasSubstr("no microphone to listen to"));
+  fake::FakeHeadset headset({});
+  const auto voice = open_voice("headset-mic:", {"save"}, headset.clock(), &headset);
+  ASSERT_FALSE(voice.ok());
+  EXPECT_THAT(voice.error().message, HasSubstr("no microphone to listen to"));
+}
+
 TEST(OpenClicker, GivesNoneForTheHeadsetsOwn) {
   const fake::ManualClock clock;
   EXPECT_EQ(*open_clicker("headset", clock), nullptr);

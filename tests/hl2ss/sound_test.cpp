@@ -22,7 +22,7 @@ TEST(SoundOfAHeadset, IsTheMeanOfBothChannels) {
   ServedRoom room(sim, server);
   const auto headset = room.connect();
   ASSERT_NE(headset, nullptr);
-  Microphone& microphone = headset->microphone();
+  Microphone& microphone = *headset->microphone();
   EXPECT_EQ(microphone.sample_rate_hz(), 48000);
   EXPECT_FALSE(microphone.newest_sample_time().has_value());
   std::vector<std::int16_t> samples(4096);
@@ -53,7 +53,7 @@ TEST(SoundOfAHeadset, IsDroppedWhereNobodyReads) {
   ServedRoom room(sim, server);
   const auto headset = room.connect();
   ASSERT_NE(headset, nullptr);
-  Microphone& microphone = headset->microphone();
+  Microphone& microphone = *headset->microphone();
   std::vector<std::int16_t> samples(100'000);
   StereoFrame frame;
   bool dropped = false;
