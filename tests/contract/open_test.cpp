@@ -35,8 +35,8 @@ GreyImage first_image(const std::string& uri) {
 
 TEST(OpenHeadset, NamesWhatItKnowsWhenItKnowsNothingOfAUri) {
   for (const char* uri : {"kinect:", "sim", "", "Sim:", "http://host/"})
-    EXPECT_THAT(refusal(uri), AllOf(HasSubstr("known are sim:, replay:PATH and hl2ss://HOST"), HasSubstr(uri),
-                                    Not(HasSubstr("\n"))));
+    EXPECT_THAT(refusal(uri), AllOf(HasSubstr("known are sim:, replay:PATH and hl2ss://HOST"),
+                                    HasSubstr(uri), Not(HasSubstr("\n"))));
 }
 
 TEST(OpenHeadset, NamesTheKnownKeys) {
