@@ -72,6 +72,23 @@ INSTANTIATE_TEST_SUITE_P(
                       CameraCase{"NanPose", CameraFault::kNanPose, "not a rigid motion"}),
     [](const auto& broken) { return broken.param.name; });
 
+TEST(MapEpoch, ThatFallsIsReportedAndNotPassedOn) {
+  Script script = scripted_session();
+  std::int64_t number = 0;
+  for (CameraStep& step : script.camera)
+    if (auto* frame = std::get_if<StereoFrame>(&step)) frame->map_epoch = number++ == 2 ? 3 : 4;
+  FakeHeadset headset(script);
+  StereoFrame frame;
+  int refused = 0;
+  for (int call = 0; call < 4; ++call) {
+    const auto next = headset.cameras().next(frame);
+    if (next) continue;
+    ++refused;
+    EXPECT_THAT(next.error().message, HasSubstr("map epoch 3 comes after 4"));
+  }
+  EXPECT_EQ(refused, 1);
+}
+
 TEST(AllowedFault, OfTheCamerasIsPassedOn) {
   // Calls: 0, 1, 2 give pairs 0, 1, 2; call 3 has no news.
   const SessionLog dropped = play_with({.camera = {{1, CameraFault::kDrop}}});

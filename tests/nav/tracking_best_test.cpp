@@ -88,6 +88,26 @@ TEST(BestTracker, GoesOnWithOneCameraAndSaysSo) {
   EXPECT_LT(tip_error_m(states[0], tags_at(6)[0]), 0.005);
 }
 
+TEST(BestTracker, PredictsNothingFromAnotherMapAndFindsAgain) {
+  for (const std::int64_t epoch : {0, 1}) {
+    Tracking t;
+    for (int k = 0; k < 5; ++k) t.tracker->track(t.frame(k));
+    StereoFrame hidden = t.frame(5);
+    hide(hidden.left);
+    hide(hidden.right);
+    hidden.map_epoch = epoch;
+    EXPECT_EQ(t.tracker->track(hidden)[0].world_from_marker.origin,
+              epoch == 0 ? Origin::kPredicted : Origin::kLost);
+    int needed = 0;
+    for (Origin origin = Origin::kLost; origin != Origin::kMeasured; ++needed) {
+      ASSERT_LT(needed, 4);
+      StereoFrame frame = t.frame(6 + needed);
+      frame.map_epoch = epoch;
+      origin = t.tracker->track(frame)[0].world_from_marker.origin;
+    }
+  }
+}
+
 TEST(BestTracker, PredictsThenLosesAndFindsAgainAtOnce) {
   Tracking t;
   for (int k = 0; k < 5; ++k) t.tracker->track(t.frame(k));

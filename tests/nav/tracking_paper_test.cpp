@@ -124,6 +124,19 @@ TEST(PaperTracker, PredictsThenLosesAToolThatOneCameraMisses) {
   }
 }
 
+TEST(PaperTracker, PredictsNothingFromAnotherMap) {
+  for (const std::int64_t epoch : {0, 1}) {
+    auto t = tracker();
+    for (int k = 0; k < 4; ++k) (void)t->track(stroke()[static_cast<std::size_t>(k)]);
+    StereoFrame frame = stroke()[4];
+    blind(frame.left);
+    blind(frame.right);
+    frame.map_epoch = epoch;
+    EXPECT_EQ(t->track(frame)[0].world_from_marker.origin,
+              epoch == 0 ? Origin::kPredicted : Origin::kLost);
+  }
+}
+
 TEST(PaperTracker, PredictsAlongTheMotion) {
   auto t = tracker();
   for (int k = 0; k < 5; ++k) (void)t->track(stroke()[static_cast<std::size_t>(k)]);

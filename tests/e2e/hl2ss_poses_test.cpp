@@ -1,0 +1,111 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <numbers>
+#include <thread>
+
+#include "engine/tool_file.h"
+#include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/hl2ss/server/server.h"
+#include "hal/sim/sim_headset.h"
+#include "nav/tracking/tool_tracker.h"
+
+namespace orthonav::engine {
+namespace {
+
+/// A table with the built-in pointer and guide hovering over it, for a second.
+sim::RoomDescription table() {
+  sim::RoomDescription room;
+  for (const nav::ToolGeometry& tool : built_in_tools()) {
+    sim::RoomTool there;
+    there.name = tool.name;
+    there.kind =
+        tool.role == nav::ToolRole::kGuide ? sim::ToolKind::kGuide : sim::ToolKind::kPointer;
+    there.id = tool.marker.id;
+    there.size_m = tool.marker.size_m;
+    there.tip_in_marker = tool.tip_in_marker;
+    room.tools.push_back(there);
+  }
+  return room;
+}
+
+struct Apart {
+  int poses = 0;
+  double worst_m = 0.0;
+  double worst_deg = 0.0;
+};
+
+/// Tracks the same second directly and over TCP; how far the tools' poses lie apart.
+Apart compare(hl2ss::VideoProfile profile) {
+  sim::SimOptions sim;
+  sim.seed = 9;
+  sim.surgeon = false;
+  sim.limit_s = 1.0;
+  hl2ss::ServerOptions options;
+  options.first_port = 0;
+  options.paced = true;
+  const auto open = [sim]() -> Result<std::unique_ptr<Headset>> {
+    auto opened = sim::SimHeadset::open(table(), sim);
+    if (!opened) return opened.error();
+    return std::unique_ptr<Headset>(std::move(*opened));
+  };
+  const auto server = hl2ss::Server::start(options, open);
+  auto direct = open();
+  EXPECT_TRUE(server.ok() && direct.ok());
+  hl2ss::Hl2ssOptions client;
+  client.host = "127.0.0.1";
+  client.first_port = (*server)->first_port();
+  client.standin_port = (*server)->standin_port();
+  client.profile = profile;
+  auto headset = hl2ss::Hl2ssHeadset::open(client);
+  EXPECT_TRUE(headset.ok()) << headset.error().message;
+  if (!headset) return {};
+  auto here = nav::create_best_tracker((*direct)->cameras().calibration(), built_in_tools());
+  auto there = nav::create_best_tracker((*headset)->cameras().calibration(), built_in_tools());
+  EXPECT_TRUE(here.ok() && there.ok());
+  StereoFrame frame;
+  StereoFrame expected;
+  Apart apart;
+  for (;;) {
+    const auto next = (*headset)->cameras().next(frame);
+    if (next && *next == Next::kEnd) return apart;
+    if (!next || *next == Next::kNone) {
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+      continue;
+    }
+    EXPECT_TRUE((*direct)->cameras().next(expected).ok());
+    EXPECT_EQ(frame.time, expected.time);
+    const auto a = (*there)->track(frame);
+    const auto b = (*here)->track(expected);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const auto& x = a[i].world_from_marker;
+      const auto& y = b[i].world_from_marker;
+      if (x.origin != Origin::kMeasured || y.origin != Origin::kMeasured) continue;
+      ++apart.poses;
+      apart.worst_m =
+          std::max(apart.worst_m, (x.value.translation() - y.value.translation()).norm());
+      apart.worst_deg =
+          std::max(apart.worst_deg, rotation_angle_rad(x.value.rotation(), y.value.rotation()) *
+                                        180.0 / std::numbers::pi);
+    }
+  }
+}
+
+TEST(PosesOverTcp, RawAreThoseOfTheDirectRun) {
+  // Calibration and head pose in single precision: 1e-7 of a metre and of a focal length.
+  const Apart apart = compare(hl2ss::VideoProfile::kRaw);
+  EXPECT_GE(apart.poses, 40);
+  EXPECT_LT(apart.worst_m, 0.00001);
+  EXPECT_LT(apart.worst_deg, 0.005);
+}
+
+TEST(PosesOverTcp, H264AreThoseOfTheDirectRunWithinTheCodecsNoise) {
+  const Apart apart = compare(hl2ss::VideoProfile::kH264Base);
+  EXPECT_GE(apart.poses, 40);
+  EXPECT_LT(apart.worst_m, 0.001);
+  EXPECT_LT(apart.worst_deg, 0.5);
+  EXPECT_GT(apart.worst_m, 0.00001) << "the codec leaves something: the twin of the test above";
+}
+
+}  // namespace
+}  // namespace orthonav::engine
