@@ -42,9 +42,10 @@ CommandSpotter::CommandSpotter(const SpotterOptions& options)
 Result<std::unique_ptr<CommandSpotter>> CommandSpotter::create(const SpotterOptions& options) {
   if (const auto problems = options.check(); !problems.empty()) return Error{joined(problems)};
   std::vector<std::string> phrases;
+  // Single words too, whatever counts: a grammar without them takes "save" for "ortho save".
   for (const std::string& command : options.commands) {
     phrases.push_back(options.wake_word + " " + command);
-    if (options.waking != Waking::kAlways) phrases.push_back(command);
+    phrases.push_back(command);
   }
   auto recognizer = PhraseRecognizer::create(phrases, options.acoustic_model);
   if (!recognizer) return recognizer.error();
@@ -75,9 +76,10 @@ void CommandSpotter::judge(const SpeechSegment& segment, std::vector<SpokenComma
       own == options_.least_evidence.end() ? options_.least_evidence_of_others : own->second;
   spoken.confidence = confidence_of(recognition->evidence, least);
   const bool quiet = segment.above_background_db >= options_.quiet_above_db;
+  const bool counts =
+      woken || options_.waking == Waking::kNever || (options_.waking == Waking::kInNoise && quiet);
   // It was heard, and is not acted upon: the status line says so.
-  if (!woken && options_.waking == Waking::kInNoise && !quiet)
-    spoken.confidence = std::min(spoken.confidence, 0.49);
+  if (!counts) spoken.confidence = std::min(spoken.confidence, 0.49);
   if (spoken.confidence >= kHardlyLikely) commands.push_back(std::move(spoken));
 }
 
