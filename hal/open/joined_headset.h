@@ -33,8 +33,6 @@ class JoinedHeadset : public Headset {
   [[nodiscard]] Microphone* microphone() override { return headset_.microphone(); }
   [[nodiscard]] PixelDisplay* pixels() override { return headset_.pixels(); }
   [[nodiscard]] Headset& owner_of_cameras() override { return headset_.owner_of_cameras(); }
-  [[nodiscard]] PixelDisplay* pixels() override { return headset_.pixels(); }
-  [[nodiscard]] Headset& owner_of_cameras() override { return headset_.owner_of_cameras(); }
 
  private:
   Headset& headset_;

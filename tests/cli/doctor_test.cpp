@@ -88,9 +88,8 @@ TEST(Doctor, FindsMicrophoneClickerAndRuntimeWhereTheKernelListsThem) {
 TEST(Doctor, SaysHowToGetWhatIsAbsent) {
   const ScratchFolder root;
   const Called called = orthonav({"doctor", "--json", "--root", root.file("")});
-  for (const char* name :
-       {"Vulkan validation layer", "Microphone", "Voice model", "Clicker or keyboard",
-        "OpenXR runtime"}) {
+  for (const char* name : {"Vulkan validation layer", "Microphone", "Voice model",
+                           "Clicker or keyboard", "OpenXR runtime"}) {
     EXPECT_EQ(offer(called, name)["finding"], "absent") << name;
     const nlohmann::json how = offer(called, name).value("how_to_get_it", nlohmann::json());
     EXPECT_TRUE(how.is_string() && !how.get<std::string>().empty()) << name << ": " << how;

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "hal/api/microphone.h"
 #include "tests/hl2ss/served_room.h"
 
 namespace orthonav::hl2ss {
