@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "bench/voice_texts.h"
-#include "engine/session.h"
+#include "engine/spoken_commands.h"
 #include "hal/desktop/command_spotter.h"
 #include "tests/support/noisy_speech.h"
 

@@ -1,9 +1,9 @@
 #include "engine/session.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
+#include "engine/spoken_commands.h"
 #include "hal/api/joined.h"
 
 namespace orthonav::engine {
@@ -19,24 +19,6 @@ Result<std::size_t> only_tool(std::span<const nav::ToolGeometry> tools, nav::Too
   }
   if (!found) return Error{std::string("tools: no ") + name + ", exactly 1 needed"};
   return *found;
-}
-
-constexpr std::array<std::pair<std::string_view, Event>, 9> kCommands = {{
-    {"start", Event::kSayStart},
-    {"save", Event::kSaySave},
-    {"delete", Event::kSayDelete},
-    {"accept", Event::kSayAccept},
-    {"reject", Event::kSayReject},
-    {"next", Event::kSayNext},
-    {"done", Event::kSayDone},
-    {"move rod", Event::kSayMoveRod},
-    {"twin", Event::kSayTwin},
-}};
-
-std::optional<Event> command(const std::string& text) {
-  for (const auto& [phrase, event] : kCommands)
-    if (phrase == text) return event;
-  return std::nullopt;
 }
 
 Event event_of(ClickerAction action) {
@@ -56,12 +38,6 @@ Event event_of(ClickerAction action) {
 }
 
 }  // namespace
-
-std::vector<std::string> spoken_commands() {
-  std::vector<std::string> commands;
-  for (const auto& command : kCommands) commands.emplace_back(command.first);
-  return commands;
-}
 
 std::vector<std::string> SessionOptions::check() const {
   std::vector<std::string> problems;
@@ -165,7 +141,7 @@ void Session::answer_inputs(const Inputs& inputs) {
 void Session::click(const ClickerEvent& event) { handle(event_of(event.action), event.time); }
 
 void Session::hear(const Phrase& phrase) {
-  const auto event = command(phrase.text);
+  const auto event = command_event(phrase.text);
   const bool sure = phrase.confidence >= options_.min_voice_confidence;
   if (event) echo(phrase, sure);
   if (!event || !sure) {

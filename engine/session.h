@@ -43,9 +43,6 @@ struct SessionOptions {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// Every phrase that a session understands, lower case.
-[[nodiscard]] std::vector<std::string> spoken_commands();
-
 /// What came in beside the images since the last step.
 struct Inputs {
   std::span<const ClickerEvent> clicks;  ///< in order of time

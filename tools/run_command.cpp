@@ -13,6 +13,7 @@
 #include "engine/presenter.h"
 #include "engine/sim_scenario.h"
 #include "engine/simulated_operation.h"
+#include "engine/spoken_commands.h"
 #include "engine/tool_file.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/open/joined_headset.h"
@@ -28,6 +29,7 @@
 #include "tools/operation_summary.h"
 #include "tools/out_folder.h"
 #include "tools/progress.h"
+#include "tools/run_stats.h"
 
 namespace orthonav::tools {
 namespace {
@@ -46,29 +48,6 @@ struct RunArguments {
   bool json = false;
   bool stats = false;
 };
-
-/// Medians and p99 of what a frame takes, on standard error beside the other messages.
-void print_stats(const engine::LoopReport& loop) {
-  const auto line = [](const char* what, const std::vector<double>& ms) {
-    const auto median = engine::quantile(ms, 0.5);
-    const auto p99 = engine::quantile(ms, 0.99);
-    if (median && p99) std::fprintf(stderr, "%-28s %8.1f ms, p99 %8.1f ms\n", what, *median, *p99);
-  };
-  line("between frames", loop.intervals_ms);
-  line("capture to photon", loop.photon_ages_ms);
-  line("tracking a pair (wall clock)", loop.step_wall_ms);
-}
-
-void print_present_stats(const engine::PresentReport& report) {
-  std::fprintf(stderr, "%-28s %lld asked for, %lld drawn, %lld with guidance too old\n",
-               "display frames", static_cast<long long>(report.frames),
-               static_cast<long long>(report.drawn), static_cast<long long>(report.hidden));
-  const auto median = engine::quantile(report.latch_ms, 0.5);
-  const auto p99 = engine::quantile(report.latch_ms, 0.99);
-  if (median && p99)
-    std::fprintf(stderr, "%-28s %8.1f ms, p99 %8.1f ms\n", "head pose to submission", *median,
-                 *p99);
-}
 
 /// Opens everything, then runs; members in the order in which they borrow from one another.
 class LiveRun {
@@ -134,7 +113,7 @@ class LiveRun {
     const engine::PresentReport report = presenter_->stop();
     for (const std::string& problem : report.problems)
       std::fprintf(stderr, "%s\n", problem.c_str());
-    if (arguments_.stats) print_present_stats(report);
+    if (arguments_.stats) print_stats(report);
   }
 
   Status open() {
@@ -153,6 +132,8 @@ class LiveRun {
     auto headset = open_headset(arguments_.headset, open_options);
     if (!headset) return headset.error();
     headset_ = std::move(*headset);
+    if (arguments_.headset == "openxr:")
+      std::fprintf(stderr, "openxr: no cameras are named, so the simulated room's: openxr:+sim:\n");
     if (arguments_.headset.ends_with("?pace=step"))
       return Error{"headset URI \"" + arguments_.headset +
                    "\": nobody steps here; known paces are fast and realtime"};

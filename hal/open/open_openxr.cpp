@@ -11,7 +11,7 @@ namespace orthonav {
 namespace {
 
 constexpr const char* kForm =
-    "openxr: is followed by [?rig=FILE] and +URI, the headset whose cameras it takes, as in "
+    "openxr: is followed by [?rig=FILE] and [+URI], the headset whose cameras it takes, as in "
     "openxr:+sim: or openxr:?rig=rig.json+hl2ss://HOST";
 
 Error bad_uri(const std::string& uri, const std::string& why) {
@@ -76,6 +76,7 @@ Result<std::unique_ptr<Headset>> open_openxr(const std::string& uri, std::string
     rig_file = std::string(query.substr(kRig.size()));
     rest = end == rest.npos ? std::string_view() : rest.substr(end);
   }
+  if (rest.empty()) rest = "+sim:";
   if (!rest.starts_with('+') || rest.size() == 1) return bad_uri(uri, kForm);
   const std::string cameras_uri(rest.substr(1));
   if (cameras_uri.starts_with("openxr:"))

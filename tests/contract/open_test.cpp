@@ -59,7 +59,6 @@ TEST(OpenHeadset, TakesWholeSeedsOnly) {
 }
 
 TEST(OpenHeadset, WantsCamerasForAnOpenxrHeadset) {
-  EXPECT_THAT(refusal("openxr:"), HasSubstr("openxr:+sim:"));
   EXPECT_THAT(refusal("openxr:+"), HasSubstr("openxr:+sim:"));
   EXPECT_THAT(refusal("openxr:+openxr:+sim:"), HasSubstr("can't be another one's"));
   EXPECT_THAT(refusal("openxr:+sim:?sead=3"), HasSubstr("\"sead\""));

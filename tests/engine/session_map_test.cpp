@@ -22,7 +22,7 @@ std::vector<std::string> holograms(const Guidance& guidance) {
   builder.write_shown(guidance, shown);
   std::vector<std::string> names;
   for (const ShownHologram& hologram : shown.holograms)
-    if (hologram.name != "H11 status") names.push_back(hologram.name);
+    if (!hologram.name.starts_with("H11")) names.push_back(hologram.name);
   return names;
 }
 

@@ -1,0 +1,31 @@
+#include "tools/run_stats.h"
+
+#include <cstdio>
+
+#include "engine/evaluation.h"
+
+namespace orthonav::tools {
+namespace {
+
+void print_times(const char* what, const std::vector<double>& ms) {
+  const auto median = engine::quantile(ms, 0.5);
+  const auto p99 = engine::quantile(ms, 0.99);
+  if (median && p99) std::fprintf(stderr, "%-28s %8.1f ms, p99 %8.1f ms\n", what, *median, *p99);
+}
+
+}  // namespace
+
+void print_stats(const engine::LoopReport& loop) {
+  print_times("between frames", loop.intervals_ms);
+  print_times("capture to photon", loop.photon_ages_ms);
+  print_times("tracking a pair (wall clock)", loop.step_wall_ms);
+}
+
+void print_stats(const engine::PresentReport& report) {
+  std::fprintf(stderr, "%-28s %lld asked for, %lld drawn, %lld with guidance too old\n",
+               "display frames", static_cast<long long>(report.frames),
+               static_cast<long long>(report.drawn), static_cast<long long>(report.hidden));
+  print_times("head pose to submission", report.latch_ms);
+}
+
+}  // namespace orthonav::tools
