@@ -9,6 +9,8 @@
 #include <string>
 #include <thread>
 
+#include "bench/quantile.h"
+#include "hal/api/as_headset.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "hal/sim/sim_headset.h"
@@ -22,12 +24,6 @@ double resident_mib() {
   long resident = 0;
   in >> pages >> resident;
   return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1048576.0;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 int measure(double limit_s, hl2ss::VideoProfile profile) {
@@ -45,16 +41,10 @@ int measure(double limit_s, hl2ss::VideoProfile profile) {
   hl2ss::ServerOptions options;
   options.first_port = 0;
   options.paced = true;
-  auto server = hl2ss::Server::start(options, [&]() -> Result<std::unique_ptr<Headset>> {
-    auto opened = sim::SimHeadset::open(room, sim);
-    if (!opened) return opened.error();
-    return std::unique_ptr<Headset>(std::move(*opened));
-  });
+  auto server =
+      hl2ss::Server::start(options, [&] { return as_headset(sim::SimHeadset::open(room, sim)); });
   if (!server) return std::fprintf(stderr, "%s\n", server.error().message.c_str()), 2;
-  hl2ss::Hl2ssOptions client;
-  client.host = "127.0.0.1";
-  client.first_port = (*server)->first_port();
-  client.standin_port = (*server)->standin_port();
+  hl2ss::Hl2ssOptions client = (*server)->client_options();
   client.profile = profile;
   auto headset = hl2ss::Hl2ssHeadset::open(client);
   if (!headset) return std::fprintf(stderr, "%s\n", headset.error().message.c_str()), 2;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <vector>
 
+#include "bench/quantile.h"
 #include "engine/phantom.h"
 #include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
@@ -32,12 +33,6 @@ class PairTimes : public engine::LoopObserver {
   WallClock::time_point last_{};
   std::vector<double> ms_;
 };
-
-double quantile(std::vector<double> values, double part) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
-}
 
 void operation(benchmark::State& state) {
   for (auto _ : state) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <Eigen/Dense>
 
+#include "bench/quantile.h"
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::bench {
@@ -24,12 +25,6 @@ constexpr std::size_t kSettled = 60;
 constexpr std::size_t kFewestAtRest = 10;
 /// A tip that stays within this of one place in World is at rest.
 constexpr double kRestM = 1e-6;
-
-double quantile(std::vector<double> v, double q) {
-  if (v.empty()) return 0.0;
-  std::sort(v.begin(), v.end());
-  return v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1))];
-}
 
 double nees_of(const Transform<Rig, Marker>& truth, const Seen& seen) {
   const Vec3 shift = seen.rig_from_marker.translation() - truth.translation();

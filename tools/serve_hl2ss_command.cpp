@@ -6,6 +6,7 @@
 #include "engine/operation_plan.h"
 #include "engine/sim_scenario.h"
 #include "engine/tool_file.h"
+#include "hal/api/as_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
@@ -40,11 +41,8 @@ Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) 
   if (arguments.perfect) options.magnitudes = sim::Magnitudes::perfect();
   options.magnitudes.pace = arguments.pace;
   options.pace = arguments.server.paced ? sim::Pace::kFast : sim::Pace::kRealtime;
-  return hl2ss::Server::OpenHeadset([room, options]() -> Result<std::unique_ptr<Headset>> {
-    auto opened = sim::SimHeadset::open(room, options);
-    if (!opened) return opened.error();
-    return std::unique_ptr<Headset>(std::move(*opened));
-  });
+  return hl2ss::Server::OpenHeadset(
+      [room, options] { return as_headset(sim::SimHeadset::open(room, options)); });
 }
 
 void say_where(const hl2ss::Server& server, const hl2ss::ServerOptions& options) {

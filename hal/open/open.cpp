@@ -5,7 +5,9 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/api/as_headset.h"
 #include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/open/bad_uri.h"
 #include "hal/open/open_openxr.h"
 #include "hal/replay/replay_headset.h"
 
@@ -23,10 +25,6 @@ sim::RoomTool default_pointer() {
   pointer.size_m = 0.050;
   pointer.tip_in_marker = {{0.0, -0.150, 0.0}};
   return pointer;
-}
-
-Error bad_uri(const std::string& uri, const std::string& why) {
-  return Error{"headset URI \"" + uri + "\": " + why};
 }
 
 /// One `key` or `key=value` of the query.
@@ -87,12 +85,6 @@ Result<std::pair<std::string, replay::ReplayOptions>> replay_options(const std::
   else if (pace != "?pace=fast")
     return bad_uri(uri, "pace is unknown; known are fast, realtime and step");
   return std::pair(folder, options);
-}
-
-template <class T>
-Result<std::unique_ptr<Headset>> as_headset(Result<std::unique_ptr<T>> opened) {
-  if (!opened) return opened.error();
-  return std::unique_ptr<Headset>(std::move(opened).value());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "hal/open/bad_uri.h"
 #include "hal/openxr/openxr_headset.h"
 
 namespace orthonav {
@@ -13,10 +14,6 @@ namespace {
 constexpr const char* kForm =
     "openxr: is followed by [?rig=FILE] and [+URI], the headset whose cameras it takes, as in "
     "openxr:+sim: or openxr:?rig=rig.json+hl2ss://HOST";
-
-Error bad_uri(const std::string& uri, const std::string& why) {
-  return Error{"headset URI \"" + uri + "\": " + why};
-}
 
 /// Sixteen finite numbers in four rows; millimetres.
 Result<Transform<Eye, Rig>> pose_from(const nlohmann::json& json, const std::string& name) {

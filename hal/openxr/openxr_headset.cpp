@@ -81,7 +81,8 @@ class Words : public Display {
 class Composite : public OpenxrHeadset {
  public:
   Composite(std::unique_ptr<Headset> cameras, const RigOnHead& rig)
-      : inner_(std::move(cameras)),
+      : OpenxrHeadset(*cameras),
+        inner_(std::move(cameras)),
         pixels_(mount_of(rig), inner_->clock(), inner_->head()),
         cameras_(inner_->cameras(), pixels_, rig.mounted),
         head_(inner_->head(), pixels_, rig.mounted),
@@ -93,17 +94,11 @@ class Composite : public OpenxrHeadset {
     return "openxr (" + (runtime.empty() ? "" : runtime + ", ") + "cameras: " + inner_->name() +
            ")";
   }
-  [[nodiscard]] const Clock& clock() const override { return inner_->clock(); }
-  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
-    return inner_->epoch_ticks_100ns();
-  }
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
-  [[nodiscard]] Voice& voice() override { return inner_->voice(); }
   [[nodiscard]] Display& display() override { return words_; }
   [[nodiscard]] PixelDisplay* pixels() override { return &pixels_; }
-  [[nodiscard]] Headset& owner_of_cameras() override { return inner_->owner_of_cameras(); }
 
  private:
   std::unique_ptr<Headset> inner_;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "hal/api/devices.h"
+#include "hal/api/forwarding_headset.h"
 #include "hal/openxr/rig.h"
 
 namespace orthonav::openxr {
@@ -14,11 +14,14 @@ namespace orthonav::openxr {
 /// Mounted cameras get their poses from the runtime; what tracks them otherwise is not asked. Those
 /// elsewhere keep their own world, and the display is laid into it. The map's epoch rises when the
 /// runtime's space moves and with each new session.
-class OpenxrHeadset : public Headset {
+class OpenxrHeadset : public ForwardingHeadset {
  public:
   /// Connects with nothing yet: that is `pixels().open()`.
   static std::unique_ptr<OpenxrHeadset> around(std::unique_ptr<Headset> cameras,
                                                const RigOnHead& rig);
+
+ protected:
+  explicit OpenxrHeadset(Headset& cameras) : ForwardingHeadset(cameras) {}
 };
 
 /// The runtime of this machine in words, such as "Monado(XRT) 21.0.0, Simulated HMD"; an Error says

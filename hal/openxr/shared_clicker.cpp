@@ -4,17 +4,6 @@
 
 namespace orthonav::openxr {
 
-void SharedClicker::offer(Hand hand, const ClickerEvent& event, std::vector<ClickerEvent>& events) {
-  if (event.action == ClickerAction::kPress ? state_.pressed : hand != hand_) return;
-  ButtonState next = state_;
-  // A double click of whom nobody saw the first click is none.
-  if (event.action == ClickerAction::kPress && hand != hand_) next = {};
-  if (!next.take(event.action)) return;
-  state_ = next;
-  hand_ = hand;
-  events.push_back(event);
-}
-
 Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events) {
   clicked_.clear();
   if (const Status status = inner_.poll(until, clicked_); !status) return status;
@@ -31,10 +20,11 @@ Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events
   auto select = selected_.begin();
   for (const ClickerEvent& click : clicked_) {
     for (; select != selected_.end() && select->time <= click.time; ++select)
-      offer(Hand::kDisplay, *select, events);
-    offer(Hand::kInner, click, events);
+      button_.offer(SharedButton::Hand::kFirst, *select, events);
+    button_.offer(SharedButton::Hand::kSecond, click, events);
   }
-  for (; select != selected_.end(); ++select) offer(Hand::kDisplay, *select, events);
+  for (; select != selected_.end(); ++select)
+    button_.offer(SharedButton::Hand::kFirst, *select, events);
   told_ = until;
   return {};
 }

@@ -4,6 +4,7 @@
 
 #include <thread>
 
+#include "hal/api/forwarding_headset.h"
 #include "hal/fake/failing.h"
 #include "hal/hl2ss/server/server.h"
 #include "hal/open/joined_headset.h"
@@ -13,6 +14,7 @@
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/sim_camera/scene.h"
+#include "tests/support/bare_room.h"
 #include "tests/support/event_file.h"
 #include "tests/support/scripted_session.h"
 #include "tests/support/session_log.h"
@@ -25,20 +27,10 @@ namespace {
 
 /// A headset and what must outlive it.
 template <class Kept>
-class Keeping : public Headset {
+class Keeping : public ForwardingHeadset {
  public:
   Keeping(Kept kept, std::unique_ptr<Headset> headset)
-      : kept_(std::move(kept)), headset_(std::move(headset)) {}
-  [[nodiscard]] std::string name() const override { return headset_->name(); }
-  [[nodiscard]] const Clock& clock() const override { return headset_->clock(); }
-  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
-    return headset_->epoch_ticks_100ns();
-  }
-  [[nodiscard]] StereoCamera& cameras() override { return headset_->cameras(); }
-  [[nodiscard]] HeadTracker& head() override { return headset_->head(); }
-  [[nodiscard]] Clicker& clicker() override { return headset_->clicker(); }
-  [[nodiscard]] Voice& voice() override { return headset_->voice(); }
-  [[nodiscard]] Display& display() override { return headset_->display(); }
+      : ForwardingHeadset(*headset), kept_(std::move(kept)), headset_(std::move(headset)) {}
 
  private:
   Kept kept_;
@@ -51,16 +43,14 @@ std::unique_ptr<Headset> keeping(Kept kept, std::unique_ptr<Headset> headset) {
 }
 
 /// Shows a step of the workflow to the wearer with each pair, whatever it is asked to show itself.
-class Prompting : public Headset {
+class Prompting : public ForwardingHeadset {
  public:
   Prompting(std::unique_ptr<Headset> inner, std::string step)
-      : inner_(std::move(inner)), cameras_(*inner_, std::move(step)), display_(*inner_) {}
-  [[nodiscard]] std::string name() const override { return inner_->name(); }
-  [[nodiscard]] const Clock& clock() const override { return inner_->clock(); }
+      : ForwardingHeadset(*inner),
+        inner_(std::move(inner)),
+        cameras_(*inner_, std::move(step)),
+        display_(*inner_) {}
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
-  [[nodiscard]] HeadTracker& head() override { return inner_->head(); }
-  [[nodiscard]] Clicker& clicker() override { return inner_->clicker(); }
-  [[nodiscard]] Voice& voice() override { return inner_->voice(); }
   [[nodiscard]] Display& display() override { return display_; }
 
  private:
@@ -150,22 +140,7 @@ std::unique_ptr<Headset> open_stream_recorder() {
   return keeping(std::move(folder), std::move(headset));
 }
 
-/// A table with two tools hovering over it, for a third of a second.
-sim::RoomDescription bare_room() {
-  sim::RoomDescription room;
-  sim::RoomTool pointer;
-  pointer.name = "pointer";
-  pointer.id = 3;
-  pointer.size_m = 0.05;
-  pointer.tip_in_marker = {{0.0, -0.15, 0.0}};
-  sim::RoomTool guide = pointer;
-  guide.name = "guide";
-  guide.kind = sim::ToolKind::kGuide;
-  guide.id = 5;
-  room.tools = {pointer, guide};
-  return room;
-}
-
+/// A table with its tools for a third of a second.
 std::unique_ptr<Headset> open_sim() {
   OpenOptions options;
   options.room = bare_room();
@@ -175,19 +150,11 @@ std::unique_ptr<Headset> open_sim() {
 }
 
 /// Answers once there is an answer: what comes over a network comes in its own time.
-class Waiting : public Headset {
+class Waiting : public ForwardingHeadset {
  public:
-  explicit Waiting(std::unique_ptr<Headset> inner) : inner_(std::move(inner)), cameras_(*inner_) {}
-  [[nodiscard]] std::string name() const override { return inner_->name(); }
-  [[nodiscard]] const Clock& clock() const override { return inner_->clock(); }
-  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
-    return inner_->epoch_ticks_100ns();
-  }
+  explicit Waiting(std::unique_ptr<Headset> inner)
+      : ForwardingHeadset(*inner), inner_(std::move(inner)), cameras_(*inner_) {}
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
-  [[nodiscard]] HeadTracker& head() override { return inner_->head(); }
-  [[nodiscard]] Clicker& clicker() override { return inner_->clicker(); }
-  [[nodiscard]] Voice& voice() override { return inner_->voice(); }
-  [[nodiscard]] Display& display() override { return inner_->display(); }
 
  private:
   class Cameras : public StereoCamera {

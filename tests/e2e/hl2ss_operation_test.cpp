@@ -10,6 +10,7 @@
 #include "engine/sim_scenario.h"
 #include "engine/simulated_operation.h"
 #include "engine/tool_file.h"
+#include "hal/api/forwarding_headset.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "nav/evaluation/errors.h"
@@ -33,18 +34,11 @@ struct Wire {
 };
 
 /// Passes everything on, and keeps the wires when its session ends.
-class Witnessed : public Headset {
+class Witnessed : public ForwardingHeadset {
  public:
   Witnessed(std::unique_ptr<sim::SimHeadset> inner, sim::Truth& truth)
-      : inner_(std::move(inner)), truth_(truth) {}
+      : ForwardingHeadset(*inner), inner_(std::move(inner)), truth_(truth) {}
   ~Witnessed() override { truth_ = inner_->truth(); }
-  [[nodiscard]] std::string name() const override { return inner_->name(); }
-  [[nodiscard]] const Clock& clock() const override { return inner_->clock(); }
-  [[nodiscard]] StereoCamera& cameras() override { return inner_->cameras(); }
-  [[nodiscard]] HeadTracker& head() override { return inner_->head(); }
-  [[nodiscard]] Clicker& clicker() override { return inner_->clicker(); }
-  [[nodiscard]] Voice& voice() override { return inner_->voice(); }
-  [[nodiscard]] Display& display() override { return inner_->display(); }
 
  private:
   std::unique_ptr<sim::SimHeadset> inner_;
@@ -89,10 +83,7 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
     if (!opened) return opened.error();
     return std::unique_ptr<Headset>(std::make_unique<Witnessed>(std::move(*opened), truth));
   });
-  hl2ss::Hl2ssOptions client;
-  client.host = "127.0.0.1";
-  client.first_port = server->first_port();
-  client.standin_port = server->standin_port();
+  hl2ss::Hl2ssOptions client = server->client_options();
   client.profile = profile;
   auto headset = hl2ss::Hl2ssHeadset::open(client);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
@@ -126,14 +117,18 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
   return done;
 }
 
+void expect_wires_within(double angle_deg, double entry_m, const std::vector<Wire>& wires) {
+  for (const Wire& wire : wires) {
+    EXPECT_LT(wire.angle_deg, angle_deg) << wire.side;
+    EXPECT_LT(wire.entry_m, entry_m) << wire.side;
+  }
+}
+
 TEST(OverTcp, RawAWholeOperationIsAsExactAsTheDirectRun) {
   const Operated done = operate(hl2ss::VideoProfile::kRaw, {});
   EXPECT_TRUE(done.result.completed);
   ASSERT_EQ(done.wires.size(), 2u);
-  for (const Wire& wire : done.wires) {
-    EXPECT_LT(wire.angle_deg, kPerfectAngle_deg) << wire.side;
-    EXPECT_LT(wire.entry_m, kPerfectEntry_m) << wire.side;
-  }
+  expect_wires_within(kPerfectAngle_deg, kPerfectEntry_m, done.wires);
   EXPECT_TRUE(done.map_moves.empty());
 }
 
@@ -141,10 +136,7 @@ TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
   const Operated done = operate(hl2ss::VideoProfile::kH264Base, {});
   EXPECT_TRUE(done.result.completed);
   ASSERT_EQ(done.wires.size(), 2u);
-  for (const Wire& wire : done.wires) {
-    EXPECT_LT(wire.angle_deg, kCodecAngle_deg) << wire.side;
-    EXPECT_LT(wire.entry_m, kCodecEntry_m) << wire.side;
-  }
+  expect_wires_within(kCodecAngle_deg, kCodecEntry_m, done.wires);
   EXPECT_TRUE(done.map_moves.empty());
 }
 
@@ -158,10 +150,7 @@ TEST(OverTcp, SurvivesEveryFaultAndAJumpWhileGuiding) {
   EXPECT_TRUE(done.result.completed);
   EXPECT_THAT(done.map_moves, ::testing::ElementsAre(Step::kGuide));
   EXPECT_GE(done.wires.size(), 2u);
-  for (const Wire& wire : done.wires) {
-    EXPECT_LT(wire.angle_deg, kPerfectAngle_deg) << wire.side;
-    EXPECT_LT(wire.entry_m, kPerfectEntry_m) << wire.side;
-  }
+  expect_wires_within(kPerfectAngle_deg, kPerfectEntry_m, done.wires);
 }
 
 /// What the headset is told to listen for is what a session understands.

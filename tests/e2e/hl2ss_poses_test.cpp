@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "engine/tool_file.h"
+#include "hal/api/as_headset.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "hal/sim/sim_headset.h"
@@ -44,18 +45,11 @@ Apart compare(hl2ss::VideoProfile profile) {
   hl2ss::ServerOptions options;
   options.first_port = 0;
   options.paced = true;
-  const auto open = [sim]() -> Result<std::unique_ptr<Headset>> {
-    auto opened = sim::SimHeadset::open(table(), sim);
-    if (!opened) return opened.error();
-    return std::unique_ptr<Headset>(std::move(*opened));
-  };
+  const auto open = [sim] { return as_headset(sim::SimHeadset::open(table(), sim)); };
   const auto server = hl2ss::Server::start(options, open);
   auto direct = open();
   EXPECT_TRUE(server.ok() && direct.ok());
-  hl2ss::Hl2ssOptions client;
-  client.host = "127.0.0.1";
-  client.first_port = (*server)->first_port();
-  client.standin_port = (*server)->standin_port();
+  hl2ss::Hl2ssOptions client = (*server)->client_options();
   client.profile = profile;
   auto headset = hl2ss::Hl2ssHeadset::open(client);
   EXPECT_TRUE(headset.ok()) << headset.error().message;

@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "hal/api/as_headset.h"
 #include "hal/hl2ss/probe.h"
 #include "tests/hl2ss/served_room.h"
 
@@ -126,10 +127,8 @@ TEST(UnderFault, AJumpOfTheWorldIsCountedOnce) {
 TEST(Reconnecting, GoesOnWithANewServer) {
   sim::SimOptions sim = black_session(60.0);
   sim.pace = sim::Pace::kRealtime;
-  auto open = [sim]() -> Result<std::unique_ptr<Headset>> {
-    auto opened = sim::SimHeadset::open(orthonav::testing::bare_room(), sim);
-    if (!opened) return opened.error();
-    return std::unique_ptr<Headset>(std::move(*opened));
+  const auto open = [sim] {
+    return as_headset(sim::SimHeadset::open(orthonav::testing::bare_room(), sim));
   };
   ServerOptions server;
   server.first_port = 0;

@@ -2,43 +2,20 @@
 
 #include <thread>
 
+#include "hal/api/as_headset.h"
+
 namespace orthonav::testing {
 
-sim::RoomDescription bare_room() {
-  sim::RoomDescription room;
-  sim::RoomTool pointer;
-  pointer.name = "pointer";
-  pointer.id = 3;
-  pointer.size_m = 0.05;
-  pointer.tip_in_marker = {{0.0, -0.15, 0.0}};
-  sim::RoomTool guide = pointer;
-  guide.name = "guide";
-  guide.kind = sim::ToolKind::kGuide;
-  guide.id = 5;
-  room.tools = {pointer, guide};
-  return room;
-}
-
 ServedRoom::ServedRoom(const sim::SimOptions& sim, hl2ss::ServerOptions options,
-                       sim::RoomDescription room)
-    : standin_(options.standin) {
+                       sim::RoomDescription room) {
   options.first_port = 0;
-  auto started = hl2ss::Server::start(options, [sim, room]() -> Result<std::unique_ptr<Headset>> {
-    auto opened = sim::SimHeadset::open(room, sim);
-    if (!opened) return opened.error();
-    return std::unique_ptr<Headset>(std::move(*opened));
-  });
+  auto started = hl2ss::Server::start(
+      options, [sim, room] { return as_headset(sim::SimHeadset::open(room, sim)); });
   EXPECT_TRUE(started.ok()) << started.error().message;
   if (started) server_ = std::move(*started);
 }
 
-hl2ss::Hl2ssOptions ServedRoom::client_options() const {
-  hl2ss::Hl2ssOptions options;
-  options.host = "127.0.0.1";
-  options.first_port = server_->first_port();
-  if (standin_) options.standin_port = server_->standin_port();
-  return options;
-}
+hl2ss::Hl2ssOptions ServedRoom::client_options() const { return server_->client_options(); }
 
 std::unique_ptr<hl2ss::Hl2ssHeadset> ServedRoom::connect(hl2ss::VideoProfile profile) const {
   hl2ss::Hl2ssOptions options = client_options();

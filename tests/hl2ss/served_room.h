@@ -8,11 +8,9 @@
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "hal/sim/sim_headset.h"
+#include "tests/support/bare_room.h"
 
 namespace orthonav::testing {
-
-/// A table with two tools hovering over it.
-sim::RoomDescription bare_room();
 
 /// How long a test waits for what must come, before it fails.
 inline constexpr auto kLongest = std::chrono::seconds(20);
@@ -30,7 +28,6 @@ class ServedRoom {
 
  private:
   std::unique_ptr<hl2ss::Server> server_;
-  bool standin_;
 };
 
 /// Asks until a pair or the end comes; kNone only after `kLongest`. Errors are counted and passed

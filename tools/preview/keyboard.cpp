@@ -36,30 +36,20 @@ void Keyboard::take_phrases(std::vector<std::string>& phrases) {
   phrases_.clear();
 }
 
-/// A press belongs to whoever pressed, and so does all up to the next press of anybody.
-void SharedClicker::offer(Hand hand, const ClickerEvent& event, std::vector<ClickerEvent>& events) {
-  if (event.action == ClickerAction::kPress ? state_.pressed : hand != hand_) return;
-  ButtonState next = state_;
-  // A double click of whom nobody saw the first click is none.
-  if (event.action == ClickerAction::kPress && hand != hand_) next = {};
-  if (!next.take(event.action)) return;
-  state_ = next;
-  hand_ = hand;
-  events.push_back(event);
-}
-
 Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events) {
   offered_.clear();
   if (const Status status = inner_.poll(until, offered_); !status) return status;
   const bool muted = keyboard_.muted();
   for (const ClickerEvent& event : offered_)
-    if (!muted || event.action != ClickerAction::kPress) offer(Hand::kInner, event, events);
+    if (!muted || event.action != ClickerAction::kPress)
+      button_.offer(SharedButton::Hand::kFirst, event, events);
   offered_.clear();
   downs_.clear();
   keyboard_.take_button(downs_);
   timer_.advance(until, offered_);
   for (const bool down : downs_) timer_.button(down, until, offered_);
-  for (const ClickerEvent& event : offered_) offer(Hand::kKeyboard, {event.action, until}, events);
+  for (const ClickerEvent& event : offered_)
+    button_.offer(SharedButton::Hand::kSecond, {event.action, until}, events);
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/api/devices.h"
+#include "hal/api/shared_button.h"
 
 namespace orthonav::preview {
 
@@ -30,22 +31,18 @@ class Keyboard {
   std::vector<std::string> phrases_;
 };
 
-/// The headset's clicker and the keyboard's as one button: who presses first has it until the
-/// release, and what the other does meanwhile is lost.
+/// The headset's clicker and the keyboard's as one button.
 class SharedClicker : public Clicker {
  public:
   SharedClicker(Clicker& inner, Keyboard& keyboard) : inner_(inner), keyboard_(keyboard) {}
 
  private:
-  enum class Hand { kNobody, kInner, kKeyboard };
   Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override;
-  void offer(Hand hand, const ClickerEvent& event, std::vector<ClickerEvent>& events);
 
   Clicker& inner_;
   Keyboard& keyboard_;
   ClickTimer timer_;
-  ButtonState state_;
-  Hand hand_ = Hand::kNobody;
+  SharedButton button_;
   std::vector<bool> downs_;
   std::vector<ClickerEvent> offered_;
 };

@@ -58,6 +58,13 @@ class RunningServer final : public Server {
   }
   [[nodiscard]] int first_port() const override { return first_port_; }
   [[nodiscard]] int standin_port() const override { return first_port_ + kStandinOffset; }
+  [[nodiscard]] Hl2ssOptions client_options() const override {
+    Hl2ssOptions options;
+    options.host = "127.0.0.1";
+    options.first_port = first_port_;
+    if (options_.standin) options.standin_port = standin_port();
+    return options;
+  }
   [[nodiscard]] ServerReport report() const override {
     const std::lock_guard lock(report_mutex_);
     return report_;

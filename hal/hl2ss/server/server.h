@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hal/api/devices.h"
+#include "hal/hl2ss/options.h"
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/server/faults.h"
 
@@ -49,6 +50,8 @@ class Server {
   virtual ~Server() = default;
   [[nodiscard]] virtual int first_port() const = 0;
   [[nodiscard]] virtual int standin_port() const = 0;
+  /// How a client on this machine reaches it.
+  [[nodiscard]] virtual Hl2ssOptions client_options() const = 0;
   [[nodiscard]] virtual ServerReport report() const = 0;
 };
 

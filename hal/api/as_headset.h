@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "hal/api/devices.h"
+
+namespace orthonav {
+
+/// What was opened, as any headset.
+template <class T>
+Result<std::unique_ptr<Headset>> as_headset(Result<std::unique_ptr<T>> opened) {
+  if (!opened) return opened.error();
+  return std::unique_ptr<Headset>(std::move(opened).value());
+}
+
+}  // namespace orthonav

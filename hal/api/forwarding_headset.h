@@ -1,0 +1,29 @@
+#pragma once
+
+#include "hal/api/devices.h"
+
+namespace orthonav {
+
+/// Another headset, part by part: for one that replaces some of its parts. Borrows it.
+class ForwardingHeadset : public Headset {
+ public:
+  explicit ForwardingHeadset(Headset& inner) : inner_(inner) {}
+  [[nodiscard]] std::string name() const override { return inner_.name(); }
+  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
+  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
+    return inner_.epoch_ticks_100ns();
+  }
+  [[nodiscard]] StereoCamera& cameras() override { return inner_.cameras(); }
+  [[nodiscard]] HeadTracker& head() override { return inner_.head(); }
+  [[nodiscard]] Clicker& clicker() override { return inner_.clicker(); }
+  [[nodiscard]] Voice& voice() override { return inner_.voice(); }
+  [[nodiscard]] Display& display() override { return inner_.display(); }
+  [[nodiscard]] Microphone* microphone() override { return inner_.microphone(); }
+  [[nodiscard]] PixelDisplay* pixels() override { return inner_.pixels(); }
+  [[nodiscard]] Headset& owner_of_cameras() override { return inner_.owner_of_cameras(); }
+
+ private:
+  Headset& inner_;
+};
+
+}  // namespace orthonav

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "hal/api/result.h"
+
+namespace orthonav {
+
+inline Error bad_uri(const std::string& uri, const std::string& why) {
+  return Error{"headset URI \"" + uri + "\": " + why};
+}
+
+}  // namespace orthonav
