@@ -96,9 +96,9 @@ FullScene full_scene() {
   vertebra->mesh =
       std::make_shared<render::MeshData>(render::decimated(refined(*vertebra->mesh), kTriangles));
   const render::Scene rod = golden("h10_rod").scene;
-  full.scene.meshes.insert(full.scene.meshes.end(), rod.meshes.begin(), rod.meshes.end());
-  full.scene.lines.insert(full.scene.lines.end(), rod.lines.begin(), rod.lines.end());
-  full.scene.texts.insert(full.scene.texts.end(), rod.texts.begin(), rod.texts.end());
+  for (const auto& item : rod.meshes) full.scene.meshes.push_back(item);
+  for (const auto& item : rod.lines) full.scene.lines.push_back(item);
+  for (const auto& item : rod.texts) full.scene.texts.push_back(item);
   full.scene.lines.push_back(sampled_path());
   add_cross(full.scene, full.views);
   return full;
