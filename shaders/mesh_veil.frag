@@ -5,16 +5,15 @@
 
 layout(set = 0, binding = 3) uniform sampler2DArray background;
 
-layout(location = 0) in vec3 normal_in_world;
+layout(location = 0) in vec4 normal_and_tint;
 layout(location = 1) in vec3 towards_eye;
-layout(location = 2) in vec3 shade;
 layout(location = 0) out vec4 colour;
 
 // Only the nearest veil shows, so this replaces what it finds instead of blending with it: the
 // background is the one thing that can lie below, and it is fetched here. One pass, no sorting.
 void main() {
-  float light = item.ids.z == 1u ? rim_light(normal_in_world, towards_eye)
-                                 : headlight(normal_in_world, towards_eye);
+  float light = item.ids.z == 1u ? rim_light(normal_and_tint.xyz, towards_eye)
+                                 : headlight(normal_and_tint.xyz, towards_eye);
   vec3 below = vec3(0);
   if (frame.mode.y == 1u) {
     below = texelFetch(background, ivec3(gl_FragCoord.xy, gl_ViewIndex), 0).rgb;
@@ -22,6 +21,7 @@ void main() {
   // A rim's light is its opacity: where it is thin, the bone shows through.
   float opacity = item.ids.z == 1u ? min(item.colour.a * light, 1.0) : item.colour.a;
   float kept = frame.mode.x == 1u ? 1.0 - opacity : 1.0;
+  vec3 shade = mix(item.colour.rgb, item.extra.rgb, normal_and_tint.w);
   vec3 added = shade * min(item.colour.a * light, 1.0);
   colour = vec4(below * kept + added, opacity);
 }
