@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/render_values.h"
+#include "engine/scene_builder.h"
 #include "render/projection.h"
 
 namespace orthonav::engine {
@@ -107,10 +108,16 @@ Result<bool> DisplayRenderer::draw(const render::Scene& scene) {
   std::string error;
   if (!renderer_->prepare(scene, error)) return Error{error};
   const EyeViews eyes = display_.views();
-  if (eyes.origin == Origin::kLost) return false;
+  drawn_ = &scene;
+  if (eyes.origin == Origin::kLost) {
+    if (!eyes.on_head) return false;
+    write_head_lost(scene, left_);
+    if (!renderer_->prepare(left_, error)) return Error{error};
+    drawn_ = &left_;
+  }
   views_.clear();
   for (const EyeView& eye : eyes.value) views_.push_back(view_of(eye));
-  if (!renderer_->draw(scene, views_, *images, error)) return Error{error};
+  if (!renderer_->draw(*drawn_, views_, *images, error)) return Error{error};
   return true;
 }
 

@@ -20,11 +20,13 @@ class DisplayRenderer {
   DisplayRenderer(const DisplayRenderer&) = delete;
   DisplayRenderer& operator=(const DisplayRenderer&) = delete;
 
-  /// Draws a scene into a frame that was begun: false when the eyes are not located. The head is
-  /// asked for its pose last, when all that takes time but recording is done.
+  /// Draws a scene into a frame that was begun. While the head is not located only what hangs on it
+  /// is drawn, and where its eyes are not known either nothing: then false. The head is asked for
+  /// its pose last, when all that takes time but recording is done.
   Result<bool> draw(const render::Scene& scene);
   [[nodiscard]] const render::HostedRenderer& renderer() const { return *renderer_; }
-  /// The views of the last frame drawn.
+  /// What was drawn last, the scene given or what was left of it, and its views.
+  [[nodiscard]] const render::Scene& drawn() const { return *drawn_; }
   [[nodiscard]] const std::vector<render::View>& views() const { return views_; }
 
  private:
@@ -33,6 +35,8 @@ class DisplayRenderer {
   PixelDisplay& display_;
   std::unique_ptr<render::HostedRenderer> renderer_;
   std::vector<render::View> views_;
+  render::Scene left_;  ///< while the head is not located
+  const render::Scene* drawn_ = &left_;
 };
 
 }  // namespace orthonav::engine

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/golden_stage.h"
+#include "engine/scene_builder.h"
 #include "hal/api/angle.h"
 #include "render/float3.h"
 #include "render/shapes.h"
@@ -69,6 +70,17 @@ GoldenScene status(const std::string& name, const std::string& what, const std::
   return golden;
 }
 
+/// A whole scene of which only what hangs on the head is left.
+GoldenScene head_lost() {
+  GoldenScene golden =
+      status("h11_head_lost", "status line, an amber line above it, nothing else",
+             "guide L4 left | RMSE 0.62 mm", ToolState::kMeasured, ToolState::kMeasured);
+  render::Scene whole = golden.scene;
+  whole.lines.push_back({601, {kPlacesToCheck[0], kPlacesToCheck[1]}, 0.002f, look::kGreen});
+  write_head_lost(whole, golden.scene);
+  return golden;
+}
+
 GoldenScene check(const std::string& name, const std::string& what, double distance_m,
                   bool within) {
   GoldenScene golden = start(name, what, close_view({0.006f, 0.052f, -0.006f}));
@@ -106,6 +118,7 @@ void add_other_scenes(std::vector<GoldenScene>& scenes) {
                           ToolState::kPredicted, ToolState::kLost));
   scenes.push_back(status("h11_short", "status line: one word", "setup", ToolState::kLost,
                           ToolState::kMeasured));
+  scenes.push_back(head_lost());
   scenes.push_back(to_check());
   scenes.push_back(check("h12_within", "green diamond, 0.4 mm", 0.0004, true));
   scenes.push_back(check("h12_off", "red diamond, 3.1 mm", 0.0031, false));

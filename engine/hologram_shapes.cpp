@@ -216,14 +216,30 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   add_run(text, in_mm(*rod.length_m), look::kWhite);
 }
 
-void add_status_line(Scene& scene, std::string_view text, std::span<const ToolDot> tools,
-                     Label label) {
+namespace {
+
+/// Low in view, wherever the head goes.
+render::TextItem& add_line_on_head(Scene& scene, Label label) {
   render::TextItem& item = scene.texts.emplace_back();
   item.label = label;
   item.place = render::TextPlace::kView;
   item.position = {0, -0.096f, -0.5f};  // 11° below straight ahead
   item.height_m = 0.003f;
   item.min_height_deg = 0.5f;
+  return item;
+}
+
+}  // namespace
+
+void add_notice(Scene& scene, std::string_view text, Label label) {
+  render::TextItem& item = add_line_on_head(scene, label);
+  item.offset_up = 2.0f;
+  add_run(item, text, look::kAmber);
+}
+
+void add_status_line(Scene& scene, std::string_view text, std::span<const ToolDot> tools,
+                     Label label) {
+  render::TextItem& item = add_line_on_head(scene, label);
   add_run(item, text, look::kDimWhite);
   for (const ToolDot& tool : tools) {
     // The shape says it as well as the colour does.

@@ -133,6 +133,9 @@ struct ToolDot {
   ToolState state = ToolState::kLost;
 };
 
+/// H11: what everything else depends on, above the status line.
+void add_notice(render::Scene& scene, std::string_view text, render::Label label);
+
 /// H11: one line low in view; a filled dot for a measured tool, a half one for a predicted, an
 /// empty one for a lost tool.
 void add_status_line(render::Scene& scene, std::string_view text, std::span<const ToolDot> tools,

@@ -142,7 +142,7 @@ bool Presenter::draw_scene(const DisplayTurn& turn) {
     return false;
   }
   if (!*drawn) return false;
-  if (options_.on_drawn) options_.on_drawn(shown_.scene, renderer_->views());
+  if (options_.on_drawn) options_.on_drawn(renderer_->drawn(), renderer_->views());
   const std::lock_guard lock(mutex_);
   if (report_.latch_ms.size() < kMostLatches)
     report_.latch_ms.push_back(renderer_->renderer().last_timing().total_ms);

@@ -35,6 +35,13 @@ void hide_tool_guidance(render::Scene& scene) {
   }
 }
 
+void write_head_lost(const render::Scene& scene, render::Scene& left) {
+  left.clear();
+  for (const render::TextItem& text : scene.texts)
+    if (text.place == render::TextPlace::kView) left.texts.push_back(text);
+  add_notice(left, "Head not located: nothing is shown in the world", label_of(11, 2));
+}
+
 void SceneBuilder::update(const Guidance& guidance, Timestamp lights_up) {
   decide_visibility(guidance, rules_, lights_up, visible_);
 }

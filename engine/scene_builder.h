@@ -68,4 +68,8 @@ class SceneBuilder {
 /// from has grown too old before they were drawn.
 void hide_tool_guidance(render::Scene& scene);
 
+/// What is left of a scene while the head is not located: the status line, which hangs on the head,
+/// and above it why there is nothing else.
+void write_head_lost(const render::Scene& scene, render::Scene& left);
+
 }  // namespace orthonav::engine

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/render_values.h"
+#include "engine/scene_builder.h"
 #include "tools/eye_in_rig.h"
 
 namespace orthonav::tools {
@@ -68,10 +69,9 @@ Status SurgeonView::draw(const engine::Snapshot& snapshot) {
   }
   backgrounds_.assign(1, &background_);
   std::string error;
-  // A headset that does not know where it is shows nothing.
-  static const render::Scene kNothing;
+  if (!located) engine::write_head_lost(snapshot.scene, head_lost_);
   const bool drawn =
-      renderer_->draw(located ? snapshot.scene : kNothing, views_, backgrounds_, images_, error);
+      renderer_->draw(located ? snapshot.scene : head_lost_, views_, backgrounds_, images_, error);
   background_.rgba.swap(room_picture_.pixels);
   if (!drawn) return Error{error};
   for (PictureSink* sink : sinks_)

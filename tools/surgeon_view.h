@@ -67,6 +67,7 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
   std::vector<render::View> views_;
   std::vector<const render::Image*> backgrounds_;
   std::vector<render::Image> images_;
+  render::Scene head_lost_;  ///< what is left then
 };
 
 }  // namespace orthonav::tools

@@ -80,7 +80,11 @@ struct EyeView {
 };
 
 /// Both eyes, left first. With `kLost` nothing may be drawn that has a place in the world.
-using EyeViews = Tracked<std::array<EyeView, 2>>;
+struct EyeViews : Tracked<std::array<EyeView, 2>> {
+  /// With `kLost`: where the eyes are on the head is known still, and World in `value` is the head,
+  /// so that what it carries may be drawn. Else `value` says nothing.
+  bool on_head = false;
+};
 
 /// What the display wants next.
 struct DisplayTurn {

@@ -85,6 +85,11 @@ class XrDisplay : public PixelDisplay {
   DisplayTurn begin_frame();
   [[nodiscard]] DisplayTurn lost(const std::string& what, XrResult result);
   void lay_world(XrTime at);
+  /// Puts the eyes' poses and fields of view for the frame begun into `located_`; how well known.
+  XrViewStateFlags locate_eyes(XrSpace space);
+  /// Of `located_`; false where a pose or a field of view can't be used.
+  bool take_eyes(const Transform<World, Space>& world_from_space, EyeViews& views) const;
+  bool locate_in_world(EyeViews& views);
   [[nodiscard]] Located locate_viewer(XrTime at) const;
   /// Both clocks read at once.
   [[nodiscard]] std::optional<XrTime> xr_time(Timestamp at) const;
@@ -117,6 +122,7 @@ class XrDisplay : public PixelDisplay {
   SelectButton button_;
   XrTime display_time_ = 0;  ///< of the frame begun
   std::array<XrView, 2> located_{};
+  XrSpace located_in_ = XR_NULL_HANDLE;
 };
 
 }  // namespace orthonav::openxr

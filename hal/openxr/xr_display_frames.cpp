@@ -20,6 +20,9 @@ DisplayTurn over(const char* why) {
   return turn;
 }
 
+constexpr XrViewStateFlags kKnown =
+    XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+
 /// Eyes of a head whose place is not known, beside the origin as far as eyes are apart.
 void stand_still(std::array<XrView, 2>& views) {
   constexpr double kHalfApart_m = 0.0315;
@@ -171,43 +174,55 @@ void XrDisplay::lay_world(XrTime at) {
   anchor_.lay(at, world_from_rig.value * mount_.rig_from_viewer, viewer.space_from_viewer);
 }
 
-EyeViews XrDisplay::views() {
-  lay_world(display_time_);
-  EyeViews views;
-  if (const auto light = timestamp(display_time_)) views.time = *light;
+XrViewStateFlags XrDisplay::locate_eyes(XrSpace space) {
   XrViewLocateInfo info = {XR_TYPE_VIEW_LOCATE_INFO};
   info.viewConfigurationType = kStereo;
   info.displayTime = display_time_;
-  info.space = space_;
+  info.space = space;
   XrViewState state = {XR_TYPE_VIEW_STATE};
   std::uint32_t count = 0;
   located_.fill({XR_TYPE_VIEW});
   const XrResult located = xrLocateViews(session_, &info, &state, 2, &count, located_.data());
-  constexpr XrViewStateFlags kKnown =
-      XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+  located_in_ = space;
+  return XR_FAILED(located) || count != 2 ? 0 : state.viewStateFlags;
+}
+
+bool XrDisplay::take_eyes(const Transform<World, Space>& world_from_space, EyeViews& views) const {
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const auto pose = transform_of<Space, Eye>(located_[eye].pose);
+    if (!pose || !take_fov(located_[eye].fov, views.value[eye])) return false;
+    views.value[eye].world_from_eye = world_from_space * *pose;
+  }
+  return true;
+}
+
+bool XrDisplay::locate_in_world(EyeViews& views) {
   constexpr XrViewStateFlags kTracked =
       XR_VIEW_STATE_ORIENTATION_TRACKED_BIT | XR_VIEW_STATE_POSITION_TRACKED_BIT;
-  if (XR_FAILED(located) || count != 2) return views;
-  const bool turns_only = mount_.placement == Placement::kElsewhere &&
-                          (state.viewStateFlags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT;
-  if (turns_only)
+  const XrViewStateFlags flags = locate_eyes(space_);
+  const bool elsewhere = mount_.placement == Placement::kElsewhere;
+  if (elsewhere && (flags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT)
     stand_still(located_);
-  else if ((state.viewStateFlags & kKnown) != kKnown)
-    return views;
+  else if ((flags & kKnown) != kKnown)
+    return false;
+  // A position that is guessed puts holograms beside the bone. Nothing hangs on a bone elsewhere.
+  if (!elsewhere && (flags & kTracked) != kTracked) return false;
   std::optional<Transform<World, Space>> world_from_space;
   {
     const std::lock_guard lock(mutex_);
     world_from_space = anchor_.world_from_space(display_time_);
   }
-  if (!world_from_space) return views;
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    const auto pose = transform_of<Space, Eye>(located_[eye].pose);
-    if (!pose || !take_fov(located_[eye].fov, views.value[eye])) return views;
-    views.value[eye].world_from_eye = *world_from_space * *pose;
-  }
-  // A position that is guessed puts holograms beside the bone. Nothing hangs on a bone elsewhere.
-  const bool tracked = (state.viewStateFlags & kTracked) == kTracked;
-  if (tracked || mount_.placement == Placement::kElsewhere) views.origin = Origin::kPredicted;
+  return world_from_space && take_eyes(*world_from_space, views);
+}
+
+EyeViews XrDisplay::views() {
+  lay_world(display_time_);
+  EyeViews views;
+  if (const auto light = timestamp(display_time_)) views.time = *light;
+  if (locate_in_world(views))
+    views.origin = Origin::kPredicted;
+  else
+    views.on_head = (locate_eyes(viewer_) & kKnown) == kKnown && take_eyes({}, views);
   return views;
 }
 
@@ -232,7 +247,7 @@ Status XrDisplay::finish_turn(bool drawn) {
   // What we write is premultiplied; where nothing is drawn, the world is seen.
   if (setup_.blend == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND)
     layer.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
-  layer.space = space_;
+  layer.space = located_in_;
   layer.viewCount = 2;
   layer.views = eyes.data();
   const auto* base = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);

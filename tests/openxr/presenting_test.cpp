@@ -200,15 +200,33 @@ TEST_F(RuntimeTest, SubmitsNothingWhereNothingIsToBeRendered) {
   EXPECT_FALSE(frames[0].should_render);
 }
 
-TEST_F(RuntimeTest, DrawsNothingWhileTheHeadIsNotLocated) {
+/// What hangs on the head is drawn in the viewer's space, and says why there is nothing else.
+TEST_F(RuntimeTest, DrawsTheStatusLineAloneWhileTheHeadIsNotLocated) {
   open();
   runtime().set_tracked(false, false);
   ASSERT_TRUE(present().ok());
   ASSERT_TRUE(show(golden("guidance").scene).ok());
-  ASSERT_TRUE(frames_pass(10));
-  EXPECT_EQ(count_drawn(), 0u);
+  ASSERT_TRUE(eventually([&] { return count_drawn() >= 10; }));
+  for (const DrawnScene& frame : drawn()) {
+    EXPECT_TRUE(hangs_on_head(frame.scene));
+    ASSERT_EQ(frame.scene.texts.size(), 2u);
+    EXPECT_EQ(frame.scene.texts[1].runs[0].text, "Head not located: nothing is shown in the world");
+  }
   runtime().set_tracked(true, true);
-  EXPECT_TRUE(eventually([&] { return count_drawn() >= 2; }));
+  EXPECT_TRUE(eventually([&] { return !hangs_on_head(drawn().back().scene); }));
+  presenter_->stop();
+  const auto pairs = matched(drawn(), runtime().frames());
+  ASSERT_GE(pairs.size(), 2u);
+  EXPECT_FALSE(pairs.front().second.on_head);
+  const auto lost = std::find_if(pairs.begin(), pairs.end(),
+                                 [](const auto& pair) { return pair.second.on_head; });
+  ASSERT_NE(lost, pairs.end());
+  EXPECT_FLOAT_EQ(lost->second.poses[0].position.x, -0.0315f);
+  EXPECT_TRUE(hangs_on_head(lost->first.scene));
+  FrameComparison comparison(160, 120, render::Blend::kAdditive);
+  const auto difference = comparison.compare(lost->first, lost->second);
+  EXPECT_EQ(difference.most, 0);
+  EXPECT_GT(difference.lit_px, 50u);
 }
 
 TEST_F(RuntimeTest, HidesGuidanceThatGrewOldWhileTrackingStalls) {

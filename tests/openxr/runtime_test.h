@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -39,6 +40,14 @@ struct DrawnScene {
   render::Scene scene;
   std::vector<render::View> views;
 };
+
+/// Nothing of it has a place in the world.
+inline bool hangs_on_head(const render::Scene& scene) {
+  return scene.meshes.empty() && scene.lines.empty() && scene.triangles.empty() &&
+         std::all_of(scene.texts.begin(), scene.texts.end(), [](const render::TextItem& text) {
+           return text.place == render::TextPlace::kView;
+         });
+}
 
 /// Presents on the double with validation layers listening; a test fails when they, or the runtime,
 /// find anything.

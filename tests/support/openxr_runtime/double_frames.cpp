@@ -212,8 +212,10 @@ XrResult take_layer(Double& d, const XrFrameEndInfo& info, SubmittedFrame& frame
   if (info.layerCount != 1 || layer->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION ||
       layer->viewCount != 2)
     return d.violated("layers that this runtime does not know", XR_ERROR_LAYER_INVALID);
-  if (d.session->spaces.count(reinterpret_cast<DoubleSpace*>(layer->space)) == 0)
+  auto* space = reinterpret_cast<DoubleSpace*>(layer->space);
+  if (d.session->spaces.count(space) == 0)
     return d.violated("a layer in no space", XR_ERROR_HANDLE_INVALID);
+  frame.on_head = space->type == XR_REFERENCE_SPACE_TYPE_VIEW;
   frame.flags = layer->layerFlags;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const XrCompositionLayerProjectionView& view = layer->views[eye];

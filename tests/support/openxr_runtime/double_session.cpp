@@ -139,19 +139,28 @@ XrResult XRAPI_CALL locate_space(XrSpace viewer, XrSpace base, XrTime time,
   return XR_SUCCESS;
 }
 
+constexpr XrViewStateFlags kAllFlags =
+    XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT |
+    XR_VIEW_STATE_ORIENTATION_TRACKED_BIT | XR_VIEW_STATE_POSITION_TRACKED_BIT;
+
 XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrViewState* state,
                                  std::uint32_t capacity, std::uint32_t* count, XrView* views) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
   if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
   if (info->displayTime <= 0) return d.violated("views at no time", XR_ERROR_TIME_INVALID);
-  state->viewStateFlags = d.flags();
+  auto* space = reinterpret_cast<DoubleSpace*>(info->space);
+  if (d.session->spaces.count(space) == 0)
+    return d.violated("views in a space of nobody's", XR_ERROR_HANDLE_INVALID);
+  const bool on_head = space->type == XR_REFERENCE_SPACE_TYPE_VIEW;
+  // Where the eyes are on the head is known however lost the head is.
+  state->viewStateFlags = on_head ? kAllFlags : d.flags();
   std::vector<XrView> both(2, {XR_TYPE_VIEW});
   for (std::size_t eye = 0; eye < 2; ++eye) {
     XrPosef offset = {{0, 0, 0, 1}, {eye == 0 ? -0.0315f : 0.0315f, 0, 0}};
-    both[eye].pose = multiplied(d.viewer_at(info->displayTime), offset);
+    both[eye].pose = on_head ? offset : multiplied(d.viewer_at(info->displayTime), offset);
     // What is not known may be anything.
-    if (!d.traits.position_known) both[eye].pose.position = {1e30f, -1e30f, 1e30f};
+    if (!d.traits.position_known && !on_head) both[eye].pose.position = {1e30f, -1e30f, 1e30f};
     const float inner = 0.40f;
     const float outer = 0.50f;
     both[eye].fov = {eye == 0 ? -outer : -inner, eye == 0 ? inner : outer, 0.36f, -0.40f};

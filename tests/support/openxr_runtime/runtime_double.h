@@ -53,6 +53,7 @@ struct SubmittedFrame {
   std::uint32_t layers = 0;
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   XrCompositionLayerFlags flags = 0;
+  bool on_head = false;  ///< the layer hangs on the viewer
   std::int64_t format = 0;
   std::array<XrPosef, 2> poses{};
   std::array<XrFovf, 2> fovs{};
