@@ -1,5 +1,6 @@
 #include "hal/api/depth_camera.h"
 
+#include <cmath>
 #include <string>
 
 namespace orthonav {
@@ -30,6 +31,12 @@ const char* name_of(DepthStream stream) {
       return "short-throw";
   }
   return "unknown stream";
+}
+
+DepthCalibration::Ray DepthCalibration::ray_through(Vec2 unit_plane) {
+  if (!std::isfinite(unit_plane.x) || !std::isfinite(unit_plane.y)) return {};
+  const Vec3 ray = Vec3{unit_plane.x, unit_plane.y, 1.0}.normalized();
+  return {static_cast<float>(ray.x), static_cast<float>(ray.y), static_cast<float>(ray.z)};
 }
 
 std::optional<Point<DepthSensor>> DepthCalibration::point_at(int x_px, int y_px,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,8 @@ enum class DepthStream {
 struct DepthCalibration {
   /// A unit vector in the camera's frame, as devices store it; z = 0: the pixel sees nothing.
   using Ray = std::array<float, 3>;
+  /// The ray through a point of the unit plane; zeros where that is not finite.
+  [[nodiscard]] static Ray ray_through(Vec2 unit_plane);
 
   DepthStream stream = DepthStream::kLongThrow;
   int width_px = 0;
@@ -79,5 +82,14 @@ class DepthCamera {
 
   FrameOrder order_;
 };
+
+/// What a headset that owns its depth cameras answers.
+template <class Camera>
+[[nodiscard]] std::vector<DepthCamera*> borrowed(
+    const std::vector<std::unique_ptr<Camera>>& cameras) {
+  std::vector<DepthCamera*> all;
+  for (const auto& camera : cameras) all.push_back(camera.get());
+  return all;
+}
 
 }  // namespace orthonav
