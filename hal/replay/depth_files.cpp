@@ -181,8 +181,8 @@ RecordedDepths read_depths(const std::filesystem::path& folder,
     depth.summary.height_px = depth.calibration.height_px;
     depth.summary.frames = static_cast<std::int64_t>(depth.frames.size());
     depth.summary.repeated = depth.images.repeated();
-    depth.summary.first = depth.frames.front().time;
-    depth.summary.last = depth.frames.back().time;
+    depth.summary.first_ticks_100ns = depth.frames.front().range.ticks;
+    depth.summary.last_ticks_100ns = depth.frames.back().range.ticks;
     depths.streams.push_back(std::move(depth));
   }
   return depths;

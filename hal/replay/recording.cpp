@@ -231,6 +231,8 @@ Result<Recording> read_recording(const std::filesystem::path& folder) {
     return s.error();
   RecordingSummary& summary = recording.summary;
   summary.pairs = static_cast<std::int64_t>(recording.pairs.size());
+  summary.first_ticks_100ns = recording.pairs.front().left.ticks;
+  summary.last_ticks_100ns = recording.pairs.back().left.ticks;
   summary.left_unpaired =
       static_cast<std::int64_t>(recording.left.members().size()) - summary.pairs;
   summary.right_unpaired =

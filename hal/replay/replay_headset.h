@@ -20,14 +20,16 @@ struct DepthSummary {
   std::int64_t frames_without_pose = 0;
   std::int64_t brightness_unpaired = 0;  ///< brightness images without a frame of their time
   std::int64_t repeated = 0;             ///< images of a time that the camera had already
-  Timestamp first{};                     ///< time of the first and of the last frame
-  Timestamp last{};
+  std::int64_t first_ticks_100ns = 0;    ///< as the files name the first and the last frame
+  std::int64_t last_ticks_100ns = 0;
   std::string trouble;  ///< in one line, why the stream cannot be read; empty: it can
 };
 
 /// What a recording holds and what of it could not be delivered.
 struct RecordingSummary {
   std::int64_t pairs = 0;
+  std::int64_t first_ticks_100ns = 0;  ///< as the files name the first and the last pair
+  std::int64_t last_ticks_100ns = 0;
   std::int64_t left_unpaired = 0;   ///< left images without a right one within kPairWithin
   std::int64_t right_unpaired = 0;  ///< and the other way round
   std::int64_t repeated = 0;        ///< images of a time that its camera had already
