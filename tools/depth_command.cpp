@@ -139,10 +139,10 @@ int write_cloud(const DepthArguments& arguments, replay::RecordedDepth& depth) {
   if (const Status s = arguments.json.write(out); !s) return bad_input(s.error().message);
   if (!arguments.json.on_stdout())
     std::printf(
-        "%s: %zu points of %lld frames of %s, %lld frames without a pose, %lld in other "
-        "maps\n",
-        arguments.out.c_str(), points, static_cast<long long>(report->frames_used),
-        name_of(depth.summary.stream), static_cast<long long>(report->frames_without_pose),
+        "%s: %zu points of %s; frames: %lld used, %lld without a pose, %lld in other maps\n",
+        arguments.out.c_str(), points, name_of(depth.summary.stream),
+        static_cast<long long>(report->frames_used),
+        static_cast<long long>(report->frames_without_pose),
         static_cast<long long>(report->frames_in_other_maps));
   return points > 0 ? kDone : kNo;
 }

@@ -101,7 +101,8 @@ TEST_F(DepthCommand, WritesThePointsWhereTheyLieInTheWorld) {
   const auto points = points_of(content_of(file));
   EXPECT_GT(points.size(), 1000u);
   EXPECT_LT(farthest_from_plane_m(points), kQuantisationM);
-  EXPECT_THAT(called.out, HasSubstr(std::to_string(points.size()) + " points of 1 frames"));
+  EXPECT_THAT(called.out, HasSubstr(std::to_string(points.size()) +
+                                    " points of long-throw; frames: 1 used, 0 without a pose"));
   // The first frame with a pose is the second; the scene's own point is among them.
   const Vec3 expected = scene().hit(scene().pictures[1], 20, 17).v;
   EXPECT_TRUE(std::any_of(points.begin(), points.end(),
