@@ -257,6 +257,19 @@ TEST(Depth, IsNotMissedWhereThereIsNone) {
   EXPECT_THAT(headset->summary().depth, IsEmpty());
 }
 
+TEST(Depth, OfTheRecordedSampleCanBeRead) {
+  const std::filesystem::path sample =
+      std::filesystem::path(ORTHONAV_SHARED_DIR) / "recordings/streamrecorder-sample";
+  if (!std::filesystem::exists(sample)) GTEST_SKIP() << "the recorded sample is not here";
+  RecordedDepths depths = read_depths(sample);
+  ASSERT_THAT(depths.unreadable, IsEmpty());
+  if (depths.streams.empty()) GTEST_SKIP() << "the recorded sample has no depth";
+  DepthFrame frame;
+  for (RecordedDepth& depth : depths.streams)
+    for (const RecordedDepthFrame& recorded : depth.frames)
+      EXPECT_TRUE(depth.read(recorded, frame).ok());
+}
+
 /// Two pairs a frame apart, and depth before, between and after them.
 struct PacedRecording {
   PacedRecording() {
