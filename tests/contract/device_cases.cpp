@@ -139,8 +139,7 @@ std::unique_ptr<Headset> open_stream_recorder() {
   const std::vector<std::int64_t> ticks = {0, 333'333, 666'667, 4'000'000, 4'333'333};
   auto folder = std::make_unique<StreamRecorderFolder>(ticks, ticks);
   DepthScene scene;
-  for (const std::int64_t at : {-100'000, 5'000, 700'000, 4'100'000, 5'000'000})
-    scene.pictures.push_back({at, DepthScene::pose(static_cast<int>(scene.pictures.size()))});
+  scene.pictures = DepthScene::located({-100'000, 5'000, 700'000, 4'100'000, 5'000'000});
   scene.write_stream_recorder(folder->path(), "Depth AHaT", 4090);
   scene.write_stream_recorder(folder->path(), "Depth Long Throw", 0, false);
   auto headset = checked(open_headset("replay:" + folder->path().string()));

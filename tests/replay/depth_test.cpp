@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/fake/scripted.h"
 #include "hal/replay/depth_files.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/support/depth_scene.h"
@@ -18,7 +17,6 @@ using orthonav::testing::Hololens1Folder;
 using orthonav::testing::scripted_calibration;
 using orthonav::testing::scripted_frame;
 using orthonav::testing::StreamRecorderFolder;
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 constexpr std::int64_t kFrame = 333'333;
@@ -26,16 +24,8 @@ constexpr std::int64_t kFrame = 333'333;
 // over a metre.
 constexpr double kQuantisationM = 0.0005 + 5e-6;
 
-std::vector<DepthScene::Picture> pictures(std::initializer_list<std::int64_t> ticks) {
-  std::vector<DepthScene::Picture> made;
-  for (const std::int64_t at : ticks)
-    made.push_back({at, DepthScene::pose(static_cast<int>(made.size()))});
-  return made;
-}
-
-std::unique_ptr<ReplayHeadset> opened(const std::filesystem::path& folder,
-                                      const ReplayOptions& options = {}) {
-  auto headset = ReplayHeadset::open(folder, options);
+std::unique_ptr<ReplayHeadset> opened(const std::filesystem::path& folder) {
+  auto headset = ReplayHeadset::open(folder);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
   return headset ? std::move(*headset) : nullptr;
 }
@@ -114,7 +104,7 @@ TEST(Depth, OfStreamRecorderLiesWhereItWasSeen) {
     SCOPED_TRACE(sensor);
     const StreamRecorderFolder folder({0, kFrame}, {0, kFrame});
     DepthScene scene;
-    scene.pictures = pictures({-5, 100'000, 400'000});
+    scene.pictures = DepthScene::located({-5, 100'000, 400'000});
     scene.pictures[1].world_from_rig.reset();
     scene.write_stream_recorder(folder.path(), sensor);
     const auto headset = opened(folder.path());
@@ -136,7 +126,7 @@ TEST(Depth, OfHololens1LiesWhereItWasSeen) {
     SCOPED_TRACE(sensor);
     const Hololens1Folder folder(scripted_calibration(), {scripted_frame(0), scripted_frame(1)});
     DepthScene scene;
-    scene.pictures = pictures({10'000'000, 10'500'000, 20'000'000});
+    scene.pictures = DepthScene::located({10'000'000, 10'500'000, 20'000'000});
     scene.pictures[1].world_from_rig.reset();
     scene.write_hololens1(folder.path(), sensor);
     const auto headset = opened(folder.path());
@@ -148,7 +138,7 @@ TEST(Depth, OfHololens1LiesWhereItWasSeen) {
 /// Each convention read the other way round would be off by far more than the tolerance.
 TEST(Depth, IsToldApartFromItsMirrorsAndTransposes) {
   DepthScene scene;
-  scene.pictures = pictures({0});
+  scene.pictures = DepthScene::located({0});
   const DepthScene::Picture& picture = scene.pictures.front();
   DepthCalibration camera{
       DepthStream::kAhat, scene.width_px, scene.height_px, {}, scene.sensor_from_rig};
@@ -209,7 +199,7 @@ DepthFrame first_frame(const std::filesystem::path& folder) {
 
 TEST(Depth, HasOneMarkForWhatWasNotMeasured) {
   DepthScene scene;
-  scene.pictures = pictures({0});
+  scene.pictures = DepthScene::located({0});
   const auto zeros = [](const DepthFrame& frame) {
     return std::count(frame.range_mm.pixels.begin(), frame.range_mm.pixels.end(), 0);
   };
@@ -229,7 +219,7 @@ TEST(Depth, HasOneMarkForWhatWasNotMeasured) {
 
 TEST(Depth, HasTheBrightnessOfItsTime) {
   DepthScene scene;
-  scene.pictures = pictures({0, 10});
+  scene.pictures = DepthScene::located({0, 10});
   const orthonav::testing::TemporaryFolder folder;
   scene.write_stream_recorder(folder.path(), "Depth AHaT");
   const DepthFrame frame = first_frame(folder.path());
@@ -241,7 +231,7 @@ TEST(Depth, HasTheBrightnessOfItsTime) {
 
 TEST(Depth, NeedsNoPairs) {
   DepthScene scene;
-  scene.pictures = pictures({0, 10});
+  scene.pictures = DepthScene::located({0, 10});
   const orthonav::testing::TemporaryFolder folder;
   scene.write_stream_recorder(folder.path(), "Depth Long Throw");
   const RecordedDepths depths = read_depths(folder.path());
@@ -268,78 +258,6 @@ TEST(Depth, OfTheRecordedSampleCanBeRead) {
   for (RecordedDepth& depth : depths.streams)
     for (const RecordedDepthFrame& recorded : depth.frames)
       EXPECT_TRUE(depth.read(recorded, frame).ok());
-}
-
-/// Two pairs a frame apart, and depth before, between and after them.
-struct PacedRecording {
-  PacedRecording() {
-    DepthScene scene;
-    scene.pictures = pictures({-200'000, 100'000, 200'000, 400'000, 500'000});
-    scene.write_stream_recorder(folder.path(), "Depth AHaT");
-  }
-  StreamRecorderFolder folder{{0, kFrame}, {0, kFrame}};
-};
-
-/// Ticks after the start of what a depth camera has now; checks that none lies ahead of the clock.
-std::vector<std::int64_t> taken(ReplayHeadset& headset) {
-  std::vector<std::int64_t> ticks;
-  DepthFrame frame;
-  for (;;) {
-    const auto next = headset.depth_cameras().front()->next(frame);
-    EXPECT_TRUE(next.ok());
-    if (!next || *next != Next::kFrame) return ticks;
-    EXPECT_LE(frame.time, headset.clock().now()) << "out of the future";
-    ticks.push_back(headset.file_ticks_100ns(frame.time) - StreamRecorderFolder::kStart);
-  }
-}
-
-TEST(DepthPace, ComesWhenThePairsHaveBroughtTheClockThatFar) {
-  const PacedRecording recording;
-  const auto headset = opened(recording.folder.path());
-  ASSERT_NE(headset, nullptr);
-  EXPECT_THAT(taken(*headset), ElementsAre());
-  StereoFrame pair;
-  ASSERT_EQ(*headset->cameras().next(pair), Next::kFrame);
-  EXPECT_THAT(taken(*headset), ElementsAre(-200'000));
-  ASSERT_EQ(*headset->cameras().next(pair), Next::kFrame);
-  EXPECT_THAT(taken(*headset), ElementsAre(100'000, 200'000, 400'000, 500'000));
-  DepthFrame frame;
-  EXPECT_EQ(*headset->depth_cameras().front()->next(frame), Next::kEnd);
-}
-
-TEST(DepthPace, WaitsForTheSteps) {
-  const PacedRecording recording;
-  const auto headset = opened(recording.folder.path(), {ReplayPace::kStepped, nullptr});
-  ASSERT_NE(headset, nullptr);
-  StereoFrame pair;
-  EXPECT_EQ(*headset->cameras().next(pair), Next::kNone);
-  EXPECT_THAT(taken(*headset), ElementsAre());
-  headset->step();
-  EXPECT_EQ(*headset->cameras().next(pair), Next::kFrame);
-  EXPECT_THAT(taken(*headset), ElementsAre(-200'000));
-  headset->step();
-  EXPECT_EQ(*headset->cameras().next(pair), Next::kFrame);
-  EXPECT_THAT(taken(*headset), ElementsAre(100'000, 200'000, 400'000, 500'000));
-}
-
-TEST(DepthPace, FollowsTheWallInRealTimeAndMissesWhatNobodyAskedFor) {
-  const PacedRecording recording;
-  fake::ManualClock wall;
-  const auto headset = opened(recording.folder.path(), {ReplayPace::kRealtime, &wall});
-  ASSERT_NE(headset, nullptr);
-  // The clock starts a nominal frame, 333'333 ticks, before the first pair.
-  EXPECT_THAT(taken(*headset), ElementsAre());
-  wall.advance(std::chrono::milliseconds(14));
-  EXPECT_THAT(taken(*headset), ElementsAre(-200'000));
-  EXPECT_THAT(taken(*headset), ElementsAre()) << "never twice";
-  wall.advance(std::chrono::milliseconds(40));
-  EXPECT_THAT(taken(*headset), ElementsAre(200'000)) << "the newest of two";
-  wall.advance(std::chrono::milliseconds(20));
-  EXPECT_THAT(taken(*headset), ElementsAre(400'000));
-  wall.advance(std::chrono::milliseconds(100));
-  EXPECT_THAT(taken(*headset), ElementsAre(500'000));
-  DepthFrame frame;
-  EXPECT_EQ(*headset->depth_cameras().front()->next(frame), Next::kEnd);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +40,12 @@ struct DepthScene {
   /// Where a rig of the test stands at a picture.
   static Transform<World, Rig> pose(int index) {
     return {rotation_from_vector({0.05 * index, 0.1, -1.3}), {0.2, 0.1 * index, 0.3}};
+  }
+  /// Pictures at these ticks, all located.
+  static std::vector<Picture> located(std::initializer_list<std::int64_t> ticks) {
+    std::vector<Picture> made;
+    for (const std::int64_t at : ticks) made.push_back({at, pose(static_cast<int>(made.size()))});
+    return made;
   }
   /// The direction through a continuous pixel, on the unit plane of vision axes.
   [[nodiscard]] Vec2 unit_plane(double x_px, double y_px) const {
