@@ -82,7 +82,7 @@ using RecordingDepths = std::vector<std::unique_ptr<RecordingDepth>>;
 
 class RecordingCamera : public StereoCamera {
  public:
-  /// Drains the depth cameras named with each pair.
+  /// Drains the depth cameras named at each call.
   RecordingCamera(Headset& inner, Tape& tape, const RecordingDepths& drained)
       : inner_(inner), tape_(tape), drained_(drained) {}
 
@@ -96,9 +96,10 @@ class RecordingCamera : public StereoCamera {
   }
   Result<Next> do_next(StereoFrame& frame) override {
     auto answer = inner_.cameras().next(frame);
-    if (!answer || *answer != Next::kFrame) return answer;
-    tape_.record([&](RecordingWriter& w) { return w.frame(frame, inner_.clock().now()); });
-    tape_.newest_sequence = frame.sequence;
+    if (answer && *answer == Next::kFrame) {
+      tape_.record([&](RecordingWriter& w) { return w.frame(frame, inner_.clock().now()); });
+      tape_.newest_sequence = frame.sequence;
+    }
     for (const auto& depth : drained_) depth->drain();
     return answer;
   }

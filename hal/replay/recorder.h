@@ -10,8 +10,9 @@ namespace orthonav::replay {
 
 struct RecorderOptions {
   std::string tools_json;  ///< kept beside the recording as tools.json, if not empty
-  /// The depth cameras are read by the recorder itself, with each pair, and nobody else sees them:
-  /// for a session that has no use for depth. False: what somebody reads is recorded.
+  /// The depth cameras are read by the recorder itself, whenever it is asked for a pair, and nobody
+  /// else sees them: for a session that has no use for depth. False: what somebody reads is
+  /// recorded.
   bool takes_depth = false;
 };
 

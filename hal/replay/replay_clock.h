@@ -11,7 +11,7 @@ namespace orthonav::replay {
 /// How far a replay has come. Written by the cameras, read from any thread.
 struct Progress {
   std::atomic<Timestamp> clock{};
-  std::atomic<bool> pairs_over{false};  ///< the last pair was delivered
+  std::atomic<bool> pairs_over{false};  ///< who asked was told so
   std::atomic<Timestamp> frame_time{Timestamp::min()};
   std::atomic<std::int64_t> sequence{-1};
 

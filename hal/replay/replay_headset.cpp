@@ -31,10 +31,12 @@ class ReplayCamera : public StereoCamera {
     return recording_.calibration;
   }
   Result<Next> do_next(StereoFrame& frame) override {
-    if (next_ == recording_.pairs.size()) return Next::kEnd;
+    if (next_ == recording_.pairs.size()) {
+      progress_.pairs_over = true;
+      return Next::kEnd;
+    }
     if (!due()) return Next::kNone;
     const RecordedPair& pair = recording_.pairs[next_++];
-    if (next_ == recording_.pairs.size()) progress_.pairs_over = true;
     if (Status s = recording_.left.read(pair.left, frame.left); !s) return s.error();
     if (Status s = recording_.right.read(pair.right, frame.right); !s) return s.error();
     frame.sequence = pair.sequence;

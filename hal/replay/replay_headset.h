@@ -43,8 +43,8 @@ inline constexpr Duration kPairWithin = std::chrono::milliseconds(1);
 /// How fast a recording goes by.
 enum class ReplayPace {
   kFast,      ///< a pair at each call of cameras().next(); the clock is the time of the last one.
-              ///< Depth comes when a pair has brought the clock that far; after the last pair the
-              ///< depth that is left brings the clock on
+              ///< Depth comes when a pair has brought the clock that far; once the pairs have
+              ///< ended, the depth that is left brings the clock on
   kRealtime,  ///< the clock goes on as the wall's; who asks late misses pairs, as with a camera
   kStepped    ///< a pair after each `step()`, else the clock stands still; depth as with kFast
 };
