@@ -64,6 +64,9 @@ Status add_listed(const std::filesystem::path& path, std::int64_t epoch, Recorde
                                   std::to_string(row.ticks) + ", its image " +
                                   std::to_string(members[i].ticks));
     if (Status s = check_row(path, row, epoch); !s) return s;
+    if (row.clock < row.time)
+      return file_error(
+          path, "sequence " + std::to_string(row.sequence) + ": clock_ns lies before time_ns");
     depth.frames.push_back(
         {row.sequence, row.time, row.clock, members[i], std::nullopt, std::nullopt, 0});
   }

@@ -246,6 +246,13 @@ TEST(BadOwnDepth, ContradictsItself) {
   ASSERT_NE(time, std::string::npos) << good;
   write_text(list, other.replace(time, 9, "995000104"));
   EXPECT_THAT(trouble(folder / "session"), HasSubstr("time_ns does not belong to its ticks_100ns"));
+  // The second frame's clock, that of the pair after it, a millisecond before its time.
+  other = good;
+  const std::size_t second = other.find("\n12,1017000004,10170000,");
+  ASSERT_NE(second, std::string::npos) << good;
+  const std::size_t clock = other.find_last_of(',', other.find('\n', second + 1)) + 1;
+  write_text(list, other.replace(clock, other.find('\n', clock) - clock, "1016000004"));
+  EXPECT_THAT(trouble(folder / "session"), HasSubstr("sequence 12: clock_ns lies before time_ns"));
 }
 
 TEST(PartialDepth, IsCountedAndDelivered) {
