@@ -181,4 +181,13 @@ Result<std::vector<Vec3>> ply_points(const std::string& text, const std::string&
   return points;
 }
 
+std::string ply_text(std::span<const std::array<float, 3>> points, const std::string& comment) {
+  static_assert(std::endian::native == std::endian::little);
+  std::string text = "ply\nformat binary_little_endian 1.0\ncomment " + comment +
+                     "\nelement vertex " + std::to_string(points.size()) +
+                     "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  text.append(reinterpret_cast<const char*>(points.data()), points.size_bytes());
+  return text;
+}
+
 }  // namespace orthonav::engine

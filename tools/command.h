@@ -21,6 +21,7 @@ int bad_input(const std::string& message);
 void add_calibrate_command(CLI::App& app, Action& action);
 void add_accuracy_command(CLI::App& app, Action& action);
 void add_demo_command(CLI::App& app, Action& action);
+void add_depth_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
 void add_golden_command(CLI::App& app, Action& action);

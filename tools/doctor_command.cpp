@@ -79,7 +79,8 @@ void add_doctor_command(CLI::App& app, Action& action) {
       "can't run)");
   command->add_flag("--json", arguments->json, "Everything as JSON");
   command->add_option("--headset", arguments->headset,
-                      "hl2ss://HOST: which of the headset's ports answer");
+                      "hl2ss://HOST: which of the headset's ports answer; replay:PATH: what the "
+                      "recording holds");
   command->add_option("--root", arguments->root, "Look at files under this folder")->group("");
   command->callback(
       [arguments, &action] { action = [arguments] { return run_doctor(*arguments); }; });

@@ -1,14 +1,22 @@
 #include "tools/headset_probe.h"
 
+#include <array>
+#include <cstdio>
+#include <string_view>
+
 #include "hal/hl2ss/probe.h"
+#include "hal/replay/replay_headset.h"
+#include "tools/depth_listing.h"
 
 namespace orthonav::tools {
 
-Result<std::vector<Offer>> offers_of_headset(const std::string& uri) {
-  const std::string scheme = "hl2ss:";
-  if (!uri.starts_with(scheme))
-    return Error{"--headset: \"" + uri + "\" has no ports to look at; known is hl2ss://HOST"};
-  const auto options = hl2ss::options_of(std::string_view(uri).substr(scheme.size()));
+namespace {
+
+constexpr std::string_view kHl2ss = "hl2ss:";
+constexpr std::string_view kReplay = "replay:";
+
+Result<std::vector<Offer>> offers_of_ports(std::string_view address) {
+  const auto options = hl2ss::options_of(address);
   if (!options) return Error{"--headset: " + options.error().message};
   const auto ports = hl2ss::probe(*options);
   if (!ports) return Error{"--headset: " + ports.error().message};
@@ -22,6 +30,53 @@ Result<std::vector<Offer>> offers_of_headset(const std::string& uri) {
                         "start hl2ss on the headset (docs/headsets.md)"});
   }
   return offers;
+}
+
+/// "from 0.1 s to 12.3 s after the first pair"
+std::string span_after(std::int64_t start_100ns, std::int64_t first_100ns,
+                       std::int64_t last_100ns) {
+  const auto after_s = [&](std::int64_t ticks) {
+    constexpr double kSecondsATick = 1e-7;
+    return kSecondsATick * static_cast<double>(ticks - start_100ns);
+  };
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "from %.1f s to %.1f s after the first pair",
+                after_s(first_100ns), after_s(last_100ns));
+  return text.data();
+}
+
+Result<std::vector<Offer>> offers_of_recording(const std::string& folder) {
+  const auto recording = replay::ReplayHeadset::open(folder);
+  if (!recording) return recording.error();
+  const replay::RecordingSummary& summary = (*recording)->summary();
+  const std::int64_t start = summary.first_ticks_100ns;
+  std::vector<Offer> offers = {
+      {"Recording: stereo pairs", Finding::kFound,
+       std::to_string(summary.pairs) + " pairs, " + std::to_string(summary.pairs_without_pose) +
+           " without a pose, " + span_after(start, start, summary.last_ticks_100ns),
+       ""}};
+  for (const replay::DepthSummary& depth : summary.depth) {
+    const bool read = depth.trouble.empty();
+    offers.push_back({std::string("Recording: depth ") + name_of(depth.stream),
+                      read ? Finding::kFound : Finding::kOptional,
+                      in_words(depth) + (read ? ", " + span_after(start, depth.first_ticks_100ns,
+                                                                  depth.last_ticks_100ns)
+                                              : ""),
+                      ""});
+  }
+  return offers;
+}
+
+}  // namespace
+
+Result<std::vector<Offer>> offers_of_headset(const std::string& uri) {
+  const std::string_view text(uri);
+  if (text.starts_with(kHl2ss)) return offers_of_ports(text.substr(kHl2ss.size()));
+  if (text.starts_with(kReplay))
+    return offers_of_recording(
+        std::string(text.substr(kReplay.size(), text.find('?') - kReplay.size())));
+  return Error{"--headset: \"" + uri +
+               "\" can't be looked at; known are hl2ss://HOST and replay:PATH"};
 }
 
 }  // namespace orthonav::tools

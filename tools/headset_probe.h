@@ -8,7 +8,8 @@
 
 namespace orthonav::tools {
 
-/// Which ports of the headset at `uri` (hl2ss://HOST) answer. An Error for another URI.
+/// Which ports of the headset at `uri` (hl2ss://HOST) answer, or what a recording (replay:PATH)
+/// holds. An Error for another URI.
 [[nodiscard]] Result<std::vector<Offer>> offers_of_headset(const std::string& uri);
 
 }  // namespace orthonav::tools

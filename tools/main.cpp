@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   add_calibrate_command(app, action);
   add_accuracy_command(app, action);
   add_demo_command(app, action);
+  add_depth_command(app, action);
   add_detect_command(app, action);
   add_doctor_command(app, action);
   add_golden_command(app, action);

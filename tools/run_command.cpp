@@ -194,8 +194,10 @@ class LiveRun {
   Status start_recording(const std::vector<nav::ToolGeometry>& tools) {
     used_ = joined_.get();
     if (arguments_.record.empty()) return {};
-    auto recorder =
-        replay::RecordingHeadset::around(*joined_, arguments_.record, {engine::tools_text(tools)});
+    replay::RecorderOptions options;
+    options.tools_json = engine::tools_text(tools);
+    options.takes_depth = true;
+    auto recorder = replay::RecordingHeadset::around(*joined_, arguments_.record, options);
     if (!recorder) return recorder.error();
     recorder_ = std::move(*recorder);
     used_ = recorder_.get();

@@ -7,63 +7,13 @@ namespace orthonav {
 
 namespace {
 
-// A pose that a device publishes is a rotation to rounding: `checked` makes it one.
-constexpr double kMaxPoseDeviation = Transform<World, Rig>::kExact;
-
-std::string in_seconds(Timestamp t) { return std::to_string(seconds(t.time_since_epoch())) + " s"; }
-
-std::string size_text(int width_px, int height_px) {
-  return std::to_string(width_px) + "x" + std::to_string(height_px);
-}
-
-bool is_rigid(const Transform<World, Rig>& pose) {
-  return pose.translation().is_finite() && pose.rotation().determinant() > 0.0 &&
-         orthonormality_error(pose.rotation()) <= kMaxPoseDeviation;
-}
-
-Status check_image(const char* which, const GreyImage& image, const CameraModel& camera) {
-  const bool right_size =
-      image.width_px == camera.width_px() && image.height_px == camera.height_px();
-  if (!right_size)
-    return Error{std::string("camera pair: ") + which + " image is " +
-                 size_text(image.width_px, image.height_px) + " px, its calibration " +
-                 size_text(camera.width_px(), camera.height_px()) + " px"};
-  const std::size_t expected = static_cast<std::size_t>(image.width_px) * image.height_px;
-  if (image.pixels.size() != expected)
-    return Error{std::string("camera pair: ") + which + " image holds " +
-                 std::to_string(image.pixels.size()) + " bytes, must be " +
-                 std::to_string(expected)};
-  return {};
-}
-
-Status check_frame(const StereoFrame& frame, const StereoCalibration& calibration,
-                   std::optional<Timestamp> last_time, std::int64_t last_sequence,
-                   std::int64_t last_map_epoch) {
-  if (last_time && frame.time <= *last_time)
-    return Error{"camera pair: time " + in_seconds(frame.time) + " does not come after " +
-                 in_seconds(*last_time)};
-  if (frame.sequence <= last_sequence)
-    return Error{"camera pair: sequence number " + std::to_string(frame.sequence) +
-                 " does not come after " + std::to_string(last_sequence)};
-  if (frame.map_epoch < last_map_epoch)
-    return Error{"camera pair: map epoch " + std::to_string(frame.map_epoch) + " comes after " +
-                 std::to_string(last_map_epoch)};
-  if (auto status = check_image("left", frame.left, calibration.left); !status) return status;
-  if (auto status = check_image("right", frame.right, calibration.right); !status) return status;
-  if (frame.world_from_rig && !is_rigid(*frame.world_from_rig))
-    return Error{"camera pair: head pose at " + in_seconds(frame.time) + " is not a rigid motion"};
-  return {};
-}
-
-/// Keeps the buffers, so that the next frame allocates nothing.
-void empty(StereoFrame& frame) {
-  for (GreyImage* image : {&frame.left, &frame.right}) {
-    image->width_px = 0;
-    image->height_px = 0;
-    image->pixels.clear();
-  }
-  frame.sequence = -1;
-  frame.world_from_rig.reset();
+Status check_images(const char* what, const StereoFrame& frame,
+                    const StereoCalibration& calibration) {
+  const auto check = [what](const char* which, const GreyImage& image, const CameraModel& camera) {
+    return check_size(what, which, image, camera.width_px(), camera.height_px());
+  };
+  if (Status s = check("left", frame.left, calibration.left); !s) return s;
+  return check("right", frame.right, calibration.right);
 }
 
 const char* name_of(ClickerAction action) {
@@ -96,25 +46,18 @@ Status check_time(const std::string& what, Timestamp time, Timestamp until,
 
 }  // namespace
 
+void StereoFrame::clear() {
+  left.clear();
+  right.clear();
+  sequence = -1;
+  world_from_rig.reset();
+}
+
 Result<Next> StereoCamera::next(StereoFrame& frame) {
-  if (ended_) return Next::kEnd;
-  Result<Next> answer = do_next(frame);
-  if (!answer) {
-    empty(frame);
-    return answer;
-  }
-  if (*answer == Next::kEnd) ended_ = true;
-  if (*answer != Next::kFrame) return answer;
-  if (Status status =
-          check_frame(frame, calibration(), last_time_, last_sequence_, last_map_epoch_);
-      !status) {
-    empty(frame);
-    return status.error();
-  }
-  last_time_ = frame.time;
-  last_sequence_ = frame.sequence;
-  last_map_epoch_ = frame.map_epoch;
-  return answer;
+  constexpr const char* kWhat = "camera pair";
+  return order_.next(
+      kWhat, frame, [&] { return do_next(frame); },
+      [&] { return check_images(kWhat, frame, calibration()); });
 }
 
 Tracked<Transform<World, Rig>> HeadTracker::world_from_rig(Timestamp at) const {

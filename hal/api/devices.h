@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "hal/api/camera_model.h"
 #include "hal/api/display.h"
+#include "hal/api/frame_order.h"
 #include "hal/api/image.h"
 #include "hal/api/result.h"
 #include "hal/api/time.h"
@@ -40,12 +40,9 @@ struct StereoFrame {
   GreyImage right;
   /// Where the headset was at `time`; absent while the headset is not located.
   std::optional<Transform<World, Rig>> world_from_rig;
-};
 
-enum class Next {
-  kFrame,  ///< the frame was filled
-  kNone,   ///< nothing new yet; ask again later
-  kEnd     ///< the stream has ended for good
+  /// Empties it and keeps the buffers, so that the next frame allocates nothing.
+  void clear();
 };
 
 /// Pull interface of the camera pair. Contract, kept by the public call for every device: times
@@ -64,10 +61,7 @@ class StereoCamera {
   [[nodiscard]] virtual const StereoCalibration& do_calibration() const = 0;
   virtual Result<Next> do_next(StereoFrame& frame) = 0;
 
-  std::optional<Timestamp> last_time_;
-  std::int64_t last_sequence_ = -1;
-  std::int64_t last_map_epoch_ = std::numeric_limits<std::int64_t>::min();
-  bool ended_ = false;
+  FrameOrder order_;
 };
 
 /// Where the head is, was or will be. Contract: the answer's time is the time asked for; asked
@@ -165,6 +159,7 @@ class Voice {
   std::optional<Timestamp> last_time_;
 };
 
+class DepthCamera;   // hal/api/depth_camera.h
 class Microphone;    // hal/api/microphone.h
 class PixelDisplay;  // hal/api/pixel_display.h
 
@@ -186,6 +181,8 @@ class Headset {
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;
   [[nodiscard]] virtual Display& display() = 0;
+  /// Its depth cameras, one a stream; none where it has none. The same ones at every call.
+  [[nodiscard]] virtual std::vector<DepthCamera*> depth_cameras() { return {}; }
   /// What it hears, where it lets others listen; null otherwise. Listened to from the first call
   /// on.
   [[nodiscard]] virtual Microphone* microphone() { return nullptr; }

@@ -18,6 +18,9 @@ class ForwardingHeadset : public Headset {
   [[nodiscard]] Clicker& clicker() override { return inner_.clicker(); }
   [[nodiscard]] Voice& voice() override { return inner_.voice(); }
   [[nodiscard]] Display& display() override { return inner_.display(); }
+  [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override {
+    return inner_.depth_cameras();
+  }
   [[nodiscard]] Microphone* microphone() override { return inner_.microphone(); }
   [[nodiscard]] PixelDisplay* pixels() override { return inner_.pixels(); }
   [[nodiscard]] Headset& owner_of_cameras() override { return inner_.owner_of_cameras(); }

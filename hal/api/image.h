@@ -6,29 +6,39 @@
 
 namespace orthonav {
 
-/// 8-bit grey image, row-major, no padding. Pixel (0, 0) is the top left; in continuous pixel
+/// One number a pixel, row-major, no padding. Pixel (0, 0) is the top left; in continuous pixel
 /// coordinates its centre is at (0.5, 0.5), everywhere in orthonav.
-struct GreyImage {
+template <class Value>
+struct PlainImage {
   int width_px = 0;
   int height_px = 0;
-  std::vector<std::uint8_t> pixels;
+  std::vector<Value> pixels;
 
-  GreyImage() = default;
-  GreyImage(int width, int height, std::uint8_t value = 0)
+  PlainImage() = default;
+  PlainImage(int width, int height, Value value = 0)
       : width_px(width),
         height_px(height),
         pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), value) {}
 
-  [[nodiscard]] std::uint8_t at(int x_px, int y_px) const {
+  [[nodiscard]] Value at(int x_px, int y_px) const {
     return pixels[static_cast<std::size_t>(y_px) * static_cast<std::size_t>(width_px) +
                   static_cast<std::size_t>(x_px)];
   }
-  std::uint8_t& at(int x_px, int y_px) {
+  Value& at(int x_px, int y_px) {
     return pixels[static_cast<std::size_t>(y_px) * static_cast<std::size_t>(width_px) +
                   static_cast<std::size_t>(x_px)];
   }
-  friend bool operator==(const GreyImage&, const GreyImage&) = default;
+  /// Nothing is left of it but its buffer.
+  void clear() {
+    width_px = 0;
+    height_px = 0;
+    pixels.clear();
+  }
+  friend bool operator==(const PlainImage&, const PlainImage&) = default;
 };
+using GreyImage = PlainImage<std::uint8_t>;
+/// 16 bits a pixel: distances in mm or brightness, as its owner says.
+using DepthImage = PlainImage<std::uint16_t>;
 
 /// 8-bit RGBA image, row-major, sRGB-encoded colour.
 struct RgbaImage {

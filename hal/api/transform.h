@@ -15,6 +15,7 @@ struct World;        ///< the headset's map: +y up, metres; it drifts
 struct Rig;          ///< the headset
 struct LeftCamera;   ///< vision axes: x right, y down, z forward (as the raw image lies)
 struct RightCamera;  ///< as LeftCamera
+struct DepthSensor;  ///< a depth camera: as LeftCamera
 struct Marker;       ///< a tag: x right, y up as the upright tag is seen, z out of its face
 struct Tag;          ///< a further tag on a rigid tool: axes as Marker
 struct Vertebra;     ///< a preoperative model, axes LPS

@@ -133,6 +133,9 @@ class FailingHeadset : public Headset {
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override {
+    return inner_.depth_cameras();
+  }
 
  private:
   Headset& inner_;

@@ -19,6 +19,18 @@ Result<Next> ScriptedCamera::do_next(StereoFrame& frame) {
   return Next::kFrame;
 }
 
+Result<Next> ScriptedDepth::do_next(DepthFrame& frame) {
+  if (next_ == script_.steps.size()) return Next::kEnd;
+  const DepthStep& step = script_.steps[next_];
+  const auto* scripted = std::get_if<DepthFrame>(&step);
+  if (scripted && scripted->time > clock_.now()) return Next::kNone;
+  ++next_;
+  if (const Error* error = std::get_if<Error>(&step)) return *error;
+  if (const Next* answer = std::get_if<Next>(&step)) return *answer;
+  frame = *scripted;
+  return Next::kFrame;
+}
+
 ScriptedHead::ScriptedHead(std::vector<HeadPose> poses, const ManualClock& clock)
     : poses_(std::move(poses)), clock_(clock) {}
 
@@ -78,6 +90,9 @@ FakeHeadset::FakeHeadset(Script script)
       head_(std::move(script.head), clock_),
       clicker_(std::move(script.clicker)),
       voice_(std::move(script.voice)),
-      display_(script.display_latency) {}
+      display_(script.display_latency) {
+  for (DepthScript& depth : script.depth)
+    depth_.push_back(std::make_unique<ScriptedDepth>(std::move(depth), clock_));
+}
 
 }  // namespace orthonav::fake

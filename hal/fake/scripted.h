@@ -2,11 +2,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
 
 namespace orthonav::fake {
@@ -39,6 +41,31 @@ class ScriptedCamera : public StereoCamera {
 
   [[nodiscard]] const StereoCalibration& do_calibration() const override { return calibration_; }
   Result<Next> do_next(StereoFrame& frame) override;
+};
+
+using DepthStep = std::variant<DepthFrame, Next, Error>;
+
+/// A depth camera and what its calls will do; a frame waits until the clock has reached its time.
+struct DepthScript {
+  DepthCalibration calibration;
+  std::vector<DepthStep> steps;
+};
+
+/// Plays its steps, one a call, then ends.
+class ScriptedDepth : public DepthCamera {
+ public:
+  ScriptedDepth(DepthScript script, const ManualClock& clock)
+      : script_(std::move(script)), clock_(clock) {}
+
+ private:
+  DepthScript script_;
+  std::size_t next_ = 0;
+  const ManualClock& clock_;
+
+  [[nodiscard]] const DepthCalibration& do_calibration() const override {
+    return script_.calibration;
+  }
+  Result<Next> do_next(DepthFrame& frame) override;
 };
 
 struct HeadPose {
@@ -104,6 +131,7 @@ class RememberingDisplay : public Display {
 struct Script {
   StereoCalibration calibration;
   std::vector<CameraStep> camera;
+  std::vector<DepthScript> depth;
   std::vector<HeadPose> head;
   std::vector<ClickerEvent> clicker;
   std::vector<Phrase> voice;
@@ -123,12 +151,14 @@ class FakeHeadset : public Headset {
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] RememberingDisplay& display() override { return display_; }
+  [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(depth_); }
   [[nodiscard]] ManualClock& manual_clock() { return clock_; }
 
  private:
   std::int64_t epoch_ticks_100ns_;
   ManualClock clock_;
   ScriptedCamera cameras_;
+  std::vector<std::unique_ptr<ScriptedDepth>> depth_;
   ScriptedHead head_;
   ScriptedClicker clicker_;
   ScriptedVoice voice_;

@@ -28,46 +28,66 @@ constexpr double kAgreement = 1e-5;
 // Cameras sit within a headset.
 constexpr double kMaxExtrinsicsM = 1.0;
 
-std::string pixel_text(std::size_t index) {
-  return "ray of pixel (" + std::to_string(index % kImageWidthPx) + ", " +
-         std::to_string(index / kImageWidthPx) + ")";
-}
-
-Result<std::string> read_sized(const std::filesystem::path& path, std::size_t bytes_a_pixel) {
-  const std::size_t expected = bytes_a_pixel * kImageBytes;
-  auto bytes = read_text(path, expected);
-  if (bytes && bytes->size() != expected)
-    return file_error(path, "holds " + std::to_string(bytes->size()) + " bytes, must be " +
-                                std::to_string(expected));
-  return bytes;
-}
-
-Result<std::vector<Vec2>> read_rays(const std::filesystem::path& path) {
-  const auto bytes = read_sized(path, kRayBytes);
-  if (!bytes) return bytes.error();
-  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Vec2> unit_plane(kImageBytes, Vec2{kNothing, kNothing});
-  for (std::size_t i = 0; i < kImageBytes; ++i) {
-    std::array<float, 3> single{};
-    std::memcpy(single.data(), bytes->data() + i * kRayBytes, kRayBytes);
-    const Vec3 ray{single[0], single[1], single[2]};
-    if (!ray.is_finite()) return file_error(path, pixel_text(i) + " is not finite");
-    if (ray.z == 0.0) continue;  // the device has no direction there
-    if (std::abs(ray.norm() - 1.0) > kUnitTolerance)
-      return file_error(path, pixel_text(i) + " has length " + std::to_string(ray.norm()) +
-                                  ", must be 1 within " + std::to_string(kUnitTolerance));
-    if (ray.z < 0.0)
-      return file_error(
-          path, pixel_text(i) + " has z " + std::to_string(ray.z) + ", must point ahead (z > 0)");
-    unit_plane[i] = {ray.x / ray.z, ray.y / ray.z};
+/// How large a table is.
+struct Size {
+  int width_px = 0;
+  int height_px = 0;
+  [[nodiscard]] std::size_t pixels() const {
+    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   }
+};
+constexpr Size kFrontCamera{kImageWidthPx, kImageHeightPx};
+
+std::string pixel_text(std::size_t index, Size size) {
+  const auto width = static_cast<std::size_t>(size.width_px);
+  return "ray of pixel (" + std::to_string(index % width) + ", " + std::to_string(index / width) +
+         ")";
+}
+
+/// A unit vector that points ahead, or what it is instead.
+Status check_ray(const DepthCalibration::Ray& single) {
+  const Vec3 ray{single[0], single[1], single[2]};
+  if (!ray.is_finite()) return Error{"is not finite"};
+  if (std::abs(ray.norm() - 1.0) > kUnitTolerance)
+    return Error{"has length " + std::to_string(ray.norm()) + ", must be 1 within " +
+                 std::to_string(kUnitTolerance)};
+  if (ray.z < 0.0) return Error{"has z " + std::to_string(ray.z) + ", must point ahead (z > 0)"};
+  return {};
+}
+
+/// Rays of pixels without a direction come back as zeros: beside z = 0 the recorder leaves whatever
+/// lay in its memory.
+Result<std::vector<DepthCalibration::Ray>> read_rays(const std::filesystem::path& path, Size size) {
+  const auto bytes = read_sized(path, size.pixels() * kRayBytes);
+  if (!bytes) return bytes.error();
+  std::vector<DepthCalibration::Ray> rays(size.pixels());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    DepthCalibration::Ray ray{};
+    std::memcpy(ray.data(), bytes->data() + i * kRayBytes, kRayBytes);
+    if (ray[2] == 0.0F) continue;
+    if (Status s = check_ray(ray); !s)
+      return file_error(path, pixel_text(i, size) + " " + s.error().message);
+    rays[i] = ray;
+  }
+  return rays;
+}
+
+Result<std::vector<Vec2>> read_unit_plane(const std::filesystem::path& path) {
+  const auto rays = read_rays(path, kFrontCamera);
+  if (!rays) return rays.error();
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Vec2> unit_plane;
+  unit_plane.reserve(rays->size());
+  for (const auto& [x, y, z] : *rays)
+    unit_plane.push_back(z == 0.0F ? Vec2{kNothing, kNothing}
+                                   : Vec2{double{x} / double{z}, double{y} / double{z}});
   return unit_plane;
 }
 
 /// The same table in double precision, which must say what the rays say.
 Result<std::vector<Vec2>> read_exact(const std::filesystem::path& path,
                                      const std::vector<Vec2>& rays) {
-  const auto bytes = read_sized(path, kExactBytes);
+  const auto bytes = read_sized(path, kExactBytes * kImageBytes);
   if (!bytes) return bytes.error();
   std::vector<Vec2> unit_plane(kImageBytes);
   for (std::size_t i = 0; i < kImageBytes; ++i) {
@@ -78,13 +98,14 @@ Result<std::vector<Vec2>> read_exact(const std::filesystem::path& path,
     if (std::isnan(rays[i].x) && std::isnan(exact.x) && std::isnan(exact.y)) continue;
     const double limit = kAgreement * (1.0 + rays[i].dot(rays[i]));
     if (!((exact - rays[i]).norm() <= limit))
-      return file_error(path, pixel_text(i) + " disagrees with the one in the _lut.bin beside it");
+      return file_error(
+          path, pixel_text(i, kFrontCamera) + " disagrees with the one in the _lut.bin beside it");
   }
   return unit_plane;
 }
 
 Result<CameraModel> read_camera(const std::filesystem::path& folder, const std::string& sensor) {
-  auto table = read_rays(lut_of(folder, sensor));
+  auto table = read_unit_plane(lut_of(folder, sensor));
   if (!table) return table.error();
   const auto exact_path = exact_lut_of(folder, sensor);
   std::error_code code;
@@ -129,9 +150,8 @@ Status write_camera(const std::filesystem::path& folder, const std::string& sens
   rays.reserve(3 * kImageBytes);
   exact.reserve(2 * kImageBytes);
   for (const Vec2 p : camera.lookup()) {
-    const bool seen = std::isfinite(p.x) && std::isfinite(p.y);
-    const Vec3 ray = seen ? Vec3{p.x, p.y, 1.0}.normalized() : Vec3{};
-    for (int i = 0; i < 3; ++i) rays.push_back(static_cast<float>(ray[i]));
+    const DepthCalibration::Ray ray = DepthCalibration::ray_through(p);
+    rays.insert(rays.end(), ray.begin(), ray.end());
     exact.push_back(p.x);
     exact.push_back(p.y);
   }
@@ -173,6 +193,26 @@ Status write_calibration(const std::filesystem::path& folder,
     return s;
   return write_extrinsics(extrinsics_of(folder, kRightSensor),
                           calibration.right_from_rig.row_major());
+}
+
+Result<DepthCalibration> read_depth_calibration(const std::filesystem::path& folder,
+                                                const std::string& sensor, DepthStream stream,
+                                                int width_px, int height_px) {
+  auto rays = read_rays(lut_of(folder, sensor), {width_px, height_px});
+  if (!rays) return rays.error();
+  const auto sensor_from_rig = read_extrinsics<DepthSensor>(extrinsics_of(folder, sensor));
+  if (!sensor_from_rig) return sensor_from_rig.error();
+  return DepthCalibration{stream, width_px, height_px, std::move(*rays), *sensor_from_rig};
+}
+
+Status write_depth_calibration(const std::filesystem::path& folder, const std::string& sensor,
+                               const DepthCalibration& calibration) {
+  std::vector<float> rays;
+  rays.reserve(3 * calibration.rays.size());
+  for (const DepthCalibration::Ray& ray : calibration.rays)
+    rays.insert(rays.end(), ray.begin(), ray.end());
+  if (Status s = write_numbers(lut_of(folder, sensor), rays); !s) return s;
+  return write_extrinsics(extrinsics_of(folder, sensor), calibration.sensor_from_rig.row_major());
 }
 
 }  // namespace orthonav::replay

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
+#include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
 
 namespace orthonav::replay {
@@ -12,5 +14,12 @@ Result<StereoCalibration> read_calibration(const std::filesystem::path& folder);
 
 /// Writes them, double precision too; refuses cameras that the layout cannot hold (not 640×480).
 Status write_calibration(const std::filesystem::path& folder, const StereoCalibration& calibration);
+
+/// The same for a depth camera, whose images tell how large its table is.
+Result<DepthCalibration> read_depth_calibration(const std::filesystem::path& folder,
+                                                const std::string& sensor, DepthStream stream,
+                                                int width_px, int height_px);
+Status write_depth_calibration(const std::filesystem::path& folder, const std::string& sensor,
+                               const DepthCalibration& calibration);
 
 }  // namespace orthonav::replay

@@ -176,4 +176,20 @@ std::optional<Timestamp> device_time(std::int64_t ticks, std::int64_t epoch_tick
   return from_ticks_100ns(ticks - epoch_ticks);
 }
 
+Result<Timestamp> named_time(const std::filesystem::path& path, std::int64_t ticks,
+                             std::int64_t epoch_ticks) {
+  const auto time = device_time(ticks, epoch_ticks);
+  if (time) return *time;
+  return file_error(path, "time " + std::to_string(ticks) +
+                              " lies more than 285 years from the recording's epoch " +
+                              std::to_string(epoch_ticks));
+}
+
+Status check_row(const std::filesystem::path& path, const FrameRow& row, std::int64_t epoch_ticks) {
+  const auto by_ticks = device_time(row.ticks, epoch_ticks);
+  if (by_ticks && *by_ticks <= row.time && row.time < *by_ticks + Duration(100)) return {};
+  return file_error(path, "sequence " + std::to_string(row.sequence) +
+                              ": time_ns does not belong to its ticks_100ns");
+}
+
 }  // namespace orthonav::replay

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hal/replay/recording.h"
+#include "hal/replay/text.h"
 
 namespace orthonav::replay {
 
@@ -33,6 +34,18 @@ struct MapRow {
 Result<std::vector<MapRow>> read_map_moves(const std::filesystem::path& path);
 void append_map_move(std::string& line, const MapRow& row);
 
+/// Gives pairs or frames the maps of such a file, where there is one.
+template <class Frame>
+Status add_map_moves(const std::filesystem::path& path, std::vector<Frame>& frames) {
+  if (!is_there(path)) return {};
+  const auto rows = read_map_moves(path);
+  if (!rows) return rows.error();
+  for (const MapRow& row : *rows)
+    for (Frame& frame : frames)
+      if (frame.sequence >= row.sequence) frame.map_epoch = row.map_epoch;
+  return {};
+}
+
 /// device.csv
 Result<RecordedDevice> read_device(const std::filesystem::path& path);
 std::string device_text(const RecordedDevice& device);
@@ -41,5 +54,10 @@ std::string device_text(const RecordedDevice& device);
 /// not fit.
 [[nodiscard]] std::int64_t epoch_of(std::int64_t first_ticks);
 [[nodiscard]] std::optional<Timestamp> device_time(std::int64_t ticks, std::int64_t epoch_ticks);
+/// The same of a time that the file at `path` names, with an Error that says so.
+Result<Timestamp> named_time(const std::filesystem::path& path, std::int64_t ticks,
+                             std::int64_t epoch_ticks);
+/// Whether a row's exact time is that of its ticks.
+Status check_row(const std::filesystem::path& path, const FrameRow& row, std::int64_t epoch_ticks);
 
 }  // namespace orthonav::replay

@@ -109,10 +109,39 @@ Result<Hololens1Frames<Camera>> read_frames_of(const std::filesystem::path& fold
 /// viewing ray -(x, y, 1) in the view frame, which is (-x, y, 1) in vision axes.
 class CornerTable {
  public:
-  explicit CornerTable(const std::string& bytes) : bytes_(bytes) {}
+  static Result<CornerTable> read(const std::filesystem::path& folder, const std::string& sensor,
+                                  int width_px, int height_px) {
+    CornerTable table;
+    table.path_ = folder / (sensor + "_camera_space_projection.bin");
+    table.width_px_ = width_px;
+    table.height_px_ = height_px;
+    auto bytes = read_sized(table.path_, static_cast<std::size_t>(width_px) *
+                                             static_cast<std::size_t>(height_px) * kPairBytes);
+    if (!bytes) return bytes.error();
+    table.bytes_ = std::move(*bytes);
+    return table;
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// For each pixel's centre, row-major.
+  [[nodiscard]] std::vector<Vec2> centres() const {
+    std::vector<Vec2> unit_plane;
+    unit_plane.reserve(bytes_.size() / kPairBytes);
+    for (int y = 0; y < height_px_; ++y)
+      for (int x = 0; x < width_px_; ++x) unit_plane.push_back(centre(x, y));
+    return unit_plane;
+  }
+
+ private:
+  static constexpr std::size_t kPairBytes = 2 * sizeof(float);
+  std::filesystem::path path_;
+  std::string bytes_;
+  int width_px_ = 0;
+  int height_px_ = 0;
+
   [[nodiscard]] Vec2 at(int x, int y) const {
     std::array<float, 2> pair{};
-    const auto index = static_cast<std::size_t>(x) * kImageHeightPx + static_cast<std::size_t>(y);
+    const std::size_t index = static_cast<std::size_t>(x) * static_cast<std::size_t>(height_px_) +
+                              static_cast<std::size_t>(y);
     std::memcpy(pair.data(), bytes_.data() + index * sizeof(pair), sizeof(pair));
     constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
     if (!std::isfinite(pair[0]) || !std::isfinite(pair[1])) return {kNothing, kNothing};
@@ -120,16 +149,13 @@ class CornerTable {
   }
   /// Half a pixel on in both directions; past the last column and row as it went on before.
   [[nodiscard]] Vec2 centre(int x, int y) const {
-    const int x0 = std::min(x, kImageWidthPx - 2);
-    const int y0 = std::min(y, kImageHeightPx - 2);
+    const int x0 = std::min(x, width_px_ - 2);
+    const int y0 = std::min(y, height_px_ - 2);
     const double u = x - x0 + 0.5;
     const double v = y - y0 + 0.5;
     return (1 - u) * (1 - v) * at(x0, y0) + u * (1 - v) * at(x0 + 1, y0) +
            (1 - u) * v * at(x0, y0 + 1) + u * v * at(x0 + 1, y0 + 1);
   }
-
- private:
-  const std::string& bytes_;
 };
 
 }  // namespace
@@ -144,21 +170,27 @@ Result<Hololens1Frames<RightCamera>> read_hololens1_right(const std::filesystem:
 
 Result<CameraModel> read_hololens1_camera(const std::filesystem::path& folder,
                                           const std::string& sensor) {
-  const auto path = folder / (sensor + "_camera_space_projection.bin");
-  constexpr std::size_t kBytes = kImageBytes * 2 * sizeof(float);
-  const auto bytes = read_text(path, kBytes);
-  if (!bytes) return bytes.error();
-  if (bytes->size() != kBytes)
-    return file_error(path, "holds " + std::to_string(bytes->size()) + " bytes, must be " +
-                                std::to_string(kBytes));
-  const CornerTable corners(*bytes);
-  std::vector<Vec2> unit_plane;
-  unit_plane.reserve(kImageBytes);
-  for (int y = 0; y < kImageHeightPx; ++y)
-    for (int x = 0; x < kImageWidthPx; ++x) unit_plane.push_back(corners.centre(x, y));
-  auto camera = CameraModel::from_lookup(kImageWidthPx, kImageHeightPx, std::move(unit_plane));
-  if (!camera) return file_error(path, camera.error().message);
+  const auto corners = CornerTable::read(folder, sensor, kImageWidthPx, kImageHeightPx);
+  if (!corners) return corners.error();
+  auto camera = CameraModel::from_lookup(kImageWidthPx, kImageHeightPx, corners->centres());
+  if (!camera) return file_error(corners->path(), camera.error().message);
   return camera;
+}
+
+Result<Hololens1Frames<DepthSensor>> read_hololens1_depth(const std::filesystem::path& folder,
+                                                          const std::string& sensor) {
+  return read_frames_of<DepthSensor>(folder, sensor);
+}
+
+Result<std::vector<DepthCalibration::Ray>> read_hololens1_rays(const std::filesystem::path& folder,
+                                                               const std::string& sensor,
+                                                               int width_px, int height_px) {
+  const auto corners = CornerTable::read(folder, sensor, width_px, height_px);
+  if (!corners) return corners.error();
+  std::vector<DepthCalibration::Ray> rays;
+  rays.reserve(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+  for (const Vec2 p : corners->centres()) rays.push_back(DepthCalibration::ray_through(p));
+  return rays;
 }
 
 }  // namespace orthonav::replay

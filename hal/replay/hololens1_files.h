@@ -1,7 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
 #include "hal/replay/frame_files.h"
 
@@ -12,6 +15,10 @@ namespace orthonav::replay {
 /// running slowest (docs/recordings.md).
 inline constexpr const char* kHololens1Left = "vlc_lf";
 inline constexpr const char* kHololens1Right = "vlc_rf";
+inline constexpr const char* kHololens1ShortThrow = "short_throw_depth";
+inline constexpr const char* kHololens1LongThrow = "long_throw_depth";
+/// Before the ticks in the names of a sensor's images, with the backslash of its system.
+inline std::string hololens1_prefix(const std::string& sensor) { return sensor + "\\"; }
 
 /// The poses of a sensor's CSV file, world_from_rig, and where its camera sits. Frames that were
 /// not located (a matrix of zeros) have no pose.
@@ -22,9 +29,15 @@ struct Hololens1Frames {
 };
 Result<Hololens1Frames<LeftCamera>> read_hololens1_left(const std::filesystem::path& folder);
 Result<Hololens1Frames<RightCamera>> read_hololens1_right(const std::filesystem::path& folder);
+Result<Hololens1Frames<DepthSensor>> read_hololens1_depth(const std::filesystem::path& folder,
+                                                          const std::string& sensor);
 
 /// The directions of a sensor's `_camera_space_projection.bin`, brought to pixel centres.
 Result<CameraModel> read_hololens1_camera(const std::filesystem::path& folder,
                                           const std::string& sensor);
+/// The same for a depth camera, whose images tell how large its table is: unit rays.
+Result<std::vector<DepthCalibration::Ray>> read_hololens1_rays(const std::filesystem::path& folder,
+                                                               const std::string& sensor,
+                                                               int width_px, int height_px);
 
 }  // namespace orthonav::replay

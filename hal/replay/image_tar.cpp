@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cassert>
 #include <cctype>
 #include <string>
 #include <string_view>
@@ -35,43 +37,20 @@ std::string printable(const std::string& name) {
   return shown;
 }
 
-/// Reads the fields of a PGM header: blanks and comments before each, one blank after the last.
-class PgmHeader {
- public:
-  explicit PgmHeader(std::string_view bytes) : bytes_(bytes) {}
-  bool magic() {
-    position_ = 2;
-    return bytes_.substr(0, 2) == "P5";
-  }
-  std::optional<std::int64_t> number() {
-    skip_blanks();
-    const std::size_t begin = position_;
-    while (position_ < bytes_.size() && is(&isdigit)) ++position_;
-    if (begin == position_ || position_ - begin > 9) return std::nullopt;
-    return parse_integer(bytes_.substr(begin, position_ - begin));
-  }
-  /// Bytes up to the first pixel.
-  std::optional<std::size_t> end() {
-    if (position_ >= bytes_.size() || !is(&isspace)) return std::nullopt;
-    return position_ + 1;
-  }
+std::string size_text(std::int64_t width_px, std::int64_t height_px) {
+  return std::to_string(width_px) + "x" + std::to_string(height_px);
+}
 
- private:
-  std::string_view bytes_;
-  std::size_t position_ = 0;
-
-  bool is(int (*kind)(int)) const {
-    return kind(static_cast<unsigned char>(bytes_[position_])) != 0;
-  }
-  void skip_blanks() {
-    while (position_ < bytes_.size() && (is(&isspace) || bytes_[position_] == '#')) {
-      if (bytes_[position_] == '#')
-        while (position_ < bytes_.size() && bytes_[position_] != '\n') ++position_;
-      else
-        ++position_;
-    }
-  }
-};
+/// By time, each time once; gives the number of those left out.
+std::int64_t sort_unique(std::vector<ImageMember>& members) {
+  const auto by_time = [](const ImageMember& a, const ImageMember& b) { return a.ticks < b.ticks; };
+  std::stable_sort(members.begin(), members.end(), by_time);
+  const auto same = [](const ImageMember& a, const ImageMember& b) { return a.ticks == b.ticks; };
+  const auto last = std::unique(members.begin(), members.end(), same);
+  const std::int64_t repeated = members.end() - last;
+  members.erase(last, members.end());
+  return repeated;
+}
 
 }  // namespace
 
@@ -115,68 +94,79 @@ Status ImageTar::index() {
     return file_error(
         path_, "after " + std::to_string(members_.size()) + " images: " + error_of(reader.get()));
   if (Status status = check_end(end, file_size); !status) return status;
-  const auto by_time = [](const ImageMember& a, const ImageMember& b) { return a.ticks < b.ticks; };
-  std::stable_sort(members_.begin(), members_.end(), by_time);
-  const auto same = [](const ImageMember& a, const ImageMember& b) { return a.ticks == b.ticks; };
-  const auto last = std::unique(members_.begin(), members_.end(), same);
-  repeated_ = members_.end() - last;
-  members_.erase(last, members_.end());
+  repeated_ = sort_unique(members_) + sort_unique(brightness_);
   return {};
 }
 
-/// Of "<prefix><digits>.pgm".
-std::optional<std::int64_t> ImageTar::ticks_in(std::string_view name) const {
+/// Of "<prefix><digits>.pgm", or of "<prefix><digits>_ab.pgm" where there are such images.
+std::optional<ImageTar::Name> ImageTar::parsed(std::string_view name) const {
   constexpr std::string_view kEnding = ".pgm";
+  constexpr std::string_view kBrightness = "_ab";
   if (!name.starts_with(layout_.prefix) || !name.ends_with(kEnding) ||
       name.size() <= layout_.prefix.size() + kEnding.size())
     return std::nullopt;
   name.remove_prefix(layout_.prefix.size());
   name.remove_suffix(kEnding.size());
+  const bool brightness = layout_.with_brightness && name.ends_with(kBrightness);
+  if (brightness) name.remove_suffix(kBrightness.size());
   const bool digits =
       std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-  return digits ? parse_integer(name) : std::nullopt;
+  const auto ticks = digits ? parse_integer(name) : std::nullopt;
+  return ticks ? std::optional(Name{*ticks, brightness}) : std::nullopt;
 }
 
 Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t offset,
                               std::uint64_t size, std::uint64_t file_size) {
   const std::string name(name_text);
-  const std::string member = "member \"" + printable(name) + "\"";
-  const auto ticks = ticks_in(name);
-  if (!plain || !ticks)
-    return file_error(path_, member + " is no image named " + layout_.prefix + "<ticks>.pgm");
+  const std::string member = "member \"" + printable(name) + "\" ";
+  const auto known = parsed(name);
+  if (!plain || !known)
+    return file_error(path_, member + "is no image named " + layout_.prefix + "<ticks>.pgm" +
+                                 (layout_.with_brightness ? " or <ticks>_ab.pgm" : ""));
   if (offset > file_size || size > file_size - offset)
-    return file_error(path_, member + " is cut off: the archive is truncated at " +
+    return file_error(path_, member + "is cut off: the archive is truncated at " +
                                  std::to_string(file_size) + " bytes");
-  const auto header = pgm_header_bytes(name, offset, size);
-  if (!header) return header.error();
-  members_.push_back({*ticks, offset + *header});
+  std::array<char, 256> bytes;
+  const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(size, bytes.size()));
+  if (!read_at(offset, bytes.data(), count)) return file_error(path_, member + "cannot be read");
+  const auto header = parse_pgm_header(std::string_view(bytes.data(), count));
+  if (!header) return file_error(path_, member + header.error().message);
+  if (Status s = check_image(*header, size); !s)
+    return file_error(path_, member + s.error().message);
+  (known->brightness ? brightness_ : members_).push_back({known->ticks, offset + header->bytes});
   return {};
 }
 
-Result<std::uint64_t> ImageTar::pgm_header_bytes(const std::string& name, std::uint64_t offset,
-                                                 std::uint64_t size) {
-  const std::string member = "member \"" + printable(name) + "\" ";
-  std::array<char, 256> bytes;
-  const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(size, bytes.size()));
-  if (!read_at(offset, bytes.data(), count)) return file_error(path_, member + "cannot be read");
-  PgmHeader header(std::string_view(bytes.data(), count));
-  if (!header.magic()) return file_error(path_, member + "is no binary PGM (P5)");
-  const auto width = header.number();
-  const auto height = header.number();
-  const auto maximum = header.number();
-  const auto end = header.end();
-  if (!width || !height || !maximum || !end)
-    return file_error(path_, member + "has a broken PGM header");
-  if (*width != kImageWidthPx || *height != kImageHeightPx)
-    return file_error(path_, member + "is " + std::to_string(*width) + "x" +
-                                 std::to_string(*height) + " px, must be 640x480");
-  if (*maximum != 255)
-    return file_error(path_,
-                      member + "has maximum grey " + std::to_string(*maximum) + ", must be 255");
-  if (size != *end + kImageBytes)
-    return file_error(path_, member + "holds " + std::to_string(size) + " bytes, must be " +
-                                 std::to_string(*end + kImageBytes));
-  return static_cast<std::uint64_t>(*end);
+/// The first image decides where the layout does not say how large they are.
+Status ImageTar::check_image(const PgmHeader& header, std::uint64_t size) {
+  if (layout_.width_px == 0) {
+    const auto fits = [](std::int64_t side) {
+      return side >= kMinDepthSidePx && side <= kMaxDepthSidePx;
+    };
+    if (!fits(header.width_px) || !fits(header.height_px))
+      return Error{"is " + size_text(header.width_px, header.height_px) +
+                   " px, each side must be " + std::to_string(kMinDepthSidePx) + " to " +
+                   std::to_string(kMaxDepthSidePx)};
+    layout_.width_px = static_cast<int>(header.width_px);
+    layout_.height_px = static_cast<int>(header.height_px);
+  }
+  if (header.width_px != layout_.width_px || header.height_px != layout_.height_px)
+    return Error{"is " + size_text(header.width_px, header.height_px) + " px, must be " +
+                 size_text(layout_.width_px, layout_.height_px)};
+  const std::int64_t maximum = layout_.pixels == PixelKind::kGrey8 ? 255 : 65535;
+  if (header.maximum != maximum)
+    return Error{"has maximum grey " + std::to_string(header.maximum) + ", must be " +
+                 std::to_string(maximum)};
+  const std::uint64_t expected = header.bytes + image_bytes();
+  if (size != expected)
+    return Error{"holds " + std::to_string(size) + " bytes, must be " + std::to_string(expected)};
+  return {};
+}
+
+std::size_t ImageTar::image_bytes() const {
+  const std::size_t a_pixel = layout_.pixels == PixelKind::kGrey8 ? 1 : 2;
+  return a_pixel * static_cast<std::size_t>(layout_.width_px) *
+         static_cast<std::size_t>(layout_.height_px);
 }
 
 Status ImageTar::check_end(std::uint64_t end, std::uint64_t file_size) {
@@ -205,12 +195,28 @@ bool ImageTar::read_at(std::uint64_t offset, void* bytes, std::size_t count) {
          std::fread(bytes, 1, count, file_.get()) == count;
 }
 
-Status ImageTar::read(const ImageMember& member, GreyImage& image) {
-  image.width_px = kImageWidthPx;
-  image.height_px = kImageHeightPx;
-  image.pixels.resize(kImageBytes);
-  if (read_at(member.pixels_offset, image.pixels.data(), kImageBytes)) return {};
+template <class Value>
+Status ImageTar::read_pixels(const ImageMember& member, PlainImage<Value>& image) {
+  image.width_px = layout_.width_px;
+  image.height_px = layout_.height_px;
+  image.pixels.resize(image_bytes() / sizeof(Value));
+  if (read_at(member.pixels_offset, image.pixels.data(), image_bytes())) return {};
   return file_error(path_, "image " + std::to_string(member.ticks) + ".pgm cannot be read");
+}
+
+Status ImageTar::read(const ImageMember& member, GreyImage& image) {
+  assert(layout_.pixels == PixelKind::kGrey8);
+  return read_pixels(member, image);
+}
+
+Status ImageTar::read(const ImageMember& member, DepthImage& image) {
+  assert(layout_.pixels != PixelKind::kGrey8);
+  if (Status s = read_pixels(member, image); !s) return s;
+  static_assert(std::endian::native == std::endian::little);
+  if (layout_.pixels == PixelKind::kBigEndian16)
+    for (std::uint16_t& pixel : image.pixels)
+      pixel = static_cast<std::uint16_t>(pixel << 8U | pixel >> 8U);
+  return {};
 }
 
 }  // namespace orthonav::replay

@@ -11,6 +11,8 @@
 
 #include "hal/api/image.h"
 #include "hal/api/result.h"
+#include "hal/replay/layout.h"
+#include "hal/replay/pgm_header.h"
 
 namespace orthonav::replay {
 
@@ -20,13 +22,19 @@ struct ImageMember {
   std::uint64_t pixels_offset = 0;
 };
 
+enum class PixelKind { kGrey8, kBigEndian16, kLittleEndian16 };
+
 /// What the members of an archive are.
 struct ImageLayout {
   std::string prefix;  ///< before the ticks in a name; HoloLens 1 writes "vlc_lf" and a backslash
+  PixelKind pixels = PixelKind::kGrey8;
+  int width_px = kImageWidthPx;  ///< 0: as large as the first image
+  int height_px = kImageHeightPx;
+  bool with_brightness = false;  ///< `<ticks>_ab.pgm` beside `<ticks>.pgm`
 };
 
-/// The images of one sensor: a ustar archive of `<ticks>.pgm`, 640×480, 8 bits. Only the index is
-/// held in memory; pixels are read where they lie.
+/// The images of one sensor: a ustar archive of `<ticks>.pgm`. Only the index is held in memory;
+/// pixels are read where they lie.
 class ImageTar {
  public:
   /// Reads every header. Refuses an archive that is truncated, holds anything else than such
@@ -35,27 +43,40 @@ class ImageTar {
 
   /// By time, each time once.
   [[nodiscard]] const std::vector<ImageMember>& members() const { return members_; }
+  /// The same of the `_ab` images.
+  [[nodiscard]] const std::vector<ImageMember>& brightness() const { return brightness_; }
+  [[nodiscard]] int width_px() const { return layout_.width_px; }
+  [[nodiscard]] int height_px() const { return layout_.height_px; }
   /// Images left out because their time had come already.
   [[nodiscard]] std::int64_t repeated() const { return repeated_; }
+  /// Reads a member of an archive of 8 or of 16 bits a pixel.
   Status read(const ImageMember& member, GreyImage& image);
+  Status read(const ImageMember& member, DepthImage& image);
 
  private:
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  struct Name {
+    std::int64_t ticks = 0;
+    bool brightness = false;
   };
 
   std::filesystem::path path_;
   ImageLayout layout_;
   std::unique_ptr<std::FILE, Close> file_;
   std::vector<ImageMember> members_;
+  std::vector<ImageMember> brightness_;
   std::int64_t repeated_ = 0;
 
   Status index();
-  [[nodiscard]] std::optional<std::int64_t> ticks_in(std::string_view name) const;
+  [[nodiscard]] std::optional<Name> parsed(std::string_view name) const;
   Status index_member(const char* name, bool plain, std::uint64_t offset, std::uint64_t size,
                       std::uint64_t file_size);
-  Result<std::uint64_t> pgm_header_bytes(const std::string& name, std::uint64_t offset,
-                                         std::uint64_t size);
+  Status check_image(const PgmHeader& header, std::uint64_t size);
+  [[nodiscard]] std::size_t image_bytes() const;
+  template <class Value>
+  Status read_pixels(const ImageMember& member, PlainImage<Value>& image);
   Status check_end(std::uint64_t end, std::uint64_t file_size);
   bool read_at(std::uint64_t offset, void* bytes, std::size_t count);
 };

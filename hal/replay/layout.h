@@ -12,8 +12,15 @@ namespace orthonav::replay {
 inline constexpr int kImageWidthPx = 640;
 inline constexpr int kImageHeightPx = 480;
 inline constexpr std::size_t kImageBytes = std::size_t{640} * 480;
+/// Depth images are of any size in these bounds: 512x512 (AHaT), 320x288 (long throw of HoloLens
+/// 2), 448x450 (HoloLens 1).
+inline constexpr int kMinDepthSidePx = 2;
+inline constexpr int kMaxDepthSidePx = 2048;
 inline constexpr const char* kLeftSensor = "VLC LF";
 inline constexpr const char* kRightSensor = "VLC RF";
+inline constexpr const char* kAhatSensor = "Depth AHaT";
+inline constexpr const char* kLongThrowSensor = "Depth Long Throw";
+inline constexpr const char* kShortThrowSensor = "Depth Short Throw";  ///< our own, of HoloLens 1
 /// The year 1970 in ticks of 100 ns since 1601. Ticks times 100 overflow from the year 1893 on, so
 /// that a recording with FILETIME ticks counts its nanoseconds from 1970.
 inline constexpr std::int64_t kUnixEpochTicks = 116444736000000000;
@@ -45,6 +52,14 @@ inline std::filesystem::path poses_of(const std::filesystem::path& folder,
   return folder / (sensor + "_rig2world.txt");
 }
 // Our own, all optional for the reader.
+inline std::filesystem::path frames_of(const std::filesystem::path& folder,
+                                       const std::string& sensor) {
+  return folder / (sensor + "_frames.csv");
+}
+inline std::filesystem::path map_of(const std::filesystem::path& folder,
+                                    const std::string& sensor) {
+  return folder / (sensor + "_map.csv");
+}
 inline constexpr const char* kDeviceFile = "device.csv";
 inline constexpr const char* kFramesFile = "frames.csv";
 inline constexpr const char* kEventsFile = "events.csv";

@@ -51,22 +51,56 @@ class Tape {
   }
 };
 
+class RecordingDepth : public DepthCamera {
+ public:
+  RecordingDepth(Headset& headset, DepthCamera& inner, Tape& tape)
+      : headset_(headset), inner_(inner), tape_(tape) {}
+  /// Records all that there is.
+  void drain() {
+    for (auto answer = next(unseen_); answer && *answer == Next::kFrame;) answer = next(unseen_);
+  }
+
+ private:
+  Headset& headset_;
+  DepthCamera& inner_;
+  Tape& tape_;
+  DepthFrame unseen_;
+
+  [[nodiscard]] const DepthCalibration& do_calibration() const override {
+    return inner_.calibration();
+  }
+  Result<Next> do_next(DepthFrame& frame) override {
+    auto answer = inner_.next(frame);
+    if (!answer || *answer != Next::kFrame) return answer;
+    tape_.record([&](RecordingWriter& w) {
+      return w.depth(inner_.calibration(), frame, headset_.clock().now());
+    });
+    return answer;
+  }
+};
+using RecordingDepths = std::vector<std::unique_ptr<RecordingDepth>>;
+
 class RecordingCamera : public StereoCamera {
  public:
-  RecordingCamera(Headset& inner, Tape& tape) : inner_(inner), tape_(tape) {}
+  /// Drains the depth cameras named at each call.
+  RecordingCamera(Headset& inner, Tape& tape, const RecordingDepths& drained)
+      : inner_(inner), tape_(tape), drained_(drained) {}
 
  private:
   Headset& inner_;
   Tape& tape_;
+  const RecordingDepths& drained_;
 
   [[nodiscard]] const StereoCalibration& do_calibration() const override {
     return inner_.cameras().calibration();
   }
   Result<Next> do_next(StereoFrame& frame) override {
     auto answer = inner_.cameras().next(frame);
-    if (!answer || *answer != Next::kFrame) return answer;
-    tape_.record([&](RecordingWriter& w) { return w.frame(frame, inner_.clock().now()); });
-    tape_.newest_sequence = frame.sequence;
+    if (answer && *answer == Next::kFrame) {
+      tape_.record([&](RecordingWriter& w) { return w.frame(frame, inner_.clock().now()); });
+      tape_.newest_sequence = frame.sequence;
+    }
+    for (const auto& depth : drained_) depth->drain();
     return answer;
   }
 };
@@ -132,12 +166,17 @@ class RecordingDisplay : public Display {
 
 class Recorder : public RecordingHeadset {
  public:
-  Recorder(Headset& inner, std::unique_ptr<Headset> owned, std::unique_ptr<RecordingWriter> writer)
+  Recorder(Headset& inner, std::unique_ptr<Headset> owned, std::unique_ptr<RecordingWriter> writer,
+           bool takes_depth)
       : owned_(std::move(owned)),
         inner_(inner),
         tape_(std::move(writer)),
         clicker_(inner_.clicker(), tape_),
-        voice_(inner_.voice(), tape_) {}
+        voice_(inner_.voice(), tape_) {
+    RecordingDepths& depths = takes_depth ? drained_ : passed_on_;
+    for (DepthCamera* camera : inner_.depth_cameras())
+      depths.push_back(std::make_unique<RecordingDepth>(inner_, *camera, tape_));
+  }
   ~Recorder() override { static_cast<void>(tape_.close()); }
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -152,6 +191,7 @@ class Recorder : public RecordingHeadset {
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(passed_on_); }
   [[nodiscard]] Status recording_status() const override { return tape_.status(); }
   Status close() override { return tape_.close(); }
 
@@ -159,7 +199,9 @@ class Recorder : public RecordingHeadset {
   std::unique_ptr<Headset> owned_;
   Headset& inner_;
   Tape tape_;
-  RecordingCamera cameras_{inner_, tape_};
+  RecordingDepths drained_;
+  RecordingDepths passed_on_;
+  RecordingCamera cameras_{inner_, tape_, drained_};
   RecordingHead head_{inner_, tape_};
   RecordingEvents<Clicker, ClickerEvent> clicker_;
   RecordingEvents<Voice, Phrase> voice_;
@@ -177,7 +219,7 @@ Result<std::unique_ptr<RecordingHeadset>> make(Headset& inner, std::unique_ptr<H
       RecordingWriter::create(folder, inner.cameras().calibration(), device, options.tools_json);
   if (!writer) return writer.error();
   return std::unique_ptr<RecordingHeadset>(
-      std::make_unique<Recorder>(inner, std::move(owned), std::move(*writer)));
+      std::make_unique<Recorder>(inner, std::move(owned), std::move(*writer), options.takes_depth));
 }
 
 }  // namespace

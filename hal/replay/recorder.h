@@ -10,16 +10,21 @@ namespace orthonav::replay {
 
 struct RecorderOptions {
   std::string tools_json;  ///< kept beside the recording as tools.json, if not empty
+  /// The depth cameras are read by the recorder itself, whenever it is asked for a pair, and nobody
+  /// else sees them: for a session that has no use for depth. False: what somebody reads is
+  /// recorded.
+  bool takes_depth = false;
 };
 
-/// A headset that passes everything on to another one and records what went through: images, head
-/// poses, answers of the head tracker, clicker and voice. It writes StreamRecorder's layout and a
-/// few files more (docs/recordings.md), so that ReplayHeadset delivers the same session to the bit.
+/// A headset that passes everything on to another one and records what went through: images, depth,
+/// head poses, answers of the head tracker, clicker and voice. It writes StreamRecorder's layout
+/// and a few files more (docs/recordings.md), so that ReplayHeadset delivers the same session to
+/// the bit.
 ///
 /// Writes into `folder` + ".part" and renames on close(); a recording that was cut off stays there.
 /// A recording that fails (a full disk) never disturbs the session: everything is passed on
-/// unchanged, recording stops, and recording_status() and close() say why. Each call
-/// writes on the thread that makes it.
+/// unchanged, recording stops, and recording_status() and close() say why. Each call writes on the
+/// thread that makes it; cameras, depth cameras and close() belong to one.
 class RecordingHeadset : public Headset {
  public:
   /// Refuses a folder that exists and is not empty, one left over under the temporary name, and

@@ -22,11 +22,6 @@ struct Sensors {
 constexpr Sensors kStreamRecorder{kLeftSensor, kRightSensor};
 constexpr Sensors kHololens1{kHololens1Left, kHololens1Right};
 
-bool is_there(const std::filesystem::path& path) {
-  std::error_code code;
-  return std::filesystem::exists(path, code);
-}
-
 Status check_folder(const std::filesystem::path& folder) {
   std::error_code code;
   if (!is_there(folder)) return file_error(folder, "no such recording");
@@ -35,16 +30,6 @@ Status check_folder(const std::filesystem::path& folder) {
         folder,
         "is no folder; a recording is a folder with \"VLC LF.tar\" or \"vlc_lf.tar\" in it");
   return {};
-}
-
-Result<Timestamp> time_of(const std::filesystem::path& path, std::int64_t ticks,
-                          std::int64_t epoch) {
-  const auto time = device_time(ticks, epoch);
-  if (!time)
-    return file_error(path, "time " + std::to_string(ticks) +
-                                " lies more than 285 years from the recording's epoch " +
-                                std::to_string(epoch));
-  return *time;
 }
 
 /// The pairs of a StreamRecorder folder: found by time, numbered in order.
@@ -56,7 +41,8 @@ Status add_paired(const std::filesystem::path& folder, const Sensors& sensors,
   // The lists are sorted: their ends tell whether every difference fits.
   for (const std::int64_t ticks :
        {left.front().ticks, left.back().ticks, right.front().ticks, right.back().ticks})
-    if (auto time = time_of(path, ticks, recording.epoch_ticks_100ns); !time) return time.error();
+    if (auto time = named_time(path, ticks, recording.epoch_ticks_100ns); !time)
+      return time.error();
   constexpr std::int64_t kWithinTicks = kPairWithin / Duration(100);
   for (const auto& [l, r] : paired(left, right, kWithinTicks)) {
     const Timestamp time = *device_time(l.ticks, recording.epoch_ticks_100ns);
@@ -83,15 +69,12 @@ Status add_listed(const std::filesystem::path& folder, Recording& recording) {
                                 std::to_string(right.size()) + " right images");
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const FrameRow& row = (*rows)[i];
-    const auto by_ticks = device_time(row.ticks, recording.epoch_ticks_100ns);
     if (row.ticks != left[i].ticks || row.ticks != right[i].ticks)
       return file_error(path, "pair " + std::to_string(row.sequence) + " has ticks " +
                                   std::to_string(row.ticks) + ", its images " +
                                   std::to_string(left[i].ticks) + " and " +
                                   std::to_string(right[i].ticks));
-    if (!by_ticks || *by_ticks > row.time || *by_ticks + Duration(100) <= row.time)
-      return file_error(path, "pair " + std::to_string(row.sequence) +
-                                  ": time_ns does not belong to its ticks_100ns");
+    if (Status s = check_row(path, row, recording.epoch_ticks_100ns); !s) return s;
     recording.pairs.push_back({row.sequence, row.time, row.clock, left[i], right[i], std::nullopt});
   }
   return {};
@@ -116,7 +99,7 @@ Status add_poses(const std::filesystem::path& path, const PosesByTicks& poses,
     const auto exact = exact_times.find(ticks);
     const auto time = exact != exact_times.end()
                           ? Result<Timestamp>(exact->second)
-                          : time_of(path, ticks, recording.epoch_ticks_100ns);
+                          : named_time(path, ticks, recording.epoch_ticks_100ns);
     if (!time) return time.error();
     // A pose without a pair lies in the map of the pair after it, or of the last one.
     const auto epoch = map_epochs.lower_bound(ticks);
@@ -124,16 +107,6 @@ Status add_poses(const std::filesystem::path& path, const PosesByTicks& poses,
         {*time, pose, (epoch == map_epochs.end() ? std::prev(epoch) : epoch)->second});
   }
   recording.head = HeadHistory(std::move(samples));
-  return {};
-}
-
-Status add_map_moves(const std::filesystem::path& folder, Recording& recording) {
-  if (!is_there(folder / kMapFile)) return {};
-  const auto rows = read_map_moves(folder / kMapFile);
-  if (!rows) return rows.error();
-  for (const MapRow& row : *rows)
-    for (RecordedPair& pair : recording.pairs)
-      if (pair.sequence >= row.sequence) pair.map_epoch = row.map_epoch;
   return {};
 }
 
@@ -186,9 +159,9 @@ Status add_device(const std::filesystem::path& folder, Recording& recording) {
 
 Status open_archives(const std::filesystem::path& folder, const Sensors& sensors,
                      Recording& recording) {
-  // HoloLens 1 puts its images into folders, with the backslash of its system.
+  // HoloLens 1 puts its images into folders.
   const auto layout = [&](const char* sensor) {
-    return ImageLayout{sensors.left == kHololens1Left ? std::string(sensor) + "\\" : ""};
+    return ImageLayout{sensors.left == kHololens1Left ? hololens1_prefix(sensor) : ""};
   };
   auto left = ImageTar::open(tar_of(folder, sensors.left), layout(sensors.left));
   if (!left) return left.error();
@@ -203,7 +176,7 @@ Status open_archives(const std::filesystem::path& folder, const Sensors& sensors
 Status read_hololens2(const std::filesystem::path& folder, Recording& recording) {
   if (Status s = open_archives(folder, kStreamRecorder, recording); !s) return s;
   if (Status s = add_device(folder, recording); !s) return s;
-  if (Status s = add_map_moves(folder, recording); !s) return s;
+  if (Status s = add_map_moves(folder / kMapFile, recording.pairs); !s) return s;
   const auto path = poses_of(folder, kLeftSensor);
   const auto poses = read_poses(path);
   if (!poses) return poses.error();
@@ -239,6 +212,14 @@ Status read_hololens1(const std::filesystem::path& folder, Recording& recording)
   return {};
 }
 
+void add_depth(const std::filesystem::path& folder, Recording& recording) {
+  RecordedDepths depths = read_depths(folder, recording.epoch_ticks_100ns);
+  recording.depth = std::move(depths.streams);
+  recording.summary.depth = std::move(depths.unreadable);
+  for (const RecordedDepth& depth : recording.depth)
+    recording.summary.depth.push_back(depth.summary);
+}
+
 }  // namespace
 
 Result<Recording> read_recording(const std::filesystem::path& folder) {
@@ -250,11 +231,14 @@ Result<Recording> read_recording(const std::filesystem::path& folder) {
     return s.error();
   RecordingSummary& summary = recording.summary;
   summary.pairs = static_cast<std::int64_t>(recording.pairs.size());
+  summary.first_ticks_100ns = recording.pairs.front().left.ticks;
+  summary.last_ticks_100ns = recording.pairs.back().left.ticks;
   summary.left_unpaired =
       static_cast<std::int64_t>(recording.left.members().size()) - summary.pairs;
   summary.right_unpaired =
       static_cast<std::int64_t>(recording.right.members().size()) - summary.pairs;
   summary.repeated = recording.left.repeated() + recording.right.repeated();
+  add_depth(folder, recording);
   return recording;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hal/api/devices.h"
+#include "hal/replay/depth_files.h"
 #include "hal/replay/event_files.h"
 #include "hal/replay/head_history.h"
 #include "hal/replay/image_tar.h"
@@ -45,6 +46,7 @@ struct Recording {
   Timestamp clock_start{};
   Duration display_latency{};
   std::string tools_json;
+  std::vector<RecordedDepth> depth;
   RecordingSummary summary;
 };
 

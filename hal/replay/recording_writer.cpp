@@ -1,11 +1,6 @@
 #include "hal/replay/recording_writer.h"
 
-#include <archive.h>
-#include <archive_entry.h>
-
-#include <array>
-#include <cerrno>
-#include <cstring>
+#include <system_error>
 
 #include "hal/replay/calibration_files.h"
 #include "hal/replay/frame_files.h"
@@ -15,9 +10,6 @@
 namespace orthonav::replay {
 
 namespace {
-
-constexpr char kPgmHeader[] = "P5\n640 480\n255\n";
-constexpr std::size_t kPgmHeaderBytes = sizeof(kPgmHeader) - 1;
 
 Status check_free(const std::filesystem::path& folder, const std::filesystem::path& part) {
   std::error_code code;
@@ -30,72 +22,6 @@ Status check_free(const std::filesystem::path& folder, const std::filesystem::pa
 }
 
 }  // namespace
-
-Status LineFile::open(const std::filesystem::path& path, const char* header) {
-  path_ = path;
-  file_.reset(std::fopen(path.c_str(), "wbe"));
-  if (!file_) return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
-  return header ? write(header) : Status{};
-}
-
-Status LineFile::write(const std::string& line) {
-  const std::lock_guard lock(mutex_);
-  if (!file_) return file_error(path_, "is closed already");
-  const bool written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() &&
-                       std::fputc('\n', file_.get()) != EOF && std::fflush(file_.get()) == 0;
-  if (!written) return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
-  return {};
-}
-
-Status LineFile::close() {
-  const std::lock_guard lock(mutex_);
-  if (file_ && std::fclose(file_.release()) != 0)
-    return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
-  return {};
-}
-
-void ImageTarWriter::FreeArchive::operator()(archive* a) const { archive_write_free(a); }
-
-void ImageTarWriter::FreeEntry::operator()(archive_entry* e) const { archive_entry_free(e); }
-
-Status ImageTarWriter::open(const std::filesystem::path& path) {
-  path_ = path;
-  archive_.reset(archive_write_new());
-  entry_.reset(archive_entry_new());
-  archive_write_set_format_ustar(archive_.get());
-  archive_write_set_bytes_per_block(archive_.get(), 0);  // nothing waits in a buffer
-  if (archive_write_open_filename(archive_.get(), path.c_str()) != ARCHIVE_OK) return failed();
-  return {};
-}
-
-Error ImageTarWriter::failed() const {
-  const char* text = archive_error_string(archive_.get());
-  return file_error(path_, std::string("cannot be written: ") + (text ? text : "unknown error"));
-}
-
-Status ImageTarWriter::write(std::int64_t ticks, const GreyImage& image) {
-  std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "%lld.pgm", static_cast<long long>(ticks));
-  archive_entry_clear(entry_.get());
-  archive_entry_set_pathname(entry_.get(), name.data());
-  archive_entry_set_filetype(entry_.get(), AE_IFREG);
-  archive_entry_set_perm(entry_.get(), 0644);
-  archive_entry_set_mtime(entry_.get(), 0, 0);
-  archive_entry_set_size(entry_.get(), static_cast<la_int64_t>(kPgmHeaderBytes + kImageBytes));
-  if (archive_write_header(archive_.get(), entry_.get()) != ARCHIVE_OK) return failed();
-  const auto put = [this](const void* bytes, std::size_t count) {
-    return archive_write_data(archive_.get(), bytes, count) == static_cast<la_ssize_t>(count);
-  };
-  if (!put(kPgmHeader, kPgmHeaderBytes) || !put(image.pixels.data(), kImageBytes)) return failed();
-  if (archive_write_finish_entry(archive_.get()) != ARCHIVE_OK) return failed();
-  return {};
-}
-
-Status ImageTarWriter::close() {
-  if (archive_ && archive_write_close(archive_.get()) != ARCHIVE_OK) return failed();
-  archive_.reset();
-  return {};
-}
 
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(
     const std::filesystem::path& folder, const StereoCalibration& calibration,
@@ -128,44 +54,31 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(
 Status RecordingWriter::open_files() {
   if (Status s = left_.open(tar_of(part_, kLeftSensor)); !s) return s;
   if (Status s = right_.open(tar_of(part_, kRightSensor)); !s) return s;
-  if (Status s = left_poses_.open(poses_of(part_, kLeftSensor), nullptr); !s) return s;
-  if (Status s = right_poses_.open(poses_of(part_, kRightSensor), nullptr); !s) return s;
-  if (Status s = frames_.open(part_ / kFramesFile, kFramesHeader); !s) return s;
+  if (Status s = frames_.open(part_ / kFramesFile, part_ / kMapFile,
+                              {poses_of(part_, kLeftSensor), poses_of(part_, kRightSensor)});
+      !s)
+    return s;
   if (Status s = events_.open(part_ / kEventsFile, kEventsHeader); !s) return s;
   return head_.open(part_ / kHeadFile, kHeadHeader);
 }
 
 Status RecordingWriter::frame(const StereoFrame& frame, Timestamp clock) {
   const std::int64_t ticks = epoch_ticks_ + ticks_100ns(frame.time);
-  if (ticks < 0 || ticks <= last_ticks_)
-    return file_error(part_, "pair at " + std::to_string(ticks) +
-                                 " ticks of 100 ns cannot be told from the one at " +
-                                 std::to_string(last_ticks_));
+  if (Status s = frames_.check(ticks); !s) return file_error(part_, "pairs: " + s.error().message);
   if (Status s = left_.write(ticks, frame.left); !s) return s;
   if (Status s = right_.write(ticks, frame.right); !s) return s;
-  if (frame.world_from_rig) {
-    line_.clear();
-    append_pose(line_, ticks, *frame.world_from_rig);
-    if (Status s = left_poses_.write(line_); !s) return s;
-    if (Status s = right_poses_.write(line_); !s) return s;
-  }
-  if (Status s = note_map(frame); !s) return s;
-  line_.clear();
-  append_frame(line_, {frame.sequence, frame.time, ticks, clock});
-  if (Status s = frames_.write(line_); !s) return s;
-  last_ticks_ = ticks;
+  const FrameRow row{frame.sequence, frame.time, ticks, clock};
+  if (Status s = frames_.write(row, frame.map_epoch, frame.world_from_rig); !s) return s;
   ++pairs_;
   return {};
 }
 
-Status RecordingWriter::note_map(const StereoFrame& frame) {
-  if (frame.map_epoch == map_epoch_) return {};
-  if (!map_.is_open())
-    if (Status s = map_.open(part_ / kMapFile, kMapHeader); !s) return s;
-  map_epoch_ = frame.map_epoch;
-  line_.clear();
-  append_map_move(line_, {frame.sequence, frame.map_epoch});
-  return map_.write(line_);
+Status RecordingWriter::depth(const DepthCalibration& calibration, const DepthFrame& frame,
+                              Timestamp clock) {
+  const auto [writer, added] = depths_.try_emplace(calibration.stream);
+  if (added)
+    if (Status s = writer->second.open(part_, calibration); !s) return s;
+  return writer->second.write(frame, epoch_ticks_ + ticks_100ns(frame.time), clock);
 }
 
 Status RecordingWriter::event(const Delivered<ClickerEvent>& event) {
@@ -190,11 +103,12 @@ Status RecordingWriter::head_answer(std::int64_t sequence,
 Status RecordingWriter::close() {
   if (Status s = left_.close(); !s) return s;
   if (Status s = right_.close(); !s) return s;
-  for (LineFile* file : {&left_poses_, &right_poses_, &frames_, &events_, &head_})
+  if (Status s = frames_.close(); !s) return s;
+  for (auto& [stream, depth] : depths_)
+    if (Status s = depth.close(); !s) return s;
+  for (LineFile* file : {&events_, &head_})
     if (Status s = file->close(); !s) return s;
   if (pairs_ == 0) return file_error(part_, "holds no pair: not a recording");
-  if (map_.is_open())
-    if (Status s = map_.close(); !s) return s;
   std::error_code code;
   std::filesystem::rename(part_, folder_, code);
   if (code) return file_error(part_, "cannot be renamed: " + code.message());

@@ -1,50 +1,17 @@
 #include "hal/replay/replay_headset.h"
 
 #include <atomic>
-#include <chrono>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "hal/replay/recording.h"
+#include "hal/replay/replay_clock.h"
+#include "hal/replay/replay_depth.h"
 
 namespace orthonav::replay {
 
 namespace {
-
-/// How far the replay has come. Written by the cameras, read from any thread.
-struct Progress {
-  std::atomic<Timestamp> clock{};
-  std::atomic<Timestamp> frame_time{Timestamp::min()};
-  std::atomic<std::int64_t> sequence{-1};
-};
-
-class SteadyClock : public Clock {
- public:
-  [[nodiscard]] Timestamp now() const override {
-    return Timestamp(std::chrono::steady_clock::now().time_since_epoch());
-  }
-};
-
-class ReplayClock : public Clock {
- public:
-  ReplayClock(const Progress& progress, const ReplayOptions& options, Timestamp start)
-      : progress_(progress),
-        wall_(options.wall ? *options.wall : steady_),
-        realtime_(options.pace == ReplayPace::kRealtime),
-        start_(start),
-        opened_(wall_.now()) {}
-  [[nodiscard]] Timestamp now() const override {
-    return realtime_ ? start_ + (wall_.now() - opened_) : progress_.clock.load();
-  }
-
- private:
-  const Progress& progress_;
-  SteadyClock steady_;
-  const Clock& wall_;
-  bool realtime_;
-  Timestamp start_;
-  Timestamp opened_;
-};
 
 class ReplayCamera : public StereoCamera {
  public:
@@ -64,7 +31,10 @@ class ReplayCamera : public StereoCamera {
     return recording_.calibration;
   }
   Result<Next> do_next(StereoFrame& frame) override {
-    if (next_ == recording_.pairs.size()) return Next::kEnd;
+    if (next_ == recording_.pairs.size()) {
+      progress_.pairs_over = true;
+      return Next::kEnd;
+    }
     if (!due()) return Next::kNone;
     const RecordedPair& pair = recording_.pairs[next_++];
     if (Status s = recording_.left.read(pair.left, frame.left); !s) return s.error();
@@ -73,7 +43,7 @@ class ReplayCamera : public StereoCamera {
     frame.map_epoch = pair.map_epoch;
     frame.time = pair.time;
     frame.world_from_rig = pair.world_from_rig;
-    progress_.clock = pair.clock;
+    progress_.advance_to(pair.clock);
     progress_.frame_time = pair.time;
     progress_.sequence = pair.sequence;
     return Next::kFrame;
@@ -169,6 +139,8 @@ class Replay : public ReplayHeadset {
         clock_(progress_, options, recording_.clock_start),
         cameras_(recording_, progress_, clock_, options.pace) {
     progress_.clock = recording_.clock_start;
+    for (RecordedDepth& depth : recording_.depth)
+      depth_.push_back(std::make_unique<ReplayDepth>(depth, progress_, clock_, options.pace));
   }
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] const Clock& clock() const override { return clock_; }
@@ -180,6 +152,7 @@ class Replay : public ReplayHeadset {
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
+  [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(depth_); }
   void step() override { cameras_.step(); }
   [[nodiscard]] const RecordingSummary& summary() const override { return recording_.summary; }
   [[nodiscard]] const std::string& tools_json() const override { return recording_.tools_json; }
@@ -194,6 +167,7 @@ class Replay : public ReplayHeadset {
   ReplayClicker clicker_{recording_};
   ReplayVoice voice_{recording_};
   ReplayDisplay display_{recording_.display_latency};
+  std::vector<std::unique_ptr<ReplayDepth>> depth_;
 };
 
 }  // namespace

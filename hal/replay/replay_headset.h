@@ -4,18 +4,37 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
 
 namespace orthonav::replay {
 
+/// What a recording holds of one depth stream, and what of it could not be delivered.
+struct DepthSummary {
+  DepthStream stream = DepthStream::kLongThrow;
+  int width_px = 0;
+  int height_px = 0;
+  std::int64_t frames = 0;
+  std::int64_t frames_without_pose = 0;
+  std::int64_t brightness_unpaired = 0;  ///< brightness images without a frame of their time
+  std::int64_t repeated = 0;             ///< images of a time that the camera had already
+  std::int64_t first_ticks_100ns = 0;    ///< as the files name the first and the last frame
+  std::int64_t last_ticks_100ns = 0;
+  std::string trouble;  ///< in one line, why the stream cannot be read; empty: it can
+};
+
 /// What a recording holds and what of it could not be delivered.
 struct RecordingSummary {
   std::int64_t pairs = 0;
+  std::int64_t first_ticks_100ns = 0;  ///< as the files name the first and the last pair
+  std::int64_t last_ticks_100ns = 0;
   std::int64_t left_unpaired = 0;   ///< left images without a right one within kPairWithin
   std::int64_t right_unpaired = 0;  ///< and the other way round
   std::int64_t repeated = 0;        ///< images of a time that its camera had already
   std::int64_t pairs_without_pose = 0;
+  std::vector<DepthSummary> depth;  ///< of each stream; one in trouble is not among the cameras
 };
 
 /// Two images belong together when their sensor times agree within this.
@@ -23,9 +42,11 @@ inline constexpr Duration kPairWithin = std::chrono::milliseconds(1);
 
 /// How fast a recording goes by.
 enum class ReplayPace {
-  kFast,      ///< a pair at each call of cameras().next(); the clock is the time of the last one
+  kFast,      ///< a pair at each call of cameras().next(); the clock is the time of the last one.
+              ///< Depth comes when a pair has brought the clock that far; once the pairs have
+              ///< ended, the depth that is left brings the clock on
   kRealtime,  ///< the clock goes on as the wall's; who asks late misses pairs, as with a camera
-  kStepped    ///< a pair after each `step()`, else the clock stands still
+  kStepped    ///< a pair after each `step()`, else the clock stands still; depth as with kFast
 };
 
 struct ReplayOptions {
@@ -37,10 +58,11 @@ struct ReplayOptions {
 /// 1's HoloLensForCV, and those of our own recorder, which holds more (docs/recordings.md) and
 /// comes back to the bit; which of them it is, its files tell.
 ///
-/// The time of a
-/// pair is its left image's. The head is known up to the last frame, predicted beyond it, lost
-/// where two recorded poses lie more than HeadTracker::kMaxHeadPrediction apart. The display shows
-/// nothing; its latency is the recorded one.
+/// Depth streams are its depth cameras. One that is damaged is left out, and the summary says why:
+/// pairs alone make a session. The time of a pair is its left image's. The head is known up to the
+/// last frame, predicted beyond it, lost where two recorded poses lie more than
+/// HeadTracker::kMaxHeadPrediction apart. The display shows nothing; its latency is the recorded
+/// one.
 class ReplayHeadset : public Headset {
  public:
   /// Refuses, in one line that names file, field, value and limit, whatever is missing, truncated,

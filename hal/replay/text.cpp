@@ -49,6 +49,11 @@ Error line_error(const std::filesystem::path& path, std::size_t line, const std:
   return file_error(path, "line " + std::to_string(line) + ": " + why);
 }
 
+bool is_there(const std::filesystem::path& path) {
+  std::error_code code;
+  return std::filesystem::exists(path, code);
+}
+
 Result<std::string> read_text(const std::filesystem::path& path, std::uintmax_t max_bytes) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
@@ -65,6 +70,14 @@ Result<std::string> read_text(const std::filesystem::path& path, std::uintmax_t 
   if (!file || file.gcount() != static_cast<std::streamsize>(size))
     return file_error(path, "cannot be read");
   return text;
+}
+
+Result<std::string> read_sized(const std::filesystem::path& path, std::size_t bytes) {
+  auto content = read_text(path, bytes);
+  if (content && content->size() != bytes)
+    return file_error(path, "holds " + std::to_string(content->size()) + " bytes, must be " +
+                                std::to_string(bytes));
+  return content;
 }
 
 Status write_bytes(const std::filesystem::path& path, std::span<const char> bytes) {

@@ -19,8 +19,13 @@ namespace orthonav::replay {
 Error file_error(const std::filesystem::path& path, const std::string& why);
 Error line_error(const std::filesystem::path& path, std::size_t line, const std::string& why);
 
+[[nodiscard]] bool is_there(const std::filesystem::path& path);
+
 /// Whole text of a file of at most `max_bytes`.
 Result<std::string> read_text(const std::filesystem::path& path, std::uintmax_t max_bytes);
+
+/// Whole content of a file that must hold `bytes` bytes.
+Result<std::string> read_sized(const std::filesystem::path& path, std::size_t bytes);
 
 /// Writes a whole file.
 Status write_bytes(const std::filesystem::path& path, std::span<const char> bytes);

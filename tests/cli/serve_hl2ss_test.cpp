@@ -37,7 +37,7 @@ TEST(Doctor, LooksAtTheHeadsetsPorts) {
   EXPECT_THAT(closed.out, HasSubstr("127.0.0.1, port 47400: Connection refused"));
   const Called other = orthonav({"doctor", "--headset", "sim:"});
   EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("known is hl2ss://HOST"));
+  EXPECT_THAT(other.err, HasSubstr("known are hl2ss://HOST and replay:PATH"));
 }
 
 TEST(RunWithAHeadset, SaysWhichPortDoesNotAnswer) {

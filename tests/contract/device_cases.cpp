@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <thread>
 
 #include "hal/api/forwarding_headset.h"
@@ -15,6 +16,7 @@
 #include "hal/replay/replay_headset.h"
 #include "tests/sim_camera/scene.h"
 #include "tests/support/bare_room.h"
+#include "tests/support/depth_scene.h"
 #include "tests/support/event_file.h"
 #include "tests/support/scripted_session.h"
 #include "tests/support/session_log.h"
@@ -136,6 +138,10 @@ std::unique_ptr<Headset> open_openxr() {
 std::unique_ptr<Headset> open_stream_recorder() {
   const std::vector<std::int64_t> ticks = {0, 333'333, 666'667, 4'000'000, 4'333'333};
   auto folder = std::make_unique<StreamRecorderFolder>(ticks, ticks);
+  DepthScene scene;
+  scene.pictures = DepthScene::located({-100'000, 5'000, 700'000, 4'100'000, 5'000'000});
+  scene.write_stream_recorder(folder->path(), "Depth AHaT", 4090);
+  scene.write_stream_recorder(folder->path(), "Depth Long Throw", 0, false);
   auto headset = checked(open_headset("replay:" + folder->path().string()));
   return keeping(std::move(folder), std::move(headset));
 }
@@ -222,6 +228,15 @@ std::unique_ptr<Headset> open_joined() {
   return keeping(std::make_pair(std::move(folder), std::move(inner)), std::move(joined));
 }
 
+/// The scripted headset has two, and so has whatever stands before it; StreamRecorder's folder two
+/// of its own.
+std::size_t depth_cameras_of(const std::string& name) {
+  const std::set<std::string> with_depth = {"fake",     "faultless",      "allowed_faults",
+                                            "recorder", "joined",         "openxr",
+                                            "replay",   "stream_recorder"};
+  return with_depth.count(name) == 0 ? 0 : 2;
+}
+
 /// Records a headset to its end and opens what was recorded.
 std::unique_ptr<Headset> open_replayed(std::unique_ptr<Headset> live) {
   auto folder = std::make_unique<TemporaryFolder>();
@@ -238,21 +253,24 @@ std::unique_ptr<Headset> open_replayed(std::unique_ptr<Headset> live) {
 }  // namespace
 
 std::vector<DeviceCase> device_cases() {
-  return {{"fake", open_fake},
-          {"faultless", open_faultless},
-          {"allowed_faults", open_with_allowed_faults},
-          {"recorder", open_recorder},
-          {"joined", open_joined},
-          {"openxr", open_openxr},
-          {"replay", [] { return open_replayed(open_fake()); }},
-          {"stream_recorder", open_stream_recorder, false},
-          {"sim", open_sim, false},
-          {"replayed_sim", [] { return open_replayed(open_sim()); }, false},
-          {"hl2ss_raw", [] { return open_served_sim("raw"); }, false},
-          {"hl2ss_h264", [] { return open_served_sim("h264"); }, false},
-          {"replayed_hl2ss", [] { return open_replayed(open_served_sim("raw")); }, false},
-          {"surgeon", open_surgeon, true, false},
-          {"replayed_surgeon", [] { return open_replayed(open_surgeon()); }, true, false}};
+  std::vector<DeviceCase> cases = {
+      {"fake", open_fake},
+      {"faultless", open_faultless},
+      {"allowed_faults", open_with_allowed_faults},
+      {"recorder", open_recorder},
+      {"joined", open_joined},
+      {"openxr", open_openxr},
+      {"replay", [] { return open_replayed(open_fake()); }},
+      {"stream_recorder", open_stream_recorder, false},
+      {"sim", open_sim, false},
+      {"replayed_sim", [] { return open_replayed(open_sim()); }, false},
+      {"hl2ss_raw", [] { return open_served_sim("raw"); }, false},
+      {"hl2ss_h264", [] { return open_served_sim("h264"); }, false},
+      {"replayed_hl2ss", [] { return open_replayed(open_served_sim("raw")); }, false},
+      {"surgeon", open_surgeon, true, false},
+      {"replayed_surgeon", [] { return open_replayed(open_surgeon()); }, true, false}};
+  for (DeviceCase& device : cases) device.depth_cameras = depth_cameras_of(device.name);
+  return cases;
 }
 
 }  // namespace orthonav::testing

@@ -19,6 +19,7 @@ struct DeviceCase {
   bool has_images = true;  ///< false: they stay black, as nobody looks at them
   /// How far past the newest pair the head may have been measured already.
   Duration head_ahead{};
+  std::size_t depth_cameras = 0;
 };
 inline void PrintTo(const DeviceCase& device, std::ostream* out) { *out << device.name; }
 

@@ -3,24 +3,40 @@
 
 namespace orthonav::fuzz {
 
-/// Archives of images, as both HoloLens recorders name them.
-void fuzz_tar(std::span<const std::uint8_t> input) {
-  const InputFile file(input);
-  for (const char* prefix : {"", "vlc_lf\\"}) {
-    auto tar = replay::ImageTar::open(file.path(), replay::ImageLayout{prefix});
-    if (!tar) {
-      insist(tar.error().message.find('\n') == std::string::npos);
-      continue;
-    }
-    GreyImage image;
+namespace {
+
+/// Every member of an archive, read into images of its kind.
+template <class Value>
+void read_all(const InputFile& file, const replay::ImageLayout& layout) {
+  auto tar = replay::ImageTar::open(file.path(), layout);
+  if (!tar) {
+    insist(tar.error().message.find('\n') == std::string::npos);
+    return;
+  }
+  const auto pixels =
+      static_cast<std::size_t>(tar->width_px()) * static_cast<std::size_t>(tar->height_px());
+  PlainImage<Value> image;
+  for (const auto* members : {&tar->members(), &tar->brightness()}) {
     std::int64_t last = -1;
-    for (const replay::ImageMember& member : tar->members()) {
+    for (const replay::ImageMember& member : *members) {
       insist(member.ticks > last);
       last = member.ticks;
       insist(tar->read(member, image).ok());
-      insist(image.pixels.size() == std::size_t{640} * 480);
+      insist(image.pixels.size() == pixels);
     }
   }
+}
+
+}  // namespace
+
+/// Archives of images, as both HoloLens recorders name them.
+void fuzz_tar(std::span<const std::uint8_t> input) {
+  using replay::PixelKind;
+  const InputFile file(input);
+  read_all<std::uint8_t>(file, {});
+  read_all<std::uint8_t>(file, {"vlc_lf\\"});
+  read_all<std::uint16_t>(file, {"", PixelKind::kBigEndian16, 0, 0, true});
+  read_all<std::uint16_t>(file, {"short_throw_depth\\", PixelKind::kLittleEndian16, 0, 0, false});
 }
 
 }  // namespace orthonav::fuzz

@@ -45,7 +45,13 @@ class DamagedBytes : public ::testing::Test {
       EXPECT_THAT(headset.error().message, AllOf(HasSubstr("session"), Not(HasSubstr("\n"))));
       return;
     }
-    EXPECT_TRUE(orthonav::testing::play(**headset).ended);
+    const auto log = orthonav::testing::play(**headset);
+    EXPECT_TRUE(log.ended);
+    for (const auto& moment : log.depth) EXPECT_LE(moment.frame.time, moment.clock);
+    for (const DepthSummary& depth : (*headset)->summary().depth) {
+      EXPECT_THAT(depth.trouble, Not(HasSubstr("\n")));
+      if (!depth.trouble.empty()) ++left_out_;
+    }
   }
   void damage(const std::string& name, int rounds) {
     const auto path = folder_ / "session" / name;
@@ -71,6 +77,7 @@ class DamagedBytes : public ::testing::Test {
 
   TemporaryFolder folder_;
   int refused_ = 0;
+  int left_out_ = 0;  ///< depth streams
 };
 
 TEST_F(DamagedBytes, OfArchivesDoNoHarm) {
@@ -91,6 +98,14 @@ TEST_F(DamagedBytes, OfTextFilesDoNoHarm) {
                            "frames.csv", "events.csv", "head.csv", "device.csv", "tools.json"})
     damage(name, 24);
   EXPECT_GT(refused_, 80);
+}
+
+TEST_F(DamagedBytes, OfDepthLeavesThePairsUnharmed) {
+  for (const char* name : {"Depth AHaT.tar", "Depth AHaT_lut.bin", "Depth AHaT_extrinsics.txt",
+                           "Depth AHaT_rig2world.txt", "Depth AHaT_frames.csv"})
+    damage(name, 40);
+  EXPECT_GT(left_out_, 100);
+  EXPECT_EQ(refused_, 0);
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(Recorder, RecordsAReplayAsTheSameFiles) {
     ++files;
     EXPECT_TRUE(text_of(entry.path()) == text_of(folder / "second" / name)) << name;
   }
-  constexpr int kFilesOfARecording = 15;
+  constexpr int kFilesOfARecording = 15 + 2 * 5 + 1;  // two depth streams, the map of one
   EXPECT_EQ(files, kFilesOfARecording);
 }
 

@@ -56,8 +56,50 @@ inline StereoFrame scripted_frame(int index) {
   return frame;
 }
 
+/// A small depth camera whose pixels all differ; the corners of its image see nothing.
+inline DepthCalibration scripted_depth_camera(DepthStream stream, int width_px, int height_px) {
+  DepthCalibration made;
+  made.stream = stream;
+  made.width_px = width_px;
+  made.height_px = height_px;
+  for (int y = 0; y < height_px; ++y)
+    for (int x = 0; x < width_px; ++x) {
+      const Vec2 p{(x + 0.5 - 0.48 * width_px) / 20.0, (y + 0.5 - 0.53 * height_px) / 21.0};
+      const bool corner = p.norm() > 0.55 * width_px / 20.0;
+      made.rays.push_back(corner ? DepthCalibration::Ray{} : DepthCalibration::ray_through(p));
+    }
+  made.sensor_from_rig = {rotation_from_vector({0.2, -0.1, 1.4}), {0.01, -0.02, 0.03}};
+  return made;
+}
+
+/// A depth camera of its own pace beside the pairs of scripted_session, from before the first to
+/// after the last: a call without news, a frame without a pose, a map that moves.
+inline fake::DepthScript scripted_depth(DepthCalibration camera, bool bright, int frames,
+                                        Duration interval) {
+  fake::DepthScript script;
+  std::uint64_t state = static_cast<std::uint64_t>(camera.width_px);
+  const auto noise = [&](DepthImage& image, std::uint16_t below) {
+    image = DepthImage(camera.width_px, camera.height_px);
+    for (std::uint16_t& pixel : image.pixels)
+      pixel = static_cast<std::uint16_t>(splitmix64(state) % below);
+  };
+  for (int i = 0; i < frames; ++i) {
+    if (i == 2) script.steps.emplace_back(Next::kNone);
+    DepthFrame frame;
+    frame.sequence = 10 + 2 * i;
+    frame.map_epoch = i / 4;
+    frame.time = scripted_time(0) - Duration(5'000'003) + interval * i;
+    noise(frame.range_mm, 4090);
+    if (bright && i != 3) noise(frame.brightness, 65535);
+    if (i != 5) frame.world_from_rig = scripted_pose(i);
+    script.steps.emplace_back(std::move(frame));
+  }
+  script.calibration = std::move(camera);
+  return script;
+}
+
 /// A short session with what happens to a device: a call without news, a missing pair (5), a pair
-/// without a pose (7), presses, clicks, a double click, a hold and phrases.
+/// without a pose (7), two depth cameras, presses, clicks, a double click, a hold and phrases.
 inline fake::Script scripted_session(int frames = 12) {
   fake::Script script;
   script.calibration = scripted_calibration();
@@ -74,6 +116,11 @@ inline fake::Script scripted_session(int frames = 12) {
   const auto at = [](int frame, int ms) {
     return scripted_time(frame) + std::chrono::milliseconds(ms) + Duration(3);
   };
+  using std::chrono::milliseconds;
+  script.depth = {scripted_depth(scripted_depth_camera(DepthStream::kAhat, 24, 24), true,
+                                 frames + 4, milliseconds(22)),
+                  scripted_depth(scripted_depth_camera(DepthStream::kLongThrow, 20, 18), false, 3,
+                                 milliseconds(150))};
   using enum ClickerAction;
   script.clicker = {{kPress, at(0, 5)}, {kRelease, at(1, 0)}, {kClick, at(1, 0)},
                     {kPress, at(2, 1)}, {kRelease, at(3, 2)}, {kDoubleClick, at(3, 2)},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
 
 namespace orthonav::testing {
@@ -19,12 +20,31 @@ struct SessionLog {
     Tracked<Transform<World, Rig>> head_now;
     Tracked<Transform<World, Rig>> head_at_display;
   };
+  struct DepthMoment {
+    std::size_t camera = 0;
+    DepthFrame frame;
+    Timestamp clock{};
+  };
   std::vector<Moment> moments;
+  std::vector<DepthMoment> depth;
   std::vector<ClickerEvent> clicker;
   std::vector<Phrase> voice;
   std::vector<std::string> errors;
   bool ended = false;
 };
+
+/// Takes what the depth cameras have by now.
+inline void take_depth(Headset& headset, SessionLog& log, int max_calls = 2000) {
+  const auto cameras = headset.depth_cameras();
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    for (int call = 0; call < max_calls; ++call) {
+      DepthFrame frame;
+      const auto answer = cameras[i]->next(frame);
+      if (!answer) log.errors.push_back(answer.error().message);
+      if (answer && *answer != Next::kFrame) break;
+      if (answer) log.depth.push_back({i, std::move(frame), headset.clock().now()});
+    }
+}
 
 /// Plays `headset` to its end, at most `max_calls` calls of next().
 inline SessionLog play(Headset& headset, int max_calls = 2000) {
@@ -42,6 +62,7 @@ inline SessionLog play(Headset& headset, int max_calls = 2000) {
                              headset.head().world_from_rig(lit)});
       EXPECT_TRUE(headset.display().shown({lit, frame.time, {}}).ok());
     }
+    take_depth(headset, log);
     if (Status s = headset.clicker().poll(now, log.clicker); !s)
       log.errors.push_back(s.error().message);
     if (Status s = headset.voice().poll(now, log.voice); !s)
@@ -57,6 +78,17 @@ inline void expect_same(const Tracked<Transform<World, Rig>>& a,
   if (a.origin == Origin::kLost || b.origin == Origin::kLost) return;
   EXPECT_EQ(a.value, b.value);
   EXPECT_EQ(a.covariance, b.covariance);
+}
+
+inline void expect_same(const SessionLog::DepthMoment& a, const SessionLog::DepthMoment& b) {
+  EXPECT_EQ(a.camera, b.camera);
+  EXPECT_EQ(a.clock, b.clock);
+  EXPECT_EQ(a.frame.sequence, b.frame.sequence);
+  EXPECT_EQ(a.frame.map_epoch, b.frame.map_epoch);
+  EXPECT_EQ(a.frame.time, b.frame.time);
+  EXPECT_TRUE(a.frame.range_mm == b.frame.range_mm);
+  EXPECT_TRUE(a.frame.brightness == b.frame.brightness);
+  EXPECT_EQ(a.frame.world_from_rig, b.frame.world_from_rig);
 }
 
 /// The same bits throughout.
@@ -81,6 +113,19 @@ inline void expect_same(const SessionLog& a, const SessionLog& b) {
     expect_same(x.head_now, y.head_now);
     expect_same(x.head_at_display, y.head_at_display);
   }
+  ASSERT_EQ(a.depth.size(), b.depth.size());
+  for (std::size_t i = 0; i < a.depth.size(); ++i) {
+    SCOPED_TRACE("depth frame " + std::to_string(i));
+    expect_same(a.depth[i], b.depth[i]);
+  }
+}
+
+inline void expect_same(const DepthCalibration& a, const DepthCalibration& b) {
+  EXPECT_EQ(a.stream, b.stream);
+  EXPECT_EQ(a.width_px, b.width_px);
+  EXPECT_EQ(a.height_px, b.height_px);
+  EXPECT_TRUE(a.rays == b.rays);
+  EXPECT_EQ(a.sensor_from_rig, b.sensor_from_rig);
 }
 
 /// The same bits of table and extrinsics, NaN equal to NaN.

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hal/api/image.h"
+#include "hal/api/result.h"
+#include "hal/api/time.h"
+#include "hal/api/transform.h"
+
+namespace orthonav {
+
+enum class Next {
+  kFrame,  ///< the frame was filled
+  kNone,   ///< nothing new yet; ask again later
+  kEnd     ///< the stream has ended for good
+};
+
+/// A time as messages name it.
+[[nodiscard]] std::string in_seconds(Timestamp t);
+
+/// Whether a pose is what a device may publish: finite, and a rotation to rounding.
+[[nodiscard]] bool is_rigid(const Transform<World, Rig>& pose);
+
+/// What every stream of frames keeps, whoever takes the pictures: times and sequence numbers
+/// strictly increase, the map's epoch never decreases, a pose is a rigid motion; after kEnd there
+/// is only kEnd. `Frame` has time, sequence, map_epoch, world_from_rig and clear().
+class FrameOrder {
+ public:
+  /// A device's public call: `do_next` does the work, `check_images` says whether what it filled in
+  /// fits the calibration. A frame that breaks the contract comes back empty, with an Error.
+  template <class Frame, class DoNext, class CheckImages>
+  Result<Next> next(std::string_view what, Frame& frame, const DoNext& do_next,
+                    const CheckImages& check_images) {
+    if (ended_) return Next::kEnd;
+    Result<Next> answer = do_next();
+    if (answer && *answer == Next::kFrame) {
+      Status good = check(what, frame.time, frame.sequence, frame.map_epoch);
+      if (good) good = check_images();
+      if (good) good = check_pose(what, frame.time, frame.world_from_rig);
+      if (good)
+        last_ = {frame.time, frame.sequence, frame.map_epoch};
+      else
+        answer = good.error();
+    }
+    if (!answer) frame.clear();
+    ended_ = answer && *answer == Next::kEnd;
+    return answer;
+  }
+
+ private:
+  struct Last {
+    std::optional<Timestamp> time;
+    std::int64_t sequence = -1;
+    std::int64_t map_epoch = std::numeric_limits<std::int64_t>::min();
+  };
+  Last last_;
+  bool ended_ = false;
+
+  [[nodiscard]] Status check(std::string_view what, Timestamp time, std::int64_t sequence,
+                             std::int64_t map_epoch) const;
+  [[nodiscard]] static Status check_pose(std::string_view what, Timestamp time,
+                                         const std::optional<Transform<World, Rig>>& pose);
+};
+
+/// Whether the `which` image of the stream `what` is as large as its calibration says, and holds as
+/// many pixels.
+template <class Value>
+[[nodiscard]] Status check_size(std::string_view what, std::string_view which,
+                                const PlainImage<Value>& image, int width_px, int height_px) {
+  const std::size_t expected =
+      static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+  const bool fits = image.width_px == width_px && image.height_px == height_px;
+  if (fits && image.pixels.size() == expected) return {};
+  const std::string name = std::string(what) + ": " + std::string(which);
+  const auto text = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height) + " px";
+  };
+  if (!fits)
+    return Error{name + " image is " + text(image.width_px, image.height_px) +
+                 ", its calibration " + text(width_px, height_px)};
+  return Error{name + " image holds " + std::to_string(image.pixels.size() * sizeof(Value)) +
+               " bytes, must be " + std::to_string(expected * sizeof(Value))};
+}
+
+}  // namespace orthonav

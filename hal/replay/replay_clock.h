@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+#include "hal/replay/replay_headset.h"
+
+namespace orthonav::replay {
+
+/// How far a replay has come. Written by the cameras, read from any thread.
+struct Progress {
+  std::atomic<Timestamp> clock{};
+  std::atomic<bool> pairs_over{false};  ///< who asked was told so
+  std::atomic<Timestamp> frame_time{Timestamp::min()};
+  std::atomic<std::int64_t> sequence{-1};
+
+  /// Never back.
+  void advance_to(Timestamp time) {
+    Timestamp now = clock.load();
+    while (now < time && !clock.compare_exchange_weak(now, time)) {
+    }
+  }
+};
+
+class SteadyClock : public Clock {
+ public:
+  [[nodiscard]] Timestamp now() const override {
+    return Timestamp(std::chrono::steady_clock::now().time_since_epoch());
+  }
+};
+
+/// The wall's clock from the recording's start on in real time, else where the cameras are.
+class ReplayClock : public Clock {
+ public:
+  ReplayClock(const Progress& progress, const ReplayOptions& options, Timestamp start)
+      : progress_(progress),
+        wall_(options.wall ? *options.wall : steady_),
+        realtime_(options.pace == ReplayPace::kRealtime),
+        start_(start),
+        opened_(wall_.now()) {}
+  [[nodiscard]] Timestamp now() const override {
+    return realtime_ ? start_ + (wall_.now() - opened_) : progress_.clock.load();
+  }
+
+ private:
+  const Progress& progress_;
+  SteadyClock steady_;
+  const Clock& wall_;
+  bool realtime_;
+  Timestamp start_;
+  Timestamp opened_;
+};
+
+}  // namespace orthonav::replay
