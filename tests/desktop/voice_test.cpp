@@ -151,20 +151,6 @@ TEST(CommandSpotter, NamesTheModelThatIsMissing) {
   EXPECT_THAT(made.error().message, HasSubstr("/nowhere (Debian: pocketsphinx-en-us)"));
 }
 
-TEST(SpeechSegmenter, DropsWhatIsTooLongForACommand) {
-  SpeechSegmenter segmenter;
-  Soundtrack sound;
-  sound.silence(1.0);
-  sound.speech(said("this is a sentence that goes on for far longer than any command could"));
-  sound.silence(1.0);
-  sound.speech(said("save"));
-  sound.silence(1.0);
-  Random random(6);
-  std::vector<SpeechSegment> segments;
-  segmenter.push(sound.with_noise(Noise::kPink, 40.0, random), segments);
-  EXPECT_EQ(segments.size(), 1u);
-}
-
 TEST(Resampler, KeepsATonesPitchAndLevel) {
   auto resampler = Resampler::create(48000, 16000);
   ASSERT_TRUE(resampler.ok());
