@@ -34,18 +34,18 @@ struct SpotterOptions {
   /// What a command's own words need in evidence (`RecognizedWord::evidence`) to count; chosen on
   /// voices and texts of their own (bench_voice --tuning). "delete" needs the most: it takes away.
   std::map<std::string, double> least_evidence = {
-      {"start", -1.3}, {"accept", -1.1}, {"next", -1.5},    {"twin", -1.0},  {"done", -1.1},
-      {"save", -1.0},  {"reject", -0.8}, {"move rod", 0.0}, {"delete", 0.0},
+      {"start", -1.3}, {"accept", -1.1}, {"next", -1.5},    {"twin", -0.9},  {"done", -1.1},
+      {"save", -0.8},  {"reject", -0.8}, {"move rod", 0.0}, {"delete", 0.0},
   };
   double least_evidence_of_others = 0.0;
   /// What the wake word needs, where the voice stands out by 35 dB and where by 20 dB; between them
   /// what lies between. Before "delete" it needs more.
   double least_evidence_of_wake_word = -0.7;
-  double least_evidence_of_wake_word_in_noise = -1.8;
+  double least_evidence_of_wake_word_in_noise = -1.2;
   double more_wake_evidence_to_delete = 0.4;
   double least_evidence_around = -90.0;  ///< `Recognition::evidence_around`
   /// What a command needs more where it is not addressed by the wake word.
-  double more_evidence_alone = 1.0;
+  double more_evidence_alone = 1.2;
   SegmentOptions segments;
   CleanerOptions cleaner;
   std::filesystem::path acoustic_model = default_acoustic_model();

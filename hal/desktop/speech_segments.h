@@ -18,7 +18,7 @@ struct SegmentOptions {
   /// Quiet for so long ends it. In noise the last sounds of a word can't be told from the
   /// background, and what is left of it seems to end sooner than it does.
   int end_ms = 240;
-  int end_in_noise_ms = 400;
+  int end_in_noise_ms = 380;
   int quiet_before_ms = 500;  ///< a command follows such a pause; a sentence's word does not
   int margin_ms = 400;        ///< kept before what was loud
   int max_ms = 1900;          ///< speech that goes on for longer is no command
