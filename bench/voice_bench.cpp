@@ -35,7 +35,8 @@ struct Options {
   bool quick = false;
   bool show = false;
   double minutes = 10.0;
-  std::optional<double> least_evidence;  ///< of every command, in place of its own
+  std::optional<double>
+      least_evidence;  ///< of every command and the wake word, in place of their own
 };
 
 struct Tally {
@@ -62,8 +63,12 @@ std::unique_ptr<CommandSpotter> new_spotter(const Options& bench, Waking waking)
   SpotterOptions options;
   options.commands = engine::spoken_commands();
   options.waking = waking;
-  if (bench.least_evidence)
+  if (bench.least_evidence) {
     for (auto& [command, least] : options.least_evidence) least = *bench.least_evidence;
+    options.least_evidence_of_wake_word = *bench.least_evidence;
+    options.least_evidence_of_wake_word_in_noise = *bench.least_evidence;
+    options.least_evidence_around = 100.0 * *bench.least_evidence;
+  }
   auto spotter = CommandSpotter::create(options);
   if (spotter) return std::move(*spotter);
   std::fprintf(stderr, "%s\n", spotter.error().message.c_str());
@@ -207,6 +212,7 @@ int run(const Options& options) {
   single.single = true;
   measure_recall(single);
   measure_recall(options);
+  if (options.minutes <= 0.0) return 0;
   std::printf("\nother speech\n");
   for (const Waking waking : {Waking::kNever, Waking::kInNoise, Waking::kAlways})
     for (const double snr_db : {kClean, 20.0, 10.0}) measure_false_accepts(options, waking, snr_db);
@@ -223,7 +229,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", options.quick, "one speed instead of three");
   app.add_flag("--show", options.show, "everything that was heard");
   app.add_option("--minutes", options.minutes, "of other speech")->capture_default_str();
-  app.add_option("--least-evidence", options.least_evidence, "of every command");
+  app.add_option("--least-evidence", options.least_evidence, "of every command and the wake word");
   CLI11_PARSE(app, argc, argv);
   return orthonav::bench::run(options);
 }
