@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,13 +31,21 @@ struct SpotterOptions {
   Waking waking = Waking::kAlways;
   /// A room is quiet where the loudest syllable stands out by so much.
   double quiet_above_db = 26.0;
-  /// What a command needs in evidence (`Recognition::evidence`) to count; chosen on voices and
-  /// texts of their own (bench_voice --tuning). "delete" needs the most: it takes away.
+  /// What a command's own words need in evidence (`RecognizedWord::evidence`) to count; chosen on
+  /// voices and texts of their own (bench_voice --tuning). "delete" needs the most: it takes away.
   std::map<std::string, double> least_evidence = {
-      {"start", -0.7}, {"accept", -0.7}, {"next", -0.7},    {"twin", -0.4},  {"done", -0.1},
-      {"save", 0.1},   {"reject", 0.2},  {"move rod", 0.2}, {"delete", 0.5},
+      {"start", -1.3}, {"accept", -1.1}, {"next", -1.5},    {"twin", -0.9},  {"done", -1.1},
+      {"save", -0.8},  {"reject", -0.8}, {"move rod", 0.0}, {"delete", 0.0},
   };
-  double least_evidence_of_others = 0.2;
+  double least_evidence_of_others = 0.0;
+  /// What the wake word needs, where the voice stands out by 35 dB and where by 20 dB; between them
+  /// what lies between. Before "delete" it needs more.
+  double least_evidence_of_wake_word = -0.7;
+  double least_evidence_of_wake_word_in_noise = -1.2;
+  double more_wake_evidence_to_delete = 0.4;
+  double least_evidence_around = -90.0;  ///< `Recognition::evidence_around`
+  /// What a command needs more where it is not addressed by the wake word.
+  double more_evidence_alone = 1.2;
   SegmentOptions segments;
   CleanerOptions cleaner;
   std::filesystem::path acoustic_model = default_acoustic_model();
@@ -61,17 +70,22 @@ class CommandSpotter {
   /// Refuses options with problems, a model that is not there, and words without a pronunciation.
   static Result<std::unique_ptr<CommandSpotter>> create(const SpotterOptions& options);
   /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them; those that are
-  /// hardly likely are left out. Takes up to 0.2 s of work where a segment ends.
+  /// hardly likely are left out. Takes up to 0.1 s of work a tenth of a second before a segment
+  /// ends, so that next to none is left where it ends.
   void push(std::span<const std::int16_t> samples, std::vector<SpokenCommand>& commands);
 
  private:
   SpotterOptions options_;
   SpeechSegmenter segmenter_;
   std::unique_ptr<PhraseRecognizer> recognizer_;
-  std::vector<SpeechSegment> segments_;  // reused
+  std::vector<SpeechSegment> segments_;     // reused
+  std::optional<SpokenCommand> candidate_;  ///< of a segment that may end soon
 
   explicit CommandSpotter(const SpotterOptions& options);
-  void judge(const SpeechSegment& segment, std::vector<SpokenCommand>& commands);
+  [[nodiscard]] std::optional<SpokenCommand> judge(const SpeechSegment& segment);
+  [[nodiscard]] double confidence_of(const std::string& command, double evidence,
+                                     std::optional<double> wake_evidence,
+                                     double above_background_db) const;
 };
 
 }  // namespace orthonav::desktop

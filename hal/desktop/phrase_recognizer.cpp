@@ -4,11 +4,14 @@
 #include <sphinxbase/ckd_alloc.h>
 #include <sphinxbase/err.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
 #include <utility>
 
+#include "embedded/voice_means.h"
+#include "hal/desktop/adapted_means.h"
 #include "hal/desktop/pronunciations.h"
 
 namespace orthonav::desktop {
@@ -65,9 +68,18 @@ Result<std::unique_ptr<PhraseRecognizer>> PhraseRecognizer::create(
     return Error{"voice: no acoustic model in " + model.string() + " (Debian: pocketsphinx-en-us)"};
   err_set_logfp(nullptr);
   const std::string hmm = model.string();
-  const std::unique_ptr<cmd_ln_t, FreeConfig> config(
-      cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-remove_silence", "no",
-                  "-remove_noise", "no", "-bestpath", "no", "-logfn", "/dev/null", nullptr));
+  auto means = read_means(model / "means");
+  if (!means) return means.error();
+  if (Status moved = apply_change(embedded::voice_means(), *means); !moved) return moved.error();
+  const auto means_in_memory = MemoryFile::create(means_file(*means));
+  if (!means_in_memory) return means_in_memory.error();
+  // Noises that the model knows would explain what follows a word in a sentence; silence does not.
+  const auto silences = MemoryFile::create("<s> SIL\n</s> SIL\n<sil> SIL\n");
+  if (!silences) return silences.error();
+  const std::unique_ptr<cmd_ln_t, FreeConfig> config(cmd_ln_init(
+      nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-mean", means_in_memory->path().c_str(),
+      "-fdict", silences->path().c_str(), "-cmn", "none", "-remove_silence", "no", "-remove_noise",
+      "no", "-bestpath", "no", "-logfn", "/dev/null", nullptr));
   if (!config) return Error{"voice: PocketSphinx refuses its options"};
   std::unique_ptr<PhraseRecognizer> recognizer(new PhraseRecognizer);
   recognizer->decoder_.reset(ps_init(config.get()));
@@ -102,36 +114,53 @@ Status PhraseRecognizer::add_words() {
   return {};
 }
 
-std::optional<PhraseRecognizer::Decoded> PhraseRecognizer::decode(
-    const char* search, std::span<const std::int16_t> samples) {
+std::vector<PhraseRecognizer::Part> PhraseRecognizer::decode(const char* search,
+                                                             std::vector<Cepstrum>& cepstra) {
   ps_decoder_t* decoder = decoder_.get();
-  if (ps_set_search(decoder, search) != 0 || ps_start_utt(decoder) != 0) return std::nullopt;
-  // Not as one whole utterance: its mean would be taken of half a second of sound, where that over
-  // all that was heard so far tells far better what the microphone does to a voice.
-  const int taken = ps_process_raw(decoder, samples.data(), samples.size(), FALSE, FALSE);
-  if (ps_end_utt(decoder) != 0 || taken < 0) return std::nullopt;
+  std::vector<mfcc_t*> rows;
+  for (Cepstrum& cepstrum : cepstra) rows.push_back(cepstrum.data());
+  if (ps_set_search(decoder, search) != 0 || ps_start_utt(decoder) != 0) return {};
+  const int taken =
+      ps_process_cep(decoder, rows.data(), static_cast<int>(rows.size()), FALSE, TRUE);
   int32 score = 0;
-  const char* text = ps_get_hyp(decoder, &score);
-  if (!text) return std::nullopt;
-  Decoded decoded{text, score * kNatural, 0};
-  for (ps_seg_t* part = ps_seg_iter(decoder); part; part = ps_seg_next(part)) {
-    int first = 0;
-    int last = 0;
-    ps_seg_frames(part, &first, &last);
-    // Silences and breaths are "<sil>" and "[NOISE]".
-    const std::string word = ps_seg_word(part);
-    if (!word.empty() && word.front() != '<' && word.front() != '[')
-      decoded.speech_frames += last - first + 1;
+  if (ps_end_utt(decoder) != 0 || taken < 0 || !ps_get_hyp(decoder, &score)) return {};
+  std::vector<Part> parts;
+  for (ps_seg_t* seg = ps_seg_iter(decoder); seg; seg = ps_seg_next(seg)) {
+    Part part;
+    int32 acoustic = 0, language = 0, back_off = 0;
+    ps_seg_frames(seg, &part.first, &part.last);
+    ps_seg_prob(seg, &acoustic, &language, &back_off);
+    part.score = (acoustic + language) * kNatural;
+    part.word = ps_seg_word(seg);
+    parts.push_back(std::move(part));
   }
-  return decoded;
+  return parts;
 }
 
-std::optional<Recognition> PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
-  const auto phrase = decode(kCommands, samples);
-  if (!phrase || phrase->speech_frames == 0) return std::nullopt;
-  const auto anything = decode(kAnything, samples);
-  if (!anything) return std::nullopt;
-  return Recognition{phrase->text, (phrase->score - anything->score) / phrase->speech_frames};
+Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
+  std::vector<Cepstrum> cepstra = cepstra_of(ps_get_fe(decoder_.get()), samples);
+  const auto frames = static_cast<int>(cepstra.size());
+  const std::vector<Part> phrase = decode(kCommands, cepstra);
+  // Where no phrase can be followed to the end, the decoder tells of one that ended before.
+  if (phrase.empty() || phrase.back().last < frames - 1) return {};
+  std::vector<double> anything(cepstra.size(), 0.0);
+  for (const Part& part : decode(kAnything, cepstra))
+    for (int t = part.first; t <= std::min(part.last, frames - 1); ++t)
+      anything[static_cast<std::size_t>(t)] = part.score / (part.last - part.first + 1);
+  Recognition recognition;
+  for (const Part& part : phrase) {
+    double evidence = part.score;
+    for (int t = part.first; t <= part.last; ++t) evidence -= anything[static_cast<std::size_t>(t)];
+    const int length = part.last - part.first + 1;
+    // Silences are "<sil>", what joins the parts of a grammar is "(NULL)", and "save(2)" is
+    // another way to say "save".
+    if (part.word.find_first_of("<(") == 0)
+      recognition.evidence_around += evidence;
+    else
+      recognition.words.push_back(
+          {part.word.substr(0, part.word.find('(')), length, evidence / length});
+  }
+  return recognition;
 }
 
 }  // namespace orthonav::desktop

@@ -127,8 +127,8 @@ std::vector<std::int16_t> cleaned(std::span<const std::int16_t> samples,
   const double mask = options.speech_rms * std::pow(10.0, options.masking_db / 20.0);
   Random random(1);
   std::vector<std::int16_t> out;
-  out.reserve(sound.size());
-  for (const float sample : sound)
+  if (sound.size() <= background_samples) return out;
+  for (const float sample : std::span(sound).subspan(background_samples))
     out.push_back(static_cast<std::int16_t>(
         std::clamp(gain * double{sample} + mask * random.normal(), -32767.0, 32767.0)));
   return out;

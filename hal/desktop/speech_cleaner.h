@@ -17,9 +17,12 @@ struct CleanerOptions {
 /// Takes the background out of a segment (Wiener filter, its spectrum from the segment's first
 /// `background_samples`), brings the speech to one loudness and lays white noise under it: the
 /// model knows speech in rooms, and digital silence between words is farther from that than noise
-/// is. The same samples give the same result.
+/// is. What comes back begins where the background's samples end, for a recogniser that hears a
+/// long silence takes it for sounds. The same samples give the same result.
 [[nodiscard]] std::vector<std::int16_t> cleaned(std::span<const std::int16_t> samples,
                                                 std::size_t background_samples,
                                                 const CleanerOptions& options = {});
+/// Of a segment's margin, what is background.
+inline constexpr std::size_t kBackgroundSamples = 16000 * 3 / 10;
 
 }  // namespace orthonav::desktop

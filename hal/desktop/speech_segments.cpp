@@ -15,13 +15,26 @@ constexpr double kSilenceDb = -80.0;
 // Over 50 ms: the pitch and the babble of a room are evened out, a syllable is not.
 constexpr double kSmoothing = 0.3;
 // The background is the mean level while nobody speaks, over a third of a second; and never less
-// than the least level of the last second and a half.
+// than the least level of the last second.
 constexpr double kFollow = 0.03;
-constexpr int kFramesOfLeast = 75;
+constexpr int kFramesOfLeast = 50;
+// What stays within so much for half a second is no voice but a noise that began: the background.
+constexpr std::size_t kSteadyFrames = 50;
+constexpr double kSteadyDb = 6.0;
+
+// How far the loudest syllable stands out of a quiet and of a noisy room.
+constexpr double kQuietDb = 35.0;
+constexpr double kNoisyDb = 20.0;
+// How long before its end a segment is told of.
+constexpr int kForewarningMs = 100;
 
 std::size_t samples_of(int ms) { return static_cast<std::size_t>(kSpeechRateHz / 1000 * ms); }
 
 }  // namespace
+
+double noisiness(double above_background_db) {
+  return std::clamp((kQuietDb - above_background_db) / (kQuietDb - kNoisyDb), 0.0, 1.0);
+}
 
 Biquad Biquad::low_pass(double corner_hz) {
   const double w = 2.0 * std::numbers::pi * corner_hz / kSpeechRateHz;
@@ -72,6 +85,11 @@ void SpeechSegmenter::follow_background(double level_db, bool loud) {
     background_db_ = level_db;
   else if (!(loud || speaking_) || level_db < *background_db_)
     *background_db_ += kFollow * (std::min(level_db, *background_db_ + 6.0) - *background_db_);
+  recent_db_.push_back(level_db);
+  if (recent_db_.size() > kSteadyFrames) recent_db_.erase(recent_db_.begin());
+  const auto [low, high] = std::minmax_element(recent_db_.begin(), recent_db_.end());
+  if (recent_db_.size() == kSteadyFrames && *high - *low < kSteadyDb)
+    background_db_ = std::max(*background_db_, *low);
   // Whoever speaks pauses; what does not is a fan that was switched on.
   least_db_ = std::min(least_db_, level_db);
   if (++frames_of_least_ < kFramesOfLeast) return;
@@ -87,7 +105,9 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
   in_frame_ = 0;
   frame_energy_ = 0.0;
   const double above_db = background_db_ ? level_db - *background_db_ : 0.0;
-  const bool loud = above_db > options_.above_background_db;
+  // A word's last sound dies away; in a silent room what is left of it is still above the silence.
+  const bool loud = above_db > options_.above_background_db &&
+                    (!speaking_ || above_db > loudest_db_ - options_.below_loudest_db);
   follow_background(level_db, loud);
   if (!speaking_) {
     loud_frames_ = loud ? loud_frames_ + 1 : 0;
@@ -108,12 +128,23 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
   loudest_db_ = std::max(loudest_db_, above_db);
   quiet_frames_ = loud ? 0 : quiet_frames_ + 1;
   if (taken_ - begin_ > static_cast<std::int64_t>(samples_of(options_.max_ms))) too_long_ = true;
-  if (quiet_frames_ * kFrameMs >= options_.end_ms) {
-    if (!too_long_ && isolated_) segments.push_back({kept_, begin_, last_loud_, loudest_db_});
+  const int end_ms = end_now_ms();
+  const bool counts = !too_long_ && isolated_;
+  if (counts && quiet_frames_ * kFrameMs == end_ms - kForewarningMs)
+    segments.push_back({kept_, begin_, last_loud_, loudest_db_, false});
+  if (quiet_frames_ * kFrameMs >= end_ms) {
+    if (counts) segments.push_back({{}, begin_, last_loud_, loudest_db_, true});
     speaking_ = false;
     loud_frames_ = 0;
   }
   forget();
+}
+
+int SpeechSegmenter::end_now_ms() const {
+  const double end_ms =
+      std::lerp(static_cast<double>(options_.end_ms), static_cast<double>(options_.end_in_noise_ms),
+                noisiness(loudest_db_));
+  return kFrameMs * static_cast<int>(std::lround(end_ms / kFrameMs));
 }
 
 /// Keeps what a segment needs: its margin and itself.

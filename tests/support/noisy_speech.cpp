@@ -28,27 +28,58 @@ void to_unit_power(std::vector<double>& samples) {
   for (double& sample : samples) sample *= scale;
 }
 
+struct Talkers {
+  std::array<const char*, 4> texts;
+  std::array<const char*, 6> voices;
+};
+
+constexpr Talkers kMeasured = {
+    {"The patient was brought in this morning after a long journey from the coast, and everyone "
+     "had coffee.",
+     "I think we should look at the other side before lunch, shouldn't we?",
+     "Numbers on the monitor are fine, pressure one hundred and twenty over eighty.",
+     "Yesterday the train was late again and I had to walk the whole way home."},
+    {"gmw/en+m1", "en-us+f1", "en-029+m4", "en-gb-scotland+f2", "en-us+m3", "en-gb-x-rp+m8"}};
+constexpr Talkers kTuning = {
+    {"If it rains again tomorrow we shall stay in and play cards.",
+     "Nobody knew where the keys had gone until Friday evening.",
+     "The second lecture was longer than the first, but far more amusing.",
+     "A hundred and forty boxes arrived, most of them empty, some full of paper."},
+    {"en-us+f5", "gmw/en+m2", "en-gb-x-rp+m6", "en-us-nyc+f4", "en-us+m2", "en-gb-x-gbclan+f5"}};
+constexpr Talkers kTraining = {
+    {"She opened the window because it was rather warm inside, and a bird flew in.",
+     "My brother works at the harbour and comes home at six.",
+     "The bread is in the oven, so please keep an eye on the clock.",
+     "They painted the fence green, which nobody in the village had expected."},
+    {"en-us+Alex", "gmw/en+linda", "en-gb-x-rp+Mario", "en-us-nyc+Annie", "en-us+robert",
+     "en-gb-x-gbclan+steph"}};
+
 /// Twelve seconds that are played round and round.
-std::vector<double> make_babble() {
-  constexpr std::array<const char*, 4> kTexts = {
-      "The patient was brought in this morning after a long journey from the coast, and everyone "
-      "had coffee.",
-      "I think we should look at the other side before lunch, shouldn't we?",
-      "Numbers on the monitor are fine, pressure one hundred and twenty over eighty.",
-      "Yesterday the train was late again and I had to walk the whole way home."};
-  constexpr std::array<const char*, 6> kVoices = {"gmw/en+m1",         "en-us+f1", "en-029+m4",
-                                                  "en-gb-scotland+f2", "en-us+m3", "en-gb-x-rp+m8"};
+std::vector<double> make_babble(const Talkers& talkers) {
   std::vector<double> babble(12 * kRateHz, 0.0);
-  for (std::size_t v = 0; v < kVoices.size(); ++v)
+  for (std::size_t v = 0; v < talkers.voices.size(); ++v)
     for (std::size_t at = 3000 * v, text = v; at < (v + 12) * kRateHz; ++text) {
-      const auto said =
-          spoken(kTexts[text % kTexts.size()], {kVoices[v], 150 + 10 * static_cast<int>(v)});
+      const auto said = spoken(talkers.texts[text % talkers.texts.size()],
+                               {talkers.voices[v], 150 + 10 * static_cast<int>(v)});
       if (!said) return {};
       for (std::size_t i = 0; i < said->size(); ++i) babble[(at + i) % babble.size()] += (*said)[i];
       at += said->size();
     }
   to_unit_power(babble);
   return babble;
+}
+
+const std::vector<double>& sound_of(Babble babble) {
+  if (babble == Babble::kTuning) {
+    static const std::vector<double> tuning = make_babble(kTuning);
+    return tuning;
+  }
+  if (babble == Babble::kTraining) {
+    static const std::vector<double> training = make_babble(kTraining);
+    return training;
+  }
+  static const std::vector<double> measured = make_babble(kMeasured);
+  return measured;
 }
 
 }  // namespace
@@ -58,7 +89,7 @@ const char* name_of(Noise noise) {
   return noise == Noise::kPink ? "pink" : "babble";
 }
 
-std::vector<double> noise_of(Noise noise, std::size_t count, Random& random) {
+std::vector<double> noise_of(Noise noise, std::size_t count, Random& random, Babble babble) {
   std::vector<double> samples(count);
   if (noise == Noise::kWhite)
     for (double& sample : samples) sample = random.normal();
@@ -75,11 +106,11 @@ std::vector<double> noise_of(Noise noise, std::size_t count, Random& random) {
     to_unit_power(samples);
   }
   if (noise == Noise::kBabble) {
-    static const std::vector<double> babble = make_babble();
-    if (babble.empty()) return samples;
+    const std::vector<double>& sound = sound_of(babble);
+    if (sound.empty()) return samples;
     const auto start =
-        static_cast<std::size_t>(random.uniform() * static_cast<double>(babble.size()));
-    for (std::size_t i = 0; i < count; ++i) samples[i] = babble[(start + i) % babble.size()];
+        static_cast<std::size_t>(random.uniform() * static_cast<double>(sound.size()));
+    for (std::size_t i = 0; i < count; ++i) samples[i] = sound[(start + i) % sound.size()];
   }
   return samples;
 }
@@ -119,9 +150,10 @@ std::pair<std::int64_t, std::int64_t> Soundtrack::speech(std::span<const std::in
   return {begin + std::max<std::int64_t>(first, 0), begin + last + 1};
 }
 
-std::vector<std::int16_t> Soundtrack::with_noise(Noise noise, double snr_db, Random& random) const {
+std::vector<std::int16_t> Soundtrack::with_noise(Noise noise, double snr_db, Random& random,
+                                                 Babble babble) const {
   const double level = kSpeechRms * std::pow(10.0, -snr_db / 20.0);
-  const std::vector<double> noises = noise_of(noise, samples_.size(), random);
+  const std::vector<double> noises = noise_of(noise, samples_.size(), random, babble);
   std::vector<std::int16_t> mixed;
   mixed.reserve(samples_.size());
   for (std::size_t i = 0; i < samples_.size(); ++i)

@@ -13,9 +13,14 @@ namespace orthonav::testing {
 enum class Noise { kWhite, kPink, kBabble };
 [[nodiscard]] const char* name_of(Noise noise);
 
+/// Whose babble: voices and texts that no other babble has, so that what was learned or chosen in
+/// one is measured in another.
+enum class Babble { kMeasured, kTuning, kTraining };
+
 /// `count` samples of unit power. Babble: six voices that read at once, none of which says a
 /// command.
-[[nodiscard]] std::vector<double> noise_of(Noise noise, std::size_t count, Random& random);
+[[nodiscard]] std::vector<double> noise_of(Noise noise, std::size_t count, Random& random,
+                                           Babble babble = Babble::kMeasured);
 
 /// Root mean square over the 10 ms frames within 30 dB of the loudest: what a signal-to-noise ratio
 /// is a ratio to.
@@ -29,8 +34,8 @@ class Soundtrack {
   /// Appends speech at `kSpeechRms`; where it begins and ends, in samples.
   std::pair<std::int64_t, std::int64_t> speech(std::span<const std::int16_t> samples);
   /// With noise `snr_db` below the speech.
-  [[nodiscard]] std::vector<std::int16_t> with_noise(Noise noise, double snr_db,
-                                                     Random& random) const;
+  [[nodiscard]] std::vector<std::int16_t> with_noise(Noise noise, double snr_db, Random& random,
+                                                     Babble babble = Babble::kMeasured) const;
 
  private:
   std::vector<double> samples_;

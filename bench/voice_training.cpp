@@ -1,0 +1,240 @@
+// What adapts the acoustic model to commands in noise (tools/train_voice): says the commands in
+// voices that are measured nowhere, in noises of all sorts, and writes what the recogniser hears of
+// them as sphinxtrain reads it; afterwards makes data/voice_means.bin of what sphinxtrain found.
+#include <pocketsphinx.h>
+#include <sphinxbase/err.h>
+
+#include <array>
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+
+#include "bench/voice_sets.h"
+#include "engine/spoken_commands.h"
+#include "hal/desktop/adapted_means.h"
+#include "hal/desktop/phrase_recognizer.h"
+#include "hal/desktop/pronunciations.h"
+#include "hal/desktop/speech_cleaner.h"
+#include "hal/desktop/speech_segments.h"
+#include "tests/support/noisy_speech.h"
+
+namespace orthonav::bench {
+namespace {
+
+using namespace orthonav::desktop;
+using namespace orthonav::testing;
+
+struct Options {
+  std::string folder;
+  std::string means;    ///< to align with; the model's own where empty
+  std::string mixture;  ///< where the model's mixture weights go
+  std::string change;   ///< where the change goes that leads to `means`
+  double share = 0.6;   ///< of the way
+};
+
+[[noreturn]] void give_up(const std::string& why) {
+  std::fprintf(stderr, "voice_training: %s\n", why.c_str());
+  std::exit(2);
+}
+
+void write_file(const std::string& path, const std::string& content) {
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << content)) give_up("can't write " + path);
+}
+
+template <class T>
+void put(std::string& bytes, const T& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+/// Which way a phrase was said, by the model itself.
+class Aligner {
+ public:
+  explicit Aligner(const Options& options) {
+    err_set_logfp(nullptr);
+    const std::string model = default_acoustic_model().string();
+    const std::string means = options.means.empty() ? model + "/means" : options.means;
+    write_file(options.folder + "/fillers", "<s> SIL\n</s> SIL\n<sil> SIL\n");
+    // The phrase is known: no beam may lose it.
+    config_ = cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", model.c_str(), "-mean", means.c_str(),
+                          "-fdict", (options.folder + "/fillers").c_str(), "-cmn", "none",
+                          "-remove_silence", "no", "-remove_noise", "no", "-bestpath", "no",
+                          "-beam", "1e-200", "-pbeam", "1e-200", "-wbeam", "1e-150", "-logfn",
+                          "/dev/null", nullptr);
+    decoder_.reset(config_ ? ps_init(config_) : nullptr);
+    if (!decoder_) give_up("PocketSphinx can't start");
+    for (const Pronunciation& p : kSpoken)
+      ps_add_word(decoder_.get(), p.word.data(), p.sounds.data(), FALSE);
+  }
+  [[nodiscard]] fe_t* front_end() const { return ps_get_fe(decoder_.get()); }
+
+  /// As a line of sphinxtrain's transcription, "ortho(2) save(4)"; empty where nothing fits.
+  std::string words_of(const std::string& phrase, std::vector<Cepstrum>& cepstra) {
+    ps_decoder_t* decoder = decoder_.get();
+    const std::string grammar = "#JSGF V1.0; grammar g; public <phrase> = " + phrase + ";";
+    std::vector<mfcc_t*> rows;
+    for (Cepstrum& cepstrum : cepstra) rows.push_back(cepstrum.data());
+    ps_set_jsgf_string(decoder, "phrase", grammar.c_str());
+    ps_set_search(decoder, "phrase");
+    ps_start_utt(decoder);
+    ps_process_cep(decoder, rows.data(), static_cast<int>(rows.size()), FALSE, FALSE);
+    ps_end_utt(decoder);
+    int32 score = 0;
+    if (!ps_get_hyp(decoder, &score)) return "";
+    std::string words;
+    std::string silence;
+    for (ps_seg_t* seg = ps_seg_iter(decoder); seg; seg = ps_seg_next(seg)) {
+      const std::string word = ps_seg_word(seg);
+      if (word == "<sil>" && !words.empty()) silence = " <sil>";
+      if (word.find_first_of("<(") == 0) continue;
+      words += (words.empty() ? "" : silence + " ") + word;
+      silence.clear();
+    }
+    return words;
+  }
+
+ private:
+  struct Free {
+    void operator()(ps_decoder_t* decoder) const { ps_free(decoder); }
+  };
+  cmd_ln_t* config_ = nullptr;  // for the life of the process
+  std::unique_ptr<ps_decoder_t, Free> decoder_;
+};
+
+/// Microphones brighten and dull a voice.
+void tilt(std::vector<std::int16_t>& samples, double share) {
+  double before = 0.0;
+  for (std::int16_t& sample : samples) {
+    const double now = sample;
+    sample = static_cast<std::int16_t>(0.5 * (now + share * before));
+    before = now;
+  }
+}
+
+/// A phrase in a noise, as the recogniser gets it; nothing where the segmenter finds another number
+/// of phrases than one.
+std::vector<std::int16_t> heard(const std::string& phrase, const std::string& voice,
+                                Random& random) {
+  const int words_a_minute = static_cast<int>(random.uniform(115.0, 210.0));
+  const bool silent = random.uniform() < 0.15;
+  const double snr_db = random.uniform(8.0, 22.0);
+  const auto noise = static_cast<Noise>(static_cast<int>(3.0 * random.uniform()));
+  const double tilted = random.uniform(-0.5, 0.5);
+  auto said = spoken(phrase, {voice, words_a_minute});
+  if (!said) give_up(said.error().message);
+  tilt(*said, tilted);
+  Soundtrack track;
+  track.silence(1.5);
+  track.speech(*said);
+  track.silence(0.6);
+  const auto sound = track.with_noise(noise, silent ? 60.0 : snr_db, random, Babble::kTraining);
+  SpeechSegmenter segmenter;
+  std::vector<SpeechSegment> segments;
+  segmenter.push(sound, segments);
+  std::optional<SpeechSegment> last;
+  int ended = 0;
+  for (SpeechSegment& segment : segments)
+    if (segment.ended)
+      ++ended;
+    else
+      last = std::move(segment);
+  if (ended != 1 || !last) return {};
+  return cleaned(last->samples, kBackgroundSamples);
+}
+
+void write_corpus(const Options& options) {
+  Aligner aligner(options);
+  Random random(131);
+  std::string names;
+  std::string transcription;
+  int count = 0;
+  const auto add = [&](const std::string& phrase, const std::string& voice) {
+    std::vector<Cepstrum> cepstra = cepstra_of(aligner.front_end(), heard(phrase, voice, random));
+    const std::string words = cepstra.empty() ? "" : aligner.words_of(phrase, cepstra);
+    if (words.empty()) return;
+    const std::string name = "phrase-" + std::to_string(count++);
+    std::string file;
+    put(file, static_cast<std::int32_t>(cepstra.size() * cepstra.front().size()));
+    for (const Cepstrum& cepstrum : cepstra) put(file, cepstrum);
+    write_file(options.folder + "/" + name + ".mfc", file);
+    names += name + "\n";
+    transcription += "<s> " + words + " </s> (" + name + ")\n";
+  };
+  std::size_t voice = 0;
+  for (const std::string_view variant : kTrainingVariants) {
+    for (std::size_t accent = 0; accent < 3; ++accent)
+      for (const std::string& command : engine::spoken_commands())
+        for (const char* wake : {"", "", "ortho ", "ortho "})
+          add(wake + command,
+              std::string(kTrainingAccents[(voice + 2 * accent) % 6]) + "+" + std::string(variant));
+    ++voice;
+  }
+  std::string dictionary;
+  for (const Pronunciation& p : kSpoken)
+    dictionary += std::string(p.word) + " " + std::string(p.sounds) + "\n";
+  write_file(options.folder + "/names", names);
+  write_file(options.folder + "/transcription", transcription);
+  write_file(options.folder + "/dictionary", dictionary);
+  std::printf("%d phrases\n", count);
+}
+
+/// The model comes with its weights in 8 bits (sendump: streams, densities, senones); sphinxtrain
+/// reads them as numbers, senones first.
+void write_mixture_weights(const std::string& path) {
+  constexpr std::size_t kStreams = 3, kDensities = 128, kSenones = 5126;
+  std::ifstream file(default_acoustic_model() / "sendump", std::ios::binary);
+  const std::string dump{std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t kCount = kStreams * kDensities * kSenones;
+  if (dump.size() < kCount) give_up("the model's sendump is another one");
+  const std::string_view weights = std::string_view(dump).substr(dump.size() - kCount);
+  std::string out = "s3\nversion 1.0\nendhdr\n";
+  for (const std::size_t number : {std::size_t{0x11223344}, kSenones, kStreams, kDensities, kCount})
+    put(out, static_cast<std::int32_t>(number));
+  for (std::size_t senone = 0; senone < kSenones; ++senone)
+    for (std::size_t stream = 0; stream < kStreams; ++stream) {
+      std::array<double, kDensities> share{};
+      double sum = 0.0;
+      for (std::size_t d = 0; d < kDensities; ++d) {
+        const auto quantised =
+            static_cast<unsigned char>(weights[(stream * kDensities + d) * kSenones + senone]);
+        share[d] = std::pow(1.0001, -1024.0 * quantised);
+        sum += share[d];
+      }
+      for (const double value : share) put(out, static_cast<float>(value / sum));
+    }
+  write_file(path, out);
+}
+
+void write_change(const Options& options) {
+  const auto own = read_means(default_acoustic_model() / "means");
+  auto adapted = read_means(options.means);
+  if (!own || !adapted) give_up((own ? adapted.error() : own.error()).message);
+  if (adapted->values.size() != own->values.size()) give_up(options.means + " is another model's");
+  for (std::size_t i = 0; i < own->values.size(); ++i)
+    adapted->values[i] =
+        std::lerp(own->values[i], adapted->values[i], static_cast<float>(options.share));
+  write_file(options.change, means_change(*own, *adapted));
+}
+
+}  // namespace
+}  // namespace orthonav::bench
+
+int main(int argc, char** argv) {
+  orthonav::bench::Options options;
+  CLI::App app("Adapts the acoustic model to commands in noise; see tools/train_voice");
+  app.add_option("--corpus", options.folder, "a folder for what the recogniser hears");
+  app.add_option("--means", options.means, "an adapted model's means");
+  app.add_option("--mixture-weights", options.mixture, "a file for the model's own");
+  app.add_option("--change", options.change, "a file for what leads from the model to --means");
+  app.add_option("--share", options.share, "of the way")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  using namespace orthonav::bench;
+  if (!options.mixture.empty()) write_mixture_weights(options.mixture);
+  if (!options.folder.empty()) write_corpus(options);
+  if (!options.change.empty()) write_change(options);
+  return 0;
+}

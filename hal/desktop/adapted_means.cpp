@@ -1,0 +1,167 @@
+#include "hal/desktop/adapted_means.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+namespace orthonav::desktop {
+
+namespace {
+
+constexpr std::uint32_t kByteOrder = 0x11223344;
+constexpr std::string_view kHeaderEnd = "endhdr\n";
+constexpr std::string_view kChangeName = "orthonav means change 1\n";
+
+template <class T>
+void put(std::string& bytes, T value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+/// Takes a value off the front; zero where there is none left.
+template <class T>
+T take(std::string_view& bytes) {
+  T value{};
+  if (bytes.size() < sizeof(value)) return T{};
+  std::memcpy(&value, bytes.data(), sizeof(value));
+  bytes.remove_prefix(sizeof(value));
+  return value;
+}
+
+/// FNV-1a, to tell one model from another.
+std::uint64_t hash_of(const AcousticMeans& means) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(means.values.data());
+  for (std::size_t i = 0; i < means.values.size() * sizeof(float); ++i)
+    hash = (hash ^ bytes[i]) * 0x100000001b3U;
+  return hash;
+}
+
+/// Calls `each(value's index, component)`, components counted over all streams.
+template <class Each>
+void for_each_value(const AcousticMeans& means, Each each) {
+  std::size_t at = 0;
+  for (int codebook = 0; codebook < means.codebooks; ++codebook) {
+    std::size_t first = 0;
+    for (const int width : means.stream_widths) {
+      for (int density = 0; density < means.densities; ++density)
+        for (int i = 0; i < width; ++i) each(at++, first + static_cast<std::size_t>(i));
+      first += static_cast<std::size_t>(width);
+    }
+  }
+}
+
+/// One step of a change for each component.
+std::vector<float> steps_of(const AcousticMeans& means) {
+  std::size_t components = 0;
+  for (const int width : means.stream_widths) components += static_cast<std::size_t>(width);
+  std::vector<double> count(components), sum(components), square(components);
+  for_each_value(means, [&](std::size_t at, std::size_t component) {
+    const double value = means.values[at];
+    count[component] += 1.0;
+    sum[component] += value;
+    square[component] += value * value;
+  });
+  std::vector<float> steps;
+  for (std::size_t i = 0; i < components; ++i) {
+    const double mean = sum[i] / count[i];
+    const double variance = std::max(square[i] / count[i] - mean * mean, 1e-6);
+    steps.push_back(kStepOfSpread * static_cast<float>(std::sqrt(variance)));
+  }
+  return steps;
+}
+
+}  // namespace
+
+Result<AcousticMeans> read_means(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const Error refused{"voice: " + path.string() + " holds no means of an acoustic model"};
+  const std::size_t header = content.find(kHeaderEnd);
+  if (header == std::string::npos || header > 4096) return refused;
+  std::string_view rest = std::string_view(content).substr(header + kHeaderEnd.size());
+  if (take<std::uint32_t>(rest) != kByteOrder) return refused;
+  AcousticMeans means;
+  means.codebooks = take<std::int32_t>(rest);
+  const auto streams = take<std::int32_t>(rest);
+  means.densities = take<std::int32_t>(rest);
+  const auto sane = [](int value) { return value > 0 && value <= 65536; };
+  if (!sane(means.codebooks) || !sane(means.densities) || streams < 1 || streams > 16)
+    return refused;
+  std::int64_t width = 0;
+  for (int i = 0; i < streams; ++i) {
+    means.stream_widths.push_back(take<std::int32_t>(rest));
+    if (!sane(means.stream_widths.back())) return refused;
+    width += means.stream_widths.back();
+  }
+  const auto count = take<std::int32_t>(rest);
+  if (count != width * means.codebooks * means.densities ||
+      rest.size() < static_cast<std::size_t>(count) * sizeof(float))
+    return refused;
+  means.values.resize(static_cast<std::size_t>(count));
+  std::memcpy(means.values.data(), rest.data(), means.values.size() * sizeof(float));
+  return means;
+}
+
+std::string means_file(const AcousticMeans& means) {
+  std::string file = "s3\nversion 1.0\n" + std::string(kHeaderEnd);
+  put(file, kByteOrder);
+  put(file, static_cast<std::int32_t>(means.codebooks));
+  put(file, static_cast<std::int32_t>(means.stream_widths.size()));
+  put(file, static_cast<std::int32_t>(means.densities));
+  for (const int width : means.stream_widths) put(file, static_cast<std::int32_t>(width));
+  put(file, static_cast<std::int32_t>(means.values.size()));
+  for (const float value : means.values) put(file, value);
+  return file;
+}
+
+std::string means_change(const AcousticMeans& from, const AcousticMeans& to) {
+  std::string change(kChangeName);
+  put(change, hash_of(from));
+  const std::vector<float> steps = steps_of(from);
+  for_each_value(from, [&](std::size_t at, std::size_t component) {
+    const float moved = (to.values[at] - from.values[at]) / steps[component];
+    put(change, static_cast<std::int8_t>(std::lround(std::clamp(moved, -127.0F, 127.0F))));
+  });
+  return change;
+}
+
+Status apply_change(std::string_view change, AcousticMeans& means) {
+  if (!change.starts_with(kChangeName)) return Error{"voice: no change of acoustic means"};
+  change.remove_prefix(kChangeName.size());
+  if (take<std::uint64_t>(change) != hash_of(means) || change.size() != means.values.size())
+    return Error{"voice: the acoustic model is not the one that the adaptation was made for"};
+  const std::vector<float> steps = steps_of(means);
+  for_each_value(means, [&](std::size_t at, std::size_t component) {
+    means.values[at] += steps[component] * static_cast<float>(static_cast<std::int8_t>(change[at]));
+  });
+  return {};
+}
+
+Result<MemoryFile> MemoryFile::create(std::string_view content) {
+  const int descriptor = ::memfd_create("orthonav", MFD_CLOEXEC);
+  if (descriptor < 0) return Error{"voice: no file in memory: " + std::string(strerror(errno))};
+  MemoryFile file(descriptor);
+  while (!content.empty()) {
+    const ::ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written <= 0) return Error{"voice: no file in memory: " + std::string(strerror(errno))};
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return file;
+}
+
+MemoryFile::MemoryFile(MemoryFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+MemoryFile::~MemoryFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::string MemoryFile::path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+}  // namespace orthonav::desktop
