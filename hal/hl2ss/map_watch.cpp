@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hal/api/head_among.h"
+
 namespace orthonav::hl2ss {
 namespace {
 
@@ -75,32 +77,8 @@ std::optional<Timestamp> HeadTrack::do_newest_measurement() const {
 }
 
 Tracked<Transform<World, Rig>> HeadTrack::do_world_from_rig(Timestamp at) const {
-  constexpr Duration kMaxGap = HeadTracker::kMaxHeadPrediction;
   const std::lock_guard lock(mutex_);
-  Tracked<Transform<World, Rig>> answer;
-  answer.time = at;
-  const auto after =
-      std::upper_bound(samples_.begin(), samples_.end(), at,
-                       [](Timestamp time, const Sample& sample) { return time < sample.time; });
-  if (after == samples_.begin()) return answer;
-  const Sample& before = *(after - 1);
-  answer.value = before.world_from_rig;
-  const auto along = [at](const Sample& a, const Sample& b) {
-    return interpolated(a.world_from_rig, b.world_from_rig,
-                        seconds(at - a.time) / seconds(b.time - a.time));
-  };
-  if (before.time == at) {
-    answer.origin = Origin::kMeasured;
-  } else if (after != samples_.end()) {
-    if (after->time - before.time > kMaxGap) return answer;
-    answer.value = along(before, *after);
-    answer.origin = Origin::kMeasured;
-  } else if (at - before.time <= kMaxGap) {
-    answer.origin = Origin::kPredicted;
-    const bool has_speed = samples_.size() > 1 && before.time - (after - 2)->time <= kMaxGap;
-    if (has_speed) answer.value = along(*(after - 2), before);
-  }
-  return answer;
+  return head_among(samples_.begin(), samples_.end(), at);
 }
 
 }  // namespace orthonav::hl2ss

@@ -135,11 +135,9 @@ void Receiver::publish(const Pairer::Pair& pair) {
   // The right camera's pose is of a moment that may differ; the pair stands at the left one's.
   const auto& pose = pair.left.world_from_rig;
   if (pose && map_.moved(pair.left.time, *pose)) ++map_epoch_;
-  if (!pairs_.put(pair, map_epoch_)) {
-    ++late_pairs_;
-    return;
-  }
+  // First the head: who takes the pair asks for it at once.
   if (pose) head_.add(pair.left.time, *pose, map_epoch_);
+  if (!pairs_.put(pair, map_epoch_)) ++late_pairs_;
 }
 
 void Receiver::lost(Side /*side*/) {

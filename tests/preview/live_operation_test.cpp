@@ -95,6 +95,17 @@ TEST(LiveOperation, HearsTheKeyboardAtTheNextPair) {
   EXPECT_EQ(stage.run_to(3)->step, engine::Step::kDigitize);
 }
 
+TEST(LiveOperation, RefusesAHeadsetThatHasADisplay) {
+  Stage stage;
+  OperationSource shown = source();
+  shown.headset = "openxr:+sim:";
+  const auto live =
+      LiveOperation::open(shown, perfect_room(), stage.gate, stage.keyboard, stage.timeline);
+  ASSERT_FALSE(live.ok());
+  EXPECT_NE(live.error().message.find("\"openxr:+sim:\": it has a display"), std::string::npos)
+      << live.error().message;
+}
+
 TEST(LiveOperation, RefusesAHeadsetThatThereIsNot) {
   Stage stage;
   OperationSource bad = source();

@@ -41,6 +41,11 @@ Result<std::unique_ptr<LiveOperation>> LiveOperation::open(const OperationSource
   options.sim = room;
   auto headset = open_headset(source.headset, options);
   if (!headset) return headset.error();
+  if ((*headset)->pixels() != nullptr)
+    return Error{
+        "headset URI \"" + source.headset +
+        "\": it has a display of its own, for which there is orthonav run; a preview takes "
+        "the headset of its cameras, the URI after the plus"};
   std::unique_ptr<LiveOperation> live(
       new LiveOperation(std::move(*headset), gate, keyboard, timeline));
   if (const Status ready = live->prepare(source); !ready) return ready.error();

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+
+#include "hal/api/devices.h"
+
+namespace orthonav {
+
+/// Where the head is at a time, by samples (`time`, `world_from_rig`) of one map in the order of
+/// their times: measured on and between them, predicted past the last as far as HeadTracker allows,
+/// lost otherwise and in gaps longer than that.
+template <class Iterator>
+Tracked<Transform<World, Rig>> head_among(Iterator begin, Iterator end, Timestamp at) {
+  // Sums with it fit for every sample; differences with a time asked for might not.
+  constexpr Duration kMaxGap = HeadTracker::kMaxHeadPrediction;
+  Tracked<Transform<World, Rig>> answer;
+  answer.time = at;
+  const auto after = std::upper_bound(
+      begin, end, at, [](Timestamp time, const auto& sample) { return time < sample.time; });
+  if (after == begin) return answer;
+  const auto& before = *(after - 1);
+  const auto along = [at](const auto& a, const auto& b) {
+    return interpolated(a.world_from_rig, b.world_from_rig,
+                        seconds(at - a.time) / seconds(b.time - a.time));
+  };
+  if (before.time != at && before.time + kMaxGap < (after == end ? at : after->time)) return answer;
+  answer.value = before.world_from_rig;
+  answer.origin = Origin::kMeasured;
+  if (before.time == at) return answer;
+  if (after != end) {
+    answer.value = along(before, *after);
+    return answer;
+  }
+  answer.origin = Origin::kPredicted;
+  const bool has_speed = after - begin > 1 && before.time <= (after - 2)->time + kMaxGap;
+  if (has_speed) answer.value = along(*(after - 2), before);
+  return answer;
+}
+
+}  // namespace orthonav
