@@ -49,9 +49,6 @@ function(orthonav_test name)
     ORTHONAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     ORTHONAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   orthonav_warnings(test_${name})
-  # A fifth of the time that tests take to be compiled is spent on these; ccache wants the option.
-  target_precompile_headers(test_${name} PRIVATE <gmock/gmock.h> <gtest/gtest.h>)
-  target_compile_options(test_${name} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>")
   # What is tested is optimized; the tests themselves are compiled in two thirds of the time so.
   target_compile_options(test_${name} PRIVATE "$<$<CONFIG:Release>:-O1>")
   if(test_SHARDS)
