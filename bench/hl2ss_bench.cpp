@@ -14,6 +14,7 @@
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "hal/sim/sim_headset.h"
+#include "tests/support/bare_room.h"
 
 namespace orthonav {
 namespace {
@@ -27,13 +28,7 @@ double resident_mib() {
 }
 
 int measure(double limit_s, hl2ss::VideoProfile profile) {
-  sim::RoomDescription room;
-  sim::RoomTool pointer;
-  pointer.name = "pointer";
-  pointer.id = 3;
-  pointer.size_m = 0.05;
-  pointer.tip_in_marker = {{0.0, -0.15, 0.0}};
-  room.tools = {pointer};
+  const sim::RoomDescription room = orthonav::testing::bare_room();
   sim::SimOptions sim;
   sim.surgeon = false;
   sim.render = false;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 namespace orthonav::test {
 namespace {
@@ -66,13 +65,6 @@ std::vector<std::string> ScratchFolder::names() const {
     found.push_back(entry.path().filename().string());
   std::sort(found.begin(), found.end());
   return found;
-}
-
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
 }
 
 std::string shared(const std::string& name) {

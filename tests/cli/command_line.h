@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
+
 namespace orthonav::test {
 
 /// What a call of the command left behind.
@@ -33,7 +35,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-std::string content_of(const std::string& path);
+using orthonav::testing::content_of;
 /// A file or folder of the test data; empty when it is absent.
 std::string shared(const std::string& name);
 

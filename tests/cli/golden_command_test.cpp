@@ -11,8 +11,8 @@
 namespace orthonav::test {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 TEST(GoldenCommand, ListsTheScenes) {
   const Called called = orthonav({"golden", "list"});

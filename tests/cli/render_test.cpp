@@ -9,7 +9,7 @@
 namespace orthonav::test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string scene_file(const ScratchFolder& folder, const std::string& hologram) {
   std::ofstream(folder.file("scene.json")) << R"({"format": "orthonav-scene", "version": 1,
@@ -69,7 +69,7 @@ TEST(RenderCommand, SaysHowHologramsStandOutInALitRoom) {
   const Called dim = seen("300");
   EXPECT_EQ(dim.code, 0) << dim.err;
   EXPECT_THAT(dim.out, HasSubstr("H99  #1"));
-  EXPECT_THAT(dim.out, testing::Not(HasSubstr("hard to make out")));
+  EXPECT_THAT(dim.out, ::testing::Not(HasSubstr("hard to make out")));
   EXPECT_THAT(seen("90000").out, HasSubstr("hard to make out"));
   const Called wrong = seen("-5");
   EXPECT_EQ(wrong.code, 2);

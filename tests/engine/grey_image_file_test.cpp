@@ -4,21 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include "tests/support/temporary_folder.h"
 
 namespace orthonav::engine {
 namespace {
 
+using orthonav::testing::content_of;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::string refusal(std::string_view content) {
   const auto image = parse_grey(content, "x");

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -14,16 +13,12 @@ namespace orthonav::engine {
 namespace {
 
 using nlohmann::json;
+using orthonav::testing::content_of;
 using ::testing::HasSubstr;
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// The example that docs/scene-files.md begins with.
 json example() {
-  const std::string page = text_of(ORTHONAV_SOURCE_DIR "/docs/scene-files.md");
+  const std::string page = content_of(ORTHONAV_SOURCE_DIR "/docs/scene-files.md");
   const std::size_t begin = page.find("```json\n") + 8;
   return json::parse(page.substr(begin, page.find("```", begin) - begin));
 }
@@ -58,7 +53,7 @@ TEST_F(SceneFiles, TheExampleOfTheDocsIsDrawn) {
 }
 
 TEST_F(SceneFiles, EveryKindIsInTheSchemaAndIsKnown) {
-  const json schema = json::parse(text_of(ORTHONAV_SOURCE_DIR "/docs/scene.schema.json"));
+  const json schema = json::parse(content_of(ORTHONAV_SOURCE_DIR "/docs/scene.schema.json"));
   std::set<render::Label> numbers;
   int kinds = 0;
   for (const json& kind : schema["$defs"]["hologram"]["oneOf"]) {

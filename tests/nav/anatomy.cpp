@@ -4,17 +4,15 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
-namespace orthonav::nav::test {
-namespace {
+#include "tests/support/temporary_folder.h"
 
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+namespace orthonav::nav::test {
+
+using orthonav::testing::content_of;
+
+namespace {
 
 TriangleMesh binary_stl(const std::string& bytes) {
   TriangleMesh mesh;

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "tests/openxr/runtime_test.h"
 #include "tests/support/temporary_folder.h"
@@ -24,12 +23,6 @@ struct Ran {
   std::string out;     ///< and what it said beside
   std::string report;  ///< of the runtime
 };
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
 
 /// `orthonav` with these arguments on a runtime that follows a script, with the core validation
 /// layer writing to the output unless it is left out.

@@ -16,13 +16,13 @@
 namespace orthonav::replay {
 namespace {
 
+using orthonav::testing::content_of;
 using orthonav::testing::DepthScene;
 using orthonav::testing::HandmadeTar;
 using orthonav::testing::play;
 using orthonav::testing::scripted_session;
 using orthonav::testing::StreamRecorderFolder;
 using orthonav::testing::TemporaryFolder;
-using orthonav::testing::text_of;
 using orthonav::testing::write_text;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -66,7 +66,7 @@ Damage file_damage(const std::string& name, const std::string& file, const std::
 Damage ray_damage(const std::string& name, float x, float z, const std::vector<std::string>& says) {
   return {name,
           [=](const Folder& f) {
-            std::string rays = text_of(f / "Depth AHaT_lut.bin");
+            std::string rays = content_of(f / "Depth AHaT_lut.bin");
             const auto at = static_cast<std::size_t>(17 * 44 + 20) * 12;
             const std::array<float, 3> ray{x, 0.0F, z};
             std::memcpy(rays.data() + at, ray.data(), sizeof(ray));
@@ -87,11 +87,11 @@ std::vector<Damage> damages() {
   all.insert(
       all.end(),
       {{"cut within an image",
-        [](const Folder& f) { write_text(f / kTar, text_of(f / kTar).substr(0, 6000)); },
+        [](const Folder& f) { write_text(f / kTar, content_of(f / kTar).substr(0, 6000)); },
         {kTar, "truncated at 6000 bytes"}},
        {"cut between images",
         [](const Folder& f) {
-          const std::string bytes = text_of(f / kTar);
+          const std::string bytes = content_of(f / kTar);
           write_text(f / kTar, bytes.substr(0, bytes.size() - 1024));
         },
         {kTar, "no end mark"}},
@@ -232,7 +232,7 @@ TEST(BadOwnDepth, ContradictsItself) {
   ASSERT_TRUE((*recorder)->close().ok());
   std::filesystem::remove(folder / "session" / "Depth Long Throw.tar");
   const auto list = folder / "session" / "Depth AHaT_frames.csv";
-  const std::string good = text_of(list);
+  const std::string good = content_of(list);
   EXPECT_EQ(trouble(folder / "session"), "");
   write_text(list, good.substr(0, good.rfind('\n', good.size() - 2) + 1));
   EXPECT_THAT(trouble(folder / "session"), HasSubstr("frames, the archive holds"));

@@ -10,10 +10,10 @@
 namespace orthonav::replay {
 namespace {
 
+using orthonav::testing::content_of;
 using orthonav::testing::HandmadeTar;
 using orthonav::testing::StreamRecorderFolder;
 using orthonav::testing::TemporaryFolder;
-using orthonav::testing::text_of;
 using orthonav::testing::write_text;
 using ::testing::AllOf;
 using ::testing::HasSubstr;

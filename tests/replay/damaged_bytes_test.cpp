@@ -10,9 +10,9 @@
 namespace orthonav::replay {
 namespace {
 
+using orthonav::testing::content_of;
 using orthonav::testing::scripted_session;
 using orthonav::testing::TemporaryFolder;
-using orthonav::testing::text_of;
 using orthonav::testing::write_text;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -55,7 +55,7 @@ class DamagedBytes : public ::testing::Test {
   }
   void damage(const std::string& name, int rounds) {
     const auto path = folder_ / "session" / name;
-    const std::string whole = text_of(path);
+    const std::string whole = content_of(path);
     Random random = Random(20191).fork(name);
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random.next() % n); };
     for (int round = 0; round < rounds; ++round) {

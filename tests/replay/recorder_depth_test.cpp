@@ -4,35 +4,29 @@
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/support/depth_scene.h"
+#include "tests/support/recorded_session.h"
 #include "tests/support/scripted_session.h"
-#include "tests/support/session_log.h"
 
 namespace orthonav::replay {
 namespace {
 
+using orthonav::testing::content_of;
 using orthonav::testing::DepthScene;
 using orthonav::testing::expect_same;
 using orthonav::testing::Hololens1Folder;
 using orthonav::testing::play;
+using orthonav::testing::play_to_the_end;
 using orthonav::testing::scripted_calibration;
 using orthonav::testing::scripted_frame;
 using orthonav::testing::scripted_session;
 using orthonav::testing::SessionLog;
 using orthonav::testing::TemporaryFolder;
-using orthonav::testing::text_of;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Plays a headset through the recorder and finishes the recording.
 SessionLog recorded(Headset& headset, const std::filesystem::path& folder,
                     const RecorderOptions& options = {}) {
-  auto recorder = RecordingHeadset::around(headset, folder, options);
-  EXPECT_TRUE(recorder.ok()) << recorder.error().message;
-  if (!recorder) return {};
-  SessionLog log = play(**recorder);
-  const Status closed = (*recorder)->close();
-  EXPECT_TRUE(closed.ok()) << closed.error().message;
-  return log;
+  return play_to_the_end(RecordingHeadset::around(headset, folder, options));
 }
 
 std::unique_ptr<ReplayHeadset> opened(const std::filesystem::path& folder) {
@@ -59,7 +53,7 @@ TEST(RecorderDepth, IsWrittenAsStreamRecorderDoes) {
   const TemporaryFolder folder;
   fake::FakeHeadset headset(scripted_session());
   const SessionLog live = recorded(headset, folder / "session");
-  const std::string tar = text_of(folder / "session" / "Depth AHaT.tar");
+  const std::string tar = content_of(folder / "session" / "Depth AHaT.tar");
   EXPECT_EQ(std::string(tar.c_str()), "9950000_ab.pgm");
   EXPECT_EQ(tar.substr(512, 15), "P5\n24 24\n65535\n");
   constexpr std::size_t kSecond = 512 + 1536;  // after a header and three blocks of pixels

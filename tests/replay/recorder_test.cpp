@@ -6,20 +6,21 @@
 #include <atomic>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <thread>
 
 #include "hal/fake/failing.h"
 #include "hal/replay/replay_headset.h"
+#include "tests/support/recorded_session.h"
 #include "tests/support/scripted_session.h"
-#include "tests/support/session_log.h"
 #include "tests/support/temporary_folder.h"
 
 namespace orthonav::replay {
 namespace {
 
+using orthonav::testing::content_of;
 using orthonav::testing::expect_same;
 using orthonav::testing::play;
+using orthonav::testing::play_to_the_end;
 using orthonav::testing::scripted_session;
 using orthonav::testing::SessionLog;
 using orthonav::testing::TemporaryFolder;
@@ -29,23 +30,9 @@ std::unique_ptr<fake::FakeHeadset> headset(fake::Script script = scripted_sessio
   return std::make_unique<fake::FakeHeadset>(std::move(script));
 }
 
-/// Plays a headset through the recorder and finishes the recording.
 SessionLog record(std::unique_ptr<Headset> inner, const std::filesystem::path& folder,
                   const RecorderOptions& options = {}) {
-  auto recorder = RecordingHeadset::create(std::move(inner), folder, options);
-  EXPECT_TRUE(recorder.ok()) << recorder.error().message;
-  if (!recorder) return {};
-  SessionLog log = play(**recorder);
-  const Status closed = (*recorder)->close();
-  EXPECT_TRUE(closed.ok()) << closed.error().message;
-  return log;
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return play_to_the_end(RecordingHeadset::create(std::move(inner), folder, options));
 }
 
 TEST(Recorder, PassesEverythingOnUnchanged) {
@@ -78,7 +65,7 @@ TEST(Recorder, RecordsAReplayAsTheSameFiles) {
   for (const auto& entry : std::filesystem::directory_iterator(folder / "first")) {
     const auto name = entry.path().filename();
     ++files;
-    EXPECT_TRUE(text_of(entry.path()) == text_of(folder / "second" / name)) << name;
+    EXPECT_TRUE(content_of(entry.path()) == content_of(folder / "second" / name)) << name;
   }
   constexpr int kFilesOfARecording = 15 + 2 * 5 + 1;  // two depth streams, the map of one
   EXPECT_EQ(files, kFilesOfARecording);
@@ -105,7 +92,7 @@ TEST(Recorder, WritesTheLayoutThatOtherReadersKnow) {
   const TemporaryFolder folder;
   record(headset(), folder / "session");
   // Ustar by its fixed offsets: name, size in octal, magic; then the image.
-  const std::string tar = text_of(folder / "session" / "VLC LF.tar");
+  const std::string tar = content_of(folder / "session" / "VLC LF.tar");
   EXPECT_EQ(std::string(tar.c_str()), "10000000.pgm");
   EXPECT_EQ(std::stol(tar.substr(124, 12), nullptr, 8), 15 + 640 * 480);
   EXPECT_EQ(tar.substr(257, 5), "ustar");
@@ -114,7 +101,7 @@ TEST(Recorder, WritesTheLayoutThatOtherReadersKnow) {
   constexpr std::size_t kMemberBytes = 512 + 307'712;
   EXPECT_EQ(tar.size(), 11 * kMemberBytes + 1024);
   EXPECT_EQ(std::filesystem::file_size(folder / "session" / "VLC RF_lut.bin"), 3'686'400u);
-  const std::string poses = text_of(folder / "session" / "VLC LF_rig2world.txt");
+  const std::string poses = content_of(folder / "session" / "VLC LF_rig2world.txt");
   EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 10);  // one pair has no pose
   EXPECT_EQ(poses.substr(0, 9), "10000000,");
 }

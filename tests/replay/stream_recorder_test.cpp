@@ -12,10 +12,10 @@
 namespace orthonav::replay {
 namespace {
 
+using orthonav::testing::content_of;
 using orthonav::testing::play;
 using orthonav::testing::SessionLog;
 using orthonav::testing::StreamRecorderFolder;
-using orthonav::testing::text_of;
 using ::testing::ElementsAre;
 
 constexpr std::int64_t kFrame = 333'333;  // ticks of 100 ns at 30 Hz
@@ -216,7 +216,7 @@ TEST(Sample, GivesEveryPairAndPoseOfTheRecordingBesideTheProject) {
   ASSERT_EQ(log.moments.size(), 30u);
   EXPECT_FALSE(headset->tools_json().empty());
   // The first image by the archive's fixed offsets.
-  const std::string tar = text_of(path / "VLC LF.tar");
+  const std::string tar = content_of(path / "VLC LF.tar");
   const auto& pixels = log.moments[0].frame.left.pixels;
   EXPECT_EQ(std::string(pixels.begin(), pixels.end()), tar.substr(512 + 15, 640 * 480));
   // Every time of the truth beside it is a delivered pair's.

@@ -28,7 +28,9 @@ class Hololens1Folder {
   void write(const std::string& name, const std::string& text) const {
     write_text(folder_ / name, text);
   }
-  [[nodiscard]] std::string text(const std::string& name) const { return text_of(folder_ / name); }
+  [[nodiscard]] std::string text(const std::string& name) const {
+    return content_of(folder_ / name);
+  }
 
  private:
   TemporaryFolder folder_;

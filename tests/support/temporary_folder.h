@@ -47,7 +47,7 @@ class TemporaryFolder {
 };
 
 /// A whole file as text; empty when there is none.
-inline std::string content_of(const std::string& path) {
+inline std::string content_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "hal/replay/recorder.h"
+#include "tests/support/session_log.h"
+
+namespace orthonav::testing {
+
+/// Plays a headset through the recorder around it and finishes the recording.
+inline SessionLog play_to_the_end(Result<std::unique_ptr<replay::RecordingHeadset>> recorder) {
+  EXPECT_TRUE(recorder.ok()) << recorder.error().message;
+  if (!recorder) return {};
+  SessionLog log = play(**recorder);
+  const Status closed = (*recorder)->close();
+  EXPECT_TRUE(closed.ok()) << closed.error().message;
+  return log;
+}
+
+}  // namespace orthonav::testing
