@@ -35,8 +35,7 @@ struct Options {
   bool quick = false;
   bool show = false;
   double minutes = 10.0;
-  std::optional<double>
-      least_evidence;  ///< of every command and the wake word, in place of their own
+  std::optional<double> least_log_odds;
 };
 
 struct Tally {
@@ -63,12 +62,7 @@ std::unique_ptr<CommandSpotter> new_spotter(const Options& bench, Waking waking)
   SpotterOptions options;
   options.commands = engine::spoken_commands();
   options.waking = waking;
-  if (bench.least_evidence) {
-    for (auto& [command, least] : options.least_evidence) least = *bench.least_evidence;
-    options.least_evidence_of_wake_word = *bench.least_evidence;
-    options.least_evidence_of_wake_word_in_noise = *bench.least_evidence;
-    options.least_evidence_around = 100.0 * *bench.least_evidence;
-  }
+  if (bench.least_log_odds) options.least_log_odds = *bench.least_log_odds;
   auto spotter = CommandSpotter::create(options);
   if (spotter) return std::move(*spotter);
   std::fprintf(stderr, "%s\n", spotter.error().message.c_str());
@@ -229,7 +223,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", options.quick, "one speed instead of three");
   app.add_flag("--show", options.show, "everything that was heard");
   app.add_option("--minutes", options.minutes, "of other speech")->capture_default_str();
-  app.add_option("--least-evidence", options.least_evidence, "of every command and the wake word");
+  app.add_option("--least-log-odds", options.least_log_odds, "from which a command counts");
   CLI11_PARSE(app, argc, argv);
   return orthonav::bench::run(options);
 }

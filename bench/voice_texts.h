@@ -39,6 +39,18 @@ inline constexpr std::string_view kTuningTalk[] = {
     "That one is mine.",
 };
 
+/// What is nearly the wake word and nearly a command: weights were found with these beside the
+/// first.
+inline constexpr std::string_view kNearWakeWord[] = {
+    "author",   "authors",     "often", "also",       "order",  "auto",      "although",
+    "or so",    "or the",      "other", "ought to",   "others", "off the",   "Arthur",
+    "orthodox", "orthopaedic", "offer", "altogether", "awful",  "are those", "north"};
+inline constexpr std::string_view kNearCommands[] = {
+    "start",  "safe", "saved",  "delayed", "accepted", "except", "the next one", "neck",
+    "text",   "down", "one",    "twins",   "tin",      "right",  "rejected",     "object",
+    "stop",   "star", "roads",  "move on", "delete",   "save",   "twin",         "done",
+    "reject", "next", "accept", "move it", "same",     "day",    "unknown",      "that"};
+
 inline constexpr std::string_view kTestTalk[] = {
     "I'll save that for later, when we are on the other side.",
     "Please be careful, this is not a safe place for the drill.",

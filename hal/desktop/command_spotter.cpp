@@ -17,16 +17,11 @@ constexpr double kHardlyLikely = 0.25;
 std::vector<std::string> SpotterOptions::check() const {
   std::vector<std::string> problems;
   if (commands.empty()) problems.push_back("voice: no command to listen for");
-  bool finite = true;
-  for (const double value :
-       {least_evidence_of_others, least_evidence_of_wake_word, least_evidence_of_wake_word_in_noise,
-        more_wake_evidence_to_delete, least_evidence_around, more_evidence_alone})
-    finite = finite && std::isfinite(value);
-  for (const auto& [command, least] : least_evidence) finite = finite && std::isfinite(least);
-  if (!finite) problems.push_back("voice: evidence must be finite");
+  if (!std::isfinite(least_log_odds) || !std::isfinite(more_log_odds_to_delete))
+    problems.push_back("voice: log odds must be finite");
   if (segments.margin_ms < 400) problems.push_back("voice: margin_ms must be at least 400");
-  if (segments.max_ms < 500 || segments.max_ms > 10000)
-    problems.push_back("voice: max_ms must lie in [500, 10000]");
+  if (segments.max_ms < 500 || segments.max_ms > 3000)
+    problems.push_back("voice: max_ms must lie in [500, 3000]");
   if (segments.end_ms < 150 || segments.end_in_noise_ms < segments.end_ms ||
       segments.end_in_noise_ms > 1000)
     problems.push_back("voice: end_ms and end_in_noise_ms must lie in [150, 1000], in this order");
@@ -66,42 +61,19 @@ void CommandSpotter::push(std::span<const std::int16_t> samples,
 std::optional<SpokenCommand> CommandSpotter::judge(const SpeechSegment& segment) {
   const Recognition heard =
       recognizer_->recognize(cleaned(segment.samples, kBackgroundSamples, options_.cleaner));
-  SpokenCommand spoken{"", 0.0, segment.begin, segment.end};
-  std::optional<double> wake_evidence;
-  double evidence = 0.0;
-  int frames = 0;
-  for (const RecognizedWord& word : heard.words) {
-    if (word.word == options_.wake_word) {
-      wake_evidence = word.evidence;
-      continue;
-    }
-    spoken.text += (spoken.text.empty() ? "" : " ") + word.word;
-    evidence += word.frames * word.evidence;
-    frames += word.frames;
-  }
-  if (frames == 0 || heard.evidence_around < options_.least_evidence_around) return std::nullopt;
-  spoken.confidence =
-      confidence_of(spoken.text, evidence / frames, wake_evidence, segment.above_background_db);
-  if (spoken.confidence < kHardlyLikely) return std::nullopt;
-  return spoken;
+  const auto evidence = evidence_of(heard, options_.wake_word, segment.above_background_db);
+  if (!evidence) return std::nullopt;
+  const double confidence = confidence_of(*evidence);
+  if (confidence < kHardlyLikely) return std::nullopt;
+  return SpokenCommand{evidence->command, confidence, segment.begin, segment.end};
 }
 
-double CommandSpotter::confidence_of(const std::string& command, double evidence,
-                                     std::optional<double> wake_evidence,
-                                     double above_background_db) const {
-  const auto own = options_.least_evidence.find(command);
-  const double least =
-      own == options_.least_evidence.end() ? options_.least_evidence_of_others : own->second;
-  const double noisy = noisiness(above_background_db);
-  const double least_to_wake = std::lerp(options_.least_evidence_of_wake_word,
-                                         options_.least_evidence_of_wake_word_in_noise, noisy) +
-                               (command == "delete" ? options_.more_wake_evidence_to_delete : 0.0);
-  const double above = wake_evidence ? std::min(evidence - least, *wake_evidence - least_to_wake)
-                                     : evidence - least - options_.more_evidence_alone;
-  // One half at the least evidence, 0.88 one unit above it.
-  const double confidence = 1.0 / (1.0 + std::exp(-2.0 * above));
-  const bool quiet = above_background_db >= options_.quiet_above_db;
-  const bool counts = wake_evidence || options_.waking == Waking::kNever ||
+double CommandSpotter::confidence_of(const CommandEvidence& evidence) const {
+  const double least = options_.least_log_odds +
+                       (evidence.command == "delete" ? options_.more_log_odds_to_delete : 0.0);
+  const double confidence = 1.0 / (1.0 + std::exp(least - log_odds(evidence)));
+  const bool quiet = evidence.above_background_db >= options_.quiet_above_db;
+  const bool counts = evidence.wake || options_.waking == Waking::kNever ||
                       (options_.waking == Waking::kInNoise && quiet);
   // It was heard, and is not acted upon: the status line says so.
   return counts ? confidence : std::min(confidence, 0.49);

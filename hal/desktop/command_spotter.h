@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "hal/api/result.h"
+#include "hal/desktop/command_evidence.h"
 #include "hal/desktop/phrase_recognizer.h"
 #include "hal/desktop/speech_cleaner.h"
 #include "hal/desktop/speech_segments.h"
@@ -31,21 +31,10 @@ struct SpotterOptions {
   Waking waking = Waking::kAlways;
   /// A room is quiet where the loudest syllable stands out by so much.
   double quiet_above_db = 26.0;
-  /// What a command's own words need in evidence (`RecognizedWord::evidence`) to count; chosen on
-  /// voices and texts of their own (bench_voice --tuning). "delete" needs the most: it takes away.
-  std::map<std::string, double> least_evidence = {
-      {"start", -1.3}, {"accept", -1.1}, {"next", -1.5},    {"twin", -0.9},  {"done", -1.1},
-      {"save", -0.8},  {"reject", -0.8}, {"move rod", 0.0}, {"delete", 0.0},
-  };
-  double least_evidence_of_others = 0.0;
-  /// What the wake word needs, where the voice stands out by 35 dB and where by 20 dB; between them
-  /// what lies between. Before "delete" it needs more.
-  double least_evidence_of_wake_word = -0.7;
-  double least_evidence_of_wake_word_in_noise = -1.2;
-  double more_wake_evidence_to_delete = 0.4;
-  double least_evidence_around = -90.0;  ///< `Recognition::evidence_around`
-  /// What a command needs more where it is not addressed by the wake word.
-  double more_evidence_alone = 1.2;
+  /// Above this a command counts (`log_odds`).
+  double least_log_odds = 0.0;
+  /// "delete" takes away, and needs more.
+  double more_log_odds_to_delete = 1.0;
   SegmentOptions segments;
   CleanerOptions cleaner;
   std::filesystem::path acoustic_model = default_acoustic_model();
@@ -83,9 +72,7 @@ class CommandSpotter {
 
   explicit CommandSpotter(const SpotterOptions& options);
   [[nodiscard]] std::optional<SpokenCommand> judge(const SpeechSegment& segment);
-  [[nodiscard]] double confidence_of(const std::string& command, double evidence,
-                                     std::optional<double> wake_evidence,
-                                     double above_background_db) const;
+  [[nodiscard]] double confidence_of(const CommandEvidence& evidence) const;
 };
 
 }  // namespace orthonav::desktop

@@ -12,13 +12,17 @@ inline constexpr int kSpeechRateHz = 16000;
 
 /// When sound counts as speech. Levels are those of 50 ms of sound between 200 and 3500 Hz.
 struct SegmentOptions {
-  double above_background_db = 8.0;  ///< louder than the background by so much
-  double below_loudest_db = 30.0;    ///< and no more below the segment's loudest than so much
-  int begin_ms = 50;                 ///< loud for so long begins a segment
+  /// A segment is what is louder than a threshold so far above the background; the least at which
+  /// nothing else is, for a while before it and after it.
+  double least_above_background_db = 6.0;
+  double most_above_background_db = 14.0;
+  double above_threshold_db = 6.0;  ///< the loudest of it, at least
+  double below_loudest_db = 30.0;   ///< the threshold, at most: a word's last sound dies away
+  int least_ms = 200;
   /// Quiet for so long ends it. In noise the last sounds of a word can't be told from the
   /// background, and what is left of it seems to end sooner than it does.
   int end_ms = 240;
-  int end_in_noise_ms = 380;
+  int end_in_noise_ms = 300;
   int quiet_before_ms = 500;  ///< a command follows such a pause; a sentence's word does not
   int margin_ms = 400;        ///< kept before what was loud
   int max_ms = 1900;          ///< speech that goes on for longer is no command
@@ -51,9 +55,23 @@ class Biquad {
   double x1_ = 0.0, x2_ = 0.0, y1_ = 0.0, y2_ = 0.0;
 };
 
-/// Cuts a stream of sound into stretches of speech by its level above the background, which is
-/// followed as it changes. Bounded memory: what goes on for longer than a command is dropped as it
-/// comes.
+/// How often which level was met among some frames, by decibels.
+class LevelHistogram {
+ public:
+  LevelHistogram();
+  void add(double level_db);
+  void remove(double level_db);
+  /// The level that a share of the frames stays below.
+  [[nodiscard]] double level_above(double share) const;
+
+ private:
+  std::vector<int> counts_;
+  int frames_ = 0;
+};
+
+/// Cuts a stream of sound into stretches of speech: what stands out from the half second before it
+/// and the quarter second after it. How far these may lie above the background, which is the median
+/// of the last seconds, leaves room for the voices of others. Bounded memory.
 class SpeechSegmenter {
  public:
   explicit SpeechSegmenter(const SegmentOptions& options = {});
@@ -61,32 +79,40 @@ class SpeechSegmenter {
   void push(std::span<const std::int16_t> samples, std::vector<SpeechSegment>& segments);
 
  private:
+  /// Frames, counted since the stream began.
+  struct Stretch {
+    std::int64_t begin = 0;
+    std::int64_t end = 0;  ///< one past the last loud one
+    double threshold_db = 0.0;
+    double loudest_db = 0.0;
+    double above_background_db = 0.0;  ///< the loudest
+    int quiet_frames = 0;              ///< after which it is over
+  };
   SegmentOptions options_;
-  std::vector<std::int16_t> kept_;  ///< the newest sound, of a segment all of it
-  std::int64_t taken_ = 0;          ///< samples since the stream began
+  std::vector<std::int16_t> kept_;  ///< the newest sound
   std::size_t in_frame_ = 0;        ///< samples of the frame that is not complete yet
   double frame_energy_ = 0.0;
   Biquad low_pass_;
   Biquad high_pass_;
   double smooth_energy_ = 0.0;
-  std::optional<double> background_db_;
-  double least_db_ = 0.0;             ///< since the last half second began
-  double previous_least_db_ = -80.0;  ///< in those before
-  int frames_of_least_ = 0;
-  std::vector<double> recent_db_;  ///< of the last half second
-  int loud_frames_ = 0;            ///< in a row, before a segment
-  int quiet_frames_ = 0;           ///< in a row, within one
-  bool speaking_ = false;
-  double loudest_db_ = 0.0;  ///< of the segment, above its background
-  bool too_long_ = false;
-  bool isolated_ = false;
-  std::int64_t begin_ = 0;
-  std::int64_t last_loud_ = 0;
+  std::int64_t frames_ = 0;       ///< since the stream began
+  std::vector<float> levels_db_;  ///< of the last frames, round and round
+  LevelHistogram long_;           ///< of these
+  LevelHistogram short_;          ///< of the newest of these
+  std::optional<Stretch> waiting_;
+  std::int64_t over_ = 0;         ///< where the last segment ended, a frame
+  double over_loudest_db_ = 0.0;  ///< how loud it was
 
   void end_frame(std::vector<SpeechSegment>& segments);
-  void follow_background(double level_db, bool loud);
-  [[nodiscard]] int end_now_ms() const;
+  void announce(std::vector<SpeechSegment>& segments);
   void forget();
+  void keep_level(double level_db);
+  [[nodiscard]] double level_db(std::int64_t frame) const;
+  [[nodiscard]] double background_db() const;
+  [[nodiscard]] std::optional<Stretch> stretch_above(double threshold_db) const;
+  [[nodiscard]] bool follows_speech(const Stretch& stretch) const;
+  [[nodiscard]] std::optional<Stretch> find(double background_db) const;
+  [[nodiscard]] int quiet_frames(double above_background_db) const;
 };
 
 }  // namespace orthonav::desktop
