@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "bench/phrase_in_room.h"
 #include "bench/voice_sets.h"
 #include "bench/voice_texts.h"
 #include "engine/spoken_commands.h"
@@ -90,21 +91,17 @@ void say_one(CommandSpotter& spotter, const std::string& command, const Options&
              const Speaker& speaker, Noise noise, double snr_db, Random& random, Figures& figures) {
   const auto said = spoken(options.single ? command : "ortho " + command, speaker);
   if (!said) return;
-  Soundtrack track;
-  track.silence(1.5);
-  const auto [begin, end] = track.speech(*said);
-  track.silence(0.6);
-  const auto sound = track.with_noise(noise, snr_db, random, babble_of(options.tuning));
+  const auto phrase = phrase_in_room(*said, noise, snr_db, random, babble_of(options.tuning));
   bool heard = false;
   bool mistaken = false;
-  listen(spotter, sound, [&, end = end](const SpokenCommand& found, double ms) {
+  listen(spotter, phrase.sound, [&](const SpokenCommand& found, double ms) {
     if (options.show)
       std::printf("%s %d %s %.0f dB: %s %.2f\n", speaker.voice.c_str(), speaker.words_a_minute,
                   command.c_str(), snr_db, found.text.c_str(), found.confidence);
     if (found.confidence < 0.5) return;
     if (found.text == command && !heard) {
       heard = true;
-      figures.latencies_ms.push_back(ms - static_cast<double>(end) / 16.0);
+      figures.latencies_ms.push_back(ms - static_cast<double>(phrase.end) / 16.0);
     } else if (found.text != command) {
       mistaken = true;
     }

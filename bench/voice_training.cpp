@@ -11,15 +11,14 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <optional>
 
+#include "bench/phrase_in_room.h"
 #include "bench/voice_sets.h"
 #include "engine/spoken_commands.h"
 #include "hal/desktop/adapted_means.h"
 #include "hal/desktop/phrase_recognizer.h"
 #include "hal/desktop/pronunciations.h"
 #include "hal/desktop/speech_cleaner.h"
-#include "hal/desktop/speech_segments.h"
 #include "tests/support/noisy_speech.h"
 
 namespace orthonav::bench {
@@ -127,23 +126,10 @@ std::vector<std::int16_t> heard(const std::string& phrase, const std::string& vo
   auto said = spoken(phrase, {voice, words_a_minute});
   if (!said) give_up(said.error().message);
   tilt(*said, tilted);
-  Soundtrack track;
-  track.silence(1.5);
-  track.speech(*said);
-  track.silence(0.6);
-  const auto sound = track.with_noise(noise, silent ? 60.0 : snr_db, random, Babble::kTraining);
-  SpeechSegmenter segmenter;
-  std::vector<SpeechSegment> segments;
-  segmenter.push(sound, segments);
-  std::optional<SpeechSegment> last;
-  int ended = 0;
-  for (SpeechSegment& segment : segments)
-    if (segment.ended)
-      ++ended;
-    else
-      last = std::move(segment);
-  if (ended != 1 || !last) return {};
-  return cleaned(last->samples, kBackgroundSamples);
+  const auto room = phrase_in_room(*said, noise, silent ? 60.0 : snr_db, random, Babble::kTraining);
+  const auto segments = cut_out(room.sound);
+  if (segments.size() != 1) return {};
+  return cleaned(segments.front().samples, kBackgroundSamples);
 }
 
 void write_corpus(const Options& options) {

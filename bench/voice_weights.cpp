@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <Eigen/Dense>
 #include <fstream>
-#include <optional>
 #include <set>
 #include <sstream>
 
+#include "bench/phrase_in_room.h"
 #include "bench/voice_sets.h"
 #include "bench/voice_texts.h"
 #include "engine/spoken_commands.h"
@@ -62,43 +62,24 @@ struct Saying {
 class Listener {
  public:
   Listener() {
-    std::vector<std::string> phrases;
-    for (const std::string& command : engine::spoken_commands()) {
-      phrases.push_back(kWakeWord + (" " + command));
-      phrases.push_back(command);
-    }
-    auto recognizer = PhraseRecognizer::create(phrases, default_acoustic_model());
+    options_.commands = engine::spoken_commands();
+    auto recognizer = PhraseRecognizer::create(options_.phrases(), options_.acoustic_model);
     if (!recognizer) give_up(recognizer.error().message);
     recognizer_ = std::move(*recognizer);
   }
   std::vector<CommandEvidence> hear(const Saying& saying) {
     const auto said = spoken(saying.text, saying.speaker);
     if (!said) give_up(said.error().message);
-    Soundtrack track;
-    track.silence(1.5);
-    track.speech(*said);
-    track.silence(0.6);
-    SpeechSegmenter segmenter;
-    std::vector<SpeechSegment> segments;
-    segmenter.push(track.with_noise(saying.noise, saying.snr_db, random_, saying.babble), segments);
+    const auto phrase = phrase_in_room(*said, saying.noise, saying.snr_db, random_, saying.babble);
     std::vector<CommandEvidence> found;
-    std::optional<SpeechSegment> waiting;
-    for (SpeechSegment& segment : segments) {
-      if (!segment.ended) {
-        waiting = std::move(segment);
-        continue;
-      }
-      const Recognition heard =
-          recognizer_->recognize(cleaned(waiting->samples, kBackgroundSamples));
-      if (auto evidence = evidence_of(heard, kWakeWord, segment.above_background_db))
+    for (const SpeechSegment& segment : cut_out(phrase.sound))
+      if (auto evidence = evidence_in(segment, options_, *recognizer_))
         found.push_back(std::move(*evidence));
-    }
     return found;
   }
 
-  static constexpr const char* kWakeWord = "ortho";
-
  private:
+  SpotterOptions options_;
   std::unique_ptr<PhraseRecognizer> recognizer_;
   Random random_{51};
 };
@@ -286,7 +267,7 @@ int run(const Options& options) {
     header += table(wake ? "kWeightsAfterWakeWord" : "kWeightsAlone", weights);
   }
   header += "\n}  // namespace orthonav::desktop\n";
-  std::ofstream(options.out) << header;
+  if (!(std::ofstream(options.out) << header)) give_up("can't write " + options.out);
   return 0;
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "hal/desktop/phrase_recognizer.h"

@@ -14,6 +14,23 @@ constexpr double kHardlyLikely = 0.25;
 
 }  // namespace
 
+std::vector<std::string> SpotterOptions::phrases() const {
+  std::vector<std::string> phrases;
+  for (const std::string& command : commands) {
+    phrases.push_back(wake_word + " " + command);
+    phrases.push_back(command);
+  }
+  return phrases;
+}
+
+std::optional<CommandEvidence> evidence_in(const SpeechSegment& segment,
+                                           const SpotterOptions& options,
+                                           PhraseRecognizer& recognizer) {
+  const Recognition heard =
+      recognizer.recognize(cleaned(segment.samples, kBackgroundSamples, options.cleaner));
+  return evidence_of(heard, options.wake_word, segment.above_background_db);
+}
+
 std::vector<std::string> SpotterOptions::check() const {
   std::vector<std::string> problems;
   if (commands.empty()) problems.push_back("voice: no command to listen for");
@@ -33,13 +50,7 @@ CommandSpotter::CommandSpotter(const SpotterOptions& options)
 
 Result<std::unique_ptr<CommandSpotter>> CommandSpotter::create(const SpotterOptions& options) {
   if (const auto problems = options.check(); !problems.empty()) return Error{joined(problems)};
-  std::vector<std::string> phrases;
-  // Single words too, whatever counts: a grammar without them takes "save" for "ortho save".
-  for (const std::string& command : options.commands) {
-    phrases.push_back(options.wake_word + " " + command);
-    phrases.push_back(command);
-  }
-  auto recognizer = PhraseRecognizer::create(phrases, options.acoustic_model);
+  auto recognizer = PhraseRecognizer::create(options.phrases(), options.acoustic_model);
   if (!recognizer) return recognizer.error();
   std::unique_ptr<CommandSpotter> spotter(new CommandSpotter(options));
   spotter->recognizer_ = std::move(*recognizer);
@@ -59,9 +70,7 @@ void CommandSpotter::push(std::span<const std::int16_t> samples,
 }
 
 std::optional<SpokenCommand> CommandSpotter::judge(const SpeechSegment& segment) {
-  const Recognition heard =
-      recognizer_->recognize(cleaned(segment.samples, kBackgroundSamples, options_.cleaner));
-  const auto evidence = evidence_of(heard, options_.wake_word, segment.above_background_db);
+  const auto evidence = evidence_in(segment, options_, *recognizer_);
   if (!evidence) return std::nullopt;
   const double confidence = confidence_of(*evidence);
   if (confidence < kHardlyLikely) return std::nullopt;

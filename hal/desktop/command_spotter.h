@@ -39,9 +39,17 @@ struct SpotterOptions {
   CleanerOptions cleaner;
   std::filesystem::path acoustic_model = default_acoustic_model();
 
+  /// What the grammar of the commands holds: each with the wake word and alone, whatever counts,
+  /// for a grammar without single words takes "save" for "ortho save".
+  [[nodiscard]] std::vector<std::string> phrases() const;
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
+
+/// What a segment holds once it is cleaned; nothing where that is no command.
+[[nodiscard]] std::optional<CommandEvidence> evidence_in(const SpeechSegment& segment,
+                                                         const SpotterOptions& options,
+                                                         PhraseRecognizer& recognizer);
 
 /// A command as it was spoken.
 struct SpokenCommand {

@@ -163,9 +163,9 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::stretch_above(double th
 
 /// Speech that is no part of the stretch, and so near before it that the stretch is none by itself.
 bool SpeechSegmenter::follows_speech(const Stretch& stretch) const {
-  if (stretch.begin < over_) return true;
-  return (stretch.begin - over_) * kFrameMs < options_.quiet_before_ms &&
-         over_loudest_db_ > stretch.loudest_db - kBesideDb;
+  if (stretch.begin < over_.end) return true;
+  return (stretch.begin - over_.end) * kFrameMs < options_.quiet_before_ms &&
+         over_.loudest_db > stretch.loudest_db - kBesideDb;
 }
 
 std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::find(double background_db) const {
@@ -188,7 +188,9 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::find(double background_
         quiet + (threshold_db < loudest_db - kFaintDb ? kLittleMoreQuietFrames : kMoreQuietFrames));
     const bool told = frames_ - stretch->end >= stretch->quiet_frames - kForewarningFrames;
     const bool long_enough = (stretch->end - stretch->begin) * kFrameMs >= options_.least_ms;
-    if (told && long_enough && !follows_speech(*stretch)) return stretch;
+    if (!told || !long_enough || follows_speech(*stretch)) continue;
+    stretch->above_background_db = stretch->loudest_db - background_db;
+    return stretch;
   }
   return std::nullopt;
 }
@@ -200,34 +202,30 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
   in_frame_ = 0;
   frame_energy_ = 0.0;
   if (waiting_ && level_db(frames_ - 1) > waiting_->threshold_db) waiting_.reset();
-  if (!waiting_) announce(segments);
+  if (!waiting_) {
+    waiting_ = find(background_db());
+    if (waiting_) segments.push_back(segment_of(*waiting_, false));
+  }
   if (waiting_ && frames_ - waiting_->end >= waiting_->quiet_frames) {
-    segments.push_back({{},
-                        samples_of_frames(waiting_->begin),
-                        samples_of_frames(waiting_->end),
-                        waiting_->above_background_db,
-                        true});
-    over_ = waiting_->end;
-    over_loudest_db_ = waiting_->loudest_db;
-    waiting_.reset();
+    segments.push_back(segment_of(*waiting_, true));
+    over_ = *std::exchange(waiting_, std::nullopt);
   }
   forget();
 }
 
-void SpeechSegmenter::announce(std::vector<SpeechSegment>& segments) {
-  const double background = background_db();
-  waiting_ = find(background);
-  if (!waiting_) return;
-  waiting_->above_background_db = waiting_->loudest_db - background;
+SpeechSegment SpeechSegmenter::segment_of(const Stretch& stretch, bool ended) const {
+  SpeechSegment segment{{},
+                        samples_of_frames(stretch.begin),
+                        samples_of_frames(stretch.end),
+                        stretch.above_background_db,
+                        ended};
+  if (ended) return segment;
   const std::int64_t length =
-      std::min(samples_of_frames(frames_ - waiting_->begin) +
+      std::min(samples_of_frames(frames_ - stretch.begin) +
                    static_cast<std::int64_t>(samples_of(options_.margin_ms)),
                static_cast<std::int64_t>(kept_.size()));
-  segments.push_back({{kept_.end() - length, kept_.end()},
-                      samples_of_frames(waiting_->begin),
-                      samples_of_frames(waiting_->end),
-                      waiting_->above_background_db,
-                      false});
+  segment.samples.assign(kept_.end() - length, kept_.end());
+  return segment;
 }
 
 /// Keeps what the longest segment needs, with its margin and the quiet that ends it.

@@ -100,13 +100,13 @@ class SpeechSegmenter {
   LevelHistogram long_;           ///< of these
   LevelHistogram short_;          ///< of the newest of these
   std::optional<Stretch> waiting_;
-  std::int64_t over_ = 0;         ///< where the last segment ended, a frame
-  double over_loudest_db_ = 0.0;  ///< how loud it was
+  Stretch over_;  ///< the last that ended
 
   void end_frame(std::vector<SpeechSegment>& segments);
-  void announce(std::vector<SpeechSegment>& segments);
   void forget();
   void keep_level(double level_db);
+  /// With what was kept of its sound, where it is yet to end.
+  [[nodiscard]] SpeechSegment segment_of(const Stretch& stretch, bool ended) const;
   [[nodiscard]] double level_db(std::int64_t frame) const;
   [[nodiscard]] double background_db() const;
   [[nodiscard]] std::optional<Stretch> stretch_above(double threshold_db) const;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
+
 #include "hal/replay/recorder.h"
 #include "tests/support/session_log.h"
 
 namespace orthonav::testing {
 
-/// Plays a headset through the recorder around it and finishes the recording.
+/// Plays a headset through a recorder and finishes the recording.
 inline SessionLog play_to_the_end(Result<std::unique_ptr<replay::RecordingHeadset>> recorder) {
   EXPECT_TRUE(recorder.ok()) << recorder.error().message;
   if (!recorder) return {};

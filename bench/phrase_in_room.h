@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hal/desktop/speech_segments.h"
+#include "tests/support/noisy_speech.h"
+
+namespace orthonav::bench {
+
+struct PhraseInRoom {
+  std::vector<std::int16_t> sound;
+  std::int64_t begin = 0;  ///< of the phrase, in samples
+  std::int64_t end = 0;
+};
+
+/// A phrase with noise under it, after a second and a half of the noise alone.
+inline PhraseInRoom phrase_in_room(std::span<const std::int16_t> said, testing::Noise noise,
+                                   double snr_db, Random& random, testing::Babble babble) {
+  testing::Soundtrack track;
+  track.silence(1.5);
+  const auto [begin, end] = track.speech(said);
+  track.silence(0.6);
+  return {track.with_noise(noise, snr_db, random, babble), begin, end};
+}
+
+/// What a segmenter that hears nothing else cuts out, each with its sound.
+inline std::vector<desktop::SpeechSegment> cut_out(std::span<const std::int16_t> sound) {
+  desktop::SpeechSegmenter segmenter;
+  std::vector<desktop::SpeechSegment> told;
+  segmenter.push(sound, told);
+  std::vector<desktop::SpeechSegment> ended;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    if (!told[i].ended) continue;
+    // The one before it told of it.
+    ended.push_back(std::move(told[i]));
+    ended.back().samples = std::move(told[i - 1].samples);
+  }
+  return ended;
+}
+
+}  // namespace orthonav::bench
