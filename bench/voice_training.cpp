@@ -152,11 +152,12 @@ void write_corpus(const Options& options) {
   };
   std::size_t voice = 0;
   for (const std::string_view variant : kTrainingVariants) {
-    for (std::size_t accent = 0; accent < 3; ++accent)
+    for (std::size_t accent = 0; accent < std::size(kTrainingAccents) / 2; ++accent)
       for (const std::string& command : engine::spoken_commands())
         for (const char* wake : {"", "", "ortho ", "ortho "})
           add(wake + command,
-              std::string(kTrainingAccents[(voice + 2 * accent) % 6]) + "+" + std::string(variant));
+              std::string(kTrainingAccents[(voice + 2 * accent) % std::size(kTrainingAccents)]) +
+                  "+" + std::string(variant));
     ++voice;
   }
   std::string dictionary;

@@ -1,6 +1,7 @@
 #include "hal/desktop/command_evidence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "hal/desktop/command_weights.h"
@@ -13,8 +14,10 @@ namespace {
 // A wake word or a command shorter than this, in frames, is hurried, or is none.
 constexpr double kHurried = 35.0;
 constexpr double kDrawn = 60.0;
-// Less evidence around the words than this, and they were not all that was said.
-constexpr double kLeastAround = -90.0;
+// Less evidence around the words than this, and they were not all that was said. Where it is noisy,
+// the noise lies around them too.
+constexpr double kLeastAroundInQuiet = -90.0;
+constexpr double kLeastAroundInNoise = -300.0;
 
 }  // namespace
 
@@ -30,7 +33,9 @@ std::optional<CommandEvidence> evidence_of(const Recognition& heard, const std::
     found.evidence += word.frames * word.evidence;
     found.frames += word.frames;
   }
-  if (found.frames == 0 || heard.evidence_around < kLeastAround) return std::nullopt;
+  const double least_around =
+      std::lerp(kLeastAroundInQuiet, kLeastAroundInNoise, noisiness(above_background_db));
+  if (found.frames == 0 || heard.evidence_around < least_around) return std::nullopt;
   found.evidence /= found.frames;
   found.evidence_around = heard.evidence_around;
   found.above_background_db = above_background_db;

@@ -45,7 +45,6 @@ inline constexpr Pronunciation kSpoken[] = {
     {"next(6)", "N IH K S T"},
     {"done", "D AH N"},
     {"done(2)", "D UH N"},
-    {"done(3)", "D AA N"},
     {"move", "M UW V"},
     {"rod", "R AA D"},
     {"rod(2)", "R AO D"},

@@ -34,13 +34,15 @@ TEST(CommandEvidence, IsNoneWhereMoreWasSaid) {
   const std::vector<RecognizedWord> words = {{"ortho", 40, 0.5}, {"save", 40, 1.0}};
   EXPECT_TRUE(evidence_of({words, -60.0}, "ortho", 40.0).has_value());
   EXPECT_FALSE(evidence_of({words, -100.0}, "ortho", 40.0).has_value());
+  EXPECT_TRUE(evidence_of({words, -100.0}, "ortho", 15.0).has_value()) << "it may be the noise";
+  EXPECT_FALSE(evidence_of({words, -310.0}, "ortho", 15.0).has_value());
 }
 
 TEST(CommandEvidence, CountsWhereItIsGoodAndNotWhereItIsBad) {
   for (const char* command : kWeighedCommands) {
     EXPECT_GT(log_odds(likely(command)), 0.0) << command;
     CommandEvidence poor = likely(command);
-    poor.evidence = -2.5;
+    poor.evidence = -3.0;
     EXPECT_LT(log_odds(poor), 0.0) << command << ": another word";
     poor = likely(command);
     poor.wake->evidence = -2.5;
