@@ -12,8 +12,7 @@ namespace orthonav::bench {
 
 struct PhraseInRoom {
   std::vector<std::int16_t> sound;
-  std::int64_t begin = 0;  ///< of the phrase, in samples
-  std::int64_t end = 0;
+  std::int64_t end = 0;  ///< of the phrase, in samples
 };
 
 /// A phrase with noise under it, after a second and a half of the noise alone.
@@ -21,9 +20,9 @@ inline PhraseInRoom phrase_in_room(std::span<const std::int16_t> said, testing::
                                    double snr_db, Random& random, testing::Babble babble) {
   testing::Soundtrack track;
   track.silence(1.5);
-  const auto [begin, end] = track.speech(said);
+  const std::int64_t end = track.speech(said).second;
   track.silence(0.6);
-  return {track.with_noise(noise, snr_db, random, babble), begin, end};
+  return {track.with_noise(noise, snr_db, random, babble), end};
 }
 
 /// What a segmenter that hears nothing else cuts out, each with its sound.

@@ -34,16 +34,19 @@ struct Options {
   std::optional<double> least_log_odds;
 };
 
-/// Who speaks, and who babbles in the background.
-std::span<const std::string_view> voices_of(const Options& options) {
-  if (options.tuning) return kTuningVoices;
-  if (options.fresh) return kFreshVoices;
-  return kTestVoices;
+/// Who speaks and what, and who babbles in the background.
+struct VoiceSet {
+  const char* name;
+  std::span<const std::string_view> voices;
+  std::span<const std::string_view> talk;
+  Babble babble;
+  std::uint64_t seed;
+};
+VoiceSet set_of(const Options& options) {
+  if (options.tuning) return {"tuning", kTuningVoices, kTuningTalk, Babble::kTuning, 1};
+  if (options.fresh) return {"fresh", kFreshVoices, kTestTalk, Babble::kMeasured, 3};
+  return {"test", kTestVoices, kTestTalk, Babble::kMeasured, 2};
 }
-Babble babble_of(const Options& options) {
-  return options.tuning ? Babble::kTuning : Babble::kMeasured;
-}
-std::uint64_t seed_of(const Options& options) { return options.tuning ? 1 : options.fresh ? 3 : 2; }
 
 struct Tally {
   int said = 0;
@@ -97,7 +100,7 @@ void say_one(CommandSpotter& spotter, const std::string& command, const Options&
              const Speaker& speaker, Noise noise, double snr_db, Random& random, Figures& figures) {
   const auto said = spoken(options.single ? command : "ortho " + command, speaker);
   if (!said) return;
-  const auto phrase = phrase_in_room(*said, noise, snr_db, random, babble_of(options));
+  const auto phrase = phrase_in_room(*said, noise, snr_db, random, set_of(options).babble);
   bool heard = false;
   bool mistaken = false;
   listen(spotter, phrase.sound, [&](const SpokenCommand& found, double ms) {
@@ -137,15 +140,15 @@ double quantile(std::vector<double> values, double share) {
 }
 
 void measure_recall(const Options& options) {
-  const auto voices = voices_of(options);
+  const VoiceSet set = set_of(options);
   // Recall tells what the recogniser hears; whether a single word counts in noise is a rule.
   const Waking waking = options.single ? Waking::kNever : Waking::kAlways;
-  Random random(10 + seed_of(options));
+  Random random(10 + set.seed);
   Figures figures;
   std::size_t turn = 0;
   const std::vector<int> speeds =
       options.quick ? std::vector<int>{150} : std::vector<int>{120, 160, 200};
-  for (const std::string_view voice : voices) {
+  for (const std::string_view voice : set.voices) {
     // One surgeon each, in a room whose noise changes.
     const auto spotter = new_spotter(options, waking);
     for (const double snr_db : {kClean, 20.0, 15.0, 10.0})
@@ -158,7 +161,7 @@ void measure_recall(const Options& options) {
     turn += 1;  // every command meets every noise
   }
   std::printf("\n%s, %zu voices\n", options.single ? "single words" : "with the wake word",
-              voices.size());
+              set.voices.size());
   print("command", figures.by_command);
   print("condition", figures.by_condition);
   print("all", {{"", figures.all}});
@@ -167,25 +170,21 @@ void measure_recall(const Options& options) {
 }
 
 void measure_false_accepts(const Options& options, Waking waking, double snr_db) {
-  const auto voices = voices_of(options);
-  const std::span<const std::string_view> talk =
-      options.tuning ? std::span<const std::string_view>(kTuningTalk)
-                     : std::span<const std::string_view>(kTestTalk);
+  const VoiceSet set = set_of(options);
   const auto spotter = new_spotter(options, waking);
-  Random random(20 + seed_of(options));
+  Random random(20 + set.seed);
   std::map<std::string, int> accepted;
   double heard_s = 0.0;
   int total = 0;
   for (std::size_t i = 0; heard_s < 60.0 * options.minutes; ++i) {
-    const std::string text(talk[i % talk.size()]);
+    const std::string text(set.talk[i % set.talk.size()]);
     const int speed = 130 + static_cast<int>(20 * (i % 4));
-    const auto said = spoken(text, {std::string(voices[(i / 3) % voices.size()]), speed});
+    const auto said = spoken(text, {std::string(set.voices[(i / 3) % set.voices.size()]), speed});
     if (!said) continue;
     Soundtrack track;
     track.speech(*said);
     track.silence(random.uniform(0.3, 1.2));
-    const auto sound =
-        track.with_noise(static_cast<Noise>(i / 10 % 3), snr_db, random, babble_of(options));
+    const auto sound = track.with_noise(static_cast<Noise>(i / 10 % 3), snr_db, random, set.babble);
     heard_s += static_cast<double>(sound.size()) / kSpeechRateHz;
     listen(*spotter, sound, [&](const SpokenCommand& found, double) {
       if (options.show)
@@ -204,7 +203,7 @@ void measure_false_accepts(const Options& options, Waking waking, double snr_db)
 }
 
 int run(const Options& options) {
-  std::printf("voice, %s set\n", options.tuning ? "tuning" : options.fresh ? "fresh" : "test");
+  std::printf("voice, %s set\n", set_of(options).name);
   Options single = options;
   single.single = true;
   measure_recall(single);

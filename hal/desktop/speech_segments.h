@@ -70,8 +70,8 @@ class LevelHistogram {
 };
 
 /// Cuts a stream of sound into stretches of speech: what stands out from the half second before it
-/// and the quarter second after it. How far these may lie above the background, which is the median
-/// of the last seconds, leaves room for the voices of others. Bounded memory.
+/// and the quarter second or more after it. How far these may lie above the background, which is
+/// the median of the last seconds, leaves room for the voices of others. Bounded memory.
 class SpeechSegmenter {
  public:
   explicit SpeechSegmenter(const SegmentOptions& options = {});
