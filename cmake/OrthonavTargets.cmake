@@ -60,6 +60,12 @@ function(orthonav_test name)
     endforeach()
     return()
   endif()
+  # A whole operation of 45 s takes half an hour under a sanitizer.
+  if(ORTHONAV_SANITIZE)
+    set(timeout 3600)
+  else()
+    set(timeout 600)
+  endif()
   gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
-                       PROPERTIES TIMEOUT 600)
+                       PROPERTIES TIMEOUT ${timeout})
 endfunction()
