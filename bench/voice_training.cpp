@@ -1,21 +1,25 @@
 // What adapts the acoustic model to commands in noise (tools/train_voice): says the commands in
 // voices that are measured nowhere, in noises of all sorts, and writes what the recogniser hears of
-// them as sphinxtrain reads it; afterwards makes data/voice_means.bin of what sphinxtrain found.
+// them as sphinxtrain reads it; afterwards makes data/voice_means.bin and
+// data/voice_mixtures.bin of what sphinxtrain found.
 #include <pocketsphinx.h>
 #include <sphinxbase/err.h>
 
-#include <array>
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <numeric>
 
 #include "bench/phrase_in_room.h"
 #include "bench/voice_sets.h"
 #include "engine/spoken_commands.h"
 #include "hal/desktop/adapted_means.h"
+#include "hal/desktop/adapted_mixtures.h"
+#include "hal/desktop/model_bytes.h"
 #include "hal/desktop/phrase_recognizer.h"
 #include "hal/desktop/pronunciations.h"
 #include "hal/desktop/speech_cleaner.h"
@@ -29,10 +33,13 @@ using namespace orthonav::testing;
 
 struct Options {
   std::string folder;
-  std::string means;    ///< to align with; the model's own where empty
-  std::string mixture;  ///< where the model's mixture weights go
-  std::string change;   ///< where the change goes that leads to `means`
-  double share = 0.6;   ///< of the way
+  std::string means;            ///< to align with; the model's own where empty
+  std::string mixture;          ///< where the model's mixture weights go
+  std::string change;           ///< where the change goes that leads to `means`
+  double share = 0.6;           ///< of the way
+  std::string adapted_mixture;  ///< an adapted model's mixture weights
+  std::string mixture_change;   ///< where the change goes that leads to them
+  double mixture_share = 0.6;
 };
 
 [[noreturn]] void give_up(const std::string& why) {
@@ -43,11 +50,6 @@ struct Options {
 void write_file(const std::string& path, const std::string& content) {
   std::ofstream file(path, std::ios::binary);
   if (!(file << content)) give_up("can't write " + path);
-}
-
-template <class T>
-void put(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
 }
 
 /// Which way a phrase was said, by the model itself.
@@ -169,31 +171,71 @@ void write_corpus(const Options& options) {
   std::printf("%d phrases\n", count);
 }
 
-/// The model comes with its weights in 8 bits (sendump: streams, densities, senones); sphinxtrain
-/// reads them as numbers, senones first.
+MixtureWeights own_mixture_weights() {
+  auto own = read_mixture_weights(default_acoustic_model() / "sendump");
+  if (!own) give_up(own.error().message);
+  return std::move(*own);
+}
+
+/// One stream of a senone.
+std::vector<double> shares_of(const MixtureWeights& weights, int stream, int senone) {
+  std::vector<double> shares;
+  for (int density = 0; density < weights.densities; ++density)
+    shares.push_back(
+        share_of(static_cast<std::uint8_t>(weights.values[weights.at(stream, density, senone)])));
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+/// As sphinxtrain has them: shares instead of 8 bits of their logarithms, senones first.
 void write_mixture_weights(const std::string& path) {
-  constexpr std::size_t kStreams = 3, kDensities = 128, kSenones = 5126;
-  std::ifstream file(default_acoustic_model() / "sendump", std::ios::binary);
-  const std::string dump{std::istreambuf_iterator<char>(file), {}};
-  constexpr std::size_t kCount = kStreams * kDensities * kSenones;
-  if (dump.size() < kCount) give_up("the model's sendump is another one");
-  const std::string_view weights = std::string_view(dump).substr(dump.size() - kCount);
+  const MixtureWeights own = own_mixture_weights();
   std::string out = "s3\nversion 1.0\nendhdr\n";
-  for (const std::size_t number : {std::size_t{0x11223344}, kSenones, kStreams, kDensities, kCount})
+  for (const std::size_t number : {std::size_t{0x11223344}, static_cast<std::size_t>(own.senones),
+                                   static_cast<std::size_t>(own.streams),
+                                   static_cast<std::size_t>(own.densities), own.values.size()})
     put(out, static_cast<std::int32_t>(number));
-  for (std::size_t senone = 0; senone < kSenones; ++senone)
-    for (std::size_t stream = 0; stream < kStreams; ++stream) {
-      std::array<double, kDensities> share{};
-      double sum = 0.0;
-      for (std::size_t d = 0; d < kDensities; ++d) {
-        const auto quantised =
-            static_cast<unsigned char>(weights[(stream * kDensities + d) * kSenones + senone]);
-        share[d] = std::pow(1.0001, -1024.0 * quantised);
-        sum += share[d];
-      }
-      for (const double value : share) put(out, static_cast<float>(value / sum));
-    }
+  for (int senone = 0; senone < own.senones; ++senone)
+    for (int stream = 0; stream < own.streams; ++stream)
+      for (const double share : shares_of(own, stream, senone)) put(out, static_cast<float>(share));
   write_file(path, out);
+}
+
+/// sphinxtrain moves the shares of a senone that nothing was said in by half of this.
+constexpr double kUntouched = 1e-3;
+
+/// Of what sphinxtrain found: the shares, or counts of them, in the same order.
+void write_mixture_change(const Options& options) {
+  const MixtureWeights own = own_mixture_weights();
+  std::ifstream file(options.adapted_mixture, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  std::string_view rest = content;
+  const std::size_t bytes = own.values.size() * sizeof(float);
+  const std::string_view end_of_header = "endhdr\n";
+  const std::size_t header = content.find(end_of_header);
+  if (header == std::string::npos || rest.size() < header + end_of_header.size() + 20 + bytes)
+    give_up(options.adapted_mixture + " is another model's");
+  rest.remove_prefix(header + end_of_header.size() + 20);
+  MixtureWeights adapted = own;
+  for (int senone = 0; senone < own.senones; ++senone)
+    for (int stream = 0; stream < own.streams; ++stream) {
+      const std::vector<double> before = shares_of(own, stream, senone);
+      std::vector<double> after;
+      for (int i = 0; i < own.densities; ++i) after.push_back(take<float>(rest));
+      const double sum = std::accumulate(after.begin(), after.end(), 0.0);
+      double most = 0.0;
+      for (std::size_t i = 0; i < after.size(); ++i) {
+        after[i] = sum > 0.0 ? after[i] / sum : before[i];
+        most = std::max(most, std::abs(after[i] - before[i]));
+        after[i] = std::lerp(before[i], after[i], options.mixture_share);
+      }
+      if (most < kUntouched) continue;
+      for (int i = 0; i < own.densities; ++i)
+        adapted.values[own.at(stream, i, senone)] =
+            static_cast<char>(quantised_weight(after[static_cast<std::size_t>(i)]));
+    }
+  write_file(options.mixture_change, mixture_weights_change(own, adapted));
 }
 
 void write_change(const Options& options) {
@@ -218,10 +260,15 @@ int main(int argc, char** argv) {
   app.add_option("--mixture-weights", options.mixture, "a file for the model's own");
   app.add_option("--change", options.change, "a file for what leads from the model to --means");
   app.add_option("--share", options.share, "of the way")->capture_default_str();
+  app.add_option("--adapted-mixture-weights", options.adapted_mixture, "an adapted model's");
+  app.add_option("--mixture-change", options.mixture_change,
+                 "a file for what leads from the model to --adapted-mixture-weights");
+  app.add_option("--mixture-share", options.mixture_share, "of the way")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   using namespace orthonav::bench;
   if (!options.mixture.empty()) write_mixture_weights(options.mixture);
   if (!options.folder.empty()) write_corpus(options);
   if (!options.change.empty()) write_change(options);
+  if (!options.mixture_change.empty()) write_mixture_change(options);
   return 0;
 }

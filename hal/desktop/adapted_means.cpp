@@ -1,14 +1,12 @@
 #include "hal/desktop/adapted_means.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <utility>
+
+#include "hal/desktop/model_bytes.h"
 
 namespace orthonav::desktop {
 
@@ -18,28 +16,9 @@ constexpr std::uint32_t kByteOrder = 0x11223344;
 constexpr std::string_view kHeaderEnd = "endhdr\n";
 constexpr std::string_view kChangeName = "orthonav means change 1\n";
 
-template <class T>
-void put(std::string& bytes, T value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
-}
-
-/// Takes a value off the front; zero where there is none left.
-template <class T>
-T take(std::string_view& bytes) {
-  T value{};
-  if (bytes.size() < sizeof(value)) return T{};
-  std::memcpy(&value, bytes.data(), sizeof(value));
-  bytes.remove_prefix(sizeof(value));
-  return value;
-}
-
-/// FNV-1a, to tell one model from another.
-std::uint64_t hash_of(const AcousticMeans& means) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  const auto* bytes = reinterpret_cast<const unsigned char*>(means.values.data());
-  for (std::size_t i = 0; i < means.values.size() * sizeof(float); ++i)
-    hash = (hash ^ bytes[i]) * 0x100000001b3U;
-  return hash;
+std::uint64_t hash_of_means(const AcousticMeans& means) {
+  return hash_of(std::string_view(reinterpret_cast<const char*>(means.values.data()),
+                                  means.values.size() * sizeof(float)));
 }
 
 /// Calls `each(value's index, component)`, components counted over all streams.
@@ -122,7 +101,7 @@ std::string means_file(const AcousticMeans& means) {
 
 std::string means_change(const AcousticMeans& from, const AcousticMeans& to) {
   std::string change(kChangeName);
-  put(change, hash_of(from));
+  put(change, hash_of_means(from));
   const std::vector<float> steps = steps_of(from);
   for_each_value(from, [&](std::size_t at, std::size_t component) {
     const float moved = (to.values[at] - from.values[at]) / steps[component];
@@ -134,7 +113,7 @@ std::string means_change(const AcousticMeans& from, const AcousticMeans& to) {
 Status apply_change(std::string_view change, AcousticMeans& means) {
   if (!change.starts_with(kChangeName)) return Error{"voice: no change of acoustic means"};
   change.remove_prefix(kChangeName.size());
-  if (take<std::uint64_t>(change) != hash_of(means) || change.size() != means.values.size())
+  if (take<std::uint64_t>(change) != hash_of_means(means) || change.size() != means.values.size())
     return Error{"voice: the acoustic model is not the one that the adaptation was made for"};
   const std::vector<float> steps = steps_of(means);
   for_each_value(means, [&](std::size_t at, std::size_t component) {
@@ -142,26 +121,5 @@ Status apply_change(std::string_view change, AcousticMeans& means) {
   });
   return {};
 }
-
-Result<MemoryFile> MemoryFile::create(std::string_view content) {
-  const int descriptor = ::memfd_create("orthonav", MFD_CLOEXEC);
-  if (descriptor < 0) return Error{"voice: no file in memory: " + std::string(strerror(errno))};
-  MemoryFile file(descriptor);
-  while (!content.empty()) {
-    const ::ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written <= 0) return Error{"voice: no file in memory: " + std::string(strerror(errno))};
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return file;
-}
-
-MemoryFile::MemoryFile(MemoryFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-MemoryFile::~MemoryFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-std::string MemoryFile::path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
 
 }  // namespace orthonav::desktop

@@ -32,18 +32,4 @@ inline constexpr float kStepOfSpread = 1.0F / 32.0F;
 /// Refuses a change that was made for other means.
 Status apply_change(std::string_view change, AcousticMeans& means);
 
-/// A file that lives in memory, for libraries that read from a path only.
-class MemoryFile {
- public:
-  static Result<MemoryFile> create(std::string_view content);
-  MemoryFile(MemoryFile&& other) noexcept;
-  MemoryFile& operator=(MemoryFile&&) = delete;
-  ~MemoryFile();
-  [[nodiscard]] std::string path() const;
-
- private:
-  int descriptor_ = -1;
-  explicit MemoryFile(int descriptor) : descriptor_(descriptor) {}
-};
-
 }  // namespace orthonav::desktop

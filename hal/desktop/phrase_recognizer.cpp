@@ -11,7 +11,10 @@
 #include <utility>
 
 #include "embedded/voice_means.h"
+#include "embedded/voice_mixtures.h"
 #include "hal/desktop/adapted_means.h"
+#include "hal/desktop/adapted_mixtures.h"
+#include "hal/desktop/memory_file.h"
 #include "hal/desktop/pronunciations.h"
 
 namespace orthonav::desktop {
@@ -71,15 +74,22 @@ Result<std::unique_ptr<PhraseRecognizer>> PhraseRecognizer::create(
   auto means = read_means(model / "means");
   if (!means) return means.error();
   if (Status moved = apply_change(embedded::voice_means(), *means); !moved) return moved.error();
+  auto mixtures = read_mixture_weights(model / "sendump");
+  if (!mixtures) return mixtures.error();
+  if (Status moved = apply_change(embedded::voice_mixtures(), *mixtures); !moved)
+    return moved.error();
   const auto means_in_memory = MemoryFile::create(means_file(*means));
   if (!means_in_memory) return means_in_memory.error();
+  const auto mixtures_in_memory = MemoryFile::create(mixture_weights_file(*mixtures));
+  if (!mixtures_in_memory) return mixtures_in_memory.error();
   // Noises that the model knows would explain what follows a word in a sentence; silence does not.
   const auto silences = MemoryFile::create("<s> SIL\n</s> SIL\n<sil> SIL\n");
   if (!silences) return silences.error();
-  const std::unique_ptr<cmd_ln_t, FreeConfig> config(cmd_ln_init(
-      nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-mean", means_in_memory->path().c_str(),
-      "-fdict", silences->path().c_str(), "-cmn", "none", "-remove_silence", "no", "-remove_noise",
-      "no", "-bestpath", "no", "-logfn", "/dev/null", nullptr));
+  const std::unique_ptr<cmd_ln_t, FreeConfig> config(
+      cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-mean",
+                  means_in_memory->path().c_str(), "-sendump", mixtures_in_memory->path().c_str(),
+                  "-fdict", silences->path().c_str(), "-cmn", "none", "-remove_silence", "no",
+                  "-remove_noise", "no", "-bestpath", "no", "-logfn", "/dev/null", nullptr));
   if (!config) return Error{"voice: PocketSphinx refuses its options"};
   std::unique_ptr<PhraseRecognizer> recognizer(new PhraseRecognizer);
   recognizer->decoder_.reset(ps_init(config.get()));

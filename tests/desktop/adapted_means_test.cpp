@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "hal/api/random.h"
 #include "tests/support/temporary_folder.h"
@@ -62,13 +61,6 @@ TEST(AdaptedMeans, RefuseAChangeThatWasMadeForOthers) {
   ASSERT_FALSE(applied.ok());
   EXPECT_THAT(applied.error().message, HasSubstr("not the one"));
   EXPECT_FALSE(apply_change("", others).ok());
-}
-
-TEST(MemoryFile, HoldsItsContentAtAPath) {
-  const auto file = MemoryFile::create("some bytes");
-  ASSERT_TRUE(file.ok());
-  std::ifstream in(file->path());
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "some bytes");
 }
 
 }  // namespace

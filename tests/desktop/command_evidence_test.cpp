@@ -42,7 +42,7 @@ TEST(CommandEvidence, CountsWhereItIsGoodAndNotWhereItIsBad) {
   for (const char* command : kWeighedCommands) {
     EXPECT_GT(log_odds(likely(command)), 0.0) << command;
     CommandEvidence poor = likely(command);
-    poor.evidence = -3.0;
+    poor.evidence = -2.5;
     EXPECT_LT(log_odds(poor), 0.0) << command << ": another word";
     poor = likely(command);
     poor.wake->evidence = -2.5;
