@@ -51,20 +51,20 @@ function(orthonav_test name)
   orthonav_warnings(test_${name})
   # What is tested is optimized; the tests themselves are compiled in two thirds of the time so.
   target_compile_options(test_${name} PRIVATE "$<$<CONFIG:Release>:-O1>")
+  # A whole operation of 45 s takes most of an hour under a sanitizer.
+  set(timeout 600)
+  if(ORTHONAV_SANITIZE)
+    set(timeout 3600)
+  endif()
   if(test_SHARDS)
+    math(EXPR shard_timeout "2 * ${timeout}")
     foreach(shard RANGE 1 ${test_SHARDS})
       math(EXPR index "${shard} - 1")
       add_test(NAME ${name}.shard_${shard} COMMAND test_${name} --gtest_brief=1)
-      set_tests_properties(${name}.shard_${shard} PROPERTIES TIMEOUT 1200 COST 300 ENVIRONMENT
+      set_tests_properties(${name}.shard_${shard} PROPERTIES TIMEOUT ${shard_timeout} COST 300 ENVIRONMENT
         "GTEST_TOTAL_SHARDS=${test_SHARDS};GTEST_SHARD_INDEX=${index}")
     endforeach()
     return()
-  endif()
-  # A whole operation of 45 s takes half an hour under a sanitizer.
-  if(ORTHONAV_SANITIZE)
-    set(timeout 3600)
-  else()
-    set(timeout 600)
   endif()
   gtest_discover_tests(test_${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
                        PROPERTIES TIMEOUT ${timeout})
