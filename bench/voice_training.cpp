@@ -6,11 +6,11 @@
 #include <sphinxbase/err.h>
 
 #include <algorithm>
+#include <array>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <numeric>
 
@@ -188,14 +188,17 @@ std::vector<double> shares_of(const MixtureWeights& weights, int stream, int sen
   return shares;
 }
 
+/// The numbers before the shares in a file of sphinxtrain's.
+std::array<std::int32_t, 4> sphinx_shape_of(const MixtureWeights& weights) {
+  return {weights.senones, weights.streams, weights.densities,
+          static_cast<std::int32_t>(weights.values.size())};
+}
+
 /// As sphinxtrain has them: shares instead of 8 bits of their logarithms, senones first.
 void write_mixture_weights(const std::string& path) {
   const MixtureWeights own = own_mixture_weights();
-  std::string out = "s3\nversion 1.0\nendhdr\n";
-  for (const std::size_t number : {std::size_t{0x11223344}, static_cast<std::size_t>(own.senones),
-                                   static_cast<std::size_t>(own.streams),
-                                   static_cast<std::size_t>(own.densities), own.values.size()})
-    put(out, static_cast<std::int32_t>(number));
+  std::string out = sphinx_file_start();
+  for (const int number : sphinx_shape_of(own)) put(out, number);
   for (int senone = 0; senone < own.senones; ++senone)
     for (int stream = 0; stream < own.streams; ++stream)
       for (const double share : shares_of(own, stream, senone)) put(out, static_cast<float>(share));
@@ -208,15 +211,12 @@ constexpr double kUntouched = 1e-3;
 /// Of what sphinxtrain found: the shares, or counts of them, in the same order.
 void write_mixture_change(const Options& options) {
   const MixtureWeights own = own_mixture_weights();
-  std::ifstream file(options.adapted_mixture, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  std::string_view rest = content;
-  const std::size_t bytes = own.values.size() * sizeof(float);
-  const std::string_view end_of_header = "endhdr\n";
-  const std::size_t header = content.find(end_of_header);
-  if (header == std::string::npos || rest.size() < header + end_of_header.size() + 20 + bytes)
+  const std::string content = model_file(options.adapted_mixture);
+  std::string_view rest = after_sphinx_file_start(content).value_or("");
+  bool fits = true;
+  for (const int number : sphinx_shape_of(own)) fits = fits && take<std::int32_t>(rest) == number;
+  if (!fits || rest.size() < own.values.size() * sizeof(float))
     give_up(options.adapted_mixture + " is another model's");
-  rest.remove_prefix(header + end_of_header.size() + 20);
   MixtureWeights adapted = own;
   for (int senone = 0; senone < own.senones; ++senone)
     for (int stream = 0; stream < own.streams; ++stream) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "hal/desktop/model_bytes.h"
 
@@ -12,8 +10,6 @@ namespace orthonav::desktop {
 
 namespace {
 
-constexpr std::uint32_t kByteOrder = 0x11223344;
-constexpr std::string_view kHeaderEnd = "endhdr\n";
 constexpr std::string_view kChangeName = "orthonav means change 1\n";
 
 std::uint64_t hash_of_means(const AcousticMeans& means) {
@@ -58,13 +54,11 @@ std::vector<float> steps_of(const AcousticMeans& means) {
 }  // namespace
 
 Result<AcousticMeans> read_means(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const std::string content = model_file(path);
   const Error refused{"voice: " + path.string() + " holds no means of an acoustic model"};
-  const std::size_t header = content.find(kHeaderEnd);
-  if (header == std::string::npos || header > 4096) return refused;
-  std::string_view rest = std::string_view(content).substr(header + kHeaderEnd.size());
-  if (take<std::uint32_t>(rest) != kByteOrder) return refused;
+  const auto numbers = after_sphinx_file_start(content);
+  if (!numbers) return refused;
+  std::string_view rest = *numbers;
   AcousticMeans means;
   means.codebooks = take<std::int32_t>(rest);
   const auto streams = take<std::int32_t>(rest);
@@ -88,8 +82,7 @@ Result<AcousticMeans> read_means(const std::filesystem::path& path) {
 }
 
 std::string means_file(const AcousticMeans& means) {
-  std::string file = "s3\nversion 1.0\n" + std::string(kHeaderEnd);
-  put(file, kByteOrder);
+  std::string file = sphinx_file_start();
   put(file, static_cast<std::int32_t>(means.codebooks));
   put(file, static_cast<std::int32_t>(means.stream_widths.size()));
   put(file, static_cast<std::int32_t>(means.densities));
@@ -114,7 +107,7 @@ Status apply_change(std::string_view change, AcousticMeans& means) {
   if (!change.starts_with(kChangeName)) return Error{"voice: no change of acoustic means"};
   change.remove_prefix(kChangeName.size());
   if (take<std::uint64_t>(change) != hash_of_means(means) || change.size() != means.values.size())
-    return Error{"voice: the acoustic model is not the one that the adaptation was made for"};
+    return made_for_another_model();
   const std::vector<float> steps = steps_of(means);
   for_each_value(means, [&](std::size_t at, std::size_t component) {
     means.values[at] += steps[component] * static_cast<float>(static_cast<std::int8_t>(change[at]));

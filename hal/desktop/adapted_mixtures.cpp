@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "hal/desktop/model_bytes.h"
 
@@ -37,8 +35,7 @@ std::uint8_t quantised_weight(double share) {
 double share_of(std::uint8_t quantised) { return std::exp(-kUnit * quantised); }
 
 Result<MixtureWeights> read_mixture_weights(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const std::string content = model_file(path);
   const Error refused{"voice: " + path.string() + " holds no mixture weights of an acoustic model"};
   // Texts, each with its length and a zero at its end; a length of zero ends them.
   std::string_view rest = content;
@@ -88,7 +85,7 @@ std::string mixture_weights_change(const MixtureWeights& from, const MixtureWeig
 Status apply_change(std::string_view change, MixtureWeights& weights) {
   if (!change.starts_with(kChangeName)) return Error{"voice: no change of mixture weights"};
   change.remove_prefix(kChangeName.size());
-  const Error refused{"voice: the acoustic model is not the one that the adaptation was made for"};
+  const Error refused = made_for_another_model();
   const std::size_t row = sizeof(std::int32_t) + weights_of_senone(weights);
   if (take<std::uint64_t>(change) != hash_of(weights.values) || change.size() % row != 0)
     return refused;

@@ -2,8 +2,12 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "hal/api/result.h"
 
 namespace orthonav::desktop {
 
@@ -23,11 +27,16 @@ T take(std::string_view& bytes) {
   return value;
 }
 
+/// Empty where there is no such file.
+[[nodiscard]] std::string model_file(const std::filesystem::path& path);
+
+/// What a file of sphinxtrain's begins with: a header in lines, and a number for the byte order.
+[[nodiscard]] std::string sphinx_file_start();
+/// What follows that; nothing where a file begins with something else.
+[[nodiscard]] std::optional<std::string_view> after_sphinx_file_start(std::string_view file);
+
 /// FNV-1a, to tell one model from another.
-inline std::uint64_t hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  return hash;
-}
+[[nodiscard]] std::uint64_t hash_of(std::string_view bytes);
+[[nodiscard]] Error made_for_another_model();
 
 }  // namespace orthonav::desktop
