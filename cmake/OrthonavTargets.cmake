@@ -31,6 +31,14 @@ function(orthonav_warnings target)
   endif()
 endfunction()
 
+# orthonav_uses_regex(FILES...): under AddressSanitizer GCC 12 sees <regex> use what it has not set, and
+# is wrong (GCC bug 105562).
+function(orthonav_uses_regex)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND ORTHONAV_SANITIZE MATCHES "address")
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)
+  endif()
+endfunction()
+
 # orthonav_test(NAME [SHARDS N] libs...) makes one test binary of every .cpp in the calling folder.
 # Each test is a process of its own; with SHARDS N all run in N processes, for tests that share what is
 # slow to make.
@@ -51,7 +59,7 @@ function(orthonav_test name)
   orthonav_warnings(test_${name})
   # What is tested is optimized; the tests themselves are compiled in two thirds of the time so.
   target_compile_options(test_${name} PRIVATE "$<$<CONFIG:Release>:-O1>")
-  # A whole operation of 45 s takes most of an hour under a sanitizer.
+  # A whole operation of 45 s takes ten minutes under ThreadSanitizer, several at a time longer.
   set(timeout 600)
   if(ORTHONAV_SANITIZE)
     set(timeout 3600)
