@@ -74,7 +74,7 @@ class Watch : public engine::LoopObserver {
  public:
   explicit Watch(RuntimeDouble& runtime) : runtime_(runtime) {}
   void stepped(const StereoFrame&, const engine::Inputs&, const engine::Guidance& now) override {
-    if (now.step != step_ || pairs_in_step_ == 0) {
+    if (now.step != step_) {
       step_ = now.step;
       pairs_in_step_ = 0;
       frames_before_ = runtime_.ended_frames();
@@ -83,8 +83,9 @@ class Watch : public engine::LoopObserver {
     // So many, so that the step's holograms have come up and were drawn.
     if (pairs_in_step_ < 10 || runtime_.ended_frames() < frames_before_ + 4) return;
     if (frames_.contains(step_)) return;
-    const auto frames = runtime_.frames();
-    if (!frames.empty() && frames.back().layers > 0) frames_[step_] = frames.back();
+    const SubmittedFrame last = runtime_.frames().back();
+    // Until the first picture, and only until then, frames are without one.
+    if (last.layers > 0 || !frames_.empty()) frames_[step_] = last;
   }
   [[nodiscard]] const std::map<engine::Step, SubmittedFrame>& frames() const { return frames_; }
 
