@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 #include "hal/sim/hololens2.h"
 #include "nav/tracking/tool_tracker.h"
 

@@ -28,7 +28,7 @@ double resident_mib() {
 }
 
 int measure(double limit_s, hl2ss::VideoProfile profile) {
-  const sim::RoomDescription room = orthonav::testing::bare_room();
+  const sim::RoomDescription room = orthonav::test::bare_room();
   sim::SimOptions sim;
   sim.surgeon = false;
   sim.render = false;

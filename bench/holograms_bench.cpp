@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/golden_scenes.h"
+#include "engine/golden/golden_scenes.h"
 #include "render/shapes.h"
 
 namespace orthonav {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bench/quantile.h"
-#include "engine/phantom.h"
-#include "engine/simulated_operation.h"
-#include "engine/tool_file.h"
+#include "engine/case/tool_file.h"
+#include "engine/phantom/phantom.h"
+#include "engine/study/simulated_operation.h"
 
 namespace orthonav {
 namespace {

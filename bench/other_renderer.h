@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "base/transform.h"
 #include "bench/other_camera.h"
 #include "bench/other_texture.h"
-#include "hal/api/transform.h"
 
 // A renderer that shares nothing with hal/sim, to see whether a method is tuned to that: light is
 // gathered ray by ray, 8×8 rays a pixel where tags are, and blurred by a kernel that is summed up

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/image.h"
+#include "base/random.h"
 #include "bench/other_renderer.h"
-#include "hal/api/image.h"
-#include "hal/api/random.h"
 
 namespace orthonav::bench {
 

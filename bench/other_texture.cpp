@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 
 namespace orthonav::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 
 namespace orthonav::bench {
 namespace {

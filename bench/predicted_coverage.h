@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/api/vec.h"
+#include "base/vec.h"
 
 namespace orthonav::bench {
 

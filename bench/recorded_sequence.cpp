@@ -1,6 +1,6 @@
 #include "bench/recorded_sequence.h"
 
-#include "tests/nav/sample_recording.h"
+#include "tests/support/sample_recording.h"
 
 namespace orthonav::bench {
 

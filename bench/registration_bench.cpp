@@ -12,7 +12,7 @@
 #include "bench/registration_methods.h"
 #include "bench/registration_runs.h"
 #include "bench/registration_tables.h"
-#include "engine/case_file.h"
+#include "engine/case/case_file.h"
 
 namespace orthonav::bench {
 namespace {

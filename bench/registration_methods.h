@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 #include "nav/guidance/screw.h"
 #include "nav/registration/registration.h"
 

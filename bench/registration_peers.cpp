@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 #include "nav/geometry/absolute_orientation.h"
 #include "nav/geometry/triangle.h"
 #include "nav/registration/principal_axes.h"

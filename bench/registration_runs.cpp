@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "base/random.h"
 #include "bench/predicted_coverage.h"
-#include "hal/api/random.h"
 
 namespace orthonav::bench {
 namespace {

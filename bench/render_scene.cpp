@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/golden_scenes.h"
+#include "engine/golden/golden_scenes.h"
 #include "render/decimated.h"
 #include "render/float3.h"
 #include "render/projection.h"

@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "tests/sim_camera/scene.h"
+#include "tests/support/camera_scene.h"
 
 // What a frame of the simulated room costs, on one core.
 namespace orthonav::sim {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 #include "hal/sim/hololens2.h"
 #include "hal/sim/room_renderer.h"
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "nav/tracking/tool_tracker.h"
-#include "tests/nav/tag_scene.h"
+#include "tests/support/tag_scene.h"
 
 // What tracking two tools through a stereo pair costs: whole images or boxes, one thread or two.
 namespace orthonav::nav {

@@ -9,18 +9,18 @@
 #include <memory>
 #include <optional>
 
-#include "bench/phrase_in_room.h"
-#include "bench/voice_sets.h"
-#include "bench/voice_texts.h"
-#include "engine/spoken_commands.h"
-#include "hal/desktop/command_spotter.h"
+#include "engine/session/spoken_commands.h"
+#include "hal/voice/command_spotter.h"
 #include "tests/support/noisy_speech.h"
+#include "tools/voice/phrase_in_room.h"
+#include "tools/voice/voice_sets.h"
+#include "tools/voice/voice_texts.h"
 
 namespace orthonav::bench {
 namespace {
 
-using namespace orthonav::desktop;
-using namespace orthonav::testing;
+using namespace orthonav::voice;
+using namespace orthonav::test;
 
 constexpr double kClean = 60.0;  ///< dB: a silent room
 

@@ -9,10 +9,10 @@ install(TARGETS ${orthonav_libraries} EXPORT orthonavTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(EXPORT orthonavTargets NAMESPACE orthonav:: DESTINATION "${orthonav_package_folder}")
 install(TARGETS orthonav RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-foreach(folder hal nav render engine)
+foreach(folder base hal nav render engine)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
           DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/orthonav" FILES_MATCHING PATTERN "*.h"
-          PATTERN "font_maker" EXCLUDE)
+          PATTERN "font_maker" EXCLUDE PATTERN "golden" EXCLUDE)
 endforeach()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
         "${PROJECT_SOURCE_DIR}/data/tools.json"

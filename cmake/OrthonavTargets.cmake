@@ -1,14 +1,18 @@
-# orthonav_library(NAME folder) makes the static library orthonav_NAME, alias orthonav::NAME, of
-# every .cpp directly in the calling folder (or in the folders given as SOURCES_IN).
+# orthonav_library(NAME [NOT_INSTALLED] [SOURCES_IN folders... | FILES files...] [EXCEPT files...])
+# makes the static library orthonav_NAME, alias orthonav::NAME, of every .cpp directly in the calling
+# folder, in the folders SOURCES_IN, or of FILES; without the files named after EXCEPT.
 function(orthonav_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES_IN" ${ARGN})
-  if(NOT ARG_SOURCES_IN)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "NOT_INSTALLED" "" "SOURCES_IN;FILES;EXCEPT")
+  if(NOT ARG_SOURCES_IN AND NOT ARG_FILES)
     set(ARG_SOURCES_IN ".")
   endif()
-  set(sources "")
+  set(sources ${ARG_FILES})
   foreach(folder IN LISTS ARG_SOURCES_IN)
     file(GLOB found CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
     list(APPEND sources ${found})
+  endforeach()
+  foreach(file IN LISTS ARG_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "/${file}$")
   endforeach()
   add_library(orthonav_${name} STATIC ${sources})
   add_library(orthonav::${name} ALIAS orthonav_${name})
@@ -18,7 +22,16 @@ function(orthonav_library name)
   target_compile_features(orthonav_${name} PUBLIC cxx_std_20)
   set_target_properties(orthonav_${name} PROPERTIES EXPORT_NAME ${name})
   orthonav_warnings(orthonav_${name})
-  set_property(GLOBAL APPEND PROPERTY ORTHONAV_LIBRARIES orthonav_${name})
+  orthonav_unity(orthonav_${name})
+  if(NOT ARG_NOT_INSTALLED)
+    set_property(GLOBAL APPEND PROPERTY ORTHONAV_LIBRARIES orthonav_${name})
+  endif()
+endfunction()
+
+# Several sources are compiled as one: headers are read once for all of them.
+function(orthonav_unity target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${ORTHONAV_UNITY}
+    UNITY_BUILD_BATCH_SIZE ${ORTHONAV_UNITY_BATCH})
 endfunction()
 
 function(orthonav_warnings target)
@@ -39,17 +52,15 @@ function(orthonav_uses_regex)
   endif()
 endfunction()
 
-# orthonav_test(NAME [SHARDS N] libs...) makes one test binary of every .cpp in the calling folder.
+# orthonav_test(NAME [IN folder] [SHARDS N] libs...) makes one test program of every .cpp in the
+# folder, which is the calling one unless it is named.
 # Each test is a process of its own; with SHARDS N all run in N processes, for tests that share what is
 # slow to make.
 function(orthonav_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "SHARDS" "")
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "IN;SHARDS" "")
   find_package(GTest REQUIRED)
   include(GoogleTest)
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
-  if(NOT sources)
-    return()
-  endif()
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${test_IN}/*.cpp")
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE ${test_UNPARSED_ARGUMENTS} GTest::gmock GTest::gtest_main)
   target_include_directories(test_${name} PRIVATE "${PROJECT_SOURCE_DIR}")
@@ -57,6 +68,7 @@ function(orthonav_test name)
     ORTHONAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     ORTHONAV_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
   orthonav_warnings(test_${name})
+  orthonav_unity(test_${name})
   # What is tested is optimized; the tests themselves are compiled in two thirds of the time so.
   target_compile_options(test_${name} PRIVATE "$<$<CONFIG:Release>:-O1>")
   # A whole operation of 45 s takes ten minutes under ThreadSanitizer, several at a time longer.

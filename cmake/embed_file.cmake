@@ -1,23 +1,13 @@
-# Writes OUT/NAME.cpp and OUT/NAME.h holding the bytes of FILE.
+# Writes OUT/NAME.cpp holding the bytes of FILE.
 file(READ "${FILE}" hex HEX)
 string(REGEX REPLACE "(................................)" "\\1\n" hex "${hex}")
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
-file(WRITE "${OUT}/${NAME}.h" "#pragma once
-
-#include <string_view>
-
-namespace orthonav::embedded {
-std::string_view ${NAME}();
-}
-")
 file(WRITE "${OUT}/${NAME}.cpp" "#include \"embedded/${NAME}.h\"
 
 namespace orthonav::embedded {
-namespace {
-constexpr unsigned char kBytes[] = {
-${bytes}0x00};
-}
 std::string_view ${NAME}() {
+  static constexpr unsigned char kBytes[] = {
+${bytes}0x00};
   return {reinterpret_cast<const char*>(kBytes), sizeof(kBytes) - 1};
 }
 }

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "engine/board_file.h"
-#include "engine/tool_file.h"
-#include "nav/evaluation/accuracy_test.h"
+#include "engine/case/tool_file.h"
+#include "engine/print/board_file.h"
+#include "nav/evaluation/tip_accuracy.h"
 #include "tools/accuracy_output.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
@@ -109,7 +109,7 @@ int run_accuracy(const AccuracyArguments& arguments) {
   return report->verdict() == nav::Verdict::kFail ? kNo : kDone;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kAccuracyFooter =
     "\nRecord a minute: rest the tip in a dimple and hold the pointer still (5 s), turn and tilt "
     "it\n"
     "there by 25 degrees to all sides (15 s), then touch the numbered corners of a board from\n"
@@ -148,7 +148,7 @@ void add_accuracy_command(CLI::App& app, Action& action) {
         ->check(finite_number(0.001, 100));
   }
   arguments->json.add_to(*command);
-  command->footer(kFooter);
+  command->footer(kAccuracyFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_accuracy(*arguments); }; });
 }

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "hal/api/angle.h"
+#include "base/angle.h"
 
 namespace orthonav::tools {
 namespace {

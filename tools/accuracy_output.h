@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "nav/evaluation/accuracy_test.h"
+#include "nav/evaluation/tip_accuracy.h"
 
 namespace orthonav::tools {
 

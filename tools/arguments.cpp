@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "engine/text_fields.h"
+#include "engine/io/text_fields.h"
 
 namespace orthonav::tools {
 namespace {

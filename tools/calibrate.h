@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "nav/evaluation/verdict.h"
+#include "nav/statistics/verdict.h"
 #include "tools/command.h"
 
 namespace orthonav::tools {

@@ -2,9 +2,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/atomic_file.h"
-#include "engine/tool_file.h"
-#include "hal/api/angle.h"
+#include "base/angle.h"
+#include "engine/case/tool_file.h"
+#include "engine/io/atomic_file.h"
 #include "nav/tracking/pivot.h"
 #include "tools/arguments.h"
 #include "tools/calibrate.h"
@@ -24,17 +24,17 @@ struct PivotArguments {
   JsonOutput json;
 };
 
-nlohmann::ordered_json in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
+nlohmann::ordered_json vector_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
 
-nlohmann::ordered_json as_json(const PivotArguments& arguments, const MeasuredPoses& seen,
-                               const Result<nav::PivotCalibration>& found) {
+nlohmann::ordered_json pivot_json(const PivotArguments& arguments, const MeasuredPoses& seen,
+                                  const Result<nav::PivotCalibration>& found) {
   nlohmann::ordered_json out = {{"tool", arguments.tool},
                                 {"method", arguments.method},
                                 {"pairs", seen.pairs},
                                 {"poses", seen.world_from_marker.size()}};
   if (found) {
     out["inliers"] = found->inliers;
-    out["tip_mm"] = in_mm(found->tip_in_marker.v);
+    out["tip_mm"] = vector_mm(found->tip_in_marker.v);
     out["tip_sigma_mm"] = found->tip_sigma_m * 1e3;
     out["leave_out_mm"] = found->leave_out_m * 1e3;
     out["rmse_mm"] = found->rmse_m * 1e3;
@@ -80,14 +80,14 @@ int run_pivot(const PivotArguments& arguments) {
     if (const Status s = engine::write_file(arguments.out, *changed); !s)
       return bad_input(s.error().message);
   }
-  if (const Status s = arguments.json.write(as_json(arguments, *seen, found)); !s)
+  if (const Status s = arguments.json.write(pivot_json(arguments, *seen, found)); !s)
     return bad_input(s.error().message);
   if (!found) return refused(found.error().message);
   if (!arguments.json.on_stdout()) print(arguments, *found);
   return kDone;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kPivotFooter =
     "\nSet the tip into a small hollow, record, and lean the tool all around the tip, 15° and "
     "more\n"
     "to every side, for half a minute. tip_sigma_mm: 3-D SD of the tip, from residual and "
@@ -121,7 +121,7 @@ void add_calibrate_pivot(CLI::App& calibrate, Action& action) {
       ->check(some_text())
       ->type_name("FILE");
   arguments->json.add_to(*command);
-  command->footer(kFooter);
+  command->footer(kPivotFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_pivot(*arguments); }; });
 }

@@ -23,7 +23,7 @@ int run_stereo(const StereoArguments& arguments) {
   return images ? run_stereo_images(arguments) : run_stereo_recording(arguments);
 }
 
-constexpr const char* kFooter =
+constexpr const char* kStereoFooter =
     "\nImages: of a flat chessboard seen by both cameras at once, ten pairs and more, tilted "
     "every\n"
     "way and up to the edges. They are paired by the numbers in their names. A board with an odd\n"
@@ -54,7 +54,7 @@ void add_calibrate_stereo(CLI::App& calibrate, Action& action) {
   command->add_option("--right", arguments->right, "Images of the right camera")
       ->type_name("IMAGE");
   arguments->json.add_to(*command);
-  command->footer(kFooter);
+  command->footer(kStereoFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_stereo(*arguments); }; });
 }

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "engine/grey_image_file.h"
-#include "hal/api/angle.h"
+#include "base/angle.h"
+#include "engine/io/grey_image_file.h"
 #include "nav/calibration/stereo_board.h"
 #include "tools/calibrate.h"
 #include "tools/calibrate_stereo.h"

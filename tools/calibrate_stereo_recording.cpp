@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "engine/board_file.h"
-#include "hal/api/angle.h"
+#include "base/angle.h"
+#include "engine/print/board_file.h"
 #include "nav/calibration/stereo_recording.h"
 #include "tools/calibrate.h"
 #include "tools/calibrate_stereo.h"

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "engine/atomic_file.h"
-#include "engine/tool_file.h"
-#include "hal/api/angle.h"
+#include "base/angle.h"
+#include "engine/case/tool_file.h"
+#include "engine/io/atomic_file.h"
 #include "nav/calibration/tag_body.h"
 #include "tools/arguments.h"
 #include "tools/calibrate.h"
@@ -99,7 +99,7 @@ Result<std::string> tools_with(const ToolArguments& arguments, const nav::TagBod
   return text;
 }
 
-nlohmann::ordered_json as_json(const Result<nav::TagBody>& body, std::size_t pairs) {
+nlohmann::ordered_json body_json(const Result<nav::TagBody>& body, std::size_t pairs) {
   nlohmann::ordered_json out = {{"pairs", pairs}};
   if (!body) {
     add_judgement({nav::Verdict::kFail, body.error().message}, out);
@@ -154,14 +154,14 @@ int run_tool(const ToolArguments& arguments) {
     if (const Status s = engine::write_file(arguments.out, *text); !s)
       return bad_input(s.error().message);
   }
-  if (const Status s = arguments.json.write(as_json(body, seen->pairs.size())); !s)
+  if (const Status s = arguments.json.write(body_json(body, seen->pairs.size())); !s)
     return bad_input(s.error().message);
   if (!body) return refused(body.error().message);
   if (!arguments.json.on_stdout()) print(*body);
   return kDone;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kToolFooter =
     "\nTurn the tool slowly before the cameras so that each tag is seen together with a "
     "neighbour,\n"
     "in fifty pairs and more. The first of --ids becomes the tool's marker; poses of the others\n"
@@ -200,7 +200,7 @@ void add_calibrate_tool(CLI::App& calibrate, Action& action) {
       ->check(CLI::IsMember({"pointer", "guide", "reference"}))
       ->capture_default_str();
   arguments->json.add_to(*command);
-  command->footer(kFooter);
+  command->footer(kToolFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_tool(*arguments); }; });
 }

@@ -1,6 +1,6 @@
 #include "tools/case_source.h"
 
-#include "engine/phantom.h"
+#include "engine/phantom/phantom.h"
 
 namespace orthonav::tools {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/case_file.h"
+#include "engine/case/case_file.h"
 
 namespace orthonav::tools {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "engine/operation_result.h"
+#include "engine/report/operation_result.h"
 
 namespace orthonav::tools {
 namespace {

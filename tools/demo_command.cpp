@@ -4,12 +4,12 @@
 #include <optional>
 #include <regex>
 
-#include "engine/atomic_file.h"
-#include "engine/journal.h"
-#include "engine/operation_plan.h"
-#include "engine/simulated_operation.h"
-#include "engine/tool_file.h"
-#include "engine/video_writer.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/video_writer.h"
+#include "engine/session/journal.h"
+#include "engine/study/simulated_operation.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"

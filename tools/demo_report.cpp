@@ -4,7 +4,7 @@
 #include <iterator>
 #include <map>
 
-#include "engine/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace orthonav::tools {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/operation_result.h"
-#include "engine/report_html.h"
+#include "engine/report/operation_result.h"
+#include "engine/report/report_html.h"
 #include "tools/step_pictures.h"
 
 namespace orthonav::tools {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "engine/point_cloud.h"
+#include "engine/io/point_cloud.h"
 #include "hal/replay/depth_files.h"
 
 namespace orthonav::tools {

@@ -6,10 +6,10 @@
 #include <string>
 #include <system_error>
 
-#include "engine/atomic_file.h"
-#include "engine/image_file.h"
-#include "engine/ply_points.h"
-#include "engine/range_picture.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/image_file.h"
+#include "engine/io/ply_points.h"
+#include "engine/io/range_picture.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/depth_cloud.h"
@@ -171,7 +171,7 @@ int run_depth(const DepthArguments& arguments) {
   return picture ? write_picture(arguments, **depth) : write_cloud(arguments, **depth);
 }
 
-constexpr const char* kFooter =
+constexpr const char* kDepthFooter =
     "\nWithout --out the streams are listed. A PLY holds the measured points in the world (+y up,\n"
     "metres, binary); frames without a pose, and with --all those of an older map, are left out "
     "and\n"
@@ -210,7 +210,7 @@ void add_depth_command(CLI::App& app, Action& action) {
       ->check(whole_number(1, kMaxRangeMm))
       ->capture_default_str();
   arguments->json.add_to(*command);
-  command->footer(kFooter);
+  command->footer(kDepthFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_depth(*arguments); }; });
 }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "engine/grey_image_file.h"
+#include "engine/io/grey_image_file.h"
 #include "nav/tracking/marker_detector.h"
 #include "tools/arguments.h"
 #include "tools/command.h"

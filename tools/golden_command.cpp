@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/atomic_file.h"
-#include "engine/golden_review.h"
+#include "engine/golden/golden_review.h"
+#include "engine/io/atomic_file.h"
 #include "tools/command.h"
 #include "tools/out_folder.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 
 namespace orthonav::tools {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "engine/atomic_file.h"
+#include "engine/io/atomic_file.h"
 
 namespace orthonav::tools {
 

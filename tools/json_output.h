@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 
 namespace orthonav::tools {
 

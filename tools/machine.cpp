@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "engine/phantom.h"
-#include "engine/video_writer.h"
-#include "hal/desktop/phrase_recognizer.h"
+#include "engine/io/video_writer.h"
+#include "engine/phantom/phantom.h"
 #include "hal/openxr/openxr_headset.h"
+#include "hal/voice/phrase_recognizer.h"
 #include "render/renderer.h"
 
 namespace orthonav::tools {
@@ -107,7 +107,7 @@ Offer microphone(const fs::path& root) {
 
 /// What `--voice mic:` and `wav:` recognise words with.
 Offer voice_model(const fs::path& root) {
-  const fs::path model = root / desktop::default_acoustic_model().relative_path();
+  const fs::path model = root / voice::default_acoustic_model().relative_path();
   if (!first_existing({model / "mdef"}).empty())
     return {"Voice model", Finding::kFound, model.string(), ""};
   return {"Voice model", Finding::kOptional,

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "engine/model_cache.h"
+#include "engine/case/model_cache.h"
 
 namespace orthonav::tools {
 

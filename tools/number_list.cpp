@@ -4,7 +4,7 @@
 #include <optional>
 #include <set>
 
-#include "engine/text_fields.h"
+#include "engine/io/text_fields.h"
 
 namespace orthonav::tools {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "hal/api/angle.h"
+#include "base/angle.h"
 
 namespace orthonav::tools {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/operation_result.h"
+#include "engine/report/operation_result.h"
 
 namespace orthonav::tools {
 

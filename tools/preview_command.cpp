@@ -1,7 +1,7 @@
 #include <memory>
 #include <optional>
 
-#include "engine/operation_plan.h"
+#include "engine/case/operation_plan.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"

@@ -4,13 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "engine/atomic_file.h"
-#include "engine/board_file.h"
-#include "engine/board_sheet.h"
-#include "engine/sheet_drawing.h"
-#include "engine/tag_sheets.h"
-#include "engine/text_fields.h"
-#include "engine/tool_file.h"
+#include "engine/case/tool_file.h"
+#include "engine/io/atomic_file.h"
+#include "engine/io/text_fields.h"
+#include "engine/print/board_file.h"
+#include "engine/print/board_sheet.h"
+#include "engine/print/sheet_drawing.h"
+#include "engine/print/tag_sheets.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/number_list.h"
@@ -221,7 +221,7 @@ void add_board(CLI::App& print, Action& action) {
       [arguments, &action] { action = [arguments] { return run_board(*arguments); }; });
 }
 
-constexpr const char* kFooter =
+constexpr const char* kPrintFooter =
     "\nEvery page has a ruler of 100 mm in both directions: measure them before the print is "
     "used.\n"
     "A tag's size is the outer edge of its black border; the white around it belongs to it.";
@@ -232,7 +232,7 @@ void add_print_command(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("print", "Tags, tools and boards as PDF, in exact millimetres");
   command->require_subcommand(1);
-  command->footer(kFooter);
+  command->footer(kPrintFooter);
   add_tags(*command, action);
   add_tool(*command, action);
   add_board(*command, action);

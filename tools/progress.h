@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "engine/frame_loop.h"
+#include "engine/live/frame_loop.h"
 #include "tools/progress_bar.h"
 
 namespace orthonav::tools {

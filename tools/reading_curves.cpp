@@ -1,6 +1,6 @@
 #include "tools/reading_curves.h"
 
-#include "hal/api/angle.h"
+#include "base/angle.h"
 
 namespace orthonav::tools {
 

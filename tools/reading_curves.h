@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame_loop.h"
-#include "engine/report_html.h"
+#include "engine/live/frame_loop.h"
+#include "engine/report/report_html.h"
 
 namespace orthonav::tools {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/method.h"
+#include "engine/session/method.h"
 #include "tools/count_progress.h"
 
 namespace orthonav::tools {

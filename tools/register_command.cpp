@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/atomic_file.h"
-#include "engine/method.h"
-#include "engine/registration_page.h"
+#include "engine/io/atomic_file.h"
+#include "engine/report/registration_page.h"
+#include "engine/session/method.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
@@ -105,7 +105,7 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
   return registration->accepted ? kDone : kNo;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kRegisterFooter =
     "\nExit code 0: accepted; 1: refused, with the reasons and what to stroke next on standard\n"
     "error; 2: bad input.\n"
     "The model's axes are the patient's (LPS: +x left, +y posterior, +z superior), its origin is\n"
@@ -169,7 +169,7 @@ void add_register_command(CLI::App& app, Action& action) {
                    "The registration as a page: pictures from three sides, every figure")
       ->check(some_text())
       ->type_name("FILE.html");
-  command->footer(kFooter);
+  command->footer(kRegisterFooter);
   command->callback([arguments, outputs, &action] {
     action = [arguments, outputs] { return run_register(*arguments, *outputs); };
   });

@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include "engine/mesh_file.h"
-#include "engine/model_cache.h"
-#include "engine/operation_plan.h"
-#include "engine/plan_file.h"
-#include "engine/points_file.h"
+#include "engine/case/model_cache.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/plan_file.h"
+#include "engine/case/points_file.h"
+#include "engine/io/mesh_file.h"
 #include "tools/case_source.h"
 #include "tools/model_notes.h"
 

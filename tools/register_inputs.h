@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/operation.h"
-#include "engine/registration_figures.h"
-#include "hal/api/result.h"
+#include "base/result.h"
+#include "engine/case/operation.h"
+#include "engine/report/registration_figures.h"
 
 namespace orthonav::tools {
 

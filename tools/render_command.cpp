@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/golden_scenes.h"
-#include "engine/image_file.h"
-#include "engine/optical_model.h"
-#include "engine/scene_file.h"
-#include "engine/side_by_side.h"
+#include "engine/golden/golden_scenes.h"
+#include "engine/holograms/optical_model.h"
+#include "engine/holograms/scene_file.h"
+#include "engine/io/image_file.h"
+#include "engine/io/side_by_side.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 

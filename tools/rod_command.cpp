@@ -3,8 +3,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/points_file.h"
-#include "hal/api/angle.h"
+#include "base/angle.h"
+#include "engine/case/points_file.h"
 #include "nav/guidance/rod.h"
 #include "tools/arguments.h"
 #include "tools/command.h"

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "engine/evaluation.h"
+#include "engine/study/evaluation.h"
 
 namespace orthonav::tools {
 namespace {

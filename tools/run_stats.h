@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/frame_loop.h"
-#include "engine/presenter.h"
+#include "engine/live/frame_loop.h"
+#include "engine/live/presenter.h"
 
 namespace orthonav::tools {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <thread>
 
-#include "engine/operation_plan.h"
-#include "engine/sim_scenario.h"
-#include "engine/tool_file.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/study/sim_scenario.h"
 #include "hal/api/as_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "tools/arguments.h"

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "engine/image_file.h"
+#include "engine/io/image_file.h"
 
 namespace orthonav::tools {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/video_writer.h"
+#include "engine/io/video_writer.h"
 #include "tools/surgeon_view.h"
 
 namespace orthonav::tools {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <thread>
 
-#include "engine/json_document.h"
-#include "engine/study.h"
-#include "engine/tool_file.h"
+#include "engine/case/tool_file.h"
+#include "engine/io/json_document.h"
+#include "engine/study/study.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"

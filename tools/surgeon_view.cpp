@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/render_values.h"
-#include "engine/scene_builder.h"
+#include "engine/holograms/render_values.h"
+#include "engine/holograms/scene_builder.h"
 #include "tools/eye_in_rig.h"
 
 namespace orthonav::tools {

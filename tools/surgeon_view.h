@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame_loop.h"
+#include "engine/live/frame_loop.h"
 #include "hal/sim/room_renderer.h"
 #include "hal/sim/sim_headset.h"
 #include "render/renderer.h"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/atomic_file.h"
-#include "engine/method.h"
-#include "engine/tool_file.h"
+#include "engine/case/tool_file.h"
+#include "engine/io/atomic_file.h"
+#include "engine/session/method.h"
 #include "hal/replay/replay_headset.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
@@ -167,7 +167,7 @@ int run_track(const TrackArguments& arguments) {
   return kDone;
 }
 
-constexpr const char* kFooter =
+constexpr const char* kTrackFooter =
     "\nThe CSV has a row for each tool measured in a pair: world_from_marker, position in metres "
     "and\n"
     "unit quaternion; sigma_mm: predicted 3-D SD of the position from the images' noise;\n"
@@ -195,7 +195,7 @@ void add_track_command(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(whole_number(1, 1000));
   command->add_flag("--json", arguments->json, "The summary as JSON");
-  command->footer(kFooter);
+  command->footer(kTrackFooter);
   command->callback(
       [arguments, &action] { action = [arguments] { return run_track(*arguments); }; });
 }

@@ -9,11 +9,9 @@
 namespace orthonav {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kNewtonStepPx = 1e-9;
-constexpr int kNewtonSteps = 30;
-
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFinalStepPx = 1e-9;
+constexpr int kMaxSteps = 30;
 
 /// Derivative of BrownConrady::distort in pixels by the unit-plane point: columns along x and y.
 std::array<Vec2, 2> distort_jacobian(const BrownConrady& p, Vec2 u) {
@@ -38,18 +36,19 @@ Vec2 BrownConrady::distort(Vec2 u) const {
 
 Vec2 undistorted(const BrownConrady& p, Vec2 pixel_px) {
   Vec2 u{(pixel_px.x - p.cx_px) / p.fx_px, (pixel_px.y - p.cy_px) / p.fy_px};
-  for (int i = 0; i < kNewtonSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const Vec2 off = pixel_px - p.distort(u);
     const auto [by_x, by_y] = distort_jacobian(p, u);
-    const double determinant = cross(by_x, by_y);
-    if (!(determinant > 0.0)) return {kNaN, kNaN};
-    const Vec2 step{cross(off, by_y) / determinant, cross(by_x, off) / determinant};
+    const double determinant = by_x.cross(by_y);
+    if (!(determinant > 0.0)) return {kUndefined, kUndefined};
+    const Vec2 step{off.cross(by_y) / determinant, by_x.cross(off) / determinant};
     u = u + step;
-    if (step.norm() * p.fx_px < kNewtonStepPx)
-      return cross(distort_jacobian(p, u)[0], distort_jacobian(p, u)[1]) > 0.0 ? u
-                                                                               : Vec2{kNaN, kNaN};
+    if (step.norm() * p.fx_px < kFinalStepPx)
+      return distort_jacobian(p, u)[0].cross(distort_jacobian(p, u)[1]) > 0.0
+                 ? u
+                 : Vec2{kUndefined, kUndefined};
   }
-  return {kNaN, kNaN};
+  return {kUndefined, kUndefined};
 }
 
 Status checked_parameters(const BrownConrady& p) {

@@ -39,8 +39,6 @@ struct Cell {
   [[nodiscard]] Vec2 along_y(double s) const { return (1.0 - s) * (c - a) + s * (d - b); }
 };
 
-double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
-
 struct Place {
   int column = 0;
   int row = 0;
@@ -71,7 +69,7 @@ int orientation(const Cell& cell) {
   int negative = 0;
   for (const double t : {0.0, 1.0})
     for (const double s : {0.0, 1.0}) {
-      const double determinant = cross(cell.along_x(t), cell.along_y(s));
+      const double determinant = cell.along_x(t).cross(cell.along_y(s));
       positive += determinant > 0.0 ? 1 : 0;
       negative += determinant < 0.0 ? 1 : 0;
     }
@@ -251,9 +249,9 @@ std::optional<Vec2> CameraModel::project(Vec2 u) const {
     const Vec2 off = u - cell.value(at.s, at.t);
     const Vec2 by_x = cell.along_x(at.t);
     const Vec2 by_y = cell.along_y(at.s);
-    const double determinant = cross(by_x, by_y);
+    const double determinant = by_x.cross(by_y);
     if (determinant == 0.0) return std::nullopt;
-    const Vec2 step{cross(off, by_y) / determinant, cross(by_x, off) / determinant};
+    const Vec2 step{off.cross(by_y) / determinant, by_x.cross(off) / determinant};
     pixel = pixel + step;
     if (!(std::abs(step.x) + std::abs(step.y) < 1e6)) return std::nullopt;
     if (std::abs(step.x) + std::abs(step.y) > kNewtonStepPx) continue;
@@ -279,7 +277,7 @@ std::optional<std::array<double, 4>> CameraModel::jacobian_px(Vec2 pixel_px) con
   if (!cell.valid()) return std::nullopt;
   const Vec2 by_x = cell.along_x(at.t);
   const Vec2 by_y = cell.along_y(at.s);
-  const double determinant = cross(by_x, by_y);
+  const double determinant = by_x.cross(by_y);
   if (determinant == 0.0) return std::nullopt;
   return std::array<double, 4>{by_y.y / determinant, -by_y.x / determinant, -by_x.y / determinant,
                                by_x.x / determinant};

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/vec.h"
+#include "base/result.h"
+#include "base/vec.h"
 
 namespace orthonav {
 

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/image.h"
+#include "base/result.h"
+#include "base/time.h"
+#include "base/transform.h"
 #include "hal/api/frame_order.h"
-#include "hal/api/image.h"
-#include "hal/api/result.h"
-#include "hal/api/time.h"
-#include "hal/api/transform.h"
 
 namespace orthonav {
 

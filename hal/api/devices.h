@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
+#include "base/result.h"
+#include "base/time.h"
+#include "base/tracked.h"
+#include "base/transform.h"
 #include "hal/api/camera_model.h"
 #include "hal/api/display.h"
 #include "hal/api/frame_order.h"
-#include "hal/api/image.h"
-#include "hal/api/result.h"
-#include "hal/api/time.h"
-#include "hal/api/tracked.h"
-#include "hal/api/transform.h"
 
 namespace orthonav {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "hal/api/image.h"
-#include "hal/api/result.h"
-#include "hal/api/time.h"
-#include "hal/api/transform.h"
+#include "base/image.h"
+#include "base/result.h"
+#include "base/time.h"
+#include "base/transform.h"
 
 namespace orthonav {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "hal/api/result.h"
-#include "hal/api/time.h"
+#include "base/result.h"
+#include "base/time.h"
 
 namespace orthonav {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/tracked.h"
-#include "hal/api/transform.h"
+#include "base/result.h"
+#include "base/tracked.h"
+#include "base/transform.h"
 
 namespace orthonav {
 

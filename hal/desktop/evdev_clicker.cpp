@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "hal/api/joined.h"
+#include "base/joined.h"
 
 namespace orthonav::desktop {
 

@@ -14,7 +14,7 @@ namespace orthonav::desktop {
 namespace {
 
 // A hand presses a few keys a second; more in one call would be a device that floods.
-constexpr int kMaxEventsACall = 256;
+constexpr int kMaxEventsPerPoll = 256;
 
 Error device_error(const std::string& path, const std::string& why) {
   return Error{"clicker " + path + ": " + why};
@@ -81,7 +81,7 @@ class EvdevKeys : public KeyEvents {
     return text ? text : "";
   }
   Status read(std::vector<KeyEvent>& events) override {
-    for (int i = 0; i < kMaxEventsACall; ++i) {
+    for (int i = 0; i < kMaxEventsPerPoll; ++i) {
       input_event event{};
       // After a flood the kernel drops events; libevdev then tells how the keys stand.
       const int code = libevdev_next_event(

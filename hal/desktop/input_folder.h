@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 
 namespace orthonav::desktop {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/time.h"
+#include "base/result.h"
+#include "base/time.h"
 
 namespace orthonav::desktop {
 

@@ -15,7 +15,7 @@ namespace orthonav::desktop {
 
 namespace {
 
-constexpr std::size_t kMaxEventsACall = 256;
+constexpr std::size_t kMaxEventsPerRead = 256;
 
 class RecordedKeys : public KeyEvents {
  public:
@@ -28,7 +28,7 @@ class RecordedKeys : public KeyEvents {
   [[nodiscard]] bool live() const override { return live_; }
   [[nodiscard]] std::string name() const override { return path_; }
   Status read(std::vector<KeyEvent>& events) override {
-    std::array<char, kMaxEventsACall * sizeof(input_event)> bytes;
+    std::array<char, kMaxEventsPerRead * sizeof(input_event)> bytes;
     const ssize_t count = ::read(file_, bytes.data(), bytes.size() - rest_size_);
     if (count < 0 && errno != EAGAIN && errno != EINTR)
       return Error{"clicker " + path_ + ": cannot be read: " + std::strerror(errno)};

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <optional>
 
-#include "hal/api/time.h"
+#include "base/time.h"
 #include "hal/hl2ss/socket.h"
 
 namespace orthonav::hl2ss {

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
+#include "base/result.h"
+#include "base/transform.h"
 #include "hal/api/camera_model.h"
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
 #include "hal/hl2ss/bytes.h"
 
 namespace orthonav::hl2ss {

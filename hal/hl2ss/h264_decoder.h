@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "hal/api/image.h"
-#include "hal/api/result.h"
+#include "base/image.h"
+#include "base/result.h"
 #include "hal/hl2ss/bytes.h"
 #include "hal/hl2ss/h264_order.h"
 

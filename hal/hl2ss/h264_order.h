@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 #include "hal/hl2ss/bytes.h"
 
 namespace orthonav::hl2ss {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "hal/api/time.h"
+#include "base/time.h"
 
 namespace orthonav::hl2ss {
 

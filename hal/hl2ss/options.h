@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/time.h"
+#include "base/result.h"
+#include "base/time.h"
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/voice.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 #include "hal/hl2ss/bytes.h"
 
 namespace orthonav::hl2ss {

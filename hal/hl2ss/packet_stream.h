@@ -2,7 +2,7 @@
 
 #include "hal/hl2ss/arrival_meter.h"
 #include "hal/hl2ss/boot_clock.h"
-#include "hal/hl2ss/link.h"
+#include "hal/hl2ss/connection.h"
 #include "hal/hl2ss/packet.h"
 
 namespace orthonav::hl2ss {

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "hal/hl2ss/connection.h"
 #include "hal/hl2ss/event_streams.h"
-#include "hal/hl2ss/link.h"
 #include "hal/hl2ss/map_watch.h"
 #include "hal/hl2ss/options.h"
 #include "hal/hl2ss/pair_mailbox.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 #include "hal/hl2ss/bytes.h"
 
 namespace orthonav::hl2ss {

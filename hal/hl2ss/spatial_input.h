@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
-#include "hal/api/vec.h"
+#include "base/result.h"
+#include "base/transform.h"
+#include "base/vec.h"
 #include "hal/hl2ss/bytes.h"
 
 namespace orthonav::hl2ss {

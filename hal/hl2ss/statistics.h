@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/time.h"
+#include "base/time.h"
 
 namespace orthonav::hl2ss {
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
+#include "base/result.h"
+#include "base/transform.h"
 #include "hal/hl2ss/bytes.h"
 #include "hal/hl2ss/protocol.h"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 
 namespace orthonav {
 

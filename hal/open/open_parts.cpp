@@ -8,8 +8,8 @@
 
 #include "hal/desktop/evdev_clicker.h"
 #include "hal/desktop/portaudio_microphone.h"
-#include "hal/desktop/spotted_voice.h"
 #include "hal/desktop/wav_microphone.h"
+#include "hal/voice/spotted_voice.h"
 
 namespace orthonav {
 
@@ -162,16 +162,16 @@ Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
   if (!cut) return cut.error();
   if (cut->scheme != "mic" && cut->scheme != "wav" && cut->scheme != "headset-mic")
     return bad_part("voice", uri, std::string("is unknown; ") + kVoices);
-  desktop::SpotterOptions options;
+  voice::SpotterOptions options;
   options.commands = commands;
   for (const auto& [key, value] : cut->items) {
     if (key != "wake") return bad_part("voice", uri, "unknown key \"" + key + "\"; " + kVoiceKeys);
     if (value == "always")
-      options.waking = desktop::Waking::kAlways;
+      options.waking = voice::Waking::kAlways;
     else if (value == "noise")
-      options.waking = desktop::Waking::kInNoise;
+      options.waking = voice::Waking::kInNoise;
     else if (value == "never")
-      options.waking = desktop::Waking::kNever;
+      options.waking = voice::Waking::kNever;
     else
       return bad_part("voice", uri, kVoiceKeys);
   }
@@ -181,9 +181,9 @@ Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
                         ? microphone_of(uri, headset)
                         : desktop::open_portaudio_microphone(cut->rest, clock);
   if (!microphone) return microphone.error();
-  return desktop::open_spotted_voice(
+  return voice::open_spotted_voice(
       std::move(*microphone), options,
-      file ? desktop::Listening::kInPoll : desktop::Listening::kOnItsOwnThread);
+      file ? voice::Listening::kInPoll : voice::Listening::kOnItsOwnThread);
 }
 
 }  // namespace orthonav

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "hal/api/pixel_display.h"
-#include "hal/api/result.h"
 #include "hal/openxr/xr.h"
 
 namespace orthonav::openxr {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 #include "hal/openxr/runtime.h"
 
 namespace orthonav::openxr {

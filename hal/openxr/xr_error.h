@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 #include "hal/openxr/xr.h"
 
 namespace orthonav::openxr {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/result.h"
+#include "base/transform.h"
 #include "hal/api/pixel_display.h"
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
 #include "hal/openxr/xr.h"
 
 namespace orthonav::openxr {

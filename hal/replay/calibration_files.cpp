@@ -25,8 +25,6 @@ constexpr double kUnitTolerance = 1e-3;
 // Single-precision rays determine the unit plane to about 1e-7 (1 + r²) / z; ten times that is
 // another camera's table.
 constexpr double kAgreement = 1e-5;
-// Cameras sit within a headset.
-constexpr double kMaxExtrinsicsM = 1.0;
 
 /// How large a table is.
 struct Size {
@@ -129,7 +127,7 @@ Result<Transform<Camera, Rig>> read_extrinsics(const std::filesystem::path& path
   if (fields.size() != 16)
     return file_error(
         path, "camera_from_rig holds " + std::to_string(fields.size()) + " numbers, must be 16");
-  auto pose = parse_pose<Camera, Rig>(fields, 0, kMaxExtrinsicsM);
+  auto pose = parse_pose<Camera, Rig>(fields, 0, kMaxExtrinsics_m);
   if (!pose) return file_error(path, "camera_from_rig: " + pose.error().message);
   return pose;
 }

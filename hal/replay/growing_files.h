@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/image.h"
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
+#include "base/image.h"
+#include "base/result.h"
+#include "base/transform.h"
 #include "hal/replay/frame_files.h"
 
 struct archive;

@@ -18,7 +18,6 @@ constexpr std::uintmax_t kMaxCsvBytes = std::uintmax_t{1} << 30U;
 constexpr std::size_t kColumns = 50;  // time, image, three matrices
 constexpr std::size_t kOriginColumn = 2;
 constexpr std::size_t kViewColumn = 18;
-constexpr double kMaxExtrinsicsM = 1.0;
 // Six significant digits of numbers up to 1; a camera that moves in its headset is damage.
 constexpr double kSameCamera = 1e-3;
 constexpr double kRotationTolerance = 1e-2;
@@ -61,7 +60,7 @@ Status take_row(std::string_view line, std::vector<std::string_view>& fields,
     return Error{"holds " + std::to_string(fields.size()) + " columns, must be 50"};
   const auto ticks = parse_integer(fields[0]);
   if (!ticks || *ticks < 0) return Error{"Timestamp must be a whole number"};
-  const auto view = read_matrix<Camera, Rig>(fields, kViewColumn, kMaxExtrinsicsM);
+  const auto view = read_matrix<Camera, Rig>(fields, kViewColumn, kMaxExtrinsics_m);
   if (!view) return Error{"CameraViewTransform: " + view.error().message};
   if (*view) {
     const Transform<Camera, Rig> vision(kVisionFromView * (*view)->rotation(),

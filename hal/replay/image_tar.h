@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/api/image.h"
-#include "hal/api/result.h"
+#include "base/image.h"
+#include "base/result.h"
 #include "hal/replay/layout.h"
 #include "hal/replay/pgm_header.h"
 

@@ -16,6 +16,8 @@ inline constexpr std::size_t kImageBytes = std::size_t{640} * 480;
 /// 2), 448x450 (HoloLens 1).
 inline constexpr int kMinDepthSidePx = 2;
 inline constexpr int kMaxDepthSidePx = 2048;
+/// Cameras sit within a headset.
+inline constexpr double kMaxExtrinsics_m = 1.0;
 inline constexpr const char* kLeftSensor = "VLC LF";
 inline constexpr const char* kRightSensor = "VLC RF";
 inline constexpr const char* kAhatSensor = "Depth AHaT";

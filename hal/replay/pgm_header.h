@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 
 namespace orthonav::replay {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
+#include "base/result.h"
+#include "base/transform.h"
 
 namespace orthonav::replay {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "hal/api/angle.h"
+#include "base/angle.h"
 
 namespace orthonav::sim {
 namespace {

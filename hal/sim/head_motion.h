@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/sim/magnitudes.h"
+#include "hal/sim/error_model.h"
 #include "hal/sim/noise.h"
 #include "hal/sim/room.h"
 

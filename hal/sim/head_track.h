@@ -3,9 +3,9 @@
 #include <array>
 #include <optional>
 
-#include "hal/api/tracked.h"
-#include "hal/api/transform.h"
-#include "hal/sim/magnitudes.h"
+#include "base/tracked.h"
+#include "base/transform.h"
+#include "hal/sim/error_model.h"
 #include "hal/sim/noise.h"
 
 namespace orthonav::sim {

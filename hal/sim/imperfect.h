@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hal/api/devices.h"
-#include "hal/sim/magnitudes.h"
+#include "hal/sim/error_model.h"
 #include "hal/sim/noise.h"
 #include "hal/sim/room.h"
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "hal/api/random.h"
-#include "hal/api/transform.h"
+#include "base/random.h"
+#include "base/transform.h"
 
 namespace orthonav::sim {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/time.h"
-#include "hal/api/transform.h"
+#include "base/time.h"
+#include "base/transform.h"
 
 namespace orthonav::sim {
 

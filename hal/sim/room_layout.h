@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 #include "hal/sim/bone_surface.h"
 #include "hal/sim/room.h"
 

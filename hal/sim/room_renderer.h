@@ -3,9 +3,9 @@
 #include <memory>
 #include <span>
 
+#include "base/image.h"
 #include "hal/api/camera_model.h"
-#include "hal/api/image.h"
-#include "hal/sim/magnitudes.h"
+#include "hal/sim/error_model.h"
 #include "hal/sim/room.h"
 
 namespace orthonav::sim {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hal/api/vec.h"
+#include "base/vec.h"
 
 namespace orthonav::sim {
 

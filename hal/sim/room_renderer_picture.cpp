@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/api/srgb.h"
+#include "base/srgb.h"
 
 namespace orthonav::sim {
 namespace {

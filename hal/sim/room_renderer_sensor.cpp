@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 
 namespace orthonav::sim {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/api/image.h"
-#include "hal/sim/magnitudes.h"
+#include "base/image.h"
+#include "hal/sim/error_model.h"
 #include "hal/sim/room_renderer_layers.h"
 
 namespace orthonav::sim {

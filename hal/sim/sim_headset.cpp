@@ -9,8 +9,8 @@
 #include "hal/sim/head_track.h"
 #include "hal/sim/hololens2.h"
 #include "hal/sim/imperfect.h"
+#include "hal/sim/room_simulation.h"
 #include "hal/sim/stereo_renderer.h"
-#include "hal/sim/theatre.h"
 
 namespace orthonav::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "hal/api/devices.h"
-#include "hal/sim/magnitudes.h"
+#include "hal/sim/error_model.h"
 #include "hal/sim/room.h"
 #include "hal/sim/truth.h"
 

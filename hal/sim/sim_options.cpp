@@ -1,4 +1,4 @@
-#include "hal/api/joined.h"
+#include "base/joined.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/sim_headset.h"
 #include "hal/sim/stroke_plan.h"

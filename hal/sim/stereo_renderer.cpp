@@ -1,6 +1,6 @@
 #include "hal/sim/stereo_renderer.h"
 
-#include "hal/api/random.h"
+#include "base/random.h"
 
 namespace orthonav::sim {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/sim/error_model.h"
 #include "hal/sim/eyes.h"
-#include "hal/sim/magnitudes.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/stroke_plan.h"
 #include "hal/sim/surgeon_body.h"

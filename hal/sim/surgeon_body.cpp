@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hal/api/angle.h"
+#include "base/angle.h"
 
 namespace orthonav::sim {
 namespace {

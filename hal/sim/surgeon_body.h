@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "hal/api/devices.h"
+#include "hal/sim/error_model.h"
 #include "hal/sim/grip.h"
 #include "hal/sim/head_motion.h"
-#include "hal/sim/magnitudes.h"
 #include "hal/sim/script.h"
 
 namespace orthonav::sim {

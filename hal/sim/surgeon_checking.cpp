@@ -8,7 +8,7 @@ namespace orthonav::sim {
 namespace {
 
 constexpr double kReach_s = 1.5;
-constexpr double kLift_m = 0.02;
+constexpr double kTouchLift_m = 0.02;
 constexpr double kSettle_s = 1.0;
 constexpr double kReadLine_s = 0.5;
 /// A little farther apart than the line asks for, as one does who is told 15 mm and has no ruler.
@@ -50,7 +50,7 @@ Script Surgeon::touch_place(const std::string& step, const BoneSpot& place) {
   const Point<Room> tip{place.point + lift_m * place.normal};
   body_.look(tip);
   body_.posture().contact_normal.reset();
-  co_await body_.move({tip, body_.pointer_axis(place.normal), 0.0}, kReach_s, kLift_m);
+  co_await body_.move({tip, body_.pointer_axis(place.normal), 0.0}, kReach_s, kTouchLift_m);
   body_.posture().contact_normal = place.normal;
   // The line says when a touch was not taken: rest a little longer and click again.
   for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {

@@ -6,7 +6,7 @@
 namespace orthonav::sim {
 namespace {
 
-constexpr double kGlance_s = 0.1;
+constexpr double kQuickLook_s = 0.1;
 constexpr double kLook_s = 0.6;
 constexpr double kMoveHead_s = 2.0;
 constexpr double kOverBone_m = 0.030;
@@ -62,14 +62,14 @@ Script Surgeon::find_entry(const std::string& step, std::size_t level, const std
   const Vec3 perceived_shift = normal_vector(body_.random(), magnitudes_->overlay_perception_m) +
                                normal_vector(body_.random(), magnitudes_->entry_pick_m);
   // First a glance for the direction, to stand right; then a look for the place.
-  for (const double look_s : {kGlance_s, kLook_s}) {
+  for (const double look_s : {kQuickLook_s, kLook_s}) {
     bool found = false;
     Vec3 entry;
     co_await look_at_entry(step, label, look_s, found, entry, aim.outwards);
     if (!found) co_return;
     aim.on_bone = put_on_bone(level, entry + perceived_shift, aim.outwards);
     body_.look({aim.on_bone.point}, body_.best_view(aim.outwards));
-    if (look_s == kGlance_s) co_await body_.rest(kMoveHead_s);
+    if (look_s == kQuickLook_s) co_await body_.rest(kMoveHead_s);
   }
 }
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hal/api/angle.h"
+#include "base/angle.h"
 #include "hal/sim/deviation.h"
 #include "hal/sim/surgeon.h"
 

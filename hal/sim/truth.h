@@ -24,7 +24,7 @@ struct PlacedHead {
 };
 
 /// What really happened; filled while the session runs, read afterwards by the evaluation alone
-/// (engine/evaluation.h). Nothing that navigates may know it.
+/// (engine/study/evaluation.h). Nothing that navigates may know it.
 struct Truth {
   std::vector<DrivenWire> wires;
   std::vector<PlacedHead> heads;

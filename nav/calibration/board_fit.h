@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "base/image.h"
+#include "base/result.h"
+#include "base/transform.h"
 #include "hal/api/camera_model.h"
-#include "hal/api/image.h"
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
 #include "nav/calibration/chessboard.h"
 
 namespace orthonav::nav {

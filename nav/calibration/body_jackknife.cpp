@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "nav/evaluation/tenths.h"
+#include "nav/statistics/blocked_jackknife.h"
 
 namespace orthonav::nav {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "nav/evaluation/median.h"
+#include "nav/statistics/median.h"
 
 namespace orthonav::nav {
 

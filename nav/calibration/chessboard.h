@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/image.h"
-#include "hal/api/vec.h"
+#include "base/image.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

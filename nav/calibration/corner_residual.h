@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 
+#include "base/transform.h"
 #include "hal/api/camera_model.h"
-#include "hal/api/transform.h"
 
 namespace orthonav::nav {
 

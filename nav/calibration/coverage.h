@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "hal/api/vec.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

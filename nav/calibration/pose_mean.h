@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 
 namespace orthonav::nav {
 

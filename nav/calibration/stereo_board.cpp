@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/api/joined.h"
+#include "base/findings.h"
+#include "base/joined.h"
 #include "nav/calibration/coverage.h"
 #include "nav/calibration/epipolar.h"
 #include "nav/calibration/stereo_jackknife.h"
-#include "nav/evaluation/median.h"
-#include "nav/evaluation/wording.h"
+#include "nav/statistics/median.h"
 
 namespace orthonav::nav {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "nav/calibration/board_fit.h"
-#include "nav/evaluation/verdict.h"
+#include "nav/statistics/verdict.h"
 
 namespace orthonav::nav {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nav/evaluation/tenths.h"
+#include "nav/statistics/blocked_jackknife.h"
 
 namespace orthonav::nav {
 namespace {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "base/findings.h"
 #include "nav/calibration/body_jackknife.h"
 #include "nav/calibration/body_start.h"
 #include "nav/calibration/coverage.h"
 #include "nav/calibration/epipolar.h"
-#include "nav/evaluation/median.h"
-#include "nav/evaluation/tenths.h"
-#include "nav/evaluation/wording.h"
+#include "nav/statistics/blocked_jackknife.h"
+#include "nav/statistics/median.h"
 
 namespace orthonav::nav {
 namespace {

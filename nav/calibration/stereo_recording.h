@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "nav/calibration/body_sightings.h"
-#include "nav/evaluation/verdict.h"
+#include "nav/statistics/verdict.h"
 
 namespace orthonav::nav {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 #include "nav/geometry/mesh.h"
 #include "nav/guidance/screw.h"
 

@@ -8,7 +8,7 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kBlock_s = 0.25;
-// A second on either side.
+// A second on either mean.
 constexpr std::size_t kLeastBlocks = 4;
 constexpr double kSignificance = 4.0;
 
@@ -29,19 +29,19 @@ std::vector<TipSample> block_means(std::span<const TipSample> samples) {
   return blocks;
 }
 
-struct Side {
+struct BlockMean {
   Vec3 mean_m{};
   double variance_of_mean_m2 = 0.0;
 };
 
-Side side_of(std::span<const TipSample> blocks) {
+BlockMean block_mean(std::span<const TipSample> blocks) {
   const auto n = static_cast<double>(blocks.size());
-  Side side;
-  for (const TipSample& block : blocks) side.mean_m += block.tip_m / n;
+  BlockMean mean;
+  for (const TipSample& block : blocks) mean.mean_m += block.tip_m / n;
   double squares = 0.0;
-  for (const TipSample& block : blocks) squares += (block.tip_m - side.mean_m).squared_norm();
-  side.variance_of_mean_m2 = squares / (n - 1.0) / n;
-  return side;
+  for (const TipSample& block : blocks) squares += (block.tip_m - mean.mean_m).squared_norm();
+  mean.variance_of_mean_m2 = squares / (n - 1.0) / n;
+  return mean;
 }
 
 }  // namespace
@@ -71,8 +71,8 @@ std::optional<TipSlip> tip_slip(std::span<const TipSample> samples, double max_s
   const std::span<const TipSample> all(blocks);
   std::optional<TipSlip> worst;
   for (std::size_t split = kLeastBlocks; split + kLeastBlocks <= blocks.size(); ++split) {
-    const Side before = side_of(all.first(split));
-    const Side after = side_of(all.subspan(split));
+    const BlockMean before = block_mean(all.first(split));
+    const BlockMean after = block_mean(all.subspan(split));
     const double step_m = (after.mean_m - before.mean_m).norm();
     const double scatter_m = std::sqrt(before.variance_of_mean_m2 + after.variance_of_mean_m2);
     if (step_m <= max_step_m || step_m <= kSignificance * scatter_m) continue;

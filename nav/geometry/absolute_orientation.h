@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "hal/api/result.h"
-#include "hal/api/vec.h"
+#include "base/result.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

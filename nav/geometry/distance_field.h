@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 #include "nav/geometry/mesh.h"
 
 namespace orthonav::nav {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
+#include "base/result.h"
+#include "base/transform.h"
 
 namespace orthonav::nav {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "hal/api/vec.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

@@ -24,14 +24,14 @@ inline double squared_distance_to_box(const Vec3& p, const Vec3& low, const Vec3
   return x * x + y * y + z * z;
 }
 
-struct Ray {
+struct BoxRay {
   Vec3 origin;
   Vec3 direction;
   Vec3 inverse;  ///< 1 / direction; infinite where the direction is zero
 };
 
 /// Where the ray enters the box, or infinity. `limit` is the nearest hit so far.
-double entry_into_box(const Ray& ray, Vec3 low, Vec3 high, double limit) {
+double entry_into_box(const BoxRay& ray, Vec3 low, Vec3 high, double limit) {
   double near = 0.0;
   double far = limit;
   for (int axis = 0; axis < 3; ++axis) {
@@ -144,7 +144,7 @@ std::optional<RayHit> SurfaceIndex::first_hit(Vec3 origin_m, Vec3 direction) con
   if (nodes_.empty() || !origin_m.is_finite() || !std::isfinite(length) || !(length > 0.0))
     return std::nullopt;
   const Vec3 unit = direction / length;
-  const Ray ray{origin_m, unit, {1.0 / unit.x, 1.0 / unit.y, 1.0 / unit.z}};
+  const BoxRay ray{origin_m, unit, {1.0 / unit.x, 1.0 / unit.y, 1.0 / unit.z}};
   struct Pending {
     std::uint32_t node;
     double entry;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "hal/api/vec.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

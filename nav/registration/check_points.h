@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 #include "nav/registration/registration.h"
 
 namespace orthonav::nav {

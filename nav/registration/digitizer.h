@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "hal/api/tracked.h"
-#include "hal/api/transform.h"
+#include "base/tracked.h"
+#include "base/transform.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::nav {

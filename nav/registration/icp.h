@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
+#include "base/result.h"
+#include "base/transform.h"
 #include "nav/geometry/mesh.h"
 
 namespace orthonav::nav {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 #include "nav/geometry/distance_field.h"
 
 namespace orthonav::nav {

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "hal/api/vec.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

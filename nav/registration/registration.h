@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
+#include "base/result.h"
+#include "base/transform.h"
 #include "nav/geometry/closest_grid.h"
 #include "nav/geometry/mesh.h"
 #include "nav/registration/pose_search.h"
@@ -19,7 +19,7 @@
 namespace orthonav::nav {
 
 /// Raise it with every change after which the same mesh is prepared otherwise: what was kept of
-/// earlier preparations (engine/model_cache.h) is then made anew. A test holds it against the
+/// earlier preparations (engine/case/model_cache.h) is then made anew. A test holds it against the
 /// figures of a known bone.
 inline constexpr std::uint32_t kPreparationVersion = 1;
 

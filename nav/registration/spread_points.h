@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/api/vec.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

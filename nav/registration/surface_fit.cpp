@@ -18,7 +18,7 @@ constexpr double kTukeySd = 3.6;
 constexpr double kSdByMedian = 1.4826;
 /// Of the residuals' variance at least so much is of no known origin.
 constexpr double kLeastRest = 0.1;
-constexpr double kDamping = 1e-9;
+constexpr double kRelativeDamping = 1e-9;
 constexpr double kNowhere_m = 1e3;
 /// Rounding must not hide what lies just as far.
 constexpr double kHair = 1.0 + 1e-12;
@@ -83,8 +83,8 @@ std::optional<double> step(SurfaceFit& fit) {
     normal.selfadjointView<Eigen::Lower>().rankUpdate(j, p.weight);
     right -= p.weight * p.residual_m * j;
   }
-  const double shift = kDamping * normal.topLeftCorner<3, 3>().trace();
-  const double turn = kDamping * normal.block<3, 3>(3, 3).trace();
+  const double shift = kRelativeDamping * normal.topLeftCorner<3, 3>().trace();
+  const double turn = kRelativeDamping * normal.block<3, 3>(3, 3).trace();
   for (int k = 0; k < 6; ++k) normal(k, k) += k < 3 ? shift : turn;
   if (!fit.with_lift) {
     normal.row(6).setZero();

@@ -3,8 +3,8 @@
 #include <array>
 #include <span>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
+#include "base/result.h"
+#include "base/transform.h"
 
 namespace orthonav::nav {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "nav/evaluation/wording.h"
+#include "base/findings.h"
 
 namespace orthonav::nav {
 std::vector<std::string> reasons_against(const Registration& r, const BestRegistrationOptions& o) {

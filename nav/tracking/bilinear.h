@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hal/api/image.h"
-#include "hal/api/vec.h"
+#include "base/image.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "hal/api/time.h"
-#include "hal/api/vec.h"
+#include "base/time.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

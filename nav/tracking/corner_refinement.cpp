@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "nav/evaluation/median.h"
+#include "nav/statistics/median.h"
 #include "nav/tracking/bilinear.h"
 
 namespace orthonav::nav {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hal/api/image.h"
-#include "hal/api/result.h"
+#include "base/image.h"
+#include "base/result.h"
 #include "nav/tracking/marker_detector.h"
 
 namespace orthonav::nav {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "hal/api/time.h"
-#include "hal/api/vec.h"
+#include "base/time.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

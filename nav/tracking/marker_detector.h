@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/api/image.h"
-#include "hal/api/result.h"
-#include "hal/api/vec.h"
+#include "base/image.h"
+#include "base/result.h"
+#include "base/vec.h"
 #include "nav/tracking/pixel_box.h"
 
 namespace orthonav::nav {

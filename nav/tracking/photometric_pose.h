@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "base/tracked.h"
 #include "hal/api/devices.h"
-#include "hal/api/tracked.h"
 #include "nav/tracking/photometric_view.h"
 #include "nav/tracking/stereo_alignment.h"
 

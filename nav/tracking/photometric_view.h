@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "base/image.h"
+#include "base/vec.h"
 #include "hal/api/camera_model.h"
-#include "hal/api/image.h"
-#include "hal/api/vec.h"
 #include "nav/tracking/blurred_tag.h"
 
 namespace orthonav::nav {

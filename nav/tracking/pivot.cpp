@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "hal/api/angle.h"
-#include "hal/api/joined.h"
-#include "hal/api/random.h"
-#include "nav/evaluation/median.h"
-#include "nav/evaluation/tenths.h"
-#include "nav/evaluation/wording.h"
+#include "base/angle.h"
+#include "base/findings.h"
+#include "base/joined.h"
+#include "base/random.h"
+#include "nav/statistics/blocked_jackknife.h"
+#include "nav/statistics/median.h"
 #include "nav/tracking/pivot_fit.h"
 
 namespace orthonav::nav {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
-#include "nav/evaluation/verdict.h"
+#include "base/result.h"
+#include "base/transform.h"
+#include "nav/statistics/verdict.h"
 
 namespace orthonav::nav {
 

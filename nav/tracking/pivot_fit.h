@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 
 namespace orthonav::nav {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/api/image.h"
+#include "base/image.h"
 
 namespace orthonav::nav {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 
+#include "base/vec.h"
 #include "hal/api/devices.h"
-#include "hal/api/vec.h"
 #include "nav/tracking/marker_detector.h"
 #include "nav/tracking/photometric_view.h"
 #include "nav/tracking/tool.h"

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "hal/api/tracked.h"
-#include "hal/api/transform.h"
+#include "base/tracked.h"
+#include "base/transform.h"
 
 namespace orthonav::nav {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "hal/api/vec.h"
+#include "base/vec.h"
 
 namespace orthonav::nav {
 

@@ -19,7 +19,7 @@ Eigen::Matrix3d as_eigen(const Mat3& m) {
   return out;
 }
 
-PoseCovariance as_array(const Matrix6& m) {
+PoseCovariance symmetrized(const Matrix6& m) {
   PoseCovariance out;
   for (int r = 0; r < 6; ++r)
     for (int c = 0; c < 6; ++c)
@@ -64,14 +64,14 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
     spread += j.transpose() * noise * j;
   }
   const Matrix6 inverse = normal.inverse();
-  return as_array(inverse * spread * inverse);
+  return symmetrized(inverse * spread * inverse);
 }
 
 PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a) {
   Matrix6 both = Matrix6::Zero();
   both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = as_eigen(b_from_a);
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> in_a(covariance.data());
-  return as_array(both * in_a * both.transpose());
+  return symmetrized(both * in_a * both.transpose());
 }
 
 }  // namespace orthonav::nav

@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 
+#include "base/tracked.h"
 #include "hal/api/devices.h"
-#include "hal/api/tracked.h"
 
 namespace orthonav::nav {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/image.h"
 #include "hal/api/camera_model.h"
-#include "hal/api/image.h"
 #include "nav/tracking/photometric_view.h"
 
 namespace orthonav::nav {

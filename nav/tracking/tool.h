@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 
 namespace orthonav::nav {
 

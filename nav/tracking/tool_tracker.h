@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/tracked.h"
 #include "hal/api/devices.h"
-#include "hal/api/tracked.h"
 #include "nav/tracking/stereo_alignment.h"
 #include "nav/tracking/tag_size.h"
 #include "nav/tracking/tool.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <string>
 
-#include "hal/api/joined.h"
+#include "base/joined.h"
 #include "nav/tracking/tool_tracker.h"
 
 namespace orthonav::nav {

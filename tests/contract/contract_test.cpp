@@ -9,10 +9,10 @@
 namespace orthonav {
 namespace {
 
-using orthonav::testing::DeviceCase;
-using orthonav::testing::expect_same;
-using orthonav::testing::play;
-using orthonav::testing::SessionLog;
+using orthonav::test::DeviceCase;
+using orthonav::test::expect_same;
+using orthonav::test::play;
+using orthonav::test::SessionLog;
 
 /// What every device promises, whatever it is. Nothing here knows in which order a device is asked.
 class DeviceContract : public ::testing::TestWithParam<DeviceCase> {
@@ -240,8 +240,7 @@ TEST_P(DeviceContract, ShowsFramesInOrderOnly) {
   EXPECT_TRUE(display.shown({lit + Duration(1), now, {}}).ok());
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, DeviceContract,
-                         ::testing::ValuesIn(orthonav::testing::device_cases()),
+INSTANTIATE_TEST_SUITE_P(Every, DeviceContract, ::testing::ValuesIn(orthonav::test::device_cases()),
                          [](const auto& device) { return device.param.name; });
 
 }  // namespace

@@ -14,9 +14,9 @@
 namespace orthonav {
 namespace {
 
-using orthonav::testing::DeviceCase;
-using orthonav::testing::play;
-using orthonav::testing::SessionLog;
+using orthonav::test::DeviceCase;
+using orthonav::test::play;
+using orthonav::test::SessionLog;
 using ::testing::HasSubstr;
 
 class DepthContract : public ::testing::TestWithParam<DeviceCase> {
@@ -101,7 +101,7 @@ TEST_P(DepthContract, DoesNotHoldUpPairsWhereNobodyAsksForIt) {
 
 /// Those that have depth, and one that has none.
 std::vector<DeviceCase> cases() {
-  std::vector<DeviceCase> all = orthonav::testing::device_cases();
+  std::vector<DeviceCase> all = orthonav::test::device_cases();
   std::erase_if(all, [](const DeviceCase& device) {
     return device.depth_cameras == 0 && device.name != "sim";
   });
@@ -116,10 +116,10 @@ DepthFrame good_frame(int index) {
   DepthFrame frame;
   frame.sequence = 4 + index;
   frame.map_epoch = 2;
-  frame.time = orthonav::testing::scripted_time(index);
+  frame.time = orthonav::test::scripted_time(index);
   frame.range_mm = DepthImage(20, 18, 800);
   frame.brightness = DepthImage(20, 18, 70);
-  frame.world_from_rig = orthonav::testing::scripted_pose(index);
+  frame.world_from_rig = orthonav::test::scripted_pose(index);
   return frame;
 }
 
@@ -136,7 +136,7 @@ TEST_P(BrokenDepth, IsReportedAndLeavesAnEmptyFrame) {
   GetParam().spoil(broken);
   fake::ManualClock clock(Timestamp::max());
   fake::ScriptedDepth camera(
-      {orthonav::testing::scripted_depth_camera(DepthStream::kLongThrow, 20, 18),
+      {orthonav::test::scripted_depth_camera(DepthStream::kLongThrow, 20, 18),
        {good_frame(0), broken, good_frame(2)}},
       clock);
   DepthFrame frame;

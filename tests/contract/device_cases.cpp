@@ -14,8 +14,8 @@
 #include "hal/openxr/openxr_headset.h"
 #include "hal/replay/recorder.h"
 #include "hal/replay/replay_headset.h"
-#include "tests/sim_camera/scene.h"
 #include "tests/support/bare_room.h"
+#include "tests/support/camera_scene.h"
 #include "tests/support/depth_scene.h"
 #include "tests/support/event_file.h"
 #include "tests/support/scripted_session.h"
@@ -23,7 +23,7 @@
 #include "tests/support/stream_recorder_folder.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 namespace {
 
@@ -273,4 +273,4 @@ std::vector<DeviceCase> device_cases() {
   return cases;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

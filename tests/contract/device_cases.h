@@ -8,7 +8,7 @@
 
 #include "hal/api/devices.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// One implementation of the device interfaces; every `open` gives the same device from its start.
 /// Its sessions are a few seconds long at most.
@@ -26,4 +26,4 @@ inline void PrintTo(const DeviceCase& device, std::ostream* out) { *out << devic
 /// Every implementation there is.
 std::vector<DeviceCase> device_cases();
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

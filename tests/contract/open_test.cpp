@@ -71,7 +71,7 @@ TEST(OpenHeadset, WantsARigOfCamerasOnTheHead) {
 }
 
 TEST(OpenHeadset, ChecksTheRigFile) {
-  const testing::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto refused = [&](const std::string& text) {
     const std::string path = (folder.path() / "rig.json").string();
     std::ofstream(path) << text;

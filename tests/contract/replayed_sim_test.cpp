@@ -9,7 +9,7 @@ namespace orthonav {
 namespace {
 
 TEST(SimulatedSession, ReplaysToTheBit) {
-  const orthonav::testing::TemporaryFolder folder;
+  const orthonav::test::TemporaryFolder folder;
   OpenOptions options;
   options.sim.surgeon = false;
   options.sim.limit_s = 0.5;
@@ -18,13 +18,13 @@ TEST(SimulatedSession, ReplaysToTheBit) {
   const StereoCalibration calibration = (*sim)->cameras().calibration();
   auto recorder = replay::RecordingHeadset::create(*std::move(sim), folder / "session");
   ASSERT_TRUE(recorder.ok()) << recorder.error().message;
-  const auto live = orthonav::testing::play(**recorder);
+  const auto live = orthonav::test::play(**recorder);
   ASSERT_TRUE((*recorder)->close().ok());
   ASSERT_GE(live.moments.size(), 10u);
   auto replayed = open_headset("replay:" + (folder / "session").string());
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
-  orthonav::testing::expect_same((*replayed)->cameras().calibration(), calibration);
-  orthonav::testing::expect_same(orthonav::testing::play(**replayed), live);
+  orthonav::test::expect_same((*replayed)->cameras().calibration(), calibration);
+  orthonav::test::expect_same(orthonav::test::play(**replayed), live);
 }
 
 }  // namespace

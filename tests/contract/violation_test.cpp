@@ -9,11 +9,11 @@
 namespace orthonav::fake {
 namespace {
 
-using orthonav::testing::play;
-using orthonav::testing::scripted_pose;
-using orthonav::testing::scripted_session;
-using orthonav::testing::scripted_time;
-using orthonav::testing::SessionLog;
+using orthonav::test::play;
+using orthonav::test::scripted_pose;
+using orthonav::test::scripted_session;
+using orthonav::test::scripted_time;
+using orthonav::test::SessionLog;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -100,7 +100,7 @@ TEST(AllowedFault, OfTheCamerasIsPassedOn) {
   EXPECT_EQ(unlocated.moments.size(), 11u);
   EXPECT_FALSE(unlocated.moments[1].frame.world_from_rig.has_value());
   const SessionLog noisy = play_with({.camera = {{1, CameraFault::kNoise}}});
-  const auto plain = orthonav::testing::scripted_frame(1);
+  const auto plain = orthonav::test::scripted_frame(1);
   EXPECT_EQ(noisy.moments[1].frame.left.at(5, 5), 255 - plain.left.at(5, 5));
 }
 

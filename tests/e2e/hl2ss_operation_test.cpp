@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <numbers>
 
-#include "engine/evaluation.h"
-#include "engine/observer_list.h"
-#include "engine/operation_plan.h"
-#include "engine/phantom.h"
-#include "engine/sim_scenario.h"
-#include "engine/simulated_operation.h"
-#include "engine/tool_file.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/phantom/phantom.h"
+#include "engine/session/observer_list.h"
+#include "engine/study/evaluation.h"
+#include "engine/study/sim_scenario.h"
+#include "engine/study/simulated_operation.h"
 #include "hal/api/forwarding_headset.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "nav/evaluation/errors.h"
 
-namespace orthonav::engine {
+namespace orthonav::engine::hl2ss_operation_test {
 namespace {
 
 // As for the direct run in a perfect world; single precision of poses and calibration adds less
@@ -180,4 +180,4 @@ TEST(OverTcp, TheHeadsetListensForTheWordsOfTheWorkflow) {
 }
 
 }  // namespace
-}  // namespace orthonav::engine
+}  // namespace orthonav::engine::hl2ss_operation_test

@@ -4,14 +4,14 @@
 #include <numbers>
 #include <thread>
 
-#include "engine/tool_file.h"
+#include "engine/case/tool_file.h"
 #include "hal/api/as_headset.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/hl2ss/server/server.h"
 #include "hal/sim/sim_headset.h"
 #include "nav/tracking/tool_tracker.h"
 
-namespace orthonav::engine {
+namespace orthonav::engine::hl2ss_poses_test {
 namespace {
 
 /// A table with the built-in pointer and guide hovering over it, for a second.
@@ -102,4 +102,4 @@ TEST(PosesOverTcp, H264AreThoseOfTheDirectRunWithinTheCodecsNoise) {
 }
 
 }  // namespace
-}  // namespace orthonav::engine
+}  // namespace orthonav::engine::hl2ss_poses_test

@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <numbers>
 
-#include "engine/operation_plan.h"
-#include "engine/phantom.h"
-#include "engine/simulated_operation.h"
-#include "engine/tool_file.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/phantom/phantom.h"
+#include "engine/study/simulated_operation.h"
 #include "hal/replay/replay_headset.h"
 
-namespace orthonav::engine {
+namespace orthonav::engine::operation_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,8 +35,8 @@ OperationOptions one_level() {
   return options;
 }
 
-class EveryMethod : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Operation, EveryMethod, testing::Values("paper", "best"));
+class EveryMethod : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Operation, EveryMethod, ::testing::Values("paper", "best"));
 
 TEST_P(EveryMethod, InAPerfectWorldEveryWireLiesOnItsPlan) {
   OperationOptions options = one_level();
@@ -173,4 +173,4 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
 }
 
 }  // namespace
-}  // namespace orthonav::engine
+}  // namespace orthonav::engine::operation_test

@@ -9,16 +9,12 @@
 #include "hal/hl2ss/standin_message.h"
 #include "hal/hl2ss/video.h"
 #include "hal/hl2ss/voice.h"
+#include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {
 namespace {
 
 using hl2ss::Bytes;
-
-/// What a reader let through must hold, or its word is worth nothing.
-void insist(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// A stream that arrives torn: the input's first byte says in which pieces.
 void follow_stream(Bytes input) {

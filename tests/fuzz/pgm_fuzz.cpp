@@ -1,4 +1,4 @@
-#include "engine/grey_image_file.h"
+#include "engine/io/grey_image_file.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {

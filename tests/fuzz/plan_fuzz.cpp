@@ -1,4 +1,4 @@
-#include "engine/plan_file.h"
+#include "engine/case/plan_file.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {

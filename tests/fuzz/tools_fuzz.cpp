@@ -1,4 +1,4 @@
-#include "engine/tool_file.h"
+#include "engine/case/tool_file.h"
 #include "tests/fuzz/input_file.h"
 
 namespace orthonav::fuzz {

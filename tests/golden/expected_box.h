@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "engine/golden_scenes.h"
+#include "engine/golden/golden_scenes.h"
 
 namespace orthonav::engine {
 

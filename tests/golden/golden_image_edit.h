@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/golden_images.h"
+#include "engine/golden/golden_images.h"
 
 namespace orthonav::engine {
 

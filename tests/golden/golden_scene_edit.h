@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/golden_scenes.h"
+#include "engine/golden/golden_scenes.h"
 
 namespace orthonav::engine {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <memory>
 
-#include "engine/golden_images.h"
+#include "engine/golden/golden_images.h"
 #include "render/projection.h"
 #include "tests/golden/expected_box.h"
 #include "tests/golden/golden_image_edit.h"
@@ -17,7 +17,7 @@ namespace orthonav::engine {
 namespace {
 
 using render::Label;
-using testing::IsEmpty;
+using ::testing::IsEmpty;
 
 const std::filesystem::path kFolder = ORTHONAV_SOURCE_DIR "/tests/golden/images";
 
@@ -31,7 +31,7 @@ constexpr double kEdgeTolerance_px = 0.9;
 // Far enough that no hologram still covers its points.
 constexpr PixelStep kAstray = {60, 60};
 
-class Golden : public testing::TestWithParam<std::string> {
+class Golden : public ::testing::TestWithParam<std::string> {
  protected:
   // One painter for all: a device and its shaders take longer than a picture.
   static void SetUpTestSuite() {
@@ -244,7 +244,7 @@ std::vector<std::string> scene_names() {
   return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, Golden, ::testing::ValuesIn(scene_names()),
                          [](const auto& param) { return param.param; });
 
 TEST(GoldenFolder, HoldsNothingThatBelongsToNoScene) {
@@ -267,9 +267,9 @@ TEST(GoldenImages, OfAnotherSizeDiffer) {
   scene.width_px += 2;
   const auto larger = painter.paint(scene);
   ASSERT_TRUE(larger.ok()) << larger.error().message;
-  EXPECT_THAT(
-      differences(*images, *larger),
-      testing::ElementsAre("labels: sizes differ", "additive: sizes differ", "over: sizes differ"));
+  EXPECT_THAT(differences(*images, *larger),
+              ::testing::ElementsAre("labels: sizes differ", "additive: sizes differ",
+                                     "over: sizes differ"));
 }
 
 TEST(GoldenScenes, AreTheSameAtEveryCall) {

@@ -6,7 +6,7 @@
 namespace orthonav::render {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 Image plain_background(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   Image image{200, 120, {}};

@@ -10,7 +10,7 @@
 namespace orthonav::render {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
@@ -35,7 +35,7 @@ Scene good_scene() {
   return scene;
 }
 
-class BadScene : public testing::Test {
+class BadScene : public ::testing::Test {
  protected:
   void SetUp() override {
     const Image image = renderer_.draw(good_scene(), TestRenderer::straight_ahead());
@@ -230,7 +230,7 @@ TEST(NoDeviceDeathTest, IsOneLine) {
         std::fprintf(stderr, "%s|%zu\n", error.c_str(), list_devices().size());
         std::_Exit(renderer == nullptr ? 0 : 1);
       },
-      testing::ExitedWithCode(0), "renderer: .*no Vulkan (driver|device).*\\|0");
+      ::testing::ExitedWithCode(0), "renderer: .*no Vulkan (driver|device).*\\|0");
 }
 
 }  // namespace

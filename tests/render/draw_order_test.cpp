@@ -9,7 +9,7 @@
 namespace orthonav::render {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using Order = std::vector<std::uint32_t>;
 
 template <class Item>

@@ -108,7 +108,7 @@ TEST(FrameLoop, TellsWhereItsTimeWent) {
   EXPECT_GE(timing.total_ms, timing.gpu_ms + timing.record_ms);
 }
 
-class MeshCacheTest : public testing::Test {
+class MeshCacheTest : public ::testing::Test {
  protected:
   SilentValidation validation_;
   Instance instance_{true, validation_.sink()};

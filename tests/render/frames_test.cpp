@@ -8,7 +8,7 @@
 namespace orthonav::render {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 constexpr std::array<int, 3> kBlack = {0, 0, 0};
 

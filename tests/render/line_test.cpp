@@ -8,7 +8,7 @@
 namespace orthonav::render {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Light in a column of pixels, in full pixels (linear).
 double light_in_column(const Image& image, int x_px) {

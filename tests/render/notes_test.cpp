@@ -10,8 +10,8 @@
 namespace orthonav::render {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 Scene text_scene(const std::string& text) {
   Scene scene;
@@ -110,8 +110,8 @@ TEST(HugeMesh, IsDrawnWithFewerTrianglesAndANote) {
   const LabelImage labels = renderer.labels(scene, view);
   ASSERT_EQ(renderer->notes().size(), 1u);
   EXPECT_THAT(renderer->notes()[0],
-              testing::MatchesRegex("scene: mesh 0 \\(label 201\\): drawn with [0-9]+ of its "
-                                    "516960 triangles, limit 250000"));
+              ::testing::MatchesRegex("scene: mesh 0 \\(label 201\\): drawn with [0-9]+ of its "
+                                      "516960 triangles, limit 250000"));
   EXPECT_NEAR(static_cast<double>(pixels_of(labels, 201)),
               static_cast<double>(pixels_of(plain, 201)), 12.0);
 }

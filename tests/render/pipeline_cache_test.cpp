@@ -12,7 +12,7 @@
 namespace orthonav::render {
 namespace {
 
-class PipelineCacheTest : public testing::Test {
+class PipelineCacheTest : public ::testing::Test {
  protected:
   PipelineCacheTest() { std::filesystem::remove_all(folder_); }
   ~PipelineCacheTest() override { std::filesystem::remove_all(folder_); }
@@ -28,7 +28,7 @@ class PipelineCacheTest : public testing::Test {
   Instance instance_{true, validation_.sink()};
   VkPhysicalDevice physical_ = choose_device(instance_, "llvmpipe");
   Device device_{physical_};
-  std::string folder_ = testing::TempDir() + "orthonav_pipeline_cache/deeper";
+  std::string folder_ = ::testing::TempDir() + "orthonav_pipeline_cache/deeper";
 };
 
 TEST_F(PipelineCacheTest, IsReadByTheNextStart) {
@@ -89,7 +89,7 @@ TEST(UserCacheFolderDeathTest, IsWhereTheSpecificationSays) {
         unsetenv("HOME");
         std::_Exit(given && fallback && user_cache_folder().empty() ? 0 : 1);
       },
-      testing::ExitedWithCode(0), "");
+      ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TestImages::TestImages(const VulkanObjects& objects, VkFormat format, int width_
   targets_ = {format, width_px, height_px, layers, {}};
   for (std::uint32_t chain = 0; chain < 2 / layers; ++chain) {
     chains_.push_back(
-        std::make_unique<testing::ImageChain>(objects, format, width_px, height_px, layers));
+        std::make_unique<test::ImageChain>(objects, format, width_px, height_px, layers));
     targets_.chains.push_back(chains_.back()->handles());
   }
 }

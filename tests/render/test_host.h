@@ -36,7 +36,7 @@ class TestImages {
 
  private:
   EyeTargets targets_;
-  std::vector<std::unique_ptr<testing::ImageChain>> chains_;
+  std::vector<std::unique_ptr<test::ImageChain>> chains_;
 };
 
 }  // namespace orthonav::render

@@ -10,9 +10,9 @@
 namespace orthonav::render {
 namespace {
 
-using testing::Contains;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// Anisotropy without its feature: wrong, but harmless to the driver.
 void ask_for_what_was_not_enabled(const Device& device) {
@@ -97,7 +97,7 @@ TEST(Size, BeyondTheDeviceIsOneLine) {
 }
 
 /// A batch that takes the device a while.
-class LongBatch : public testing::Test {
+class LongBatch : public ::testing::Test {
  protected:
   static constexpr VkDeviceSize kBytes = 64u << 20u;
   static constexpr std::uint32_t kValue = 0x01020304;

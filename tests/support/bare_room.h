@@ -2,7 +2,7 @@
 
 #include "hal/sim/room.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// A table with two tools hovering over it.
 inline sim::RoomDescription bare_room() {
@@ -20,4 +20,4 @@ inline sim::RoomDescription bare_room() {
   return room;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

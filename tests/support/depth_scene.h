@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 #include "tests/support/hololens1_folder.h"
 #include "tests/support/stream_recorder_folder.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// A depth camera that looks at a plane, and both recorders' files of what it sees, written from
 /// the formats' facts alone: nothing of the readers is used. Nothing about it is square, centred or
@@ -180,4 +180,4 @@ struct DepthScene {
   }
 };
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

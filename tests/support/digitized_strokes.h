@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/transform.h"
+#include "base/result.h"
+#include "base/transform.h"
 #include "nav/geometry/mesh.h"
 #include "tests/support/stroke_lanes.h"
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// Input events as the kernel writes them, byte by byte.
 class EventBytes {
@@ -31,4 +31,4 @@ class EventBytes {
   std::string bytes_;
 };
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

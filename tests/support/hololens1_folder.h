@@ -10,7 +10,7 @@
 #include "hal/api/devices.h"
 #include "tests/support/stream_recorder_folder.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// A folder as HoloLensForCV's recorder leaves it on a HoloLens 1, written from the format's facts
 /// alone: nothing of the reader is used. Times count from FILETIME ticks `kStart`.
@@ -105,4 +105,4 @@ class Hololens1Folder {
   }
 };
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace orthonav::testing {
+namespace orthonav::test {
 namespace {
 
 void expect(VkResult result, const char* what) {
@@ -167,4 +167,4 @@ std::vector<std::uint8_t> ImageChain::read(std::size_t image, std::uint32_t laye
   return {mapped_, mapped_ + static_cast<std::size_t>(pixel_bytes) * width_px_ * height_px_};
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -7,7 +7,7 @@
 
 #include "render/hosted_renderer.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// A ring of images on a device that somebody else draws with, as a runtime hands them out, which
 /// are read back one by one. Aborts when Vulkan fails: there is no test to be failed everywhere.
@@ -46,4 +46,4 @@ class ImageChain {
   std::uint8_t* mapped_ = nullptr;
 };
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

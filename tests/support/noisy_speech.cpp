@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 namespace {
 
@@ -162,4 +162,4 @@ std::vector<std::int16_t> Soundtrack::with_noise(Noise noise, double snr_db, Ran
   return mixed;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

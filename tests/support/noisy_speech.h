@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 #include "tests/support/synthetic_speech.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 enum class Noise { kWhite, kPink, kBabble };
 [[nodiscard]] const char* name_of(Noise noise);
@@ -41,4 +41,4 @@ class Soundtrack {
   std::vector<double> samples_;
 };
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 #include "nav/geometry/mesh.h"
 #include "tests/support/stroke_walk.h"
 

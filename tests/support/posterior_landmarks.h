@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/api/result.h"
+#include "base/result.h"
 #include "nav/geometry/mesh.h"
 
 namespace orthonav::test {

@@ -5,7 +5,7 @@
 #include "hal/replay/recorder.h"
 #include "tests/support/session_log.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// Plays a headset through a recorder and finishes the recording.
 inline SessionLog play_to_the_end(Result<std::unique_ptr<replay::RecordingHeadset>> recorder) {
@@ -17,4 +17,4 @@ inline SessionLog play_to_the_end(Result<std::unique_ptr<replay::RecordingHeadse
   return log;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 #include "hal/fake/scripted.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// A stereo camera like a HoloLens 2's, of round numbers.
 inline const StereoCalibration& scripted_calibration() {
@@ -131,4 +131,4 @@ inline fake::Script scripted_session(int frames = 12) {
   return script;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -9,7 +9,7 @@
 #include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// Everything that a headset said while it was asked in the manner of a frame loop.
 struct SessionLog {
@@ -150,4 +150,4 @@ inline void expect_same(const StereoCalibration& a, const StereoCalibration& b) 
   compare(a.right, b.right);
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

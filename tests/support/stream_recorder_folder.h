@@ -12,7 +12,7 @@
 #include "tests/support/scripted_session.h"
 #include "tests/support/temporary_folder.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 inline void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
@@ -135,4 +135,4 @@ class StreamRecorderFolder {
   TemporaryFolder folder_;
 };
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

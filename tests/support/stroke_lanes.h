@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "hal/api/random.h"
-#include "hal/api/vec.h"
+#include "base/random.h"
+#include "base/vec.h"
 #include "tests/support/posterior_landmarks.h"
 
 namespace orthonav::test {

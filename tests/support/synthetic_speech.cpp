@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 namespace {
 
@@ -60,4 +60,4 @@ Result<std::vector<std::int16_t>> spoken(const std::string& text, const Speaker&
   return samples;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/result.h"
+#include "base/result.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// A speaker of espeak-ng.
 struct Speaker {
@@ -18,4 +18,4 @@ struct Speaker {
 /// the library is one synthesiser for the process.
 Result<std::vector<std::int16_t>> spoken(const std::string& text, const Speaker& speaker);
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

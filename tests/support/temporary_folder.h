@@ -9,7 +9,7 @@
 #include <string>
 #include <system_error>
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// A new empty folder that goes away with its owner.
 class TemporaryFolder {
@@ -52,4 +52,4 @@ inline std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

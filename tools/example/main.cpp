@@ -3,12 +3,12 @@
 #include <cstdlib>
 #include <utility>
 
-#include "engine/frame_loop.h"
-#include "engine/method.h"
-#include "engine/operation_plan.h"
-#include "engine/phantom.h"
-#include "engine/sim_scenario.h"
-#include "engine/tool_file.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/live/frame_loop.h"
+#include "engine/phantom/phantom.h"
+#include "engine/session/method.h"
+#include "engine/study/sim_scenario.h"
 #include "hal/open/open.h"
 
 using namespace orthonav;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/api/transform.h"
+#include "base/transform.h"
 #include "hal/sim/room.h"
 
 namespace orthonav::preview {

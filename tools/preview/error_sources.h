@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "hal/sim/magnitudes.h"
+#include "hal/sim/error_model.h"
 
 namespace orthonav::preview {
 

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <optional>
 
-#include "hal/api/time.h"
+#include "base/time.h"
 
 namespace orthonav::preview {
 

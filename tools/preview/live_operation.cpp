@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "engine/operation_plan.h"
-#include "engine/sim_scenario.h"
-#include "engine/tool_file.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/study/sim_scenario.h"
 #include "hal/open/open.h"
 
 namespace orthonav::preview {

@@ -5,9 +5,9 @@
 #include <string>
 #include <thread>
 
-#include "engine/case_file.h"
-#include "engine/frame_loop.h"
-#include "engine/method.h"
+#include "engine/case/case.h"
+#include "engine/live/frame_loop.h"
+#include "engine/session/method.h"
 #include "hal/sim/sim_headset.h"
 #include "tools/preview/preview_headset.h"
 #include "tools/preview/timeline.h"

@@ -3,8 +3,8 @@
 #include <array>
 #include <utility>
 
-#include "engine/hologram_parts.h"
-#include "engine/render_values.h"
+#include "engine/holograms/hologram_parts.h"
+#include "engine/holograms/render_values.h"
 
 namespace orthonav::preview {
 namespace {

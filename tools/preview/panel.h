@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/sim/magnitudes.h"
+#include "hal/sim/error_model.h"
 #include "tools/preview/model.h"
 
 namespace orthonav::preview {

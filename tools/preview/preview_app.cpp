@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "engine/image_file.h"
+#include "engine/io/image_file.h"
 
 namespace orthonav::preview {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/video_writer.h"
+#include "engine/io/video_writer.h"
 #include "tools/preview/live_operation.h"
 #include "tools/preview/model.h"
 #include "tools/preview/panel.h"

@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/image.h"
+#include "base/result.h"
+#include "base/vec.h"
 #include "hal/api/camera_model.h"
-#include "hal/api/image.h"
-#include "hal/api/result.h"
-#include "hal/api/vec.h"
 #include "render/renderer.h"
 
 namespace orthonav::preview {

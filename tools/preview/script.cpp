@@ -4,8 +4,8 @@
 #include <array>
 #include <sstream>
 
-#include "engine/json_document.h"
-#include "engine/text_fields.h"
+#include "engine/io/json_document.h"
+#include "engine/io/text_fields.h"
 
 namespace orthonav::preview {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/time.h"
+#include "base/result.h"
+#include "base/time.h"
 #include "tools/preview/model.h"
 
 namespace orthonav::preview {

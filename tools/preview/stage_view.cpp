@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/render_values.h"
+#include "engine/holograms/render_values.h"
 #include "tools/eye_in_rig.h"
 #include "tools/preview/outlines.h"
 

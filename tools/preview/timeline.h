@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/workflow.h"
-#include "hal/api/tracked.h"
-#include "hal/api/transform.h"
+#include "base/tracked.h"
+#include "base/transform.h"
+#include "engine/session/workflow.h"
 #include "hal/sim/room.h"
 #include "render/scene.h"
 

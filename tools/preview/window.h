@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "hal/api/result.h"
-#include "hal/api/vec.h"
+#include "base/result.h"
+#include "base/vec.h"
 #include "render/renderer.h"
 #include "tools/preview/keys.h"
 

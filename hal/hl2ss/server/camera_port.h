@@ -4,7 +4,7 @@
 #include <mutex>
 #include <optional>
 
-#include "hal/api/random.h"
+#include "base/random.h"
 #include "hal/hl2ss/server/faults.h"
 #include "hal/hl2ss/server/h264_encoder.h"
 #include "hal/hl2ss/server/port.h"

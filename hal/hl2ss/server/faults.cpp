@@ -5,7 +5,7 @@
 #include <charconv>
 #include <utility>
 
-#include "hal/api/joined.h"
+#include "base/joined.h"
 
 namespace orthonav::hl2ss {
 namespace {

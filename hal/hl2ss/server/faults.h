@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/api/result.h"
-#include "hal/api/vec.h"
+#include "base/result.h"
+#include "base/vec.h"
 
 namespace orthonav::hl2ss {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "hal/api/image.h"
-#include "hal/api/result.h"
+#include "base/image.h"
+#include "base/result.h"
 
 namespace orthonav::hl2ss {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "base/random.h"
 #include "hal/api/devices.h"
-#include "hal/api/random.h"
 #include "hal/hl2ss/server/camera_port.h"
 #include "hal/hl2ss/server/side_ports.h"
 

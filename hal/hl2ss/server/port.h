@@ -6,7 +6,7 @@
 #include <mutex>
 #include <vector>
 
-#include "hal/api/time.h"
+#include "base/time.h"
 #include "hal/hl2ss/socket.h"
 
 namespace orthonav::hl2ss {

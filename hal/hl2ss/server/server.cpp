@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "hal/api/joined.h"
+#include "base/joined.h"
 #include "hal/hl2ss/calibration.h"
 #include "hal/hl2ss/server/camera_port.h"
 #include "hal/hl2ss/server/pair_sender.h"

@@ -5,7 +5,7 @@
 
 #include "tests/support/openxr_runtime/double_state.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 namespace {
 
 DoubleSwapchain* chain_of(Double& d, XrSwapchain handle) {
@@ -283,4 +283,4 @@ void add_frame_functions(std::map<std::string, PFN_xrVoidFunction>& table) {
   table["xrEndFrame"] = as_void(end_frame);
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -3,7 +3,7 @@
 
 #include "tests/support/openxr_runtime/double_state.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 namespace {
 
 XrResult XRAPI_CALL string_to_path(XrInstance, const char* text, XrPath* path) {
@@ -106,4 +106,4 @@ void add_input_functions(std::map<std::string, PFN_xrVoidFunction>& table) {
   table["xrGetActionStateBoolean"] = as_void(state_boolean);
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

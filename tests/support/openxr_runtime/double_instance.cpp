@@ -3,7 +3,7 @@
 
 #include "tests/support/openxr_runtime/double_state.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 namespace {
 
 const XrInstance kInstance = reinterpret_cast<XrInstance>(std::uintptr_t{0x1157a9ce});
@@ -271,4 +271,4 @@ extern "C" XrResult xrNegotiateLoaderRuntimeInterface(const LoaderInfo* loader,
   return XR_SUCCESS;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -5,7 +5,7 @@
 
 #include "tests/support/openxr_runtime/double_state.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 namespace {
 
 /// Pixels that are not black, of both eyes.
@@ -66,4 +66,4 @@ void write_report(const Double& d) {
   for (const std::string& violation : d.wrong) out << "violation " << violation << "\n";
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

@@ -2,7 +2,7 @@
 
 #include "tests/support/openxr_runtime/double_state.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 namespace {
 
 XrResult XRAPI_CALL create_session(XrInstance, const XrSessionCreateInfo* info, XrSession* handle) {
@@ -183,4 +183,4 @@ void add_session_functions(std::map<std::string, PFN_xrVoidFunction>& table) {
   table["xrLocateViews"] = as_void(locate_views);
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

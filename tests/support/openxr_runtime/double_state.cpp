@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace orthonav::testing {
+namespace orthonav::test {
 namespace {
 
 /// About the middle of a standing wearer, half a centimetre and half a degree.
@@ -217,8 +217,8 @@ XrSpaceLocationFlags Double::flags() const {
   return flags;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test
 
-extern "C" orthonav::testing::RuntimeDouble* orthonav_runtime_double() {
-  return &orthonav::testing::the_double();
+extern "C" orthonav::test::RuntimeDouble* orthonav_runtime_double() {
+  return &orthonav::test::the_double();
 }

@@ -9,7 +9,7 @@
 #include "tests/support/image_chain.h"
 #include "tests/support/openxr_runtime/runtime_double.h"
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// One image of a chain goes from free to acquired to waited for and back.
 struct DoubleSwapchain {
@@ -138,4 +138,4 @@ XrResult enumerate(const std::vector<T>& all, std::uint32_t capacity, std::uint3
   return XR_SUCCESS;
 }
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test

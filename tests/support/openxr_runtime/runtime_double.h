@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace orthonav::testing {
+namespace orthonav::test {
 
 /// What the runtime is like. Set before the application connects.
 struct RuntimeTraits {
@@ -95,7 +95,7 @@ class RuntimeDouble {
   [[nodiscard]] virtual std::vector<std::string> violations() const = 0;
 };
 
-}  // namespace orthonav::testing
+}  // namespace orthonav::test
 
 /// Of the library that is loaded; the symbol that tests ask for.
-extern "C" orthonav::testing::RuntimeDouble* orthonav_runtime_double();
+extern "C" orthonav::test::RuntimeDouble* orthonav_runtime_double();

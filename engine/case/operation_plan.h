@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/case/case.h"
+#include "engine/case/model_cache.h"
+#include "engine/case/operation.h"
+
+namespace orthonav::engine {
+
+/// The labels that would be operated, in the order of the case; refuses as `plan_operation` does,
+/// without preparing anything.
+Result<std::vector<std::string>> levels_to_operate(const Case& source,
+                                                   const std::vector<std::string>& labels = {});
+
+/// Prepares levels of a case for an operation, in the order of the case. `labels` empty: the two
+/// lowest of the spine. Refuses a label that the case does not have or that is named twice. `cache`
+/// may have them from an earlier time; what it hadn't, it can `keep` afterwards.
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
+                                 ModelCache& cache);
+Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels = {});
+
+}  // namespace orthonav::engine

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "nav/tracking/tool.h"
+
+namespace orthonav::engine {
+
+/// Reads tool definitions: `{"tools": [{"name", "role": "pointer"|"guide"|"reference", "marker":
+/// {"family", "id", "size_mm"}, "tip_mm": [x,y,z], "axis": [x,y,z], "markers": [...]}]}`. The axis
+/// may have any length but zero and is +y where absent; a reference needs no tip. `markers` lists
+/// further tags of the body, each as `marker` with a `pose`: marker_from_tag, 4×4 by rows, mm.
+/// Refuses, naming file and field, whatever is missing, of the wrong type, no rigid pose, or a
+/// problem in the sense of `nav::problems_of`.
+Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path);
+
+/// Writes what `load_tools` reads back to the same numbers.
+Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>& tools);
+
+/// The same without a file; `name` stands for it in messages.
+[[nodiscard]] std::string tools_text(const std::vector<nav::ToolGeometry>& tools);
+Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
+                                                   const std::string& name);
+
+/// What a calibration found out about a tool.
+struct ToolChange {
+  std::optional<Point<Marker>> tip_in_marker;
+  std::optional<std::vector<nav::AttachedMarker>> more_markers;
+};
+
+/// The text of a tools file in which one tool is changed; every other field, known here or not,
+/// stays as it is. Refuses what `load_tools` refuses, before and after, and a name that no tool
+/// has.
+Result<std::string> changed_tools(const std::string& path, const std::string& tool,
+                                  const ToolChange& change);
+
+/// The tool of this name; names what there is when none has it.
+Result<nav::ToolGeometry> tool_named(const std::vector<nav::ToolGeometry>& tools,
+                                     const std::string& name);
+
+/// The pointer, the drill guide and the patient reference of data/tools.json.
+[[nodiscard]] std::vector<nav::ToolGeometry> built_in_tools();
+
+/// "pointer", "guide" or "reference".
+[[nodiscard]] std::string to_text(nav::ToolRole role);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/result.h"
+#include "engine/golden/golden_scenes.h"
+#include "render/compare.h"
+
+namespace orthonav::engine {
+
+/// What a scene looks like; views side by side.
+struct GoldenImages {
+  render::LabelImage labels;
+  render::Image additive;  ///< on black, as a headset shows it
+  render::Image over;      ///< over golden_background
+};
+
+/// Draws golden scenes. Keeps a renderer a size, so that many scenes cost little.
+class GoldenPainter {
+ public:
+  /// The goldens were taken on this rasterizer; another rounds differently.
+  static constexpr const char* kPinnedDevice = "llvmpipe";
+  /// With validation, its lines go to `messages` too, which may outlive the painter.
+  explicit GoldenPainter(std::string device = kPinnedDevice, bool validation = false,
+                         render::MessageSink messages = nullptr);
+  Result<GoldenImages> paint(const GoldenScene& scene);
+  /// Of all renderers used so far.
+  [[nodiscard]] const std::vector<std::string>& validation_messages() const { return *messages_; }
+
+ private:
+  using Key = std::pair<std::pair<int, int>, render::Blend>;
+  Result<render::Renderer*> renderer_for(const GoldenScene& scene, render::Blend blend);
+  std::string device_;
+  bool validation_;
+  render::MessageSink messages_;
+  std::map<Key, std::unique_ptr<render::Renderer>> renderers_;
+};
+
+/// File names of one scene's goldens: labels, additive, over.
+[[nodiscard]] std::vector<std::string> golden_files(const std::string& scene_name);
+
+Result<GoldenImages> read_goldens(const std::filesystem::path& folder,
+                                  const std::string& scene_name);
+/// All three, each whole or not at all.
+Status write_goldens(const std::filesystem::path& folder, const std::string& scene_name,
+                     const GoldenImages& images);
+
+/// What differs between what is expected and what is drawn; empty when nothing does.
+[[nodiscard]] std::vector<std::string> differences(const GoldenImages& expected,
+                                                   const GoldenImages& actual);
+
+/// PNG files in the folder that belong to no scene.
+[[nodiscard]] std::vector<std::string> orphaned_goldens(const std::filesystem::path& folder,
+                                                        const std::vector<GoldenScene>& scenes);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,128 @@
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "base/angle.h"
+#include "engine/golden/golden_stage.h"
+#include "engine/holograms/scene_builder.h"
+#include "render/float3.h"
+#include "render/shapes.h"
+
+namespace orthonav::engine::golden {
+namespace {
+
+using render::Float3;
+
+constexpr std::array<Float3, 3> kHeads = {
+    {{0.021f, 0.046f, -0.040f}, {0.017f, 0.049f, 0.0f}, {0.020f, 0.045f, 0.041f}}};
+
+GoldenScene start_rod(const std::string& name, const std::string& what) {
+  GoldenScene golden = start_wide(name, what, close_view({0.020f, 0.045f, -0.002f}));
+  for (render::View& view : golden.views) {
+    view.tan_left = view.tan_right = 0.200f;
+    view.tan_up = view.tan_down = 0.130f;
+  }
+  return golden;
+}
+
+GoldenScene rod(const std::string& name, const std::string& what, Float3 shift) {
+  GoldenScene golden = start_rod(name, what);
+  std::vector<Float3> centre_line;
+  for (int i = 0; i <= 48; ++i) {
+    // The parabola through the heads; the rod's own spline is not this picture's matter.
+    const float t = static_cast<float>(i) / 24.0f;
+    const float a = 0.5f * (t - 1) * (t - 2);
+    const float b = t * (2 - t);
+    const float c = 0.5f * t * (t - 1);
+    centre_line.push_back(a * kHeads[0] + b * kHeads[1] + c * kHeads[2]);
+  }
+  const std::array<RodBendMark, 2> bends = {{{centre_line[16], 6.2 * kRadiansPerDegree, 0.0271},
+                                             {centre_line[34], 4.9 * kRadiansPerDegree, 0.0578}}};
+  RodHologram hologram;
+  hologram.tube =
+      std::make_shared<const render::MeshData>(render::make_tube(centre_line, 0.00275f));
+  hologram.heads = kHeads;
+  hologram.bends = bends;
+  hologram.length_m = 0.0820;
+  hologram.shift = shift;
+  add_rod(golden.scene, hologram, 1001);
+  for (const Float3 head : kHeads) golden.covered.push_back({1001, head + shift});
+  return golden;
+}
+
+/// Heads that make no rod yet.
+GoldenScene heads(const std::string& name, const std::string& what, std::size_t count) {
+  GoldenScene golden = start_rod(name, what);
+  RodHologram hologram;
+  hologram.heads = std::span(kHeads).first(count);
+  add_rod(golden.scene, hologram, 1001);
+  for (std::size_t i = 0; i < count; ++i) golden.covered.push_back({1001, kHeads[i]});
+  return golden;
+}
+
+GoldenScene status(const std::string& name, const std::string& what, const std::string& text,
+                   ToolState pointer, ToolState guide) {
+  GoldenScene golden = start_wide(name, what, surgeon_views());
+  golden.views.resize(1);
+  const std::array<ToolDot, 2> tools = {{{"pointer", pointer}, {"guide", guide}}};
+  add_status_line(golden.scene, text, tools, 1101);
+  return golden;
+}
+
+/// A whole scene of which only what hangs on the head is left.
+GoldenScene head_lost() {
+  GoldenScene golden =
+      status("h11_head_lost", "status line, an amber line above it, nothing else",
+             "guide L4 left | RMSE 0.62 mm", ToolState::kMeasured, ToolState::kMeasured);
+  render::Scene whole = golden.scene;
+  whole.lines.push_back({601, {kPlacesToCheck[0], kPlacesToCheck[1]}, 0.002f, look::kGreen});
+  write_head_lost(whole, golden.scene);
+  return golden;
+}
+
+GoldenScene check(const std::string& name, const std::string& what, double distance_m,
+                  bool within) {
+  GoldenScene golden = start(name, what, close_view({0.006f, 0.052f, -0.006f}));
+  const Float3 place{0, 0.052f, -0.006f};
+  add_check_point(golden.scene, place, distance_text(distance_m), within, 1201);
+  golden.covered = golden.centred = {{1201, place}};
+  return golden;
+}
+
+GoldenScene to_check() {
+  GoldenScene golden =
+      start("h12_to_check", "three cyan diamonds", close_view({0, 0.042f, 0.002f}));
+  render::Label label = 1200;
+  for (const Float3 place : kPlacesToCheck) {
+    add_place_to_check(golden.scene, place, ++label);
+    golden.covered.push_back({label, place});
+    golden.centred.push_back({label, place});
+  }
+  return golden;
+}
+
+}  // namespace
+
+void add_other_scenes(std::vector<GoldenScene>& scenes) {
+  scenes.push_back(
+      rod("h10_rod", "titanium rod through three blue heads, two amber bends, length", {}));
+  scenes.push_back(rod("h10_rod_moved", "the same rod, moved aside", {0.014f, -0.006f, -0.006f}));
+  scenes.push_back(heads("h10_one_head", "one blue head, no rod, no length", 1));
+  scenes.push_back(heads("h10_no_rod", "two blue heads that make no rod, no length", 2));
+  scenes.push_back(status("h11_measured", "status line low in view, two filled green dots",
+                          "verify L4 | RMSE 0.62 mm | predicted 1.1 mm", ToolState::kMeasured,
+                          ToolState::kMeasured));
+  scenes.push_back(status("h11_lost", "status line: pointer half amber, guide hollow red",
+                          "digitize L4 | refused: registration RMSE 3.4 mm, limit 3.0 mm",
+                          ToolState::kPredicted, ToolState::kLost));
+  scenes.push_back(status("h11_short", "status line: one word", "setup", ToolState::kLost,
+                          ToolState::kMeasured));
+  scenes.push_back(head_lost());
+  scenes.push_back(to_check());
+  scenes.push_back(check("h12_within", "green diamond, 0.4 mm", 0.0004, true));
+  scenes.push_back(check("h12_off", "red diamond, 3.1 mm", 0.0031, false));
+  scenes.push_back(check("h12_nowhere", "red diamond, -- mm", std::nan(""), false));
+}
+
+}  // namespace orthonav::engine::golden

@@ -1,0 +1,156 @@
+#include "engine/golden/golden_stage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "base/angle.h"
+#include "engine/golden/golden_vertebra.h"
+#include "render/float3.h"
+#include "render/projection.h"
+#include "render/shapes.h"
+
+namespace orthonav::engine::golden {
+namespace {
+
+using render::Float3;
+
+GoldenScene path(const std::string& name, const std::string& what, PathState state) {
+  GoldenScene golden = start(name, what, close_view({-0.012f, 0.04f, -0.001f}));
+  const std::vector<Float3> samples = stroke();
+  add_sampled_path(golden.scene, samples, state, 101);
+  golden.covered = {{101, samples.front()}, {101, samples[60]}, {101, samples.back()}};
+  return golden;
+}
+
+GoldenScene fading(float opacity) {
+  GoldenScene golden = start("h1_fading", "orange ribbon, half gone: a deleted region",
+                             close_view({-0.012f, 0.04f, -0.001f}));
+  const std::vector<Float3> samples = stroke();
+  add_sampled_path(golden.scene, samples, PathState::kSaved, 101, opacity);
+  golden.covered = {{101, samples[60]}};
+  return golden;
+}
+
+GoldenScene residuals() {
+  GoldenScene golden = start("h1_residuals", "ribbon green, amber and red by its distance",
+                             close_view({-0.012f, 0.04f, -0.001f}));
+  const std::vector<Float3> samples = stroke();
+  std::vector<float> distances_m;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    distances_m.push_back(0.0015f + 0.0014f * std::sin(0.13f * static_cast<float>(i)));
+  add_residual_path(golden.scene, samples, distances_m, 101);
+  golden.covered = {{101, samples.front()}, {101, samples[60]}};
+  return golden;
+}
+
+GoldenScene vertebra() {
+  GoldenScene golden = start("h2_vertebra", "a vertebra: bright rim, dark see-through inside",
+                             close_view({0, 0.02f, 0}));
+  add_vertebra(golden.scene, make_golden_vertebra(), render::kIdentity, 201);
+  golden.covered = {{201, {0, 0.0655f, -0.0185f}},
+                    {201, {0.0445f, 0.030f, 0.009f}},
+                    {201, {-0.0445f, 0.030f, 0.009f}},
+                    {201, {0.0185f, 0.033f, 0.014f}}};
+  return golden;
+}
+
+GoldenScene bare_vertebra() {
+  GoldenScene golden = start("h2_bare", "the same, bluish on the right, where no stroke came near",
+                             close_view({0, 0.02f, 0}));
+  auto partly = std::make_shared<render::MeshData>(*make_golden_vertebra());
+  for (const Float3 place : partly->positions)
+    partly->tints.push_back(std::clamp(500.0f * (-0.004f - place.x), 0.0f, 1.0f));
+  add_vertebra(golden.scene, std::move(partly), render::kIdentity, 201);
+  return golden;
+}
+
+GoldenScene turned_vertebra() {
+  GoldenScene golden =
+      start("h2_vertebra_turned", "the same, from the side: rim where it turns away",
+            close_view({0, 0.02f, 0}));
+  render::Matrix4 turn = render::kIdentity;
+  turn[0] = turn[10] = std::cos(0.4f);
+  turn[8] = std::sin(0.4f);
+  turn[2] = -turn[8];
+  add_vertebra(golden.scene, make_golden_vertebra(), turn, 201);
+  return golden;
+}
+
+GoldenScene entry(const std::string& name, const std::string& what, const std::string& text,
+                  bool done, LabelSide side) {
+  const bool left = side == LabelSide::kLeft;
+  const Float3 place = left ? kEntry : kOtherEntry;
+  GoldenScene golden =
+      start(name, what, close_view(place + Float3{left ? 0.0095f : -0.0095f, 0, 0}));
+  add_entry(golden.scene, {place, left ? kNormal : kOtherNormal, text, done, side}, 301);
+  golden.covered = {{301, place}};
+  golden.centred = {{301, place}};
+  return golden;
+}
+
+GoldenScene trajectory(const std::string& name, const std::string& what, Float3 target) {
+  GoldenScene golden = start(name, what, close_view({0.014f, 0.042f, 0.007f}));
+  add_planned_trajectory(golden.scene, kEntry, target, 401);
+  const Float3 outer = trajectory_outer_end(kEntry, target);
+  golden.covered = {{401, outer}, {401, kEntry}, {401, 0.5f * (outer + kEntry)}};
+  return golden;
+}
+
+GoldenScene triangle(const std::string& name, const std::string& what, double angle_deg) {
+  GoldenScene golden = start(name, what, close_view({0.022f, 0.072f, 0.010f}));
+  const Float3 b = tool_point(angle_deg);
+  const Float3 c = planned_point();
+  add_deviation_triangle(golden.scene, kEntry, b, c, grade_of(angle_deg * kRadiansPerDegree), 501);
+  golden.covered = {{501, kEntry}, {501, b}, {501, c}};
+  return golden;
+}
+
+GoldenScene readout(const std::string& name, const std::string& what,
+                    std::optional<double> angle_deg) {
+  GoldenScene golden = start(name, what, close_view({0.035f, 0.115f, 0.01f}));
+  std::optional<double> angle_rad;
+  if (angle_deg) angle_rad = *angle_deg * kRadiansPerDegree;
+  const Float3 b = tool_point(angle_deg.value_or(4.0));
+  add_angle_readout(golden.scene, kEntry, b, angle_text(angle_rad),
+                    grade_of(angle_rad.value_or(1.0)), 601);
+  return golden;
+}
+
+}  // namespace
+
+void add_shape_scenes(std::vector<GoldenScene>& scenes) {
+  scenes.push_back(path("h1_recording", "yellow ribbon of loops", PathState::kRecording));
+  scenes.push_back(path("h1_saved", "orange ribbon of loops", PathState::kSaved));
+  scenes.push_back(fading(0.5f));
+  scenes.push_back(residuals());
+  scenes.push_back(vertebra());
+  scenes.push_back(bare_vertebra());
+  scenes.push_back(turned_vertebra());
+  scenes.push_back(
+      entry("h3_entry", "blue sphere in a ring, L4 left", "L4 left", false, LabelSide::kLeft));
+  scenes.push_back(entry("h3_entry_done", "blue sphere in a ring, L4 left with a green tick",
+                         "L4 left", true, LabelSide::kLeft));
+  scenes.push_back(entry("h3_entry_right", "blue sphere in a ring, L4 right, name on the right",
+                         "L4 right", false, LabelSide::kRight));
+  scenes.push_back(
+      entry("h3_entry_unnamed", "blue sphere in a ring, no name", "", false, LabelSide::kLeft));
+  scenes.push_back(
+      trajectory("h4_trajectory", "green: solid outside the bone, dashed inside", kTarget));
+  scenes.push_back(trajectory("h4_trajectory_short", "green: solid outside, one dash inside",
+                              kEntry - 0.009f * planned_direction()));
+  scenes.push_back(triangle("h5_green", "thin green triangle, solid edges", 1.5));
+  scenes.push_back(triangle("h5_amber", "amber triangle, solid edges", 3.8));
+  scenes.push_back(triangle("h5_red", "red triangle, dashed edges", 12.4));
+  scenes.push_back(triangle("h5_limit", "still amber at 5.0 degrees, solid edges", 5.0));
+  scenes.push_back(readout("h6_green", "1.2° in white, green rim", 1.2));
+  scenes.push_back(readout("h6_amber", "3.8° in white, amber rim", 3.8));
+  scenes.push_back(readout("h6_red", "12.4° in white, red rim", 12.4));
+  scenes.push_back(readout("h6_far_off", "21.9° in white, red rim", 21.9));
+  scenes.push_back(readout("h6_lost", "dashes instead of a number, red rim", std::nullopt));
+}
+
+}  // namespace orthonav::engine::golden

@@ -1,0 +1,83 @@
+#include "engine/golden/golden_stage.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/angle.h"
+#include "render/float3.h"
+#include "render/projection.h"
+
+namespace orthonav::engine::golden {
+namespace {
+
+using render::Float3;
+
+constexpr float kToolLength_m = 0.080f;
+constexpr Float3 kLooked = {0, 0.045f, 0};
+/// From the patient's left and above, as far as `surgeon` says.
+constexpr Float3 kFrom = {0.19f, 0.325f, -0.20f};
+
+Float3 eye_at(float distance_m) { return kLooked + distance_m * render::unit_or(kFrom, {}); }
+
+/// The head's up when it is rolled about its line of sight.
+Float3 up_of(float roll_deg) {
+  const Float3 back = render::unit_or(kFrom, {});
+  const Float3 right = render::unit_or(render::cross({0, 0.3f, 1}, back), {});
+  const Float3 up = render::cross(back, right);
+  const auto roll = static_cast<float>(roll_deg * kRadiansPerDegree);
+  return std::cos(roll) * up + std::sin(roll) * right;
+}
+
+}  // namespace
+
+Float3 planned_direction() { return render::unit_or(kEntry - kTarget, {}); }
+
+Float3 planned_point() { return kEntry + kToolLength_m * planned_direction(); }
+
+Float3 tool_point(double angle_deg) {
+  const Float3 along = planned_direction();
+  const Float3 side = render::unit_or(cross({0.3f, 0, -1}, along), {});
+  const auto angle_rad = static_cast<float>(angle_deg * kRadiansPerDegree);
+  return kEntry + kToolLength_m * (std::cos(angle_rad) * along + std::sin(angle_rad) * side);
+}
+
+std::vector<Float3> stroke() {
+  std::vector<Float3> samples;
+  for (int i = 0; i < 120; ++i) {
+    const float t = static_cast<float>(i) / 119.0f;
+    const float turn = t * 3.0f * 2.0f * std::numbers::pi_v<float>;
+    samples.push_back({-0.020f + 0.016f * t + 0.0035f * std::cos(turn), 0.038f + 0.004f * t,
+                       0.004f - 0.010f * t + 0.005f * std::sin(turn)});
+  }
+  return samples;
+}
+
+std::vector<render::View> close_view(Float3 target) {
+  const Float3 eye = target + Float3{0.24f, 0.36f, -0.16f};
+  return {render::look_at(eye, target, {0, 0.3f, 1}, 0.120f, 0.078f)};
+}
+
+std::vector<render::View> surgeon_views(float distance_m, float roll_deg) {
+  return render::stereo_pair(
+      render::look_at(eye_at(distance_m), kLooked, up_of(roll_deg), 0.394f, 0.2561f));
+}
+
+Viewer surgeon(float distance_m, float roll_deg) { return {eye_at(distance_m), up_of(roll_deg)}; }
+
+GoldenScene start(std::string name, std::string what, std::vector<render::View> views) {
+  GoldenScene golden;
+  golden.name = std::move(name);
+  golden.what = std::move(what);
+  golden.views = std::move(views);
+  return golden;
+}
+
+GoldenScene start_wide(std::string name, std::string what, std::vector<render::View> views) {
+  GoldenScene golden = start(std::move(name), std::move(what), std::move(views));
+  golden.width_px = 720;
+  golden.height_px = 468;
+  return golden;
+}
+
+}  // namespace orthonav::engine::golden

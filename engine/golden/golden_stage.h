@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/golden/golden_scenes.h"
+#include "engine/holograms/hologram_cross.h"
+#include "engine/holograms/hologram_shapes.h"
+
+namespace orthonav::engine::golden {
+
+// One patient for all golden pictures, prone: posterior is up. Metres.
+inline constexpr render::Float3 kEntry = {0.0165f, 0.0320f, 0.0070f};
+inline constexpr render::Float3 kTarget = {0.0080f, -0.0110f, 0.0040f};
+inline constexpr render::Float3 kOtherEntry = {-0.0165f, 0.0320f, 0.0070f};
+inline constexpr render::Float3 kOtherTarget = {-0.0080f, -0.0110f, 0.0040f};
+inline constexpr render::Float3 kNormal = {0.25f, 0.95f, 0.15f};
+inline constexpr render::Float3 kOtherNormal = {-0.25f, 0.95f, 0.15f};
+
+/// Spread over the bone, to be touched for verification.
+inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {
+    {{0, 0.062f, -0.016f}, {0.021f, 0.036f, 0.010f}, {-0.021f, 0.036f, 0.010f}}};
+
+/// Unit, along the plan out of the bone.
+[[nodiscard]] render::Float3 planned_direction();
+/// The point C of the deviation triangle.
+[[nodiscard]] render::Float3 planned_point();
+/// The point B of a tool that is off by the angle, towards the patient's left and head.
+[[nodiscard]] render::Float3 tool_point(double angle_deg);
+
+/// Strokes over lamina and spinous process, as a surgeon lays them.
+[[nodiscard]] std::vector<render::Float3> stroke();
+
+/// Near enough to judge one hologram: 14° wide.
+[[nodiscard]] std::vector<render::View> close_view(render::Float3 target);
+/// The surgeon's own, both eyes, a HoloLens 2's 43°: from so far, the head rolled to the right.
+[[nodiscard]] std::vector<render::View> surgeon_views(float distance_m = 0.4263f,
+                                                      float roll_deg = 0.0f);
+/// Between those eyes.
+[[nodiscard]] Viewer surgeon(float distance_m = 0.4263f, float roll_deg = 0.0f);
+
+[[nodiscard]] GoldenScene start(std::string name, std::string what,
+                                std::vector<render::View> views);
+/// As large as a surgeon's view needs it.
+[[nodiscard]] GoldenScene start_wide(std::string name, std::string what,
+                                     std::vector<render::View> views);
+
+// Appended in the order in which they are listed.
+void add_shape_scenes(std::vector<GoldenScene>& scenes);      ///< H1 to H6
+void add_precision_scenes(std::vector<GoldenScene>& scenes);  ///< H7 to H9
+void add_other_scenes(std::vector<GoldenScene>& scenes);      ///< H10 to H12
+void add_step_scenes(std::vector<GoldenScene>& scenes);       ///< the workflow, step by step
+void add_view_scenes(std::vector<GoldenScene>& scenes);       ///< distances and head rolls
+
+}  // namespace orthonav::engine::golden

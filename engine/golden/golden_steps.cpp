@@ -1,0 +1,219 @@
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/angle.h"
+#include "engine/golden/golden_stage.h"
+#include "engine/golden/golden_vertebra.h"
+#include "render/float3.h"
+
+namespace orthonav::engine::golden {
+namespace {
+
+using render::Float3;
+
+GoldenScene step(const std::string& name, const std::string& what, const std::string& status,
+                 ToolState tool = ToolState::kMeasured) {
+  GoldenScene golden = start_wide(name, what + ", both eyes", surgeon_views());
+  const bool pointer = status.starts_with("digitize") || status.starts_with("verify");
+  const std::array<ToolDot, 2> tools = {
+      {{pointer ? "pointer" : "guide", tool}, {"reference", ToolState::kPredicted}}};
+  add_status_line(golden.scene, status, tools, 1101);
+  return golden;
+}
+
+void add_paths(GoldenScene& golden, bool recording) {
+  const std::vector<Float3> saved = stroke();
+  add_sampled_path(golden.scene, saved, PathState::kSaved, 101);
+  golden.covered.push_back({101, saved.front()});
+  if (!recording) return;
+  std::vector<Float3> mirrored = saved;
+  for (Float3& p : mirrored) p = {-p.x, p.y, p.z};
+  mirrored.resize(70);
+  add_sampled_path(golden.scene, mirrored, PathState::kRecording, 102);
+  golden.covered.push_back({102, mirrored.back()});
+}
+
+void add_bone(GoldenScene& golden) {
+  add_vertebra(golden.scene, make_golden_vertebra(), render::kIdentity, 201);
+}
+
+void add_entries(GoldenScene& golden, bool left_done, bool right_done) {
+  add_entry(golden.scene, {kEntry, kNormal, "L4 left", left_done, LabelSide::kLeft}, 301);
+  add_entry(golden.scene, {kOtherEntry, kOtherNormal, "L4 right", right_done, LabelSide::kRight},
+            302);
+  golden.covered.push_back({302, kOtherEntry});
+}
+
+/// What does not depend on the tool.
+GoldenScene guiding(const std::string& name, const std::string& what, const std::string& status,
+                    ToolState tool = ToolState::kMeasured) {
+  GoldenScene golden = step(name, what, status, tool);
+  add_entries(golden, false, true);
+  add_planned_trajectory(golden.scene, kEntry, kTarget, 401);
+  return golden;
+}
+
+void add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool lost,
+                  const Viewer& viewer = surgeon()) {
+  TargetCross cross;
+  cross.site = 0.5f * (kEntry + kOtherEntry);
+  cross.outward = planned_direction();
+  cross.viewer = viewer;
+  cross.reading = reading;
+  cross.lost = lost;
+  add_target_cross(golden.scene, cross, 701);
+}
+
+/// The guide at an angle, its tip beside the entry.
+void add_tool_to(GoldenScene& golden, double angle_deg, bool measured, double depth_m) {
+  const Float3 b = tool_point(angle_deg);
+  const double angle_rad = angle_deg * kRadiansPerDegree;
+  const Grade grade = measured ? grade_of(angle_rad) : Grade::kFair;
+  add_deviation_triangle(golden.scene, kEntry, b, planned_point(), grade, 501);
+  add_angle_readout(golden.scene, kEntry, b,
+                    angle_text(measured ? std::optional(angle_rad) : std::nullopt),
+                    measured ? grade : Grade::kPoor, 601);
+  golden.covered.push_back({501, b});
+  golden.covered.push_back({501, planned_point()});
+  if (!measured) return add_cross_to(golden, std::nullopt, false);
+  const Float3 top = (b - planned_point()) +
+                     -1.0f * dot(b - planned_point(), planned_direction()) * planned_direction();
+  add_cross_to(golden, CrossReading{0.12f * top, top, grade}, false);
+  add_depth(golden.scene, kEntry, b, depth_text(depth_m, 0.045 - depth_m).value_or(""),
+            depth_m > 0.045, 901);
+}
+
+GoldenScene digitizing() {
+  GoldenScene golden = step("digitizing", "orange saved path, yellow one being recorded",
+                            "digitize L4 | 812 points");
+  add_paths(golden, true);
+  return golden;
+}
+
+GoldenScene refused() {
+  GoldenScene golden = step("digitize_refused", "orange path, the reason in the status line",
+                            "digitize L4 | refused: error expected 2.3 mm; stroke the left facet");
+  add_paths(golden, false);
+  return golden;
+}
+
+GoldenScene verifying() {
+  GoldenScene golden = step("verify", "the vertebra, its path by distance, three cyan diamonds",
+                            "verify L4 | RMSE 0.62 mm | touch 3 places, 15 mm apart");
+  add_bone(golden);
+  const std::vector<Float3> samples = stroke();
+  std::vector<float> distances_m(samples.size(), 0.0004f);
+  for (std::size_t i = 50; i < 70; ++i) distances_m[i] = 0.0016f;
+  add_residual_path(golden.scene, samples, distances_m, 101);
+  render::Label label = 1200;
+  for (const Float3 place : kPlacesToCheck) add_place_to_check(golden.scene, place, ++label);
+  return golden;
+}
+
+GoldenScene checked() {
+  GoldenScene golden = step("verify_checked", "the vertebra, two green places, a red one",
+                            "verify L4 | check point 3 is 3.1 mm off, limit 2.0 mm");
+  add_bone(golden);
+  constexpr std::array<double, 3> kDistances_m = {0.0004, 0.0011, 0.0031};
+  render::Label label = 1200;
+  for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i)
+    add_check_point(golden.scene, kPlacesToCheck[i], distance_text(kDistances_m[i]),
+                    kDistances_m[i] <= 0.002, ++label);
+  return golden;
+}
+
+GoldenScene accepted() {
+  GoldenScene golden =
+      step("accepted", "two blue entries, nothing else", "accepted L4 | RMSE 0.62 mm");
+  add_entries(golden, false, false);
+  return golden;
+}
+
+GoldenScene guidance() {
+  GoldenScene golden =
+      guiding("guidance", "guiding the left screw of L4 with everything, the right one done",
+              "guide L4 left | RMSE 0.62 mm | predicted 1.1 mm");
+  add_bone(golden);
+  add_tool_to(golden, 3.4, true, -0.0062);
+  return golden;
+}
+
+GoldenScene guide_far() {
+  GoldenScene golden = guiding("guide_far", "plan and cross with arrows: the tool is far away",
+                               "guide L4 left | RMSE 0.62 mm | predicted 1.1 mm");
+  add_cross_to(golden, CrossReading{{0.03f, 0, 0.02f}, {0.04f, 0, 0.02f}, Grade::kPoor}, false);
+  return golden;
+}
+
+GoldenScene guide_drilling() {
+  GoldenScene golden = guiding("guide_drilling", "green triangle and dots, depth to the target",
+                               "guide L4 left | RMSE 0.62 mm | predicted 1.1 mm");
+  add_tool_to(golden, 0.8, true, 0.0140);
+  return golden;
+}
+
+GoldenScene guide_predicted() {
+  GoldenScene golden =
+      guiding("guide_predicted", "amber triangle, dashes, rings without dots",
+              "guide L4 left | RMSE 0.62 mm | predicted 1.1 mm", ToolState::kPredicted);
+  add_tool_to(golden, 1.0, false, 0.0);
+  return golden;
+}
+
+GoldenScene guide_lost() {
+  GoldenScene golden = guiding("guide_lost", "plan, dashes, tool lost across the rings",
+                               "guide L4 left | guide not seen", ToolState::kLost);
+  add_angle_readout(golden.scene, kEntry, trajectory_outer_end(kEntry, kTarget),
+                    angle_text(std::nullopt), Grade::kPoor, 601);
+  add_cross_to(golden, std::nullopt, true);
+  return golden;
+}
+
+GoldenScene screws_done() {
+  GoldenScene golden = step("guide_done", "two entries with ticks", "guide L5 left | say start");
+  add_entries(golden, true, true);
+  return golden;
+}
+
+}  // namespace
+
+void add_step_scenes(std::vector<GoldenScene>& scenes) {
+  scenes.push_back(step("setup", "the status line alone", "setup", ToolState::kLost));
+  scenes.push_back(digitizing());
+  scenes.push_back(refused());
+  scenes.push_back(verifying());
+  scenes.push_back(checked());
+  scenes.push_back(accepted());
+  scenes.push_back(guide_far());
+  scenes.push_back(guidance());
+  scenes.push_back(guide_drilling());
+  scenes.push_back(guide_predicted());
+  scenes.push_back(guide_lost());
+  scenes.push_back(screws_done());
+}
+
+void add_view_scenes(std::vector<GoldenScene>& scenes) {
+  constexpr std::array<float, 3> kDistances_m = {0.35f, 0.50f, 0.70f};
+  constexpr std::array<float, 3> kRolls_deg = {-20.0f, 0.0f, 20.0f};
+  constexpr std::array<const char*, 3> kRollNames = {"rolled_left", "upright", "rolled_right"};
+  for (const float distance_m : kDistances_m)
+    for (std::size_t i = 0; i < kRolls_deg.size(); ++i) {
+      GoldenScene golden = guidance();
+      const auto cm = static_cast<int>(std::lround(100.0f * distance_m));
+      golden.name = "guidance_" + std::to_string(cm) + "cm_" + kRollNames[i];
+      golden.what = "guidance from " + std::to_string(cm) + " cm, head " + kRollNames[i] +
+                    ": texts upright to the head, both eyes";
+      golden.views = surgeon_views(distance_m, kRolls_deg[i]);
+      // The cross faces the eyes from wherever they are.
+      const auto of_cross = [](const auto& item) { return item.label / 100 == 7; };
+      golden.scene.meshes.erase_if(of_cross);
+      golden.scene.lines.erase_if(of_cross);
+      golden.scene.texts.erase_if(of_cross);
+      add_cross_to(golden, CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair},
+                   false, surgeon(distance_m, kRolls_deg[i]));
+      scenes.push_back(std::move(golden));
+    }
+}
+
+}  // namespace orthonav::engine::golden

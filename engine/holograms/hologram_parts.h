@@ -1,0 +1,39 @@
+#pragma once
+
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "engine/holograms/hologram_shapes.h"
+
+namespace orthonav::engine {
+
+// What holograms are put together from.
+
+[[nodiscard]] render::Colour faded(render::Colour colour, float opacity);
+
+void add_mesh(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh,
+              const render::Matrix4& world_from_model, render::Colour colour, render::Label label);
+
+void add_sphere(render::Scene& scene, render::Float3 centre, float radius_m, render::Colour colour,
+                render::Label label);
+
+void add_line(render::Scene& scene, std::span<const render::Float3> points, float width_m,
+              render::Colour colour, render::Label label, float dash_m = 0, bool closed = false);
+inline void add_line(render::Scene& scene, std::initializer_list<render::Float3> points,
+                     float width_m, render::Colour colour, render::Label label, float dash_m = 0,
+                     bool closed = false) {
+  add_line(scene, std::span(points.begin(), points.size()), width_m, colour, label, dash_m, closed);
+}
+
+void add_ring(render::Scene& scene, render::Float3 centre, render::Float3 normal, float radius_m,
+              float width_m, render::Colour colour, render::Label label, int points = 48);
+
+/// A text beside a place, its middle as high: to the right by so many of its heights, or to the
+/// left where that is negative. Its words are added to what comes back.
+render::TextItem& add_text_beside(render::Scene& scene, render::Float3 place, float offset_right,
+                                  float height_m, float min_height_deg, render::Label label);
+void add_run(render::TextItem& item, std::string_view text, render::Colour colour);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,261 @@
+#include "engine/holograms/hologram_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <utility>
+
+#include "base/angle.h"
+#include "base/length_text.h"
+#include "engine/holograms/hologram_parts.h"
+#include "render/float3.h"
+#include "render/shapes.h"
+
+namespace orthonav::engine {
+namespace {
+
+using render::Colour;
+using render::Float3;
+using render::Label;
+using render::Scene;
+
+constexpr float kPathWidth_m = 0.001f;
+constexpr float kNear_m = 0.001f;
+constexpr float kFar_m = 0.002f;
+constexpr float kDiamond_m = 0.004f;  // from tip to tip
+constexpr float kEntryRadius_m = 0.0015f;
+constexpr float kEntryRingRadius_m = 0.003f;
+constexpr float kEntryRingWidth_m = 0.0006f;
+constexpr float kTrajectoryWidth_m = 0.002f;
+constexpr float kDash_m = 0.004f;
+constexpr float kTriangleEdge_m = 0.001f;
+constexpr float kTriangleFill = 0.30f;
+constexpr float kReadoutOutward_m = 0.006f;
+constexpr float kHeadRadius_m = 0.0042f;  // a little wider than the rod, so that it shows around it
+constexpr float kBendRingRadius_m = 0.0042f;
+constexpr float kBendRingWidth_m = 0.0010f;
+
+/// Hyphens as wide as digits and a leading blank of one digit's width, so that the number keeps
+/// its place while it changes.
+std::string fixed_width(std::string_view text) {
+  std::string out;
+  const std::size_t point = text.find('.');
+  if (point == 1) out += "\u2007";
+  for (const char c : text) c == '-' ? out += "\u2012" : out += c;
+  return out;
+}
+
+void add_diamond(Scene& scene, Float3 centre, Colour colour, Label label) {
+  static const auto mesh = std::make_shared<const render::MeshData>(render::make_octahedron(1.0f));
+  add_mesh(scene, mesh, render::placed_at(centre, 0.5f * kDiamond_m), colour, label);
+}
+
+void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
+  add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::kAmber, label);
+  render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
+  add_run(text, angle_text(bend.angle_rad), look::kAmber);
+  add_run(text, " at ", look::kDimWhite);
+  add_run(text, in_mm(bend.arc_length_m), look::kDimWhite);
+}
+
+}  // namespace
+
+std::vector<std::string> GradeLimits::check() const {
+  std::vector<std::string> problems;
+  if (!(good_rad > 0.0 && good_rad <= std::numbers::pi))
+    problems.push_back("good_rad must lie in (0, pi]");
+  if (!(poor_rad >= good_rad && poor_rad <= std::numbers::pi))
+    problems.push_back("poor_rad must lie in [good_rad, pi]");
+  return problems;
+}
+
+Grade grade_of(double angle_rad, const GradeLimits& limits) {
+  if (!(angle_rad <= limits.poor_rad)) return Grade::kPoor;
+  return angle_rad < limits.good_rad ? Grade::kGood : Grade::kFair;
+}
+
+Colour colour_of(Grade grade) {
+  switch (grade) {
+    case Grade::kGood:
+      return look::kGreen;
+    case Grade::kFair:
+      return look::kAmber;
+    case Grade::kPoor:
+      break;
+  }
+  return look::kRed;
+}
+
+std::string angle_text(std::optional<double> angle_rad) {
+  const double angle_deg = angle_rad ? *angle_rad * kDegreesPerRadian : std::nan("");
+  if (!(angle_deg >= 0.0 && angle_deg < 99.95)) return "--.-°";
+  char text[16];
+  std::snprintf(text, sizeof(text), "%.1f°", angle_deg);
+  return text;
+}
+
+void add_sampled_path(Scene& scene, std::span<const Float3> samples, PathState state, Label label,
+                      float opacity) {
+  if (samples.empty() || !(opacity > 0)) return;
+  const Colour colour = state == PathState::kRecording ? look::kYellow : look::kOrange;
+  add_line(scene, samples, kPathWidth_m, faded(colour, std::fmin(opacity, 1.0f)), label);
+}
+
+void add_residual_path(Scene& scene, std::span<const Float3> samples,
+                       std::span<const float> distances_m, Label label) {
+  const auto band = [&](std::size_t i) {
+    const float away = std::abs(distances_m[i]);
+    return away <= kNear_m ? Grade::kGood : (away <= kFar_m ? Grade::kFair : Grade::kPoor);
+  };
+  const std::size_t count = std::min(samples.size(), distances_m.size());
+  for (std::size_t first = 0; first + 1 < count;) {
+    std::size_t last = first + 1;
+    while (last + 1 < count && band(last) == band(first)) ++last;
+    add_line(scene, samples.subspan(first, last - first + 1), kPathWidth_m, colour_of(band(first)),
+             label);
+    first = last;
+  }
+}
+
+void add_vertebra(Scene& scene, std::shared_ptr<const render::MeshData> mesh,
+                  const render::Matrix4& world_from_model, Label label) {
+  add_mesh(scene, std::move(mesh), world_from_model, look::kBone, label);
+  scene.meshes.back().tint = look::kBare;
+  scene.meshes.back().style = render::MeshStyle::kRim;
+}
+
+void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
+  add_sphere(scene, entry.position, kEntryRadius_m, look::kBlue, label);
+  add_ring(scene, entry.position, entry.surface_normal, kEntryRingRadius_m, kEntryRingWidth_m,
+           look::kBlue, label);
+  if (entry.text.empty() && !entry.done) return;
+  const float beside = entry.side == LabelSide::kRight ? 1.2f : -1.2f;
+  render::TextItem& text = add_text_beside(scene, entry.position, beside, 0.0045f, 0.5f, label);
+  add_run(text, entry.text, look::kBlue);
+  if (entry.done) add_run(text, " ✓", look::kGreen);
+}
+
+std::string distance_text(double distance_m) {
+  return std::isfinite(distance_m) ? in_mm(std::abs(distance_m)) : "-- mm";
+}
+
+void add_check_point(Scene& scene, Float3 position, std::string_view text, bool within,
+                     Label label) {
+  const render::Colour colour = within ? look::kGreen : look::kRed;
+  add_diamond(scene, position, colour, label);
+  add_run(add_text_beside(scene, position, 1.0f, 0.0045f, 0.5f, label), text, colour);
+}
+
+void add_place_to_check(Scene& scene, Float3 position, Label label) {
+  add_diamond(scene, position, look::kCyan, label);
+}
+
+Float3 trajectory_outer_end(Float3 entry, Float3 target) {
+  return entry + kTrajectoryOutside_m * render::unit_or(entry - target, {0, 1, 0});
+}
+
+void add_planned_trajectory(Scene& scene, Float3 entry, Float3 target, Label label) {
+  add_line(scene, {trajectory_outer_end(entry, target), entry}, kTrajectoryWidth_m, look::kGreen,
+           label);
+  // A gap first: the dashes must not add up with the solid part at the entry.
+  const Float3 inward = render::unit_or(target - entry, {0, -1, 0});
+  if (render::length(target - entry) <= kDash_m) return;
+  add_line(scene, {entry + kDash_m * inward, target}, kTrajectoryWidth_m, look::kGreen, label,
+           kDash_m);
+}
+
+void add_deviation_triangle(Scene& scene, Float3 a, Float3 b, Float3 c, Grade grade, Label label) {
+  const Colour colour = colour_of(grade);
+  scene.triangles.push_back({label, {a, b, c}, faded(colour, kTriangleFill)});
+  add_line(scene, {a, b, c}, kTriangleEdge_m, colour, label, grade == Grade::kPoor ? kDash_m : 0.0f,
+           true);
+}
+
+Float3 readout_place(Float3 a, Float3 b) {
+  return b + kReadoutOutward_m * render::unit_or(b - a, {0, 1, 0});
+}
+
+void add_angle_readout(Scene& scene, Float3 a, Float3 b, std::string_view text, Grade grade,
+                       Label label) {
+  render::TextItem& item = scene.texts.emplace_back();
+  item.label = label;
+  item.position = readout_place(a, b);
+  item.align = render::TextAlign::kLeft;
+  item.offset_right = 0.9f;  // clear of B even when the eye looks down the tool's axis
+  item.height_m = 0.007f;
+  item.min_height_deg = 0.8f;
+  item.rim = colour_of(grade);
+  add_run(item, fixed_width(text), look::kWhite);
+}
+
+void take_angle_off(render::TextItem& readout) {
+  readout.rim = colour_of(Grade::kPoor);
+  readout.runs.clear();
+  add_run(readout, fixed_width(angle_text(std::nullopt)), look::kWhite);
+}
+
+void add_rod(Scene& scene, const RodHologram& rod, Label label) {
+  if (rod.tube && !rod.tube->indices.empty()) {
+    add_mesh(scene, rod.tube, render::placed_at(rod.shift), look::kTitanium, label);
+  }
+  for (const Float3 head : rod.heads) {
+    add_sphere(scene, head + rod.shift, kHeadRadius_m, look::kBlue, label);
+  }
+  const Float3 along = rod.heads.empty()
+                           ? Float3{0, 1, 0}
+                           : render::unit_or(rod.heads.back() - rod.heads.front(), {0, 1, 0});
+  for (const RodBendMark& bend : rod.bends)
+    add_bend(scene, bend, bend.position + rod.shift, along, label);
+  if (rod.heads.size() < 2 || !rod.length_m) return;
+  render::TextItem& text = scene.texts.emplace_back();
+  text.label = label;
+  text.position = rod.heads.back() + 0.012f * along + rod.shift;
+  text.height_m = 0.005f;
+  text.min_height_deg = 0.6f;
+  add_run(text, in_mm(*rod.length_m), look::kWhite);
+}
+
+namespace {
+
+/// Low in view, wherever the head goes.
+render::TextItem& add_line_on_head(Scene& scene, Label label) {
+  render::TextItem& item = scene.texts.emplace_back();
+  item.label = label;
+  item.place = render::TextPlace::kView;
+  item.position = {0, -0.096f, -0.5f};  // 11° below straight ahead
+  item.height_m = 0.003f;
+  item.min_height_deg = 0.5f;
+  return item;
+}
+
+}  // namespace
+
+void add_notice(Scene& scene, std::string_view text, Label label) {
+  render::TextItem& item = add_line_on_head(scene, label);
+  item.offset_up = 2.0f;
+  add_run(item, text, look::kAmber);
+}
+
+void add_status_line(Scene& scene, std::string_view text, std::span<const ToolDot> tools,
+                     Label label) {
+  render::TextItem& item = add_line_on_head(scene, label);
+  add_run(item, text, look::kDimWhite);
+  for (const ToolDot& tool : tools) {
+    // The shape says it as well as the colour does.
+    switch (tool.state) {
+      case ToolState::kMeasured:
+        add_run(item, "  ● ", look::kGreen);
+        break;
+      case ToolState::kPredicted:
+        add_run(item, "  ◐ ", look::kAmber);
+        break;
+      case ToolState::kLost:
+        add_run(item, "  ○ ", look::kRed);
+        break;
+    }
+    add_run(item, tool.name, look::kDimWhite);
+  }
+}
+
+}  // namespace orthonav::engine

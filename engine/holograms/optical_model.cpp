@@ -1,0 +1,97 @@
+#include "engine/holograms/optical_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+
+#include "base/srgb.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};  // ITU-R BT.709
+
+const std::array<double, 256>& linear_table() {
+  static const std::array<double, 256> table = [] {
+    std::array<double, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = linear_from_srgb(static_cast<double>(i) / 255.0);
+    return values;
+  }();
+  return table;
+}
+
+std::uint8_t encoded(double v) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb_from_linear(v), 0.0, 1.0)));
+}
+
+/// Luminance behind the combiner of a white, matte surface.
+double white_behind(const OpticalModel& model) {
+  return model.combiner_share * model.ambient_lux / std::numbers::pi;
+}
+
+double grey_at(const render::Image& image, std::size_t pixel) {
+  double sum = 0.0;
+  for (std::size_t c = 0; c < 3; ++c)
+    sum += kLuminance[c] * linear_table()[image.rgba[4 * pixel + c]];
+  return sum;
+}
+
+/// Not even a dark room is without light.
+constexpr double kDarkest_cd_m2 = 0.01;
+
+}  // namespace
+
+std::vector<std::string> OpticalModel::check() const {
+  std::vector<std::string> problems;
+  if (!(display_cd_m2 > 0.0 && display_cd_m2 <= 1e5))
+    problems.push_back("display luminance must lie in (0, 100000] cd/m2");
+  if (!(ambient_lux >= 0.0 && ambient_lux <= 2e5))
+    problems.push_back("ambient light must lie in [0, 200000] lux");
+  if (!(combiner_share > 0.0 && combiner_share <= 1.0))
+    problems.push_back("combiner transmission must lie in (0, 1]");
+  return problems;
+}
+
+std::vector<HologramContrast> contrasts(const render::Image& light,
+                                        const render::LabelImage& labels,
+                                        const render::Image& background,
+                                        const OpticalModel& model) {
+  std::map<render::Label, std::vector<double>> ratios;
+  const double white = white_behind(model);
+  for (std::size_t i = 0; i < labels.labels.size(); ++i) {
+    if (labels.labels[i] == 0) continue;
+    const double behind = std::max(white * grey_at(background, i), kDarkest_cd_m2);
+    ratios[labels.labels[i]].push_back(1.0 + model.display_cd_m2 * grey_at(light, i) / behind);
+  }
+  std::vector<HologramContrast> out;
+  for (auto& [label, values] : ratios) {
+    std::sort(values.begin(), values.end());
+    out.push_back({label, static_cast<int>(values.size()), values[values.size() / 2],
+                   values[values.size() / 10]});
+  }
+  return out;
+}
+
+render::Image through_combiner(const render::Image& light, const render::Image& background,
+                               const OpticalModel& model) {
+  const double white = white_behind(model);
+  std::vector<double> seen(light.rgba.size(), 0.0);
+  double brightest = kDarkest_cd_m2;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (i % 4 == 3) continue;
+    seen[i] = model.display_cd_m2 * linear_table()[light.rgba[i]] +
+              white * linear_table()[background.rgba[i]];
+    brightest = std::max(brightest, seen[i]);
+  }
+  render::Image out{light.width_px, light.height_px, {}};
+  out.rgba.resize(seen.size(), 255);
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (i % 4 != 3) out.rgba[i] = encoded(seen[i] / brightest);
+  return out;
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/shown_frame.h"
+#include "engine/holograms/visibility.h"
+#include "engine/session/guidance.h"
+#include "hal/api/display.h"
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+/// The only place where guidance becomes something visible: a scene of values for the renderer and
+/// the same frame in words for the display. What is shown when is decided in visibility.cpp, how it
+/// looks in hologram_shapes.cpp. One thread at a time.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const VisibilityRules& rules = {}) : rules_(rules) {}
+
+  /// Decides what this guidance shows in a frame that lights up when it expects, or later; the two
+  /// below then show exactly that.
+  void update(const Guidance& guidance) { update(guidance, guidance.display_time); }
+  void update(const Guidance& guidance, Timestamp lights_up);
+  void write_shown(const Guidance& guidance, ShownFrame& frame);
+  void write_scene(const Guidance& guidance, render::Scene& scene);
+  [[nodiscard]] const Visibility& visible() const { return visible_; }
+
+ private:
+  struct Tube {
+    std::vector<Point<World>> heads;  ///< that the tube was made for
+    std::shared_ptr<const render::MeshData> mesh;
+  };
+
+  void add_paths(const Guidance& guidance, render::Scene& scene);
+  void add_bone(const Guidance& guidance, render::Scene& scene);
+  void add_check_points(const Guidance& guidance, render::Scene& scene);
+  void add_entries(const Guidance& guidance, render::Scene& scene);
+  void add_screw(const Guidance& guidance, render::Scene& scene);
+  void add_depth_to_go(const Guidance& guidance, render::Scene& scene);
+  void add_virtual_twin(const Guidance& guidance, const TrajectoryLine& line, render::Scene& scene);
+  void add_rods(const Guidance& guidance, render::Scene& scene);
+  void add_status(const Guidance& guidance, render::Scene& scene);
+  const std::shared_ptr<const render::MeshData>& surface_of(const LevelState& level);
+  const std::shared_ptr<const render::MeshData>& tinted_surface_of(const LevelState& level,
+                                                                   std::span<const float> tints);
+  const std::shared_ptr<const render::MeshData>& tube_of(std::size_t i, const RodState& rod);
+
+  VisibilityRules rules_;
+  Visibility visible_;
+  ShownFrameWriter shown_;
+  // The renderer keeps its copies by pointer: one surface a level, one tube a rod, made once.
+  std::map<const nav::VertebraModel*, std::shared_ptr<const render::MeshData>> surfaces_;
+  std::vector<Tube> tubes_;
+  std::shared_ptr<const render::MeshData> tinted_;  ///< of the registration shown last
+  const render::MeshData* tinted_from_ = nullptr;   ///< the surface that it was made of
+  // Reused from frame to frame.
+  std::vector<render::Float3> points_;
+  std::vector<RodBendMark> bends_;
+  std::string text_;
+  std::vector<ToolDot> dots_;
+  render::Scene parts_;  ///< of the twin
+};
+
+/// Takes the deviation triangle out of a scene and the number off its readout: the pose they came
+/// from has grown too old before they were drawn.
+void hide_tool_guidance(render::Scene& scene);
+
+/// What is left of a scene while the head is not located: the status line, which hangs on the head,
+/// and above it why there is nothing else.
+void write_head_lost(const render::Scene& scene, render::Scene& left);
+
+}  // namespace orthonav::engine

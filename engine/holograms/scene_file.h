@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+/// Holograms as others script them (docs/scene-files.md), and the eyes that see them.
+struct SceneFile {
+  render::Scene scene;
+  std::vector<render::View> eyes;  ///< left, right
+  int width_px = 1268;             ///< of one eye
+  int height_px = 720;
+};
+
+/// Reads a scene file and the meshes that it names. Refuses what it can't draw by file, place,
+/// value and limit: unknown holograms, numbers that are not finite, widths that are not positive.
+Result<SceneFile> load_scene(const std::string& path);
+
+}  // namespace orthonav::engine

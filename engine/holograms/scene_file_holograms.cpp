@@ -1,0 +1,285 @@
+#include "engine/holograms/scene_file_holograms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "base/angle.h"
+#include "engine/holograms/hologram_cross.h"
+#include "engine/holograms/hologram_parts.h"
+#include "engine/holograms/hologram_twin.h"
+#include "engine/holograms/render_values.h"
+#include "engine/io/mesh_file.h"
+#include "nav/guidance/rod.h"
+#include "render/float3.h"
+#include "render/shapes.h"
+
+namespace orthonav::engine {
+namespace {
+
+using render::Float3;
+using render::Label;
+using render::Scene;
+
+constexpr double kFarthest_mm = 10'000.0;
+constexpr Label kFree = 99;
+
+Float3 direction_from(const JsonNode& node, const char* key) {
+  const Float3 given = to_float3(node.vec3(key));
+  const float length = render::length(given);
+  if (!(length > 1e-6f)) node.refuse(key, "has no direction");
+  return render::unit_or(given, {0, 1, 0});
+}
+
+std::vector<Float3> places_from(const JsonNode& node, const char* key) {
+  std::vector<Float3> places;
+  for (const Vec3 place_mm : node.vec3s(key)) places.push_back(to_float3(place_mm * 1e-3));
+  return places;
+}
+
+/// One of the words, by its place among them.
+std::size_t word_from(const JsonNode& node, const char* key, std::span<const char* const> words) {
+  const std::string word = node.text_or(key, words.front());
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  std::string choice;
+  for (const char* known : words) choice += std::string(choice.empty() ? "" : ", ") + known;
+  node.refuse(key, "is \"" + word + "\", must be one of " + choice);
+  return 0;
+}
+
+std::optional<double> angle_from(const JsonNode& node) {
+  if (!node.has("angle_deg")) return std::nullopt;
+  return node.number("angle_deg") * kRadiansPerDegree;
+}
+
+Grade grade_from(const JsonNode& node) { return grade_of(angle_from(node).value_or(1.0)); }
+
+void add_path(const JsonNode& node, Label label, Scene& scene) {
+  constexpr std::array<const char*, 2> kStates = {"recording", "saved"};
+  const std::vector<Float3> samples = places_from(node, "samples_mm");
+  if (node.has("distances_mm")) {
+    std::vector<float> distances_m;
+    for (const double mm : node.numbers("distances_mm", samples.size()))
+      distances_m.push_back(static_cast<float>(mm * 1e-3));
+    return add_residual_path(scene, samples, distances_m, label);
+  }
+  const bool saved = word_from(node, "state", kStates) == 1;
+  const double opacity = node.has("opacity") ? node.number("opacity") : 1.0;
+  if (!(opacity >= 0.0 && opacity <= 1.0)) node.refuse("opacity", "must lie in [0, 1]");
+  add_sampled_path(scene, samples, saved ? PathState::kSaved : PathState::kRecording, label,
+                   static_cast<float>(opacity));
+}
+
+void add_bone(const JsonNode& node, const std::string& folder, Label label, Scene& scene) {
+  constexpr std::array<const char*, 2> kUnits = {"mm", "m"};
+  const bool metres = word_from(node, "unit", kUnits) == 1;
+  const auto path = std::filesystem::path(folder) / node.text("mesh");
+  const auto mesh = load_mesh(path.string(), metres ? 1.0 : 1e-3);
+  if (!mesh) return node.refuse("mesh", mesh.error().message);
+  render::Matrix4 place = render::kIdentity;
+  if (node.has("world_from_vertebra")) {
+    std::array<double, 16> rows{};
+    std::ranges::copy(node.numbers("world_from_vertebra", rows.size()), rows.begin());
+    for (const std::size_t shift : {3U, 7U, 11U}) rows[shift] *= 1e-3;
+    place = to_matrix(rows);
+  }
+  add_vertebra(scene, mesh_data(*mesh), place, label);
+}
+
+void add_entry_point(const JsonNode& node, Label label, Scene& scene) {
+  constexpr std::array<const char*, 2> kSides = {"right", "left"};
+  EntryHologram entry;
+  entry.position = place_from(node, "position_mm");
+  entry.surface_normal = direction_from(node, "normal");
+  const std::string text = node.text_or("text", "");
+  entry.text = text;
+  entry.done = node.flag_or("done", false);
+  entry.side = word_from(node, "side", kSides) == 1 ? LabelSide::kLeft : LabelSide::kRight;
+  add_entry(scene, entry, label);
+}
+
+void add_cross(const JsonNode& node, Label label, Scene& scene) {
+  TargetCross cross;
+  cross.site = place_from(node, "site_mm");
+  cross.outward = direction_from(node, "outward");
+  cross.viewer.eye = place_from(node, "eye_mm");
+  if (node.has("up")) cross.viewer.up = direction_from(node, "up");
+  cross.lost = node.flag_or("lost", false);
+  if (node.has("tip_offset_mm"))
+    cross.reading = CrossReading{place_from(node, "tip_offset_mm"),
+                                 place_from(node, "top_offset_mm"), grade_from(node)};
+  add_target_cross(scene, cross, label);
+}
+
+void add_depth_text(const JsonNode& node, Label label, Scene& scene) {
+  const double to_target_m = node.number("to_target_mm") * 1e-3;
+  const auto text = depth_text(node.number("depth_mm") * 1e-3, to_target_m);
+  if (!text) node.refuse("depth_mm", "must lie within 1000 mm");
+  add_depth(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"), text.value_or(""),
+            to_target_m < 0.0, label);
+}
+
+void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
+  const double diameter_m = node.has("diameter_mm") ? node.number("diameter_mm") * 1e-3 : 0.0055;
+  std::vector<Vec3> heads_m;
+  for (const Vec3 head_mm : node.vec3s("heads_mm")) heads_m.push_back(head_mm * 1e-3);
+  RodHologram hologram;
+  std::vector<Float3> heads;
+  for (const Vec3 head : heads_m) heads.push_back(to_float3(head));
+  std::vector<RodBendMark> bends;
+  if (heads.size() > 1) {
+    const auto rod = nav::rod_template(heads_m, diameter_m);
+    if (!rod) return node.refuse("heads_mm", rod.error().message);
+    std::vector<Float3> path;
+    for (const Vec3 p : rod->path_m) path.push_back(to_float3(p));
+    hologram.tube = std::make_shared<const render::MeshData>(
+        render::make_tube(path, static_cast<float>(0.5 * rod->diameter_m)));
+    for (const nav::RodBend& bend : rod->bends)
+      bends.push_back({to_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
+    hologram.length_m = rod->length_m;
+  }
+  hologram.heads = heads;
+  hologram.bends = bends;
+  if (node.has("shift_mm")) hologram.shift = place_from(node, "shift_mm");
+  add_rod(scene, hologram, label);
+}
+
+void add_status(const JsonNode& node, Label label, Scene& scene) {
+  constexpr std::array<const char*, 3> kStates = {"measured", "predicted", "lost"};
+  std::deque<std::string> names;  // that stay where they are
+  std::vector<ToolDot> tools;
+  if (node.has("tools"))
+    for (const JsonNode& tool : node.list("tools"))
+      tools.push_back({names.emplace_back(tool.text("name")),
+                       static_cast<ToolState>(word_from(tool, "state", kStates))});
+  add_status_line(scene, node.text("text"), tools, label);
+}
+
+void add_check(const JsonNode& node, Label label, Scene& scene) {
+  const Float3 place = place_from(node, "position_mm");
+  if (!node.has("distance_mm")) return add_place_to_check(scene, place, label);
+  const double distance_m = node.number("distance_mm") * 1e-3;
+  add_check_point(scene, place, distance_text(distance_m), std::abs(distance_m) <= 0.002, label);
+}
+
+render::Colour colour_from(const JsonNode& node) {
+  if (!node.has("colour")) return look::kWhite;
+  const Vec3 rgb = node.vec3("colour");
+  for (const double channel : {rgb.x, rgb.y, rgb.z})
+    if (!(channel >= 0.0 && channel <= 1.0)) node.refuse("colour", "must lie in [0, 1], linear");
+  return {static_cast<float>(rgb.x), static_cast<float>(rgb.y), static_cast<float>(rgb.z), 1};
+}
+
+void add_free_line(const JsonNode& node, Label label, Scene& scene) {
+  add_line(scene, places_from(node, "points_mm"), length_from(node, "width_mm", 0.01, 100.0),
+           colour_from(node), label,
+           node.has("dash_mm") ? length_from(node, "dash_mm", 0.1, 1000.0) : 0.0f,
+           node.flag_or("closed", false));
+}
+
+void add_free_text(const JsonNode& node, Label label, Scene& scene) {
+  render::TextItem& text = scene.texts.emplace_back();
+  text.label = label;
+  text.position = place_from(node, "position_mm");
+  text.height_m = length_from(node, "height_mm", 0.1, 100.0);
+  add_run(text, node.text("text"), colour_from(node));
+}
+
+void add_twin_of(const JsonNode& node, const std::string& folder, Label label, Scene& scene) {
+  const VirtualTwin twin{place_from(node, "site_mm"), direction_from(node, "beside")};
+  Scene parts;
+  for (const JsonNode& part : node.list("of")) {
+    if (hologram_number(part.text("type")) == 8) return part.refuse("type", "can't be a twin");
+    add_hologram(part, folder, 1, parts);
+  }
+  add_twin(scene, twin, parts, label);
+}
+
+struct Kind {
+  const char* type;
+  Label number;
+  void (*add)(const JsonNode&, const std::string& folder, Label, Scene&);
+};
+
+template <void (*kAdd)(const JsonNode&, Label, Scene&)>
+void plain(const JsonNode& node, const std::string& /*folder*/, Label label, Scene& scene) {
+  kAdd(node, label, scene);
+}
+
+void add_plan(const JsonNode& node, Label label, Scene& scene) {
+  add_planned_trajectory(scene, place_from(node, "entry_mm"), place_from(node, "target_mm"), label);
+}
+void add_triangle(const JsonNode& node, Label label, Scene& scene) {
+  add_deviation_triangle(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"),
+                         place_from(node, "plan_mm"), grade_from(node), label);
+}
+void add_angle(const JsonNode& node, Label label, Scene& scene) {
+  add_angle_readout(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"),
+                    angle_text(angle_from(node)), grade_from(node), label);
+}
+
+constexpr std::array<Kind, 14> kKinds = {{{"path", 1, plain<add_path>},
+                                          {"vertebra", 2, add_bone},
+                                          {"entry", 3, plain<add_entry_point>},
+                                          {"trajectory", 4, plain<add_plan>},
+                                          {"triangle", 5, plain<add_triangle>},
+                                          {"angle", 6, plain<add_angle>},
+                                          {"cross", 7, plain<add_cross>},
+                                          {"twin", 8, add_twin_of},
+                                          {"depth", 9, plain<add_depth_text>},
+                                          {"rod", 10, plain<add_rod_through>},
+                                          {"status", 11, plain<add_status>},
+                                          {"check_point", 12, plain<add_check>},
+                                          {"line", kFree, plain<add_free_line>},
+                                          {"text", kFree, plain<add_free_text>}}};
+
+}  // namespace
+
+Label hologram_number(const std::string& type) {
+  const auto found = std::find_if(kKinds.begin(), kKinds.end(),
+                                  [&](const Kind& kind) { return type == kind.type; });
+  return found == kKinds.end() ? 0 : found->number;
+}
+
+double number_between(const JsonNode& node, const char* key, double low, double high,
+                      const char* unit) {
+  const double value = node.number(key);
+  if (!(value >= low && value <= high))
+    node.refuse(key, "is " + std::to_string(value) + ", must lie in [" + std::to_string(low) +
+                         ", " + std::to_string(high) + "] " + unit);
+  return value;
+}
+
+float length_from(const JsonNode& node, const char* key, double low_mm, double high_mm) {
+  return static_cast<float>(number_between(node, key, low_mm, high_mm, "mm") * 1e-3);
+}
+
+Float3 place_from(const JsonNode& node, const char* key) {
+  const Vec3 place_mm = node.vec3(key);
+  for (const double mm : {place_mm.x, place_mm.y, place_mm.z})
+    if (!(std::abs(mm) <= kFarthest_mm)) node.refuse(key, "must lie within 10000 mm of the origin");
+  return to_float3(place_mm * 1e-3);
+}
+
+void add_hologram(const JsonNode& node, const std::string& folder, std::size_t k, Scene& scene) {
+  const std::string type = node.text("type");
+  const auto found = std::find_if(kKinds.begin(), kKinds.end(),
+                                  [&](const Kind& kind) { return type == kind.type; });
+  if (found == kKinds.end()) {
+    std::string known;
+    for (const Kind& kind : kKinds) known += std::string(known.empty() ? "" : ", ") + kind.type;
+    return node.refuse("type", "is \"" + type + "\", must be one of " + known);
+  }
+  const auto label = 100 * found->number + static_cast<Label>(std::min<std::size_t>(k, 99));
+  found->add(node, folder, label, scene);
+}
+
+}  // namespace orthonav::engine

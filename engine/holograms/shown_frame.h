@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "engine/holograms/visibility.h"
+#include "hal/api/display.h"
+
+namespace orthonav::engine {
+
+/// Says what a frame shows in words and points: what a person wearing the display reads off it.
+/// Reuses the frame's buffers; in the steady state it allocates nothing.
+class ShownFrameWriter {
+ public:
+  void write(const Guidance& guidance, const Visibility& visible, const VisibilityRules& rules,
+             ShownFrame& frame);
+
+ private:
+  ShownHologram& add(ShownFrame& frame, const char* name);
+  void write_digitizing(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
+  void write_entries(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
+  void write_screw(const Guidance& guidance, const Visibility& visible,
+                   const VisibilityRules& rules, ShownFrame& frame);
+  void write_cross(const Guidance& guidance, const Visibility& visible,
+                   const VisibilityRules& rules, ShownFrame& frame);
+  void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
+  void write_status(const Guidance& guidance, ShownFrame& frame);
+
+  std::size_t used_ = 0;
+  std::string text_;
+  /// By which a person compares the hologram with the bone; found once for a model.
+  std::map<const nav::VertebraModel*, std::array<Vec3, 4>> landmarks_m_;
+};
+
+/// The planned trajectory in the world: its outer end, the entry, the target.
+struct TrajectoryLine {
+  Point<World> outside;
+  Point<World> entry;
+  Point<World> target;
+};
+[[nodiscard]] TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,110 @@
+#include "engine/io/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+namespace orthonav::engine {
+namespace fs = std::filesystem;
+namespace {
+
+Error failed(const std::string& path, const std::string& doing, int error_number) {
+  return Error{path + ": " + doing + ": " + std::strerror(error_number)};
+}
+
+/// The file behind a chain of symbolic links; the name itself where there is no link.
+fs::path followed(fs::path path) {
+  std::error_code ignored;
+  for (int links = 0; links < 16 && fs::is_symlink(path, ignored); ++links) {
+    const fs::path target = fs::read_symlink(path, ignored);
+    path = target.is_absolute() ? target : path.parent_path() / target;
+  }
+  return path;
+}
+
+Status made_durable(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return failed(path, "cannot be opened", errno);
+  const bool synced = ::fsync(file) == 0;
+  const int error_number = errno;
+  ::close(file);
+  if (!synced) return failed(path, "cannot be written", error_number);
+  return {};
+}
+
+}  // namespace
+
+Result<AtomicFile> AtomicFile::create(const std::string& path) {
+  if (path.empty()) return Error{"a file to write has no name"};
+  std::error_code ignored;
+  const fs::path target = followed(path);
+  if (fs::is_directory(target, ignored)) return Error{path + ": is a folder, not a file"};
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
+    return AtomicFile(target.string(), target.string());
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, ignored))
+    return Error{path + ": folder " + folder.string() + " does not exist"};
+  const std::string stem = "." + target.stem().string() + ".part-" + std::to_string(::getpid());
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const std::string name = stem + "-" + std::to_string(attempt) + target.extension().string();
+    const std::string beside = (folder / name).string();
+    const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0) {
+      ::close(file);
+      return AtomicFile(beside, target.string());
+    }
+    if (errno != EEXIST) return failed(path, "cannot be written", errno);
+  }
+  return Error{path + ": 1000 unfinished writes lie beside it, remove them"};
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : temporary_path_(std::move(other.temporary_path_)),
+      final_path_(std::move(other.final_path_)),
+      open_(std::exchange(other.open_, false)) {}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+  if (this == &other) return *this;
+  drop();
+  temporary_path_ = std::move(other.temporary_path_);
+  final_path_ = std::move(other.final_path_);
+  open_ = std::exchange(other.open_, false);
+  return *this;
+}
+
+AtomicFile::~AtomicFile() { drop(); }
+
+void AtomicFile::drop() noexcept {
+  if (open_ && temporary_path_ != final_path_) ::unlink(temporary_path_.c_str());
+  open_ = false;
+}
+
+Status AtomicFile::commit() {
+  if (!open_) return Error{final_path_ + ": was committed before"};
+  if (temporary_path_ == final_path_) {
+    open_ = false;
+    return {};
+  }
+  if (Status durable = made_durable(temporary_path_); !durable) return durable;
+  if (::rename(temporary_path_.c_str(), final_path_.c_str()) != 0)
+    return failed(final_path_, "cannot be written", errno);
+  open_ = false;
+  return {};
+}
+
+Status write_file(const std::string& path, std::string_view content) {
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (!file) return file.error();
+  std::ofstream out(file->temporary_path(), std::ios::binary | std::ios::trunc);
+  out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  out.close();
+  if (!out) return Error{path + ": cannot be written whole (disk full?)"};
+  return file->commit();
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "base/vec.h"
+
+namespace orthonav::engine {
+
+/// The text of a file; refuses what can't be read, folders, and more than `max_bytes`.
+Result<std::string> read_text(const std::string& path, std::size_t max_bytes = 64u << 20u);
+
+/// A value inside a JSON document together with the way to it. Reading what is missing or of the
+/// wrong type returns a plain default and notes the problem in the document; only the first problem
+/// is kept. Readers therefore read everything, then look at `JsonDocument::status` before they use
+/// any of it. Lives no longer than its document.
+class JsonNode {
+ public:
+  [[nodiscard]] bool has(const char* key) const;
+  [[nodiscard]] std::string text(const char* key) const;
+  [[nodiscard]] std::string text_or(const char* key, const std::string& fallback) const;
+  /// A finite number.
+  [[nodiscard]] double number(const char* key) const;
+  [[nodiscard]] int integer(const char* key) const;
+  /// Exactly `count` finite numbers; nested lists (a matrix by rows) are flattened.
+  [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count) const;
+  [[nodiscard]] Vec3 vec3(const char* key) const;
+  /// A list of such, 1,000,000 at most.
+  [[nodiscard]] std::vector<Vec3> vec3s(const char* key) const;
+  [[nodiscard]] bool flag_or(const char* key, bool fallback) const;
+  [[nodiscard]] JsonNode child(const char* key) const;
+  /// The objects of a list.
+  [[nodiscard]] std::vector<JsonNode> list(const char* key) const;
+  /// The first text of a list of texts, or the text itself.
+  [[nodiscard]] std::string first_text(const char* key) const;
+
+  /// Notes "FILE: WHERE.KEY PROBLEM".
+  void refuse(const char* key, const std::string& problem) const;
+  void refuse(const std::string& problem) const;
+
+ private:
+  friend class JsonDocument;
+  struct Value;
+  JsonNode(std::shared_ptr<const Value> value, std::string where)
+      : value_(std::move(value)), where_(std::move(where)) {}
+  [[nodiscard]] std::string way_to(const char* key) const;
+
+  std::shared_ptr<const Value> value_;
+  std::string where_;
+};
+
+/// A parsed JSON file and the first thing that was wrong with it.
+class JsonDocument {
+ public:
+  static Result<JsonDocument> read(const std::string& path);
+  /// `name` stands for the file in messages. Refuses what is no JSON object.
+  static Result<JsonDocument> parse(std::string_view text, const std::string& name);
+  [[nodiscard]] JsonNode root() const;
+  [[nodiscard]] Status status() const;
+
+ private:
+  struct State;
+  friend class JsonNode;
+  explicit JsonDocument(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace orthonav::engine

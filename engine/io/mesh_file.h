@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/result.h"
+#include "engine/io/patient_axes.h"
+#include "nav/geometry/mesh.h"
+
+namespace orthonav::engine {
+
+/// The axes that a mesh file itself declares: `SPACE=LPS` or `SPACE=RAS` in an STL header or a
+/// comment, as 3D Slicer writes. Nothing too for axes that are not known (`load_mesh` refuses
+/// them).
+[[nodiscard]] std::optional<Axes> declared_axes(const std::string& path);
+
+/// Reads a vertebra from STL, PLY or OBJ (told by the extension) into metres and LPS axes: corners
+/// at the same place become one vertex, triangles that vanish are dropped, then
+/// `nav::checked_vertebra` decides. `axes` holds unless the file itself declares its axes; it must
+/// not declare others than LPS or RAS.
+Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit,
+                                    Axes axes = Axes::kLps);
+
+/// Writes a binary STL in millimetres and LPS, marked `SPACE=LPS`.
+Status save_stl(const std::string& path, const nav::TriangleMesh& mesh);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "base/vec.h"
+#include "engine/io/patient_axes.h"
+
+namespace orthonav::engine {
+
+struct MarkupPoint {
+  std::string label;
+  Vec3 position;  ///< in the file's unit and axes
+};
+
+/// One markup of a 3D Slicer file; only control points that are defined.
+struct Markup {
+  std::string type;  ///< "Fiducial", "Line", ...
+  std::string name;
+  std::string description;
+  std::vector<MarkupPoint> points;
+};
+
+struct MarkupsFile {
+  Axes axes = Axes::kLps;
+  double metres_per_unit = 1e-3;
+  std::vector<Markup> markups;
+};
+
+/// Reads `.mrk.json` (markups schema 1.0). Refuses markups without `coordinateSystem` (LPS or RAS)
+/// or `coordinateUnits` (mm or m), and files whose markups differ in either.
+Result<MarkupsFile> load_markups(const std::string& path);
+
+/// Reads the legacy `.fcsv` (always mm); refuses one without `# CoordinateSystem`, or whose
+/// `# columns` do not begin as Slicer writes them.
+Result<MarkupsFile> load_fcsv(const std::string& path);
+
+[[nodiscard]] bool is_markups_name(const std::string& path);
+
+}  // namespace orthonav::engine

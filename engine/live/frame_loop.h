@@ -1,0 +1,122 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "engine/holograms/scene_builder.h"
+#include "engine/live/snapshot_queue.h"
+#include "engine/session/session.h"
+#include "hal/api/devices.h"
+
+namespace orthonav::engine {
+
+/// What came in and what was made of it, on the tracking thread, once for every stereo pair.
+class LoopObserver {
+ public:
+  virtual ~LoopObserver() = default;
+  virtual void stepped(const StereoFrame& /*frame*/, const Inputs& /*inputs*/,
+                       const Guidance& /*guidance*/) {}
+  /// A snapshot was filled and is about to go to the rendering thread.
+  virtual void captured(const Snapshot& /*snapshot*/) {}
+};
+
+/// Draws snapshots, on the rendering thread.
+class SnapshotSink {
+ public:
+  virtual ~SnapshotSink() = default;
+  virtual Status draw(const Snapshot& snapshot) = 0;
+};
+
+struct LoopOptions {
+  /// Every n-th displayed frame goes to the sink; 0: none. Counted, not timed, so that the same
+  /// frames are drawn however fast the machine is.
+  int draw_every = 1;
+  /// Real time: the newest snapshot counts and tracking never waits. Else every one is drawn.
+  bool drop_late_snapshots = false;
+  std::int64_t max_frames = 0;  ///< ends after so many displayed frames; 0: no limit
+  Duration after_done = std::chrono::seconds(1);  ///< goes on for so long once the rod is done
+  int max_errors_in_a_row = 30;  ///< of one device or the sink; beyond it the run ends
+  /// A camera pair that delivers nothing for so long, by the device's clock, is gone for good.
+  Duration longest_silence = std::chrono::seconds(60);
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// What the loop measured. Times of the device's clock are part of the result; wall times depend on
+/// the machine.
+struct LoopReport {
+  std::int64_t displayed = 0;
+  std::int64_t failures = 0;  ///< of any device, with the reason of the last
+  std::string last_failure;
+  std::int64_t blanked = 0;  ///< times that guidance was taken back because pairs stopped
+  std::int64_t drawn = 0;
+  std::int64_t draw_failures = 0;  ///< of the sink; each with its reason in `last_failure`
+  std::int64_t dropped_snapshots = 0;
+  bool done = false;  ///< the workflow reached its end
+  Timestamp last_frame{};
+  std::vector<double> intervals_ms;  ///< device clock, between displayed frames
+  /// Device clock, from the middle of a pair's exposure until its frame lights up: capture to
+  /// photon.
+  std::vector<double> photon_ages_ms;
+  /// Tracking and everything after it, for each pair; without waiting for the drawing.
+  std::vector<double> step_wall_ms;
+  std::vector<double> draw_wall_ms;  ///< the sink, for each snapshot
+};
+
+/// The road from stereo pairs to what is shown: tracking on the calling thread, drawing on its own.
+/// Drawing takes snapshots and gives nothing back, so that it can't influence a result.
+class FrameLoop {
+ public:
+  FrameLoop(Headset& headset, Session& session, SceneBuilder& builder, const LoopOptions& options)
+      : headset_(headset), session_(session), builder_(builder), options_(options) {}
+
+  void observe(LoopObserver* observer) { observer_ = observer; }
+  void draw_into(SnapshotSink* sink) { sink_ = sink; }
+  /// Ends early, from any thread.
+  void stop() { stop_ = true; }
+
+  /// Until the stream ends, the operation is done, or the limit is reached. An Error when a device
+  /// or the sink fails for good, or an option has a problem. However it ends, the last frame shown
+  /// guides nobody.
+  Result<LoopReport> run();
+
+ private:
+  Status loop(SnapshotQueue* queue, LoopReport& report);
+  Result<bool> next_frame(SnapshotQueue* queue, LoopReport& report);
+  Status wait_for_pair(SnapshotQueue* queue, LoopReport& report);
+  void take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
+  [[nodiscard]] Timestamp next_light() const;
+  void draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status);
+  Status step(SnapshotQueue* queue, LoopReport& report);
+  Status tolerate(const Status& status, int& in_a_row, LoopReport& report);
+  void count_displayed(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
+  void capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame);
+  [[nodiscard]] bool finished(const LoopReport& report);
+
+  Headset& headset_;
+  Session& session_;
+  SceneBuilder& builder_;
+  LoopOptions options_;
+  LoopObserver* observer_ = nullptr;
+  SnapshotSink* sink_ = nullptr;
+  std::atomic<bool> stop_ = false;
+
+  // Reused from pair to pair.
+  StereoFrame frame_;
+  std::vector<ClickerEvent> clicks_;
+  std::vector<Phrase> phrases_;
+  ShownFrame shown_;
+  std::optional<Timestamp> last_display_;    ///< of a pair's frame, for the intervals
+  Timestamp last_light_ = Timestamp::min();  ///< of any frame
+  Timestamp heard_at_{};                     ///< when the last pair came, or the loop began
+  std::optional<Timestamp> guiding_since_;   ///< mid-exposure of the pair that is being shown
+  std::optional<Timestamp> done_since_;
+  int camera_errors_ = 0;  ///< in a row, each
+  int clicker_errors_ = 0;
+  int voice_errors_ = 0;
+  int display_errors_ = 0;
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,178 @@
+#include "engine/live/presenter.h"
+
+#include <chrono>
+#include <utility>
+
+#include "engine/holograms/scene_builder.h"
+
+namespace orthonav::engine {
+namespace {
+
+/// A display that nobody looks at is asked again after this.
+constexpr auto kIdlePause = std::chrono::milliseconds(5);
+/// A runtime that takes longer to end a session is left without.
+constexpr auto kLongestGoodbye = std::chrono::seconds(2);
+// After so many there is nothing new to learn.
+constexpr std::size_t kMostProblems = 20;
+constexpr std::size_t kMostLatches = 100'000;
+
+}  // namespace
+
+Result<std::unique_ptr<Presenter>> Presenter::start(PixelDisplay& display,
+                                                    PresenterOptions options) {
+  std::unique_ptr<Presenter> presenter(new Presenter(display, std::move(options)));
+  auto renderer = DisplayRenderer::start(display, presenter->options_.renderer);
+  if (!renderer) return renderer.error();
+  presenter->renderer_ = std::move(*renderer);
+  presenter->thread_ = std::thread([raw = presenter.get()] { raw->run(); });
+  return presenter;
+}
+
+Presenter::~Presenter() { stop(); }
+
+PresentReport Presenter::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  const std::lock_guard lock(mutex_);
+  return report_;
+}
+
+Status Presenter::draw(const Snapshot& snapshot) {
+  const std::lock_guard lock(mutex_);
+  incoming_ = snapshot;
+  fresh_ = true;
+  if (untold_.empty()) return {};
+  return Error{std::exchange(untold_, {})};
+}
+
+void Presenter::note(const std::string& problem) {
+  const std::lock_guard lock(mutex_);
+  untold_ = problem;
+  if (report_.problems.size() < kMostProblems) report_.problems.push_back(problem);
+}
+
+void Presenter::lose(const std::string& why) {
+  note(why);
+  renderer_.reset();
+  const std::lock_guard lock(mutex_);
+  ++report_.losses;
+}
+
+void Presenter::pause(Duration by_the_wall) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, by_the_wall, [this] { return stopping_; });
+}
+
+void Presenter::run() {
+  for (;;) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (stopping_) break;
+    }
+    if (over_)
+      pause(std::chrono::seconds(1));
+    else if (renderer_)
+      take_turn();
+    else
+      look_again();
+  }
+  leave();
+}
+
+void Presenter::take_turn() {
+  const DisplayTurn turn = display_.next_turn();
+  switch (turn.kind) {
+    case DisplayTurn::Kind::kFrame:
+      present(turn);
+      return;
+    case DisplayTurn::Kind::kIdle:
+      pause(kIdlePause);
+      return;
+    case DisplayTurn::Kind::kLost:
+      lose(turn.why);
+      return;
+    case DisplayTurn::Kind::kOver:
+      note(turn.why);
+      renderer_.reset();
+      over_ = true;
+      if (options_.on_over) options_.on_over();
+      return;
+  }
+}
+
+/// Each frame that was begun is ended, whatever comes of it.
+void Presenter::present(const DisplayTurn& turn) {
+  const bool drawn = draw_scene(turn);
+  const Status finished = display_.finish_turn(drawn);
+  if (!finished) note(finished.error().message);
+  {
+    const std::lock_guard lock(mutex_);
+    ++report_.frames;
+    report_.drawn += drawn && finished ? 1 : 0;
+    report_.failures += finished ? 0 : 1;
+  }
+  if (renderer_->renderer().lost()) lose("the display's graphics device is lost");
+}
+
+bool Presenter::draw_scene(const DisplayTurn& turn) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(fresh_, false)) {
+      std::swap(shown_, incoming_);
+      has_snapshot_ = true;
+    }
+  }
+  if (!turn.draw || !has_snapshot_) return false;
+  // However old the snapshot: the tracking thread may have stalled since.
+  if (shown_.expires && turn.display_time > *shown_.expires) {
+    hide_tool_guidance(shown_.scene);
+    shown_.expires.reset();
+    const std::lock_guard lock(mutex_);
+    ++report_.hidden;
+  }
+  const auto drawn = renderer_->draw(shown_.scene);
+  if (!drawn) {
+    note(drawn.error().message);
+    const std::lock_guard lock(mutex_);
+    ++report_.failures;
+    return false;
+  }
+  if (!*drawn) return false;
+  if (options_.on_drawn) options_.on_drawn(renderer_->drawn(), renderer_->views());
+  const std::lock_guard lock(mutex_);
+  if (report_.latch_ms.size() < kMostLatches)
+    report_.latch_ms.push_back(renderer_->renderer().last_timing().total_ms);
+  return true;
+}
+
+void Presenter::look_again() {
+  auto renderer = DisplayRenderer::start(display_, options_.renderer);
+  if (renderer) {
+    renderer_ = std::move(*renderer);
+    return;
+  }
+  display_.close();
+  pause(options_.look_again_after);
+}
+
+/// In order, as long as the runtime plays along.
+void Presenter::leave() {
+  if (!renderer_) return;
+  display_.ask_to_end();
+  const auto until = std::chrono::steady_clock::now() + kLongestGoodbye;
+  while (std::chrono::steady_clock::now() < until) {
+    const DisplayTurn turn = display_.next_turn();
+    if (turn.kind == DisplayTurn::Kind::kLost || turn.kind == DisplayTurn::Kind::kOver) break;
+    if (turn.kind == DisplayTurn::Kind::kFrame)
+      static_cast<void>(display_.finish_turn(false));
+    else
+      std::this_thread::sleep_for(kIdlePause);
+  }
+  renderer_.reset();
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,67 @@
+#include "engine/live/snapshot_queue.h"
+
+namespace orthonav::engine {
+
+SnapshotQueue::SnapshotQueue(WhenFull when_full) : when_full_(when_full), slots_(kSlots) {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    slots_[i].slot = i;
+    free_.push_back(&slots_[i]);
+  }
+}
+
+void SnapshotQueue::drop_oldest() {
+  free_.push_back(ready_.front());
+  ready_.pop_front();
+  ++dropped_;
+}
+
+Snapshot* SnapshotQueue::acquire() {
+  std::unique_lock lock(mutex_);
+  if (free_.empty() && when_full_ == WhenFull::kDropOldest && !ready_.empty()) drop_oldest();
+  changed_.wait(lock, [&] { return closed_ || !free_.empty(); });
+  if (closed_) return nullptr;
+  Snapshot* slot = free_.back();
+  free_.pop_back();
+  return slot;
+}
+
+void SnapshotQueue::publish(Snapshot* filled) {
+  {
+    const std::lock_guard lock(mutex_);
+    ready_.push_back(filled);
+  }
+  changed_.notify_all();
+}
+
+Snapshot* SnapshotQueue::take() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return closed_ || !ready_.empty(); });
+  if (ready_.empty()) return nullptr;
+  while (when_full_ == WhenFull::kDropOldest && ready_.size() > 1) drop_oldest();
+  Snapshot* next = ready_.front();
+  ready_.pop_front();
+  return next;
+}
+
+void SnapshotQueue::release(Snapshot* drawn) {
+  {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(drawn);
+  }
+  changed_.notify_all();
+}
+
+void SnapshotQueue::close() {
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::int64_t SnapshotQueue::dropped() const {
+  const std::lock_guard lock(mutex_);
+  return dropped_;
+}
+
+}  // namespace orthonav::engine

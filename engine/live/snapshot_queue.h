@@ -1,0 +1,63 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time.h"
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+/// What the rendering thread gets of one displayed frame.
+struct Snapshot {
+  std::int64_t frame = 0;  ///< counts displayed frames from 0
+  std::size_t slot = 0;    ///< index of this buffer: a caller keeps its own data beside it
+  Timestamp display_time{};
+  std::string step_text;
+  /// Lit up after this, what guides a tool is too old to be seen; absent when nothing does.
+  std::optional<Timestamp> expires;
+  bool blank = false;  ///< the loop has ended: nothing but the status line
+  render::Scene scene;
+};
+
+/// A few snapshots going round between two threads. The buffers are made once and reused.
+class SnapshotQueue {
+ public:
+  enum class WhenFull {
+    kWait,       ///< every snapshot is drawn: what is drawn does not depend on speed
+    kDropOldest  ///< the newest counts: tracking never waits for rendering
+  };
+  static constexpr std::size_t kSlots = 4;
+
+  explicit SnapshotQueue(WhenFull when_full);
+  /// A buffer to fill; give it back by `publish`. Null once closed.
+  Snapshot* acquire();
+  void publish(Snapshot* filled);
+  /// The next to draw: under kWait the oldest that waits; under kDropOldest the newest, while those
+  /// before it are dropped. Blocks until there is one. Null once closed and empty.
+  Snapshot* take();
+  void release(Snapshot* drawn);
+  /// No more is published; the taker gets what is left.
+  void close();
+  [[nodiscard]] std::int64_t dropped() const;
+
+ private:
+  /// Of those that wait to be drawn; the mutex must be held.
+  void drop_oldest();
+
+  WhenFull when_full_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Snapshot> slots_;
+  std::vector<Snapshot*> free_;
+  std::deque<Snapshot*> ready_;
+  bool closed_ = false;
+  std::int64_t dropped_ = 0;
+};
+
+}  // namespace orthonav::engine

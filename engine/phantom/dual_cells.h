@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/phantom/sample_grid.h"
+#include "nav/geometry/mesh.h"
+
+namespace orthonav::engine {
+
+/// The twelve edges of a cell: along `axis`, from the corner that lies `first` steps along the next
+/// axis and `second` along the one after.
+constexpr std::size_t edge_id(std::size_t axis, std::size_t first, std::size_t second) {
+  return axis * 4 + first + 2 * second;
+}
+
+/// A cell that the surface passes: its sheets, each with one vertex, and which edge belongs to
+/// which.
+struct GridCell {
+  std::array<int, 3> at{};
+  std::uint32_t first_vertex = 0;
+  std::array<std::uint8_t, 12> sheet{};
+  std::array<bool, 12> crossed{};
+};
+
+[[nodiscard]] inline std::array<int, 3> moved(std::array<int, 3> node, std::size_t axis,
+                                              int by = 1) {
+  node[axis] += by;
+  return node;
+}
+
+/// Cells by grid index.
+struct CellMap {
+  std::vector<std::uint32_t> cell_of;
+  std::vector<GridCell> cells;
+  [[nodiscard]] const GridCell& at(const SampleGrid& grid, const std::array<int, 3>& node) const {
+    return cells[cell_of[grid.index(node)]];
+  }
+};
+
+/// Finds every cell that the zero surface passes and puts one vertex a sheet into `mesh`: the mean
+/// of the places where the sheet crosses the cell's edges.
+[[nodiscard]] CellMap passed_cells(const SampleGrid& grid, nav::TriangleMesh& mesh);
+
+}  // namespace orthonav::engine

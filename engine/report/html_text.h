@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace orthonav::engine {
+
+/// Any text as the text of an HTML element or of an attribute in double quotes.
+[[nodiscard]] std::string html_escaped(const std::string& text);
+/// printf with up to four numbers, cut at 240 characters.
+[[nodiscard]] std::string formatted(const char* format, double a, double b = 0.0, double c = 0.0,
+                                    double d = 0.0);
+/// A number as a person reads it, with a true minus sign; a dash where it is not finite.
+[[nodiscard]] std::string html_number(double value, int decimals);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/live/frame_loop.h"
+#include "engine/report/registration_figures.h"
+#include "engine/session/guidance.h"
+#include "engine/session/session_observer.h"
+
+namespace orthonav::engine {
+
+struct ScrewOutcome {
+  nav::Side side = nav::Side::kLeft;
+  bool done = false;                      ///< as the surgeon declared it
+  std::optional<double> angle_error_rad;  ///< against the truth, where there is one
+  std::optional<double> entry_error_m;    ///< absent too when the wire misses the bone
+};
+
+struct LevelOutcome {
+  std::string label;
+  bool accepted = false;
+  int attempts = 0;
+  std::optional<double> rmse_m;  ///< absent without an accepted registration
+  std::optional<double> tre_m;   ///< mean over the entries and targets of the level's screws
+  /// Root mean square error to expect at the worst of the screws' entries and targets.
+  std::optional<double> predicted_tre_m;
+  /// Used by that registration; absent without one, as the time is.
+  std::optional<std::size_t> points;
+  std::optional<double> digitization_s;
+  std::vector<double> check_points_m;  ///< signed distances of the check points, in order
+  /// The newest registration that found a pose, passed or not.
+  std::optional<RegisteredLevel> registered;
+  std::vector<ScrewOutcome> screws;
+};
+
+struct RodOutcome {
+  nav::Side side = nav::Side::kLeft;
+  std::size_t heads = 0;
+  std::optional<double> length_m;
+  std::optional<double> length_error_m;  ///< template against the spline through the true heads
+  std::optional<double> head_error_m;    ///< mean distance of a touched head from the true one
+};
+
+/// One operation, measured. What depends on the machine's speed stays in `loop`.
+struct OperationResult {
+  std::string method;
+  std::optional<std::uint64_t> seed;  ///< absent where nothing was drawn by lot: a real headset
+  std::string case_name;
+  bool completed = false;  ///< every level accepted, every screw done, the rods too
+  /// Where it ended instead and what it was told last: "ended at digitize L4: registration RMSE
+  /// 3.4 mm, limit 3.0 mm". Empty when it completed.
+  std::string why_not;
+  std::vector<LevelOutcome> levels;
+  std::vector<RodOutcome> rods;
+  LoopReport loop;
+  Status recording;  ///< why the session's recording is not complete, where one was asked for
+};
+
+/// What the session itself knows, without any truth.
+[[nodiscard]] OperationResult outcome_of(std::span<const LevelState> levels,
+                                         std::span<const RodState> rods, LoopReport loop);
+
+/// Remembers where an operation stands and why its last registration was refused.
+class EndNote : public SessionObserver {
+ public:
+  void happened(Timestamp time, Step from, Event event, Cell answer) override;
+  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
+                  const std::string& reason) override;
+  /// Notes in the result why it did not complete, if it did not.
+  void explain(OperationResult& result) const;
+
+ private:
+  Step step_ = Step::kSetup;
+  std::string refused_;  ///< "L4 refused: ..."; empty when the last registration passed
+};
+
+/// The value below which `share` of the values lie (nearest rank); nothing without values.
+[[nodiscard]] std::optional<double> quantile(std::vector<double> values, double share);
+
+/// report.json as docs/file-formats.md describes it: deterministic bytes for equal results.
+[[nodiscard]] std::string report_json(const OperationResult& result);
+/// Wall times of the run, which differ from machine to machine.
+[[nodiscard]] std::string timing_json(const LoopReport& loop);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include "engine/report/depth_picture.h"
+#include "engine/report/registration_scene.h"
+
+namespace orthonav::engine {
+
+/// One of the three views: where from, and what lies at its edges.
+struct RegistrationView {
+  const char* name;  ///< "from behind"
+  Viewpoint from;
+  const char* left;
+  const char* right;
+  const char* top;
+  const char* bottom;
+};
+
+/// From behind, as the surgeon stands; from the patient's left; from above, with the back below.
+[[nodiscard]] std::array<RegistrationView, 3> registration_views();
+
+/// An SVG element, millimetres.
+struct RegistrationDrawing {
+  std::string svg;
+  Vec2 size_mm;
+};
+
+/// The vertebra at the registered pose, the digitized points coloured by their distance to it, what
+/// was stroked of it, and the screws with their predicted errors, with the shaded bone as an
+/// embedded picture.
+Result<RegistrationDrawing> registration_drawing(const RegisteredLevel& level,
+                                                 const RegistrationScene& scene,
+                                                 const RegistrationView& view);
+
+/// What the colours mean, as HTML.
+[[nodiscard]] std::string registration_legend(const RegisteredLevel& level,
+                                              const RegistrationScene& scene);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "engine/report/registration_figures.h"
+
+namespace orthonav::engine {
+
+/// One registration as a section of an HTML page: the drawing from three sides, what it says of its
+/// own certainty in plain words, every figure with its limit and its meaning, and every screw. The
+/// style is data/report.css. The same registration gives the same bytes.
+Result<std::string> registration_section(const RegisteredLevel& level);
+
+/// That section as a page of its own; loads nothing from outside. `source` says what was
+/// registered: "points.csv".
+Result<std::string> registration_page(const RegisteredLevel& level, const std::string& source);
+
+}  // namespace orthonav::engine

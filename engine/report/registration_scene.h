@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/report/registration_figures.h"
+
+namespace orthonav::engine {
+
+/// A digitized point at the registered pose.
+struct PlacedPoint {
+  Vec3 place_m;  ///< in the model's frame
+  /// Distance to the surface that can be touched, less the mean height of the tip above it where
+  /// the registration is certain of one; inside < 0.
+  double residual_m = 0.0;
+  bool off_bone = false;  ///< farther than the scatter of the others explains
+};
+
+/// What a drawing of a registration needs besides the model, worked out once for all views.
+struct RegistrationScene {
+  /// At most some thousands, evenly taken: a drawing of a million is no clearer.
+  std::vector<PlacedPoint> points;
+  std::size_t off_bone = 0;         ///< of those
+  std::vector<PlacedPoint> checks;  ///< touched to verify it
+  /// How far each vertex of the touchable surface is from the nearest stroke on the bone.
+  std::vector<double> from_strokes_m;
+  double full_colour_m = 0.0;  ///< residual that has the last colour
+  /// How many times as large as they are the predicted errors are drawn.
+  double magnified = 1.0;
+};
+
+/// What is nearer to a stroke counts as stroked.
+inline constexpr double kStroked_m = 0.005;
+
+[[nodiscard]] RegistrationScene registration_scene(const RegisteredLevel& level);
+
+/// Half the longest axis of the ellipsoid that holds 95 of 100 errors (normal distribution in
+/// space), as a multiple of the standard deviation along it.
+[[nodiscard]] double ellipsoid_scale();
+
+}  // namespace orthonav::engine

@@ -1,0 +1,110 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/angle.h"
+#include "engine/report/operation_result.h"
+
+namespace orthonav::engine {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void put_mm(Json& object, const char* key, const std::optional<double>& metres) {
+  if (metres) object[key] = *metres * 1e3;
+}
+
+void put_quantile(Json& object, const char* key, const std::vector<double>& values, double share) {
+  if (const auto value = quantile(values, share)) object[key] = *value;
+}
+
+Json screw_json(const ScrewOutcome& screw) {
+  Json out{{"side", name_of(screw.side)}};
+  if (screw.angle_error_rad) out["angle_error_deg"] = degrees(*screw.angle_error_rad);
+  put_mm(out, "entry_error_mm", screw.entry_error_m);
+  return out;
+}
+
+Json level_json(const LevelOutcome& level) {
+  Json out{{"label", level.label}, {"accepted", level.accepted}, {"attempts", level.attempts}};
+  put_mm(out, "rmse_mm", level.rmse_m);
+  put_mm(out, "tre_mm", level.tre_m);
+  put_mm(out, "predicted_tre_mm", level.predicted_tre_m);
+  if (level.points) out["points"] = *level.points;
+  if (level.digitization_s) out["digitization_s"] = *level.digitization_s;
+  for (const double distance : level.check_points_m)
+    out["check_points_mm"].push_back(distance * 1e3);
+  if (level.registered) out["registration"] = registration_json(*level.registered, {});
+  out["screws"] = Json::array();
+  for (const ScrewOutcome& screw : level.screws) out["screws"].push_back(screw_json(screw));
+  return out;
+}
+
+Json one_rod_json(const RodOutcome& rod) {
+  Json out{{"side", name_of(rod.side)}, {"heads", rod.heads}};
+  put_mm(out, "length_mm", rod.length_m);
+  put_mm(out, "length_error_mm", rod.length_error_m);
+  put_mm(out, "head_error_mm", rod.head_error_m);
+  return out;
+}
+
+/// Of both sides: the mean length, the length error that is largest in size, the mean head error.
+Json rods_json(const std::vector<RodOutcome>& rods) {
+  Json out = Json::object();
+  double length = 0.0;
+  double head = 0.0;
+  int lengths = 0;
+  int heads = 0;
+  std::optional<double> worst;
+  for (const RodOutcome& rod : rods) {
+    if (rod.length_m) length += *rod.length_m, ++lengths;
+    if (rod.head_error_m) head += *rod.head_error_m, ++heads;
+    if (rod.length_error_m && (!worst || std::abs(*rod.length_error_m) > std::abs(*worst)))
+      worst = rod.length_error_m;
+  }
+  if (lengths > 0) out["length_mm"] = length / lengths * 1e3;
+  put_mm(out, "length_error_mm", worst);
+  if (heads > 0) out["head_error_mm"] = head / heads * 1e3;
+  out["sides"] = Json::array();
+  for (const RodOutcome& rod : rods) out["sides"].push_back(one_rod_json(rod));
+  return out;
+}
+
+Json series(const std::vector<double>& values) {
+  Json out{{"count", values.size()}};
+  put_quantile(out, "median_ms", values, 0.5);
+  put_quantile(out, "p99_ms", values, 0.99);
+  put_quantile(out, "max_ms", values, 1.0);
+  return out;
+}
+
+std::string text_of(const Json& document) {
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string report_json(const OperationResult& result) {
+  Json out{{"method", result.method}};
+  if (result.seed) out["seed"] = *result.seed;
+  out["case"] = result.case_name;
+  out["completed"] = result.completed;
+  if (!result.why_not.empty()) out["why_not"] = result.why_not;
+  out["levels"] = Json::array();
+  for (const LevelOutcome& level : result.levels) out["levels"].push_back(level_json(level));
+  out["rod"] = rods_json(result.rods);
+  out["frames"] = Json{{"displayed", result.loop.displayed}};
+  put_quantile(out["frames"], "median_ms", result.loop.intervals_ms, 0.5);
+  put_quantile(out["frames"], "p99_ms", result.loop.intervals_ms, 0.99);
+  put_quantile(out["frames"], "capture_to_photon_median_ms", result.loop.photon_ages_ms, 0.5);
+  put_quantile(out["frames"], "capture_to_photon_p99_ms", result.loop.photon_ages_ms, 0.99);
+  return text_of(out);
+}
+
+std::string timing_json(const LoopReport& loop) {
+  return text_of(Json{{"step_wall", series(loop.step_wall_ms)},
+                      {"draw_wall", series(loop.draw_wall_ms)},
+                      {"drawn", loop.drawn},
+                      {"dropped_snapshots", loop.dropped_snapshots}});
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,87 @@
+#include "engine/session/coach.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/length_text.h"
+
+namespace orthonav::engine {
+namespace {
+
+std::size_t samples_in(std::span<const nav::Region> regions) {
+  std::size_t count = 0;
+  for (const nav::Region& region : regions) count += region.samples.size();
+  return count;
+}
+
+}  // namespace
+
+Coaching coaching_from(const nav::Registration& registration) {
+  const nav::BestRegistrationOptions limits;
+  Coaching coaching;
+  coaching.unique = registration.margin >= limits.min_margin;
+  coaching.enough = registration.accepted;
+  coaching.expected_m = registration.predicted_tre_m;
+  coaching.advice = registration.advice;
+  // A small error to expect is no comfort where something else stands against it.
+  if (coaching.unique && !coaching.enough && coaching.expected_m <= limits.max_predicted_tre_m &&
+      !registration.reasons.empty())
+    coaching.advice = registration.reasons.front();
+  return coaching;
+}
+
+std::string text_of(const Coaching& coaching) {
+  std::string out;
+  if (!coaching.unique) {
+    // An error about a pose that may be the wrong one says nothing.
+    out = "could be more than one pose";
+  } else if (!std::isfinite(coaching.expected_m)) {
+    out = "-- mm expected";
+  } else {
+    out = in_mm(coaching.expected_m) + " expected";
+  }
+  if (coaching.enough) return out + ", enough to register";
+  return coaching.advice.empty() ? out : out + ", " + coaching.advice;
+}
+
+void Coach::step(const OperatedLevel& level, std::span<const nav::Region> regions) {
+  if (pairs_left_ > 0 && --pairs_left_ == 0) take_answer();
+  const std::size_t samples = samples_in(regions);
+  if (samples < kFewestSamples) {
+    // What was told may have been told of strokes that are deleted by now.
+    newest_.reset();
+    asked_samples_ = 0;
+  } else if (pairs_left_ == 0 &&
+             (samples < asked_samples_ || samples >= asked_samples_ + kNewSamples)) {
+    asked_samples_ = samples;
+    start(level, regions);
+  }
+}
+
+void Coach::forget() {
+  if (std::exchange(pairs_left_, 0) > 0) worker_.wait();
+  asked_samples_ = 0;
+  newest_.reset();
+}
+
+void Coach::start(const OperatedLevel& level, std::span<const nav::Region> regions) {
+  level_ = &level;
+  points_.clear();
+  for (const nav::Region& region : regions)
+    for (const nav::Sample& sample : region.samples) points_.push_back(sample.tip_in_world);
+  pairs_left_ = kPairsToAnswer;
+  worker_.start([](void* coach) { static_cast<Coach*>(coach)->run(); }, this);
+}
+
+void Coach::take_answer() {
+  worker_.wait();
+  newest_ = std::move(answer_);
+}
+
+void Coach::run() {
+  // Whether another level fits better is asked when it counts, not while half of it is stroked.
+  const auto result = registrar_({*level_->model, points_, level_->screws, {}});
+  answer_ = result ? std::optional(coaching_from(*result)) : std::nullopt;
+}
+
+}  // namespace orthonav::engine

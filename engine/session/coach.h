@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/session/method.h"
+#include "nav/registration/digitizer.h"
+#include "nav/tracking/worker.h"
+
+namespace orthonav::engine {
+
+/// What registering the strokes made so far would say.
+struct Coaching {
+  bool unique = false;      ///< no other pose explains the strokes nearly as well
+  bool enough = false;      ///< it would be accepted
+  double expected_m = 0.0;  ///< root mean square error at the worst of the screws; may be infinite
+  std::string advice;       ///< what stands against it, or where to stroke next; may be empty
+};
+[[nodiscard]] Coaching coaching_from(const nav::Registration& registration);
+/// `0.6 mm expected, stroke the left lamina`.
+[[nodiscard]] std::string text_of(const Coaching& coaching);
+
+/// Registers while the surgeon strokes, beside the frame loop, to tell what the strokes are worth;
+/// nothing of it registers anything. A trial starts after so many new samples and is answered
+/// exactly so many pairs later, be it ready before or awaited then: the same pairs give the same
+/// answers, on any machine. One thread at a time.
+class Coach {
+ public:
+  /// 2 s of stroking at 30 pairs a second.
+  static constexpr std::size_t kNewSamples = 60;
+  static constexpr std::size_t kFewestSamples = 100;
+  /// Half a second: several times what a trial takes, so that hardly any is awaited.
+  static constexpr int kPairsToAnswer = 15;
+
+  explicit Coach(Registrar registrar) : registrar_(std::move(registrar)) {}
+
+  /// Once for each pair of stroking, with everything stroked so far. The level must stay until
+  /// `forget` or the end.
+  void step(const OperatedLevel& level, std::span<const nav::Region> regions);
+  /// So many samples were registered for good, and refused: this is what they are worth.
+  void tell(Coaching coaching, std::size_t samples) {
+    newest_ = std::move(coaching);
+    asked_samples_ = samples;
+  }
+  /// The strokes are gone or done with; a trial under way is awaited and dropped.
+  void forget();
+  [[nodiscard]] const std::optional<Coaching>& newest() const { return newest_; }
+
+ private:
+  void start(const OperatedLevel& level, std::span<const nav::Region> regions);
+  void take_answer();
+  void run();
+
+  Registrar registrar_;
+  std::optional<Coaching> newest_;
+  std::size_t asked_samples_ = 0;  ///< of the last trial
+  int pairs_left_ = 0;             ///< until the answer of the trial under way; 0: none is
+
+  // The trial's own, the worker's while it is under way.
+  const OperatedLevel* level_ = nullptr;
+  std::vector<Point<World>> points_;
+  std::optional<Coaching> answer_;
+  nav::Worker worker_;  ///< ends first
+};
+
+}  // namespace orthonav::engine

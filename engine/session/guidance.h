@@ -1,0 +1,128 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/tracked.h"
+#include "engine/case/operation.h"
+#include "engine/session/workflow.h"
+#include "nav/guidance/predicted_error.h"
+#include "nav/guidance/rod.h"
+#include "nav/guidance/screw.h"
+#include "nav/registration/check_points.h"
+#include "nav/registration/digitizer.h"
+#include "nav/registration/registration.h"
+#include "nav/tracking/tool.h"
+
+namespace orthonav::engine {
+
+/// A registration, passed or not, with the points that it was made of.
+struct RegistrationAttempt {
+  std::vector<Point<World>> points;
+  nav::Registration registration;
+};
+
+/// Where one level of the operation stands.
+struct LevelState {
+  OperatedLevel plan;
+  int attempts = 0;  ///< registrations asked for so far
+  /// The newest registration that passed its limits; gone when the surgeon rejects it.
+  std::optional<nav::Registration> registration;
+  /// What that registration leaves uncertain, screw by screw.
+  std::vector<nav::PredictedScrewError> predicted;
+  /// What was touched on that registration to verify it, in order.
+  std::vector<nav::CheckPoint> check_points;
+  /// What the newest registration was warned of: a pointer whose tag is not as large as stated.
+  std::string warning;
+  /// The newest one that found a pose, whatever became of it: reports tell of it.
+  std::optional<RegistrationAttempt> newest;
+  bool accepted = false;                 ///< by the surgeon; only then anything is guided on it
+  std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
+  double digitization_s = 0.0;           ///< from the first press to the registration
+  std::vector<bool> screw_done;
+  /// Finished, and the map has moved since: kept for the report, shown nowhere.
+  bool map_moved = false;
+
+  [[nodiscard]] bool finished() const {
+    return std::find(screw_done.begin(), screw_done.end(), false) == screw_done.end();
+  }
+  /// World's vertebra may be shown and guided on.
+  [[nodiscard]] bool usable() const { return accepted && registration && !map_moved; }
+};
+
+/// One rod: the heads as they were touched, and the template once there are two.
+struct RodState {
+  nav::Side side = nav::Side::kLeft;
+  std::vector<Point<World>> heads;
+  std::optional<nav::RodTemplate> rod;
+  bool done = false;
+  /// Finished, and the map has moved since: kept for the report, shown nowhere.
+  bool map_moved = false;
+
+  [[nodiscard]] bool visible() const { return !heads.empty() && !map_moved; }
+};
+
+/// How well a tool is seen right now, for the status line.
+struct ToolSight {
+  std::string name;
+  nav::ToolRole role = nav::ToolRole::kPointer;
+  Origin origin = Origin::kLost;
+};
+
+/// The tool against the selected screw.
+struct ToolGuidance {
+  /// From this very stereo pair: what is written as a number. Head motion between then and now has
+  /// no part in it. Absent when the tool was not measured in this pair: a prediction is no reading.
+  std::optional<nav::ScrewGuidance> measured;
+  /// Predicted to the display time: what is drawn over the patient.
+  nav::ScrewGuidance shown;
+  Timestamp pose_time{};  ///< mid-exposure of the newest pair in which the tool was measured
+};
+
+/// A region that was deleted a moment ago.
+struct DroppedRegion {
+  nav::Region region;
+  Timestamp dropped_at{};
+};
+
+/// Everything that the surgeon may be shown after one stereo pair, as facts;
+/// engine/holograms/scene_builder.h decides what becomes visible. The spans look into the session:
+/// valid until its next step.
+struct Guidance {
+  Timestamp frame_time{};    ///< mid-exposure of the pair
+  Timestamp display_time{};  ///< when the frame made of this lights up
+  Timestamp pose_time{};     ///< of the pair in which the step's tool was last measured
+  Step step = Step::kSetup;
+  std::string step_text;  ///< "guide L4 left"
+  std::string heard;      ///< the newest phrase: "heard: save"; empty: none
+  std::string detail;     ///< "refused: registration RMSE 3.4 mm, limit 3.0 mm"; empty: nothing
+  std::span<const LevelState> levels;
+  std::size_t level = 0;  ///< being operated, an index into `levels`
+  std::size_t screw = 0;  ///< selected, an index into the level's screws (while guiding)
+  std::span<const nav::Region> regions;
+  const DroppedRegion* dropped = nullptr;
+  /// Guidance on a pose older than this, when the frame lights up, is hidden.
+  Duration stale_after{};
+  Duration fade{};     ///< a deleted path fades for so long
+  bool blank = false;  ///< no more pairs will come: nothing may be shown that could go stale
+  std::optional<ToolGuidance> tool;  ///< absent: not guiding, or nothing fresh to guide on
+  std::span<const RodState> rods;
+  bool rods_moved_away = false;
+  std::span<const ToolSight> tools;
+  /// Where the head was in the newest pair that told: some holograms face it.
+  std::optional<Transform<World, Rig>> head;
+  bool twin = false;  ///< the virtual twin was asked for
+  /// How far the saved samples lie from the registered surface, region after region; empty without
+  /// a registration to be verified.
+  std::span<const float> residuals_m;
+  /// One a vertex of the level's model: 1 where a pointer could have stroked and none did, 0 where
+  /// the bone was stroked or can't be; empty without a registration to be verified.
+  std::span<const float> bare;
+  /// Places of the current level that are still to be touched to verify it.
+  std::span<const Point<World>> to_check;
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,176 @@
+#include "engine/session/journal.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/angle.h"
+
+namespace orthonav::engine {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json millimetres(Vec3 v) { return Json::array({v.x * 1e3, v.y * 1e3, v.z * 1e3}); }
+
+Json entry(std::int64_t file_ticks, Timestamp time, const char* what) {
+  return Json{{"time_100ns", file_ticks},
+              {"time_ns", std::int64_t{time.time_since_epoch().count()}},
+              {"what", what}};
+}
+
+/// Row-major, translation in mm.
+Json matrix_mm(std::array<double, 16> m) {
+  for (const std::size_t i : {3u, 7u, 11u}) m[i] *= 1e3;
+  return m;
+}
+
+/// What the method `best` says of a registration besides. What has no bound becomes null.
+void put_judgement(Json& line, const nav::Registration& result) {
+  line["noise_mm"] = result.noise_m * 1e3;
+  line["inlier_share"] = result.inlier_share;
+  line["effective_points"] = result.effective_points;
+  line["coverage_share"] = result.coverage_share;
+  line["swept_share"] = result.swept_share;
+  line["margin"] = result.margin;
+  line["expected_tre_mm"] = result.predicted_tre_m * 1e3;
+  line["tre_95_mm"] = result.tre_95_m * 1e3;
+  line["weakest"] = result.weakest;
+  line["advice"] = result.advice;
+  if (!result.fits_better.empty()) line["fits_better"] = result.fits_better;
+}
+
+/// Labels come from files: bytes that are no UTF-8 must not end the journal. A line is out of this
+/// process as soon as it is written.
+void write_line(std::ostream& out, const Json& line) {
+  out << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
+                                                 const JournalHeader& header) {
+  auto file = AtomicFile::create(path);
+  if (!file) return file.error();
+  std::ofstream out(file->temporary_path(), std::ios::binary);
+  if (!out) return Error{path + ": can't be written"};
+  write_line(out, Json{{"format", "orthonav session"},
+                       {"format_version", 1},
+                       {"orthonav", header.version},
+                       {"device", header.device},
+                       {"method", header.method},
+                       {"case", header.case_name},
+                       {"seed", header.seed}});
+  return std::unique_ptr<Journal>(
+      new Journal(std::move(*file), std::move(out), header.epoch_ticks_100ns));
+}
+
+Status Journal::finish(const std::string& reason) {
+  if (!reason.empty()) {
+    Json line = entry(file_ticks(newest_), newest_, "ended");
+    line["reason"] = reason;
+    write_line(out_, line);
+  }
+  out_.close();
+  if (out_.fail()) return Error{file_.final_path() + ": not every line could be written"};
+  return file_.commit();
+}
+
+void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
+  newest_ = std::max(newest_, time);
+  Json line = entry(file_ticks(time), time, "event");
+  line["step"] = name_of(from);
+  line["event"] = name_of(event);
+  line["action"] = name_of(answer.action);
+  line["next"] = name_of(answer.next);
+  write_line(out_, line);
+}
+
+void Journal::not_understood(const Phrase& phrase) {
+  Json line = entry(file_ticks(phrase.time), phrase.time, "not understood");
+  line["phrase"] = phrase.text;
+  line["confidence"] = phrase.confidence;
+  write_line(out_, line);
+}
+
+void Journal::registered(Timestamp time, const LevelState& level, const nav::Registration* result,
+                         const std::string& reason) {
+  Json line = entry(file_ticks(time), time, "registration");
+  line["level"] = level.plan.label;
+  line["attempt"] = level.attempts;
+  line["accepted"] = reason.empty();
+  if (!reason.empty()) line["reason"] = reason;
+  if (result) {
+    line["points"] = result->points;
+    line["rmse_mm"] = result->rmse_m * 1e3;
+    line["runner_up_rmse_mm"] = result->runner_up_rmse_m * 1e3;
+    line["world_from_vertebra_mm"] = matrix_mm(result->world_from_vertebra.row_major());
+    if (result->tre_95_m > 0.0) put_judgement(line, *result);
+  }
+  if (!level.warning.empty()) line["warning"] = level.warning;
+  // Infinite, that is without a bound, becomes null.
+  if (reason.empty()) line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
+  write_line(out_, line);
+}
+
+void Journal::check_point_recorded(Timestamp time, const LevelState& level) {
+  const nav::CheckPoint& point = level.check_points.back();
+  Json line = entry(file_ticks(time), time, "check point");
+  line["level"] = level.plan.label;
+  line["number"] = level.check_points.size();
+  line["in_world_mm"] = millimetres(point.place.v);
+  line["distance_mm"] = point.distance_m * 1e3;
+  line["within"] = point.within;
+  write_line(out_, line);
+}
+
+void Journal::check_point_dropped(Timestamp time, const LevelState& level) {
+  Json line = entry(file_ticks(time), time, "check point dropped");
+  line["level"] = level.plan.label;
+  line["number"] = level.check_points.size() + 1;
+  write_line(out_, line);
+}
+
+void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+                         const ToolGuidance* last) {
+  Json line = entry(file_ticks(time), time, "screw");
+  line["level"] = level.plan.label;
+  line["side"] = name_of(screw.side);
+  if (last && last->measured) {
+    line["pose_time_100ns"] = ticks_100ns(last->pose_time);
+    line["angle_deg"] = degrees(last->measured->angle_rad);
+    line["tip_to_entry_mm"] = last->measured->tip_to_entry_m * 1e3;
+    line["tip_off_axis_mm"] = last->measured->tip_off_axis_m * 1e3;
+    line["depth_mm"] = last->measured->depth_m * 1e3;
+  }
+  write_line(out_, line);
+}
+
+void Journal::head_recorded(Timestamp time, nav::Side side, Point<World> head) {
+  Json line = entry(file_ticks(time), time, "head");
+  line["side"] = name_of(side);
+  line["in_world_mm"] = millimetres(head.v);
+  write_line(out_, line);
+}
+
+void Journal::head_dropped(Timestamp time, nav::Side side) {
+  Json line = entry(file_ticks(time), time, "head dropped");
+  line["side"] = name_of(side);
+  write_line(out_, line);
+}
+
+void Journal::rod_done(Timestamp time, const RodState& rod) {
+  Json line = entry(file_ticks(time), time, "rod");
+  line["side"] = name_of(rod.side);
+  line["heads"] = rod.heads.size();
+  if (rod.rod) {
+    line["length_mm"] = rod.rod->length_m * 1e3;
+    Json bends = Json::array();
+    for (const nav::RodBend& bend : rod.rod->bends)
+      bends.push_back(
+          Json{{"arc_length_mm", bend.arc_length_m * 1e3}, {"angle_deg", degrees(bend.angle_rad)}});
+    line["bends"] = bends;
+  }
+  write_line(out_, line);
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "engine/io/atomic_file.h"
+#include "engine/session/session_observer.h"
+
+namespace orthonav::engine {
+
+/// What the journal says about the whole session, in its first line.
+struct JournalHeader {
+  std::string version;
+  std::string device;  ///< the headset's name
+  std::string method;
+  std::string case_name;
+  std::uint64_t seed = 0;
+  std::int64_t epoch_ticks_100ns = 0;  ///< Headset::epoch_ticks_100ns
+};
+
+/// The event log of a session: one JSON object a line, the first is the header. Times as
+/// files name them (`time_100ns`, with the device's epoch) and in nanoseconds of the device's clock
+/// (`time_ns`), lengths in mm, angles in degrees. Written beside its name as it
+/// happens, so that a crash leaves it readable there, and named by `finish`.
+class Journal : public SessionObserver {
+ public:
+  static Result<std::unique_ptr<Journal>> create(const std::string& path,
+                                                 const JournalHeader& header);
+  /// Gives the file its name; an Error when any line could not be written. `reason`: what ended the
+  /// session before its time, told in a last line.
+  Status finish(const std::string& reason = {});
+
+  void happened(Timestamp time, Step from, Event event, Cell answer) override;
+  void not_understood(const Phrase& phrase) override;
+  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
+                  const std::string& reason) override;
+  void check_point_recorded(Timestamp time, const LevelState& level) override;
+  void check_point_dropped(Timestamp time, const LevelState& level) override;
+  void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+                  const ToolGuidance* last) override;
+  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
+  void head_dropped(Timestamp time, nav::Side side) override;
+  void rod_done(Timestamp time, const RodState& rod) override;
+
+ private:
+  Journal(AtomicFile file, std::ofstream out, std::int64_t epoch_ticks_100ns)
+      : file_(std::move(file)), out_(std::move(out)), epoch_ticks_100ns_(epoch_ticks_100ns) {}
+  [[nodiscard]] std::int64_t file_ticks(Timestamp time) const {
+    return epoch_ticks_100ns_ + ticks_100ns(time);
+  }
+
+  AtomicFile file_;
+  std::ofstream out_;
+  std::int64_t epoch_ticks_100ns_;
+  Timestamp newest_{};  ///< of what was told
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/case/operation.h"
+#include "engine/session/workflow.h"
+#include "nav/registration/registration.h"
+#include "nav/tracking/tool_tracker.h"
+
+namespace orthonav::engine {
+
+/// What is to be registered.
+struct RegistrationRequest {
+  const nav::VertebraModel& model;
+  std::span<const Point<World>> points_in_world;  ///< in the order of time
+  std::span<const nav::ScrewPlan> screws;         ///< where the pose must be sure; may be empty
+  std::span<const NeighbouringLevel> neighbours;
+  /// How exactly each was tracked (RMS of an axis); empty where nothing tells.
+  std::span<const double> point_sd_m{};
+  /// The pointer's shaft at each, from the tip back, unit vectors; empty where nothing tells.
+  std::span<const Vec3> shafts{};
+  double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; `paper` takes the end for a point
+};
+
+using Registrar = std::function<Result<nav::Registration>(const RegistrationRequest& request)>;
+
+/// One way of tracking and registering, under the name that reports carry.
+struct Method {
+  std::string name;
+  std::function<Result<std::unique_ptr<nav::ToolTracker>>(const StereoCalibration& calibration,
+                                                          std::vector<nav::ToolGeometry> tools,
+                                                          const nav::TrackerOptions& options)>
+      create_tracker;
+  Registrar registrar;
+  Verification verification = Verification::kByTouch;
+  /// What was stroked so far is registered on the side, to tell what to expect and what to stroke.
+  bool coaching = false;
+};
+
+/// `paper`: the published method (Liebmann et al. 2019). `best`: tools by the photometric pose of
+/// their tags (docs/tracking.md), every pose of the bone searched for and judged
+/// (docs/registration.md). Any other name is refused in one line that names what there is.
+Result<Method> method_named(const std::string& name);
+/// Registration alone.
+Result<Registrar> registrar_named(const std::string& name);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "engine/session/session_observer.h"
+
+namespace orthonav::engine {
+
+/// Passes what it hears on to others, in the order in which they were added. Borrowed, not owned.
+class ObserverList : public SessionObserver {
+ public:
+  ObserverList() = default;
+  explicit ObserverList(std::vector<SessionObserver*> observers)
+      : observers_(std::move(observers)) {}
+  void add(SessionObserver* observer) {
+    if (observer) observers_.push_back(observer);
+  }
+
+  void happened(Timestamp time, Step from, Event event, Cell answer) override {
+    for (auto* o : observers_) o->happened(time, from, event, answer);
+  }
+  void not_understood(const Phrase& phrase) override {
+    for (auto* o : observers_) o->not_understood(phrase);
+  }
+  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
+                  const std::string& reason) override {
+    for (auto* o : observers_) o->registered(time, level, result, reason);
+  }
+  void check_point_recorded(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) o->check_point_recorded(time, level);
+  }
+  void check_point_dropped(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) o->check_point_dropped(time, level);
+  }
+  void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+                  const ToolGuidance* last) override {
+    for (auto* o : observers_) o->screw_done(time, level, screw, last);
+  }
+  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override {
+    for (auto* o : observers_) o->head_recorded(time, side, head);
+  }
+  void head_dropped(Timestamp time, nav::Side side) override {
+    for (auto* o : observers_) o->head_dropped(time, side);
+  }
+  void rod_done(Timestamp time, const RodState& rod) override {
+    for (auto* o : observers_) o->rod_done(time, rod);
+  }
+
+ private:
+  std::vector<SessionObserver*> observers_;
+};
+
+}  // namespace orthonav::engine

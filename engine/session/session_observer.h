@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "engine/session/guidance.h"
+#include "hal/api/devices.h"
+
+namespace orthonav::engine {
+
+/// Hears what happens in a session, in order, on the thread that steps it. The references live as
+/// long as the call.
+class SessionObserver {
+ public:
+  virtual ~SessionObserver() = default;
+  /// Every event with the table's answer to it.
+  virtual void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell /*answer*/) {}
+  /// A phrase that is no command here, or was not understood well enough.
+  virtual void not_understood(const Phrase& /*phrase*/) {}
+  /// A registration was asked for; `reason` is empty when it passed, `result` null when there is
+  /// none at all.
+  virtual void registered(Timestamp /*time*/, const LevelState& /*level*/,
+                          const nav::Registration* /*result*/, const std::string& /*reason*/) {}
+  /// A place was touched to verify the level's registration: the last of its check points.
+  virtual void check_point_recorded(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// The last of them was taken back; `level` is without it.
+  virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// The surgeon declared the screw done; `last` is what he was guided by at the end, if anything.
+  virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,
+                          const nav::ScrewPlan& /*screw*/, const ToolGuidance* /*last*/) {}
+  virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, Point<World> /*head*/) {}
+  virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/) {}
+  virtual void rod_done(Timestamp /*time*/, const RodState& /*rod*/) {}
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/session/workflow.h"
+
+namespace orthonav::engine {
+
+/// Every phrase that a session understands, lower case.
+[[nodiscard]] std::vector<std::string> spoken_commands();
+
+/// What a phrase asks for; nothing when it is no command.
+[[nodiscard]] std::optional<Event> command_event(std::string_view phrase);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,25 @@
+#include "engine/session/tool_watch.h"
+
+namespace orthonav::engine {
+
+void ToolWatch::update(const nav::TrackedPose& world_from_marker) {
+  newest_ = world_from_marker;
+  if (newest_.origin != Origin::kMeasured) return;
+  older_ = newer_;
+  newer_ = newest_;
+}
+
+std::optional<Timestamp> ToolWatch::last_measured() const {
+  if (newer_.origin != Origin::kMeasured) return std::nullopt;
+  return newer_.time;
+}
+
+bool ToolWatch::fresh(Timestamp now, Duration within) const {
+  return newer_.origin == Origin::kMeasured && newer_.age(now) <= within;
+}
+
+nav::TrackedPose ToolWatch::at(Timestamp time, Duration coast) const {
+  return nav::predicted(older_, newer_, time, coast);
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,122 @@
+#include "engine/session/workflow.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr std::array<std::string_view, kStepCount> kStepNames = {
+    "setup", "digitize", "verify", "accepted", "guide", "rod", "done"};
+
+constexpr std::array<std::string_view, kEventCount> kEventNames = {
+    "press",         "release",           "click",         "double click",
+    "hold",          "\"start\"",         "\"save\"",      "\"delete\"",
+    "\"accept\"",    "\"reject\"",        "\"next\"",      "\"done\"",
+    "\"move rod\"",  "\"twin\"",          "registered",    "registration refused",
+    "checked",       "not checked",       "another screw", "another level",
+    "no screw left", "another side",      "no side left",  "tracking lost",
+    "pose stale",    "tracking regained", "map moved",
+};
+
+constexpr std::array<std::string_view, kActionCount> kActionNames = {
+    "refuse",
+    "ignore",
+    "begin level",
+    "start sampling",
+    "stop sampling",
+    "save region",
+    "drop region",
+    "register",
+    "show registration",
+    "count refusal",
+    "judge checks",
+    "ask for checks",
+    "record check point",
+    "drop check point",
+    "accept",
+    "clear level",
+    "select screw",
+    "finish screw",
+    "begin rod",
+    "begin touch",
+    "end touch",
+    "drop touch",
+    "record head",
+    "drop head",
+    "finish rod",
+    "move rod",
+    "show or hide twin",
+    "finish",
+    "warn: tool lost",
+    "hide guidance",
+    "show guidance",
+    "forget map",
+};
+
+// A name forgotten at the end of an array would be empty.
+static_assert(!kStepNames.back().empty() && !kEventNames.back().empty() &&
+              !kActionNames.back().empty());
+
+/// Mermaid ends a label at a quote.
+std::string unquoted(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if (c != '"') out += c;
+  return out;
+}
+
+void append_state_diagram(std::string& out) {
+  out += "```mermaid\nstateDiagram-v2\n    [*] --> setup\n";
+  for (const Rule& rule : workflow_detail::kRules) {
+    // What stays and does nothing would only hide the arrows that matter.
+    if (rule.action == Action::kIgnore) continue;
+    out += "    " + std::string(name_of(rule.step)) + " --> " + std::string(name_of(rule.next)) +
+           " : " + unquoted(name_of(rule.event)) + " / " + unquoted(name_of(rule.action)) + "\n";
+  }
+  out += "    done --> [*]\n```\n";
+}
+
+void append_table(std::string& out) {
+  out += "| event |";
+  for (const auto& step : kStepNames) out += " " + std::string(step) + " |";
+  out += "\n|---|";
+  for (std::size_t i = 0; i < kStepCount; ++i) out += "---|";
+  out += "\n";
+  for (std::size_t e = 0; e < kEventCount; ++e) {
+    out += "| " + std::string(kEventNames[e]) + " |";
+    for (std::size_t s = 0; s < kStepCount; ++s) {
+      const Cell cell = kWorkflow[s][e];
+      out += " " + std::string(name_of(cell.action));
+      if (cell.next != static_cast<Step>(s))
+        out += " → **" + std::string(name_of(cell.next)) + "**";
+      out += " |";
+    }
+    out += "\n";
+  }
+}
+
+void append_verify_by_eye(std::string& out) {
+  out += "Where the eye alone verifies (`paper`), `verify` answers instead:\n\n";
+  out += "| event | verify |\n|---|---|\n";
+  for (const Rule& rule : workflow_detail::kRulesByEye) {
+    out += "| " + std::string(name_of(rule.event)) + " | " + std::string(name_of(rule.action));
+    if (rule.next != rule.step) out += " → **" + std::string(name_of(rule.next)) + "**";
+    out += " |\n";
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
+std::string_view name_of(Event event) { return kEventNames[static_cast<std::size_t>(event)]; }
+std::string_view name_of(Action action) { return kActionNames[static_cast<std::size_t>(action)]; }
+
+std::string workflow_diagram() {
+  std::string out;
+  append_state_diagram(out);
+  out += "\n";
+  append_table(out);
+  out += "\n";
+  append_verify_by_eye(out);
+  return out;
+}
+
+}  // namespace orthonav::engine

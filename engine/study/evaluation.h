@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/report/operation_result.h"
+#include "engine/session/session_observer.h"
+#include "hal/sim/sim_headset.h"
+
+namespace orthonav::engine {
+
+/// Looks at a session from outside, through its observer alone, and notes what was true in the
+/// simulated room at the moments that count. Nothing flows back: the session only calls it. The map
+/// drifts, so a truth in World holds at its moment only.
+class SimWitness : public SessionObserver {
+ public:
+  explicit SimWitness(const sim::SimHeadset& headset) : headset_(headset) {}
+
+  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
+                  const std::string& reason) override;
+  void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
+  void head_dropped(Timestamp time, nav::Side side) override;
+
+  /// Adds the errors to what the session knows: TRE of each accepted registration at its screws'
+  /// entries and targets; angle and entry error of each driven wire; rods.
+  void evaluate(std::span<const LevelState> levels, OperationResult& result) const;
+
+ private:
+  struct LevelTruth {
+    std::string label;
+    Transform<World, Vertebra> estimated;
+    Transform<World, Vertebra> truth;
+  };
+  struct TouchedHead {
+    nav::Side side;
+    Point<sim::Room> position;
+  };
+  void evaluate_level(const LevelState& state, LevelOutcome& level) const;
+  void evaluate_rod(RodOutcome& rod) const;
+
+  const sim::SimHeadset& headset_;
+  std::vector<LevelTruth> registrations_;
+  std::vector<TouchedHead> touched_;
+};
+
+}  // namespace orthonav::engine

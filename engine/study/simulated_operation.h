@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/case/case.h"
+#include "engine/case/model_cache.h"
+#include "engine/live/frame_loop.h"
+#include "engine/report/operation_result.h"
+#include "engine/session/method.h"
+#include "hal/sim/sim_headset.h"
+
+namespace orthonav::engine {
+
+struct OperationOptions {
+  std::string method = "best";
+  std::vector<std::string> levels;  ///< empty: the two lowest of the case
+  std::vector<nav::ToolGeometry> tools;
+  sim::SimOptions sim;
+  /// Tools in sight are searched around their predictions; the whole image only every tenth pair.
+  nav::TrackerOptions tracker{.full_search_interval = 10};
+  SessionOptions session;
+  LoopOptions loop;
+  VisibilityRules visibility;
+  std::string record_folder;  ///< empty: nothing is recorded
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// What else takes part; all borrowed, all optional.
+struct OperationGuests {
+  std::vector<SessionObserver*> session;
+  LoopObserver* loop = nullptr;
+  SnapshotSink* sink = nullptr;
+  ModelCache* models = nullptr;  ///< asked for prepared models; not told to keep any
+  /// Called once the room is open and before the first frame; an Error ends the run.
+  std::function<Status(sim::SimHeadset&, const Method&, const Session&)> opened;
+};
+
+/// A whole operation in the simulated room, from camera frames to rods, and its evaluation. The
+/// same case, options and seed give the same result, whatever takes part. An Error means bad input;
+/// an operation that did not come to its end is a result with `completed` false.
+Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
+                                      const OperationGuests& guests = {});
+
+}  // namespace orthonav::engine

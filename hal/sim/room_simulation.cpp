@@ -1,0 +1,196 @@
+#include "hal/sim/room_simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace orthonav::sim {
+namespace {
+
+/// Physiological tremor of a hand holding a tool: 8-12 Hz (Elble and Koller 1990).
+constexpr double kSlowestTremor_hz = 8.0;
+constexpr double kFastestTremor_hz = 12.0;
+/// The map's origin is where the headset was switched on: somewhere, turned anyhow, but level.
+const Transform<World, Room> kMapAtStart{rotation_from_vector({0.0, 0.7, 0.0}), {0.4, -1.1, 0.6}};
+
+}  // namespace
+
+Theatre::Theatre(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig, Timestamp start)
+    : room_(std::move(room)),
+      magnitudes_(options.magnitudes),
+      layout_(room_),
+      start_(start),
+      physics_(Random(options.seed).fork("physics")),
+      head_(Random(options.seed).fork("head"), magnitudes_, eyes_in_rig, {layout_.middle()}),
+      drift_(Random(options.seed).fork("map"), magnitudes_.map_drift_m_per_sqrt_s,
+             magnitudes_.map_drift_rad_per_sqrt_s, options.limit_s),
+      tremor_m_(Random(options.seed).fork("tremor position"), magnitudes_.tremor_m,
+                kSlowestTremor_hz, kFastestTremor_hz),
+      tremor_rad_(Random(options.seed).fork("tremor rotation"), magnitudes_.tremor_rad,
+                  kSlowestTremor_hz, kFastestTremor_hz) {
+  RoomState nothing;
+  nothing.room_from_marker.resize(room_.tools.size());
+  nothing.tool_present.resize(room_.tools.size());
+  states_.resize(kKept, nothing);
+  if (options.surgeon && layout_.levels() > 0)
+    surgeon_ = std::make_unique<Surgeon>(layout_, magnitudes_, Random(options.seed).fork("surgeon"),
+                                         eyes_, truth_.heads);
+  step();
+}
+
+void Theatre::advance(Timestamp until) {
+  while (kept(steps_ - 1).time < until) step();
+}
+
+void Theatre::step() {
+  RoomState& now = kept(steps_);
+  now.time = start_ + static_cast<std::int64_t>(steps_) * kStep;
+  now.room_from_spine = layout_.room_from_spine();
+  if (surgeon_) head_.advance(seconds(kStep), surgeon_->body().posture().head);
+  now.room_from_rig = head_.pose(seconds_in(now.time));
+  ++steps_;
+  for (auto due = eyes_.next_due(); due && *due <= now.time; due = eyes_.next_due())
+    eyes_.light_up(room_from_rig(*due));
+  std::fill(now.tool_present.begin(), now.tool_present.end(), false);
+  now.hand.reset();
+  if (surgeon_)
+    let_surgeon_act(now);
+  else
+    let_tools_hover(now);
+  if (layout_.levels() > 0) leave_reference(now);
+}
+
+void Theatre::let_surgeon_act(RoomState& now) {
+  surgeon_->tick(now.time);
+  SurgeonBody& body = surgeon_->body();
+  const Posture& posture = body.posture();
+  const auto tool = posture.in_hand ? layout_.tool(*posture.in_hand) : std::nullopt;
+  if (tool) {
+    put(now, *tool, posture.grip, posture.contact_normal);
+    const Vec3 view = posture.head.from_gaze;
+    // The forearm comes from the surgeon's right, across the shaft, so that it never hides the tag,
+    // and below the line of sight to the wound.
+    const Vec3 across = posture.grip.axis.cross(view).normalized();
+    now.hand = hand_on(room_.tools[*tool], posture.grip);
+    now.hand_axis = (0.9 * across + 0.35 * Vec3{view.x, 0.0, view.z}).normalized();
+  }
+  for (const Deed& deed : surgeon_->deeds()) pierce(deed);
+  surgeon_->deeds().clear();
+  clicks_.insert(clicks_.end(), body.clicks.begin(), body.clicks.end());
+  phrases_.insert(phrases_.end(), body.phrases.begin(), body.phrases.end());
+  body.clicks.clear();
+  body.phrases.clear();
+  if (surgeon_->finished() && !finished_at_) finished_at_ = now.time;
+  truth_.surgeon_gave_up = surgeon_->gave_up();
+}
+
+/// The reference is clamped to the patient, facing where the head is at the start, and stays so.
+void Theatre::leave_reference(RoomState& now) {
+  constexpr Vec3 kBesideTheSite_m{-0.02, 0.0, 0.13};
+  const auto reference = layout_.tool(ToolKind::kReference);
+  if (!reference) return;
+  if (!room_from_reference_) {
+    put(now, *reference, {layout_.middle() + kBesideTheSite_m, {0, 1, 0}, 0.0}, std::nullopt);
+    room_from_reference_ = now.room_from_marker[*reference];
+  }
+  now.room_from_marker[*reference] = *room_from_reference_;
+  now.tool_present[*reference] = true;
+}
+
+/// Without a surgeon the tools float side by side over the table, slowly going round.
+void Theatre::let_tools_hover(RoomState& now) const {
+  constexpr double kApart_m = 0.14;
+  constexpr double kRound_m = 0.02;
+  constexpr double kRound_hz = 0.05;
+  const double middle = 0.5 * (static_cast<double>(room_.tools.size()) - 1.0);
+  for (std::size_t i = 0; i < room_.tools.size(); ++i) {
+    const double turn =
+        2.0 * std::numbers::pi * kRound_hz * seconds_in(now.time) + static_cast<double>(i);
+    const Vec3 place{kRound_m * std::cos(turn), 0.03 + kRound_m * std::sin(turn),
+                     kApart_m * (static_cast<double>(i) - middle)};
+    const Vec3 axis = Vec3{-0.4 + 0.1 * std::sin(turn), 0.9, 0.1 * std::cos(turn)}.normalized();
+    put(now, i, {layout_.middle() + place, axis, 0.0}, std::nullopt);
+  }
+}
+
+void Theatre::put(RoomState& state, std::size_t tool, const Grip& grip,
+                  std::optional<Vec3> contact) const {
+  const RoomTool& made = room_.tools[tool];
+  Grip shaken = grip;
+  if (made.kind != ToolKind::kReference) {
+    const double t = seconds_in(state.time);
+    Vec3 shake = tremor_m_.at(t);
+    // The bone does not give way: what would push the tip in slides it along instead.
+    if (contact) shake = shake - std::min(0.0, shake.dot(*contact)) * *contact;
+    shaken.tip = grip.tip + shake;
+    shaken.axis = rotation_from_vector(tremor_rad_.at(t)) * grip.axis;
+  }
+  const Point<Room> tag = shaken.tip + made.tip_in_marker.v.norm() * shaken.axis;
+  const Vec3 viewer = state.room_from_rig.translation();
+  state.room_from_marker[tool] = held(made, shaken, (viewer - tag.v).normalized());
+  state.tool_present[tool] = true;
+}
+
+void Theatre::pierce(const Deed& deed) {
+  constexpr double kSearch_m = 0.02;
+  constexpr double kHeadOverEntry_m = 0.010;
+  const RoomState& now = kept(steps_ - 1);
+  const auto guide = layout_.tool(ToolKind::kGuide);
+  if (!guide) return;
+  const auto room_from_vertebra = layout_.room_from_vertebra(deed.level);
+  const RoomTool& tool = room_.tools[*guide];
+  const auto vertebra_from_marker = room_from_vertebra.inverse() * now.room_from_marker[*guide];
+  const Vec3 tip = (vertebra_from_marker * tool.tip_in_marker).v;
+  const Vec3 straight = -(vertebra_from_marker * Direction<Marker>{tool.axis_in_marker}).v;
+  const BoneSurface& bone = layout_.bone(deed.level);
+  const Vec3 slip = normal_vector(physics_, magnitudes_.wire_skiving_m);
+  const Vec3 normal = bone.closest(tip).normal;
+  const Vec3 slipped = tip + (slip - slip.dot(normal) * normal);
+  const Vec3 bend = normal_vector(physics_, magnitudes_.wire_bending_rad);
+  const Vec3 direction =
+      (rotation_from_vector(bend - bend.dot(straight) * straight) * straight).normalized();
+  const auto hit = bone.first_hit(slipped - kSearch_m * direction, direction, 2.0 * kSearch_m);
+  const Point<Vertebra> entry{hit ? hit->point : bone.closest(slipped).point};
+  const std::string& label = room_.levels[deed.level].label;
+  truth_.wires.push_back({label, deed.side, entry, direction, now.time});
+  truth_.heads.push_back(
+      {label, deed.side, room_from_vertebra * (entry - kHeadOverEntry_m * direction)});
+}
+
+Theatre::Around Theatre::around(Timestamp time) const {
+  const std::size_t newest = steps_ - 1;
+  const std::size_t oldest = steps_ > kKept ? steps_ - kKept : 0;
+  const auto number =
+      std::clamp<std::int64_t>((time - start_) / kStep, static_cast<std::int64_t>(oldest),
+                               static_cast<std::int64_t>(newest));
+  const auto before = static_cast<std::size_t>(number);
+  const RoomState& state = kept(before);
+  const double fraction = std::clamp(seconds(time - state.time) / seconds(kStep), 0.0, 1.0);
+  return {state, kept(std::min(before + 1, newest)), fraction};
+}
+
+void Theatre::state_at(Timestamp time, RoomState& state) const {
+  const auto [before, after, fraction] = around(time);
+  state = after;
+  state.time = time;
+  state.room_from_rig = interpolated(before.room_from_rig, after.room_from_rig, fraction);
+  for (std::size_t i = 0; i < state.room_from_marker.size(); ++i)
+    if (before.tool_present[i] && after.tool_present[i])
+      state.room_from_marker[i] =
+          interpolated(before.room_from_marker[i], after.room_from_marker[i], fraction);
+  if (before.hand && after.hand)
+    state.hand = *before.hand + fraction * (*after.hand - *before.hand);
+}
+
+Transform<Room, Rig> Theatre::room_from_rig(Timestamp time) const {
+  const auto [before, after, fraction] = around(time);
+  return interpolated(before.room_from_rig, after.room_from_rig, fraction);
+}
+
+Transform<World, Room> Theatre::world_from_room(Timestamp time) const {
+  const auto [shift, turn] = drift_.at(seconds_in(time));
+  const Transform<World, Room> start = kMapAtStart;
+  return start * Transform<Room, Room>{rotation_from_vector(turn), shift};
+}
+
+}  // namespace orthonav::sim

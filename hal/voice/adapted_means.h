@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+
+namespace orthonav::voice {
+
+/// Means of an acoustic model: what PocketSphinx calls "means" (Sphinx-3 format), less its header.
+struct AcousticMeans {
+  int codebooks = 0;               ///< one for each sound
+  std::vector<int> stream_widths;  ///< cepstra, their differences, and the differences of those
+  int densities = 0;               ///< Gaussians of each stream of a codebook
+  /// [codebook][stream][density][component]
+  std::vector<float> values;
+};
+
+/// Refuses what is no such file.
+Result<AcousticMeans> read_means(const std::filesystem::path& path);
+/// As PocketSphinx reads it.
+[[nodiscard]] std::string means_file(const AcousticMeans& means);
+
+/// What moves the means of one model to those of another, small enough to be kept beside the code:
+/// 8 bits each, in steps of `kStepOfSpread` of the spread that the component has over all means.
+inline constexpr float kStepOfSpread = 1.0F / 32.0F;
+[[nodiscard]] std::string means_change(const AcousticMeans& from, const AcousticMeans& to);
+/// Refuses a change that was made for other means.
+Status apply_change(std::string_view change, AcousticMeans& means);
+
+}  // namespace orthonav::voice

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace orthonav::voice {
+
+/// How much of each Gaussian there is in each senone (a third of a sound among its neighbours) of
+/// an acoustic model: what PocketSphinx calls "sendump".
+struct MixtureWeights {
+  int streams = 0;
+  int densities = 0;  ///< Gaussians of each stream
+  int senones = 0;
+  std::string header;  ///< of the file, as it was read
+  /// [stream][density][senone], each as `quantised_weight` has it.
+  std::string values;
+
+  [[nodiscard]] std::size_t at(int stream, int density, int senone) const {
+    return (static_cast<std::size_t>(stream) * static_cast<std::size_t>(densities) +
+            static_cast<std::size_t>(density)) *
+               static_cast<std::size_t>(senones) +
+           static_cast<std::size_t>(senone);
+  }
+};
+
+/// Shares are kept as 8 bits of their logarithm, to the base 1.0001 and in units of 1024; of less
+/// than 1e-7 there are none.
+[[nodiscard]] std::uint8_t quantised_weight(double share);
+[[nodiscard]] double share_of(std::uint8_t quantised);
+
+/// Refuses what is no such file, or one with clusters (which Debian's en-us has not).
+Result<MixtureWeights> read_mixture_weights(const std::filesystem::path& path);
+/// As PocketSphinx reads it.
+[[nodiscard]] std::string mixture_weights_file(const MixtureWeights& weights);
+
+/// What leads from the weights of one model to those of another of the same shape: the senones that
+/// differ.
+[[nodiscard]] std::string mixture_weights_change(const MixtureWeights& from,
+                                                 const MixtureWeights& to);
+/// Refuses a change that was made for other weights; these stay as they are then.
+Status apply_change(std::string_view change, MixtureWeights& weights);
+
+}  // namespace orthonav::voice

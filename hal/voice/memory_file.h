@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace orthonav::voice {
+
+/// A file that lives in memory, for libraries that read from a path only.
+class MemoryFile {
+ public:
+  static Result<MemoryFile> create(std::string_view content);
+  MemoryFile(MemoryFile&& other) noexcept;
+  MemoryFile& operator=(MemoryFile&&) = delete;
+  ~MemoryFile();
+  [[nodiscard]] std::string path() const;
+
+ private:
+  int descriptor_ = -1;
+  explicit MemoryFile(int descriptor) : descriptor_(descriptor) {}
+};
+
+}  // namespace orthonav::voice

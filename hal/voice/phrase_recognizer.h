@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "hal/voice/speech_features.h"
+
+struct ps_decoder_s;
+
+namespace orthonav::voice {
+
+/// Where Debian's pocketsphinx-en-us puts its acoustic model.
+[[nodiscard]] std::filesystem::path default_acoustic_model();
+
+/// A word of a phrase.
+struct RecognizedWord {
+  std::string word;
+  int frames = 0;  ///< of 10 ms
+  /// By how much the word explains its stretch of sound better than any other sounds do, in natural
+  /// logarithms of likelihood for each 10 ms. Well below zero: something else was said.
+  double evidence = 0.0;
+};
+
+/// What a segment of speech sounds like most: a phrase between silences.
+struct Recognition {
+  std::vector<RecognizedWord> words;  ///< in their order; none where no phrase fits at all
+  /// By how much silence explains the rest of the segment better than other sounds do, in natural
+  /// logarithms of likelihood. Far below zero: the phrase was not all that was said.
+  double evidence_around = 0.0;
+};
+
+/// Decides which of a few phrases a segment of speech is: PocketSphinx with a grammar of the
+/// phrases, against a second one in which any sounds and words that resemble a phrase may follow
+/// one another. The acoustic model's means are moved to where words in noise lie once they are
+/// cleaned (data/voice, tools/voice/train). One thread at a time.
+class PhraseRecognizer {
+ public:
+  /// Refuses a model that is not there, and phrases with a word whose pronunciation is not known.
+  static Result<std::unique_ptr<PhraseRecognizer>> create(const std::vector<std::string>& phrases,
+                                                          const std::filesystem::path& model);
+  /// Of samples at `kSpeechRateHz`.
+  [[nodiscard]] Recognition recognize(std::span<const std::int16_t> samples);
+
+ private:
+  struct Free {
+    void operator()(ps_decoder_s* decoder) const;
+  };
+  /// A word, or a sound, and where it lies.
+  struct Part {
+    std::string word;
+    int first = 0;  ///< frame
+    int last = 0;
+    double score = 0.0;  ///< natural logarithm of its likelihood
+  };
+  std::unique_ptr<ps_decoder_s, Free> decoder_;
+
+  Status add_words();
+  std::vector<Part> decode(const char* search, std::vector<Cepstrum>& cepstra);
+};
+
+}  // namespace orthonav::voice

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace orthonav::voice {
+
+/// How a segment is brought to what the acoustic model was trained on.
+struct CleanerOptions {
+  double over_subtraction = 1.5;  ///< of the background's power
+  double least_gain = 0.1;        ///< of a frequency, so that no holes ring
+  double speech_rms = 3000.0;     ///< of the loudest frames
+  double masking_db = -30.0;      ///< of white noise that is added, against the speech
+};
+
+/// Takes the background out of a segment (Wiener filter, its spectrum from the segment's first
+/// `background_samples`), brings the speech to one loudness and lays white noise under it: the
+/// model knows speech in rooms, and digital silence between words is farther from that than noise
+/// is. What comes back begins where the background's samples end, for a recogniser that hears a
+/// long silence takes it for sounds. The same samples give the same result.
+[[nodiscard]] std::vector<std::int16_t> cleaned(std::span<const std::int16_t> samples,
+                                                std::size_t background_samples,
+                                                const CleanerOptions& options = {});
+/// Of a segment's margin, what is background.
+inline constexpr std::size_t kBackgroundSamples = 16000 * 3 / 10;
+
+}  // namespace orthonav::voice

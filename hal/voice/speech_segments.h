@@ -1,0 +1,118 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace orthonav::voice {
+
+/// What speech is recognised from: one channel at this rate, as the acoustic model was trained.
+inline constexpr int kSpeechRateHz = 16000;
+
+/// When sound counts as speech. Levels are those of 50 ms of sound between 200 and 3500 Hz.
+struct SegmentOptions {
+  /// A segment is what is louder than a threshold so far above the background; the least at which
+  /// nothing else is, for a while before it and after it.
+  double least_above_background_db = 6.0;
+  double most_above_background_db = 14.0;
+  double above_threshold_db = 6.0;  ///< the loudest of it, at least
+  double below_loudest_db = 30.0;   ///< the threshold, at most: a word's last sound dies away
+  int least_ms = 200;
+  /// Quiet for so long ends it. In noise the last sounds of a word can't be told from the
+  /// background, and what is left of it seems to end sooner than it does.
+  int end_ms = 240;
+  int end_in_noise_ms = 300;
+  int quiet_before_ms = 500;  ///< a command follows such a pause; a sentence's word does not
+  int margin_ms = 400;        ///< kept before what was loud
+  int max_ms = 1900;          ///< speech that goes on for longer is no command
+};
+
+/// A stretch of sound between two silences.
+struct SpeechSegment {
+  std::vector<std::int16_t> samples;  ///< with the margins
+  std::int64_t begin = 0;             ///< the first loud sample, counted since the stream began
+  std::int64_t end = 0;               ///< one past the last loud sample
+  double above_background_db = 0.0;   ///< the loudest 50 ms
+  /// Whether it is over. A segment that may be over soon is told of before, with all its samples,
+  /// so that it can be recognised while one waits; it then ends as it was, or goes on.
+  bool ended = false;
+};
+
+/// How noisy a room is in which a voice stands out by so much: 0 from 35 dB on, 1 below 20 dB.
+[[nodiscard]] double noisiness(double above_background_db);
+
+/// A filter of second order; its coefficients are those of R. Bristow-Johnson's "Audio EQ
+/// cookbook".
+class Biquad {
+ public:
+  static Biquad low_pass(double corner_hz);
+  static Biquad high_pass(double corner_hz);
+  double next(double sample);
+
+ private:
+  double b0_ = 1.0, b1_ = 0.0, b2_ = 0.0, a1_ = 0.0, a2_ = 0.0;
+  double x1_ = 0.0, x2_ = 0.0, y1_ = 0.0, y2_ = 0.0;
+};
+
+/// How often which level was met among some frames, by decibels.
+class LevelHistogram {
+ public:
+  LevelHistogram();
+  void add(double level_db);
+  void remove(double level_db);
+  /// The level that a share of the frames stays below.
+  [[nodiscard]] double level_above(double share) const;
+
+ private:
+  std::vector<int> counts_;
+  int frames_ = 0;
+};
+
+/// Cuts a stream of sound into stretches of speech: what stands out from the half second before it
+/// and the quarter second or more after it. How far these may lie above the background, which is
+/// the median of the last seconds, leaves room for the voices of others. Bounded memory.
+class SpeechSegmenter {
+ public:
+  explicit SpeechSegmenter(const SegmentOptions& options = {});
+  /// Takes samples at `kSpeechRateHz` and appends the segments that ended in them.
+  void push(std::span<const std::int16_t> samples, std::vector<SpeechSegment>& segments);
+
+ private:
+  /// Frames, counted since the stream began.
+  struct Stretch {
+    std::int64_t begin = 0;
+    std::int64_t end = 0;  ///< one past the last loud one
+    double threshold_db = 0.0;
+    double loudest_db = 0.0;
+    double above_background_db = 0.0;  ///< the loudest
+    int quiet_frames = 0;              ///< after which it is over
+  };
+  SegmentOptions options_;
+  std::vector<std::int16_t> kept_;  ///< the newest sound
+  std::size_t in_frame_ = 0;        ///< samples of the frame that is not complete yet
+  double frame_energy_ = 0.0;
+  Biquad low_pass_;
+  Biquad high_pass_;
+  double smooth_energy_ = 0.0;
+  std::int64_t frames_ = 0;       ///< since the stream began
+  std::vector<float> levels_db_;  ///< of the last frames, round and round
+  LevelHistogram long_;           ///< of these
+  LevelHistogram short_;          ///< of the newest of these
+  std::optional<Stretch> waiting_;
+  Stretch over_;  ///< the last that ended
+
+  void end_frame(std::vector<SpeechSegment>& segments);
+  void forget();
+  void keep_level(double level_db);
+  /// With what was kept of its sound, where it is yet to end.
+  [[nodiscard]] SpeechSegment segment_of(const Stretch& stretch, bool ended) const;
+  [[nodiscard]] double level_db(std::int64_t frame) const;
+  [[nodiscard]] double background_db() const;
+  [[nodiscard]] std::optional<Stretch> stretch_above(double threshold_db) const;
+  [[nodiscard]] bool follows_speech(const Stretch& stretch) const;
+  [[nodiscard]] std::optional<Stretch> find(double background_db) const;
+  [[nodiscard]] int quiet_frames(double above_background_db) const;
+};
+
+}  // namespace orthonav::voice

@@ -1,0 +1,144 @@
+#include "hal/voice/spotted_voice.h"
+
+#include <algorithm>
+#include <array>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "hal/voice/resampler.h"
+
+namespace orthonav::voice {
+
+namespace {
+
+/// From a microphone to phrases with times.
+class Listener {
+ public:
+  Listener(std::unique_ptr<Microphone> microphone, std::unique_ptr<CommandSpotter> spotter,
+           Resampler resampler)
+      : microphone_(std::move(microphone)),
+        spotter_(std::move(spotter)),
+        resampler_(std::move(resampler)) {}
+
+  /// Reads all there is and appends what it says.
+  Status listen(std::vector<Phrase>& phrases) {
+    std::array<std::int16_t, 4096> block;
+    for (;;) {
+      const auto count = microphone_->read(block);
+      if (!count) return count.error();
+      if (*count == 0) return {};
+      sound_.clear();
+      if (Status s = resampler_.push(std::span(block).first(*count), sound_); !s) return s;
+      taken_ += static_cast<std::int64_t>(sound_.size());
+      commands_.clear();
+      spotter_->push(sound_, commands_);
+      for (SpokenCommand& command : commands_)
+        phrases.push_back({std::move(command.text), command.confidence, time_of(command.begin)});
+    }
+  }
+
+ private:
+  std::unique_ptr<Microphone> microphone_;
+  std::unique_ptr<CommandSpotter> spotter_;
+  Resampler resampler_;
+  std::vector<std::int16_t> sound_;      // reused
+  std::vector<SpokenCommand> commands_;  // reused
+  std::int64_t taken_ = 0;
+  Timestamp last_ = Timestamp::min();
+
+  /// By the newest sample: a microphone's crystal drifts against the headset's clock.
+  Timestamp time_of(std::int64_t sample) {
+    const Timestamp newest = microphone_->newest_sample_time().value_or(Timestamp{});
+    const Timestamp time =
+        newest - from_seconds(static_cast<double>(taken_ - sample) / kSpeechRateHz);
+    last_ = std::max(last_, time);
+    return last_;
+  }
+};
+
+/// Passes on what was spoken before the time asked for.
+Status deliver(std::vector<Phrase>& heard, Timestamp until, std::vector<Phrase>& phrases) {
+  const auto due = std::find_if(heard.begin(), heard.end(),
+                                [&](const Phrase& phrase) { return phrase.time > until; });
+  phrases.insert(phrases.end(), std::make_move_iterator(heard.begin()),
+                 std::make_move_iterator(due));
+  heard.erase(heard.begin(), due);
+  return {};
+}
+
+class VoiceInPoll : public Voice {
+ public:
+  explicit VoiceInPoll(Listener listener) : listener_(std::move(listener)) {}
+
+ private:
+  Listener listener_;
+  std::vector<Phrase> heard_;
+
+  Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
+    if (Status listened = listener_.listen(heard_); !listened) return listened;
+    return deliver(heard_, until, phrases);
+  }
+};
+
+class VoiceOnItsOwnThread : public Voice {
+ public:
+  explicit VoiceOnItsOwnThread(Listener listener) : listener_(std::move(listener)) {
+    thread_ = std::thread([this] { run(); });
+  }
+  ~VoiceOnItsOwnThread() override {
+    {
+      const std::lock_guard lock(mutex_);
+      stop_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+  }
+  VoiceOnItsOwnThread(const VoiceOnItsOwnThread&) = delete;
+  VoiceOnItsOwnThread& operator=(const VoiceOnItsOwnThread&) = delete;
+
+ private:
+  Listener listener_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stop_ = false;
+  std::vector<Phrase> heard_;
+  Status trouble_;
+  std::thread thread_;  // last: it uses all of the above
+
+  void run() {
+    constexpr auto kBetweenReads = std::chrono::milliseconds(10);
+    std::vector<Phrase> phrases;
+    for (;;) {
+      phrases.clear();
+      const Status listened = listener_.listen(phrases);
+      std::unique_lock lock(mutex_);
+      heard_.insert(heard_.end(), phrases.begin(), phrases.end());
+      if (!listened) trouble_ = listened;
+      if (wake_.wait_for(lock, kBetweenReads, [this] { return stop_; })) return;
+    }
+  }
+  Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
+    const std::lock_guard lock(mutex_);
+    if (const Status trouble = std::exchange(trouble_, Status()); !trouble) return trouble;
+    return deliver(heard_, until, phrases);
+  }
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Voice>> open_spotted_voice(std::unique_ptr<Microphone> microphone,
+                                                  const SpotterOptions& options,
+                                                  Listening listening) {
+  auto spotter = CommandSpotter::create(options);
+  if (!spotter) return spotter.error();
+  auto resampler = Resampler::create(microphone->sample_rate_hz(), kSpeechRateHz);
+  if (!resampler) return resampler.error();
+  Listener listener(std::move(microphone), std::move(*spotter), std::move(*resampler));
+  if (listening == Listening::kInPoll)
+    return std::unique_ptr<Voice>(std::make_unique<VoiceInPoll>(std::move(listener)));
+  return std::unique_ptr<Voice>(std::make_unique<VoiceOnItsOwnThread>(std::move(listener)));
+}
+
+}  // namespace orthonav::voice

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+#include "hal/api/devices.h"
+#include "hal/api/microphone.h"
+#include "hal/voice/command_spotter.h"
+
+namespace orthonav::voice {
+
+/// Where the sound is listened to.
+enum class Listening {
+  kOnItsOwnThread,  ///< for a microphone: `poll` only takes what was found
+  kInPoll           ///< for a recorded sound: the same commands at the same times in every run
+};
+
+/// Commands that a microphone hears. A phrase's time is when it began to be spoken; it comes some
+/// 0.3 s after its end.
+[[nodiscard]] Result<std::unique_ptr<Voice>> open_spotted_voice(
+    std::unique_ptr<Microphone> microphone, const SpotterOptions& options, Listening listening);
+
+}  // namespace orthonav::voice

@@ -1,0 +1,148 @@
+#include "nav/registration/degeneracy.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <Eigen/Dense>
+#include <set>
+
+#include "nav/geometry/triangle.h"
+
+namespace orthonav::nav {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kCovered_m = 0.005;
+/// What a few strokes over a place would pin it to.
+constexpr double kPinned_m = 0.0003;
+/// The spinous process lies so near to the midline.
+constexpr double kMidline_m = 0.007;
+constexpr double kLateral_m = 0.028;
+
+Eigen::Matrix<double, 3, 6> moves_at(Vec3 arm) {
+  Eigen::Matrix<double, 3, 6> m = Eigen::Matrix<double, 3, 6>::Zero();
+  m.leftCols<3>().setIdentity();
+  m.rightCols<3>() << 0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0;
+  return m;
+}
+
+double tre2_m2(const Matrix6& covariance, Vec3 centre_m, std::span<const Point<Vertebra>> targets) {
+  double worst = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    const auto m = moves_at(target.v - centre_m);
+    worst = std::max(worst, (m * covariance * m.transpose()).trace());
+  }
+  return worst;
+}
+
+Vec3 middle(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  return (mesh.vertices_m[t[0]] + mesh.vertices_m[t[1]] + mesh.vertices_m[t[2]]) / 3.0;
+}
+
+std::string place_name(const VertebraModel& model, Vec3 p) {
+  const Vec3 centre = model.reachable_axes().centre_m;
+  const double x = p.x - centre.x;
+  const char* height = p.z - centre.z > 0.006 ? "upper " : p.z - centre.z < -0.006 ? "lower " : "";
+  if (std::abs(x) < kMidline_m) return std::string("the ") + height + "spinous process";
+  const std::string side = x > 0.0 ? "left " : "right ";
+  return "the " + side + height +
+         (std::abs(x) > kLateral_m ? "facet and root of the transverse process" : "lamina");
+}
+
+/// The motion at the targets in words; (shift, turn) in the vertebra's axes.
+std::string motion_name(const Vector6& motion, double lever_m) {
+  constexpr std::array<const char*, 6> kNames = {
+      "slides sideways",  "moves in and out",   "slides along the spine",
+      "nods up and down", "rolls to the sides", "twists about the spine's axis"};
+  std::size_t most = 0;
+  double length = 0.0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double m = std::abs(motion(static_cast<Eigen::Index>(k))) * (k < 3 ? 1.0 : lever_m);
+    if (m > length) length = m, most = k;
+  }
+  return kNames[most];
+}
+
+}  // namespace
+
+Weakness weakness_of(const VertebraModel& model, const PoseUncertainty& uncertainty,
+                     std::span<const Point<Vertebra>> targets) {
+  const Matrix6 covariance = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(
+      uncertainty.covariance().data());
+  const Vec3 centre = uncertainty.centre_m();
+  // The direction in which the error at the targets is largest.
+  Matrix6 at_targets = Matrix6::Zero();
+  double lever = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    const auto m = moves_at(target.v - centre);
+    at_targets += m.transpose() * m;
+    lever = std::max(lever, (target.v - centre).norm());
+  }
+  const Eigen::LLT<Matrix6> root(covariance + 1e-18 * Matrix6::Identity());
+  const Matrix6 l = root.matrixL();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(l.transpose() * at_targets * l);
+  const Vector6 motion = l * solver.eigenvectors().col(5);
+  Weakness out;
+  std::array<char, 48> text{};
+  const double before = tre2_m2(covariance, centre, targets);
+  std::snprintf(text.data(), text.size(), " (%.1f mm at the screws)", std::sqrt(before) * 1e3);
+  out.motion = motion_name(motion, lever) + text.data();
+
+  // One more touch there, with the covariance of Kalman's update.
+  const TriangleMesh& mesh = model.reachable();
+  const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / 400);
+  double least = before;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
+    const auto& t = mesh.triangles[i];
+    const Vec3 at = middle(mesh, t);
+    const Vec3 normal =
+        triangle_normal({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
+    const Vec3 turn = (at - centre).cross(normal);
+    Vector6 j;
+    j << normal.x, normal.y, normal.z, turn.x, turn.y, turn.z;
+    const Vector6 gain = covariance * j;
+    const Matrix6 after =
+        covariance - gain * gain.transpose() / (j.dot(gain) + kPinned_m * kPinned_m);
+    const double now = tre2_m2(after, centre, targets);
+    if (now < least) {
+      least = now;
+      out.advice = "stroke " + place_name(model, at);
+    }
+  }
+  return out;
+}
+
+double coverage_share(const VertebraModel& model, const SurfaceFit& fit) {
+  // Cells that hold a fitted point, and their neighbours.
+  const auto cell = [](double x) { return static_cast<int>(std::floor(x / kCovered_m)); };
+  std::set<std::array<int, 3>> touched;
+  for (const FittedPoint& p : fit.points) {
+    if (!(p.weight > 0.0)) continue;
+    const Vec3 at = p.arm_m + fit.pose.centre_m;
+    touched.insert({cell(at.x), cell(at.y), cell(at.z)});
+  }
+  const auto near = [&](Vec3 at) {
+    for (const double dx : {-0.5, 0.5})
+      for (const double dy : {-0.5, 0.5})
+        for (const double dz : {-0.5, 0.5})
+          if (touched.count({cell(at.x + dx * kCovered_m), cell(at.y + dy * kCovered_m),
+                             cell(at.z + dz * kCovered_m)}) != 0)
+            return true;
+    return false;
+  };
+  double covered = 0.0;
+  double all = 0.0;
+  const TriangleMesh& mesh = model.reachable();
+  for (const auto& t : mesh.triangles) {
+    const double area =
+        triangle_area_m2({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
+    all += area;
+    if (near(middle(mesh, t))) covered += area;
+  }
+  return all > 0.0 ? covered / all : 0.0;
+}
+
+}  // namespace orthonav::nav

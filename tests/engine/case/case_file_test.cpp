@@ -1,0 +1,223 @@
+#include "engine/case/case_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "engine/case/plan_file.h"
+#include "engine/io/mesh_file.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/test_meshes.h"
+
+namespace orthonav::engine::case_file_test {
+namespace {
+
+using orthonav::test::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// A case of boxes: each level a model, and a plan whose screw enters the back face.
+class CaseFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const std::string label : {"L4", "L5"}) {
+      ASSERT_TRUE(save_stl(folder_.file(label + ".stl"), box_mesh()).ok());
+      Plan plan;
+      plan.level = label;
+      plan.screws = {{nav::Side::kLeft, {{0.02, 0.03, 0}}, {{0.01, -0.01, 0}}, 0.003}};
+      ASSERT_TRUE(save_plan(folder_.file(label + ".plan.json"), plan).ok());
+    }
+  }
+  static std::string level(const std::string& label, const std::string& more = "") {
+    return R"({"label": ")" + label + R"(", "model": ")" + label + R"(.stl", "plan": ")" + label +
+           R"(.plan.json")" + more + "}";
+  }
+  Result<Case> load(const std::string& levels) {
+    std::ignore = folder_.with("case.json", R"({"name": "boxes", "levels": [)" + levels + "]}");
+    return load_case(folder_.path().string());
+  }
+  std::string refusal(const std::string& levels) {
+    const auto loaded = load(levels);
+    EXPECT_FALSE(loaded.ok());
+    const std::string message = loaded.ok() ? "" : loaded.error().message;
+    EXPECT_THAT(message, Not(HasSubstr("\n")));
+    return message;
+  }
+  static std::string place(double z_mm, const std::string& name = "spine_from_model") {
+    return ", \"" + name + R"(": [[1,0,0,0],[0,1,0,0],[0,0,1,)" + std::to_string(z_mm) +
+           "],[0,0,0,1]]";
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CaseFile, ReadsLevelsWithTheirModelsAndPlans) {
+  const auto loaded = load(level("L4", place(0)) + "," + level("L5", place(-40)));
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  EXPECT_EQ(loaded->name, "boxes");
+  ASSERT_EQ(loaded->levels.size(), 2u);
+  EXPECT_EQ(loaded->levels[1].label, "L5");
+  EXPECT_EQ(loaded->levels[1].mesh.triangles.size(), 12u);
+  EXPECT_EQ(loaded->levels[1].screws.size(), 1u);
+  EXPECT_DOUBLE_EQ(loaded->levels[1].spine_from_vertebra.translation().z, -0.040);
+  EXPECT_EQ(loaded->find("L4"), &loaded->levels[0]);
+  EXPECT_EQ(loaded->find("L3"), nullptr);
+  EXPECT_THAT(loaded->check(), IsEmpty());
+}
+
+TEST_F(CaseFile, StacksModelsThatWouldLieInOneAnother) {
+  const auto loaded = load(level("L4") + "," + level("L5"));
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  const Vec3 gap = loaded->levels[0].spine_from_vertebra.translation() -
+                   loaded->levels[1].spine_from_vertebra.translation();
+  EXPECT_EQ(gap.x, 0.0);
+  EXPECT_GT(gap.z, 0.030) << "the first level lies on top";
+}
+
+TEST_F(CaseFile, LeavesModelsOfOneScanWhereTheyAre) {
+  nav::TriangleMesh lower = box_mesh();
+  for (Vec3& v : lower.vertices_m) v.z -= 0.045;
+  ASSERT_TRUE(save_stl(folder_.file("L5.stl"), lower).ok());
+  Plan plan;
+  plan.screws = {{nav::Side::kLeft, {{0.02, 0.03, -0.045}}, {{0.01, -0.01, -0.045}}, 0.003}};
+  ASSERT_TRUE(save_plan(folder_.file("L5.plan.json"), plan).ok());
+  const auto loaded = load(level("L4") + "," + level("L5"));
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  const Transform<Spine, Vertebra> as_it_is;
+  EXPECT_EQ(loaded->levels[1].spine_from_vertebra, as_it_is);
+}
+
+TEST_F(CaseFile, TurnsARasMatrixWithItsModel) {
+  nav::TriangleMesh in_ras_axes = box_mesh();
+  for (Vec3& v : in_ras_axes.vertices_m) v = to_lps(v, Axes::kRas);
+  std::ignore = folder_.with("L4.obj", as_obj(in_ras_axes, 1e3));
+  std::ignore =
+      folder_.with("L4.plan.json", R"({"units": "mm", "frame": "RAS", "screws": [{"side": "left",
+      "entry": [-20, -30, 0], "target": [-10, 10, 0], "radius": 3}]})");
+  const auto loaded = load(R"({"label": "L4", "model": "L4.obj", "plan": "L4.plan.json",
+      "spine_from_model": [1,0,0,10, 0,0.8,-0.6,20, 0,0.6,0.8,30, 0,0,0,1]})");
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  const Transform<Spine, Vertebra>& place = loaded->levels[0].spine_from_vertebra;
+  // A point of the model in RAS, sent through the file's matrix there, then turned to LPS...
+  const Vec3 in_ras{0.001, 0.002, 0.003};
+  const Vec3 in_spine_ras{0.010 + 0.001, 0.020 + 0.8 * 0.002 - 0.6 * 0.003,
+                          0.030 + 0.6 * 0.002 + 0.8 * 0.003};
+  // ...is where the case puts the same point in LPS.
+  const Vec3 placed = (place * Point<Vertebra>{to_lps(in_ras, Axes::kRas)}).v;
+  EXPECT_LT((placed - to_lps(in_spine_ras, Axes::kRas)).norm(), 1e-12);
+}
+
+TEST_F(CaseFile, TurnsAMatrixByTheAxesThatTheModelDeclaresNotByThePlans) {
+  // The model's file says LPS, its plan is written in RAS.
+  std::ignore =
+      folder_.with("L4.plan.json", R"({"units": "mm", "frame": "RAS", "screws": [{"side": "left",
+      "entry": [-20, -30, 0], "target": [-10, 10, 0], "radius": 3}]})");
+  const auto loaded = load(level("L4", R"(, "spine_from_model":
+      [1,0,0,10, 0,1,0,20, 0,0,1,30, 0,0,0,1])"));
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  EXPECT_EQ(loaded->levels[0].spine_from_vertebra.translation(), (Vec3{0.010, 0.020, 0.030}));
+}
+
+TEST_F(CaseFile, NamesWhatIsMissing) {
+  EXPECT_THAT(load_case(folder_.file("none")).error().message, HasSubstr("cannot be opened"));
+  EXPECT_THAT(refusal(""), HasSubstr("levels is empty"));
+  EXPECT_THAT(refusal(R"({"label": "L4", "plan": "L4.plan.json"})"),
+              HasSubstr("levels[0].model is missing"));
+  EXPECT_THAT(refusal(level("L3")), HasSubstr("L3.plan.json: cannot be opened"));
+  EXPECT_THAT(refusal(level("L4", place(0)) + "," + level("L5")),
+              HasSubstr("spine_from_model in all levels or in none"));
+}
+
+TEST_F(CaseFile, RefusesMatricesThatAreNoRigidMotion) {
+  EXPECT_THAT(refusal(level("L4", R"(, "spine_from_model": [1, 2, 3])")),
+              HasSubstr("levels[0].spine_from_model holds 3 numbers, must be 16"));
+  EXPECT_THAT(refusal(level("L4", R"(, "spine_from_model":
+                      [-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1])")),
+              HasSubstr("mirrors"));
+  EXPECT_THAT(refusal(level("L4", R"(, "spine_from_model":
+                      [2,0,0,0, 0,2,0,0, 0,0,2,0, 0,0,0,1])")),
+              HasSubstr("not rigid"));
+  EXPECT_THAT(refusal(level("L4", R"(, "spine_from_model":
+                      [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,2])")),
+              HasSubstr("0 0 0 1"));
+}
+
+TEST_F(CaseFile, RefusesThePlanOfAnotherLevel) {
+  EXPECT_THAT(refusal(R"({"label": "L5", "model": "L5.stl", "plan": "L4.plan.json"})"),
+              HasSubstr("is the plan of L4, the case uses it for L5"));
+}
+
+TEST_F(CaseFile, RefusesAPlanOffTheBone) {
+  std::ignore =
+      folder_.with("L4.plan.json", R"({"units": "mm", "frame": "LPS", "screws": [{"side": "left",
+      "entry": [20, 45, 0], "target": [10, 5, 0], "radius": 3}]})");
+  EXPECT_THAT(refusal(level("L4")),
+              HasSubstr("L4 left entry lies 15.0 mm off the bone, limit 10.0 mm"));
+}
+
+/// One screw on the box of 80 x 60 x 40 mm: what `check` says of it.
+std::string said_of(nav::Side side, Vec3 entry, Vec3 target, double radius = 0.003) {
+  Case subject;
+  subject.levels = {{"L4", box_mesh(), {{side, {entry}, {target}, radius}}, {}}};
+  const auto problems = subject.check();
+  EXPECT_LE(problems.size(), 1u);
+  return problems.empty() ? "" : problems.front();
+}
+
+TEST(Case, RefusesScrewsInOtherAxesOrOnTheOtherSide) {
+  constexpr auto kLeft = nav::Side::kLeft;
+  constexpr auto kRight = nav::Side::kRight;
+  EXPECT_EQ(said_of(kLeft, {0.02, 0.03, 0}, {0.01, -0.01, 0}), "");
+  EXPECT_EQ(said_of(kRight, {-0.02, 0.03, 0}, {-0.01, -0.01, 0}), "");
+  EXPECT_EQ(said_of(kLeft, {0.02, -0.03, 0}, {0.01, 0.01, 0}),
+            "L4 left entry lies 40.0 mm in front of its target, must lie behind it (posterior)");
+  EXPECT_EQ(said_of(kRight, {0.02, 0.03, 0}, {0.01, -0.01, 0}),
+            "L4 right entry lies 20.0 mm to the left of the bone's middle, must lie to the right");
+  EXPECT_EQ(said_of(kLeft, {-0.02, 0.03, 0}, {-0.01, -0.01, 0}),
+            "L4 left entry lies 20.0 mm to the right of the bone's middle, must lie to the left");
+}
+
+TEST(Case, RefusesATargetThatStandsOutOfTheBoneByMoreThanItsRadius) {
+  const auto tip_at = [](double y, double radius) {
+    return said_of(nav::Side::kLeft, {0.02, 0.03, 0}, {0.01, y, 0}, radius);
+  };
+  // The front face lies at y = -30 mm.
+  EXPECT_EQ(tip_at(-0.0335, 0.0036), "");
+  EXPECT_EQ(tip_at(-0.0340, 0.0036), "L4 left target lies 4.0 mm outside the bone, limit 3.6 mm");
+  EXPECT_EQ(tip_at(-0.0329, 0.0), "") << "3 mm where no radius is stated";
+  EXPECT_EQ(tip_at(-0.0331, 0.0), "L4 left target lies 3.1 mm outside the bone, limit 3.0 mm");
+}
+
+TEST(Case, NamesEveryProblemAtOnce) {
+  Case bad;
+  EXPECT_THAT(bad.check(), ElementsAre("levels is empty"));
+  const nav::ScrewPlan screw{nav::Side::kLeft, {{0.02, 0.03, 0}}, {{0.01, -0.01, 0}}, 0.003};
+  bad.levels = {{"L4", box_mesh(), {screw}, {}}, {"L4", box_mesh(), {}, {}}, {"", {}, {screw}, {}}};
+  EXPECT_THAT(
+      bad.check(),
+      ElementsAre("label L4 stands twice", "L4 has no screws",
+                  "L4 lies in L4 (see spine_from_model)", "levels[2] has no label",
+                  "levels[2] lies in L4 (see spine_from_model)", "levels[2] has no surface"));
+}
+
+TEST(Case, ReadsTheRealSpines) {
+  const std::filesystem::path anatomy = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
+  if (!std::filesystem::exists(anatomy)) GTEST_SKIP() << "no " << anatomy;
+  for (const auto& [name, levels] :
+       {std::pair{"visible-human", 5u}, {"morph-a", 4u}, {"morph-b", 4u}, {"shape-mean", 4u}}) {
+    const auto loaded = load_case((anatomy / name).string());
+    ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+    EXPECT_EQ(loaded->levels.size(), levels);
+    for (const CaseLevel& level : loaded->levels) {
+      EXPECT_EQ(level.screws.size(), 2u);
+      for (const nav::ScrewPlan& screw : level.screws)
+        EXPECT_NEAR((screw.target - screw.entry).norm(), 0.045, 1e-4);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace orthonav::engine::case_file_test

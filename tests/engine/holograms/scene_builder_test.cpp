@@ -1,0 +1,461 @@
+#include "engine/holograms/scene_builder.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "engine/holograms/hologram_cross.h"
+#include "render/float3.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine {
+namespace {
+
+using test::guide_at;
+using test::pointer_at;
+using test::ScriptedOperation;
+using enum ClickerAction;
+using ::testing::StartsWith;
+
+constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
+constexpr double kExact = 1e-9;
+
+/// What a frame of this guidance shows, in words.
+ShownFrame shown(const Guidance& guidance, SceneBuilder& builder) {
+  ShownFrame frame;
+  builder.update(guidance);
+  builder.write_shown(guidance, frame);
+  return frame;
+}
+ShownFrame shown(const Guidance& guidance) {
+  SceneBuilder builder;
+  return shown(guidance, builder);
+}
+
+const ShownHologram* find(const ShownFrame& frame, const std::string& name) {
+  const auto it = std::find_if(frame.holograms.begin(), frame.holograms.end(),
+                               [&](const ShownHologram& h) { return h.name == name; });
+  return it == frame.holograms.end() ? nullptr : &*it;
+}
+
+/// The holograms (Hn) that a scene of this guidance draws something of.
+std::vector<int> drawn(const Guidance& guidance) {
+  SceneBuilder builder;
+  render::Scene scene;
+  builder.update(guidance);
+  builder.write_scene(guidance, scene);
+  std::vector<int> ids;
+  const auto note = [&](render::Label label) { ids.push_back(static_cast<int>(label / 100)); };
+  for (const auto& item : scene.meshes) note(item.label);
+  for (const auto& item : scene.lines) note(item.label);
+  for (const auto& item : scene.triangles) note(item.label);
+  for (const auto& item : scene.texts) note(item.label);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+/// The same of what the display is told.
+std::vector<int> told(const Guidance& guidance) {
+  std::vector<int> ids;
+  for (const ShownHologram& h : shown(guidance).holograms)
+    ids.push_back(std::stoi(h.name.substr(1)));
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+class Guiding : public ::testing::Test {
+ protected:
+  Guiding() {
+    s.accepts_first_level();
+    s.says("next");
+    s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.010, 0}, 0.1);
+    s.pairs(3);
+  }
+  ScriptedOperation s;
+};
+
+TEST(SceneBuilder, AlwaysShowsTheStatusLine) {
+  ScriptedOperation s;
+  const ShownFrame frame = shown(s.pair());
+  ASSERT_EQ(frame.holograms.size(), 1u);
+  EXPECT_EQ(frame.holograms[0].name, "H11 status");
+  EXPECT_EQ(frame.holograms[0].text, "setup");
+}
+
+TEST(SceneBuilder, ShowsPathsWhileDigitizingAndNothingThatGuides) {
+  ScriptedOperation s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  const Guidance& g = s.strokes(5);
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(1, 11));
+  EXPECT_EQ(drawn(g), told(g));
+  const ShownFrame frame = shown(g);
+  ASSERT_NE(find(frame, "H1 path"), nullptr);
+  EXPECT_EQ(find(frame, "H1 path")->points_in_world.size(), 5u);
+  EXPECT_EQ(find(frame, "H11 status")->text, "digitize L4 | 5 points");
+}
+
+TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.registers_first_level();
+  // What was stroked there says where the bone is bare.
+  EXPECT_EQ(find(shown(s.pair()), "H12 check point"), nullptr) << "none yet";
+  s.touches({0.0, 0.0204, 0.0});
+  const Guidance& g = s.touches({0.02, 0.0231, 0.0});
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(1, 2, 11, 12));
+  EXPECT_EQ(drawn(g), told(g));
+  const ShownFrame frame = shown(g);
+  std::vector<std::string> texts;
+  for (const ShownHologram& hologram : frame.holograms) {
+    if (hologram.name != "H12 check point") continue;
+    texts.push_back(hologram.text);
+    ASSERT_EQ(hologram.points_in_world.size(), 1u);
+  }
+  EXPECT_THAT(texts, ::testing::ElementsAre("0.4 mm", "3.1 mm"));
+  SceneBuilder builder;
+  render::Scene scene;
+  builder.update(g);
+  builder.write_scene(g, scene);
+  const auto colour = [&](render::Label label) {
+    for (const auto& mesh : scene.meshes)
+      if (mesh.label == label) return mesh.colour;
+    return render::Colour{};
+  };
+  const auto open = static_cast<render::Label>(g.to_check.size());
+  EXPECT_EQ(colour(1201 + open), look::kGreen);
+  EXPECT_EQ(colour(1202 + open), look::kRed);
+  // They go with the surface that they checked.
+  EXPECT_THAT(drawn(s.says("reject")), ::testing::Not(::testing::Contains(12)));
+}
+
+TEST(SceneBuilder, FadesADeletedRegionAndThenForgetsIt) {
+  ScriptedOperation s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  const auto opacity = [](const Guidance& g) {
+    SceneBuilder builder;
+    render::Scene scene;
+    builder.update(g);
+    builder.write_scene(g, scene);
+    for (const auto& line : scene.lines)
+      if (line.label / 100 == 1) return line.colour.a;
+    return 0.0f;
+  };
+  const float before = opacity(s.pair());
+  const float fading = opacity(s.says("delete"));
+  EXPECT_GT(fading, 0.0f);
+  EXPECT_LT(fading, before);
+  EXPECT_LT(opacity(s.pairs(3)), fading);
+  EXPECT_EQ(opacity(s.pairs(10)), 0.0f);
+}
+
+TEST(SceneBuilder, ShowsTheBoneToVerifyButNoEntryPointsYet) {
+  ScriptedOperation s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  s.says("save");
+  const Guidance& g = s.does({kDoubleClick});
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(1, 2, 11));
+  EXPECT_EQ(drawn(g), told(g));
+  const ShownFrame frame = shown(g);
+  ASSERT_NE(find(frame, "H2 vertebra"), nullptr);
+  const auto& landmarks = find(frame, "H2 vertebra")->points_in_world;
+  ASSERT_EQ(landmarks.size(), 4u);
+  // The box reaches 20 mm back, 30 mm to either side, 25 mm up.
+  EXPECT_NEAR(landmarks[0].v.y, 0.020, kExact);
+  EXPECT_NEAR(landmarks[1].v.x, 0.030, kExact);
+  EXPECT_NEAR(landmarks[2].v.x, -0.030, kExact);
+  EXPECT_NEAR(landmarks[3].v.z, 0.025, kExact);
+}
+
+TEST(SceneBuilder, TintsTheBoneWhereNoStrokeCameNear) {
+  ScriptedOperation s;
+  const Guidance& g = s.registers_first_level();
+  SceneBuilder builder;
+  render::Scene scene;
+  builder.update(g);
+  builder.write_scene(g, scene);
+  const auto mesh = scene.meshes.at(0).mesh;
+  ASSERT_EQ(mesh->tints.size(), mesh->positions.size());
+  EXPECT_EQ(*std::max_element(mesh->tints.begin(), mesh->tints.end()), 1.0f);
+  for (std::size_t i = 0; i < mesh->tints.size(); ++i) {
+    // Strokes went over the middle of the box's back.
+    const render::Float3 p = mesh->positions[i];
+    const float away = render::length(p - render::Float3{0, 0.02f, 0});
+    if (away < 0.003f) {
+      EXPECT_EQ(mesh->tints[i], 0.0f);
+    }
+  }
+  // The renderer keeps its copy by pointer.
+  builder.write_scene(s.pair(), scene);
+  EXPECT_EQ(scene.meshes.at(0).mesh, mesh);
+}
+
+TEST(SceneBuilder, PutsHologramsWhereTheRegistrationSays) {
+  ScriptedOperation s;
+  const Transform<World, Vertebra> pose(rotation_from_vector({0.3, -0.2, 0.5}), {0.1, 0.2, -0.3});
+  s.registration.world_from_vertebra = pose;
+  const Guidance& g = s.accepts_first_level();
+  const ShownFrame frame = shown(g);
+  const ShownHologram* entry = find(frame, "H3 entry L4 left");
+  ASSERT_NE(entry, nullptr);
+  EXPECT_EQ(entry->text, "L4 left");
+  const Point<World> expected = pose * Point<Vertebra>{kLeftEntry};
+  EXPECT_NEAR((entry->points_in_world[0] - expected).norm(), 0.0, kExact);
+  EXPECT_NE(find(frame, "H3 entry L4 right"), nullptr);
+}
+
+TEST_F(Guiding, ShowsPlanTriangleAndAngle) {
+  const Guidance& g = s.pair();
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(3, 4, 5, 6, 7, 9, 11));
+  EXPECT_EQ(drawn(g), told(g));
+  const ShownFrame frame = shown(g);
+  EXPECT_EQ(find(frame, "H6 angle")->text, "5.7°");  // 0.1 rad
+  const auto& line = find(frame, "H4 trajectory")->points_in_world;
+  ASSERT_EQ(line.size(), 3u);
+  EXPECT_NEAR((line[0].v - Vec3{0.015, 0.080, 0}).norm(), 0.0, 1e-8) << "60 mm outside";
+  EXPECT_NEAR((line[1].v - kLeftEntry).norm(), 0.0, kExact);
+  const auto& triangle = find(frame, "H5 triangle")->points_in_world;
+  ASSERT_EQ(triangle.size(), 3u);
+  EXPECT_NEAR((triangle[0].v - kLeftEntry).norm(), 0.0, kExact);
+  EXPECT_NEAR((triangle[1] - triangle[0]).norm(), nav::kTriangleReach_m, kExact);
+  EXPECT_NEAR((triangle[2] - triangle[0]).norm(), nav::kTriangleReach_m, kExact);
+}
+
+TEST_F(Guiding, TheCrossHasADotForTheTipAndOneForTheToolFartherUp) {
+  // 2 mm beside the plan towards the patient's left, parallel to it.
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.0);
+  const Guidance& g = s.pairs(2);
+  const ShownFrame frame = shown(g);
+  const auto& points = find(frame, "H7 cross")->points_in_world;
+  ASSERT_EQ(points.size(), 3u);
+  const double drawn_m = static_cast<double>(kCrossScale) * 0.002;
+  EXPECT_NEAR((points[1] - points[0]).norm(), drawn_m, 1e-6);
+  EXPECT_NEAR((points[2] - points[1]).norm(), 0.0, 1e-6) << "parallel";
+  EXPECT_EQ(find(frame, "H7 cross")->text, "");
+  // Turned about its tip: the tip's dot stays, the other goes.
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.02);
+  const ShownFrame turned = shown(s.pairs(2));
+  const auto& after = find(turned, "H7 cross")->points_in_world;
+  EXPECT_NEAR((after[1] - points[1]).norm(), 0.0, 1e-6);
+  EXPECT_GT((after[2] - points[2]).norm(), 0.003);
+}
+
+TEST_F(Guiding, TheCrossShowsNoDotOfAPredictionAndSaysWhenTheToolIsLost) {
+  s.tracker().guide_origin = Origin::kPredicted;
+  const ShownFrame predicted = shown(s.pair());
+  EXPECT_EQ(find(predicted, "H7 cross")->points_in_world.size(), 1u);
+  EXPECT_EQ(find(predicted, "H7 cross")->text, "");
+  EXPECT_EQ(find(predicted, "H9 depth"), nullptr);
+  const ShownFrame lost = shown(s.pairs(4));
+  EXPECT_EQ(find(lost, "H7 cross")->points_in_world.size(), 1u);
+  EXPECT_EQ(find(lost, "H7 cross")->text, "tool lost");
+}
+
+TEST_F(Guiding, SaysHowFarItIsToTheEntryAndThenToTheTarget) {
+  EXPECT_EQ(find(shown(s.pair()), "H9 depth")->text, "10.0 mm to entry");
+  s.tracker().guide = guide_at(kLeftEntry - Vec3{0, 0.004, 0}, 0.0);
+  const std::string inside = find(shown(s.pairs(2)), "H9 depth")->text;
+  EXPECT_THAT(inside, ::testing::EndsWith(" mm to target"));
+  s.tracker().guide = guide_at(kLeftEntry - Vec3{0, 0.039, 0}, 0.0);
+  EXPECT_THAT(find(shown(s.pairs(2)), "H9 depth")->text, ::testing::EndsWith(" mm past target"));
+}
+
+TEST_F(Guiding, TheTwinComesAndGoesOnRequest) {
+  EXPECT_EQ(find(shown(s.pair()), "H8 twin"), nullptr);
+  const Guidance& g = s.says("twin");
+  EXPECT_THAT(drawn(g), ::testing::Contains(8));
+  EXPECT_EQ(drawn(g), told(g));
+  const ShownFrame frame = shown(g);
+  const auto& twin = find(frame, "H8 twin")->points_in_world;
+  const auto& line = find(frame, "H4 trajectory")->points_in_world;
+  ASSERT_EQ(twin.size(), 2u);
+  EXPECT_NEAR((twin[1] - twin[0]).norm(), 2.0 * (line[2] - line[1]).norm(), 1e-6);
+  EXPECT_EQ(find(shown(s.says("twin")), "H8 twin"), nullptr);
+}
+
+TEST_F(Guiding, HidesTheTriangleBeyond40mmAndShowsItWithin) {
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.0399, 0}, 0.0);
+  s.pair();
+  EXPECT_NE(find(shown(s.pair()), "H5 triangle"), nullptr);
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.0401, 0}, 0.0);
+  s.pair();
+  const ShownFrame far = shown(s.pair());
+  EXPECT_EQ(find(far, "H5 triangle"), nullptr);
+  EXPECT_EQ(find(far, "H6 angle"), nullptr);
+  EXPECT_NE(find(far, "H4 trajectory"), nullptr);
+}
+
+TEST_F(Guiding, ALostToolHidesTheTriangleAndTheNumberSaysSo) {
+  // The tracker goes on predicting; the overlay stands for a moment, without a number.
+  s.tracker().guide_origin = Origin::kPredicted;
+  const Guidance& fresh = s.pair();
+  EXPECT_NE(find(shown(fresh), "H5 triangle"), nullptr);
+  EXPECT_EQ(find(shown(fresh), "H6 angle")->text, "--.-°");
+  EXPECT_EQ(drawn(fresh), told(fresh));
+  const Guidance& g = s.pairs(4);
+  const ShownFrame frame = shown(g);
+  EXPECT_EQ(find(frame, "H5 triangle"), nullptr);
+  ASSERT_NE(find(frame, "H6 angle"), nullptr);
+  EXPECT_EQ(find(frame, "H6 angle")->text, "--.-°");
+  EXPECT_EQ(find(frame, "H11 status")->text, "guide L4 left | guide lost");
+}
+
+TEST_F(Guiding, AFrameThatLightsUpTooLateShowsNoTriangle) {
+  // Fresh when it was computed; the display is what makes it old.
+  s.latency = std::chrono::milliseconds(101);
+  EXPECT_EQ(find(shown(s.pair()), "H5 triangle"), nullptr);
+  s.latency = std::chrono::milliseconds(99);
+  EXPECT_NE(find(shown(s.pair()), "H5 triangle"), nullptr);
+}
+
+TEST_F(Guiding, TicksAScrewThatIsDone) {
+  s.says("next");
+  SceneBuilder builder;
+  render::Scene scene;
+  const Guidance& g = s.pair();
+  builder.update(g);
+  builder.write_scene(g, scene);
+  std::string left;
+  std::string right;
+  for (const render::TextItem& text : scene.texts) {
+    std::string whole;
+    for (const render::TextRun& run : text.runs) whole += run.text;
+    if (whole.starts_with("L4 left")) left = whole;
+    if (whole.starts_with("L4 right")) right = whole;
+  }
+  EXPECT_THAT(left, ::testing::HasSubstr("✓"));
+  EXPECT_EQ(right, "L4 right");
+}
+
+TEST_F(Guiding, ARejectedRegistrationTakesItsHologramsAlong) {
+  const Guidance& g = s.says("reject");
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(11));
+  EXPECT_EQ(drawn(g), told(g));
+}
+
+TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
+  ScriptedOperation s({"L5"});
+  s.accepts_first_level();
+  s.says("next");
+  s.says("next");
+  s.says("next");
+  s.touches({0.02, 0.03, 0.00});
+  const Guidance& g = s.touches({0.02, 0.03, 0.04});
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(3, 10, 11));
+  EXPECT_EQ(drawn(g), told(g));
+  const ShownFrame in_place = shown(g);
+  ASSERT_NE(find(in_place, "H3 entry L5 left"), nullptr);
+  EXPECT_EQ(find(in_place, "H3 entry L5 left")->text, "") << "names would cover the rod's length";
+  const auto before = find(in_place, "H10 rod")->points_in_world;
+  const ShownFrame moved = shown(s.says("move rod"));
+  const auto after = find(moved, "H10 rod")->points_in_world;
+  ASSERT_EQ(before.size(), 2u);
+  ASSERT_EQ(after.size(), 2u);
+  EXPECT_NEAR((after[0] - before[0]).norm(), 0.150, kExact);
+  EXPECT_NEAR(((after[0] - before[0]) - (after[1] - before[1])).norm(), 0.0, kExact);
+}
+
+TEST(SceneBuilder, ARodThatCantBeMadeHasNoLength) {
+  ScriptedOperation s({"L5"});
+  s.accepts_first_level();
+  for (int i = 0; i < 3; ++i) s.says("next");
+  s.touches({0.02, 0.03, 0.00});
+  const Guidance& g = s.touches({0.02, 0.03, 0.00});
+  ASSERT_EQ(g.rods[0].heads.size(), 2u);
+  ASSERT_FALSE(g.rods[0].rod.has_value());
+  SceneBuilder builder;
+  render::Scene scene;
+  builder.update(g);
+  builder.write_scene(g, scene);
+  for (const render::TextItem& text : scene.texts) EXPECT_NE(text.label / 100, 10u);
+}
+
+TEST_F(Guiding, GradesByTheLimitsItWasGiven) {
+  const Guidance& g = s.pair();  // 5.7 degrees off
+  const auto colour = [&](const VisibilityRules& rules) {
+    SceneBuilder builder(rules);
+    render::Scene scene;
+    builder.update(g);
+    builder.write_scene(g, scene);
+    return scene.triangles.at(0).colour;
+  };
+  VisibilityRules lenient;
+  lenient.grades = {0.2, 0.4};
+  EXPECT_EQ(colour({}).r, look::kRed.r);
+  EXPECT_EQ(colour(lenient).r, look::kGreen.r);
+}
+
+TEST_F(Guiding, WhatIsDrawnTooLateLosesTriangleAndNumber) {
+  SceneBuilder builder;
+  render::Scene scene;
+  const Guidance& g = s.pair();
+  builder.update(g);
+  builder.write_scene(g, scene);
+  ASSERT_FALSE(scene.triangles.empty());
+  hide_tool_guidance(scene);
+  EXPECT_TRUE(scene.triangles.empty());
+  for (const render::LineItem& line : scene.lines) EXPECT_NE(line.label / 100, 5u);
+  render::Scene late;
+  builder.update(g, g.tool->pose_time + g.stale_after + Duration(1));
+  builder.write_scene(g, late);
+  const auto readout = [](const render::Scene& of) {
+    for (const render::TextItem& text : of.texts)
+      if (text.label / 100 == 6) return text.runs.at(0).text;
+    return std::string("absent");
+  };
+  EXPECT_EQ(readout(scene), readout(late));
+  const auto cross = [](const render::Scene& of) {
+    std::vector<std::pair<render::Label, std::string>> items;
+    for (const render::MeshItem& mesh : of.meshes)
+      if (mesh.label / 100 == 7) items.emplace_back(mesh.label, "surface");
+    for (const render::LineItem& line : of.lines)
+      if (line.label / 100 == 7) items.emplace_back(line.label, "line");
+    for (const render::TextItem& text : of.texts)
+      if (text.label / 100 == 7) items.emplace_back(text.label, text.runs.at(0).text);
+    return items;
+  };
+  EXPECT_EQ(cross(scene), cross(late));
+  EXPECT_EQ(cross(late).back().second, "tool lost");
+}
+
+TEST(VisibilityRules, NamesEveryProblem) {
+  VisibilityRules bad;
+  bad.triangle_within_m = 0.0;
+  bad.rod_moved_away_m = -1.0;
+  bad.grades = {0.2, 0.1};
+  EXPECT_EQ(bad.check().size(), 3u);
+  EXPECT_TRUE(VisibilityRules{}.check().empty());
+}
+
+TEST(SceneBuilder, MakesATubeOnceForARod) {
+  ScriptedOperation s({"L5"});
+  s.accepts_first_level();
+  for (int i = 0; i < 3; ++i) s.says("next");
+  s.touches({0.02, 0.03, 0.00});
+  SceneBuilder builder;
+  render::Scene scene;
+  const auto tube = [&](const Guidance& g) {
+    builder.update(g);
+    builder.write_scene(g, scene);
+    std::size_t most = 0;
+    std::shared_ptr<const render::MeshData> found;
+    for (const auto& item : scene.meshes)
+      if (item.label / 100 == 10 && item.mesh->positions.size() > most &&
+          item.colour == look::kTitanium)
+        found = item.mesh, most = item.mesh->positions.size();
+    return found;
+  };
+  const auto first = tube(s.touches({0.02, 0.03, 0.04}));
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(tube(s.pair()), first);
+  EXPECT_NE(tube(s.touches({0.02, 0.035, 0.08})), first);
+}
+
+}  // namespace
+}  // namespace orthonav::engine

@@ -1,0 +1,114 @@
+#include "engine/holograms/scene_file.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "engine/holograms/scene_file_holograms.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::engine {
+namespace {
+
+using nlohmann::json;
+using orthonav::test::content_of;
+using ::testing::HasSubstr;
+
+/// The example that docs/scene-files.md begins with.
+json example() {
+  const std::string page = content_of(ORTHONAV_SOURCE_DIR "/docs/scene-files.md");
+  const std::size_t begin = page.find("```json\n") + 8;
+  return json::parse(page.substr(begin, page.find("```", begin) - begin));
+}
+
+class SceneFiles : public ::testing::Test {
+ protected:
+  Result<SceneFile> loaded(const json& scene) {
+    std::ofstream((folder_.path() / "scene.json").string()) << scene.dump();
+    return load_scene((folder_.path() / "scene.json").string());
+  }
+  /// What is said about the example with one more hologram.
+  std::string said_about(const char* hologram) {
+    json scene = example();
+    scene["holograms"].push_back(json::parse(hologram));
+    const auto file = loaded(scene);
+    return file.ok() ? "nothing" : file.error().message;
+  }
+  orthonav::test::TemporaryFolder folder_;
+};
+
+TEST_F(SceneFiles, TheExampleOfTheDocsIsDrawn) {
+  const auto file = loaded(example());
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  EXPECT_EQ(file->eyes.size(), 2u);
+  EXPECT_EQ(file->width_px, 1268);
+  ASSERT_EQ(file->scene.meshes.size(), 1u);
+  EXPECT_EQ(file->scene.meshes[0].label, 301u);
+  EXPECT_FLOAT_EQ(file->scene.meshes[0].world_from_model[12], 0.0165f) << "metres";
+  ASSERT_EQ(file->scene.texts.size(), 2u);
+  EXPECT_EQ(file->scene.texts[0].runs[0].text, "L4 left");
+  EXPECT_THAT(file->scene.texts[1].runs[0].text, HasSubstr("3.4°"));
+}
+
+TEST_F(SceneFiles, EveryKindIsInTheSchemaAndIsKnown) {
+  const json schema = json::parse(content_of(ORTHONAV_SOURCE_DIR "/docs/scene.schema.json"));
+  std::set<render::Label> numbers;
+  int kinds = 0;
+  for (const json& kind : schema["$defs"]["hologram"]["oneOf"]) {
+    const std::string type = kind["properties"]["type"]["const"];
+    EXPECT_NE(hologram_number(type), 0u) << type;
+    numbers.insert(hologram_number(type));
+    ++kinds;
+  }
+  EXPECT_EQ(kinds, 14);
+  for (render::Label n = 1; n <= 12; ++n) EXPECT_TRUE(numbers.contains(n)) << n;
+}
+
+TEST_F(SceneFiles, SayWhatWhereAndTheLimit) {
+  EXPECT_THAT(said_about(R"({"type": "arrow"})"),
+              HasSubstr("scene.json: holograms[3].type is \"arrow\", must be one of path"));
+  EXPECT_THAT(
+      said_about(R"({"type": "line", "points_mm": [[0,0,0],[1,0,0]], "width_mm": -1})"),
+      HasSubstr("holograms[3].width_mm is -1.000000, must lie in [0.010000, 100.000000] mm"));
+  EXPECT_THAT(said_about(R"({"type": "path", "samples_mm": [[0,0],[1,0,0]]})"),
+              HasSubstr("holograms[3].samples_mm point 1 must be 3 finite numbers"));
+  EXPECT_THAT(said_about(R"({"type": "vertebra", "mesh": "absent.stl"})"), HasSubstr("absent.stl"));
+  EXPECT_THAT(said_about(R"({"type": "check_point", "position_mm": [0, 1e9, 0]})"),
+              HasSubstr("position_mm must lie within 10000 mm of the origin"));
+  EXPECT_THAT(said_about(R"({"type": "twin", "site_mm": [0,0,0], "beside": [0,0,0], "of": []})"),
+              HasSubstr("beside has no direction"));
+  EXPECT_EQ(said_about(R"({"type": "check_point", "position_mm": [0, 1, 0]})"), "nothing");
+}
+
+TEST_F(SceneFiles, RefuseAViewThatSeesNothing) {
+  json scene = example();
+  scene["view"]["target_mm"] = scene["view"]["eye_mm"];
+  EXPECT_THAT(loaded(scene).error().message, HasSubstr("view.target_mm is where the eye is"));
+  scene = example();
+  scene["view"]["width_px"] = 0;
+  EXPECT_THAT(loaded(scene).error().message, HasSubstr("view.width_px is 0"));
+  scene = example();
+  scene["version"] = 2;
+  EXPECT_THAT(loaded(scene).error().message, HasSubstr("version must be 1"));
+}
+
+TEST_F(SceneFiles, ATwinIsTwiceAsLargeUnderItsOwnLabel) {
+  json scene = example();
+  scene["holograms"] = json::array({{{"type", "twin"},
+                                     {"site_mm", {0, 0, 0}},
+                                     {"beside", {1, 0, 0}},
+                                     {"of", json::array({{{"type", "line"},
+                                                          {"points_mm", {{0, 0, 0}, {10, 0, 0}}},
+                                                          {"width_mm", 1.0}}})}}});
+  const auto file = loaded(scene);
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  ASSERT_EQ(file->scene.lines.size(), 1u);
+  EXPECT_EQ(file->scene.lines[0].label, 801u);
+  EXPECT_FLOAT_EQ(file->scene.lines[0].points[1].x, 0.170f);
+  EXPECT_FLOAT_EQ(file->scene.lines[0].width_m, 0.002f);
+}
+
+}  // namespace
+}  // namespace orthonav::engine

@@ -1,0 +1,85 @@
+#include "engine/io/atomic_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::engine {
+namespace {
+
+using orthonav::test::content_of;
+using orthonav::test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+TEST(AtomicFile, AppearsUnderItsNameOnlyWhenCommitted) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("report.json");
+  auto file = AtomicFile::create(path);
+  ASSERT_TRUE(file.ok()) << file.error().message;
+  std::ofstream(file->temporary_path()) << "whole";
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_TRUE(file->commit().ok());
+  EXPECT_EQ(content_of(path), "whole");
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(AtomicFile, LeavesNothingWhenDropped) {
+  const TemporaryFolder folder;
+  std::ignore = folder.with("report.json", "old");
+  {
+    auto file = AtomicFile::create(folder.file("report.json"));
+    ASSERT_TRUE(file.ok());
+    std::ofstream(file->temporary_path()) << "half";
+  }
+  EXPECT_EQ(folder.count(), 1u);
+  EXPECT_EQ(content_of(folder.file("report.json")), "old");
+}
+
+TEST(AtomicFile, KeepsTheExtensionWhileWriting) {
+  const TemporaryFolder folder;
+  auto file = AtomicFile::create(folder.file("operation.mp4"));
+  ASSERT_TRUE(file.ok());
+  EXPECT_THAT(file->temporary_path(), ::testing::EndsWith(".mp4"));
+}
+
+TEST(AtomicFile, MovesWithoutLosingOrKeepingTheFile) {
+  const TemporaryFolder folder;
+  {
+    auto first = AtomicFile::create(folder.file("a.txt"));
+    auto second = AtomicFile::create(folder.file("b.txt"));
+    ASSERT_TRUE(first.ok() && second.ok());
+    *first = std::move(*second);
+    EXPECT_EQ(folder.count(), 1u) << "the file that was moved over is dropped";
+    EXPECT_TRUE(first->commit().ok());
+    EXPECT_FALSE(first->commit().ok()) << "committed twice";
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder.file("b.txt")));
+}
+
+TEST(AtomicFile, WritesThroughALinkWithoutReplacingIt) {
+  const TemporaryFolder folder;
+  std::ignore = folder.with("target.txt", "old");
+  std::filesystem::create_symlink("target.txt", folder.file("link.txt"));
+  EXPECT_TRUE(write_file(folder.file("link.txt"), "new").ok());
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.file("link.txt")));
+  EXPECT_EQ(content_of(folder.file("target.txt")), "new");
+}
+
+TEST(AtomicFile, WritesADeviceInPlace) {
+  EXPECT_TRUE(write_file("/dev/null", "gone").ok());
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, RefusesWhatCannotBeWritten) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(AtomicFile::create("").error().message, HasSubstr("no name"));
+  EXPECT_THAT(AtomicFile::create(folder.path().string()).error().message, HasSubstr("is a folder"));
+  EXPECT_THAT(AtomicFile::create(folder.file("none/a.txt")).error().message,
+              HasSubstr("does not exist"));
+}
+
+}  // namespace
+}  // namespace orthonav::engine

@@ -1,0 +1,122 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/holograms/scene_builder.h"
+#include "tests/support/allocation_count.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine {
+namespace {
+
+using test::guide_at;
+using test::pointer_at;
+using test::ScriptedOperation;
+
+constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
+
+/// The buffers of one frame, as the frame loop and its snapshots keep them.
+class Frames {
+ public:
+  void make(const Guidance& guidance) {
+    builder_.update(guidance);
+    builder_.write_shown(guidance, shown_);
+    builder_.write_scene(guidance, scene_);
+  }
+  void make_too_late(const Guidance& guidance) {
+    make(guidance);
+    hide_tool_guidance(scene_);
+  }
+  [[nodiscard]] bool shows(std::uint32_t hologram) const {
+    const auto is = [&](const auto& item) { return item.label / 100 == hologram; };
+    return std::any_of(scene_.meshes.begin(), scene_.meshes.end(), is) ||
+           std::any_of(scene_.lines.begin(), scene_.lines.end(), is) ||
+           std::any_of(scene_.texts.begin(), scene_.texts.end(), is);
+  }
+
+ private:
+  SceneBuilder builder_;
+  ShownFrame shown_;
+  render::Scene scene_;
+};
+
+/// Counted once buffers have grown. Where items are taken out of a scene, those after them change
+/// places, and every buffer grows to the largest.
+template <class Work>
+std::size_t allocations_of(const Work& work) {
+  for (int i = 0; i < 20; ++i) work();
+  const std::size_t before = test::allocation_count();
+  work();
+  return test::allocation_count() - before;
+}
+
+class FrameAllocations : public ::testing::Test {
+ protected:
+  void guide() {
+    s.accepts_first_level();
+    s.says("next");
+    s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.010, 0}, 0.1);
+    s.says("twin");
+  }
+  ScriptedOperation s;
+  Frames frames;
+};
+
+TEST_F(FrameAllocations, AreNoneWhileDigitizing) {
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  const Guidance& g = s.strokes(40);
+  EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
+  EXPECT_TRUE(frames.shows(1));
+}
+
+TEST_F(FrameAllocations, AreNoneWhileVerifying) {
+  ScriptedOperation touched({"L4"}, {}, Verification::kByTouch);
+  touched.registers_first_level();
+  const Guidance& g = touched.touches({0.0, 0.0204, 0.0});
+  EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
+  EXPECT_TRUE(frames.shows(2));
+  EXPECT_TRUE(frames.shows(12));
+}
+
+TEST_F(FrameAllocations, AreNoneWhileAToolIsGuided) {
+  guide();
+  // The tool is farther off in one frame than in the other: dashes, an arrow, another number.
+  const Guidance near = s.pair();
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0.006, 0.010, 0}, 0.25);
+  const Guidance& far = s.pair();
+  const auto both = [&] {
+    frames.make(near);
+    frames.make(far);
+  };
+  EXPECT_EQ(allocations_of(both), 0u);
+  for (const std::uint32_t hologram : {3, 4, 5, 6, 7, 8, 9, 11})
+    EXPECT_TRUE(frames.shows(hologram)) << "H" << hologram;
+}
+
+TEST_F(FrameAllocations, AreNoneWhereGuidanceIsTakenBack) {
+  guide();
+  const Guidance& g = s.pair();
+  EXPECT_EQ(allocations_of([&] { frames.make_too_late(g); }), 0u);
+  EXPECT_FALSE(frames.shows(5));
+}
+
+TEST_F(FrameAllocations, AreNoneWhileARodIsShown) {
+  ScriptedOperation one({"L5"});
+  one.accepts_first_level();
+  for (int i = 0; i < 3; ++i) one.says("next");
+  one.touches({0.02, 0.03, 0.00});
+  const Guidance& g = one.touches({0.02, 0.03, 0.04});
+  ASSERT_TRUE(g.rods[0].rod.has_value());
+  EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
+  EXPECT_TRUE(frames.shows(10));
+}
+
+TEST_F(FrameAllocations, OfAnotherSceneAreCounted) {
+  guide();
+  const Guidance& g = s.pair();
+  EXPECT_GT(allocations_of([&] { Frames().make(g); }), 0u);
+}
+
+}  // namespace
+}  // namespace orthonav::engine

@@ -1,0 +1,202 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "engine/case/tool_file.h"
+#include "engine/live/frame_loop.h"
+#include "engine/study/simulated_operation.h"
+#include "hal/fake/failing.h"
+#include "tests/support/scripted_operation.h"
+#include "tests/support/scripted_pairs.h"
+
+namespace orthonav::engine {
+namespace {
+
+using test::kPair;
+using test::kStart;
+using test::pairs;
+
+std::string text_of(const ShownFrame& frame, const std::string& name) {
+  for (const ShownHologram& hologram : frame.holograms)
+    if (hologram.name == name) return hologram.text;
+  return "absent";
+}
+
+bool shows_triangle(const ShownFrame& frame) { return text_of(frame, "H5 triangle") != "absent"; }
+
+/// Its clock goes on while there is no pair.
+class WaitingCamera : public StereoCamera {
+ public:
+  explicit WaitingCamera(fake::FakeHeadset& inner) : inner_(inner) {}
+
+ private:
+  fake::FakeHeadset& inner_;
+  [[nodiscard]] const StereoCalibration& do_calibration() const override {
+    return inner_.cameras().calibration();
+  }
+  Result<Next> do_next(StereoFrame& frame) override {
+    auto next = inner_.cameras().next(frame);
+    if (next && *next == Next::kNone) inner_.manual_clock().advance(std::chrono::milliseconds(20));
+    return next;
+  }
+};
+
+class WaitingHeadset : public Headset {
+ public:
+  explicit WaitingHeadset(fake::FakeHeadset& inner) : inner_(inner), cameras_(inner) {}
+  [[nodiscard]] std::string name() const override { return "waiting"; }
+  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
+  [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
+  [[nodiscard]] HeadTracker& head() override { return inner_.head(); }
+  [[nodiscard]] Clicker& clicker() override { return inner_.clicker(); }
+  [[nodiscard]] Voice& voice() override { return inner_.voice(); }
+  [[nodiscard]] Display& display() override { return inner_.display(); }
+
+ private:
+  fake::FakeHeadset& inner_;
+  WaitingCamera cameras_;
+};
+
+/// A session that guides the first screw, with the guide in sight.
+class GuidingLoop : public ::testing::Test {
+ protected:
+  GuidingLoop() {
+    s.accepts_first_level();
+    s.says("next");
+    s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.1);
+    s.pair();
+  }
+  Result<LoopReport> run(Headset& headset, LoopObserver* observer = nullptr) {
+    SceneBuilder builder;
+    FrameLoop loop(headset, s.session(), builder, options);
+    loop.observe(observer);
+    return loop.run();
+  }
+  test::ScriptedOperation s;
+  LoopOptions options;
+};
+
+TEST_F(GuidingLoop, TakesGuidanceBackWhilePairsFail) {
+  fake::FakeHeadset inner(pairs(12));
+  fake::Faults faults;
+  for (int i = 5; i < 9; ++i) faults.camera.push_back({i, fake::CameraFault::kError});
+  fake::FailingHeadset headset(inner, faults);
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->blanked, 1);
+  const auto frames = inner.display().frames();
+  // Five pairs, one frame that takes back, three pairs, the end.
+  ASSERT_EQ(frames.size(), 10u);
+  EXPECT_TRUE(shows_triangle(frames[4]));
+  EXPECT_FALSE(shows_triangle(frames[5]));
+  EXPECT_EQ(text_of(frames[5], "H6 angle"), "--.-°");
+  EXPECT_EQ(text_of(frames[5], "H11 status"), "guide L4 left | no camera images");
+  EXPECT_LE(frames[5].display_time - frames[4].pose_time,
+            s.session().options().stale_after + kPair);
+  EXPECT_TRUE(shows_triangle(frames[6])) << "and goes on with the next pair";
+}
+
+TEST_F(GuidingLoop, TakesGuidanceBackWhileNoPairComes) {
+  fake::Script script = pairs(2);
+  for (int i = 0; i < 10; ++i) script.camera.emplace_back(Next::kNone);
+  script.camera.emplace_back(test::dark_pair(10));
+  fake::FakeHeadset inner(std::move(script));
+  WaitingHeadset headset(inner);
+  const auto report = run(headset);
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->blanked, 1);
+  const auto frames = inner.display().frames();
+  ASSERT_EQ(frames.size(), 5u);
+  EXPECT_FALSE(shows_triangle(frames[2]));
+  EXPECT_LE(frames[2].display_time - frames[1].pose_time,
+            s.session().options().stale_after + std::chrono::milliseconds(20));
+}
+
+TEST_F(GuidingLoop, EndsWhenNoPairEverComesAgain) {
+  fake::Script script = pairs(2);
+  for (int i = 0; i < 100; ++i) script.camera.emplace_back(Next::kNone);
+  fake::FakeHeadset inner(std::move(script));
+  WaitingHeadset headset(inner);
+  options.longest_silence = std::chrono::milliseconds(500);
+  const auto report = run(headset);
+  ASSERT_FALSE(report.ok());
+  EXPECT_THAT(report.error().message, ::testing::HasSubstr("no camera pair for"));
+}
+
+TEST_F(GuidingLoop, AnAnswerWithoutAPairDoesNotExcuseTheErrorsAroundIt) {
+  fake::Script script = pairs(1);
+  for (int i = 0; i < 10; ++i) {
+    script.camera.emplace_back(Error{"cable"});
+    script.camera.emplace_back(Next::kNone);
+  }
+  fake::FakeHeadset headset(std::move(script));
+  options.max_errors_in_a_row = 5;
+  EXPECT_FALSE(run(headset).ok());
+}
+
+TEST_F(GuidingLoop, LeavesOnlyTheStatusLineHoweverItEnds) {
+  fake::Script script = pairs(3);
+  for (int i = 0; i < 10; ++i) script.camera.emplace_back(Error{"cable"});
+  options.max_errors_in_a_row = 5;
+  fake::FakeHeadset failing(std::move(script));
+  EXPECT_FALSE(run(failing).ok());
+  fake::FakeHeadset ending(pairs(3));
+  EXPECT_TRUE(run(ending).ok());
+  for (fake::FakeHeadset* headset : {&failing, &ending}) {
+    const auto frames = headset->display().frames();
+    ASSERT_EQ(frames.size(), 4u);
+    EXPECT_TRUE(shows_triangle(frames[2]));
+    ASSERT_EQ(frames[3].holograms.size(), 1u);
+    EXPECT_EQ(frames[3].holograms[0].text, "guide L4 left | ended");
+  }
+}
+
+/// Tracking that takes its time, by the device's clock.
+class SlowTracking : public LoopObserver {
+ public:
+  SlowTracking(fake::ManualClock& clock, Duration takes) : clock_(clock), takes_(takes) {}
+  void stepped(const StereoFrame&, const Inputs&, const Guidance&) override {
+    clock_.advance(takes_);
+  }
+
+ private:
+  fake::ManualClock& clock_;
+  Duration takes_;
+};
+
+TEST_F(GuidingLoop, HidesWhatGrewTooOldWhileItWasTracked) {
+  // 16 ms of display on top: 83 ms is still within the limit of 100, 85 ms is not.
+  for (const auto& [takes_ms, shown] : {std::pair{83, true}, std::pair{85, false}}) {
+    fake::FakeHeadset headset(pairs(1));
+    SlowTracking slow(headset.manual_clock(), std::chrono::milliseconds(takes_ms));
+    ASSERT_TRUE(run(headset, &slow).ok());
+    const auto frames = headset.display().frames();
+    ASSERT_FALSE(frames.empty());
+    EXPECT_EQ(shows_triangle(frames[0]), shown) << takes_ms;
+  }
+}
+
+TEST(LoopOptions, NamesEveryProblem) {
+  LoopOptions bad;
+  bad.draw_every = -1;
+  bad.max_frames = -1;
+  bad.max_errors_in_a_row = -1;
+  bad.longest_silence = Duration::zero();
+  bad.after_done = Duration(-1);
+  EXPECT_EQ(bad.check().size(), 5u);
+  EXPECT_TRUE(LoopOptions{}.check().empty());
+}
+
+TEST(OperationOptions, NamesTheProblemsOfAllItsParts) {
+  OperationOptions bad;
+  bad.tools = built_in_tools();
+  EXPECT_TRUE(bad.check().empty());
+  bad.method = "guess";
+  bad.session.stale_after = Duration::zero();
+  bad.loop.draw_every = -1;
+  bad.visibility.grades = {0.2, 0.1};
+  EXPECT_EQ(bad.check().size(), 4u);
+}
+
+}  // namespace
+}  // namespace orthonav::engine

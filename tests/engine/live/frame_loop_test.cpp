@@ -1,0 +1,175 @@
+#include "engine/live/frame_loop.h"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+
+#include "hal/fake/failing.h"
+#include "tests/support/scripted_operation.h"
+#include "tests/support/scripted_pairs.h"
+
+namespace orthonav::engine {
+namespace {
+
+using test::kPair;
+using test::kStart;
+using test::pairs;
+
+std::unique_ptr<Session> session() {
+  return Session::create(test::operation_of({"L5"}), std::make_unique<test::ScriptedTracker>(),
+                         Method{"none",
+                                {},
+                                [](const RegistrationRequest&) -> Result<nav::Registration> {
+                                  return Error{"none"};
+                                }})
+      .value();
+}
+
+class CountingSink : public SnapshotSink {
+ public:
+  Status draw(const Snapshot& snapshot) override {
+    if (snapshot.blank) return {};
+    frames.push_back(snapshot.frame);
+    while (display && display->frames().size() < wait_for_shown) std::this_thread::yield();
+    if (fail_at >= 0 && snapshot.frame >= fail_at) return Error{"display unplugged"};
+    return {};
+  }
+  std::vector<std::int64_t> frames;
+  std::int64_t fail_at = -1;
+  /// Draws nothing before so many frames were shown.
+  fake::RememberingDisplay* display = nullptr;
+  std::size_t wait_for_shown = 0;
+};
+
+TEST(FrameLoop, ShowsEveryPairAndEndsWithTheStream) {
+  fake::FakeHeadset headset(pairs(10));
+  const auto navigation = session();
+  SceneBuilder builder;
+  FrameLoop loop(headset, *navigation, builder, {});
+  const auto report = loop.run();
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->displayed, 10);
+  EXPECT_FALSE(report->done);
+  EXPECT_EQ(headset.display().frames().size(), 11u) << "and one that takes all back";
+  ASSERT_EQ(report->intervals_ms.size(), 9u);
+  // The device's clock, exactly: 33.333 ms.
+  EXPECT_NEAR(report->intervals_ms[0], 33.333, 1e-9);
+  ASSERT_EQ(report->photon_ages_ms.size(), 10u);
+  EXPECT_GT(report->photon_ages_ms[0], 0.0);
+}
+
+TEST(FrameLoop, StopsAfterTheFramesAskedFor) {
+  fake::FakeHeadset headset(pairs(10));
+  const auto navigation = session();
+  SceneBuilder builder;
+  LoopOptions options;
+  options.max_frames = 4;
+  EXPECT_EQ(FrameLoop(headset, *navigation, builder, options).run()->displayed, 4);
+}
+
+TEST(FrameLoop, DrawsEveryNthFrameHoweverSlowTheSink) {
+  fake::FakeHeadset headset(pairs(20));
+  const auto navigation = session();
+  SceneBuilder builder;
+  LoopOptions options;
+  options.draw_every = 3;
+  CountingSink sink;
+  // Every buffer is full by then, and the loop waits.
+  sink.display = &headset.display();
+  sink.wait_for_shown = 13;
+  FrameLoop loop(headset, *navigation, builder, options);
+  loop.draw_into(&sink);
+  const auto report = loop.run();
+  ASSERT_TRUE(report.ok());
+  EXPECT_THAT(sink.frames, ::testing::ElementsAre(0, 3, 6, 9, 12, 15, 18));
+  EXPECT_EQ(report->drawn, 8) << "and the one that takes all back";
+}
+
+TEST(FrameLoop, ASinkThatFailsForGoodEndsTheRun) {
+  fake::FakeHeadset headset(pairs(20));
+  const auto navigation = session();
+  SceneBuilder builder;
+  CountingSink sink;
+  sink.fail_at = 2;
+  LoopOptions options;
+  options.max_errors_in_a_row = 5;
+  FrameLoop loop(headset, *navigation, builder, options);
+  loop.draw_into(&sink);
+  const auto report = loop.run();
+  ASSERT_FALSE(report.ok());
+  EXPECT_THAT(report.error().message, ::testing::HasSubstr("6 failures in a row (limit 5): "));
+  EXPECT_THAT(report.error().message, ::testing::HasSubstr("display unplugged"));
+}
+
+TEST(FrameLoop, ASceneThatIsRefusedDoesNotBlackOutTheOthers) {
+  fake::FakeHeadset headset(pairs(20));
+  const auto navigation = session();
+  SceneBuilder builder;
+  CountingSink sink;
+  sink.fail_at = 17;
+  FrameLoop loop(headset, *navigation, builder, {});
+  loop.draw_into(&sink);
+  const auto report = loop.run();
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(sink.frames.size(), 20u);
+  EXPECT_EQ(report->draw_failures, 3);
+  EXPECT_EQ(report->last_failure, "display unplugged");
+}
+
+TEST(FrameLoop, GoesOnAfterFailuresOfEveryDevice) {
+  fake::Script script = pairs(20);
+  script.voice.push_back({"start", 1.0, kStart + 5 * kPair});
+  script.clicker.push_back({ClickerAction::kPress, kStart + 6 * kPair});
+  fake::FakeHeadset inner(std::move(script));
+  fake::Faults faults;
+  faults.clicker = {{0, fake::EventFault::kError}};
+  faults.camera = {{3, fake::CameraFault::kError}, {7, fake::CameraFault::kWrongSize}};
+  faults.voice = {{0, fake::EventFault::kError}};
+  faults.display = {{9, fake::DisplayFault::kError}};
+  fake::FailingHeadset headset(inner, faults);
+  const auto navigation = session();
+  SceneBuilder builder;
+  const auto report = FrameLoop(headset, *navigation, builder, {}).run();
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->failures, 5);
+  EXPECT_EQ(report->displayed, 20 - 2 - 1) << "two pairs and one frame are gone, no more";
+  EXPECT_FALSE(report->last_failure.empty());
+  EXPECT_EQ(navigation->current_step(), Step::kDigitize) << "the phrase came with the next poll";
+}
+
+TEST(FrameLoop, GivesUpOnADeviceThatFailsForGood) {
+  fake::Script script = pairs(0);
+  for (int i = 0; i < 100; ++i) script.camera.push_back(Error{"cable"});
+  fake::FakeHeadset headset(std::move(script));
+  const auto navigation = session();
+  SceneBuilder builder;
+  LoopOptions options;
+  options.max_errors_in_a_row = 5;
+  const auto report = FrameLoop(headset, *navigation, builder, options).run();
+  ASSERT_FALSE(report.ok());
+  EXPECT_THAT(report.error().message, ::testing::HasSubstr("6 failures in a row (limit 5): "));
+  EXPECT_THAT(report.error().message, ::testing::HasSubstr("cable"));
+}
+
+TEST(SnapshotQueue, KeepsTheNewestWhenTheDrawerIsLate) {
+  SnapshotQueue queue(SnapshotQueue::WhenFull::kDropOldest);
+  for (std::int64_t i = 0; i < 10; ++i) {
+    Snapshot* snapshot = queue.acquire();
+    ASSERT_NE(snapshot, nullptr);
+    snapshot->frame = i;
+    queue.publish(snapshot);
+  }
+  EXPECT_EQ(queue.dropped(), 10 - static_cast<std::int64_t>(SnapshotQueue::kSlots));
+  queue.close();
+  std::vector<std::int64_t> left;
+  while (Snapshot* snapshot = queue.take()) {
+    left.push_back(snapshot->frame);
+    queue.release(snapshot);
+  }
+  EXPECT_THAT(left, ::testing::ElementsAre(9));
+  EXPECT_EQ(queue.dropped(), 9);
+  EXPECT_EQ(queue.acquire(), nullptr) << "closed";
+}
+
+}  // namespace
+}  // namespace orthonav::engine

@@ -1,0 +1,176 @@
+#include "engine/report/operation_result.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/case/operation_plan.h"
+#include "engine/phantom/phantom.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine {
+namespace {
+
+OperationResult measured() {
+  OperationResult result;
+  result.method = "paper";
+  result.seed = 3;
+  result.case_name = "phantom";
+  LevelOutcome level;
+  level.label = "L4";
+  level.accepted = true;
+  level.attempts = 1;
+  level.rmse_m = 0.0016;
+  level.tre_m = 0.002;
+  level.points = 800;
+  level.digitization_s = 120.5;
+  level.screws.push_back({nav::Side::kLeft, true, 0.05, 0.0025});
+  level.screws.push_back({nav::Side::kRight, true, 0.04, std::nullopt});
+  result.levels.push_back(level);
+  result.rods.push_back({nav::Side::kLeft, 2, 0.040, 0.001, 0.002});
+  result.rods.push_back({nav::Side::kRight, 2, 0.042, -0.003, 0.001});
+  for (int i = 1; i <= 100; ++i) result.loop.intervals_ms.push_back(i);
+  result.loop.displayed = 101;
+  return result;
+}
+
+TEST(ReportJson, HoldsWhatTheFormatSays) {
+  const auto json = nlohmann::json::parse(report_json(measured()));
+  EXPECT_EQ(json["method"], "paper");
+  EXPECT_EQ(json["seed"], 3);
+  EXPECT_EQ(json["case"], "phantom");
+  const auto& level = json["levels"][0];
+  EXPECT_EQ(level["label"], "L4");
+  EXPECT_EQ(level["accepted"], true);
+  EXPECT_EQ(level["attempts"], 1);
+  EXPECT_DOUBLE_EQ(level["rmse_mm"], 1.6);
+  EXPECT_DOUBLE_EQ(level["tre_mm"], 2.0);
+  EXPECT_EQ(level["points"], 800);
+  EXPECT_DOUBLE_EQ(level["digitization_s"], 120.5);
+  EXPECT_EQ(level["screws"][0]["side"], "left");
+  EXPECT_NEAR(level["screws"][0]["angle_error_deg"].get<double>(), 2.8648, 1e-4);
+  EXPECT_DOUBLE_EQ(level["screws"][0]["entry_error_mm"], 2.5);
+  EXPECT_FALSE(level["screws"][1].contains("entry_error_mm")) << "the wire missed the bone";
+  EXPECT_DOUBLE_EQ(json["rod"]["length_mm"], 41.0);
+  EXPECT_DOUBLE_EQ(json["rod"]["length_error_mm"], -3.0);
+  EXPECT_DOUBLE_EQ(json["rod"]["head_error_mm"], 1.5);
+  EXPECT_EQ(json["frames"]["displayed"], 101);
+  EXPECT_DOUBLE_EQ(json["frames"]["median_ms"], 50.0);
+  EXPECT_DOUBLE_EQ(json["frames"]["p99_ms"], 99.0);
+}
+
+TEST(ReportJson, HoldsTheDistancesOfCheckPointsWhereThereAreAny) {
+  EXPECT_FALSE(
+      nlohmann::json::parse(report_json(measured()))["levels"][0].contains("check_points_mm"));
+  test::ScriptedOperation s({"L5"}, {}, Verification::kByTouch);
+  s.registers_first_level();
+  s.touches({0.0, 0.0213, 0.0});
+  s.touches({0.02, 0.0195, 0.0});
+  const auto result = outcome_of(s.session().levels(), s.session().rods(), {});
+  const auto json = nlohmann::json::parse(report_json(result));
+  const auto& distances = json["levels"][0]["check_points_mm"];
+  ASSERT_EQ(distances.size(), 2u);
+  EXPECT_NEAR(distances[0].get<double>(), 1.3, 1e-6);
+  EXPECT_NEAR(distances[1].get<double>(), -0.5, 1e-6);
+}
+
+TEST(ReportJson, LeavesErrorsOutWhereThereIsNoTruth) {
+  test::ScriptedOperation s({"L5"});
+  s.accepts_first_level();
+  const auto result = outcome_of(s.session().levels(), s.session().rods(), {});
+  const auto json = nlohmann::json::parse(report_json(result));
+  EXPECT_EQ(json["completed"], false);
+  EXPECT_TRUE(json["levels"][0]["accepted"]);
+  EXPECT_FALSE(json["levels"][0].contains("tre_mm"));
+  EXPECT_FALSE(json["levels"][0]["screws"][0].contains("angle_error_deg"));
+  EXPECT_FALSE(json["rod"].contains("length_error_mm"));
+}
+
+TEST(ReportJson, LeavesFiguresOutWhereNothingWasMeasured) {
+  OperationResult result;
+  result.levels.emplace_back();
+  const auto json = nlohmann::json::parse(report_json(result));
+  for (const char* key : {"rmse_mm", "points", "digitization_s"})
+    EXPECT_FALSE(json["levels"][0].contains(key)) << key;
+  EXPECT_FALSE(json.contains("seed"));
+  EXPECT_FALSE(json["frames"].contains("p99_ms"));
+  EXPECT_FALSE(nlohmann::json::parse(timing_json({}))["draw_wall"].contains("median_ms"));
+}
+
+TEST(EndNote, SaysWhereAnOperationEndedAndWhatItWasToldLast) {
+  test::ScriptedOperation s({"L4", "L5"});
+  EndNote note;
+  s.session().observe(&note);
+  const auto why_not = [&] {
+    OperationResult result = outcome_of(s.session().levels(), s.session().rods(), {});
+    note.explain(result);
+    return result.why_not;
+  };
+  EXPECT_EQ(why_not(), "ended at setup of L4");
+  s.unusable = "99 points, needs at least 100";
+  s.says("start");
+  s.strokes(3);
+  s.says("save");
+  s.does({ClickerAction::kDoubleClick});
+  EXPECT_EQ(why_not(),
+            "ended at digitize of L4; last registration (L4) refused: 99 points, needs at least "
+            "100");
+  OperationResult whole;
+  whole.completed = true;
+  note.explain(whole);
+  EXPECT_EQ(whole.why_not, "");
+}
+
+TEST(Quantile, IsTheNearestRank) {
+  EXPECT_FALSE(quantile({}, 0.5).has_value());
+  EXPECT_EQ(quantile({3, 1, 2}, 0.5), 2.0);
+  EXPECT_EQ(quantile({4, 3, 1, 2}, 0.99), 4.0);
+  EXPECT_EQ(quantile({7}, 0.0), 7.0);
+}
+
+TEST(ReportJson, DoesNotDependOnWallTime) {
+  OperationResult a = measured();
+  OperationResult b = measured();
+  b.loop.step_wall_ms = {1, 2, 3};
+  b.loop.draw_wall_ms = {9};
+  EXPECT_EQ(report_json(a), report_json(b));
+}
+
+TEST(OperationPlan, TakesTheTwoLowestLevelsInTheOrderOfTheCase) {
+  const auto operation = plan_operation(phantom());
+  ASSERT_TRUE(operation.ok()) << operation.error().message;
+  ASSERT_EQ(operation->levels.size(), 2u);
+  EXPECT_EQ(operation->levels[0].label, "L4");
+  EXPECT_EQ(operation->levels[1].label, "L5");
+  EXPECT_TRUE(operation->check().empty());
+}
+
+TEST(OperationPlan, TakesTheTwoLowestOfOneScanWhereAllModelsShareAFrame) {
+  Case scan = phantom();
+  for (CaseLevel& level : scan.levels) {
+    for (Vec3& v : level.mesh.vertices_m) v = (level.spine_from_vertebra * Point<Vertebra>{v}).v;
+    for (nav::ScrewPlan& screw : level.screws) {
+      screw.entry = {(level.spine_from_vertebra * screw.entry).v};
+      screw.target = {(level.spine_from_vertebra * screw.target).v};
+    }
+    level.spine_from_vertebra = {};
+  }
+  ASSERT_TRUE(scan.check().empty());
+  EXPECT_THAT(levels_to_operate(scan).value(), ::testing::ElementsAre("L4", "L5"));
+  // By where they lie, not by their order in the file.
+  std::reverse(scan.levels.begin(), scan.levels.end());
+  EXPECT_THAT(levels_to_operate(scan).value(), ::testing::ElementsAre("L5", "L4"));
+}
+
+TEST(OperationPlan, RefusesLevelsThatAreNotThereOrNamedTwice) {
+  const Case lumbar = phantom({"L4", "L5"});
+  const auto unknown = plan_operation(lumbar, {"L9"});
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_THAT(unknown.error().message, ::testing::HasSubstr("no level 'L9' (it has: L4, L5)"));
+  EXPECT_FALSE(plan_operation(lumbar, {"L5", "L5"}).ok());
+  EXPECT_TRUE(plan_operation(lumbar, {"L5"}).ok());
+}
+
+}  // namespace
+}  // namespace orthonav::engine

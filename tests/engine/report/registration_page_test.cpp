@@ -1,0 +1,219 @@
+#include "engine/report/registration_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "engine/case/operation_plan.h"
+#include "engine/phantom/phantom.h"
+#include "engine/report/registration_drawing.h"
+
+namespace orthonav::engine {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// Errs by 0.1, 0.2 and 0.3 mm along the axes of the model, the same everywhere.
+nav::PoseUncertainty shifts_only() {
+  std::array<double, 36> covariance{};
+  covariance[0] = 0.1e-3 * 0.1e-3;
+  covariance[7] = 0.2e-3 * 0.2e-3;
+  covariance[14] = 0.3e-3 * 0.3e-3;
+  return {{}, covariance};
+}
+
+/// Points on the phantom itself, and one 8 mm behind it: no noise, one outlier.
+RegisteredLevel exact() {
+  static const OperatedLevel kLevel = plan_operation(phantom(), {"L4"}).value().levels.front();
+  RegisteredLevel level;
+  level.label = "L4";
+  level.method = "best";
+  level.model = kLevel.model;
+  level.screws = kLevel.screws;
+  level.registration.accepted = true;
+  level.registration.world_from_vertebra = {rotation_from_vector({0.3, 0.1, -2.0}), {1, 2, 3}};
+  level.registration.runner_up = level.registration.world_from_vertebra;
+  level.registration.noise_m = 0.0002;
+  level.registration.uncertainty = shifts_only();
+  const auto& vertices = level.model->reachable().vertices_m;
+  for (std::size_t i = 0; i < vertices.size(); i += 5)
+    level.points.push_back(level.registration.world_from_vertebra * Point<Vertebra>{vertices[i]});
+  Vec3 hindmost = vertices.front();
+  for (const Vec3& v : vertices)
+    if (v.y > hindmost.y) hindmost = v;
+  level.points.push_back(level.registration.world_from_vertebra *
+                         Point<Vertebra>{hindmost + Vec3{0, 0.008, 0}});
+  level.registration.points = level.points.size();
+  return level;
+}
+
+TEST(RegistrationScene, MeasuresPointsAgainstTheBoneAndFindsTheOneOffIt) {
+  const RegistrationScene scene = registration_scene(exact());
+  ASSERT_EQ(scene.points.size(), exact().points.size());
+  EXPECT_EQ(scene.off_bone, 1U);
+  EXPECT_TRUE(scene.points.back().off_bone);
+  EXPECT_NEAR(scene.points.back().residual_m, 0.008, 1e-9) << "outside: positive";
+  EXPECT_NEAR(scene.points.front().residual_m, 0.0, 1e-9);
+  EXPECT_EQ(scene.magnified, 5.0) << "0.37 mm RMS: 95 of 100 within 1.05 mm, drawn below 6 mm";
+}
+
+TEST(RegistrationScene, CountsABallsRadiusAndTheInsideAsNegative) {
+  RegisteredLevel level = exact();
+  level.tip_radius_m = 0.001;
+  EXPECT_NEAR(registration_scene(level).points.front().residual_m, -0.001, 1e-9);
+}
+
+TEST(RegistrationScene, TakesTheMeanHeightOfTheTipOff) {
+  RegisteredLevel level = exact();
+  level.registration.lift_m = 0.0005;
+  EXPECT_NEAR(registration_scene(level).points.back().residual_m, 0.0075, 1e-9);
+}
+
+TEST(RegistrationPage, ShowsWhatWasTouchedToVerify) {
+  RegisteredLevel level = exact();
+  EXPECT_THAT(registration_section(level).value(), Not(HasSubstr("class=\"check\"")));
+  level.check_points.push_back({level.points[0], 0.0004, true});
+  level.check_points.push_back({level.points[9], -0.0025, false});
+  const std::string page = registration_section(level).value();
+  EXPECT_THAT(page, AllOf(HasSubstr("class=\"check\""), HasSubstr("0.4, \u22122.5</td>"),
+                          HasSubstr("touched to verify it")));
+  EXPECT_THAT(page, HasSubstr("<td class=bad>0.4")) << "one is off";
+}
+
+TEST(RegistrationScene, IsThinnedOutWhereThereAreTooManyPoints) {
+  RegisteredLevel level = exact();
+  while (level.points.size() < 50000)
+    level.points.insert(level.points.end(), level.points.begin(), level.points.end());
+  EXPECT_LE(registration_scene(level).points.size(), 4000U);
+  EXPECT_THAT(registration_section(level).value(), HasSubstr("Drawn: "));
+}
+
+TEST(RegistrationDrawing, DrawsTheShadowOfTheErrorEllipsoidOfEachView) {
+  const RegisteredLevel level = exact();
+  const RegistrationScene scene = registration_scene(level);
+  // From behind the errors along x and z are seen, from the left along y and z, from above x and y.
+  const std::array<std::array<double, 2>, 3> seen_mm = {{{0.3, 0.1}, {0.3, 0.2}, {0.2, 0.1}}};
+  const auto views = registration_views();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    EXPECT_EQ(views[i].from.right.cross(views[i].from.up), views[i].from.toward);
+    const auto drawing = registration_drawing(level, scene, views[i]);
+    ASSERT_TRUE(drawing.ok());
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(drawing->svg, found,
+                                  std::regex("<ellipse rx=\"([0-9.]+)\" ry=\"([0-9.]+)\"")));
+    EXPECT_NEAR(std::stod(found[1]), 5.0 * 2.7955 * seen_mm[i][0], 0.01) << views[i].name;
+    EXPECT_NEAR(std::stod(found[2]), 5.0 * 2.7955 * seen_mm[i][1], 0.01) << views[i].name;
+  }
+}
+
+TEST(RegistrationDrawing, TurnsTheEllipseTheWayTheErrorsLie) {
+  RegisteredLevel level = exact();
+  std::array<double, 36> covariance{};  // along x = z: left and up, or right and down
+  covariance[0] = covariance[14] = 0.2e-3 * 0.2e-3;
+  covariance[2] = covariance[12] = 0.9 * covariance[0];
+  level.registration.uncertainty = nav::PoseUncertainty({}, covariance);
+  const auto behind =
+      registration_drawing(level, registration_scene(level), registration_views()[0]);
+  // Left is on the left from behind: from the upper left to the lower right, y down: +45 degrees.
+  EXPECT_THAT(behind->svg, HasSubstr("rotate(45.0)"));
+}
+
+TEST(RegistrationDrawing, DrawsNoErrorsThatAreNotKnown) {
+  RegisteredLevel level = exact();
+  level.registration.uncertainty.reset();
+  const auto page = registration_page(level, "points.csv");
+  ASSERT_TRUE(page.ok());
+  EXPECT_THAT(*page, Not(HasSubstr("<ellipse")));
+  EXPECT_THAT(*page, HasSubstr("How large the errors at the screws are is not known"));
+}
+
+TEST(RegistrationPage, EscapesWhatItIsTold) {
+  RegisteredLevel level = exact();
+  level.label = "<b>L4";
+  level.registration.accepted = false;
+  level.registration.reasons = {"a < b"};
+  const std::string page = registration_page(level, "\"<i>.csv").value();
+  EXPECT_THAT(page, AllOf(HasSubstr("&lt;b&gt;L4"), HasSubstr("A &lt; b"),
+                          HasSubstr("&quot;&lt;i&gt;.csv"), HasSubstr(">refused</span>")));
+  EXPECT_THAT(page, AllOf(Not(HasSubstr("<b>L4<")), Not(HasSubstr("<i>.csv"))));
+}
+
+TEST(RegistrationPage, GivesTheSameBytesTwice) {
+  EXPECT_TRUE(registration_page(exact(), "p").value() == registration_page(exact(), "p").value());
+}
+
+TEST(RegistrationJson, TurnsTheCovarianceIntoTheAxesOfTheModelsFile) {
+  RegisteredLevel level = exact();
+  std::array<double, 36> covariance{};
+  covariance[0] = covariance[7] = covariance[14] = 4e-8;
+  covariance[1] = covariance[6] = 1e-8;   // x with y
+  covariance[2] = covariance[12] = 2e-8;  // x with z
+  level.registration.uncertainty = nav::PoseUncertainty({}, covariance);
+  const auto lps = registration_json(level, {Axes::kLps, 1e-3});
+  const auto ras = registration_json(level, {Axes::kRas, 1e-3});
+  const auto at = [](const auto& json, int r, int c) {
+    return json["screws"][0]["entry_covariance_mm2"][r][c].template get<double>();
+  };
+  EXPECT_EQ(ras["covariance_frame"], "RAS");
+  EXPECT_NEAR(at(lps, 0, 2), 0.02, 1e-12);
+  EXPECT_NEAR(at(ras, 0, 2), -0.02, 1e-12) << "x turns, z does not";
+  EXPECT_NEAR(at(ras, 0, 1), 0.01, 1e-12) << "both turn";
+  EXPECT_NEAR(at(ras, 2, 2), 0.04, 1e-12);
+  EXPECT_NEAR(lps["predicted_tre_mm"].get<double>(), std::sqrt(0.12), 1e-9);
+}
+
+TEST(RegistrationJson, HasNoRunnerUpWhereThereIsNoneAndNullForWhatHasNoBound) {
+  RegisteredLevel level = exact();
+  level.registration.uncertainty.reset();
+  level.registration.predicted_tre_m = std::numeric_limits<double>::infinity();
+  const auto json = registration_json(level, {});
+  EXPECT_FALSE(json.contains("runner_up_rmse_mm"));
+  EXPECT_THAT(json["ambiguity"].get<std::string>(), HasSubstr("no other pose"));
+  EXPECT_TRUE(json["predicted_tre_mm"].is_null());
+  EXPECT_TRUE(json["screws"][0]["predicted_target_tre_95_mm"].is_null());
+}
+
+TEST(RegistrationFigures, MeasureTheRunnerUpAtTheWorstScrew) {
+  RegisteredLevel level = exact();
+  const Transform<World, Vertebra>& pose = level.registration.world_from_vertebra;
+  // Half round the spine: the left screws lie where the right ones were.
+  const Transform<Vertebra, Vertebra> turn(rotation_from_vector({0, 0, 3.14159265358979}), {});
+  level.registration.runner_up = pose * turn;
+  level.registration.runner_up_rmse_m = 0.002;
+  level.registration.margin = 3.0;
+  double worst = 0.0;
+  for (const nav::ScrewPlan& s : level.screws)
+    for (const Vec3 v : {s.entry.v, s.target.v})
+      worst = std::max(worst, 2.0 * std::hypot(v.x, v.y));
+  const auto distance = runner_up_distance(level);
+  ASSERT_TRUE(distance.has_value());
+  EXPECT_NEAR(distance->apart_m, worst, 1e-9);
+  EXPECT_NEAR(distance->turned_rad, 3.14159265, 1e-6);
+  EXPECT_THAT(ambiguity_of(level), StartsWith("ambiguous: another pose, "));
+  level.registration.margin = 50.0;
+  EXPECT_THAT(ambiguity_of(level), StartsWith("unambiguous: the next best pose, "));
+  level.registration.fits_better = "L5";
+  EXPECT_EQ(ambiguity_of(level), "ambiguous: the points fit level L5 as well or better");
+}
+
+TEST(RegistrationFigures, SayHowSureInPlainWords) {
+  RegisteredLevel level = exact();
+  level.registration.weakest = "slides along the spine (0.4 mm at the screws)";
+  level.registration.advice = "stroke the left lamina";
+  EXPECT_THAT(certainty_of(level),
+              AllOf(StartsWith("95 of 100 errors at the screws are expected to be below 0.6"),
+                    HasSubstr("Least sure: slides along the spine (0.4 mm at the screws). To know "
+                              "it better: stroke the left lamina.")));
+  level.registration.accepted = false;
+  EXPECT_THAT(certainty_of(level), StartsWith("Were this pose right, "));
+}
+
+}  // namespace
+}  // namespace orthonav::engine

@@ -1,0 +1,261 @@
+#include "engine/session/coach.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <limits>
+#include <mutex>
+#include <tuple>
+
+#include "base/random.h"
+#include "engine/case/operation_plan.h"
+#include "engine/phantom/phantom.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine::coach_test {
+namespace {
+
+using test::pointer_at;
+using test::ScriptedOperation;
+using enum ClickerAction;
+using ::testing::HasSubstr;
+
+nav::Registration promising() {
+  nav::Registration r;
+  r.margin = 30.0;
+  r.predicted_tre_m = 0.0024;
+  r.advice = "stroke the left lamina";
+  r.reasons = {"error expected at the screws 2.4 mm, limit 1.5 mm"};
+  return r;
+}
+
+TEST(Coaching, SaysWhatToExpectAndWhereToStroke) {
+  nav::Registration r = promising();
+  EXPECT_EQ(text_of(coaching_from(r)), "2.4 mm expected, stroke the left lamina");
+  r.predicted_tre_m = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(text_of(coaching_from(r)), "-- mm expected, stroke the left lamina");
+}
+
+TEST(Coaching, SaysWhenItIsEnough) {
+  nav::Registration r = promising();
+  r.accepted = true;
+  r.reasons.clear();
+  r.predicted_tre_m = 0.0006;
+  EXPECT_EQ(text_of(coaching_from(r)), "0.6 mm expected, enough to register");
+}
+
+TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
+  nav::Registration r = promising();
+  r.margin = 3.0;
+  r.predicted_tre_m = 0.0006;
+  EXPECT_EQ(text_of(coaching_from(r)), "could be more than one pose, stroke the left lamina");
+}
+
+TEST(Coaching, SaysWhatElseStandsAgainstASmallError) {
+  nav::Registration r = promising();
+  r.predicted_tre_m = 0.0006;
+  r.reasons = {"the points scatter 1.9 mm about the surface, limit 1.6 mm"};
+  EXPECT_EQ(text_of(coaching_from(r)),
+            "0.6 mm expected, the points scatter 1.9 mm about the surface, limit 1.6 mm");
+}
+
+/// A registrar that answers when it is let, and counts.
+struct Gate {
+  std::mutex mutex;
+  std::condition_variable opened;
+  bool open = true;
+  std::atomic<int> asked = 0;
+  std::atomic<std::size_t> points = 0;
+
+  Registrar registrar() {
+    return [this](const RegistrationRequest& request) -> Result<nav::Registration> {
+      std::unique_lock lock(mutex);
+      opened.wait(lock, [this] { return open; });
+      ++asked;
+      points = request.points_in_world.size();
+      nav::Registration r = promising();
+      // Falls as samples come in.
+      r.predicted_tre_m = 0.1 / static_cast<double>(request.points_in_world.size());
+      return r;
+    };
+  }
+  void set_open(bool value) {
+    const std::lock_guard lock(mutex);
+    open = value;
+    opened.notify_all();
+  }
+};
+
+class CoachTest : public ::testing::Test {
+ protected:
+  CoachTest() : coach(gate.registrar()) {}
+  void stroke(std::size_t samples) {
+    for (std::size_t i = 0; i < samples; ++i)
+      regions.back().samples.push_back({Point<World>{{0.001, 0.0, 0.0}}, {}});
+  }
+  void pairs(int n) {
+    for (int i = 0; i < n; ++i) coach.step(operation.levels[0], regions);
+  }
+  Operation operation = test::operation_of({"L4"});
+  std::vector<nav::Region> regions = std::vector<nav::Region>(1);
+  Gate gate;
+  Coach coach;
+};
+
+TEST_F(CoachTest, SaysNothingBeforeThereAreEnoughSamples) {
+  stroke(Coach::kFewestSamples - 1);
+  pairs(100);
+  EXPECT_EQ(gate.asked, 0);
+  EXPECT_FALSE(coach.newest().has_value());
+}
+
+TEST_F(CoachTest, AnswersExactlySoManyPairsLaterHoweverFastTheTrialIs) {
+  stroke(200);
+  pairs(1 + Coach::kPairsToAnswer - 1);
+  EXPECT_FALSE(coach.newest().has_value()) << "even though it is long done";
+  pairs(1);
+  ASSERT_TRUE(coach.newest().has_value());
+  EXPECT_DOUBLE_EQ(coach.newest()->expected_m, 0.1 / 200.0);
+}
+
+TEST_F(CoachTest, DoesNotHoldUpThePairsBetween) {
+  gate.set_open(false);
+  stroke(200);
+  pairs(Coach::kPairsToAnswer);  // would hang here if a pair awaited the trial
+  EXPECT_FALSE(coach.newest().has_value());
+  gate.set_open(true);
+  pairs(1);
+  EXPECT_TRUE(coach.newest().has_value());
+}
+
+TEST_F(CoachTest, TriesTheSamplesAsTheyWereWhenItStarted) {
+  stroke(200);
+  pairs(1);
+  stroke(30);
+  pairs(Coach::kPairsToAnswer);
+  EXPECT_EQ(gate.points, 200u);
+}
+
+TEST_F(CoachTest, TriesAgainAfterSoManyNewSamplesAndNotBefore) {
+  stroke(200);
+  pairs(1 + Coach::kPairsToAnswer);
+  stroke(Coach::kNewSamples - 1);
+  pairs(40);
+  EXPECT_EQ(gate.asked, 1);
+  stroke(1);
+  pairs(1 + Coach::kPairsToAnswer);
+  EXPECT_EQ(gate.asked, 2);
+  EXPECT_LT(coach.newest()->expected_m, 0.1 / 200.0);
+}
+
+TEST_F(CoachTest, TriesAgainWhenStrokesAreDeleted) {
+  stroke(200);
+  pairs(1 + Coach::kPairsToAnswer);
+  regions[0].samples.resize(150);
+  pairs(1 + Coach::kPairsToAnswer);
+  EXPECT_DOUBLE_EQ(coach.newest()->expected_m, 0.1 / 150.0);
+  regions[0].samples.clear();
+  pairs(1);
+  EXPECT_FALSE(coach.newest().has_value()) << "told of strokes that are gone";
+}
+
+TEST_F(CoachTest, ForgetsATrialUnderWay) {
+  stroke(200);
+  pairs(3);
+  coach.forget();
+  regions[0].samples.clear();
+  pairs(2 * Coach::kPairsToAnswer);
+  EXPECT_FALSE(coach.newest().has_value());
+}
+
+TEST_F(CoachTest, EndsWithATrialUnderWay) {
+  gate.set_open(false);
+  auto other = std::make_unique<Coach>(gate.registrar());
+  stroke(200);
+  other->step(operation.levels[0], regions);
+  gate.set_open(true);
+  other.reset();
+  EXPECT_EQ(gate.asked, 1);
+}
+
+/// The reachable side of the phantom's L4 from its left to its right, 0.3 mm noisy.
+std::vector<nav::Sample> sweep_of(const nav::VertebraModel& model, std::size_t count) {
+  std::vector<Vec3> places = model.reachable().vertices_m;
+  std::sort(places.begin(), places.end(),
+            [](Vec3 a, Vec3 b) { return std::tuple(a.x, a.y, a.z) > std::tuple(b.x, b.y, b.z); });
+  const Transform<World, Vertebra> pose{rotation_from_vector({0.4, -1.2, 0.3}), {0.3, -0.9, 0.5}};
+  Random random(7);
+  std::vector<nav::Sample> samples;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 noise{random.normal(), random.normal(), random.normal()};
+    samples.push_back(
+        {pose * Point<Vertebra>{places[i * places.size() / count] + 0.0003 * noise}, {}});
+  }
+  return samples;
+}
+
+TEST(CoachByBest, ExpectsLessAsSamplesComeInAndTheSameEveryTime) {
+  const Operation operation = plan_operation(phantom(), {"L4"}).value();
+  const OperatedLevel& level = operation.levels[0];
+  const std::vector<nav::Sample> sweep = sweep_of(*level.model, 500);
+  std::vector<std::vector<double>> expected_m;
+  std::vector<std::string> last;
+  for (int run = 0; run < 2; ++run) {
+    Coach coach(registrar_named("best").value());
+    std::vector<nav::Region> regions(1);
+    expected_m.emplace_back();
+    for (const nav::Sample& sample : sweep) {
+      regions[0].samples.push_back(sample);
+      coach.step(level, regions);
+      expected_m.back().push_back(coach.newest() ? coach.newest()->expected_m : -1.0);
+    }
+    ASSERT_TRUE(coach.newest().has_value());
+    last.push_back(text_of(*coach.newest()));
+  }
+  EXPECT_EQ(expected_m[0], expected_m[1]) << "at the same pairs too";
+  EXPECT_EQ(last[0], last[1]);
+  const double early_m = expected_m[0][Coach::kFewestSamples + Coach::kPairsToAnswer];
+  EXPECT_GT(early_m, 0.0);
+  EXPECT_LT(expected_m[0].back(), 0.7 * early_m);
+  EXPECT_THAT(last[0], HasSubstr("enough to register"));
+}
+
+TEST(CoachedSession, ShowsItBesideThePointsAndRegistersNothingByIt) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch, true);
+  s.registration = promising();
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(120);
+  const Guidance& g = s.pairs(20);
+  EXPECT_EQ(g.detail, "120 points | 2.4 mm expected, stroke the left lamina");
+  EXPECT_EQ(g.levels[0].attempts, 0);
+  EXPECT_FALSE(g.levels[0].registration.has_value());
+  EXPECT_EQ(g.step, Step::kDigitize);
+}
+
+TEST(CoachedSession, ARefusalSaysWhatToStrokeNextAndKeepsSayingIt) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch, true);
+  s.registration = promising();
+  s.registers_first_level();
+  EXPECT_EQ(s.pair().detail,
+            "refused: error expected at the screws 2.4 mm, limit 1.5 mm; stroke the left lamina");
+  s.registration.fits_better = "L3";
+  s.registration.reasons = {"the points fit level L3 as well"};
+  EXPECT_EQ(s.does({kDoubleClick}).detail,
+            "refused: the points fit level L3 as well; make sure of the level");
+}
+
+TEST(CoachedSession, WithoutCoachingThereIsOnlyTheCount) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch, false);
+  s.registration = promising();
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(120);
+  EXPECT_EQ(s.pairs(20).detail, "120 points");
+  EXPECT_TRUE(s.registered_points.empty());
+}
+
+}  // namespace
+}  // namespace orthonav::engine::coach_test

@@ -1,0 +1,127 @@
+#include <gmock/gmock.h>
+
+#include "engine/session/session.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine::session_rod_test {
+namespace {
+
+using test::pointer_at;
+using test::ScriptedOperation;
+using enum ClickerAction;
+
+// Arithmetic on values of the order of 1: far below what any device resolves.
+constexpr double kExact = 1e-9;
+
+class RodSession : public ::testing::Test {
+ protected:
+  RodSession() : s({"L5"}) {
+    s.accepts_first_level();
+    s.says("next");
+    s.says("next");
+    s.says("next");
+  }
+  ScriptedOperation s;
+};
+
+TEST_F(RodSession, RecordsHeadsAtTheTipAndJoinsThem) {
+  ASSERT_EQ(s.pair().step_text, "rod left");
+  s.touches({0.02, 0.03, 0.00});
+  EXPECT_FALSE(s.session().rods()[0].rod.has_value());
+  const Guidance& g = s.touches({0.02, 0.03, 0.04});
+  ASSERT_EQ(g.rods[0].heads.size(), 2u);
+  EXPECT_NEAR((g.rods[0].heads[1].v - Vec3{0.02, 0.03, 0.04}).norm(), 0.0, kExact);
+  ASSERT_TRUE(g.rods[0].rod.has_value());
+  EXPECT_NEAR(g.rods[0].rod->length_m, 0.04, 1e-6);
+  EXPECT_EQ(g.detail, "2 heads");
+}
+
+TEST_F(RodSession, DropsTheLastHead) {
+  s.touches({0.02, 0.03, 0.00});
+  s.touches({0.02, 0.03, 0.04});
+  const Guidance& g = s.says("delete");
+  EXPECT_EQ(g.rods[0].heads.size(), 1u);
+  EXPECT_FALSE(g.rods[0].rod.has_value());
+  s.says("delete");
+  EXPECT_EQ(s.says("delete").detail, "no head to delete");
+}
+
+TEST_F(RodSession, DoesNotRecordAHeadWithAnUnseenPointer) {
+  s.tracker().pointer.reset();
+  s.pairs(5);
+  const Guidance& g = s.does({kPress, kRelease, kClick});
+  EXPECT_TRUE(g.rods[0].heads.empty());
+  EXPECT_EQ(g.detail, "pointer lost; head not recorded: pointer not seen");
+}
+
+TEST_F(RodSession, MovesTheRodsAwayAndBack) {
+  s.touches({0.02, 0.03, 0.00});
+  EXPECT_TRUE(s.says("move rod").rods_moved_away);
+  EXPECT_FALSE(s.says("move rod").rods_moved_away);
+}
+
+TEST_F(RodSession, AButtonHeldTooLongRecordsNothingAndSaysSo) {
+  s.tracker().pointer = pointer_at({0.02, 0.03, 0.00});
+  s.does({kPress});
+  EXPECT_EQ(s.does({kHold}).detail, "head not recorded: hold too long");
+  const Guidance& g = s.does({kRelease});
+  EXPECT_EQ(g.detail, "head not recorded: hold too long") << "letting go does not wipe it";
+  EXPECT_TRUE(g.rods[0].heads.empty());
+  // The next touch starts anew.
+  EXPECT_EQ(s.touches({0.02, 0.03, 0.01}).rods[0].heads.size(), 1u);
+}
+
+TEST_F(RodSession, TipsAfterTheReleaseHaveNoPartInTheHead) {
+  const Vec3 head{0.02, 0.03, 0.00};
+  s.tracker().pointer = pointer_at(head);
+  s.does({kPress});
+  s.does({kRelease});
+  s.tracker().pointer = pointer_at(head + Vec3{0.0005, 0, 0});
+  s.pairs(3);
+  const Guidance& g = s.does({kClick});
+  ASSERT_EQ(g.rods[0].heads.size(), 1u);
+  EXPECT_NEAR((g.rods[0].heads[0].v - head).norm(), 0.0, kExact);
+}
+
+/// A touch of two pairs whose tips lie `apart_m` from each other: the spread is half of it.
+const Guidance& touches_moving(ScriptedOperation& s, double apart_m) {
+  s.tracker().pointer = pointer_at({0.02, 0.03, 0.00});
+  s.does({kPress});
+  s.tracker().pointer = pointer_at({0.02 + apart_m, 0.03, 0.00});
+  s.pair();
+  return s.does({kRelease, kClick});
+}
+
+TEST_F(RodSession, RefusesATipThatMoved) {
+  EXPECT_EQ(touches_moving(s, 0.0059).rods[0].heads.size(), 1u);
+  const Guidance& g = touches_moving(s, 0.0064);
+  EXPECT_EQ(g.rods[0].heads.size(), 1u);
+  EXPECT_EQ(g.detail, "head not recorded: tip moved 3.2 mm, limit 3.0 mm");
+}
+
+TEST_F(RodSession, ADoubleClickLeavesNoTouchBehind) {
+  const Vec3 head{0.02, 0.03, 0.00};
+  s.touches(head);
+  s.does({kPress});
+  s.does({kRelease, kDoubleClick});
+  s.tracker().pointer = pointer_at({0.30, 0.03, 0.00});
+  s.pairs(5);
+  EXPECT_EQ(s.pair().rods[0].heads.size(), 1u);
+  // Had the second press gone on touching, the far tips would spoil this one.
+  const Guidance& g = s.touches(head + Vec3{0, 0, 0.04});
+  ASSERT_EQ(g.rods[0].heads.size(), 2u) << g.detail;
+  EXPECT_NEAR((g.rods[0].heads[1].v - (head + Vec3{0, 0, 0.04})).norm(), 0.0, kExact);
+}
+
+TEST_F(RodSession, APressForOneRodRecordsNothingOnTheOther) {
+  s.tracker().pointer = pointer_at({0.02, 0.03, 0.00});
+  s.does({kPress});
+  EXPECT_EQ(s.says("done").step_text, "rod right");
+  const Guidance& g = s.does({kRelease, kClick});
+  EXPECT_TRUE(g.rods[0].heads.empty());
+  EXPECT_TRUE(g.rods[1].heads.empty());
+  EXPECT_EQ(g.detail, "head not recorded: press again");
+}
+
+}  // namespace
+}  // namespace orthonav::engine::session_rod_test

@@ -1,0 +1,256 @@
+#include "engine/session/session.h"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine::session_test {
+namespace {
+
+using test::guide_at;
+using test::pointer_at;
+using test::ScriptedOperation;
+using enum ClickerAction;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
+// Arithmetic on values of the order of 1: far below what any device resolves.
+constexpr double kExact = 1e-9;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
+
+TEST(Session, BeginsWithTheFirstLevelWhenTold) {
+  ScriptedOperation s;
+  EXPECT_EQ(s.pair().step_text, "setup");
+  EXPECT_EQ(s.says("start").step_text, "digitize L4");
+}
+
+TEST(Session, RefusesWhatHasNoMeaningAndSaysSo) {
+  ScriptedOperation s;
+  const Guidance& g = s.says("accept");
+  EXPECT_EQ(g.step, Step::kSetup);
+  EXPECT_THAT(g.detail, HasSubstr("not possible now"));
+  EXPECT_THAT(g.detail, HasSubstr("accept"));
+}
+
+TEST(Session, DoesNotActOnWhatItHardlyUnderstood) {
+  ScriptedOperation s;
+  const Guidance& g = s.says("start", 0.49);
+  EXPECT_EQ(g.step, Step::kSetup);
+  EXPECT_EQ(g.detail, "not understood");
+  EXPECT_EQ(s.says("start", 0.5).step, Step::kDigitize);
+}
+
+TEST(Session, ShowsForAWhileWhatItHeard) {
+  ScriptedOperation s;
+  EXPECT_EQ(s.says("start").heard, "heard: start");
+  EXPECT_EQ(s.says("delete", 0.4).heard, "heard: delete? not sure");
+  EXPECT_EQ(s.pairs(50).heard, "heard: delete? not sure");
+  EXPECT_EQ(s.pairs(15).heard, "") << "two seconds later";
+  EXPECT_EQ(s.says("no command").heard, "");
+}
+
+TEST(Session, SamplesWhileTheButtonIsDownAndNotAfter) {
+  ScriptedOperation s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  const Guidance& g = s.pairs(3);
+  ASSERT_EQ(g.regions.size(), 1u);
+  EXPECT_EQ(g.regions[0].samples.size(), 5u);
+  EXPECT_FALSE(g.regions[0].saved);
+  EXPECT_EQ(g.detail, "5 points");
+}
+
+TEST(Session, DoesNotSampleAToolThatIsNotMeasured) {
+  ScriptedOperation s;
+  s.says("start");
+  s.strokes(5);
+  std::size_t samples = 0;
+  for (const nav::Region& region : s.pair().regions) samples += region.samples.size();
+  EXPECT_EQ(samples, 0u);
+}
+
+TEST(Session, RegistersWhatWasSavedAndOnlyThat) {
+  ScriptedOperation s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  s.says("save");
+  s.strokes(4);  // never saved
+  s.does({kDoubleClick});
+  EXPECT_THAT(s.registered_points, ::testing::ElementsAre(5u));
+}
+
+TEST(Session, StaysInDigitizeWithTheReasonWhenTheNumbersRefuse) {
+  ScriptedOperation s;
+  s.registration.accepted = false;
+  s.registration.reasons = {"registration RMSE 3.4 mm, limit 3.0 mm"};
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.says("start");
+  s.strokes(5);
+  s.says("save");
+  const Guidance& g = s.does({kDoubleClick});
+  EXPECT_EQ(g.step, Step::kDigitize);
+  EXPECT_EQ(g.detail, "refused: registration RMSE 3.4 mm, limit 3.0 mm");
+  EXPECT_EQ(g.levels[0].attempts, 1);
+  EXPECT_FALSE(g.levels[0].registration.has_value());
+  // The saved regions stay: more strokes may heal it.
+  EXPECT_EQ(g.regions.size(), 1u);
+}
+
+TEST(Session, SaysWhyARegistrationWasUnusable) {
+  ScriptedOperation s;
+  s.unusable = "0 points, at least 100 needed";
+  s.says("start");
+  const Guidance& g = s.does({kDoubleClick});
+  EXPECT_EQ(g.step, Step::kDigitize);
+  EXPECT_EQ(g.detail, "refused: 0 points, at least 100 needed");
+  EXPECT_EQ(g.levels[0].attempts, 1);
+}
+
+TEST(Session, GuidesOnlyAfterTheSurgeonsWord) {
+  ScriptedOperation s;
+  s.tracker().pointer = pointer_at({0, 0.02, 0});
+  s.tracker().guide = guide_at(kLeftEntry, 0.0);
+  s.says("start");
+  s.strokes(5);
+  s.says("save");
+  EXPECT_EQ(s.does({kDoubleClick}).step_text, "verify L4");
+  EXPECT_FALSE(s.pair().levels[0].accepted);
+  EXPECT_EQ(s.says("next").step, Step::kVerify);
+  EXPECT_EQ(s.says("accept").step_text, "accepted L4");
+  EXPECT_TRUE(s.pair().levels[0].accepted);
+  EXPECT_FALSE(s.pair().tool.has_value());
+  EXPECT_EQ(s.says("next").step_text, "guide L4 left");
+  EXPECT_TRUE(s.pair().tool.has_value());
+}
+
+TEST(Session, RejectClearsTheLevelInVerifyAcceptedAndGuide) {
+  for (const int words : {0, 1, 2}) {
+    ScriptedOperation s;
+    s.tracker().pointer = pointer_at({0, 0.02, 0});
+    s.says("start");
+    s.strokes(5);
+    s.says("save");
+    s.does({kDoubleClick});
+    if (words > 0) s.accepts();
+    if (words > 1) s.says("next");
+    const Guidance& g = s.says("reject");
+    EXPECT_EQ(g.step_text, "digitize L4") << words;
+    EXPECT_FALSE(g.levels[0].registration.has_value()) << words;
+    EXPECT_FALSE(g.levels[0].accepted) << words;
+    EXPECT_TRUE(g.regions.empty()) << words;
+    EXPECT_FALSE(g.tool.has_value()) << words;
+  }
+}
+
+TEST(Session, MeasuresTheAngleBetweenToolAndPlan) {
+  ScriptedOperation s;
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, radians(7.0));
+  s.pair();
+  const Guidance& g = s.pair();
+  ASSERT_TRUE(g.tool.has_value());
+  EXPECT_NEAR(g.tool->measured->angle_rad, radians(7.0), kExact);
+  EXPECT_NEAR(g.tool->measured->tip_to_entry_m, 0.0, kExact);
+}
+
+TEST(Session, PredictsTheOverlayButNotTheNumber) {
+  ScriptedOperation s;
+  s.latency = std::chrono::microseconds(33333);
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, radians(4.0));
+  s.pair();
+  s.tracker().guide = guide_at(kLeftEntry, radians(5.0));
+  const Guidance& g = s.pair();
+  ASSERT_TRUE(g.tool.has_value());
+  EXPECT_NEAR(g.tool->measured->angle_rad, radians(5.0), kExact);
+  EXPECT_NEAR(g.tool->shown.angle_rad, radians(6.0), 1e-6);
+}
+
+TEST(Session, HidesGuidanceOnceThePoseIsOlderThanItsLimit) {
+  ScriptedOperation s;
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, 0.0);
+  s.pairs(3);
+  ASSERT_TRUE(s.pair().tool.has_value());
+  // The tracker goes on predicting for ever; its measurement ages all the same.
+  s.tracker().guide_origin = Origin::kPredicted;
+  EXPECT_TRUE(s.pair().tool.has_value());
+  EXPECT_EQ(s.pair().detail, "guide lost");
+  EXPECT_FALSE(s.pairs(2).tool.has_value());
+  s.tracker().guide_origin = Origin::kMeasured;
+  const Guidance& g = s.pair();
+  EXPECT_TRUE(g.tool.has_value());
+  EXPECT_THAT(g.detail, StartsWith("RMSE"));
+}
+
+TEST(Session, GoesThroughEveryScrewLevelAndRodToTheEnd) {
+  ScriptedOperation s;
+  s.accepts_first_level();
+  EXPECT_EQ(s.says("next").step_text, "guide L4 left");
+  EXPECT_EQ(s.says("next").step_text, "guide L4 right");
+  EXPECT_EQ(s.says("next").step_text, "digitize L5");
+  s.strokes(5);
+  s.says("save");
+  EXPECT_EQ(s.does({kDoubleClick}).step_text, "verify L5");
+  s.accepts();
+  EXPECT_EQ(s.says("next").step_text, "guide L5 left");
+  EXPECT_EQ(s.says("next").step_text, "guide L5 right");
+  EXPECT_EQ(s.says("next").step_text, "rod left");
+  EXPECT_EQ(s.says("done").step_text, "rod right");
+  EXPECT_EQ(s.says("done").step_text, "done");
+  for (const LevelState& level : s.session().levels()) {
+    EXPECT_TRUE(level.accepted) << level.plan.label << ": stays registered";
+    EXPECT_THAT(level.screw_done, ::testing::Each(true));
+  }
+}
+
+TEST(SessionOptions, NamesEveryProblem) {
+  SessionOptions bad;
+  bad.stale_after = Duration::zero();
+  bad.min_voice_confidence = 2.0;
+  bad.rod_diameter_m = 0.1;
+  EXPECT_EQ(bad.check().size(), 3u);
+  EXPECT_TRUE(SessionOptions{}.check().empty());
+}
+
+TEST(Session, RefusesAnOperationWithoutScrewsOrWithDoubleLabels) {
+  Operation operation = test::operation_of({"L4", "L4"});
+  operation.levels[0].screws.clear();
+  const auto made =
+      Session::create(std::move(operation), std::make_unique<test::ScriptedTracker>(), Method{});
+  ASSERT_FALSE(made.ok());
+  EXPECT_THAT(made.error().message, HasSubstr("no screw"));
+  EXPECT_THAT(made.error().message, HasSubstr("named twice"));
+}
+
+TEST(Method, AnUnknownOneIsRefusedInOneLine) {
+  EXPECT_TRUE(method_named("best").ok());
+  const auto other = method_named("fastest");
+  ASSERT_FALSE(other.ok());
+  EXPECT_THAT(other.error().message, HasSubstr("available: best, paper"));
+  EXPECT_THAT(registrar_named("fastest").error().message, HasSubstr("available: best, paper"));
+  EXPECT_TRUE(registrar_named("best").ok());
+  EXPECT_TRUE(registrar_named("paper").ok());
+  EXPECT_TRUE(method_named("paper").ok());
+  EXPECT_FALSE(method_named("Paper ").ok());
+}
+
+TEST(Method, OnlyThePublishedOneIsVerifiedByEyeAlone) {
+  EXPECT_EQ(method_named("best")->verification, Verification::kByTouch);
+  EXPECT_EQ(method_named("paper")->verification, Verification::kByEye);
+  EXPECT_EQ(Method{}.verification, Verification::kByTouch) << "nobody forgets it";
+  EXPECT_TRUE(method_named("best")->coaching);
+  EXPECT_FALSE(method_named("paper")->coaching);
+}
+
+}  // namespace
+}  // namespace orthonav::engine::session_test

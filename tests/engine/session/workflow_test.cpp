@@ -1,0 +1,140 @@
+#include "engine/session/workflow.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace orthonav::engine::workflow_test {
+namespace {
+
+constexpr const char* kBegin = "<!-- workflow begin -->\n";
+constexpr const char* kEnd = "<!-- workflow end -->";
+
+std::string written_workflow() {
+  std::ifstream in(std::string(ORTHONAV_SOURCE_DIR) + "/docs/safety.md");
+  std::stringstream text;
+  text << in.rdbuf();
+  const std::string all = text.str();
+  const std::size_t begin = all.find(kBegin);
+  const std::size_t end = all.find(kEnd);
+  if (begin == std::string::npos || end == std::string::npos) return {};
+  const std::size_t from = begin + std::string(kBegin).size();
+  return all.substr(from, end - from);
+}
+
+TEST(Workflow, IsWrittenDownAsItIs) {
+  EXPECT_EQ(written_workflow(), workflow_diagram())
+      << "docs/safety.md is stale; between its two workflow marks belongs:\n"
+      << workflow_diagram();
+}
+
+TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
+  // Raised by the session itself, in these steps only.
+  constexpr std::pair<Step, Event> kRaised[] = {
+      {Step::kDigitize, Event::kRegistered}, {Step::kDigitize, Event::kRegistrationRefused},
+      {Step::kVerify, Event::kChecked},      {Step::kVerify, Event::kNotChecked},
+      {Step::kGuide, Event::kAnotherScrew},  {Step::kGuide, Event::kAnotherLevel},
+      {Step::kGuide, Event::kNoScrewLeft},   {Step::kRod, Event::kAnotherSide},
+      {Step::kRod, Event::kNoSideLeft}};
+  for (const auto& [step, event] : kRaised)
+    EXPECT_NE(answer(step, event).action, Action::kRefuse) << name_of(step) << name_of(event);
+  // A button says nothing by itself: pressing it somewhere else is no mistake.
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold})
+      EXPECT_NE(answer(static_cast<Step>(s), event).action, Action::kRefuse) << s;
+}
+
+TEST(Workflow, AForgottenCellRefusesAndStays) {
+  // No rule is written for this one.
+  EXPECT_EQ(answer(Step::kSetup, Event::kSayAccept), (Cell{Step::kSetup, Action::kRefuse}));
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (const Cell& cell : kWorkflow[s])
+      if (cell.action == Action::kRefuse) {
+        EXPECT_EQ(cell.next, static_cast<Step>(s));
+      }
+}
+
+TEST(Workflow, EveryStepCanBeReachedAndAllButTheLastCanBeLeft) {
+  std::set<Step> reached = {Step::kSetup};
+  for (std::size_t round = 0; round < kStepCount; ++round)
+    for (const Step step : std::set<Step>(reached))
+      for (std::size_t e = 0; e < kEventCount; ++e)
+        reached.insert(answer(step, static_cast<Event>(e)).next);
+  EXPECT_EQ(reached.size(), kStepCount);
+  for (std::size_t s = 0; s + 1 < kStepCount; ++s) {
+    bool leaves = false;
+    for (const Cell& cell : kWorkflow[s]) leaves = leaves || cell.next != static_cast<Step>(s);
+    EXPECT_TRUE(leaves) << name_of(static_cast<Step>(s));
+  }
+}
+
+class EveryVerification : public ::testing::TestWithParam<Verification> {};
+INSTANTIATE_TEST_SUITE_P(Workflow, EveryVerification,
+                         ::testing::Values(Verification::kByTouch, Verification::kByEye));
+
+TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
+  // What is raised on his "accept" when the touched places bear it out, else the word itself.
+  const Event accepting =
+      GetParam() == Verification::kByTouch ? Event::kChecked : Event::kSayAccept;
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (std::size_t e = 0; e < kEventCount; ++e) {
+      const auto step = static_cast<Step>(s);
+      const auto event = static_cast<Event>(e);
+      const Step next = answer(step, event, GetParam()).next;
+      if (next == Step::kAccepted && step != Step::kAccepted) {
+        EXPECT_TRUE(step == Step::kVerify && event == accepting) << s << " " << e;
+      }
+      if (next == Step::kGuide && step != Step::kGuide) {
+        EXPECT_TRUE(step == Step::kAccepted && event == Event::kSayNext) << s << " " << e;
+      }
+    }
+  EXPECT_EQ(answer(Step::kVerify, accepting, GetParam()), (Cell{Step::kAccepted, Action::kAccept}));
+}
+
+TEST(Workflow, VerifyingByTouchTheWordAloneAcceptsNothing) {
+  EXPECT_EQ(answer(Step::kVerify, Event::kSayAccept), (Cell{Step::kVerify, Action::kJudgeChecks}));
+  EXPECT_EQ(answer(Step::kVerify, Event::kNotChecked).next, Step::kVerify);
+}
+
+TEST(Workflow, VerifyingByEyeDiffersInVerifyAlone) {
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (std::size_t e = 0; e < kEventCount; ++e) {
+      const auto step = static_cast<Step>(s);
+      const auto event = static_cast<Event>(e);
+      if (step == Step::kVerify) continue;
+      EXPECT_EQ(answer(step, event, Verification::kByEye), answer(step, event)) << s << " " << e;
+    }
+  // The published way has nothing to click at and nothing to take back.
+  for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold})
+    EXPECT_EQ(answer(Step::kVerify, event, Verification::kByEye),
+              (Cell{Step::kVerify, Action::kIgnore}));
+  EXPECT_EQ(answer(Step::kVerify, Event::kSayDelete, Verification::kByEye).action, Action::kRefuse);
+}
+
+TEST(Workflow, LosingAToolNeverChangesTheStep) {
+  for (std::size_t s = 0; s < kStepCount; ++s)
+    for (const Event event : {Event::kTrackingLost, Event::kPoseStale, Event::kTrackingRegained}) {
+      const Cell cell = answer(static_cast<Step>(s), event);
+      EXPECT_EQ(cell.next, static_cast<Step>(s));
+      EXPECT_NE(cell.action, Action::kRefuse) << "what tracking finds out can't be refused";
+    }
+}
+
+TEST(Workflow, AStalePoseHidesWhereverAToolIsUsed) {
+  for (const Step step : {Step::kDigitize, Step::kVerify, Step::kGuide, Step::kRod})
+    EXPECT_EQ(answer(step, Event::kPoseStale).action, Action::kHideGuidance) << name_of(step);
+}
+
+TEST(Workflow, NamesAreDistinct) {
+  std::set<std::string_view> names;
+  for (std::size_t e = 0; e < kEventCount; ++e) names.insert(name_of(static_cast<Event>(e)));
+  EXPECT_EQ(names.size(), kEventCount);
+  names.clear();
+  for (std::size_t a = 0; a < kActionCount; ++a) names.insert(name_of(static_cast<Action>(a)));
+  EXPECT_EQ(names.size(), kActionCount);
+}
+
+}  // namespace
+}  // namespace orthonav::engine::workflow_test

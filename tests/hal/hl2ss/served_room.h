@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "hal/hl2ss/hl2ss_headset.h"
+#include "hal/hl2ss/server/server.h"
+#include "hal/sim/sim_headset.h"
+#include "tests/support/bare_room.h"
+
+namespace orthonav::test {
+
+/// How long a test waits for what must come, before it fails.
+inline constexpr auto kLongest = std::chrono::seconds(20);
+
+/// The server over a simulated room on free ports.
+class ServedRoom {
+ public:
+  explicit ServedRoom(const sim::SimOptions& sim, hl2ss::ServerOptions options = {},
+                      sim::RoomDescription room = bare_room());
+  /// Opens a headset that is connected to it.
+  [[nodiscard]] std::unique_ptr<hl2ss::Hl2ssHeadset> connect(
+      hl2ss::VideoProfile profile = hl2ss::VideoProfile::kRaw) const;
+  [[nodiscard]] hl2ss::Server& server() { return *server_; }
+  [[nodiscard]] hl2ss::Hl2ssOptions client_options() const;
+
+ private:
+  std::unique_ptr<hl2ss::Server> server_;
+};
+
+/// Asks until a pair or the end comes; kNone only after `kLongest`. Errors are counted and passed
+/// over.
+Next next_pair(Headset& headset, StereoFrame& frame, int* errors = nullptr);
+
+}  // namespace orthonav::test

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/srgb.h"
+#include "tests/hal/openxr/runtime_test.h"
+
+namespace orthonav::test {
+
+/// Compares what the compositor got with what the renderer of images draws for the same scene and
+/// views; no picture needs to be kept.
+class FrameComparison {
+ public:
+  FrameComparison(int width_px, int height_px, render::Blend blend) {
+    render::RendererOptions options;
+    options.width_px = width_px;
+    options.height_px = height_px;
+    options.blend = blend;
+    options.device = "llvmpipe";
+    options.cache_folder = "";
+    std::string error;
+    renderer_ = render::Renderer::create(options, error);
+    EXPECT_NE(renderer_, nullptr) << error;
+  }
+
+  /// The largest difference of any colour of both eyes, of 255; and how many pixels are lit.
+  struct Difference {
+    int most = 0;
+    std::size_t lit_px = 0;
+  };
+  Difference compare(const DrawnScene& drawn, const SubmittedFrame& frame) {
+    std::vector<render::Image> images;
+    std::string error;
+    EXPECT_TRUE(renderer_->draw(drawn.scene, drawn.views, {}, images, error)) << error;
+    Difference difference;
+    for (std::size_t eye = 0; eye < 2; ++eye)
+      add(images[eye].rgba, frame.pixels[eye], frame.format, difference);
+    return difference;
+  }
+
+ private:
+  static bool is_swapped(std::int64_t format) {
+    return format == VK_FORMAT_B8G8R8A8_SRGB || format == VK_FORMAT_B8G8R8A8_UNORM;
+  }
+  static bool is_linear(std::int64_t format) {
+    return format == VK_FORMAT_R8G8B8A8_UNORM || format == VK_FORMAT_B8G8R8A8_UNORM;
+  }
+  static void add(const std::vector<std::uint8_t>& expected, const std::vector<std::uint8_t>& got,
+                  std::int64_t format, Difference& difference) {
+    ASSERT_EQ(expected.size(), got.size());
+    for (std::size_t i = 0; i < got.size(); ++i) {
+      if (i % 4 == 3) continue;
+      const std::size_t from = is_swapped(format) ? i - i % 4 + (2 - i % 4) : i;
+      int wanted = expected[i];
+      if (is_linear(format))
+        wanted = static_cast<int>(std::lround(255.0 * linear_from_srgb(wanted / 255.0)));
+      difference.most = std::max(difference.most, std::abs(wanted - got[from]));
+      if (i % 4 == 0 && (got[i] | got[i + 1] | got[i + 2]) != 0) ++difference.lit_px;
+    }
+  }
+
+  std::unique_ptr<render::Renderer> renderer_;
+};
+
+/// The frames that had pixels, and what was drawn into them, the newest first.
+inline std::vector<std::pair<DrawnScene, SubmittedFrame>> matched(
+    const std::vector<DrawnScene>& drawn, const std::vector<SubmittedFrame>& frames) {
+  std::vector<std::pair<DrawnScene, SubmittedFrame>> pairs;
+  auto scene = drawn.rbegin();
+  for (auto frame = frames.rbegin(); frame != frames.rend() && scene != drawn.rend(); ++frame)
+    if (frame->layers > 0) pairs.emplace_back(*scene++, *frame);
+  return pairs;
+}
+
+}  // namespace orthonav::test

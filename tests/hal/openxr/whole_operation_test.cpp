@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/phantom/phantom.h"
+#include "engine/study/sim_scenario.h"
+#include "engine/study/simulated_operation.h"
+#include "hal/sim/sim_headset.h"
+#include "tests/hal/openxr/drawn_frames.h"
+
+namespace orthonav::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Key;
+
+// Slower than any headset: at its rate the software rasteriser would take half of two cores.
+constexpr std::int64_t kPeriodNs = 50'000'000;
+
+/// A brisk surgeon's operation of one level, without errors, on the headset under test.
+class OperationOnOpenxr : public RuntimeTest {
+ protected:
+  void SetUp() override {
+    RuntimeTraits traits;
+    traits.stepped = false;
+    traits.period_ns = kPeriodNs;
+    traits.frames_kept = 8;
+    runtime().reset(traits);
+    const engine::Case spine = engine::phantom();
+    engine::ModelCache models;
+    auto operation = engine::plan_operation(spine, {"L5"}, models);
+    ASSERT_TRUE(operation.ok()) << operation.error().message;
+    sim::SimOptions options;
+    options.magnitudes = sim::Magnitudes::perfect();
+    options.magnitudes.pace = 4.0;
+    auto room = sim::SimHeadset::open(engine::room_of(spine, *operation, engine::built_in_tools()),
+                                      options);
+    ASSERT_TRUE(room.ok()) << room.error().message;
+    const auto tools = engine::described_tools(**room);
+    auto method = engine::method_named("best");
+    ASSERT_TRUE(method.ok());
+    auto tracker = method->create_tracker((*room)->cameras().calibration(), tools,
+                                          {.full_search_interval = 10});
+    ASSERT_TRUE(tracker.ok());
+    headset_ = openxr::OpenxrHeadset::around(std::move(*room), {});
+    auto session = engine::Session::create(std::move(*operation), std::move(*tracker), *method);
+    ASSERT_TRUE(session.ok());
+    session_ = std::move(*session);
+  }
+
+  engine::LoopReport run(engine::LoopObserver* observer = nullptr) {
+    EXPECT_TRUE(present().ok());
+    engine::LoopOptions options;
+    options.drop_late_snapshots = true;
+    engine::SceneBuilder builder;
+    engine::FrameLoop loop(*headset_, *session_, builder, options);
+    loop.draw_into(presenter_.get());
+    loop.observe(observer);
+    auto report = loop.run();
+    EXPECT_TRUE(report.ok()) << report.error().message;
+    return report ? *report : engine::LoopReport{};
+  }
+
+  std::unique_ptr<engine::Session> session_;
+};
+
+/// Some way into each step: what was submitted last.
+class Watch : public engine::LoopObserver {
+ public:
+  explicit Watch(RuntimeDouble& runtime) : runtime_(runtime) {}
+  void stepped(const StereoFrame&, const engine::Inputs&, const engine::Guidance& now) override {
+    if (now.step != step_) {
+      step_ = now.step;
+      pairs_in_step_ = 0;
+      frames_before_ = runtime_.ended_frames();
+    }
+    ++pairs_in_step_;
+    // So many, so that the step's holograms have come up and were drawn.
+    if (pairs_in_step_ < 10 || runtime_.ended_frames() < frames_before_ + 4) return;
+    if (frames_.contains(step_)) return;
+    const SubmittedFrame last = runtime_.frames().back();
+    // Until the first picture, and only until then, frames are without one.
+    if (last.layers > 0 || !frames_.empty()) frames_[step_] = last;
+  }
+  [[nodiscard]] const std::map<engine::Step, SubmittedFrame>& frames() const { return frames_; }
+
+ private:
+  RuntimeDouble& runtime_;
+  std::map<engine::Step, SubmittedFrame> frames_;
+  engine::Step step_ = engine::Step::kSetup;
+  int pairs_in_step_ = 0;
+  std::int64_t frames_before_ = 0;
+};
+
+/// The drawn scene that belongs to a frame: the one that was drawn for its eyes.
+const DrawnScene* scene_of(const SubmittedFrame& frame, const std::vector<DrawnScene>& drawn,
+                           std::int64_t first_drawn) {
+  const std::int64_t index = frame.number - first_drawn;
+  return index >= 0 && index < static_cast<std::int64_t>(drawn.size())
+             ? &drawn[static_cast<std::size_t>(index)]
+             : nullptr;
+}
+
+TEST_F(OperationOnOpenxr, GoesThroughWithEachStepsFramesAsTheRendererDrawsThem) {
+  Watch watch(runtime());
+  const engine::LoopReport report = run(&watch);
+  EXPECT_TRUE(report.done);
+  EXPECT_EQ(report.draw_failures, 0) << report.last_failure;
+  const auto presented = presenter_->stop();
+  EXPECT_EQ(presented.losses, 0);
+  EXPECT_GT(presented.drawn, 100);
+  EXPECT_THAT(watch.frames(),
+              AllOf(Contains(Key(engine::Step::kDigitize)), Contains(Key(engine::Step::kVerify)),
+                    Contains(Key(engine::Step::kGuide)), Contains(Key(engine::Step::kRod))));
+  // Once the first snapshot is there and the runtime wants pixels, every frame has some.
+  const std::vector<DrawnScene> all = drawn();
+  const auto last = runtime().frames();
+  std::int64_t first_drawn = -1;
+  for (const auto& frame : last)
+    if (frame.layers > 0) first_drawn = frame.number + 1 - static_cast<std::int64_t>(all.size());
+  FrameComparison comparison(160, 120, render::Blend::kAdditive);
+  for (const auto& [step, frame] : watch.frames()) {
+    const DrawnScene* scene = scene_of(frame, all, first_drawn);
+    ASSERT_NE(scene, nullptr) << engine::name_of(step);
+    const auto difference = comparison.compare(*scene, frame);
+    EXPECT_EQ(difference.most, 0) << engine::name_of(step);
+    EXPECT_GT(difference.lit_px, 20u) << engine::name_of(step);
+  }
+}
+
+TEST_F(OperationOnOpenxr, ComesToItsEndThroughALossOfTheRuntimeAndOfTheSession) {
+  runtime().at_frame(30, [] { runtime_double().lose_session(true); });
+  runtime().at_frame(80, [] { runtime_double().lose_instance(false); });
+  const engine::LoopReport report = run();
+  EXPECT_TRUE(report.done);
+  const auto presented = presenter_->stop();
+  EXPECT_EQ(presented.losses, 2);
+  EXPECT_EQ(runtime().sessions(), 3);
+  EXPECT_THAT(presented.problems, Contains(HasSubstr("XR_ERROR_INSTANCE_LOST")));
+}
+
+TEST_F(OperationOnOpenxr, ARecentringTakesTheRegistrationBackAndItIsMadeAnew) {
+  class Recentre : public engine::LoopObserver {
+   public:
+    void stepped(const StereoFrame& frame, const engine::Inputs&,
+                 const engine::Guidance& now) override {
+      if (now.step == engine::Step::kGuide && !told_) {
+        told_ = true;
+        runtime_double().recentre({{0, 0, 0, 1}, {0.4f, 0, 0}}, true, 1);
+      }
+      if (told_ && frame.map_epoch == 1 && !answered_) {
+        answered_ = true;
+        step_then_ = now.step;
+        registered_then_ = now.levels[now.level].registration.has_value();
+      }
+    }
+    bool told_ = false;
+    bool answered_ = false;
+    bool registered_then_ = true;
+    engine::Step step_then_ = engine::Step::kDone;
+  } recentre;
+  const engine::LoopReport report = run(&recentre);
+  ASSERT_TRUE(recentre.answered_);
+  EXPECT_EQ(recentre.step_then_, engine::Step::kDigitize);
+  EXPECT_FALSE(recentre.registered_then_);
+  EXPECT_TRUE(report.done) << "the surgeon digitizes again";
+}
+
+}  // namespace
+}  // namespace orthonav::test

@@ -1,0 +1,299 @@
+#include "hal/replay/recorder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include "hal/fake/failing.h"
+#include "hal/replay/replay_headset.h"
+#include "tests/support/recorded_session.h"
+#include "tests/support/scripted_session.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::replay {
+namespace {
+
+using orthonav::test::content_of;
+using orthonav::test::expect_same;
+using orthonav::test::play;
+using orthonav::test::play_to_the_end;
+using orthonav::test::scripted_session;
+using orthonav::test::SessionLog;
+using orthonav::test::TemporaryFolder;
+using ::testing::HasSubstr;
+
+std::unique_ptr<fake::FakeHeadset> headset(fake::Script script = scripted_session()) {
+  return std::make_unique<fake::FakeHeadset>(std::move(script));
+}
+
+SessionLog record(std::unique_ptr<Headset> inner, const std::filesystem::path& folder,
+                  const RecorderOptions& options = {}) {
+  return play_to_the_end(RecordingHeadset::create(std::move(inner), folder, options));
+}
+
+TEST(Recorder, PassesEverythingOnUnchanged) {
+  const TemporaryFolder folder;
+  const auto plain = headset();
+  expect_same(record(headset(), folder / "session"), play(*plain));
+}
+
+TEST(Recorder, RecordsASessionThatReplaysToTheBit) {
+  const TemporaryFolder folder;
+  const SessionLog live = record(headset(), folder / "session");
+  ASSERT_EQ(live.moments.size(), 11u);
+  ASSERT_EQ(live.clicker.size(), 9u);
+  ASSERT_EQ(live.voice.size(), 3u);
+  auto replayed = ReplayHeadset::open(folder / "session");
+  ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+  expect_same((*replayed)->cameras().calibration(), orthonav::test::scripted_calibration());
+  expect_same(play(**replayed), live);
+}
+
+TEST(Recorder, RecordsAReplayAsTheSameFiles) {
+  const TemporaryFolder folder;
+  record(headset(), folder / "first", {"{\"tools\": []}"});
+  auto replayed = ReplayHeadset::open(folder / "first");
+  ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+  const std::string tools = (*replayed)->tools_json();
+  EXPECT_EQ(tools, "{\"tools\": []}");
+  record(std::move(*replayed), folder / "second", {tools});
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "first")) {
+    const auto name = entry.path().filename();
+    ++files;
+    EXPECT_TRUE(content_of(entry.path()) == content_of(folder / "second" / name)) << name;
+  }
+  constexpr int kFilesOfARecording = 15 + 2 * 5 + 1;  // two depth streams, the map of one
+  EXPECT_EQ(files, kFilesOfARecording);
+}
+
+TEST(Recorder, KeepsWhenTheMapMoved) {
+  fake::Script script = scripted_session();
+  std::int64_t epoch = 0;
+  for (fake::CameraStep& step : script.camera)
+    if (auto* frame = std::get_if<StereoFrame>(&step)) frame->map_epoch = epoch++ / 4;
+  const TemporaryFolder folder;
+  const SessionLog live = record(std::make_unique<fake::FakeHeadset>(script), folder / "session");
+  EXPECT_TRUE(std::filesystem::exists(folder / "session" / "map.csv"));
+  auto replayed = ReplayHeadset::open(folder / "session");
+  ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+  const SessionLog log = play(**replayed);
+  ASSERT_EQ(log.moments.size(), live.moments.size());
+  for (std::size_t i = 0; i < log.moments.size(); ++i)
+    EXPECT_EQ(log.moments[i].frame.map_epoch, live.moments[i].frame.map_epoch) << i;
+  EXPECT_GT(log.moments.back().frame.map_epoch, 0);
+}
+
+TEST(Recorder, WritesTheLayoutThatOtherReadersKnow) {
+  const TemporaryFolder folder;
+  record(headset(), folder / "session");
+  // Ustar by its fixed offsets: name, size in octal, magic; then the image.
+  const std::string tar = content_of(folder / "session" / "VLC LF.tar");
+  EXPECT_EQ(std::string(tar.c_str()), "10000000.pgm");
+  EXPECT_EQ(std::stol(tar.substr(124, 12), nullptr, 8), 15 + 640 * 480);
+  EXPECT_EQ(tar.substr(257, 5), "ustar");
+  EXPECT_EQ(tar.substr(512, 15), "P5\n640 480\n255\n");
+  EXPECT_EQ(tar.substr(tar.size() - 1024), std::string(1024, '\0'));
+  constexpr std::size_t kMemberBytes = 512 + 307'712;
+  EXPECT_EQ(tar.size(), 11 * kMemberBytes + 1024);
+  EXPECT_EQ(std::filesystem::file_size(folder / "session" / "VLC RF_lut.bin"), 3'686'400u);
+  const std::string poses = content_of(folder / "session" / "VLC LF_rig2world.txt");
+  EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 10);  // one pair has no pose
+  EXPECT_EQ(poses.substr(0, 9), "10000000,");
+}
+
+TEST(Recorder, KeepsWhatItHasWithoutItsOwnFiles) {
+  const TemporaryFolder folder;
+  const SessionLog live = record(headset(), folder / "session");
+  for (const char* name : {"frames.csv", "events.csv", "head.csv", "device.csv", "VLC LF_lut64.bin",
+                           "VLC RF_lut64.bin"})
+    ASSERT_TRUE(std::filesystem::remove(folder / "session" / name)) << name;
+  auto replayed = ReplayHeadset::open(folder / "session");
+  ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+  const SessionLog log = play(**replayed);
+  ASSERT_EQ(log.moments.size(), live.moments.size());
+  for (std::size_t i = 0; i < log.moments.size(); ++i) {
+    const StereoFrame& frame = log.moments[i].frame;
+    EXPECT_TRUE(frame.left == live.moments[i].frame.left);
+    EXPECT_EQ(frame.world_from_rig, live.moments[i].frame.world_from_rig);
+    const Duration lost = live.moments[i].frame.time - frame.time;
+    EXPECT_GE(lost, Duration(0));
+    EXPECT_LT(lost, Duration(100));  // a tick
+  }
+}
+
+TEST(Recorder, ReplaysLateEventsAsLate) {
+  // A phrase is understood half a second after it was spoken.
+  const TemporaryFolder folder;
+  fake::Faults faults;
+  faults.voice = {{0, fake::EventFault::kDelay}};
+  fake::FakeHeadset inner(scripted_session());
+  fake::FailingHeadset late(inner, faults);
+  auto recorder = RecordingHeadset::around(late, folder / "session");
+  ASSERT_TRUE(recorder.ok());
+  const auto phrases_at = [](Headset& h, int frame) {
+    std::vector<Phrase> phrases;
+    EXPECT_TRUE(h.voice().poll(orthonav::test::scripted_time(frame), phrases).ok());
+    return phrases.size();
+  };
+  StereoFrame frame;
+  ASSERT_TRUE((*recorder)->cameras().next(frame).ok());
+  EXPECT_EQ(phrases_at(**recorder, 1), 0u);
+  EXPECT_EQ(phrases_at(**recorder, 2), 1u);
+  ASSERT_TRUE((*recorder)->close().ok());
+  auto replayed = ReplayHeadset::open(folder / "session");
+  ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+  EXPECT_EQ(phrases_at(**replayed, 1), 0u);
+  EXPECT_EQ(phrases_at(**replayed, 2), 1u);
+}
+
+TEST(Recorder, LeavesAnUnfinishedRecordingUnderItsTemporaryName) {
+  const TemporaryFolder folder;
+  auto recorder = RecordingHeadset::create(headset(), folder / "session");
+  ASSERT_TRUE(recorder.ok());
+  StereoFrame frame;
+  ASSERT_TRUE((*recorder)->cameras().next(frame).ok());
+  EXPECT_FALSE(std::filesystem::exists(folder / "session"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "session.part"));
+  const auto cut_off = ReplayHeadset::open(folder / "session.part");
+  ASSERT_FALSE(cut_off.ok());
+  EXPECT_THAT(cut_off.error().message, HasSubstr("no end mark after 1 images"));
+  ASSERT_TRUE((*recorder)->close().ok());
+  EXPECT_TRUE(std::filesystem::exists(folder / "session"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "session.part"));
+}
+
+TEST(Recorder, ClosesWithItsOwner) {
+  const TemporaryFolder folder;
+  {
+    auto recorder = RecordingHeadset::create(headset(), folder / "session");
+    ASSERT_TRUE(recorder.ok());
+    play(**recorder);
+  }
+  EXPECT_TRUE(ReplayHeadset::open(folder / "session").ok());
+}
+
+TEST(Recorder, NeverOverwritesARecording) {
+  const TemporaryFolder folder;
+  record(headset(), folder / "session");
+  const auto again = RecordingHeadset::create(headset(), folder / "session");
+  ASSERT_FALSE(again.ok());
+  EXPECT_THAT(again.error().message, HasSubstr("exists already"));
+  std::filesystem::create_directory(folder / "other.part");
+  const auto beside = RecordingHeadset::create(headset(), folder / "other");
+  ASSERT_FALSE(beside.ok());
+  EXPECT_THAT(beside.error().message, HasSubstr("cut off"));
+  std::filesystem::create_directory(folder / "empty");
+  EXPECT_TRUE(RecordingHeadset::create(headset(), folder / "empty").ok());
+}
+
+TEST(Recorder, RefusesAFolderThatCannotBeMade) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "in the way";
+  EXPECT_FALSE(RecordingHeadset::create(headset(), folder / "file" / "session").ok());
+  EXPECT_FALSE(RecordingHeadset::create(headset(), "").ok());
+}
+
+TEST(Recorder, RefusesCamerasThatTheLayoutCannotHold) {
+  const TemporaryFolder folder;
+  fake::Script script = scripted_session(1);
+  script.calibration.right = *CameraModel::from_brown_conrady(
+      {320, 240, 180.0, 180.0, 160.0, 120.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  const auto refused = RecordingHeadset::create(headset(script), folder / "session");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, HasSubstr("320x240 px, must be 640x480"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Recorder, TellsThatNothingWasRecorded) {
+  const TemporaryFolder folder;
+  auto recorder = RecordingHeadset::create(headset(scripted_session(0)), folder / "session");
+  ASSERT_TRUE(recorder.ok());
+  play(**recorder);
+  const Status closed = (*recorder)->close();
+  ASSERT_FALSE(closed.ok());
+  EXPECT_THAT(closed.error().message, HasSubstr("holds no pair"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "session"));
+}
+
+TEST(Recorder, GoesOnWithTheSessionWhenItFails) {
+  // Two pairs within one tick cannot be told apart in the layout.
+  const TemporaryFolder folder;
+  fake::Script script;
+  script.calibration = orthonav::test::scripted_calibration();
+  for (int i = 0; i < 3; ++i) {
+    StereoFrame frame = orthonav::test::scripted_frame(i);
+    frame.time = Timestamp(Duration(1'000'000'000 + i));
+    script.camera.emplace_back(std::move(frame));
+  }
+  auto recorder = RecordingHeadset::create(headset(script), folder / "session");
+  ASSERT_TRUE(recorder.ok());
+  EXPECT_TRUE((*recorder)->recording_status().ok());
+  const SessionLog log = play(**recorder);
+  EXPECT_EQ(log.moments.size(), 3u);
+  EXPECT_TRUE(log.errors.empty());
+  ASSERT_FALSE((*recorder)->recording_status().ok());
+  EXPECT_THAT((*recorder)->recording_status().error().message, HasSubstr("cannot be told from"));
+  EXPECT_FALSE((*recorder)->close().ok());
+  EXPECT_FALSE(std::filesystem::exists(folder / "session"));
+}
+
+TEST(Recorder, RecordsOddLookUpTablesToTheBit) {
+  const TemporaryFolder folder;
+  fake::Script script = scripted_session(1);
+  const auto table = script.calibration.left.lookup();
+  std::vector<Vec2> holes(table.begin(), table.end());
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < 640 * 3; ++i) holes[i] = {kNan, kNan};
+  auto camera = CameraModel::from_lookup(640, 480, holes);
+  ASSERT_TRUE(camera.ok());
+  script.calibration.left = std::move(*camera);
+  const StereoCalibration expected = script.calibration;
+  record(headset(script), folder / "session");
+  auto replayed = ReplayHeadset::open(folder / "session");
+  ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+  expect_same((*replayed)->cameras().calibration(), expected);
+}
+
+TEST(Recorder, TakesQuestionsFromOtherThreads) {
+  const TemporaryFolder folder;
+  auto recorder = RecordingHeadset::create(headset(), folder / "session");
+  ASSERT_TRUE(recorder.ok());
+  std::atomic<bool> done{false};
+  std::atomic<int> asked{0};
+  std::thread display([&] {
+    while (!done.load()) {
+      const Timestamp now = (*recorder)->clock().now();
+      EXPECT_EQ((*recorder)->head().world_from_rig(now).time, now);
+      ++asked;
+    }
+  });
+  const SessionLog log = play(**recorder);
+  while (asked.load() == 0) std::this_thread::yield();
+  EXPECT_TRUE((*recorder)->close().ok());
+  done = true;
+  display.join();
+  EXPECT_EQ(log.moments.size(), 11u);
+  EXPECT_TRUE((*recorder)->recording_status().ok());
+  EXPECT_TRUE(ReplayHeadset::open(folder / "session").ok());
+}
+
+TEST(Recorder, KeepsFiletimeTicks) {
+  const TemporaryFolder folder;
+  fake::Script script = scripted_session(2);
+  script.epoch_ticks_100ns = 116444736000000000;
+  record(headset(script), folder / "session");
+  auto replayed = ReplayHeadset::open(folder / "session");
+  ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+  StereoFrame frame;
+  ASSERT_TRUE((*replayed)->cameras().next(frame).ok());
+  EXPECT_EQ(frame.time, orthonav::test::scripted_time(0));
+  EXPECT_EQ((*replayed)->file_ticks_100ns(frame.time), 116444736010000000);
+}
+
+}  // namespace
+}  // namespace orthonav::replay

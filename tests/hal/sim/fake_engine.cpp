@@ -1,0 +1,235 @@
+#include "tests/hal/sim/fake_engine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace orthonav::sim {
+namespace {
+
+std::size_t tool_of(const RoomDescription& room, ToolKind kind) {
+  for (std::size_t i = 0; i < room.tools.size(); ++i)
+    if (room.tools[i].kind == kind) return i;
+  return 0;
+}
+
+std::string time_text(Timestamp time) { return std::to_string(time.time_since_epoch().count()); }
+
+}  // namespace
+
+SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes) {
+  SimOptions options;
+  options.seed = seed;
+  options.magnitudes = magnitudes;
+  options.render = false;
+  return options;
+}
+
+FakeEngine::FakeEngine(SimHeadset& headset, const TestCase& test_case, EngineOptions options)
+    : headset_(headset), case_(test_case), options_(options) {
+  order_ = test_case.room.operated;
+  if (order_.empty())
+    for (const RoomLevel& level : test_case.room.levels) order_.push_back(level.label);
+}
+
+int FakeEngine::run() {
+  StereoFrame frame;
+  std::vector<ClickerEvent> clicks;
+  std::vector<Phrase> phrases;
+  int frames = 0;
+  for (;;) {
+    const auto next = headset_.cameras().next(frame);
+    if (!next || *next == Next::kEnd) return next ? frames : -1;
+    ++frames;
+    clicks.clear();
+    phrases.clear();
+    if (!headset_.clicker().poll(frame.time, clicks)) return -1;
+    if (!headset_.voice().poll(frame.time, phrases)) return -1;
+    for (const ClickerEvent& event : clicks) take(event);
+    for (const Phrase& phrase : phrases) take(phrase);
+    draw(frame);
+    if (on_frame) on_frame(frame, step_);
+  }
+}
+
+void FakeEngine::enter(const std::string& step) {
+  step_ = step;
+  reason_.clear();
+  history_.push_back(step);
+}
+
+void FakeEngine::take(const ClickerEvent& event) {
+  events_.push_back(time_text(event.time) + " click " +
+                    std::to_string(static_cast<int>(event.action)));
+  const bool digitizing = step_.starts_with("digitize");
+  if (event.action == ClickerAction::kPress) {
+    pressed_ = true;
+    if (digitizing && !first_press_) first_press_ = event.time;
+  }
+  if (event.action == ClickerAction::kRelease) pressed_ = false;
+  if (event.action == ClickerAction::kDoubleClick && digitizing) double_clicked(event.time);
+  const bool checking = options_.check_points > 0 && step_.starts_with("verify");
+  if (event.action == ClickerAction::kClick && (checking || step_.starts_with("rod"))) touched();
+}
+
+Point<World> FakeEngine::tip() const {
+  const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
+  return headset_.world_from_room() * headset_.state().room_from_marker[pointer] *
+         case_.room.tools[pointer].tip_in_marker;
+}
+
+void FakeEngine::touched() {
+  const bool head = step_.starts_with("rod");
+  reason_.clear();
+  if (options_.lost_touches-- > 0) {
+    reason_ = std::string(" | ") + (head ? "head" : "check point") +
+              " not recorded: tip moved 3.2 mm, limit 3.0 mm";
+    return;
+  }
+  if (head) {
+    heads_.push_back(tip());
+    return;
+  }
+  levels_[level_label()].checks_in_vertebra.push_back(
+      (world_from_vertebra(level_label()).inverse() * tip()).v);
+  ask_for_checks();
+}
+
+/// As the engine words it.
+void FakeEngine::ask_for_checks() {
+  const int done = static_cast<int>(levels_[level_label()].checks_in_vertebra.size());
+  const int missing = options_.check_points - done;
+  if (options_.off && done > 1)
+    reason_ = " | check point 2 is 3.1 mm off, limit 2.0 mm: reject and stroke again";
+  else if (missing > 0)
+    reason_ = " | 0.5 mm expected; touch " + std::to_string(missing) + " more places";
+  else
+    reason_ = " | 0.5 mm expected; checked, worst 0.4 mm";
+}
+
+void FakeEngine::double_clicked(Timestamp time) {
+  region_.clear();
+  DigitizedLevel& level = levels_[level_label()];
+  level.duration_s = seconds(time - *first_press_);
+  if (attempts_++ < options_.refusals) {
+    reason_ = " | refused: registration RMSE 3.4 mm, limit 3.0 mm";
+    return;
+  }
+  enter("verify " + level_label());
+  level.checks_in_vertebra.clear();
+  if (options_.check_points > 0) ask_for_checks();
+}
+
+void FakeEngine::take(const Phrase& phrase) {
+  events_.push_back(time_text(phrase.time) + " " + phrase.text);
+  phrases_.push_back(phrase);
+  if (options_.deaf) return;
+  DigitizedLevel& level = levels_[level_label()];
+  if (step_ == "setup" && phrase.text == "start") {
+    enter("digitize " + level_label());
+  } else if (step_.starts_with("digitize") && phrase.text == "save") {
+    level.saved_samples += static_cast<int>(region_.size());
+    level.samples_in_vertebra.insert(level.samples_in_vertebra.end(), region_.begin(),
+                                     region_.end());
+    region_.clear();
+  } else if (step_.starts_with("digitize") && phrase.text == "delete") {
+    ++level.deleted_regions;
+    region_.clear();
+  } else if (step_.starts_with("verify") && phrase.text == "accept") {
+    enter("accepted " + level_label());
+  } else if (step_.starts_with("verify") && phrase.text == "reject") {
+    level = {};
+    first_press_.reset();
+    enter("digitize " + level_label());
+  } else if ((step_.starts_with("accepted") || step_.starts_with("guide")) &&
+             phrase.text == "next") {
+    next_screw();
+  } else if (step_ == "rod left" && phrase.text == "done") {
+    enter("rod right");
+  } else if (step_ == "rod right" && phrase.text == "done") {
+    enter("done");
+  }
+}
+
+void FakeEngine::next_screw() {
+  const bool fresh = step_.starts_with("accepted");
+  for (std::size_t i = fresh ? 0 : screw_ + 1; i < case_.screws.size(); ++i)
+    if (case_.screws[i].level == level_label()) {
+      screw_ = i;
+      return enter("guide " + level_label() + " " + case_.screws[i].side);
+    }
+  first_press_.reset();
+  attempts_ = 0;
+  if (++level_ < order_.size()) return enter("digitize " + level_label());
+  --level_;
+  enter("rod left");
+}
+
+const RoomLevel& FakeEngine::level_named(const std::string& label) const {
+  return *std::find_if(case_.room.levels.begin(), case_.room.levels.end(),
+                       [&label](const RoomLevel& level) { return level.label == label; });
+}
+
+Transform<World, Vertebra> FakeEngine::world_from_vertebra(const std::string& label) const {
+  const Transform<Room, Vertebra> room_from_vertebra =
+      headset_.state().room_from_spine * level_named(label).spine_from_vertebra;
+  return headset_.world_from_room() * Transform<Room, Vertebra>{room_from_vertebra.rotation(),
+                                                                room_from_vertebra.translation() +
+                                                                    options_.registration_error_m};
+}
+
+void FakeEngine::draw(const StereoFrame& frame) {
+  const RoomState state = headset_.state();
+  const double time_s = seconds(frame.time.time_since_epoch()) - 100.0;
+  const bool blind = time_s >= options_.blind_from_s && time_s < options_.blind_to_s;
+  if (pressed_ && step_.starts_with("digitize")) {
+    const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
+    const auto tip = world_from_vertebra(level_label()).inverse() * headset_.world_from_room() *
+                     state.room_from_marker[pointer] * case_.room.tools[pointer].tip_in_marker;
+    if (state.tool_present[pointer]) region_.push_back(tip.v);
+  }
+  ShownFrame shown;
+  shown.pose_time = frame.time;
+  shown.display_time = headset_.display().predicted_display_time(headset_.clock().now());
+  shown.holograms.push_back({"H11 status", step_ + reason_, {}});
+  if (step_.starts_with("verify")) {
+    ShownHologram model{"H2 vertebra", "", {}};
+    const auto& vertices = level_named(level_label()).vertices_m;
+    for (const Vec3 d : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}}) {
+      const Vec3 extreme = *std::max_element(vertices.begin(), vertices.end(),
+                                             [d](Vec3 a, Vec3 b) { return a.dot(d) < b.dot(d); });
+      model.points_in_world.push_back(world_from_vertebra(level_label()) *
+                                      Point<Vertebra>{extreme});
+    }
+    shown.holograms.push_back(model);
+  }
+  if (step_.starts_with("guide")) draw_screw(shown, state, blind);
+  static_cast<void>(headset_.display().shown(shown));
+}
+
+void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const {
+  constexpr double kReach_m = 0.080;
+  const TestScrew& screw = case_.screws[screw_];
+  const auto from_vertebra = world_from_vertebra(screw.level);
+  const Point<World> entry = from_vertebra * screw.entry;
+  const Point<World> target = from_vertebra * screw.target;
+  const Vec3 outwards = (entry - target).normalized();
+  const std::string label = screw.level + " " + screw.side;
+  shown.holograms.push_back({"H3 entry " + label, label, {entry}});
+  shown.holograms.push_back({"H4 trajectory", "", {entry + 0.060 * outwards, entry, target}});
+  const std::size_t guide = tool_of(case_.room, ToolKind::kGuide);
+  if (blind || !state.tool_present[guide]) return;
+  const auto world_from_marker = headset_.world_from_room() * state.room_from_marker[guide];
+  const RoomTool& tool = case_.room.tools[guide];
+  const Vec3 axis = (world_from_marker * Direction<Marker>{tool.axis_in_marker}).v;
+  if ((world_from_marker * tool.tip_in_marker - entry).norm() > 0.040) return;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f°",
+                angle_between_rad(axis, outwards) * 180.0 / std::numbers::pi);
+  shown.holograms.push_back(
+      {"H5 triangle", "", {entry, entry + kReach_m * axis, entry + kReach_m * outwards}});
+  shown.holograms.push_back({"H6 angle", text.data(), {}});
+}
+
+}  // namespace orthonav::sim

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hal/sim/sim_headset.h"
+#include "tests/hal/sim/test_rooms.h"
+
+namespace orthonav::sim {
+
+/// What a level's digitization looked like from outside.
+struct DigitizedLevel {
+  double duration_s = 0.0;  ///< from the first press to the double click
+  int saved_samples = 0;
+  int deleted_regions = 0;
+  std::vector<Vec3> samples_in_vertebra;  ///< saved ones
+  std::vector<Vec3> checks_in_vertebra;   ///< touched in `verify`
+};
+
+struct EngineOptions {
+  int refusals = 0;           ///< of each level, before it is accepted
+  Vec3 registration_error_m;  ///< shifts every hologram of the bone
+  double blind_from_s = 0.0;  ///< the tools are lost in this span of time
+  double blind_to_s = 0.0;
+  bool deaf = false;     ///< hears no voice
+  int lost_touches = 0;  ///< the first touches are not recorded
+  int check_points = 0;  ///< asked for in `verify`
+  bool off = false;      ///< what is touched then turns out too far off
+};
+
+/// For a simulation that renders nothing: who only talks to the engine needs no images.
+SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes = {});
+
+/// Stands in for the engine: walks through the workflow as clicker and voice say and draws the
+/// holograms that an engine without any error would draw, from the truth.
+class FakeEngine {
+ public:
+  FakeEngine(SimHeadset& headset, const TestCase& test_case, EngineOptions options = {});
+  /// Called after each frame with the step of the workflow.
+  std::function<void(const StereoFrame&, const std::string&)> on_frame;
+  /// Runs the headset to the end of its stream; the number of frames.
+  int run();
+
+  [[nodiscard]] const std::map<std::string, DigitizedLevel>& levels() const { return levels_; }
+  [[nodiscard]] const std::vector<std::string>& history() const { return history_; }
+  [[nodiscard]] const std::vector<std::string>& events() const { return events_; }
+  [[nodiscard]] const std::vector<Phrase>& phrases() const { return phrases_; }
+  [[nodiscard]] const std::vector<Point<World>>& heads() const { return heads_; }
+
+ private:
+  void take(const ClickerEvent& event);
+  void take(const Phrase& phrase);
+  void enter(const std::string& step);
+  void double_clicked(Timestamp time);
+  void touched();
+  void ask_for_checks();
+  [[nodiscard]] Point<World> tip() const;
+  void next_screw();
+  void draw(const StereoFrame& frame);
+  void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
+  [[nodiscard]] std::string level_label() const { return order_[level_]; }
+  [[nodiscard]] Transform<World, Vertebra> world_from_vertebra(const std::string& label) const;
+  [[nodiscard]] const RoomLevel& level_named(const std::string& label) const;
+
+  SimHeadset& headset_;
+  const TestCase& case_;
+  EngineOptions options_;
+  std::vector<std::string> order_;
+  std::size_t level_ = 0;
+  std::size_t screw_ = 0;
+  std::string step_ = "setup";
+  std::string reason_;
+  bool pressed_ = false;
+  int attempts_ = 0;
+  std::optional<Timestamp> first_press_;
+  std::vector<Vec3> region_;
+  std::map<std::string, DigitizedLevel> levels_;
+  std::vector<Point<World>> heads_;
+  std::vector<std::string> history_{"setup"};
+  std::vector<std::string> events_;
+  std::vector<Phrase> phrases_;
+};
+
+}  // namespace orthonav::sim

@@ -1,0 +1,295 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+#include "nav/calibration/epipolar.h"
+#include "nav/calibration/stereo_board.h"
+
+namespace orthonav::nav {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+struct Board;  // x along the columns, y down the rows, z away from who sees the face
+
+const Chessboard kBoard{9, 6, 0.025};
+constexpr ImageSize kSize{640, 480};
+constexpr double kNoisePx = 0.1;
+
+/// Two cameras, the right one upside down as those of a HoloLens 2 lie to each other.
+struct Cameras {
+  BrownConrady left{640, 480, 362.0, 361.0, 324.0, 238.0, -0.04, 0.01, 3e-4, -2e-4, 0.0};
+  BrownConrady right{640, 480, 359.0, 360.0, 317.0, 243.0, -0.038, 0.009, -2e-4, 3e-4, 0.0};
+  Transform<RightCamera, LeftCamera> right_from_left{
+      rotation_from_vector({0, 0, std::numbers::pi}) * rotation_from_vector({0.01, -0.02, 0.005}),
+      {0.001, 0.099, 0.003}};
+};
+
+Vec2 seen(const BrownConrady& camera, Vec3 p) { return camera.distort({p.x / p.z, p.y / p.z}); }
+
+bool inside(Vec2 p) { return p.x > 2 && p.y > 2 && p.x < 638 && p.y < 478; }
+
+/// What both cameras see of a board in this pose; nothing when a corner is outside.
+std::optional<BoardView> view_of(const Chessboard& board, const Cameras& cameras,
+                                 const Transform<LeftCamera, Board>& left_from_board,
+                                 double noise_px, Random& random) {
+  BoardView view;
+  for (std::size_t i = 0; i < board.corners(); ++i) {
+    const Vec2 place = board.corner_m(i);
+    const Point<LeftCamera> in_left = left_from_board * Point<Board>{{place.x, place.y, 0}};
+    const Vec2 left = seen(cameras.left, in_left.v);
+    const Vec2 right = seen(cameras.right, (cameras.right_from_left * in_left).v);
+    if (!inside(left) || !inside(right)) return std::nullopt;
+    view.left_px.push_back(left + Vec2{random.normal(0, noise_px), random.normal(0, noise_px)});
+    view.right_px.push_back(right + Vec2{random.normal(0, noise_px), random.normal(0, noise_px)});
+  }
+  return view;
+}
+
+/// Boards all over both images, tilted every way.
+std::vector<BoardView> views(int count, Random& random, double noise_px = kNoisePx,
+                             const Chessboard& board = kBoard, const Cameras& cameras = {}) {
+  std::vector<BoardView> all;
+  while (static_cast<int>(all.size()) < count) {
+    const Mat3 turn = rotation_from_vector(
+        {random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), random.uniform(-0.4, 0.4)});
+    const Vec3 middle{random.uniform(-0.25, 0.25), random.uniform(-0.2, 0.2),
+                      random.uniform(0.25, 0.5)};
+    const Vec3 half{0.5 * board.square_m * (board.columns - 1),
+                    0.5 * board.square_m * (board.rows - 1), 0};
+    if (const auto view = view_of(board, cameras, {turn, middle - turn * half}, noise_px, random))
+      all.push_back(*view);
+  }
+  return all;
+}
+
+double turned_rad(const StereoBoardCalibration& found, const Cameras& cameras) {
+  return rotation_angle_rad(found.right_from_left.rotation(), cameras.right_from_left.rotation());
+}
+
+double shifted_m(const StereoBoardCalibration& found, const Cameras& cameras) {
+  return (found.right_from_left.translation() - cameras.right_from_left.translation()).norm();
+}
+
+TEST(StereoBoard, FindsCamerasExactlyWithoutNoise) {
+  Random random(1);
+  const Cameras cameras;
+  const auto found = calibrate_stereo(kBoard, kSize, views(12, random, 0.0));
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  // OpenCV keeps corners as floats: 3e-5 px.
+  EXPECT_LT(found->stereo_rms_px, 1e-3);
+  EXPECT_NEAR(found->left.fx_px, 362.0, 0.01);
+  EXPECT_NEAR(found->left.cx_px, 324.0, 0.01);
+  EXPECT_NEAR(found->right.cy_px, 243.0, 0.01);
+  EXPECT_NEAR(found->right.k1, -0.038, 1e-3);
+  EXPECT_LT(turned_rad(*found, cameras), 1e-4);
+  EXPECT_LT(shifted_m(*found, cameras), 1e-5);
+}
+
+TEST(StereoBoard, PredictsItsOwnErrors) {
+  const Cameras cameras;
+  double turned = 0.0;
+  double turned_sigma = 0.0;
+  double baseline = 0.0;
+  double baseline_sigma = 0.0;
+  constexpr int kTrials = 8;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Random random(static_cast<std::uint64_t>(100 + trial));
+    const auto found = calibrate_stereo(kBoard, kSize, views(14, random));
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_NEAR(found->stereo_rms_px, kNoisePx * std::sqrt(2.0), 0.01);
+    EXPECT_NEAR(found->epipolar_rms_px, kNoisePx * std::sqrt(2.0), 0.03);
+    EXPECT_EQ(found->judgement.verdict, Verdict::kPass) << found->judgement.reason;
+    ASSERT_TRUE(found->sigma.has_value());
+    turned += std::pow(turned_rad(*found, cameras), 2);
+    turned_sigma += std::pow(found->sigma->rotation_rad, 2);
+    baseline += std::pow(found->baseline_m() - cameras.right_from_left.translation().norm(), 2);
+    baseline_sigma += std::pow(found->sigma->baseline_m, 2);
+  }
+  // Eight draws of few numbers, and a jackknife that is itself rough: within a factor of two.
+  EXPECT_GT(turned / turned_sigma, 0.25);
+  EXPECT_LT(turned / turned_sigma, 4.0);
+  EXPECT_GT(baseline / baseline_sigma, 0.25);
+  EXPECT_LT(baseline / baseline_sigma, 4.0);
+}
+
+TEST(StereoBoard, LeavesOutViewsWithMistakesAndNamesThem) {
+  Random random(3);
+  const Cameras cameras;
+  auto all = views(14, random);
+  for (Vec2& corner : all[4].right_px) corner = corner + Vec2{random.normal(0, 2), 1.0};
+  all[9].left_px[7] = all[9].left_px[7] + Vec2{14, -9};
+  const auto found = calibrate_stereo(kBoard, kSize, all);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_EQ(found->used, 12u);
+  for (std::size_t i = 0; i < 14; ++i) EXPECT_EQ(found->views[i].used, i != 4 && i != 9) << i;
+  EXPECT_GT(found->views[4].right_rms_px, 1.0);
+  EXPECT_LT(turned_rad(*found, cameras), 0.004);
+  EXPECT_EQ(found->judgement.verdict, Verdict::kNote);
+  EXPECT_THAT(found->judgement.reason, HasSubstr("2 views left out"));
+
+  StereoBoardOptions keep_all;
+  keep_all.max_outlier_share = 0.0;
+  const auto spoiled = calibrate_stereo(kBoard, kSize, all, keep_all);
+  ASSERT_TRUE(spoiled.ok());
+  EXPECT_GT(spoiled->stereo_rms_px, 3.0 * found->stereo_rms_px) << "the mistakes do harm";
+}
+
+TEST(StereoBoard, FailsWhereCornersAreBadEverywhere) {
+  Random random(4);
+  const auto found = calibrate_stereo(kBoard, kSize, views(14, random, 1.0));
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_EQ(found->judgement.verdict, Verdict::kFail);
+  EXPECT_THAT(found->judgement.reason, HasSubstr("px, limit 1.00 px"));
+}
+
+TEST(StereoBoard, NotesFewAndPoorViews) {
+  Random random(5);
+  const auto found = calibrate_stereo(kBoard, kSize, views(4, random));
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_NE(found->judgement.verdict, Verdict::kPass);
+  EXPECT_THAT(found->judgement.reason, HasSubstr("4 views, better 10"));
+}
+
+TEST(StereoBoard, TakesABoardThatLooksTheSameTurned) {
+  // The corners of every other right view begin at the other end; the cameras are upright alike.
+  const Chessboard even{8, 6, 0.025};
+  Cameras upright;
+  upright.right_from_left = {rotation_from_vector({0.01, -0.02, 0.005}), {-0.099, 0.001, 0.003}};
+  Random random(6);
+  auto all = views(12, random, kNoisePx, even, upright);
+  for (std::size_t i = 0; i < all.size(); i += 2)
+    std::reverse(all[i].right_px.begin(), all[i].right_px.end());
+  const auto found = calibrate_stereo(even, kSize, all);
+  ASSERT_TRUE(found.ok()) << found.error().message;
+  EXPECT_LT(found->stereo_rms_px, 0.2);
+  EXPECT_LT(turned_rad(*found, upright), 0.005);
+}
+
+TEST(StereoBoard, RefusesWhatCannotBeCalibrated) {
+  Random random(7);
+  auto all = views(4, random);
+  const auto refusal = [](const Chessboard& board, std::span<const BoardView> given,
+                          const StereoBoardOptions& options = {}) {
+    const auto found = calibrate_stereo(board, kSize, given, options);
+    return found ? std::string() : found.error().message;
+  };
+  EXPECT_THAT(refusal(kBoard, std::span(all).first(2)), HasSubstr("in 2 pairs, at least 3"));
+  EXPECT_THAT(refusal(kBoard, {}), HasSubstr("in 0 pairs"));
+  EXPECT_THAT(refusal({6, 6, 0.025}, all), HasSubstr("as many rows"));
+  EXPECT_THAT(refusal({2, 6, 0.6}, all),
+              ::testing::AllOf(HasSubstr("2 columns"), HasSubstr("600.000000 mm")));
+  EXPECT_THAT(refusal({8, 6, 0.025}, all), HasSubstr("not as many corners"));
+  StereoBoardOptions bad;
+  bad.min_views = 1;
+  bad.outlier_factor = 1.0;
+  bad.max_outlier_share = 1.0;
+  bad.max_rms_px = std::nan("");
+  EXPECT_THAT(bad.check(), SizeIs(4));
+  EXPECT_THAT(refusal(kBoard, all, bad), HasSubstr("min_views 1"));
+  EXPECT_THAT(StereoBoardOptions{}.check(), IsEmpty());
+  // Four times the same view says nothing of the lens.
+  const std::vector<BoardView> same(4, all[0]);
+  const auto found = calibrate_stereo(kBoard, kSize, same);
+  EXPECT_TRUE(!found || found->judgement.verdict != Verdict::kPass);
+}
+
+/// The board as a camera at the origin sees it, four by four rays a pixel, blurred like a lens
+/// does.
+GreyImage picture_of_board(const Chessboard& board, const BrownConrady& parameters,
+                           const Transform<LeftCamera, Board>& camera_from_board) {
+  const CameraModel camera = CameraModel::from_brown_conrady(parameters).value();
+  const auto board_from_camera = camera_from_board.inverse();
+  const Vec3 eye = board_from_camera.translation();
+  const auto grey = [&](Vec2 pixel) {
+    const auto unit = camera.unproject(pixel);
+    if (!unit) return 128.0;
+    const Vec3 ray = board_from_camera.rotation() * Vec3{unit->x, unit->y, 1.0};
+    const Vec3 p = eye - (eye.z / ray.z) * ray;
+    const int column = static_cast<int>(std::floor(p.x / board.square_m));
+    const int row = static_cast<int>(std::floor(p.y / board.square_m));
+    if (column < -2 || row < -2 || column > board.columns || row > board.rows) return 128.0;
+    if (column < -1 || row < -1 || column >= board.columns || row >= board.rows) return 225.0;
+    return (column + row) % 2 == 0 ? 30.0 : 225.0;  // the first inner square is dark
+  };
+  // Hammersley's points in a box two pixels wide: in each direction 64 different places, so that
+  // edges along the rows do not move in steps.
+  constexpr unsigned kRays = 64;
+  GreyImage image(kSize.width_px, kSize.height_px);
+  for (int y = 0; y < image.height_px; ++y)
+    for (int x = 0; x < image.width_px; ++x) {
+      double sum = 0.0;
+      for (unsigned i = 0; i < kRays; ++i) {
+        unsigned reversed = 0;
+        for (unsigned bit = 0; bit < 6; ++bit) reversed |= ((i >> bit) & 1U) << (5U - bit);
+        sum += grey({x - 0.5 + (i + 0.5) / 32.0, y - 0.5 + (reversed + 0.5) / 32.0});
+      }
+      image.at(x, y) = static_cast<std::uint8_t>(std::lround(sum / kRays));
+    }
+  return image;
+}
+
+TEST(FindChessboard, GivesTheSameCornersFirstHoweverTheBoardIsTurned) {
+  // Measured 0.015-0.045 px RMS, least where edges run along the rows; half a pixel, the mistake
+  // to be found, would be 0.7 px.
+  constexpr double kCornerRmsPx = 0.06;
+  const Cameras cameras;
+  for (const double turn_rad : {0.0, 1.2, 3.0, -1.8}) {
+    const Mat3 turn = rotation_from_vector({0.3, 0, 0}) * rotation_from_vector({0, -0.2, turn_rad});
+    const Vec3 half{0.1, 0.0625, 0};
+    const Transform<LeftCamera, Board> pose{turn, Vec3{0.01, -0.01, 0.35} - turn * half};
+    const auto found = find_chessboard(picture_of_board(kBoard, cameras.left, pose), kBoard);
+    ASSERT_TRUE(found.has_value()) << turn_rad;
+    ASSERT_THAT(*found, SizeIs(54));
+    double squared = 0.0;
+    for (std::size_t i = 0; i < 54; ++i) {
+      const Vec2 place = kBoard.corner_m(i);
+      const Vec2 off =
+          found->at(i) - seen(cameras.left, (pose * Point<Board>{{place.x, place.y, 0}}).v);
+      squared += off.dot(off) / 54;
+    }
+    EXPECT_LT(std::sqrt(squared), kCornerRmsPx) << "turned by " << turn_rad;
+  }
+}
+
+TEST(FindChessboard, FindsNothingWhereThereIsNoBoard) {
+  EXPECT_FALSE(find_chessboard(GreyImage(320, 240, 128), kBoard).has_value());
+  EXPECT_FALSE(find_chessboard(GreyImage(), kBoard).has_value());
+  EXPECT_FALSE(find_chessboard(GreyImage(1, 1), kBoard).has_value());
+  const Mat3 turn = rotation_from_vector({0.3, 0, 0});
+  const auto other = picture_of_board({7, 5, 0.025}, Cameras{}.left, {turn, {-0.08, -0.05, 0.4}});
+  EXPECT_FALSE(find_chessboard(other, kBoard).has_value()) << "another board";
+}
+
+// What interpolation in the camera's table is off by.
+constexpr double kTablePx = 1e-4;
+
+TEST(Epipolar, MeasuresInPixelsOfTheRightImage) {
+  const Cameras cameras;
+  const auto left = CameraModel::from_brown_conrady(cameras.left).value();
+  const auto right = CameraModel::from_brown_conrady(cameras.right).value();
+  Random random(8);
+  for (int i = 0; i < 50; ++i) {
+    const Point<LeftCamera> p{
+        {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.3, 0.6)}};
+    const Vec2 in_left = seen(cameras.left, p.v);
+    const Vec2 in_right = seen(cameras.right, (cameras.right_from_left * p).v);
+    const auto off = [&](Vec2 moved) {
+      return across_epipolar_px(left, right, cameras.right_from_left, in_left, in_right + moved)
+          .value();
+    };
+    EXPECT_NEAR(off({}), 0.0, kTablePx);
+    // The baseline runs down the images: only what goes across counts, by its whole length.
+    EXPECT_NEAR(std::hypot(off({0.5, 0}), off({0, 0.5})), 0.5, 0.01);
+  }
+  EXPECT_FALSE(
+      across_epipolar_px(left, right, cameras.right_from_left, {-50, 10}, {320, 240}).has_value());
+}
+
+}  // namespace
+}  // namespace orthonav::nav

@@ -1,0 +1,218 @@
+#include "nav/geometry/distance_field.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/random.h"
+#include "nav/registration/trimming.h"
+#include "tests/support/mesh_builder.h"
+#include "tests/support/slab_bone.h"
+
+namespace orthonav::nav {
+namespace {
+
+using test::crooked_back;
+using test::slab_bone;
+using ::testing::HasSubstr;
+
+constexpr double kCell_m = 0.002;
+constexpr double kMargin_m = 0.014;
+/// To this depth the field is negative.
+constexpr double kSigned_m = 0.008;
+/// A cell that reaches across that depth mixes both signs: so far from it nothing is asked.
+const double kMixed_m = std::sqrt(3.0) * kCell_m;
+
+Vec3 anywhere_in(const Bounds& box, Random& random) {
+  return {random.uniform(box.low.x, box.high.x), random.uniform(box.low.y, box.high.y),
+          random.uniform(box.low.z, box.high.z)};
+}
+
+double signed_distance_m(const SurfaceIndex& near, const SurfaceIndex& bone, Vec3 p) {
+  const double distance = near.nearest(p)->distance_m;
+  return bone.contains(p) && distance < kSigned_m ? -distance : distance;
+}
+
+struct FieldErrors {
+  double worst_m = 0.0;
+  double median_m = 0.0;
+};
+
+FieldErrors errors(const DistanceField& field, const SurfaceIndex& surface, int count) {
+  Random random(11);
+  std::vector<double> all;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 p = anywhere_in(field.bounds(), random);
+    const double right_m = signed_distance_m(surface, surface, p);
+    DistanceField::Value value;
+    if (!field.at(p, value) || std::abs(std::abs(right_m) - kSigned_m) < kMixed_m) continue;
+    all.push_back(std::abs(value.distance_m - right_m));
+  }
+  std::sort(all.begin(), all.end());
+  return {all.back(), all[all.size() / 2]};
+}
+
+struct Surface {
+  explicit Surface(TriangleMesh m) : mesh(std::move(m)), index(mesh) {}
+  TriangleMesh mesh;
+  SurfaceIndex index;
+};
+
+DistanceField field_of(const Surface& s, double cell_m = kCell_m) {
+  return {s.mesh, s.index, s.index, cell_m, kMargin_m};
+}
+
+TEST(DistanceField, IsWithinHalfACellOfTheExactDistanceEverywhereAndMostlyWithinATwentieth) {
+  // Trilinear interpolation of a distance is exact off a plane; on a ball of radius r it errs by up
+  // to 3 cell^2 / (8 r) a direction across, at crests and in corners by parts of a cell.
+  for (const Surface& s : {Surface(slab_bone(crooked_back)), Surface(test::sphere({}, 0.02, 40)),
+                           Surface(test::box({-0.02, -0.02, -0.02}, {0.02, 0.03, 0.02}))}) {
+    const FieldErrors e = errors(field_of(s), s.index, 8000);
+    EXPECT_LT(e.worst_m, 0.5 * kCell_m);
+    EXPECT_LT(e.median_m, 0.05 * kCell_m);
+    EXPECT_GT(e.worst_m, 1e-6) << "not the exact distance: nothing would be measured here";
+  }
+}
+
+TEST(DistanceField, ErrsLessWithSmallerCells) {
+  // A fourth on smooth surfaces: the error is one of second order.
+  const Surface ball(test::sphere({}, 0.02, 40));
+  const FieldErrors coarse = errors(field_of(ball, 0.004), ball.index, 5000);
+  const FieldErrors fine = errors(field_of(ball, 0.002), ball.index, 5000);
+  EXPECT_LT(fine.median_m, 0.4 * coarse.median_m);
+}
+
+TEST(DistanceField, IsNegativeInsideAsDeepAsItSays) {
+  const Surface s(slab_bone(crooked_back));
+  const DistanceField field = field_of(s);
+  Random random(5);
+  int inside = 0;
+  int deep = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Vec3 p = anywhere_in(field.bounds(), random);
+    const double distance_m = s.index.nearest(p)->distance_m;
+    DistanceField::Value value;
+    // Nearer to the surface than the error the sign is nobody's.
+    if (distance_m < 0.5 * kCell_m || !field.at(p, value)) continue;
+    if (!s.index.contains(p)) {
+      EXPECT_GT(value.distance_m, 0.0);
+    } else if (distance_m < kSigned_m - kMixed_m) {
+      EXPECT_LT(value.distance_m, 0.0);
+      ++inside;
+    } else if (distance_m > kSigned_m + kMixed_m) {
+      EXPECT_GT(value.distance_m, 0.0);
+      ++deep;
+    }
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_GT(deep, 10);
+}
+
+TEST(DistanceField, PointsAwayFromTheSurfaceAndIsItsOwnDerivative) {
+  const Surface ball(test::sphere({}, 0.02, 40));
+  const DistanceField field = field_of(ball);
+  Random random(6);
+  constexpr double kStep_m = 1e-7;
+  double worst = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 p = anywhere_in(field.bounds(), random);
+    DistanceField::Value here;
+    // Within the skin where it is signed.
+    if (std::abs(p.norm() - 0.02) > kSigned_m - kMixed_m || !field.at(p, here)) continue;
+    worst = std::max(worst, (here.gradient - p / p.norm()).norm());
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 beside = p;
+      beside[axis] += kStep_m;
+      DistanceField::Value there;
+      ASSERT_TRUE(field.at(beside, there));
+      // A step across a cell's border may see two slopes; they differ by less than that.
+      EXPECT_NEAR((there.distance_m - here.distance_m) / kStep_m, here.gradient[axis], 0.15);
+    }
+  }
+  // A cell of 2 mm on a ball of 12 mm (the innermost place) turns by a sixth; half of that to
+  // either side, and a facet's corner.
+  EXPECT_LT(worst, 0.15);
+}
+
+TEST(DistanceField, IsNothingOutsideAndForWhatIsNoNumber) {
+  const Surface s(slab_bone(crooked_back));
+  const DistanceField field = field_of(s);
+  const auto [low, high] = field.bounds();
+  DistanceField::Value value;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 p = field.bounds().centre();
+    p[axis] = low[axis];
+    EXPECT_TRUE(field.at(p, value));
+    p[axis] = low[axis] - 1e-9;
+    EXPECT_FALSE(field.at(p, value));
+    p[axis] = high[axis] - 1e-9;
+    EXPECT_TRUE(field.at(p, value));
+    p[axis] = high[axis] + 1e-9;
+    EXPECT_FALSE(field.at(p, value));
+    for (const double strange : {std::nan(""), std::numeric_limits<double>::infinity(),
+                                 -std::numeric_limits<double>::infinity(), 1e300, -1e300}) {
+      p[axis] = strange;
+      EXPECT_FALSE(field.at(p, value)) << strange;
+    }
+  }
+  const Bounds box = bounds_of(s.mesh);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(box.low[axis] - low[axis], kMargin_m, 1e-12);
+    EXPECT_GE(high[axis] - box.high[axis], kMargin_m - 1e-12);
+  }
+}
+
+/// As a vertebra has it: distances to the part that can be reached, the sign by the whole bone.
+TEST(DistanceField, TakesTheDistanceToOneSurfaceAndTheSignByAnother) {
+  const Surface bone(slab_bone(crooked_back));
+  const Surface back(reachable_from_behind(bone.mesh, bone.index));
+  ASSERT_LT(back.mesh.triangles.size(), bone.mesh.triangles.size());
+  const DistanceField field(back.mesh, back.index, bone.index, kCell_m, kMargin_m);
+  const Vec3 low = field.bounds().low;
+  int negative = 0;
+  for (int x = 0; x < 40; ++x)
+    for (int y = 0; y < 20; ++y) {
+      const Vec3 node = low + kCell_m * Vec3{x + 1.0, y + 1.0, 20.0};
+      DistanceField::Value value;
+      if (!field.at(node + 1e-9 * Vec3{1, 1, 1}, value)) continue;
+      const double right_m = signed_distance_m(back.index, bone.index, node);
+      EXPECT_NEAR(value.distance_m, right_m, 2e-7);  // floats, and the nudge into the cell
+      negative += right_m < 0.0 ? 1 : 0;
+    }
+  EXPECT_GT(negative, 50);
+}
+
+TEST(DistanceField, IsRestoredFromItsSamplesToTheBitAndFromNoOthers) {
+  const Surface s(test::sphere({}, 0.02, 12));
+  const DistanceField field = field_of(s);
+  const std::vector<float> samples(field.samples_m().begin(), field.samples_m().end());
+  const auto restored = [&](std::vector<float> from, const Surface& of) {
+    return DistanceField::restored(of.mesh, of.index, of.index, kCell_m, kMargin_m,
+                                   std::move(from));
+  };
+  const auto again = restored(samples, s);
+  ASSERT_TRUE(again.ok()) << again.error().message;
+  Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p = anywhere_in(field.bounds(), random);
+    DistanceField::Value a, b;
+    ASSERT_EQ(field.at(p, a), again->at(p, b));
+    EXPECT_EQ(a.distance_m, b.distance_m);
+    EXPECT_EQ(a.gradient, b.gradient);
+  }
+  std::vector<float> fewer = samples;
+  fewer.pop_back();
+  EXPECT_THAT(restored(fewer, s).error().message, HasSubstr("places"));
+  std::vector<float> strange = samples;
+  strange[7] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THAT(restored(strange, s).error().message, HasSubstr("finite"));
+  // A tenth of a millimetre off, in a grid of the same size.
+  EXPECT_THAT(restored(samples, Surface(test::sphere({}, 0.0199, 12))).error().message,
+              HasSubstr("another mesh"));
+}
+
+}  // namespace
+}  // namespace orthonav::nav

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "nav/geometry/mesh.h"
+#include "nav/guidance/screw.h"
+
+namespace orthonav::test {
+
+/// A real vertebra of the shared anatomy with its plan.
+struct AnatomyLevel {
+  std::string name;  ///< "shape-mean/L4"
+  nav::TriangleMesh mesh;
+  std::vector<nav::ScrewPlan> screws;
+};
+
+/// Every level of the shared anatomy in alphabetical order; empty where it is absent.
+std::vector<AnatomyLevel> anatomy_levels();
+/// One of them, or none.
+std::optional<AnatomyLevel> anatomy_level(const std::string& name);
+
+/// Which regions a simulated surgeon strokes.
+struct StrokeRegions {
+  bool laminae = true;
+  bool spinous_process = true;
+  bool facets = true;
+};
+
+/// Pointer tips of strokes over the posterior surface, without noise, in the model's frame: what is
+/// seen straight from behind at the laminae and the facets (out to a little beyond the entry
+/// points) and from both sides at the spinous process. 0.7 mm apart: 20 mm/s at 30 Hz.
+std::vector<Vec3> strokes(const AnatomyLevel& level, const StrokeRegions& regions, Random& random);
+
+/// Any orientation with the same density.
+Mat3 random_rotation(Random& random);
+
+}  // namespace orthonav::test

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/session/session.h"
+
+namespace orthonav::test {
+
+/// A closed box, finely divided, 60 × 40 × 50 mm: a bone as far as the session is concerned.
+nav::TriangleMesh box_bone();
+
+/// One screw a side on top of that box (its posterior face, +y), pointing straight in (-y).
+std::vector<nav::ScrewPlan> two_screws();
+
+engine::Operation operation_of(const std::vector<std::string>& labels);
+
+/// Where a tool is for the next pairs; absent: not seen.
+class ScriptedTracker : public nav::ToolTracker {
+ public:
+  ScriptedTracker();
+  std::span<const nav::ToolState> track(const StereoFrame& frame) override;
+  [[nodiscard]] std::span<const nav::ToolGeometry> tools() const override { return tools_; }
+
+  std::optional<Transform<World, Marker>> pointer;
+  std::optional<Transform<World, Marker>> guide;
+  /// How the poses above came about.
+  Origin pointer_origin = Origin::kMeasured;
+  Origin guide_origin = Origin::kMeasured;
+  std::optional<nav::TagSize> size;  ///< of every tool
+  [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t /*tool*/) const override {
+    return size;
+  }
+
+ private:
+  std::vector<nav::ToolGeometry> tools_;
+  std::vector<nav::ToolState> states_;
+};
+
+/// A session whose surgeon, tools and registrations are said line by line. Pairs come every 33 ms.
+class ScriptedOperation {
+ public:
+  explicit ScriptedOperation(std::vector<std::string> labels = {"L4", "L5"},
+                             engine::SessionOptions options = {},
+                             engine::Verification verification = engine::Verification::kByEye,
+                             bool coaching = false);
+
+  const engine::Guidance& pair();
+  const engine::Guidance& pairs(int n);
+  const engine::Guidance& says(const std::string& phrase, double confidence = 1.0);
+  const engine::Guidance& does(std::vector<ClickerAction> actions);
+  /// Comes with the next pair, beside what is said or done then.
+  void hears_at(Timestamp time, const std::string& phrase, double confidence = 1.0);
+  /// Presses, holds over `n` pairs, releases.
+  const engine::Guidance& strokes(int n);
+  /// A click of two pairs with the pointer's tip at `tip`.
+  const engine::Guidance& touches(Vec3 tip);
+  /// From setup to `verify` of the first level.
+  const engine::Guidance& registers_first_level();
+  /// Looks at the registration, then accepts it.
+  const engine::Guidance& accepts();
+  /// From setup to `accepted` of the first level.
+  const engine::Guidance& accepts_first_level();
+
+  [[nodiscard]] engine::Session& session() { return *session_; }
+  [[nodiscard]] ScriptedTracker& tracker() { return *tracker_; }
+  [[nodiscard]] Timestamp now() const { return now_; }
+
+  nav::Registration registration;              ///< what the next registration says
+  std::optional<std::string> unusable;         ///< or why there is none
+  std::vector<std::size_t> registered_points;  ///< of each registration asked for
+  Duration latency = std::chrono::milliseconds(16);
+  std::int64_t map_epoch = 0;  ///< of the next pairs
+
+ private:
+  Timestamp now_ = from_ticks_100ns(10'000'000);
+  std::vector<ClickerEvent> clicks_;
+  std::vector<Phrase> phrases_;
+  ScriptedTracker* tracker_ = nullptr;
+  std::unique_ptr<engine::Session> session_;
+};
+
+/// A guide whose tip is at `tip` and whose shaft leaves the bone at `angle_rad` from +y, about z.
+Transform<World, Marker> guide_at(Vec3 tip, double angle_rad);
+/// A pointer with its tip there.
+Transform<World, Marker> pointer_at(Vec3 tip);
+
+}  // namespace orthonav::test

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/random.h"
+#include "nav/geometry/mesh.h"
+#include "nav/registration/surface_step.h"
+
+namespace orthonav::test {
+
+/// A box-like bone of 70 x 20 x 50 mm whose back (+y) is `height_m(x, z)` high. Closed, outward-
+/// oriented; as symmetric as its height is.
+nav::TriangleMesh slab_bone(const std::function<double(double, double)>& height_m);
+
+/// A back with an oblique crest and two unequal knobs: no motion leaves it as it is.
+double crooked_back(double x, double z);
+/// The same after half a turn about y: two poses fit.
+double twofold_back(double x, double z);
+
+/// Places on the surface itself, as strokes from left to right and back pass over them: seen
+/// straight from behind, about 0.7 mm apart.
+std::vector<Vec3> strokes_over(const nav::SurfaceIndex& surface, std::size_t lanes);
+
+/// Points about their centre, somewhere in the world, and where the bone then is.
+struct CentredPoints {
+  std::vector<Vec3> points_m;
+  nav::CentredPose truth;
+};
+CentredPoints centred_somewhere(std::span<const Vec3> in_vertebra_m, Random& random);
+
+/// The pose moved by so much along and about random axes.
+nav::CentredPose moved(const nav::CentredPose& pose, double shift_m, double turn_rad,
+                       Random& random);
+
+/// How far two poses put the farthest corner of a box of 60 mm about the points from one another.
+double apart_m(const nav::CentredPose& a, const nav::CentredPose& b);
+
+/// Of correlated noise with SD 1, from one of the points 1/30 s apart to the next; starts anew.
+std::vector<double> wandering(std::size_t count, double correlation_s, Random& random);
+
+}  // namespace orthonav::test

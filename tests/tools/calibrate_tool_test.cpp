@@ -1,0 +1,140 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/case/tool_file.h"
+#include "tests/support/tag_body_scene.h"
+#include "tests/tools/command_line.h"
+#include "tests/tools/tag_recording.h"
+
+namespace orthonav::test::calibrate_tool_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// Rendered corners err by 0.03 px, alike in pairs that are alike; measured 0.03 mm, 0.05°.
+constexpr double kPlaceM = 0.0001;
+constexpr double kTurnRad = 0.003;
+constexpr int kPairs = 40;
+
+/// The prism turning; without `tag` in it, if given.
+void record_prism(const std::string& folder, int count = kPairs, std::size_t without = 99) {
+  const TagBodyScene scene = prism();
+  std::vector<std::vector<PlacedTag>> pairs;
+  for (const auto& rig_from_marker : turning(count)) {
+    pairs.emplace_back();
+    for (std::size_t i = 0; i < scene.tags.size(); ++i) {
+      if (i == without) continue;
+      const auto rig_from_tag = rig_from_marker * scene.marker_from_tag[i];
+      pairs.back().push_back({scene.tags[i].family,
+                              scene.tags[i].id,
+                              scene.tags[i].size_m,
+                              {rig_from_tag.rotation(), rig_from_tag.translation()}});
+    }
+  }
+  record(folder, scene.calibration, pairs);
+}
+
+void expect_prism(const nav::ToolGeometry& tool) {
+  const TagBodyScene scene = prism();
+  EXPECT_EQ(tool.marker.id, 3);
+  ASSERT_EQ(tool.more_markers.size(), 2u);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const nav::AttachedMarker& more = tool.more_markers[i - 1];
+    EXPECT_EQ(more.definition.id, scene.tags[i].id);
+    EXPECT_DOUBLE_EQ(more.definition.size_m, 0.04);
+    EXPECT_LT((more.marker_from_tag.translation() - scene.marker_from_tag[i].translation()).norm(),
+              kPlaceM);
+    EXPECT_LT(
+        rotation_angle_rad(more.marker_from_tag.rotation(), scene.marker_from_tag[i].rotation()),
+        kTurnRad);
+  }
+}
+
+TEST(CalibrateTool, FindsWhereTheTagsLieAndWritesATool) {
+  const ScratchFolder folder;
+  const std::string recording = folder.file("recording");
+  record_prism(recording);
+  const std::string out = folder.file("tools.json");
+  const Called called = orthonav({"calibrate", "tool", recording, "--family", "tag36h11", "--ids",
+                                  "3,4,5", "--size-mm", "40", "--out", out, "--json"});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const auto tools = engine::load_tools(out);
+  ASSERT_TRUE(tools.ok()) << tools.error().message;
+  ASSERT_EQ(tools->size(), 1u);
+  EXPECT_EQ(tools->front().role, nav::ToolRole::kReference);
+  expect_prism(tools->front());
+  const auto json = nlohmann::json::parse(called.out);
+  EXPECT_EQ(json["pairs"], kPairs);
+  EXPECT_LT(json["rms_px"], 0.08);
+  EXPECT_EQ(json["tags"].size(), 3u);
+  EXPECT_NEAR(json["tags"][2]["measured_size_mm"], 40.0, 0.4);
+  EXPECT_LT(json["tags"][1]["sigma_mm"], 0.1);
+  EXPECT_NE(json["verdict"], "fail");
+
+  // Into a file that has the tool already: all else stays.
+  const std::string own = folder.with("own.json", R"({"tools": [
+    {"name": "pointer", "role": "pointer", "serial": 4, "axis": [0, 1, 0],
+     "marker": {"family": "tag36h11", "id": 3, "size_mm": 40}, "tip_mm": [0, -150, 0]}]})");
+  const Called plain = orthonav({"calibrate", "tool", recording, "--ids", "3-5", "--size-mm",
+                                 "40,40,40", "--tools", own, "--tool", "pointer", "--out", own});
+  ASSERT_EQ(plain.code, 0) << plain.err;
+  EXPECT_THAT(plain.out, AllOf(HasSubstr("tag36h11 id 5: at "), HasSubstr("residual 0.")));
+  const auto changed = engine::load_tools(own);
+  ASSERT_TRUE(changed.ok()) << changed.error().message;
+  expect_prism(changed->front());
+  EXPECT_EQ(changed->front().tip_in_marker.v, (Vec3{0, -0.15, 0}));
+  EXPECT_THAT(content_of(own), HasSubstr("\"serial\": 4"));
+}
+
+TEST(CalibrateTool, RefusesInOneLineAndWritesNothing) {
+  const ScratchFolder folder;
+  const std::string recording = folder.file("recording");
+  record_prism(recording, 30, 2);
+  const std::string few = folder.file("few");
+  record_prism(few, 4, 2);
+  const std::string out = folder.file("tools.json");
+  const auto called = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = {"calibrate", "tool", few, "--out", out};
+    all.insert(all.end(), more.begin(), more.end());
+    return orthonav(all);
+  };
+  const Called apart = orthonav({"calibrate", "tool", recording, "--out", out, "--ids", "3,4,5",
+                                 "--size-mm", "40", "--json"});
+  EXPECT_EQ(apart.code, 1);
+  EXPECT_THAT(apart.err,
+              HasSubstr("refused: tool calibration: tag tag36h11 id 5 (seen in 0 pairs)"));
+  EXPECT_EQ(nlohmann::json::parse(apart.out)["verdict"], "fail");
+  const Called wrong = called({"--ids", "3,4", "--size-mm", "30"});
+  EXPECT_EQ(wrong.code, 1);
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("edges measure 4"), HasSubstr("given are 30.00 mm")));
+
+  const std::string tools = folder.with("own.json", R"({"tools": [{"name": "a", "role": "pointer",
+    "marker": {"family": "tag36h11", "id": 7, "size_mm": 40}, "tip_mm": [0, 0, 0]}]})");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--ids", "3,4", "--size-mm", "40,30,20"}, "3 sizes for 2 tags"},
+      {{"--ids", "3,4", "--size-mm", "4000"}, "5-200 mm"},
+      {{"--ids", "3,x", "--size-mm", "40"}, "--ids"},
+      {{"--ids", "3,4", "--size-mm", "40", "--family", "tag99h1"}, "tag99h1"},
+      {{"--ids", "3,4", "--size-mm", "40", "--tools", tools, "--tool", "a"}, "is tag36h11 id 7"},
+      {{"--ids", "3,4", "--size-mm", "40", "--tools", tools, "--tool", "b"}, "no tool is named"},
+      {{"--ids", "3,4", "--size-mm", "40", "--role", "hook"}, "--role"},
+      {{"--ids", "3,4"}, "--size-mm"}};
+  for (const auto& [more, what] : cases) {
+    const Called bad = called(more);
+    EXPECT_EQ(bad.code, 2) << what;
+    EXPECT_THAT(bad.err, HasSubstr(what));
+    EXPECT_EQ(std::count(bad.err.begin(), bad.err.end(), '\n'), 1) << bad.err;
+    EXPECT_THAT(bad.out, IsEmpty());
+  }
+  EXPECT_EQ(called({"--ids", "3", "--size-mm", "40"}).code, 1) << "one tag is no body";
+  EXPECT_THAT(folder.names(), ElementsAre("few", "own.json", "recording"));
+}
+
+}  // namespace
+}  // namespace orthonav::test::calibrate_tool_test

@@ -1,0 +1,75 @@
+#include "tests/tools/command_line.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+namespace orthonav::test {
+namespace {
+
+void redirect(const std::string& path, int descriptor) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (file < 0 || dup2(file, descriptor) < 0) _exit(126);
+}
+
+}  // namespace
+
+Called orthonav(const std::vector<std::string>& arguments) {
+  const ScratchFolder folder;
+  const std::string out = folder.file("out");
+  const std::string err = folder.file("err");
+  std::vector<std::string> words = {ORTHONAV_COMMAND};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    redirect(out, STDOUT_FILENO);
+    redirect(err, STDERR_FILENO);
+    execv(ORTHONAV_COMMAND, pointers.data());
+    _exit(127);
+  }
+  int status = 0;
+  Called called;
+  if (child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status))
+    called.code = WEXITSTATUS(status);
+  called.out = content_of(out);
+  called.err = content_of(err);
+  return called;
+}
+
+ScratchFolder::ScratchFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "orthonav-test-XXXXXX").string();
+  if (!mkdtemp(name.data())) std::abort();
+  path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string ScratchFolder::with(const std::string& name, const std::string& content) const {
+  std::ofstream(file(name), std::ios::binary) << content;
+  return file(name);
+}
+
+std::vector<std::string> ScratchFolder::names() const {
+  std::vector<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(path_))
+    found.push_back(entry.path().filename().string());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::string shared(const std::string& name) {
+  const std::string path = std::string(ORTHONAV_SHARED_DIR) + "/" + name;
+  return std::filesystem::exists(path) ? path : std::string();
+}
+
+}  // namespace orthonav::test

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::test {
+
+/// What a call of the command left behind.
+struct Called {
+  int code = -1;  ///< exit code; -1 when it ended by a signal
+  std::string out;
+  std::string err;
+};
+
+/// Runs the built `orthonav` with these arguments, as they are (no shell expands them).
+Called orthonav(const std::vector<std::string>& arguments);
+
+/// An empty folder that goes away again.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+  /// Writes a file and returns its path.
+  [[nodiscard]] std::string with(const std::string& name, const std::string& content) const;
+  /// Names in the folder, sorted.
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+using orthonav::test::content_of;
+/// A file or folder of the test data; empty when it is absent.
+std::string shared(const std::string& name);
+
+}  // namespace orthonav::test

@@ -1,0 +1,202 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
+
+#include "tests/tools/command_line.h"
+
+namespace orthonav::test::detect_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Le;
+using ::testing::SizeIs;
+
+using Corners = std::array<std::array<double, 2>, 4>;
+
+// The photographs' truth is the library's quads without refinement; the tags are 20-40 px wide and
+// the pictures compressed, so that better corners differ from it by a third of a pixel. Half a
+// pixel, the mistake to be found, would make 0.7 px.
+constexpr double kMeanPx = 0.35;
+constexpr double kWorstPx = 1.5;
+// As the library finds them, to the digits of the truth and of the decoded pictures.
+constexpr double kSamePx = 0.02;
+
+nlohmann::json detected(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"detect", "--json"});
+  const Called called = orthonav(arguments);
+  EXPECT_EQ(called.code, 0) << called.err;
+  return nlohmann::json::parse(called.out);
+}
+
+std::vector<int> ids_of(const nlohmann::json& image) {
+  std::vector<int> ids;
+  for (const auto& marker : image["markers"]) ids.push_back(marker["id"]);
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+// Lines `NAME  WIDTHxHEIGHT  …  ids=3 5h1 …`, where h1 stands for a corrected bit.
+// `more` tags may be found that are not listed.
+void expect_as_listed(const std::string& folder, std::size_t more) {
+  std::istringstream lines(content_of(folder + "/detections_36h11.tsv"));
+  int images = 0;
+  for (std::string line; std::getline(lines, line); ++images) {
+    const std::string name = line.substr(0, line.find('\t'));
+    std::istringstream listed(line.substr(line.find("ids=") + 4));
+    std::vector<int> expected;
+    for (std::string id; listed >> id;) expected.push_back(std::stoi(id));
+    std::sort(expected.begin(), expected.end());
+    const auto json = detected({folder + "/" + name});
+    const std::vector<int> found = ids_of(json["images"][0]);
+    std::vector<int> missing;
+    std::set_difference(expected.begin(), expected.end(), found.begin(), found.end(),
+                        std::back_inserter(missing));
+    EXPECT_THAT(missing, IsEmpty()) << name;
+    EXPECT_THAT(found, SizeIs(Le(expected.size() + more))) << name;
+  }
+  EXPECT_GT(images, 0);
+}
+
+// Distances of the corners, with the best agreement over the corner a list may start at and over
+// tags with the same id.
+std::array<double, 4> nearest_px(const Corners& truth, const nlohmann::json& markers) {
+  std::array<double, 4> best;
+  best.fill(1e9);
+  for (const auto& marker : markers)
+    for (std::size_t start = 0; start < 4; ++start) {
+      std::array<double, 4> errors;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto& c = marker["corners_px"][(start + i) % 4];
+        errors[i] = std::hypot(c[0].get<double>() - truth[i][0], c[1].get<double>() - truth[i][1]);
+      }
+      const auto sum = [](const auto& a) { return std::accumulate(a.begin(), a.end(), 0.0); };
+      if (sum(errors) < sum(best)) best = errors;
+    }
+  return best;
+}
+
+std::vector<Corners> truth_of(const std::string& file) {
+  std::vector<Corners> all;
+  std::istringstream lines(content_of(file));
+  for (std::string line; std::getline(lines, line);) {
+    for (char& c : line)
+      if (c == '(' || c == ')' || c == ',') c = ' ';
+    std::istringstream numbers(line);
+    int id = 0;
+    Corners corners;
+    numbers >> id;
+    for (auto& corner : corners) numbers >> corner[0] >> corner[1];
+    all.push_back(corners);
+  }
+  return all;
+}
+
+TEST(DetectCommand, FindsEveryTagOfThePhotographs) {
+  const std::string folder = shared("recordings/apriltag-testdata");
+  if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
+  // The truth has a tag more than the list, and it is found.
+  expect_as_listed(folder, 1);
+}
+
+TEST(DetectCommand, FindsEveryTagOfTheMeasuredSeries) {
+  const std::string folder = shared("recordings/dt-apriltags");
+  if (folder.empty()) GTEST_SKIP() << "the dt-apriltags images are not here";
+  expect_as_listed(folder, 0);
+}
+
+struct PhotographErrors {
+  std::vector<double> corners_px;
+  std::size_t unmatched_tags = 0;
+  double mean_px = 0.0;
+};
+
+PhotographErrors photograph_errors(const std::string& folder, const std::string& refinement) {
+  PhotographErrors errors;
+  for (const char* name :
+       {"33369213973_9d9bb4cc96_c", "34085369442_304b6bafd9_c", "34139872896_defdb2f8d9_c"}) {
+    const auto json = detected({folder + "/" + name + ".jpg", "--refine", refinement});
+    for (const Corners& truth : truth_of(folder + "/" + name + ".txt")) {
+      const auto nearest = nearest_px(truth, json["images"][0]["markers"]);
+      if (*std::max_element(nearest.begin(), nearest.end()) < 10.0)
+        errors.corners_px.insert(errors.corners_px.end(), nearest.begin(), nearest.end());
+      else
+        ++errors.unmatched_tags;
+    }
+  }
+  for (const double error : errors.corners_px)
+    errors.mean_px += error / static_cast<double>(errors.corners_px.size());
+  return errors;
+}
+
+TEST(DetectCommand, PutsCornersWhereThePhotographsTruthHasThem) {
+  const std::string folder = shared("recordings/apriltag-testdata");
+  if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
+  const PhotographErrors errors = photograph_errors(folder, "edges");
+  EXPECT_EQ(errors.unmatched_tags, 0u);
+  ASSERT_EQ(errors.corners_px.size(), 4 * 47u);
+  EXPECT_LT(errors.mean_px, kMeanPx);
+  EXPECT_LT(*std::max_element(errors.corners_px.begin(), errors.corners_px.end()), kWorstPx);
+}
+
+TEST(DetectCommand, GivesTheLibrarysOwnCornersWhenAsked) {
+  const std::string folder = shared("recordings/apriltag-testdata");
+  if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
+  const PhotographErrors as_truth = photograph_errors(folder, "none");
+  EXPECT_LT(as_truth.mean_px, kSamePx);
+  EXPECT_GT(photograph_errors(folder, "library").mean_px, kMeanPx) << "the bound can be failed";
+}
+
+TEST(DetectCommand, SaysWhichPixelsItMeans) {
+  EXPECT_THAT(orthonav({"detect", "--help"}).out, HasSubstr("(0.5, 0.5)"));
+  const ScratchFolder folder;
+  const std::string blank = folder.with("blank.pgm", "P5\n40 30\n255\n" + std::string(1200, 'x'));
+  const Called called = orthonav({"detect", blank});
+  EXPECT_EQ(called.code, 0);
+  EXPECT_THAT(called.out, HasSubstr("(0.5, 0.5)"));
+  EXPECT_THAT(called.out, HasSubstr("blank.pgm: 0 markers"));
+  const auto json = detected({blank});
+  EXPECT_THAT(json["corner_coordinates"].get<std::string>(), HasSubstr("(0.5, 0.5)"));
+  EXPECT_EQ(json["images"][0]["width_px"], 40);
+  EXPECT_EQ(json["images"][0]["height_px"], 30);
+  EXPECT_TRUE(json["images"][0]["markers"].is_array());
+}
+
+TEST(DetectCommand, RefusesBadInputInOneLine) {
+  const ScratchFolder folder;
+  const std::string good = folder.with("good.pgm", "P5 40 30 255\n" + std::string(1200, 'x'));
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"detect", good, "--family", "tag99h1"}, "unknown tag family 'tag99h1', known are tag36h11"},
+      {{"detect", good, "--max-hamming", "3"},
+       "--max-hamming: \"3\" must be a whole number from 0 to 2"},
+      {{"detect", good, "--decimate", "0.3"}, "decimate"},
+      {{"detect", good, folder.file("none.png")}, "none.png"},
+      {{"detect", good, folder.with("cut.pgm", "P5 40 30 255\nxyz")}, "cut.pgm: PGM is cut short"},
+      {{"detect", good, folder.with("text.png", "hello")}, "text.png: not a PNG, JPEG"}};
+  for (const auto& [arguments, what] : cases) {
+    const Called called = orthonav(arguments);
+    EXPECT_EQ(called.code, 2) << what;
+    EXPECT_THAT(called.err, HasSubstr(what));
+    EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+    EXPECT_THAT(called.out, IsEmpty()) << "half an answer";
+  }
+  EXPECT_EQ(orthonav({"detect"}).code, 2);
+}
+
+TEST(DetectCommand, LooksForTheFamilyItIsGiven) {
+  const std::string folder = shared("recordings/dt-apriltags");
+  if (folder.empty()) GTEST_SKIP() << "the dt-apriltags images are not here";
+  const std::string image = folder + "/test_image_multiple_02.png";
+  EXPECT_THAT(ids_of(detected({image, "--family", "tag25h9"})["images"][0]), IsEmpty());
+  const auto both = detected({image, "--family", "tag25h9", "--family", "tag36h11"});
+  EXPECT_EQ(ids_of(both["images"][0]).size(), 5u);
+  EXPECT_EQ(both["images"][0]["markers"][0]["family"], "tag36h11");
+}
+
+}  // namespace
+}  // namespace orthonav::test::detect_test

@@ -1,0 +1,162 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "tests/tools/command_line.h"
+
+namespace orthonav::test::operation_commands_test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+/// Exit code 2, nothing on standard output, one line that says why.
+void expect_refusal(const Called& called, const std::string& reason) {
+  EXPECT_EQ(called.code, 2) << called.err;
+  EXPECT_THAT(called.out, IsEmpty());
+  EXPECT_THAT(called.err, HasSubstr(reason));
+  EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+}
+
+TEST(DemoCommand, RefusesWhatItCannotDoAndLeavesNothing) {
+  const ScratchFolder folder;
+  const std::string out = folder.file("out");
+  expect_refusal(orthonav({"demo", "--out", out, "--method", "nearest"}),
+                 "nearest: unknown (available: best, paper)");
+  expect_refusal(orthonav({"demo", "--out", out, "--case", folder.file("none")}), "none");
+  expect_refusal(orthonav({"demo", "--out", out, "--levels", "L5,T1"}),
+                 "no level 'T1' (it has: L1, L2, L3, L4, L5)");
+  expect_refusal(orthonav({"demo", "--out", out, "--levels", "L5,L5"}), "named twice");
+  expect_refusal(orthonav({"demo", "--out", out, "--device", "no such device"}), "no such device");
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(DemoCommand, RefusesAFileInThePlaceOfItsFolder) {
+  const ScratchFolder folder;
+  const std::string file = folder.with("out", "mine");
+  EXPECT_EQ(orthonav({"demo", "--out", file}).code, 2);
+  EXPECT_EQ(content_of(file), "mine");
+}
+
+TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
+  const ScratchFolder folder;
+  const std::string out = folder.file("out");
+  std::filesystem::create_directories(out);
+  for (const char* stale : {"12-done.png", "report.json", "mine-01-setup.png", "notes.txt"})
+    std::ignore = folder.with("out/" + std::string(stale), "of an earlier run");
+  const Called demo = orthonav({"demo", "--levels", "L5", "--pace", "3", "--out", out, "--json"});
+  ASSERT_EQ(demo.code, 0) << demo.err;
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(out))
+    names.insert(entry.path().filename().string());
+  for (const char* name : {"report.html", "report.json", "timing.json", "session.orthonav",
+                           "operation.mp4", "01-setup.png"}) {
+    EXPECT_EQ(names.count(name), 1u) << name;
+    EXPECT_GT(std::filesystem::file_size(out + "/" + name), 100u) << name;
+  }
+  const auto shows = [&names](const std::string& step) {
+    return std::any_of(names.begin(), names.end(), [&step](const std::string& name) {
+      return name.size() == step.size() + 7 && name.ends_with("-" + step + ".png");
+    });
+  };
+  for (const char* step : {"digitize-L5", "guide-L5-left", "guide-L5-right", "rod-left"})
+    EXPECT_TRUE(shows(step)) << step;
+  EXPECT_EQ(names.count("12-done.png"), 0u) << "a picture of the run before";
+  EXPECT_EQ(content_of(out + "/mine-01-setup.png"), "of an earlier run") << "not ours to remove";
+  EXPECT_EQ(names.count("notes.txt"), 1u);
+  for (const std::string& name : names) EXPECT_THAT(name, Not(HasSubstr(".part")));
+
+  EXPECT_EQ(content_of(out + "/report.json"), demo.out);
+  const json report = json::parse(demo.out);
+  EXPECT_EQ(report["completed"], true);
+  EXPECT_FALSE(report.contains("why_not"));
+  EXPECT_GT(report["levels"][0]["screws"][1]["angle_error_deg"].get<double>(), 0.0);
+  EXPECT_GT(json::parse(content_of(out + "/timing.json"))["draw_wall"]["count"], 50);
+  const json registration = report["levels"][0]["registration"];
+  EXPECT_EQ(registration["accepted"], true);
+  EXPECT_EQ(registration["screws"].size(), 2u);
+  EXPECT_GT(registration["noise_mm"].get<double>(), 0.0);
+  const std::string page = content_of(out + "/report.html");
+  EXPECT_THAT(page, HasSubstr("Registration of L5"));
+  EXPECT_THAT(page, HasSubstr("aria-label=\"from above\""));
+  std::istringstream journal(content_of(out + "/session.orthonav"));
+  int lines = 0;
+  for (std::string line; std::getline(journal, line); ++lines)
+    EXPECT_TRUE(json::accept(line)) << line;
+  EXPECT_GT(lines, 20);
+  EXPECT_THAT(content_of(out + "/operation.mp4"), HasSubstr("ftyp"));
+}
+
+TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
+  const ScratchFolder folder;
+  const std::string recording = folder.file("recording");
+  const Called live = orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--frames",
+                                "6", "--json", "--record", recording});
+  ASSERT_EQ(live.code, 0) << live.err;
+  const json report = json::parse(live.out);
+  EXPECT_EQ(report["method"], "best");
+  EXPECT_EQ(report["frames"]["displayed"], 6);
+  EXPECT_EQ(report["levels"][0]["label"], "L5");
+  EXPECT_EQ(report["levels"][0]["accepted"], false);
+  EXPECT_FALSE(report["levels"][0].contains("points")) << "none were registered: no 0 for a mean";
+  EXPECT_EQ(report["seed"], 3) << "of the headset that was opened";
+  EXPECT_EQ(report["why_not"], "ended at setup of L5");
+
+  // Without a limit the answer is no: the recording ends before the operation does.
+  const Called again =
+      orthonav({"run", "--headset", "replay:" + recording, "--levels", "L5", "--json"});
+  EXPECT_EQ(again.code, 1) << again.err;
+  EXPECT_EQ(json::parse(again.out)["frames"]["displayed"], 6);
+  EXPECT_FALSE(json::parse(again.out).contains("seed")) << "a recording has none";
+}
+
+TEST(RunCommand, RefusesBadInput) {
+  const ScratchFolder folder;
+  expect_refusal(orthonav({"run", "--headset", "holo:"}), "unknown scheme");
+  expect_refusal(orthonav({"run", "--headset", "replay:" + folder.file("none")}), "none");
+  expect_refusal(orthonav({"run", "--method", "nearest"}), "nearest: unknown");
+  expect_refusal(orthonav({"run", "--tools", folder.with("t.json", "{}")}), "t.json");
+}
+
+TEST(StudyCommand, RefusesBadInput) {
+  const ScratchFolder folder;
+  expect_refusal(orthonav({"study", "--shard", "3/2"}), "--shard 3/2");
+  expect_refusal(orthonav({"study", "--shard", "1/2x"}), "--shard 1/2x");
+  expect_refusal(orthonav({"study", "--runs", "0"}), "--runs: \"0\"");
+  expect_refusal(orthonav({"study", "--cases", folder.file("none")}), "no case.json");
+  expect_refusal(orthonav({"study", "merge", folder.with("a.json", "[]")}), "is no study");
+  const std::string words = folder.with("words.json", R"({"method": "paper", "runs": [
+      {"case": "a", "seed": 1, "completed": "yes", "levels": []}]})");
+  expect_refusal(orthonav({"study", "merge", words}),
+                 "words.json: completed of a run is \"yes\", must be true or false");
+}
+
+TEST(StudyCommand, MergesShards) {
+  const ScratchFolder folder;
+  const auto shard = [&](const std::string& name, int seed) {
+    const json run{{"case", "phantom"},
+                   {"seed", seed},
+                   {"completed", true},
+                   {"levels", json::array({{{"label", "L5"}, {"rmse_mm", 1.0 * seed}}})}};
+    return folder.with(name, json{{"method", "paper"}, {"runs", json::array({run})}}.dump());
+  };
+  const std::string out = folder.file("all.json");
+  const Called merged =
+      orthonav({"study", "merge", shard("b.json", 2), shard("a.json", 1), "--json", out});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  const json study = json::parse(content_of(out));
+  EXPECT_EQ(study["operations"], 2);
+  EXPECT_EQ(study["runs"][0]["seed"], 1);
+  EXPECT_DOUBLE_EQ(study["table"][2]["mean"], 1.5);
+}
+
+}  // namespace
+}  // namespace orthonav::test::operation_commands_test

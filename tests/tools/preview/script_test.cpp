@@ -1,0 +1,106 @@
+#include "tools/preview/script.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/tools/preview/model_bench.h"
+
+namespace orthonav::preview::script_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+struct Bench : ModelBench {
+  std::vector<std::string> taken;
+  ScriptStage stage{[this](int w, int h) { taken.push_back(std::to_string(w * 10000 + h)); },
+                    [this](const std::string& name) { taken.push_back(name); }};
+
+  Status go_on(Script& script, bool ended = false) {
+    return script.go_on(model, stage, wall.now(), ended);
+  }
+  void show(int pair, const std::string& step) {
+    gate.pass(Timestamp(Duration(pair)));
+    auto moment = std::make_shared<Moment>();
+    moment->pair = pair;
+    moment->step_text = step;
+    timeline.push(moment);
+  }
+};
+
+TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
+  Bench bench;
+  Script script =
+      Script::parse("until digitize # a remark\nscreenshot a.png\nresize 64 48\nkey s\n", "t")
+          .value();
+  ASSERT_TRUE(bench.go_on(script).ok());
+  bench.show(1, "setup");
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_TRUE(bench.taken.empty());
+  bench.show(2, "digitize L4");
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_THAT(bench.taken, ElementsAre("a.png"));
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_THAT(bench.taken, ElementsAre("a.png", "640048"));
+  EXPECT_FALSE(script.done());
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_TRUE(script.done());
+  std::vector<std::string> said;
+  bench.keyboard.take_phrases(said);
+  EXPECT_THAT(said, ElementsAre("start"));
+}
+
+TEST(Script, CountsPairsFromWhereItWaits) {
+  Bench bench;
+  bench.show(1, "setup");
+  Script script = Script::parse("pairs 2\n", "t").value();
+  ASSERT_TRUE(bench.go_on(script).ok());
+  bench.show(2, "setup");
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_FALSE(script.done());
+  bench.show(3, "setup");
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_TRUE(script.done());
+}
+
+TEST(Script, PausesUntilNothingMovesAnyMore) {
+  Bench bench;
+  bench.show(1, "setup");
+  bench.gate.set_speed(0.0);
+  ASSERT_TRUE(bench.gate.may_pass());  // A pair is on its way.
+  Script script = Script::parse("pause\n", "t").value();
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_FALSE(script.done());
+  bench.gate.pass(Timestamp(Duration(5)));  // It came, and is being worked on.
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_FALSE(script.done());
+  auto moment = std::make_shared<Moment>();
+  moment->pair = 2;
+  bench.timeline.push(moment);
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_TRUE(script.done());
+}
+
+TEST(Script, GivesUpWhenNothingMoreComesOrItTakesTooLong) {
+  Bench bench;
+  Script script = Script::parse("\nuntil done\n", "steps.txt").value();
+  ASSERT_TRUE(bench.go_on(script).ok());
+  bench.wall.advance(std::chrono::seconds(301));
+  const Status late = bench.go_on(script);
+  ASSERT_FALSE(late.ok());
+  EXPECT_THAT(late.error().message, HasSubstr("steps.txt:2: until: waited 301"));
+  const Status over = bench.go_on(script, true);
+  ASSERT_FALSE(over.ok());
+  EXPECT_THAT(over.error().message, HasSubstr("waits for done, but nothing more comes"));
+}
+
+TEST(Script, RefusesWhatItDoesNotKnow) {
+  for (const char* bad : {"jump", "key", "key hyper", "pairs", "pairs x", "resize 3",
+                          "resize 3 4 5", "until", "screenshot", "show all", "pause 3"}) {
+    const auto script = Script::parse(std::string("key s\n") + bad, "t");
+    ASSERT_FALSE(script.ok()) << bad;
+    EXPECT_THAT(script.error().message, HasSubstr("t:2: ")) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace orthonav::preview::script_test

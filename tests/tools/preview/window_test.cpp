@@ -1,0 +1,234 @@
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "engine/io/image_file.h"
+
+namespace orthonav::preview::window_test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// A shell script run with a display of its own, in an empty folder.
+class WindowTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* needed : {"Xvfb", "xdotool"})
+      if (std::system((std::string("command -v ") + needed + " >/dev/null").c_str()) != 0)
+        GTEST_SKIP() << needed << " is not installed (tools/setup installs it)";
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) / (std::string("preview-") + info->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    if (!HasFailure()) fs::remove_all(folder_);
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  std::string content(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+  /// `$preview` is the command with a hasty surgeon in a perfect world, `$server` the X server,
+  /// which finds a number that no other has. The exit code.
+  int shell(const std::string& commands) const {
+    write("commands", "cd '" + folder_.string() + R"('
+mkfifo number
+Xvfb -displayfd 3 -screen 0 1600x1000x24 -nolisten tcp 3>number >/dev/null 2>&1 & server=$!
+trap 'code=$?; kill $server 2>/dev/null; exit $code' EXIT
+read display <number
+export DISPLAY=:$display
+preview=')" ORTHONAV_COMMAND R"( preview --levels L5 --perfect --pace 4 --size 640x360 --out .'
+)" + commands);
+    const int status = std::system(("timeout -k 5 120 sh '" + (folder_ / "commands").string() +
+                                    "' >'" + (folder_ / "out").string() + "' 2>&1")
+                                       .c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  render::Image picture(const std::string& name) const {
+    auto image = engine::read_png(folder_ / name);
+    EXPECT_TRUE(image.ok()) << (image ? "" : image.error().message) << content("out");
+    return image ? *image : render::Image{};
+  }
+
+  fs::path folder_;
+};
+
+/// How many pixels differ by more than the eye would see; all of them when the sizes do.
+std::size_t different(const render::Image& a, const render::Image& b) {
+  if (a.rgba.size() != b.rgba.size()) return std::max(a.rgba.size(), b.rgba.size()) / 4;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      most = std::max(most, std::abs(int{a.rgba[i + c]} - int{b.rgba[i + c]}));
+    count += most > 16 ? 1 : 0;
+  }
+  return count;
+}
+
+/// Pixels close to a colour; sRGB.
+std::size_t coloured(const render::Image& image, const std::array<int, 3>& colour) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      most = std::max(most, std::abs(int{image.rgba[i + c]} - colour[c]));
+    count += most < 40 ? 1 : 0;
+  }
+  return count;
+}
+
+// The planned trajectory, over the drapes.
+constexpr std::array<int, 3> kGreen = {64, 232, 96};
+
+TEST_F(WindowTest, ShowsAnOperationFromStrokesToGuidanceAndHidesWhatIsUnchecked) {
+  write("script", R"(key tab
+first digitize L5
+screenshot digitize.png
+key p
+first verify L5
+screenshot verify.png
+key 1
+screenshot verify-without-path.png
+key 1
+key p
+until accepted L5
+first guide L5 left
+screenshot guide.png
+key 4
+screenshot guide-without-trajectory.png
+key 4
+screenshot guide-again.png
+key o
+drag 30 10
+screenshot orbit.png
+key o
+key tab
+screenshot panel.png
+key h
+wait 2
+screenshot help.png
+)");
+  ASSERT_EQ(shell("$preview --speed 0 --script script"), 0) << content("out");
+  const render::Image guide = picture("guide.png");
+  // The status line has green dots of its own.
+  const render::Image without = picture("guide-without-trajectory.png");
+  EXPECT_GT(coloured(guide, kGreen), coloured(without, kGreen) + 60u);
+  EXPECT_LT(different(guide, without), 3000u);
+  EXPECT_TRUE(guide == picture("guide-again.png"));
+  EXPECT_GT(different(picture("verify.png"), picture("verify-without-path.png")), 300u);
+  EXPECT_GT(different(picture("digitize.png"), picture("verify.png")), 2000u);
+  EXPECT_GT(different(guide, picture("orbit.png")), 20000u);
+  EXPECT_GT(different(guide, picture("panel.png")), 20000u);
+  EXPECT_GT(different(picture("panel.png"), picture("help.png")), 2000u);
+}
+
+TEST_F(WindowTest, HearsWhatIsTypedInsteadOfTheSurgeon) {
+  // He says "start" within a second; unheard, nothing begins.
+  write("script", "key u\npairs 150\nuntil setup\nkey s\nuntil digitize L5\n");
+  EXPECT_EQ(shell("$preview --speed 0 --script script"), 0) << content("out");
+}
+
+/// Commands for a window with real keys: `begin` waits for its first picture, `there` for a file.
+constexpr const char* kRealKeys = R"(
+begin() {
+  "$@" & pid=$!
+  window=$(timeout 60 xdotool search --sync --onlyvisible --name 'orthonav preview: ' | head -1)
+  xdotool windowfocus --sync $window
+}
+there() { for i in $(seq 600); do [ -s "$1" ] && return; sleep 0.1; done; echo "no $1"; exit 9; }
+)";
+
+TEST_F(WindowTest, TakesRealKeys) {
+  const std::string keys = std::string(kRealKeys) + R"(
+begin $preview --paused
+xdotool key Tab i; there preview-001.png
+xdotool key F11 i; there preview-002.png
+xdotool key k i; there preview-003.png
+xdotool key Right p k; there preview-001.mp4
+xdotool key q
+wait $pid
+)";
+  ASSERT_EQ(shell(keys), 0) << content("out");
+  // The status line alone.
+  const std::size_t changed = different(picture("preview-001.png"), picture("preview-002.png"));
+  EXPECT_GT(changed, 100u);
+  EXPECT_LT(changed, 6000u);
+}
+
+TEST_F(WindowTest, SurvivesAStormOfSizesAndHavingNone) {
+  const std::string storm = std::string(kRealKeys) + R"(
+begin $preview --speed 0
+for i in 1 2 3 4 5 6 7 8 9 10; do
+  for size in '1 1' '1500 900' '3 700' '1500 2' '400 300' '331 200'; do
+    xdotool windowsize $window $size
+  done
+done
+xdotool windowunmap --sync $window
+xdotool windowmap --sync $window windowsize --sync $window 1000 400
+xdotool windowfocus --sync $window
+xdotool key i; there preview-001.png
+xdotool key Escape
+wait $pid
+)";
+  ASSERT_EQ(shell(storm), 0) << content("out");
+  const render::Image after = picture("preview-001.png");
+  EXPECT_EQ(after.width_px, 1000);
+  EXPECT_EQ(after.height_px, 400);
+  EXPECT_EQ(content("out"), "");
+}
+
+TEST_F(WindowTest, SaysSoWhenTheDisplayGoesAndKeepsTheVideo) {
+  const std::string commands = std::string(kRealKeys) + R"(
+begin $preview
+xdotool key k i; there preview-001.png
+kill -9 $server
+wait $pid
+)";
+  EXPECT_EQ(shell(commands), 2);
+  EXPECT_THAT(content("out"), HasSubstr("orthonav: window: the display has gone\n"));
+  EXPECT_TRUE(fs::exists(folder_ / "preview-001.mp4"));
+}
+
+TEST_F(WindowTest, NeedsADisplay) {
+  EXPECT_EQ(shell("unset DISPLAY WAYLAND_DISPLAY\n$preview"), 2);
+  EXPECT_THAT(content("out"), HasSubstr("orthonav: window: "));
+}
+
+TEST_F(WindowTest, ScrubsThroughARecording) {
+  write("script", R"(key tab
+scrub 20
+screenshot early.png
+scrub 70
+screenshot late.png
+scrub 20
+screenshot early-again.png
+key right
+screenshot next.png
+)");
+  ASSERT_EQ(shell("'" ORTHONAV_COMMAND
+                  "' run --levels L5 --headset 'sim:?perfect' --frames 80 --record recording "
+                  ">/dev/null 2>&1\n"
+                  "$preview --headset replay:recording --paused --script script"),
+            0)
+      << content("out");
+  const render::Image early = picture("early.png");
+  EXPECT_TRUE(early == picture("early-again.png"));
+  EXPECT_GT(different(early, picture("late.png")), 1000u);
+  EXPECT_FALSE(early == picture("next.png"));
+}
+
+}  // namespace
+}  // namespace orthonav::preview::window_test

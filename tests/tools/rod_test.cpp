@@ -1,0 +1,96 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/command_line.h"
+
+namespace orthonav::test::rod_test {
+namespace {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// Heads at the corners of a 30-40 mm path with a right angle, out of order.
+constexpr const char* kCorner = "x,y,z\n30,0,0\n0,0,0\n30,40,0\n";
+
+TEST(RodCommand, GivesLengthAndBends) {
+  const ScratchFolder folder;
+  const std::string heads = folder.with("heads.csv", kCorner);
+  const Called called = orthonav({"rod", "--heads", heads, "--diameter-mm", "6", "--json", "-"});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const json rod = json::parse(called.out);
+  EXPECT_EQ(rod["diameter_mm"].get<double>(), 6.0);
+  EXPECT_EQ(rod["heads_mm"].size(), 3U);
+  EXPECT_EQ(rod["heads_mm"][1], json({30.0, 0.0, 0.0}));
+  ASSERT_EQ(rod["bends"].size(), 1U);
+  EXPECT_NEAR(rod["bends"][0]["angle_deg"].get<double>(), 90.0, 1e-9);
+  const double length_mm = rod["length_mm"].get<double>();
+  EXPECT_GT(length_mm, 70.0);  // longer than its chords
+  EXPECT_LT(length_mm, 80.0);
+  // The sampled path's chords add up to the length, a little less.
+  double chords_mm = 0.0;
+  for (std::size_t i = 1; i < rod["path_mm"].size(); ++i) {
+    double squares = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      squares +=
+          std::pow(rod["path_mm"][i][k].get<double>() - rod["path_mm"][i - 1][k].get<double>(), 2);
+    chords_mm += std::sqrt(squares);
+  }
+  EXPECT_NEAR(chords_mm, length_mm, 0.02);
+  EXPECT_LE(chords_mm, length_mm);
+}
+
+TEST(RodCommand, SpeaksToPeopleByDefaultAndWritesTheFileBeside) {
+  const ScratchFolder folder;
+  const std::string heads = folder.with("heads.csv", "x,y,z\n0,0,0\n30,40,0\n");
+  const std::string out = folder.file("rod.json");
+  const Called called = orthonav({"rod", "--heads", heads, "--json", out});
+  ASSERT_EQ(called.code, 0) << called.err;
+  EXPECT_THAT(called.out, HasSubstr("length 50.000 mm, diameter 5.5 mm, 0 bends"));
+  EXPECT_NEAR(json::parse(content_of(out))["length_mm"].get<double>(), 50.0, 1e-6);
+}
+
+TEST(RodCommand, TakesMetres) {
+  const ScratchFolder folder;
+  const std::string heads = folder.with("heads.csv", "x,y,z\n0,0,0\n0.03,0.04,0\n");
+  const Called called = orthonav({"rod", "--heads", heads, "--units", "m"});
+  EXPECT_THAT(called.out, HasSubstr("length 50.000 mm"));
+  const Called wrong = orthonav({"rod", "--heads", heads});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("0.05 mm apart, limit 1-600 mm"));
+}
+
+TEST(RodCommand, RefusesBadInputInOneLine) {
+  const ScratchFolder folder;
+  struct Case {
+    std::string content, diameter_mm, expected;
+  };
+  const std::vector<Case> cases = {
+      {"x,y,z\n1,2,3\n", "5.5", "at least 2 screw heads, got 1"},
+      {"", "5.5", "heads.csv"},
+      {"x,y,z\n1,2,3\n1,2,3.5\n", "5.5", "heads 1 and 2 are 0.5 mm apart"},
+      {"x,y,z\n1,2,3\n1,2,inf\n", "5.5", "heads.csv"},
+      {kCorner, "0", "--diameter-mm: \"0\" must be a number from 1 to 15"},
+      {kCorner, "nan", "--diameter-mm: \"nan\""},
+      {"x,y,z,region\n0,0,0,left\n0,0,30,left\n40,0,0,right\n", "5.5", "must be one rod"},
+  };
+  for (const Case& c : cases) {
+    const std::string out = folder.file("rod.json");
+    const Called called = orthonav({"rod", "--heads", folder.with("heads.csv", c.content),
+                                    "--diameter-mm", c.diameter_mm, "--json", out});
+    EXPECT_EQ(called.code, 2) << c.expected;
+    EXPECT_THAT(called.err, AllOf(StartsWith("orthonav: "), HasSubstr(c.expected)));
+    EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
+    EXPECT_THAT(folder.names(), ElementsAre("heads.csv")) << "no output, whole or in part";
+  }
+  EXPECT_EQ(orthonav({"rod", "--heads", folder.file("none.csv")}).code, 2);
+  EXPECT_EQ(orthonav({"rod"}).code, 2);
+}
+
+}  // namespace
+}  // namespace orthonav::test::rod_test

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hal/voice/speech_segments.h"
+#include "tests/support/noisy_speech.h"
+
+namespace orthonav::bench {
+
+struct PhraseInRoom {
+  std::vector<std::int16_t> sound;
+  std::int64_t end = 0;  ///< of the phrase, in samples
+};
+
+/// A phrase with noise under it, after a second and a half of the noise alone.
+inline PhraseInRoom phrase_in_room(std::span<const std::int16_t> said, test::Noise noise,
+                                   double snr_db, Random& random, test::Babble babble) {
+  test::Soundtrack track;
+  track.silence(1.5);
+  const std::int64_t end = track.speech(said).second;
+  track.silence(0.6);
+  return {track.with_noise(noise, snr_db, random, babble), end};
+}
+
+/// What a segmenter that hears nothing else cuts out, each with its sound.
+inline std::vector<voice::SpeechSegment> cut_out(std::span<const std::int16_t> sound) {
+  voice::SpeechSegmenter segmenter;
+  std::vector<voice::SpeechSegment> told;
+  segmenter.push(sound, told);
+  std::vector<voice::SpeechSegment> ended;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    if (!told[i].ended) continue;
+    // The one before it told of it.
+    ended.push_back(std::move(told[i]));
+    ended.back().samples = std::move(told[i - 1].samples);
+  }
+  return ended;
+}
+
+}  // namespace orthonav::bench

@@ -1,0 +1,274 @@
+// What adapts the acoustic model to commands in noise (tools/voice/train): says the commands in
+// voices that are measured nowhere, in noises of all sorts, and writes what the recogniser hears of
+// them as sphinxtrain reads it; afterwards makes data/voice_means.bin and
+// data/voice_mixtures.bin of what sphinxtrain found.
+#include <pocketsphinx.h>
+#include <sphinxbase/err.h>
+
+#include <algorithm>
+#include <array>
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <numeric>
+
+#include "engine/session/spoken_commands.h"
+#include "hal/voice/adapted_means.h"
+#include "hal/voice/adapted_mixtures.h"
+#include "hal/voice/model_bytes.h"
+#include "hal/voice/phrase_recognizer.h"
+#include "hal/voice/pronunciations.h"
+#include "hal/voice/speech_cleaner.h"
+#include "tests/support/noisy_speech.h"
+#include "tools/voice/phrase_in_room.h"
+#include "tools/voice/voice_sets.h"
+
+namespace orthonav::bench {
+namespace {
+
+using namespace orthonav::voice;
+using namespace orthonav::test;
+
+struct Options {
+  std::string folder;
+  std::string means;            ///< to align with; the model's own where empty
+  std::string mixture;          ///< where the model's mixture weights go
+  std::string change;           ///< where the change goes that leads to `means`
+  double share = 0.6;           ///< of the way
+  std::string adapted_mixture;  ///< an adapted model's mixture weights
+  std::string mixture_change;   ///< where the change goes that leads to them
+  double mixture_share = 0.6;
+};
+
+[[noreturn]] void give_up(const std::string& why) {
+  std::fprintf(stderr, "voice_training: %s\n", why.c_str());
+  std::exit(2);
+}
+
+void write_file(const std::string& path, const std::string& content) {
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << content)) give_up("can't write " + path);
+}
+
+/// Which way a phrase was said, by the model itself.
+class Aligner {
+ public:
+  explicit Aligner(const Options& options) {
+    err_set_logfp(nullptr);
+    const std::string model = default_acoustic_model().string();
+    const std::string means = options.means.empty() ? model + "/means" : options.means;
+    write_file(options.folder + "/fillers", "<s> SIL\n</s> SIL\n<sil> SIL\n");
+    // The phrase is known: no beam may lose it.
+    config_ = cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", model.c_str(), "-mean", means.c_str(),
+                          "-fdict", (options.folder + "/fillers").c_str(), "-cmn", "none",
+                          "-remove_silence", "no", "-remove_noise", "no", "-bestpath", "no",
+                          "-beam", "1e-200", "-pbeam", "1e-200", "-wbeam", "1e-150", "-logfn",
+                          "/dev/null", nullptr);
+    decoder_.reset(config_ ? ps_init(config_) : nullptr);
+    if (!decoder_) give_up("PocketSphinx can't start");
+    for (const Pronunciation& p : kSpoken)
+      ps_add_word(decoder_.get(), p.word.data(), p.sounds.data(), FALSE);
+  }
+  [[nodiscard]] fe_t* front_end() const { return ps_get_fe(decoder_.get()); }
+
+  /// As a line of sphinxtrain's transcription, "ortho(2) save(4)"; empty where nothing fits.
+  std::string words_of(const std::string& phrase, std::vector<Cepstrum>& cepstra) {
+    ps_decoder_t* decoder = decoder_.get();
+    const std::string grammar = "#JSGF V1.0; grammar g; public <phrase> = " + phrase + ";";
+    std::vector<mfcc_t*> rows;
+    for (Cepstrum& cepstrum : cepstra) rows.push_back(cepstrum.data());
+    ps_set_jsgf_string(decoder, "phrase", grammar.c_str());
+    ps_set_search(decoder, "phrase");
+    ps_start_utt(decoder);
+    ps_process_cep(decoder, rows.data(), static_cast<int>(rows.size()), FALSE, FALSE);
+    ps_end_utt(decoder);
+    int32 score = 0;
+    if (!ps_get_hyp(decoder, &score)) return "";
+    std::string words;
+    std::string silence;
+    for (ps_seg_t* seg = ps_seg_iter(decoder); seg; seg = ps_seg_next(seg)) {
+      const std::string word = ps_seg_word(seg);
+      if (word == "<sil>" && !words.empty()) silence = " <sil>";
+      if (word.find_first_of("<(") == 0) continue;
+      words += (words.empty() ? "" : silence + " ") + word;
+      silence.clear();
+    }
+    return words;
+  }
+
+ private:
+  struct Free {
+    void operator()(ps_decoder_t* decoder) const { ps_free(decoder); }
+  };
+  cmd_ln_t* config_ = nullptr;  // for the life of the process
+  std::unique_ptr<ps_decoder_t, Free> decoder_;
+};
+
+/// Microphones brighten and dull a voice.
+void tilt(std::vector<std::int16_t>& samples, double share) {
+  double before = 0.0;
+  for (std::int16_t& sample : samples) {
+    const double now = sample;
+    sample = static_cast<std::int16_t>(0.5 * (now + share * before));
+    before = now;
+  }
+}
+
+/// A phrase in a noise, as the recogniser gets it; nothing where the segmenter finds another number
+/// of phrases than one.
+std::vector<std::int16_t> heard(const std::string& phrase, const std::string& voice,
+                                Random& random) {
+  const int words_a_minute = static_cast<int>(random.uniform(115.0, 210.0));
+  const bool silent = random.uniform() < 0.15;
+  const double snr_db = random.uniform(8.0, 22.0);
+  const auto noise = static_cast<Noise>(static_cast<int>(3.0 * random.uniform()));
+  const double tilted = random.uniform(-0.5, 0.5);
+  auto said = spoken(phrase, {voice, words_a_minute});
+  if (!said) give_up(said.error().message);
+  tilt(*said, tilted);
+  const auto room = phrase_in_room(*said, noise, silent ? 60.0 : snr_db, random, Babble::kTraining);
+  const auto segments = cut_out(room.sound);
+  if (segments.size() != 1) return {};
+  return cleaned(segments.front().samples, kBackgroundSamples);
+}
+
+void write_corpus(const Options& options) {
+  Aligner aligner(options);
+  Random random(131);
+  std::string names;
+  std::string transcription;
+  int count = 0;
+  const auto add = [&](const std::string& phrase, const std::string& voice) {
+    std::vector<Cepstrum> cepstra = cepstra_of(aligner.front_end(), heard(phrase, voice, random));
+    const std::string words = cepstra.empty() ? "" : aligner.words_of(phrase, cepstra);
+    if (words.empty()) return;
+    const std::string name = "phrase-" + std::to_string(count++);
+    std::string file;
+    put(file, static_cast<std::int32_t>(cepstra.size() * cepstra.front().size()));
+    for (const Cepstrum& cepstrum : cepstra) put(file, cepstrum);
+    write_file(options.folder + "/" + name + ".mfc", file);
+    names += name + "\n";
+    transcription += "<s> " + words + " </s> (" + name + ")\n";
+  };
+  std::size_t voice = 0;
+  for (const std::string_view variant : kTrainingVariants) {
+    for (std::size_t accent = 0; accent < std::size(kTrainingAccents) / 2; ++accent)
+      for (const std::string& command : engine::spoken_commands())
+        for (const char* wake : {"", "", "ortho ", "ortho "})
+          add(wake + command,
+              std::string(kTrainingAccents[(voice + 2 * accent) % std::size(kTrainingAccents)]) +
+                  "+" + std::string(variant));
+    ++voice;
+  }
+  std::string dictionary;
+  for (const Pronunciation& p : kSpoken)
+    dictionary += std::string(p.word) + " " + std::string(p.sounds) + "\n";
+  write_file(options.folder + "/names", names);
+  write_file(options.folder + "/transcription", transcription);
+  write_file(options.folder + "/dictionary", dictionary);
+  std::printf("%d phrases\n", count);
+}
+
+MixtureWeights own_mixture_weights() {
+  auto own = read_mixture_weights(default_acoustic_model() / "sendump");
+  if (!own) give_up(own.error().message);
+  return std::move(*own);
+}
+
+/// One stream of a senone.
+std::vector<double> shares_of(const MixtureWeights& weights, int stream, int senone) {
+  std::vector<double> shares;
+  for (int density = 0; density < weights.densities; ++density)
+    shares.push_back(
+        share_of(static_cast<std::uint8_t>(weights.values[weights.at(stream, density, senone)])));
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= sum;
+  return shares;
+}
+
+/// The numbers before the shares in a file of sphinxtrain's.
+std::array<std::int32_t, 4> sphinx_shape_of(const MixtureWeights& weights) {
+  return {weights.senones, weights.streams, weights.densities,
+          static_cast<std::int32_t>(weights.values.size())};
+}
+
+/// As sphinxtrain has them: shares instead of 8 bits of their logarithms, senones first.
+void write_mixture_weights(const std::string& path) {
+  const MixtureWeights own = own_mixture_weights();
+  std::string out = sphinx_file_start();
+  for (const int number : sphinx_shape_of(own)) put(out, number);
+  for (int senone = 0; senone < own.senones; ++senone)
+    for (int stream = 0; stream < own.streams; ++stream)
+      for (const double share : shares_of(own, stream, senone)) put(out, static_cast<float>(share));
+  write_file(path, out);
+}
+
+/// sphinxtrain moves the shares of a senone that nothing was said in by half of this.
+constexpr double kUntouched = 1e-3;
+
+/// Of what sphinxtrain found: the shares, or counts of them, in the same order.
+void write_mixture_change(const Options& options) {
+  const MixtureWeights own = own_mixture_weights();
+  const std::string content = model_file(options.adapted_mixture);
+  std::string_view rest = after_sphinx_file_start(content).value_or("");
+  bool fits = true;
+  for (const int number : sphinx_shape_of(own)) fits = fits && take<std::int32_t>(rest) == number;
+  if (!fits || rest.size() < own.values.size() * sizeof(float))
+    give_up(options.adapted_mixture + " is another model's");
+  MixtureWeights adapted = own;
+  for (int senone = 0; senone < own.senones; ++senone)
+    for (int stream = 0; stream < own.streams; ++stream) {
+      const std::vector<double> before = shares_of(own, stream, senone);
+      std::vector<double> after;
+      for (int i = 0; i < own.densities; ++i) after.push_back(take<float>(rest));
+      const double sum = std::accumulate(after.begin(), after.end(), 0.0);
+      double most = 0.0;
+      for (std::size_t i = 0; i < after.size(); ++i) {
+        after[i] = sum > 0.0 ? after[i] / sum : before[i];
+        most = std::max(most, std::abs(after[i] - before[i]));
+        after[i] = std::lerp(before[i], after[i], options.mixture_share);
+      }
+      if (most < kUntouched) continue;
+      for (int i = 0; i < own.densities; ++i)
+        adapted.values[own.at(stream, i, senone)] =
+            static_cast<char>(quantised_weight(after[static_cast<std::size_t>(i)]));
+    }
+  write_file(options.mixture_change, mixture_weights_change(own, adapted));
+}
+
+void write_change(const Options& options) {
+  const auto own = read_means(default_acoustic_model() / "means");
+  auto adapted = read_means(options.means);
+  if (!own || !adapted) give_up((own ? adapted.error() : own.error()).message);
+  if (adapted->values.size() != own->values.size()) give_up(options.means + " is another model's");
+  for (std::size_t i = 0; i < own->values.size(); ++i)
+    adapted->values[i] =
+        std::lerp(own->values[i], adapted->values[i], static_cast<float>(options.share));
+  write_file(options.change, means_change(*own, *adapted));
+}
+
+}  // namespace
+}  // namespace orthonav::bench
+
+int main(int argc, char** argv) {
+  orthonav::bench::Options options;
+  CLI::App app("Adapts the acoustic model to commands in noise; see tools/voice/train");
+  app.add_option("--corpus", options.folder, "a folder for what the recogniser hears");
+  app.add_option("--means", options.means, "an adapted model's means");
+  app.add_option("--mixture-weights", options.mixture, "a file for the model's own");
+  app.add_option("--change", options.change, "a file for what leads from the model to --means");
+  app.add_option("--share", options.share, "of the way")->capture_default_str();
+  app.add_option("--adapted-mixture-weights", options.adapted_mixture, "an adapted model's");
+  app.add_option("--mixture-change", options.mixture_change,
+                 "a file for what leads from the model to --adapted-mixture-weights");
+  app.add_option("--mixture-share", options.mixture_share, "of the way")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  using namespace orthonav::bench;
+  if (!options.mixture.empty()) write_mixture_weights(options.mixture);
+  if (!options.folder.empty()) write_corpus(options);
+  if (!options.change.empty()) write_change(options);
+  if (!options.mixture_change.empty()) write_mixture_change(options);
+  return 0;
+}
