@@ -49,4 +49,13 @@ struct RgbaImage {
   friend bool operator==(const RgbaImage&, const RgbaImage&) = default;
 };
 
+/// An integer for each pixel's centre: the hologram that shows there, 0 where there is none.
+struct LabelImage {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint32_t> labels;
+
+  friend bool operator==(const LabelImage&, const LabelImage&) = default;
+};
+
 }  // namespace orthonav

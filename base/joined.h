@@ -8,7 +8,9 @@ namespace orthonav {
 /// Every problem in one line, as a message wants them: "a; b; c".
 [[nodiscard]] inline std::string joined(std::span<const std::string> problems) {
   std::string line;
-  for (const std::string& problem : problems) line += (line.empty() ? "" : "; ") + problem;
+  for (const std::string& problem : problems) {
+    line += (line.empty() ? "" : "; ") + problem;
+  }
   return line;
 }
 

@@ -10,7 +10,9 @@ namespace {
 template <std::size_t N>
 double polynomial(const std::array<double, N>& c, double x) {
   double sum = 0.0;
-  for (std::size_t i = N; i-- > 0;) sum = sum * x + c[i];
+  for (std::size_t i = N; i-- > 0;) {
+    sum = sum * x + c[i];
+  }
   return sum;
 }
 
@@ -74,7 +76,9 @@ double normal_quantile(double p) {
 
 Random::Random(std::uint64_t seed) : seed_(seed), state_{} {
   std::uint64_t mixer = seed;
-  for (std::uint64_t& word : state_) word = splitmix64(mixer);
+  for (std::uint64_t& word : state_) {
+    word = splitmix64(mixer);
+  }
 }
 
 std::uint64_t Random::next() {
@@ -98,8 +102,9 @@ double Random::normal() {
 
 Random Random::fork(std::string_view name) const {
   std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a
-  for (const char letter : name)
+  for (const char letter : name) {
     hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
+  }
   return fork(hash);
 }
 

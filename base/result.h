@@ -1,18 +1,30 @@
 #pragma once
 
-#include <cassert>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "base/check.h"
+
 namespace orthonav {
+
+/// What kind of thing went wrong: for callers that branch on it.
+enum class ErrorCode {
+  kInvalid,      ///< input or arguments that can't be used as they are
+  kNotFound,     ///< no such file, device or name
+  kIo,           ///< the file system refused to read or write
+  kUnavailable,  ///< a device that is not there now, or not yet; asking again may help
+  kLost,         ///< a device, session or connection that is gone for good
+};
 
 /// What went wrong, in one line a user can act on: what, where, value, limit.
 struct Error {
   std::string message;
+  ErrorCode code = ErrorCode::kInvalid;
 };
 
-/// A value, or the reason why there is none. Reading the absent side is our own bug (asserted).
+/// A value, or the reason why there is none. Reading the absent side ends the program, in release
+/// too.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -21,15 +33,24 @@ class [[nodiscard]] Result {
 
   [[nodiscard]] bool ok() const { return content_.index() == 0; }
   explicit operator bool() const { return ok(); }
-  [[nodiscard]] T& value() & { return assert(ok()), *std::get_if<0>(&content_); }
-  [[nodiscard]] const T& value() const& { return assert(ok()), *std::get_if<0>(&content_); }
-  [[nodiscard]] T&& value() && { return assert(ok()), std::move(*std::get_if<0>(&content_)); }
+  [[nodiscard]] T& value() & {
+    ORTHONAV_CHECK(ok() && "a result was read that is an error");
+    return *std::get_if<0>(&content_);
+  }
+  [[nodiscard]] const T& value() const& {
+    ORTHONAV_CHECK(ok() && "a result was read that is an error");
+    return *std::get_if<0>(&content_);
+  }
+  [[nodiscard]] T&& value() && { return std::move(value()); }
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
   T&& operator*() && { return std::move(*this).value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
-  [[nodiscard]] const Error& error() const { return assert(!ok()), *std::get_if<1>(&content_); }
+  [[nodiscard]] const Error& error() const {
+    ORTHONAV_CHECK(!ok() && "an error was read that is a result");
+    return *std::get_if<1>(&content_);
+  }
 
  private:
   std::variant<T, Error> content_;
@@ -43,7 +64,10 @@ class [[nodiscard]] Status {
 
   [[nodiscard]] bool ok() const { return !failed_; }
   explicit operator bool() const { return ok(); }
-  [[nodiscard]] const Error& error() const { return assert(failed_), error_; }
+  [[nodiscard]] const Error& error() const {
+    ORTHONAV_CHECK(failed_ && "an error was read that is a success");
+    return error_;
+  }
 
  private:
   bool failed_ = false;

@@ -58,16 +58,24 @@ class Transform {
   static Result<Transform> checked(const Mat3& rotation, Vec3 translation_m,
                                    double tolerance = 1e-2) {
     bool finite = translation_m.is_finite();
-    for (int r = 0; r < 3; ++r) finite = finite && rotation.row(r).is_finite();
-    if (!finite) return Error{"transform holds a number that is not finite"};
-    if (rotation.determinant() < 0.0)
+    for (int r = 0; r < 3; ++r) {
+      finite = finite && rotation.row(r).is_finite();
+    }
+    if (!finite) {
+      return Error{"transform holds a number that is not finite"};
+    }
+    if (rotation.determinant() < 0.0) {
       return Error{"transform mirrors (determinant " + std::to_string(rotation.determinant()) +
                    ", must be +1)"};
+    }
     const double deviation = orthonormality_error(rotation);
-    if (!(deviation <= tolerance))
+    if (!(deviation <= tolerance)) {
       return Error{"transform is not rigid (rows deviate from orthonormal by " +
                    std::to_string(deviation) + ", limit " + std::to_string(tolerance) + ")"};
-    if (deviation <= kExact) return Transform(rotation, translation_m);
+    }
+    if (deviation <= kExact) {
+      return Transform(rotation, translation_m);
+    }
     return Transform(orthonormalized(rotation), translation_m);
   }
   /// Row-major 4×4 for column vectors (translation in the last column), metres.

@@ -14,8 +14,11 @@ Mat3 rotation_from_vector(Vec3 v) {
   const Mat3 k = {{{{0, -v.z, v.y}, {v.z, 0, -v.x}, {-v.y, v.x, 0}}}};
   const Mat3 k2 = k * k;
   Mat3 r = Mat3::identity();
-  for (int i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) r[i][j] += a * k[i][j] + b * k2[i][j];
+  for (int i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      r[i][j] += a * k[i][j] + b * k2[i][j];
+    }
+  }
   return r;
 }
 
@@ -23,7 +26,9 @@ Vec3 vector_from_rotation(const Mat3& r) {
   const Quaternion q = quaternion_from_rotation(r);
   const Vec3 v{q.x, q.y, q.z};
   const double sine = v.norm();
-  if (sine < 1e-12) return 2.0 * v;
+  if (sine < 1e-12) {
+    return 2.0 * v;
+  }
   return v * (2.0 * std::atan2(sine, q.w) / sine);
 }
 
@@ -67,12 +72,15 @@ Mat3 orthonormalized(const Mat3& a) {
 double orthonormality_error(const Mat3& matrix) {
   const Mat3 gram = matrix * matrix.transposed();
   double worst = 0.0;
-  for (int r = 0; r < 3; ++r)
+  for (int r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
       const double error = std::abs(gram[r][c] - (static_cast<std::size_t>(r) == c ? 1.0 : 0.0));
-      if (std::isnan(error)) return error;
+      if (std::isnan(error)) {
+        return error;
+      }
       worst = std::max(worst, error);
     }
+  }
   return worst;
 }
 

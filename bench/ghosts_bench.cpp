@@ -25,8 +25,10 @@ void add_clouds(Random& random, int cell_px, double strength, std::vector<float>
   const int columns = width / cell_px + 2;
   const int rows = kHeight / cell_px + 2;
   std::vector<float> lattice(static_cast<std::size_t>(columns * rows));
-  for (float& v : lattice) v = static_cast<float>(random.uniform(-strength, strength));
-  for (int y = 0; y < kHeight; ++y)
+  for (float& v : lattice) {
+    v = static_cast<float>(random.uniform(-strength, strength));
+  }
+  for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < width; ++x) {
       const int i = x / cell_px;
       const int j = y / cell_px;
@@ -37,6 +39,7 @@ void add_clouds(Random& random, int cell_px, double strength, std::vector<float>
       grey[static_cast<std::size_t>(y * width + x)] +=
           (1 - t) * ((1 - s) * top[0] + s * top[1]) + t * ((1 - s) * low[0] + s * low[1]);
     }
+  }
 }
 
 /// Dark squares full of black and white cells, which is what a tag is from afar.
@@ -51,14 +54,17 @@ void add_boards(Random& random, std::vector<float>& grey, int width) {
       const std::size_t ring = std::min({i / 10, i % 10, 9 - i / 10, 9 - i % 10});
       white[i] = ring == 0 || (ring > 1 && random.uniform() < 0.5);
     }
-    for (int y = 0; y < kHeight; ++y)
+    for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < width; ++x) {
         const double u = (std::cos(turn) * (x - cx) + std::sin(turn) * (y - cy)) / cell + 5.0;
         const double v = (-std::sin(turn) * (x - cx) + std::cos(turn) * (y - cy)) / cell + 5.0;
-        if (!(u >= 0.0 && v >= 0.0 && u < 10.0 && v < 10.0)) continue;
+        if (!(u >= 0.0 && v >= 0.0 && u < 10.0 && v < 10.0)) {
+          continue;
+        }
         const auto i = static_cast<std::size_t>(static_cast<int>(v) * 10 + static_cast<int>(u));
         grey[static_cast<std::size_t>(y * width + x)] = white[i] ? 90.0F : -90.0F;
       }
+    }
   }
 }
 
@@ -66,11 +72,15 @@ void make_pair(std::uint64_t seed, StereoFrame& frame) {
   Random random(seed);
   const int width = kWidth + kShiftPx;
   std::vector<float> grey(static_cast<std::size_t>(width * kHeight), 0.0F);
-  for (const int cell : {64, 24, 9, 4}) add_clouds(random, cell, 45.0, grey, width);
-  if (seed % 2 == 0) add_boards(random, grey, width);
+  for (const int cell : {64, 24, 9, 4}) {
+    add_clouds(random, cell, 45.0, grey, width);
+  }
+  if (seed % 2 == 0) {
+    add_boards(random, grey, width);
+  }
   frame.left = GreyImage(kWidth, kHeight);
   frame.right = GreyImage(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y)
+  for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const auto at = [&](int column) {
         const double noisy =
@@ -82,6 +92,7 @@ void make_pair(std::uint64_t seed, StereoFrame& frame) {
       // The right camera lies turned by 180° against the left.
       frame.right.at(kWidth - 1 - x, kHeight - 1 - y) = at(x + kShiftPx);
     }
+  }
 }
 
 std::unique_ptr<nav::ToolTracker> created(auto create) {
@@ -107,8 +118,8 @@ int main(int argc, char** argv) {
   using namespace orthonav;
   using namespace orthonav::bench;
   const int pairs = std::max((argc > 1 ? std::atoi(argv[1]) : 20000) / 2, 1);
-  const auto best = created(nav::create_best_tracker);
-  const auto paper = created(nav::create_paper_tracker);
+  const auto best = created(nav::create_photometric_tracker);
+  const auto paper = created(nav::create_corner_tracker);
   int best_ghosts = 0;
   int paper_ghosts = 0;
   StereoFrame frame;
@@ -119,8 +130,9 @@ int main(int argc, char** argv) {
     frame.world_from_rig = Transform<World, Rig>{};
     const auto count = [&](nav::ToolTracker& tracker) {
       int seen = 0;
-      for (const nav::ToolState& state : tracker.track(frame))
-        seen += state.world_from_marker.origin == Origin::kMeasured ? 1 : 0;
+      for (const nav::ToolState& state : tracker.track(frame)) {
+        seen += state.world_from_marker.status == PoseStatus::kMeasured ? 1 : 0;
+      }
       return seen;
     };
     best_ghosts += count(*best);

@@ -38,25 +38,35 @@ int measure(double limit_s, hl2ss::VideoProfile profile) {
   options.paced = true;
   auto server =
       hl2ss::Server::start(options, [&] { return as_headset(sim::SimHeadset::open(room, sim)); });
-  if (!server) return std::fprintf(stderr, "%s\n", server.error().message.c_str()), 2;
+  if (!server) {
+    return std::fprintf(stderr, "%s\n", server.error().message.c_str()), 2;
+  }
   hl2ss::Hl2ssOptions client = (*server)->client_options();
   client.profile = profile;
   auto headset = hl2ss::Hl2ssHeadset::open(client);
-  if (!headset) return std::fprintf(stderr, "%s\n", headset.error().message.c_str()), 2;
+  if (!headset) {
+    return std::fprintf(stderr, "%s\n", headset.error().message.c_str()), 2;
+  }
   StereoFrame frame;
   std::int64_t pairs = 0;
   double warm_mib = 0.0;
   double most_mib = 0.0;
   for (;;) {
     const auto next = (*headset)->cameras().next(frame);
-    if (next && *next == Next::kEnd) break;
+    if (next && *next == Next::kEnd) {
+      break;
+    }
     if (!next || *next == Next::kNone) {
       std::this_thread::sleep_for(std::chrono::microseconds(100));
       continue;
     }
     ++pairs;
-    if (pairs == 1000) warm_mib = resident_mib();
-    if (pairs % 1000 == 0) most_mib = std::max(most_mib, resident_mib());
+    if (pairs == 1000) {
+      warm_mib = resident_mib();
+    }
+    if (pairs % 1000 == 0) {
+      most_mib = std::max(most_mib, resident_mib());
+    }
   }
   const hl2ss::Statistics figures = (*headset)->statistics();
   std::printf(

@@ -44,7 +44,7 @@ void draw_both_eyes(benchmark::State& state) {
     return;
   }
   state.SetLabel(renderer->device().name);
-  std::vector<render::Image> images;
+  std::vector<RgbaImage> images;
   for (auto _ : state) {
     if (!renderer->draw(scene.scene, scene.views, {}, images, error)) {
       state.SkipWithError(error.c_str());

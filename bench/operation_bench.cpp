@@ -23,8 +23,9 @@ class PairTimes : public engine::LoopObserver {
   void stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
                const engine::Guidance& /*guidance*/) override {
     const WallClock::time_point now = WallClock::now();
-    if (last_ != WallClock::time_point{})
+    if (last_ != WallClock::time_point{}) {
       ms_.push_back(std::chrono::duration<double, std::milli>(now - last_).count());
+    }
     last_ = now;
   }
   [[nodiscard]] const std::vector<double>& ms() const { return ms_; }
@@ -48,8 +49,9 @@ void operation(benchmark::State& state) {
     }
     const std::vector<double>& step = result->loop.step_wall_ms;
     std::vector<double> room;
-    for (std::size_t i = 0; i + 1 < step.size() && i < pairs.ms().size(); ++i)
+    for (std::size_t i = 0; i + 1 < step.size() && i < pairs.ms().size(); ++i) {
       room.push_back(pairs.ms()[i] - step[i + 1]);
+    }
     state.counters["pairs"] = static_cast<double>(step.size());
     state.counters["room_ms_median"] = quantile(room, 0.5);
     state.counters["room_ms_p99"] = quantile(room, 0.99);

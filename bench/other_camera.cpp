@@ -16,7 +16,9 @@ Vec2 Lens::unit_plane(Vec2 pixel_px) const {
   constexpr double kStep = 1e-6;
   for (int i = 0; i < 30; ++i) {
     const Vec2 off = pixel_px - pixel(u);
-    if (off.norm() < 1e-10) break;
+    if (off.norm() < 1e-10) {
+      break;
+    }
     const Vec2 a = (0.5 / kStep) * (pixel({u.x + kStep, u.y}) - pixel({u.x - kStep, u.y}));
     const Vec2 b = (0.5 / kStep) * (pixel({u.x, u.y + kStep}) - pixel({u.x, u.y - kStep}));
     const double det = a.x * b.y - a.y * b.x;
@@ -26,15 +28,20 @@ Vec2 Lens::unit_plane(Vec2 pixel_px) const {
 }
 
 RayGrid::RayGrid(const Lens& lens) : lens_(lens) {
-  for (int y = 0; y <= lens.height_px; ++y)
-    for (int x = 0; x <= lens.width_px; ++x)
+  for (int y = 0; y <= lens.height_px; ++y) {
+    for (int x = 0; x <= lens.width_px; ++x) {
       nodes_.push_back(lens.unit_plane({static_cast<double>(x), static_cast<double>(y)}));
+    }
+  }
 }
 
 CameraModel reported(const Lens& lens) {
   std::vector<Vec2> table;
-  for (int y = 0; y < lens.height_px; ++y)
-    for (int x = 0; x < lens.width_px; ++x) table.push_back(lens.unit_plane({x + 0.5, y + 0.5}));
+  for (int y = 0; y < lens.height_px; ++y) {
+    for (int x = 0; x < lens.width_px; ++x) {
+      table.push_back(lens.unit_plane({x + 0.5, y + 0.5}));
+    }
+  }
   return CameraModel::from_lookup(lens.width_px, lens.height_px, std::move(table)).value();
 }
 

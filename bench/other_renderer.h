@@ -81,9 +81,9 @@ class OtherRenderer {
                   const Transform<LeftCamera, Rig>& camera_from_rig, std::size_t tag,
                   LightImage& image);
   /// Share of a tag that a camera sees: in the image, from its face, not hidden by the finger.
-  [[nodiscard]] double visible_share(const Moment& moment, const Lens& lens,
-                                     const Transform<LeftCamera, Rig>& camera_from_rig,
-                                     std::size_t tag) const;
+  [[nodiscard]] double visible_fraction(const Moment& moment, const Lens& lens,
+                                        const Transform<LeftCamera, Rig>& camera_from_rig,
+                                        std::size_t tag) const;
 
  private:
   struct Box {

@@ -37,8 +37,9 @@ void add_information(Shoot& shoot, double t, std::size_t camera, std::size_t too
     const Transform<Marker, Marker> moved(rotation_from_vector({step[3], step[4], step[5]}),
                                           {step[0], step[1], step[2]});
     std::vector<Moment> displaced = moments;
-    for (Moment& moment : displaced)
+    for (Moment& moment : displaced) {
       moment.world_from_marker[tool] = moment.world_from_marker[tool] * moved;
+    }
     LightImage image;
     shoot.renderer.render_tag(displaced, rays, stage.camera_from_rig()[camera], tool, image);
     return image.light;
@@ -60,20 +61,25 @@ void add_information(Shoot& shoot, double t, std::size_t camera, std::size_t too
   }
   const Sensor& sensor = stage.kind().sensor;
   for (std::size_t i = 0; i < light.size(); ++i) {
-    if (!(light[i] > 0.0F)) continue;
+    if (!(light[i] > 0.0F)) {
+      continue;
+    }
     constexpr double kStep = 1e-4;
     const auto l = static_cast<double>(light[i]);
     const double by_light = (sensor.grey(l + kStep) - sensor.grey(l - kStep)) / (2.0 * kStep);
     Eigen::Matrix<double, 6, 1> slope;
-    for (std::size_t axis = 0; axis < 6; ++axis)
+    for (std::size_t axis = 0; axis < 6; ++axis) {
       slope(static_cast<Eigen::Index>(axis)) = by_light * static_cast<double>(slopes[i][axis]);
+    }
     information += slope * slope.transpose() / sensor.variance(l);
   }
 }
 
 std::array<double, 36> bound(Shoot& shoot, double t, std::size_t tool) {
   Matrix6 information = Matrix6::Zero();
-  for (const std::size_t camera : {0U, 1U}) add_information(shoot, t, camera, tool, information);
+  for (const std::size_t camera : {0U, 1U}) {
+    add_information(shoot, t, camera, tool, information);
+  }
   std::array<double, 36> out;
   Eigen::Map<Matrix6>(out.data()) = information.inverse();
   return out;
@@ -108,14 +114,19 @@ StereoFrame photographed(Shoot& shoot, int k, Random& random) {
 
 std::vector<std::string> other_sequence_names() {
   std::vector<std::string> names;
-  for (const OtherKind& kind : other_kinds()) names.push_back(kind.name);
+  for (const OtherKind& kind : other_kinds()) {
+    names.push_back(kind.name);
+  }
   return names;
 }
 
 Sequence make_other_sequence(const std::string& name, int pairs, std::uint64_t seed) {
   const OtherKind* kind = &other_kinds().front();
-  for (const OtherKind& other : other_kinds())
-    if (other.name == name) kind = &other;
+  for (const OtherKind& other : other_kinds()) {
+    if (other.name == name) {
+      kind = &other;
+    }
+  }
   const auto shoot = std::make_shared<Shoot>(*kind, seed);
   const OtherStage& stage = shoot->stage;
   Sequence out;
@@ -131,11 +142,11 @@ Sequence make_other_sequence(const std::string& name, int pairs, std::uint64_t s
     auto& visible = out.visible.emplace_back();
     for (std::size_t tool = 0; tool < 2; ++tool) {
       poses.push_back(middle.world_from_rig.inverse() * middle.world_from_marker[tool]);
-      const auto share = [&](std::size_t camera) {
-        return shoot->renderer.visible_share(middle, stage.rays()[camera].lens(),
-                                             stage.camera_from_rig()[camera], tool);
+      const auto fraction = [&](std::size_t camera) {
+        return shoot->renderer.visible_fraction(middle, stage.rays()[camera].lens(),
+                                                stage.camera_from_rig()[camera], tool);
       };
-      visible.push_back({share(0), share(1)});
+      visible.push_back({fraction(0), fraction(1)});
     }
   }
   out.bound = [shoot](std::size_t pair, std::size_t tool) {

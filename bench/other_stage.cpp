@@ -104,16 +104,20 @@ OtherStage::OtherStage(const OtherKind& kind, std::uint64_t seed)
       camera_from_rig_{placed(false), placed(true)},
       tags_{PrintedTag{3, kind.tag_m, 1.25}, PrintedTag{5, kind.tag_m, 1.6}} {
   Random random = Random(seed).fork(kind.name);
-  for (auto& axis : phases_)
-    for (double& phase : axis) phase = random.uniform(0.0, kTurn);
+  for (auto& axis : phases_) {
+    for (double& phase : axis) {
+      phase = random.uniform(0.0, kTurn);
+    }
+  }
 }
 
 double OtherStage::wander(std::size_t axis, double t) const {
   constexpr std::array<double, 3> kHz{0.19, 0.43, 0.83};
-  constexpr std::array<double, 3> kShare{0.45, 0.35, 0.20};
+  constexpr std::array<double, 3> kFraction{0.45, 0.35, 0.20};
   double sum = 0.0;
-  for (std::size_t i = 0; i < 3; ++i)
-    sum += kShare[i] * std::sin(kTurn * kHz[i] * t + phases_[axis][i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum += kFraction[i] * std::sin(kTurn * kHz[i] * t + phases_[axis][i]);
+  }
   return sum;
 }
 
@@ -141,7 +145,9 @@ Moment OtherStage::at(double t) const {
   moment.world_from_rig = {
       rotation_from_vector(0.02 * Vec3{wander(0, t), wander(1, t), wander(2, t)}),
       0.012 * Vec3{wander(3, t), wander(4, t), wander(5, t)}};
-  for (std::size_t tool = 0; tool < 2; ++tool) moment.world_from_marker.push_back(tool_at(tool, t));
+  for (std::size_t tool = 0; tool < 2; ++tool) {
+    moment.world_from_marker.push_back(tool_at(tool, t));
+  }
   if (kind_.finger_m > 0.0) {
     // Comes from the side, to the tag's far edge and back, a finger's thickness in front.
     const double reach = 0.9 * (kind_.tag_m + kind_.finger_m) * std::sin(kTurn * 0.7 * t);
@@ -156,8 +162,9 @@ Moment OtherStage::at(double t) const {
 std::vector<Moment> OtherStage::exposure(double t) const {
   const int count = 1 + 2 * static_cast<int>(std::lround(500.0 * kind_.exposure_s));
   std::vector<Moment> moments;
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
     moments.push_back(at(t + kind_.exposure_s * ((i + 0.5) / count - 0.5)));
+  }
   return moments;
 }
 

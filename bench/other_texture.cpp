@@ -18,11 +18,13 @@ void add_cloth(Random& random, std::vector<float>& texels) {
   for (const int cell : {128, 32, 8, 4}) {
     const int lattice = kSide / cell;
     std::vector<double> grey(static_cast<std::size_t>(lattice * lattice));
-    for (double& g : grey) g = random.uniform(-0.09, 0.09);
+    for (double& g : grey) {
+      g = random.uniform(-0.09, 0.09);
+    }
     const auto node = [&](int x, int y) {
       return grey[static_cast<std::size_t>((y % lattice) * lattice + x % lattice)];
     };
-    for (int y = 0; y < kSide; ++y)
+    for (int y = 0; y < kSide; ++y) {
       for (int x = 0; x < kSide; ++x) {
         const double s = static_cast<double>(x % cell) / cell;
         const double t = static_cast<double>(y % cell) / cell;
@@ -32,6 +34,7 @@ void add_cloth(Random& random, std::vector<float>& texels) {
             static_cast<float>((1 - t) * ((1 - s) * node(i, j) + s * node(i + 1, j)) +
                                t * ((1 - s) * node(i, j + 1) + s * node(i + 1, j + 1)));
       }
+    }
   }
 }
 
@@ -44,25 +47,31 @@ void add_sheets(Random& random, std::vector<float>& texels, int count, double lo
     const double turn = random.uniform(0.0, 3.2);
     const auto grey = static_cast<float>(random.uniform(0.03, 0.9));
     const int reach = static_cast<int>(half_x + half_y) + 1;
-    for (int dy = -reach; dy <= reach; ++dy)
-      for (int dx = -reach; dx <= reach; ++dx)
+    for (int dy = -reach; dy <= reach; ++dy) {
+      for (int dx = -reach; dx <= reach; ++dx) {
         if (std::abs(std::cos(turn) * dx + std::sin(turn) * dy) < half_x &&
-            std::abs(-std::sin(turn) * dx + std::cos(turn) * dy) < half_y)
+            std::abs(-std::sin(turn) * dx + std::cos(turn) * dy) < half_y) {
           texels[at(static_cast<int>(cx) + dx, static_cast<int>(cy) + dy)] = grey;
+        }
+      }
+    }
   }
 }
 
 /// Takes the steps off, so that a pixel need not gather more than one point.
 std::vector<float> smoothed(const std::vector<float>& texels) {
   std::vector<float> out(texels.size());
-  for (int y = 0; y < kSide; ++y)
+  for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
       float sum = 0.0F;
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
           sum += texels[at(x + dx, y + dy)] * static_cast<float>((2 - dx * dx) * (2 - dy * dy));
+        }
+      }
       out[at(x, y)] = std::clamp(sum / 16.0F, 0.03F, 0.9F);
     }
+  }
   return out;
 }
 

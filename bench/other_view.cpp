@@ -38,10 +38,11 @@ float OtherView::tag_light(const TagSeen& seen, double x, double y) const {
   const double column = (x / size + 0.5) * 8.0;
   const double row = (0.5 - y / size) * 8.0;
   bool white = true;
-  if (column >= 0.0 && column < 8.0 && row >= 0.0 && row < 8.0)
+  if (column >= 0.0 && column < 8.0 && row >= 0.0 && row < 8.0) {
     white =
         seen.tag
             ->white[static_cast<std::size_t>(static_cast<int>(row) * 8 + static_cast<int>(column))];
+  }
   const Vec3 to_lamp = seen.lamp - Vec3{x, y, 0.0};
   const double r2 = to_lamp.squared_norm();
   const double reference = (lighting_.lamp.v - kMiddle).squared_norm();
@@ -58,7 +59,9 @@ float OtherView::tag_light(const TagSeen& seen, double x, double y) const {
 }
 
 std::optional<double> OtherView::finger_depth(Vec2 ray) const {
-  if (!finger_) return std::nullopt;
+  if (!finger_) {
+    return std::nullopt;
+  }
   // The points of ray and axis that are nearest to each other.
   const Vec3 d = world_from_camera_ * Vec3{ray.x, ray.y, 1.0};
   const Vec3 axis = finger_->to - finger_->from;
@@ -70,33 +73,44 @@ std::optional<double> OtherView::finger_depth(Vec2 ray) const {
   const Vec3 on_axis = finger_->from.v + t * axis;
   const double s = d.dot(on_axis - eye_) / a;
   const double gap = (eye_ + s * d - on_axis).norm();
-  if (s <= 0.0 || gap >= finger_->radius_m) return std::nullopt;
+  if (s <= 0.0 || gap >= finger_->radius_m) {
+    return std::nullopt;
+  }
   return gap / finger_->radius_m;
 }
 
 float OtherView::light_behind_tags(Vec2 ray) const {
-  if (const auto off = finger_depth(ray))
+  if (const auto off = finger_depth(ray)) {
     return static_cast<float>(lighting_.exposure * static_cast<double>(kSkin) *
                               (0.3 + 0.7 * std::sqrt(1.0 - *off * *off)));
+  }
   const Vec3 d = world_from_camera_ * Vec3{ray.x, ray.y, 1.0};
   const double along = kBoardNormal.dot(kBoardPoint - eye_) / kBoardNormal.dot(d);
-  if (!(along > 0.0)) return 0.0F;
+  if (!(along > 0.0)) {
+    return 0.0F;
+  }
   const Vec3 p = eye_ + along * d;
   return static_cast<float>(0.8 * lighting_.exposure) *
          clutter_.at(p.x / kBoardSideM + 0.4, p.y / kBoardSideM + 0.3);
 }
 
 float OtherView::light(Vec2 ray) const {
-  if (finger_ && is_behind_finger(ray)) return light_behind_tags(ray);
+  if (finger_ && is_behind_finger(ray)) {
+    return light_behind_tags(ray);
+  }
   double nearest = 1e9;
   float found = 0.0F;
   for (const TagSeen& seen : tags_) {
     const Vec3 d = seen.marker_from_camera * Vec3{ray.x, ray.y, 1.0};
     const double along = -seen.eye.z / d.z;
-    if (!(along > 0.0) || along > nearest || seen.eye.z < 0.0) continue;
+    if (!(along > 0.0) || along > nearest || seen.eye.z < 0.0) {
+      continue;
+    }
     const double x = seen.eye.x + along * d.x;
     const double y = seen.eye.y + along * d.y;
-    if (std::abs(x) > seen.half_paper_m || std::abs(y) > seen.half_paper_m) continue;
+    if (std::abs(x) > seen.half_paper_m || std::abs(y) > seen.half_paper_m) {
+      continue;
+    }
     nearest = along;
     found = tag_light(seen, x, y);
   }

@@ -10,9 +10,9 @@ class PredictedCoverage {
   explicit PredictedCoverage(const Mat3& covariance_m2);
   /// Whether an error lies in the ellipsoid that holds a share (0.68 or 0.95) of all. Never where
   /// the covariance is none.
-  [[nodiscard]] bool in_ellipsoid(Vec3 error_m, double share) const;
+  [[nodiscard]] bool in_ellipsoid(Vec3 error_m, double fraction) const;
   /// Whether an error is no longer than a share of all.
-  [[nodiscard]] bool no_longer(Vec3 error_m, double share) const;
+  [[nodiscard]] bool no_longer(Vec3 error_m, double fraction) const;
 
  private:
   Vec3 variances_m2_;  ///< along the principal axes

@@ -6,7 +6,9 @@ namespace orthonav::bench {
 
 std::optional<Sequence> recorded_sequence() {
   auto sample = test::load_sample();
-  if (!sample) return std::nullopt;
+  if (!sample) {
+    return std::nullopt;
+  }
   Sequence out;
   out.name = "recorded";
   for (const StereoFrame& frame : sample->frames) {
@@ -16,12 +18,14 @@ std::optional<Sequence> recorded_sequence() {
     for (const nav::ToolGeometry& tool : sample->tools) {
       const test::TruthRow* row = sample->find(frame.time, tool.marker.id);
       poses.push_back(row ? rig_from_world * row->world_from_marker : Transform<Rig, Marker>{});
-      const double share = row && row->visible ? 1.0 : 0.0;
-      visible.push_back({share, share});
+      const double fraction = row && row->visible ? 1.0 : 0.0;
+      visible.push_back({fraction, fraction});
     }
   }
   // The sample knows no tip of the reference; an angle is no shorter for that.
-  for (nav::ToolGeometry& tool : sample->tools) tool.tip_in_marker = {{0.0, -0.15, 0.0}};
+  for (nav::ToolGeometry& tool : sample->tools) {
+    tool.tip_in_marker = {{0.0, -0.15, 0.0}};
+  }
   out.calibration = std::move(sample->calibration);
   out.tools = std::move(sample->tools);
   out.frames = std::move(sample->frames);

@@ -35,38 +35,53 @@ bool chosen(const std::vector<std::string>& wanted, const std::string& name) {
 Result<std::vector<BenchLevel>> load_levels(const Arguments& arguments) {
   std::vector<std::string> folders;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(arguments.anatomy, error))
-    if (std::filesystem::exists(entry.path() / "case.json", error))
+  for (const auto& entry : std::filesystem::directory_iterator(arguments.anatomy, error)) {
+    if (std::filesystem::exists(entry.path() / "case.json", error)) {
       folders.push_back(entry.path().string());
+    }
+  }
   std::sort(folders.begin(), folders.end());
   std::vector<BenchLevel> levels;
   for (const std::string& folder : folders) {
     const auto source = engine::load_case(folder);
-    if (!source) return source.error();
+    if (!source) {
+      return source.error();
+    }
     for (const engine::CaseLevel& from : source->levels) {
       BenchLevel level{std::filesystem::path(folder).filename().string(), from.label, from.mesh,
                        from.screws};
-      if (!chosen(arguments.levels, level.name())) continue;
+      if (!chosen(arguments.levels, level.name())) {
+        continue;
+      }
       const auto begin = std::chrono::steady_clock::now();
       auto model = nav::VertebraModel::prepare(from.mesh);
       const auto end = std::chrono::steady_clock::now();
-      if (!model) return model.error();
+      if (!model) {
+        return model.error();
+      }
       level.model = *model;
       level.prepare_ms = std::chrono::duration<double, std::milli>(end - begin).count();
       levels.push_back(std::move(level));
     }
   }
-  for (std::size_t i = 0; i < levels.size() && !arguments.alone; ++i)
-    for (std::size_t k = 0; k < levels.size(); ++k)
-      if (levels[i].case_name == levels[k].case_name && (k + 1 == i || i + 1 == k))
+  for (std::size_t i = 0; i < levels.size() && !arguments.alone; ++i) {
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      if (levels[i].case_name == levels[k].case_name && (k + 1 == i || i + 1 == k)) {
         levels[i].neighbours.push_back({levels[k].label, levels[k].model.get()});
-  if (levels.empty()) return Error{"no level of a case is found in " + arguments.anatomy};
+      }
+    }
+  }
+  if (levels.empty()) {
+    return Error{"no level of a case is found in " + arguments.anatomy};
+  }
   return levels;
 }
 
 void print_costs(const std::vector<BenchLevel>& levels) {
   double slowest_ms = 0.0;
-  for (const BenchLevel& level : levels) slowest_ms = std::max(slowest_ms, level.prepare_ms);
+  for (const BenchLevel& level : levels) {
+    slowest_ms = std::max(slowest_ms, level.prepare_ms);
+  }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::printf(
@@ -83,9 +98,11 @@ int measured(Arguments& arguments) {
   }
   std::vector<RegistrationMethod> methods = registration_methods();
   std::erase_if(methods, [&](const auto& m) { return !chosen(arguments.methods, m.name); });
-  for (const auto variant : test::kStrokeVariants)
-    if (chosen(arguments.variants, test::name_of(variant)))
+  for (const auto variant : test::kStrokeVariants) {
+    if (chosen(arguments.variants, test::name_of(variant))) {
       arguments.run.variants.push_back(variant);
+    }
+  }
   if (methods.empty() || arguments.run.variants.empty()) {
     std::fprintf(stderr, "bench_registration: no such method or variant in this build\n");
     return 2;

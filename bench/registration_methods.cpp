@@ -21,14 +21,16 @@ Fitted told_by(const Result<nav::Registration>& r) {
   fitted.found = true;
   fitted.world_from_vertebra = r->world_from_vertebra;
   fitted.accepted = r->accepted;
-  for (const std::string& reason : r->reasons)
+  for (const std::string& reason : r->reasons) {
     fitted.reason += (fitted.reason.empty() ? "" : "; ") + reason;
+  }
   fitted.rmse_m = r->rmse_m;
   fitted.fits_better = r->fits_better;
-  if (r->uncertainty)
+  if (r->uncertainty) {
     fitted.covariance = [uncertainty = *r->uncertainty](Point<Vertebra> at) {
       return predicted_covariance(uncertainty, at);
     };
+  }
   return fitted;
 }
 
@@ -36,7 +38,7 @@ RegistrationMethod paper() {
   return {"paper",
           [](const BenchLevel& level) -> Fit {
             return [model = level.model](std::span<const Point<World>> points) {
-              return told_by(nav::register_paper(*model, points));
+              return told_by(nav::register_by_principal_axes(*model, points));
             };
           },
           true};
@@ -45,13 +47,15 @@ RegistrationMethod paper() {
 RegistrationMethod best() {
   return {"best",
           [](const BenchLevel& level) -> Fit {
-            nav::BestRegistrationOptions options;
-            for (const nav::ScrewPlan& screw : level.screws)
-              for (const Point<Vertebra> at : {screw.entry, screw.target})
+            nav::PoseSearchRegistrationOptions options;
+            for (const nav::ScrewPlan& screw : level.screws) {
+              for (const Point<Vertebra> at : {screw.entry, screw.target}) {
                 options.targets.push_back(at);
+              }
+            }
             options.neighbours = level.neighbours;
             return [model = level.model, options](std::span<const Point<World>> points) {
-              return told_by(nav::register_best(*model, points, options));
+              return told_by(nav::register_by_pose_search(*model, points, options));
             };
           },
           true};
@@ -65,10 +69,14 @@ std::vector<RegistrationMethod> registration_methods() {
       best(),
   };
 #ifdef ORTHONAV_BENCH_PCL
-  for (auto& peer : pcl_methods()) methods.push_back(std::move(peer));
+  for (auto& peer : pcl_methods()) {
+    methods.push_back(std::move(peer));
+  }
 #endif
 #ifdef ORTHONAV_BENCH_OPEN3D
-  for (auto& peer : open3d_methods()) methods.push_back(std::move(peer));
+  for (auto& peer : open3d_methods()) {
+    methods.push_back(std::move(peer));
+  }
 #endif
   return methods;
 }

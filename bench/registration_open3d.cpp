@@ -40,16 +40,20 @@ Described described(const PointCloud& dense) {
   d.cloud = dense.VoxelDownSample(kVoxel_mm);
   d.cloud->EstimateNormals(KDTreeSearchParamHybrid(kNormalRadius_mm, 30));
   d.cloud->OrientNormalsTowardsCameraLocation(d.cloud->GetCenter());
-  for (Eigen::Vector3d& normal : d.cloud->normals_) normal = -normal;
+  for (Eigen::Vector3d& normal : d.cloud->normals_) {
+    normal = -normal;
+  }
   d.features = o3d::ComputeFPFHFeature(*d.cloud, KDTreeSearchParamHybrid(kFeatureRadius_mm, 100));
   return d;
 }
 
 Result<Transform<Vertebra, World>> pose_of(const Eigen::Matrix4d& m) {
   std::array<double, 16> a{};
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 4; ++c)
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 4; ++c) {
       a[static_cast<std::size_t>(4 * r + c)] = m(r, c) / (c == 3 && r < 3 ? kMillimetres : 1.0);
+    }
+  }
   return Transform<Vertebra, World>::from_row_major(a);
 }
 
@@ -80,10 +84,14 @@ Fit prepared(const BenchLevel& level) {
     open3d::utility::random::Seed(1);
     omp_set_num_threads(1);  // one core as the others, and the same draws every time
     PointCloud strokes;
-    for (const Point<World>& point : points) strokes.points_.push_back(eigen_mm(point.v));
+    for (const Point<World>& point : points) {
+      strokes.points_.push_back(eigen_mm(point.v));
+    }
     Fitted fitted;
     const auto pose = pose_of(aligned(described(strokes), strokes, model, *whole));
-    if (!pose) return fitted;
+    if (!pose) {
+      return fitted;
+    }
     fitted.found = true;
     fitted.world_from_vertebra = pose->inverse();
     return fitted;

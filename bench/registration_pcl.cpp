@@ -25,19 +25,23 @@ pcl::PointXYZ point_mm(Vec3 p_m) {
 Eigen::Matrix4f matrix_mm(const Transform<Vertebra, World>& pose) {
   const auto a = pose.row_major();
   Eigen::Matrix4f m;
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 4; ++c)
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 4; ++c) {
       m(r, c) = static_cast<float>(a[static_cast<std::size_t>(4 * r + c)] *
                                    (c == 3 && r < 3 ? kMillimetres : 1.0));
+    }
+  }
   return m;
 }
 
 Result<Transform<Vertebra, World>> pose_of(const Eigen::Matrix4f& m) {
   std::array<double, 16> a{};
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 4; ++c)
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 4; ++c) {
       a[static_cast<std::size_t>(4 * r + c)] =
           static_cast<double>(m(r, c)) / (c == 3 && r < 3 ? kMillimetres : 1.0);
+    }
+  }
   return Transform<Vertebra, World>::from_row_major(a);
 }
 
@@ -46,9 +50,13 @@ template <class Icp>
 Fitted best_of_starts(Icp& icp, std::span<const SurfaceSample> model,
                       std::span<const Point<World>> points) {
   Vec3 centre{};
-  for (const Point<World>& point : points) centre += point.v / static_cast<double>(points.size());
+  for (const Point<World>& point : points) {
+    centre += point.v / static_cast<double>(points.size());
+  }
   const auto cloud = pcl::make_shared<Cloud>();
-  for (const Point<World>& point : points) cloud->push_back(point_mm(point.v - centre));
+  for (const Point<World>& point : points) {
+    cloud->push_back(point_mm(point.v - centre));
+  }
   const Transform<World, World> from_centred(Mat3::identity(), centre);
   icp.setInputSource(cloud);
   Fitted best;
@@ -58,7 +66,9 @@ Fitted best_of_starts(Icp& icp, std::span<const SurfaceSample> model,
     icp.align(aligned, matrix_mm(start * from_centred));
     const auto pose = pose_of(icp.getFinalTransformation());
     const double score = icp.getFitnessScore();
-    if (!pose || (best.found && score >= best_score)) continue;
+    if (!pose || (best.found && score >= best_score)) {
+      continue;
+    }
     best.found = true;
     best_score = score;
     best.world_from_vertebra = from_centred * pose->inverse();
@@ -70,7 +80,9 @@ template <class Icp>
 Fit prepared(const BenchLevel& level) {
   const auto target = pcl::make_shared<Cloud>();
   const auto samples = surface_samples(level.model->reachable(), kPeerModelPoints);
-  for (const SurfaceSample& s : samples) target->push_back(point_mm(s.point_m));
+  for (const SurfaceSample& s : samples) {
+    target->push_back(point_mm(s.point_m));
+  }
   const auto icp = std::make_shared<Icp>();
   icp->setInputTarget(target);
   icp->setMaxCorrespondenceDistance(kFarthestPair_mm);

@@ -17,27 +17,37 @@ std::vector<Transform<Vertebra, World>> published_starts(std::span<const Surface
   };
   std::vector<Vec3> surface;
   surface.reserve(model.size());
-  for (const SurfaceSample& sample : model) surface.push_back(sample.point_m);
+  for (const SurfaceSample& sample : model) {
+    surface.push_back(sample.point_m);
+  }
   const auto model_extremes = extremes_of(surface);
   std::vector<Vec3> strokes;
   strokes.reserve(points.size());
-  for (const Point<World>& point : points) strokes.push_back(point.v);
+  for (const Point<World>& point : points) {
+    strokes.push_back(point.v);
+  }
   const auto extremes = extremes_of(strokes);
   constexpr bool kTurned[4][3] = {
       {false, false, false}, {false, true, true}, {true, false, true}, {true, true, false}};
   std::vector<nav::RigidFit> fits;
   for (const auto& turned : kTurned) {
     std::array<Vec3, 6> from = extremes;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (turned[axis]) std::swap(from[2 * axis], from[2 * axis + 1]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (turned[axis]) {
+        std::swap(from[2 * axis], from[2 * axis + 1]);
+      }
+    }
     const auto fit = nav::absolute_orientation(from, model_extremes);
-    if (fit) fits.push_back(*fit);
+    if (fit) {
+      fits.push_back(*fit);
+    }
   }
   std::stable_sort(fits.begin(), fits.end(),
                    [](const auto& a, const auto& b) { return a.rmse_m < b.rmse_m; });
   std::vector<Transform<Vertebra, World>> starts;
-  for (std::size_t i = 0; i < std::min<std::size_t>(fits.size(), 2); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t>(fits.size(), 2); ++i) {
     starts.emplace_back(fits[i].rotation, fits[i].translation_m);
+  }
   return starts;
 }
 
@@ -48,8 +58,9 @@ std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh, std::s
     const auto& [a, b, c] = mesh.triangles[t];
     return nav::Triangle{mesh.vertices_m[a], mesh.vertices_m[b], mesh.vertices_m[c]};
   };
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     area_m2.push_back(sum_m2 += nav::triangle_area_m2(corners(t)));
+  }
   Random random(1);
   std::vector<SurfaceSample> samples;
   for (std::size_t i = 0; i < count; ++i) {
@@ -74,8 +85,11 @@ std::vector<SurfaceSample> exposed(const std::vector<SurfaceSample>& samples,
     high_m = std::max(high_m, screw.entry.v.x + kBeyondEntry_m);
   }
   std::vector<SurfaceSample> kept;
-  for (const SurfaceSample& sample : samples)
-    if (sample.point_m.x > low_m && sample.point_m.x < high_m) kept.push_back(sample);
+  for (const SurfaceSample& sample : samples) {
+    if (sample.point_m.x > low_m && sample.point_m.x < high_m) {
+      kept.push_back(sample);
+    }
+  }
   return kept;
 }
 

@@ -21,10 +21,10 @@ constexpr double kPeerMaxRmse_m = 0.003;
 /// Each level has strokes of its own from a seed.
 test::DigitizedStrokes strokes_of(const BenchLevel& level, test::StrokeVariant variant,
                                   std::uint64_t seed, const RunOptions& options) {
-  test::StrokeMagnitudes magnitudes = test::magnitudes_of(variant);
-  magnitudes.deepest_aside = options.deepest_aside;
+  test::StrokeErrorModel error_model = test::error_model_of(variant);
+  error_model.deepest_aside = options.deepest_aside;
   auto strokes = test::digitize_strokes(level.mesh, variant, Random(seed).fork(level.name()).next(),
-                                        magnitudes);
+                                        error_model);
   if (!strokes) {
     std::fprintf(stderr, "%s: %s\n", level.name().c_str(), strokes.error().message.c_str());
     std::exit(2);
@@ -50,7 +50,9 @@ Fitted fitted_by(const RegistrationMethod& method, const Fit& fit, const BenchLe
   Fitted fitted = fit(points);
   const auto end = std::chrono::steady_clock::now();
   ms = std::chrono::duration<double, std::milli>(end - begin).count();
-  if (method.judges || !fitted.found) return fitted;
+  if (method.judges || !fitted.found) {
+    return fitted;
+  }
   fitted.rmse_m = rmse_m(*level.model, fitted.world_from_vertebra, points);
   fitted.accepted = fitted.rmse_m <= kPeerMaxRmse_m;
   return fitted;
@@ -60,24 +62,29 @@ void compare(const BenchLevel& level, const Transform<World, Vertebra>& truth, c
              Run& run) {
   // In the model's frame: that is where the covariance is.
   const auto moved = truth.inverse() * fitted.world_from_vertebra;
-  for (const nav::ScrewPlan& screw : level.screws)
+  for (const nav::ScrewPlan& screw : level.screws) {
     for (const Point<Vertebra> at : {screw.entry, screw.target}) {
       const Vec3 error_m = moved * at - at;
       run.error_m = std::max(run.error_m, error_m.norm());
-      if (!fitted.covariance) continue;
+      if (!fitted.covariance) {
+        continue;
+      }
       const Mat3 covariance = fitted.covariance(at);
       const PredictedCoverage predicted(covariance);
       run.honest.push_back(
           {predicted.in_ellipsoid(error_m, 0.68), predicted.in_ellipsoid(error_m, 0.95),
            predicted.no_longer(error_m, 0.68), predicted.no_longer(error_m, 0.95)});
     }
+  }
 }
 
 void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod>& methods,
                    const RunOptions& options, std::vector<Run>& runs) {
   std::vector<Fit> fits;
-  for (const auto& method : methods) fits.push_back(method.prepare(level));
-  for (const auto variant : options.variants)
+  for (const auto& method : methods) {
+    fits.push_back(method.prepare(level));
+  }
+  for (const auto variant : options.variants) {
     for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
       const auto strokes = strokes_of(level, variant, seed, options);
       const auto points = strokes.tips();
@@ -88,10 +95,13 @@ void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod
         run.accepted = fitted.accepted;
         run.reason = fitted.reason;
         run.rmse_m = fitted.rmse_m;
-        if (run.found) compare(level, strokes.world_from_vertebra, fitted, run);
+        if (run.found) {
+          compare(level, strokes.world_from_vertebra, fitted, run);
+        }
         runs.push_back(std::move(run));
       }
     }
+  }
 }
 
 /// Calls `work` for 0 to count - 1, some beside each other.
@@ -99,18 +109,25 @@ template <class Work>
 void in_parallel(std::size_t count, unsigned jobs, const Work& work) {
   std::atomic<std::size_t> next{0};
   const auto take = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
+    for (std::size_t i = next++; i < count; i = next++) {
+      work(i);
+    }
   };
   std::vector<std::jthread> threads;
-  for (unsigned j = 1; j < jobs; ++j) threads.emplace_back(take);
+  for (unsigned j = 1; j < jobs; ++j) {
+    threads.emplace_back(take);
+  }
   take();
 }
 
 template <class T>
 std::vector<T> joined(std::vector<std::vector<T>>& parts) {
   std::vector<T> all;
-  for (auto& part : parts)
-    for (auto& one : part) all.push_back(std::move(one));
+  for (auto& part : parts) {
+    for (auto& one : part) {
+      all.push_back(std::move(one));
+    }
+  }
   return all;
 }
 
@@ -134,14 +151,17 @@ std::vector<WrongLevelRun> measure_wrong_levels(const std::vector<BenchLevel>& l
   in_parallel(levels.size(), options.jobs, [&](std::size_t i) {
     const BenchLevel& stroked = levels[i];
     std::vector<const BenchLevel*> neighbours;
-    if (i > 0 && levels[i - 1].case_name == stroked.case_name) neighbours.push_back(&levels[i - 1]);
-    if (i + 1 < levels.size() && levels[i + 1].case_name == stroked.case_name)
+    if (i > 0 && levels[i - 1].case_name == stroked.case_name) {
+      neighbours.push_back(&levels[i - 1]);
+    }
+    if (i + 1 < levels.size() && levels[i + 1].case_name == stroked.case_name) {
       neighbours.push_back(&levels[i + 1]);
+    }
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const Fit own = methods[m].prepare(stroked);
       for (const BenchLevel* other : neighbours) {
         const Fit fit = methods[m].prepare(*other);
-        for (const auto variant : options.variants)
+        for (const auto variant : options.variants) {
           for (std::uint64_t seed = 1; seed <= options.seeds; ++seed) {
             const auto points = strokes_of(stroked, variant, seed, options).tips();
             double ms = 0.0;
@@ -151,6 +171,7 @@ std::vector<WrongLevelRun> measure_wrong_levels(const std::vector<BenchLevel>& l
                                 wrong.fits_better == stroked.label,
                                 right.found && (!wrong.found || right.rmse_m < wrong.rmse_m)});
           }
+        }
       }
     }
   });

@@ -35,7 +35,7 @@ struct Run {
 struct RunOptions {
   std::vector<test::StrokeVariant> variants;
   std::uint64_t seeds = 2;
-  double deepest_aside = test::StrokeMagnitudes{}.deepest_aside;
+  double deepest_aside = test::StrokeErrorModel{}.deepest_aside;
   unsigned jobs = 1;  ///< levels beside each other; the results don't depend on it, the times do
 };
 

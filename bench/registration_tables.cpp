@@ -11,7 +11,9 @@ namespace orthonav::bench {
 namespace {
 
 double quantile(std::vector<double> v, double q) {
-  if (v.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (v.empty()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   std::sort(v.begin(), v.end());
   return v[static_cast<std::size_t>(std::ceil(q * static_cast<double>(v.size() - 1)))];
 }
@@ -23,21 +25,30 @@ using Methods = std::vector<RegistrationMethod>;
 void for_rows(const std::vector<Run>& runs, const Methods& methods, const Variants& variants,
               const std::function<void(const char*, std::size_t, const std::vector<Run>&)>& row) {
   std::vector<std::optional<test::StrokeVariant>> groups(variants.begin(), variants.end());
-  if (variants.size() > 1) groups.emplace_back(std::nullopt);
-  for (const auto& group : groups)
+  if (variants.size() > 1) {
+    groups.emplace_back(std::nullopt);
+  }
+  for (const auto& group : groups) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
       std::vector<Run> chosen;
-      for (const Run& run : runs)
-        if (run.method == m && (!group || run.variant == *group)) chosen.push_back(run);
+      for (const Run& run : runs) {
+        if (run.method == m && (!group || run.variant == *group)) {
+          chosen.push_back(run);
+        }
+      }
       row(group ? test::name_of(*group) : "all", m, chosen);
     }
+  }
 }
 
 std::vector<double> values(const std::vector<Run>& runs,
                            const std::function<std::optional<double>(const Run&)>& of) {
   std::vector<double> v;
-  for (const Run& run : runs)
-    if (const auto value = of(run)) v.push_back(*value);
+  for (const Run& run : runs) {
+    if (const auto value = of(run)) {
+      v.push_back(*value);
+    }
+  }
   return v;
 }
 
@@ -86,7 +97,9 @@ void print_against_first(const std::vector<Run>& runs, const Methods& methods,
              }
              std::vector<double> own_mm, first_mm;
              for (std::size_t i = 0; i < chosen.size(); ++i) {
-               if (!chosen[i].right() || !first[i].right()) continue;
+               if (!chosen[i].right() || !first[i].right()) {
+                 continue;
+               }
                own_mm.push_back(1e3 * chosen[i].error_m);
                first_mm.push_back(1e3 * first[i].error_m);
              }
@@ -107,15 +120,21 @@ void print_honesty(const std::vector<Run>& runs, const Methods& methods, const V
              double all = 0.0;
              std::size_t accepted = 0;
              for (const Run& run : chosen) {
-               if (!run.accepted || run.honest.empty()) continue;
+               if (!run.accepted || run.honest.empty()) {
+                 continue;
+               }
                ++accepted;
                for (const Run::Honest& h : run.honest) {
                  const bool is[4] = {h.in_68, h.in_95, h.within_68, h.within_95};
-                 for (int k = 0; k < 4; ++k) in[k] += is[k] ? 100.0 : 0.0;
+                 for (int k = 0; k < 4; ++k) {
+                   in[k] += is[k] ? 100.0 : 0.0;
+                 }
                  all += 1.0;
                }
              }
-             if (accepted == 0) return;
+             if (accepted == 0) {
+               return;
+             }
              std::printf("| %s | %s | %zu | %.1f %% | %.1f %% | %.1f %% | %.1f %% |\n", group,
                          methods[m].name.c_str(), accepted, in[0] / all, in[1] / all, in[2] / all,
                          in[3] / all);
@@ -127,11 +146,13 @@ void print_wrong_levels(const std::vector<WrongLevelRun>& runs, const Methods& m
   std::printf(
       "| strokes | method | runs | accepted | share | the right level fits better | it is named |\n"
       "|---|---|---:|---:|---:|---:|---:|\n");
-  for (const auto variant : variants)
+  for (const auto variant : variants) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
       int all = 0, accepted = 0, better = 0, named = 0;
       for (const WrongLevelRun& run : runs) {
-        if (run.variant != variant || run.method != m) continue;
+        if (run.variant != variant || run.method != m) {
+          continue;
+        }
         ++all;
         accepted += run.accepted ? 1 : 0;
         better += run.right_fits_better ? 1 : 0;
@@ -141,18 +162,20 @@ void print_wrong_levels(const std::vector<WrongLevelRun>& runs, const Methods& m
                   methods[m].name.c_str(), all, accepted, 100.0 * accepted / std::max(all, 1),
                   100.0 * better / std::max(all, 1), 100.0 * named / std::max(all, 1));
     }
+  }
 }
 
 void print_each(const std::vector<Run>& runs, const Methods& methods) {
   std::printf(
       "| level | strokes | seed | method | verdict | error, mm | RMSE, mm | ms | says |\n"
       "|---|---|---:|---|---|---:|---:|---:|---|\n");
-  for (const Run& run : runs)
+  for (const Run& run : runs) {
     std::printf("| %s | %s: %s | %llu | %s | %s%s | %.2f | %.2f | %.1f | %s |\n", run.level.c_str(),
                 test::name_of(run.variant), run.coverage.c_str(),
                 static_cast<unsigned long long>(run.seed), methods[run.method].name.c_str(),
                 run.right() ? "right" : "WRONG", run.accepted ? ", accepted" : "",
                 1e3 * run.error_m, 1e3 * run.rmse_m, run.ms, run.reason.c_str());
+  }
 }
 
 }  // namespace orthonav::bench

@@ -31,11 +31,14 @@ struct Options {
 class Phase {
  public:
   void add(double ms) { ms_.push_back(ms); }
-  [[nodiscard]] double quantile(double share) const {
+  [[nodiscard]] double quantile(double fraction) const {
     std::vector<double> sorted = ms_;
     std::sort(sorted.begin(), sorted.end());
-    if (sorted.empty()) return 0;
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+    if (sorted.empty()) {
+      return 0;
+    }
+    return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1) +
+                                           0.5)];
   }
   [[nodiscard]] std::string text() const {
     char line[64];
@@ -96,7 +99,9 @@ class Ours {
       std::fprintf(stderr, "%s\n", error.c_str());
       std::exit(1);
     }
-    if (row == nullptr) return;
+    if (row == nullptr) {
+      return;
+    }
     const render::FrameTiming timing = renderer_->last_timing();
     row->record.add(timing.record_ms);
     row->submit.add(timing.submit_ms);
@@ -111,12 +116,14 @@ class Ours {
   double before_mib_;
   std::unique_ptr<render::Renderer> renderer_;
   const FullScene& full_;
-  std::vector<render::Image> images_;
+  std::vector<RgbaImage> images_;
 };
 
 void draw_peer(VtkWindow& window, const FullScene& full, int frame, Row* row) {
   const VtkTiming timing = window.draw(swayed(full.views, frame));
-  if (row == nullptr) return;
+  if (row == nullptr) {
+    return;
+  }
   row->record.add(timing.render_ms);
   row->gpu.add(timing.wait_ms);
   row->read.add(timing.read_ms);
@@ -128,10 +135,14 @@ void compare(const Options& options, int samples, const FullScene& full) {
   constexpr int kWarmUp = 5;
   Row ours, all_triangles, peers;
   Ours renderer(options, samples, render::RendererOptions{}.surface_error_m, full);
-  for (int i = 0; i < kWarmUp; ++i) renderer.draw(i, nullptr);
+  for (int i = 0; i < kWarmUp; ++i) {
+    renderer.draw(i, nullptr);
+  }
   ours.memory_mib = resident_mib() - renderer.before_mib();
   Ours whole(options, samples, 0, full);
-  for (int i = 0; i < kWarmUp; ++i) whole.draw(i, nullptr);
+  for (int i = 0; i < kWarmUp; ++i) {
+    whole.draw(i, nullptr);
+  }
   all_triangles.memory_mib = resident_mib() - whole.before_mib();
   const double between_mib = resident_mib();
   std::unique_ptr<VtkWindow> window;
@@ -139,27 +150,37 @@ void compare(const Options& options, int samples, const FullScene& full) {
     window = VtkWindow::create(full.scene, full.views.size(), options.width_px, options.height_px,
                                samples);
   }
-  for (int i = 0; window && i < kWarmUp; ++i) draw_peer(*window, full, i, nullptr);
+  for (int i = 0; window && i < kWarmUp; ++i) {
+    draw_peer(*window, full, i, nullptr);
+  }
   peers.memory_mib = resident_mib() - between_mib;
   for (int i = 0; i < options.frames; ++i) {
     renderer.draw(i, &ours);
     whole.draw(i, &all_triangles);
-    if (window) draw_peer(*window, full, i, &peers);
+    if (window) {
+      draw_peer(*window, full, i, &peers);
+    }
   }
   print_row("orthonav, " + renderer.name(), samples, ours);
   print_row("orthonav, every triangle", samples, all_triangles);
-  if (!window) return;
+  if (!window) {
+    return;
+  }
   print_row("VTK " + window->name(), samples, peers);
   std::printf("\nRatio of the medians with %d samples: %.3f, with every triangle %.3f\n\n", samples,
               ours.total.quantile(0.5) / peers.total.quantile(0.5),
               all_triangles.total.quantile(0.5) / peers.total.quantile(0.5));
-  if (options.save) window->save("vtk_" + std::to_string(samples) + ".png");
+  if (options.save) {
+    window->save("vtk_" + std::to_string(samples) + ".png");
+  }
 }
 
 void run(const Options& options) {
   const FullScene full = full_scene();
   std::size_t triangles = 0;
-  for (const auto& item : full.scene.meshes) triangles += item.mesh->indices.size() / 3;
+  for (const auto& item : full.scene.meshes) {
+    triangles += item.mesh->indices.size() / 3;
+  }
   std::printf("%zu surfaces of %zu triangles, %zu lines, %zu triangles, %zu texts; %zu eyes of ",
               full.scene.meshes.size(), triangles, full.scene.lines.size(),
               full.scene.triangles.size(), full.scene.texts.size(), full.views.size());
@@ -167,7 +188,9 @@ void run(const Options& options) {
               options.frames);
   std::printf("| renderer | samples | record | submit | GPU side | read | total | memory, MiB |\n");
   std::printf("|---|---|---|---|---|---|---|---|\n");
-  for (const int samples : {4, 1}) compare(options, samples, full);
+  for (const int samples : {4, 1}) {
+    compare(options, samples, full);
+  }
 }
 
 }  // namespace
@@ -181,7 +204,8 @@ int main(int argc, char** argv) {
   app.add_option("--height", options.height_px, "of one eye, px");
   app.add_flag("--save", options.save, "saves what VTK drew as vtk_SAMPLES.png");
   CLI11_PARSE(app, argc, argv);
-  if (std::getenv("DISPLAY") == nullptr)
+  if (std::getenv("DISPLAY") == nullptr) {
     std::puts("No X display, so no VTK: run it through xvfb-run -a");
+  }
   orthonav::bench::run(options);
 }

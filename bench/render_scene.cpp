@@ -35,14 +35,17 @@ render::MeshData refined(const render::MeshData& mesh) {
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
     const auto [at, fresh] =
         middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(out.positions.size()));
-    if (fresh) out.positions.push_back(0.5f * (mesh.positions[a] + mesh.positions[b]));
+    if (fresh) {
+      out.positions.push_back(0.5f * (mesh.positions[a] + mesh.positions[b]));
+    }
     return at->second;
   };
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
     const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const std::uint32_t index : {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca})
+    for (const std::uint32_t index : {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca}) {
       out.indices.push_back(index);
+    }
   }
   out.normals = render::smooth_normals(out.positions, out.indices);
   return out;
@@ -96,9 +99,15 @@ FullScene full_scene() {
   vertebra->mesh =
       std::make_shared<render::MeshData>(render::decimated(refined(*vertebra->mesh), kTriangles));
   const render::Scene rod = golden("h10_rod").scene;
-  for (const auto& item : rod.meshes) full.scene.meshes.push_back(item);
-  for (const auto& item : rod.lines) full.scene.lines.push_back(item);
-  for (const auto& item : rod.texts) full.scene.texts.push_back(item);
+  for (const auto& item : rod.meshes) {
+    full.scene.meshes.push_back(item);
+  }
+  for (const auto& item : rod.lines) {
+    full.scene.lines.push_back(item);
+  }
+  for (const auto& item : rod.texts) {
+    full.scene.texts.push_back(item);
+  }
   full.scene.lines.push_back(sampled_path());
   add_cross(full.scene, full.views);
   return full;

@@ -10,7 +10,7 @@ namespace {
 /// three moments of exposure, everything moving from pair to pair.
 void stereo_pair(benchmark::State& bench) {
   const RoomDescription room = scene::operating_room(static_cast<int>(bench.range(0)));
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   const StereoCalibration calibration = hololens2_calibration();
   RoomState state = scene::operating_state(room);
   GreyImage left;
@@ -32,7 +32,7 @@ BENCHMARK(stereo_pair)->Arg(33)->Arg(65)->Unit(benchmark::kMillisecond);
 
 void picture(benchmark::State& bench) {
   const RoomDescription room = scene::operating_room(33);
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   const RoomState state = scene::operating_state(room);
   const PinholeView view{{state.room_from_rig.rotation(), state.room_from_rig.translation()},
                          0.42,

@@ -30,10 +30,18 @@ struct Kind {
 };
 
 Kind kind_of(const std::string& name) {
-  if (name == "still") return {.speed = 0.0};
-  if (name == "fast") return {.speed = 4.0};
-  if (name == "dim") return {.light = 0.35, .shot = 0.15, .read = 2.0};
-  if (name == "occluded") return {.hand = true};
+  if (name == "still") {
+    return {.speed = 0.0};
+  }
+  if (name == "fast") {
+    return {.speed = 4.0};
+  }
+  if (name == "dim") {
+    return {.light = 0.35, .shot = 0.15, .read = 2.0};
+  }
+  if (name == "occluded") {
+    return {.hand = true};
+  }
   return {};
 }
 
@@ -41,14 +49,18 @@ Kind kind_of(const std::string& name) {
 struct Wander {
   std::array<std::array<double, 3>, 6> phase{};
   explicit Wander(Random random) {
-    for (auto& axis : phase)
-      for (double& p : axis) p = random.uniform(0.0, 2.0 * std::numbers::pi);
+    for (auto& axis : phase) {
+      for (double& p : axis) {
+        p = random.uniform(0.0, 2.0 * std::numbers::pi);
+      }
+    }
   }
   [[nodiscard]] double at(std::size_t axis, double t) const {
     constexpr std::array<double, 3> kHz{0.31, 0.57, 0.93};
     double sum = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
       sum += std::sin(2.0 * std::numbers::pi * kHz[i] * t + phase[axis][i]);
+    }
     return sum / 3.0;
   }
 };
@@ -77,10 +89,10 @@ class Stage {
       : kind_(kind),
         head_(Random(seed).fork("head")),
         hands_{Wander(Random(seed).fork("pointer")), Wander(Random(seed).fork("guide"))} {
-    sim::Magnitudes magnitudes = sim::Magnitudes::perfect();
-    magnitudes.blur_sigma_px = 0.7;
-    magnitudes.vignetting = 0.3;
-    renderer_ = sim::RoomRenderer::create(room(), magnitudes);
+    sim::ErrorModel error_model = sim::ErrorModel::perfect();
+    error_model.blur_sigma_px = 0.7;
+    error_model.vignetting = 0.3;
+    renderer_ = sim::RoomRenderer::create(room(), error_model);
   }
 
   [[nodiscard]] sim::RoomState at(double t) const {
@@ -123,8 +135,9 @@ class Stage {
 
   [[nodiscard]] std::vector<sim::RoomState> exposure(double t) const {
     std::vector<sim::RoomState> states;
-    for (int i = 0; i < kMoments; ++i)
+    for (int i = 0; i < kMoments; ++i) {
       states.push_back(at(t + kExposureS * ((i + 0.5) / kMoments - 0.5)));
+    }
     return states;
   }
   [[nodiscard]] const StereoCalibration& calibration() const { return calibration_; }
@@ -153,20 +166,25 @@ template <class CameraFrame, class Visit>
 void each_pixel(const CameraModel& camera, const Transform<CameraFrame, Rig>& camera_from_rig,
                 const Transform<Rig, Marker>& rig_from_marker, double half_m, const Visit& visit) {
   const auto eye = (camera_from_rig * rig_from_marker).inverse();
-  for (int y = 0; y < camera.height_px(); ++y)
+  for (int y = 0; y < camera.height_px(); ++y) {
     for (int x = 0; x < camera.width_px(); ++x) {
       const std::size_t i = static_cast<std::size_t>(y * camera.width_px() + x);
       const Vec2 ray = camera.lookup()[i];
-      if (std::isnan(ray.x)) continue;
+      if (std::isnan(ray.x)) {
+        continue;
+      }
       const Vec3 d = eye.rotation() * Vec3{ray.x, ray.y, 1.0};
       const double along = -eye.translation().z / d.z;
       const Vec3 p = eye.translation() + along * d;
-      if (along > 0.0 && std::abs(p.x) < half_m && std::abs(p.y) < half_m) visit(i);
+      if (along > 0.0 && std::abs(p.x) < half_m && std::abs(p.y) < half_m) {
+        visit(i);
+      }
     }
+  }
 }
 
-double hidden_share(const GreyImage& with, const GreyImage& without, const CameraModel& camera,
-                    const auto& camera_from_rig, const Transform<Rig, Marker>& pose) {
+double hidden_fraction(const GreyImage& with, const GreyImage& without, const CameraModel& camera,
+                       const auto& camera_from_rig, const Transform<Rig, Marker>& pose) {
   double all = 0.0;
   double hidden = 0.0;
   each_pixel(camera, camera_from_rig, pose, 0.5 * kTagM, [&](std::size_t i) {
@@ -176,24 +194,28 @@ double hidden_share(const GreyImage& with, const GreyImage& without, const Camer
   return all > 0.0 ? hidden / all : 1.0;
 }
 
-std::array<double, 2> visible_shares(Stage& stage, double t, const StereoFrame& clean,
-                                     const Transform<Rig, Marker>& pose) {
-  if (!stage.kind().hand) return {1.0, 1.0};
+std::array<double, 2> visible_fractions(Stage& stage, double t, const StereoFrame& clean,
+                                        const Transform<Rig, Marker>& pose) {
+  if (!stage.kind().hand) {
+    return {1.0, 1.0};
+  }
   std::vector<sim::RoomState> states = stage.exposure(t);
-  for (sim::RoomState& state : states) state.hand.reset();
-  StereoFrame bare;
-  stage.render(states, bare);
+  for (sim::RoomState& state : states) {
+    state.hand.reset();
+  }
+  StereoFrame unstroked;
+  stage.render(states, unstroked);
   const StereoCalibration& c = stage.calibration();
-  return {1.0 - hidden_share(clean.left, bare.left, c.left, c.left_from_rig, pose),
-          1.0 - hidden_share(clean.right, bare.right, c.right, c.right_from_rig, pose)};
+  return {1.0 - hidden_fraction(clean.left, unstroked.left, c.left, c.left_from_rig, pose),
+          1.0 - hidden_fraction(clean.right, unstroked.right, c.right, c.right_from_rig, pose)};
 }
 
 std::array<double, 36> cramer_rao_bound(const Kind& kind, const StereoCalibration& calibration,
                                         const Transform<Rig, Marker>& pose, std::size_t tool) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  sim::Magnitudes magnitudes = sim::Magnitudes::perfect();
-  magnitudes.blur_sigma_px = 0.7;
-  const auto renderer = sim::RoomRenderer::create(room(), magnitudes);
+  sim::ErrorModel error_model = sim::ErrorModel::perfect();
+  error_model.blur_sigma_px = 0.7;
+  const auto renderer = sim::RoomRenderer::create(room(), error_model);
   sim::RoomState state;
   state.room_from_marker.assign(2, {});
   state.tool_present = {tool == 0, tool == 1};
@@ -240,8 +262,11 @@ std::array<double, 36> cramer_rao_bound(const Kind& kind, const StereoCalibratio
   gather(&StereoFrame::right, calibration.right, calibration.right_from_rig);
   const Matrix6 bound = information.inverse();
   std::array<double, 36> out;
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c) out[static_cast<std::size_t>(6 * r + c)] = bound(r, c);
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) {
+      out[static_cast<std::size_t>(6 * r + c)] = bound(r, c);
+    }
+  }
   return out;
 }
 
@@ -283,7 +308,7 @@ Sequence make_sequence(const std::string& name, int pairs, std::uint64_t seed) {
     for (const auto& room_from_marker : middle.room_from_marker) {
       out.rig_from_marker.back().push_back(rig_from_room * room_from_marker);
       out.visible.back().push_back(
-          visible_shares(stage, t, clean, out.rig_from_marker.back().back()));
+          visible_fractions(stage, t, clean, out.rig_from_marker.back().back()));
     }
     out.frames.push_back(std::move(frame));
   }

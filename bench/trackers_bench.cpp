@@ -45,24 +45,26 @@ Arguments parsed(int argc, char** argv) {
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
-    if (word == "--only" && i + 1 < argc)
+    if (word == "--only" && i + 1 < argc) {
       arguments.only = split(argv[++i]);
-    else if (word == "--methods" && i + 1 < argc)
+    } else if (word == "--methods" && i + 1 < argc) {
       arguments.methods = split(argv[++i]);
-    else if (word == "--pictures" && i + 1 < argc)
+    } else if (word == "--pictures" && i + 1 < argc) {
       arguments.pictures = argv[++i];
-    else if (word == "--other")
+    } else if (word == "--other") {
       arguments.other = true;
-    else if (std::atoi(argv[i]) > 0)
+    } else if (std::atoi(argv[i]) > 0) {
       arguments.pairs = std::max(std::atoi(argv[i]), 70);
-    else {
+    } else {
       std::fprintf(stderr,
                    "usage: bench_trackers [PAIRS] [--other] [--only SEQUENCE,...] "
                    "[--methods METHOD,...] [--pictures FOLDER]\n");
       std::exit(2);
     }
   }
-  if (arguments.pairs == 0) arguments.pairs = arguments.other ? 100 : 300;
+  if (arguments.pairs == 0) {
+    arguments.pairs = arguments.other ? 100 : 300;
+  }
   return arguments;
 }
 
@@ -89,10 +91,14 @@ void write_pictures(const Sequence& sequence, const std::string& folder) {
 }
 
 void run(const Sequence& sequence, const Arguments& arguments) {
-  if (!arguments.pictures.empty()) write_pictures(sequence, arguments.pictures);
-  for (const Method& method : tracking_methods())
-    if (wanted(arguments.methods, method.name))
+  if (!arguments.pictures.empty()) {
+    write_pictures(sequence, arguments.pictures);
+  }
+  for (const Method& method : tracking_methods()) {
+    if (wanted(arguments.methods, method.name)) {
       print_row(sequence, method.name, measure(sequence, method.start(sequence)));
+    }
+  }
   print_bound(sequence);
 }
 
@@ -103,15 +109,20 @@ int main(int argc, char** argv) {
   using namespace orthonav::bench;
   const Arguments arguments = parsed(argc, argv);
   print_head();
-  for (const std::string& name : arguments.other ? other_sequence_names() : sequence_names())
-    if (wanted(arguments.only, name))
+  for (const std::string& name : arguments.other ? other_sequence_names() : sequence_names()) {
+    if (wanted(arguments.only, name)) {
       run(arguments.other ? make_other_sequence(name, arguments.pairs, 11)
                           : make_sequence(name, arguments.pairs, 7),
           arguments);
-  if (arguments.other || !wanted(arguments.only, "recorded")) return 0;
-  if (const auto recorded = recorded_sequence())
+    }
+  }
+  if (arguments.other || !wanted(arguments.only, "recorded")) {
+    return 0;
+  }
+  if (const auto recorded = recorded_sequence()) {
     run(*recorded, arguments);
-  else
+  } else {
     std::fprintf(stderr, "the recorded sample is not here: its sequence is left out\n");
+  }
   return 0;
 }

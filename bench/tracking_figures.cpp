@@ -38,9 +38,11 @@ double nees_of(const Transform<Rig, Marker>& truth, const Seen& seen) {
 
 bool is_elsewhere(const Transform<Rig, Marker>& pose, const Transform<Rig, Marker>& truth,
                   double size_m) {
-  for (const Vec3 corner : nav::corners_in_marker(size_m))
-    if ((pose * Point<Marker>{corner} - truth * Point<Marker>{corner}).norm() > 0.5 * size_m)
+  for (const Vec3 corner : nav::corners_in_marker(size_m)) {
+    if ((pose * Point<Marker>{corner} - truth * Point<Marker>{corner}).norm() > 0.5 * size_m) {
       return true;
+    }
+  }
   return false;
 }
 
@@ -50,11 +52,15 @@ bool is_there(const Sighting& sighting, const CameraModel& camera,
               const Transform<Rig, Marker>& truth, double size_m) {
   const auto camera_from_marker = camera_from_rig * truth;
   const auto centre = camera.project(camera_from_marker.translation());
-  if (!centre) return false;
+  if (!centre) {
+    return false;
+  }
   double farthest = 0.0;
   for (const Vec3 corner : nav::corners_in_marker(0.5 * size_m)) {
     const auto seen = camera.project((camera_from_marker * Point<Marker>{corner}).v);
-    if (seen) farthest = std::max(farthest, (*seen - *centre).norm());
+    if (seen) {
+      farthest = std::max(farthest, (*seen - *centre).norm());
+    }
   }
   return (sighting.centre_px - *centre).norm() <= farthest;
 }
@@ -63,12 +69,14 @@ bool is_ghost(const Sequence& sequence, std::size_t pair, const Sighting& sighti
   const StereoCalibration& c = sequence.calibration;
   for (std::size_t i = 0; i < sequence.tools.size(); ++i) {
     const nav::MarkerDefinition& marker = sequence.tools[i].marker;
-    if (sighting.id != marker.id || sequence.visible[pair][i][sighting.right ? 1 : 0] < kGlimpsed)
+    if (sighting.id != marker.id || sequence.visible[pair][i][sighting.right ? 1 : 0] < kGlimpsed) {
       continue;
+    }
     const auto& truth = sequence.rig_from_marker[pair][i];
     if (sighting.right ? is_there(sighting, c.right, c.right_from_rig, truth, marker.size_m)
-                       : is_there(sighting, c.left, c.left_from_rig, truth, marker.size_m))
+                       : is_there(sighting, c.left, c.left_from_rig, truth, marker.size_m)) {
       return false;
+    }
   }
   return true;
 }
@@ -80,7 +88,9 @@ void add_errors(const Transform<Rig, Marker>& truth, const Seen& seen, Point<Mar
   f.position += (pose.translation() - truth.translation()).squared_norm();
   f.rotation += std::pow(rotation_angle_rad(pose.rotation(), truth.rotation()), 2);
   f.tip += (pose * tip - truth * tip).squared_norm();
-  if (!seen.has_covariance) return;
+  if (!seen.has_covariance) {
+    return;
+  }
   f.nees += nees_of(truth, seen);
   f.nees_count += 1;
 }
@@ -93,12 +103,21 @@ struct TipPath {
 
 void add_jitter(const std::vector<TipPath>& paths, Figures& f) {
   for (const TipPath& path : paths) {
-    if (path.truth.size() < kFewestAtRest) continue;
+    if (path.truth.size() < kFewestAtRest) {
+      continue;
+    }
     Vec3 mean{};
-    for (const Vec3 p : path.found) mean += p / static_cast<double>(path.found.size());
-    for (std::size_t i = 0; i < path.truth.size(); ++i)
-      if ((path.truth[i] - path.truth[0]).norm() > kRestM) return;
-    for (const Vec3 p : path.found) f.jitter += (p - mean).squared_norm();
+    for (const Vec3 p : path.found) {
+      mean += p / static_cast<double>(path.found.size());
+    }
+    for (std::size_t i = 0; i < path.truth.size(); ++i) {
+      if ((path.truth[i] - path.truth[0]).norm() > kRestM) {
+        return;
+      }
+    }
+    for (const Vec3 p : path.found) {
+      f.jitter += (p - mean).squared_norm();
+    }
     f.jitters += static_cast<double>(path.found.size());
   }
 }
@@ -117,26 +136,36 @@ Figures measure(const Sequence& sequence, const Track& track) {
     const auto begin = WallClock::now();
     track(sequence.frames[k], claims);
     const std::chrono::duration<double, std::milli> took = WallClock::now() - begin;
-    if (k >= kWarmUp) f.ms.push_back(took.count());
-    for (const Sighting& sighting : claims.sightings) f.ghosts += is_ghost(sequence, k, sighting);
+    if (k >= kWarmUp) {
+      f.ms.push_back(took.count());
+    }
+    for (const Sighting& sighting : claims.sightings) {
+      f.ghosts += is_ghost(sequence, k, sighting);
+    }
     for (std::size_t i = 0; i < tools; ++i) {
-      const auto& share = sequence.visible[k][i];
+      const auto& fraction = sequence.visible[k][i];
       const Seen& seen = claims.tools[i];
-      const bool visible = std::min(share[0], share[1]) >= kVisible;
+      const bool visible = std::min(fraction[0], fraction[1]) >= kVisible;
       f.visible += visible ? 1 : 0;
       f.seen += visible && seen.seen ? 1 : 0;
       unseen[i] = visible && !seen.seen ? unseen[i] + 1 : 0;
       f.gap = std::max(f.gap, unseen[i]);
-      if (!seen.seen) continue;
+      if (!seen.seen) {
+        continue;
+      }
       const auto& truth = sequence.rig_from_marker[k][i];
-      if (std::max(share[0], share[1]) < kGlimpsed ||
+      if (std::max(fraction[0], fraction[1]) < kGlimpsed ||
           is_elsewhere(seen.rig_from_marker, truth, sequence.tools[i].marker.size_m)) {
         f.ghosts += 1;
         continue;
       }
       const Point<Marker> tip = sequence.tools[i].tip_in_marker;
-      if (k >= kWarmUp) add_errors(truth, seen, tip, f);
-      if (k < kSettled) continue;
+      if (k >= kWarmUp) {
+        add_errors(truth, seen, tip, f);
+      }
+      if (k < kSettled) {
+        continue;
+      }
       const auto& world_from_rig = *sequence.frames[k].world_from_rig;
       tips[i].truth.push_back((world_from_rig * truth * tip).v);
       tips[i].found.push_back((world_from_rig * seen.rig_from_marker * tip).v);
@@ -159,31 +188,38 @@ void print_row(const Sequence& sequence, const std::string& method, const Figure
   std::snprintf(time, sizeof time, "%.1f (%.1f)", quantile(f.ms, 0.5), quantile(f.ms, 0.99));
   std::printf("| %-10s | %-20s | %23s | %5.1f %% | %3d | %6d |", sequence.name.c_str(),
               method.c_str(), time, 100.0 * f.seen / std::max(f.visible, 1.0), f.gap, f.ghosts);
-  if (f.count > 0)
+  if (f.count > 0) {
     std::printf(" %11.3f | %10.3f | %7.3f |", 1e3 * std::sqrt(f.position / f.count),
                 180.0 / M_PI * std::sqrt(f.rotation / f.count), 1e3 * std::sqrt(f.tip / f.count));
-  else
+  } else {
     std::printf("             |            |         |");
-  if (f.nees_count > 0)
+  }
+  if (f.nees_count > 0) {
     std::printf(" %20.2f |", f.nees / f.nees_count);
-  else
+  } else {
     std::printf("                      |");
-  if (f.jitters > 0)
+  }
+  if (f.jitters > 0) {
     std::printf(" %15.3f |\n", 1e3 * std::sqrt(f.jitter / f.jitters));
-  else
+  } else {
     std::printf("                 |\n");
+  }
   std::fflush(stdout);
 }
 
 void print_bound(const Sequence& sequence) {
-  if (!sequence.bound) return;
+  if (!sequence.bound) {
+    return;
+  }
   Eigen::Vector3d sums = Eigen::Vector3d::Zero();
   int count = 0;
   const std::size_t every = std::max<std::size_t>(sequence.frames.size() / 10, 1);
-  for (std::size_t k = 0; k < sequence.frames.size(); k += every)
+  for (std::size_t k = 0; k < sequence.frames.size(); k += every) {
     for (std::size_t i = 0; i < sequence.tools.size(); ++i) {
-      const auto& share = sequence.visible[k][i];
-      if (std::min(share[0], share[1]) < kVisible) continue;
+      const auto& fraction = sequence.visible[k][i];
+      if (std::min(fraction[0], fraction[1]) < kVisible) {
+        continue;
+      }
       const auto bound = sequence.bound(k, i);
       const Eigen::Map<const Eigen::Matrix<double, 6, 6>> c(bound.data());
       const Vec3 tip = sequence.tools[i].tip_in_marker.v;
@@ -194,7 +230,10 @@ void print_bound(const Sequence& sequence) {
                               (j * c * j.transpose()).trace());
       ++count;
     }
-  if (count == 0) return;
+  }
+  if (count == 0) {
+    return;
+  }
   sums /= count;
   std::printf(
       "| %-10s | %-20s | %23s | %7s | %3s | %6s | %11.3f | %10.3f | %7.3f | %20s | %15s |\n",

@@ -23,7 +23,9 @@ Track tracker(const Sequence& sequence, auto create) {
   const std::shared_ptr<nav::ToolTracker> tracker = std::move(*made);
   return [tracker](const StereoFrame& frame, Claims& claims) {
     for (const nav::ToolState& state : tracker->track(frame)) {
-      if (state.world_from_marker.origin != Origin::kMeasured) continue;
+      if (state.world_from_marker.status != PoseStatus::kMeasured) {
+        continue;
+      }
       const auto rig_from_world = frame.world_from_rig->inverse();
       claims.tools[state.tool] = {
           true, rig_from_world * state.world_from_marker.value,
@@ -45,7 +47,9 @@ Track apriltag(const Sequence& sequence, double decimate) {
 void note(std::span<const nav::MarkerCorners> found, bool right, std::vector<Sighting>& sightings) {
   for (const nav::MarkerCorners& tag : found) {
     Vec2 centre;
-    for (const Vec2 corner : tag.corners_px) centre = centre + 0.25 * corner;
+    for (const Vec2 corner : tag.corners_px) {
+      centre = centre + 0.25 * corner;
+    }
     sightings.push_back({right, tag.id, centre});
   }
 }
@@ -57,25 +61,31 @@ Track tracked_by_corners(const Sequence& sequence, Detect detect) {
   return [=, tools = sequence.tools](const StereoFrame& frame, Claims& claims) {
     std::vector<nav::MarkerCorners> left;
     std::vector<nav::MarkerCorners> right;
-    if (!detect(frame.left, left) || !detect(frame.right, right)) return;
+    if (!detect(frame.left, left) || !detect(frame.right, right)) {
+      return;
+    }
     note(left, false, claims.sightings);
     note(right, true, claims.sightings);
     for (std::size_t i = 0; i < tools.size(); ++i) {
       const auto& marker = tools[i].marker;
       const nav::TagMatch match = nav::matched(left, right, marker.family, marker.id, marker.size_m,
                                                *geometry, std::nullopt);
-      if (!match.both()) continue;
+      if (!match.both()) {
+        continue;
+      }
       const auto pose =
           geometry->pose({match.left->corners_px, match.right->corners_px}, marker.size_m);
-      if (pose) claims.tools[i] = {true, pose->rig_from_marker, {}, false};
+      if (pose) {
+        claims.tools[i] = {true, pose->rig_from_marker, {}, false};
+      }
     }
   };
 }
 
 std::vector<Method> tracking_methods() {
   std::vector<Method> methods{
-      {"`best`", [](const Sequence& s) { return tracker(s, nav::create_best_tracker); }},
-      {"`paper`", [](const Sequence& s) { return tracker(s, nav::create_paper_tracker); }},
+      {"`best`", [](const Sequence& s) { return tracker(s, nav::create_photometric_tracker); }},
+      {"`paper`", [](const Sequence& s) { return tracker(s, nav::create_corner_tracker); }},
       {"AprilTag, decimate 1", [](const Sequence& s) { return apriltag(s, 1.0); }},
       {"AprilTag, decimate 2", [](const Sequence& s) { return apriltag(s, 2.0); }}};
   add_aruco_methods(methods);

@@ -43,8 +43,12 @@ struct VoiceSet {
   std::uint64_t seed;
 };
 VoiceSet set_of(const Options& options) {
-  if (options.tuning) return {"tuning", kTuningVoices, kTuningTalk, Babble::kTuning, 1};
-  if (options.fresh) return {"fresh", kFreshVoices, kTestTalk, Babble::kMeasured, 3};
+  if (options.tuning) {
+    return {"tuning", kTuningVoices, kTuningTalk, Babble::kTuning, 1};
+  }
+  if (options.fresh) {
+    return {"fresh", kFreshVoices, kTestTalk, Babble::kMeasured, 3};
+  }
   return {"test", kTestVoices, kTestTalk, Babble::kMeasured, 2};
 }
 
@@ -72,9 +76,13 @@ std::unique_ptr<CommandSpotter> new_spotter(const Options& bench, Waking waking)
   SpotterOptions options;
   options.commands = engine::spoken_commands();
   options.waking = waking;
-  if (bench.least_log_odds) options.least_log_odds = *bench.least_log_odds;
+  if (bench.least_log_odds) {
+    options.least_log_odds = *bench.least_log_odds;
+  }
   auto spotter = CommandSpotter::create(options);
-  if (spotter) return std::move(*spotter);
+  if (spotter) {
+    return std::move(*spotter);
+  }
   std::fprintf(stderr, "%s\n", spotter.error().message.c_str());
   std::exit(2);
 }
@@ -92,22 +100,29 @@ void listen(CommandSpotter& spotter, std::span<const std::int16_t> sound, Heard 
     spotter.push(sound.subspan(at, std::min(kStep, sound.size() - at)), commands);
     const double fed_ms = static_cast<double>(at + kStep) / 16.0;
     done_ms = std::max(done_ms, fed_ms) + worked_ms() - start_ms;
-    for (const SpokenCommand& command : commands) heard(command, done_ms);
+    for (const SpokenCommand& command : commands) {
+      heard(command, done_ms);
+    }
   }
 }
 
 void say_one(CommandSpotter& spotter, const std::string& command, const Options& options,
              const Speaker& speaker, Noise noise, double snr_db, Random& random, Figures& figures) {
   const auto said = spoken(options.single ? command : "ortho " + command, speaker);
-  if (!said) return;
+  if (!said) {
+    return;
+  }
   const auto phrase = phrase_in_room(*said, noise, snr_db, random, set_of(options).babble);
   bool heard = false;
   bool mistaken = false;
   listen(spotter, phrase.sound, [&](const SpokenCommand& found, double ms) {
-    if (options.show)
+    if (options.show) {
       std::printf("%s %d %s %.0f dB: %s %.2f\n", speaker.voice.c_str(), speaker.words_a_minute,
                   command.c_str(), snr_db, found.text.c_str(), found.confidence);
-    if (found.confidence < 0.5) return;
+    }
+    if (found.confidence < 0.5) {
+      return;
+    }
     if (found.text == command && !heard) {
       heard = true;
       figures.latencies_ms.push_back(ms - static_cast<double>(phrase.end) / 16.0);
@@ -116,8 +131,9 @@ void say_one(CommandSpotter& spotter, const std::string& command, const Options&
     }
   });
   std::string condition = "clean";
-  if (snr_db < kClean)
+  if (snr_db < kClean) {
     condition = std::to_string(static_cast<int>(snr_db)) + " dB " + name_of(noise);
+  }
   for (Tally* tally :
        {&figures.by_command[command], &figures.by_condition[condition], &figures.all}) {
     tally->said += 1;
@@ -127,16 +143,19 @@ void say_one(CommandSpotter& spotter, const std::string& command, const Options&
 }
 
 void print(const char* name, const std::map<std::string, Tally>& tallies) {
-  for (const auto& [key, tally] : tallies)
+  for (const auto& [key, tally] : tallies) {
     std::printf("%-10s %-12s said %4d  heard %6.1f %%  mistaken %5.1f %%\n", name, key.c_str(),
                 tally.said, 100.0 * tally.heard / tally.said, 100.0 * tally.mistaken / tally.said);
+  }
 }
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
+double quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) {
+    return 0.0;
+  }
   std::sort(values.begin(), values.end());
   return values[std::min(values.size() - 1,
-                         static_cast<std::size_t>(share * static_cast<double>(values.size())))];
+                         static_cast<std::size_t>(fraction * static_cast<double>(values.size())))];
 }
 
 void measure_recall(const Options& options) {
@@ -151,13 +170,15 @@ void measure_recall(const Options& options) {
   for (const std::string_view voice : set.voices) {
     // One surgeon each, in a room whose noise changes.
     const auto spotter = new_spotter(options, waking);
-    for (const double snr_db : {kClean, 20.0, 15.0, 10.0})
-      for (const int speed : speeds)
+    for (const double snr_db : {kClean, 20.0, 15.0, 10.0}) {
+      for (const int speed : speeds) {
         for (const std::string& command : engine::spoken_commands()) {
           const auto noise = static_cast<Noise>(turn++ % 3);
           say_one(*spotter, command, options, {std::string(voice), speed}, noise, snr_db, random,
                   figures);
         }
+      }
+    }
     turn += 1;  // every command meets every noise
   }
   std::printf("\n%s, %zu voices\n", options.single ? "single words" : "with the wake word",
@@ -180,17 +201,22 @@ void measure_false_accepts(const Options& options, Waking waking, double snr_db)
     const std::string text(set.talk[i % set.talk.size()]);
     const int speed = 130 + static_cast<int>(20 * (i % 4));
     const auto said = spoken(text, {std::string(set.voices[(i / 3) % set.voices.size()]), speed});
-    if (!said) continue;
+    if (!said) {
+      continue;
+    }
     Soundtrack track;
     track.speech(*said);
     track.silence(random.uniform(0.3, 1.2));
     const auto sound = track.with_noise(static_cast<Noise>(i / 10 % 3), snr_db, random, set.babble);
     heard_s += static_cast<double>(sound.size()) / kSpeechRateHz;
     listen(*spotter, sound, [&](const SpokenCommand& found, double) {
-      if (options.show)
+      if (options.show) {
         std::printf("\"%s\" %.0f dB: %s %.2f\n", text.c_str(), snr_db, found.text.c_str(),
                     found.confidence);
-      if (found.confidence < 0.5) return;
+      }
+      if (found.confidence < 0.5) {
+        return;
+      }
       accepted[found.text] += 1;
       total += 1;
     });
@@ -208,10 +234,15 @@ int run(const Options& options) {
   single.single = true;
   measure_recall(single);
   measure_recall(options);
-  if (options.minutes <= 0.0) return 0;
+  if (options.minutes <= 0.0) {
+    return 0;
+  }
   std::printf("\nother speech\n");
-  for (const Waking waking : {Waking::kNever, Waking::kInNoise, Waking::kAlways})
-    for (const double snr_db : {kClean, 20.0, 10.0}) measure_false_accepts(options, waking, snr_db);
+  for (const Waking waking : {Waking::kNever, Waking::kInNoise, Waking::kAlways}) {
+    for (const double snr_db : {kClean, 20.0, 10.0}) {
+      measure_false_accepts(options, waking, snr_db);
+    }
+  }
   return 0;
 }
 

@@ -31,7 +31,9 @@ using render::Float3;
 
 vtkNew<vtkPoints> points_of(std::span<const Float3> places) {
   vtkNew<vtkPoints> points;
-  for (const Float3 p : places) points->InsertNextPoint(p.x, p.y, p.z);
+  for (const Float3 p : places) {
+    points->InsertNextPoint(p.x, p.y, p.z);
+  }
   return points;
 }
 
@@ -47,8 +49,9 @@ void add_actor(vtkPolyData& data, const render::Colour& colour, vtkRenderer& ren
   actor->GetProperty()->BackfaceCullingOn();
   vtkNew<vtkMatrix4x4> matrix;
   for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column)
+    for (int column = 0; column < 4; ++column) {
       matrix->SetElement(row, column, place[static_cast<std::size_t>(4 * column + row)]);
+    }
   }
   actor->SetUserMatrix(matrix);
   renderer.AddActor(actor);
@@ -59,7 +62,9 @@ void add_mesh(const render::MeshItem& item, vtkRenderer& renderer) {
   data->SetPoints(points_of(item.mesh->positions));
   vtkNew<vtkFloatArray> normals;
   normals->SetNumberOfComponents(3);
-  for (const Float3 n : item.mesh->normals) normals->InsertNextTuple3(n.x, n.y, n.z);
+  for (const Float3 n : item.mesh->normals) {
+    normals->InsertNextTuple3(n.x, n.y, n.z);
+  }
   data->GetPointData()->SetNormals(normals);
   vtkNew<vtkCellArray> triangles;
   for (std::size_t i = 0; i < item.mesh->indices.size(); i += 3) {
@@ -73,12 +78,16 @@ void add_mesh(const render::MeshItem& item, vtkRenderer& renderer) {
 /// As a tube of six sides, made once: VTK's own lines have a width in pixels alone.
 void add_line(const render::LineItem& item, vtkRenderer& renderer) {
   std::vector<Float3> places = item.points;
-  if (item.closed) places.push_back(places.front());
+  if (item.closed) {
+    places.push_back(places.front());
+  }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points_of(places));
   vtkNew<vtkCellArray> line;
   line->InsertNextCell(static_cast<int>(places.size()));
-  for (std::size_t i = 0; i < places.size(); ++i) line->InsertCellPoint(static_cast<vtkIdType>(i));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    line->InsertCellPoint(static_cast<vtkIdType>(i));
+  }
   data->SetLines(line);
   vtkNew<vtkTubeFilter> tube;
   tube->SetInputData(data);
@@ -106,7 +115,9 @@ void add_text(const render::TextItem& item, const render::View& view, vtkRendere
   const float cap_m = render::length({place[4], place[5], place[6]});
   const float tall = cap_m / render::length(at - head.position) / (view.tan_up + view.tan_down);
   std::string text;
-  for (const render::TextRun& run : item.runs) text += run.text;
+  for (const render::TextRun& run : item.runs) {
+    text += run.text;
+  }
   vtkNew<vtkBillboardTextActor3D> actor;
   actor->SetInput(text.c_str());
   actor->SetPosition(at.x, at.y, at.z);
@@ -125,10 +136,18 @@ void add_text(const render::TextItem& item, const render::View& view, vtkRendere
 }  // namespace
 
 void add_scene(const render::Scene& scene, const render::View& view, vtkRenderer& renderer) {
-  for (const render::MeshItem& item : scene.meshes) add_mesh(item, renderer);
-  for (const render::LineItem& item : scene.lines) add_line(item, renderer);
-  for (const render::TriangleItem& item : scene.triangles) add_triangle(item, renderer);
-  for (const render::TextItem& item : scene.texts) add_text(item, view, renderer);
+  for (const render::MeshItem& item : scene.meshes) {
+    add_mesh(item, renderer);
+  }
+  for (const render::LineItem& item : scene.lines) {
+    add_line(item, renderer);
+  }
+  for (const render::TriangleItem& item : scene.triangles) {
+    add_triangle(item, renderer);
+  }
+  for (const render::TextItem& item : scene.texts) {
+    add_text(item, view, renderer);
+  }
 }
 
 void set_camera(const render::View& view, vtkRenderer& renderer) {

@@ -36,9 +36,9 @@ class Window final : public VtkWindow {
     window_->SetMultiSamples(samples);
     window_->SetSize(static_cast<int>(eyes) * width_px, height_px);
     for (std::size_t i = 0; i < eyes; ++i) {
-      const double share = 1.0 / static_cast<double>(eyes);
+      const double fraction = 1.0 / static_cast<double>(eyes);
       const auto at = static_cast<double>(i);
-      renderers_[i]->SetViewport(at * share, 0, (at + 1) * share, 1);
+      renderers_[i]->SetViewport(at * fraction, 0, (at + 1) * fraction, 1);
       renderers_[i]->SetBackground(0, 0, 0);
       window_->AddRenderer(renderers_[i]);
     }
@@ -46,12 +46,15 @@ class Window final : public VtkWindow {
 
   VtkTiming draw(const std::vector<render::View>& views) override {
     if (first_) {
-      for (std::size_t i = 0; i < renderers_.size(); ++i)
+      for (std::size_t i = 0; i < renderers_.size(); ++i) {
         add_scene(scene_, views[i], *renderers_[i]);
+      }
       first_ = false;
     }
     const auto start = Clock::now();
-    for (std::size_t i = 0; i < renderers_.size(); ++i) set_camera(views[i], *renderers_[i]);
+    for (std::size_t i = 0; i < renderers_.size(); ++i) {
+      set_camera(views[i], *renderers_[i]);
+    }
     window_->Render();
     const auto rendered = Clock::now();
     window_->WaitForCompletion();
@@ -67,7 +70,9 @@ class Window final : public VtkWindow {
     std::istringstream lines(window_->ReportCapabilities());
     std::string renderer;
     for (std::string line; std::getline(lines, line);) {
-      if (line.rfind("OpenGL renderer string:", 0) == 0) renderer = line.substr(23);
+      if (line.rfind("OpenGL renderer string:", 0) == 0) {
+        renderer = line.substr(23);
+      }
     }
     return std::string(vtkVersion::GetVTKVersion()) + " on" + renderer;
   }

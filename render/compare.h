@@ -24,7 +24,7 @@ struct ColourDifference {
   /// `alike`, or one line with the count and the worst pixel.
   [[nodiscard]] std::string text() const;
 };
-[[nodiscard]] ColourDifference compare_colour(const Image& expected, const Image& actual,
+[[nodiscard]] ColourDifference compare_colour(const RgbaImage& expected, const RgbaImage& actual,
                                               int tolerance = kColourTolerance);
 
 struct LabelDifference {
@@ -41,7 +41,8 @@ struct LabelDifference {
 [[nodiscard]] LabelDifference compare_labels(const LabelImage& expected, const LabelImage& actual);
 
 /// Differences of the channels times `gain`, for the eye. Empty when the sizes differ.
-[[nodiscard]] Image difference_image(const Image& expected, const Image& actual, int gain = 16);
+[[nodiscard]] RgbaImage difference_image(const RgbaImage& expected, const RgbaImage& actual,
+                                         int gain = 16);
 
 /// Where the pixels of a label lie.
 struct LabelExtent {

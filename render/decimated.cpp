@@ -20,7 +20,9 @@ MeshData compacted(const MeshData& mesh, const std::vector<std::uint32_t>& indic
       places[index] = static_cast<std::uint32_t>(out.positions.size());
       out.positions.push_back(mesh.positions[index]);
       out.normals.push_back(mesh.normals[index]);
-      if (!mesh.tints.empty()) out.tints.push_back(mesh.tints[index]);
+      if (!mesh.tints.empty()) {
+        out.tints.push_back(mesh.tints[index]);
+      }
     }
     out.indices.push_back(places[index]);
   }
@@ -51,7 +53,9 @@ std::vector<std::uint32_t> collapsed(const MeshData& mesh, const std::vector<std
 
 MeshData decimated(const MeshData& mesh, std::size_t most_triangles) {
   const std::size_t wanted = 3 * most_triangles;
-  if (mesh.indices.size() <= wanted) return mesh;
+  if (mesh.indices.size() <= wanted) {
+    return mesh;
+  }
   const std::vector<std::uint32_t> joined = joined_indices(mesh);
   std::vector<std::uint32_t> indices = collapsed(mesh, joined, wanted, kAnyError);
   if (indices.size() > wanted + wanted / 4) {
@@ -65,10 +69,14 @@ MeshData decimated(const MeshData& mesh, std::size_t most_triangles) {
 
 MeshData simplified(const MeshData& mesh, std::size_t enough_triangles, float error_m) {
   const std::size_t enough = 3 * enough_triangles;
-  if (mesh.indices.size() <= enough || !(error_m > 0)) return mesh;
+  if (mesh.indices.size() <= enough || !(error_m > 0)) {
+    return mesh;
+  }
   const float extent_m =
       meshopt_simplifyScale(&mesh.positions.front().x, mesh.positions.size(), sizeof(Float3));
-  if (!(extent_m > 0)) return mesh;
+  if (!(extent_m > 0)) {
+    return mesh;
+  }
   return compacted(mesh, collapsed(mesh, joined_indices(mesh), enough, error_m / extent_m));
 }
 

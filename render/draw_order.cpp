@@ -16,7 +16,9 @@ Float3 middle(const MeshItem& item) {
 
 Float3 middle(const LineItem& item) {
   Float3 sum;
-  for (const Float3 point : item.points) sum = sum + point;
+  for (const Float3 point : item.points) {
+    sum = sum + point;
+  }
   return item.points.empty() ? sum : (1.0f / static_cast<float>(item.points.size())) * sum;
 }
 
@@ -52,8 +54,12 @@ bool content_less(const MeshItem& a, const MeshItem& b) {
     return std::tuple(item.world_from_model, key(item.colour), item.style,
                       item.mesh->positions.size(), item.mesh->indices.size());
   };
-  if (const auto order = key_of(a) <=> key_of(b); order != 0) return order < 0;
-  if (a.mesh == b.mesh) return false;
+  if (const auto order = key_of(a) <=> key_of(b); order != 0) {
+    return order < 0;
+  }
+  if (a.mesh == b.mesh) {
+    return false;
+  }
   if (const auto order = compare_points(a.mesh->positions, b.mesh->positions); order != 0) {
     return order < 0;
   }
@@ -67,7 +73,9 @@ bool content_less(const LineItem& a, const LineItem& b) {
   const auto key_of = [](const LineItem& item) {
     return std::tuple(key(item.colour), item.width_m, item.dash_m, item.closed);
   };
-  if (const auto order = key_of(a) <=> key_of(b); order != 0) return order < 0;
+  if (const auto order = key_of(a) <=> key_of(b); order != 0) {
+    return order < 0;
+  }
   return compare_points(a.points, b.points) < 0;
 }
 
@@ -81,7 +89,9 @@ bool content_less(const TextItem& a, const TextItem& b) {
     return std::tuple(key(item.position), item.place, item.align, item.height_m,
                       item.min_height_deg, key(item.rim), item.offset_right, item.offset_up);
   };
-  if (const auto order = key_of(a) <=> key_of(b); order != 0) return order < 0;
+  if (const auto order = key_of(a) <=> key_of(b); order != 0) {
+    return order < 0;
+  }
   return std::lexicographical_compare(a.runs.begin(), a.runs.end(), b.runs.begin(), b.runs.end(),
                                       [](const TextRun& r, const TextRun& s) {
                                         const int texts = r.text.compare(s.text);
@@ -97,8 +107,12 @@ void sort_items(std::span<const Item> items, const Head& head, std::vector<std::
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
     const float a = distance2(items[i], head);
     const float b = distance2(items[j], head);
-    if (a != b) return a > b;
-    if (items[i].label != items[j].label) return items[i].label < items[j].label;
+    if (a != b) {
+      return a > b;
+    }
+    if (items[i].label != items[j].label) {
+      return items[i].label < items[j].label;
+    }
     return content_less(items[i], items[j]);
   });
 }

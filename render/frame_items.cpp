@@ -35,7 +35,7 @@ Matrix4 world_from_caps(const TextItem& item, const Head& head) {
 
 void FrameItems::build(const Scene& scene, const std::vector<View>& views, const Font& font,
                        float least_rad) {
-  veils_.clear();
+  translucent_meshes_.clear();
   solids_.clear();
   triangles_.clear();
   lines_.clear();
@@ -44,25 +44,32 @@ void FrameItems::build(const Scene& scene, const std::vector<View>& views, const
   most_segments_ = 0;
   const Head head = head_of(views);
   eyes_.clear();
-  for (const View& view : views)
+  for (const View& view : views) {
     eyes_.push_back(transformed(rigid_inverse(view.eye_from_world), {0, 0, 0}));
+  }
   sort_for_drawing(scene.meshes, head, order_);
   for (const std::uint32_t i : order_) {
     const MeshItem& item = scene.meshes[i];
-    (is_opaque(item) ? solids_ : veils_).push_back({&item, {}});
+    (is_opaque(item) ? solids_ : translucent_meshes_).push_back({&item, {}});
   }
   sort_for_drawing(scene.triangles, head, order_);
   for (const std::uint32_t i : order_) {
     const TriangleItem& item = scene.triangles[i];
     triangles_.push_back(
         {item.label, item.colour, 0, static_cast<std::uint32_t>(data_.size()), 3, {}});
-    for (const Float3 p : item.corners) data_.push_back({p.x, p.y, p.z, 1});
+    for (const Float3 p : item.corners) {
+      data_.push_back({p.x, p.y, p.z, 1});
+    }
   }
   sort_for_drawing(scene.lines, head, order_);
   lines_of_scene_ = scene.lines.data();
-  for (const std::uint32_t i : order_) add_line(scene.lines[i], least_rad);
+  for (const std::uint32_t i : order_) {
+    add_line(scene.lines[i], least_rad);
+  }
   sort_for_drawing(scene.texts, head, order_);
-  for (const std::uint32_t i : order_) add_text(scene.texts[i], head, font);
+  for (const std::uint32_t i : order_) {
+    add_text(scene.texts[i], head, font);
+  }
 }
 
 void FrameItems::add_segment(Float3 a, Float3 b) {
@@ -71,7 +78,9 @@ void FrameItems::add_segment(Float3 a, Float3 b) {
 }
 
 void FrameItems::add_line(const LineItem& item, float least_rad) {
-  if (item.points.empty()) return;
+  if (item.points.empty()) {
+    return;
+  }
   const auto first = static_cast<std::uint32_t>(data_.size());
   if (item.dash_m > 0) {
     add_dashes(item);
@@ -81,15 +90,21 @@ void FrameItems::add_line(const LineItem& item, float least_rad) {
     for (std::size_t i = 1; i < item.points.size(); ++i) {
       add_segment(item.points[i - 1], item.points[i]);
     }
-    if (item.closed && item.points.size() > 2) add_segment(item.points.back(), item.points.front());
-    if (item.points.size() == 1) add_segment(item.points[0], item.points[0]);
+    if (item.closed && item.points.size() > 2) {
+      add_segment(item.points.back(), item.points.front());
+    }
+    if (item.points.size() == 1) {
+      add_segment(item.points[0], item.points[0]);
+    }
   }
   end_line(item, first, true);
 }
 
 void FrameItems::end_line(const LineItem& item, std::uint32_t first, bool rounded) {
   const auto count = (static_cast<std::uint32_t>(data_.size()) - first) / 2;
-  if (count == 0) return;
+  if (count == 0) {
+    return;
+  }
   const auto id = static_cast<std::uint32_t>(&item - lines_of_scene_);
   lines_.push_back({item.label, item.colour, item.width_m, first, count, {}, id, rounded});
   most_segments_ = std::max(most_segments_, count);
@@ -98,7 +113,9 @@ void FrameItems::end_line(const LineItem& item, std::uint32_t first, bool rounde
 /// Two spans of a line of many points: segments at its ends and at its corners, and the others.
 void FrameItems::add_many(const LineItem& item, float least_rad) {
   thin(item.points, eyes_, least_rad, thinned_);
-  if (item.closed) thinned_.push_back(thinned_.front());
+  if (item.closed) {
+    thinned_.push_back(thinned_.front());
+  }
   const std::size_t points = thinned_.size();
   const auto follows_on = [&](std::size_t i) {
     return i > 0 && i + 1 < points &&
@@ -118,7 +135,9 @@ void FrameItems::add_many(const LineItem& item, float least_rad) {
   }
   end_line(item, first, true);
   const auto second = static_cast<std::uint32_t>(data_.size());
-  for (const std::size_t i : plain_) add_segment(thinned_[i - 1], thinned_[i]);
+  for (const std::size_t i : plain_) {
+    add_segment(thinned_[i - 1], thinned_[i]);
+  }
   end_line(item, second, false);
 }
 
@@ -132,7 +151,9 @@ void FrameItems::add_dashes(const LineItem& item) {
     const Float3 a = item.points[i];
     const Float3 b = item.points[(i + 1) % count];
     const float span_m = length(b - a);
-    if (!(span_m > 0)) continue;
+    if (!(span_m > 0)) {
+      continue;
+    }
     const float period_m = 2 * item.dash_m;
     // Whole periods counted, not summed: no error adds up along a long line.
     const auto periods = static_cast<int>((phase_m + span_m) / period_m);
@@ -140,7 +161,9 @@ void FrameItems::add_dashes(const LineItem& item) {
       const float begin_m = static_cast<float>(k) * period_m - phase_m + inset_m;
       const float from_m = std::max(begin_m, 0.0f);
       const float to_m = std::min(begin_m + item.dash_m - 2 * inset_m, span_m);
-      if (from_m > to_m) continue;
+      if (from_m > to_m) {
+        continue;
+      }
       add_segment(a + (from_m / span_m) * (b - a), a + (to_m / span_m) * (b - a));
     }
     phase_m = std::fmod(phase_m + span_m, period_m);
@@ -150,7 +173,9 @@ void FrameItems::add_dashes(const LineItem& item) {
 void FrameItems::add_text(const TextItem& item, const Head& head, const Font& font) {
   glyphs_.clear();
   lay_out(font, item, glyphs_);
-  if (glyphs_.empty()) return;
+  if (glyphs_.empty()) {
+    return;
+  }
   const auto first = static_cast<std::uint32_t>(data_.size());
   const float across = 1.0f / static_cast<float>(font.header().width_px);
   const float down = 1.0f / static_cast<float>(font.header().height_px);

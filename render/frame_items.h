@@ -68,7 +68,9 @@ class FrameItems {
              const std::function<Box(const MeshItem&)>& box_of);
   [[nodiscard]] const std::vector<PixelRect>& regions() const { return regions_; }
 
-  [[nodiscard]] const std::vector<MeshDraw>& veils() const { return veils_; }
+  [[nodiscard]] const std::vector<MeshDraw>& translucent_meshes() const {
+    return translucent_meshes_;
+  }
   [[nodiscard]] const std::vector<MeshDraw>& solids() const { return solids_; }
   [[nodiscard]] const std::vector<SpanDraw>& triangles() const { return triangles_; }
   [[nodiscard]] const std::vector<SpanDraw>& lines() const { return lines_; }
@@ -89,7 +91,7 @@ class FrameItems {
                                     ScreenBounds& bounds) const;
   [[nodiscard]] PixelRect bounds_of(const TextDraw& draw, ScreenBounds& bounds) const;
 
-  std::vector<MeshDraw> veils_;
+  std::vector<MeshDraw> translucent_meshes_;
   std::vector<MeshDraw> solids_;
   std::vector<SpanDraw> triangles_;
   std::vector<SpanDraw> lines_;

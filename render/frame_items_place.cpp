@@ -28,7 +28,7 @@ void FrameItems::place(std::span<const View> views, PixelSize size,
                        const std::function<Box(const MeshItem&)>& box_of) {
   ScreenBounds bounds(views, size.width_px, size.height_px);
   regions_.clear();
-  for (auto* meshes : {&veils_, &solids_}) {
+  for (auto* meshes : {&translucent_meshes_, &solids_}) {
     for (MeshDraw& draw : *meshes) {
       bounds.clear();
       bounds.add_box(draw.item->world_from_model, box_of(*draw.item));

@@ -76,9 +76,9 @@ class HostedRenderer {
   [[nodiscard]] virtual VulkanObjects objects() const = 0;
   /// Whether images of this VkFormat can be drawn into, and how well they suit: the higher the
   /// better, 0 not at all. sRGB formats are encoded, all others hold linear light.
-  [[nodiscard]] virtual int suits(std::int64_t format) const = 0;
+  [[nodiscard]] virtual int format_score(std::int64_t format) const = 0;
   /// The same of depth images.
-  [[nodiscard]] virtual int suits_depth(std::int64_t format) const = 0;
+  [[nodiscard]] virtual int depth_format_score(std::int64_t format) const = 0;
   /// Whether the device draws both eyes in one pass, into an image of two layers. If not, each eye
   /// gets a chain of its own: llvmpipe of Mesa 22.3 loses parts of the second layer.
   [[nodiscard]] virtual bool takes_layers() const = 0;

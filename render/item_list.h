@@ -24,9 +24,13 @@ class ItemList {
   ItemList(ItemList&& other) noexcept
       : items_(std::move(other.items_)), size_(std::exchange(other.size_, 0)) {}
   ItemList& operator=(const ItemList& other) {
-    if (this == &other) return *this;
+    if (this == &other) {
+      return *this;
+    }
     clear();
-    for (const T& item : other) emplace_back() = item;
+    for (const T& item : other) {
+      emplace_back() = item;
+    }
     return *this;
   }
   ItemList& operator=(ItemList&& other) noexcept {
@@ -39,14 +43,17 @@ class ItemList {
 
   /// A new last item. References to others stay good only until the list grows.
   T& emplace_back() {
-    if (size_ == items_.size()) items_.emplace_back();
+    if (size_ == items_.size()) {
+      items_.emplace_back();
+    }
     return items_[size_++];
   }
   void push_back(const T& item) {
-    if (size_ < items_.size())
+    if (size_ < items_.size()) {
       items_[size_] = item;
-    else
+    } else {
       items_.push_back(item);
+    }
     ++size_;
   }
   void pop_back() { shrink(size_ - 1); }
@@ -74,8 +81,12 @@ class ItemList {
   void erase_if(const Leaves& leaves) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size_; ++i) {
-      if (leaves(std::as_const(items_[i]))) continue;
-      if (kept != i) std::swap(items_[kept], items_[i]);
+      if (leaves(std::as_const(items_[i]))) {
+        continue;
+      }
+      if (kept != i) {
+        std::swap(items_[kept], items_[i]);
+      }
       ++kept;
     }
     shrink(kept);
@@ -87,11 +98,15 @@ class ItemList {
 
  private:
   void shrink(std::size_t size) {
-    for (std::size_t i = size; i < size_; ++i) renew(items_[i]);
+    for (std::size_t i = size; i < size_; ++i) {
+      renew(items_[i]);
+    }
     size_ = size;
   }
   [[nodiscard]] std::size_t checked(std::size_t i) const {
-    if (i >= size_) throw std::out_of_range("ItemList::at");
+    if (i >= size_) {
+      throw std::out_of_range("ItemList::at");
+    }
     return i;
   }
 

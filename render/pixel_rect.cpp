@@ -18,7 +18,9 @@ long waste(const PixelRect& a, const PixelRect& b) {
 }  // namespace
 
 void add_region(std::vector<PixelRect>& regions, PixelRect rect) {
-  if (rect.empty()) return;
+  if (rect.empty()) {
+    return;
+  }
   // Each turn takes a region away, so this ends.
   while (!regions.empty()) {
     std::size_t best = 0;
@@ -31,7 +33,9 @@ void add_region(std::vector<PixelRect>& regions, PixelRect rect) {
         best = i;
       }
     }
-    if (least > kPassCost_px && regions.size() < kMostRegions) break;
+    if (least > kPassCost_px && regions.size() < kMostRegions) {
+      break;
+    }
     rect = joined(regions[best], rect);
     regions[best] = regions.back();
     regions.pop_back();

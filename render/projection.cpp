@@ -18,7 +18,9 @@ Matrix4 multiplied(const Matrix4& a, const Matrix4& b) {
   for (std::size_t c = 0; c < 4; ++c) {
     for (std::size_t r = 0; r < 4; ++r) {
       float sum = 0;
-      for (std::size_t k = 0; k < 4; ++k) sum += a[4 * k + r] * b[4 * c + k];
+      for (std::size_t k = 0; k < 4; ++k) {
+        sum += a[4 * k + r] * b[4 * c + k];
+      }
       product[4 * c + r] = sum;
     }
   }
@@ -70,7 +72,9 @@ Matrix4 clip_from_world(const View& view) {
 std::optional<PixelPoint> project(const View& view, Float3 in_world, int width_px, int height_px) {
   const Float3 p = transformed(view.eye_from_world, in_world);
   const float depth_m = -p.z;
-  if (!(depth_m >= kNearPlane_m)) return std::nullopt;
+  if (!(depth_m >= kNearPlane_m)) {
+    return std::nullopt;
+  }
   const float across = view.tan_left + view.tan_right;
   const float down = view.tan_up + view.tan_down;
   return PixelPoint{static_cast<float>(width_px) * (p.x / depth_m + view.tan_left) / across,
@@ -79,7 +83,9 @@ std::optional<PixelPoint> project(const View& view, Float3 in_world, int width_p
 
 Head head_of(const std::vector<View>& views) {
   Head head;
-  if (views.empty()) return head;
+  if (views.empty()) {
+    return head;
+  }
   Float3 position;
   Float3 up;
   Float3 back;

@@ -19,8 +19,9 @@ std::vector<DeviceInfo> list_devices() {
   std::vector<DeviceInfo> devices;
   try {
     const Instance instance(false);
-    for (const VkPhysicalDevice physical : instance.devices())
+    for (const VkPhysicalDevice physical : instance.devices()) {
       devices.push_back(describe(physical));
+    }
   } catch (const std::exception&) {
     devices.clear();  // no Vulkan, no devices
   }

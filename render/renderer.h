@@ -6,25 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "render/scene.h"
 
 namespace orthonav::render {
-
-/// 8-bit RGBA, row-major, sRGB-encoded colour.
-struct Image {
-  int width_px = 0;
-  int height_px = 0;
-  std::vector<std::uint8_t> rgba;
-  friend bool operator==(const Image&, const Image&) = default;
-};
-
-/// The hologram at each pixel's centre, single sample; 0 where there is none.
-struct LabelImage {
-  int width_px = 0;
-  int height_px = 0;
-  std::vector<Label> labels;
-  friend bool operator==(const LabelImage&, const LabelImage&) = default;
-};
 
 /// Takes the validation layer's lines. Held by its readers too, so that it outlives the renderer:
 /// what is left undestroyed is told only while the device goes.
@@ -85,8 +70,8 @@ class Renderer {
   /// renderer's size. Fills one image a view; on failure false and a line in `error`, and the
   /// images mean nothing.
   [[nodiscard]] virtual bool draw(const Scene& scene, const std::vector<View>& views,
-                                  const std::vector<const Image*>& backgrounds,
-                                  std::vector<Image>& images, std::string& error) = 0;
+                                  const std::vector<const RgbaImage*>& backgrounds,
+                                  std::vector<RgbaImage>& images, std::string& error) = 0;
   /// The label images of the same scene.
   [[nodiscard]] virtual bool draw_labels(const Scene& scene, const std::vector<View>& views,
                                          std::vector<LabelImage>& images, std::string& error) = 0;

@@ -33,7 +33,9 @@ bool is_colour(const Colour& c) {
 
 bool is_affine(const Matrix4& m) {
   for (const float value : m) {
-    if (!(std::abs(value) <= kFarthest_m)) return false;
+    if (!(std::abs(value) <= kFarthest_m)) {
+      return false;
+    }
   }
   return m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
 }
@@ -44,7 +46,9 @@ float volume(const Matrix4& m) {
 }
 
 bool is_rigid(const Matrix4& m) {
-  if (!is_affine(m)) return false;
+  if (!is_affine(m)) {
+    return false;
+  }
   const Float3 x = {m[0], m[1], m[2]};
   const Float3 y = {m[4], m[5], m[6]};
   const Float3 z = {m[8], m[9], m[10]};
@@ -65,25 +69,49 @@ bool is_uniform(const Matrix4& m) {
 }
 
 Problem problem_of(const MeshItem& item) {
-  if (!item.mesh) return "has no mesh";
-  if (!is_affine(item.world_from_model)) return "has a place that is not a finite affine matrix";
-  if (!(volume(item.world_from_model) > 0)) return "has a place that mirrors or flattens it";
-  if (!is_uniform(item.world_from_model)) return "has a place that shears or scales unevenly";
-  if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
-  if (!is_colour(item.tint)) return "has a tint outside 0 to 1";
+  if (!item.mesh) {
+    return "has no mesh";
+  }
+  if (!is_affine(item.world_from_model)) {
+    return "has a place that is not a finite affine matrix";
+  }
+  if (!(volume(item.world_from_model) > 0)) {
+    return "has a place that mirrors or flattens it";
+  }
+  if (!is_uniform(item.world_from_model)) {
+    return "has a place that shears or scales unevenly";
+  }
+  if (!is_colour(item.colour)) {
+    return "has a colour outside 0 to 1";
+  }
+  if (!is_colour(item.tint)) {
+    return "has a tint outside 0 to 1";
+  }
   return std::nullopt;
 }
 
 Problem problem_of(const LineItem& item) {
   float run_m = 0;
   for (std::size_t i = 0; i < item.points.size(); ++i) {
-    if (!is_place(item.points[i])) return "point " + std::to_string(i) + " is not a finite place";
-    if (i > 0) run_m += length(item.points[i] - item.points[i - 1]);
+    if (!is_place(item.points[i])) {
+      return "point " + std::to_string(i) + " is not a finite place";
+    }
+    if (i > 0) {
+      run_m += length(item.points[i] - item.points[i - 1]);
+    }
   }
-  if (!is_between(item.width_m, 0, kWidest_m)) return "has a width outside 0 to 10 m";
-  if (!is_between(item.dash_m, 0, kWidest_m)) return "has dashes outside 0 to 10 m";
-  if (item.dash_m > 0 && run_m / item.dash_m > kMostDashes) return "has more than 20000 dashes";
-  if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
+  if (!is_between(item.width_m, 0, kWidest_m)) {
+    return "has a width outside 0 to 10 m";
+  }
+  if (!is_between(item.dash_m, 0, kWidest_m)) {
+    return "has dashes outside 0 to 10 m";
+  }
+  if (item.dash_m > 0 && run_m / item.dash_m > kMostDashes) {
+    return "has more than 20000 dashes";
+  }
+  if (!is_colour(item.colour)) {
+    return "has a colour outside 0 to 1";
+  }
   return std::nullopt;
 }
 
@@ -91,20 +119,36 @@ Problem problem_of(const TriangleItem& item) {
   if (!std::all_of(item.corners.begin(), item.corners.end(), is_place)) {
     return "has a corner that is not a finite place";
   }
-  if (!is_colour(item.colour)) return "has a colour outside 0 to 1";
+  if (!is_colour(item.colour)) {
+    return "has a colour outside 0 to 1";
+  }
   return std::nullopt;
 }
 
 Problem problem_of(const TextItem& item) {
   for (const TextRun& run : item.runs) {
-    if (!is_utf8(run.text)) return "is not valid UTF-8";
-    if (!is_colour(run.colour)) return "has a colour outside 0 to 1";
+    if (!is_utf8(run.text)) {
+      return "is not valid UTF-8";
+    }
+    if (!is_colour(run.colour)) {
+      return "has a colour outside 0 to 1";
+    }
   }
-  if (!is_place(item.position)) return "is not at a finite place";
-  if (!is_between(item.height_m, 0, kWidest_m)) return "has a height outside 0 to 10 m";
-  if (!is_between(item.min_height_deg, 0, 45)) return "has a least height outside 0 to 45 deg";
-  if (!is_colour(item.rim)) return "has a rim outside 0 to 1";
-  if (!is_place({item.offset_right, item.offset_up, 0})) return "has an offset that is not finite";
+  if (!is_place(item.position)) {
+    return "is not at a finite place";
+  }
+  if (!is_between(item.height_m, 0, kWidest_m)) {
+    return "has a height outside 0 to 10 m";
+  }
+  if (!is_between(item.min_height_deg, 0, 45)) {
+    return "has a least height outside 0 to 45 deg";
+  }
+  if (!is_colour(item.rim)) {
+    return "has a rim outside 0 to 1";
+  }
+  if (!is_place({item.offset_right, item.offset_up, 0})) {
+    return "has an offset that is not finite";
+  }
   return std::nullopt;
 }
 
@@ -122,9 +166,15 @@ Problem first_problem(const ItemList<Item>& items, const char* kind) {
 }  // namespace
 
 std::optional<std::string> problem_of_scene(const Scene& scene) {
-  if (const Problem problem = first_problem(scene.meshes, "mesh")) return problem;
-  if (const Problem problem = first_problem(scene.lines, "line")) return problem;
-  if (const Problem problem = first_problem(scene.triangles, "triangle")) return problem;
+  if (const Problem problem = first_problem(scene.meshes, "mesh")) {
+    return problem;
+  }
+  if (const Problem problem = first_problem(scene.lines, "line")) {
+    return problem;
+  }
+  if (const Problem problem = first_problem(scene.triangles, "triangle")) {
+    return problem;
+  }
   return first_problem(scene.texts, "text");
 }
 
@@ -135,7 +185,9 @@ std::optional<std::string> problem_of_views(const std::vector<View>& views) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const View& view = views[i];
     const std::string name = "view " + std::to_string(i);
-    if (!is_rigid(view.eye_from_world)) return name + ": eye_from_world is not a rigid transform";
+    if (!is_rigid(view.eye_from_world)) {
+      return name + ": eye_from_world is not a rigid transform";
+    }
     for (const float tangent : {view.tan_left, view.tan_right, view.tan_up, view.tan_down}) {
       if (!is_between(tangent, 1e-4f, 100.0f)) {
         return name + ": tangent of a half angle " + std::to_string(tangent) +
@@ -155,13 +207,18 @@ std::optional<std::string> problem_of_mesh(const MeshData& mesh) {
     return std::to_string(mesh.tints.size()) + " tints for " +
            std::to_string(mesh.positions.size()) + " vertices";
   }
-  for (std::size_t i = 0; i < mesh.tints.size(); ++i)
-    if (!is_between(mesh.tints[i], 0, 1)) return "tint " + std::to_string(i) + " is outside 0 to 1";
+  for (std::size_t i = 0; i < mesh.tints.size(); ++i) {
+    if (!is_between(mesh.tints[i], 0, 1)) {
+      return "tint " + std::to_string(i) + " is outside 0 to 1";
+    }
+  }
   if (mesh.indices.size() % 3 != 0) {
     return std::to_string(mesh.indices.size()) + " indices, expected three a triangle";
   }
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (!is_place(mesh.positions[i])) return "vertex " + std::to_string(i) + " is not finite";
+    if (!is_place(mesh.positions[i])) {
+      return "vertex " + std::to_string(i) + " is not finite";
+    }
     // One of no length has no direction, and its light would be no number.
     if (!is_between(length(mesh.normals[i]), 1 - kUnitSlack, 1 + kUnitSlack)) {
       return "normal " + std::to_string(i) + " is not of unit length";
@@ -176,10 +233,12 @@ std::optional<std::string> problem_of_mesh(const MeshData& mesh) {
   return std::nullopt;
 }
 
-std::optional<std::string> problem_of_backgrounds(const std::vector<const Image*>& backgrounds,
+std::optional<std::string> problem_of_backgrounds(const std::vector<const RgbaImage*>& backgrounds,
                                                   const std::vector<View>& views, int width_px,
                                                   int height_px) {
-  if (backgrounds.empty()) return std::nullopt;
+  if (backgrounds.empty()) {
+    return std::nullopt;
+  }
   if (backgrounds.size() != views.size()) {
     return "backgrounds: " + std::to_string(backgrounds.size()) + " for " +
            std::to_string(views.size()) + " views";
@@ -187,12 +246,15 @@ std::optional<std::string> problem_of_backgrounds(const std::vector<const Image*
   const std::string wanted = std::to_string(width_px) + "x" + std::to_string(height_px) + " px";
   for (std::size_t i = 0; i < backgrounds.size(); ++i) {
     const std::string name = "background " + std::to_string(i);
-    if (backgrounds[i] == nullptr) return name + " is missing";
-    const Image& image = *backgrounds[i];
+    if (backgrounds[i] == nullptr) {
+      return name + " is missing";
+    }
+    const RgbaImage& image = *backgrounds[i];
     const auto bytes = 4 * static_cast<std::size_t>(width_px) * height_px;
-    if (image.width_px != width_px || image.height_px != height_px || image.rgba.size() != bytes) {
+    if (image.width_px != width_px || image.height_px != height_px ||
+        image.pixels.size() != bytes) {
       return name + ": " + std::to_string(image.width_px) + "x" + std::to_string(image.height_px) +
-             " px with " + std::to_string(image.rgba.size()) + " bytes, expected " + wanted;
+             " px with " + std::to_string(image.pixels.size()) + " bytes, expected " + wanted;
     }
   }
   return std::nullopt;

@@ -15,7 +15,7 @@ namespace orthonav::render {
 [[nodiscard]] std::optional<std::string> problem_of_views(const std::vector<View>& views);
 [[nodiscard]] std::optional<std::string> problem_of_mesh(const MeshData& mesh);
 [[nodiscard]] std::optional<std::string> problem_of_backgrounds(
-    const std::vector<const Image*>& backgrounds, const std::vector<View>& views, int width_px,
+    const std::vector<const RgbaImage*>& backgrounds, const std::vector<View>& views, int width_px,
     int height_px);
 [[nodiscard]] std::optional<std::string> problem_of_options(const RendererOptions& options);
 

@@ -22,7 +22,9 @@ int rounded_up(float value_px) {
 }  // namespace
 
 Box box_of(const MeshData& mesh) {
-  if (mesh.positions.empty()) return {};
+  if (mesh.positions.empty()) {
+    return {};
+  }
   Box box{mesh.positions.front(), mesh.positions.front()};
   for (const Float3 p : mesh.positions) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
@@ -48,11 +50,15 @@ void ScreenBounds::clear() {
 }
 
 void ScreenBounds::add(Float3 in_world) {
-  for (std::size_t i = 0; i < views_; ++i) add_to_view(i, in_world, 0, 0);
+  for (std::size_t i = 0; i < views_; ++i) {
+    add_to_view(i, in_world, 0, 0);
+  }
 }
 
 void ScreenBounds::add_disc(Float3 in_world, float radius_m) {
-  for (std::size_t i = 0; i < views_; ++i) add_to_view(i, in_world, radius_m, kLeastRadius_px);
+  for (std::size_t i = 0; i < views_; ++i) {
+    add_to_view(i, in_world, radius_m, kLeastRadius_px);
+  }
 }
 
 void ScreenBounds::add_box(const Matrix4& world_from_box, const Box& box) {
@@ -70,7 +76,9 @@ void ScreenBounds::add_to_view(std::size_t view, Float3 p, float radius_m, float
   // What is near the plane counts as both, so that rounding can't lose it.
   extent.in_front |= depth > 0.99f * kNearPlane_m;
   extent.behind |= depth < 1.01f * kNearPlane_m;
-  if (extent.behind) return;
+  if (extent.behind) {
+    return;
+  }
   const float x = m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12];
   const float y = m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13];
   const float x_px = (0.5f * x / depth + 0.5f) * width_px_;
@@ -83,9 +91,13 @@ void ScreenBounds::add_to_view(std::size_t view, Float3 p, float radius_m, float
 }
 
 PixelRect ScreenBounds::rect_in(const Extent& extent) const {
-  if (!extent.in_front) return {};
+  if (!extent.in_front) {
+    return {};
+  }
   const PixelRect whole{0, 0, static_cast<int>(width_px_), static_cast<int>(height_px_)};
-  if (extent.behind) return whole;
+  if (extent.behind) {
+    return whole;
+  }
   // Clamped before rounding: what is far aside has no place among integers.
   const auto within = [](float value, float most) { return std::clamp(value, -64.0f, most + 64); };
   const PixelRect rect{std::max(rounded_down(within(extent.left, width_px_)), 0),
@@ -97,7 +109,9 @@ PixelRect ScreenBounds::rect_in(const Extent& extent) const {
 
 PixelRect ScreenBounds::rect() const {
   PixelRect rect;
-  for (std::size_t i = 0; i < views_; ++i) rect = joined(rect, rect_in(extents_[i]));
+  for (std::size_t i = 0; i < views_; ++i) {
+    rect = joined(rect, rect_in(extents_[i]));
+  }
   return rect;
 }
 

@@ -20,15 +20,21 @@ float corner_angle_rad(Float3 a, Float3 b, Float3 c) {
 }
 
 void add_triangle(MeshData& mesh, std::size_t a, std::size_t b, std::size_t c) {
-  for (const std::size_t i : {a, b, c}) mesh.indices.push_back(static_cast<std::uint32_t>(i));
+  for (const std::size_t i : {a, b, c}) {
+    mesh.indices.push_back(static_cast<std::uint32_t>(i));
+  }
 }
 
 /// Points of a path that differ from their predecessor; empty when any is not finite.
 std::vector<Float3> distinct(std::span<const Float3> path) {
   std::vector<Float3> kept;
   for (const Float3 point : path) {
-    if (!is_finite(point)) return {};
-    if (kept.empty() || length(point - kept.back()) > 1e-7f) kept.push_back(point);
+    if (!is_finite(point)) {
+      return {};
+    }
+    if (kept.empty() || length(point - kept.back()) > 1e-7f) {
+      kept.push_back(point);
+    }
   }
   return kept;
 }
@@ -64,7 +70,9 @@ std::vector<Float3> smooth_normals(std::span<const Float3> positions,
   std::vector<Float3> normals(positions.size());
   for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {
     const std::array<std::size_t, 3> i = {indices[t], indices[t + 1], indices[t + 2]};
-    if (*std::max_element(i.begin(), i.end()) >= positions.size()) continue;
+    if (*std::max_element(i.begin(), i.end()) >= positions.size()) {
+      continue;
+    }
     const Float3 face =
         unit_or(cross(positions[i[1]] - positions[i[0]], positions[i[2]] - positions[i[0]]), {});
     for (std::size_t k = 0; k < 3; ++k) {
@@ -73,13 +81,17 @@ std::vector<Float3> smooth_normals(std::span<const Float3> positions,
       normals[i[k]] = normals[i[k]] + weight * face;
     }
   }
-  for (Float3& normal : normals) normal = unit_or(normal, {0, 0, 1});
+  for (Float3& normal : normals) {
+    normal = unit_or(normal, {0, 0, 1});
+  }
   return normals;
 }
 
 MeshData make_sphere(float radius_m, int slices, int stacks) {
   MeshData mesh;
-  if (!(radius_m > 0) || !std::isfinite(radius_m)) return mesh;
+  if (!(radius_m > 0) || !std::isfinite(radius_m)) {
+    return mesh;
+  }
   const auto columns = static_cast<std::size_t>(std::clamp(slices, 3, kMostSlices));
   const auto rows = static_cast<std::size_t>(std::clamp(stacks, 2, kMostSlices));
   for (std::size_t r = 0; r <= rows; ++r) {
@@ -100,8 +112,12 @@ MeshData make_sphere(float radius_m, int slices, int stacks) {
       const std::size_t b = r * columns + next;
       const std::size_t below_a = a + columns;
       const std::size_t below_b = b + columns;
-      if (r > 0) add_triangle(mesh, a, b, below_a);
-      if (r + 1 < rows) add_triangle(mesh, b, below_b, below_a);
+      if (r > 0) {
+        add_triangle(mesh, a, b, below_a);
+      }
+      if (r + 1 < rows) {
+        add_triangle(mesh, b, below_b, below_a);
+      }
     }
   }
   return mesh;
@@ -109,9 +125,11 @@ MeshData make_sphere(float radius_m, int slices, int stacks) {
 
 MeshData make_octahedron(float radius_m) {
   MeshData mesh;
-  if (!(radius_m > 0) || !std::isfinite(radius_m)) return mesh;
-  for (const float x : {1.0f, -1.0f})
-    for (const float y : {1.0f, -1.0f})
+  if (!(radius_m > 0) || !std::isfinite(radius_m)) {
+    return mesh;
+  }
+  for (const float x : {1.0f, -1.0f}) {
+    for (const float y : {1.0f, -1.0f}) {
       for (const float z : {1.0f, -1.0f}) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.push_back({x * radius_m, 0, 0});
@@ -123,6 +141,8 @@ MeshData make_octahedron(float radius_m) {
         mesh.indices.insert(mesh.indices.end(),
                             {first, first + (outward ? 1 : 2), first + (outward ? 2 : 1)});
       }
+    }
+  }
   return mesh;
 }
 
@@ -134,7 +154,9 @@ MeshData make_cylinder(Float3 from, Float3 to, float radius_m, int slices) {
 MeshData make_tube(std::span<const Float3> path, float radius_m, int slices) {
   MeshData mesh;
   const std::vector<Float3> points = distinct(path);
-  if (points.size() < 2 || !(radius_m > 0) || !std::isfinite(radius_m)) return mesh;
+  if (points.size() < 2 || !(radius_m > 0) || !std::isfinite(radius_m)) {
+    return mesh;
+  }
   const auto columns = static_cast<std::size_t>(std::clamp(slices, 3, kMostSlices));
   Float3 side = any_perpendicular(tangent_at(points, 0));
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -164,7 +186,9 @@ MeshData make_tube(std::span<const Float3> path, float radius_m, int slices) {
 
 void set_ring(std::vector<Float3>& ring, Float3 centre, Float3 normal, float radius_m, int points) {
   ring.clear();
-  if (!(radius_m > 0) || !std::isfinite(radius_m) || !is_finite(centre)) return;
+  if (!(radius_m > 0) || !std::isfinite(radius_m) || !is_finite(centre)) {
+    return;
+  }
   const Float3 axis = unit_or(normal, {0, 1, 0});
   const Float3 side = any_perpendicular(axis);
   const Float3 up = cross(axis, side);

@@ -24,7 +24,9 @@ float squared_distance(Float3 p, Float3 a, Float3 b) {
 /// How far the line may pass by a point, squared.
 float squared_slack(Float3 p, std::span<const Float3> eyes, float angle_rad) {
   float nearest = std::numeric_limits<float>::max();
-  for (const Float3 eye : eyes) nearest = std::min(nearest, dot(p - eye, p - eye));
+  for (const Float3 eye : eyes) {
+    nearest = std::min(nearest, dot(p - eye, p - eye));
+  }
   return angle_rad * angle_rad * nearest;
 }
 
@@ -48,7 +50,9 @@ void thin(std::span<const Float3> points, std::span<const Float3> eyes, float an
       };
       const auto first = points.begin() + static_cast<std::ptrdiff_t>(anchor) + 1;
       const auto last = points.begin() + static_cast<std::ptrdiff_t>(next) + 1;
-      if (!std::all_of(first, last, passes_by)) break;
+      if (!std::all_of(first, last, passes_by)) {
+        break;
+      }
       ++next;
     }
     anchor = next;

@@ -56,56 +56,87 @@ struct AccuracyArguments {
 Result<nav::ToolGeometry> chosen_pointer(const AccuracyArguments& arguments) {
   const std::string& file = arguments.tools_file;
   const auto tools = engine::load_tools(file);
-  if (!tools) return tools.error();
+  if (!tools) {
+    return tools.error();
+  }
   if (arguments.pointer.empty()) {
-    for (const nav::ToolGeometry& tool : *tools)
-      if (tool.role == nav::ToolRole::kPointer) return tool;
+    for (const nav::ToolGeometry& tool : *tools) {
+      if (tool.role == nav::ToolRole::kPointer) {
+        return tool;
+      }
+    }
     return Error{file + ": no tool has the role pointer, name one (--pointer)"};
   }
   const auto tool = engine::tool_named(*tools, arguments.pointer);
-  if (!tool) return Error{file + ": " + tool.error().message};
-  if (tool->role == nav::ToolRole::kReference)
+  if (!tool) {
+    return Error{file + ": " + tool.error().message};
+  }
+  if (tool->role == nav::ToolRole::kReference) {
     return Error{file + ": '" + tool->name + "' is a reference, it has no tip"};
+  }
   return *tool;
 }
 
 Result<std::vector<Vec3>> board_points_m(const AccuracyArguments& arguments) {
   std::vector<Vec3> points_m;
-  if (arguments.board_file.empty()) return points_m;
+  if (arguments.board_file.empty()) {
+    return points_m;
+  }
   const auto board = engine::load_board(arguments.board_file);
-  if (!board) return board.error();
-  for (const engine::TouchPoint& point : engine::touch_points(*board))
+  if (!board) {
+    return board.error();
+  }
+  for (const engine::TouchPoint& point : engine::touch_points(*board)) {
     points_m.push_back({point.at_m.x, point.at_m.y, 0.0});
+  }
   return points_m;
 }
 
 nav::AccuracyOptions options_of(const AccuracyArguments& arguments) {
   nav::AccuracyOptions options;
-  for (const LimitArgument& limit : arguments.limits)
-    if (limit.mm.size() == 2) options.*limit.limits = {limit.mm[0] * 1e-3, limit.mm[1] * 1e-3};
+  for (const LimitArgument& limit : arguments.limits) {
+    if (limit.mm.size() == 2) {
+      options.*limit.limits = {limit.mm[0] * 1e-3, limit.mm[1] * 1e-3};
+    }
+  }
   return options;
 }
 
 int run_accuracy(const AccuracyArguments& arguments) {
-  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
+  if (const Status s = arguments.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
   const nav::AccuracyOptions options = options_of(arguments);
-  if (const auto problems = options.check(); !problems.empty()) return bad_input(problems.front());
+  if (const auto problems = options.check(); !problems.empty()) {
+    return bad_input(problems.front());
+  }
   const auto pointer = chosen_pointer(arguments);
-  if (!pointer) return bad_input(pointer.error().message);
+  if (!pointer) {
+    return bad_input(pointer.error().message);
+  }
   const auto points_m = board_points_m(arguments);
-  if (!points_m) return bad_input(points_m.error().message);
+  if (!points_m) {
+    return bad_input(points_m.error().message);
+  }
   nav::TrackerOptions tracking;
   // Where a tag is predicted it is found as well as in the whole image, in a tenth of the time.
   tracking.full_search_interval = kFullSearchEvery;
   const auto seen = measured_poses(arguments.recording, arguments.method, *pointer, tracking);
-  if (!seen) return bad_input(seen.error().message);
-  const auto report = nav::accuracy_test(seen->world_from_marker, *pointer, *points_m, options);
-  if (!report) return bad_input(arguments.recording + ": " + report.error().message);
+  if (!seen) {
+    return bad_input(seen.error().message);
+  }
+  const auto report = nav::test_tip_accuracy(seen->world_from_marker, *pointer, *points_m, options);
+  if (!report) {
+    return bad_input(arguments.recording + ": " + report.error().message);
+  }
 
   const AccuracySubject subject{pointer->name, arguments.method};
-  if (Status s = arguments.json.write(accuracy_json(subject, *report)); !s)
+  if (Status s = arguments.json.write(accuracy_json(subject, *report)); !s) {
     return bad_input(s.error().message);
-  if (!arguments.json.on_stdout()) std::fputs(accuracy_text(subject, *report).c_str(), stdout);
+  }
+  if (!arguments.json.on_stdout()) {
+    std::fputs(accuracy_text(subject, *report).c_str(), stdout);
+  }
   return report->verdict() == nav::Verdict::kFail ? kNo : kDone;
 }
 

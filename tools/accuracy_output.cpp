@@ -20,13 +20,16 @@ ordered_json json_of(const nav::AccuracyPart& part) {
                       {"start_s", part.start_s},
                       {"end_s", part.end_s},
                       {"limits", ordered_json::array()}};
-  for (const nav::Judged& figure : part.judged)
+  for (const nav::Judged& figure : part.judged) {
     out["limits"].push_back({{"what", figure.what},
                              {"value_mm", in_mm(figure.value_m)},
                              {"pass_to_mm", in_mm(figure.limits.pass_m)},
                              {"note_to_mm", in_mm(figure.limits.note_m)},
                              {"verdict", to_text(figure.verdict)}});
-  if (!part.failure.empty()) out["failure"] = part.failure;
+  }
+  if (!part.failure.empty()) {
+    out["failure"] = part.failure;
+  }
   return out;
 }
 
@@ -40,7 +43,9 @@ void add_spread(const nav::TipSpread& spread, ordered_json& out) {
 ordered_json single_point_json(const nav::SinglePointPart& part) {
   ordered_json out = json_of(part);
   add_spread(part.spread, out);
-  if (part.predicted_rms_m) out["predicted_rms_mm"] = in_mm(*part.predicted_rms_m);
+  if (part.predicted_rms_m) {
+    out["predicted_rms_mm"] = in_mm(*part.predicted_rms_m);
+  }
   return out;
 }
 
@@ -75,11 +80,12 @@ ordered_json distances_json(const nav::DistancePart& part) {
   out["fit_rmse_mm"] = in_mm(part.fit_rmse_m);
   out["stray_rests"] = part.stray_rests;
   out["points"] = ordered_json::array();
-  for (const nav::TouchedPoint& point : part.points)
+  for (const nav::TouchedPoint& point : part.points) {
     out["points"].push_back({{"time_s", point.time_s},
                              {"samples", point.samples},
                              {"known_mm", in_mm(point.known_m)},
                              {"residual_mm", in_mm(point.residual_m)}});
+  }
   return out;
 }
 
@@ -96,11 +102,14 @@ void append(std::string& text, const char* format, ...) {
 void append_part(const char* name, const nav::AccuracyPart& part, std::string& text) {
   append(text, "%s: %s (%.1f-%.1f s)\n", name, std::string(to_text(part.verdict())).c_str(),
          part.start_s, part.end_s);
-  if (!part.failure.empty()) text += "  " + part.failure + "\n";
-  for (const nav::Judged& figure : part.judged)
+  if (!part.failure.empty()) {
+    text += "  " + part.failure + "\n";
+  }
+  for (const nav::Judged& figure : part.judged) {
     append(text, "  %s %.2f mm: %s (pass to %.2f, note to %.2f)\n", figure.what.c_str(),
            in_mm(figure.value_m), std::string(to_text(figure.verdict)).c_str(),
            in_mm(figure.limits.pass_m), in_mm(figure.limits.note_m));
+  }
 }
 
 void append_spread(const nav::TipSpread& spread, std::string& text) {
@@ -117,11 +126,13 @@ void append_turning(const nav::TurningPart& part, std::string& text) {
          "without it\n",
          in_mm(bias.x), in_mm(bias.y), in_mm(bias.z), in_mm(part.tip_bias_sigma_m),
          in_mm(part.residual_rms_m));
-  for (const nav::TiltBin& bin : part.bins)
-    if (bin.samples > 0)
+  for (const nav::TiltBin& bin : part.bins) {
+    if (bin.samples > 0) {
       append(text, "  tilt %2.0f-%2.0f°: RMS %.2f mm, max %.2f mm, %zu poses\n",
              bin.from_rad * kDegreesPerRadian, bin.to_rad * kDegreesPerRadian, in_mm(bin.rms_m),
              in_mm(bin.max_m), bin.samples);
+    }
+  }
 }
 
 void append_distances(const nav::DistancePart& part, std::string& text) {
@@ -129,8 +140,9 @@ void append_distances(const nav::DistancePart& part, std::string& text) {
   append(text, "  %zu distances of %zu points: mean error %+.2f mm, SD %.2f mm, RMS %.2f mm\n",
          part.distances, part.points.size(), in_mm(part.mean_error_m), in_mm(part.sd_m),
          in_mm(part.rms_m));
-  if (part.stray_rests > 0)
+  if (part.stray_rests > 0) {
     append(text, "  %zu rests that touched no point left out\n", part.stray_rests);
+  }
 }
 
 }  // namespace
@@ -143,7 +155,9 @@ ordered_json accuracy_json(const AccuracySubject& subject, const nav::AccuracyRe
                       {"duration_s", report.duration_s},
                       {"single_point", single_point_json(report.single_point)},
                       {"turning", turning_json(report.turning)}};
-  if (report.distances) out["distances"] = distances_json(*report.distances);
+  if (report.distances) {
+    out["distances"] = distances_json(*report.distances);
+  }
   return out;
 }
 
@@ -152,13 +166,15 @@ std::string accuracy_text(const AccuracySubject& subject, const nav::AccuracyRep
   append(text, ": %zu measured poses in %.1f s\n", report.samples, report.duration_s);
   append_part("single-point repeatability", report.single_point, text);
   append_spread(report.single_point.spread, text);
-  if (report.single_point.predicted_rms_m)
+  if (report.single_point.predicted_rms_m) {
     append(text, "  predicted RMS %.2f mm\n", in_mm(*report.single_point.predicted_rms_m));
+  }
   append_turning(report.turning, text);
-  if (report.distances)
+  if (report.distances) {
     append_distances(*report.distances, text);
-  else
+  } else {
     text += "distances: not tested (--board)\n";
+  }
   return text + "verdict: " + std::string(to_text(report.verdict())) + "\n";
 }
 

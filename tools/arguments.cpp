@@ -15,8 +15,9 @@ CLI::Validator whole(Whole low, Whole high) {
     Whole value = 0;
     const char* end = text.data() + text.size();
     const auto [rest, code] = std::from_chars(text.data(), end, value);
-    if (!text.empty() && code == std::errc() && rest == end && value >= low && value <= high)
+    if (!text.empty() && code == std::errc() && rest == end && value >= low && value <= high) {
       return {};
+    }
     return "\"" + text + "\" must be a whole number from " + std::to_string(low) + " to " +
            std::to_string(high);
   };
@@ -40,7 +41,9 @@ CLI::Validator seed_number() {
 CLI::Validator finite_number(double low, double high) {
   const auto check = [low, high](const std::string& text) -> std::string {
     const auto value = engine::number_from(text);
-    if (value && *value >= low && *value <= high) return {};
+    if (value && *value >= low && *value <= high) {
+      return {};
+    }
     return "\"" + text + "\" must be a number from " + shortest(low) + " to " + shortest(high);
   };
   return {check, "", "number"};
@@ -56,8 +59,9 @@ CLI::Validator some_text() {
 std::optional<std::array<int, 2>> size_from(const std::string& text) {
   std::array<int, 2> size{};
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%5dx%5d%c", size.data(), size.data() + 1, &rest) != 2)
+  if (std::sscanf(text.c_str(), "%5dx%5d%c", size.data(), size.data() + 1, &rest) != 2) {
     return std::nullopt;
+  }
   return size;
 }
 

@@ -57,18 +57,30 @@ void print(const PivotArguments& arguments, const nav::PivotCalibration& found) 
 
 int run_pivot(const PivotArguments& arguments) {
   const auto tools = engine::load_tools(arguments.tools_file);
-  if (!tools) return bad_input(tools.error().message);
+  if (!tools) {
+    return bad_input(tools.error().message);
+  }
   const auto tool = engine::tool_named(*tools, arguments.tool);
-  if (!tool) return bad_input(arguments.tools_file + ": " + tool.error().message);
-  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
+  if (!tool) {
+    return bad_input(arguments.tools_file + ": " + tool.error().message);
+  }
+  if (const Status s = arguments.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
   // Before the work, so that an unwritable place is known at once.
-  if (!arguments.out.empty())
-    if (auto place = engine::AtomicFile::create(arguments.out); !place)
+  if (!arguments.out.empty()) {
+    if (auto place = engine::AtomicFile::create(arguments.out); !place) {
       return bad_input(place.error().message);
+    }
+  }
   const auto seen = measured_poses(arguments.recording, arguments.method, *tool);
-  if (!seen) return bad_input(seen.error().message);
+  if (!seen) {
+    return bad_input(seen.error().message);
+  }
   std::vector<Transform<World, Marker>> poses;
-  for (const nav::TrackedPose& pose : seen->world_from_marker) poses.push_back(pose.value);
+  for (const nav::TrackedPose& pose : seen->world_from_marker) {
+    poses.push_back(pose.value);
+  }
 
   nav::PivotOptions options;
   options.inlier_m = arguments.inlier_mm * 1e-3;
@@ -76,14 +88,22 @@ int run_pivot(const PivotArguments& arguments) {
   if (found && !arguments.out.empty()) {
     const auto changed = engine::changed_tools(arguments.tools_file, arguments.tool,
                                                {.tip_in_marker = found->tip_in_marker});
-    if (!changed) return bad_input(changed.error().message);
-    if (const Status s = engine::write_file(arguments.out, *changed); !s)
+    if (!changed) {
+      return bad_input(changed.error().message);
+    }
+    if (const Status s = engine::write_file(arguments.out, *changed); !s) {
       return bad_input(s.error().message);
+    }
   }
-  if (const Status s = arguments.json.write(pivot_json(arguments, *seen, found)); !s)
+  if (const Status s = arguments.json.write(pivot_json(arguments, *seen, found)); !s) {
     return bad_input(s.error().message);
-  if (!found) return refused(found.error().message);
-  if (!arguments.json.on_stdout()) print(arguments, *found);
+  }
+  if (!found) {
+    return refused(found.error().message);
+  }
+  if (!arguments.json.on_stdout()) {
+    print(arguments, *found);
+  }
   return kDone;
 }
 

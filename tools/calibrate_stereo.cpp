@@ -12,14 +12,18 @@ int run_stereo(const StereoArguments& arguments) {
   const bool images =
       !arguments.chessboard.empty() || !arguments.left.empty() || !arguments.right.empty();
   const bool recording = !arguments.recording.empty() || !arguments.board.empty();
-  if (images == recording)
+  if (images == recording) {
     return bad_input(
         "calibrate stereo: give --chessboard, --left and --right, or a RECORDING "
         "and --board");
-  if (recording && (arguments.recording.empty() || arguments.board.empty()))
+  }
+  if (recording && (arguments.recording.empty() || arguments.board.empty())) {
     return bad_input("calibrate stereo: a RECORDING needs --board, and --board a RECORDING");
-  if (images && (arguments.chessboard.empty() || arguments.left.empty() || arguments.right.empty()))
+  }
+  if (images &&
+      (arguments.chessboard.empty() || arguments.left.empty() || arguments.right.empty())) {
     return bad_input("calibrate stereo: images need --chessboard, --left and --right");
+  }
   return images ? run_stereo_images(arguments) : run_stereo_recording(arguments);
 }
 

@@ -27,11 +27,14 @@ Result<nav::Chessboard> board_from(const StereoArguments& arguments) {
   int columns = 0;
   int rows = 0;
   char rest = 0;
-  if (std::sscanf(arguments.chessboard.c_str(), "%2dx%2d%c", &columns, &rows, &rest) != 2)
+  if (std::sscanf(arguments.chessboard.c_str(), "%2dx%2d%c", &columns, &rows, &rest) != 2) {
     return Error{"--chessboard: \"" + arguments.chessboard +
                  "\" must be columns x rows of inner corners, such as 9x6"};
+  }
   nav::Chessboard board{columns, rows, arguments.square_mm * 1e-3};
-  if (const auto problems = board.check(); !problems.empty()) return Error{problems.front()};
+  if (const auto problems = board.check(); !problems.empty()) {
+    return Error{problems.front()};
+  }
   return board;
 }
 
@@ -39,33 +42,52 @@ Result<std::optional<nav::BoardCorners>> corners_in(const std::string& path,
                                                     const nav::Chessboard& board,
                                                     nav::ImageSize& size) {
   const auto image = engine::load_grey(path);
-  if (!image) return image.error();
+  if (!image) {
+    return image.error();
+  }
   const nav::ImageSize own{image->width_px, image->height_px};
-  if (size.width_px == 0) size = own;
-  if (!(own == size))
+  if (size.width_px == 0) {
+    size = own;
+  }
+  if (!(own == size)) {
     return Error{path + ": is " + std::to_string(own.width_px) + " x " +
                  std::to_string(own.height_px) + " px, the images before are " +
                  std::to_string(size.width_px) + " x " + std::to_string(size.height_px)};
+  }
   return nav::find_chessboard(*image, board);
 }
 
 Result<Views> views_in(const StereoArguments& arguments, const nav::Chessboard& board) {
   const auto left = expanded(arguments.left);
-  if (!left) return left.error();
+  if (!left) {
+    return left.error();
+  }
   const auto right = expanded(arguments.right);
-  if (!right) return right.error();
+  if (!right) {
+    return right.error();
+  }
   const auto images = paired(*left, *right);
-  if (!images) return images.error();
+  if (!images) {
+    return images.error();
+  }
   Views found;
   found.skipped = images->alone;
   CountProgress progress("pairs of images", static_cast<std::int64_t>(images->pairs.size()));
   for (const ImagePair& pair : images->pairs) {
     const auto in_left = corners_in(pair.left, board, found.size);
-    if (!in_left) return in_left.error();
+    if (!in_left) {
+      return in_left.error();
+    }
     const auto in_right = corners_in(pair.right, board, found.size);
-    if (!in_right) return in_right.error();
-    if (!*in_left) found.skipped.push_back(pair.left);
-    if (!*in_right) found.skipped.push_back(pair.right);
+    if (!in_right) {
+      return in_right.error();
+    }
+    if (!*in_left) {
+      found.skipped.push_back(pair.left);
+    }
+    if (!*in_right) {
+      found.skipped.push_back(pair.right);
+    }
     if (*in_left && *in_right) {
       found.views.push_back({**in_left, **in_right});
       found.pairs.push_back(pair);
@@ -116,15 +138,16 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments, const Views& vi
                                 {"right_rms_px", found.right_rms_px},
                                 {"stereo_rms_px", found.stereo_rms_px},
                                 {"epipolar_rms_px", found.epipolar_rms_px},
-                                {"covered_share", found.covered_share},
+                                {"covered_share", found.covered_fraction},
                                 {"chessboard", arguments.chessboard},
                                 {"square_mm", arguments.square_mm},
                                 {"views_used", found.used}};
-  if (found.sigma)
+  if (found.sigma) {
     out["sigma"] = {{"baseline_mm", found.sigma->baseline_m * 1e3},
                     {"rotation_deg", found.sigma->rotation_rad * kDegreesPerRadian},
-                    {"focal_percent", found.sigma->focal_share * 100},
+                    {"focal_percent", found.sigma->focal_fraction * 100},
                     {"principal_point_px", found.sigma->principal_point_px}};
+  }
   add_judgement(found.judgement, out);
   out["views"] = json_of(views, found);
   out["skipped"] = views.skipped;
@@ -144,10 +167,11 @@ void print(const Views& views, const nav::StereoBoardCalibration& found) {
   print_camera("left", found.left);
   print_camera("right", found.right);
   std::printf("baseline %.3f mm", found.baseline_m() * 1e3);
-  if (found.sigma)
+  if (found.sigma) {
     std::printf(", known to %.3f mm; rotation known to %.3f°, focal length to %.3f %%",
                 found.sigma->baseline_m * 1e3, found.sigma->rotation_rad * kDegreesPerRadian,
-                found.sigma->focal_share * 100);
+                found.sigma->focal_fraction * 100);
+  }
   std::printf("\n");
   for (std::size_t i = 0; i < found.views.size(); ++i) {
     const nav::BoardViewResidual& view = found.views[i];
@@ -162,18 +186,30 @@ void print(const Views& views, const nav::StereoBoardCalibration& found) {
 
 int run_stereo_images(const StereoArguments& arguments) {
   const auto board = board_from(arguments);
-  if (!board) return bad_input(board.error().message);
-  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
+  if (!board) {
+    return bad_input(board.error().message);
+  }
+  if (const Status s = arguments.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
   const auto views = views_in(arguments, *board);
-  if (!views) return bad_input(views.error().message);
-  for (const std::string& name : views->skipped)
+  if (!views) {
+    return bad_input(views.error().message);
+  }
+  for (const std::string& name : views->skipped) {
     std::fprintf(stderr, "orthonav: skipped: %s: no board of %s, or no partner\n", name.c_str(),
                  arguments.chessboard.c_str());
+  }
   const auto found = nav::calibrate_stereo(*board, views->size, views->views);
-  if (!found) return refused(found.error().message);
-  if (const Status s = arguments.json.write(as_json(arguments, *views, *found)); !s)
+  if (!found) {
+    return refused(found.error().message);
+  }
+  if (const Status s = arguments.json.write(as_json(arguments, *views, *found)); !s) {
     return bad_input(s.error().message);
-  if (!arguments.json.on_stdout()) print(*views, *found);
+  }
+  if (!arguments.json.on_stdout()) {
+    print(*views, *found);
+  }
   return found->judgement.verdict == nav::Verdict::kFail ? refused(found->judgement.reason) : kDone;
 }
 

@@ -15,20 +15,26 @@ namespace {
 
 /// The family as it is detected: a border two cells wide makes another one.
 Result<std::string> detected_family(const std::string& path, const engine::Board& board) {
-  if (board.kind == engine::BoardKind::kChessboard)
+  if (board.kind == engine::BoardKind::kChessboard) {
     return Error{path + ": is a chessboard, must be a board of tags"};
+  }
   std::string family = board.family + (board.border_cells == 2 ? "b2" : "");
-  if (board.border_cells > 2 || !nav::is_known_family(family))
+  if (board.border_cells > 2 || !nav::is_known_family(family)) {
     return Error{path + ": " + board.family + " with borders " +
                  std::to_string(board.border_cells) + " cells wide can't be detected"};
+  }
   return family;
 }
 
 Result<std::vector<nav::BoardTag>> tags_of(const std::string& path) {
   const auto board = engine::load_board(path);
-  if (!board) return board.error();
+  if (!board) {
+    return board.error();
+  }
   const auto family = detected_family(path, *board);
-  if (!family) return family.error();
+  if (!family) {
+    return family.error();
+  }
   std::vector<nav::BoardTag> tags;
   for (std::size_t i = 0; i < board->ids.size(); ++i) {
     const std::vector<Vec2> corners = engine::tag_corners_m(*board, i);
@@ -57,16 +63,16 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments, const RecordedS
   const Vec3 turn = found->turn_rad * kDegreesPerRadian;
   const Vec3 shift = found->shift_m * 1e3;
   out["turn_deg"] = {turn.x, turn.y, turn.z};
-  out["turn_sigma_deg"] = found->turn_sigma_rad * kDegreesPerRadian;
+  out["turn_sigma_deg"] = found->rotation_sigma_rad * kDegreesPerRadian;
   out["shift_mm"] = {shift.x, shift.y, shift.z};
-  out["shift_sigma_mm"] = found->shift_sigma_m * 1e3;
+  out["shift_sigma_mm"] = found->translation_sigma_m * 1e3;
   out["off_px"] = found->off_px;
   out["off_sigma_px"] = found->off_sigma_px;
   out["is_off"] = found->is_off;
   out["epipolar_before_px"] = found->epipolar_before_px;
   out["epipolar_after_px"] = found->epipolar_after_px;
   out["rms_px"] = found->rms_px;
-  out["covered_share"] = found->covered_share;
+  out["covered_share"] = found->covered_fraction;
   out["size_ratio"] = found->size_ratio;
   add_judgement(found->judgement, out);
   return out;
@@ -82,8 +88,8 @@ void print(const nav::StereoRecording& found) {
   std::printf(
       "right camera turned by %.4f %.4f %.4f°, known to %.4f°; shifted by %.3f %.3f %.3f mm, "
       "known to %.3f mm\n",
-      turn.x, turn.y, turn.z, found.turn_sigma_rad * kDegreesPerRadian, shift.x, shift.y, shift.z,
-      found.shift_sigma_m * 1e3);
+      turn.x, turn.y, turn.z, found.rotation_sigma_rad * kDegreesPerRadian, shift.x, shift.y,
+      shift.z, found.translation_sigma_m * 1e3);
   std::printf("baseline %.3f mm; the tags' edges measure %.4f of their size\n",
               found.right_from_left.translation().norm() * 1e3, found.size_ratio);
   print_judgement(found.judgement);
@@ -93,17 +99,30 @@ void print(const nav::StereoRecording& found) {
 
 int run_stereo_recording(const StereoArguments& arguments) {
   const auto board = tags_of(arguments.board);
-  if (!board) return bad_input(board.error().message);
-  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
-  std::vector<nav::MarkerDefinition> tags;
-  for (const nav::BoardTag& tag : *board) tags.push_back(tag.definition);
-  const auto seen = recorded_sightings(arguments.recording, std::move(tags));
-  if (!seen) return bad_input(seen.error().message);
-  const auto found = nav::calibrate_stereo(seen->calibration, *board, seen->pairs);
-  if (const Status s = arguments.json.write(as_json(arguments, *seen, found)); !s)
+  if (!board) {
+    return bad_input(board.error().message);
+  }
+  if (const Status s = arguments.json.check(); !s) {
     return bad_input(s.error().message);
-  if (!found) return refused(found.error().message);
-  if (!arguments.json.on_stdout()) print(*found);
+  }
+  std::vector<nav::MarkerDefinition> tags;
+  for (const nav::BoardTag& tag : *board) {
+    tags.push_back(tag.definition);
+  }
+  const auto seen = recorded_sightings(arguments.recording, std::move(tags));
+  if (!seen) {
+    return bad_input(seen.error().message);
+  }
+  const auto found = nav::calibrate_stereo(seen->calibration, *board, seen->pairs);
+  if (const Status s = arguments.json.write(as_json(arguments, *seen, found)); !s) {
+    return bad_input(s.error().message);
+  }
+  if (!found) {
+    return refused(found.error().message);
+  }
+  if (!arguments.json.on_stdout()) {
+    print(*found);
+  }
   return found->judgement.verdict == nav::Verdict::kFail ? refused(found->judgement.reason) : kDone;
 }
 

@@ -38,64 +38,87 @@ Result<std::vector<double>> sizes_m(const std::string& text, std::size_t tags) {
   for (std::string field; std::getline(fields, field, ',');) {
     char* end = nullptr;
     const double mm = std::strtod(field.c_str(), &end);
-    if (field.empty() || *end != '\0' || !(mm >= 5.0 && mm <= 200.0))
+    if (field.empty() || *end != '\0' || !(mm >= 5.0 && mm <= 200.0)) {
       return Error{"--size-mm: \"" + field + "\" must be a size of 5-200 mm"};
+    }
     sizes.push_back(mm * 1e-3);
   }
-  if (sizes.size() == 1) sizes.resize(tags, sizes.front());
-  if (sizes.size() != tags)
+  if (sizes.size() == 1) {
+    sizes.resize(tags, sizes.front());
+  }
+  if (sizes.size() != tags) {
     return Error{"--size-mm: " + std::to_string(sizes.size()) + " sizes for " +
                  std::to_string(tags) + " tags, must be one, or one each"};
+  }
   return sizes;
 }
 
 Result<std::vector<nav::MarkerDefinition>> tags_from(const ToolArguments& arguments) {
   const auto ids = number_list(arguments.ids, kMostTags);
-  if (!ids) return Error{"--ids: " + ids.error().message};
+  if (!ids) {
+    return Error{"--ids: " + ids.error().message};
+  }
   const auto sizes = sizes_m(arguments.sizes_mm, ids->size());
-  if (!sizes) return sizes.error();
+  if (!sizes) {
+    return sizes.error();
+  }
   std::vector<nav::MarkerDefinition> tags;
-  for (std::size_t i = 0; i < ids->size(); ++i)
+  for (std::size_t i = 0; i < ids->size(); ++i) {
     tags.push_back({arguments.family, ids->at(i), sizes->at(i)});
+  }
   return tags;
 }
 
 /// A tool of a tools file that is to get its tags must have the first one as its marker.
 Status check_marker(const ToolArguments& arguments, const nav::MarkerDefinition& first) {
-  if (arguments.tools_file.empty()) return {};
+  if (arguments.tools_file.empty()) {
+    return {};
+  }
   const auto tools = engine::load_tools(arguments.tools_file);
-  if (!tools) return tools.error();
+  if (!tools) {
+    return tools.error();
+  }
   const auto tool = engine::tool_named(*tools, arguments.tool);
-  if (!tool) return Error{arguments.tools_file + ": " + tool.error().message};
+  if (!tool) {
+    return Error{arguments.tools_file + ": " + tool.error().message};
+  }
   const nav::MarkerDefinition& marker = tool->marker;
   if (marker.family != first.family || marker.id != first.id ||
-      std::abs(marker.size_m - first.size_m) > 1e-9)
+      std::abs(marker.size_m - first.size_m) > 1e-9) {
     return Error{arguments.tools_file + ": the marker of '" + arguments.tool + "' is " +
                  marker.family + " id " + std::to_string(marker.id) + " of " +
                  std::to_string(marker.size_m * 1e3) + " mm, the first of --ids must be the same"};
+  }
   return {};
 }
 
 std::vector<nav::AttachedMarker> further_tags(const nav::TagBody& body) {
   std::vector<nav::AttachedMarker> more;
-  for (std::size_t i = 1; i < body.tags.size(); ++i)
+  for (std::size_t i = 1; i < body.tags.size(); ++i) {
     more.push_back({body.tags[i].definition, body.tags[i].marker_from_tag});
+  }
   return more;
 }
 
 Result<std::string> tools_with(const ToolArguments& arguments, const nav::TagBody& body) {
-  if (!arguments.tools_file.empty())
+  if (!arguments.tools_file.empty()) {
     return engine::changed_tools(arguments.tools_file, arguments.tool,
                                  {.more_markers = further_tags(body)});
+  }
   nav::ToolGeometry tool;
   tool.name = arguments.tool;
   for (const nav::ToolRole role :
-       {nav::ToolRole::kPointer, nav::ToolRole::kGuide, nav::ToolRole::kReference})
-    if (engine::to_text(role) == arguments.role) tool.role = role;
+       {nav::ToolRole::kPointer, nav::ToolRole::kGuide, nav::ToolRole::kReference}) {
+    if (engine::to_text(role) == arguments.role) {
+      tool.role = role;
+    }
+  }
   tool.marker = body.tags.front().definition;
   tool.more_markers = further_tags(body);
   const std::string text = engine::tools_text({tool});
-  if (const auto back = engine::parse_tools(text, arguments.out); !back) return back.error();
+  if (const auto back = engine::parse_tools(text, arguments.out); !back) {
+    return back.error();
+  }
   return text;
 }
 
@@ -107,8 +130,8 @@ nlohmann::ordered_json body_json(const Result<nav::TagBody>& body, std::size_t p
   }
   out["pairs_used"] = body->pairs;
   out["rms_px"] = body->rms_px;
-  out["outlier_share"] = body->outlier_share;
-  for (const nav::BodyTag& tag : body->tags)
+  out["outlier_share"] = body->outlier_fraction;
+  for (const nav::BodyTag& tag : body->tags) {
     out["tags"].push_back({{"family", tag.definition.family},
                            {"id", tag.definition.id},
                            {"size_mm", tag.definition.size_m * 1e3},
@@ -117,13 +140,14 @@ nlohmann::ordered_json body_json(const Result<nav::TagBody>& body, std::size_t p
                            {"pairs", tag.pairs},
                            {"sigma_mm", tag.sigma_m * 1e3},
                            {"sigma_deg", tag.sigma_rad * kDegreesPerRadian}});
+  }
   add_judgement(body->judgement, out);
   return out;
 }
 
 void print(const nav::TagBody& body) {
   std::printf("%zu pairs, residual %.3f px RMS, %.1f %% of the corners left out\n", body.pairs,
-              body.rms_px, 100 * body.outlier_share);
+              body.rms_px, 100 * body.outlier_fraction);
   for (const nav::BodyTag& tag : body.tags) {
     const Vec3 at_mm = tag.marker_from_tag.translation() * 1e3;
     std::printf(
@@ -138,26 +162,42 @@ void print(const nav::TagBody& body) {
 
 int run_tool(const ToolArguments& arguments) {
   const auto tags = tags_from(arguments);
-  if (!tags) return bad_input(tags.error().message);
-  if (const Status s = check_marker(arguments, tags->front()); !s)
+  if (!tags) {
+    return bad_input(tags.error().message);
+  }
+  if (const Status s = check_marker(arguments, tags->front()); !s) {
     return bad_input(s.error().message);
-  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
-  if (auto place = engine::AtomicFile::create(arguments.out); !place)
+  }
+  if (const Status s = arguments.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
+  if (auto place = engine::AtomicFile::create(arguments.out); !place) {
     return bad_input(place.error().message);
+  }
   const auto seen = recorded_sightings(arguments.recording, *tags);
-  if (!seen) return bad_input(seen.error().message);
+  if (!seen) {
+    return bad_input(seen.error().message);
+  }
 
   const auto body = nav::calibrate_tag_body(seen->calibration, *tags, seen->pairs);
   if (body) {
     const auto text = tools_with(arguments, *body);
-    if (!text) return bad_input(text.error().message);
-    if (const Status s = engine::write_file(arguments.out, *text); !s)
+    if (!text) {
+      return bad_input(text.error().message);
+    }
+    if (const Status s = engine::write_file(arguments.out, *text); !s) {
       return bad_input(s.error().message);
+    }
   }
-  if (const Status s = arguments.json.write(body_json(body, seen->pairs.size())); !s)
+  if (const Status s = arguments.json.write(body_json(body, seen->pairs.size())); !s) {
     return bad_input(s.error().message);
-  if (!body) return refused(body.error().message);
-  if (!arguments.json.on_stdout()) print(*body);
+  }
+  if (!body) {
+    return refused(body.error().message);
+  }
+  if (!arguments.json.on_stdout()) {
+    print(*body);
+  }
   return kDone;
 }
 

@@ -5,10 +5,13 @@
 namespace orthonav::tools {
 
 Result<engine::Case> load_checked_case(const std::string& folder) {
-  if (!folder.empty()) return engine::load_case(folder);
+  if (!folder.empty()) {
+    return engine::load_case(folder);
+  }
   engine::Case spine = engine::phantom();
-  if (const auto problems = spine.check(); !problems.empty())
+  if (const auto problems = spine.check(); !problems.empty()) {
     return Error{"built-in phantom: " + problems.front()};
+  }
   return spine;
 }
 

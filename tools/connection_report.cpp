@@ -18,7 +18,9 @@ std::string line(const char* format, Values... values) {
 std::string latency_line(const char* what, const std::vector<double>& ms) {
   const auto median = engine::quantile(ms, 0.5);
   const auto p99 = engine::quantile(ms, 0.99);
-  if (!median || !p99) return {};
+  if (!median || !p99) {
+    return {};
+  }
   return line("%-40s %8.2f ms, p99 %8.2f ms\n", what, *median, *p99);
 }
 

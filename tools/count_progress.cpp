@@ -11,10 +11,11 @@ CountProgress::CountProgress(std::string what, std::int64_t total)
 void CountProgress::add_one() {
   ++done_;
   const std::string text = std::to_string(done_) + " of " + std::to_string(total_) + " " + what_;
-  if (bar_.on_terminal())
+  if (bar_.on_terminal()) {
     bar_.draw(static_cast<double>(done_) / static_cast<double>(total_), text, done_ == total_);
-  else if (done_ * 4 / total_ != (done_ - 1) * 4 / total_)
+  } else if (done_ * 4 / total_ != (done_ - 1) * 4 / total_) {
     std::fprintf(stderr, "%s\n", text.c_str());
+  }
 }
 
 }  // namespace orthonav::tools

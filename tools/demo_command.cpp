@@ -55,8 +55,12 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
   options.levels = arguments.levels;
   options.tools = engine::built_in_tools();
   options.sim.seed = arguments.seed;
-  if (arguments.perfect) options.sim.magnitudes = sim::Magnitudes::perfect();
-  if (arguments.pace) options.sim.magnitudes.pace = *arguments.pace;
+  if (arguments.perfect) {
+    options.sim.error_model = sim::ErrorModel::perfect();
+  }
+  if (arguments.pace) {
+    options.sim.error_model.pace = *arguments.pace;
+  }
   options.sim.pace = arguments.realtime ? sim::Pace::kRealtime : sim::Pace::kFast;
   options.tracker.parallel = arguments.threads > 1;
   options.loop.draw_every = kDrawEvery;
@@ -73,11 +77,19 @@ Status remove_earlier_results(const fs::path& folder) {
       "[0-9]{2,}-(setup|digitize|verify|accepted|guide|rod|done)(-[^/]*)?\\.png");
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder, code)) {
-    if (!std::regex_match(entry.path().filename().string(), kOurs)) continue;
-    if (!entry.is_directory()) fs::remove(entry.path(), code);
-    if (code) return Error{entry.path().string() + ": cannot be replaced: " + code.message()};
+    if (!std::regex_match(entry.path().filename().string(), kOurs)) {
+      continue;
+    }
+    if (!entry.is_directory()) {
+      fs::remove(entry.path(), code);
+    }
+    if (code) {
+      return Error{entry.path().string() + ": cannot be replaced: " + code.message()};
+    }
   }
-  if (code) return Error{folder.string() + ": cannot be read: " + code.message()};
+  if (code) {
+    return Error{folder.string() + ": cannot be read: " + code.message()};
+  }
   return {};
 }
 
@@ -89,21 +101,34 @@ class Demo {
 
   int run() {
     const auto method = engine::method_named(arguments_.method);
-    if (!method) return bad_input(method.error().message);
+    if (!method) {
+      return bad_input(method.error().message);
+    }
     const auto source = load_checked_case(arguments_.case_folder);
-    if (!source) return bad_input(source.error().message);
+    if (!source) {
+      return bad_input(source.error().message);
+    }
     const auto levels = engine::levels_to_operate(*source, arguments_.levels);
-    if (!levels) return bad_input("--levels: " + levels.error().message);
-    if (const Status ready = prepare(source->name); !ready) return bad_input(ready.error().message);
+    if (!levels) {
+      return bad_input("--levels: " + levels.error().message);
+    }
+    if (const Status ready = prepare(source->name); !ready) {
+      return bad_input(ready.error().message);
+    }
     const auto result = operate(*source);
-    if (!result) return ended(result.error().message);
+    if (!result) {
+      return ended(result.error().message);
+    }
     const Status written = write(*result);
     std::fputs(
         arguments_.json ? engine::report_json(*result).c_str() : operation_summary(*result).c_str(),
         stdout);
-    if (!written) return bad_input(written.error().message);
-    if (!result->completed)
+    if (!written) {
+      return bad_input(written.error().message);
+    }
+    if (!result->completed) {
       std::fprintf(stderr, "orthonav: the operation did not come to its end\n");
+    }
     return result->completed ? kDone : kNo;
   }
 
@@ -111,11 +136,20 @@ class Demo {
   /// What was written until then stays: the journal says how it ended. What never began leaves
   /// nothing.
   int ended(std::string reason) {
-    if (!began_) return bad_input(reason);
-    if (const Status done = pictures_.finish(); !done) reason += "; " + done.error().message;
-    if (video_)
-      if (const Status done = video_->finish(); !done) reason += "; " + done.error().message;
-    if (const Status done = journal_->finish(reason); !done) reason += "; " + done.error().message;
+    if (!began_) {
+      return bad_input(reason);
+    }
+    if (const Status done = pictures_.finish(); !done) {
+      reason += "; " + done.error().message;
+    }
+    if (video_) {
+      if (const Status done = video_->finish(); !done) {
+        reason += "; " + done.error().message;
+      }
+    }
+    if (const Status done = journal_->finish(reason); !done) {
+      reason += "; " + done.error().message;
+    }
     return bad_input(reason);
   }
 
@@ -123,15 +157,21 @@ class Demo {
     SurgeonViewOptions view_options;
     view_options.device = arguments_.device;
     auto view = SurgeonView::create(view_options);
-    if (!view) return view.error();
+    if (!view) {
+      return view.error();
+    }
     view_ = std::move(*view);
     auto out = OutFolder::create("--out", arguments_.out);
-    if (!out) return out.error();
+    if (!out) {
+      return out.error();
+    }
     out_.emplace(std::move(*out));
     auto journal = engine::Journal::create(
         out_->file("session.orthonav"),
         {ORTHONAV_VERSION, "sim:", arguments_.method, case_name, arguments_.seed});
-    if (!journal) return journal.error();
+    if (!journal) {
+      return journal.error();
+    }
     journal_ = std::move(*journal);
     if (!arguments_.no_video) {
       engine::VideoOptions video_options;
@@ -139,7 +179,9 @@ class Demo {
       video_options.height_px = view_options.height_px;
       video_options.frames_per_second = kVideoRate;
       auto video = engine::VideoWriter::create(out_->file("operation.mp4"), video_options);
-      if (!video) return video.error();
+      if (!video) {
+        return video.error();
+      }
       video_ = std::move(*video);
       video_pictures_ = std::make_unique<VideoPictures>(*video_);
       view_->send_to(video_pictures_.get());
@@ -152,27 +194,29 @@ class Demo {
     const engine::OperationOptions options = options_of(arguments_);
     readings_ = std::make_unique<ReadingCurves>(view_.get());
     OperationProgress progress(readings_.get());
-    engine::OperationGuests guests;
-    guests.session = {journal_.get()};
-    guests.loop = &progress;
-    guests.sink = view_.get();
+    engine::OperationHooks hooks;
+    hooks.session = {journal_.get()};
+    hooks.loop = &progress;
+    hooks.sink = view_.get();
     engine::ModelCache models(out_->file("models"));
-    guests.models = &models;
-    guests.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
-      view_->look_at(headset, options.sim.magnitudes);
+    hooks.models = &models;
+    hooks.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
+      view_->look_at(headset, options.sim.error_model);
       began_ = true;
       models.keep();
       print_notes(models);
       return remove_earlier_results(out_->path());
     };
-    return engine::run_operation(source, options, guests);
+    return engine::run_operation(source, options, hooks);
   }
 
   /// What was measured first: nothing that fails after it may take it away. The first failure.
   Status write(const engine::OperationResult& result) {
     Status first;
     const auto note = [&first](const Status& status) {
-      if (first.ok()) first = status;
+      if (first.ok()) {
+        first = status;
+      }
       return status.ok();
     };
     note(engine::write_file(out_->file("report.json"), engine::report_json(result)));

@@ -11,7 +11,9 @@ namespace {
 
 Result<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{path.string() + ": cannot be read"};
+  if (!file) {
+    return Error{path.string() + ": cannot be read"};
+  }
   return std::vector<std::uint8_t>(std::istreambuf_iterator<char>(file), {});
 }
 
@@ -30,8 +32,9 @@ std::string caption_of(const std::string& step) {
 }
 
 std::vector<std::string> notes_of(const DemoReport& report) {
-  if (!report.simulated)
+  if (!report.simulated) {
     return {"Errors against the truth are not known here. Not a medical device."};
+  }
   std::vector<std::string> notes;
   notes.push_back(report.perfect
                       ? "Simulated operating room with every source of error at zero."
@@ -52,22 +55,32 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
                          const DemoReport& report) {
   engine::ReportContent content;
   content.report_json = engine::report_json(result);
-  if (report.video) content.video = "operation.mp4";
+  if (report.video) {
+    content.video = "operation.mp4";
+  }
   content.plots = report.plots;
   content.notes = notes_of(report);
   content.timings = {{"track a stereo pair and all that follows", result.loop.step_wall_ms}};
-  if (!result.loop.draw_wall_ms.empty())
+  if (!result.loop.draw_wall_ms.empty()) {
     content.timings.push_back(
         {"draw the surgeon's view (room and holograms)", result.loop.draw_wall_ms});
-  for (const engine::LevelOutcome& level : result.levels)
-    if (level.registered) content.registrations.push_back(*level.registered);
+  }
+  for (const engine::LevelOutcome& level : result.levels) {
+    if (level.registered) {
+      content.registrations.push_back(*level.registered);
+    }
+  }
   for (const StepPicture& picture : report.pictures) {
     auto png = bytes_of(picture.path);
-    if (!png) return png.error();
+    if (!png) {
+      return png.error();
+    }
     content.pictures.push_back({picture.step, caption_of(picture.step), std::move(*png)});
   }
   const auto page = engine::report_html(content);
-  if (!page) return page.error();
+  if (!page) {
+    return page.error();
+  }
   return engine::write_file(folder / "report.html", *page);
 }
 

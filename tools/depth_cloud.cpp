@@ -9,13 +9,17 @@ namespace orthonav::tools {
 void add_points(const DepthCalibration& camera, const DepthFrame& frame, std::uint16_t max_mm,
                 engine::PointCloud& cloud) {
   const auto world_from_sensor = *frame.world_from_rig * camera.sensor_from_rig.inverse();
-  for (int y = 0; y < camera.height_px; ++y)
+  for (int y = 0; y < camera.height_px; ++y) {
     for (int x = 0; x < camera.width_px; ++x) {
       const std::uint16_t range_mm = frame.range_mm.at(x, y);
-      if (range_mm > max_mm) continue;
-      if (const auto point = camera.point_at(x, y, range_mm))
+      if (range_mm > max_mm) {
+        continue;
+      }
+      if (const auto point = camera.point_at(x, y, range_mm)) {
         cloud.add((world_from_sensor * *point).v);
+      }
     }
+  }
 }
 
 Result<CloudReport> add_all(replay::RecordedDepth& depth, std::uint16_t max_mm,
@@ -34,12 +38,15 @@ Result<CloudReport> add_all(replay::RecordedDepth& depth, std::uint16_t max_mm,
       ++report.frames_without_pose;
       continue;
     }
-    if (Status s = depth.read(recorded, frame); !s) return s.error();
+    if (Status s = depth.read(recorded, frame); !s) {
+      return s.error();
+    }
     add_points(depth.calibration, frame, max_mm, cloud);
     ++report.frames_used;
-    if (cloud.points_m().size() > kMaxPoints)
+    if (cloud.points_m().size() > kMaxPoints) {
       return Error{"more than " + std::to_string(kMaxPoints) +
                    " points; --cell-mm keeps fewer of them"};
+    }
   }
   return report;
 }

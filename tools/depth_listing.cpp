@@ -7,7 +7,9 @@
 namespace orthonav::tools {
 
 std::string in_words(const replay::DepthSummary& summary) {
-  if (!summary.trouble.empty()) return "can't be read: " + summary.trouble;
+  if (!summary.trouble.empty()) {
+    return "can't be read: " + summary.trouble;
+  }
   constexpr double kSecondsATick = 1e-7;
   const double span_s =
       kSecondsATick * static_cast<double>(summary.last_ticks_100ns - summary.first_ticks_100ns);

@@ -22,7 +22,7 @@ struct DetectArguments {
   std::vector<std::string> images;
   std::vector<std::string> families = {"tag36h11"};
   std::optional<int> max_hamming;
-  double min_margin = 25.0;
+  double min_log_likelihood_ratio = 25.0;
   double decimate = 1.0;
   std::string refine = "edges";
   bool json = false;
@@ -43,8 +43,11 @@ struct Seen {
 };
 
 int default_hamming(const std::vector<std::string>& families) {
-  for (const std::string& family : families)
-    if (nav::family_size(family) > kManyCodes) return 1;
+  for (const std::string& family : families) {
+    if (nav::family_size(family) > kManyCodes) {
+      return 1;
+    }
+  }
   return 2;
 }
 
@@ -52,18 +55,23 @@ Result<std::vector<Seen>> detect_all(const DetectArguments& arguments) {
   nav::DetectorOptions options;
   options.families = arguments.families;
   options.max_hamming = arguments.max_hamming.value_or(default_hamming(arguments.families));
-  options.min_decision_margin = arguments.min_margin;
+  options.min_decision_margin = arguments.min_log_likelihood_ratio;
   options.decimate = arguments.decimate;
   options.refinement = refinements().at(arguments.refine);
   auto detector = nav::MarkerDetector::create(options);
-  if (!detector) return detector.error();
+  if (!detector) {
+    return detector.error();
+  }
   std::vector<Seen> all;
   for (const std::string& path : arguments.images) {
     const auto image = engine::load_grey(path);
-    if (!image) return image.error();
+    if (!image) {
+      return image.error();
+    }
     Seen seen{path, image->width_px, image->height_px, {}};
-    if (Status status = detector->detect(*image, seen.markers); !status)
+    if (Status status = detector->detect(*image, seen.markers); !status) {
       return Error{path + ": " + status.error().message};
+    }
     all.push_back(std::move(seen));
   }
   return all;
@@ -78,7 +86,9 @@ std::string as_json(const std::vector<Seen>& all) {
     image["markers"] = nlohmann::ordered_json::array();
     for (const nav::MarkerCorners& marker : seen.markers) {
       nlohmann::ordered_json corners;
-      for (const Vec2 c : marker.corners_px) corners.push_back({c.x, c.y});
+      for (const Vec2 c : marker.corners_px) {
+        corners.push_back({c.x, c.y});
+      }
       image["markers"].push_back({{"family", marker.family},
                                   {"id", marker.id},
                                   {"hamming_bits", marker.hamming},
@@ -112,7 +122,9 @@ std::string as_text(const std::vector<Seen>& all) {
 
 int run_detect(const DetectArguments& arguments) {
   const auto all = detect_all(arguments);
-  if (!all) return bad_input(all.error().message);
+  if (!all) {
+    return bad_input(all.error().message);
+  }
   const std::string text = arguments.json ? as_json(*all) : as_text(*all);
   std::fwrite(text.data(), 1, text.size(), stdout);
   return kDone;
@@ -136,7 +148,7 @@ void add_detect_command(CLI::App& app, Action& action) {
                    "Corrected bits, 0-2; without it 2, 1 for families of over 10,000 codes")
       ->check(whole_number(0, 2));
   command
-      ->add_option("--min-margin", arguments->min_margin,
+      ->add_option("--min-margin", arguments->min_log_likelihood_ratio,
                    "Least decision margin, grey levels: weaker tags are left out")
       ->check(finite_number(0, 255))
       ->capture_default_str();

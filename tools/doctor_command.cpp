@@ -34,7 +34,9 @@ std::string as_json(const std::vector<Offer>& offers, bool ready) {
   for (const Offer& offer : offers) {
     nlohmann::ordered_json entry = {
         {"name", offer.name}, {"finding", word_for(offer.finding)}, {"what", offer.what}};
-    if (!offer.how.empty()) entry["how_to_get_it"] = offer.how;
+    if (!offer.how.empty()) {
+      entry["how_to_get_it"] = offer.how;
+    }
     out["offers"].push_back(std::move(entry));
   }
   return out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -48,7 +50,9 @@ std::string as_text(const std::vector<Offer>& offers, bool ready) {
     left += offer.name;
     left.resize(std::max<std::size_t>(left.size() + 2, 37), ' ');
     text += left + offer.what + "\n";
-    if (!offer.how.empty()) text += std::string(37, ' ') + "-> " + offer.how + "\n";
+    if (!offer.how.empty()) {
+      text += std::string(37, ' ') + "-> " + offer.how + "\n";
+    }
   }
   return text + (ready ? "Everything that the demo needs is here.\n"
                        : "The demo can't run: see what is missing above.\n");
@@ -58,7 +62,9 @@ int run_doctor(const DoctorArguments& arguments) {
   std::vector<Offer> offers = offers_of_machine(arguments.root);
   if (!arguments.headset.empty()) {
     const auto ports = offers_of_headset(arguments.headset);
-    if (!ports) return bad_input(ports.error().message);
+    if (!ports) {
+      return bad_input(ports.error().message);
+    }
     offers.insert(offers.end(), ports->begin(), ports->end());
   }
   const bool ready = std::none_of(offers.begin(), offers.end(), [](const Offer& offer) {

@@ -30,14 +30,17 @@ struct GoldenOptions {
 /// The scenes of those names; an error names one that does not exist.
 Result<std::vector<engine::GoldenScene>> chosen_scenes(const std::vector<std::string>& names) {
   std::vector<engine::GoldenScene> all = engine::golden_scenes();
-  if (names.empty()) return all;
+  if (names.empty()) {
+    return all;
+  }
   std::vector<engine::GoldenScene> chosen;
   for (const std::string& name : names) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const engine::GoldenScene& scene) {
       return scene.name == name;
     });
-    if (found == all.end())
+    if (found == all.end()) {
       return Error{"no golden scene '" + name + "'; see: orthonav golden list"};
+    }
     chosen.push_back(*found);
   }
   return chosen;
@@ -53,15 +56,23 @@ int list_scenes() {
 
 int render_scenes(const GoldenOptions& options) {
   const auto scenes = chosen_scenes(options.scenes);
-  if (!scenes) return bad_input(scenes.error().message);
+  if (!scenes) {
+    return bad_input(scenes.error().message);
+  }
   const auto out = OutFolder::create("--out", options.out);
-  if (!out) return bad_input(out.error().message);
+  if (!out) {
+    return bad_input(out.error().message);
+  }
   engine::GoldenPainter painter(options.device);
   for (const engine::GoldenScene& scene : *scenes) {
     const auto images = painter.paint(scene);
-    if (!images) return bad_input(images.error().message);
+    if (!images) {
+      return bad_input(images.error().message);
+    }
     const Status written = engine::write_goldens(options.out, scene.name, *images);
-    if (!written) return bad_input(written.error().message);
+    if (!written) {
+      return bad_input(written.error().message);
+    }
     std::printf("%s\n", scene.name.c_str());
   }
   return kDone;
@@ -69,17 +80,23 @@ int render_scenes(const GoldenOptions& options) {
 
 int review(const GoldenOptions& options) {
   const auto scenes = chosen_scenes(options.scenes);
-  if (!scenes) return bad_input(scenes.error().message);
+  if (!scenes) {
+    return bad_input(scenes.error().message);
+  }
   engine::GoldenPainter painter(options.device);
   std::vector<engine::GoldenVerdict> verdicts;
   const std::vector<std::string> orphans = options.scenes.empty()
                                                ? engine::orphaned_goldens(options.folder, *scenes)
                                                : std::vector<std::string>{};
   bool alike = orphans.empty();
-  for (const std::string& orphan : orphans) std::printf("%s belongs to no scene\n", orphan.c_str());
+  for (const std::string& orphan : orphans) {
+    std::printf("%s belongs to no scene\n", orphan.c_str());
+  }
   for (const engine::GoldenScene& scene : *scenes) {
     auto verdict = engine::judge(painter, scene, options.folder);
-    if (!verdict) return bad_input(verdict.error().message);
+    if (!verdict) {
+      return bad_input(verdict.error().message);
+    }
     alike = alike && verdict->problems.empty();
     for (const std::string& problem : verdict->problems) {
       std::printf("%s: %s\n", scene.name.c_str(), problem.c_str());
@@ -87,7 +104,9 @@ int review(const GoldenOptions& options) {
     verdicts.push_back(std::move(*verdict));
   }
   const Result<std::string> page = engine::review_page(verdicts, orphans);
-  if (!page) return bad_input(page.error().message);
+  if (!page) {
+    return bad_input(page.error().message);
+  }
   if (const Status written = engine::write_file(options.out, *page); !written) {
     return bad_input(written.error().message);
   }
@@ -101,12 +120,16 @@ std::string reasons_with(const fs::path& file, const std::string& scene, const s
   std::vector<std::string> lines;
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
-    if (!line.empty() && !line.starts_with(scene + ": ")) lines.push_back(line);
+    if (!line.empty() && !line.starts_with(scene + ": ")) {
+      lines.push_back(line);
+    }
   }
   lines.push_back(scene + ": " + why);
   std::sort(lines.begin(), lines.end());
   std::string text;
-  for (const std::string& line : lines) text += line + "\n";
+  for (const std::string& line : lines) {
+    text += line + "\n";
+  }
   return text;
 }
 
@@ -115,20 +138,32 @@ int approve(const GoldenOptions& options) {
     return bad_input("--why: a reason in one line is needed");
   }
   const auto scenes = chosen_scenes(options.scenes);
-  if (!scenes) return bad_input(scenes.error().message);
-  if (!fs::is_directory(options.folder)) return bad_input(options.folder + ": no such folder");
+  if (!scenes) {
+    return bad_input(scenes.error().message);
+  }
+  if (!fs::is_directory(options.folder)) {
+    return bad_input(options.folder + ": no such folder");
+  }
   engine::GoldenPainter painter(options.device, true);
   const engine::GoldenScene& scene = scenes->front();
   const auto images = painter.paint(scene);
-  if (!images) return bad_input(images.error().message);
+  if (!images) {
+    return bad_input(images.error().message);
+  }
   const std::vector<std::string> messages = painter.validation_messages();
-  if (!messages.empty()) return bad_input("not approved; validation: " + messages.front());
+  if (!messages.empty()) {
+    return bad_input("not approved; validation: " + messages.front());
+  }
   const Status written = engine::write_goldens(options.folder, scene.name, *images);
-  if (!written) return bad_input(written.error().message);
+  if (!written) {
+    return bad_input(written.error().message);
+  }
   const fs::path reasons = fs::path(options.folder) / kReasonsFile;
   const Status noted =
       engine::write_file(reasons.string(), reasons_with(reasons, scene.name, options.why));
-  if (!noted) return bad_input(noted.error().message);
+  if (!noted) {
+    return bad_input(noted.error().message);
+  }
   std::printf("%s approved\n", scene.name.c_str());
   return kDone;
 }
@@ -161,7 +196,9 @@ void add_golden_command(CLI::App& app, Action& action) {
   page->add_option("--out", options->out, "HTML file to write")->default_str("golden-review.html");
   add_common(page);
   page->callback([&action, options] {
-    if (options->out.empty()) options->out = "golden-review.html";
+    if (options->out.empty()) {
+      options->out = "golden-review.html";
+    }
     action = [options] { return review(*options); };
   });
 

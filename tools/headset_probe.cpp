@@ -17,17 +17,22 @@ constexpr std::string_view kReplay = "replay:";
 
 Result<std::vector<Offer>> offers_of_ports(std::string_view address) {
   const auto options = hl2ss::options_of(address);
-  if (!options) return Error{"--headset: " + options.error().message};
+  if (!options) {
+    return Error{"--headset: " + options.error().message};
+  }
   const auto ports = hl2ss::probe(*options);
-  if (!ports) return Error{"--headset: " + ports.error().message};
+  if (!ports) {
+    return Error{"--headset: " + ports.error().message};
+  }
   std::vector<Offer> offers;
   for (const hl2ss::ProbedPort& port : *ports) {
     const std::string where = options->host + ", port " + std::to_string(port.port);
-    if (port.trouble.empty())
+    if (port.trouble.empty()) {
       offers.push_back({"HoloLens 2: " + port.name, Finding::kFound, where, ""});
-    else
+    } else {
       offers.push_back({"HoloLens 2: " + port.name, Finding::kOptional, where + ": " + port.trouble,
                         "start hl2ss on the headset (docs/headsets.md)"});
+    }
   }
   return offers;
 }
@@ -47,7 +52,9 @@ std::string span_after(std::int64_t start_100ns, std::int64_t first_100ns,
 
 Result<std::vector<Offer>> offers_of_recording(const std::string& folder) {
   const auto recording = replay::ReplayHeadset::open(folder);
-  if (!recording) return recording.error();
+  if (!recording) {
+    return recording.error();
+  }
   const replay::RecordingSummary& summary = (*recording)->summary();
   const std::int64_t start = summary.first_ticks_100ns;
   std::vector<Offer> offers = {
@@ -71,10 +78,13 @@ Result<std::vector<Offer>> offers_of_recording(const std::string& folder) {
 
 Result<std::vector<Offer>> offers_of_headset(const std::string& uri) {
   const std::string_view text(uri);
-  if (text.starts_with(kHl2ss)) return offers_of_ports(text.substr(kHl2ss.size()));
-  if (text.starts_with(kReplay))
+  if (text.starts_with(kHl2ss)) {
+    return offers_of_ports(text.substr(kHl2ss.size()));
+  }
+  if (text.starts_with(kReplay)) {
     return offers_of_recording(
         std::string(text.substr(kReplay.size(), text.find('?') - kReplay.size())));
+  }
   return Error{"--headset: \"" + uri +
                "\" can't be looked at; known are hl2ss://HOST and replay:PATH"};
 }

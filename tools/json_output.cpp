@@ -20,7 +20,9 @@ bool JsonOutput::on_stdout() const {
 }
 
 Status JsonOutput::check() const {
-  if (!given() || on_stdout()) return {};
+  if (!given() || on_stdout()) {
+    return {};
+  }
   const auto place = engine::AtomicFile::create(place_);
   return place ? Status{} : Status{place.error()};
 }
@@ -30,10 +32,11 @@ Status JsonOutput::write(const nlohmann::ordered_json& content) const {
 }
 
 Status JsonOutput::write_text(const std::string& text) const {
-  if (on_stdout())
+  if (on_stdout()) {
     std::fputs(text.c_str(), stdout);
-  else if (given())
+  } else if (given()) {
     return engine::write_file(place_, text);
+  }
   return {};
 }
 

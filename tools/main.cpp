@@ -23,10 +23,13 @@ namespace {
 /// Whatever the library says of the command line, in one line.
 int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* asked = &app;
-  while (!asked->get_subcommands().empty()) asked = asked->get_subcommands().front();
+  while (!asked->get_subcommands().empty()) {
+    asked = asked->get_subcommands().front();
+  }
   std::string way;
-  for (const CLI::App* part = asked; part != nullptr; part = part->get_parent())
+  for (const CLI::App* part = asked; part != nullptr; part = part->get_parent()) {
     way = part->get_name() + (way.empty() ? "" : " " + way);
+  }
   // Without a known command the library misses one; what was written instead says more.
   const std::vector<std::string> unknown = app.remaining(true);
   const bool no_command = asked->get_require_subcommand_min() > 0 && !unknown.empty();
@@ -38,7 +41,9 @@ int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
 int with_output_written(int code) {
   errno = 0;
   std::cout.flush();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) {
+    return code;
+  }
   const char* why = errno != 0 ? std::strerror(errno) : "write error";
   return bad_input(std::string("standard output: cannot be written: ") + why);
 }
@@ -67,7 +72,9 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() != 0) return bad_command_line(app, error);
+    if (error.get_exit_code() != 0) {
+      return bad_command_line(app, error);
+    }
     return with_output_written(app.exit(error) == 0 ? kDone : kBadInput);
   }
   return with_output_written(action ? action() : kBadInput);

@@ -13,7 +13,9 @@ std::optional<int> whole(const std::string& text) {
   int value = 0;
   const char* end = text.data() + text.size();
   const auto [rest, code] = std::from_chars(text.data(), end, value);
-  if (text.empty() || code != std::errc() || rest != end || value < 0) return std::nullopt;
+  if (text.empty() || code != std::errc() || rest != end || value < 0) {
+    return std::nullopt;
+  }
   return value;
 }
 
@@ -26,13 +28,16 @@ Result<std::vector<int>> number_list(const std::string& text, std::size_t most) 
     const std::size_t dash = field.find('-');
     const auto first = whole(field.substr(0, dash));
     const auto last = dash == std::string::npos ? first : whole(field.substr(dash + 1));
-    if (!first || !last || *last < *first)
+    if (!first || !last || *last < *first) {
       return Error{"\"" + field + "\" must be a whole number or a range such as 0-5"};
+    }
     for (std::int64_t number = *first; number <= *last; ++number) {
-      if (numbers.size() == most)
+      if (numbers.size() == most) {
         return Error{"\"" + text + "\" holds more than " + std::to_string(most) + " numbers"};
-      if (!seen.insert(static_cast<int>(number)).second)
+      }
+      if (!seen.insert(static_cast<int>(number)).second) {
         return Error{"\"" + text + "\" holds " + std::to_string(number) + " twice"};
+      }
       numbers.push_back(static_cast<int>(number));
     }
   }

@@ -8,7 +8,9 @@ namespace orthonav::tools {
 namespace {
 
 std::string number(const std::optional<double>& value, double scale, const char* unit) {
-  if (!value) return "-";
+  if (!value) {
+    return "-";
+  }
   char text[48];
   std::snprintf(text, sizeof text, "%.2f %s", *value * scale, unit);
   return text;
@@ -20,7 +22,9 @@ std::string operation_summary(const engine::OperationResult& result) {
   std::string out = "case " + result.case_name + ", method " + result.method +
                     (result.seed ? ", seed " + std::to_string(*result.seed) : "") +
                     (result.completed ? ": completed\n" : ": not completed\n");
-  if (!result.why_not.empty()) out += result.why_not + "\n";
+  if (!result.why_not.empty()) {
+    out += result.why_not + "\n";
+  }
   for (const engine::LevelOutcome& level : result.levels) {
     if (level.attempts == 0) {
       out += level.label + ": not reached\n";
@@ -31,16 +35,18 @@ std::string operation_summary(const engine::OperationResult& result) {
            ", TRE " + number(level.tre_m, 1e3, "mm") + ", " +
            (level.points ? std::to_string(*level.points) : "-") + " points in " +
            number(level.digitization_s, 1.0, "s") + "\n";
-    for (const engine::ScrewOutcome& screw : level.screws)
+    for (const engine::ScrewOutcome& screw : level.screws) {
       out += "  " + std::string(engine::name_of(screw.side)) + ": angle error " +
              number(screw.angle_error_rad, kDegreesPerRadian, "deg") + ", entry error " +
              number(screw.entry_error_m, 1e3, "mm") + "\n";
+    }
   }
-  for (const engine::RodOutcome& rod : result.rods)
+  for (const engine::RodOutcome& rod : result.rods) {
     out += "rod " + std::string(engine::name_of(rod.side)) + ": length " +
            number(rod.length_m, 1e3, "mm") + ", length error " +
            number(rod.length_error_m, 1e3, "mm") + ", head error " +
            number(rod.head_error_m, 1e3, "mm") + "\n";
+  }
   out += std::to_string(result.loop.displayed) + " frames displayed\n";
   return out;
 }

@@ -29,32 +29,49 @@ int preview_window(PreviewArguments arguments) {
   source.headset = arguments.headset;
   source.tools_file = arguments.tools_file;
   auto method = engine::method_named(arguments.method);
-  if (!method) return bad_input(method.error().message);
+  if (!method) {
+    return bad_input(method.error().message);
+  }
   source.method = std::move(*method);
   auto loaded = load_checked_case(arguments.case_folder);
-  if (!loaded) return bad_input(loaded.error().message);
+  if (!loaded) {
+    return bad_input(loaded.error().message);
+  }
   source.source = std::move(*loaded);
   const auto levels = engine::levels_to_operate(source.source, arguments.levels);
-  if (!levels) return bad_input("--levels: " + levels.error().message);
+  if (!levels) {
+    return bad_input("--levels: " + levels.error().message);
+  }
   std::optional<preview::Script> script;
   if (!arguments.script.empty()) {
     auto parsed = preview::Script::load(arguments.script);
-    if (!parsed) return bad_input(parsed.error().message);
+    if (!parsed) {
+      return bad_input(parsed.error().message);
+    }
     script = std::move(*parsed);
   }
-  if (arguments.perfect) arguments.options.room.magnitudes = sim::Magnitudes::perfect();
-  if (arguments.pace) arguments.options.room.magnitudes.pace = *arguments.pace;
+  if (arguments.perfect) {
+    arguments.options.room.error_model = sim::ErrorModel::perfect();
+  }
+  if (arguments.pace) {
+    arguments.options.room.error_model.pace = *arguments.pace;
+  }
 
   preview::PreviewApp app(arguments.options, std::move(script));
-  if (const Status opened = app.open_window(); !opened) return bad_input(opened.error().message);
+  if (const Status opened = app.open_window(); !opened) {
+    return bad_input(opened.error().message);
+  }
   engine::ModelCache models(arguments.models);
   auto operation = engine::plan_operation(source.source, arguments.levels, models);
-  if (!operation) return bad_input(operation.error().message);
+  if (!operation) {
+    return bad_input(operation.error().message);
+  }
   source.operation = std::move(*operation);
   models.keep();
   print_notes(models);
-  if (const Status opened = app.open_operation(std::move(source)); !opened)
+  if (const Status opened = app.open_operation(std::move(source)); !opened) {
     return bad_input(opened.error().message);
+  }
   const Status done = app.run();
   return done ? kDone : bad_input(done.error().message);
 }
@@ -62,11 +79,16 @@ int preview_window(PreviewArguments arguments) {
 /// `WIDTHxHEIGHT` in pixels, each even, for a video's sake.
 std::string check_size(const std::string& text) {
   const auto size = size_from(text);
-  if (!size) return "\"" + text + "\" is not WIDTHxHEIGHT, as 960x540";
+  if (!size) {
+    return "\"" + text + "\" is not WIDTHxHEIGHT, as 960x540";
+  }
   const auto [width, height] = *size;
-  if (width < 160 || width > 3840 || height < 120 || height > 2160)
+  if (width < 160 || width > 3840 || height < 120 || height > 2160) {
     return text + " must lie from 160x120 to 3840x2160";
-  if (width % 2 != 0 || height % 2 != 0) return text + " must be even";
+  }
+  if (width % 2 != 0 || height % 2 != 0) {
+    return text + " must be even";
+  }
   return {};
 }
 

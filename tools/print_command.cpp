@@ -57,13 +57,20 @@ struct BoardArguments {
 int print_tags(const TagArguments& arguments, const std::vector<engine::PrintedTag>& tags,
                const std::string& title) {
   const auto page = engine::page_named(arguments.page.page, arguments.page.landscape);
-  if (!page) return bad_input(page.error().message);
+  if (!page) {
+    return bad_input(page.error().message);
+  }
   const auto sheets = engine::tag_sheets(tags, {*page, arguments.quiet_cells});
-  if (!sheets) return bad_input(sheets.error().message);
+  if (!sheets) {
+    return bad_input(sheets.error().message);
+  }
   const auto pdf = engine::pdf_of(sheets->sheets, title);
-  if (!pdf) return bad_input(pdf.error().message);
-  if (Status s = engine::write_file(arguments.page.out, *pdf); !s)
+  if (!pdf) {
+    return bad_input(pdf.error().message);
+  }
+  if (Status s = engine::write_file(arguments.page.out, *pdf); !s) {
     return bad_input(s.error().message);
+  }
   std::printf("%s: %zu %s on %zu %s (%s); print at 100 %%, both rulers must be 100 mm\n",
               arguments.page.out.c_str(), tags.size(), tags.size() == 1 ? "tag" : "tags",
               sheets->sheets.size(), sheets->sheets.size() == 1 ? "page" : "pages",
@@ -73,27 +80,37 @@ int print_tags(const TagArguments& arguments, const std::vector<engine::PrintedT
 
 int run_tags(const TagArguments& arguments) {
   const auto ids = number_list(arguments.ids, kMostTags);
-  if (!ids) return bad_input("--ids: " + ids.error().message);
+  if (!ids) {
+    return bad_input("--ids: " + ids.error().message);
+  }
   std::vector<engine::PrintedTag> tags;
-  for (const int id : *ids) tags.push_back({{arguments.family, id, arguments.size_mm * 1e-3}, ""});
+  for (const int id : *ids) {
+    tags.push_back({{arguments.family, id, arguments.size_mm * 1e-3}, ""});
+  }
   return print_tags(arguments, tags, "orthonav tags");
 }
 
 int run_tool(const TagArguments& arguments) {
   const auto tools = engine::load_tools(arguments.tools_file);
-  if (!tools) return bad_input(tools.error().message);
+  if (!tools) {
+    return bad_input(tools.error().message);
+  }
   std::vector<engine::PrintedTag> tags;
   std::string known;
   for (const nav::ToolGeometry& tool : *tools) {
     known += (known.empty() ? "" : ", ") + tool.name;
-    if (!arguments.name.empty() && tool.name != arguments.name) continue;
+    if (!arguments.name.empty() && tool.name != arguments.name) {
+      continue;
+    }
     tags.push_back({tool.marker, tool.name});
-    for (const nav::AttachedMarker& more : tool.more_markers)
+    for (const nav::AttachedMarker& more : tool.more_markers) {
       tags.push_back({more.definition, tool.name});
+    }
   }
-  if (tags.empty())
+  if (tags.empty()) {
     return bad_input(arguments.tools_file + ": no tool \"" + arguments.name + "\", there are " +
                      known);
+  }
   return print_tags(arguments, tags, "orthonav tool tags");
 }
 
@@ -107,7 +124,9 @@ Result<engine::Board> board_of(const BoardArguments& arguments) {
   board.rows = arguments.rows.value_or(chessboard ? 10 : 6);
   board.size_m = arguments.size_mm * 1e-3;
   if (chessboard) {
-    if (arguments.gap_mm) return Error{"--gap-mm: a chessboard has no gaps"};
+    if (arguments.gap_mm) {
+      return Error{"--gap-mm: a chessboard has no gaps"};
+    }
     board.family.clear();
     board.border_cells = 0;
     return board;
@@ -122,29 +141,44 @@ Result<engine::Board> board_of(const BoardArguments& arguments) {
 
 /// Beside the PDF, unless told otherwise.
 std::string json_place(const BoardArguments& arguments) {
-  if (!arguments.json.empty()) return arguments.json;
+  if (!arguments.json.empty()) {
+    return arguments.json;
+  }
   return std::filesystem::path(arguments.page.out).replace_extension(".json").string();
 }
 
 int run_board(const BoardArguments& arguments) {
   const auto page = engine::page_named(arguments.page.page, arguments.page.landscape);
-  if (!page) return bad_input(page.error().message);
+  if (!page) {
+    return bad_input(page.error().message);
+  }
   const auto board = board_of(arguments);
-  if (!board) return bad_input(board.error().message);
+  if (!board) {
+    return bad_input(board.error().message);
+  }
   const std::string json = json_place(arguments);
   if (std::filesystem::path(json).lexically_normal() ==
-      std::filesystem::path(arguments.page.out).lexically_normal())
+      std::filesystem::path(arguments.page.out).lexically_normal()) {
     return bad_input(json + ": is both the PDF and the board's description");
+  }
   const auto sheet = engine::board_sheet(*board, *page);
-  if (!sheet) return bad_input(sheet.error().message);
+  if (!sheet) {
+    return bad_input(sheet.error().message);
+  }
   const auto pdf = engine::pdf_of({&sheet->sheet, 1}, "orthonav board");
-  if (!pdf) return bad_input(pdf.error().message);
+  if (!pdf) {
+    return bad_input(pdf.error().message);
+  }
   // Before anything gets its name, so that an unwritable place leaves neither file.
-  if (auto place = engine::AtomicFile::create(arguments.page.out); !place)
+  if (auto place = engine::AtomicFile::create(arguments.page.out); !place) {
     return bad_input(place.error().message);
-  if (Status s = engine::save_board(json, *board); !s) return bad_input(s.error().message);
-  if (Status s = engine::write_file(arguments.page.out, *pdf); !s)
+  }
+  if (Status s = engine::save_board(json, *board); !s) {
     return bad_input(s.error().message);
+  }
+  if (Status s = engine::write_file(arguments.page.out, *pdf); !s) {
+    return bad_input(s.error().message);
+  }
   std::printf(
       "%s: %s board %d x %d on %s, %.3f x %.3f mm; print at 100 %%, both rulers must be "
       "100 mm\n%s: its description\n",

@@ -13,34 +13,49 @@ constexpr double kRod = 1.0;
 
 }  // namespace
 
-double share_done(const engine::Guidance& g) {
+double fraction_done(const engine::Guidance& g) {
   double all = 2.0 * kRod;
   double done = 0.0;
   for (const engine::LevelState& level : g.levels) {
     all += kDigitize + kScrew * static_cast<double>(level.screw_done.size());
-    if (level.registration) done += kDigitize;
-    for (const bool screw : level.screw_done) done += screw ? kScrew : 0.0;
+    if (level.registration) {
+      done += kDigitize;
+    }
+    for (const bool screw : level.screw_done) {
+      done += screw ? kScrew : 0.0;
+    }
   }
-  if (g.step == engine::Step::kDone) done += 2.0 * kRod;
+  if (g.step == engine::Step::kDone) {
+    done += 2.0 * kRod;
+  }
   return std::clamp(done / all, 0.0, 1.0);
 }
 
 void OperationProgress::stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                                 const engine::Guidance& guidance) {
-  if (next_) next_->stepped(frame, inputs, guidance);
-  if (step_.empty()) first_ = frame.time;
+  if (next_) {
+    next_->stepped(frame, inputs, guidance);
+  }
+  if (step_.empty()) {
+    first_ = frame.time;
+  }
   const bool another = guidance.step_text != step_;
-  if (another) step_ = guidance.step_text;
-  const double share = share_done(guidance);
-  if (bar_.on_terminal())
-    bar_.draw(share, step_, another);
-  else if (another)
-    std::fprintf(stderr, "%3.0f %%  %-18s  operation %6.1f s, elapsed %5.1f s\n", 100.0 * share,
+  if (another) {
+    step_ = guidance.step_text;
+  }
+  const double fraction = fraction_done(guidance);
+  if (bar_.on_terminal()) {
+    bar_.draw(fraction, step_, another);
+  } else if (another) {
+    std::fprintf(stderr, "%3.0f %%  %-18s  operation %6.1f s, elapsed %5.1f s\n", 100.0 * fraction,
                  step_.c_str(), seconds(frame.time - first_), bar_.elapsed_s());
+  }
 }
 
 void OperationProgress::captured(const engine::Snapshot& snapshot) {
-  if (next_) next_->captured(snapshot);
+  if (next_) {
+    next_->captured(snapshot);
+  }
 }
 
 }  // namespace orthonav::tools

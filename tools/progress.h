@@ -25,6 +25,6 @@ class OperationProgress : public engine::LoopObserver {
 };
 
 /// How far an operation is, in [0, 1]: digitizing counts for much of a level, a screw for some.
-[[nodiscard]] double share_done(const engine::Guidance& guidance);
+[[nodiscard]] double fraction_done(const engine::Guidance& guidance);
 
 }  // namespace orthonav::tools

@@ -12,32 +12,39 @@ namespace {
 constexpr auto kRedrawEvery = std::chrono::milliseconds(200);
 constexpr int kColumns = 30;
 /// Before so much is done, an estimate of the rest says nothing.
-constexpr double kLeastShareForEstimate = 0.05;
+constexpr double kLeastFractionForEstimate = 0.05;
 
 }  // namespace
 
 ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {
-  if (drawn_once_) std::fputs("\r\033[K", stderr);
+  if (drawn_once_) {
+    std::fputs("\r\033[K", stderr);
+  }
 }
 
 double ProgressBar::elapsed_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-void ProgressBar::draw(double share, const std::string& what, bool now) {
-  if (!terminal_) return;
+void ProgressBar::draw(double fraction, const std::string& what, bool now) {
+  if (!terminal_) {
+    return;
+  }
   const auto time = std::chrono::steady_clock::now();
-  if (!now && drawn_once_ && time - drawn_ < kRedrawEvery) return;
+  if (!now && drawn_once_ && time - drawn_ < kRedrawEvery) {
+    return;
+  }
   drawn_ = time;
   drawn_once_ = true;
-  share = std::clamp(share, 0.0, 1.0);
-  std::string cells(static_cast<std::size_t>(std::lround(share * kColumns)), '#');
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  std::string cells(static_cast<std::size_t>(std::lround(fraction * kColumns)), '#');
   cells.resize(kColumns, '.');
-  std::fprintf(stderr, "\r\033[K[%s] %3.0f %%  %s", cells.c_str(), 100.0 * share, what.c_str());
-  if (share > kLeastShareForEstimate)
-    std::fprintf(stderr, ", about %.0f s left", elapsed_s() * (1.0 - share) / share);
+  std::fprintf(stderr, "\r\033[K[%s] %3.0f %%  %s", cells.c_str(), 100.0 * fraction, what.c_str());
+  if (fraction > kLeastFractionForEstimate) {
+    std::fprintf(stderr, ", about %.0f s left", elapsed_s() * (1.0 - fraction) / fraction);
+  }
   std::fflush(stderr);
 }
 

@@ -16,7 +16,7 @@ class ProgressBar {
 
   [[nodiscard]] bool on_terminal() const { return terminal_; }
   /// Draws, unless it did a moment ago; `now` draws all the same. `share` in [0, 1].
-  void draw(double share, const std::string& what, bool now = false);
+  void draw(double fraction, const std::string& what, bool now = false);
   [[nodiscard]] double elapsed_s() const;
 
  private:

@@ -6,10 +6,15 @@ namespace orthonav::tools {
 
 void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                             const engine::Guidance& guidance) {
-  if (next_) next_->stepped(frame, inputs, guidance);
-  if (guidance.step != engine::Step::kGuide || !guidance.tool || !guidance.tool->measured) return;
-  if (screws_.empty() || screws_.back().name != guidance.step_text)
+  if (next_) {
+    next_->stepped(frame, inputs, guidance);
+  }
+  if (guidance.step != engine::Step::kGuide || !guidance.tool || !guidance.tool->measured) {
+    return;
+  }
+  if (screws_.empty() || screws_.back().name != guidance.step_text) {
     screws_.push_back({guidance.step_text, frame.time, {}, {}, {}});
+  }
   Screw& screw = screws_.back();
   screw.time_s.push_back(seconds(frame.time - screw.begin));
   screw.angle_deg.push_back(degrees(guidance.tool->measured->angle_rad));
@@ -17,7 +22,9 @@ void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inpu
 }
 
 void ReadingCurves::captured(const engine::Snapshot& snapshot) {
-  if (next_) next_->captured(snapshot);
+  if (next_) {
+    next_->captured(snapshot);
+  }
 }
 
 std::vector<engine::ReportPlot> ReadingCurves::plots() const {
@@ -37,7 +44,9 @@ std::vector<engine::ReportPlot> ReadingCurves::plots() const {
     angle.curves.push_back({name, screw.time_s, screw.angle_deg});
     distance.curves.push_back({name, screw.time_s, screw.distance_mm});
   }
-  if (screws_.empty()) return {};
+  if (screws_.empty()) {
+    return {};
+  }
   return {angle, distance};
 }
 

@@ -13,9 +13,15 @@ Status for_each_pair(replay::ReplayHeadset& recording,
   StereoFrame frame;
   for (;;) {
     const Result<Next> next = recording.cameras().next(frame);
-    if (!next) return next.error();
-    if (*next == Next::kEnd) return {};
-    if (*next == Next::kNone) continue;
+    if (!next) {
+      return next.error();
+    }
+    if (*next == Next::kEnd) {
+      return {};
+    }
+    if (*next == Next::kNone) {
+      continue;
+    }
     use(frame);
     progress.add_one();
   }
@@ -25,32 +31,48 @@ Result<MeasuredPoses> measured_poses(const std::string& recording, const std::st
                                      const nav::ToolGeometry& tool,
                                      const nav::TrackerOptions& options) {
   const auto known = engine::method_named(method);
-  if (!known) return known.error();
+  if (!known) {
+    return known.error();
+  }
   const auto headset = replay::ReplayHeadset::open(recording);
-  if (!headset) return headset.error();
+  if (!headset) {
+    return headset.error();
+  }
   const auto tracker = known->create_tracker((*headset)->cameras().calibration(), {tool}, options);
-  if (!tracker) return tracker.error();
+  if (!tracker) {
+    return tracker.error();
+  }
   MeasuredPoses poses;
   const Status read = for_each_pair(**headset, [&](const StereoFrame& frame) {
     ++poses.pairs;
-    for (const nav::ToolState& state : (*tracker)->track(frame))
-      if (state.world_from_marker.origin == Origin::kMeasured)
+    for (const nav::ToolState& state : (*tracker)->track(frame)) {
+      if (state.world_from_marker.status == PoseStatus::kMeasured) {
         poses.world_from_marker.push_back(state.world_from_marker);
+      }
+    }
   });
-  if (!read) return read.error();
+  if (!read) {
+    return read.error();
+  }
   return poses;
 }
 
 Result<RecordedSightings> recorded_sightings(const std::string& recording,
                                              std::vector<nav::MarkerDefinition> tags) {
   const auto headset = replay::ReplayHeadset::open(recording);
-  if (!headset) return headset.error();
+  if (!headset) {
+    return headset.error();
+  }
   const StereoCalibration& calibration = (*headset)->cameras().calibration();
   auto collector = nav::SightingCollector::create(calibration, std::move(tags));
-  if (!collector) return collector.error();
+  if (!collector) {
+    return collector.error();
+  }
   const Status read =
       for_each_pair(**headset, [&](const StereoFrame& frame) { collector->add(frame); });
-  if (!read) return read.error();
+  if (!read) {
+    return read.error();
+  }
   return RecordedSightings{calibration, collector->pairs()};
 }
 

@@ -20,7 +20,9 @@ struct RegisterOutputs {
   std::string report;  ///< empty: none
 
   [[nodiscard]] Status check() const {
-    if (const Status s = json.check(); !s || report.empty()) return s;
+    if (const Status s = json.check(); !s || report.empty()) {
+      return s;
+    }
     const auto place = engine::AtomicFile::create(report);
     return place ? Status{} : Status{place.error()};
   }
@@ -29,8 +31,12 @@ struct RegisterOutputs {
     if (!report.empty()) {
       const auto page =
           engine::registration_page(level, std::filesystem::path(points).filename().string());
-      if (!page) return page.error();
-      if (const Status s = engine::write_file(report, *page); !s) return s;
+      if (!page) {
+        return page.error();
+      }
+      if (const Status s = engine::write_file(report, *page); !s) {
+        return s;
+      }
     }
     return json.write(engine::registration_json(level, frame));
   }
@@ -45,47 +51,59 @@ void print_screws(const engine::RegisteredLevel& level) {
                   e.within_95_m * 1e3);
     return std::string(text);
   };
-  for (const engine::ScrewErrors& s : engine::errors_at_screws(level))
+  for (const engine::ScrewErrors& s : engine::errors_at_screws(level)) {
     std::printf("error to expect at the %s screw: entry %s, target %s\n", engine::name_of(s.side),
                 place(s.entry).c_str(), place(s.target).c_str());
+  }
 }
 
 void print(const engine::RegisteredLevel& level, const engine::FigureFrame& frame) {
   const nav::Registration& r = level.registration;
   std::printf("%s: %zu points, RMSE %.2f mm", r.accepted ? "accepted" : "refused", r.points,
               r.rmse_m * 1e3);
-  if (engine::runner_up_distance(level))
+  if (engine::runner_up_distance(level)) {
     std::printf(", next best pose %.2f mm", r.runner_up_rmse_m * 1e3);
+  }
   std::printf("\n");
-  if (r.noise_m > 0.0)
+  if (r.noise_m > 0.0) {
     std::printf(
         "%.0f %% of the points on the bone, scatter %.2f mm at a mean height of %.2f mm, worth "
         "%.0f independent ones; %.0f %% of the surface stroked\n",
-        r.inlier_share * 1e2, r.noise_m * 1e3, r.lift_m * 1e3, r.effective_points,
-        r.coverage_share * 1e2);
+        r.inlier_fraction * 1e2, r.noise_m * 1e3, r.standoff_m * 1e3, r.effective_points,
+        r.coverage_fraction * 1e2);
+  }
   std::printf("%s\n", engine::ambiguity_of(level).c_str());
   print_screws(level);
   std::printf("%s\n", engine::certainty_of(level).c_str());
   std::printf("model to points (%s):\n", frame.points_unit_m == 1.0 ? "m" : "mm");
   const auto a = engine::model_to_points(r.world_from_vertebra, frame);
-  for (std::size_t i = 0; i < 16; i += 4)
+  for (std::size_t i = 0; i < 16; i += 4) {
     std::printf("%12.6f %12.6f %12.6f %14.6f\n", a[i], a[i + 1], a[i + 2], a[i + 3]);
+  }
 }
 
 /// Why not, and what to do about it.
 void print_refusal(const nav::Registration& r) {
-  for (const std::string& reason : r.reasons)
+  for (const std::string& reason : r.reasons) {
     std::fprintf(stderr, "orthonav: refused: %s\n", reason.c_str());
-  if (!r.accepted && !r.advice.empty())
+  }
+  if (!r.accepted && !r.advice.empty()) {
     std::fprintf(stderr, "orthonav: to know the pose better: %s\n", r.advice.c_str());
+  }
 }
 
 int run_register(const RegisterArguments& arguments, const RegisterOutputs& outputs) {
   const auto registrar = engine::registrar_named(arguments.method);
-  if (!registrar) return bad_input(registrar.error().message);
-  if (const Status s = outputs.check(); !s) return bad_input(s.error().message);
+  if (!registrar) {
+    return bad_input(registrar.error().message);
+  }
+  if (const Status s = outputs.check(); !s) {
+    return bad_input(s.error().message);
+  }
   const auto inputs = load_register_inputs(arguments);
-  if (!inputs) return bad_input(inputs.error().message);
+  if (!inputs) {
+    return bad_input(inputs.error().message);
+  }
   const double tip_radius_m = arguments.tip_radius_mm * 1e-3;
   const auto registration = (*registrar)({*inputs->level.model,
                                           inputs->points,
@@ -94,13 +112,18 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
                                           {},
                                           {},
                                           tip_radius_m});
-  if (!registration) return bad_input(arguments.points + ": " + registration.error().message);
+  if (!registration) {
+    return bad_input(arguments.points + ": " + registration.error().message);
+  }
   const engine::RegisteredLevel level{inputs->level.label,  arguments.method, inputs->level.model,
                                       inputs->level.screws, inputs->points,   *registration,
                                       tip_radius_m};
-  if (const Status s = outputs.write(level, inputs->frame, arguments.points); !s)
+  if (const Status s = outputs.write(level, inputs->frame, arguments.points); !s) {
     return bad_input(s.error().message);
-  if (!outputs.json.on_stdout()) print(level, inputs->frame);
+  }
+  if (!outputs.json.on_stdout()) {
+    print(level, inputs->frame);
+  }
   print_refusal(*registration);
   return registration->accepted ? kDone : kNo;
 }

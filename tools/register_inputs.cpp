@@ -20,20 +20,30 @@ using engine::Axes;
 /// common.
 Result<nav::TriangleMesh> load_model(const RegisterArguments& arguments,
                                      const std::optional<engine::Plan>& plan, Axes axes) {
-  if (plan) return engine::load_mesh(arguments.model, plan->metres_per_unit, axes);
-  if (arguments.units != "m") return engine::load_mesh(arguments.model, 1e-3, axes);
+  if (plan) {
+    return engine::load_mesh(arguments.model, plan->metres_per_unit, axes);
+  }
+  if (arguments.units != "m") {
+    return engine::load_mesh(arguments.model, 1e-3, axes);
+  }
   auto in_metres = engine::load_mesh(arguments.model, 1.0, axes);
-  if (in_metres) return in_metres;
+  if (in_metres) {
+    return in_metres;
+  }
   auto in_millimetres = engine::load_mesh(arguments.model, 1e-3, axes);
   return in_millimetres ? in_millimetres : in_metres;
 }
 
 Status load_points(const RegisterArguments& arguments, RegisterInputs& inputs) {
   const auto file = engine::load_points(arguments.points);
-  if (!file) return file.error();
+  if (!file) {
+    return file.error();
+  }
   const double given_m = arguments.units == "m" ? 1.0 : 1e-3;
   inputs.frame.points_unit_m = file->metres_per_unit.value_or(given_m);
-  for (const Vec3& p : file->points) inputs.points.push_back({inputs.frame.points_unit_m * p});
+  for (const Vec3& p : file->points) {
+    inputs.points.push_back({inputs.frame.points_unit_m * p});
+  }
   return {};
 }
 
@@ -42,7 +52,9 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
   std::optional<engine::Plan> plan;
   if (!arguments.plan.empty()) {
     auto file = engine::load_plan(arguments.plan);
-    if (!file) return file.error();
+    if (!file) {
+      return file.error();
+    }
     plan = std::move(*file);
     inputs.level.label = plan->level;
     inputs.level.screws = plan->screws;
@@ -51,10 +63,14 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
                     : plan                   ? plan->axes
                                              : Axes::kLps;
   auto mesh = load_model(arguments, plan, axes);
-  if (!mesh) return mesh.error();
+  if (!mesh) {
+    return mesh.error();
+  }
   inputs.frame.model_axes = engine::declared_axes(arguments.model).value_or(axes);
   auto model = models.prepared(*mesh);
-  if (!model) return Error{arguments.model + ": " + model.error().message};
+  if (!model) {
+    return Error{arguments.model + ": " + model.error().message};
+  }
   inputs.level.model = std::move(*model);
   return {};
 }
@@ -63,36 +79,53 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
 Status load_level_of_case(const RegisterArguments& arguments, engine::ModelCache& models,
                           RegisterInputs& inputs) {
   const auto source = load_checked_case(arguments.case_folder);
-  if (!source) return source.error();
+  if (!source) {
+    return source.error();
+  }
   auto operation = engine::plan_operation(*source, {arguments.level}, models);
-  if (!operation) return Error{"--level: " + operation.error().message};
+  if (!operation) {
+    return Error{"--level: " + operation.error().message};
+  }
   inputs.level = std::move(operation->levels.front());
   return {};
 }
 
 Status check_together(const RegisterArguments& a) {
-  if (a.model.empty() && a.level.empty())
+  if (a.model.empty() && a.level.empty()) {
     return Error{a.case_folder.empty() ? "register: --model or --level is required"
                                        : "register: --case needs --level"};
-  if (!a.model.empty() && !(a.level.empty() && a.case_folder.empty()))
+  }
+  if (!a.model.empty() && !(a.level.empty() && a.case_folder.empty())) {
     return Error{"register: --model excludes --case and --level"};
-  if (a.model.empty() && !a.plan.empty()) return Error{"register: --plan needs --model"};
-  if (a.model.empty() && !a.frame.empty()) return Error{"register: --frame needs --model"};
-  if (a.tip_radius_mm > 0.0 && a.method != "best")
+  }
+  if (a.model.empty() && !a.plan.empty()) {
+    return Error{"register: --plan needs --model"};
+  }
+  if (a.model.empty() && !a.frame.empty()) {
+    return Error{"register: --frame needs --model"};
+  }
+  if (a.tip_radius_mm > 0.0 && a.method != "best") {
     return Error{"--tip-radius-mm: only the method best takes a ball tip into account"};
+  }
   return {};
 }
 
 }  // namespace
 
 Result<RegisterInputs> load_register_inputs(const RegisterArguments& arguments) {
-  if (const Status s = check_together(arguments); !s) return s.error();
+  if (const Status s = check_together(arguments); !s) {
+    return s.error();
+  }
   RegisterInputs inputs;
-  if (const Status s = load_points(arguments, inputs); !s) return s.error();
+  if (const Status s = load_points(arguments, inputs); !s) {
+    return s.error();
+  }
   engine::ModelCache models(arguments.cache);
   const Status level = arguments.model.empty() ? load_level_of_case(arguments, models, inputs)
                                                : load_single_level(arguments, models, inputs);
-  if (!level) return level.error();
+  if (!level) {
+    return level.error();
+  }
   models.keep();
   print_notes(models);
   return inputs;

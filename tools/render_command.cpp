@@ -32,9 +32,13 @@ struct RenderArguments {
 
 /// "WxH" in pixels of one eye.
 Status read_size(const std::string& text, engine::SceneFile& file) {
-  if (text.empty()) return {};
+  if (text.empty()) {
+    return {};
+  }
   const auto size = size_from(text);
-  if (!size) return Error{"--size: is \"" + text + "\", must be WIDTHxHEIGHT in px, as 1268x720"};
+  if (!size) {
+    return Error{"--size: is \"" + text + "\", must be WIDTHxHEIGHT in px, as 1268x720"};
+  }
   const auto [width, height] = *size;
   // The same field of view across; another shape shows more or less above and below.
   for (render::View& view : file.eyes) {
@@ -46,22 +50,29 @@ Status read_size(const std::string& text, engine::SceneFile& file) {
   return {};
 }
 
-Result<std::optional<render::Image>> background_of(const std::string& name, int width_px,
-                                                   int height_px) {
-  if (name == "black") return std::optional<render::Image>{};
-  if (name == "wound") return std::optional(engine::golden_background(width_px, height_px));
+Result<std::optional<RgbaImage>> background_of(const std::string& name, int width_px,
+                                               int height_px) {
+  if (name == "black") {
+    return std::optional<RgbaImage>{};
+  }
+  if (name == "wound") {
+    return std::optional(engine::golden_background(width_px, height_px));
+  }
   auto image = engine::read_png(name);
-  if (!image) return image.error();
-  if (image->width_px != width_px || image->height_px != height_px)
+  if (!image) {
+    return image.error();
+  }
+  if (image->width_px != width_px || image->height_px != height_px) {
     return Error{name + ": is " + std::to_string(image->width_px) + "x" +
                  std::to_string(image->height_px) + " px, must be " + std::to_string(width_px) +
                  "x" + std::to_string(height_px) + " as one eye"};
+  }
   return std::optional(std::move(*image));
 }
 
 /// One line a hologram: how it stands out in the light that was stated.
-void print_contrasts(const render::Image& light, const render::LabelImage& labels,
-                     const render::Image& background, const engine::OpticalModel& model) {
+void print_contrasts(const RgbaImage& light, const LabelImage& labels, const RgbaImage& background,
+                     const engine::OpticalModel& model) {
   std::printf("hologram  pixels  contrast  faintest tenth\n");
   for (const engine::HologramContrast& c : engine::contrasts(light, labels, background, model)) {
     const bool legible = c.median >= engine::kLegibleContrast;
@@ -72,54 +83,76 @@ void print_contrasts(const render::Image& light, const render::LabelImage& label
 
 /// The holograms before a background as an optical see-through display shows them.
 Status see_through(const RenderArguments& arguments, const engine::SceneFile& file,
-                   const render::Image& background, render::Renderer& renderer,
-                   std::vector<render::Image>& images) {
+                   const RgbaImage& background, render::Renderer& renderer,
+                   std::vector<RgbaImage>& images) {
   std::string error;
-  std::vector<render::LabelImage> labels;
-  if (!renderer.draw_labels(file.scene, file.eyes, labels, error)) return Error{error};
+  std::vector<LabelImage> labels;
+  if (!renderer.draw_labels(file.scene, file.eyes, labels, error)) {
+    return Error{error};
+  }
   print_contrasts(images.front(), labels.front(), background, arguments.model);
-  for (render::Image& image : images)
+  for (RgbaImage& image : images) {
     image = engine::through_combiner(image, background, arguments.model);
+  }
   return {};
 }
 
 int render_scene(const RenderArguments& arguments) {
-  if (const auto problems = arguments.model.check(); !problems.empty())
+  if (const auto problems = arguments.model.check(); !problems.empty()) {
     return bad_input(problems.front());
+  }
   auto file = engine::load_scene(arguments.scene);
-  if (!file) return bad_input(file.error().message);
-  if (const Status size = read_size(arguments.size, *file); !size)
+  if (!file) {
+    return bad_input(file.error().message);
+  }
+  if (const Status size = read_size(arguments.size, *file); !size) {
     return bad_input(size.error().message);
-  if (arguments.eye == "left") file->eyes.resize(1);
-  if (arguments.eye == "right") file->eyes.erase(file->eyes.begin());
+  }
+  if (arguments.eye == "left") {
+    file->eyes.resize(1);
+  }
+  if (arguments.eye == "right") {
+    file->eyes.erase(file->eyes.begin());
+  }
   render::RendererOptions options;
   options.width_px = file->width_px;
   options.height_px = file->height_px;
   options.device = arguments.device;
   options.blend = arguments.blend == "over" ? render::Blend::kOver : render::Blend::kAdditive;
   const auto background = background_of(arguments.background, options.width_px, options.height_px);
-  if (!background) return bad_input(background.error().message);
+  if (!background) {
+    return bad_input(background.error().message);
+  }
   std::string error;
   const auto renderer = render::Renderer::create(options, error);
-  if (!renderer) return bad_input(error);
-  std::vector<const render::Image*> backgrounds;
-  if (*background && !arguments.optics) backgrounds.assign(file->eyes.size(), &**background);
-  std::vector<render::Image> images;
-  if (!renderer->draw(file->scene, file->eyes, backgrounds, images, error))
+  if (!renderer) {
+    return bad_input(error);
+  }
+  std::vector<const RgbaImage*> backgrounds;
+  if (*background && !arguments.optics) {
+    backgrounds.assign(file->eyes.size(), &**background);
+  }
+  std::vector<RgbaImage> images;
+  if (!renderer->draw(file->scene, file->eyes, backgrounds, images, error)) {
     return bad_input(arguments.scene + ": " + error);
-  for (const std::string& note : renderer->notes())
+  }
+  for (const std::string& note : renderer->notes()) {
     std::fprintf(stderr, "orthonav: %s\n", note.c_str());
+  }
   if (arguments.optics) {
-    const render::Image behind =
+    const RgbaImage behind =
         *background ? **background
-                    : render::Image{options.width_px, options.height_px,
-                                    std::vector<std::uint8_t>(images.front().rgba.size(), 0)};
-    if (const Status seen = see_through(arguments, *file, behind, *renderer, images); !seen)
+                    : RgbaImage{options.width_px, options.height_px,
+                                std::vector<std::uint8_t>(images.front().pixels.size(), 0)};
+    if (const Status seen = see_through(arguments, *file, behind, *renderer, images); !seen) {
       return bad_input(seen.error().message);
+    }
   }
   const Status written =
-      engine::write_png(arguments.out, engine::side_by_side(images, &render::Image::rgba, 4));
-  if (!written) return bad_input(written.error().message);
+      engine::write_png(arguments.out, engine::side_by_side(images, &RgbaImage::pixels, 4));
+  if (!written) {
+    return bad_input(written.error().message);
+  }
   std::printf("%s: %zu eye%s, %dx%d px each, drawn by %s\n", arguments.out.c_str(), images.size(),
               images.size() == 1 ? "" : "s", options.width_px, options.height_px,
               renderer->device().name.c_str());
@@ -153,7 +186,7 @@ void add_render_command(CLI::App& app, Action& action) {
   command->add_option("--ambient", arguments->model.ambient_lux, "Light on the background, lux")
       ->capture_default_str();
   command
-      ->add_option("--transmission", arguments->model.combiner_share,
+      ->add_option("--transmission", arguments->model.combiner_fraction,
                    "Share of the world's light that the combiner passes")
       ->capture_default_str();
   command->callback(

@@ -22,15 +22,20 @@ struct RodArguments {
 
 Result<std::vector<Vec3>> load_heads_m(const RodArguments& arguments) {
   const auto file = engine::load_points(arguments.heads);
-  if (!file) return file.error();
+  if (!file) {
+    return file.error();
+  }
   const auto other = std::find_if(file->regions.begin(), file->regions.end(),
                                   [&](const std::string& r) { return r != file->regions[0]; });
-  if (other != file->regions.end())
+  if (other != file->regions.end()) {
     return Error{arguments.heads + ": holds heads of regions \"" + file->regions[0] + "\" and \"" +
                  *other + "\", must be one rod"};
+  }
   const double unit_m = file->metres_per_unit.value_or(arguments.units == "m" ? 1.0 : 1e-3);
   std::vector<Vec3> heads_m;
-  for (const Vec3& p : file->points) heads_m.push_back(unit_m * p);
+  for (const Vec3& p : file->points) {
+    heads_m.push_back(unit_m * p);
+  }
   return heads_m;
 }
 
@@ -42,31 +47,47 @@ nlohmann::ordered_json as_json(const nav::RodTemplate& rod) {
                                 {"heads_mm", nlohmann::ordered_json::array()},
                                 {"bends", nlohmann::ordered_json::array()},
                                 {"path_mm", nlohmann::ordered_json::array()}};
-  for (const Vec3& head : rod.heads_m) out["heads_mm"].push_back(in_mm(head));
-  for (const nav::RodBend& bend : rod.bends)
+  for (const Vec3& head : rod.heads_m) {
+    out["heads_mm"].push_back(in_mm(head));
+  }
+  for (const nav::RodBend& bend : rod.bends) {
     out["bends"].push_back({{"arc_length_mm", bend.arc_length_m * 1e3},
                             {"angle_deg", bend.angle_rad * kDegreesPerRadian},
                             {"position_mm", in_mm(bend.position_m)}});
-  for (const Vec3& p : rod.path_m) out["path_mm"].push_back(in_mm(p));
+  }
+  for (const Vec3& p : rod.path_m) {
+    out["path_mm"].push_back(in_mm(p));
+  }
   return out;
 }
 
 void print(const nav::RodTemplate& rod) {
   std::printf("rod through %zu heads: length %.3f mm, diameter %.1f mm, %zu bends\n",
               rod.heads_m.size(), rod.length_m * 1e3, rod.diameter_m * 1e3, rod.bends.size());
-  for (const nav::RodBend& bend : rod.bends)
+  for (const nav::RodBend& bend : rod.bends) {
     std::printf("bend at %.1f mm: %.1f°\n", bend.arc_length_m * 1e3,
                 bend.angle_rad * kDegreesPerRadian);
+  }
 }
 
 int run_rod(const RodArguments& arguments) {
-  if (const Status s = arguments.json.check(); !s) return bad_input(s.error().message);
+  if (const Status s = arguments.json.check(); !s) {
+    return bad_input(s.error().message);
+  }
   const auto heads_m = load_heads_m(arguments);
-  if (!heads_m) return bad_input(heads_m.error().message);
+  if (!heads_m) {
+    return bad_input(heads_m.error().message);
+  }
   const auto rod = nav::rod_template(*heads_m, arguments.diameter_mm * 1e-3);
-  if (!rod) return bad_input(arguments.heads + ": " + rod.error().message);
-  if (const Status s = arguments.json.write(as_json(*rod)); !s) return bad_input(s.error().message);
-  if (!arguments.json.on_stdout()) print(*rod);
+  if (!rod) {
+    return bad_input(arguments.heads + ": " + rod.error().message);
+  }
+  if (const Status s = arguments.json.write(as_json(*rod)); !s) {
+    return bad_input(s.error().message);
+  }
+  if (!arguments.json.on_stdout()) {
+    print(*rod);
+  }
   return kDone;
 }
 

@@ -55,7 +55,9 @@ class LiveRun {
   explicit LiveRun(RunArguments arguments) : arguments_(std::move(arguments)) {}
 
   int run() {
-    if (const Status opened = open(); !opened) return bad_input(opened.error().message);
+    if (const Status opened = open(); !opened) {
+      return bad_input(opened.error().message);
+    }
     engine::LoopOptions options;
     options.draw_every = 0;
     options.max_frames = arguments_.frames;
@@ -67,20 +69,28 @@ class LiveRun {
     }
     engine::FrameLoop loop(*used_, *session_, builder, options);
     loop.observe(&progress);
-    if (const Status presenting = present(loop); !presenting)
+    if (const Status presenting = present(loop); !presenting) {
       return ended(presenting.error().message);
+    }
     auto report = loop.run();
     end_presenting();
-    if (!report) return ended(report.error().message);
+    if (!report) {
+      return ended(report.error().message);
+    }
     engine::OperationResult result =
         engine::outcome_of(session_->levels(), session_->rods(), std::move(*report));
     result.method = method_.name;
     result.case_name = case_name_;
-    if (room_) result.seed = room_->options().seed;
-    if (witness_) witness_->evaluate(session_->levels(), result);
+    if (room_) {
+      result.seed = room_->options().seed;
+    }
+    if (ground_truth_) {
+      ground_truth_->evaluate(session_->levels(), result);
+    }
     end_note_.explain(result);
-    if (const Status finished = finish(result); !finished)
+    if (const Status finished = finish(result); !finished) {
       return bad_input(finished.error().message);
+    }
     const bool limited = arguments_.frames > 0 && result.loop.displayed >= arguments_.frames;
     return result.completed || limited ? kDone : kNo;
   }
@@ -88,67 +98,98 @@ class LiveRun {
  private:
   /// What was written until then stays: the journal says how it ended.
   int ended(std::string reason) {
-    if (journal_)
-      if (const Status done = journal_->finish(reason); !done)
+    if (journal_) {
+      if (const Status done = journal_->finish(reason); !done) {
         reason += "; " + done.error().message;
-    if (recorder_)
-      if (const Status done = recorder_->close(); !done) reason += "; " + done.error().message;
+      }
+    }
+    if (recorder_) {
+      if (const Status done = recorder_->close(); !done) {
+        reason += "; " + done.error().message;
+      }
+    }
     return bad_input(reason);
   }
 
   /// Where the headset takes pixels.
   Status present(engine::FrameLoop& loop) {
-    if (!headset_->pixels()) return {};
+    if (!headset_->pixels()) {
+      return {};
+    }
     engine::PresenterOptions options;
     options.on_over = [&loop] { loop.stop(); };
     auto presenter = engine::Presenter::start(*headset_->pixels(), options);
-    if (!presenter) return presenter.error();
+    if (!presenter) {
+      return presenter.error();
+    }
     presenter_ = std::move(*presenter);
     loop.draw_into(presenter_.get());
     return {};
   }
 
   void end_presenting() {
-    if (!presenter_) return;
+    if (!presenter_) {
+      return;
+    }
     const engine::PresentReport report = presenter_->stop();
-    for (const std::string& problem : report.problems)
+    for (const std::string& problem : report.problems) {
       std::fprintf(stderr, "%s\n", problem.c_str());
-    if (arguments_.stats) print_stats(report);
+    }
+    if (arguments_.stats) {
+      print_stats(report);
+    }
   }
 
   Status open() {
     auto method = engine::method_named(arguments_.method);
-    if (!method) return method.error();
+    if (!method) {
+      return method.error();
+    }
     method_ = std::move(*method);
     const auto source = load_checked_case(arguments_.case_folder);
-    if (!source) return source.error();
+    if (!source) {
+      return source.error();
+    }
     case_name_ = source->name;
-    if (!arguments_.out.empty())
+    if (!arguments_.out.empty()) {
       models_ = engine::ModelCache((std::filesystem::path(arguments_.out) / "models").string());
+    }
     auto operation = engine::plan_operation(*source, arguments_.levels, models_);
-    if (!operation) return operation.error();
+    if (!operation) {
+      return operation.error();
+    }
     OpenOptions open_options;
     open_options.room = engine::room_of(*source, *operation, engine::built_in_tools());
     auto headset = open_headset(arguments_.headset, open_options);
-    if (!headset) return headset.error();
+    if (!headset) {
+      return headset.error();
+    }
     headset_ = std::move(*headset);
-    if (arguments_.headset == "openxr:")
+    if (arguments_.headset == "openxr:") {
       std::fprintf(stderr, "openxr: no cameras are named, so the simulated room's: openxr:+sim:\n");
-    if (arguments_.headset.ends_with("?pace=step"))
+    }
+    if (arguments_.headset.ends_with("?pace=step")) {
       return Error{"headset URI \"" + arguments_.headset +
                    "\": nobody steps here; known paces are fast and realtime"};
-    if (const Status joined = join_parts(); !joined) return joined;
+    }
+    if (const Status joined = join_parts(); !joined) {
+      return joined;
+    }
     return start(std::move(*operation));
   }
 
   Status join_parts() {
     OtherParts parts;
     auto clicker = open_clicker(arguments_.clicker, headset_->clock());
-    if (!clicker) return clicker.error();
+    if (!clicker) {
+      return clicker.error();
+    }
     parts.clicker = std::move(*clicker);
     auto voice =
         open_voice(arguments_.voice, engine::spoken_commands(), headset_->clock(), headset_.get());
-    if (!voice) return voice.error();
+    if (!voice) {
+      return voice.error();
+    }
     parts.voice = std::move(*voice);
     joined_ = std::make_unique<JoinedHeadset>(*headset_, std::move(parts));
     return {};
@@ -158,31 +199,47 @@ class LiveRun {
     const auto tools = arguments_.tools_file.empty()
                            ? engine::tools_known_to(headset_->owner_of_cameras())
                            : engine::load_tools(arguments_.tools_file);
-    if (!tools) return tools.error();
+    if (!tools) {
+      return tools.error();
+    }
     auto tracker = method_.create_tracker(headset_->cameras().calibration(), *tools,
                                           engine::OperationOptions().tracker);
-    if (!tracker) return tracker.error();
+    if (!tracker) {
+      return tracker.error();
+    }
     auto session = engine::Session::create(std::move(operation), std::move(*tracker), method_);
-    if (!session) return session.error();
+    if (!session) {
+      return session.error();
+    }
     session_ = std::move(*session);
     observers_.add(&end_note_);
     room_ = dynamic_cast<const sim::SimHeadset*>(&headset_->owner_of_cameras());
-    if (room_) observers_.add(&witness_.emplace(*room_));
-    if (const Status opened = open_journal(); !opened) return opened;
+    if (room_) {
+      observers_.add(&ground_truth_.emplace(*room_));
+    }
+    if (const Status opened = open_journal(); !opened) {
+      return opened;
+    }
     session_->observe(&observers_);
     return start_recording(*tools);
   }
 
   Status open_journal() {
-    if (arguments_.out.empty()) return {};
+    if (arguments_.out.empty()) {
+      return {};
+    }
     auto out = OutFolder::create("--out", arguments_.out);
-    if (!out) return out.error();
+    if (!out) {
+      return out.error();
+    }
     out_.emplace(std::move(*out));
     auto journal =
         engine::Journal::create(out_->file("session.orthonav"),
                                 {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_,
                                  room_ ? room_->options().seed : 0, headset_->epoch_ticks_100ns()});
-    if (!journal) return journal.error();
+    if (!journal) {
+      return journal.error();
+    }
     journal_ = std::move(*journal);
     observers_.add(journal_.get());
     models_.keep();
@@ -193,12 +250,16 @@ class LiveRun {
   /// Last of all, for a recording that was begun stays.
   Status start_recording(const std::vector<nav::ToolGeometry>& tools) {
     used_ = joined_.get();
-    if (arguments_.record.empty()) return {};
+    if (arguments_.record.empty()) {
+      return {};
+    }
     replay::RecorderOptions options;
     options.tools_json = engine::tools_text(tools);
     options.takes_depth = true;
     auto recorder = replay::RecordingHeadset::around(*joined_, arguments_.record, options);
-    if (!recorder) return recorder.error();
+    if (!recorder) {
+      return recorder.error();
+    }
     recorder_ = std::move(*recorder);
     used_ = recorder_.get();
     return {};
@@ -208,18 +269,31 @@ class LiveRun {
   Status finish(const engine::OperationResult& result) {
     const std::string report = engine::report_json(result);
     std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
-    if (arguments_.stats) print_stats(result.loop);
+    if (arguments_.stats) {
+      print_stats(result.loop);
+    }
     if (const auto* connected = dynamic_cast<const hl2ss::Hl2ssHeadset*>(headset_.get());
-        connected && arguments_.stats)
+        connected && arguments_.stats) {
       std::fputs(connection_report(connected->statistics()).c_str(), stderr);
+    }
     Status first;
     const auto note = [&first](const Status& status) {
-      if (first.ok()) first = status;
+      if (first.ok()) {
+        first = status;
+      }
     };
-    if (out_) note(engine::write_file(out_->file("report.json"), report));
-    if (out_) note(write_demo_report(out_->path(), result, {.simulated = room_ != nullptr}));
-    if (journal_) note(journal_->finish());
-    if (recorder_) note(recorder_->close());
+    if (out_) {
+      note(engine::write_file(out_->file("report.json"), report));
+    }
+    if (out_) {
+      note(write_demo_report(out_->path(), result, {.simulated = room_ != nullptr}));
+    }
+    if (journal_) {
+      note(journal_->finish());
+    }
+    if (recorder_) {
+      note(recorder_->close());
+    }
     return first;
   }
 
@@ -232,7 +306,7 @@ class LiveRun {
   std::unique_ptr<replay::RecordingHeadset> recorder_;
   Headset* used_ = nullptr;
   const sim::SimHeadset* room_ = nullptr;  ///< the headset, where it is the simulated one
-  std::optional<engine::SimWitness> witness_;
+  std::optional<engine::GroundTruthRecorder> ground_truth_;
   engine::EndNote end_note_;
   std::optional<OutFolder> out_;
   std::unique_ptr<engine::Journal> journal_;

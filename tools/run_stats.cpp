@@ -10,7 +10,9 @@ namespace {
 void print_times(const char* what, const std::vector<double>& ms) {
   const auto median = engine::quantile(ms, 0.5);
   const auto p99 = engine::quantile(ms, 0.99);
-  if (median && p99) std::fprintf(stderr, "%-28s %8.1f ms, p99 %8.1f ms\n", what, *median, *p99);
+  if (median && p99) {
+    std::fprintf(stderr, "%-28s %8.1f ms, p99 %8.1f ms\n", what, *median, *p99);
+  }
 }
 
 }  // namespace

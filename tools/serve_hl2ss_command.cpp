@@ -31,15 +31,21 @@ constexpr auto kLookEvery = std::chrono::milliseconds(20);
 /// The headset that each session gets: the same simulated operation from its beginning.
 Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) {
   const auto source = load_checked_case(arguments.case_folder);
-  if (!source) return source.error();
+  if (!source) {
+    return source.error();
+  }
   engine::ModelCache models;
   const auto operation = engine::plan_operation(*source, arguments.levels, models);
-  if (!operation) return operation.error();
+  if (!operation) {
+    return operation.error();
+  }
   auto room = engine::room_of(*source, *operation, engine::built_in_tools());
   sim::SimOptions options;
   options.seed = arguments.seed;
-  if (arguments.perfect) options.magnitudes = sim::Magnitudes::perfect();
-  options.magnitudes.pace = arguments.pace;
+  if (arguments.perfect) {
+    options.error_model = sim::ErrorModel::perfect();
+  }
+  options.error_model.pace = arguments.pace;
   options.pace = arguments.server.paced ? sim::Pace::kFast : sim::Pace::kRealtime;
   return hl2ss::Server::OpenHeadset(
       [room, options] { return as_headset(sim::SimHeadset::open(room, options)); });
@@ -63,8 +69,9 @@ int watch(const hl2ss::Server& server, std::int64_t sessions) {
   for (;;) {
     std::this_thread::sleep_for(kLookEvery);
     const hl2ss::ServerReport report = server.report();
-    if (report.is_streaming && !was_streaming)
+    if (report.is_streaming && !was_streaming) {
       std::fprintf(stderr, "session %lld begins\n", static_cast<long long>(report.sessions));
+    }
     if (!report.is_streaming && was_streaming) {
       std::fprintf(stderr, "session %lld ended: %lld pairs, %lld faults on purpose\n",
                    static_cast<long long>(report.sessions),
@@ -73,8 +80,9 @@ int watch(const hl2ss::Server& server, std::int64_t sessions) {
       pairs_before = report.pairs;
       faults_before = report.faults;
     }
-    if (!report.is_streaming && report.sessions == 0 && !report.last_trouble.empty())
+    if (!report.is_streaming && report.sessions == 0 && !report.last_trouble.empty()) {
       return bad_input(report.last_trouble);
+    }
     was_streaming = report.is_streaming;
     if (sessions > 0 && report.sessions >= sessions && !report.is_streaming) {
       // The last words are still underway.
@@ -86,13 +94,19 @@ int watch(const hl2ss::Server& server, std::int64_t sessions) {
 
 int serve(ServeArguments arguments) {
   const auto faults = hl2ss::faults_of(arguments.faults);
-  if (!faults) return bad_input("--faults: " + faults.error().message);
+  if (!faults) {
+    return bad_input("--faults: " + faults.error().message);
+  }
   arguments.server.faults = *faults;
   arguments.server.seed = arguments.seed;
   const auto sessions = sessions_of(arguments);
-  if (!sessions) return bad_input(sessions.error().message);
+  if (!sessions) {
+    return bad_input(sessions.error().message);
+  }
   const auto server = hl2ss::Server::start(arguments.server, *sessions);
-  if (!server) return bad_input(server.error().message);
+  if (!server) {
+    return bad_input(server.error().message);
+  }
   say_where(**server, arguments.server);
   return watch(**server, arguments.sessions);
 }

@@ -6,38 +6,51 @@
 
 namespace orthonav::tools {
 
-Status StepPictures::picture(const render::Image& image, const engine::Snapshot& snapshot) {
-  if (snapshot.blank) return {};
+Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& snapshot) {
+  if (snapshot.blank) {
+    return {};
+  }
   if (snapshot.step_text != held_step_) {
-    if (const Status finished = finish(); !finished) return finished;
+    if (const Status finished = finish(); !finished) {
+      return finished;
+    }
     held_step_ = snapshot.step_text;
     held_guides_ = false;
   }
   const bool guides = !snapshot.scene.triangles.empty();
-  if (held_guides_ && !guides) return {};
+  if (held_guides_ && !guides) {
+    return {};
+  }
   held_ = image;
   held_guides_ = guides;
   return {};
 }
 
 Status StepPictures::finish() {
-  if (held_step_.empty()) return {};
+  if (held_step_.empty()) {
+    return {};
+  }
   std::string name = held_step_;
-  for (char& c : name)
-    if (c == ' ' || c == '/') c = '-';
+  for (char& c : name) {
+    if (c == ' ' || c == '/') {
+      c = '-';
+    }
+  }
   char number[16];
   std::snprintf(number, sizeof number, "%02zu-", written_.size() + 1);
   const auto path = folder_ / (number + name + ".png");
-  if (const Status saved = engine::write_png(path, held_); !saved) return saved;
+  if (const Status saved = engine::write_png(path, held_); !saved) {
+    return saved;
+  }
   written_.push_back({held_step_, path});
   held_step_.clear();
   return {};
 }
 
-Status VideoPictures::picture(const render::Image& image, const engine::Snapshot& /*snapshot*/) {
+Status VideoPictures::picture(const RgbaImage& image, const engine::Snapshot& /*snapshot*/) {
   frame_.width_px = image.width_px;
   frame_.height_px = image.height_px;
-  frame_.pixels = image.rgba;
+  frame_.pixels = image.pixels;
   return writer_.write(frame_);
 }
 

@@ -20,7 +20,7 @@ struct StepPicture {
 class StepPictures : public PictureSink {
  public:
   explicit StepPictures(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  Status picture(const render::Image& image, const engine::Snapshot& snapshot) override;
+  Status picture(const RgbaImage& image, const engine::Snapshot& snapshot) override;
   /// Writes what is still held.
   Status finish();
   [[nodiscard]] const std::vector<StepPicture>& written() const { return written_; }
@@ -28,7 +28,7 @@ class StepPictures : public PictureSink {
  private:
   std::filesystem::path folder_;
   std::vector<StepPicture> written_;
-  render::Image held_;
+  RgbaImage held_;
   std::string held_step_;
   bool held_guides_ = false;
 };
@@ -37,7 +37,7 @@ class StepPictures : public PictureSink {
 class VideoPictures : public PictureSink {
  public:
   explicit VideoPictures(engine::VideoWriter& writer) : writer_(writer) {}
-  Status picture(const render::Image& image, const engine::Snapshot& snapshot) override;
+  Status picture(const RgbaImage& image, const engine::Snapshot& snapshot) override;
 
  private:
   engine::VideoWriter& writer_;

@@ -38,7 +38,9 @@ struct StudyArguments {
 Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
   if (folder.empty()) {
     auto spine = load_checked_case(folder);
-    if (!spine) return spine.error();
+    if (!spine) {
+      return spine.error();
+    }
     return std::vector<engine::Case>{std::move(*spine)};
   }
   std::vector<std::string> folders;
@@ -46,16 +48,22 @@ Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
   if (fs::exists(fs::path(folder) / "case.json", code)) {
     folders.push_back(folder);
   } else {
-    for (const auto& entry : fs::directory_iterator(folder, code))
-      if (fs::exists(entry.path() / "case.json")) folders.push_back(entry.path().string());
+    for (const auto& entry : fs::directory_iterator(folder, code)) {
+      if (fs::exists(entry.path() / "case.json")) {
+        folders.push_back(entry.path().string());
+      }
+    }
     std::sort(folders.begin(), folders.end());
   }
-  if (folders.empty())
+  if (folders.empty()) {
     return Error{"--cases " + folder + ": no case.json in it or one level below"};
+  }
   std::vector<engine::Case> cases;
   for (const std::string& path : folders) {
     auto loaded = load_checked_case(path);
-    if (!loaded) return loaded.error();
+    if (!loaded) {
+      return loaded.error();
+    }
     cases.push_back(std::move(*loaded));
   }
   return cases;
@@ -67,9 +75,12 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   options.operation.levels = arguments.levels;
   options.operation.tools = engine::built_in_tools();
   options.operation.loop.draw_every = 0;
-  if (arguments.perfect) options.operation.sim.magnitudes = sim::Magnitudes::perfect();
-  if (arguments.navigation_alone)
-    options.operation.sim.magnitudes = sim::Magnitudes::navigation_alone();
+  if (arguments.perfect) {
+    options.operation.sim.error_model = sim::ErrorModel::perfect();
+  }
+  if (arguments.navigation_alone) {
+    options.operation.sim.error_model = sim::ErrorModel::navigation_alone();
+  }
   options.runs = arguments.runs;
   options.first_seed = arguments.first_seed;
   options.jobs = arguments.jobs > 0
@@ -79,42 +90,62 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   const bool whole = std::sscanf(arguments.shard.c_str(), "%d/%d%n", &options.shard,
                                  &options.shards, &used) == 2 &&
                      used == static_cast<int>(arguments.shard.size());
-  if (!whole) return Error{"--shard " + arguments.shard + ": must be I/N with 1 <= I <= N"};
+  if (!whole) {
+    return Error{"--shard " + arguments.shard + ": must be I/N with 1 <= I <= N"};
+  }
   return options;
 }
 
 int run_study(const StudyArguments& arguments) {
   const auto method = engine::method_named(arguments.method);
-  if (!method) return bad_input(method.error().message);
+  if (!method) {
+    return bad_input(method.error().message);
+  }
   const auto options = options_of(arguments);
-  if (!options) return bad_input(options.error().message);
-  if (const Status place = arguments.json.check(); !place) return bad_input(place.error().message);
+  if (!options) {
+    return bad_input(options.error().message);
+  }
+  if (const Status place = arguments.json.check(); !place) {
+    return bad_input(place.error().message);
+  }
   const auto cases = cases_in(arguments.cases);
-  if (!cases) return bad_input(cases.error().message);
+  if (!cases) {
+    return bad_input(cases.error().message);
+  }
   std::optional<CountProgress> progress;
   const auto study = engine::run_study(*cases, *options, [&progress](int /*done*/, int all) {
-    if (!progress) progress.emplace("operations", all);
+    if (!progress) {
+      progress.emplace("operations", all);
+    }
     progress->add_one();
   });
   progress.reset();
-  if (!study) return bad_input(study.error().message);
-  if (const Status written = arguments.json.write_text(study->text); !written)
+  if (!study) {
+    return bad_input(study.error().message);
+  }
+  if (const Status written = arguments.json.write_text(study->text); !written) {
     return bad_input(written.error().message);
+  }
   // The runs that finished are kept; that one could not be made is bad input all the same.
   return study->failure ? bad_input(study->failure->message) : kDone;
 }
 
 int merge(const StudyArguments& arguments) {
-  if (const Status place = arguments.merged_json.check(); !place)
+  if (const Status place = arguments.merged_json.check(); !place) {
     return bad_input(place.error().message);
+  }
   std::vector<std::string> texts;
   for (const std::string& path : arguments.merged) {
     auto text = engine::read_text(path);
-    if (!text) return bad_input(text.error().message);
+    if (!text) {
+      return bad_input(text.error().message);
+    }
     texts.push_back(std::move(*text));
   }
   const auto study = engine::merge_studies(texts, arguments.merged);
-  if (!study) return bad_input(study.error().message);
+  if (!study) {
+    return bad_input(study.error().message);
+  }
   const Status written = arguments.merged_json.write_text(*study);
   return written ? kDone : bad_input(written.error().message);
 }

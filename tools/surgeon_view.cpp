@@ -16,7 +16,9 @@ Result<std::unique_ptr<SurgeonView>> SurgeonView::create(const SurgeonViewOption
   renderer_options.device = options.device;
   std::string error;
   auto renderer = render::Renderer::create(renderer_options, error);
-  if (!renderer) return Error{error};
+  if (!renderer) {
+    return Error{error};
+  }
   return std::unique_ptr<SurgeonView>(new SurgeonView(options, std::move(renderer)));
 }
 
@@ -35,9 +37,9 @@ SurgeonView::SurgeonView(const SurgeonViewOptions& options,
   views_.push_back(view);
 }
 
-void SurgeonView::look_at(sim::SimHeadset& headset, const sim::Magnitudes& magnitudes) {
+void SurgeonView::look_at(sim::SimHeadset& headset, const sim::ErrorModel& error_model) {
   headset_ = &headset;
-  room_ = sim::RoomRenderer::create(headset.room(), magnitudes);
+  room_ = sim::RoomRenderer::create(headset.room(), error_model);
 }
 
 void SurgeonView::captured(const engine::Snapshot& snapshot) {
@@ -56,26 +58,33 @@ void SurgeonView::draw_room(const Moment& moment) {
   view.tan_up = static_cast<double>(views_[0].tan_up);
   view.tan_down = static_cast<double>(views_[0].tan_down);
   room_->picture(moment.room, view, room_picture_);
-  background_.rgba.swap(room_picture_.pixels);
+  background_.pixels.swap(room_picture_.pixels);
 }
 
 Status SurgeonView::draw(const engine::Snapshot& snapshot) {
   const Moment& moment = moments_[snapshot.slot];
   draw_room(moment);
-  const bool located = moment.world_from_rig.origin != Origin::kLost;
+  const bool located = moment.world_from_rig.status != PoseStatus::kLost;
   if (located) {
     const auto eye_from_world = (moment.world_from_rig.value * rig_from_eye()).inverse();
     views_[0].eye_from_world = engine::to_matrix(eye_from_world.row_major());
   }
   backgrounds_.assign(1, &background_);
   std::string error;
-  if (!located) engine::write_head_lost(snapshot.scene, head_lost_);
+  if (!located) {
+    engine::write_head_lost(snapshot.scene, head_lost_);
+  }
   const bool drawn =
       renderer_->draw(located ? snapshot.scene : head_lost_, views_, backgrounds_, images_, error);
-  background_.rgba.swap(room_picture_.pixels);
-  if (!drawn) return Error{error};
-  for (PictureSink* sink : sinks_)
-    if (const Status taken = sink->picture(images_[0], snapshot); !taken) return taken;
+  background_.pixels.swap(room_picture_.pixels);
+  if (!drawn) {
+    return Error{error};
+  }
+  for (PictureSink* sink : sinks_) {
+    if (const Status taken = sink->picture(images_[0], snapshot); !taken) {
+      return taken;
+    }
+  }
   return {};
 }
 

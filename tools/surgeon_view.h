@@ -16,7 +16,7 @@ namespace orthonav::tools {
 class PictureSink {
  public:
   virtual ~PictureSink() = default;
-  virtual Status picture(const render::Image& image, const engine::Snapshot& snapshot) = 0;
+  virtual Status picture(const RgbaImage& image, const engine::Snapshot& snapshot) = 0;
 };
 
 struct SurgeonViewOptions {
@@ -36,7 +36,7 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
   static Result<std::unique_ptr<SurgeonView>> create(const SurgeonViewOptions& options);
 
   /// Before the loop starts. Borrowed.
-  void look_at(sim::SimHeadset& headset, const sim::Magnitudes& magnitudes);
+  void look_at(sim::SimHeadset& headset, const sim::ErrorModel& error_model);
   void send_to(PictureSink* sink) { sinks_.push_back(sink); }
 
   void captured(const engine::Snapshot& snapshot) override;
@@ -63,10 +63,10 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
 
   // Reused from picture to picture.
   RgbaImage room_picture_;
-  render::Image background_;
+  RgbaImage background_;
   std::vector<render::View> views_;
-  std::vector<const render::Image*> backgrounds_;
-  std::vector<render::Image> images_;
+  std::vector<const RgbaImage*> backgrounds_;
+  std::vector<RgbaImage> images_;
   render::Scene head_lost_;  ///< what is left then
 };
 

@@ -44,7 +44,7 @@ void append_row(const Headset& headset, const nav::ToolGeometry& tool, const nav
   std::snprintf(row.data(), row.size(),
                 "%lld,%d,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,measured,%.6g,%.6g,%d\n",
                 static_cast<long long>(headset.file_ticks_100ns(pose.time)), tool.marker.id, p.x,
-                p.y, p.z, q.x, q.y, q.z, q.w, shift_sigma_m(pose.covariance) * 1e3,
+                p.y, p.z, q.x, q.y, q.z, q.w, translation_sigma_m(pose.covariance) * 1e3,
                 state.residual_px, state.cameras);
   csv += row.data();
 }
@@ -56,13 +56,17 @@ Result<TrackSummary> track_all(replay::ReplayHeadset& headset, nav::ToolTracker&
   const Status read = for_each_pair(headset, [&](const StereoFrame& frame) {
     for (const nav::ToolState& state : tracker.track(frame)) {
       // A predicted pose is not a measured one and has no row.
-      if (state.world_from_marker.origin != Origin::kMeasured) continue;
+      if (state.world_from_marker.status != PoseStatus::kMeasured) {
+        continue;
+      }
       append_row(headset, tracker.tools()[state.tool], state, csv);
       ++summary.measured[state.tool];
     }
     ++summary.pairs;
   });
-  if (!read) return read.error();
+  if (!read) {
+    return read.error();
+  }
   return summary;
 }
 
@@ -79,7 +83,7 @@ nlohmann::ordered_json as_json(const nav::StereoAlignment& found) {
 }
 
 nlohmann::ordered_json as_json(const nav::TagSize& found) {
-  return {{"larger_percent", 100.0 * found.share},
+  return {{"larger_percent", 100.0 * found.fraction},
           {"sd_percent", 100.0 * found.sd},
           {"disagrees", found.disagrees}};
 }
@@ -89,21 +93,26 @@ void warn_of_sizes(const nav::ToolTracker& tracker) {
   const std::span<const nav::ToolGeometry> tools = tracker.tools();
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const auto size = tracker.tag_size(i);
-    if (!size || !size->disagrees) continue;
+    if (!size || !size->disagrees) {
+      continue;
+    }
     const double stated_mm = kMilli * tools[i].marker.size_m;
     std::fprintf(stderr,
                  "orthonav: warning: %s: its tag is stated to measure %.2f mm but measures %.2f mm "
                  "by the cameras (SD %.2f mm): check the print, the unit and the calibration\n",
-                 tools[i].name.c_str(), stated_mm, stated_mm * (1.0 + size->share),
+                 tools[i].name.c_str(), stated_mm, stated_mm * (1.0 + size->fraction),
                  stated_mm * size->sd);
   }
 }
 
 void print(const nav::StereoAlignment& found) {
   const char* verdict = "within what can be told";
-  if (found.applied) verdict = "significant, applied to the poses";
-  if (!found.within_bounds)
+  if (found.applied) {
+    verdict = "significant, applied to the poses";
+  }
+  if (!found.within_bounds) {
     verdict = "beyond the limit of 10 mrad: the calibration is not this headset's";
+  }
   std::printf(
       "right camera turned against its calibration by %.2f, %.2f, %.2f mrad"
       " (SD %.2f, %.2f, %.2f): %s\n",
@@ -125,9 +134,13 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
       out["tools"].push_back({{"name", tools[i].name},
                               {"id", tools[i].marker.id},
                               {"measured_pairs", summary.measured[i]}});
-      if (const auto size = tracker.tag_size(i)) out["tools"].back()["tag_size"] = as_json(*size);
+      if (const auto size = tracker.tag_size(i)) {
+        out["tools"].back()["tag_size"] = as_json(*size);
+      }
     }
-    if (alignment) out["stereo_alignment"] = as_json(*alignment);
+    if (alignment) {
+      out["stereo_alignment"] = as_json(*alignment);
+    }
     std::printf("%s\n", out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return;
   }
@@ -135,33 +148,48 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
               static_cast<long long>(summary.pairs),
               static_cast<long long>(recording.pairs_without_pose),
               static_cast<long long>(recording.left_unpaired + recording.right_unpaired));
-  for (std::size_t i = 0; i < tools.size(); ++i)
+  for (std::size_t i = 0; i < tools.size(); ++i) {
     std::printf("%s (id %d): measured in %lld\n", tools[i].name.c_str(), tools[i].marker.id,
                 static_cast<long long>(summary.measured[i]));
-  if (alignment) print(*alignment);
+  }
+  if (alignment) {
+    print(*alignment);
+  }
 }
 
 int run_track(const TrackArguments& arguments) {
   const auto method = engine::method_named(arguments.method);
-  if (!method) return bad_input(method.error().message);
+  if (!method) {
+    return bad_input(method.error().message);
+  }
   auto tools = engine::load_tools(arguments.tools_file);
-  if (!tools) return bad_input(tools.error().message);
+  if (!tools) {
+    return bad_input(tools.error().message);
+  }
   auto headset = replay::ReplayHeadset::open(arguments.recording);
-  if (!headset) return bad_input(headset.error().message);
+  if (!headset) {
+    return bad_input(headset.error().message);
+  }
   // Before the work, so that an unwritable place is known at once.
-  if (auto place = engine::AtomicFile::create(arguments.csv); !place)
+  if (auto place = engine::AtomicFile::create(arguments.csv); !place) {
     return bad_input(place.error().message);
+  }
   nav::TrackerOptions options;
   options.full_search_interval = arguments.full_search_every;
   auto tracker =
       method->create_tracker((*headset)->cameras().calibration(), std::move(*tools), options);
-  if (!tracker) return bad_input(tracker.error().message);
+  if (!tracker) {
+    return bad_input(tracker.error().message);
+  }
 
   std::string csv = kHeader;
   const auto summary = track_all(**headset, **tracker, csv);
-  if (!summary) return bad_input(summary.error().message);
-  if (Status status = engine::write_file(arguments.csv, csv); !status)
+  if (!summary) {
+    return bad_input(summary.error().message);
+  }
+  if (Status status = engine::write_file(arguments.csv, csv); !status) {
     return bad_input(status.error().message);
+  }
   print(arguments, *summary, (*headset)->summary(), **tracker);
   warn_of_sizes(**tracker);
   return kDone;

@@ -22,25 +22,29 @@ std::optional<std::string> screw_problem(const nav::SurfaceIndex& bone, double m
   const std::string which = name_of(screw.side);
   const auto at_entry = bone.nearest(screw.entry.v);
   const double off_m = at_entry ? at_entry->distance_m : 1e3;
-  if (off_m > kMaxEntryOffBone_m)
+  if (off_m > kMaxEntryOffBone_m) {
     return which + " entry lies " + in_mm(off_m) + " off the bone, limit " +
            in_mm(kMaxEntryOffBone_m);
+  }
   const double behind_m = screw.entry.v.y - screw.target.v.y;
-  if (!(behind_m > 0.0))
+  if (!(behind_m > 0.0)) {
     return which + " entry lies " + in_mm(-behind_m) +
            " in front of its target, must lie behind it (posterior)";
+  }
   const auto at_target = bone.nearest(screw.target.v);
   const double outside_m =
       bone.contains(screw.target.v) || !at_target ? 0.0 : at_target->distance_m;
   const double limit_m = std::max(screw.radius_m, kMinTargetOutside_m);
-  if (outside_m > limit_m)
+  if (outside_m > limit_m) {
     return which + " target lies " + in_mm(outside_m) + " outside the bone, limit " +
            in_mm(limit_m);
+  }
   const double left_m = screw.entry.v.x - middle_x_m;
   const bool there = screw.side == nav::Side::kLeft ? left_m > 0.0 : left_m < 0.0;
-  if (!there)
+  if (!there) {
     return which + " entry lies " + in_mm(std::abs(left_m)) + " to the " +
            (left_m > 0.0 ? "left" : "right") + " of the bone's middle, must lie to the " + which;
+  }
   return std::nullopt;
 }
 
@@ -58,33 +62,46 @@ const CaseLevel* Case::find(const std::string& label) const {
 
 const CaseLevel* Case::overlapped_by(std::size_t index) const {
   const Point<Spine> centre = levels[index].centre_in_spine();
-  for (std::size_t i = 0; i < index; ++i)
-    if ((levels[i].centre_in_spine() - centre).norm() < kMinLevelSpacing_m) return &levels[i];
+  for (std::size_t i = 0; i < index; ++i) {
+    if ((levels[i].centre_in_spine() - centre).norm() < kMinLevelSpacing_m) {
+      return &levels[i];
+    }
+  }
   return nullptr;
 }
 
 std::vector<std::string> Case::check() const {
   std::vector<std::string> problems;
-  if (levels.empty()) problems.push_back("levels is empty");
+  if (levels.empty()) {
+    problems.push_back("levels is empty");
+  }
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const CaseLevel& level = levels[i];
     const std::string which =
         level.label.empty() ? "levels[" + std::to_string(i) + "]" : level.label;
-    if (level.label.empty()) problems.push_back(which + " has no label");
-    if (!level.label.empty() && find(level.label) != &level)
+    if (level.label.empty()) {
+      problems.push_back(which + " has no label");
+    }
+    if (!level.label.empty() && find(level.label) != &level) {
       problems.push_back("label " + level.label + " stands twice");
-    if (level.screws.empty()) problems.push_back(which + " has no screws");
-    if (const CaseLevel* other = overlapped_by(i))
+    }
+    if (level.screws.empty()) {
+      problems.push_back(which + " has no screws");
+    }
+    if (const CaseLevel* other = overlapped_by(i)) {
       problems.push_back(which + " lies in " + other->label + " (see spine_from_model)");
+    }
     if (level.mesh.triangles.empty()) {
       problems.push_back(which + " has no surface");
       continue;
     }
     const nav::SurfaceIndex bone(level.mesh);
     const double middle_x_m = nav::bounds_of(level.mesh).centre().x;
-    for (const nav::ScrewPlan& screw : level.screws)
-      if (const auto problem = screw_problem(bone, middle_x_m, screw))
+    for (const nav::ScrewPlan& screw : level.screws) {
+      if (const auto problem = screw_problem(bone, middle_x_m, screw)) {
         problems.push_back(which + " " + *problem);
+      }
+    }
   }
   return problems;
 }

@@ -23,9 +23,12 @@ constexpr double kStackSpacing_m = 0.037;
 
 void stack_if_they_overlap(Case& subject) {
   bool overlap = false;
-  for (std::size_t i = 0; i < subject.levels.size(); ++i)
+  for (std::size_t i = 0; i < subject.levels.size(); ++i) {
     overlap = overlap || subject.overlapped_by(i) != nullptr;
-  if (!overlap) return;
+  }
+  if (!overlap) {
+    return;
+  }
   for (std::size_t i = 0; i < subject.levels.size(); ++i) {
     CaseLevel& level = subject.levels[i];
     const Vec3 place{0, 0, -kStackSpacing_m * static_cast<double>(i)};
@@ -40,15 +43,23 @@ Transform<Spine, Vertebra> spine_from_model(const JsonNode& node, double metres_
   const std::vector<double> numbers = node.numbers("spine_from_model", 16);
   std::array<double, 16> a{};
   std::copy(numbers.begin(), numbers.end(), a.begin());
-  for (const std::size_t i : {3u, 7u, 11u}) a[i] *= metres_per_unit;
+  for (const std::size_t i : {3u, 7u, 11u}) {
+    a[i] *= metres_per_unit;
+  }
   if (axes == Axes::kRas) {
     // Both sides turn half round z: F·M·F with F = diag(-1, -1, 1).
-    for (const std::size_t i : {2u, 3u, 6u, 7u, 8u, 9u}) a[i] = -a[i];
+    for (const std::size_t i : {2u, 3u, 6u, 7u, 8u, 9u}) {
+      a[i] = -a[i];
+    }
   }
   const bool affine = a[12] == 0 && a[13] == 0 && a[14] == 0 && a[15] == 1;
-  if (!affine) node.refuse("spine_from_model", "must end with the row 0 0 0 1");
+  if (!affine) {
+    node.refuse("spine_from_model", "must end with the row 0 0 0 1");
+  }
   const auto transform = Transform<Spine, Vertebra>::from_row_major(a, kMaxShear);
-  if (transform) return *transform;
+  if (transform) {
+    return *transform;
+  }
   node.refuse("spine_from_model", transform.error().message);
   return {};
 }
@@ -63,24 +74,32 @@ struct Entry {
 
 Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double metres_per_unit) {
   const Result<Plan> plan = load_plan((fs::path(folder) / entry.plan).string());
-  if (!plan) return plan.error();
-  if (!plan->level.empty() && plan->level != entry.label)
+  if (!plan) {
+    return plan.error();
+  }
+  if (!plan->level.empty() && plan->level != entry.label) {
     return Error{(fs::path(folder) / entry.plan).string() + ": is the plan of " + plan->level +
                  ", the case uses it for " + entry.label};
+  }
   const std::string model = (fs::path(folder) / entry.model).string();
   Result<nav::TriangleMesh> mesh = load_mesh(model, plan->metres_per_unit, plan->axes);
-  if (!mesh) return mesh.error();
+  if (!mesh) {
+    return mesh.error();
+  }
   CaseLevel level{entry.label, std::move(mesh).value(), plan->screws, {}};
-  if (entry.node.has("spine_from_model"))
+  if (entry.node.has("spine_from_model")) {
     level.spine_from_vertebra =
         spine_from_model(entry.node, metres_per_unit, declared_axes(model).value_or(plan->axes));
+  }
   return level;
 }
 
 Status load_levels(const std::vector<Entry>& entries, double metres_per_unit, Case& subject) {
   for (const Entry& entry : entries) {
     Result<CaseLevel> level = loaded(entry, subject.folder, metres_per_unit);
-    if (!level) return level.error();
+    if (!level) {
+      return level.error();
+    }
     subject.levels.push_back(std::move(level).value());
   }
   return {};
@@ -91,29 +110,42 @@ Status load_levels(const std::vector<Entry>& entries, double metres_per_unit, Ca
 Result<Case> load_case(const std::string& folder) {
   const std::string path = (fs::path(folder) / "case.json").string();
   const Result<JsonDocument> document = JsonDocument::read(path);
-  if (!document) return document.error();
+  if (!document) {
+    return document.error();
+  }
   const JsonNode root = document->root();
   Case subject;
   subject.folder = folder;
   subject.name = root.text_or("name", fs::path(folder).filename().string());
   const std::string units = root.text_or("units", "mm");
   const auto metres_per_unit = metres_per_unit_from(units);
-  if (!metres_per_unit) root.refuse("units", "is \"" + units + "\", must be mm or m");
+  if (!metres_per_unit) {
+    root.refuse("units", "is \"" + units + "\", must be mm or m");
+  }
   std::vector<Entry> entries;
   std::size_t placed = 0;
   for (const JsonNode& node : root.list("levels")) {
     entries.push_back({node.text("label"), node.text("model"), node.text("plan"), node});
     placed += node.has("spine_from_model") ? 1 : 0;
   }
-  if (placed != 0 && placed != entries.size())
+  if (placed != 0 && placed != entries.size()) {
     root.refuse("levels", "must have spine_from_model in all levels or in none");
-  if (Status status = document->status(); !status) return status.error();
-  if (Status status = load_levels(entries, *metres_per_unit, subject); !status)
+  }
+  if (Status status = document->status(); !status) {
     return status.error();
-  if (Status status = document->status(); !status) return status.error();
-  if (placed == 0) stack_if_they_overlap(subject);
-  if (const auto problems = subject.check(); !problems.empty())
+  }
+  if (Status status = load_levels(entries, *metres_per_unit, subject); !status) {
+    return status.error();
+  }
+  if (Status status = document->status(); !status) {
+    return status.error();
+  }
+  if (placed == 0) {
+    stack_if_they_overlap(subject);
+  }
+  if (const auto problems = subject.check(); !problems.empty()) {
     return Error{path + ": " + joined(problems)};
+  }
   return subject;
 }
 

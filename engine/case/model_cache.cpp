@@ -17,15 +17,25 @@ namespace {
 Result<std::optional<std::string>> content_of(const std::string& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
-  if (status.type() == fs::file_type::not_found) return std::optional<std::string>();
+  if (status.type() == fs::file_type::not_found) {
+    return std::optional<std::string>();
+  }
   // A pipe would keep whoever reads it waiting.
-  if (!fs::is_regular_file(status)) return Error{"is no file"};
+  if (!fs::is_regular_file(status)) {
+    return Error{"is no file"};
+  }
   const std::uintmax_t size = fs::file_size(path, code);
-  if (code) return Error{"cannot be read: " + code.message()};
-  if (size > kMostPartsBytes) return Error{"is damaged: " + std::to_string(size) + " bytes long"};
+  if (code) {
+    return Error{"cannot be read: " + code.message()};
+  }
+  if (size > kMostPartsBytes) {
+    return Error{"is damaged: " + std::to_string(size) + " bytes long"};
+  }
   std::string bytes(size, '\0');
   std::ifstream in(path, std::ios::binary);
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) return Error{"cannot be read"};
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    return Error{"cannot be read"};
+  }
   return std::optional(std::move(bytes));
 }
 
@@ -47,12 +57,20 @@ std::shared_ptr<const nav::VertebraModel> ModelCache::load(const nav::TriangleMe
     return nullptr;
   };
   const auto bytes = content_of(path);
-  if (!bytes) return anew(bytes.error());
-  if (!*bytes) return nullptr;
+  if (!bytes) {
+    return anew(bytes.error());
+  }
+  if (!*bytes) {
+    return nullptr;
+  }
   auto parts = decoded(**bytes, key);
-  if (!parts) return anew(parts.error());
+  if (!parts) {
+    return anew(parts.error());
+  }
   auto model = nav::VertebraModel::restore(mesh, std::move(*parts));
-  if (!model) return anew(Error{"does not fit its mesh (" + model.error().message + ")"});
+  if (!model) {
+    return anew(Error{"does not fit its mesh (" + model.error().message + ")"});
+  }
   return *model;
 }
 
@@ -68,19 +86,26 @@ Result<std::shared_ptr<const nav::VertebraModel>> ModelCache::prepared(
     return model;
   }
   auto model = nav::VertebraModel::prepare(mesh);
-  if (!model) return model.error();
+  if (!model) {
+    return model.error();
+  }
   ++made_;
   unwritten_.push_back({key, *model});
   return *model;
 }
 
 void ModelCache::keep() {
-  if (unwritten_.empty()) return;
+  if (unwritten_.empty()) {
+    return;
+  }
   std::error_code ignored;  // writing says what is wrong
   fs::create_directories(folder_, ignored);
-  for (const Unwritten& made : unwritten_)
-    if (const Status s = write_file(file_of(made.key), encoded(made.key, made.model->parts())); !s)
+  for (const Unwritten& made : unwritten_) {
+    if (const Status s = write_file(file_of(made.key), encoded(made.key, made.model->parts()));
+        !s) {
       notes_.push_back("the prepared model is not kept: " + s.error().message);
+    }
+  }
   unwritten_.clear();
 }
 

@@ -11,14 +11,18 @@ namespace {
 
 std::string known_labels(const Case& source) {
   std::string out;
-  for (const CaseLevel& level : source.levels) out += (out.empty() ? "" : ", ") + level.label;
+  for (const CaseLevel& level : source.levels) {
+    out += (out.empty() ? "" : ", ") + level.label;
+  }
   return out;
 }
 
 /// By height along the spine (+z superior), not by name: a case may call its levels anything.
 std::vector<const CaseLevel*> from_the_lowest(const Case& source) {
   std::vector<const CaseLevel*> levels;
-  for (const CaseLevel& level : source.levels) levels.push_back(&level);
+  for (const CaseLevel& level : source.levels) {
+    levels.push_back(&level);
+  }
   std::stable_sort(levels.begin(), levels.end(), [](const CaseLevel* a, const CaseLevel* b) {
     return a->centre_in_spine().v.z < b->centre_in_spine().v.z;
   });
@@ -30,9 +34,15 @@ std::vector<std::string> beside(const Case& source, const std::string& label) {
   const auto levels = from_the_lowest(source);
   std::vector<std::string> out;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (levels[i]->label != label) continue;
-    if (i > 0) out.push_back(levels[i - 1]->label);
-    if (i + 1 < levels.size()) out.push_back(levels[i + 1]->label);
+    if (levels[i]->label != label) {
+      continue;
+    }
+    if (i > 0) {
+      out.push_back(levels[i - 1]->label);
+    }
+    if (i + 1 < levels.size()) {
+      out.push_back(levels[i + 1]->label);
+    }
   }
   return out;
 }
@@ -43,10 +53,13 @@ class PreparedLevels {
   PreparedLevels(const Case& source, ModelCache& cache) : source_(source), cache_(cache) {}
 
   Result<std::shared_ptr<const nav::VertebraModel>> model(const std::string& label) {
-    if (const auto known = models_.find(label); known != models_.end()) return known->second;
+    if (const auto known = models_.find(label); known != models_.end()) {
+      return known->second;
+    }
     auto model = cache_.prepared(source_.find(label)->mesh);
-    if (!model)
+    if (!model) {
       return Error{"case '" + source_.name + "', level '" + label + "': " + model.error().message};
+    }
     return models_[label] = *model;
   }
 
@@ -59,8 +72,9 @@ class PreparedLevels {
 std::vector<std::string> two_lowest(const Case& source) {
   const auto levels = from_the_lowest(source);
   std::vector<std::string> labels;
-  for (std::size_t i = 0; i < std::min<std::size_t>(2, levels.size()); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, levels.size()); ++i) {
     labels.push_back(levels[i]->label);
+  }
   return labels;
 }
 
@@ -71,14 +85,20 @@ Result<std::vector<std::string>> levels_to_operate(const Case& source,
   const std::vector<std::string> wanted = labels.empty() ? two_lowest(source) : labels;
   std::set<std::string> open;
   for (const std::string& label : wanted) {
-    if (!source.find(label))
+    if (!source.find(label)) {
       return Error{"case '" + source.name + "' has no level '" + label +
                    "' (it has: " + known_labels(source) + ")"};
-    if (!open.insert(label).second) return Error{"level '" + label + "' is named twice"};
+    }
+    if (!open.insert(label).second) {
+      return Error{"level '" + label + "' is named twice"};
+    }
   }
   std::vector<std::string> ordered;
-  for (const CaseLevel& level : source.levels)
-    if (open.contains(level.label)) ordered.push_back(level.label);
+  for (const CaseLevel& level : source.levels) {
+    if (open.contains(level.label)) {
+      ordered.push_back(level.label);
+    }
+  }
   return ordered;
 }
 
@@ -90,17 +110,23 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
 Result<Operation> plan_operation(const Case& source, const std::vector<std::string>& labels,
                                  ModelCache& cache) {
   const auto ordered = levels_to_operate(source, labels);
-  if (!ordered) return ordered.error();
+  if (!ordered) {
+    return ordered.error();
+  }
   Operation operation;
   operation.case_name = source.name;
   PreparedLevels prepared(source, cache);
   for (const std::string& label : *ordered) {
     const auto model = prepared.model(label);
-    if (!model) return model.error();
+    if (!model) {
+      return model.error();
+    }
     OperatedLevel level{label, *model, source.find(label)->screws, {}};
     for (const std::string& next : beside(source, label)) {
       const auto neighbour = prepared.model(next);
-      if (!neighbour) return neighbour.error();
+      if (!neighbour) {
+        return neighbour.error();
+      }
       level.neighbours.push_back({next, *neighbour});
     }
     operation.levels.push_back(std::move(level));

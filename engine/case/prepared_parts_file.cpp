@@ -49,26 +49,33 @@ template <class T>
 std::vector<T> take(std::string_view& from, std::uint64_t count) {
   std::vector<T> numbers(count);
   const std::size_t size = count * sizeof(T);
-  if (size > 0) std::memcpy(numbers.data(), from.data(), size);
+  if (size > 0) {
+    std::memcpy(numbers.data(), from.data(), size);
+  }
   from.remove_prefix(size);
   return numbers;
 }
 
 Status check(const Header& header, std::size_t size, const MeshKey& key) {
-  if (std::string_view(header.magic, sizeof header.magic) != kMagic)
+  if (std::string_view(header.magic, sizeof header.magic) != kMagic) {
     return Error{"is no prepared model"};
-  if (header.layout != kLayout || header.preparation != nav::kPreparationVersion)
+  }
+  if (header.layout != kLayout || header.preparation != nav::kPreparationVersion) {
     return Error{"is of version " + std::to_string(header.layout) + "." +
                  std::to_string(header.preparation) + ", current is " + std::to_string(kLayout) +
                  "." + std::to_string(nav::kPreparationVersion)};
-  if (MeshKey{header.vertices, header.triangles, header.vertices_crc, header.triangles_crc} != key)
+  }
+  if (MeshKey{header.vertices, header.triangles, header.vertices_crc, header.triangles_crc} !=
+      key) {
     return Error{"is of another mesh"};
+  }
   // Each alone first, so that the sum can't overflow.
   if (header.reachable > size || header.closest > size || header.distances > size ||
       sizeof(Header) + header.reachable * sizeof(std::uint32_t) + header.closest * sizeof(Vec3) +
               header.distances * sizeof(float) + kCrcBytes !=
-          size)
+          size) {
     return Error{"is damaged: not as long as it says"};
+  }
   return {};
 }
 
@@ -107,15 +114,19 @@ std::string encoded(const MeshKey& key, const nav::PreparedParts& parts) {
 }
 
 Result<nav::PreparedParts> decoded(std::string_view bytes, const MeshKey& key) {
-  if (bytes.size() < sizeof(Header) + kCrcBytes || bytes.size() > kMostPartsBytes)
+  if (bytes.size() < sizeof(Header) + kCrcBytes || bytes.size() > kMostPartsBytes) {
     return Error{"is damaged: " + std::to_string(bytes.size()) + " bytes long"};
+  }
   Header header;
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (const Status s = check(header, bytes.size(), key); !s) return s.error();
+  if (const Status s = check(header, bytes.size(), key); !s) {
+    return s.error();
+  }
   std::uint32_t crc = 0;
   std::memcpy(&crc, bytes.data() + bytes.size() - kCrcBytes, kCrcBytes);
-  if (crc != crc_of(bytes.data(), bytes.size() - kCrcBytes))
+  if (crc != crc_of(bytes.data(), bytes.size() - kCrcBytes)) {
     return Error{"is damaged: its checksum is wrong"};
+  }
   bytes.remove_prefix(sizeof header);
   nav::PreparedParts parts;
   parts.reachable = take<std::uint32_t>(bytes, header.reachable);

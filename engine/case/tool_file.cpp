@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/check.h"
 #include "base/joined.h"
 #include "embedded/tools_json.h"
 #include "engine/io/atomic_file.h"
@@ -19,8 +19,11 @@ constexpr double kMetresPerMm = 1e-3;
 
 std::optional<nav::ToolRole> role_from(const std::string& text) {
   for (const nav::ToolRole role :
-       {nav::ToolRole::kPointer, nav::ToolRole::kGuide, nav::ToolRole::kReference})
-    if (to_text(role) == text) return role;
+       {nav::ToolRole::kPointer, nav::ToolRole::kGuide, nav::ToolRole::kReference}) {
+    if (to_text(role) == text) {
+      return role;
+    }
+  }
   return std::nullopt;
 }
 
@@ -34,11 +37,17 @@ nav::AttachedMarker attached_from(const JsonNode& node) {
   const std::vector<double> numbers = node.numbers("pose", 16);
   std::array<double, 16> a{};
   std::copy(numbers.begin(), numbers.end(), a.begin());
-  for (const std::size_t i : {3u, 7u, 11u}) a[i] *= kMetresPerMm;
+  for (const std::size_t i : {3u, 7u, 11u}) {
+    a[i] *= kMetresPerMm;
+  }
   const bool affine = a[12] == 0 && a[13] == 0 && a[14] == 0 && a[15] == 1;
-  if (!affine) node.refuse("pose", "must end with the row 0 0 0 1");
+  if (!affine) {
+    node.refuse("pose", "must end with the row 0 0 0 1");
+  }
   const auto pose = Transform<Marker, Tag>::from_row_major(a, kMaxShear);
-  if (!pose) node.refuse("pose", pose.error().message);
+  if (!pose) {
+    node.refuse("pose", pose.error().message);
+  }
   return {marker_from(node), pose ? *pose : Transform<Marker, Tag>{}};
 }
 
@@ -46,33 +55,46 @@ nav::ToolGeometry tool_from(const JsonNode& node) {
   nav::ToolGeometry tool;
   tool.name = node.text("name");
   const std::string role = node.text("role");
-  if (const auto known = role_from(role))
+  if (const auto known = role_from(role)) {
     tool.role = *known;
-  else
+  } else {
     node.refuse("role", "is \"" + role + "\", must be pointer, guide or reference");
+  }
   tool.marker = marker_from(node.child("marker"));
-  if (node.has("markers"))
-    for (const JsonNode& more : node.list("markers"))
+  if (node.has("markers")) {
+    for (const JsonNode& more : node.list("markers")) {
       tool.more_markers.push_back(attached_from(more));
+    }
+  }
   // A reference is nothing but its marker.
-  if (tool.role != nav::ToolRole::kReference || node.has("tip_mm"))
+  if (tool.role != nav::ToolRole::kReference || node.has("tip_mm")) {
     tool.tip_in_marker = {node.vec3("tip_mm") * kMetresPerMm};
+  }
   const Vec3 axis = node.has("axis") ? node.vec3("axis") : Vec3{0, 1, 0};
-  if (axis.norm() < 1e-9)
+  if (axis.norm() < 1e-9) {
     node.refuse("axis", "must not be zero");
-  else
+  } else {
     tool.axis_in_marker = {axis.normalized()};
+  }
   return tool;
 }
 
 Result<std::vector<nav::ToolGeometry>> tools_from(const JsonDocument& document,
                                                   const std::string& name) {
   std::vector<nav::ToolGeometry> tools;
-  for (const JsonNode& node : document.root().list("tools")) tools.push_back(tool_from(node));
-  if (Status status = document.status(); !status) return status.error();
-  if (tools.empty()) return Error{name + ": tools is empty"};
+  for (const JsonNode& node : document.root().list("tools")) {
+    tools.push_back(tool_from(node));
+  }
+  if (Status status = document.status(); !status) {
+    return status.error();
+  }
+  if (tools.empty()) {
+    return Error{name + ": tools is empty"};
+  }
   const std::vector<std::string> problems = nav::problems_of(tools);
-  if (problems.empty()) return tools;
+  if (problems.empty()) {
+    return tools;
+  }
   return Error{name + ": " + joined(problems)};
 }
 
@@ -85,9 +107,12 @@ nlohmann::ordered_json json_of(const nav::MarkerDefinition& marker) {
 nlohmann::ordered_json json_of(const nav::AttachedMarker& more) {
   nlohmann::ordered_json entry = json_of(more.definition);
   std::array<double, 16> a = more.marker_from_tag.row_major();
-  for (const std::size_t i : {3u, 7u, 11u}) a[i] /= kMetresPerMm;
-  for (std::size_t row = 0; row < 4; ++row)
+  for (const std::size_t i : {3u, 7u, 11u}) {
+    a[i] /= kMetresPerMm;
+  }
+  for (std::size_t row = 0; row < 4; ++row) {
     entry["pose"].push_back({a[4 * row], a[4 * row + 1], a[4 * row + 2], a[4 * row + 3]});
+  }
   return entry;
 }
 
@@ -107,7 +132,9 @@ std::string to_text(nav::ToolRole role) {
 
 Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path) {
   const Result<JsonDocument> document = JsonDocument::read(path);
-  if (!document) return document.error();
+  if (!document) {
+    return document.error();
+  }
   return tools_from(*document, path);
 }
 
@@ -118,8 +145,9 @@ std::string tools_text(const std::vector<nav::ToolGeometry>& tools) {
     entry["name"] = tool.name;
     entry["role"] = to_text(tool.role);
     entry["marker"] = json_of(tool.marker);
-    for (const nav::AttachedMarker& more : tool.more_markers)
+    for (const nav::AttachedMarker& more : tool.more_markers) {
       entry["markers"].push_back(json_of(more));
+    }
     entry["tip_mm"] = list_of(tool.tip_in_marker.v / kMetresPerMm);
     entry["axis"] = list_of(tool.axis_in_marker.v);
     list.push_back(entry);
@@ -136,7 +164,9 @@ Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>&
 Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
                                                    const std::string& name) {
   const auto document = JsonDocument::parse(text, name);
-  if (!document) return document.error();
+  if (!document) {
+    return document.error();
+  }
   return tools_from(*document, name);
 }
 
@@ -144,7 +174,9 @@ Result<nav::ToolGeometry> tool_named(const std::vector<nav::ToolGeometry>& tools
                                      const std::string& name) {
   std::string names;
   for (const nav::ToolGeometry& tool : tools) {
-    if (tool.name == name) return tool;
+    if (tool.name == name) {
+      return tool;
+    }
     names += (names.empty() ? "" : ", ") + tool.name;
   }
   return Error{"no tool is named '" + name + "' (there are: " + names + ")"};
@@ -153,33 +185,49 @@ Result<nav::ToolGeometry> tool_named(const std::vector<nav::ToolGeometry>& tools
 Result<std::string> changed_tools(const std::string& path, const std::string& tool,
                                   const ToolChange& change) {
   const Result<std::string> text = read_text(path);
-  if (!text) return text.error();
+  if (!text) {
+    return text.error();
+  }
   const auto tools = parse_tools(*text, path);
-  if (!tools) return tools.error();
-  if (const auto known = tool_named(*tools, tool); !known)
+  if (!tools) {
+    return tools.error();
+  }
+  if (const auto known = tool_named(*tools, tool); !known) {
     return Error{path + ": " + known.error().message};
+  }
   auto root = nlohmann::ordered_json::parse(*text, nullptr, false);
-  if (root.is_discarded()) return Error{path + ": is not JSON"};
+  if (root.is_discarded()) {
+    return Error{path + ": is not JSON"};
+  }
   for (auto& entry : root["tools"]) {
-    if (entry["name"] != tool) continue;
-    if (change.tip_in_marker) entry["tip_mm"] = list_of(change.tip_in_marker->v / kMetresPerMm);
-    if (!change.more_markers) continue;
+    if (entry["name"] != tool) {
+      continue;
+    }
+    if (change.tip_in_marker) {
+      entry["tip_mm"] = list_of(change.tip_in_marker->v / kMetresPerMm);
+    }
+    if (!change.more_markers) {
+      continue;
+    }
     entry["markers"] = nlohmann::ordered_json::array();
-    for (const nav::AttachedMarker& more : *change.more_markers)
+    for (const nav::AttachedMarker& more : *change.more_markers) {
       entry["markers"].push_back(json_of(more));
+    }
   }
   std::string changed =
       root.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  if (const auto after = parse_tools(changed, path + " as changed"); !after) return after.error();
+  if (const auto after = parse_tools(changed, path + " as changed"); !after) {
+    return after.error();
+  }
   return changed;
 }
 
 std::vector<nav::ToolGeometry> built_in_tools() {
   const Result<JsonDocument> document =
       JsonDocument::parse(embedded::tools_json(), "data/tools.json");
-  assert(document.ok());
+  ORTHONAV_CHECK(document.ok());
   Result<std::vector<nav::ToolGeometry>> tools = tools_from(*document, "data/tools.json");
-  assert(tools.ok());
+  ORTHONAV_CHECK(tools.ok());
   return std::move(tools).value();
 }
 

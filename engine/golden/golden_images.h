@@ -15,9 +15,9 @@ namespace orthonav::engine {
 
 /// What a scene looks like; views side by side.
 struct GoldenImages {
-  render::LabelImage labels;
-  render::Image additive;  ///< on black, as a headset shows it
-  render::Image over;      ///< over golden_background
+  LabelImage labels;
+  RgbaImage additive;  ///< on black, as a headset shows it
+  RgbaImage over;      ///< over golden_background
 };
 
 /// Draws golden scenes. Keeps a renderer a size, so that many scenes cost little.

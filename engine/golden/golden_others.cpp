@@ -47,7 +47,9 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 shift) 
   hologram.length_m = 0.0820;
   hologram.shift = shift;
   add_rod(golden.scene, hologram, 1001);
-  for (const Float3 head : kHeads) golden.covered.push_back({1001, head + shift});
+  for (const Float3 head : kHeads) {
+    golden.covered.push_back({1001, head + shift});
+  }
   return golden;
 }
 
@@ -57,7 +59,9 @@ GoldenScene heads(const std::string& name, const std::string& what, std::size_t 
   RodHologram hologram;
   hologram.heads = std::span(kHeads).first(count);
   add_rod(golden.scene, hologram, 1001);
-  for (std::size_t i = 0; i < count; ++i) golden.covered.push_back({1001, kHeads[i]});
+  for (std::size_t i = 0; i < count; ++i) {
+    golden.covered.push_back({1001, kHeads[i]});
+  }
   return golden;
 }
 

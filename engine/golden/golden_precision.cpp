@@ -40,7 +40,9 @@ GoldenScene cross_seen(const std::string& name, const std::string& what, const T
       name, what, {render::look_at(cross.viewer.eye, middle, cross.viewer.up, 0.100f, 0.065f)});
   add_target_cross(golden.scene, cross, 701);
   golden.centred = {{701, middle}};
-  if (cross.reading) golden.covered = {{702, places_of(cross).dots[0]}};
+  if (cross.reading) {
+    golden.covered = {{702, places_of(cross).dots[0]}};
+  }
   return golden;
 }
 
@@ -69,7 +71,9 @@ GoldenScene twin(const std::string& name, const std::string& what, bool with_too
   add_planned_trajectory(parts, kEntry, kTarget, 801);
   add_twin(golden.scene, twin, parts, 801);
   golden.covered = {{801, in_twin(twin, kEntry)}};
-  if (!with_tool) return golden;
+  if (!with_tool) {
+    return golden;
+  }
   parts = {};
   const Float3 b = tool_point(6.0);
   add_deviation_triangle(parts, kEntry, b, planned_point(), Grade::kPoor, 802);

@@ -26,35 +26,41 @@ std::string base64(std::string_view bytes) {
 }
 
 /// Labels in colours that tell neighbours apart.
-render::Image coloured(const render::LabelImage& labels) {
-  render::Image image;
+RgbaImage coloured(const LabelImage& labels) {
+  RgbaImage image;
   image.width_px = labels.width_px;
   image.height_px = labels.height_px;
   for (const render::Label label : labels.labels) {
     const std::uint32_t mixed = label * 2654435761u;
     for (const unsigned shift : {8u, 16u, 24u}) {
       const std::uint32_t value = label == 0 ? 0u : 96u + (mixed >> shift & 0xffu) * 5u / 8u;
-      image.rgba.push_back(static_cast<std::uint8_t>(value));
+      image.pixels.push_back(static_cast<std::uint8_t>(value));
     }
-    image.rgba.push_back(255);
+    image.pixels.push_back(255);
   }
   return image;
 }
 
-Result<std::string> cell(const render::Image& image) {
-  if (image.rgba.empty()) return std::string("<td>none</td>");
+Result<std::string> cell(const RgbaImage& image) {
+  if (image.pixels.empty()) {
+    return std::string("<td>none</td>");
+  }
   const Result<std::string> png = png_bytes(image);
-  if (!png) return png.error();
+  if (!png) {
+    return png.error();
+  }
   return "<td><img src=\"data:image/png;base64," + base64(*png) + "\"></td>";
 }
 
-Result<std::string> row(const std::string& name, const render::Image& expected,
-                        const render::Image& actual) {
+Result<std::string> row(const std::string& name, const RgbaImage& expected,
+                        const RgbaImage& actual) {
   std::string html = "<tr><th>" + name + "</th>";
-  const render::Image difference = render::difference_image(expected, actual);
-  for (const render::Image* image : {&expected, &actual, &difference}) {
+  const RgbaImage difference = render::difference_image(expected, actual);
+  for (const RgbaImage* image : {&expected, &actual, &difference}) {
     const Result<std::string> part = cell(*image);
-    if (!part) return part.error();
+    if (!part) {
+      return part.error();
+    }
     html += *part;
   }
   return html + "</tr>\n";
@@ -68,14 +74,18 @@ Result<std::string> section(const GoldenVerdict& verdict) {
   for (const std::string& problem : verdict.problems) {
     html += "<p class=\"bad\">" + problem + "</p>\n";
   }
-  if (verdict.problems.empty()) html += "<p>alike</p>\n";
+  if (verdict.problems.empty()) {
+    html += "<p>alike</p>\n";
+  }
   html += "<table><tr><th></th><th>expected</th><th>actual</th><th>difference × 16</th></tr>\n";
   for (const auto& [name, was, is] :
        {std::tuple("additive", expected.additive, actual.additive),
         std::tuple("over", expected.over, actual.over),
         std::tuple("labels", coloured(expected.labels), coloured(actual.labels))}) {
     const Result<std::string> part = row(name, was, is);
-    if (!part) return part.error();
+    if (!part) {
+      return part.error();
+    }
     html += *part;
   }
   return html + "</table>\n";
@@ -86,7 +96,9 @@ Result<std::string> section(const GoldenVerdict& verdict) {
 Result<GoldenVerdict> judge(GoldenPainter& painter, const GoldenScene& scene,
                             const std::filesystem::path& folder) {
   Result<GoldenImages> actual = painter.paint(scene);
-  if (!actual) return actual.error();
+  if (!actual) {
+    return actual.error();
+  }
   GoldenVerdict verdict{scene, std::nullopt, std::move(*actual), {}};
   Result<GoldenImages> expected = read_goldens(folder, scene.name);
   if (expected) {
@@ -113,9 +125,13 @@ Result<std::string> review_page(const std::vector<GoldenVerdict>& verdicts,
   }
   for (const bool differing : {true, false}) {
     for (const GoldenVerdict& verdict : verdicts) {
-      if (verdict.problems.empty() == differing) continue;
+      if (verdict.problems.empty() == differing) {
+        continue;
+      }
       const Result<std::string> part = section(verdict);
-      if (!part) return part.error();
+      if (!part) {
+        return part.error();
+      }
       html += *part;
     }
   }

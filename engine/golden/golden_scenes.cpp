@@ -14,8 +14,8 @@ std::vector<GoldenScene> golden_scenes() {
   return scenes;
 }
 
-render::Image golden_background(int width_px, int height_px) {
-  render::Image image;
+RgbaImage golden_background(int width_px, int height_px) {
+  RgbaImage image;
   image.width_px = width_px;
   image.height_px = height_px;
   const auto channel = [](int value) { return static_cast<std::uint8_t>(value); };
@@ -26,10 +26,10 @@ render::Image golden_background(int width_px, int height_px) {
       const int dy = 200 * y / height_px - 100;
       const bool wound = 4 * dx * dx + 9 * dy * dy < 4 * 70 * 70;
       const int uneven = (x / 9 + y / 7) % 5 * 4;
-      image.rgba.push_back(channel(wound ? 118 + uneven : 34 + uneven));
-      image.rgba.push_back(channel(wound ? 42 + uneven : 74 + uneven));
-      image.rgba.push_back(channel(wound ? 38 + uneven : 78 + 20 * x / width_px));
-      image.rgba.push_back(255);
+      image.pixels.push_back(channel(wound ? 118 + uneven : 34 + uneven));
+      image.pixels.push_back(channel(wound ? 42 + uneven : 74 + uneven));
+      image.pixels.push_back(channel(wound ? 38 + uneven : 78 + 20 * x / width_px));
+      image.pixels.push_back(255);
     }
   }
   return image;

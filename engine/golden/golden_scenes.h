@@ -31,6 +31,6 @@ struct GoldenScene {
 [[nodiscard]] std::vector<GoldenScene> golden_scenes();
 
 /// What lies behind the holograms in the `over` pictures: a lit wound, a little uneven.
-[[nodiscard]] render::Image golden_background(int width_px, int height_px);
+[[nodiscard]] RgbaImage golden_background(int width_px, int height_px);
 
 }  // namespace orthonav::engine

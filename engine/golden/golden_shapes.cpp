@@ -40,8 +40,9 @@ GoldenScene residuals() {
                              close_view({-0.012f, 0.04f, -0.001f}));
   const std::vector<Float3> samples = stroke();
   std::vector<float> distances_m;
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  for (std::size_t i = 0; i < samples.size(); ++i) {
     distances_m.push_back(0.0015f + 0.0014f * std::sin(0.13f * static_cast<float>(i)));
+  }
   add_residual_path(golden.scene, samples, distances_m, 101);
   golden.covered = {{101, samples.front()}, {101, samples[60]}};
   return golden;
@@ -62,8 +63,9 @@ GoldenScene bare_vertebra() {
   GoldenScene golden = start("h2_bare", "the same, bluish on the right, where no stroke came near",
                              close_view({0, 0.02f, 0}));
   auto partly = std::make_shared<render::MeshData>(*make_golden_vertebra());
-  for (const Float3 place : partly->positions)
+  for (const Float3 place : partly->positions) {
     partly->tints.push_back(std::clamp(500.0f * (-0.004f - place.x), 0.0f, 1.0f));
+  }
   add_vertebra(golden.scene, std::move(partly), render::kIdentity, 201);
   return golden;
 }
@@ -113,7 +115,9 @@ GoldenScene readout(const std::string& name, const std::string& what,
                     std::optional<double> angle_deg) {
   GoldenScene golden = start(name, what, close_view({0.035f, 0.115f, 0.01f}));
   std::optional<double> angle_rad;
-  if (angle_deg) angle_rad = *angle_deg * kRadiansPerDegree;
+  if (angle_deg) {
+    angle_rad = *angle_deg * kRadiansPerDegree;
+  }
   const Float3 b = tool_point(angle_deg.value_or(4.0));
   add_angle_readout(golden.scene, kEntry, b, angle_text(angle_rad),
                     grade_of(angle_rad.value_or(1.0)), 601);

@@ -26,9 +26,13 @@ void add_paths(GoldenScene& golden, bool recording) {
   const std::vector<Float3> saved = stroke();
   add_sampled_path(golden.scene, saved, PathState::kSaved, 101);
   golden.covered.push_back({101, saved.front()});
-  if (!recording) return;
+  if (!recording) {
+    return;
+  }
   std::vector<Float3> mirrored = saved;
-  for (Float3& p : mirrored) p = {-p.x, p.y, p.z};
+  for (Float3& p : mirrored) {
+    p = {-p.x, p.y, p.z};
+  }
   mirrored.resize(70);
   add_sampled_path(golden.scene, mirrored, PathState::kRecording, 102);
   golden.covered.push_back({102, mirrored.back()});
@@ -76,7 +80,9 @@ void add_tool_to(GoldenScene& golden, double angle_deg, bool measured, double de
                     measured ? grade : Grade::kPoor, 601);
   golden.covered.push_back({501, b});
   golden.covered.push_back({501, planned_point()});
-  if (!measured) return add_cross_to(golden, std::nullopt, false);
+  if (!measured) {
+    return add_cross_to(golden, std::nullopt, false);
+  }
   const Float3 top = (b - planned_point()) +
                      -1.0f * dot(b - planned_point(), planned_direction()) * planned_direction();
   add_cross_to(golden, CrossReading{0.12f * top, top, grade}, false);
@@ -104,10 +110,14 @@ GoldenScene verifying() {
   add_bone(golden);
   const std::vector<Float3> samples = stroke();
   std::vector<float> distances_m(samples.size(), 0.0004f);
-  for (std::size_t i = 50; i < 70; ++i) distances_m[i] = 0.0016f;
+  for (std::size_t i = 50; i < 70; ++i) {
+    distances_m[i] = 0.0016f;
+  }
   add_residual_path(golden.scene, samples, distances_m, 101);
   render::Label label = 1200;
-  for (const Float3 place : kPlacesToCheck) add_place_to_check(golden.scene, place, ++label);
+  for (const Float3 place : kPlacesToCheck) {
+    add_place_to_check(golden.scene, place, ++label);
+  }
   return golden;
 }
 
@@ -117,9 +127,10 @@ GoldenScene checked() {
   add_bone(golden);
   constexpr std::array<double, 3> kDistances_m = {0.0004, 0.0011, 0.0031};
   render::Label label = 1200;
-  for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i)
+  for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i) {
     add_check_point(golden.scene, kPlacesToCheck[i], distance_text(kDistances_m[i]),
                     kDistances_m[i] <= 0.002, ++label);
+  }
   return golden;
 }
 
@@ -197,7 +208,7 @@ void add_view_scenes(std::vector<GoldenScene>& scenes) {
   constexpr std::array<float, 3> kDistances_m = {0.35f, 0.50f, 0.70f};
   constexpr std::array<float, 3> kRolls_deg = {-20.0f, 0.0f, 20.0f};
   constexpr std::array<const char*, 3> kRollNames = {"rolled_left", "upright", "rolled_right"};
-  for (const float distance_m : kDistances_m)
+  for (const float distance_m : kDistances_m) {
     for (std::size_t i = 0; i < kRolls_deg.size(); ++i) {
       GoldenScene golden = guidance();
       const auto cm = static_cast<int>(std::lround(100.0f * distance_m));
@@ -214,6 +225,7 @@ void add_view_scenes(std::vector<GoldenScene>& scenes) {
                    false, surgeon(distance_m, kRolls_deg[i]));
       scenes.push_back(std::move(golden));
     }
+  }
 }
 
 }  // namespace orthonav::engine::golden

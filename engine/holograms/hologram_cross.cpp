@@ -55,15 +55,17 @@ std::array<Float3, 3> arrow(const CrossPlaces& places, std::size_t i) {
 
 void add_dots(Scene& scene, const TargetCross& cross, const CrossPlaces& places, Label label) {
   const render::Colour colour = colour_of(cross.reading->grade);
-  if (places.outside[0])
+  if (places.outside[0]) {
     scene.triangles.push_back({label, arrow(places, 0), colour});
-  else
+  } else {
     add_sphere(scene, places.dots[0], kDotRadius_m, colour, label);
-  if (places.outside[1])
+  }
+  if (places.outside[1]) {
     add_line(scene, arrow(places, 1), kHollowWidth_m, colour, label, 0, true);
-  else
+  } else {
     add_ring(scene, places.dots[1], places.normal, kHollowRadius_m, kHollowWidth_m, colour, label,
              24);
+  }
 }
 
 /// By turns on the right and on the left, or 1 and 2 would read as 12.
@@ -92,7 +94,9 @@ void add_lost_text(Scene& scene, Float3 middle, Label label) {
 LabelSide clear_side(Float3 site, Float3 outward, const Viewer& viewer, LabelSide until_now) {
   constexpr float kLeans = 0.15f;
   const float lean = dot(outward, right_of(viewer, towards(viewer, site)));
-  if (!(std::abs(lean) > kLeans)) return until_now;
+  if (!(std::abs(lean) > kLeans)) {
+    return until_now;
+  }
   return lean > 0 ? LabelSide::kLeft : LabelSide::kRight;
 }
 
@@ -107,7 +111,9 @@ CrossPlaces places_of(const TargetCross& cross) {
   places.up = render::cross(towards_eye, places.right);
   places.normal = render::cross(places.right, places.up);
   places.dots.fill(places.middle);
-  if (!cross.reading) return places;
+  if (!cross.reading) {
+    return places;
+  }
   const std::array<Float3, 2> offsets = {cross.reading->tip_offset, cross.reading->top_offset};
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     const auto [across, up] = on_disc(cross, places.right, towards_eye, offsets[i]);
@@ -130,12 +136,15 @@ void add_target_cross(Scene& scene, const TargetCross& cross, Label label) {
   for (const float ring_m : rings_m) {
     add_ring(scene, places.middle, places.normal, kCrossScale * ring_m, kRingWidth_m, look::kRing,
              label);
-    if (!cross.lost) add_ring_text(scene, places, ring_m, label);
+    if (!cross.lost) {
+      add_ring_text(scene, places, ring_m, label);
+    }
   }
-  if (cross.lost)
+  if (cross.lost) {
     add_lost_text(scene, places.middle, label);
-  else if (cross.reading)
+  } else if (cross.reading) {
     add_dots(scene, cross, places, label + 1);
+  }
 }
 
 void take_dots_off(Scene& scene, Label label) {
@@ -146,12 +155,18 @@ void take_dots_off(Scene& scene, Label label) {
   const auto is_cross = [&](const auto& item) { return item.label == label; };
   scene.texts.erase_if(is_cross);
   const render::LineItem* outermost = nullptr;
-  for (const render::LineItem& line : scene.lines)
-    if (is_cross(line)) outermost = &line;
-  if (!outermost) return;
+  for (const render::LineItem& line : scene.lines) {
+    if (is_cross(line)) {
+      outermost = &line;
+    }
+  }
+  if (!outermost) {
+    return;
+  }
   Float3 middle{};
-  for (const Float3 point : outermost->points)
+  for (const Float3 point : outermost->points) {
     middle = middle + 1.0f / static_cast<float>(outermost->points.size()) * point;
+  }
   scene.lines.erase_if(
       [&](const render::LineItem& line) { return is_cross(line) && &line != outermost; });
   add_lost_text(scene, middle, label);
@@ -161,7 +176,9 @@ bool write_depth_text(double depth_m, double to_target_m, std::string& text) {
   const bool before = depth_m < 0.0;
   const double left_m = before ? -depth_m : to_target_m;
   text.clear();
-  if (!(std::abs(left_m) < kDeepest_m)) return false;
+  if (!(std::abs(left_m) < kDeepest_m)) {
+    return false;
+  }
   text = in_mm(std::abs(left_m));
   text += before ? " to entry" : (left_m < 0.0 ? " past target" : " to target");
   return true;

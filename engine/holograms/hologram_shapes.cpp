@@ -41,8 +41,12 @@ constexpr float kBendRingWidth_m = 0.0010f;
 std::string fixed_width(std::string_view text) {
   std::string out;
   const std::size_t point = text.find('.');
-  if (point == 1) out += "\u2007";
-  for (const char c : text) c == '-' ? out += "\u2012" : out += c;
+  if (point == 1) {
+    out += "\u2007";
+  }
+  for (const char c : text) {
+    c == '-' ? out += "\u2012" : out += c;
+  }
   return out;
 }
 
@@ -63,15 +67,19 @@ void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, La
 
 std::vector<std::string> GradeLimits::check() const {
   std::vector<std::string> problems;
-  if (!(good_rad > 0.0 && good_rad <= std::numbers::pi))
+  if (!(good_rad > 0.0 && good_rad <= std::numbers::pi)) {
     problems.push_back("good_rad must lie in (0, pi]");
-  if (!(poor_rad >= good_rad && poor_rad <= std::numbers::pi))
+  }
+  if (!(poor_rad >= good_rad && poor_rad <= std::numbers::pi)) {
     problems.push_back("poor_rad must lie in [good_rad, pi]");
+  }
   return problems;
 }
 
 Grade grade_of(double angle_rad, const GradeLimits& limits) {
-  if (!(angle_rad <= limits.poor_rad)) return Grade::kPoor;
+  if (!(angle_rad <= limits.poor_rad)) {
+    return Grade::kPoor;
+  }
   return angle_rad < limits.good_rad ? Grade::kGood : Grade::kFair;
 }
 
@@ -89,7 +97,9 @@ Colour colour_of(Grade grade) {
 
 std::string angle_text(std::optional<double> angle_rad) {
   const double angle_deg = angle_rad ? *angle_rad * kDegreesPerRadian : std::nan("");
-  if (!(angle_deg >= 0.0 && angle_deg < 99.95)) return "--.-°";
+  if (!(angle_deg >= 0.0 && angle_deg < 99.95)) {
+    return "--.-°";
+  }
   char text[16];
   std::snprintf(text, sizeof(text), "%.1f°", angle_deg);
   return text;
@@ -97,7 +107,9 @@ std::string angle_text(std::optional<double> angle_rad) {
 
 void add_sampled_path(Scene& scene, std::span<const Float3> samples, PathState state, Label label,
                       float opacity) {
-  if (samples.empty() || !(opacity > 0)) return;
+  if (samples.empty() || !(opacity > 0)) {
+    return;
+  }
   const Colour colour = state == PathState::kRecording ? look::kYellow : look::kOrange;
   add_line(scene, samples, kPathWidth_m, faded(colour, std::fmin(opacity, 1.0f)), label);
 }
@@ -111,7 +123,9 @@ void add_residual_path(Scene& scene, std::span<const Float3> samples,
   const std::size_t count = std::min(samples.size(), distances_m.size());
   for (std::size_t first = 0; first + 1 < count;) {
     std::size_t last = first + 1;
-    while (last + 1 < count && band(last) == band(first)) ++last;
+    while (last + 1 < count && band(last) == band(first)) {
+      ++last;
+    }
     add_line(scene, samples.subspan(first, last - first + 1), kPathWidth_m, colour_of(band(first)),
              label);
     first = last;
@@ -121,7 +135,7 @@ void add_residual_path(Scene& scene, std::span<const Float3> samples,
 void add_vertebra(Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, Label label) {
   add_mesh(scene, std::move(mesh), world_from_model, look::kBone, label);
-  scene.meshes.back().tint = look::kBare;
+  scene.meshes.back().tint = look::kUnstroked;
   scene.meshes.back().style = render::MeshStyle::kRim;
 }
 
@@ -129,11 +143,15 @@ void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
   add_sphere(scene, entry.position, kEntryRadius_m, look::kBlue, label);
   add_ring(scene, entry.position, entry.surface_normal, kEntryRingRadius_m, kEntryRingWidth_m,
            look::kBlue, label);
-  if (entry.text.empty() && !entry.done) return;
+  if (entry.text.empty() && !entry.done) {
+    return;
+  }
   const float beside = entry.side == LabelSide::kRight ? 1.2f : -1.2f;
   render::TextItem& text = add_text_beside(scene, entry.position, beside, 0.0045f, 0.5f, label);
   add_run(text, entry.text, look::kBlue);
-  if (entry.done) add_run(text, " ✓", look::kGreen);
+  if (entry.done) {
+    add_run(text, " ✓", look::kGreen);
+  }
 }
 
 std::string distance_text(double distance_m) {
@@ -160,7 +178,9 @@ void add_planned_trajectory(Scene& scene, Float3 entry, Float3 target, Label lab
            label);
   // A gap first: the dashes must not add up with the solid part at the entry.
   const Float3 inward = render::unit_or(target - entry, {0, -1, 0});
-  if (render::length(target - entry) <= kDash_m) return;
+  if (render::length(target - entry) <= kDash_m) {
+    return;
+  }
   add_line(scene, {entry + kDash_m * inward, target}, kTrajectoryWidth_m, look::kGreen, label,
            kDash_m);
 }
@@ -205,9 +225,12 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   const Float3 along = rod.heads.empty()
                            ? Float3{0, 1, 0}
                            : render::unit_or(rod.heads.back() - rod.heads.front(), {0, 1, 0});
-  for (const RodBendMark& bend : rod.bends)
+  for (const RodBendMark& bend : rod.bends) {
     add_bend(scene, bend, bend.position + rod.shift, along, label);
-  if (rod.heads.size() < 2 || !rod.length_m) return;
+  }
+  if (rod.heads.size() < 2 || !rod.length_m) {
+    return;
+  }
   render::TextItem& text = scene.texts.emplace_back();
   text.label = label;
   text.position = rod.heads.back() + 0.012f * along + rod.shift;

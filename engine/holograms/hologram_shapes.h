@@ -20,7 +20,7 @@ namespace look {
 inline constexpr render::Colour kYellow{1.0f, 0.78f, 0.04f, 1};
 inline constexpr render::Colour kOrange{1.0f, 0.30f, 0.02f, 1};
 inline constexpr render::Colour kBone{0.92f, 0.86f, 0.74f, 0.35f};
-inline constexpr render::Colour kBare{0.10f, 0.42f, 1.0f, 0.35f};
+inline constexpr render::Colour kUnstroked{0.10f, 0.42f, 1.0f, 0.35f};
 inline constexpr render::Colour kBlue{0.12f, 0.36f, 1.0f, 1};
 inline constexpr render::Colour kGreen{0.04f, 0.90f, 0.13f, 1};
 inline constexpr render::Colour kAmber{1.0f, 0.42f, 0.0f, 1};
@@ -61,8 +61,8 @@ void add_sampled_path(render::Scene& scene, std::span<const render::Float3> samp
 void add_residual_path(render::Scene& scene, std::span<const render::Float3> samples,
                        std::span<const float> distances_m, render::Label label);
 
-/// H2: the registered surface, bright where it turns away from the eye; in `look::kBare` where its
-/// tints say that no stroke came near.
+/// H2: the registered surface, bright where it turns away from the eye; in `look::kUnstroked` where
+/// its tints say that no stroke came near.
 void add_vertebra(render::Scene& scene, std::shared_ptr<const render::MeshData> mesh,
                   const render::Matrix4& world_from_model, render::Label label);
 

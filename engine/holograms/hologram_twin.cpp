@@ -25,7 +25,9 @@ void add_twin(render::Scene& scene, const VirtualTwin& twin, const render::Scene
     item = part;
     render::Matrix4& m = item.world_from_model;
     const Float3 moved = in_twin(twin, {m[12], m[13], m[14]});
-    for (const std::size_t i : {0U, 1U, 2U, 4U, 5U, 6U, 8U, 9U, 10U}) m[i] *= kTwinScale;
+    for (const std::size_t i : {0U, 1U, 2U, 4U, 5U, 6U, 8U, 9U, 10U}) {
+      m[i] *= kTwinScale;
+    }
     m[12] = moved.x;
     m[13] = moved.y;
     m[14] = moved.z;
@@ -34,13 +36,17 @@ void add_twin(render::Scene& scene, const VirtualTwin& twin, const render::Scene
   for (const render::LineItem& part : parts.lines) {
     render::LineItem& item = scene.lines.emplace_back();
     item = part;
-    for (Float3& point : item.points) point = in_twin(twin, point);
+    for (Float3& point : item.points) {
+      point = in_twin(twin, point);
+    }
     item.width_m *= kTwinScale;
     item.dash_m *= kTwinScale;
     item.label = label;
   }
   for (render::TriangleItem item : parts.triangles) {
-    for (Float3& corner : item.corners) corner = in_twin(twin, corner);
+    for (Float3& corner : item.corners) {
+      corner = in_twin(twin, corner);
+    }
     item.label = label;
     scene.triangles.push_back(item);
   }

@@ -17,8 +17,9 @@ constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};  // ITU-R
 const std::array<double, 256>& linear_table() {
   static const std::array<double, 256> table = [] {
     std::array<double, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = linear_from_srgb(static_cast<double>(i) / 255.0);
+    }
     return values;
   }();
   return table;
@@ -30,13 +31,14 @@ std::uint8_t encoded(double v) {
 
 /// Luminance behind the combiner of a white, matte surface.
 double white_behind(const OpticalModel& model) {
-  return model.combiner_share * model.ambient_lux / std::numbers::pi;
+  return model.combiner_fraction * model.ambient_lux / std::numbers::pi;
 }
 
-double grey_at(const render::Image& image, std::size_t pixel) {
+double grey_at(const RgbaImage& image, std::size_t pixel) {
   double sum = 0.0;
-  for (std::size_t c = 0; c < 3; ++c)
-    sum += kLuminance[c] * linear_table()[image.rgba[4 * pixel + c]];
+  for (std::size_t c = 0; c < 3; ++c) {
+    sum += kLuminance[c] * linear_table()[image.pixels[4 * pixel + c]];
+  }
   return sum;
 }
 
@@ -47,23 +49,26 @@ constexpr double kDarkest_cd_m2 = 0.01;
 
 std::vector<std::string> OpticalModel::check() const {
   std::vector<std::string> problems;
-  if (!(display_cd_m2 > 0.0 && display_cd_m2 <= 1e5))
+  if (!(display_cd_m2 > 0.0 && display_cd_m2 <= 1e5)) {
     problems.push_back("display luminance must lie in (0, 100000] cd/m2");
-  if (!(ambient_lux >= 0.0 && ambient_lux <= 2e5))
+  }
+  if (!(ambient_lux >= 0.0 && ambient_lux <= 2e5)) {
     problems.push_back("ambient light must lie in [0, 200000] lux");
-  if (!(combiner_share > 0.0 && combiner_share <= 1.0))
+  }
+  if (!(combiner_fraction > 0.0 && combiner_fraction <= 1.0)) {
     problems.push_back("combiner transmission must lie in (0, 1]");
+  }
   return problems;
 }
 
-std::vector<HologramContrast> contrasts(const render::Image& light,
-                                        const render::LabelImage& labels,
-                                        const render::Image& background,
-                                        const OpticalModel& model) {
+std::vector<HologramContrast> contrasts(const RgbaImage& light, const LabelImage& labels,
+                                        const RgbaImage& background, const OpticalModel& model) {
   std::map<render::Label, std::vector<double>> ratios;
   const double white = white_behind(model);
   for (std::size_t i = 0; i < labels.labels.size(); ++i) {
-    if (labels.labels[i] == 0) continue;
+    if (labels.labels[i] == 0) {
+      continue;
+    }
     const double behind = std::max(white * grey_at(background, i), kDarkest_cd_m2);
     ratios[labels.labels[i]].push_back(1.0 + model.display_cd_m2 * grey_at(light, i) / behind);
   }
@@ -76,21 +81,26 @@ std::vector<HologramContrast> contrasts(const render::Image& light,
   return out;
 }
 
-render::Image through_combiner(const render::Image& light, const render::Image& background,
-                               const OpticalModel& model) {
+RgbaImage through_combiner(const RgbaImage& light, const RgbaImage& background,
+                           const OpticalModel& model) {
   const double white = white_behind(model);
-  std::vector<double> seen(light.rgba.size(), 0.0);
+  std::vector<double> seen(light.pixels.size(), 0.0);
   double brightest = kDarkest_cd_m2;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (i % 4 == 3) continue;
-    seen[i] = model.display_cd_m2 * linear_table()[light.rgba[i]] +
-              white * linear_table()[background.rgba[i]];
+    if (i % 4 == 3) {
+      continue;
+    }
+    seen[i] = model.display_cd_m2 * linear_table()[light.pixels[i]] +
+              white * linear_table()[background.pixels[i]];
     brightest = std::max(brightest, seen[i]);
   }
-  render::Image out{light.width_px, light.height_px, {}};
-  out.rgba.resize(seen.size(), 255);
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (i % 4 != 3) out.rgba[i] = encoded(seen[i] / brightest);
+  RgbaImage out{light.width_px, light.height_px, {}};
+  out.pixels.resize(seen.size(), 255);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (i % 4 != 3) {
+      out.pixels[i] = encoded(seen[i] / brightest);
+    }
+  }
   return out;
 }
 

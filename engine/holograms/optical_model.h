@@ -10,9 +10,9 @@ namespace orthonav::engine {
 /// An optical see-through display in a lit room. The eye sees the world through the combiner, and
 /// the display's light on top of it.
 struct OpticalModel {
-  double display_cd_m2 = 500.0;  ///< of full white, at the eye
-  double ambient_lux = 1000.0;   ///< on what is behind; an operating field takes 10,000 and more
-  double combiner_share = 0.40;  ///< of the world's light that passes
+  double display_cd_m2 = 500.0;     ///< of full white, at the eye
+  double ambient_lux = 1000.0;      ///< on what is behind; an operating field takes 10,000 and more
+  double combiner_fraction = 0.40;  ///< of the world's light that passes
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
@@ -32,14 +32,13 @@ inline constexpr double kLegibleContrast = 3.0;
 
 /// Of the holograms as drawn additively on black (`light`), before a background whose linear grey
 /// is taken for its reflectance; all three of one size. In order of the labels.
-[[nodiscard]] std::vector<HologramContrast> contrasts(const render::Image& light,
-                                                      const render::LabelImage& labels,
-                                                      const render::Image& background,
+[[nodiscard]] std::vector<HologramContrast> contrasts(const RgbaImage& light,
+                                                      const LabelImage& labels,
+                                                      const RgbaImage& background,
                                                       const OpticalModel& model);
 
 /// What the eye sees, exposed so that the brightest of display and background together is white.
-[[nodiscard]] render::Image through_combiner(const render::Image& light,
-                                             const render::Image& background,
-                                             const OpticalModel& model);
+[[nodiscard]] RgbaImage through_combiner(const RgbaImage& light, const RgbaImage& background,
+                                         const OpticalModel& model);
 
 }  // namespace orthonav::engine

@@ -10,16 +10,22 @@ render::Float3 to_float3(Vec3 v) {
 
 render::Matrix4 to_matrix(const std::array<double, 16>& row_major) {
   render::Matrix4 out{};
-  for (std::size_t r = 0; r < 4; ++r)
-    for (std::size_t c = 0; c < 4; ++c) out[4 * c + r] = static_cast<float>(row_major[4 * r + c]);
+  for (std::size_t r = 0; r < 4; ++r) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      out[4 * c + r] = static_cast<float>(row_major[4 * r + c]);
+    }
+  }
   return out;
 }
 
 std::shared_ptr<const render::MeshData> mesh_data(const nav::TriangleMesh& mesh) {
   auto data = std::make_shared<render::MeshData>();
-  for (const Vec3 v : mesh.vertices_m) data->positions.push_back(to_float3(v));
-  for (const auto& triangle : mesh.triangles)
+  for (const Vec3 v : mesh.vertices_m) {
+    data->positions.push_back(to_float3(v));
+  }
+  for (const auto& triangle : mesh.triangles) {
     data->indices.insert(data->indices.end(), triangle.begin(), triangle.end());
+  }
   data->normals = render::smooth_normals(data->positions, data->indices);
   return data;
 }

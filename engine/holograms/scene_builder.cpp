@@ -30,20 +30,25 @@ void hide_tool_guidance(render::Scene& scene) {
   scene.texts.erase_if(of_tool);
   take_dots_off(scene, kCross);
   for (render::TextItem& text : scene.texts) {
-    if (text.label / 100 != 6) continue;
+    if (text.label / 100 != 6) {
+      continue;
+    }
     take_angle_off(text);
   }
 }
 
 void write_head_lost(const render::Scene& scene, render::Scene& left) {
   left.clear();
-  for (const render::TextItem& text : scene.texts)
-    if (text.place == render::TextPlace::kView) left.texts.push_back(text);
+  for (const render::TextItem& text : scene.texts) {
+    if (text.place == render::TextPlace::kView) {
+      left.texts.push_back(text);
+    }
+  }
   add_notice(left, "Head not located: nothing is shown in the world", label_of(11, 2));
 }
 
-void SceneBuilder::update(const Guidance& guidance, Timestamp lights_up) {
-  decide_visibility(guidance, rules_, lights_up, visible_);
+void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {
+  decide_visibility(guidance, rules_, display_time, visible_);
 }
 
 void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
@@ -53,11 +58,17 @@ void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
 void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
   scene.clear();
   add_paths(guidance, scene);
-  if (visible_.vertebra) add_bone(guidance, scene);
-  if (visible_.check_points) add_check_points(guidance, scene);
+  if (visible_.vertebra) {
+    add_bone(guidance, scene);
+  }
+  if (visible_.check_points) {
+    add_check_points(guidance, scene);
+  }
   add_entries(guidance, scene);
   add_screw(guidance, scene);
-  if (visible_.rods) add_rods(guidance, scene);
+  if (visible_.rods) {
+    add_rods(guidance, scene);
+  }
   add_status(guidance, scene);
 }
 
@@ -65,41 +76,53 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
   std::size_t measured = 0;  // samples of saved regions so far
   const auto add = [&](const nav::Region& region, std::size_t k, float opacity) {
     points_.clear();
-    for (const nav::Sample& sample : region.samples)
+    for (const nav::Sample& sample : region.samples) {
       points_.push_back(to_float3(sample.tip_in_world.v));
+    }
     const std::size_t first = measured;
-    if (region.saved) measured += points_.size();
-    if (points_.size() < 2) return;
-    if (region.saved && measured <= guidance.residuals_m.size())
+    if (region.saved) {
+      measured += points_.size();
+    }
+    if (points_.size() < 2) {
+      return;
+    }
+    if (region.saved && measured <= guidance.residuals_m.size()) {
       return add_residual_path(scene, points_, guidance.residuals_m.subspan(first, points_.size()),
                                label_of(1, std::min(k, kMostInstances)));
+    }
     add_sampled_path(scene, points_, region.saved ? PathState::kSaved : PathState::kRecording,
                      label_of(1, std::min(k, kMostInstances)), opacity);
   };
-  if (visible_.paths)
-    for (std::size_t k = 0; k < guidance.regions.size(); ++k) add(guidance.regions[k], k + 1, 1.0f);
+  if (visible_.paths) {
+    for (std::size_t k = 0; k < guidance.regions.size(); ++k) {
+      add(guidance.regions[k], k + 1, 1.0f);
+    }
+  }
   if (visible_.paths && guidance.dropped) {
     // A deleted region fades, so that the surgeon sees which one went.
     const double age_s = seconds(guidance.display_time - guidance.dropped->dropped_at);
     const double left = 1.0 - age_s / seconds(guidance.fade);
-    if (left > 0.0)
+    if (left > 0.0) {
       add(guidance.dropped->region, kMostInstances, static_cast<float>(std::min(left, 1.0)));
+    }
   }
 }
 
 void SceneBuilder::add_bone(const Guidance& guidance, render::Scene& scene) {
   const LevelState& level = guidance.levels[guidance.level];
-  add_vertebra(scene, tinted_surface_of(level, guidance.bare),
+  add_vertebra(scene, tinted_surface_of(level, guidance.unstroked),
                to_matrix(level.registration->world_from_vertebra.row_major()), label_of(2, 1));
 }
 
 void SceneBuilder::add_check_points(const Guidance& guidance, render::Scene& scene) {
   std::size_t k = 0;
-  for (const Point<World>& place : guidance.to_check)
+  for (const Point<World>& place : guidance.to_check) {
     add_place_to_check(scene, to_float3(place.v), label_of(12, std::min(++k, kMostInstances)));
-  for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points)
+  }
+  for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points) {
     add_check_point(scene, to_float3(point.place.v), distance_text(point.distance_m), point.within,
                     label_of(12, std::min(++k, kMostInstances)));
+  }
 }
 
 void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
@@ -116,8 +139,9 @@ void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
       entry.surface_normal =
           to_float3((world_from_vertebra * Direction<Vertebra>{outward.normalized()}).v);
       text_.clear();
-      if (visible_.entry_labels)
+      if (visible_.entry_labels) {
         text_.append(level.plan.label).append(" ").append(name_of(screw.side));
+      }
       entry.text = text_;
       entry.done = level.screw_done[s];
       // From behind, where the surgeon looks from, the patient's left is on the left.
@@ -128,7 +152,9 @@ void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
 }
 
 void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
-  if (!visible_.trajectory) return;
+  if (!visible_.trajectory) {
+    return;
+  }
   const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
   add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v), label_of(4, 1));
   if (visible_.triangle) {
@@ -136,28 +162,38 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
     // come from one stereo pair. What is only predicted has no number and is never called good.
     const nav::ScrewGuidance& shown = guidance.tool->shown;
     std::optional<double> angle_rad;
-    if (visible_.angle) angle_rad = guidance.tool->measured->angle_rad;
+    if (visible_.angle) {
+      angle_rad = guidance.tool->measured->angle_rad;
+    }
     const Grade grade = grade_of_tool(guidance, visible_, rules_);
     const render::Float3 a = to_float3(shown.a.v);
     const render::Float3 b = to_float3(shown.b.v);
     add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade, label_of(5, 1));
     add_angle_readout(scene, a, b, angle_text(angle_rad), grade, label_of(6, 1));
   }
-  if (visible_.depth) add_depth_to_go(guidance, scene);
-  if (visible_.cross) add_target_cross(scene, cross_of(guidance, visible_, rules_), kCross);
-  if (visible_.twin) add_virtual_twin(guidance, line, scene);
-  if (visible_.angle_lost && !visible_.triangle)
+  if (visible_.depth) {
+    add_depth_to_go(guidance, scene);
+  }
+  if (visible_.cross) {
+    add_target_cross(scene, cross_of(guidance, visible_, rules_), kCross);
+  }
+  if (visible_.twin) {
+    add_virtual_twin(guidance, line, scene);
+  }
+  if (visible_.angle_lost && !visible_.triangle) {
     // Where the number would be with the tool on the plan.
     add_angle_readout(scene, to_float3(line.entry.v), to_float3(line.outside.v),
                       angle_text(std::nullopt), Grade::kPoor, label_of(6, 1));
+  }
 }
 
 void SceneBuilder::add_depth_to_go(const Guidance& guidance, render::Scene& scene) {
   const nav::ScrewGuidance& measured = *guidance.tool->measured;
   const nav::ScrewGuidance& shown = guidance.tool->shown;
-  if (write_depth_text(measured.depth_m, measured.to_target_m, text_))
+  if (write_depth_text(measured.depth_m, measured.to_target_m, text_)) {
     add_depth(scene, to_float3(shown.a.v), to_float3(shown.b.v), text_, measured.to_target_m < 0.0,
               label_of(9, 1));
+  }
 }
 
 void SceneBuilder::add_virtual_twin(const Guidance& guidance, const TrajectoryLine& line,
@@ -170,7 +206,9 @@ void SceneBuilder::add_virtual_twin(const Guidance& guidance, const TrajectoryLi
   const render::Float3 entry = to_float3(line.entry.v);
   add_planned_trajectory(parts_, entry, to_float3(line.target.v), kTwin);
   add_twin(scene, twin, parts_, kTwin);
-  if (!visible_.triangle) return;
+  if (!visible_.triangle) {
+    return;
+  }
   const nav::ScrewGuidance& shown = guidance.tool->shown;
   parts_.clear();
   add_deviation_triangle(parts_, to_float3(shown.a.v), to_float3(shown.b.v), to_float3(shown.c.v),
@@ -183,16 +221,21 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
   tubes_.resize(guidance.rods.size());
   for (std::size_t i = 0; i < guidance.rods.size(); ++i) {
     const RodState& rod = guidance.rods[i];
-    if (!rod.visible()) continue;
+    if (!rod.visible()) {
+      continue;
+    }
     RodHologram hologram;
     hologram.tube = tube_of(i, rod);
     points_.clear();
-    for (const Point<World>& head : rod.heads) points_.push_back(to_float3(head.v));
+    for (const Point<World>& head : rod.heads) {
+      points_.push_back(to_float3(head.v));
+    }
     hologram.heads = points_;
     bends_.clear();
     if (rod.rod) {
-      for (const nav::RodBend& bend : rod.rod->bends)
+      for (const nav::RodBend& bend : rod.rod->bends) {
         bends_.push_back({to_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
+      }
       hologram.length_m = rod.rod->length_m;
     }
     hologram.bends = bends_;
@@ -204,27 +247,34 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
 void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
   dots_.clear();
   for (const ToolSight& tool : guidance.tools) {
-    const ToolState state = tool.origin == Origin::kMeasured    ? ToolState::kMeasured
-                            : tool.origin == Origin::kPredicted ? ToolState::kPredicted
-                                                                : ToolState::kLost;
+    const ToolState state = tool.status == PoseStatus::kMeasured    ? ToolState::kMeasured
+                            : tool.status == PoseStatus::kPredicted ? ToolState::kPredicted
+                                                                    : ToolState::kLost;
     dots_.push_back({tool.name, state});
   }
   text_ = guidance.step_text;
-  for (const std::string* part : {&guidance.detail, &guidance.heard})
-    if (!part->empty()) text_.append(" | ").append(*part);
+  for (const std::string* part : {&guidance.detail, &guidance.heard}) {
+    if (!part->empty()) {
+      text_.append(" | ").append(*part);
+    }
+  }
   add_status_line(scene, text_, dots_, label_of(11, 1));
 }
 
 const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const LevelState& level) {
   auto& surface = surfaces_[level.plan.model.get()];
-  if (!surface) surface = mesh_data(level.plan.model->mesh());
+  if (!surface) {
+    surface = mesh_data(level.plan.model->mesh());
+  }
   return surface;
 }
 
 const std::shared_ptr<const render::MeshData>& SceneBuilder::tinted_surface_of(
     const LevelState& level, std::span<const float> tints) {
   const auto& surface = surface_of(level);
-  if (tints.size() != surface->positions.size()) return surface;
+  if (tints.size() != surface->positions.size()) {
+    return surface;
+  }
   const bool known = tinted_from_ == surface.get() &&
                      std::equal(tints.begin(), tints.end(), tinted_->tints.begin());
   if (!known) {
@@ -239,12 +289,16 @@ const std::shared_ptr<const render::MeshData>& SceneBuilder::tinted_surface_of(
 const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t i,
                                                                      const RodState& rod) {
   Tube& tube = tubes_[i];
-  if (tube.heads == rod.heads) return tube.mesh;
+  if (tube.heads == rod.heads) {
+    return tube.mesh;
+  }
   tube.heads = rod.heads;
   tube.mesh.reset();
   if (rod.rod) {
     std::vector<render::Float3> path;
-    for (const Vec3 p : rod.rod->path_m) path.push_back(to_float3(p));
+    for (const Vec3 p : rod.rod->path_m) {
+      path.push_back(to_float3(p));
+    }
     tube.mesh = std::make_shared<render::MeshData>(
         render::make_tube(path, static_cast<float>(rod.rod->diameter_m / 2.0)));
   }

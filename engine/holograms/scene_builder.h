@@ -23,7 +23,7 @@ class SceneBuilder {
   /// Decides what this guidance shows in a frame that lights up when it expects, or later; the two
   /// below then show exactly that.
   void update(const Guidance& guidance) { update(guidance, guidance.display_time); }
-  void update(const Guidance& guidance, Timestamp lights_up);
+  void update(const Guidance& guidance, Timestamp display_time);
   void write_shown(const Guidance& guidance, ShownFrame& frame);
   void write_scene(const Guidance& guidance, render::Scene& scene);
   [[nodiscard]] const Visibility& visible() const { return visible_; }

@@ -27,11 +27,16 @@ double number_or(const JsonNode& node, const char* key, double fallback, double 
 void read_view(const JsonNode& view, SceneFile& file) {
   const render::Float3 eye = place_from(view, "eye_mm");
   const render::Float3 target = place_from(view, "target_mm");
-  if (render::length(target - eye) < 1e-3f) view.refuse("target_mm", "is where the eye is");
+  if (render::length(target - eye) < 1e-3f) {
+    view.refuse("target_mm", "is where the eye is");
+  }
   render::Float3 up{0, 1, 0};
-  if (view.has("up")) up = to_float3(view.vec3("up"));
-  if (render::length(render::cross(up, target - eye)) < 1e-6f)
+  if (view.has("up")) {
+    up = to_float3(view.vec3("up"));
+  }
+  if (render::length(render::cross(up, target - eye)) < 1e-6f) {
     view.refuse("up", "must not lie along the line of sight");
+  }
   file.width_px =
       static_cast<int>(number_or(view, "width_px", file.width_px, kSmallest_px, kLargest_px, "px"));
   file.height_px = static_cast<int>(
@@ -49,23 +54,34 @@ void read_view(const JsonNode& view, SceneFile& file) {
 
 Result<SceneFile> load_scene(const std::string& path) {
   const auto document = JsonDocument::read(path);
-  if (!document) return document.error();
+  if (!document) {
+    return document.error();
+  }
   const JsonNode root = document->root();
-  if (root.text("format") != "orthonav-scene") root.refuse("format", "must be \"orthonav-scene\"");
-  if (root.integer("version") != 1) root.refuse("version", "must be 1");
+  if (root.text("format") != "orthonav-scene") {
+    root.refuse("format", "must be \"orthonav-scene\"");
+  }
+  if (root.integer("version") != 1) {
+    root.refuse("version", "must be 1");
+  }
   SceneFile file;
   read_view(root.child("view"), file);
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const std::vector<JsonNode> holograms = root.list("holograms");
-  if (holograms.size() > kMostHolograms)
+  if (holograms.size() > kMostHolograms) {
     root.refuse("holograms", "holds " + std::to_string(holograms.size()) + ", at most " +
                                  std::to_string(kMostHolograms));
+  }
   std::map<std::string, std::size_t> count;
   for (const JsonNode& node : holograms) {
-    if (!document->status()) break;
+    if (!document->status()) {
+      break;
+    }
     add_hologram(node, folder, ++count[node.text("type")], file.scene);
   }
-  if (const Status status = document->status(); !status) return status.error();
+  if (const Status status = document->status(); !status) {
+    return status.error();
+  }
   return file;
 }
 

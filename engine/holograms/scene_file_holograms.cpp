@@ -34,13 +34,17 @@ constexpr Label kFree = 99;
 Float3 direction_from(const JsonNode& node, const char* key) {
   const Float3 given = to_float3(node.vec3(key));
   const float length = render::length(given);
-  if (!(length > 1e-6f)) node.refuse(key, "has no direction");
+  if (!(length > 1e-6f)) {
+    node.refuse(key, "has no direction");
+  }
   return render::unit_or(given, {0, 1, 0});
 }
 
 std::vector<Float3> places_from(const JsonNode& node, const char* key) {
   std::vector<Float3> places;
-  for (const Vec3 place_mm : node.vec3s(key)) places.push_back(to_float3(place_mm * 1e-3));
+  for (const Vec3 place_mm : node.vec3s(key)) {
+    places.push_back(to_float3(place_mm * 1e-3));
+  }
   return places;
 }
 
@@ -48,15 +52,21 @@ std::vector<Float3> places_from(const JsonNode& node, const char* key) {
 std::size_t word_from(const JsonNode& node, const char* key, std::span<const char* const> words) {
   const std::string word = node.text_or(key, words.front());
   const auto found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  if (found != words.end()) {
+    return static_cast<std::size_t>(found - words.begin());
+  }
   std::string choice;
-  for (const char* known : words) choice += std::string(choice.empty() ? "" : ", ") + known;
+  for (const char* known : words) {
+    choice += std::string(choice.empty() ? "" : ", ") + known;
+  }
   node.refuse(key, "is \"" + word + "\", must be one of " + choice);
   return 0;
 }
 
 std::optional<double> angle_from(const JsonNode& node) {
-  if (!node.has("angle_deg")) return std::nullopt;
+  if (!node.has("angle_deg")) {
+    return std::nullopt;
+  }
   return node.number("angle_deg") * kRadiansPerDegree;
 }
 
@@ -67,13 +77,16 @@ void add_path(const JsonNode& node, Label label, Scene& scene) {
   const std::vector<Float3> samples = places_from(node, "samples_mm");
   if (node.has("distances_mm")) {
     std::vector<float> distances_m;
-    for (const double mm : node.numbers("distances_mm", samples.size()))
+    for (const double mm : node.numbers("distances_mm", samples.size())) {
       distances_m.push_back(static_cast<float>(mm * 1e-3));
+    }
     return add_residual_path(scene, samples, distances_m, label);
   }
   const bool saved = word_from(node, "state", kStates) == 1;
   const double opacity = node.has("opacity") ? node.number("opacity") : 1.0;
-  if (!(opacity >= 0.0 && opacity <= 1.0)) node.refuse("opacity", "must lie in [0, 1]");
+  if (!(opacity >= 0.0 && opacity <= 1.0)) {
+    node.refuse("opacity", "must lie in [0, 1]");
+  }
   add_sampled_path(scene, samples, saved ? PathState::kSaved : PathState::kRecording, label,
                    static_cast<float>(opacity));
 }
@@ -83,12 +96,16 @@ void add_bone(const JsonNode& node, const std::string& folder, Label label, Scen
   const bool metres = word_from(node, "unit", kUnits) == 1;
   const auto path = std::filesystem::path(folder) / node.text("mesh");
   const auto mesh = load_mesh(path.string(), metres ? 1.0 : 1e-3);
-  if (!mesh) return node.refuse("mesh", mesh.error().message);
+  if (!mesh) {
+    return node.refuse("mesh", mesh.error().message);
+  }
   render::Matrix4 place = render::kIdentity;
   if (node.has("world_from_vertebra")) {
     std::array<double, 16> rows{};
     std::ranges::copy(node.numbers("world_from_vertebra", rows.size()), rows.begin());
-    for (const std::size_t shift : {3U, 7U, 11U}) rows[shift] *= 1e-3;
+    for (const std::size_t shift : {3U, 7U, 11U}) {
+      rows[shift] *= 1e-3;
+    }
     place = to_matrix(rows);
   }
   add_vertebra(scene, mesh_data(*mesh), place, label);
@@ -111,18 +128,23 @@ void add_cross(const JsonNode& node, Label label, Scene& scene) {
   cross.site = place_from(node, "site_mm");
   cross.outward = direction_from(node, "outward");
   cross.viewer.eye = place_from(node, "eye_mm");
-  if (node.has("up")) cross.viewer.up = direction_from(node, "up");
+  if (node.has("up")) {
+    cross.viewer.up = direction_from(node, "up");
+  }
   cross.lost = node.flag_or("lost", false);
-  if (node.has("tip_offset_mm"))
+  if (node.has("tip_offset_mm")) {
     cross.reading = CrossReading{place_from(node, "tip_offset_mm"),
                                  place_from(node, "top_offset_mm"), grade_from(node)};
+  }
   add_target_cross(scene, cross, label);
 }
 
 void add_depth_text(const JsonNode& node, Label label, Scene& scene) {
   const double to_target_m = node.number("to_target_mm") * 1e-3;
   const auto text = depth_text(node.number("depth_mm") * 1e-3, to_target_m);
-  if (!text) node.refuse("depth_mm", "must lie within 1000 mm");
+  if (!text) {
+    node.refuse("depth_mm", "must lie within 1000 mm");
+  }
   add_depth(scene, place_from(node, "entry_mm"), place_from(node, "tool_mm"), text.value_or(""),
             to_target_m < 0.0, label);
 }
@@ -130,25 +152,36 @@ void add_depth_text(const JsonNode& node, Label label, Scene& scene) {
 void add_rod_through(const JsonNode& node, Label label, Scene& scene) {
   const double diameter_m = node.has("diameter_mm") ? node.number("diameter_mm") * 1e-3 : 0.0055;
   std::vector<Vec3> heads_m;
-  for (const Vec3 head_mm : node.vec3s("heads_mm")) heads_m.push_back(head_mm * 1e-3);
+  for (const Vec3 head_mm : node.vec3s("heads_mm")) {
+    heads_m.push_back(head_mm * 1e-3);
+  }
   RodHologram hologram;
   std::vector<Float3> heads;
-  for (const Vec3 head : heads_m) heads.push_back(to_float3(head));
+  for (const Vec3 head : heads_m) {
+    heads.push_back(to_float3(head));
+  }
   std::vector<RodBendMark> bends;
   if (heads.size() > 1) {
     const auto rod = nav::rod_template(heads_m, diameter_m);
-    if (!rod) return node.refuse("heads_mm", rod.error().message);
+    if (!rod) {
+      return node.refuse("heads_mm", rod.error().message);
+    }
     std::vector<Float3> path;
-    for (const Vec3 p : rod->path_m) path.push_back(to_float3(p));
+    for (const Vec3 p : rod->path_m) {
+      path.push_back(to_float3(p));
+    }
     hologram.tube = std::make_shared<const render::MeshData>(
         render::make_tube(path, static_cast<float>(0.5 * rod->diameter_m)));
-    for (const nav::RodBend& bend : rod->bends)
+    for (const nav::RodBend& bend : rod->bends) {
       bends.push_back({to_float3(bend.position_m), bend.angle_rad, bend.arc_length_m});
+    }
     hologram.length_m = rod->length_m;
   }
   hologram.heads = heads;
   hologram.bends = bends;
-  if (node.has("shift_mm")) hologram.shift = place_from(node, "shift_mm");
+  if (node.has("shift_mm")) {
+    hologram.shift = place_from(node, "shift_mm");
+  }
   add_rod(scene, hologram, label);
 }
 
@@ -156,25 +189,34 @@ void add_status(const JsonNode& node, Label label, Scene& scene) {
   constexpr std::array<const char*, 3> kStates = {"measured", "predicted", "lost"};
   std::deque<std::string> names;  // that stay where they are
   std::vector<ToolDot> tools;
-  if (node.has("tools"))
-    for (const JsonNode& tool : node.list("tools"))
+  if (node.has("tools")) {
+    for (const JsonNode& tool : node.list("tools")) {
       tools.push_back({names.emplace_back(tool.text("name")),
                        static_cast<ToolState>(word_from(tool, "state", kStates))});
+    }
+  }
   add_status_line(scene, node.text("text"), tools, label);
 }
 
 void add_check(const JsonNode& node, Label label, Scene& scene) {
   const Float3 place = place_from(node, "position_mm");
-  if (!node.has("distance_mm")) return add_place_to_check(scene, place, label);
+  if (!node.has("distance_mm")) {
+    return add_place_to_check(scene, place, label);
+  }
   const double distance_m = node.number("distance_mm") * 1e-3;
   add_check_point(scene, place, distance_text(distance_m), std::abs(distance_m) <= 0.002, label);
 }
 
 render::Colour colour_from(const JsonNode& node) {
-  if (!node.has("colour")) return look::kWhite;
+  if (!node.has("colour")) {
+    return look::kWhite;
+  }
   const Vec3 rgb = node.vec3("colour");
-  for (const double channel : {rgb.x, rgb.y, rgb.z})
-    if (!(channel >= 0.0 && channel <= 1.0)) node.refuse("colour", "must lie in [0, 1], linear");
+  for (const double channel : {rgb.x, rgb.y, rgb.z}) {
+    if (!(channel >= 0.0 && channel <= 1.0)) {
+      node.refuse("colour", "must lie in [0, 1], linear");
+    }
+  }
   return {static_cast<float>(rgb.x), static_cast<float>(rgb.y), static_cast<float>(rgb.z), 1};
 }
 
@@ -197,7 +239,9 @@ void add_twin_of(const JsonNode& node, const std::string& folder, Label label, S
   const VirtualTwin twin{place_from(node, "site_mm"), direction_from(node, "beside")};
   Scene parts;
   for (const JsonNode& part : node.list("of")) {
-    if (hologram_number(part.text("type")) == 8) return part.refuse("type", "can't be a twin");
+    if (hologram_number(part.text("type")) == 8) {
+      return part.refuse("type", "can't be a twin");
+    }
     add_hologram(part, folder, 1, parts);
   }
   add_twin(scene, twin, parts, label);
@@ -252,9 +296,10 @@ Label hologram_number(const std::string& type) {
 double number_between(const JsonNode& node, const char* key, double low, double high,
                       const char* unit) {
   const double value = node.number(key);
-  if (!(value >= low && value <= high))
+  if (!(value >= low && value <= high)) {
     node.refuse(key, "is " + std::to_string(value) + ", must lie in [" + std::to_string(low) +
                          ", " + std::to_string(high) + "] " + unit);
+  }
   return value;
 }
 
@@ -264,8 +309,11 @@ float length_from(const JsonNode& node, const char* key, double low_mm, double h
 
 Float3 place_from(const JsonNode& node, const char* key) {
   const Vec3 place_mm = node.vec3(key);
-  for (const double mm : {place_mm.x, place_mm.y, place_mm.z})
-    if (!(std::abs(mm) <= kFarthest_mm)) node.refuse(key, "must lie within 10000 mm of the origin");
+  for (const double mm : {place_mm.x, place_mm.y, place_mm.z}) {
+    if (!(std::abs(mm) <= kFarthest_mm)) {
+      node.refuse(key, "must lie within 10000 mm of the origin");
+    }
+  }
   return to_float3(place_mm * 1e-3);
 }
 
@@ -275,7 +323,9 @@ void add_hologram(const JsonNode& node, const std::string& folder, std::size_t k
                                   [&](const Kind& kind) { return type == kind.type; });
   if (found == kKinds.end()) {
     std::string known;
-    for (const Kind& kind : kKinds) known += std::string(known.empty() ? "" : ", ") + kind.type;
+    for (const Kind& kind : kKinds) {
+      known += std::string(known.empty() ? "" : ", ") + kind.type;
+    }
     return node.refuse("type", "is \"" + type + "\", must be one of " + known);
   }
   const auto label = 100 * found->number + static_cast<Label>(std::min<std::size_t>(k, 99));

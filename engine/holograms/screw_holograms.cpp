@@ -10,7 +10,9 @@ namespace {
 /// The middle of the level's entry points.
 Point<World> site_of(const LevelState& level) {
   Vec3 sum{};
-  for (const nav::ScrewPlan& screw : level.plan.screws) sum += screw.entry.v;
+  for (const nav::ScrewPlan& screw : level.plan.screws) {
+    sum += screw.entry.v;
+  }
   const Point<Vertebra> middle{sum / static_cast<double>(level.plan.screws.size())};
   return level.registration->world_from_vertebra * middle;
 }
@@ -23,8 +25,9 @@ Viewer viewer_of(const Transform<World, Rig>& head) {
 
 Grade grade_of_tool(const Guidance& guidance, const Visibility& visible,
                     const VisibilityRules& rules) {
-  if (visible.angle || visible.cross_dots)
+  if (visible.angle || visible.cross_dots) {
     return grade_of(guidance.tool->measured->angle_rad, rules.grades);
+  }
   return std::max(grade_of(guidance.tool->shown.angle_rad, rules.grades), Grade::kFair);
 }
 
@@ -38,10 +41,11 @@ TargetCross cross_of(const Guidance& guidance, const Visibility& visible,
   cross.viewer = viewer_of(*guidance.head);
   cross.side = visible.cross_side;
   cross.lost = visible.cross_lost;
-  if (visible.cross_dots)
+  if (visible.cross_dots) {
     cross.reading = CrossReading{to_float3(guidance.tool->measured->tip_offset_m),
                                  to_float3(guidance.tool->measured->top_offset_m),
                                  grade_of_tool(guidance, visible, rules)};
+  }
   return cross;
 }
 

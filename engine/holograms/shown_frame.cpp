@@ -18,10 +18,11 @@ constexpr std::size_t kLatestSamples = 8;
 std::array<Vec3, 4> landmarks_m(const nav::TriangleMesh& mesh) {
   constexpr std::array<Vec3, 4> kDirections = {{{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}};
   std::array<Vec3, 4> found{};
-  for (std::size_t d = 0; d < kDirections.size(); ++d)
+  for (std::size_t d = 0; d < kDirections.size(); ++d) {
     found[d] = *std::max_element(
         mesh.vertices_m.begin(), mesh.vertices_m.end(),
         [&](Vec3 a, Vec3 b) { return a.dot(kDirections[d]) < b.dot(kDirections[d]); });
+  }
   return found;
 }
 
@@ -38,7 +39,9 @@ TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw) {
 }
 
 ShownHologram& ShownFrameWriter::add(ShownFrame& frame, const char* name) {
-  if (used_ == frame.holograms.size()) frame.holograms.emplace_back();
+  if (used_ == frame.holograms.size()) {
+    frame.holograms.emplace_back();
+  }
   ShownHologram& hologram = frame.holograms[used_++];
   hologram.name = name;
   hologram.text.clear();
@@ -55,7 +58,9 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   write_digitizing(guidance, visible, frame);
   write_entries(guidance, visible, frame);
   write_screw(guidance, visible, rules, frame);
-  if (visible.rods) write_rods(guidance, rules, frame);
+  if (visible.rods) {
+    write_rods(guidance, rules, frame);
+  }
   frame.holograms.resize(used_);
 }
 
@@ -65,28 +70,35 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
     const auto& samples = guidance.regions.back().samples;
     ShownHologram& path = add(frame, "H1 path");
     const std::size_t first = samples.size() - std::min(samples.size(), kLatestSamples);
-    for (std::size_t i = first; i < samples.size(); ++i)
+    for (std::size_t i = first; i < samples.size(); ++i) {
       path.points_in_world.push_back(samples[i].tip_in_world);
+    }
   }
   if (visible.vertebra) {
     const LevelState& level = guidance.levels[guidance.level];
     ShownHologram& vertebra = add(frame, "H2 vertebra");
     const nav::VertebraModel& model = *level.plan.model;
     const auto [known, is_new] = landmarks_m_.try_emplace(&model);
-    if (is_new) known->second = landmarks_m(model.mesh());
-    for (const Vec3 landmark : known->second)
+    if (is_new) {
+      known->second = landmarks_m(model.mesh());
+    }
+    for (const Vec3 landmark : known->second) {
       vertebra.points_in_world.push_back(level.registration->world_from_vertebra *
                                          Point<Vertebra>{landmark});
+    }
   }
-  if (visible.check_points)
+  if (visible.check_points) {
     for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points) {
       ShownHologram& check = add(frame, "H12 check point");
       check.text = distance_text(point.distance_m);
       check.points_in_world.push_back(point.place);
     }
-  if (visible.check_points)
-    for (const Point<World>& place : guidance.to_check)
+  }
+  if (visible.check_points) {
+    for (const Point<World>& place : guidance.to_check) {
       add(frame, "H12 to check").points_in_world.push_back(place);
+    }
+  }
 }
 
 void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility& visible,
@@ -100,7 +112,9 @@ void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility&
       ShownHologram& entry = add(frame, text.data());
       std::snprintf(text.data(), text.size(), "%s %s", level.plan.label.c_str(),
                     name_of(screw.side));
-      if (visible.entry_labels) entry.text = text.data();
+      if (visible.entry_labels) {
+        entry.text = text.data();
+      }
       entry.points_in_world.push_back(level.registration->world_from_vertebra * screw.entry);
     }
   }
@@ -111,10 +125,16 @@ void ShownFrameWriter::write_cross(const Guidance& guidance, const Visibility& v
   const TargetCross cross = cross_of(guidance, visible, rules);
   const CrossPlaces places = places_of(cross);
   ShownHologram& shown = add(frame, "H7 cross");
-  if (cross.lost) shown.text = "tool lost";
+  if (cross.lost) {
+    shown.text = "tool lost";
+  }
   shown.points_in_world.push_back(to_point(places.middle));
-  if (!cross.reading) return;
-  for (const render::Float3 dot : places.dots) shown.points_in_world.push_back(to_point(dot));
+  if (!cross.reading) {
+    return;
+  }
+  for (const render::Float3 dot : places.dots) {
+    shown.points_in_world.push_back(to_point(dot));
+  }
 }
 
 void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& visible,
@@ -128,30 +148,42 @@ void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& v
     const nav::ScrewGuidance& shown = guidance.tool->shown;
     add(frame, "H5 triangle").points_in_world = {shown.a, shown.b, shown.c};
   }
-  if (visible.angle) add(frame, "H6 angle").text = angle_text(guidance.tool->measured->angle_rad);
-  if (visible.cross) write_cross(guidance, visible, rules, frame);
+  if (visible.angle) {
+    add(frame, "H6 angle").text = angle_text(guidance.tool->measured->angle_rad);
+  }
+  if (visible.cross) {
+    write_cross(guidance, visible, rules, frame);
+  }
   if (visible.twin) {
     const VirtualTwin twin = twin_of(guidance.levels[guidance.level], guidance.screw);
     const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
     ShownHologram& shown = add(frame, "H8 twin");
-    for (const Point<World>& place : {line.entry, line.target})
+    for (const Point<World>& place : {line.entry, line.target}) {
       shown.points_in_world.push_back(to_point(in_twin(twin, to_float3(place.v))));
+    }
   }
   if (visible.depth) {
     const nav::ScrewGuidance& measured = *guidance.tool->measured;
-    if (write_depth_text(measured.depth_m, measured.to_target_m, text_))
+    if (write_depth_text(measured.depth_m, measured.to_target_m, text_)) {
       add(frame, "H9 depth").text = text_;
+    }
   }
-  if (visible.angle_lost) add(frame, "H6 angle").text = angle_text(std::nullopt);
+  if (visible.angle_lost) {
+    add(frame, "H6 angle").text = angle_text(std::nullopt);
+  }
 }
 
 void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRules& rules,
                                   ShownFrame& frame) {
   for (const RodState& rod : guidance.rods) {
-    if (!rod.visible()) continue;
+    if (!rod.visible()) {
+      continue;
+    }
     const Vec3 shift = rod_shift_m(guidance, rod, rules);
     ShownHologram& hologram = add(frame, "H10 rod");
-    for (const Point<World>& head : rod.heads) hologram.points_in_world.push_back(head + shift);
+    for (const Point<World>& head : rod.heads) {
+      hologram.points_in_world.push_back(head + shift);
+    }
   }
 }
 
@@ -162,7 +194,9 @@ void ShownFrameWriter::write_status(const Guidance& guidance, ShownFrame& frame)
     status.text += " | ";
     status.text += guidance.detail;
   }
-  if (!guidance.heard.empty()) add(frame, "H11 heard").text = guidance.heard;
+  if (!guidance.heard.empty()) {
+    add(frame, "H11 heard").text = guidance.heard;
+  }
 }
 
 }  // namespace orthonav::engine

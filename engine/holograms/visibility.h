@@ -39,9 +39,9 @@ struct Visibility {
   bool check_points = false;                ///< H12 of the current level
 };
 
-/// For a frame that lights up at `lights_up`, which may be later than the guidance expected.
-void decide_visibility(const Guidance& guidance, const VisibilityRules& rules, Timestamp lights_up,
-                       Visibility& out);
+/// For a frame that lights up at `display_time`, which may be later than the guidance expected.
+void decide_visibility(const Guidance& guidance, const VisibilityRules& rules,
+                       Timestamp display_time, Visibility& out);
 
 /// From where to where the rods are shifted while they are moved away: sideways off the patient,
 /// as a rigid body, each to its own side.

@@ -29,26 +29,36 @@ fs::path followed(fs::path path) {
 
 Status made_durable(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return failed(path, "cannot be opened", errno);
+  if (file < 0) {
+    return failed(path, "cannot be opened", errno);
+  }
   const bool synced = ::fsync(file) == 0;
   const int error_number = errno;
   ::close(file);
-  if (!synced) return failed(path, "cannot be written", error_number);
+  if (!synced) {
+    return failed(path, "cannot be written", error_number);
+  }
   return {};
 }
 
 }  // namespace
 
 Result<AtomicFile> AtomicFile::create(const std::string& path) {
-  if (path.empty()) return Error{"a file to write has no name"};
+  if (path.empty()) {
+    return Error{"a file to write has no name"};
+  }
   std::error_code ignored;
   const fs::path target = followed(path);
-  if (fs::is_directory(target, ignored)) return Error{path + ": is a folder, not a file"};
-  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
+  if (fs::is_directory(target, ignored)) {
+    return Error{path + ": is a folder, not a file"};
+  }
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) {
     return AtomicFile(target.string(), target.string());
+  }
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, ignored))
+  if (!fs::is_directory(folder, ignored)) {
     return Error{path + ": folder " + folder.string() + " does not exist"};
+  }
   const std::string stem = "." + target.stem().string() + ".part-" + std::to_string(::getpid());
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const std::string name = stem + "-" + std::to_string(attempt) + target.extension().string();
@@ -58,7 +68,9 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
       ::close(file);
       return AtomicFile(beside, target.string());
     }
-    if (errno != EEXIST) return failed(path, "cannot be written", errno);
+    if (errno != EEXIST) {
+      return failed(path, "cannot be written", errno);
+    }
   }
   return Error{path + ": 1000 unfinished writes lie beside it, remove them"};
 }
@@ -69,7 +81,9 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
       open_(std::exchange(other.open_, false)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
-  if (this == &other) return *this;
+  if (this == &other) {
+    return *this;
+  }
   drop();
   temporary_path_ = std::move(other.temporary_path_);
   final_path_ = std::move(other.final_path_);
@@ -80,30 +94,41 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
 AtomicFile::~AtomicFile() { drop(); }
 
 void AtomicFile::drop() noexcept {
-  if (open_ && temporary_path_ != final_path_) ::unlink(temporary_path_.c_str());
+  if (open_ && temporary_path_ != final_path_) {
+    ::unlink(temporary_path_.c_str());
+  }
   open_ = false;
 }
 
 Status AtomicFile::commit() {
-  if (!open_) return Error{final_path_ + ": was committed before"};
+  if (!open_) {
+    return Error{final_path_ + ": was committed before"};
+  }
   if (temporary_path_ == final_path_) {
     open_ = false;
     return {};
   }
-  if (Status durable = made_durable(temporary_path_); !durable) return durable;
-  if (::rename(temporary_path_.c_str(), final_path_.c_str()) != 0)
+  if (Status durable = made_durable(temporary_path_); !durable) {
+    return durable;
+  }
+  if (::rename(temporary_path_.c_str(), final_path_.c_str()) != 0) {
     return failed(final_path_, "cannot be written", errno);
+  }
   open_ = false;
   return {};
 }
 
 Status write_file(const std::string& path, std::string_view content) {
   Result<AtomicFile> file = AtomicFile::create(path);
-  if (!file) return file.error();
+  if (!file) {
+    return file.error();
+  }
   std::ofstream out(file->temporary_path(), std::ios::binary | std::ios::trunc);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
-  if (!out) return Error{path + ": cannot be written whole (disk full?)"};
+  if (!out) {
+    return Error{path + ": cannot be written whole (disk full?)"};
+  }
   return file->commit();
 }
 

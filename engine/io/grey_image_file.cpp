@@ -23,12 +23,14 @@ struct ImageSize {
 };
 
 Status check(const ImageSize& size) {
-  if (size.width_px <= 0 || size.height_px <= 0)
+  if (size.width_px <= 0 || size.height_px <= 0) {
     return Error{"image is empty (" + std::to_string(size.width_px) + " x " +
                  std::to_string(size.height_px) + " px)"};
-  if (size.width_px > kMostPixels || size.height_px > kMostPixels / size.width_px)
+  }
+  if (size.width_px > kMostPixels || size.height_px > kMostPixels / size.width_px) {
     return Error{"image of " + std::to_string(size.width_px) + " x " +
                  std::to_string(size.height_px) + " px, limit 100 megapixels"};
+  }
   return {};
 }
 
@@ -36,16 +38,24 @@ Status check(const ImageSize& size) {
 std::optional<std::int64_t> pgm_number(std::string_view& text) {
   for (;;) {
     const std::size_t start = text.find_first_not_of(" \t\r\n");
-    if (start == std::string_view::npos) return std::nullopt;
+    if (start == std::string_view::npos) {
+      return std::nullopt;
+    }
     text.remove_prefix(start);
-    if (text.front() != '#') break;
+    if (text.front() != '#') {
+      break;
+    }
     const std::size_t end = text.find('\n');
-    if (end == std::string_view::npos) return std::nullopt;
+    if (end == std::string_view::npos) {
+      return std::nullopt;
+    }
     text.remove_prefix(end);
   }
   std::int64_t value = 0;
   const auto [rest, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc{} || rest == text.data() + text.size()) return std::nullopt;
+  if (code != std::errc{} || rest == text.data() + text.size()) {
+    return std::nullopt;
+  }
   text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
   return value;
 }
@@ -55,16 +65,21 @@ Result<GreyImage> parse_pgm(std::string_view content) {
   const auto width = pgm_number(rest);
   const auto height = width ? pgm_number(rest) : std::nullopt;
   const auto brightest = height ? pgm_number(rest) : std::nullopt;
-  if (!brightest || std::string_view(" \t\r\n").find(rest.front()) == std::string_view::npos)
+  if (!brightest || std::string_view(" \t\r\n").find(rest.front()) == std::string_view::npos) {
     return Error{"PGM header is damaged"};
+  }
   rest.remove_prefix(1);
-  if (Status status = check({*width, *height}); !status) return status.error();
-  if (*brightest < 1 || *brightest > 255)
+  if (Status status = check({*width, *height}); !status) {
+    return status.error();
+  }
+  if (*brightest < 1 || *brightest > 255) {
     return Error{"PGM with a largest value of " + std::to_string(*brightest) + ", must be 1-255"};
+  }
   const auto pixels = static_cast<std::size_t>(*width * *height);
-  if (rest.size() < pixels)
+  if (rest.size() < pixels) {
     return Error{"PGM is cut short (" + std::to_string(rest.size()) + " of " +
                  std::to_string(pixels) + " bytes)"};
+  }
   GreyImage image(static_cast<int>(*width), static_cast<int>(*height));
   const auto scale = static_cast<int>(*brightest);
   std::transform(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(pixels),
@@ -92,37 +107,56 @@ Result<GreyImage> parse_png(std::string_view content) {
   PngReader reader;
   png_image& png = reader.image;
   const auto damaged = [&png] { return Error{std::string("PNG is damaged: ") + png.message}; };
-  if (!png_image_begin_read_from_memory(&png, content.data(), content.size())) return damaged();
-  if (Status status = check({png.width, png.height}); !status) return status.error();
+  if (!png_image_begin_read_from_memory(&png, content.data(), content.size())) {
+    return damaged();
+  }
+  if (Status status = check({png.width, png.height}); !status) {
+    return status.error();
+  }
   const bool coloured = (png.format & PNG_FORMAT_FLAG_COLOR) != 0;
   png.format = coloured ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
   const png_color black{0, 0, 0};  // what is transparent lies on
-  if (!png_image_finish_read(&png, &black, pixels.data(), 0, nullptr)) return damaged();
+  if (!png_image_finish_read(&png, &black, pixels.data(), 0, nullptr)) {
+    return damaged();
+  }
   GreyImage grey(static_cast<int>(png.width), static_cast<int>(png.height));
   if (!coloured) {
     grey.pixels = std::move(pixels);
     return grey;
   }
-  for (std::size_t i = 0; i < grey.pixels.size(); ++i) grey.pixels[i] = luma(&pixels[3 * i]);
+  for (std::size_t i = 0; i < grey.pixels.size(); ++i) {
+    grey.pixels[i] = luma(&pixels[3 * i]);
+  }
   return grey;
 }
 
 Result<GreyImage> parse_jpeg(std::string_view content) {
   JpegReader reader(content);
   const auto damaged = [&reader] { return Error{"JPEG is damaged: " + reader.message()}; };
-  if (!reader.read_header()) return damaged();
-  if (Status status = check({reader.width_px(), reader.height_px()}); !status)
+  if (!reader.read_header()) {
+    return damaged();
+  }
+  if (Status status = check({reader.width_px(), reader.height_px()}); !status) {
     return status.error();
+  }
   GreyImage grey(reader.width_px(), reader.height_px());
-  if (!reader.read_rows(grey.pixels.data())) return damaged();
+  if (!reader.read_rows(grey.pixels.data())) {
+    return damaged();
+  }
   return grey;
 }
 
 Result<GreyImage> parse(std::string_view content) {
-  if (content.starts_with("P5")) return parse_pgm(content);
-  if (content.starts_with(std::string_view("\x89PNG\r\n\x1a\n", 8))) return parse_png(content);
-  if (content.starts_with("\xff\xd8\xff")) return parse_jpeg(content);
+  if (content.starts_with("P5")) {
+    return parse_pgm(content);
+  }
+  if (content.starts_with(std::string_view("\x89PNG\r\n\x1a\n", 8))) {
+    return parse_png(content);
+  }
+  if (content.starts_with("\xff\xd8\xff")) {
+    return parse_jpeg(content);
+  }
   return Error{content.empty() ? "file is empty" : "not a PNG, JPEG or binary PGM image"};
 }
 
@@ -130,13 +164,17 @@ Result<GreyImage> parse(std::string_view content) {
 
 Result<GreyImage> parse_grey(std::string_view content, const std::string& name) {
   Result<GreyImage> image = parse(content);
-  if (!image) return Error{name + ": " + image.error().message};
+  if (!image) {
+    return Error{name + ": " + image.error().message};
+  }
   return image;
 }
 
 Result<GreyImage> load_grey(const std::string& path) {
   Result<std::string> content = read_text(path, kMostBytes);
-  if (!content) return content.error();
+  if (!content) {
+    return content.error();
+  }
   return parse_grey(*content, path);
 }
 

@@ -24,19 +24,27 @@ Error error_of(const std::filesystem::path& path, const std::string& reason) {
 Result<std::vector<char>> bytes_of(const std::filesystem::path& path) {
   // Reading a folder throws, and a pipe may never end.
   std::error_code absent;
-  if (!std::filesystem::is_regular_file(path, absent)) return error_of(path, "can't be read");
+  if (!std::filesystem::is_regular_file(path, absent)) {
+    return error_of(path, "can't be read");
+  }
   std::ifstream file(path, std::ios::binary);
-  if (!file) return error_of(path, "can't be read");
+  if (!file) {
+    return error_of(path, "can't be read");
+  }
   std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (file.bad()) return error_of(path, "can't be read");
+  if (file.bad()) {
+    return error_of(path, "can't be read");
+  }
   return bytes;
 }
 
 }  // namespace
 
-Result<render::Image> read_png(const std::filesystem::path& path) {
+Result<RgbaImage> read_png(const std::filesystem::path& path) {
   const Result<std::vector<char>> bytes = bytes_of(path);
-  if (!bytes) return bytes.error();
+  if (!bytes) {
+    return bytes.error();
+  }
   png_image header = {};
   header.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&header, bytes->data(), bytes->size())) {
@@ -47,20 +55,20 @@ Result<render::Image> read_png(const std::filesystem::path& path) {
     return error_of(path, "is larger than 16384 px");
   }
   header.format = PNG_FORMAT_RGBA;
-  render::Image image;
+  RgbaImage image;
   image.width_px = static_cast<int>(header.width);
   image.height_px = static_cast<int>(header.height);
-  image.rgba.resize(PNG_IMAGE_SIZE(header));
-  if (!png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr)) {
+  image.pixels.resize(PNG_IMAGE_SIZE(header));
+  if (!png_image_finish_read(&header, nullptr, image.pixels.data(), 0, nullptr)) {
     png_image_free(&header);
     return error_of(path, std::string("not a readable PNG: ") + header.message);
   }
   return image;
 }
 
-Result<std::string> png_bytes(const render::Image& image) {
+Result<std::string> png_bytes(const RgbaImage& image) {
   const auto pixels = static_cast<std::size_t>(image.width_px) * image.height_px;
-  if (image.width_px <= 0 || image.height_px <= 0 || image.rgba.size() != 4 * pixels) {
+  if (image.width_px <= 0 || image.height_px <= 0 || image.pixels.size() != 4 * pixels) {
     return Error{"image without pixels"};
   }
   png_image header = {};
@@ -70,42 +78,47 @@ Result<std::string> png_bytes(const render::Image& image) {
   header.format = PNG_FORMAT_RGBA;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
-  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgba.data(), 0, nullptr)) {
+  if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.pixels.data(), 0,
+                                 nullptr)) {
     return Error{std::string("image can't be encoded: ") + header.message};
   }
   bytes.resize(size);
   return bytes;
 }
 
-Status write_png(const std::filesystem::path& path, const render::Image& image) {
+Status write_png(const std::filesystem::path& path, const RgbaImage& image) {
   const Result<std::string> bytes = png_bytes(image);
-  if (!bytes) return error_of(path, bytes.error().message);
+  if (!bytes) {
+    return error_of(path, bytes.error().message);
+  }
   return write_file(path.string(), *bytes);
 }
 
-Result<render::Image> picture_of_labels(const render::LabelImage& labels) {
-  render::Image picture;
+Result<RgbaImage> picture_of_labels(const LabelImage& labels) {
+  RgbaImage picture;
   picture.width_px = labels.width_px;
   picture.height_px = labels.height_px;
-  picture.rgba.reserve(4 * labels.labels.size());
-  for (const render::Label label : labels.labels) {
-    if (label >> 24) return Error{"label " + std::to_string(label) + ", limit 16777215"};
-    for (const unsigned shift : {0u, 8u, 16u}) {
-      picture.rgba.push_back(static_cast<std::uint8_t>(label >> shift & 0xffu));
+  picture.pixels.reserve(4 * labels.labels.size());
+  for (const std::uint32_t label : labels.labels) {
+    if (label >> 24) {
+      return Error{"label " + std::to_string(label) + ", limit 16777215"};
     }
-    picture.rgba.push_back(255);
+    for (const unsigned shift : {0u, 8u, 16u}) {
+      picture.pixels.push_back(static_cast<std::uint8_t>(label >> shift & 0xffu));
+    }
+    picture.pixels.push_back(255);
   }
   return picture;
 }
 
-render::LabelImage labels_of_picture(const render::Image& picture) {
-  render::LabelImage labels;
+LabelImage labels_of_picture(const RgbaImage& picture) {
+  LabelImage labels;
   labels.width_px = picture.width_px;
   labels.height_px = picture.height_px;
-  labels.labels.reserve(picture.rgba.size() / 4);
-  for (std::size_t i = 0; i + 3 < picture.rgba.size(); i += 4) {
-    labels.labels.push_back(picture.rgba[i] | render::Label{picture.rgba[i + 1]} << 8u |
-                            render::Label{picture.rgba[i + 2]} << 16u);
+  labels.labels.reserve(picture.pixels.size() / 4);
+  for (std::size_t i = 0; i + 3 < picture.pixels.size(); i += 4) {
+    labels.labels.push_back(picture.pixels[i] | std::uint32_t{picture.pixels[i + 1]} << 8u |
+                            std::uint32_t{picture.pixels[i + 2]} << 16u);
   }
   return labels;
 }

@@ -3,23 +3,23 @@
 #include <filesystem>
 #include <string>
 
+#include "base/image.h"
 #include "base/result.h"
-#include "render/renderer.h"
 
 namespace orthonav::engine {
 
 /// Reads any PNG as 8-bit RGBA. Refuses a file that is absent, truncated or no PNG, by name.
-Result<render::Image> read_png(const std::filesystem::path& path);
+Result<RgbaImage> read_png(const std::filesystem::path& path);
 
 /// The image as the bytes of a PNG file.
-Result<std::string> png_bytes(const render::Image& image);
+Result<std::string> png_bytes(const RgbaImage& image);
 
 /// Writes beside `path` first and then renames, so that no half-written image is ever seen.
-Status write_png(const std::filesystem::path& path, const render::Image& image);
+Status write_png(const std::filesystem::path& path, const RgbaImage& image);
 
 /// A label image as a picture and back, exactly: the label's three low bytes as red, green, blue.
 /// Labels of 2^24 and more are refused.
-Result<render::Image> picture_of_labels(const render::LabelImage& labels);
-render::LabelImage labels_of_picture(const render::Image& picture);
+Result<RgbaImage> picture_of_labels(const LabelImage& labels);
+LabelImage labels_of_picture(const RgbaImage& picture);
 
 }  // namespace orthonav::engine

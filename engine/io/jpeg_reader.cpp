@@ -18,15 +18,18 @@ struct JpegReader::Library {
   static Library& of(j_common_ptr common) { return *static_cast<Library*>(common->client_data); }
 
   static void keep_message(j_common_ptr common) {
-    if (of(common).message[0] == '\0')
+    if (of(common).message[0] == '\0') {
       common->err->format_message(common, of(common).message.data());
+    }
   }
   [[noreturn]] static void on_error(j_common_ptr common) {
     keep_message(common);
     std::longjmp(of(common).failed, 1);
   }
   static void on_message(j_common_ptr common, int level) {
-    if (level >= 0) return;  // a trace
+    if (level >= 0) {
+      return;  // a trace
+    }
     ++common->err->num_warnings;
     keep_message(common);
   }
@@ -47,7 +50,9 @@ JpegReader::~JpegReader() { jpeg_destroy_decompress(&library_->decoder); }
 // Nothing with a destructor may live in a function that longjmp returns into.
 bool JpegReader::read_header() {
   jpeg_decompress_struct& decoder = library_->decoder;
-  if (setjmp(library_->failed) != 0) return false;
+  if (setjmp(library_->failed) != 0) {
+    return false;
+  }
   jpeg_create_decompress(&decoder);
   jpeg_mem_src(&decoder, reinterpret_cast<const unsigned char*>(library_->content.data()),
                static_cast<unsigned long>(library_->content.size()));
@@ -62,14 +67,18 @@ int JpegReader::height_px() const { return static_cast<int>(library_->decoder.im
 
 bool JpegReader::read_rows(std::uint8_t* pixels) {
   jpeg_decompress_struct& decoder = library_->decoder;
-  if (setjmp(library_->failed) != 0) return false;
+  if (setjmp(library_->failed) != 0) {
+    return false;
+  }
   jpeg_start_decompress(&decoder);
   while (decoder.output_scanline < decoder.output_height && library_->errors.num_warnings == 0) {
     JSAMPROW row =
         pixels + static_cast<std::size_t>(decoder.output_scanline) * decoder.output_width;
     jpeg_read_scanlines(&decoder, &row, 1);
   }
-  if (library_->errors.num_warnings == 0) jpeg_finish_decompress(&decoder);
+  if (library_->errors.num_warnings == 0) {
+    jpeg_finish_decompress(&decoder);
+  }
   return library_->errors.num_warnings == 0;
 }
 

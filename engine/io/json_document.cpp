@@ -21,7 +21,9 @@ struct JsonNode::Value {
   const json* content;
 
   [[nodiscard]] const json* find(const char* key) const {
-    if (!content->is_object()) return nullptr;
+    if (!content->is_object()) {
+      return nullptr;
+    }
     const auto found = content->find(key);
     return found == content->end() || found->is_null() ? nullptr : &*found;
   }
@@ -29,24 +31,32 @@ struct JsonNode::Value {
 
 Result<std::string> read_text(const std::string& path, std::size_t max_bytes) {
   std::error_code problem;
-  if (std::filesystem::is_directory(path, problem))
+  if (std::filesystem::is_directory(path, problem)) {
     return Error{path + ": is a folder, not a file"};
+  }
   std::ifstream in(path, std::ios::binary);
-  if (!in) return Error{path + ": cannot be opened"};
+  if (!in) {
+    return Error{path + ": cannot be opened"};
+  }
   std::string text;
   std::vector<char> block(1u << 16u);
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(in.gcount()));
-    if (text.size() > max_bytes)
+    if (text.size() > max_bytes) {
       return Error{path + ": larger than " + std::to_string(max_bytes >> 20u) + " MiB"};
+    }
   }
-  if (in.bad()) return Error{path + ": cannot be read"};
+  if (in.bad()) {
+    return Error{path + ": cannot be read"};
+  }
   return text;
 }
 
 Result<JsonDocument> JsonDocument::read(const std::string& path) {
   const Result<std::string> text = read_text(path);
-  if (!text) return text.error();
+  if (!text) {
+    return text.error();
+  }
   return parse(*text, path);
 }
 
@@ -61,7 +71,9 @@ Result<JsonDocument> JsonDocument::parse(std::string_view text, const std::strin
   } catch (const json::exception&) {
     return Error{name + ": holds a number that is too large"};
   }
-  if (!state->content.is_object()) return Error{name + ": must hold a JSON object"};
+  if (!state->content.is_object()) {
+    return Error{name + ": must hold a JSON object"};
+  }
   return JsonDocument(std::move(state));
 }
 
@@ -70,7 +82,9 @@ JsonNode JsonDocument::root() const {
 }
 
 Status JsonDocument::status() const {
-  if (state_->problem) return *state_->problem;
+  if (state_->problem) {
+    return *state_->problem;
+  }
   return {};
 }
 
@@ -80,7 +94,9 @@ std::string JsonNode::way_to(const char* key) const {
 
 void JsonNode::refuse(const std::string& problem) const {
   JsonDocument::State& document = *value_->document;
-  if (document.problem) return;
+  if (document.problem) {
+    return;
+  }
   document.problem = Error{document.name + ": " + where_ + (where_.empty() ? "" : " ") + problem};
 }
 
@@ -92,9 +108,12 @@ bool JsonNode::has(const char* key) const { return value_->find(key) != nullptr;
 
 std::string JsonNode::text(const char* key) const {
   const json* found = value_->find(key);
-  if (found == nullptr) return refuse(key, "is missing"), std::string();
-  if (!found->is_string())
+  if (found == nullptr) {
+    return refuse(key, "is missing"), std::string();
+  }
+  if (!found->is_string()) {
     return refuse(key, std::string("must be text, is ") + found->type_name()), std::string();
+  }
   return found->get<std::string>();
 }
 
@@ -104,18 +123,24 @@ std::string JsonNode::text_or(const char* key, const std::string& fallback) cons
 
 double JsonNode::number(const char* key) const {
   const json* found = value_->find(key);
-  if (found == nullptr) return refuse(key, "is missing"), 0.0;
-  if (!found->is_number())
+  if (found == nullptr) {
+    return refuse(key, "is missing"), 0.0;
+  }
+  if (!found->is_number()) {
     return refuse(key, std::string("must be a number, is ") + found->type_name()), 0.0;
+  }
   const double value = found->get<double>();
-  if (!std::isfinite(value)) return refuse(key, "is not finite"), 0.0;
+  if (!std::isfinite(value)) {
+    return refuse(key, "is not finite"), 0.0;
+  }
   return value;
 }
 
 int JsonNode::integer(const char* key) const {
   const double value = number(key);
-  if (value != std::floor(value) || std::abs(value) > 1e9)
+  if (value != std::floor(value) || std::abs(value) > 1e9) {
     return refuse(key, "must be a whole number"), 0;
+  }
   return static_cast<int>(value);
 }
 
@@ -127,9 +152,14 @@ bool flatten(const json& value, int depth, std::vector<double>& out) {
     out.push_back(value.get<double>());
     return std::isfinite(out.back());
   }
-  if (!value.is_array() || depth == 0) return false;
-  for (const json& element : value)
-    if (!flatten(element, depth - 1, out)) return false;
+  if (!value.is_array() || depth == 0) {
+    return false;
+  }
+  for (const json& element : value) {
+    if (!flatten(element, depth - 1, out)) {
+      return false;
+    }
+  }
   return true;
 }
 
@@ -138,13 +168,14 @@ bool flatten(const json& value, int depth, std::vector<double>& out) {
 std::vector<double> JsonNode::numbers(const char* key, std::size_t count) const {
   std::vector<double> out;
   const json* found = value_->find(key);
-  if (found == nullptr)
+  if (found == nullptr) {
     refuse(key, "is missing");
-  else if (!found->is_array() || !flatten(*found, 2, out))
+  } else if (!found->is_array() || !flatten(*found, 2, out)) {
     refuse(key, "must be a list of " + std::to_string(count) + " finite numbers");
-  else if (out.size() != count)
+  } else if (out.size() != count) {
     refuse(key,
            "holds " + std::to_string(out.size()) + " numbers, must be " + std::to_string(count));
+  }
   out.resize(count, 0.0);
   return out;
 }
@@ -179,18 +210,23 @@ std::vector<Vec3> JsonNode::vec3s(const char* key) const {
 
 bool JsonNode::flag_or(const char* key, bool fallback) const {
   const json* found = value_->find(key);
-  if (found == nullptr) return fallback;
-  if (!found->is_boolean()) refuse(key, "must be true or false");
+  if (found == nullptr) {
+    return fallback;
+  }
+  if (!found->is_boolean()) {
+    refuse(key, "must be true or false");
+  }
   return found->is_boolean() ? found->get<bool>() : fallback;
 }
 
 JsonNode JsonNode::child(const char* key) const {
   static const json kNothing;
   const json* found = value_->find(key);
-  if (found == nullptr)
+  if (found == nullptr) {
     refuse(key, "is missing");
-  else if (!found->is_object())
+  } else if (!found->is_object()) {
     refuse(key, std::string("must be an object, is ") + found->type_name());
+  }
   const Value value{value_->document, found == nullptr ? &kNothing : found};
   return {std::make_shared<Value>(value), way_to(key)};
 }
@@ -198,21 +234,27 @@ JsonNode JsonNode::child(const char* key) const {
 std::vector<JsonNode> JsonNode::list(const char* key) const {
   std::vector<JsonNode> nodes;
   const json* found = value_->find(key);
-  if (found == nullptr) return refuse(key, "is missing"), nodes;
-  if (!found->is_array())
+  if (found == nullptr) {
+    return refuse(key, "is missing"), nodes;
+  }
+  if (!found->is_array()) {
     return refuse(key, std::string("must be a list, is ") + found->type_name()), nodes;
+  }
   for (const json& element : *found) {
     const std::string where = way_to(key) + "[" + std::to_string(nodes.size()) + "]";
     nodes.push_back({std::make_shared<Value>(Value{value_->document, &element}), where});
-    if (!element.is_object()) nodes.back().refuse("must be an object");
+    if (!element.is_object()) {
+      nodes.back().refuse("must be an object");
+    }
   }
   return nodes;
 }
 
 std::string JsonNode::first_text(const char* key) const {
   const json* found = value_->find(key);
-  if (found != nullptr && found->is_array() && !found->empty() && found->front().is_string())
+  if (found != nullptr && found->is_array() && !found->empty() && found->front().is_string()) {
     return found->front().get<std::string>();
+  }
   return text(key);
 }
 

@@ -30,16 +30,23 @@ std::string extension_of(const std::string& path) {
 
 Status readable(const std::string& path) {
   std::error_code problem;
-  if (std::filesystem::is_directory(path, problem))
+  if (std::filesystem::is_directory(path, problem)) {
     return Error{path + ": is a folder, not a file"};
+  }
   const std::uintmax_t size = std::filesystem::file_size(path, problem);
-  if (problem || !std::ifstream(path)) return Error{path + ": cannot be opened"};
-  if (size == 0) return Error{path + ": is empty"};
-  if (size > kMaxFileBytes)
+  if (problem || !std::ifstream(path)) {
+    return Error{path + ": cannot be opened"};
+  }
+  if (size == 0) {
+    return Error{path + ": is empty"};
+  }
+  if (size > kMaxFileBytes) {
     return Error{path + ": larger than " + std::to_string(kMaxFileBytes >> 20u) + " MiB"};
+  }
   const std::string extension = extension_of(path);
-  if (extension != ".stl" && extension != ".ply" && extension != ".obj")
+  if (extension != ".stl" && extension != ".ply" && extension != ".obj") {
     return Error{path + ": must be an STL, PLY or OBJ file"};
+  }
   return {};
 }
 
@@ -52,9 +59,10 @@ void append(const aiMesh& part, nav::TriangleMesh& mesh) {
   }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices == 3)
+    if (face.mNumIndices == 3) {
       mesh.triangles.push_back(
           {base + face.mIndices[0], base + face.mIndices[1], base + face.mIndices[2]});
+    }
   }
 }
 
@@ -68,10 +76,13 @@ Result<nav::TriangleMesh> imported(const std::string& path) {
   try {
     Assimp::Importer importer;
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
-    if (scene == nullptr)
+    if (scene == nullptr) {
       return Error{path + ": cannot be read (" + one_line(importer.GetErrorString()) + ")"};
+    }
     nav::TriangleMesh mesh;
-    for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], mesh);
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+      append(*scene->mMeshes[i], mesh);
+    }
     return mesh;
   } catch (const std::exception& error) {
     return Error{path + ": cannot be read (" + one_line(error.what()) + ")"};
@@ -87,9 +98,12 @@ std::optional<std::string> declared_space(const std::string& path) {
   std::size_t at = head.find(kKey);
   // A word of its own: COLORSPACE= says nothing of axes.
   while (at != std::string::npos && at > 0 &&
-         std::isalnum(static_cast<unsigned char>(head[at - 1])) != 0)
+         std::isalnum(static_cast<unsigned char>(head[at - 1])) != 0) {
     at = head.find(kKey, at + 1);
-  if (at == std::string::npos) return std::nullopt;
+  }
+  if (at == std::string::npos) {
+    return std::nullopt;
+  }
   const auto first = head.begin() + static_cast<std::ptrdiff_t>(at + kKey.size());
   return std::string(first, std::find_if_not(first, head.end(),
                                              [](unsigned char c) { return std::isalpha(c) != 0; }));
@@ -114,17 +128,26 @@ std::optional<Axes> declared_axes(const std::string& path) {
 }
 
 Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit, Axes axes) {
-  if (Status status = readable(path); !status) return status.error();
-  if (const auto space = declared_space(path); space && !axes_from(*space))
+  if (Status status = readable(path); !status) {
+    return status.error();
+  }
+  if (const auto space = declared_space(path); space && !axes_from(*space)) {
     return Error{path + ": SPACE is \"" + *space + "\", must be LPS or RAS"};
+  }
   Result<nav::TriangleMesh> apart = imported(path);
-  if (!apart) return apart;
+  if (!apart) {
+    return apart;
+  }
   // Files repeat a vertex for each of its triangles with the same digits, so equal means equal.
   nav::TriangleMesh mesh = nav::welded(*apart);
   const Axes used = declared_axes(path).value_or(axes);
-  for (Vec3& v : mesh.vertices_m) v = to_lps(v, used) * metres_per_unit;
+  for (Vec3& v : mesh.vertices_m) {
+    v = to_lps(v, used) * metres_per_unit;
+  }
   Result<nav::TriangleMesh> checked = nav::checked_vertebra(std::move(mesh));
-  if (!checked) return Error{path + ": " + checked.error().message};
+  if (!checked) {
+    return Error{path + ": " + checked.error().message};
+  }
   return checked;
 }
 
@@ -141,7 +164,9 @@ Status save_stl(const std::string& path, const nav::TriangleMesh& mesh) {
     const double length = normal.norm();
     // In the format's millimetres a unit normal is a thousandth of a metre.
     put_mm(bytes, length > 0 ? normal * (1e-3 / length) : Vec3{});
-    for (const Vec3& corner : {a, b, c}) put_mm(bytes, corner);
+    for (const Vec3& corner : {a, b, c}) {
+      put_mm(bytes, corner);
+    }
     bytes.append(2, '\0');
   }
   return write_file(path, bytes);

@@ -3,14 +3,22 @@
 namespace orthonav::engine {
 
 std::optional<Axes> axes_from(const std::string& text) {
-  if (text == "LPS") return Axes::kLps;
-  if (text == "RAS") return Axes::kRas;
+  if (text == "LPS") {
+    return Axes::kLps;
+  }
+  if (text == "RAS") {
+    return Axes::kRas;
+  }
   return std::nullopt;
 }
 
 std::optional<double> metres_per_unit_from(const std::string& text) {
-  if (text == "mm") return 1e-3;
-  if (text == "m") return 1.0;
+  if (text == "mm") {
+    return 1e-3;
+  }
+  if (text == "m") {
+    return 1.0;
+  }
   return std::nullopt;
 }
 

@@ -44,28 +44,41 @@ std::vector<std::string> words_of(const std::string& line) {
 Status read_format(const std::vector<std::string>& words, Header& header) {
   const std::string format = words.size() > 1 ? words[1] : "";
   header.has_format = true;
-  if (format == "ascii") return {};
+  if (format == "ascii") {
+    return {};
+  }
   header.encoding = format == "binary_little_endian" ? Encoding::kLittle : Encoding::kBig;
-  if (header.encoding == Encoding::kBig && format != "binary_big_endian")
+  if (header.encoding == Encoding::kBig && format != "binary_big_endian") {
     return Error{"unknown format \"" + format + "\""};
+  }
   return {};
 }
 
 /// Takes one line of the header; `in_vertex` tells whether properties belong to the vertices.
 Status take(const std::vector<std::string>& words, bool& in_vertex, Header& header) {
-  if (words[0] == "format") return read_format(words, header);
+  if (words[0] == "format") {
+    return read_format(words, header);
+  }
   if (words[0] == "element") {
-    if (words.size() != 3) return Error{"an element line is not \"element NAME COUNT\""};
-    if (words[1] != "vertex" && header.properties.empty())
+    if (words.size() != 3) {
+      return Error{"an element line is not \"element NAME COUNT\""};
+    }
+    if (words[1] != "vertex" && header.properties.empty()) {
       return Error{"element " + words[1] + " stands before the vertices"};
+    }
     in_vertex = words[1] == "vertex";
     const auto count = number_from(words[2]);
-    if (!count || *count < 0 || *count > 1e8 || *count != std::floor(*count))
+    if (!count || *count < 0 || *count > 1e8 || *count != std::floor(*count)) {
       return Error{"element count " + words[2] + " must be 0 to 100000000"};
-    if (in_vertex) header.count = static_cast<std::size_t>(*count);
+    }
+    if (in_vertex) {
+      header.count = static_cast<std::size_t>(*count);
+    }
   } else if (words[0] == "property" && in_vertex) {
     const auto size = words.size() == 3 ? sizes().find(words[1]) : sizes().end();
-    if (size == sizes().end()) return Error{"a vertex property has an unknown type"};
+    if (size == sizes().end()) {
+      return Error{"a vertex property has an unknown type"};
+    }
     header.properties.push_back(
         {words[2], size->second, words[1].starts_with("float") || words[1] == "double"});
   }
@@ -73,21 +86,33 @@ Status take(const std::vector<std::string>& words, bool& in_vertex, Header& head
 }
 
 Result<Header> read_header(const std::string& text) {
-  if (!text.starts_with("ply")) return Error{"does not start with \"ply\""};
+  if (!text.starts_with("ply")) {
+    return Error{"does not start with \"ply\""};
+  }
   Header header;
   bool in_vertex = false;
   std::size_t at = 0;
   for (;;) {
     const std::size_t end = text.find('\n', at);
-    if (end == std::string::npos) return Error{"has no end_header"};
+    if (end == std::string::npos) {
+      return Error{"has no end_header"};
+    }
     const std::vector<std::string> words = words_of(text.substr(at, end - at));
     at = end + 1;
-    if (words.empty()) continue;
-    if (words[0] == "end_header") break;
-    if (Status status = take(words, in_vertex, header); !status) return status.error();
+    if (words.empty()) {
+      continue;
+    }
+    if (words[0] == "end_header") {
+      break;
+    }
+    if (Status status = take(words, in_vertex, header); !status) {
+      return status.error();
+    }
   }
   header.end = at;
-  if (!header.has_format) return Error{"has no format line"};
+  if (!header.has_format) {
+    return Error{"has no format line"};
+  }
   return header;
 }
 
@@ -101,10 +126,13 @@ Result<std::vector<Column>> coordinate_columns(const Header& header) {
   std::vector<Column> columns;
   for (const char* name : {"x", "y", "z"}) {
     Column column;
-    while (column.index < header.properties.size() && header.properties[column.index].name != name)
+    while (column.index < header.properties.size() &&
+           header.properties[column.index].name != name) {
       column.offset += header.properties[column.index++].bytes;
-    if (column.index == header.properties.size() || !header.properties[column.index].real)
+    }
+    if (column.index == header.properties.size() || !header.properties[column.index].real) {
       return Error{std::string("vertices have no float or double ") + name};
+    }
     column.bytes = header.properties[column.index].bytes;
     columns.push_back(column);
   }
@@ -124,17 +152,21 @@ double real_at(const char* at, std::size_t bytes, Encoding encoding) {
 Result<std::vector<Vec3>> binary_points(const std::string& text, const Header& header,
                                         const std::vector<Column>& columns) {
   std::size_t stride = 0;
-  for (const Property& property : header.properties) stride += property.bytes;
-  if ((text.size() - header.end) / stride < header.count)
+  for (const Property& property : header.properties) {
+    stride += property.bytes;
+  }
+  if ((text.size() - header.end) / stride < header.count) {
     return Error{"ends after " + std::to_string((text.size() - header.end) / stride) + " of " +
                  std::to_string(header.count) + " vertices"};
+  }
   std::vector<Vec3> points(header.count);
-  for (std::size_t i = 0; i < header.count; ++i)
+  for (std::size_t i = 0; i < header.count; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       const Column& column = columns[static_cast<std::size_t>(axis)];
       points[i][axis] = real_at(text.data() + header.end + i * stride + column.offset, column.bytes,
                                 header.encoding);
     }
+  }
   return points;
 }
 
@@ -146,20 +178,24 @@ Result<std::vector<Vec3>> ascii_points(const std::string& text, const Header& he
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::vector<std::string> words = words_of(text.substr(at, end - at));
     at = end + 1;
-    if (words.empty()) continue;
+    if (words.empty()) {
+      continue;
+    }
     Vec3 point;
     for (int axis = 0; axis < 3; ++axis) {
       const std::size_t index = columns[static_cast<std::size_t>(axis)].index;
       const auto value = index < words.size() ? number_from(words[index]) : std::nullopt;
-      if (!value)
+      if (!value) {
         return Error{"vertex " + std::to_string(points.size()) + " holds no finite x, y, z"};
+      }
       point[axis] = *value;
     }
     points.push_back(point);
   }
-  if (points.size() < header.count)
+  if (points.size() < header.count) {
     return Error{"ends after " + std::to_string(points.size()) + " of " +
                  std::to_string(header.count) + " vertices"};
+  }
   return points;
 }
 
@@ -168,16 +204,24 @@ Result<std::vector<Vec3>> ascii_points(const std::string& text, const Header& he
 Result<std::vector<Vec3>> ply_points(const std::string& text, const std::string& name) {
   const auto refused = [&](const Error& error) { return Error{name + ": PLY " + error.message}; };
   const Result<Header> header = read_header(text);
-  if (!header) return refused(header.error());
+  if (!header) {
+    return refused(header.error());
+  }
   const Result<std::vector<Column>> columns = coordinate_columns(*header);
-  if (!columns) return refused(columns.error());
+  if (!columns) {
+    return refused(columns.error());
+  }
   Result<std::vector<Vec3>> points = header->encoding == Encoding::kAscii
                                          ? ascii_points(text, *header, *columns)
                                          : binary_points(text, *header, *columns);
-  if (!points) return refused(points.error());
-  for (std::size_t i = 0; i < points->size(); ++i)
-    if (!(*points)[i].is_finite())
+  if (!points) {
+    return refused(points.error());
+  }
+  for (std::size_t i = 0; i < points->size(); ++i) {
+    if (!(*points)[i].is_finite()) {
       return refused(Error{"vertex " + std::to_string(i) + " is not finite"});
+    }
+  }
   return points;
 }
 

@@ -21,7 +21,9 @@ void PointCloud::add(Vec3 point_m) {
     const auto index = [this](double x_m) {
       return static_cast<std::int64_t>(std::floor(x_m / cell_m_));
     };
-    if (!taken_.insert({index(point_m.x), index(point_m.y), index(point_m.z)}).second) return;
+    if (!taken_.insert({index(point_m.x), index(point_m.y), index(point_m.z)}).second) {
+      return;
+    }
   }
   points_m_.push_back({static_cast<float>(point_m.x), static_cast<float>(point_m.y),
                        static_cast<float>(point_m.z)});

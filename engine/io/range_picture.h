@@ -3,13 +3,12 @@
 #include <cstdint>
 
 #include "base/image.h"
-#include "render/renderer.h"
 
 namespace orthonav::engine {
 
 /// A depth image to look at: white is nearest, dark grey farthest, black was not measured.
 struct RangePicture {
-  render::Image image;
+  RgbaImage image;
   std::uint16_t white_mm = 0;  ///< all but a hundredth of the pixels lie between these, if any do
   std::uint16_t dark_mm = 0;
 };

@@ -11,7 +11,9 @@ template <class Picture, class Values>
 Picture side_by_side(const std::vector<Picture>& views, Values Picture::*values,
                      std::size_t channels) {
   Picture joined;
-  if (views.empty()) return joined;
+  if (views.empty()) {
+    return joined;
+  }
   joined.height_px = views.front().height_px;
   joined.width_px = views.front().width_px * static_cast<int>(views.size());
   const std::size_t row = channels * static_cast<std::size_t>(views.front().width_px);

@@ -21,12 +21,14 @@ Error av_error(const std::string& path, const std::string& what, int code) {
 }
 
 Status check(const std::string& path, const VideoOptions& o) {
-  if (o.width_px < 16 || o.height_px < 16 || o.width_px % 2 != 0 || o.height_px % 2 != 0)
+  if (o.width_px < 16 || o.height_px < 16 || o.width_px % 2 != 0 || o.height_px % 2 != 0) {
     return Error{path + ": video size " + std::to_string(o.width_px) + "x" +
                  std::to_string(o.height_px) + " must be even and at least 16x16"};
-  if (o.frames_per_second < 1 || o.frames_per_second > 240)
+  }
+  if (o.frames_per_second < 1 || o.frames_per_second > 240) {
     return Error{path + ": " + std::to_string(o.frames_per_second) +
                  " frames per second, limits 1 to 240"};
+  }
   return {};
 }
 
@@ -68,9 +70,13 @@ struct VideoWriter::Encoder {
 
 Status VideoWriter::Encoder::open_codec() {
   const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
-  if (h264 == nullptr) return Error{path + ": libavcodec has no H.264 encoder (libx264)"};
+  if (h264 == nullptr) {
+    return Error{path + ": libavcodec has no H.264 encoder (libx264)"};
+  }
   codec = avcodec_alloc_context3(h264);
-  if (codec == nullptr) return Error{path + ": out of memory for the H.264 encoder"};
+  if (codec == nullptr) {
+    return Error{path + ": out of memory for the H.264 encoder"};
+  }
   codec->width = options.width_px;
   codec->height = options.height_px;
   codec->time_base = {1, options.frames_per_second};
@@ -79,68 +85,95 @@ Status VideoWriter::Encoder::open_codec() {
   codec->thread_count = options.threads;
   // Fixed reference threads and no timing: the same pictures give the same bytes.
   const std::string quality = std::to_string(options.quality);
-  for (const auto& [key, value] : {std::pair{"preset", "veryfast"}, {"crf", quality.c_str()}})
-    if (const int code = av_opt_set(codec->priv_data, key, value, 0); code < 0)
+  for (const auto& [key, value] : {std::pair{"preset", "veryfast"}, {"crf", quality.c_str()}}) {
+    if (const int code = av_opt_set(codec->priv_data, key, value, 0); code < 0) {
       return av_error(path, std::string("H.264 encoder refused ") + key + " " + value, code);
-  if ((format->oformat->flags & AVFMT_GLOBALHEADER) != 0)
+    }
+  }
+  if ((format->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
     codec->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-  if (const int code = avcodec_open2(codec, h264, nullptr); code < 0)
+  }
+  if (const int code = avcodec_open2(codec, h264, nullptr); code < 0) {
     return av_error(path, "H.264 encoder refused the settings", code);
+  }
   return {};
 }
 
 Status VideoWriter::Encoder::open_file() {
   if (const int code =
           avformat_alloc_output_context2(&format, nullptr, "mp4", file.temporary_path().c_str());
-      code < 0)
+      code < 0) {
     return av_error(path, "no MP4 writer", code);
-  if (const Status opened = open_codec(); !opened) return opened;
+  }
+  if (const Status opened = open_codec(); !opened) {
+    return opened;
+  }
   stream = avformat_new_stream(format, nullptr);
-  if (stream == nullptr) return Error{path + ": out of memory for a video stream"};
+  if (stream == nullptr) {
+    return Error{path + ": out of memory for a video stream"};
+  }
   stream->time_base = codec->time_base;
-  if (const int code = avcodec_parameters_from_context(stream->codecpar, codec); code < 0)
+  if (const int code = avcodec_parameters_from_context(stream->codecpar, codec); code < 0) {
     return av_error(path, "cannot describe its stream", code);
+  }
   if (const int code = avio_open(&format->pb, file.temporary_path().c_str(), AVIO_FLAG_WRITE);
-      code < 0)
+      code < 0) {
     return av_error(path, "cannot be written", code);
-  if (const Status begun = write_header(); !begun) return begun;
+  }
+  if (const Status begun = write_header(); !begun) {
+    return begun;
+  }
   return open_frame();
 }
 
 Status VideoWriter::Encoder::write_header() {
   AVDictionary* movie = nullptr;
   int code = av_dict_set(&movie, "movflags", "faststart", 0);
-  if (code >= 0) code = avformat_write_header(format, &movie);
+  if (code >= 0) {
+    code = avformat_write_header(format, &movie);
+  }
   av_dict_free(&movie);
-  if (code < 0) return av_error(path, "cannot be started", code);
+  if (code < 0) {
+    return av_error(path, "cannot be started", code);
+  }
   return {};
 }
 
 Status VideoWriter::Encoder::open_frame() {
   frame = av_frame_alloc();
   packet = av_packet_alloc();
-  if (frame == nullptr || packet == nullptr)
+  if (frame == nullptr || packet == nullptr) {
     return Error{path + ": out of memory for a video frame"};
+  }
   frame->format = codec->pix_fmt;
   frame->width = options.width_px;
   frame->height = options.height_px;
-  if (av_frame_get_buffer(frame, 0) < 0) return Error{path + ": out of memory for a video frame"};
+  if (av_frame_get_buffer(frame, 0) < 0) {
+    return Error{path + ": out of memory for a video frame"};
+  }
   scaler =
       sws_getContext(options.width_px, options.height_px, AV_PIX_FMT_RGBA, options.width_px,
                      options.height_px, AV_PIX_FMT_YUV420P, SWS_POINT, nullptr, nullptr, nullptr);
-  if (scaler == nullptr) return Error{path + ": no conversion from RGBA to YUV 4:2:0"};
+  if (scaler == nullptr) {
+    return Error{path + ": no conversion from RGBA to YUV 4:2:0"};
+  }
   return {};
 }
 
 Status VideoWriter::Encoder::drain() {
   for (;;) {
     const int code = avcodec_receive_packet(codec, packet);
-    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return {};
-    if (code < 0) return av_error(path, "encoding failed", code);
+    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) {
+      return {};
+    }
+    if (code < 0) {
+      return av_error(path, "encoding failed", code);
+    }
     av_packet_rescale_ts(packet, codec->time_base, stream->time_base);
     packet->stream_index = stream->index;
-    if (const int written = av_interleaved_write_frame(format, packet); written < 0)
+    if (const int written = av_interleaved_write_frame(format, packet); written < 0) {
       return av_error(path, "writing failed", written);
+    }
   }
 }
 
@@ -149,13 +182,19 @@ VideoWriter::~VideoWriter() = default;
 
 Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path,
                                                          const VideoOptions& options) {
-  if (const Status status = check(path, options); !status) return status.error();
+  if (const Status status = check(path, options); !status) {
+    return status.error();
+  }
   // The library never prints: what matters comes back as an Error.
   av_log_set_level(AV_LOG_QUIET);
   auto file = AtomicFile::create(path);
-  if (!file) return file.error();
+  if (!file) {
+    return file.error();
+  }
   auto encoder = std::make_unique<Encoder>(std::move(*file), options, path);
-  if (const Status status = encoder->open_file(); !status) return status.error();
+  if (const Status status = encoder->open_file(); !status) {
+    return status.error();
+  }
   return std::unique_ptr<VideoWriter>(new VideoWriter(std::move(encoder)));
 }
 
@@ -164,37 +203,53 @@ Status VideoWriter::write(const RgbaImage& picture) {
   const auto bytes = 4 * static_cast<std::size_t>(e.options.width_px) *
                      static_cast<std::size_t>(e.options.height_px);
   if (picture.width_px != e.options.width_px || picture.height_px != e.options.height_px ||
-      picture.pixels.size() < bytes)
+      picture.pixels.size() < bytes) {
     return Error{e.path + ": picture of " + std::to_string(picture.width_px) + "x" +
                  std::to_string(picture.height_px) + " in a video of " +
                  std::to_string(e.options.width_px) + "x" + std::to_string(e.options.height_px)};
-  if (av_frame_make_writable(e.frame) < 0) return Error{e.path + ": out of memory"};
+  }
+  if (av_frame_make_writable(e.frame) < 0) {
+    return Error{e.path + ": out of memory"};
+  }
   const std::uint8_t* rows[1] = {picture.pixels.data()};
   const int stride[1] = {4 * picture.width_px};
   if (const int lines =
           sws_scale(e.scaler, rows, stride, 0, picture.height_px, e.frame->data, e.frame->linesize);
-      lines != picture.height_px)
+      lines != picture.height_px) {
     return Error{e.path + ": conversion of a picture ended after " + std::to_string(lines) +
                  " lines"};
+  }
   e.frame->pts = e.frames++;
-  if (const int code = avcodec_send_frame(e.codec, e.frame); code < 0)
+  if (const int code = avcodec_send_frame(e.codec, e.frame); code < 0) {
     return av_error(e.path, "encoding failed", code);
+  }
   return e.drain();
 }
 
 Status VideoWriter::finish() {
   Encoder& e = *encoder_;
-  if (e.finished) return {};
-  if (e.frames == 0) return Error{e.path + ": no picture was written"};
-  if (const int code = avcodec_send_frame(e.codec, nullptr); code < 0)
+  if (e.finished) {
+    return {};
+  }
+  if (e.frames == 0) {
+    return Error{e.path + ": no picture was written"};
+  }
+  if (const int code = avcodec_send_frame(e.codec, nullptr); code < 0) {
     return av_error(e.path, "encoding failed", code);
-  if (const Status drained = e.drain(); !drained) return drained;
-  if (const int code = av_write_trailer(e.format); code < 0)
+  }
+  if (const Status drained = e.drain(); !drained) {
+    return drained;
+  }
+  if (const int code = av_write_trailer(e.format); code < 0) {
     return av_error(e.path, "cannot be completed", code);
+  }
   // Closing writes what is still buffered: a full disk shows here.
-  if (const int code = avio_closep(&e.format->pb); code < 0)
+  if (const int code = avio_closep(&e.format->pb); code < 0) {
     return av_error(e.path, "cannot be completed", code);
-  if (const Status placed = e.file.commit(); !placed) return placed;
+  }
+  if (const Status placed = e.file.commit(); !placed) {
+    return placed;
+  }
   e.finished = true;
   return {};
 }

@@ -31,7 +31,9 @@ class Host : public render::VulkanHost {
 
  private:
   static void* made(Result<void*> answer, std::string& error) {
-    if (!answer) return error = answer.error().message, nullptr;
+    if (!answer) {
+      return error = answer.error().message, nullptr;
+    }
     return *answer;
   }
 
@@ -39,12 +41,14 @@ class Host : public render::VulkanHost {
   GraphicsNeeds needs_;
 };
 
-class Taste : public ImageTaste {
+class Preference : public FormatPreference {
  public:
-  explicit Taste(const render::HostedRenderer& renderer) : renderer_(renderer) {}
-  [[nodiscard]] int suits(std::int64_t format) const override { return renderer_.suits(format); }
-  [[nodiscard]] int suits_depth(std::int64_t format) const override {
-    return renderer_.suits_depth(format);
+  explicit Preference(const render::HostedRenderer& renderer) : renderer_(renderer) {}
+  [[nodiscard]] int format_score(std::int64_t format) const override {
+    return renderer_.format_score(format);
+  }
+  [[nodiscard]] int depth_format_score(std::int64_t format) const override {
+    return renderer_.depth_format_score(format);
   }
   [[nodiscard]] double near_m() const override { return static_cast<double>(render::kNearPlane_m); }
   [[nodiscard]] bool takes_layers() const override { return renderer_.takes_layers(); }
@@ -54,7 +58,9 @@ class Taste : public ImageTaste {
 };
 
 render::Blend blend_for(WorldBlend blend) {
-  if (blend == WorldBlend::kAdditive) return render::Blend::kAdditive;
+  if (blend == WorldBlend::kAdditive) {
+    return render::Blend::kAdditive;
+  }
   return blend == WorldBlend::kAlpha ? render::Blend::kPremultiplied : render::Blend::kOver;
 }
 
@@ -78,46 +84,68 @@ render::View view_of(const EyeView& eye) {
 Result<std::unique_ptr<DisplayRenderer>> DisplayRenderer::start(PixelDisplay& display,
                                                                 render::RendererOptions options) {
   const auto needs = display.open();
-  if (!needs) return needs.error();
+  if (!needs) {
+    return needs.error();
+  }
   options.blend = blend_for(needs->blend);
   Host host(display, *needs);
   std::string error;
   std::unique_ptr<DisplayRenderer> made(new DisplayRenderer(display));
   made->renderer_ = render::HostedRenderer::create(options, host, error);
-  if (!made->renderer_) return Error{error};
+  if (!made->renderer_) {
+    return Error{error};
+  }
   const auto images =
-      display.start(objects_of(made->renderer_->objects()), Taste(*made->renderer_));
-  if (!images) return images.error();
+      display.start(objects_of(made->renderer_->objects()), Preference(*made->renderer_));
+  if (!images) {
+    return images.error();
+  }
   const render::EyeTargets targets = {images->format,      images->width_px, images->height_px,
                                       images->layers,      images->chains,   images->depth_format,
                                       images->depth_chains};
-  if (!made->renderer_->use(targets, error)) return Error{error};
+  if (!made->renderer_->use(targets, error)) {
+    return Error{error};
+  }
   return made;
 }
 
 DisplayRenderer::~DisplayRenderer() {
   // A device that is lost has no frames in flight; there is nobody to be told.
   std::string ignored;
-  if (renderer_) static_cast<void>(renderer_->finish(ignored));
+  if (renderer_) {
+    static_cast<void>(renderer_->finish(ignored));
+  }
   display_.close();
 }
 
 Result<bool> DisplayRenderer::draw(const render::Scene& scene) {
   const auto images = display_.acquire();
-  if (!images) return images.error();
+  if (!images) {
+    return images.error();
+  }
   std::string error;
-  if (!renderer_->prepare(scene, error)) return Error{error};
+  if (!renderer_->prepare(scene, error)) {
+    return Error{error};
+  }
   const EyeViews eyes = display_.views();
   drawn_ = &scene;
-  if (eyes.origin == Origin::kLost) {
-    if (!eyes.on_head) return false;
+  if (eyes.status == PoseStatus::kLost) {
+    if (!eyes.on_head) {
+      return false;
+    }
     write_head_lost(scene, left_);
-    if (!renderer_->prepare(left_, error)) return Error{error};
+    if (!renderer_->prepare(left_, error)) {
+      return Error{error};
+    }
     drawn_ = &left_;
   }
   views_.clear();
-  for (const EyeView& eye : eyes.value) views_.push_back(view_of(eye));
-  if (!renderer_->draw(*drawn_, views_, *images, error)) return Error{error};
+  for (const EyeView& eye : eyes.value) {
+    views_.push_back(view_of(eye));
+  }
+  if (!renderer_->draw(*drawn_, views_, *images, error)) {
+    return Error{error};
+  }
   return true;
 }
 

@@ -28,17 +28,29 @@ constexpr auto kNoPairPause = std::chrono::milliseconds(1);
 
 std::vector<std::string> LoopOptions::check() const {
   std::vector<std::string> problems;
-  if (draw_every < 0) problems.push_back("draw_every must not be negative");
-  if (max_frames < 0) problems.push_back("max_frames must not be negative");
-  if (after_done < Duration::zero()) problems.push_back("after_done must not be negative");
-  if (max_errors_in_a_row < 0) problems.push_back("max_errors_in_a_row must not be negative");
-  if (longest_silence <= Duration::zero()) problems.push_back("longest_silence must be positive");
+  if (draw_every < 0) {
+    problems.push_back("draw_every must not be negative");
+  }
+  if (max_frames < 0) {
+    problems.push_back("max_frames must not be negative");
+  }
+  if (after_done < Duration::zero()) {
+    problems.push_back("after_done must not be negative");
+  }
+  if (max_errors_in_a_row < 0) {
+    problems.push_back("max_errors_in_a_row must not be negative");
+  }
+  if (longest_silence <= Duration::zero()) {
+    problems.push_back("longest_silence must be positive");
+  }
   return problems;
 }
 
 Result<LoopReport> FrameLoop::run() {
   const std::vector<std::string> problems = options_.check();
-  if (!problems.empty()) return Error{"loop: " + joined(problems)};
+  if (!problems.empty()) {
+    return Error{"loop: " + joined(problems)};
+  }
   LoopReport report;
   Status tracked;
   Status drawn;
@@ -55,12 +67,18 @@ Result<LoopReport> FrameLoop::run() {
     drawer.join();
     report.drawn = drawing.drawn;
     report.draw_failures = drawing.failures;
-    if (drawing.failures > 0) report.last_failure = drawing.last_failure;
+    if (drawing.failures > 0) {
+      report.last_failure = drawing.last_failure;
+    }
     report.draw_wall_ms = std::move(drawing.draw_wall_ms);
     report.dropped_snapshots = queue.dropped();
   }
-  if (!tracked) return tracked.error();
-  if (!drawn) return drawn.error();
+  if (!tracked) {
+    return tracked.error();
+  }
+  if (!drawn) {
+    return drawn.error();
+  }
   report.done = session_.current_step() == Step::kDone;
   return report;
 }
@@ -72,15 +90,18 @@ void FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& stat
   int in_a_row = 0;
   while (Snapshot* snapshot = queue.take()) {
     // Where every snapshot is drawn, the pictures are for later: the device's clock runs ahead.
-    if (options_.drop_late_snapshots && snapshot->expires && next_light() > *snapshot->expires)
+    if (options_.drop_late_snapshots && snapshot->expires && next_light() > *snapshot->expires) {
       hide_tool_guidance(snapshot->scene);
+    }
     if (status.ok()) {
       const Stopwatch watch;
       const Status drawn = sink_->draw(*snapshot);
       drawing.draw_wall_ms.push_back(watch.elapsed_ms());
       drawing.drawn += drawn ? 1 : 0;
       status = tolerate(drawn, in_a_row, drawing);
-      if (!status) stop();
+      if (!status) {
+        stop();
+      }
     }
     queue.release(snapshot);
   }
@@ -90,15 +111,23 @@ Status FrameLoop::loop(SnapshotQueue* queue, LoopReport& report) {
   const auto run_all = [&]() -> Status {
     while (!finished(report)) {
       const auto more = next_frame(queue, report);
-      if (!more) return more.error();
-      if (!*more) return {};
-      if (const Status stepped = step(queue, report); !stepped) return stepped;
+      if (!more) {
+        return more.error();
+      }
+      if (!*more) {
+        return {};
+      }
+      if (const Status stepped = step(queue, report); !stepped) {
+        return stepped;
+      }
     }
     return {};
   };
   const Status ended = run_all();
   // However it ended: a display that goes on showing its last frame must not go on guiding.
-  if (last_light_ > Timestamp::min()) take_back(session_.end(next_light()), queue, report);
+  if (last_light_ > Timestamp::min()) {
+    take_back(session_.end(next_light()), queue, report);
+  }
   return ended;
 }
 
@@ -110,7 +139,9 @@ Status FrameLoop::tolerate(const Status& status, int& in_a_row, LoopReport& repo
   }
   ++report.failures;
   report.last_failure = status.error().message;
-  if (++in_a_row <= options_.max_errors_in_a_row) return {};
+  if (++in_a_row <= options_.max_errors_in_a_row) {
+    return {};
+  }
   return Error{headset_.name() + ": " + std::to_string(in_a_row) + " failures in a row (limit " +
                std::to_string(options_.max_errors_in_a_row) + "): " + report.last_failure};
 }
@@ -123,11 +154,17 @@ Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
       camera_errors_ = 0;
       return true;
     }
-    if (next && *next == Next::kEnd) return false;
-    if (!next)
-      if (const Status over = tolerate(Status(next.error()), camera_errors_, report); !over)
+    if (next && *next == Next::kEnd) {
+      return false;
+    }
+    if (!next) {
+      if (const Status over = tolerate(Status(next.error()), camera_errors_, report); !over) {
         return over.error();
-    if (const Status waited = wait_for_pair(queue, report); !waited) return waited.error();
+      }
+    }
+    if (const Status waited = wait_for_pair(queue, report); !waited) {
+      return waited.error();
+    }
   }
   return false;
 }
@@ -140,9 +177,10 @@ Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
     guiding_since_.reset();
   }
   const Duration silent = headset_.clock().now() - heard_at_;
-  if (silent > options_.longest_silence)
+  if (silent > options_.longest_silence) {
     return Error{headset_.name() + ": no camera pair for " + std::to_string(seconds(silent)) +
                  " s (limit " + std::to_string(seconds(options_.longest_silence)) + " s)"};
+  }
   std::this_thread::sleep_for(kNoPairPause);
   return {};
 }
@@ -163,7 +201,9 @@ void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopRe
     ++report.failures;
     report.last_failure = shown.error().message;
   }
-  if (queue) capture(*queue, guidance, report.displayed);
+  if (queue) {
+    capture(*queue, guidance, report.displayed);
+  }
 }
 
 Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
@@ -172,9 +212,13 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   clicks_.clear();
   phrases_.clear();
   const Status clicked = headset_.clicker().poll(frame_.time, clicks_);
-  if (const Status over = tolerate(clicked, clicker_errors_, report); !over) return over;
+  if (const Status over = tolerate(clicked, clicker_errors_, report); !over) {
+    return over;
+  }
   const Status spoken = headset_.voice().poll(frame_.time, phrases_);
-  if (const Status over = tolerate(spoken, voice_errors_, report); !over) return over;
+  if (const Status over = tolerate(spoken, voice_errors_, report); !over) {
+    return over;
+  }
   Inputs inputs;
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
@@ -182,49 +226,71 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   inputs.display_time = headset_.display().predicted_display_time(heard_at_);
   const Guidance& guidance = session_.step(frame_, inputs);
   report.last_frame = frame_.time;
-  if (observer_) observer_->stepped(frame_, inputs, guidance);
+  if (observer_) {
+    observer_->stepped(frame_, inputs, guidance);
+  }
   // Tracking took its time: what has grown too old meanwhile is not shown.
   builder_.update(guidance, std::max(guidance.display_time, next_light()));
   builder_.write_shown(guidance, shown_);
   const Status shown = headset_.display().shown(shown_);
   report.step_wall_ms.push_back(watch.elapsed_ms());
-  if (const Status over = tolerate(shown, display_errors_, report); !over) return over;
+  if (const Status over = tolerate(shown, display_errors_, report); !over) {
+    return over;
+  }
   guiding_since_ = frame_.time;
   last_light_ = std::max(last_light_, shown_.display_time);
-  if (shown) count_displayed(guidance, queue, report);
+  if (shown) {
+    count_displayed(guidance, queue, report);
+  }
   return {};
 }
 
 void FrameLoop::count_displayed(const Guidance& guidance, SnapshotQueue* queue,
                                 LoopReport& report) {
-  if (last_display_)
+  if (last_display_) {
     report.intervals_ms.push_back(seconds(guidance.display_time - *last_display_) * 1e3);
+  }
   last_display_ = guidance.display_time;
   report.photon_ages_ms.push_back(seconds(guidance.display_time - guidance.frame_time) * 1e3);
   const std::int64_t frame = report.displayed++;
-  if (queue && frame % options_.draw_every == 0) capture(*queue, guidance, frame);
+  if (queue && frame % options_.draw_every == 0) {
+    capture(*queue, guidance, frame);
+  }
 }
 
 void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame) {
   Snapshot* snapshot = queue.acquire();
-  if (!snapshot) return;
+  if (!snapshot) {
+    return;
+  }
   snapshot->frame = frame;
   snapshot->display_time = guidance.display_time;
   snapshot->step_text = guidance.step_text;
   snapshot->blank = guidance.blank;
   snapshot->expires.reset();
-  if (builder_.visible().triangle || builder_.visible().cross_dots)
+  if (builder_.visible().triangle || builder_.visible().cross_dots) {
     snapshot->expires = guidance.tool->pose_time + guidance.stale_after;
+  }
   builder_.write_scene(guidance, snapshot->scene);
-  if (observer_) observer_->captured(*snapshot);
+  if (observer_) {
+    observer_->captured(*snapshot);
+  }
   queue.publish(snapshot);
 }
 
 bool FrameLoop::finished(const LoopReport& report) {
-  if (stop_) return true;
-  if (options_.max_frames > 0 && report.displayed >= options_.max_frames) return true;
-  if (session_.current_step() != Step::kDone) return false;
-  if (!done_since_) done_since_ = report.last_frame;
+  if (stop_) {
+    return true;
+  }
+  if (options_.max_frames > 0 && report.displayed >= options_.max_frames) {
+    return true;
+  }
+  if (session_.current_step() != Step::kDone) {
+    return false;
+  }
+  if (!done_since_) {
+    done_since_ = report.last_frame;
+  }
   return report.last_frame - *done_since_ >= options_.after_done;
 }
 

@@ -22,7 +22,9 @@ Result<std::unique_ptr<Presenter>> Presenter::start(PixelDisplay& display,
                                                     PresenterOptions options) {
   std::unique_ptr<Presenter> presenter(new Presenter(display, std::move(options)));
   auto renderer = DisplayRenderer::start(display, presenter->options_.renderer);
-  if (!renderer) return renderer.error();
+  if (!renderer) {
+    return renderer.error();
+  }
   presenter->renderer_ = std::move(*renderer);
   presenter->thread_ = std::thread([raw = presenter.get()] { raw->run(); });
   return presenter;
@@ -36,7 +38,9 @@ PresentReport Presenter::stop() {
     stopping_ = true;
   }
   changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
   const std::lock_guard lock(mutex_);
   return report_;
 }
@@ -45,14 +49,18 @@ Status Presenter::draw(const Snapshot& snapshot) {
   const std::lock_guard lock(mutex_);
   incoming_ = snapshot;
   fresh_ = true;
-  if (untold_.empty()) return {};
+  if (untold_.empty()) {
+    return {};
+  }
   return Error{std::exchange(untold_, {})};
 }
 
 void Presenter::note(const std::string& problem) {
   const std::lock_guard lock(mutex_);
   untold_ = problem;
-  if (report_.problems.size() < kMostProblems) report_.problems.push_back(problem);
+  if (report_.problems.size() < kMostProblems) {
+    report_.problems.push_back(problem);
+  }
 }
 
 void Presenter::lose(const std::string& why) {
@@ -71,54 +79,63 @@ void Presenter::run() {
   for (;;) {
     {
       const std::lock_guard lock(mutex_);
-      if (stopping_) break;
+      if (stopping_) {
+        break;
+      }
     }
-    if (over_)
+    if (over_) {
       pause(std::chrono::seconds(1));
-    else if (renderer_)
+    } else if (renderer_) {
       take_turn();
-    else
+    } else {
       look_again();
+    }
   }
   leave();
 }
 
 void Presenter::take_turn() {
-  const DisplayTurn turn = display_.next_turn();
+  const DisplayFrame turn = display_.begin_frame();
   switch (turn.kind) {
-    case DisplayTurn::Kind::kFrame:
+    case DisplayFrame::Kind::kFrame:
       present(turn);
       return;
-    case DisplayTurn::Kind::kIdle:
+    case DisplayFrame::Kind::kIdle:
       pause(kIdlePause);
       return;
-    case DisplayTurn::Kind::kLost:
+    case DisplayFrame::Kind::kLost:
       lose(turn.why);
       return;
-    case DisplayTurn::Kind::kOver:
+    case DisplayFrame::Kind::kOver:
       note(turn.why);
       renderer_.reset();
       over_ = true;
-      if (options_.on_over) options_.on_over();
+      if (options_.on_over) {
+        options_.on_over();
+      }
       return;
   }
 }
 
 /// Each frame that was begun is ended, whatever comes of it.
-void Presenter::present(const DisplayTurn& turn) {
+void Presenter::present(const DisplayFrame& turn) {
   const bool drawn = draw_scene(turn);
-  const Status finished = display_.finish_turn(drawn);
-  if (!finished) note(finished.error().message);
+  const Status finished = display_.end_frame(drawn);
+  if (!finished) {
+    note(finished.error().message);
+  }
   {
     const std::lock_guard lock(mutex_);
     ++report_.frames;
     report_.drawn += drawn && finished ? 1 : 0;
     report_.failures += finished ? 0 : 1;
   }
-  if (renderer_->renderer().lost()) lose("the display's graphics device is lost");
+  if (renderer_->renderer().lost()) {
+    lose("the display's graphics device is lost");
+  }
 }
 
-bool Presenter::draw_scene(const DisplayTurn& turn) {
+bool Presenter::draw_scene(const DisplayFrame& turn) {
   {
     const std::lock_guard lock(mutex_);
     if (std::exchange(fresh_, false)) {
@@ -126,7 +143,9 @@ bool Presenter::draw_scene(const DisplayTurn& turn) {
       has_snapshot_ = true;
     }
   }
-  if (!turn.draw || !has_snapshot_) return false;
+  if (!turn.draw || !has_snapshot_) {
+    return false;
+  }
   // However old the snapshot: the tracking thread may have stalled since.
   if (shown_.expires && turn.display_time > *shown_.expires) {
     hide_tool_guidance(shown_.scene);
@@ -141,11 +160,16 @@ bool Presenter::draw_scene(const DisplayTurn& turn) {
     ++report_.failures;
     return false;
   }
-  if (!*drawn) return false;
-  if (options_.on_drawn) options_.on_drawn(renderer_->drawn(), renderer_->views());
+  if (!*drawn) {
+    return false;
+  }
+  if (options_.on_drawn) {
+    options_.on_drawn(renderer_->drawn(), renderer_->views());
+  }
   const std::lock_guard lock(mutex_);
-  if (report_.latch_ms.size() < kMostLatches)
+  if (report_.latch_ms.size() < kMostLatches) {
     report_.latch_ms.push_back(renderer_->renderer().last_timing().total_ms);
+  }
   return true;
 }
 
@@ -161,16 +185,21 @@ void Presenter::look_again() {
 
 /// In order, as long as the runtime plays along.
 void Presenter::leave() {
-  if (!renderer_) return;
+  if (!renderer_) {
+    return;
+  }
   display_.ask_to_end();
   const auto until = std::chrono::steady_clock::now() + kLongestGoodbye;
   while (std::chrono::steady_clock::now() < until) {
-    const DisplayTurn turn = display_.next_turn();
-    if (turn.kind == DisplayTurn::Kind::kLost || turn.kind == DisplayTurn::Kind::kOver) break;
-    if (turn.kind == DisplayTurn::Kind::kFrame)
-      static_cast<void>(display_.finish_turn(false));
-    else
+    const DisplayFrame turn = display_.begin_frame();
+    if (turn.kind == DisplayFrame::Kind::kLost || turn.kind == DisplayFrame::Kind::kOver) {
+      break;
+    }
+    if (turn.kind == DisplayFrame::Kind::kFrame) {
+      static_cast<void>(display_.end_frame(false));
+    } else {
       std::this_thread::sleep_for(kIdlePause);
+    }
   }
   renderer_.reset();
 }

@@ -58,8 +58,8 @@ class Presenter : public SnapshotSink {
 
   void run();
   void take_turn();
-  void present(const DisplayTurn& turn);
-  bool draw_scene(const DisplayTurn& turn);
+  void present(const DisplayFrame& turn);
+  bool draw_scene(const DisplayFrame& turn);
   void look_again();
   void leave();
   void lose(const std::string& why);

@@ -17,9 +17,13 @@ void SnapshotQueue::drop_oldest() {
 
 Snapshot* SnapshotQueue::acquire() {
   std::unique_lock lock(mutex_);
-  if (free_.empty() && when_full_ == WhenFull::kDropOldest && !ready_.empty()) drop_oldest();
+  if (free_.empty() && when_full_ == WhenFull::kDropOldest && !ready_.empty()) {
+    drop_oldest();
+  }
   changed_.wait(lock, [&] { return closed_ || !free_.empty(); });
-  if (closed_) return nullptr;
+  if (closed_) {
+    return nullptr;
+  }
   Snapshot* slot = free_.back();
   free_.pop_back();
   return slot;
@@ -36,8 +40,12 @@ void SnapshotQueue::publish(Snapshot* filled) {
 Snapshot* SnapshotQueue::take() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || !ready_.empty(); });
-  if (ready_.empty()) return nullptr;
-  while (when_full_ == WhenFull::kDropOldest && ready_.size() > 1) drop_oldest();
+  if (ready_.empty()) {
+    return nullptr;
+  }
+  while (when_full_ == WhenFull::kDropOldest && ready_.size() > 1) {
+    drop_oldest();
+  }
   Snapshot* next = ready_.front();
   ready_.pop_front();
   return next;

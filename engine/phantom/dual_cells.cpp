@@ -45,24 +45,30 @@ class Face {
 using JoinedFaces = std::set<std::pair<std::array<int, 3>, std::size_t>>;
 
 void mark_crossed_edges(const SampleGrid& grid, GridCell& cell) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t corner = 0; corner < 4; ++corner) {
       std::array<int, 3> node = moved(cell.at, (axis + 1) % 3, static_cast<int>(corner & 1));
       node = moved(node, (axis + 2) % 3, static_cast<int>(corner >> 1));
       cell.crossed[axis * 4 + corner] = grid.inside(node) != grid.inside(moved(node, axis));
     }
+  }
 }
 
 /// Groups the crossed edges of a cell into sheets of the surface; gives how many.
 std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, GridCell& cell) {
-  for (std::uint8_t edge = 0; edge < 12; ++edge) cell.sheet[edge] = edge;
+  for (std::uint8_t edge = 0; edge < 12; ++edge) {
+    cell.sheet[edge] = edge;
+  }
   const auto unite = [&cell](std::size_t a, std::size_t b) {
     const std::uint8_t from = cell.sheet[a];
     const std::uint8_t to = cell.sheet[b];
-    for (std::uint8_t& sheet : cell.sheet)
-      if (sheet == from) sheet = to;
+    for (std::uint8_t& sheet : cell.sheet) {
+      if (sheet == from) {
+        sheet = to;
+      }
+    }
   };
-  for (std::size_t normal = 0; normal < 3; ++normal)
+  for (std::size_t normal = 0; normal < 3; ++normal) {
     for (std::size_t side = 0; side < 2; ++side) {
       const Face face(grid, cell, normal, side);
       if (face.ambiguous()) {
@@ -73,38 +79,50 @@ std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, Gri
       }
       std::size_t last = 12;
       for (const std::size_t edge :
-           {face.along_u(0), face.along_u(1), face.along_v(0), face.along_v(1)})
+           {face.along_u(0), face.along_u(1), face.along_v(0), face.along_v(1)}) {
         if (cell.crossed[edge]) {
-          if (last < 12) unite(edge, last);
+          if (last < 12) {
+            unite(edge, last);
+          }
           last = edge;
         }
+      }
     }
+  }
   std::uint32_t count = 0;
   std::array<std::uint8_t, 12> number{};
   number.fill(0xff);
-  for (std::size_t edge = 0; edge < 12; ++edge)
+  for (std::size_t edge = 0; edge < 12; ++edge) {
     if (cell.crossed[edge]) {
       std::uint8_t& known = number[cell.sheet[edge]];
-      if (known == 0xff) known = static_cast<std::uint8_t>(count++);
+      if (known == 0xff) {
+        known = static_cast<std::uint8_t>(count++);
+      }
       cell.sheet[edge] = known;
     }
+  }
   return count;
 }
 
 CellMap marked_cells(const SampleGrid& grid) {
   CellMap map;
   map.cell_of.assign(grid.nodes(), kNone);
-  for (int z = 0; z + 1 < grid.size(2); ++z)
-    for (int y = 0; y + 1 < grid.size(1); ++y)
+  for (int z = 0; z + 1 < grid.size(2); ++z) {
+    for (int y = 0; y + 1 < grid.size(1); ++y) {
       for (int x = 0; x + 1 < grid.size(0); ++x) {
         int inside = 0;
-        for (int corner = 0; corner < 8; ++corner)
+        for (int corner = 0; corner < 8; ++corner) {
           inside += grid.inside({x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2)});
-        if (inside == 0 || inside == 8) continue;
+        }
+        if (inside == 0 || inside == 8) {
+          continue;
+        }
         map.cell_of[grid.index({x, y, z})] = static_cast<std::uint32_t>(map.cells.size());
         map.cells.push_back({{x, y, z}, 0, {}, {}});
         mark_crossed_edges(grid, map.cells.back());
       }
+    }
+  }
   return map;
 }
 
@@ -113,16 +131,21 @@ CellMap marked_cells(const SampleGrid& grid) {
 /// (Wenger 2013, "Isosurfaces", manifold dual contouring).
 bool part_double_edges(const SampleGrid& grid, const CellMap& map, JoinedFaces& joined) {
   bool changed = false;
-  for (const GridCell& cell : map.cells)
+  for (const GridCell& cell : map.cells) {
     for (std::size_t normal = 0; normal < 3; ++normal) {
       const Face face(grid, cell, normal, 0);
-      if (!face.ambiguous() || cell.at[normal] == 0) continue;
+      if (!face.ambiguous() || cell.at[normal] == 0) {
+        continue;
+      }
       const GridCell& other = map.at(grid, moved(cell.at, normal, -1));
       const Face same(grid, other, normal, 1);
       const bool one_here = cell.sheet[face.along_u(0)] == cell.sheet[face.along_u(1)];
       const bool one_there = other.sheet[same.along_u(0)] == other.sheet[same.along_u(1)];
-      if (one_here && one_there) changed |= joined.insert({face.node(), normal}).second;
+      if (one_here && one_there) {
+        changed |= joined.insert({face.node(), normal}).second;
+      }
     }
+  }
   return changed;
 }
 
@@ -141,7 +164,9 @@ CellMap passed_cells(const SampleGrid& grid, nav::TriangleMesh& mesh) {
   CellMap map = marked_cells(grid);
   JoinedFaces joined;
   do {
-    for (GridCell& cell : map.cells) find_sheets(grid, joined, cell);
+    for (GridCell& cell : map.cells) {
+      find_sheets(grid, joined, cell);
+    }
   } while (part_double_edges(grid, map, joined));
   for (GridCell& cell : map.cells) {
     cell.first_vertex = static_cast<std::uint32_t>(mesh.vertices_m.size());
@@ -149,11 +174,12 @@ CellMap passed_cells(const SampleGrid& grid, nav::TriangleMesh& mesh) {
     for (std::uint32_t sheet = 0; sheet < sheets; ++sheet) {
       Vec3 sum;
       int count = 0;
-      for (std::size_t edge = 0; edge < 12; ++edge)
+      for (std::size_t edge = 0; edge < 12; ++edge) {
         if (cell.crossed[edge] && cell.sheet[edge] == sheet) {
           sum += crossing(grid, cell, edge);
           ++count;
         }
+      }
       mesh.vertices_m.push_back(sum / count);
     }
   }

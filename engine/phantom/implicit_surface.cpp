@@ -32,13 +32,17 @@ void add_quad(const std::array<std::uint32_t, 4>& q, nav::TriangleMesh& mesh) {
 /// One quad for each grid edge that the surface crosses, through the four cells around it.
 void join_vertices(const SampleGrid& grid, const CellMap& map, nav::TriangleMesh& mesh) {
   constexpr std::array<std::pair<int, int>, 4> kAround = {{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
-  for (const GridCell& cell : map.cells)
+  for (const GridCell& cell : map.cells) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       // Each edge is taken from the one cell whose lowest corner it starts at.
-      if (!cell.crossed[edge_id(axis, 0, 0)]) continue;
+      if (!cell.crossed[edge_id(axis, 0, 0)]) {
+        continue;
+      }
       const std::size_t first = (axis + 1) % 3;
       const std::size_t second = (axis + 2) % 3;
-      if (cell.at[first] == 0 || cell.at[second] == 0) continue;
+      if (cell.at[first] == 0 || cell.at[second] == 0) {
+        continue;
+      }
       std::array<std::uint32_t, 4> quad{};
       for (std::size_t corner = 0; corner < 4; ++corner) {
         const auto [along_first, along_second] = kAround[corner];
@@ -48,9 +52,12 @@ void join_vertices(const SampleGrid& grid, const CellMap& map, nav::TriangleMesh
                                          static_cast<std::size_t>(-along_second));
         quad[corner] = around.first_vertex + around.sheet[edge];
       }
-      if (!grid.inside(cell.at)) std::swap(quad[1], quad[3]);
+      if (!grid.inside(cell.at)) {
+        std::swap(quad[1], quad[3]);
+      }
       add_quad(quad, mesh);
     }
+  }
 }
 
 /// One Newton step towards the zero surface, at most half a grid step long.
@@ -62,7 +69,9 @@ Vec3 stepped_onto(const ImplicitFunction& function, Vec3 p, double step) {
            function(p + Vec3{0, 0, h}) - value} /
       h;
   const double slope = gradient.squared_norm();
-  if (slope < 1e-6) return p;
+  if (slope < 1e-6) {
+    return p;
+  }
   const Vec3 move = gradient * (-value / slope);
   const double length = move.norm();
   return length > 0.5 * step ? p + move * (0.5 * step / length) : p + move;
@@ -72,15 +81,17 @@ Vec3 stepped_onto(const ImplicitFunction& function, Vec3 p, double step) {
 void even_out(const ImplicitFunction& function, double step, nav::TriangleMesh& mesh) {
   std::vector<Vec3> sum(mesh.vertices_m.size());
   std::vector<int> count(mesh.vertices_m.size(), 0);
-  for (const auto& triangle : mesh.triangles)
+  for (const auto& triangle : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       sum[triangle[k]] +=
           mesh.vertices_m[triangle[(k + 1) % 3]] + mesh.vertices_m[triangle[(k + 2) % 3]];
       count[triangle[k]] += 2;
     }
-  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i)
+  }
+  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
     mesh.vertices_m[i] = stepped_onto(
         function, 0.5 * mesh.vertices_m[i] + 0.5 * (sum[i] / std::max(count[i], 1)), step);
+  }
 }
 
 }  // namespace
@@ -90,9 +101,14 @@ nav::TriangleMesh surface_of(const ImplicitFunction& inside_negative, Vec3 low_m
   const SampleGrid grid(inside_negative, low_m, high_m, step_m);
   nav::TriangleMesh mesh;
   join_vertices(grid, passed_cells(grid, mesh), mesh);
-  for (int round = 0; round < kEveningRounds; ++round) even_out(inside_negative, step_m, mesh);
-  for (int round = 0; round < kFinalSteps; ++round)
-    for (Vec3& v : mesh.vertices_m) v = stepped_onto(inside_negative, v, step_m);
+  for (int round = 0; round < kEveningRounds; ++round) {
+    even_out(inside_negative, step_m, mesh);
+  }
+  for (int round = 0; round < kFinalSteps; ++round) {
+    for (Vec3& v : mesh.vertices_m) {
+      v = stepped_onto(inside_negative, v, step_m);
+    }
+  }
   return mesh;
 }
 

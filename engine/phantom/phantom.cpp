@@ -1,10 +1,10 @@
 #include "engine/phantom/phantom.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <future>
 
+#include "base/check.h"
 #include "embedded/phantom_json.h"
 #include "engine/phantom/implicit_surface.h"
 #include "engine/phantom/phantom_file.h"
@@ -36,8 +36,9 @@ CaseLevel made(const VertebraMorphometry& morphometry, const PhantomParameters& 
   level.mesh = surface_of([&shape](Vec3 p) { return shape.value(p); }, shape.low_m(),
                           shape.high_m(), kGridStep_m);
   const nav::SurfaceIndex bone(level.mesh);
-  for (const nav::Side side : {nav::Side::kLeft, nav::Side::kRight})
+  for (const nav::Side side : {nav::Side::kLeft, nav::Side::kRight}) {
     level.screws.push_back(screw_along(shape.pedicle_axis(side), side, bone, parameters));
+  }
   return level;
 }
 
@@ -62,12 +63,18 @@ std::vector<Transform<Spine, Vertebra>> places(const std::vector<VertebraMorphom
   std::vector<Transform<Spine, Vertebra>> spine_from_vertebra(levels.size());
   std::size_t reference = 0;
   for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (i > 0) spine_from_vertebra[i] = below(spine_from_vertebra[i - 1], levels[i - 1], levels[i]);
-    if (levels[i].label == kReferenceLevel) reference = i;
+    if (i > 0) {
+      spine_from_vertebra[i] = below(spine_from_vertebra[i - 1], levels[i - 1], levels[i]);
+    }
+    if (levels[i].label == kReferenceLevel) {
+      reference = i;
+    }
   }
   const Transform<Spine, Vertebra> origin = spine_from_vertebra[reference];
   const Transform<Spine, Spine> turned(origin.inverse().rotation(), origin.inverse().translation());
-  for (auto& place : spine_from_vertebra) place = turned * place;
+  for (auto& place : spine_from_vertebra) {
+    place = turned * place;
+  }
   return spine_from_vertebra;
 }
 
@@ -76,7 +83,7 @@ std::vector<Transform<Spine, Vertebra>> places(const std::vector<VertebraMorphom
 Case phantom(const std::vector<std::string>& labels) {
   const Result<PhantomParameters> read =
       phantom_parameters(embedded::phantom_json(), "data/phantom.json");
-  assert(read.ok());
+  ORTHONAV_CHECK(read.ok());
   const PhantomParameters& parameters = *read;
   const std::vector<Transform<Spine, Vertebra>> place = places(parameters.levels);
   std::vector<std::future<CaseLevel>> making;
@@ -84,7 +91,9 @@ Case phantom(const std::vector<std::string>& labels) {
     const VertebraMorphometry& morphometry = parameters.levels[i];
     const bool wanted = labels.empty() ||
                         std::find(labels.begin(), labels.end(), morphometry.label) != labels.end();
-    if (!wanted) continue;
+    if (!wanted) {
+      continue;
+    }
     making.push_back(std::async(std::launch::async, [&morphometry, &parameters, &place, i] {
       CaseLevel level = made(morphometry, parameters);
       level.spine_from_vertebra = place[i];
@@ -93,7 +102,9 @@ Case phantom(const std::vector<std::string>& labels) {
   }
   Case spine;
   spine.name = parameters.name;
-  for (std::future<CaseLevel>& level : making) spine.levels.push_back(level.get());
+  for (std::future<CaseLevel>& level : making) {
+    spine.levels.push_back(level.get());
+  }
   return spine;
 }
 

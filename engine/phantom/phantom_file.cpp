@@ -11,7 +11,9 @@ double length(const JsonNode& node, const char* key) { return node.number(key) *
 
 double size(const JsonNode& node, const char* key) {
   const double value = length(node, key);
-  if (!(value > 0.0)) node.refuse(key, "must be greater than 0");
+  if (!(value > 0.0)) {
+    node.refuse(key, "must be greater than 0");
+  }
   return value;
 }
 
@@ -73,7 +75,9 @@ void read_facets(const JsonNode& level, VertebraMorphometry& m) {
 
 Result<PhantomParameters> phantom_parameters(std::string_view json, const std::string& name) {
   const Result<JsonDocument> document = JsonDocument::parse(json, name);
-  if (!document) return document.error();
+  if (!document) {
+    return document.error();
+  }
   const JsonNode root = document->root();
   PhantomParameters parameters;
   parameters.name = root.text("name");
@@ -88,7 +92,9 @@ Result<PhantomParameters> phantom_parameters(std::string_view json, const std::s
   const JsonNode screw = root.child("screw");
   parameters.screw_length_m = size(screw, "length");
   parameters.screw_diameter_m = size(screw, "diameter");
-  if (Status status = document->status(); !status) return status.error();
+  if (Status status = document->status(); !status) {
+    return status.error();
+  }
   return parameters;
 }
 

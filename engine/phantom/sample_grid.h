@@ -15,14 +15,19 @@ class SampleGrid {
  public:
   SampleGrid(const ImplicitFunction& function, Vec3 low, Vec3 high, double step)
       : low_(low), step_(step) {
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
       size_[static_cast<std::size_t>(axis)] =
           static_cast<int>(std::ceil((high[axis] - low[axis]) / step)) + 1;
+    }
     values_.resize(static_cast<std::size_t>(size_[0]) * static_cast<std::size_t>(size_[1]) *
                    static_cast<std::size_t>(size_[2]));
-    for (int z = 0; z < size_[2]; z += kBlock)
-      for (int y = 0; y < size_[1]; y += kBlock)
-        for (int x = 0; x < size_[0]; x += kBlock) fill_block(function, {x, y, z});
+    for (int z = 0; z < size_[2]; z += kBlock) {
+      for (int y = 0; y < size_[1]; y += kBlock) {
+        for (int x = 0; x < size_[0]; x += kBlock) {
+          fill_block(function, {x, y, z});
+        }
+      }
+    }
   }
   [[nodiscard]] Vec3 position(const std::array<int, 3>& node) const {
     return low_ + step_ * Vec3{double(node[0]), double(node[1]), double(node[2])};
@@ -44,10 +49,13 @@ class SampleGrid {
     const double half = 0.5 * kBlock * step_;
     const double middle = function(position(first) + Vec3{half, half, half});
     const bool far = std::abs(middle) > kFarInHalfDiagonals * std::sqrt(3.0) * half;
-    for (int z = first[2]; z < std::min(first[2] + kBlock, size_[2]); ++z)
-      for (int y = first[1]; y < std::min(first[1] + kBlock, size_[1]); ++y)
-        for (int x = first[0]; x < std::min(first[0] + kBlock, size_[0]); ++x)
+    for (int z = first[2]; z < std::min(first[2] + kBlock, size_[2]); ++z) {
+      for (int y = first[1]; y < std::min(first[1] + kBlock, size_[1]); ++y) {
+        for (int x = first[0]; x < std::min(first[0] + kBlock, size_[0]); ++x) {
           values_[index({x, y, z})] = far ? middle : function(position({x, y, z}));
+        }
+      }
+    }
   }
   static constexpr int kBlock = 4;
   static constexpr double kFarInHalfDiagonals = 2.0;

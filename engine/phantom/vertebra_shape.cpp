@@ -193,8 +193,12 @@ double VertebraShape::value(Vec3 p) const {
   const Vec3 q = straightened(p);
   const Vec3 left = {std::abs(q.x), q.y, q.z};
   double arch = 1.0;
-  for (const Bar& bar : left_bars_) arch = smooth_min(arch, bar.value(left), kBlend_m);
-  for (const Bar& bar : middle_bars_) arch = smooth_min(arch, bar.value(q), kBlend_m);
+  for (const Bar& bar : left_bars_) {
+    arch = smooth_min(arch, bar.value(left), kBlend_m);
+  }
+  for (const Bar& bar : middle_bars_) {
+    arch = smooth_min(arch, bar.value(q), kBlend_m);
+  }
   arch = smooth_max(arch, -canal(p), kCanalBlend_m);
   return smooth_min(arch, body(p), kBodyBlend_m);
 }

@@ -17,8 +17,11 @@ constexpr double kMetresPerMm = 1e-3;
 constexpr int kMostInFile = 1000;
 
 std::optional<BoardKind> kind_from(const std::string& text) {
-  for (const BoardKind kind : {BoardKind::kTags, BoardKind::kAprilGrid, BoardKind::kChessboard})
-    if (to_text(kind) == text) return kind;
+  for (const BoardKind kind : {BoardKind::kTags, BoardKind::kAprilGrid, BoardKind::kChessboard}) {
+    if (to_text(kind) == text) {
+      return kind;
+    }
+  }
   return std::nullopt;
 }
 
@@ -27,8 +30,9 @@ void read_tags(const JsonNode& node, Board& board) {
   board.gap_m = node.number("gap_mm") * kMetresPerMm;
   board.border_cells = node.integer("border_cells");
   if (board.columns < 1 || board.columns > kMostInFile || board.rows < 1 ||
-      board.rows > kMostInFile)
+      board.rows > kMostInFile) {
     return;  // `problems_of` says so
+  }
   const auto count = static_cast<std::size_t>(board.columns * board.rows);
   for (const double id : node.numbers("ids", count)) {
     if (id != std::floor(id) || std::abs(id) > 1e9) {
@@ -42,14 +46,16 @@ void read_tags(const JsonNode& node, Board& board) {
 Result<Board> board_from(const JsonDocument& document, const std::string& name) {
   const JsonNode root = document.root();
   const std::string format = root.text("format");
-  if (format != kFormat)
+  if (format != kFormat) {
     root.refuse("format", "is \"" + format + "\", must be \"" + kFormat + "\"");
+  }
   Board board;
   const std::string kind = root.text("kind");
-  if (const auto known = kind_from(kind))
+  if (const auto known = kind_from(kind)) {
     board.kind = *known;
-  else
+  } else {
     root.refuse("kind", "is \"" + kind + "\", must be aprilgrid, tags or chessboard");
+  }
   board.columns = root.integer("columns");
   board.rows = root.integer("rows");
   board.size_m = root.number("size_mm") * kMetresPerMm;
@@ -59,9 +65,13 @@ Result<Board> board_from(const JsonDocument& document, const std::string& name) 
   } else {
     read_tags(root, board);
   }
-  if (Status status = document.status(); !status) return status.error();
+  if (Status status = document.status(); !status) {
+    return status.error();
+  }
   const std::vector<std::string> problems = problems_of(board);
-  if (problems.empty()) return board;
+  if (problems.empty()) {
+    return board;
+  }
   return Error{name + ": " + joined(problems)};
 }
 
@@ -72,13 +82,17 @@ double mm_of(double metres) { return std::round(metres * 1e9) / 1e6; }
 
 Result<Board> load_board(const std::string& path) {
   const Result<JsonDocument> document = JsonDocument::read(path);
-  if (!document) return document.error();
+  if (!document) {
+    return document.error();
+  }
   return board_from(*document, path);
 }
 
 Result<Board> parse_board(const std::string& text, const std::string& name) {
   const Result<JsonDocument> document = JsonDocument::parse(text, name);
-  if (!document) return document.error();
+  if (!document) {
+    return document.error();
+  }
   return board_from(*document, name);
 }
 

@@ -26,9 +26,10 @@ void add_horizontal_ruler(Sheet& sheet, const SheetRect& at) {
   for (int mm = 0; mm <= kRulerMm; ++mm) {
     ticks.rects.push_back(
         {at.x_mm + mm - kTickWidthMm / 2, at.y_mm, kTickWidthMm, tick_length_mm(mm)});
-    if (mm % 10 == 0)
+    if (mm % 10 == 0) {
       sheet.texts.push_back({at.x_mm + mm, at.y_mm + 4.2 + kTextMm, kTextMm, std::to_string(mm),
                              SheetAlign::kCentre});
+    }
   }
   ticks.rects.push_back(
       {at.x_mm - kTickWidthMm / 2, at.y_mm, kRulerMm + kTickWidthMm, kTickWidthMm});
@@ -46,9 +47,10 @@ void add_vertical_ruler(Sheet& sheet, const SheetRect& at) {
     const double length_mm = tick_length_mm(mm);
     const double y_mm = at.y_mm + at.height_mm - mm;
     ticks.rects.push_back({right_mm - length_mm, y_mm - kTickWidthMm / 2, length_mm, kTickWidthMm});
-    if (mm % 10 == 0)
+    if (mm % 10 == 0) {
       sheet.texts.push_back({right_mm - 4.6, y_mm, kTextMm, std::to_string(mm), SheetAlign::kCentre,
                              /*upward=*/true});
+    }
   }
   ticks.rects.push_back(
       {right_mm - kTickWidthMm, at.y_mm - kTickWidthMm / 2, kTickWidthMm, kRulerMm + kTickWidthMm});
@@ -62,7 +64,9 @@ Result<Page> page_named(const std::string& name, bool landscape) {
   std::string known;
   for (const PageSize& size : kPageSizes) {
     known += (known.empty() ? "" : ", ") + std::string(size.name);
-    if (size.name != name) continue;
+    if (size.name != name) {
+      continue;
+    }
     Page page{name, size.width_mm, size.height_mm};
     if (landscape) {
       page.name += " landscape";
@@ -108,16 +112,20 @@ void add_tag(Sheet& sheet, const TagCells& tag, double x_mm, double y_mm, double
   const double cell_mm = size_mm / tag.border_cells;
   const double around = (tag.cells - tag.border_cells) / 2.0;
   SheetShape shape;
-  for (int row = 0; row < tag.cells; ++row)
+  for (int row = 0; row < tag.cells; ++row) {
     for (int column = 0; column < tag.cells;) {
       const int first = column;
-      while (column < tag.cells && tag.is_black(row, column)) ++column;
-      if (column > first)
+      while (column < tag.cells && tag.is_black(row, column)) {
+        ++column;
+      }
+      if (column > first) {
         shape.rects.push_back({x_mm + (first - around) * cell_mm, y_mm + (row - around) * cell_mm,
                                (column - first) * cell_mm, cell_mm});
-      else
+      } else {
         ++column;
+      }
     }
+  }
   sheet.shapes.push_back(std::move(shape));
 }
 
@@ -126,7 +134,9 @@ std::string mm_text(double mm) {
   std::snprintf(text.data(), text.size(), "%.3f", mm);
   std::string shown = text.data();
   shown.erase(shown.find_last_not_of('0') + 1);
-  if (shown.back() == '.') shown.pop_back();
+  if (shown.back() == '.') {
+    shown.pop_back();
+  }
   return shown;
 }
 

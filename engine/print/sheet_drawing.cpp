@@ -24,7 +24,9 @@ using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
 using Context = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
 
 Status status_of(cairo_status_t status, const std::string& what) {
-  if (status == CAIRO_STATUS_SUCCESS) return {};
+  if (status == CAIRO_STATUS_SUCCESS) {
+    return {};
+  }
   return Error{what + " cannot be drawn: " + cairo_status_to_string(status)};
 }
 
@@ -35,8 +37,9 @@ void set_ink(cairo_t* context, bool white) {
 
 void draw(cairo_t* context, const SheetShape& shape) {
   set_ink(context, /*white=*/false);
-  for (const SheetRect& r : shape.rects)
+  for (const SheetRect& r : shape.rects) {
     cairo_rectangle(context, r.x_mm, r.y_mm, r.width_mm, r.height_mm);
+  }
   cairo_fill(context);
 }
 
@@ -59,31 +62,46 @@ void draw(cairo_t* context, const SheetLine& line) {
 
 void draw(cairo_t* context, const SheetText& text, const PrintFont& font) {
   const TextOutline outline = font.outline(text.text);
-  const double share = text.align == SheetAlign::kLeft     ? 0.0
-                       : text.align == SheetAlign::kCentre ? 0.5
-                                                           : 1.0;
+  const double fraction = text.align == SheetAlign::kLeft     ? 0.0
+                          : text.align == SheetAlign::kCentre ? 0.5
+                                                              : 1.0;
   cairo_save(context);
   set_ink(context, text.white);
   cairo_translate(context, text.x_mm, text.y_mm);
-  if (text.upward) cairo_rotate(context, -std::numbers::pi / 2);
+  if (text.upward) {
+    cairo_rotate(context, -std::numbers::pi / 2);
+  }
   cairo_scale(context, text.height_mm, text.height_mm);
-  cairo_translate(context, -share * outline.advance, 0.0);
+  cairo_translate(context, -fraction * outline.advance, 0.0);
   for (const TextOutline::Step& step : outline.steps) {
     const auto& to = step.to;
-    if (step.kind == TextOutline::Kind::kMove) cairo_move_to(context, to[0].x, to[0].y);
-    if (step.kind == TextOutline::Kind::kLine) cairo_line_to(context, to[0].x, to[0].y);
-    if (step.kind == TextOutline::Kind::kCubic)
+    if (step.kind == TextOutline::Kind::kMove) {
+      cairo_move_to(context, to[0].x, to[0].y);
+    }
+    if (step.kind == TextOutline::Kind::kLine) {
+      cairo_line_to(context, to[0].x, to[0].y);
+    }
+    if (step.kind == TextOutline::Kind::kCubic) {
       cairo_curve_to(context, to[0].x, to[0].y, to[1].x, to[1].y, to[2].x, to[2].y);
+    }
   }
   cairo_fill(context);
   cairo_restore(context);
 }
 
 void draw(cairo_t* context, const Sheet& sheet, const PrintFont& font) {
-  for (const SheetCut& cut : sheet.cuts) draw(context, cut);
-  for (const SheetShape& shape : sheet.shapes) draw(context, shape);
-  for (const SheetLine& line : sheet.lines) draw(context, line);
-  for (const SheetText& text : sheet.texts) draw(context, text, font);
+  for (const SheetCut& cut : sheet.cuts) {
+    draw(context, cut);
+  }
+  for (const SheetShape& shape : sheet.shapes) {
+    draw(context, shape);
+  }
+  for (const SheetLine& line : sheet.lines) {
+    draw(context, line);
+  }
+  for (const SheetText& text : sheet.texts) {
+    draw(context, text, font);
+  }
 }
 
 cairo_status_t append(void* closure, const unsigned char* bytes, unsigned int length) {
@@ -94,9 +112,13 @@ cairo_status_t append(void* closure, const unsigned char* bytes, unsigned int le
 }  // namespace
 
 Result<std::string> pdf_of(std::span<const Sheet> sheets, const std::string& title) {
-  if (sheets.empty()) return Error{"nothing to print"};
+  if (sheets.empty()) {
+    return Error{"nothing to print"};
+  }
   const auto font = PrintFont::open();
-  if (!font) return font.error();
+  if (!font) {
+    return font.error();
+  }
   std::string bytes;
   const Surface surface(
       cairo_pdf_surface_create_for_stream(append, &bytes, sheets[0].width_mm * kPointsPerMm,
@@ -112,21 +134,28 @@ Result<std::string> pdf_of(std::span<const Sheet> sheets, const std::string& tit
     cairo_scale(context.get(), kPointsPerMm, kPointsPerMm);
     draw(context.get(), sheet, *font);
     cairo_show_page(context.get());
-    if (Status s = status_of(cairo_status(context.get()), title); !s) return s.error();
+    if (Status s = status_of(cairo_status(context.get()), title); !s) {
+      return s.error();
+    }
   }
   cairo_surface_finish(surface.get());
-  if (Status s = status_of(cairo_surface_status(surface.get()), title); !s) return s.error();
+  if (Status s = status_of(cairo_surface_status(surface.get()), title); !s) {
+    return s.error();
+  }
   return bytes;
 }
 
 Result<GreyImage> image_of(const Sheet& sheet, double px_per_mm) {
   const double width = std::round(sheet.width_mm * px_per_mm);
   const double height = std::round(sheet.height_mm * px_per_mm);
-  if (!(width >= 1 && height >= 1 && width * height <= kMostPixels))
+  if (!(width >= 1 && height >= 1 && width * height <= kMostPixels)) {
     return Error{"page image: " + std::to_string(px_per_mm) +
                  " px/mm, must give 1 pixel to 200 megapixels"};
+  }
   const auto font = PrintFont::open();
-  if (!font) return font.error();
+  if (!font) {
+    return font.error();
+  }
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
                                                    static_cast<int>(height)),
                         cairo_surface_destroy);
@@ -136,17 +165,21 @@ Result<GreyImage> image_of(const Sheet& sheet, double px_per_mm) {
     cairo_paint(context.get());
     cairo_scale(context.get(), px_per_mm, px_per_mm);
     draw(context.get(), sheet, *font);
-    if (Status s = status_of(cairo_status(context.get()), "page image"); !s) return s.error();
+    if (Status s = status_of(cairo_status(context.get()), "page image"); !s) {
+      return s.error();
+    }
   }
   cairo_surface_flush(surface.get());
   GreyImage image(static_cast<int>(width), static_cast<int>(height));
   const unsigned char* pixels = cairo_image_surface_get_data(surface.get());
   const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
   // Everything drawn is grey: any of the three channels will do.
-  for (int y = 0; y < image.height_px; ++y)
-    for (int x = 0; x < image.width_px; ++x)
+  for (int y = 0; y < image.height_px; ++y) {
+    for (int x = 0; x < image.width_px; ++x) {
       image.at(x, y) =
           pixels[static_cast<std::size_t>(y) * stride + 4 * static_cast<std::size_t>(x) + 1];
+    }
+  }
   return image;
 }
 

@@ -35,26 +35,32 @@ std::string title_of(const PrintedTag& tag) {
 
 Result<Patch> patch_of(const PrintedTag& tag, const TagSheetOptions& options) {
   auto cells = tag_cells(tag.marker.family, tag.marker.id);
-  if (!cells) return cells.error();
+  if (!cells) {
+    return cells.error();
+  }
   Patch patch;
   patch.size_mm = tag.marker.size_m * 1e3;
-  if (!(patch.size_mm >= kSmallestMm && patch.size_mm <= kLargestMm))
+  if (!(patch.size_mm >= kSmallestMm && patch.size_mm <= kLargestMm)) {
     return Error{title_of(tag) + ": size " + mm_text(patch.size_mm) + " mm, must be 5-200 mm"};
+  }
   const double cell_mm = patch.size_mm / cells->border_cells;
   const double quiet_mm = options.quiet_cells * cell_mm;
   patch.around_mm = cells->overhang_cells() * cell_mm + quiet_mm;
   patch.cells = std::move(*cells);
-  if (!tag.name.empty()) patch.lines.push_back(tag.name);
+  if (!tag.name.empty()) {
+    patch.lines.push_back(tag.name);
+  }
   patch.lines.push_back(tag.marker.family + "  id " + std::to_string(tag.marker.id));
   patch.lines.push_back("size " + mm_text(patch.size_mm) + " mm, quiet zone " + mm_text(quiet_mm) +
                         " mm");
   const SheetRect content = content_of(options.page);
   const double limit_mm =
       std::min(content.width_mm, content.height_mm - (patch.height_mm() - patch.cut_mm()));
-  if (patch.width_mm() > content.width_mm || patch.height_mm() > content.height_mm)
+  if (patch.width_mm() > content.width_mm || patch.height_mm() > content.height_mm) {
     return Error{title_of(tag) + " of " + mm_text(patch.size_mm) + " mm takes " +
                  mm_text(patch.cut_mm()) + " mm with its quiet zone, page " + options.page.name +
                  " has room for " + mm_text(limit_mm) + " mm"};
+  }
   return patch;
 }
 
@@ -106,22 +112,29 @@ class Layout {
 }  // namespace
 
 Result<TagSheets> tag_sheets(const std::vector<PrintedTag>& tags, const TagSheetOptions& options) {
-  if (tags.empty()) return Error{"no tags to print"};
-  if (tags.size() > kMostTags)
+  if (tags.empty()) {
+    return Error{"no tags to print"};
+  }
+  if (tags.size() > kMostTags) {
     return Error{std::to_string(tags.size()) + " tags to print, limit 1000"};
-  if (!(options.quiet_cells >= 1.0 && options.quiet_cells <= kMostQuietCells))
+  }
+  if (!(options.quiet_cells >= 1.0 && options.quiet_cells <= kMostQuietCells)) {
     return Error{"quiet zone of " + mm_text(options.quiet_cells) + " cells, must be 1-4"};
+  }
   TagSheets out;
   Layout layout(options.page, out);
   for (const PrintedTag& tag : tags) {
     const auto patch = patch_of(tag, options);
-    if (!patch) return patch.error();
+    if (!patch) {
+      return patch.error();
+    }
     layout.place(*patch);
   }
   const std::string pages = std::to_string(out.sheets.size());
-  for (std::size_t i = 0; i < out.sheets.size(); ++i)
+  for (std::size_t i = 0; i < out.sheets.size(); ++i) {
     add_heading(out.sheets[i], "orthonav tags, cut along the dashed lines, page " +
                                    std::to_string(i + 1) + " of " + pages);
+  }
   return out;
 }
 

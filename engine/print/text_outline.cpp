@@ -15,8 +15,12 @@ struct PrintFont::Library {
   FT_Library library = nullptr;
   FT_Face face = nullptr;
   ~Library() {
-    if (face != nullptr) FT_Done_Face(face);
-    if (library != nullptr) FT_Done_FreeType(library);
+    if (face != nullptr) {
+      FT_Done_Face(face);
+    }
+    if (library != nullptr) {
+      FT_Done_FreeType(library);
+    }
   }
 };
 
@@ -29,15 +33,21 @@ constexpr char32_t kUnknown = 0xFFFFFFFF;
 char32_t next_letter(std::string_view text, std::size_t& at) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t first = byte(at++);
-  if (first < 0x80) return first;
+  if (first < 0x80) {
+    return first;
+  }
   const int more = first >= 0xF0 && first < 0xF8   ? 3
                    : first >= 0xE0 && first < 0xF0 ? 2
                    : first >= 0xC2 && first < 0xE0 ? 1
                                                    : 0;
-  if (more == 0) return kUnknown;
+  if (more == 0) {
+    return kUnknown;
+  }
   char32_t letter = first & (0x3Fu >> more);
   for (int i = 0; i < more; ++i) {
-    if (at >= text.size() || (byte(at) & 0xC0u) != 0x80u) return kUnknown;
+    if (at >= text.size() || (byte(at) & 0xC0u) != 0x80u) {
+      return kUnknown;
+    }
     letter = letter << 6u | (byte(at++) & 0x3Fu);
   }
   return letter;
@@ -98,11 +108,13 @@ Result<PrintFont> PrintFont::open() {
   auto library = std::make_unique<Library>();
   const std::string_view bytes = embedded::print_font();
   FT_Error error = FT_Init_FreeType(&library->library);
-  if (error == 0)
+  if (error == 0) {
     error = FT_New_Memory_Face(library->library, reinterpret_cast<const FT_Byte*>(bytes.data()),
                                static_cast<FT_Long>(bytes.size()), 0, &library->face);
-  if (error != 0)
+  }
+  if (error != 0) {
     return Error{"the embedded font cannot be read (FreeType error " + std::to_string(error) + ")"};
+  }
   return PrintFont(std::move(library));
 }
 
@@ -113,7 +125,9 @@ TextOutline PrintFont::outline(std::string_view text) const {
   Pen pen{out, static_cast<double>(face->units_per_EM)};
   for (std::size_t at = 0; at < text.size();) {
     const FT_UInt glyph = FT_Get_Char_Index(face, next_letter(text, at));
-    if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE) != 0) continue;
+    if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE) != 0) {
+      continue;
+    }
     FT_Outline_Decompose(&face->glyph->outline, &kDraw, &pen);
     out.advance += static_cast<double>(face->glyph->metrics.horiAdvance) / pen.units;
   }

@@ -18,9 +18,13 @@ std::vector<Vec3> vertex_normals(const nav::TriangleMesh& mesh) {
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.vertices_m[t[0]];
     const Vec3 n = (mesh.vertices_m[t[1]] - a).cross(mesh.vertices_m[t[2]] - a);
-    for (const std::uint32_t corner : t) normals[corner] += n;
+    for (const std::uint32_t corner : t) {
+      normals[corner] += n;
+    }
   }
-  for (Vec3& n : normals) n = n.norm() > 0.0 ? n.normalized() : Vec3{};
+  for (Vec3& n : normals) {
+    n = n.norm() > 0.0 ? n.normalized() : Vec3{};
+  }
   return normals;
 }
 
@@ -63,13 +67,17 @@ void DepthPicture::draw(const nav::TriangleMesh& mesh, const SurfacePaint& paint
     corners[i] = {at.x, at.y, place.dot(view_.toward), light_on(normals[i], view_),
                   paint.values.empty() ? paint.limit : paint.values[i]};
   }
-  for (const auto& t : mesh.triangles) fill({corners[t[0]], corners[t[1]], corners[t[2]]}, paint);
+  for (const auto& t : mesh.triangles) {
+    fill({corners[t[0]], corners[t[1]], corners[t[2]]}, paint);
+  }
 }
 
 void DepthPicture::fill(const std::array<Corner, 3>& c, const SurfacePaint& paint) {
   const double twice_area =
       (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
-  if (!(std::abs(twice_area) > 0.0)) return;
+  if (!(std::abs(twice_area) > 0.0)) {
+    return;
+  }
   const auto first = [](double v) { return std::max(0, static_cast<int>(std::floor(v - 0.5))); };
   const auto last = [](double v, int size) {
     return std::min(size - 1, static_cast<int>(std::ceil(v - 0.5)));
@@ -78,17 +86,19 @@ void DepthPicture::fill(const std::array<Corner, 3>& c, const SurfacePaint& pain
   const int x1 = last(std::max({c[0].x, c[1].x, c[2].x}), width_);
   const int y0 = first(std::min({c[0].y, c[1].y, c[2].y}));
   const int y1 = last(std::max({c[0].y, c[1].y, c[2].y}), height_);
-  for (int y = y0; y <= y1; ++y)
+  for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const double px = x + 0.5;
       const double py = y + 0.5;
-      const auto share = [&](const Corner& a, const Corner& b) {
+      const auto fraction = [&](const Corner& a, const Corner& b) {
         return ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) / twice_area;
       };
-      const double w0 = share(c[1], c[2]);
-      const double w1 = share(c[2], c[0]);
+      const double w0 = fraction(c[1], c[2]);
+      const double w1 = fraction(c[2], c[0]);
       const double w2 = 1.0 - w0 - w1;
-      if (w0 < 0.0 || w1 < 0.0 || w2 < 0.0) continue;
+      if (w0 < 0.0 || w1 < 0.0 || w2 < 0.0) {
+        continue;
+      }
       const auto mixed = [&](double Corner::*part) {
         return w0 * c[0].*part + w1 * c[1].*part + w2 * c[2].*part;
       };
@@ -97,10 +107,13 @@ void DepthPicture::fill(const std::array<Corner, 3>& c, const SurfacePaint& pain
           {px, py, mixed(&Corner::nearness_m), mixed(&Corner::light), mixed(&Corner::value)},
           paint);
     }
+  }
 }
 
 void DepthPicture::put(std::size_t sample, const Corner& at, const SurfacePaint& paint) {
-  if (at.nearness_m < static_cast<double>(nearness_m_[sample]) - kSame_m) return;
+  if (at.nearness_m < static_cast<double>(nearness_m_[sample]) - kSame_m) {
+    return;
+  }
   nearness_m_[sample] = static_cast<float>(at.nearness_m);
   const Rgb colour = at.value < paint.limit ? paint.near : paint.far;
   rgba_[4 * sample] = lit(colour.red, at.light);
@@ -111,31 +124,38 @@ void DepthPicture::put(std::size_t sample, const Corner& at, const SurfacePaint&
 
 bool DepthPicture::hides(Vec3 place_m, double by_m) const {
   const Vec2 at = samples_per_mm_ * (view_.on_page_mm(place_m) - area_.low_mm);
-  if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < width_ && at.y < height_)) return false;
+  if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < width_ && at.y < height_)) {
+    return false;
+  }
   const std::size_t sample = static_cast<std::size_t>(at.y) * static_cast<std::size_t>(width_) +
                              static_cast<std::size_t>(at.x);
   return static_cast<double>(nearness_m_[sample]) > place_m.dot(view_.toward) + by_m;
 }
 
-render::Image DepthPicture::image() const {
-  render::Image out{width_ / kSamplesASide, height_ / kSamplesASide, {}};
-  out.rgba.reserve(rgba_.size() / (kSamplesASide * kSamplesASide));
-  for (int y = 0; y < out.height_px; ++y)
+RgbaImage DepthPicture::image() const {
+  RgbaImage out{width_ / kSamplesASide, height_ / kSamplesASide, {}};
+  out.pixels.reserve(rgba_.size() / (kSamplesASide * kSamplesASide));
+  for (int y = 0; y < out.height_px; ++y) {
     for (int x = 0; x < out.width_px; ++x) {
       std::array<int, 4> sum{};
-      for (int dy = 0; dy < kSamplesASide; ++dy)
+      for (int dy = 0; dy < kSamplesASide; ++dy) {
         for (int dx = 0; dx < kSamplesASide; ++dx) {
           const auto row = static_cast<std::size_t>(kSamplesASide * y + dy);
           const auto at = 4 * (row * static_cast<std::size_t>(width_) +
                                static_cast<std::size_t>(kSamplesASide * x + dx));
           // Empty samples are black: only the alpha may count them.
-          for (std::size_t k = 0; k < 4; ++k) sum[k] += rgba_[at + k];
+          for (std::size_t k = 0; k < 4; ++k) {
+            sum[k] += rgba_[at + k];
+          }
         }
+      }
       const int covered = sum[3] / 255;
-      for (std::size_t k = 0; k < 3; ++k)
-        out.rgba.push_back(static_cast<std::uint8_t>(covered > 0 ? sum[k] / covered : 0));
-      out.rgba.push_back(static_cast<std::uint8_t>(sum[3] / (kSamplesASide * kSamplesASide)));
+      for (std::size_t k = 0; k < 3; ++k) {
+        out.pixels.push_back(static_cast<std::uint8_t>(covered > 0 ? sum[k] / covered : 0));
+      }
+      out.pixels.push_back(static_cast<std::uint8_t>(sum[3] / (kSamplesASide * kSamplesASide)));
     }
+  }
   return out;
 }
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "base/image.h"
 #include "base/vec.h"
 #include "nav/geometry/mesh.h"
-#include "render/renderer.h"
 
 namespace orthonav::engine {
 
@@ -56,7 +56,7 @@ class DepthPicture {
   /// Whether a surface lies in front of the place by more than that.
   [[nodiscard]] bool hides(Vec3 place_m, double by_m) const;
   /// Transparent where nothing is.
-  [[nodiscard]] render::Image image() const;
+  [[nodiscard]] RgbaImage image() const;
 
  private:
   struct Corner {

@@ -9,7 +9,8 @@ namespace orthonav::engine {
 
 std::string html_escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) switch (c) {
+  for (const char c : text) {
+    switch (c) {
       case '&':
         out += "&amp;";
         break;
@@ -25,15 +26,20 @@ std::string html_escaped(const std::string& text) {
       default:
         out += c;
     }
+  }
   return out;
 }
 
 std::string html_number(double value, int decimals) {
-  if (!std::isfinite(value)) return "\u2013";
+  if (!std::isfinite(value)) {
+    return "\u2013";
+  }
   char text[64];
   std::snprintf(text, sizeof(text), "%.*f", decimals, value);
   std::string out = text;
-  if (!out.empty() && out[0] == '-') out = "\u2212" + out.substr(1);
+  if (!out.empty() && out[0] == '-') {
+    out = "\u2212" + out.substr(1);
+  }
   return out;
 }
 

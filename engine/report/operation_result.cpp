@@ -19,14 +19,18 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
       level.predicted_tre_m = nav::worst_m(state.predicted);
       level.points = state.registration->points;
       level.digitization_s = state.digitization_s;
-      for (const nav::CheckPoint& point : state.check_points)
+      for (const nav::CheckPoint& point : state.check_points) {
         level.check_points_m.push_back(point.distance_m);
+      }
     }
-    if (state.newest)
+    if (state.newest) {
       level.registered = RegisteredLevel{level.label,          {},
                                          state.plan.model,     state.plan.screws,
                                          state.newest->points, state.newest->registration};
-    if (level.registered && state.registration) level.registered->check_points = state.check_points;
+    }
+    if (level.registered && state.registration) {
+      level.registered->check_points = state.check_points;
+    }
     for (std::size_t s = 0; s < state.plan.screws.size(); ++s) {
       level.screws.push_back({state.plan.screws[s].side, state.screw_done[s], {}, {}});
       result.completed = result.completed && state.screw_done[s];
@@ -38,7 +42,9 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
     RodOutcome outcome;
     outcome.side = rod.side;
     outcome.heads = rod.heads.size();
-    if (rod.rod) outcome.length_m = rod.rod->length_m;
+    if (rod.rod) {
+      outcome.length_m = rod.rod->length_m;
+    }
     result.rods.push_back(outcome);
   }
   result.loop = std::move(loop);
@@ -56,20 +62,27 @@ void EndNote::registered(Timestamp /*time*/, const LevelState& level,
 }
 
 void EndNote::explain(OperationResult& result) const {
-  if (result.completed) return;
+  if (result.completed) {
+    return;
+  }
   std::string unfinished;
   for (const LevelOutcome& level : result.levels) {
     const bool all_done = std::all_of(level.screws.begin(), level.screws.end(),
                                       [](const ScrewOutcome& screw) { return screw.done; });
-    if (unfinished.empty() && !(level.accepted && all_done)) unfinished = " of " + level.label;
+    if (unfinished.empty() && !(level.accepted && all_done)) {
+      unfinished = " of " + level.label;
+    }
   }
   result.why_not = "ended at " + std::string(name_of(step_)) + unfinished + refused_;
 }
 
-std::optional<double> quantile(std::vector<double> values, double share) {
-  if (values.empty()) return std::nullopt;
+std::optional<double> quantile(std::vector<double> values, double fraction) {
+  if (values.empty()) {
+    return std::nullopt;
+  }
   std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+  const auto rank =
+      static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
   return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
 }
 

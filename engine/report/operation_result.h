@@ -79,7 +79,7 @@ class EndNote : public SessionObserver {
 };
 
 /// The value below which `share` of the values lie (nearest rank); nothing without values.
-[[nodiscard]] std::optional<double> quantile(std::vector<double> values, double share);
+[[nodiscard]] std::optional<double> quantile(std::vector<double> values, double fraction);
 
 /// report.json as docs/file-formats.md describes it: deterministic bytes for equal results.
 [[nodiscard]] std::string report_json(const OperationResult& result);

@@ -46,12 +46,19 @@ PageArea area_of(const RegisteredLevel& level, const RegistrationScene& scene,
     area.low_mm = {std::min(area.low_mm.x, at.x), std::min(area.low_mm.y, at.y)};
     area.high_mm = {std::max(area.high_mm.x, at.x), std::max(area.high_mm.y, at.y)};
   };
-  for (const Vec3& vertex : level.model->mesh().vertices_m) include(vertex);
-  for (const nav::ScrewPlan& screw : level.screws) include(shaft_end_m(screw));
-  for (const PlacedPoint& point : scene.points)
-    if (std::abs(point.residual_m) < kShownOff_m) include(point.place_m);
-  const Vec2 margin{kMargin_mm, kMargin_mm};
-  return {area.low_mm - margin, area.high_mm + margin};
+  for (const Vec3& vertex : level.model->mesh().vertices_m) {
+    include(vertex);
+  }
+  for (const nav::ScrewPlan& screw : level.screws) {
+    include(shaft_end_m(screw));
+  }
+  for (const PlacedPoint& point : scene.points) {
+    if (std::abs(point.residual_m) < kShownOff_m) {
+      include(point.place_m);
+    }
+  }
+  const Vec2 log_likelihood_ratio{kMargin_mm, kMargin_mm};
+  return {area.low_mm - log_likelihood_ratio, area.high_mm + log_likelihood_ratio};
 }
 
 /// Points of one kind as paths, one for each colour: a dot is a line of no length with round caps.
@@ -68,14 +75,20 @@ class PointPaths {
   /// Dark below, so that white ones show on the bone.
   [[nodiscard]] std::string svg(const char* kind, double width_mm) const {
     std::string all;
-    for (const std::string& path : paths_) all += path;
-    if (all.empty()) return "";
+    for (const std::string& path : paths_) {
+      all += path;
+    }
+    if (all.empty()) {
+      return "";
+    }
     std::string out = "<g class=\"" + std::string(kind) + "\"><path stroke=\"#26323d\"" +
                       formatted(" stroke-width=\"%.2f\" d=\"", width_mm + 0.35) + all + "\"/>";
-    for (std::size_t i = 0; i < paths_.size(); ++i)
-      if (!paths_[i].empty())
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      if (!paths_[i].empty()) {
         out += "<path stroke=\"" + std::string(kResidualColours[i]) +
                formatted("\" stroke-width=\"%.2f\" d=\"", width_mm) + paths_[i] + "\"/>";
+      }
+    }
     return out + "</g>";
   }
 
@@ -90,15 +103,18 @@ std::string points_svg(const RegistrationScene& scene, const Viewpoint& view,
   PointPaths behind(scene, view);
   PointPaths seen(scene, view);
   PointPaths off(scene, view);
-  for (const PlacedPoint& point : scene.points)
+  for (const PlacedPoint& point : scene.points) {
     (point.off_bone ? off : bone.hides(point.place_m, kHidden_m) ? behind : seen).add(point);
+  }
   return behind.svg("behind", 0.7) + seen.svg("points", 0.8) + off.svg("off", 0.35);
 }
 
 /// The shadow of the 95 % ellipsoid: an ellipse of the covariance seen from there.
 std::string ellipse_svg(Point<Vertebra> place, const PlaceError& error, double magnified,
                         const Viewpoint& view) {
-  if (!error.covariance_m2) return "";
+  if (!error.covariance_m2) {
+    return "";
+  }
   const auto& m = *error.covariance_m2;
   const Mat3 c{{{{m[0], m[1], m[2]}, {m[3], m[4], m[5]}, {m[6], m[7], m[8]}}}};
   const Vec3 down = -view.up;
@@ -126,9 +142,10 @@ std::string screws_svg(const RegisteredLevel& level, const RegistrationScene& sc
     const Vec2 target = view.on_page_mm(screw.target.v);
     const std::string line = formatted("M%.2f %.2fL%.2f %.2f", end.x, end.y, target.x, target.y);
     out += "<g class=\"screw\">";
-    if (screw.radius_m > 0.0)
+    if (screw.radius_m > 0.0) {
       out += formatted("<path class=\"body\" stroke-width=\"%.2f\" d=\"", 2e3 * screw.radius_m) +
              formatted("M%.2f %.2fL%.2f %.2f\"/>", entry.x, entry.y, target.x, target.y);
+    }
     out += "<path class=\"axis\" d=\"" + line + "\"/>";
     out += ellipse_svg(screw.entry, errors[i].entry, scene.magnified, view) +
            ellipse_svg(screw.target, errors[i].target, scene.magnified, view);
@@ -189,7 +206,9 @@ Result<RegistrationDrawing> registration_drawing(const RegisteredLevel& level,
   bone.draw(level.model->mesh(), {{}, 0.0, kUntouchable, kUntouchable});
   bone.draw(level.model->reachable(), {scene.from_strokes_m, kStroked_m, kStrokedBone, kOpenBone});
   const auto png = png_bytes(bone.image());
-  if (!png) return png.error();
+  if (!png) {
+    return png.error();
+  }
   const Vec2 size = area.size_mm();
   const std::string box = formatted("x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"",
                                     area.low_mm.x, area.low_mm.y, size.x, size.y);
@@ -210,24 +229,28 @@ std::string registration_legend(const RegisteredLevel& level, const Registration
   };
   std::string out = "<div class=legend><span class=ramp>" +
                     html_number(-scene.full_colour_m * 1e3, 1) + " mm <b>";
-  for (const char* colour : kResidualColours)
+  for (const char* colour : kResidualColours) {
     out += "<i style=\"background:" + std::string(colour) + "\"></i>";
+  }
   out += "</b> +" + html_number(scene.full_colour_m * 1e3, 1) +
          " mm<em>points inside the bone, on it, outside it</em></span>";
-  if (scene.off_bone > 0)
+  if (scene.off_bone > 0) {
     out += std::string("<span><b class=cross>\u00d7</b>off the bone") +
            (level.registration.noise_m > 0.0 ? ", without a say" : "") + "</span>";
-  if (!scene.checks.empty())
+  }
+  if (!scene.checks.empty()) {
     out += "<span><b class=cross>\u25c7</b>touched to verify it, not used in the fit</span>";
+  }
   out += swatch(hex(kStrokedBone), "stroked (within 5 mm)") +
          swatch(hex(kOpenBone), "not stroked") +
          swatch(hex(kUntouchable), "out of the pointer\u2019s reach");
-  if (!level.screws.empty() && level.registration.uncertainty)
+  if (!level.screws.empty() && level.registration.uncertainty) {
     out += "<span><i class=oval></i><em>holds 95 of 100 errors at entry and target" +
            (scene.magnified > 1.0
                 ? ", drawn <b>" + html_number(scene.magnified, 0) + "\u00d7</b> as large as it is"
                 : std::string(", true size")) +
            "</em></span>";
+  }
   return out + "</div>";
 }
 

@@ -14,7 +14,9 @@ namespace {
 
 PlaceError error_at(const nav::Registration& r, Point<Vertebra> place) {
   constexpr double kOpen = std::numeric_limits<double>::infinity();
-  if (!r.uncertainty) return {kOpen, kOpen, {}};
+  if (!r.uncertainty) {
+    return {kOpen, kOpen, {}};
+  }
   return {r.uncertainty->predicted_tre_m(place), r.uncertainty->tre_quantile_m(place, 0.95),
           r.uncertainty->covariance_at(place)};
 }
@@ -26,17 +28,21 @@ std::vector<Point<Vertebra>> places_of(const RegisteredLevel& level) {
     places.push_back(screw.entry);
     places.push_back(screw.target);
   }
-  if (places.empty())
-    for (const Vec3& extreme : level.model->reachable_extremes()) places.push_back({extreme});
+  if (places.empty()) {
+    for (const Vec3& extreme : level.model->reachable_extremes()) {
+      places.push_back({extreme});
+    }
+  }
   return places;
 }
 
 /// `best` says how much worse the next pose explains the points; `paper` compares residuals.
-bool tells_margin(const nav::Registration& r) { return r.noise_m > 0.0; }
+bool tells_log_likelihood_ratio(const nav::Registration& r) { return r.noise_m > 0.0; }
 
 bool tells_apart(const nav::Registration& r) {
-  return tells_margin(r)
-             ? r.margin >= nav::BestRegistrationOptions{}.min_margin
+  return tells_log_likelihood_ratio(r)
+             ? r.log_likelihood_ratio >=
+                   nav::PoseSearchRegistrationOptions{}.min_log_likelihood_ratio
              : r.runner_up_rmse_m >= nav::RegistrationOptions{}.min_runner_up_ratio * r.rmse_m;
 }
 
@@ -44,56 +50,72 @@ bool tells_apart(const nav::Registration& r) {
 
 std::vector<ScrewErrors> errors_at_screws(const RegisteredLevel& level) {
   std::vector<ScrewErrors> errors;
-  for (const nav::ScrewPlan& screw : level.screws)
+  for (const nav::ScrewPlan& screw : level.screws) {
     errors.push_back({screw.side, error_at(level.registration, screw.entry),
                       error_at(level.registration, screw.target)});
+  }
   return errors;
 }
 
 double worst_rms_m(const RegisteredLevel& level) {
-  if (level.screws.empty()) return level.registration.predicted_tre_m;
+  if (level.screws.empty()) {
+    return level.registration.predicted_tre_m;
+  }
   double worst = 0.0;
-  for (const ScrewErrors& e : errors_at_screws(level))
+  for (const ScrewErrors& e : errors_at_screws(level)) {
     worst = std::max({worst, e.entry.rms_m, e.target.rms_m});
+  }
   return worst;
 }
 
 std::optional<double> worst_within_95_m(const RegisteredLevel& level) {
-  if (level.screws.empty() && !tells_margin(level.registration)) return std::nullopt;
-  if (level.screws.empty()) return level.registration.tre_95_m;
+  if (level.screws.empty() && !tells_log_likelihood_ratio(level.registration)) {
+    return std::nullopt;
+  }
+  if (level.screws.empty()) {
+    return level.registration.tre_95_m;
+  }
   double worst = 0.0;
-  for (const ScrewErrors& e : errors_at_screws(level))
+  for (const ScrewErrors& e : errors_at_screws(level)) {
     worst = std::max({worst, e.entry.within_95_m, e.target.within_95_m});
+  }
   return worst;
 }
 
 std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
-  if (r.runner_up == r.world_from_vertebra) return std::nullopt;
+  if (r.runner_up == r.world_from_vertebra) {
+    return std::nullopt;
+  }
   RunnerUpDistance out;
-  for (const Point<Vertebra>& place : places_of(level))
+  for (const Point<Vertebra>& place : places_of(level)) {
     out.apart_m =
         std::max(out.apart_m, (r.runner_up * place - r.world_from_vertebra * place).norm());
+  }
   out.turned_rad = rotation_angle_rad(r.runner_up.rotation(), r.world_from_vertebra.rotation());
   return out;
 }
 
 std::string ambiguity_of(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
-  if (!r.fits_better.empty())
+  if (!r.fits_better.empty()) {
     return "ambiguous: the points fit level " + r.fits_better + " as well or better";
+  }
   const auto other = runner_up_distance(level);
-  if (!other) return "unambiguous: no other pose comes near to explaining the points";
+  if (!other) {
+    return "unambiguous: no other pose comes near to explaining the points";
+  }
   const std::string where =
       formatted(level.screws.empty()
                     ? "%.0f mm away on the surface and turned"
                       " by %.0f degrees, explains the points "
                     : "%.0f mm away at the screws and turned by %.0f degrees, explains the points ",
                 other->apart_m * 1e3, degrees(other->turned_rad));
-  const std::string by = tells_margin(r) ? formatted(" (margin %.0f, at least %.0f)", r.margin,
-                                                     nav::BestRegistrationOptions{}.min_margin)
-                                         : formatted(" (RMSE %.2f against %.2f mm)",
-                                                     r.runner_up_rmse_m * 1e3, r.rmse_m * 1e3);
+  const std::string by =
+      tells_log_likelihood_ratio(r)
+          ? formatted(" (margin %.0f, at least %.0f)", r.log_likelihood_ratio,
+                      nav::PoseSearchRegistrationOptions{}.min_log_likelihood_ratio)
+          : formatted(" (RMSE %.2f against %.2f mm)", r.runner_up_rmse_m * 1e3, r.rmse_m * 1e3);
   return tells_apart(r) ? "unambiguous: the next best pose, " + where + "clearly worse" + by
                         : "ambiguous: another pose, " + where + "nearly as well" + by;
 }
@@ -103,29 +125,35 @@ std::string certainty_of(const RegisteredLevel& level) {
   std::string out;
   const auto within = worst_within_95_m(level);
   const char* where = level.screws.empty() ? "where screws usually go" : "at the screws";
-  if (!within)
+  if (!within) {
     out =
         formatted("An error of %.2f mm (root mean square) is to be expected at the model's centre.",
                   r.predicted_tre_m * 1e3);
-  else if (std::isfinite(*within))
+  } else if (std::isfinite(*within)) {
     // Of a pose that may be the wrong one its own scatter says nothing.
     out =
         std::string(r.accepted ? "95 of 100 errors " : "Were this pose right, 95 of 100 errors ") +
         where +
         formatted(r.accepted ? " are expected to be below %.2f mm." : " would be below %.2f mm.",
                   *within * 1e3);
-  else
+  } else {
     out = std::string("How large the errors ") + where + " are is not known.";
-  if (!r.weakest.empty()) out += " Least sure: " + r.weakest + ".";
-  if (!r.advice.empty()) out += " To know it better: " + r.advice + ".";
+  }
+  if (!r.weakest.empty()) {
+    out += " Least sure: " + r.weakest + ".";
+  }
+  if (!r.advice.empty()) {
+    out += " To know it better: " + r.advice + ".";
+  }
   return out;
 }
 
 std::array<double, 16> model_to_points(const Transform<World, Vertebra>& pose,
                                        const FigureFrame& frame) {
   Mat3 rotation = pose.rotation();
-  if (frame.model_axes == Axes::kRas)
+  if (frame.model_axes == Axes::kRas) {
     rotation = Mat3::from_columns(-rotation.column(0), -rotation.column(1), rotation.column(2));
+  }
   return Transform<World, Vertebra>(rotation, pose.translation() / frame.points_unit_m).row_major();
 }
 

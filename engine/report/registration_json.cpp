@@ -16,22 +16,26 @@ Json mm_or_null(double m) { return std::isfinite(m) ? Json(m * 1e3) : Json(); }
 Json matrix_json(const Transform<World, Vertebra>& pose, const FigureFrame& frame) {
   const auto a = model_to_points(pose, frame);
   Json rows = Json::array();
-  for (std::size_t row = 0; row < 16; row += 4)
+  for (std::size_t row = 0; row < 16; row += 4) {
     rows.push_back({a[row], a[row + 1], a[row + 2], a[row + 3]});
+  }
   return rows;
 }
 
 /// In the axes of the model's file: where they are RAS, x and y turn their sign.
 Json covariance_json(const PlaceError& error, const FigureFrame& frame) {
-  if (!error.covariance_m2) return {};
+  if (!error.covariance_m2) {
+    return {};
+  }
   const auto sign = [&](std::size_t axis) {
     return frame.model_axes == Axes::kRas && axis < 2 ? -1.0 : 1.0;
   };
   Json rows = Json::array();
   for (std::size_t r = 0; r < 3; ++r) {
     Json row = Json::array();
-    for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t c = 0; c < 3; ++c) {
       row.push_back((*error.covariance_m2)[3 * r + c] * sign(r) * sign(c) * 1e6);
+    }
     rows.push_back(std::move(row));
   }
   return rows;
@@ -52,7 +56,9 @@ void put_runner_up(Json& out, const RegisteredLevel& level, const FigureFrame& f
   const auto distance = runner_up_distance(level);
   if (distance) {
     out["runner_up_rmse_mm"] = mm_or_null(r.runner_up_rmse_m);
-    if (r.noise_m > 0.0) out["runner_up_margin"] = r.margin;
+    if (r.noise_m > 0.0) {
+      out["runner_up_margin"] = r.log_likelihood_ratio;
+    }
     out["runner_up_distance_mm"] = mm_or_null(distance->apart_m);
     out["runner_up_angle_deg"] = degrees(distance->turned_rad);
     out["runner_up_model_to_points"] = matrix_json(r.runner_up, frame);
@@ -64,13 +70,15 @@ void put_fit(Json& out, const nav::Registration& r) {
   out["points"] = r.points;
   out["iterations"] = r.iterations;
   out["rmse_mm"] = mm_or_null(r.rmse_m);
-  if (!(r.noise_m > 0.0)) return;  // `paper` knows no more
+  if (!(r.noise_m > 0.0)) {
+    return;  // `paper` knows no more
+  }
   out["noise_mm"] = mm_or_null(r.noise_m);
-  out["lift_mm"] = mm_or_null(r.lift_m);
-  out["inlier_share"] = r.inlier_share;
+  out["lift_mm"] = mm_or_null(r.standoff_m);
+  out["inlier_share"] = r.inlier_fraction;
   out["effective_points"] = r.effective_points;
-  out["coverage_share"] = r.coverage_share;
-  out["swept_share"] = r.swept_share;
+  out["coverage_share"] = r.coverage_fraction;
+  out["swept_share"] = r.shaft_collision_fraction;
 }
 
 }  // namespace
@@ -78,22 +86,34 @@ void put_fit(Json& out, const nav::Registration& r) {
 nlohmann::ordered_json registration_json(const RegisteredLevel& level, const FigureFrame& frame) {
   const nav::Registration& r = level.registration;
   Json out{{"accepted", r.accepted}, {"reasons", r.reasons}};
-  if (!r.advice.empty()) out["advice"] = r.advice;
-  if (!r.weakest.empty()) out["weakest"] = r.weakest;
-  if (!r.fits_better.empty()) out["fits_better"] = r.fits_better;
-  if (!level.method.empty()) out["method"] = level.method;
-  if (!level.label.empty()) out["level"] = level.label;
+  if (!r.advice.empty()) {
+    out["advice"] = r.advice;
+  }
+  if (!r.weakest.empty()) {
+    out["weakest"] = r.weakest;
+  }
+  if (!r.fits_better.empty()) {
+    out["fits_better"] = r.fits_better;
+  }
+  if (!level.method.empty()) {
+    out["method"] = level.method;
+  }
+  if (!level.label.empty()) {
+    out["level"] = level.label;
+  }
   out["points_unit"] = frame.points_unit_m == 1.0 ? "m" : "mm";
   out["model_frame"] = frame.model_axes == Axes::kRas ? "RAS" : "LPS";
   out["model_to_points"] = matrix_json(r.world_from_vertebra, frame);
   put_fit(out, r);
   put_runner_up(out, level, frame);
   out["predicted_tre_mm"] = mm_or_null(worst_rms_m(level));
-  if (const auto within = worst_within_95_m(level))
+  if (const auto within = worst_within_95_m(level)) {
     out["predicted_tre_95_mm"] = mm_or_null(*within);
+  }
   out["covariance_frame"] = out["model_frame"];
-  for (const ScrewErrors& screw : errors_at_screws(level))
+  for (const ScrewErrors& screw : errors_at_screws(level)) {
     out["screws"].push_back(screw_json(screw, frame));
+  }
   return out;
 }
 

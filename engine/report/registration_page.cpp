@@ -19,16 +19,24 @@ std::string title_of(const RegisteredLevel& level) {
 }
 
 std::string sentence(std::string words) {
-  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') words[0] -= 'a' - 'A';
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z') {
+    words[0] -= 'a' - 'A';
+  }
   return html_escaped(words);
 }
 
 std::string in_words(const RegisteredLevel& level) {
   std::string out;
   const nav::Registration& r = level.registration;
-  if (!r.reasons.empty()) out += "<ul class=reasons>";
-  for (const std::string& reason : r.reasons) out += "<li>" + sentence(reason) + "</li>";
-  if (!r.reasons.empty()) out += "</ul>";
+  if (!r.reasons.empty()) {
+    out += "<ul class=reasons>";
+  }
+  for (const std::string& reason : r.reasons) {
+    out += "<li>" + sentence(reason) + "</li>";
+  }
+  if (!r.reasons.empty()) {
+    out += "</ul>";
+  }
   return out + "<p class=sure>" + sentence(certainty_of(level)) + " " +
          sentence(ambiguity_of(level)) + ".</p>";
 }
@@ -53,27 +61,29 @@ std::string at_most(const std::string& limit) { return "\u2264 " + limit; }
 
 std::string rows_of_best(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
-  const nav::BestRegistrationOptions limits;
+  const nav::PoseSearchRegistrationOptions limits;
   return row({"RMSE <small>mm</small>", mm(r.rmse_m), true, "",
               "of all points to the surface; hardly tells the error at the screws"}) +
-         row({"Points on the bone", whole(r.inlier_share * 1e2) + " %",
-              r.inlier_share >= limits.min_inlier_share,
-              at_least(whole(limits.min_inlier_share * 1e2)),
+         row({"Points on the bone", whole(r.inlier_fraction * 1e2) + " %",
+              r.inlier_fraction >= limits.min_inlier_fraction,
+              at_least(whole(limits.min_inlier_fraction * 1e2)),
               "the rest lies farther off than the scatter explains and has no say"}) +
          row({"Scatter <small>mm</small>", mm(r.noise_m), r.noise_m <= limits.max_noise_m,
               at_most(mm(limits.max_noise_m, 1)),
               "standard deviation of the points on the bone about its surface"}) +
-         row({"Height of the tip above the bone <small>mm</small>", mm(r.lift_m), true, "",
+         row({"Height of the tip above the bone <small>mm</small>", mm(r.standoff_m), true, "",
               "its mean over the strokes, as far as they tell it; taken into account"}) +
          row({"Independent points", whole(r.effective_points), true, "",
               "what the points are worth: neighbours share the tracker\u2019s error"}) +
-         row({"Surface stroked", whole(r.coverage_share * 1e2) + " %",
-              r.coverage_share >= limits.min_coverage_share,
-              at_least(whole(limits.min_coverage_share * 1e2)),
+         row({"Surface stroked", whole(r.coverage_fraction * 1e2) + " %",
+              r.coverage_fraction >= limits.min_coverage_fraction,
+              at_least(whole(limits.min_coverage_fraction * 1e2)),
               "of what a pointer reaches from behind"}) +
          row({"Margin of the next best pose",
-              std::isfinite(r.margin) ? html_number(r.margin, 1) : "none near",
-              r.margin >= limits.min_margin, at_least(whole(limits.min_margin)),
+              std::isfinite(r.log_likelihood_ratio) ? html_number(r.log_likelihood_ratio, 1)
+                                                    : "none near",
+              r.log_likelihood_ratio >= limits.min_log_likelihood_ratio,
+              at_least(whole(limits.min_log_likelihood_ratio)),
               "how much worse it explains the points (log-likelihood ratio)"});
 }
 
@@ -94,22 +104,25 @@ std::string rows_of_paper(const RegisteredLevel& level) {
 }
 
 std::string rows_of_error(const RegisteredLevel& level, bool best) {
-  const nav::BestRegistrationOptions limits;
+  const nav::PoseSearchRegistrationOptions limits;
   const double rms = worst_rms_m(level);
   std::string out =
       row({level.screws.empty() ? "Error where screws usually go <small>mm</small>"
                                 : "Error at the worst screw <small>mm</small>",
            mm(rms), !best || rms <= limits.max_predicted_tre_m,
            best ? at_most(mm(limits.max_predicted_tre_m, 1)) : "", "root mean square to expect"});
-  if (const auto within = worst_within_95_m(level))
+  if (const auto within = worst_within_95_m(level)) {
     out += row({"95 of 100 errors below <small>mm</small>", mm(*within),
                 !best || *within <= limits.max_tre_95_m,
                 best ? at_most(mm(limits.max_tre_95_m, 1)) : "", "at the same place"});
+  }
   return out;
 }
 
 std::string row_of_checks(const RegisteredLevel& level) {
-  if (level.check_points.empty()) return "";
+  if (level.check_points.empty()) {
+    return "";
+  }
   std::string distances;
   bool all_within = true;
   for (const nav::CheckPoint& check : level.check_points) {
@@ -129,7 +142,9 @@ std::string figures(const RegisteredLevel& level) {
       "<tbody>" +
       row({"Points", whole(static_cast<double>(r.points)), true, "", "digitized and registered"}) +
       (best ? rows_of_best(level) : rows_of_paper(level));
-  if (best || !level.screws.empty()) out += rows_of_error(level, best);
+  if (best || !level.screws.empty()) {
+    out += rows_of_error(level, best);
+  }
   out += row_of_checks(level);
   return out + "</tbody></table>";
 }
@@ -137,16 +152,19 @@ std::string figures(const RegisteredLevel& level) {
 std::string place_row(const std::string& name, const PlaceError& e) {
   std::string out = "<tr><th scope=row>" + name + "</th><td>" + mm(e.rms_m) +
                     "</td><td class=ours>" + mm(e.within_95_m) + "</td>";
-  for (const std::size_t axis : {0U, 1U, 2U})
+  for (const std::size_t axis : {0U, 1U, 2U}) {
     out +=
         "<td>" +
         (e.covariance_m2 ? mm(std::sqrt(std::max(0.0, (*e.covariance_m2)[4 * axis]))) : "\u2013") +
         "</td>";
+  }
   return out + "</tr>";
 }
 
 std::string screws(const RegisteredLevel& level) {
-  if (level.screws.empty()) return "";
+  if (level.screws.empty()) {
+    return "";
+  }
   std::string out =
       "<table><thead><tr><th>errors to expect <small>mm</small></th><th>RMS</th><th>95 of 100 "
       "below</th><th>SD sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
@@ -160,9 +178,10 @@ std::string screws(const RegisteredLevel& level) {
 
 std::string caption(const RegisteredLevel& level, const RegistrationScene& scene) {
   std::string out = "<p class=notes>";
-  if (scene.points.size() < level.points.size())
+  if (scene.points.size() < level.points.size()) {
     out += "Drawn: " + std::to_string(scene.points.size()) + " of " +
            std::to_string(level.points.size()) + " points. ";
+  }
   return out +
          "Points behind the bone shine through it. The errors are those of this registration "
          "alone: "
@@ -177,7 +196,9 @@ Result<std::string> views(const RegisteredLevel& level, const RegistrationScene&
   std::string columns;
   for (const RegistrationView& view : registration_views()) {
     const auto drawing = registration_drawing(level, scene, view);
-    if (!drawing) return drawing.error();
+    if (!drawing) {
+      return drawing.error();
+    }
     columns += html_number(drawing->size_mm.x, 2) + "fr ";
     figures += "<figure>" + drawing->svg + "<figcaption>" + view.name + "</figcaption></figure>";
   }
@@ -192,7 +213,9 @@ Result<std::string> views(const RegisteredLevel& level, const RegistrationScene&
 Result<std::string> registration_section(const RegisteredLevel& level) {
   const RegistrationScene scene = registration_scene(level);
   const auto drawn = views(level, scene);
-  if (!drawn) return drawn;
+  if (!drawn) {
+    return drawn;
+  }
   return "<section class=registration><h2>" + title_of(level) + ": " +
          (level.registration.accepted ? "<span class=good>accepted by its figures</span>"
                                       : "<span class=bad>refused</span>") +
@@ -201,13 +224,17 @@ Result<std::string> registration_section(const RegisteredLevel& level) {
 
 Result<std::string> registration_page(const RegisteredLevel& level, const std::string& source) {
   auto section = registration_section(level);
-  if (!section) return section;
+  if (!section) {
+    return section;
+  }
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: registration"
       "</title><meta name=viewport content=\"width=device-width\"><style>";
   html += embedded::report_css();
   html += "</style></head><body><header><h1>orthonav <span>registration report</span></h1><p>";
-  if (!level.label.empty()) html += "Level <b>" + html_escaped(level.label) + "</b>, ";
+  if (!level.label.empty()) {
+    html += "Level <b>" + html_escaped(level.label) + "</b>, ";
+  }
   html += "method <b>" + html_escaped(level.method) + "</b>, points of <b>" + html_escaped(source) +
           "</b></p></header><main>" + *section +
           "<ul class=notes><li>Not a medical device.</li></ul></main></body></html>\n";

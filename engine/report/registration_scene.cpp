@@ -22,18 +22,24 @@ std::vector<PlacedPoint> placed(const RegisteredLevel& level) {
   for (std::size_t i = 0; i < level.points.size(); i += step) {
     const Vec3 place = (to_model * level.points[i]).v;
     const auto surface = model.reachable_surface().nearest(place);
-    if (!surface) continue;
+    if (!surface) {
+      continue;
+    }
     const double distance = surface->distance_m * (model.surface().contains(place) ? -1.0 : 1.0);
-    points.push_back({place, distance - level.tip_radius_m - level.registration.lift_m, false});
+    points.push_back({place, distance - level.tip_radius_m - level.registration.standoff_m, false});
   }
   return points;
 }
 
 /// Of the points about the surface: as registered, else by the median, which outliers don't move.
 double scatter_m(const std::vector<PlacedPoint>& points, const nav::Registration& r) {
-  if (r.noise_m > 0.0 || points.empty()) return r.noise_m;
+  if (r.noise_m > 0.0 || points.empty()) {
+    return r.noise_m;
+  }
   std::vector<double> sizes;
-  for (const PlacedPoint& p : points) sizes.push_back(std::abs(p.residual_m));
+  for (const PlacedPoint& p : points) {
+    sizes.push_back(std::abs(p.residual_m));
+  }
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   return 1.4826 * (*middle);
@@ -45,8 +51,11 @@ std::vector<double> distances_from_strokes_m(const nav::TriangleMesh& mesh,
   out.reserve(mesh.vertices_m.size());
   for (const Vec3& vertex : mesh.vertices_m) {
     double least = std::numeric_limits<double>::infinity();
-    for (const PlacedPoint& p : points)
-      if (!p.off_bone) least = std::min(least, (p.place_m - vertex).squared_norm());
+    for (const PlacedPoint& p : points) {
+      if (!p.off_bone) {
+        least = std::min(least, (p.place_m - vertex).squared_norm());
+      }
+    }
     // Beyond what is drawn all is alike, and infinity can't be interpolated.
     out.push_back(std::min(std::sqrt(least), 4.0 * kStroked_m));
   }
@@ -56,11 +65,16 @@ std::vector<double> distances_from_strokes_m(const nav::TriangleMesh& mesh,
 /// A whole number that makes errors readable and never larger than the bone's details.
 double magnification(const RegisteredLevel& level) {
   double largest_m = 0.0;
-  for (const ScrewErrors& screw : errors_at_screws(level))
-    for (const PlaceError* error : {&screw.entry, &screw.target})
+  for (const ScrewErrors& screw : errors_at_screws(level)) {
+    for (const PlaceError* error : {&screw.entry, &screw.target}) {
       largest_m = std::max(largest_m, ellipsoid_scale() * error->rms_m);
-  for (const double times : {20.0, 10.0, 5.0, 2.0})
-    if (times * largest_m <= kLargestDrawn_m) return times;
+    }
+  }
+  for (const double times : {20.0, 10.0, 5.0, 2.0}) {
+    if (times * largest_m <= kLargestDrawn_m) {
+      return times;
+    }
+  }
   return 1.0;
 }
 
@@ -80,9 +94,10 @@ RegistrationScene registration_scene(const RegisteredLevel& level) {
     scene.off_bone += p.off_bone ? 1 : 0;
   }
   scene.from_strokes_m = distances_from_strokes_m(level.model->reachable(), scene.points);
-  for (const nav::CheckPoint& check : level.check_points)
+  for (const nav::CheckPoint& check : level.check_points) {
     scene.checks.push_back({(level.registration.world_from_vertebra.inverse() * check.place).v,
                             check.distance_m, !check.within});
+  }
   // Two digits after the point are none: to the next half of a millimetre.
   scene.full_colour_m = std::max(kLeastFullColour_m, std::ceil(3.0 * scatter / 0.0005) * 0.0005);
   scene.magnified = magnification(level);

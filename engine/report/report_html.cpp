@@ -22,7 +22,9 @@ using nlohmann::json;
 
 /// A figure of the report, or a dash where it is absent (no truth, not reached).
 std::string figure(const json& object, const char* key, int decimals) {
-  if (!object.contains(key) || !object[key].is_number()) return "\u2013";
+  if (!object.contains(key) || !object[key].is_number()) {
+    return "\u2013";
+  }
   return html_number(object[key].get<double>(), decimals);
 }
 
@@ -46,7 +48,9 @@ void table_against_paper(const json& report, std::string& html) {
       continue;
     }
     html += "<td class=ours>" + html_number(s.mean, row.decimals);
-    if (s.count > 1) html += " \u00b1 " + html_number(s.sd, row.decimals);
+    if (s.count > 1) {
+      html += " \u00b1 " + html_number(s.sd, row.decimals);
+    }
     html += "</td><td>" + html_number(s.min, row.decimals) + "\u2013" +
             html_number(s.max, row.decimals) + "</td><td>" + std::to_string(s.count) + "</td></tr>";
   }
@@ -58,7 +62,9 @@ std::string verdict_on(const json& level) {
   const json attempts = level.value("attempts", json());
   const bool tried = attempts.is_number() && attempts.get<double>() > 0.0;
   const json accepted = level.value("accepted", json());
-  if (!tried) return "<span>not reached</span>";
+  if (!tried) {
+    return "<span>not reached</span>";
+  }
   return std::string(accepted == true ? "<span class=good>accepted</span>"
                                       : "<span class=bad>refused</span>") +
          " <small>attempt " + figure(level, "attempts", 0) + "</small>";
@@ -84,12 +90,13 @@ void table_of_levels(const json& report, std::string& html) {
                 "</td>" + span + figure(level, "points", 0) + "</td>" + span +
                 figure(level, "digitization_s", 1) + "</td>";
       }
-      if (i < screws.size())
+      if (i < screws.size()) {
         html += "<td>" + html_escaped(text_of(screws[i], "side")) + "</td><td>" +
                 figure(screws[i], "angle_error_deg", 2) + "</td><td>" +
                 figure(screws[i], "entry_error_mm", 2) + "</td>";
-      else
+      } else {
         html += "<td>\u2013</td><td>\u2013</td><td>\u2013</td>";
+      }
       html += "</tr>";
     }
   }
@@ -98,12 +105,13 @@ void table_of_levels(const json& report, std::string& html) {
 
 void rod_and_frames(const json& report, std::string& html) {
   html += "<section class=pair><div><h2>Rod template</h2>";
-  if (const json rod = report.value("rod", json::object()); !rod.empty())
+  if (const json rod = report.value("rod", json::object()); !rod.empty()) {
     html += "<p>Length <b>" + figure(rod, "length_mm", 1) + " mm</b>, length error " +
             figure(rod, "length_error_mm", 2) + " mm, error of the heads " +
             figure(rod, "head_error_mm", 2) + " mm.</p>";
-  else
+  } else {
     html += "<p>No rod was templated.</p>";
+  }
   html += "</div><div><h2>Frames</h2>";
   const json frames = report.value("frames", json::object());
   html += "<p>" + figure(frames, "displayed", 0) + " displayed, " + figure(frames, "median_ms", 1) +
@@ -112,23 +120,28 @@ void rod_and_frames(const json& report, std::string& html) {
 }
 
 void pictures_and_video(const ReportContent& content, std::string& html) {
-  if (!content.video.empty())
+  if (!content.video.empty()) {
     html += "<section><h2>The surgeon's view</h2><video controls preload=metadata src=\"" +
             html_escaped(content.video) + "\"></video></section>";
-  if (content.pictures.empty()) return;
+  }
+  if (content.pictures.empty()) {
+    return;
+  }
   html += "<section><h2>Step by step</h2><div class=gallery>";
-  for (const ReportPicture& picture : content.pictures)
+  for (const ReportPicture& picture : content.pictures) {
     html += "<figure><img alt=\"" + html_escaped(picture.title) +
             "\" src=\"data:image/png;base64," + base64(picture.png) + "\"><figcaption><b>" +
             html_escaped(picture.title) + "</b> " + html_escaped(picture.caption) +
             "</figcaption></figure>";
+  }
   html += "</div></section>";
 }
 
 json curve_json(const ReportCurve& curve) {
   json points = json::array();
-  for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i)
+  for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
     points.push_back({{"x", curve.x[i]}, {"y", curve.y[i]}});
+  }
   return {{"name", curve.name}, {"points", std::move(points)}};
 }
 
@@ -156,8 +169,8 @@ void timing_table(const std::vector<ReportTiming>& timings, std::string& html) {
       "<section><h2>What a frame costs</h2><table><thead><tr><th></th><th>median "
       "<small>ms</small></th><th>99 % <small>ms</small></th><th>n</th></tr></thead><tbody>";
   for (const ReportTiming& timing : timings) {
-    const auto at = [&timing](double share) {
-      const auto value = quantile(timing.ms, share);
+    const auto at = [&timing](double fraction) {
+      const auto value = quantile(timing.ms, fraction);
       return value ? html_number(*value, 2) : std::string("\u2013");
     };
     html += "<tr><th scope=row>" + html_escaped(timing.name) + "</th><td>" + at(0.5) + "</td><td>" +
@@ -168,11 +181,15 @@ void timing_table(const std::vector<ReportTiming>& timings, std::string& html) {
 
 json plots_json(const ReportContent& content) {
   std::vector<ReportPlot> plots = content.plots;
-  if (!content.timings.empty()) plots.push_back(timing_plot(content.timings));
+  if (!content.timings.empty()) {
+    plots.push_back(timing_plot(content.timings));
+  }
   json out = json::array();
   for (const ReportPlot& plot : plots) {
     json curves = json::array();
-    for (const ReportCurve& curve : plot.curves) curves.push_back(curve_json(curve));
+    for (const ReportCurve& curve : plot.curves) {
+      curves.push_back(curve_json(curve));
+    }
     out.push_back({{"title", plot.title},
                    {"x", plot.x_axis},
                    {"y", plot.y_axis},
@@ -185,28 +202,34 @@ json plots_json(const ReportContent& content) {
 /// What the page's script draws as bars: every screw with its errors, beside the published rows.
 json error_bars(const json& report) {
   json rows = json::array();
-  for (const PaperRow& row : kPaperTable)
-    if (row.per_screw)
+  for (const PaperRow& row : kPaperTable) {
+    if (row.per_screw) {
       rows.push_back({{"name", row.name},
                       {"unit", row.unit},
                       {"key", row.key},
                       {"mean", row.mean},
                       {"sd", row.sd}});
+    }
+  }
   json screws = json::array();
-  for (const json& level : report["levels"])
+  for (const json& level : report["levels"]) {
     for (json screw : level.value("screws", json::array())) {
-      if (!screw.contains("angle_error_deg")) continue;
+      if (!screw.contains("angle_error_deg")) {
+        continue;
+      }
       screw["name"] = text_of(level, "label") + " " + text_of(screw, "side");
       screws.push_back(std::move(screw));
     }
+  }
   return {{"rows", std::move(rows)}, {"screws", std::move(screws)}};
 }
 
 /// JSON as the text of a script element: "</script>" inside a name must not end it.
 std::string script_json(const json& value) {
   std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3)
+  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) {
     text.replace(at, 2, "<\\/");
+  }
   return text;
 }
 
@@ -215,8 +238,9 @@ std::string script_json(const json& value) {
 Result<std::string> report_html(const ReportContent& content) {
   const json report = json::parse(content.report_json, nullptr, false);
   if (report.is_discarded() || !report.is_object() || !report.contains("levels") ||
-      !report["levels"].is_array())
+      !report["levels"].is_array()) {
     return Error{"report: the figures are no report of this program (\"levels\" is missing)"};
+  }
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
       "report</title><meta name=viewport content=\"width=device-width\"><style>";
@@ -228,20 +252,27 @@ Result<std::string> report_html(const ReportContent& content) {
       "</b></p></header><main>";
   table_against_paper(report, html);
   html += "<ul class=notes>";
-  if (const std::string why = text_of(report, "why_not"); !why.empty())
+  if (const std::string why = text_of(report, "why_not"); !why.empty()) {
     html += "<li><b>The operation did not come to its end</b>: " + html_escaped(why) + "</li>";
-  for (const std::string& note : content.notes) html += "<li>" + html_escaped(note) + "</li>";
+  }
+  for (const std::string& note : content.notes) {
+    html += "<li>" + html_escaped(note) + "</li>";
+  }
   html += "</ul>";
   table_of_levels(report, html);
   for (const RegisteredLevel& level : content.registrations) {
     const auto section = registration_section(level);
-    if (!section) return section;
+    if (!section) {
+      return section;
+    }
     html += *section;
   }
   html += "<section id=plots><h2>Errors and readings</h2><div class=plots></div></section>";
   rod_and_frames(report, html);
   pictures_and_video(content, html);
-  if (!content.timings.empty()) timing_table(content.timings, html);
+  if (!content.timings.empty()) {
+    timing_table(content.timings, html);
+  }
   html += "</main><script type=\"application/json\" id=plot-data>" +
           script_json(plots_json(content)) +
           "</script><script type=\"application/json\" id=error-data>" +

@@ -10,16 +10,23 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void put_mm(Json& object, const char* key, const std::optional<double>& metres) {
-  if (metres) object[key] = *metres * 1e3;
+  if (metres) {
+    object[key] = *metres * 1e3;
+  }
 }
 
-void put_quantile(Json& object, const char* key, const std::vector<double>& values, double share) {
-  if (const auto value = quantile(values, share)) object[key] = *value;
+void put_quantile(Json& object, const char* key, const std::vector<double>& values,
+                  double fraction) {
+  if (const auto value = quantile(values, fraction)) {
+    object[key] = *value;
+  }
 }
 
 Json screw_json(const ScrewOutcome& screw) {
   Json out{{"side", name_of(screw.side)}};
-  if (screw.angle_error_rad) out["angle_error_deg"] = degrees(*screw.angle_error_rad);
+  if (screw.angle_error_rad) {
+    out["angle_error_deg"] = degrees(*screw.angle_error_rad);
+  }
   put_mm(out, "entry_error_mm", screw.entry_error_m);
   return out;
 }
@@ -29,13 +36,22 @@ Json level_json(const LevelOutcome& level) {
   put_mm(out, "rmse_mm", level.rmse_m);
   put_mm(out, "tre_mm", level.tre_m);
   put_mm(out, "predicted_tre_mm", level.predicted_tre_m);
-  if (level.points) out["points"] = *level.points;
-  if (level.digitization_s) out["digitization_s"] = *level.digitization_s;
-  for (const double distance : level.check_points_m)
+  if (level.points) {
+    out["points"] = *level.points;
+  }
+  if (level.digitization_s) {
+    out["digitization_s"] = *level.digitization_s;
+  }
+  for (const double distance : level.check_points_m) {
     out["check_points_mm"].push_back(distance * 1e3);
-  if (level.registered) out["registration"] = registration_json(*level.registered, {});
+  }
+  if (level.registered) {
+    out["registration"] = registration_json(*level.registered, {});
+  }
   out["screws"] = Json::array();
-  for (const ScrewOutcome& screw : level.screws) out["screws"].push_back(screw_json(screw));
+  for (const ScrewOutcome& screw : level.screws) {
+    out["screws"].push_back(screw_json(screw));
+  }
   return out;
 }
 
@@ -56,16 +72,27 @@ Json rods_json(const std::vector<RodOutcome>& rods) {
   int heads = 0;
   std::optional<double> worst;
   for (const RodOutcome& rod : rods) {
-    if (rod.length_m) length += *rod.length_m, ++lengths;
-    if (rod.head_error_m) head += *rod.head_error_m, ++heads;
-    if (rod.length_error_m && (!worst || std::abs(*rod.length_error_m) > std::abs(*worst)))
+    if (rod.length_m) {
+      length += *rod.length_m, ++lengths;
+    }
+    if (rod.head_error_m) {
+      head += *rod.head_error_m, ++heads;
+    }
+    if (rod.length_error_m && (!worst || std::abs(*rod.length_error_m) > std::abs(*worst))) {
       worst = rod.length_error_m;
+    }
   }
-  if (lengths > 0) out["length_mm"] = length / lengths * 1e3;
+  if (lengths > 0) {
+    out["length_mm"] = length / lengths * 1e3;
+  }
   put_mm(out, "length_error_mm", worst);
-  if (heads > 0) out["head_error_mm"] = head / heads * 1e3;
+  if (heads > 0) {
+    out["head_error_mm"] = head / heads * 1e3;
+  }
   out["sides"] = Json::array();
-  for (const RodOutcome& rod : rods) out["sides"].push_back(one_rod_json(rod));
+  for (const RodOutcome& rod : rods) {
+    out["sides"].push_back(one_rod_json(rod));
+  }
   return out;
 }
 
@@ -85,12 +112,18 @@ std::string text_of(const Json& document) {
 
 std::string report_json(const OperationResult& result) {
   Json out{{"method", result.method}};
-  if (result.seed) out["seed"] = *result.seed;
+  if (result.seed) {
+    out["seed"] = *result.seed;
+  }
   out["case"] = result.case_name;
   out["completed"] = result.completed;
-  if (!result.why_not.empty()) out["why_not"] = result.why_not;
+  if (!result.why_not.empty()) {
+    out["why_not"] = result.why_not;
+  }
   out["levels"] = Json::array();
-  for (const LevelOutcome& level : result.levels) out["levels"].push_back(level_json(level));
+  for (const LevelOutcome& level : result.levels) {
+    out["levels"].push_back(level_json(level));
+  }
   out["rod"] = rods_json(result.rods);
   out["frames"] = Json{{"displayed", result.loop.displayed}};
   put_quantile(out["frames"], "median_ms", result.loop.intervals_ms, 0.5);

@@ -10,23 +10,26 @@ namespace {
 
 std::size_t samples_in(std::span<const nav::Region> regions) {
   std::size_t count = 0;
-  for (const nav::Region& region : regions) count += region.samples.size();
+  for (const nav::Region& region : regions) {
+    count += region.samples.size();
+  }
   return count;
 }
 
 }  // namespace
 
 Coaching coaching_from(const nav::Registration& registration) {
-  const nav::BestRegistrationOptions limits;
+  const nav::PoseSearchRegistrationOptions limits;
   Coaching coaching;
-  coaching.unique = registration.margin >= limits.min_margin;
+  coaching.unique = registration.log_likelihood_ratio >= limits.min_log_likelihood_ratio;
   coaching.enough = registration.accepted;
   coaching.expected_m = registration.predicted_tre_m;
   coaching.advice = registration.advice;
   // A small error to expect is no comfort where something else stands against it.
   if (coaching.unique && !coaching.enough && coaching.expected_m <= limits.max_predicted_tre_m &&
-      !registration.reasons.empty())
+      !registration.reasons.empty()) {
     coaching.advice = registration.reasons.front();
+  }
   return coaching;
 }
 
@@ -40,12 +43,16 @@ std::string text_of(const Coaching& coaching) {
   } else {
     out = in_mm(coaching.expected_m) + " expected";
   }
-  if (coaching.enough) return out + ", enough to register";
+  if (coaching.enough) {
+    return out + ", enough to register";
+  }
   return coaching.advice.empty() ? out : out + ", " + coaching.advice;
 }
 
 void Coach::step(const OperatedLevel& level, std::span<const nav::Region> regions) {
-  if (pairs_left_ > 0 && --pairs_left_ == 0) take_answer();
+  if (pairs_left_ > 0 && --pairs_left_ == 0) {
+    take_answer();
+  }
   const std::size_t samples = samples_in(regions);
   if (samples < kFewestSamples) {
     // What was told may have been told of strokes that are deleted by now.
@@ -59,7 +66,9 @@ void Coach::step(const OperatedLevel& level, std::span<const nav::Region> region
 }
 
 void Coach::forget() {
-  if (std::exchange(pairs_left_, 0) > 0) worker_.wait();
+  if (std::exchange(pairs_left_, 0) > 0) {
+    worker_.wait();
+  }
   asked_samples_ = 0;
   newest_.reset();
 }
@@ -67,8 +76,11 @@ void Coach::forget() {
 void Coach::start(const OperatedLevel& level, std::span<const nav::Region> regions) {
   level_ = &level;
   points_.clear();
-  for (const nav::Region& region : regions)
-    for (const nav::Sample& sample : region.samples) points_.push_back(sample.tip_in_world);
+  for (const nav::Region& region : regions) {
+    for (const nav::Sample& sample : region.samples) {
+      points_.push_back(sample.tip_in_world);
+    }
+  }
   pairs_left_ = kPairsToAnswer;
   worker_.start([](void* coach) { static_cast<Coach*>(coach)->run(); }, this);
 }

@@ -69,7 +69,7 @@ struct RodState {
 struct ToolSight {
   std::string name;
   nav::ToolRole role = nav::ToolRole::kPointer;
-  Origin origin = Origin::kLost;
+  PoseStatus status = PoseStatus::kLost;
 };
 
 /// The tool against the selected screw.
@@ -120,7 +120,7 @@ struct Guidance {
   std::span<const float> residuals_m;
   /// One a vertex of the level's model: 1 where a pointer could have stroked and none did, 0 where
   /// the bone was stroked or can't be; empty without a registration to be verified.
-  std::span<const float> bare;
+  std::span<const float> unstroked;
   /// Places of the current level that are still to be touched to verify it.
   std::span<const Point<World>> to_check;
 };

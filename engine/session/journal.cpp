@@ -20,23 +20,27 @@ Json entry(std::int64_t file_ticks, Timestamp time, const char* what) {
 
 /// Row-major, translation in mm.
 Json matrix_mm(std::array<double, 16> m) {
-  for (const std::size_t i : {3u, 7u, 11u}) m[i] *= 1e3;
+  for (const std::size_t i : {3u, 7u, 11u}) {
+    m[i] *= 1e3;
+  }
   return m;
 }
 
 /// What the method `best` says of a registration besides. What has no bound becomes null.
 void put_judgement(Json& line, const nav::Registration& result) {
   line["noise_mm"] = result.noise_m * 1e3;
-  line["inlier_share"] = result.inlier_share;
+  line["inlier_share"] = result.inlier_fraction;
   line["effective_points"] = result.effective_points;
-  line["coverage_share"] = result.coverage_share;
-  line["swept_share"] = result.swept_share;
-  line["margin"] = result.margin;
+  line["coverage_share"] = result.coverage_fraction;
+  line["swept_share"] = result.shaft_collision_fraction;
+  line["margin"] = result.log_likelihood_ratio;
   line["expected_tre_mm"] = result.predicted_tre_m * 1e3;
   line["tre_95_mm"] = result.tre_95_m * 1e3;
   line["weakest"] = result.weakest;
   line["advice"] = result.advice;
-  if (!result.fits_better.empty()) line["fits_better"] = result.fits_better;
+  if (!result.fits_better.empty()) {
+    line["fits_better"] = result.fits_better;
+  }
 }
 
 /// Labels come from files: bytes that are no UTF-8 must not end the journal. A line is out of this
@@ -50,9 +54,13 @@ void write_line(std::ostream& out, const Json& line) {
 Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
                                                  const JournalHeader& header) {
   auto file = AtomicFile::create(path);
-  if (!file) return file.error();
+  if (!file) {
+    return file.error();
+  }
   std::ofstream out(file->temporary_path(), std::ios::binary);
-  if (!out) return Error{path + ": can't be written"};
+  if (!out) {
+    return Error{path + ": can't be written"};
+  }
   write_line(out, Json{{"format", "orthonav session"},
                        {"format_version", 1},
                        {"orthonav", header.version},
@@ -71,7 +79,9 @@ Status Journal::finish(const std::string& reason) {
     write_line(out_, line);
   }
   out_.close();
-  if (out_.fail()) return Error{file_.final_path() + ": not every line could be written"};
+  if (out_.fail()) {
+    return Error{file_.final_path() + ": not every line could be written"};
+  }
   return file_.commit();
 }
 
@@ -98,17 +108,25 @@ void Journal::registered(Timestamp time, const LevelState& level, const nav::Reg
   line["level"] = level.plan.label;
   line["attempt"] = level.attempts;
   line["accepted"] = reason.empty();
-  if (!reason.empty()) line["reason"] = reason;
+  if (!reason.empty()) {
+    line["reason"] = reason;
+  }
   if (result) {
     line["points"] = result->points;
     line["rmse_mm"] = result->rmse_m * 1e3;
     line["runner_up_rmse_mm"] = result->runner_up_rmse_m * 1e3;
     line["world_from_vertebra_mm"] = matrix_mm(result->world_from_vertebra.row_major());
-    if (result->tre_95_m > 0.0) put_judgement(line, *result);
+    if (result->tre_95_m > 0.0) {
+      put_judgement(line, *result);
+    }
   }
-  if (!level.warning.empty()) line["warning"] = level.warning;
+  if (!level.warning.empty()) {
+    line["warning"] = level.warning;
+  }
   // Infinite, that is without a bound, becomes null.
-  if (reason.empty()) line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
+  if (reason.empty()) {
+    line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
+  }
   write_line(out_, line);
 }
 
@@ -165,9 +183,10 @@ void Journal::rod_done(Timestamp time, const RodState& rod) {
   if (rod.rod) {
     line["length_mm"] = rod.rod->length_m * 1e3;
     Json bends = Json::array();
-    for (const nav::RodBend& bend : rod.rod->bends)
+    for (const nav::RodBend& bend : rod.rod->bends) {
       bends.push_back(
           Json{{"arc_length_mm", bend.arc_length_m * 1e3}, {"angle_deg", degrees(bend.angle_rad)}});
+    }
     line["bends"] = bends;
   }
   write_line(out_, line);

@@ -4,11 +4,11 @@ namespace orthonav::engine {
 namespace {
 
 Result<nav::Registration> by_paper(const RegistrationRequest& request) {
-  return nav::register_paper(request.model, request.points_in_world);
+  return nav::register_by_principal_axes(request.model, request.points_in_world);
 }
 
-Result<nav::Registration> by_best(const RegistrationRequest& request) {
-  nav::BestRegistrationOptions options;
+Result<nav::Registration> by_pose_search(const RegistrationRequest& request) {
+  nav::PoseSearchRegistrationOptions options;
   options.tip_radius_m = request.tip_radius_m;
   options.point_sd_m.assign(request.point_sd_m.begin(), request.point_sd_m.end());
   options.shafts.assign(request.shafts.begin(), request.shafts.end());
@@ -16,9 +16,10 @@ Result<nav::Registration> by_best(const RegistrationRequest& request) {
     options.targets.push_back(screw.entry);
     options.targets.push_back(screw.target);
   }
-  for (const NeighbouringLevel& level : request.neighbours)
+  for (const NeighbouringLevel& level : request.neighbours) {
     options.neighbours.push_back({level.label, level.model.get()});
-  return nav::register_best(request.model, request.points_in_world, options);
+  }
+  return nav::register_by_pose_search(request.model, request.points_in_world, options);
 }
 
 Error unknown(const std::string& name) {
@@ -28,16 +29,23 @@ Error unknown(const std::string& name) {
 }  // namespace
 
 Result<Registrar> registrar_named(const std::string& name) {
-  if (name == "best") return Registrar(&by_best);
-  if (name == "paper") return Registrar(&by_paper);
+  if (name == "best") {
+    return Registrar(&by_pose_search);
+  }
+  if (name == "paper") {
+    return Registrar(&by_paper);
+  }
   return unknown(name);
 }
 
 Result<Method> method_named(const std::string& name) {
-  if (name == "best")
-    return Method{name, &nav::create_best_tracker, &by_best, Verification::kByTouch, true};
-  if (name == "paper")
-    return Method{name, &nav::create_paper_tracker, &by_paper, Verification::kByEye, false};
+  if (name == "best") {
+    return Method{name, &nav::create_photometric_tracker, &by_pose_search, Verification::kByTouch,
+                  true};
+  }
+  if (name == "paper") {
+    return Method{name, &nav::create_corner_tracker, &by_paper, Verification::kByEye, false};
+  }
   return unknown(name);
 }
 

@@ -14,37 +14,57 @@ class ObserverList : public SessionObserver {
   explicit ObserverList(std::vector<SessionObserver*> observers)
       : observers_(std::move(observers)) {}
   void add(SessionObserver* observer) {
-    if (observer) observers_.push_back(observer);
+    if (observer) {
+      observers_.push_back(observer);
+    }
   }
 
   void happened(Timestamp time, Step from, Event event, Cell answer) override {
-    for (auto* o : observers_) o->happened(time, from, event, answer);
+    for (auto* o : observers_) {
+      o->happened(time, from, event, answer);
+    }
   }
   void not_understood(const Phrase& phrase) override {
-    for (auto* o : observers_) o->not_understood(phrase);
+    for (auto* o : observers_) {
+      o->not_understood(phrase);
+    }
   }
   void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
                   const std::string& reason) override {
-    for (auto* o : observers_) o->registered(time, level, result, reason);
+    for (auto* o : observers_) {
+      o->registered(time, level, result, reason);
+    }
   }
   void check_point_recorded(Timestamp time, const LevelState& level) override {
-    for (auto* o : observers_) o->check_point_recorded(time, level);
+    for (auto* o : observers_) {
+      o->check_point_recorded(time, level);
+    }
   }
   void check_point_dropped(Timestamp time, const LevelState& level) override {
-    for (auto* o : observers_) o->check_point_dropped(time, level);
+    for (auto* o : observers_) {
+      o->check_point_dropped(time, level);
+    }
   }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* last) override {
-    for (auto* o : observers_) o->screw_done(time, level, screw, last);
+    for (auto* o : observers_) {
+      o->screw_done(time, level, screw, last);
+    }
   }
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override {
-    for (auto* o : observers_) o->head_recorded(time, side, head);
+    for (auto* o : observers_) {
+      o->head_recorded(time, side, head);
+    }
   }
   void head_dropped(Timestamp time, nav::Side side) override {
-    for (auto* o : observers_) o->head_dropped(time, side);
+    for (auto* o : observers_) {
+      o->head_dropped(time, side);
+    }
   }
   void rod_done(Timestamp time, const RodState& rod) override {
-    for (auto* o : observers_) o->rod_done(time, rod);
+    for (auto* o : observers_) {
+      o->rod_done(time, rod);
+    }
   }
 
  private:

@@ -158,7 +158,7 @@ class Session {
   std::size_t rod_ = 0;
   bool rods_moved_away_ = false;
   bool twin_ = false;
-  std::vector<float> bare_;
+  std::vector<float> unstroked_;
   std::vector<float> residuals_m_;             ///< of the points of the registration to be verified
   std::vector<Point<World>> places_to_check_;  ///< on the level to be verified
   std::vector<Point<World>> to_check_;         ///< of them those that were not touched yet

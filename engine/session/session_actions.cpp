@@ -53,7 +53,9 @@ void Session::act_on_regions(Action action, Timestamp time) {
   switch (action) {
     case Action::kStartSampling:
       digitizer_.press(time);
-      if (!level().first_press) level().first_press = time;
+      if (!level().first_press) {
+        level().first_press = time;
+      }
       return;
     case Action::kStopSampling:
       digitizer_.release(time);
@@ -84,8 +86,8 @@ void Session::act_on_level(Action action, Timestamp time) {
       verify_visible_at_.reset();
       level().check_points.clear();
       measure_residuals();
-      bare_ = nav::left_bare(*level().plan.model, level().registration->world_from_vertebra,
-                             level().newest->points);
+      unstroked_ = nav::unstroked_surface(
+          *level().plan.model, level().registration->world_from_vertebra, level().newest->points);
       propose_checks();
       end_touch();
       return;
@@ -97,7 +99,9 @@ void Session::act_on_level(Action action, Timestamp time) {
       level().predicted.clear();
       level().check_points.clear();
       level().accepted = false;
-      if (coach_) coach_->forget();
+      if (coach_) {
+        coach_->forget();
+      }
       level().first_press.reset();
       // Wires driven on a registration that is thrown away are not undone; what was done stays.
       digitizer_.clear();
@@ -128,14 +132,18 @@ void Session::begin_level() {
   level_ = open == levels_.end() ? 0 : static_cast<std::size_t>(open - levels_.begin());
   screw_ = 0;
   digitizer_.clear();
-  if (coach_) coach_->forget();
+  if (coach_) {
+    coach_->forget();
+  }
   last_guidance_.reset();
 }
 
 void Session::drop_region(Timestamp time) {
   std::optional<nav::Region> gone = digitizer_.drop();
   const bool asked = std::exchange(asked_to_drop_saved_, std::nullopt) >= time - kSaidTwiceWithin;
-  if (!gone && asked) gone = digitizer_.drop_saved();
+  if (!gone && asked) {
+    gone = digitizer_.drop_saved();
+  }
   if (gone) {
     // It fades instead of vanishing.
     dropped_ = {std::move(*gone), time};
@@ -161,20 +169,26 @@ void Session::try_registration(Timestamp time) {
   ++now.attempts;
   now.warning = tag_size_warning();
   // The trial under way has lost its use, and this one shall have the machine to itself.
-  if (coach_) coach_->forget();
+  if (coach_) {
+    coach_->forget();
+  }
   const std::vector<Point<World>> points = digitizer_.saved_points();
   const std::vector<double> sds_m = digitizer_.saved_point_sds_m();
   const std::vector<Vec3> shafts = digitizer_.saved_shafts();
   const auto result = method_.registrar(
       {*now.plan.model, points, now.plan.screws, now.plan.neighbours, sds_m, shafts});
   now.newest.reset();
-  if (result) now.newest = RegistrationAttempt{points, *result};
+  if (result) {
+    now.newest = RegistrationAttempt{points, *result};
+  }
   std::string reason;
   if (!result) {
     reason = result.error().message;
   } else if (!result->accepted) {
     reason = joined(result->reasons);
-    if (reason.empty()) reason = "registration not accepted";
+    if (reason.empty()) {
+      reason = "registration not accepted";
+    }
   }
   if (reason.empty()) {
     now.registration = *result;
@@ -183,7 +197,9 @@ void Session::try_registration(Timestamp time) {
   } else {
     refuse_registration(reason, result ? &*result : nullptr, time);
   }
-  if (observer_) observer_->registered(time, now, result ? &*result : nullptr, reason);
+  if (observer_) {
+    observer_->registered(time, now, result ? &*result : nullptr, reason);
+  }
   handle(reason.empty() ? Event::kRegistered : Event::kRegistrationRefused, time);
 }
 
@@ -191,24 +207,30 @@ void Session::try_registration(Timestamp time) {
 void Session::refuse_registration(const std::string& reason, const nav::Registration* result,
                                   Timestamp time) {
   std::string advice;
-  if (result) advice = result->fits_better.empty() ? result->advice : "make sure of the level";
+  if (result) {
+    advice = result->fits_better.empty() ? result->advice : "make sure of the level";
+  }
   say("refused: " + reason + (advice.empty() ? "" : "; " + advice), time);
-  if (result && coach_) coach_->tell(coaching_from(*result), digitizer_.saved_count());
+  if (result && coach_) {
+    coach_->tell(coaching_from(*result), digitizer_.saved_count());
+  }
 }
 
 void Session::finish_screw(Timestamp time) {
   LevelState& now = level();
   now.screw_done[screw_] = true;
-  if (observer_)
+  if (observer_) {
     observer_->screw_done(time, now, now.plan.screws[screw_],
                           last_guidance_ ? &*last_guidance_ : nullptr);
+  }
   const auto finished = [](const LevelState& state) { return state.finished(); };
-  if (!finished(now))
+  if (!finished(now)) {
     handle(Event::kAnotherScrew, time);
-  else if (!std::all_of(levels_.begin(), levels_.end(), finished))
+  } else if (!std::all_of(levels_.begin(), levels_.end(), finished)) {
     handle(Event::kAnotherLevel, time);
-  else
+  } else {
     handle(Event::kNoScrewLeft, time);
+  }
 }
 
 }  // namespace orthonav::engine

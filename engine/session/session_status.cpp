@@ -56,21 +56,29 @@ void Session::write_step_text() {
 
 /// The loss of the tool comes first: no message may cover it.
 void Session::write_detail() {
-  if (guidance_.frame_time >= message_until_) message_.clear();
-  if (guidance_.frame_time >= heard_until_) heard_.clear();
+  if (guidance_.frame_time >= message_until_) {
+    message_.clear();
+  }
+  if (guidance_.frame_time >= heard_until_) {
+    heard_.clear();
+  }
   guidance_.heard = heard_;
   guidance_.detail.clear();
   const auto tool = active_tool();
   const bool lost = tool && seen_ != Seen::kMeasured && seen_ != Seen::kNever;
-  if (lost) guidance_.detail = tracker_->tools()[*tool].name + " lost";
+  if (lost) {
+    guidance_.detail = tracker_->tools()[*tool].name + " lost";
+  }
   const std::string warning = lost ? std::string() : tag_size_warning();
-  if (!warning.empty()) guidance_.detail = warning;
+  if (!warning.empty()) {
+    guidance_.detail = warning;
+  }
   const bool taken = lost || !warning.empty();
-  if (!message_.empty())
+  if (!message_.empty()) {
     guidance_.detail += (taken ? "; " : "") + message_;
-  else if (!taken)
+  } else if (!taken) {
     write_state_of_step();
-  else if (checks_by_touch()) {
+  } else if (checks_by_touch()) {
     // What is to be touched counts on beside a warning that stays.
     guidance_.detail += "; ";
     write_what_to_check();
@@ -85,9 +93,10 @@ void Session::write_what_to_check() {
   const auto& points = level().check_points;
   const nav::CheckVerdict verdict = nav::verdict_on(points, options_.check_points);
   std::string& out = guidance_.detail;
-  if (!points.empty() && points.back().within)
+  if (!points.empty() && points.back().within) {
     out += "check point " + std::to_string(points.size()) + ": " +
            millimetres(points.back().distance_m, 1) + " off; ";
+  }
   out += verdict.passed ? "checked, worst " + millimetres(verdict.worst_m, 1) : verdict.advice;
 }
 
@@ -95,11 +104,13 @@ void Session::write_what_to_check() {
 std::string Session::tag_size_warning() const {
   const auto tool = active_tool();
   const auto size = tool ? tracker_->tag_size(*tool) : std::nullopt;
-  if (!size || !size->disagrees) return {};
+  if (!size || !size->disagrees) {
+    return {};
+  }
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), "%s: tag %.1f %% %s than stated, check print and unit",
-                tracker_->tools()[*tool].name.c_str(), 100.0 * std::abs(size->share),
-                size->share > 0.0 ? "larger" : "smaller");
+                tracker_->tools()[*tool].name.c_str(), 100.0 * std::abs(size->fraction),
+                size->fraction > 0.0 ? "larger" : "smaller");
   return text.data();
 }
 
@@ -108,9 +119,13 @@ void Session::write_state_of_step() {
   const auto& registration = level().registration;
   if (step_ == Step::kDigitize) {
     std::size_t points = 0;
-    for (const nav::Region& region : digitizer_.regions()) points += region.samples.size();
+    for (const nav::Region& region : digitizer_.regions()) {
+      points += region.samples.size();
+    }
     out = std::to_string(points) + " points";
-    if (coach_ && coach_->newest()) out += " | " + text_of(*coach_->newest());
+    if (coach_ && coach_->newest()) {
+      out += " | " + text_of(*coach_->newest());
+    }
   } else if (checks_by_touch() && registration) {
     out = millimetres(nav::worst_m(level().predicted), 1) + " expected; ";
     write_what_to_check();

@@ -76,21 +76,31 @@ void Session::end_touch() {
 
 Result<Point<World>> Session::touched_place(Timestamp time) const {
   // The press fell into another step, or another rod.
-  if (!touch_begun_) return Error{"press again"};
+  if (!touch_begun_) {
+    return Error{"press again"};
+  }
   if (touch_.empty()) {
     // A click shorter than a frame: the pose of the pair just before it.
     const ToolWatch& pointer = watches_[pointer_];
-    if (!pointer.fresh(time, options_.stale_after)) return Error{"pointer not seen"};
+    if (!pointer.fresh(time, options_.stale_after)) {
+      return Error{"pointer not seen"};
+    }
     return pointer.last_measured_pose().value * tracker_->tools()[pointer_].tip_in_marker;
   }
   const auto count = static_cast<double>(touch_.size());
   Vec3 sum{};
-  for (const Point<World>& tip : touch_) sum += tip.v;
+  for (const Point<World>& tip : touch_) {
+    sum += tip.v;
+  }
   const Vec3 mean = sum / count;
   double squares = 0.0;
-  for (const Point<World>& tip : touch_) squares += (tip.v - mean).dot(tip.v - mean);
+  for (const Point<World>& tip : touch_) {
+    squares += (tip.v - mean).dot(tip.v - mean);
+  }
   const double spread_m = std::sqrt(squares / count);
-  if (spread_m <= options_.max_touch_spread_m) return Point<World>{mean};
+  if (spread_m <= options_.max_touch_spread_m) {
+    return Point<World>{mean};
+  }
   return Error{"tip moved " + in_mm(spread_m) + ", limit " + in_mm(options_.max_touch_spread_m)};
 }
 
@@ -111,7 +121,9 @@ void Session::measure_residuals() {
     const std::size_t first = i - std::min(i, kStretch);
     const std::size_t last = std::min(i + kStretch + 1, each_m.size());
     float sum = 0.0f;
-    for (std::size_t k = first; k < last; ++k) sum += each_m[k];
+    for (std::size_t k = first; k < last; ++k) {
+      sum += each_m[k];
+    }
     residuals_m_.push_back(sum / static_cast<float>(last - first));
   }
 }
@@ -119,9 +131,10 @@ void Session::measure_residuals() {
 void Session::propose_checks() {
   const LevelState& now = level();
   places_to_check_.clear();
-  if (method_.verification == Verification::kByTouch)
+  if (method_.verification == Verification::kByTouch) {
     places_to_check_ = nav::places_to_check(*now.plan.model, now.registration->world_from_vertebra,
                                             now.newest->points, options_.check_points);
+  }
   to_check_ = places_to_check_;
 }
 
@@ -139,7 +152,9 @@ void Session::record_check(Timestamp time) {
   now.check_points.push_back(nav::check_point(
       *now.plan.model, now.registration->world_from_vertebra, *place, options_.check_points));
   to_check_ = nav::still_to_check(places_to_check_, now.check_points);
-  if (observer_) observer_->check_point_recorded(time, now);
+  if (observer_) {
+    observer_->check_point_recorded(time, now);
+  }
 }
 
 void Session::drop_check(Timestamp time) {
@@ -150,7 +165,9 @@ void Session::drop_check(Timestamp time) {
   }
   now.check_points.pop_back();
   to_check_ = nav::still_to_check(places_to_check_, now.check_points);
-  if (observer_) observer_->check_point_dropped(time, now);
+  if (observer_) {
+    observer_->check_point_dropped(time, now);
+  }
 }
 
 void Session::judge_checks(Timestamp time) {
@@ -167,7 +184,9 @@ void Session::record_head(Timestamp time) {
   }
   rods_[rod_].heads.push_back(*head);
   update_rod(time);
-  if (observer_) observer_->head_recorded(time, rods_[rod_].side, *head);
+  if (observer_) {
+    observer_->head_recorded(time, rods_[rod_].side, *head);
+  }
 }
 
 void Session::drop_head(Timestamp time) {
@@ -178,27 +197,38 @@ void Session::drop_head(Timestamp time) {
   }
   rod.heads.pop_back();
   update_rod(time);
-  if (observer_) observer_->head_dropped(time, rod.side);
+  if (observer_) {
+    observer_->head_dropped(time, rod.side);
+  }
 }
 
 void Session::update_rod(Timestamp time) {
   RodState& rod = rods_[rod_];
   rod.rod.reset();
-  if (rod.heads.size() < 2) return;
+  if (rod.heads.size() < 2) {
+    return;
+  }
   std::vector<Vec3> heads;
-  for (const Point<World>& head : rod.heads) heads.push_back(head.v);
+  for (const Point<World>& head : rod.heads) {
+    heads.push_back(head.v);
+  }
   auto made = nav::rod_template(heads, options_.rod_diameter_m);
-  if (made)
+  if (made) {
     rod.rod = std::move(*made);
-  else
+  } else {
     say("no rod: " + made.error().message, time);
+  }
 }
 
 void Session::finish_rod(Timestamp time) {
-  if (observer_) observer_->rod_done(time, rods_[rod_]);
+  if (observer_) {
+    observer_->rod_done(time, rods_[rod_]);
+  }
   rods_[rod_].done = true;
   const bool another = rod_ + 1 < rods_.size();
-  if (another) ++rod_;
+  if (another) {
+    ++rod_;
+  }
   handle(another ? Event::kAnotherSide : Event::kNoSideLeft, time);
 }
 

@@ -22,13 +22,18 @@ constexpr std::array<std::pair<std::string_view, Event>, 9> kCommands = {{
 
 std::vector<std::string> spoken_commands() {
   std::vector<std::string> commands;
-  for (const auto& command : kCommands) commands.emplace_back(command.first);
+  for (const auto& command : kCommands) {
+    commands.emplace_back(command.first);
+  }
   return commands;
 }
 
 std::optional<Event> command_event(std::string_view phrase) {
-  for (const auto& [command, event] : kCommands)
-    if (command == phrase) return event;
+  for (const auto& [command, event] : kCommands) {
+    if (command == phrase) {
+      return event;
+    }
+  }
   return std::nullopt;
 }
 

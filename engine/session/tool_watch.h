@@ -12,7 +12,7 @@ class ToolWatch {
  public:
   void update(const nav::TrackedPose& world_from_marker);
   [[nodiscard]] const nav::TrackedPose& newest() const { return newest_; }
-  [[nodiscard]] bool measured_now() const { return newest_.origin == Origin::kMeasured; }
+  [[nodiscard]] bool measured_now() const { return newest_.status == PoseStatus::kMeasured; }
   [[nodiscard]] std::optional<Timestamp> last_measured() const;
   /// Measured no longer than `within` before `now`.
   [[nodiscard]] bool fresh(Timestamp now, Duration within) const;

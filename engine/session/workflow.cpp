@@ -58,8 +58,11 @@ static_assert(!kStepNames.back().empty() && !kEventNames.back().empty() &&
 /// Mermaid ends a label at a quote.
 std::string unquoted(std::string_view text) {
   std::string out;
-  for (const char c : text)
-    if (c != '"') out += c;
+  for (const char c : text) {
+    if (c != '"') {
+      out += c;
+    }
+  }
   return out;
 }
 
@@ -67,7 +70,9 @@ void append_state_diagram(std::string& out) {
   out += "```mermaid\nstateDiagram-v2\n    [*] --> setup\n";
   for (const Rule& rule : workflow_detail::kRules) {
     // What stays and does nothing would only hide the arrows that matter.
-    if (rule.action == Action::kIgnore) continue;
+    if (rule.action == Action::kIgnore) {
+      continue;
+    }
     out += "    " + std::string(name_of(rule.step)) + " --> " + std::string(name_of(rule.next)) +
            " : " + unquoted(name_of(rule.event)) + " / " + unquoted(name_of(rule.action)) + "\n";
   }
@@ -76,17 +81,22 @@ void append_state_diagram(std::string& out) {
 
 void append_table(std::string& out) {
   out += "| event |";
-  for (const auto& step : kStepNames) out += " " + std::string(step) + " |";
+  for (const auto& step : kStepNames) {
+    out += " " + std::string(step) + " |";
+  }
   out += "\n|---|";
-  for (std::size_t i = 0; i < kStepCount; ++i) out += "---|";
+  for (std::size_t i = 0; i < kStepCount; ++i) {
+    out += "---|";
+  }
   out += "\n";
   for (std::size_t e = 0; e < kEventCount; ++e) {
     out += "| " + std::string(kEventNames[e]) + " |";
     for (std::size_t s = 0; s < kStepCount; ++s) {
       const Cell cell = kWorkflow[s][e];
       out += " " + std::string(name_of(cell.action));
-      if (cell.next != static_cast<Step>(s))
+      if (cell.next != static_cast<Step>(s)) {
         out += " → **" + std::string(name_of(cell.next)) + "**";
+      }
       out += " |";
     }
     out += "\n";
@@ -98,7 +108,9 @@ void append_verify_by_eye(std::string& out) {
   out += "| event | verify |\n|---|---|\n";
   for (const Rule& rule : workflow_detail::kRulesByEye) {
     out += "| " + std::string(name_of(rule.event)) + " | " + std::string(name_of(rule.action));
-    if (rule.next != rule.step) out += " → **" + std::string(name_of(rule.next)) + "**";
+    if (rule.next != rule.step) {
+      out += " → **" + std::string(name_of(rule.next)) + "**";
+    }
     out += " |\n";
   }
 }

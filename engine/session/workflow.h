@@ -226,23 +226,35 @@ using Table = std::array<std::array<Cell, kEventCount>, kStepCount>;
 /// Every cell starts as a refusal that stays where it is; the rules overwrite theirs.
 consteval Table make_table(bool by_eye) {
   Table table{};
-  for (std::size_t step = 0; step < kStepCount; ++step)
-    for (Cell& cell : table[step]) cell = {static_cast<Step>(step), kRefuse};
+  for (std::size_t step = 0; step < kStepCount; ++step) {
+    for (Cell& cell : table[step]) {
+      cell = {static_cast<Step>(step), kRefuse};
+    }
+  }
   const auto write = [&table](const Rule& rule) {
     table[static_cast<std::size_t>(rule.step)][static_cast<std::size_t>(rule.event)] = {
         rule.next, rule.action};
   };
-  for (const Rule& rule : kRules) write(rule);
-  if (by_eye)
-    for (const Rule& rule : kRulesByEye) write(rule);
+  for (const Rule& rule : kRules) {
+    write(rule);
+  }
+  if (by_eye) {
+    for (const Rule& rule : kRulesByEye) {
+      write(rule);
+    }
+  }
   return table;
 }
 
 /// Two rules for one cell would silently hide the first.
 consteval bool rules_are_unique(const auto& rules) {
-  for (std::size_t i = 0; i < rules.size(); ++i)
-    for (std::size_t j = i + 1; j < rules.size(); ++j)
-      if (rules[i].step == rules[j].step && rules[i].event == rules[j].event) return false;
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    for (std::size_t j = i + 1; j < rules.size(); ++j) {
+      if (rules[i].step == rules[j].step && rules[i].event == rules[j].event) {
+        return false;
+      }
+    }
+  }
   return true;
 }
 static_assert(rules_are_unique(kRules) && rules_are_unique(kRulesByEye),

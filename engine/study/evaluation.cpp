@@ -6,50 +6,66 @@
 
 namespace orthonav::engine {
 
-void SimWitness::registered(Timestamp /*time*/, const LevelState& level,
-                            const nav::Registration* result, const std::string& reason) {
-  if (!reason.empty() || !result) return;
+void GroundTruthRecorder::registered(Timestamp /*time*/, const LevelState& level,
+                                     const nav::Registration* result, const std::string& reason) {
+  if (!reason.empty() || !result) {
+    return;
+  }
   const auto& levels = headset_.room().levels;
   const auto here = std::find_if(levels.begin(), levels.end(), [&](const sim::RoomLevel& l) {
     return l.label == level.plan.label;
   });
-  if (here == levels.end()) return;
+  if (here == levels.end()) {
+    return;
+  }
   const auto world_from_vertebra =
       headset_.world_from_room() * headset_.state().room_from_spine * here->spine_from_vertebra;
   std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
   registrations_.push_back({level.plan.label, result->world_from_vertebra, world_from_vertebra});
 }
 
-void SimWitness::head_recorded(Timestamp /*time*/, nav::Side side, Point<World> head) {
+void GroundTruthRecorder::head_recorded(Timestamp /*time*/, nav::Side side, Point<World> head) {
   touched_.push_back({side, headset_.world_from_room().inverse() * head});
 }
 
-void SimWitness::head_dropped(Timestamp /*time*/, nav::Side side) {
+void GroundTruthRecorder::head_dropped(Timestamp /*time*/, nav::Side side) {
   const auto last = std::find_if(touched_.rbegin(), touched_.rend(),
                                  [&](const TouchedHead& head) { return head.side == side; });
-  if (last != touched_.rend()) touched_.erase(std::next(last).base());
+  if (last != touched_.rend()) {
+    touched_.erase(std::next(last).base());
+  }
 }
 
-void SimWitness::evaluate(std::span<const LevelState> levels, OperationResult& result) const {
-  for (std::size_t i = 0; i < levels.size() && i < result.levels.size(); ++i)
+void GroundTruthRecorder::evaluate(std::span<const LevelState> levels,
+                                   OperationResult& result) const {
+  for (std::size_t i = 0; i < levels.size() && i < result.levels.size(); ++i) {
     evaluate_level(levels[i], result.levels[i]);
-  for (RodOutcome& rod : result.rods) evaluate_rod(rod);
+  }
+  for (RodOutcome& rod : result.rods) {
+    evaluate_rod(rod);
+  }
 }
 
-void SimWitness::evaluate_level(const LevelState& state, LevelOutcome& level) const {
+void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& level) const {
   for (const LevelTruth& truth : registrations_) {
-    if (truth.label != level.label || !state.registration) continue;
+    if (truth.label != level.label || !state.registration) {
+      continue;
+    }
     double sum = 0.0;
-    for (const nav::ScrewPlan& screw : state.plan.screws)
-      for (const Point<Vertebra> target : {screw.entry, screw.target})
+    for (const nav::ScrewPlan& screw : state.plan.screws) {
+      for (const Point<Vertebra> target : {screw.entry, screw.target}) {
         sum += nav::target_registration_error_m(truth.estimated, truth.truth, target);
+      }
+    }
     level.tre_m = sum / (2.0 * static_cast<double>(state.plan.screws.size()));
   }
   for (std::size_t s = 0; s < level.screws.size(); ++s) {
     ScrewOutcome& screw = level.screws[s];
     // The last wire counts: an earlier one at the same place was taken out again.
     for (const sim::DrivenWire& wire : headset_.truth().wires) {
-      if (wire.level != level.label || wire.side != name_of(screw.side)) continue;
+      if (wire.level != level.label || wire.side != name_of(screw.side)) {
+        continue;
+      }
       const nav::ScrewError error = nav::screw_error(
           state.plan.screws[s], {wire.entry, wire.direction}, state.plan.model->surface());
       screw.angle_error_rad = error.angle_rad;
@@ -58,26 +74,37 @@ void SimWitness::evaluate_level(const LevelState& state, LevelOutcome& level) co
   }
 }
 
-void SimWitness::evaluate_rod(RodOutcome& rod) const {
+void GroundTruthRecorder::evaluate_rod(RodOutcome& rod) const {
   std::vector<Vec3> true_heads;
   double sum = 0.0;
   for (const TouchedHead& touched : touched_) {
-    if (touched.side != rod.side) continue;
+    if (touched.side != rod.side) {
+      continue;
+    }
     const sim::PlacedHead* nearest = nullptr;
     for (const sim::PlacedHead& head : headset_.truth().heads) {
-      if (head.side != name_of(rod.side)) continue;
-      if (!nearest ||
-          (head.position - touched.position).norm() < (nearest->position - touched.position).norm())
+      if (head.side != name_of(rod.side)) {
+        continue;
+      }
+      if (!nearest || (head.position - touched.position).norm() <
+                          (nearest->position - touched.position).norm()) {
         nearest = &head;
+      }
     }
-    if (!nearest) return;
+    if (!nearest) {
+      return;
+    }
     true_heads.push_back(nearest->position.v);
     sum += (nearest->position - touched.position).norm();
   }
-  if (true_heads.empty()) return;
+  if (true_heads.empty()) {
+    return;
+  }
   rod.head_error_m = sum / static_cast<double>(true_heads.size());
   const auto truth = nav::rod_template(true_heads);
-  if (truth && rod.length_m) rod.length_error_m = *rod.length_m - truth->length_m;
+  if (truth && rod.length_m) {
+    rod.length_error_m = *rod.length_m - truth->length_m;
+  }
 }
 
 }  // namespace orthonav::engine

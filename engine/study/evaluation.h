@@ -13,9 +13,9 @@ namespace orthonav::engine {
 /// Looks at a session from outside, through its observer alone, and notes what was true in the
 /// simulated room at the moments that count. Nothing flows back: the session only calls it. The map
 /// drifts, so a truth in World holds at its moment only.
-class SimWitness : public SessionObserver {
+class GroundTruthRecorder : public SessionObserver {
  public:
-  explicit SimWitness(const sim::SimHeadset& headset) : headset_(headset) {}
+  explicit GroundTruthRecorder(const sim::SimHeadset& headset) : headset_(headset) {}
 
   void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
                   const std::string& reason) override;

@@ -32,7 +32,7 @@ struct OperationOptions {
 };
 
 /// What else takes part; all borrowed, all optional.
-struct OperationGuests {
+struct OperationHooks {
   std::vector<SessionObserver*> session;
   LoopObserver* loop = nullptr;
   SnapshotSink* sink = nullptr;
@@ -45,6 +45,6 @@ struct OperationGuests {
 /// same case, options and seed give the same result, whatever takes part. An Error means bad input;
 /// an operation that did not come to its end is a result with `completed` false.
 Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
-                                      const OperationGuests& guests = {});
+                                      const OperationHooks& hooks = {});
 
 }  // namespace orthonav::engine

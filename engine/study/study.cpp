@@ -25,10 +25,13 @@ struct Job {
 std::vector<Job> jobs_of(std::span<const Case> cases, const StudyOptions& options) {
   std::vector<Job> jobs;
   int number = 0;
-  for (const Case& source : cases)
-    for (int run = 0; run < options.runs; ++run, ++number)
-      if (number % options.shards == options.shard - 1)
+  for (const Case& source : cases) {
+    for (int run = 0; run < options.runs; ++run, ++number) {
+      if (number % options.shards == options.shard - 1) {
         jobs.push_back({&source, options.first_seed + static_cast<std::uint64_t>(run)});
+      }
+    }
+  }
   return jobs;
 }
 
@@ -57,13 +60,17 @@ Json table_of(const Json& runs) {
 
 std::string study_text(const std::string& method, const Json& runs, const Json& failed) {
   int completed = 0;
-  for (const Json& run : runs) completed += run.value("completed", false) ? 1 : 0;
+  for (const Json& run : runs) {
+    completed += run.value("completed", false) ? 1 : 0;
+  }
   Json study{{"method", method},
              {"operations", runs.size()},
              {"completed", completed},
              {"table", table_of(runs)},
              {"runs", runs}};
-  if (!failed.empty()) study["failed"] = failed;
+  if (!failed.empty()) {
+    study["failed"] = failed;
+  }
   return study.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -80,9 +87,13 @@ class Workers {
   Result<Study> run() {
     std::vector<std::thread> threads;
     const int count = std::min<int>(options_.jobs, static_cast<int>(jobs_.size()));
-    for (int i = 1; i < count; ++i) threads.emplace_back([this] { work(); });
+    for (int i = 1; i < count; ++i) {
+      threads.emplace_back([this] { work(); });
+    }
     work();
-    for (std::thread& thread : threads) thread.join();
+    for (std::thread& thread : threads) {
+      thread.join();
+    }
     return study();
   }
 
@@ -90,18 +101,23 @@ class Workers {
   void work() {
     while (true) {
       const std::size_t i = next_++;
-      if (i >= jobs_.size()) return;
+      if (i >= jobs_.size()) {
+        return;
+      }
       OperationOptions operation = options_.operation;
       operation.sim.seed = jobs_[i].seed;
       operation.tracker.parallel = options_.jobs < 2;
       const auto result = run_operation(*jobs_[i].source, operation);
       const std::lock_guard lock(mutex_);
-      if (result)
+      if (result) {
         reports_[i] = report_json(*result);
-      else
+      } else {
         reports_[i] = result.error();
+      }
       ++done_;
-      if (progress_) progress_(done_, static_cast<int>(jobs_.size()));
+      if (progress_) {
+        progress_(done_, static_cast<int>(jobs_.size()));
+      }
     }
   }
 
@@ -117,11 +133,14 @@ class Workers {
       const std::string& name = jobs_[i].source->name;
       const std::string& why = reports_[i].error().message;
       failed.push_back(Json{{"case", name}, {"seed", jobs_[i].seed}, {"why", why}});
-      if (!out.failure)
+      if (!out.failure) {
         out.failure =
             Error{"case '" + name + "', seed " + std::to_string(jobs_[i].seed) + ": " + why};
+      }
     }
-    if (runs.empty() && out.failure) return *out.failure;
+    if (runs.empty() && out.failure) {
+      return *out.failure;
+    }
     out.text = study_text(options_.operation.method, runs, failed);
     return out;
   }
@@ -140,30 +159,42 @@ Status append_runs(const std::string& text, const std::string& name, std::string
                    Json& failed) {
   const Json study = Json::parse(text, nullptr, false);
   if (study.is_discarded() || !study.is_object() || !study.contains("runs") ||
-      !study["runs"].is_array() || !study.contains("method") || !study["method"].is_string())
+      !study["runs"].is_array() || !study.contains("method") || !study["method"].is_string()) {
     return Error{name + ": is no study (an object with method and runs)"};
+  }
   const std::string here = study["method"];
-  if (!method.empty() && method != here)
+  if (!method.empty() && method != here) {
     return Error{name + ": method '" + here + "', the others have '" + method + "'"};
+  }
   method = here;
   for (const Json& run : study["runs"]) {
     const bool whole = run.is_object() && run.contains("case") && run["case"].is_string() &&
                        run.contains("seed") && run["seed"].is_number_unsigned() &&
                        run.contains("levels") && run["levels"].is_array();
-    if (!whole) return Error{name + ": a run lacks case, seed or levels"};
-    if (run.contains("completed") && !run["completed"].is_boolean())
+    if (!whole) {
+      return Error{name + ": a run lacks case, seed or levels"};
+    }
+    if (run.contains("completed") && !run["completed"].is_boolean()) {
       return Error{name + ": completed of a run is " + run["completed"].dump() +
                    ", must be true or false"};
-    for (const Json& level : run["levels"])
-      if (!level.is_object()) return Error{name + ": a level of a run is no object"};
+    }
+    for (const Json& level : run["levels"]) {
+      if (!level.is_object()) {
+        return Error{name + ": a level of a run is no object"};
+      }
+    }
     const std::pair key(run["case"].get<std::string>(), run["seed"].get<std::uint64_t>());
-    if (!seen.insert(key).second)
+    if (!seen.insert(key).second) {
       return Error{name + ": case '" + key.first + "' with seed " + std::to_string(key.second) +
                    " occurs twice"};
+    }
     runs.push_back(run);
   }
-  if (study.contains("failed") && study["failed"].is_array())
-    for (const Json& run : study["failed"]) failed.push_back(run);
+  if (study.contains("failed") && study["failed"].is_array()) {
+    for (const Json& run : study["failed"]) {
+      failed.push_back(run);
+    }
+  }
   return {};
 }
 
@@ -171,19 +202,28 @@ Status append_runs(const std::string& text, const std::string& name, std::string
 
 std::vector<std::string> StudyOptions::check() const {
   std::vector<std::string> problems;
-  if (runs < 1) problems.push_back("--runs " + std::to_string(runs) + ": at least 1 needed");
-  if (shards < 1 || shard < 1 || shard > shards)
+  if (runs < 1) {
+    problems.push_back("--runs " + std::to_string(runs) + ": at least 1 needed");
+  }
+  if (shards < 1 || shard < 1 || shard > shards) {
     problems.push_back("--shard " + std::to_string(shard) + "/" + std::to_string(shards) +
                        ": must be I/N with 1 <= I <= N");
-  if (jobs < 1) problems.push_back("--jobs " + std::to_string(jobs) + ": at least 1 needed");
+  }
+  if (jobs < 1) {
+    problems.push_back("--jobs " + std::to_string(jobs) + ": at least 1 needed");
+  }
   return problems;
 }
 
 Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options,
                         const std::function<void(int, int)>& progress) {
   const auto problems = options.check();
-  if (!problems.empty()) return Error{problems.front()};
-  if (cases.empty()) return Error{"study: no case"};
+  if (!problems.empty()) {
+    return Error{problems.front()};
+  }
+  if (cases.empty()) {
+    return Error{"study: no case"};
+  }
   return Workers(jobs_of(cases, options), options, progress).run();
 }
 
@@ -193,9 +233,11 @@ Result<std::string> merge_studies(std::span<const std::string> texts,
   std::set<std::pair<std::string, std::uint64_t>> seen;
   Json runs = Json::array();
   Json failed = Json::array();
-  for (std::size_t i = 0; i < texts.size(); ++i)
-    if (const Status read = append_runs(texts[i], names[i], method, seen, runs, failed); !read)
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (const Status read = append_runs(texts[i], names[i], method, seen, runs, failed); !read) {
       return read.error();
+    }
+  }
   std::stable_sort(runs.begin(), runs.end(), [](const Json& a, const Json& b) {
     const auto key = [](const Json& run) {
       return std::pair(run["case"].get<std::string>(), run["seed"].get<std::uint64_t>());

@@ -10,7 +10,9 @@ namespace orthonav {
 /// What was opened, as any headset.
 template <class T>
 Result<std::unique_ptr<Headset>> as_headset(Result<std::unique_ptr<T>> opened) {
-  if (!opened) return opened.error();
+  if (!opened) {
+    return opened.error();
+  }
   return std::unique_ptr<Headset>(std::move(opened).value());
 }
 

@@ -40,23 +40,30 @@ Vec2 undistorted(const BrownConrady& p, Vec2 pixel_px) {
     const Vec2 off = pixel_px - p.distort(u);
     const auto [by_x, by_y] = distort_jacobian(p, u);
     const double determinant = by_x.cross(by_y);
-    if (!(determinant > 0.0)) return {kUndefined, kUndefined};
+    if (!(determinant > 0.0)) {
+      return {kUndefined, kUndefined};
+    }
     const Vec2 step{off.cross(by_y) / determinant, by_x.cross(off) / determinant};
     u = u + step;
-    if (step.norm() * p.fx_px < kFinalStepPx)
+    if (step.norm() * p.fx_px < kFinalStepPx) {
       return distort_jacobian(p, u)[0].cross(distort_jacobian(p, u)[1]) > 0.0
                  ? u
                  : Vec2{kUndefined, kUndefined};
+    }
   }
   return {kUndefined, kUndefined};
 }
 
 Status checked_parameters(const BrownConrady& p) {
-  for (const double v : {p.fx_px, p.fy_px, p.cx_px, p.cy_px, p.k1, p.k2, p.p1, p.p2, p.k3})
-    if (!std::isfinite(v)) return Error{"camera parameters hold a number that is not finite"};
-  if (p.fx_px <= 0.0 || p.fy_px <= 0.0)
+  for (const double v : {p.fx_px, p.fy_px, p.cx_px, p.cy_px, p.k1, p.k2, p.p1, p.p2, p.k3}) {
+    if (!std::isfinite(v)) {
+      return Error{"camera parameters hold a number that is not finite"};
+    }
+  }
+  if (p.fx_px <= 0.0 || p.fy_px <= 0.0) {
     return Error{"camera focal length is " + std::to_string(std::min(p.fx_px, p.fy_px)) +
                  " px, must be positive"};
+  }
   return {};
 }
 

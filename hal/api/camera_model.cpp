@@ -67,12 +67,13 @@ Cell cell_at(std::span<const Vec2> lookup, int width_px, int column, int row) {
 int orientation(const Cell& cell) {
   int positive = 0;
   int negative = 0;
-  for (const double t : {0.0, 1.0})
+  for (const double t : {0.0, 1.0}) {
     for (const double s : {0.0, 1.0}) {
       const double determinant = cell.along_x(t).cross(cell.along_y(s));
       positive += determinant > 0.0 ? 1 : 0;
       negative += determinant < 0.0 ? 1 : 0;
     }
+  }
   return positive == 4 ? 1 : (negative == 4 ? -1 : 0);
 }
 
@@ -85,32 +86,41 @@ Status check_entries(int width_px, std::vector<Vec2>& lookup) {
   std::size_t valid = 0;
   for (std::size_t i = 0; i < lookup.size(); ++i) {
     Vec2& v = lookup[i];
-    if (std::isinf(v.x) || std::isinf(v.y))
+    if (std::isinf(v.x) || std::isinf(v.y)) {
       return Error{"camera look-up table holds an infinity at pixel " +
                    pixel_name(static_cast<int>(i) % width_px, static_cast<int>(i) / width_px)};
-    if (is_nan(v))
+    }
+    if (is_nan(v)) {
       v = {kNaN, kNaN};
-    else
+    } else {
       ++valid;
+    }
   }
-  if (valid == 0) return Error{"camera look-up table has no valid pixel (all NaN)"};
+  if (valid == 0) {
+    return Error{"camera look-up table has no valid pixel (all NaN)"};
+  }
   return {};
 }
 
 Status check_folds(int width_px, int height_px, std::span<const Vec2> lookup) {
   int sign = 0;
-  for (int row = 0; row + 1 < height_px; ++row)
+  for (int row = 0; row + 1 < height_px; ++row) {
     for (int column = 0; column + 1 < width_px; ++column) {
       const Cell cell = cell_at(lookup, width_px, column, row);
-      if (!cell.valid()) continue;
+      if (!cell.valid()) {
+        continue;
+      }
       const int here = orientation(cell);
-      if (here == 0 || (sign != 0 && here != sign))
+      if (here == 0 || (sign != 0 && here != sign)) {
         return Error{"camera look-up table folds over at pixel " + pixel_name(column, row) +
                      ": two pixels would see the same direction"};
+      }
       sign = here;
     }
-  if (sign == 0)
+  }
+  if (sign == 0) {
     return Error{"camera look-up table has no four neighbouring valid pixels to interpolate in"};
+  }
   return {};
 }
 
@@ -128,17 +138,23 @@ void fill_gaps(Grid& grid) {
   for (bool gaps = true; gaps;) {
     gaps = false;
     next = grid.start_px;
-    for (int row = 0; row < grid.rows; ++row)
+    for (int row = 0; row < grid.rows; ++row) {
       for (int column = 0; column < grid.columns; ++column) {
         Vec2& here = next[static_cast<std::size_t>(row * grid.columns + column)];
-        if (!is_nan(here)) continue;
+        if (!is_nan(here)) {
+          continue;
+        }
         gaps = true;
-        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, grid.rows - 1); ++y)
+        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, grid.rows - 1); ++y) {
           for (int x = std::max(column - 1, 0); x <= std::min(column + 1, grid.columns - 1); ++x) {
             const Vec2 from = grid.start_px[static_cast<std::size_t>(y * grid.columns + x)];
-            if (!is_nan(from)) here = from;
+            if (!is_nan(from)) {
+              here = from;
+            }
           }
+        }
       }
+    }
     grid.start_px.swap(next);
   }
 }
@@ -147,7 +163,9 @@ Grid build_grid(int width_px, int height_px, std::span<const Vec2> lookup) {
   Vec2 low{1e300, 1e300};
   Vec2 high{-1e300, -1e300};
   for (const Vec2 v : lookup) {
-    if (is_nan(v)) continue;
+    if (is_nan(v)) {
+      continue;
+    }
     low = {std::min(low.x, v.x), std::min(low.y, v.y)};
     high = {std::max(high.x, v.x), std::max(high.y, v.y)};
   }
@@ -157,23 +175,27 @@ Grid build_grid(int width_px, int height_px, std::span<const Vec2> lookup) {
   grid.origin = low;
   grid.step = {(high.x - low.x) / grid.columns, (high.y - low.y) / grid.rows};
   grid.start_px.assign(static_cast<std::size_t>(grid.columns * grid.rows), {kNaN, kNaN});
-  for (int row = 0; row + 1 < height_px; ++row)
+  for (int row = 0; row + 1 < height_px; ++row) {
     for (int column = 0; column + 1 < width_px; ++column) {
       const Cell cell = cell_at(lookup, width_px, column, row);
-      if (!cell.valid()) continue;
+      if (!cell.valid()) {
+        continue;
+      }
       const Vec2 v = cell.a;
       const int x = std::clamp(static_cast<int>((v.x - low.x) / grid.step.x), 0, grid.columns - 1);
       const int y = std::clamp(static_cast<int>((v.y - low.y) / grid.step.y), 0, grid.rows - 1);
       grid.start_px[static_cast<std::size_t>(y * grid.columns + x)] = {column + 1.0, row + 1.0};
     }
+  }
   fill_gaps(grid);
   return grid;
 }
 
 Status check_size(int width_px, int height_px) {
-  if (width_px < 2 || height_px < 2 || width_px > kMaxSide || height_px > kMaxSide)
+  if (width_px < 2 || height_px < 2 || width_px > kMaxSide || height_px > kMaxSide) {
     return Error{"camera image is " + std::to_string(width_px) + " x " + std::to_string(height_px) +
                  " px, each side must be 2 to " + std::to_string(kMaxSide)};
+  }
   return {};
 }
 
@@ -181,15 +203,22 @@ Status check_size(int width_px, int height_px) {
 
 Result<CameraModel> CameraModel::from_lookup(int width_px, int height_px,
                                              std::vector<Vec2> unit_plane) {
-  if (Status size = check_size(width_px, height_px); !size) return size.error();
+  if (Status size = check_size(width_px, height_px); !size) {
+    return size.error();
+  }
   const std::size_t expected =
       static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
-  if (unit_plane.size() != expected)
+  if (unit_plane.size() != expected) {
     return Error{"camera look-up table has " + std::to_string(unit_plane.size()) +
                  " entries, an image of " + std::to_string(width_px) + " x " +
                  std::to_string(height_px) + " px needs " + std::to_string(expected)};
-  if (Status entries = check_entries(width_px, unit_plane); !entries) return entries.error();
-  if (Status folds = check_folds(width_px, height_px, unit_plane); !folds) return folds.error();
+  }
+  if (Status entries = check_entries(width_px, unit_plane); !entries) {
+    return entries.error();
+  }
+  if (Status folds = check_folds(width_px, height_px, unit_plane); !folds) {
+    return folds.error();
+  }
   Grid grid = build_grid(width_px, height_px, unit_plane);
   CameraModel model;
   model.width_px_ = width_px;
@@ -204,36 +233,47 @@ Result<CameraModel> CameraModel::from_lookup(int width_px, int height_px,
 }
 
 Result<CameraModel> CameraModel::from_brown_conrady(const BrownConrady& p) {
-  if (Status size = check_size(p.width_px, p.height_px); !size) return size.error();
-  if (Status parameters = checked_parameters(p); !parameters) return parameters.error();
+  if (Status size = check_size(p.width_px, p.height_px); !size) {
+    return size.error();
+  }
+  if (Status parameters = checked_parameters(p); !parameters) {
+    return parameters.error();
+  }
   std::vector<Vec2> table;
   table.reserve(static_cast<std::size_t>(p.width_px) * static_cast<std::size_t>(p.height_px));
-  for (int row = 0; row < p.height_px; ++row)
+  for (int row = 0; row < p.height_px; ++row) {
     for (int column = 0; column < p.width_px; ++column) {
       table.push_back(undistorted(p, {column + 0.5, row + 0.5}));
     }
+  }
   return from_lookup(p.width_px, p.height_px, std::move(table));
 }
 
 std::optional<Vec2> CameraModel::unproject(Vec2 pixel_px) const {
   if (!(pixel_px.x >= 0.0 && pixel_px.y >= 0.0 && pixel_px.x <= width_px_ &&
         pixel_px.y <= height_px_) ||
-      lookup_.empty())
+      lookup_.empty()) {
     return std::nullopt;
+  }
   const Place at = place_of(pixel_px, width_px_, height_px_);
   const Cell cell = cell_at(lookup_, width_px_, at.column, at.row);
-  if (cell.valid()) return cell.value(at.s, at.t);
+  if (cell.valid()) {
+    return cell.value(at.s, at.t);
+  }
   // A pixel's own centre needs no neighbour, at the rim of the valid part it may have none.
   const Vec2 own = at.s == 0.0 && at.t == 0.0 ? cell.a : Vec2{kNaN, kNaN};
   return is_nan(own) ? std::nullopt : std::optional<Vec2>(own);
 }
 
 std::optional<Vec2> CameraModel::project(Vec2 u) const {
-  if (lookup_.empty() || !std::isfinite(u.x) || !std::isfinite(u.y)) return std::nullopt;
+  if (lookup_.empty() || !std::isfinite(u.x) || !std::isfinite(u.y)) {
+    return std::nullopt;
+  }
   const double column = std::floor((u.x - grid_origin_.x) / grid_step_.x);
   const double row = std::floor((u.y - grid_origin_.y) / grid_step_.y);
-  if (column < -1.0 || row < -1.0 || column > grid_columns_ || row > grid_rows_)
+  if (column < -1.0 || row < -1.0 || column > grid_columns_ || row > grid_rows_) {
     return std::nullopt;
+  }
   const int x = std::clamp(static_cast<int>(column), 0, grid_columns_ - 1);
   const int y = std::clamp(static_cast<int>(row), 0, grid_rows_ - 1);
   Vec2 pixel = grid_start_px_[static_cast<std::size_t>(y * grid_columns_ + x)];
@@ -250,14 +290,21 @@ std::optional<Vec2> CameraModel::project(Vec2 u) const {
     const Vec2 by_x = cell.along_x(at.t);
     const Vec2 by_y = cell.along_y(at.s);
     const double determinant = by_x.cross(by_y);
-    if (determinant == 0.0) return std::nullopt;
+    if (determinant == 0.0) {
+      return std::nullopt;
+    }
     const Vec2 step{off.cross(by_y) / determinant, by_x.cross(off) / determinant};
     pixel = pixel + step;
-    if (!(std::abs(step.x) + std::abs(step.y) < 1e6)) return std::nullopt;
-    if (std::abs(step.x) + std::abs(step.y) > kNewtonStepPx) continue;
-    if (pixel.x < -kEdgePx || pixel.y < -kEdgePx || pixel.x > width_px_ + kEdgePx ||
-        pixel.y > height_px_ + kEdgePx)
+    if (!(std::abs(step.x) + std::abs(step.y) < 1e6)) {
       return std::nullopt;
+    }
+    if (std::abs(step.x) + std::abs(step.y) > kNewtonStepPx) {
+      continue;
+    }
+    if (pixel.x < -kEdgePx || pixel.y < -kEdgePx || pixel.x > width_px_ + kEdgePx ||
+        pixel.y > height_px_ + kEdgePx) {
+      return std::nullopt;
+    }
     pixel = {std::clamp(pixel.x, 0.0, static_cast<double>(width_px_)),
              std::clamp(pixel.y, 0.0, static_cast<double>(height_px_))};
     return pixel;
@@ -266,19 +313,27 @@ std::optional<Vec2> CameraModel::project(Vec2 u) const {
 }
 
 std::optional<Vec2> CameraModel::project(Vec3 in_camera_m) const {
-  if (!(in_camera_m.z > 0.0)) return std::nullopt;
+  if (!(in_camera_m.z > 0.0)) {
+    return std::nullopt;
+  }
   return project(Vec2{in_camera_m.x / in_camera_m.z, in_camera_m.y / in_camera_m.z});
 }
 
 std::optional<std::array<double, 4>> CameraModel::jacobian_px(Vec2 pixel_px) const {
-  if (!unproject(pixel_px)) return std::nullopt;
+  if (!unproject(pixel_px)) {
+    return std::nullopt;
+  }
   const Place at = place_of(pixel_px, width_px_, height_px_);
   const Cell cell = cell_at(lookup_, width_px_, at.column, at.row);
-  if (!cell.valid()) return std::nullopt;
+  if (!cell.valid()) {
+    return std::nullopt;
+  }
   const Vec2 by_x = cell.along_x(at.t);
   const Vec2 by_y = cell.along_y(at.s);
   const double determinant = by_x.cross(by_y);
-  if (determinant == 0.0) return std::nullopt;
+  if (determinant == 0.0) {
+    return std::nullopt;
+  }
   return std::array<double, 4>{by_y.y / determinant, -by_y.x / determinant, -by_x.y / determinant,
                                by_x.x / determinant};
 }

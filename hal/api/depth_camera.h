@@ -88,7 +88,9 @@ template <class Camera>
 [[nodiscard]] std::vector<DepthCamera*> borrowed(
     const std::vector<std::unique_ptr<Camera>>& cameras) {
   std::vector<DepthCamera*> all;
-  for (const auto& camera : cameras) all.push_back(camera.get());
+  for (const auto& camera : cameras) {
+    all.push_back(camera.get());
+  }
   return all;
 }
 

@@ -12,7 +12,9 @@ Status check_images(const char* what, const StereoFrame& frame,
   const auto check = [what](const char* which, const GreyImage& image, const CameraModel& camera) {
     return check_size(what, which, image, camera.width_px(), camera.height_px());
   };
-  if (Status s = check("left", frame.left, calibration.left); !s) return s;
+  if (Status s = check("left", frame.left, calibration.left); !s) {
+    return s;
+  }
   return check("right", frame.right, calibration.right);
 }
 
@@ -35,12 +37,14 @@ const char* name_of(ClickerAction action) {
 /// What every stream of events keeps: in order, and not later than asked for.
 Status check_time(const std::string& what, Timestamp time, Timestamp until,
                   std::optional<Timestamp> last) {
-  if (last && time < *last)
+  if (last && time < *last) {
     return Error{what + " at " + in_seconds(time) + " comes before the one at " +
                  in_seconds(*last)};
-  if (time > until)
+  }
+  if (time > until) {
     return Error{what + " at " + in_seconds(time) + " lies past the time asked for, " +
                  in_seconds(until)};
+  }
   return {};
 }
 
@@ -67,11 +71,18 @@ Tracked<Transform<World, Rig>> HeadTracker::world_from_rig(Timestamp at) const {
     return nothing;
   };
   const std::optional<Timestamp> newest = do_newest_measurement();
-  if (newest && at > *newest + kMaxHeadPrediction) return lost();
+  if (newest && at > *newest + kMaxHeadPrediction) {
+    return lost();
+  }
   const Tracked<Transform<World, Rig>> answer = do_world_from_rig(at);
-  if (answer.origin == Origin::kLost || answer.time != at || !is_rigid(answer.value)) return lost();
-  for (const double entry : answer.covariance)
-    if (!std::isfinite(entry)) return lost();
+  if (answer.status == PoseStatus::kLost || answer.time != at || !is_rigid(answer.value)) {
+    return lost();
+  }
+  for (const double entry : answer.covariance) {
+    if (!std::isfinite(entry)) {
+      return lost();
+    }
+  }
   return answer;
 }
 
@@ -79,27 +90,49 @@ Status ButtonState::take(ClickerAction action) {
   const char* refused = nullptr;
   switch (action) {
     case ClickerAction::kPress:
-      if (pressed) refused = "while the button is already pressed";
+      if (pressed) {
+        refused = "while the button is already pressed";
+      }
       break;
     case ClickerAction::kRelease:
-      if (!pressed) refused = "without a press";
+      if (!pressed) {
+        refused = "without a press";
+      }
       break;
     case ClickerAction::kClick:
-      if (!clickable) refused = "does not follow its release";
+      if (!clickable) {
+        refused = "does not follow its release";
+      }
       break;
     case ClickerAction::kDoubleClick:
-      if (!clickable) refused = "does not follow its release";
-      if (!after_click) refused = "does not follow a click";
+      if (!clickable) {
+        refused = "does not follow its release";
+      }
+      if (!after_click) {
+        refused = "does not follow a click";
+      }
       break;
     case ClickerAction::kHold:
-      if (!pressed) refused = "while the button is not pressed";
+      if (!pressed) {
+        refused = "while the button is not pressed";
+      }
       break;
   }
-  if (refused) return Error{std::string("clicker: ") + name_of(action) + " " + refused};
-  if (action == ClickerAction::kPress) *this = {true, false, false, clicked};
-  if (action == ClickerAction::kRelease) *this = {false, true, false, after_click};
-  if (action == ClickerAction::kClick) *this = {false, false, true, false};
-  if (action == ClickerAction::kDoubleClick) *this = {};
+  if (refused) {
+    return Error{std::string("clicker: ") + name_of(action) + " " + refused};
+  }
+  if (action == ClickerAction::kPress) {
+    *this = {true, false, false, clicked};
+  }
+  if (action == ClickerAction::kRelease) {
+    *this = {false, true, false, after_click};
+  }
+  if (action == ClickerAction::kClick) {
+    *this = {false, false, true, false};
+  }
+  if (action == ClickerAction::kDoubleClick) {
+    *this = {};
+  }
   return {};
 }
 
@@ -111,7 +144,9 @@ Status Clicker::poll(Timestamp until, std::vector<ClickerEvent>& events) {
   for (std::size_t i = before; i < events.size() && status.ok(); ++i) {
     const std::string what = std::string("clicker: ") + name_of(events[i].action);
     status = check_time(what, events[i].time, until, last);
-    if (status) status = state.take(events[i].action);
+    if (status) {
+      status = state.take(events[i].action);
+    }
     last = events[i].time;
   }
   if (!status) {
@@ -124,7 +159,9 @@ Status Clicker::poll(Timestamp until, std::vector<ClickerEvent>& events) {
 }
 
 void ClickTimer::button(bool down, Timestamp time, std::vector<ClickerEvent>& events) {
-  if (down == pressed_at_.has_value()) return;
+  if (down == pressed_at_.has_value()) {
+    return;
+  }
   if (down) {
     pressed_at_ = time;
     held_ = false;
@@ -147,7 +184,9 @@ void ClickTimer::button(bool down, Timestamp time, std::vector<ClickerEvent>& ev
 }
 
 void ClickTimer::advance(Timestamp now, std::vector<ClickerEvent>& events) {
-  if (!pressed_at_ || held_ || now - *pressed_at_ <= hold_after) return;
+  if (!pressed_at_ || held_ || now - *pressed_at_ <= hold_after) {
+    return;
+  }
   held_ = true;
   events.push_back({ClickerAction::kHold, *pressed_at_ + hold_after});
 }
@@ -159,12 +198,15 @@ Status Voice::poll(Timestamp until, std::vector<Phrase>& phrases) {
   for (std::size_t i = before; i < phrases.size() && status.ok(); ++i) {
     const Phrase& phrase = phrases[i];
     status = check_time("voice: phrase \"" + phrase.text + "\"", phrase.time, until, last);
-    if (!status) break;
-    if (phrase.text.empty())
+    if (!status) {
+      break;
+    }
+    if (phrase.text.empty()) {
       status = Error{"voice: phrase at " + in_seconds(phrase.time) + " is empty"};
-    else if (!(phrase.confidence >= 0.0 && phrase.confidence <= 1.0))
+    } else if (!(phrase.confidence >= 0.0 && phrase.confidence <= 1.0)) {
       status = Error{"voice: confidence of \"" + phrase.text + "\" is " +
                      std::to_string(phrase.confidence) + ", must lie in [0, 1]"};
+    }
     last = phrase.time;
   }
   if (!status) {
@@ -176,10 +218,13 @@ Status Voice::poll(Timestamp until, std::vector<Phrase>& phrases) {
 }
 
 Status Display::shown(const ShownFrame& frame) {
-  if (frame.display_time <= last_display_time_)
+  if (frame.display_time <= last_display_time_) {
     return Error{"display: frame for " + in_seconds(frame.display_time) +
                  " does not come after the one for " + in_seconds(last_display_time_)};
-  if (Status status = do_shown(frame); !status) return status;
+  }
+  if (Status status = do_shown(frame); !status) {
+    return status;
+  }
   last_display_time_ = frame.display_time;
   return {};
 }

@@ -14,21 +14,26 @@ bool is_rigid(const Transform<World, Rig>& pose) {
 Status FrameOrder::check(std::string_view what, Timestamp time, std::int64_t sequence,
                          std::int64_t map_epoch) const {
   const std::string name(what);
-  if (last_.time && time <= *last_.time)
+  if (last_.time && time <= *last_.time) {
     return Error{name + ": time " + in_seconds(time) + " does not come after " +
                  in_seconds(*last_.time)};
-  if (sequence <= last_.sequence)
+  }
+  if (sequence <= last_.sequence) {
     return Error{name + ": sequence number " + std::to_string(sequence) + " does not come after " +
                  std::to_string(last_.sequence)};
-  if (map_epoch < last_.map_epoch)
+  }
+  if (map_epoch < last_.map_epoch) {
     return Error{name + ": map epoch " + std::to_string(map_epoch) + " comes after " +
                  std::to_string(last_.map_epoch)};
+  }
   return {};
 }
 
 Status FrameOrder::check_pose(std::string_view what, Timestamp time,
                               const std::optional<Transform<World, Rig>>& pose) {
-  if (!pose || is_rigid(*pose)) return {};
+  if (!pose || is_rigid(*pose)) {
+    return {};
+  }
   return Error{std::string(what) + ": head pose at " + in_seconds(time) + " is not a rigid motion"};
 }
 

@@ -35,18 +35,27 @@ class FrameOrder {
   template <class Frame, class DoNext, class CheckImages>
   Result<Next> next(std::string_view what, Frame& frame, const DoNext& do_next,
                     const CheckImages& check_images) {
-    if (ended_) return Next::kEnd;
+    if (ended_) {
+      return Next::kEnd;
+    }
     Result<Next> answer = do_next();
     if (answer && *answer == Next::kFrame) {
       Status good = check(what, frame.time, frame.sequence, frame.map_epoch);
-      if (good) good = check_images();
-      if (good) good = check_pose(what, frame.time, frame.world_from_rig);
-      if (good)
+      if (good) {
+        good = check_images();
+      }
+      if (good) {
+        good = check_pose(what, frame.time, frame.world_from_rig);
+      }
+      if (good) {
         last_ = {frame.time, frame.sequence, frame.map_epoch};
-      else
+      } else {
         answer = good.error();
+      }
     }
-    if (!answer) frame.clear();
+    if (!answer) {
+      frame.clear();
+    }
     ended_ = answer && *answer == Next::kEnd;
     return answer;
   }
@@ -74,14 +83,17 @@ template <class Value>
   const std::size_t expected =
       static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   const bool fits = image.width_px == width_px && image.height_px == height_px;
-  if (fits && image.pixels.size() == expected) return {};
+  if (fits && image.pixels.size() == expected) {
+    return {};
+  }
   const std::string name = std::string(what) + ": " + std::string(which);
   const auto text = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height) + " px";
   };
-  if (!fits)
+  if (!fits) {
     return Error{name + " image is " + text(image.width_px, image.height_px) +
                  ", its calibration " + text(width_px, height_px)};
+  }
   return Error{name + " image holds " + std::to_string(image.pixels.size() * sizeof(Value)) +
                " bytes, must be " + std::to_string(expected * sizeof(Value))};
 }

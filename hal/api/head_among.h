@@ -17,23 +17,31 @@ Tracked<Transform<World, Rig>> head_among(Iterator begin, Iterator end, Timestam
   answer.time = at;
   const auto after = std::upper_bound(
       begin, end, at, [](Timestamp time, const auto& sample) { return time < sample.time; });
-  if (after == begin) return answer;
+  if (after == begin) {
+    return answer;
+  }
   const auto& before = *(after - 1);
   const auto along = [at](const auto& a, const auto& b) {
     return interpolated(a.world_from_rig, b.world_from_rig,
                         seconds(at - a.time) / seconds(b.time - a.time));
   };
-  if (before.time != at && before.time + kMaxGap < (after == end ? at : after->time)) return answer;
+  if (before.time != at && before.time + kMaxGap < (after == end ? at : after->time)) {
+    return answer;
+  }
   answer.value = before.world_from_rig;
-  answer.origin = Origin::kMeasured;
-  if (before.time == at) return answer;
+  answer.status = PoseStatus::kMeasured;
+  if (before.time == at) {
+    return answer;
+  }
   if (after != end) {
     answer.value = along(before, *after);
     return answer;
   }
-  answer.origin = Origin::kPredicted;
+  answer.status = PoseStatus::kPredicted;
   const bool has_speed = after - begin > 1 && before.time <= (after - 2)->time + kMaxGap;
-  if (has_speed) answer.value = along(*(after - 2), before);
+  if (has_speed) {
+    answer.value = along(*(after - 2), before);
+  }
   return answer;
 }
 

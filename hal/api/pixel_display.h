@@ -59,12 +59,12 @@ struct EyeImages {
 };
 
 /// Says of a VkFormat how well it suits who draws, 0 not at all; and whether he takes two layers.
-class ImageTaste {
+class FormatPreference {
  public:
-  virtual ~ImageTaste() = default;
-  [[nodiscard]] virtual int suits(std::int64_t format) const = 0;
+  virtual ~FormatPreference() = default;
+  [[nodiscard]] virtual int format_score(std::int64_t format) const = 0;
   /// The same of depth, which is 0 at `near_m` and 1 at infinity.
-  [[nodiscard]] virtual int suits_depth(std::int64_t format) const = 0;
+  [[nodiscard]] virtual int depth_format_score(std::int64_t format) const = 0;
   [[nodiscard]] virtual double near_m() const = 0;
   [[nodiscard]] virtual bool takes_layers() const = 0;
 };
@@ -87,9 +87,9 @@ struct EyeViews : Tracked<std::array<EyeView, 2>> {
 };
 
 /// What the display wants next.
-struct DisplayTurn {
+struct DisplayFrame {
   enum class Kind {
-    kFrame,  ///< a frame was begun: `finish_turn` must follow
+    kFrame,  ///< a frame was begun: `end_frame` must follow
     kIdle,   ///< nobody looks; ask again in a moment
     kLost,   ///< session or runtime are gone: `close`, then `open` again
     kOver    ///< the user ended it: `close`
@@ -101,7 +101,8 @@ struct DisplayTurn {
 };
 
 /// One thread at a time, always the same between `start` and `close`: the one that submits to the
-/// device's queue. Nothing but `next_turn` and `acquire` waits, and these for a frame at the most.
+/// device's queue. Nothing but `begin_frame` and `acquire` waits, and these for a frame at the
+/// most.
 class PixelDisplay {
  public:
   virtual ~PixelDisplay() = default;
@@ -116,17 +117,18 @@ class PixelDisplay {
   /// A VkDevice by a VkDeviceCreateInfo, for the caller to destroy after `close`.
   virtual Result<void*> create_device(void* physical, GraphicsFunction get_instance_proc_addr,
                                       const void* info) = 0;
-  virtual Result<EyeImages> start(const GraphicsObjects& objects, const ImageTaste& taste) = 0;
+  virtual Result<EyeImages> start(const GraphicsObjects& objects,
+                                  const FormatPreference& preference) = 0;
 
-  virtual DisplayTurn next_turn() = 0;
+  virtual DisplayFrame begin_frame() = 0;
   /// Which image of each chain to draw this frame into, those of depth after the others.
   virtual Result<std::vector<std::uint32_t>> acquire() = 0;
   /// Where the eyes will be when the frame begun lights up, as known this moment.
   virtual EyeViews views() = 0;
   /// Hands the frame over: with what was drawn for the newest `views`, or without anything.
-  virtual Status finish_turn(bool drawn) = 0;
+  virtual Status end_frame(bool drawn) = 0;
 
-  /// Asks the runtime to end the session in order; `next_turn` goes on until it says kOver.
+  /// Asks the runtime to end the session in order; `begin_frame` goes on until it says kOver.
   virtual void ask_to_end() = 0;
   /// Lets go of images and session; what draws must be done with them.
   virtual void close() = 0;

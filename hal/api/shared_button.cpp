@@ -3,11 +3,17 @@
 namespace orthonav {
 
 void SharedButton::offer(Hand hand, const ClickerEvent& event, std::vector<ClickerEvent>& events) {
-  if (event.action == ClickerAction::kPress ? state_.pressed : hand != hand_) return;
+  if (event.action == ClickerAction::kPress ? state_.pressed : hand != hand_) {
+    return;
+  }
   ButtonState next = state_;
   // A double click of whom nobody saw the first click is none.
-  if (event.action == ClickerAction::kPress && hand != hand_) next = {};
-  if (!next.take(event.action)) return;
+  if (event.action == ClickerAction::kPress && hand != hand_) {
+    next = {};
+  }
+  if (!next.take(event.action)) {
+    return;
+  }
   state_ = next;
   hand_ = hand;
   events.push_back(event);

@@ -32,13 +32,18 @@ bool is_device(const std::string& path) {
 std::vector<std::string> ClickerOptions::check() const {
   std::vector<std::string> problems;
   constexpr Duration kLongest = std::chrono::seconds(2);
-  if (keys.codes.empty()) problems.push_back("clicker: no key is chosen");
-  if (debounce < Duration::zero() || debounce > std::chrono::milliseconds(100))
+  if (keys.codes.empty()) {
+    problems.push_back("clicker: no key is chosen");
+  }
+  if (debounce < Duration::zero() || debounce > std::chrono::milliseconds(100)) {
     problems.push_back("clicker: debounce must lie in [0, 100] ms");
-  if (double_within <= Duration::zero() || double_within > kLongest)
+  }
+  if (double_within <= Duration::zero() || double_within > kLongest) {
     problems.push_back("clicker: double_within must lie in (0, 2000] ms");
-  if (hold_after <= Duration::zero() || hold_after > kLongest)
+  }
+  if (hold_after <= Duration::zero() || hold_after > kLongest) {
     problems.push_back("clicker: hold_after must lie in (0, 2000] ms");
+  }
   return problems;
 }
 
@@ -50,23 +55,36 @@ EvdevClicker::EvdevClicker(const ClickerOptions& options, const Clock& clock)
 
 Result<std::unique_ptr<EvdevClicker>> EvdevClicker::open(const ClickerOptions& options,
                                                          const Clock& clock) {
-  if (const auto problems = options.check(); !problems.empty()) return Error{joined(problems)};
+  if (const auto problems = options.check(); !problems.empty()) {
+    return Error{joined(problems)};
+  }
   std::unique_ptr<EvdevClicker> clicker(new EvdevClicker(options, clock));
   if (is_there(options.device)) {
-    if (Status taken = clicker->take_up(options.device); !taken) return taken.error();
-    if (!is_device(options.device)) return clicker;
+    if (Status taken = clicker->take_up(options.device); !taken) {
+      return taken.error();
+    }
+    if (!is_device(options.device)) {
+      return clicker;
+    }
   }
   auto folder = InputFolder::watch(options.folder);
-  if (!folder) return folder.error();
+  if (!folder) {
+    return folder.error();
+  }
   clicker->folder_.emplace(std::move(*folder));
-  if (!clicker->keys_)
-    if (Status found = clicker->find(); !found) return found.error();
+  if (!clicker->keys_) {
+    if (Status found = clicker->find(); !found) {
+      return found.error();
+    }
+  }
   return clicker;
 }
 
 Status EvdevClicker::take_up(const std::string& path) {
   auto keys = is_device(path) ? open_evdev_keys(path, options_.keys) : open_recorded_keys(path);
-  if (!keys) return keys.error();
+  if (!keys) {
+    return keys.error();
+  }
   keys_ = std::move(*keys);
   return {};
 }
@@ -75,23 +93,36 @@ Status EvdevClicker::take_up(const std::string& path) {
 /// after it appears) is looked at again with the next change of the folder.
 Status EvdevClicker::find() {
   if (options_.device.find('/') != std::string::npos) {
-    if (is_there(options_.device)) (void)take_up(options_.device);
+    if (is_there(options_.device)) {
+      (void)take_up(options_.device);
+    }
     return {};
   }
   for (const std::string& path : folder_->devices()) {
     const auto device = describe_evdev(path);
-    if (!device || device->name.find(options_.device) == std::string::npos) continue;
+    if (!device || device->name.find(options_.device) == std::string::npos) {
+      continue;
+    }
     const bool suits = options_.full_keyboard == device->full_keyboard;
-    if (options_.device.empty() && !suits) continue;
-    if (take_up(path)) return {};
+    if (options_.device.empty() && !suits) {
+      continue;
+    }
+    if (take_up(path)) {
+      return {};
+    }
   }
   return {};
 }
 
 Status EvdevClicker::read_keys() {
-  if (folder_ && folder_->changed() && !keys_)
-    if (Status found = find(); !found) return found;
-  if (!keys_ || finished_) return {};
+  if (folder_ && folder_->changed() && !keys_) {
+    if (Status found = find(); !found) {
+      return found;
+    }
+  }
+  if (!keys_ || finished_) {
+    return {};
+  }
   read_.clear();
   const Status read = keys_->read(read_);
   const Timestamp now = clock_.now();
@@ -99,29 +130,45 @@ Status EvdevClicker::read_keys() {
       keys_->live() ? now.time_since_epoch() - monotonic_now() : opened_at_.time_since_epoch();
   for (const KeyEvent& event : read_) {
     const auto& codes = options_.keys.codes;
-    if (std::find(codes.begin(), codes.end(), event.code) != codes.end())
+    if (std::find(codes.begin(), codes.end(), event.code) != codes.end()) {
       press_or_release(event.code, event.down, Timestamp(event.at + offset));
+    }
   }
-  if (read) return {};
+  if (read) {
+    return {};
+  }
   // Whatever was held when the device went away is held no longer.
-  for (const int code : std::vector<int>(down_)) press_or_release(code, false, now);
-  if (!folder_) finished_ = true;
-  if (folder_) keys_.reset();
+  for (const int code : std::vector<int>(down_)) {
+    press_or_release(code, false, now);
+  }
+  if (!folder_) {
+    finished_ = true;
+  }
+  if (folder_) {
+    keys_.reset();
+  }
   return read;
 }
 
 void EvdevClicker::press_or_release(int code, bool down, Timestamp time) {
   const bool was_down = !down_.empty();
   std::erase(down_, code);
-  if (down) down_.push_back(code);
-  if (was_down == !down_.empty() || changes_.size() >= kMaxChanges) return;
-  if (!changes_.empty()) time = std::max(time, changes_.back().time);
+  if (down) {
+    down_.push_back(code);
+  }
+  if (was_down == !down_.empty() || changes_.size() >= kMaxChanges) {
+    return;
+  }
+  if (!changes_.empty()) {
+    time = std::max(time, changes_.back().time);
+  }
   // Pressed again within the debounce: the release before it was the contact's.
   if (down && !changes_.empty() && !changes_.back().down &&
-      time - changes_.back().time < options_.debounce)
+      time - changes_.back().time < options_.debounce) {
     changes_.pop_back();
-  else
+  } else {
     changes_.push_back({down, time});
+  }
 }
 
 void EvdevClicker::tell(Timestamp until, std::vector<ClickerEvent>& events) {
@@ -129,8 +176,12 @@ void EvdevClicker::tell(Timestamp until, std::vector<ClickerEvent>& events) {
   for (; told < changes_.size(); ++told) {
     Change change = changes_[told];
     const bool last = told + 1 == changes_.size();
-    if (change.time > until) break;
-    if (!change.down && last && until - change.time < options_.debounce) break;
+    if (change.time > until) {
+      break;
+    }
+    if (!change.down && last && until - change.time < options_.debounce) {
+      break;
+    }
     change.time = std::max(change.time, told_until_);
     timer_.advance(change.time, events);
     timer_.button(change.down, change.time, events);
@@ -141,7 +192,9 @@ void EvdevClicker::tell(Timestamp until, std::vector<ClickerEvent>& events) {
       changes_.empty() || changes_.front().time > until ? until : changes_.front().time;
   timer_.advance(quiet_until, events);
   // A hold is told at its own time; nothing may come before it any more.
-  if (!events.empty()) told_until_ = std::max(told_until_, events.back().time);
+  if (!events.empty()) {
+    told_until_ = std::max(told_until_, events.back().time);
+  }
 }
 
 Status EvdevClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events) {

@@ -24,7 +24,9 @@ class FileDescriptor {
  public:
   explicit FileDescriptor(int number) : number_(number) {}
   ~FileDescriptor() {
-    if (number_ >= 0) ::close(number_);
+    if (number_ >= 0) {
+      ::close(number_);
+    }
   }
   FileDescriptor(const FileDescriptor&) = delete;
   FileDescriptor& operator=(const FileDescriptor&) = delete;
@@ -55,23 +57,30 @@ class EvdevKeys : public KeyEvents {
       : path_(std::move(path)), file_(::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
 
   Status start() {
-    if (file_.number() < 0)
+    if (file_.number() < 0) {
       return device_error(path_, std::string("cannot be opened: ") + std::strerror(errno) +
                                      (errno == EACCES ? " (usermod -aG input $USER)" : ""));
+    }
     libevdev* device = nullptr;
-    if (const int code = libevdev_new_from_fd(file_.number(), &device); code < 0)
+    if (const int code = libevdev_new_from_fd(file_.number(), &device); code < 0) {
       return device_error(path_, std::string("is no event device: ") + std::strerror(-code));
+    }
     device_.reset(device);
-    if (const int code = libevdev_set_clock_id(device, CLOCK_MONOTONIC); code < 0)
+    if (const int code = libevdev_set_clock_id(device, CLOCK_MONOTONIC); code < 0) {
       return device_error(path_, std::string("keeps no monotonic time: ") + std::strerror(-code));
+    }
     return {};
   }
   Status choose(const KeyChoice& choice) {
-    if (!has_one_of(device_.get(), choice.codes))
+    if (!has_one_of(device_.get(), choice.codes)) {
       return device_error(path_, "\"" + name() + "\" has none of the chosen keys");
-    if (!choice.grab || is_full_keyboard(device_.get())) return {};
-    if (const int code = libevdev_grab(device_.get(), LIBEVDEV_GRAB); code < 0)
+    }
+    if (!choice.grab || is_full_keyboard(device_.get())) {
+      return {};
+    }
+    if (const int code = libevdev_grab(device_.get(), LIBEVDEV_GRAB); code < 0) {
       return device_error(path_, std::string("cannot be grabbed: ") + std::strerror(-code));
+    }
     return {};
   }
   [[nodiscard]] libevdev* device() const { return device_.get(); }
@@ -86,17 +95,22 @@ class EvdevKeys : public KeyEvents {
       // After a flood the kernel drops events; libevdev then tells how the keys stand.
       const int code = libevdev_next_event(
           device_.get(), syncing_ ? LIBEVDEV_READ_FLAG_SYNC : LIBEVDEV_READ_FLAG_NORMAL, &event);
-      if (code == -EAGAIN && !syncing_) return {};
+      if (code == -EAGAIN && !syncing_) {
+        return {};
+      }
       if (code == -EAGAIN) {
         syncing_ = false;
         continue;
       }
-      if (code < 0) return device_error(path_, std::string("is gone: ") + std::strerror(-code));
+      if (code < 0) {
+        return device_error(path_, std::string("is gone: ") + std::strerror(-code));
+      }
       syncing_ = code == LIBEVDEV_READ_STATUS_SYNC;
-      if (event.type == EV_KEY && event.value != kRepeat)
+      if (event.type == EV_KEY && event.value != kRepeat) {
         events.push_back({event.code, event.value != 0,
                           std::chrono::seconds(event.input_event_sec) +
                               std::chrono::microseconds(event.input_event_usec)});
+      }
     }
     return {};
   }
@@ -120,7 +134,9 @@ const std::vector<int>& clicker_keys() {
 
 int key_code(const std::string& name) {
   std::string upper;
-  for (const char c : name) upper += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  for (const char c : name) {
+    upper += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  }
   const int code = libevdev_event_code_from_name(EV_KEY, upper.c_str());
   return code >= 0 ? code : libevdev_event_code_from_name(EV_KEY, ("KEY_" + upper).c_str());
 }
@@ -128,14 +144,20 @@ int key_code(const std::string& name) {
 Result<std::unique_ptr<KeyEvents>> open_evdev_keys(const std::string& path,
                                                    const KeyChoice& choice) {
   auto keys = std::make_unique<EvdevKeys>(path);
-  if (Status started = keys->start(); !started) return started.error();
-  if (Status chosen = keys->choose(choice); !chosen) return chosen.error();
+  if (Status started = keys->start(); !started) {
+    return started.error();
+  }
+  if (Status chosen = keys->choose(choice); !chosen) {
+    return chosen.error();
+  }
   return std::unique_ptr<KeyEvents>(std::move(keys));
 }
 
 Result<KeyDevice> describe_evdev(const std::string& path) {
   EvdevKeys keys(path);
-  if (Status started = keys.start(); !started) return started.error();
+  if (Status started = keys.start(); !started) {
+    return started.error();
+  }
   return KeyDevice{path, keys.name(), is_full_keyboard(keys.device()),
                    has_one_of(keys.device(), clicker_keys())};
 }

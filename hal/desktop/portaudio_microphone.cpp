@@ -19,11 +19,17 @@ class QuietStandardError {
  public:
   QuietStandardError() : kept_(::dup(STDERR_FILENO)) {
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0) ::close(nowhere);
+    if (kept_ >= 0 && nowhere >= 0) {
+      ::dup2(nowhere, STDERR_FILENO);
+    }
+    if (nowhere >= 0) {
+      ::close(nowhere);
+    }
   }
   ~QuietStandardError() {
-    if (kept_ < 0) return;
+    if (kept_ < 0) {
+      return;
+    }
     ::dup2(kept_, STDERR_FILENO);
     ::close(kept_);
   }
@@ -42,7 +48,9 @@ class PortAudio {
     code_ = Pa_Initialize();
   }
   ~PortAudio() {
-    if (code_ == paNoError) Pa_Terminate();
+    if (code_ == paNoError) {
+      Pa_Terminate();
+    }
   }
   PortAudio(const PortAudio&) = delete;
   PortAudio& operator=(const PortAudio&) = delete;
@@ -60,8 +68,9 @@ class SoundRing {
 
   void write(const std::int16_t* samples, std::size_t count, Timestamp newest) {
     const std::uint64_t begin = written_.load(std::memory_order_relaxed);
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
       samples_[(begin + i) % kSize].store(samples[i], std::memory_order_relaxed);
+    }
     newest_ = newest;
     written_.store(begin + count, std::memory_order_release);
   }
@@ -70,11 +79,14 @@ class SoundRing {
     const std::uint64_t written = written_.load(std::memory_order_acquire);
     // A margin that the writer can't reach while the reader copies.
     const bool lost = written - read_ > kSize - kMargin;
-    if (lost) read_ = written - kSize / 2;
+    if (lost) {
+      read_ = written - kSize / 2;
+    }
     const auto count =
         static_cast<std::size_t>(std::min<std::uint64_t>(samples.size(), written - read_));
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
       samples[i] = samples_[(read_ + i) % kSize].load(std::memory_order_relaxed);
+    }
     read_ += count;
     return {count, lost};
   }
@@ -99,7 +111,9 @@ class PortAudioMicrophone : public Microphone {
  public:
   explicit PortAudioMicrophone(const Clock& clock) : clock_(clock) {}
   ~PortAudioMicrophone() override {
-    if (stream_) Pa_CloseStream(stream_);
+    if (stream_) {
+      Pa_CloseStream(stream_);
+    }
   }
   PortAudioMicrophone(const PortAudioMicrophone&) = delete;
   PortAudioMicrophone& operator=(const PortAudioMicrophone&) = delete;
@@ -111,8 +125,12 @@ class PortAudioMicrophone : public Microphone {
     const PaStreamParameters wanted{device, 1, paInt16, info->defaultLowInputLatency, nullptr};
     PaError code = Pa_OpenStream(&stream_, &wanted, nullptr, info->defaultSampleRate,
                                  paFramesPerBufferUnspecified, paNoFlag, &heard, this);
-    if (code == paNoError) code = Pa_StartStream(stream_);
-    if (code == paNoError) return {};
+    if (code == paNoError) {
+      code = Pa_StartStream(stream_);
+    }
+    if (code == paNoError) {
+      return {};
+    }
     return Error{"microphone \"" + std::string(info->name) +
                  "\" cannot be opened: " + Pa_GetErrorText(code)};
   }
@@ -128,20 +146,27 @@ class PortAudioMicrophone : public Microphone {
   static int heard(const void* samples, void*, unsigned long count, const PaStreamCallbackTimeInfo*,
                    PaStreamCallbackFlags, void* self_text) {
     auto* self = static_cast<PortAudioMicrophone*>(self_text);
-    if (samples)
+    if (samples) {
       self->ring_.write(static_cast<const std::int16_t*>(samples), count,
                         self->clock_.now() - self->latency_);
+    }
     return paContinue;
   }
   [[nodiscard]] int do_sample_rate_hz() const override { return rate_hz_; }
   Result<std::size_t> do_read(std::span<std::int16_t> samples) override {
     const auto [count, lost] = ring_.read(samples);
-    if (lost) return Error{"microphone: not read in time, sound was dropped"};
-    if (count == 0 && Pa_IsStreamActive(stream_) != 1) return Error{"microphone: is gone"};
+    if (lost) {
+      return Error{"microphone: not read in time, sound was dropped"};
+    }
+    if (count == 0 && Pa_IsStreamActive(stream_) != 1) {
+      return Error{"microphone: is gone"};
+    }
     return count;
   }
   [[nodiscard]] std::optional<Timestamp> do_newest_sample_time() const override {
-    if (ring_.taken() == 0) return std::nullopt;
+    if (ring_.taken() == 0) {
+      return std::nullopt;
+    }
     return ring_.newest() - from_seconds(static_cast<double>(ring_.unread()) / rate_hz_);
   }
 };
@@ -151,31 +176,48 @@ class PortAudioMicrophone : public Microphone {
 std::vector<std::string> microphone_names() {
   const PortAudio port_audio;
   std::vector<std::string> names;
-  if (!port_audio.ok()) return names;
+  if (!port_audio.ok()) {
+    return names;
+  }
   const PaDeviceIndex chosen = Pa_GetDefaultInputDevice();
-  if (chosen != paNoDevice) names.push_back(name_of(chosen));
-  for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i)
-    if (i != chosen && !name_of(i).empty()) names.push_back(name_of(i));
+  if (chosen != paNoDevice) {
+    names.push_back(name_of(chosen));
+  }
+  for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
+    if (i != chosen && !name_of(i).empty()) {
+      names.push_back(name_of(i));
+    }
+  }
   return names;
 }
 
 Result<std::unique_ptr<Microphone>> open_portaudio_microphone(const std::string& name,
                                                               const Clock& clock) {
   const PortAudio port_audio;
-  if (!port_audio.ok()) return Error{"microphone: PortAudio cannot be started"};
+  if (!port_audio.ok()) {
+    return Error{"microphone: PortAudio cannot be started"};
+  }
   std::optional<PaDeviceIndex> found;
-  if (name.empty() && Pa_GetDefaultInputDevice() != paNoDevice) found = Pa_GetDefaultInputDevice();
-  for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount() && !found; ++i)
-    if (!name_of(i).empty() && name_of(i).find(name) != std::string::npos) found = i;
+  if (name.empty() && Pa_GetDefaultInputDevice() != paNoDevice) {
+    found = Pa_GetDefaultInputDevice();
+  }
+  for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount() && !found; ++i) {
+    if (!name_of(i).empty() && name_of(i).find(name) != std::string::npos) {
+      found = i;
+    }
+  }
   if (!found) {
     std::string known;
-    for (const std::string& other : microphone_names())
+    for (const std::string& other : microphone_names()) {
       known += (known.empty() ? "" : ", ") + other;
+    }
     return Error{"microphone \"" + name + "\" is not there; there " +
                  (known.empty() ? std::string("is none") : "are " + known)};
   }
   auto microphone = std::make_unique<PortAudioMicrophone>(clock);
-  if (Status started = microphone->start(*found); !started) return started.error();
+  if (Status started = microphone->start(*found); !started) {
+    return started.error();
+  }
   return std::unique_ptr<Microphone>(std::move(microphone));
 }
 

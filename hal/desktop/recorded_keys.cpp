@@ -30,13 +30,18 @@ class RecordedKeys : public KeyEvents {
   Status read(std::vector<KeyEvent>& events) override {
     std::array<char, kMaxEventsPerRead * sizeof(input_event)> bytes;
     const ssize_t count = ::read(file_, bytes.data(), bytes.size() - rest_size_);
-    if (count < 0 && errno != EAGAIN && errno != EINTR)
+    if (count < 0 && errno != EAGAIN && errno != EINTR) {
       return Error{"clicker " + path_ + ": cannot be read: " + std::strerror(errno)};
+    }
     for (ssize_t i = 0; i < count; ++i) {
       rest_[rest_size_++] = bytes[static_cast<std::size_t>(i)];
-      if (rest_size_ < sizeof(input_event)) continue;
+      if (rest_size_ < sizeof(input_event)) {
+        continue;
+      }
       rest_size_ = 0;
-      if (Status taken = take(events); !taken) return taken;
+      if (Status taken = take(events); !taken) {
+        return taken;
+      }
     }
     return {};
   }
@@ -54,15 +59,19 @@ class RecordedKeys : public KeyEvents {
     std::memcpy(&event, rest_.data(), sizeof(event));
     constexpr long kMaxSeconds = 4'000'000'000;  // a hundred years
     if (event.input_event_sec < 0 || event.input_event_sec > kMaxSeconds ||
-        event.input_event_usec < 0 || event.input_event_usec >= 1'000'000)
+        event.input_event_usec < 0 || event.input_event_usec >= 1'000'000) {
       return Error{"clicker " + path_ + ": time " + std::to_string(event.input_event_sec) + " s " +
                    std::to_string(event.input_event_usec) + " us is no time of an event"};
+    }
     const Duration at = std::chrono::seconds(event.input_event_sec) +
                         std::chrono::microseconds(event.input_event_usec);
-    if (!first_) first_ = at;
+    if (!first_) {
+      first_ = at;
+    }
     // 2 is a keyboard's repeat.
-    if (event.type == EV_KEY && event.value != 2)
+    if (event.type == EV_KEY && event.value != 2) {
       events.push_back({event.code, event.value != 0, live_ ? at : at - *first_});
+    }
     return {};
   }
 };
@@ -71,13 +80,17 @@ class RecordedKeys : public KeyEvents {
 
 Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path) {
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0)
+  if (::stat(path.c_str(), &status) != 0) {
     return Error{"clicker " + path + ": " + std::strerror(errno)};
+  }
   const bool fifo = S_ISFIFO(status.st_mode);
-  if (!fifo && !S_ISREG(status.st_mode))
+  if (!fifo && !S_ISREG(status.st_mode)) {
     return Error{"clicker " + path + ": is no event device, no file of events and no FIFO"};
+  }
   const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return Error{"clicker " + path + ": cannot be opened: " + std::strerror(errno)};
+  if (file < 0) {
+    return Error{"clicker " + path + ": cannot be opened: " + std::strerror(errno)};
+  }
   return std::unique_ptr<KeyEvents>(std::make_unique<RecordedKeys>(path, file, fifo));
 }
 

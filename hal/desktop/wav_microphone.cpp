@@ -34,13 +34,16 @@ class WavMicrophone : public Microphone {
     const std::int64_t end =
         std::clamp(heard, next_, next_ + static_cast<std::int64_t>(samples.size()));
     const auto size = static_cast<std::int64_t>(samples_.size());
-    for (std::int64_t i = next_; i < end; ++i)
+    for (std::int64_t i = next_; i < end; ++i) {
       samples[static_cast<std::size_t>(i - next_)] =
           i < size ? samples_[static_cast<std::size_t>(i)] : std::int16_t{0};
+    }
     return static_cast<std::size_t>(end - std::exchange(next_, end));
   }
   [[nodiscard]] std::optional<Timestamp> do_newest_sample_time() const override {
-    if (next_ == 0) return std::nullopt;
+    if (next_ == 0) {
+      return std::nullopt;
+    }
     return start_ + from_seconds(static_cast<double>(next_) / rate_hz_);
   }
 };
@@ -55,29 +58,39 @@ Result<std::unique_ptr<Microphone>> open_wav_microphone(const std::filesystem::p
                                                         const Clock& clock) {
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, CloseSound> file(sf_open(path.c_str(), SFM_READ, &info));
-  if (!file) return file_error(path, std::string("is no sound file: ") + sf_strerror(nullptr));
+  if (!file) {
+    return file_error(path, std::string("is no sound file: ") + sf_strerror(nullptr));
+  }
   constexpr int kMaxChannels = 16;
   constexpr std::int64_t kMaxSeconds = 3600;
-  if (info.channels < 1 || info.channels > kMaxChannels)
+  if (info.channels < 1 || info.channels > kMaxChannels) {
     return file_error(path, "has " + std::to_string(info.channels) + " channels, limit 16");
-  if (info.samplerate < 8000 || info.samplerate > 192000)
+  }
+  if (info.samplerate < 8000 || info.samplerate > 192000) {
     return file_error(path, "has " + std::to_string(info.samplerate) +
                                 " samples a second, must lie in [8000, 192000]");
-  if (info.frames < 0 || info.frames > kMaxSeconds * info.samplerate)
+  }
+  if (info.frames < 0 || info.frames > kMaxSeconds * info.samplerate) {
     return file_error(
         path, "lasts " + std::to_string(info.frames / info.samplerate) + " s, limit 3600 s");
+  }
   // A float file's full scale becomes that of 16 bits.
   sf_command(file.get(), SFC_SET_SCALE_FLOAT_INT_READ, nullptr, SF_TRUE);
   const auto channels = static_cast<std::size_t>(info.channels);
   std::vector<std::int16_t> block(4096 * channels);
   std::vector<std::int16_t> samples;
-  for (sf_count_t got = 0; (got = sf_readf_short(file.get(), block.data(), 4096)) > 0;)
+  for (sf_count_t got = 0; (got = sf_readf_short(file.get(), block.data(), 4096)) > 0;) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(got); ++i) {
       int sum = 0;
-      for (std::size_t c = 0; c < channels; ++c) sum += block[i * channels + c];
+      for (std::size_t c = 0; c < channels; ++c) {
+        sum += block[i * channels + c];
+      }
       samples.push_back(static_cast<std::int16_t>(sum / info.channels));
     }
-  if (samples.empty()) return file_error(path, "holds no sound");
+  }
+  if (samples.empty()) {
+    return file_error(path, "holds no sound");
+  }
   return std::unique_ptr<Microphone>(
       std::make_unique<WavMicrophone>(std::move(samples), info.samplerate, clock));
 }

@@ -11,14 +11,19 @@ namespace {
 
 template <class Kind>
 std::optional<Kind> fault_at(const std::vector<Fault<Kind>>& faults, std::int64_t index) {
-  for (const Fault<Kind>& fault : faults)
-    if (fault.at == index) return fault.kind;
+  for (const Fault<Kind>& fault : faults) {
+    if (fault.at == index) {
+      return fault.kind;
+    }
+  }
   return std::nullopt;
 }
 
 Transform<World, Rig> mirrored(const Transform<World, Rig>& pose) {
   Mat3 rotation = pose.rotation();
-  for (double& entry : rotation[0]) entry = -entry;
+  for (double& entry : rotation[0]) {
+    entry = -entry;
+  }
   return {rotation, pose.translation()};
 }
 
@@ -36,11 +41,19 @@ void turn_into_garbage(Phrase& phrase) { phrase.text.clear(); }
 
 Result<Next> FailingCamera::do_next(StereoFrame& frame) {
   const auto fault = fault_at(faults_, call_++);
-  if (fault == CameraFault::kDelay) return Next::kNone;
+  if (fault == CameraFault::kDelay) {
+    return Next::kNone;
+  }
   auto answer = inner_.next(frame);
-  if (fault == CameraFault::kDrop && answer && *answer == Next::kFrame) answer = inner_.next(frame);
-  if (!answer || *answer != Next::kFrame) return answer;
-  if (fault) answer = spoiled(*fault, frame);
+  if (fault == CameraFault::kDrop && answer && *answer == Next::kFrame) {
+    answer = inner_.next(frame);
+  }
+  if (!answer || *answer != Next::kFrame) {
+    return answer;
+  }
+  if (fault) {
+    answer = spoiled(*fault, frame);
+  }
   last_time_ = frame.time;
   last_sequence_ = frame.sequence;
   return answer;
@@ -76,8 +89,11 @@ Result<Next> FailingCamera::spoiled(CameraFault fault, StereoFrame& frame) {
       frame.world_from_rig.reset();
       break;
     case CameraFault::kNoise:
-      for (GreyImage* image : {&frame.left, &frame.right})
-        for (std::uint8_t& pixel : image->pixels) pixel = static_cast<std::uint8_t>(255 - pixel);
+      for (GreyImage* image : {&frame.left, &frame.right}) {
+        for (std::uint8_t& pixel : image->pixels) {
+          pixel = static_cast<std::uint8_t>(255 - pixel);
+        }
+      }
       break;
   }
   return Next::kFrame;
@@ -86,10 +102,12 @@ Result<Next> FailingCamera::spoiled(CameraFault fault, StereoFrame& frame) {
 Tracked<Transform<World, Rig>> FailingHead::do_world_from_rig(Timestamp at) const {
   auto answer = inner_.world_from_rig(at);
   const auto fault = fault_at(faults_, call_++);
-  if (!fault) return answer;
+  if (!fault) {
+    return answer;
+  }
   switch (*fault) {
     case HeadFault::kLost:
-      answer.origin = Origin::kLost;
+      answer.status = PoseStatus::kLost;
       break;
     case HeadFault::kWrongTime:
       answer.time = at - std::chrono::milliseconds(33);
@@ -109,7 +127,9 @@ Tracked<Transform<World, Rig>> FailingHead::do_world_from_rig(Timestamp at) cons
 
 template <class Device, class Event>
 Status FailingEvents<Device, Event>::do_poll(Timestamp until, std::vector<Event>& events) {
-  if (Status status = inner_.poll(until, waiting_); !status) return status;
+  if (Status status = inner_.poll(until, waiting_); !status) {
+    return status;
+  }
   std::size_t taken = 0;
   for (; taken < waiting_.size(); ++taken) {
     const std::int64_t index = delivered_ + static_cast<std::int64_t>(taken);
@@ -117,16 +137,30 @@ Status FailingEvents<Device, Event>::do_poll(Timestamp until, std::vector<Event>
     if (fault == EventFault::kDelay || fault == EventFault::kError) {
       const bool spent = index <= spent_;
       spent_ = std::max(spent_, index);
-      if (!spent && fault == EventFault::kError) return Error{"simulated failure"};
-      if (!spent) break;
+      if (!spent && fault == EventFault::kError) {
+        return Error{"simulated failure"};
+      }
+      if (!spent) {
+        break;
+      }
     }
-    if (fault == EventFault::kDrop) continue;
+    if (fault == EventFault::kDrop) {
+      continue;
+    }
     Event event = waiting_[taken];
-    if (fault == EventFault::kTimeBack) event.time -= std::chrono::hours(1);
-    if (fault == EventFault::kFuture) event.time = until + std::chrono::seconds(1);
-    if (fault == EventFault::kGarbage) turn_into_garbage(event);
+    if (fault == EventFault::kTimeBack) {
+      event.time -= std::chrono::hours(1);
+    }
+    if (fault == EventFault::kFuture) {
+      event.time = until + std::chrono::seconds(1);
+    }
+    if (fault == EventFault::kGarbage) {
+      turn_into_garbage(event);
+    }
     events.push_back(event);
-    if (fault == EventFault::kRepeat) events.push_back(event);
+    if (fault == EventFault::kRepeat) {
+      events.push_back(event);
+    }
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(taken));
   delivered_ += static_cast<std::int64_t>(taken);
@@ -137,7 +171,9 @@ template class FailingEvents<Clicker, ClickerEvent>;
 template class FailingEvents<Voice, Phrase>;
 
 Status FailingDisplay::do_shown(const ShownFrame& frame) {
-  if (fault_at(faults_, call_++)) return Error{"display: simulated failure"};
+  if (fault_at(faults_, call_++)) {
+    return Error{"display: simulated failure"};
+  }
   return inner_.shown(frame);
 }
 

@@ -10,23 +10,37 @@ ScriptedCamera::ScriptedCamera(StereoCalibration calibration, std::vector<Camera
     : calibration_(std::move(calibration)), steps_(std::move(steps)), clock_(clock) {}
 
 Result<Next> ScriptedCamera::do_next(StereoFrame& frame) {
-  if (next_ == steps_.size()) return Next::kEnd;
+  if (next_ == steps_.size()) {
+    return Next::kEnd;
+  }
   const CameraStep& step = steps_[next_++];
-  if (const Error* error = std::get_if<Error>(&step)) return *error;
-  if (const Next* answer = std::get_if<Next>(&step)) return *answer;
+  if (const Error* error = std::get_if<Error>(&step)) {
+    return *error;
+  }
+  if (const Next* answer = std::get_if<Next>(&step)) {
+    return *answer;
+  }
   frame = std::get<StereoFrame>(step);
   clock_.set(frame.time);
   return Next::kFrame;
 }
 
 Result<Next> ScriptedDepth::do_next(DepthFrame& frame) {
-  if (next_ == script_.steps.size()) return Next::kEnd;
+  if (next_ == script_.steps.size()) {
+    return Next::kEnd;
+  }
   const DepthStep& step = script_.steps[next_];
   const auto* scripted = std::get_if<DepthFrame>(&step);
-  if (scripted && scripted->time > clock_.now()) return Next::kNone;
+  if (scripted && scripted->time > clock_.now()) {
+    return Next::kNone;
+  }
   ++next_;
-  if (const Error* error = std::get_if<Error>(&step)) return *error;
-  if (const Next* answer = std::get_if<Next>(&step)) return *answer;
+  if (const Error* error = std::get_if<Error>(&step)) {
+    return *error;
+  }
+  if (const Next* answer = std::get_if<Next>(&step)) {
+    return *answer;
+  }
   frame = *scripted;
   return Next::kFrame;
 }
@@ -51,24 +65,31 @@ Tracked<Transform<World, Rig>> ScriptedHead::do_world_from_rig(Timestamp at) con
   const auto end = known_end();
   const auto after = std::upper_bound(poses_.begin(), end, at,
                                       [](Timestamp t, const HeadPose& p) { return t < p.time; });
-  if (after == poses_.begin()) return answer;
+  if (after == poses_.begin()) {
+    return answer;
+  }
   const HeadPose& before = *(after - 1);
   answer.value = before.world_from_rig;
-  answer.origin = after == end && before.time != at ? Origin::kPredicted : Origin::kMeasured;
-  if (after != end && before.time != at)
+  answer.status =
+      after == end && before.time != at ? PoseStatus::kPredicted : PoseStatus::kMeasured;
+  if (after != end && before.time != at) {
     answer.value = interpolated(before.world_from_rig, after->world_from_rig,
                                 seconds(at - before.time) / seconds(after->time - before.time));
+  }
   return answer;
 }
 
 Status ScriptedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events) {
-  while (next_ < events_.size() && events_[next_].time <= until) events.push_back(events_[next_++]);
+  while (next_ < events_.size() && events_[next_].time <= until) {
+    events.push_back(events_[next_++]);
+  }
   return {};
 }
 
 Status ScriptedVoice::do_poll(Timestamp until, std::vector<Phrase>& phrases) {
-  while (next_ < phrases_.size() && phrases_[next_].time <= until)
+  while (next_ < phrases_.size() && phrases_[next_].time <= until) {
     phrases.push_back(phrases_[next_++]);
+  }
   return {};
 }
 
@@ -91,8 +112,9 @@ FakeHeadset::FakeHeadset(Script script)
       clicker_(std::move(script.clicker)),
       voice_(std::move(script.voice)),
       display_(script.display_latency) {
-  for (DepthScript& depth : script.depth)
+  for (DepthScript& depth : script.depth) {
     depth_.push_back(std::make_unique<ScriptedDepth>(std::move(depth), clock_));
+  }
 }
 
 }  // namespace orthonav::fake

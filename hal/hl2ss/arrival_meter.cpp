@@ -13,7 +13,9 @@ bool ArrivalMeter::heard(Timestamp stamp, HostTime at) {
   }
   if (last_) {
     const Duration between = stamp - last_->stamp;
-    if (2 * between > 3 * interval_) ++statistics_.gaps;
+    if (2 * between > 3 * interval_) {
+      ++statistics_.gaps;
+    }
     statistics_.longest_gap = std::max(statistics_.longest_gap, between);
     const double deviation_ms =
         std::abs(seconds(std::chrono::duration_cast<Duration>(at - last_->at) - between)) * 1e3;

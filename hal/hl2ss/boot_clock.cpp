@@ -30,31 +30,44 @@ bool StampReader::follows(const Heard& last, const Heard& next) {
 }
 
 std::optional<Timestamp> StampReader::time_of(std::uint64_t ticks, HostTime at) {
-  if (ticks > static_cast<std::uint64_t>(kUnixEpochTicks + kMaxTicks)) return std::nullopt;
+  if (ticks > static_cast<std::uint64_t>(kUnixEpochTicks + kMaxTicks)) {
+    return std::nullopt;
+  }
   const Heard now{static_cast<std::int64_t>(ticks), at};
-  if (!last_) base_ticks_ = now.ticks >= kMaxTicks ? kUnixEpochTicks : 0;
+  if (!last_) {
+    base_ticks_ = now.ticks >= kMaxTicks ? kUnixEpochTicks : 0;
+  }
   const bool is_astray = last_ && !follows(*last_, now);
   if (is_astray) {
     doubted_in_a_row_ = doubted_ && follows(*doubted_, now) ? doubted_in_a_row_ + 1 : 1;
     doubted_ = now;
-    if (doubted_in_a_row_ < kRestartAfter) return std::nullopt;
+    if (doubted_in_a_row_ < kRestartAfter) {
+      return std::nullopt;
+    }
     const std::int64_t passed = duration_cast<Duration>(at - last_->at).count() / 100;
     shift_ticks_ += last_->ticks + passed - now.ticks;
     ++restarts_;
   }
   doubted_in_a_row_ = 0;
   doubted_.reset();
-  if (!last_ || is_astray || now.ticks > last_->ticks) last_ = now;
+  if (!last_ || is_astray || now.ticks > last_->ticks) {
+    last_ = now;
+  }
   const std::int64_t time_ticks = now.ticks - base_ticks_ + shift_ticks_;
-  if (time_ticks < -kMaxTicks || time_ticks > kMaxTicks) return std::nullopt;
+  if (time_ticks < -kMaxTicks || time_ticks > kMaxTicks) {
+    return std::nullopt;
+  }
   return from_ticks_100ns(time_ticks);
 }
 
 std::optional<std::int64_t> BootClock::best_offset_ns() const {
   std::optional<std::int64_t> best;
-  for (const Second& second : seconds_)
-    if (second.number > newest_second_ - static_cast<std::int64_t>(kSeconds) && second.number >= 0)
+  for (const Second& second : seconds_) {
+    if (second.number > newest_second_ - static_cast<std::int64_t>(kSeconds) &&
+        second.number >= 0) {
       best = std::max(best.value_or(second.offset_ns), second.offset_ns);
+    }
+  }
   return best;
 }
 
@@ -77,7 +90,9 @@ void BootClock::heard(Timestamp stamp, HostTime at) {
   Second& second = seconds_[static_cast<std::size_t>(number) % kSeconds];
   second = {number, second.number == number ? std::max(second.offset_ns, offset_ns) : offset_ns};
   newest_second_ = std::max(newest_second_, number);
-  if (!paced_) last_ = std::max(last_, stamp);
+  if (!paced_) {
+    last_ = std::max(last_, stamp);
+  }
 }
 
 void BootClock::round_trip(Duration took) {
@@ -109,9 +124,12 @@ Duration BootClock::spread() const {
   const std::lock_guard lock(mutex_);
   const auto best = best_offset_ns();
   std::int64_t worst = best.value_or(0);
-  for (const Second& second : seconds_)
-    if (second.number > newest_second_ - static_cast<std::int64_t>(kSeconds) && second.number >= 0)
+  for (const Second& second : seconds_) {
+    if (second.number > newest_second_ - static_cast<std::int64_t>(kSeconds) &&
+        second.number >= 0) {
       worst = std::min(worst, second.offset_ns);
+    }
+  }
   return Duration(best.value_or(0) - worst);
 }
 

@@ -28,8 +28,9 @@ void shift_line(const Vec2* from, Vec2* to, std::size_t count, std::size_t strid
                                            t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2,
                                            t * (t - 1) * (t - 2) / 6};
     Vec2 sum{};
-    for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < 4; ++k) {
       sum = sum + weights[k] * from[(static_cast<std::size_t>(first) + k) * stride];
+    }
     to[i * stride] = sum;
   }
 }
@@ -39,41 +40,55 @@ Table shifted(const Table& table, double ahead) {
   Table by_rows(table.size());
   Table both(table.size());
   constexpr std::size_t kColumns = kImageWidthPx;
-  for (std::size_t row = 0; row < kImageHeightPx; ++row)
+  for (std::size_t row = 0; row < kImageHeightPx; ++row) {
     shift_line(&table[row * kColumns], &by_rows[row * kColumns], kColumns, 1, ahead);
-  for (std::size_t column = 0; column < kColumns; ++column)
+  }
+  for (std::size_t column = 0; column < kColumns; ++column) {
     shift_line(&by_rows[column], &both[column], kImageHeightPx, kColumns, ahead);
+  }
   return both;
 }
 
 template <class A>
 Result<Transform<A, Rig>> read_extrinsics(Bytes bytes) {
   std::array<double, 16> columns_first{};
-  for (std::size_t row = 0; row < 4; ++row)
-    for (std::size_t column = 0; column < 4; ++column)
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t column = 0; column < 4; ++column) {
       columns_first[4 * column + row] = number_at<float>(bytes, 4 * (4 * row + column));
-  for (std::size_t i = 12; i < 16; ++i)
-    if (columns_first[i] != (i == 15 ? 1.0 : 0.0))
+    }
+  }
+  for (std::size_t i = 12; i < 16; ++i) {
+    if (columns_first[i] != (i == 15 ? 1.0 : 0.0)) {
       return Error{"calibration: last column of the extrinsics must be 0 0 0 1"};
+    }
+  }
   auto read = Transform<A, Rig>::from_row_major(columns_first);
-  if (!read) return Error{"calibration: extrinsics: " + read.error().message};
+  if (!read) {
+    return Error{"calibration: extrinsics: " + read.error().message};
+  }
   return read;
 }
 
 template <class A>
 Result<CameraCalibration<A>> read_calibration(Bytes answer) {
-  if (answer.size() != kCalibrationBytes)
+  if (answer.size() != kCalibrationBytes) {
     return Error{"calibration: " + std::to_string(answer.size()) + " bytes, must be " +
                  std::to_string(kCalibrationBytes)};
+  }
   Table unit_plane(kImageBytes);
-  for (std::size_t i = 0; i < kImageBytes; ++i)
+  for (std::size_t i = 0; i < kImageBytes; ++i) {
     unit_plane[i] = {number_at<float>(answer, 4 * i),
                      number_at<float>(answer, kTableBytes + 4 * i)};
+  }
   const auto extrinsics = read_extrinsics<A>(answer.subspan(2 * kTableBytes, kPoseBytes));
-  if (!extrinsics) return extrinsics.error();
+  if (!extrinsics) {
+    return extrinsics.error();
+  }
   auto camera =
       CameraModel::from_lookup(kImageWidthPx, kImageHeightPx, shifted(unit_plane, kHalfPixel));
-  if (!camera) return Error{"calibration: " + camera.error().message};
+  if (!camera) {
+    return Error{"calibration: " + camera.error().message};
+  }
   return CameraCalibration<A>{std::move(*camera), *extrinsics};
 }
 
@@ -92,11 +107,17 @@ std::vector<std::uint8_t> calibration_bytes(const CameraModel& camera,
   std::vector<std::uint8_t> bytes;
   bytes.reserve(kCalibrationBytes);
   const Table corners = shifted({camera.lookup().begin(), camera.lookup().end()}, -kHalfPixel);
-  for (const Vec2 direction : corners) append(bytes, static_cast<float>(direction.x));
-  for (const Vec2 direction : corners) append(bytes, static_cast<float>(direction.y));
-  for (std::size_t column = 0; column < 4; ++column)
-    for (std::size_t row = 0; row < 4; ++row)
+  for (const Vec2 direction : corners) {
+    append(bytes, static_cast<float>(direction.x));
+  }
+  for (const Vec2 direction : corners) {
+    append(bytes, static_cast<float>(direction.y));
+  }
+  for (std::size_t column = 0; column < 4; ++column) {
+    for (std::size_t row = 0; row < 4; ++row) {
       append(bytes, static_cast<float>(row_major[4 * row + column]));
+    }
+  }
   bytes.resize(kCalibrationBytes);
   return bytes;
 }

@@ -16,73 +16,100 @@ constexpr std::size_t kMaxUnsent = std::size_t{1} << 20;
 
 }  // namespace
 
-short Link::events() const {
-  if (state_ == State::kConnecting) return POLLOUT;
-  if (state_ == State::kPausing) return 0;
+short Connection::events() const {
+  if (state_ == State::kConnecting) {
+    return POLLOUT;
+  }
+  if (state_ == State::kPausing) {
+    return 0;
+  }
   return static_cast<short>(unsent_.empty() ? POLLIN : POLLIN | POLLOUT);
 }
 
-void Link::step(short revents, HostTime now) {
-  if (state_ == State::kPausing && now >= due_) begin(now);
-  if (state_ == State::kConnecting) {
-    if ((revents & (POLLOUT | POLLERR | POLLHUP)) != 0) return finish_connecting(now);
-    if (now >= due_) return drop("does not answer", now);
+void Connection::step(short revents, HostTime now) {
+  if (state_ == State::kPausing && now >= due_) {
+    begin(now);
   }
-  if (state_ != State::kConnected) return;
-  const auto more = conversation_.more(now);
-  if (unsent_.size() + more.size() <= kMaxUnsent)
+  if (state_ == State::kConnecting) {
+    if ((revents & (POLLOUT | POLLERR | POLLHUP)) != 0) {
+      return finish_connecting(now);
+    }
+    if (now >= due_) {
+      return drop("does not answer", now);
+    }
+  }
+  if (state_ != State::kConnected) {
+    return;
+  }
+  const auto more = protocol_.more(now);
+  if (unsent_.size() + more.size() <= kMaxUnsent) {
     unsent_.insert(unsent_.end(), more.begin(), more.end());
+  }
   write();
-  if (state_ == State::kConnected && (revents & (POLLIN | POLLERR | POLLHUP)) != 0) read(now);
-  if (state_ == State::kConnected && now - heard_ > options_.longest_silence)
+  if (state_ == State::kConnected && (revents & (POLLIN | POLLERR | POLLHUP)) != 0) {
+    read(now);
+  }
+  if (state_ == State::kConnected && now - heard_ > options_.longest_silence) {
     drop("silent for " + std::to_string(seconds(now - heard_)) + " s", now);
+  }
 }
 
-void Link::begin(HostTime now) {
+void Connection::begin(HostTime now) {
   auto socket = begin_connect(host_, options_.port);
-  if (!socket) return drop(socket.error().message, now);
+  if (!socket) {
+    return drop(socket.error().message, now);
+  }
   socket_ = std::move(*socket);
   state_ = State::kConnecting;
   due_ = now + kConnectWithin;
   heard_ = now;
 }
 
-void Link::finish_connecting(HostTime now) {
-  if (const Status connected = connect_outcome(socket_); !connected)
+void Connection::finish_connecting(HostTime now) {
+  if (const Status connected = connect_outcome(socket_); !connected) {
     return drop(connected.error().message, now);
+  }
   round_trip_ = std::chrono::duration_cast<Duration>(HostClock::now() - heard_);
   state_ = State::kConnected;
   heard_ = now;
   meter_.connected();
-  unsent_ = conversation_.opening();
+  unsent_ = protocol_.opening();
   write();
 }
 
-void Link::read(HostTime now) {
+void Connection::read(HostTime now) {
   for (int i = 0; i < kReadsATurn; ++i) {
-    const auto room = conversation_.room();
+    const auto room = protocol_.room();
     const auto count = receive_some(socket_, room);
-    if (!count) return drop(count.error().message, now);
-    if (*count == 0) return;
+    if (!count) {
+      return drop(count.error().message, now);
+    }
+    if (*count == 0) {
+      return;
+    }
     const HostTime at = HostClock::now();
     heard_ = at;
     pause_ = kFirstPause;
     meter_.received(*count);
-    if (const Status understood = conversation_.received(*count, at); !understood) {
+    if (const Status understood = protocol_.received(*count, at); !understood) {
       meter_.damaged(understood.error().message);
       return drop(understood.error().message, now);
     }
   }
 }
 
-void Link::write() {
-  if (unsent_.empty()) return;
+void Connection::write() {
+  if (unsent_.empty()) {
+    return;
+  }
   const auto count = send_some(socket_, unsent_);
-  if (!count) return;  // reading tells the same, with whatever came before it
+  if (!count) {
+    return;  // reading tells the same, with whatever came before it
+  }
   unsent_.erase(unsent_.begin(), unsent_.begin() + static_cast<std::ptrdiff_t>(*count));
 }
 
-void Link::drop(const std::string& why, HostTime now) {
+void Connection::drop(const std::string& why, HostTime now) {
   const bool was_connected = state_ == State::kConnected;
   socket_ = Socket();
   state_ = State::kPausing;
@@ -90,7 +117,9 @@ void Link::drop(const std::string& why, HostTime now) {
   pause_ = std::min(2 * pause_, kLongestPause);
   unsent_.clear();
   meter_.trouble("port " + std::to_string(options_.port) + ": " + why);
-  if (was_connected) conversation_.disconnected();
+  if (was_connected) {
+    protocol_.disconnected();
+  }
 }
 
 }  // namespace orthonav::hl2ss

@@ -10,9 +10,9 @@
 namespace orthonav::hl2ss {
 
 /// What understands the bytes of one port. All calls come from the thread that runs the links.
-class Conversation {
+class Protocol {
  public:
-  virtual ~Conversation() = default;
+  virtual ~Protocol() = default;
   /// What is said first on each new connection.
   [[nodiscard]] virtual std::vector<std::uint8_t> opening() = 0;
   /// Room for bytes, and that so many came at this time. An Error ends the connection: what follows
@@ -26,15 +26,15 @@ class Conversation {
 
 /// One port of the headset: connects, reconnects after a pause that doubles up to two seconds,
 /// gives up a connection that is silent for too long. Nothing here waits.
-class Link {
+class Connection {
  public:
   struct Options {
     int port = 0;
     Duration longest_silence = std::chrono::seconds(3);
   };
   /// Meter and conversation are borrowed; both hear of everything that happens here.
-  Link(const Endpoint& host, Options options, ArrivalMeter& meter, Conversation& conversation)
-      : host_(host), options_(options), meter_(meter), conversation_(conversation) {}
+  Connection(const Endpoint& host, Options options, ArrivalMeter& meter, Protocol& protocol)
+      : host_(host), options_(options), meter_(meter), protocol_(protocol) {}
 
   /// What poll() is to watch: -1 for nothing.
   [[nodiscard]] int fd() const { return socket_.fd(); }
@@ -56,7 +56,7 @@ class Link {
   Endpoint host_;
   Options options_;
   ArrivalMeter& meter_;
-  Conversation& conversation_;
+  Protocol& protocol_;
   Socket socket_;
   State state_ = State::kPausing;
   HostTime due_{};  ///< end of the pause, or of waiting for the connection

@@ -29,10 +29,13 @@ SoundStream::SoundStream(ArrivalMeter& meter, HeadsetTime& time)
 
 Status SoundStream::take(const Packet& packet, const Stamped& stamped) {
   constexpr std::size_t kFrame = kChannels * sizeof(std::int16_t);
-  if (packet.payload.size() % kFrame != 0)
+  if (packet.payload.size() % kFrame != 0) {
     return Error{"sound of " + std::to_string(packet.payload.size()) +
                  " bytes, must be a multiple of 4"};
-  if (!stamped.in_order) return {};
+  }
+  if (!stamped.in_order) {
+    return {};
+  }
   const std::size_t count = packet.payload.size() / kFrame;
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < count; ++i) {
@@ -42,7 +45,9 @@ Status SoundStream::take(const Packet& packet, const Stamped& stamped) {
   }
   // The stamp is the first sample's.
   end_ = stamped.time + from_seconds(static_cast<double>(count) / kMicrophoneHz);
-  if (samples_.size() <= kMostSamples) return {};
+  if (samples_.size() <= kMostSamples) {
+    return {};
+  }
   samples_.erase(samples_.begin(), samples_.end() - static_cast<std::ptrdiff_t>(kMostSamples));
   trouble_ = Error{"microphone: not read for a second, sound was dropped"};
   return {};
@@ -65,8 +70,9 @@ Result<std::size_t> SoundStream::do_read(std::span<std::int16_t> samples) {
   const auto end = samples_.begin() + static_cast<std::ptrdiff_t>(count);
   std::copy(samples_.begin(), end, samples.begin());
   samples_.erase(samples_.begin(), end);
-  if (count > 0)
+  if (count > 0) {
     delivered_ = end_ - from_seconds(static_cast<double>(samples_.size()) / kMicrophoneHz);
+  }
   return count;
 }
 
@@ -87,7 +93,9 @@ std::span<std::uint8_t> VoiceStream::room() {
 }
 
 std::vector<std::uint8_t> VoiceStream::more(HostTime now) {
-  if (asked_ || now < ask_at_) return {};
+  if (asked_ || now < ask_at_) {
+    return {};
+  }
   asked_ = true;
   ask_at_ = now + kAskEvery;
   return {kPollVoice};
@@ -97,9 +105,15 @@ Status VoiceStream::received(std::size_t count, HostTime at) {
   have_ += count;
   for (;;) {
     const auto answer = read_voice_answer(Bytes(buffer_).first(have_));
-    if (!answer) return answer.error();
-    if (!*answer) return {};
-    for (const VoiceResult& result : (*answer)->results) hear(result, at);
+    if (!answer) {
+      return answer.error();
+    }
+    if (!*answer) {
+      return {};
+    }
+    for (const VoiceResult& result : (*answer)->results) {
+      hear(result, at);
+    }
     std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>((*answer)->bytes),
               buffer_.begin() + static_cast<std::ptrdiff_t>(have_), buffer_.begin());
     have_ -= (*answer)->bytes;
@@ -114,16 +128,21 @@ Timestamp VoiceStream::spoken_at(const VoiceResult& result, HostTime at) {
   const std::uint64_t from_utc = boot - static_cast<std::uint64_t>(filetime_offset_);
   for (const std::uint64_t ticks : {boot, from_utc}) {
     const auto time = StampReader(time_.stamps).time_of(ticks, at);
-    if (time && *time <= now && now - *time <= kSpokenWithin) return *time;
+    if (time && *time <= now && now - *time <= kSpokenWithin) {
+      return *time;
+    }
   }
   return now;
 }
 
 void VoiceStream::hear(const VoiceResult& result, HostTime at) {
-  if (result.index == phrases_.size()) return;  // nothing that it was told to listen for
-  if (result.index > phrases_.size())
+  if (result.index == phrases_.size()) {
+    return;  // nothing that it was told to listen for
+  }
+  if (result.index > phrases_.size()) {
     return meter_.damaged("voice: phrase " + std::to_string(result.index) + " of " +
                           std::to_string(phrases_.size()));
+  }
   const Timestamp time = spoken_at(result, at);
   meter_.counted();
   inbox_.put({phrases_[result.index], result.confidence_of_phrase(), time});

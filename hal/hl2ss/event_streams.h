@@ -43,7 +43,7 @@ class SoundStream final : public PacketStream, public Microphone {
 };
 
 /// The headset's own speech recognition: told the phrases, then asked ten times a second.
-class VoiceStream final : public Conversation {
+class VoiceStream final : public Protocol {
  public:
   /// `filetime_offset` is UTC in ticks of 100 ns minus the headset's stamps.
   VoiceStream(std::vector<std::string> phrases, std::vector<std::uint8_t> vocabulary,

@@ -44,13 +44,16 @@ H264Decoder::~H264Decoder() = default;
 
 Result<std::unique_ptr<H264Decoder>> H264Decoder::create() {
   const AVCodec* h264 = avcodec_find_decoder(AV_CODEC_ID_H264);
-  if (h264 == nullptr) return Error{"libavcodec has no H.264 decoder"};
+  if (h264 == nullptr) {
+    return Error{"libavcodec has no H.264 decoder"};
+  }
   auto codec = std::make_unique<Codec>();
   codec->context = avcodec_alloc_context3(h264);
   codec->frame = av_frame_alloc();
   codec->packet = av_packet_alloc();
-  if (codec->context == nullptr || codec->frame == nullptr || codec->packet == nullptr)
+  if (codec->context == nullptr || codec->frame == nullptr || codec->packet == nullptr) {
     return Error{"out of memory for the H.264 decoder"};
+  }
   // Threads would hold pictures back; damage is to be told, never painted over.
   codec->context->thread_count = 1;
   codec->context->flags |= AV_CODEC_FLAG_LOW_DELAY;
@@ -58,8 +61,9 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create() {
   codec->context->error_concealment = 0;
   // A library does not print; what matters comes back as a code.
   codec->context->log_level_offset = AV_LOG_MAX_OFFSET;
-  if (const int code = avcodec_open2(codec->context, h264, nullptr); code < 0)
+  if (const int code = avcodec_open2(codec->context, h264, nullptr); code < 0) {
     return Error{"H.264 decoder: " + reason(code)};
+  }
   return std::unique_ptr<H264Decoder>(new H264Decoder(std::move(codec)));
 }
 
@@ -73,9 +77,13 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
                                                         GreyImage& image) {
   Codec& codec = *codec_;
   Status whole = order_.follow(access_unit);
-  if (!whole) restart();
-  if (const int code = av_new_packet(codec.packet, static_cast<int>(access_unit.size())); code < 0)
+  if (!whole) {
+    restart();
+  }
+  if (const int code = av_new_packet(codec.packet, static_cast<int>(access_unit.size()));
+      code < 0) {
     return Error{"H.264 decoder: " + reason(code)};
+  }
   std::copy(access_unit.begin(), access_unit.end(), codec.packet->data);
   codec.packet->pts = unit;
   const int sent = avcodec_send_packet(codec.context, codec.packet);
@@ -85,9 +93,13 @@ Result<std::optional<std::int64_t>> H264Decoder::decode(Bytes access_unit, std::
     return Error{"H.264 picture is damaged: " + reason(sent)};
   }
   auto picture = take_picture(image);
-  if (!picture) restart();
+  if (!picture) {
+    restart();
+  }
   // A key frame stands on nothing, whatever is missing before it; else the loss is to be told.
-  if (!whole && !(picture && *picture)) return whole.error();
+  if (!whole && !(picture && *picture)) {
+    return whole.error();
+  }
   return picture;
 }
 
@@ -95,24 +107,36 @@ Result<std::optional<std::int64_t>> H264Decoder::take_picture(GreyImage& image) 
   Codec& codec = *codec_;
   AVFrame* frame = codec.frame;
   const int code = avcodec_receive_frame(codec.context, frame);
-  if (code == AVERROR(EAGAIN)) return std::optional<std::int64_t>{};
-  if (code < 0) return Error{"H.264 picture is damaged: " + reason(code)};
-  if (frame->key_frame != 0) codec.waits_for_key = false;
-  if (frame->decode_error_flags != 0 || (frame->flags & AV_FRAME_FLAG_CORRUPT) != 0)
+  if (code == AVERROR(EAGAIN)) {
+    return std::optional<std::int64_t>{};
+  }
+  if (code < 0) {
+    return Error{"H.264 picture is damaged: " + reason(code)};
+  }
+  if (frame->key_frame != 0) {
+    codec.waits_for_key = false;
+  }
+  if (frame->decode_error_flags != 0 || (frame->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
     return Error{"H.264 picture is damaged"};
-  if (codec.waits_for_key) return std::optional<std::int64_t>{};
-  if (frame->width != kImageWidthPx || frame->height != kImageHeightPx)
+  }
+  if (codec.waits_for_key) {
+    return std::optional<std::int64_t>{};
+  }
+  if (frame->width != kImageWidthPx || frame->height != kImageHeightPx) {
     return Error{"H.264 picture is " + std::to_string(frame->width) + "x" +
                  std::to_string(frame->height) + " px, must be 640x480"};
-  if (!has_plain_luma(frame->format))
+  }
+  if (!has_plain_luma(frame->format)) {
     return Error{"H.264 picture has pixel format " + std::to_string(frame->format) +
                  ", must be 8-bit 4:2:0"};
+  }
   image.width_px = kImageWidthPx;
   image.height_px = kImageHeightPx;
   image.pixels.resize(kImageBytes);
-  for (int y = 0; y < kImageHeightPx; ++y)
+  for (int y = 0; y < kImageHeightPx; ++y) {
     std::copy_n(frame->data[0] + std::ptrdiff_t{y} * frame->linesize[0], kImageWidthPx,
                 image.pixels.begin() + std::ptrdiff_t{y} * kImageWidthPx);
+  }
   return std::optional<std::int64_t>{frame->pts};
 }
 

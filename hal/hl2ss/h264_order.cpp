@@ -42,7 +42,9 @@ class BitReader {
   /// Exp-Golomb (9.1).
   std::uint32_t golomb() {
     std::uint32_t zeros = 0;
-    while (ok_ && bits(1) == 0) ++zeros;
+    while (ok_ && bits(1) == 0) {
+      ++zeros;
+    }
     if (!ok_ || zeros > 31) {
       ok_ = false;
       return 0;
@@ -66,7 +68,9 @@ void skip_scaling_list(BitReader& reader, int size) {
       const std::int64_t coded = reader.golomb();
       next = (last + (coded % 2 != 0 ? (coded + 1) / 2 : -coded / 2) + 256) % 256;
     }
-    if (next != 0) last = next;
+    if (next != 0) {
+      last = next;
+    }
   }
 }
 
@@ -84,13 +88,19 @@ std::uint32_t frame_num_bits(Bytes unit) {
   reader.golomb();  // id
   if (has_chroma_format(profile)) {
     const std::uint32_t chroma = reader.golomb();
-    if (chroma == 3) reader.bits(1);
+    if (chroma == 3) {
+      reader.bits(1);
+    }
     reader.golomb();  // bit depths
     reader.golomb();
     reader.bits(1);  // bypass
-    if (reader.bits(1) != 0)
-      for (int list = 0; list < (chroma == 3 ? 12 : 8) && reader.ok(); ++list)
-        if (reader.bits(1) != 0) skip_scaling_list(reader, list < 6 ? 16 : 64);
+    if (reader.bits(1) != 0) {
+      for (int list = 0; list < (chroma == 3 ? 12 : 8) && reader.ok(); ++list) {
+        if (reader.bits(1) != 0) {
+          skip_scaling_list(reader, list < 6 ? 16 : 64);
+        }
+      }
+    }
   }
   const std::uint32_t bits = reader.golomb() + 4;
   return reader.ok() && bits <= 16 ? bits : 0;
@@ -101,11 +111,17 @@ Bytes next_unit(Bytes stream, std::size_t& at) {
   const auto start_code = [&](std::size_t i) {
     return i + 3 <= stream.size() && stream[i] == 0 && stream[i + 1] == 0 && stream[i + 2] == 1;
   };
-  while (at < stream.size() && !start_code(at)) ++at;
-  if (at >= stream.size()) return {};
+  while (at < stream.size() && !start_code(at)) {
+    ++at;
+  }
+  if (at >= stream.size()) {
+    return {};
+  }
   const std::size_t begin = at + 3;
   at = begin;
-  while (at < stream.size() && !start_code(at)) ++at;
+  while (at < stream.size() && !start_code(at)) {
+    ++at;
+  }
   return stream.subspan(begin, at - begin);
 }
 
@@ -117,16 +133,24 @@ Status H264Order::follow(Bytes access_unit) {
     const std::uint8_t kind = unit[0] & 31u;
     if (kind == kSequenceParameters) {
       frame_num_bits_ = frame_num_bits(unit.subspan(1));
-      if (frame_num_bits_ == 0) return Error{"H.264 parameter set is damaged"};
+      if (frame_num_bits_ == 0) {
+        return Error{"H.264 parameter set is damaged"};
+      }
     }
-    if (kind != kSlice && kind != kKeySlice) continue;
-    if (frame_num_bits_ == 0) return Error{"H.264 picture comes before its parameters"};
+    if (kind != kSlice && kind != kKeySlice) {
+      continue;
+    }
+    if (frame_num_bits_ == 0) {
+      return Error{"H.264 picture comes before its parameters"};
+    }
     BitReader reader(unit.subspan(1));
     reader.golomb();  // first macroblock
     reader.golomb();  // slice type
     reader.golomb();  // picture parameter set
     const std::uint32_t frame_num = reader.bits(frame_num_bits_);
-    if (!reader.ok()) return Error{"H.264 slice is damaged"};
+    if (!reader.ok()) {
+      return Error{"H.264 slice is damaged"};
+    }
     // One slice tells for its picture.
     return follow({frame_num, (unit[0] >> 5 & 3u) != 0}, kind == kKeySlice);
   }
@@ -136,12 +160,16 @@ Status H264Order::follow(Bytes access_unit) {
 Status H264Order::follow(const Picture& next, bool is_key) {
   const auto last = last_;
   last_ = next;
-  if (is_key || !last) return {};
+  if (is_key || !last) {
+    return {};
+  }
   const std::uint32_t largest = (1u << frame_num_bits_) - 1;
   const std::uint32_t after = (last->frame_num + 1) & largest;
   const bool is_next = next.frame_num == after;
   const bool repeats = next.frame_num == last->frame_num && !last->is_reference;
-  if (is_next || repeats) return {};
+  if (is_next || repeats) {
+    return {};
+  }
   last_.reset();
   return Error{"H.264 pictures are missing: number " + std::to_string(next.frame_num) +
                " comes after " + std::to_string(last->frame_num)};

@@ -27,13 +27,21 @@ Result<StereoCalibration> ask_calibration(const Endpoint& endpoint, const Hl2ssO
                deadline);
   };
   const auto left_bytes = answer(Service::kLeftFront);
-  if (!left_bytes) return left_bytes.error();
+  if (!left_bytes) {
+    return left_bytes.error();
+  }
   auto left = read_left_calibration(*left_bytes);
-  if (!left) return Error{"left camera: " + left.error().message};
+  if (!left) {
+    return Error{"left camera: " + left.error().message};
+  }
   const auto right_bytes = answer(Service::kRightFront);
-  if (!right_bytes) return right_bytes.error();
+  if (!right_bytes) {
+    return right_bytes.error();
+  }
   auto right = read_right_calibration(*right_bytes);
-  if (!right) return Error{"right camera: " + right.error().message};
+  if (!right) {
+    return Error{"right camera: " + right.error().message};
+  }
   return StereoCalibration{std::move(left->camera), std::move(right->camera), left->camera_from_rig,
                            right->camera_from_rig};
 }
@@ -43,7 +51,9 @@ std::int64_t ask_utc_offset(const Endpoint& endpoint, const Hl2ssOptions& option
   const std::uint8_t request[] = {kAskUtcOffset};
   const auto answer = ask(endpoint, options.first_port + offset_of(Service::kConfiguration),
                           request, sizeof(std::uint64_t), HostClock::now() + kConfigurationWithin);
-  if (!answer) return 0;
+  if (!answer) {
+    return 0;
+  }
   const auto offset = number_at<std::uint64_t>(*answer, 0);
   // Past the year 2300 it is none.
   return offset <= 220'000'000'000'000'000u ? static_cast<std::int64_t>(offset) : 0;
@@ -59,13 +69,23 @@ class Cameras final : public StereoCamera {
   Result<Next> do_next(StereoFrame& frame) override {
     StandinStream* standin = receiver_.standin();
     // Asking for the next pair says that the last one was done with.
-    if (standin && taken_) standin->send(StandinTook{*std::exchange(taken_, std::nullopt)});
-    if (auto trouble = receiver_.pairs().trouble()) return std::move(*trouble);
+    if (standin && taken_) {
+      standin->send(StandinTook{*std::exchange(taken_, std::nullopt)});
+    }
+    if (auto trouble = receiver_.pairs().trouble()) {
+      return std::move(*trouble);
+    }
     const bool ended = standin && standin->has_ended();
     const auto waiting = receiver_.pairs().waiting();
-    if (!waiting) return ended ? Next::kEnd : Next::kNone;
-    if (standin && !standin->admits(*waiting)) return Next::kNone;
-    if (!receiver_.pairs().take(frame)) return Next::kNone;
+    if (!waiting) {
+      return ended ? Next::kEnd : Next::kNone;
+    }
+    if (standin && !standin->admits(*waiting)) {
+      return Next::kNone;
+    }
+    if (!receiver_.pairs().take(frame)) {
+      return Next::kNone;
+    }
     taken_ = frame.time;
     return Next::kFrame;
   }
@@ -109,7 +129,9 @@ class RemoteDisplay final : public Display {
     return told.value_or(kDisplayLatency);
   }
   Status do_shown(const ShownFrame& frame) override {
-    if (receiver_.standin()) receiver_.standin()->send(StandinShown{frame});
+    if (receiver_.standin()) {
+      receiver_.standin()->send(StandinShown{frame});
+    }
     return {};
   }
   Receiver& receiver_;
@@ -151,13 +173,19 @@ class ConnectedHeadset final : public Hl2ssHeadset {
 
 Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& options) {
   const auto endpoint = resolve(options.host);
-  if (!endpoint) return trouble_with(options.host, endpoint.error().message);
+  if (!endpoint) {
+    return trouble_with(options.host, endpoint.error().message);
+  }
   const HostTime deadline = HostClock::now() + options.open_within;
   auto calibration = ask_calibration(*endpoint, options, deadline);
-  if (!calibration) return trouble_with(options.host, calibration.error().message);
+  if (!calibration) {
+    return trouble_with(options.host, calibration.error().message);
+  }
   const std::int64_t utc_offset = ask_utc_offset(*endpoint, options);
   auto receiver = Receiver::start(*endpoint, options, utc_offset);
-  if (!receiver) return trouble_with(options.host, receiver.error().message);
+  if (!receiver) {
+    return trouble_with(options.host, receiver.error().message);
+  }
   while (!(*receiver)->has_heard() ||
          ((*receiver)->standin() && !(*receiver)->standin()->display_latency())) {
     if (HostClock::now() >= deadline) {

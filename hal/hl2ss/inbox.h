@@ -18,9 +18,13 @@ class Inbox {
   void put(Event event) {
     const std::lock_guard lock(mutex_);
     // What came late may be stamped before what came early; the contract wants an order.
-    if (last_ && event.time < *last_) event.time = *last_;
+    if (last_ && event.time < *last_) {
+      event.time = *last_;
+    }
     last_ = event.time;
-    if (events_.size() == kMost) events_.pop_front();
+    if (events_.size() == kMost) {
+      events_.pop_front();
+    }
     events_.push_back(std::move(event));
   }
   void take_until(Timestamp until, std::vector<Event>& to) {

@@ -26,16 +26,22 @@ constexpr Duration kVouchedFor = std::chrono::seconds(10);
 
 bool MapWatch::is_possible(const Seen& next) const {
   const Duration passed = next.time - last_->time;
-  if (passed > kVouchedFor) return false;
+  if (passed > kVouchedFor) {
+    return false;
+  }
   const double dt_s = std::min(seconds(passed), kMaxUnseenS);
   const auto within = [&](const Transform<World, Rig>& expected, double limit_m, double limit_rad) {
     const auto& pose = next.world_from_rig;
     return (pose.translation() - expected.translation()).norm() <= limit_m &&
            rotation_angle_rad(pose.rotation(), expected.rotation()) <= limit_rad;
   };
-  if (!within(last_->world_from_rig, kNoiseM + kMaxSpeed * dt_s, kNoiseRad + kMaxTurnSpeed * dt_s))
+  if (!within(last_->world_from_rig, kNoiseM + kMaxSpeed * dt_s,
+              kNoiseRad + kMaxTurnSpeed * dt_s)) {
     return false;
-  if (!before_ || passed > kSpeedWithin) return true;
+  }
+  if (!before_ || passed > kSpeedWithin) {
+    return true;
+  }
   const double before_s = seconds(last_->time - before_->time);
   const auto expected = interpolated(before_->world_from_rig, last_->world_from_rig,
                                      1.0 + seconds(passed) / before_s);
@@ -50,7 +56,9 @@ bool MapWatch::moved(Timestamp time, const Transform<World, Rig>& world_from_rig
   const bool is_moved = last_ && (broken_off_ || !is_possible(next));
   broken_off_ = false;
   before_.reset();
-  if (last_ && !is_moved && time - last_->time <= kSpeedWithin) before_ = last_;
+  if (last_ && !is_moved && time - last_->time <= kSpeedWithin) {
+    before_ = last_;
+  }
   last_ = next;
   return is_moved;
 }
@@ -58,10 +66,16 @@ bool MapWatch::moved(Timestamp time, const Transform<World, Rig>& world_from_rig
 void HeadTrack::add(Timestamp time, const Transform<World, Rig>& world_from_rig,
                     std::int64_t map_epoch) {
   const std::lock_guard lock(mutex_);
-  if (map_epoch != map_epoch_) samples_.clear();
+  if (map_epoch != map_epoch_) {
+    samples_.clear();
+  }
   map_epoch_ = map_epoch;
-  if (!samples_.empty() && time <= samples_.back().time) return;
-  if (samples_.size() == kMaxSamples) samples_.pop_front();
+  if (!samples_.empty() && time <= samples_.back().time) {
+    return;
+  }
+  if (samples_.size() == kMaxSamples) {
+    samples_.pop_front();
+  }
   samples_.push_back({time, world_from_rig});
 }
 
@@ -72,7 +86,9 @@ void HeadTrack::lose() {
 
 std::optional<Timestamp> HeadTrack::do_newest_measurement() const {
   const std::lock_guard lock(mutex_);
-  if (samples_.empty()) return std::nullopt;
+  if (samples_.empty()) {
+    return std::nullopt;
+  }
   return samples_.back().time;
 }
 

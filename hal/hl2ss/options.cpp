@@ -13,9 +13,10 @@ Result<int> port_of(const std::string& key, std::string_view text, int largest) 
   int port = 0;
   const auto [rest, code] = std::from_chars(text.data(), text.data() + text.size(), port);
   if (text.empty() || code != std::errc{} || rest != text.data() + text.size() || port < 1 ||
-      port > largest)
+      port > largest) {
     return Error{key + " \"" + std::string(text) + "\" must be a whole number from 1 to " +
                  std::to_string(largest)};
+  }
   return port;
 }
 
@@ -24,17 +25,23 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
   const std::string key(item.substr(0, equals));
   const bool has_value = equals != std::string_view::npos;
   const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
-  if (key != "profile" && key != "port" && key != "standin")
+  if (key != "profile" && key != "port" && key != "standin") {
     return Error{"unknown key \"" + key + "\"; " + kKnownKeys};
-  if (!seen.insert(key).second) return Error{"key \"" + key + "\" is given twice"};
+  }
+  if (!seen.insert(key).second) {
+    return Error{"key \"" + key + "\" is given twice"};
+  }
   if (key == "profile") {
-    if (value != "raw" && value != "h264")
+    if (value != "raw" && value != "h264") {
       return Error{"profile \"" + std::string(value) + "\" must be raw or h264"};
+    }
     options.profile = value == "raw" ? VideoProfile::kRaw : VideoProfile::kH264Base;
     return {};
   }
   const auto port = port_of(key, value, key == "port" ? kMaxPort - kLastOffset : kMaxPort);
-  if (!port) return port.error();
+  if (!port) {
+    return port.error();
+  }
   (key == "port" ? options.first_port : options.standin_port) = *port;
   return {};
 }
@@ -42,25 +49,35 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
 }  // namespace
 
 Result<Hl2ssOptions> options_of(std::string_view after_scheme) {
-  if (!after_scheme.starts_with("//"))
+  if (!after_scheme.starts_with("//")) {
     return Error{"hl2ss: is followed by //HOST; " + std::string(kKnownKeys)};
+  }
   after_scheme.remove_prefix(2);
   const std::size_t question = after_scheme.find('?');
   Hl2ssOptions options;
   options.host = after_scheme.substr(0, question);
-  if (options.host.size() > 2 && options.host.front() == '[' && options.host.back() == ']')
+  if (options.host.size() > 2 && options.host.front() == '[' && options.host.back() == ']') {
     options.host = options.host.substr(1, options.host.size() - 2);
-  if (options.host.empty()) return Error{"names no host after hl2ss://"};
-  if (options.host.find_first_of("/@ ") != std::string::npos)
+  }
+  if (options.host.empty()) {
+    return Error{"names no host after hl2ss://"};
+  }
+  if (options.host.find_first_of("/@ ") != std::string::npos) {
     return Error{"host \"" + options.host + "\" must be a name or an address"};
-  if (question == std::string_view::npos) return options;
+  }
+  if (question == std::string_view::npos) {
+    return options;
+  }
   std::string_view rest = after_scheme.substr(question + 1);
   std::set<std::string> seen;
   for (;;) {
     const std::size_t end = rest.find('&');
-    if (const Status applied = apply(rest.substr(0, end), seen, options); !applied)
+    if (const Status applied = apply(rest.substr(0, end), seen, options); !applied) {
       return applied.error();
-    if (end == std::string_view::npos) return options;
+    }
+    if (end == std::string_view::npos) {
+      return options;
+    }
     rest.remove_prefix(end + 1);
   }
 }

@@ -29,14 +29,19 @@ void PacketAssembler::received(std::size_t count) { end_ += count; }
 
 Result<std::optional<Packet>> PacketAssembler::next() {
   const Bytes waiting(buffer_.data() + begin_, end_ - begin_);
-  if (waiting.size() < kPacketHeaderBytes) return std::optional<Packet>{};
+  if (waiting.size() < kPacketHeaderBytes) {
+    return std::optional<Packet>{};
+  }
   const auto size = number_at<std::uint32_t>(waiting, 8);
-  if (size > format_.max_payload)
+  if (size > format_.max_payload) {
     return Error{stream_ + ": payload of " + std::to_string(size) + " bytes, limit " +
                  std::to_string(format_.max_payload)};
+  }
   const std::size_t pose_bytes = format_.has_pose ? kPoseBytes : 0;
   const std::size_t whole = kPacketHeaderBytes + size + pose_bytes;
-  if (waiting.size() < whole) return std::optional<Packet>{};
+  if (waiting.size() < whole) {
+    return std::optional<Packet>{};
+  }
   begin_ += whole;
   return std::optional<Packet>({number_at<std::uint64_t>(waiting, 0),
                                 waiting.subspan(kPacketHeaderBytes, size),

@@ -6,8 +6,12 @@ Status PacketStream::received(std::size_t count, HostTime at) {
   assembler_.received(count);
   for (;;) {
     const auto packet = assembler_.next();
-    if (!packet) return packet.error();
-    if (!*packet) return {};
+    if (!packet) {
+      return packet.error();
+    }
+    if (!*packet) {
+      return {};
+    }
     const auto time = time_.stamps.time_of((*packet)->ticks, at);
     if (!time) {
       meter_.damaged("stamp " + std::to_string((*packet)->ticks) + " lies outside its time");
@@ -15,8 +19,9 @@ Status PacketStream::received(std::size_t count, HostTime at) {
     }
     time_.clock.heard(*time, at);
     const bool in_order = meter_.heard(*time, at);
-    if (const Status taken = take(**packet, {*time, at, in_order}); !taken)
+    if (const Status taken = take(**packet, {*time, at, in_order}); !taken) {
       meter_.damaged(taken.error().message);
+    }
   }
 }
 

@@ -14,7 +14,7 @@ struct HeadsetTime {
 };
 
 /// A port that sends packets: cuts them out, tells their times, counts what is wrong with them.
-class PacketStream : public Conversation {
+class PacketStream : public Protocol {
  public:
   PacketStream(const std::string& name, const PacketFormat& format, ArrivalMeter& meter,
                HeadsetTime& time)

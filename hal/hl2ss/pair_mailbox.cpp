@@ -19,15 +19,18 @@ void copy(const GreyImage& from, GreyImage& to) {
 
 void PairMailbox::note(std::vector<double>& figures, std::size_t& next, HostTime since) const {
   const double ms = std::chrono::duration<double, std::milli>(HostClock::now() - since).count();
-  if (figures.size() < kMostFigures)
+  if (figures.size() < kMostFigures) {
     figures.push_back(ms);
-  else
+  } else {
     figures[next++ % kMostFigures] = ms;
+  }
 }
 
 bool PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
   const std::lock_guard lock(mutex_);
-  if (last_time_ && pair.left.time <= *last_time_) return false;
+  if (last_time_ && pair.left.time <= *last_time_) {
+    return false;
+  }
   figures_.dropped += waits_ ? 1 : 0;
   newest_.sequence = next_sequence_++;
   newest_.map_epoch = map_epoch;
@@ -50,7 +53,9 @@ std::optional<Timestamp> PairMailbox::waiting() const {
 
 bool PairMailbox::take(StereoFrame& frame) {
   const std::lock_guard lock(mutex_);
-  if (!waits_) return false;
+  if (!waits_) {
+    return false;
+  }
   waits_ = false;
   frame.sequence = newest_.sequence;
   frame.map_epoch = newest_.map_epoch;

@@ -16,7 +16,9 @@ std::uint64_t apart(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : b
 Pairer::Slot& Pairer::free_slot(Slots& slots) {
   const auto free =
       std::find_if(slots.begin(), slots.end(), [](const Slot& s) { return !s.waits; });
-  if (free != slots.end()) return *free;
+  if (free != slots.end()) {
+    return *free;
+  }
   ++unpaired_;
   return *std::min_element(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) {
     return a.image.sensor_ticks < b.image.sensor_ticks;
@@ -36,31 +38,37 @@ std::optional<Pairer::Pair> Pairer::add(Side side, CameraImage& image) {
   const std::uint64_t ticks = slot.image.sensor_ticks;
   const auto nearest =
       std::min_element(others.begin(), others.end(), [ticks](const Slot& a, const Slot& b) {
-        if (a.waits != b.waits) return a.waits;
+        if (a.waits != b.waits) {
+          return a.waits;
+        }
         return apart(a.image.sensor_ticks, ticks) < apart(b.image.sensor_ticks, ticks);
       });
-  if (!nearest->waits || apart(nearest->image.sensor_ticks, ticks) > kWithinTicks)
+  if (!nearest->waits || apart(nearest->image.sensor_ticks, ticks) > kWithinTicks) {
     return std::nullopt;
+  }
   const std::uint64_t newest = std::max(ticks, nearest->image.sensor_ticks);
   last_ticks_ = newest;
   slot.waits = nearest->waits = false;
-  for (Slots& slots : waiting_)
-    for (Slot& older : slots)
+  for (Slots& slots : waiting_) {
+    for (Slot& older : slots) {
       if (older.waits && older.image.sensor_ticks <= newest) {
         older.waits = false;
         ++unpaired_;
       }
+    }
+  }
   CameraImage& left = side == Side::kLeft ? slot.image : nearest->image;
   CameraImage& right = side == Side::kLeft ? nearest->image : slot.image;
   return Pair{left, right};
 }
 
 void Pairer::forget() {
-  for (Slots& slots : waiting_)
+  for (Slots& slots : waiting_) {
     for (Slot& slot : slots) {
       unpaired_ += slot.waits ? 1 : 0;
       slot.waits = false;
     }
+  }
   last_ticks_.reset();
 }
 

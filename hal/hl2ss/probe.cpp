@@ -22,14 +22,17 @@ constexpr auto kPatience = std::chrono::seconds(1);
 
 Result<std::vector<ProbedPort>> probe(const Hl2ssOptions& options) {
   const auto host = resolve(options.host);
-  if (!host) return host.error();
+  if (!host) {
+    return host.error();
+  }
   std::vector<ProbedPort> ports;
   for (const auto& [name, service] : kServices) {
     ProbedPort& each = ports.emplace_back();
     each.name = name;
     each.port = options.first_port + offset_of(service);
-    if (const Status reached = reach(*host, each.port, HostClock::now() + kPatience); !reached)
+    if (const Status reached = reach(*host, each.port, HostClock::now() + kPatience); !reached) {
       each.trouble = reached.error().message;
+    }
   }
   return ports;
 }

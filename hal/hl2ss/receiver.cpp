@@ -20,8 +20,12 @@ constexpr int kTurnMs = 10;
 Result<std::unique_ptr<Receiver>> Receiver::start(const Endpoint& host, const Hl2ssOptions& options,
                                                   std::int64_t filetime_offset) {
   auto receiver = std::unique_ptr<Receiver>(new Receiver(host, options));
-  if (const Status added = receiver->add_cameras(); !added) return added.error();
-  if (const Status added = receiver->add_events(filetime_offset); !added) return added.error();
+  if (const Status added = receiver->add_cameras(); !added) {
+    return added.error();
+  }
+  if (const Status added = receiver->add_events(filetime_offset); !added) {
+    return added.error();
+  }
   receiver->thread_ = std::thread([self = receiver.get()] { self->run(); });
   return receiver;
 }
@@ -29,7 +33,9 @@ Result<std::unique_ptr<Receiver>> Receiver::start(const Endpoint& host, const Hl
 Receiver::~Receiver() {
   stop_ = true;
   wake_up_.wake();
-  if (thread_.joinable()) thread_.join();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
 }
 
 template <class Make>
@@ -37,11 +43,11 @@ auto& Receiver::add(const std::string& name, int port, Duration interval, Durati
                     Make make) {
   Stream stream;
   stream.meter = std::make_unique<ArrivalMeter>(name, interval);
-  auto conversation = make(*stream.meter);
-  auto& made = *conversation;
-  stream.conversation = std::move(conversation);
-  stream.link = std::make_unique<Link>(host_, Link::Options{port, longest_silence}, *stream.meter,
-                                       *stream.conversation);
+  auto protocol = make(*stream.meter);
+  auto& made = *protocol;
+  stream.protocol = std::move(protocol);
+  stream.connection = std::make_unique<Connection>(
+      host_, Connection::Options{port, longest_silence}, *stream.meter, *stream.protocol);
   streams_.push_back(std::move(stream));
   return made;
 }
@@ -53,7 +59,9 @@ Status Receiver::add_cameras() {
     std::unique_ptr<H264Decoder> decoder;
     if (options_.profile != VideoProfile::kRaw) {
       auto made = H264Decoder::create();
-      if (!made) return made.error();
+      if (!made) {
+        return made.error();
+      }
       decoder = std::move(*made);
     }
     const VideoRequest request{Mode::kVideoAndPose, 1, options_.profile, options_.bitrate};
@@ -74,26 +82,30 @@ Status Receiver::add_events(std::int64_t filetime_offset) {
   add("spatial input", port(Service::kSpatialInput), kSpatialInterval, silence,
       [this](ArrivalMeter& meter) { return std::make_unique<SpatialStream>(meter, time_); });
   auto vocabulary = vocabulary_bytes(options_.phrases);
-  if (!vocabulary) return vocabulary.error();
+  if (!vocabulary) {
+    return vocabulary.error();
+  }
   add("voice", port(Service::kVoice), Duration::max() / 2, kSilence, [&](ArrivalMeter& meter) {
     return std::make_unique<VoiceStream>(options_.phrases, std::move(*vocabulary), filetime_offset,
                                          meter, time_, phrases_);
   });
-  if (options_.standin_port > 0)
+  if (options_.standin_port > 0) {
     standin_ = &add("stand-in", options_.standin_port, Duration::max() / 2, kPacedSilence,
                     [this](ArrivalMeter&) {
                       return std::make_unique<StandinStream>(time_, clicks_, wake_up_);
                     });
+  }
   return {};
 }
 
 Microphone& Receiver::microphone() {
   const std::lock_guard lock(mutex_);
-  if (!sound_)
+  if (!sound_) {
     sound_ = &add("microphone", options_.first_port + offset_of(Service::kMicrophone),
                   std::chrono::milliseconds(21), kSilence, [this](ArrivalMeter& meter) {
                     return std::make_unique<SoundStream>(meter, time_);
                   });
+  }
   wake_up_.wake();
   return *sound_;
 }
@@ -104,18 +116,25 @@ void Receiver::run() {
     {
       const std::lock_guard lock(mutex_);
       watched.assign(1, {wake_up_.fd(), POLLIN, 0});
-      for (const Stream& stream : streams_)
-        watched.push_back({stream.link->fd(), stream.link->events(), 0});
+      for (const Stream& stream : streams_) {
+        watched.push_back({stream.connection->fd(), stream.connection->events(), 0});
+      }
     }
-    if (::poll(watched.data(), watched.size(), kTurnMs) < 0) continue;
-    if (watched[0].revents != 0) wake_up_.clear();
+    if (::poll(watched.data(), watched.size(), kTurnMs) < 0) {
+      continue;
+    }
+    if (watched[0].revents != 0) {
+      wake_up_.clear();
+    }
     const std::lock_guard lock(mutex_);
     const HostTime now = HostClock::now();
     for (std::size_t i = 0; i + 1 < watched.size(); ++i) {
-      Link& link = *streams_[i].link;
-      const bool was_connected = link.is_connected();
-      link.step(watched[i + 1].revents, now);
-      if (!was_connected && link.is_connected()) time_.clock.round_trip(link.round_trip());
+      Connection& connection = *streams_[i].connection;
+      const bool was_connected = connection.is_connected();
+      connection.step(watched[i + 1].revents, now);
+      if (!was_connected && connection.is_connected()) {
+        time_.clock.round_trip(connection.round_trip());
+      }
     }
   }
 }
@@ -128,16 +147,24 @@ void Receiver::take(Side side, CameraImage& image) {
     pairer_.forget();
     map_.break_off();
   }
-  if (const auto pair = pairer_.add(side, image)) publish(*pair);
+  if (const auto pair = pairer_.add(side, image)) {
+    publish(*pair);
+  }
 }
 
 void Receiver::publish(const Pairer::Pair& pair) {
   // The right camera's pose is of a moment that may differ; the pair stands at the left one's.
   const auto& pose = pair.left.world_from_rig;
-  if (pose && map_.moved(pair.left.time, *pose)) ++map_epoch_;
+  if (pose && map_.moved(pair.left.time, *pose)) {
+    ++map_epoch_;
+  }
   // First the head: who takes the pair asks for it at once.
-  if (pose) head_.add(pair.left.time, *pose, map_epoch_);
-  if (!pairs_.put(pair, map_epoch_)) ++late_pairs_;
+  if (pose) {
+    head_.add(pair.left.time, *pose, map_epoch_);
+  }
+  if (!pairs_.put(pair, map_epoch_)) {
+    ++late_pairs_;
+  }
 }
 
 void Receiver::lost(Side /*side*/) {
@@ -155,7 +182,9 @@ std::int64_t Receiver::base_ticks() const {
 Statistics Receiver::statistics() const {
   const std::lock_guard lock(mutex_);
   Statistics all;
-  for (const Stream& stream : streams_) all.streams.push_back(stream.meter->statistics());
+  for (const Stream& stream : streams_) {
+    all.streams.push_back(stream.meter->statistics());
+  }
   PairMailbox::Figures figures = pairs_.figures();
   all.pairs = figures.pairs;
   all.dropped = figures.dropped;
@@ -174,7 +203,9 @@ std::string Receiver::troubles() const {
   std::string all;
   for (const Stream& stream : streams_) {
     const StreamStatistics& each = stream.meter->statistics();
-    if (stream.link->is_connected() || each.last_trouble.empty()) continue;
+    if (stream.connection->is_connected() || each.last_trouble.empty()) {
+      continue;
+    }
     all += (all.empty() ? "" : "; ") + each.name + ": " + each.last_trouble;
   }
   return all;

@@ -48,8 +48,8 @@ class Receiver final : private ImageSink {
  private:
   struct Stream {
     std::unique_ptr<ArrivalMeter> meter;
-    std::unique_ptr<Conversation> conversation;
-    std::unique_ptr<Link> link;
+    std::unique_ptr<Protocol> protocol;
+    std::unique_ptr<Connection> connection;
   };
   Receiver(const Endpoint& host, const Hl2ssOptions& options) : host_(host), options_(options) {}
   Status add_cameras();

@@ -29,7 +29,9 @@ Result<Transform<World, Eye>> head_of(Vec3 position, Vec3 forward, Vec3 up) {
   const Vec3 z = -forward;
   auto head = Transform<World, Eye>::checked(Mat3::from_columns(up.cross(z), up, z), position,
                                              2.0 * kMaxDeviation);
-  if (!head) return Error{"spatial input: head: " + head.error().message};
+  if (!head) {
+    return Error{"spatial input: head: " + head.error().message};
+  }
   return head;
 }
 
@@ -48,18 +50,20 @@ Result<Hand> take_hand(ByteReader& reader, const char* which, bool valid) {
     finite = finite && joint.position.v.is_finite() && std::isfinite(joint.radius_m) &&
              std::isfinite(q.x + q.y + q.z + q.w);
   }
-  if (valid && !finite)
+  if (valid && !finite) {
     return Error{std::string("spatial input: ") + which +
                  " hand holds a number that is not finite"};
+  }
   return hand;
 }
 
 }  // namespace
 
 Result<SpatialInput> read_spatial_input(Bytes payload) {
-  if (payload.size() != kSpatialInputBytes)
+  if (payload.size() != kSpatialInputBytes) {
     return Error{"spatial input: " + std::to_string(payload.size()) + " bytes, must be " +
                  std::to_string(kSpatialInputBytes)};
+  }
   ByteReader reader(payload);
   SpatialInput input;
   const auto valid = reader.take<std::uint32_t>();
@@ -68,23 +72,34 @@ Result<SpatialInput> read_spatial_input(Bytes payload) {
   const Vec3 up = take_vec3(reader);
   if ((valid & kHead) != 0) {
     const auto head = head_of(position, forward, up);
-    if (!head) return head.error();
+    if (!head) {
+      return head.error();
+    }
     input.world_from_head = *head;
   }
   const Vec3 eye = take_vec3(reader);
   const Vec3 gaze = take_vec3(reader);
   if ((valid & kEyes) != 0) {
-    if (!eye.is_finite() || !is_unit(gaze))
+    if (!eye.is_finite() || !is_unit(gaze)) {
       return Error{"spatial input: gaze is " + std::to_string(gaze.norm()) +
                    " long, must be a unit vector at a finite place"};
+    }
     input.eyes = GazeRay{{eye}, {gaze}};
   }
   const auto left = take_hand(reader, "left", (valid & kLeftHand) != 0);
-  if (!left) return left.error();
-  if ((valid & kLeftHand) != 0) input.left_hand = *left;
+  if (!left) {
+    return left.error();
+  }
+  if ((valid & kLeftHand) != 0) {
+    input.left_hand = *left;
+  }
   const auto right = take_hand(reader, "right", (valid & kRightHand) != 0);
-  if (!right) return right.error();
-  if ((valid & kRightHand) != 0) input.right_hand = *right;
+  if (!right) {
+    return right.error();
+  }
+  if ((valid & kRightHand) != 0) {
+    input.right_hand = *right;
+  }
   return input;
 }
 
@@ -94,8 +109,11 @@ std::vector<std::uint8_t> spatial_input_bytes(
   bytes.reserve(kSpatialInputBytes);
   append(bytes, world_from_head ? kHead : std::uint32_t{0});
   const Transform<World, Eye> head = world_from_head.value_or(Transform<World, Eye>{});
-  for (const Vec3 v : {head.translation(), -head.rotation().column(2), head.rotation().column(1)})
-    for (int i = 0; i < 3; ++i) append(bytes, static_cast<float>(v[i]));
+  for (const Vec3 v : {head.translation(), -head.rotation().column(2), head.rotation().column(1)}) {
+    for (int i = 0; i < 3; ++i) {
+      append(bytes, static_cast<float>(v[i]));
+    }
+  }
   bytes.resize(kSpatialInputBytes);
   return bytes;
 }

@@ -48,8 +48,11 @@ void write(std::vector<std::uint8_t>& bytes, const StandinShown& shown) {
     append_text(bytes, hologram.name);
     append_text(bytes, hologram.text);
     append(bytes, static_cast<std::uint32_t>(hologram.points_in_world.size()));
-    for (const Point<World>& point : hologram.points_in_world)
-      for (int i = 0; i < 3; ++i) append(bytes, point.v[i]);
+    for (const Point<World>& point : hologram.points_in_world) {
+      for (int i = 0; i < 3; ++i) {
+        append(bytes, point.v[i]);
+      }
+    }
   }
 }
 void write(std::vector<std::uint8_t>& bytes, const StandinTook& took) {
@@ -57,13 +60,15 @@ void write(std::vector<std::uint8_t>& bytes, const StandinTook& took) {
 }
 
 Status read(ByteReader& reader, StandinHello& hello) {
-  if (reader.take<std::uint32_t>() != kMagic)
+  if (reader.take<std::uint32_t>() != kMagic) {
     return Error{"stand-in: no greeting of a stand-in (another server?)"};
+  }
   hello.paced = reader.take<std::uint8_t>() != 0;
   hello.display_latency = Duration(reader.take<std::int64_t>());
   hello.clock = take_time(reader);
-  if (hello.display_latency < Duration::zero() || hello.display_latency > std::chrono::seconds(1))
+  if (hello.display_latency < Duration::zero() || hello.display_latency > std::chrono::seconds(1)) {
     return Error{"stand-in: display latency must lie within 0 to 1 s"};
+  }
   return {};
 }
 
@@ -71,8 +76,9 @@ Status read(ByteReader& reader, StandinClicks& clicks) {
   const auto count = reader.take<std::uint32_t>();
   for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
     const auto action = reader.take<std::uint8_t>();
-    if (action > static_cast<std::uint8_t>(ClickerAction::kHold))
+    if (action > static_cast<std::uint8_t>(ClickerAction::kHold)) {
       return Error{"stand-in: unknown action of the clicker, " + std::to_string(action)};
+    }
     clicks.events.push_back({static_cast<ClickerAction>(action), take_time(reader)});
   }
   return {};
@@ -97,8 +103,12 @@ Status read(ByteReader& reader, StandinShown& shown) {
     const auto points = reader.take<std::uint32_t>();
     for (std::uint32_t k = 0; k < points && reader.ok(); ++k) {
       Point<World> point;
-      for (int axis = 0; axis < 3; ++axis) point.v[axis] = reader.take<double>();
-      if (!point.v.is_finite()) return Error{"stand-in: a point that is not finite"};
+      for (int axis = 0; axis < 3; ++axis) {
+        point.v[axis] = reader.take<double>();
+      }
+      if (!point.v.is_finite()) {
+        return Error{"stand-in: a point that is not finite"};
+      }
       hologram.points_in_world.push_back(point);
     }
   }
@@ -116,7 +126,9 @@ Status become(StandinMessage& message, std::uint8_t wanted) {
   if constexpr (kind == std::variant_size_v<StandinMessage>) {
     return Error{"stand-in: unknown message " + std::to_string(wanted)};
   } else {
-    if (wanted != kind) return become<kind + 1>(message, wanted);
+    if (wanted != kind) {
+      return become<kind + 1>(message, wanted);
+    }
     message.emplace<kind>();
     return {};
   }
@@ -135,22 +147,32 @@ void append(std::vector<std::uint8_t>& bytes, const StandinMessage& message) {
 
 Result<std::optional<ReadStandinMessage>> read_standin_message(Bytes bytes) {
   using Answer = std::optional<ReadStandinMessage>;
-  if (bytes.size() < kHeadBytes) return Answer{};
+  if (bytes.size() < kHeadBytes) {
+    return Answer{};
+  }
   const auto size = number_at<std::uint32_t>(bytes, 0);
-  if (size > kMaxStandinBytes)
+  if (size > kMaxStandinBytes) {
     return Error{"stand-in: message of " + std::to_string(size) + " bytes, limit " +
                  std::to_string(kMaxStandinBytes)};
-  if (bytes.size() < kHeadBytes + size) return Answer{};
+  }
+  if (bytes.size() < kHeadBytes + size) {
+    return Answer{};
+  }
   ByteReader reader(bytes.subspan(kHeadBytes, size));
   ReadStandinMessage answer;
   answer.bytes = kHeadBytes + size;
-  if (const Status known = become(answer.message, bytes[4]); !known) return known.error();
+  if (const Status known = become(answer.message, bytes[4]); !known) {
+    return known.error();
+  }
   const Status taken =
       std::visit([&reader](auto& each) { return read(reader, each); }, answer.message);
-  if (!taken) return taken.error();
-  if (!reader.ok() || reader.left() > 0)
+  if (!taken) {
+    return taken.error();
+  }
+  if (!reader.ok() || reader.left() > 0) {
     return Error{"stand-in: message " + std::to_string(bytes[4]) + " of " + std::to_string(size) +
                  " bytes does not fit its contents"};
+  }
   return Answer{std::move(answer)};
 }
 

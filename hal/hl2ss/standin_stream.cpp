@@ -39,14 +39,22 @@ Status StandinStream::take(const StandinMessage& message) {
   const std::lock_guard lock(mutex_);
   if (const auto* hello = std::get_if<StandinHello>(&message)) {
     hello_ = *hello;
-    if (hello->paced) time_.clock.paced(hello->clock, HostClock::now());
+    if (hello->paced) {
+      time_.clock.paced(hello->clock, HostClock::now());
+    }
     return {};
   }
-  if (!hello_) return Error{"stand-in: the greeting must come first"};
+  if (!hello_) {
+    return Error{"stand-in: the greeting must come first"};
+  }
   if (const auto* clicks = std::get_if<StandinClicks>(&message)) {
-    for (const ClickerEvent& event : clicks->events) inbox_.put(event);
+    for (const ClickerEvent& event : clicks->events) {
+      inbox_.put(event);
+    }
   } else if (const auto* up_to = std::get_if<StandinUpTo>(&message)) {
-    if (up_to_.size() == kMostUpTo) up_to_.pop_front();
+    if (up_to_.size() == kMostUpTo) {
+      up_to_.pop_front();
+    }
     up_to_.push_back(*up_to);
   } else if (std::holds_alternative<StandinEnd>(message)) {
     ended_ = true;
@@ -60,7 +68,9 @@ void StandinStream::send(const StandinMessage& message) {
   {
     const std::lock_guard lock(mutex_);
     // Nobody listens, or too slowly: the newest of it is not worth waiting for either.
-    if (!hello_ || unsent_.size() > kMaxStandinBytes) return;
+    if (!hello_ || unsent_.size() > kMaxStandinBytes) {
+      return;
+    }
     append(unsent_, message);
   }
   wake_up_.wake();
@@ -82,11 +92,18 @@ void StandinStream::disconnected() {
 
 bool StandinStream::admits(Timestamp pair_time) {
   const std::lock_guard lock(mutex_);
-  if (!hello_) return true;
-  while (!up_to_.empty() && up_to_.front().pair_time < pair_time) up_to_.pop_front();
-  if (up_to_.empty()) return false;
-  if (hello_->paced && up_to_.front().pair_time == pair_time)
+  if (!hello_) {
+    return true;
+  }
+  while (!up_to_.empty() && up_to_.front().pair_time < pair_time) {
+    up_to_.pop_front();
+  }
+  if (up_to_.empty()) {
+    return false;
+  }
+  if (hello_->paced && up_to_.front().pair_time == pair_time) {
     time_.clock.paced(up_to_.front().clock, HostClock::now());
+  }
   return true;
 }
 

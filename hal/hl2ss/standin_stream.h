@@ -11,7 +11,7 @@
 namespace orthonav::hl2ss {
 
 /// The client's end of the side channel to our own server. Thread-safe but for the conversation.
-class StandinStream final : public Conversation {
+class StandinStream final : public Protocol {
  public:
   StandinStream(HeadsetTime& time, Inbox<ClickerEvent>& inbox, const WakeUp& wake_up)
       : time_(time), inbox_(inbox), wake_up_(wake_up) {}

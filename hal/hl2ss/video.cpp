@@ -17,7 +17,9 @@ constexpr float kSlack = 1e-4f;
 }  // namespace
 
 std::vector<std::uint8_t> request_bytes(const VideoRequest& request) {
-  if (request.mode == Mode::kCalibration) return {static_cast<std::uint8_t>(request.mode)};
+  if (request.mode == Mode::kCalibration) {
+    return {static_cast<std::uint8_t>(request.mode)};
+  }
   std::vector<std::uint8_t> bytes = {static_cast<std::uint8_t>(request.mode), request.divisor,
                                      static_cast<std::uint8_t>(request.profile), 255};
   append(bytes, request.bitrate);
@@ -27,29 +29,45 @@ std::vector<std::uint8_t> request_bytes(const VideoRequest& request) {
 
 Result<std::optional<ReadVideoRequest>> read_video_request(Bytes bytes) {
   using Answer = std::optional<ReadVideoRequest>;
-  if (bytes.empty()) return Answer{};
+  if (bytes.empty()) {
+    return Answer{};
+  }
   const std::uint8_t mode = bytes[0];
-  if (mode > static_cast<std::uint8_t>(Mode::kCalibration))
+  if (mode > static_cast<std::uint8_t>(Mode::kCalibration)) {
     return Error{"video request: mode " + std::to_string(mode) + ", must be 0, 1 or 2"};
+  }
   ReadVideoRequest read{{static_cast<Mode>(mode)}, 1};
-  if (read.request.mode == Mode::kCalibration) return Answer{read};
-  if (bytes.size() < kFixedRequestBytes) return Answer{};
+  if (read.request.mode == Mode::kCalibration) {
+    return Answer{read};
+  }
+  if (bytes.size() < kFixedRequestBytes) {
+    return Answer{};
+  }
   const std::uint8_t profile = bytes[2];
-  if (bytes[1] == 0) return Error{"video request: divisor 0, must be at least 1"};
-  if (profile > 2 && profile != static_cast<std::uint8_t>(VideoProfile::kRaw))
+  if (bytes[1] == 0) {
+    return Error{"video request: divisor 0, must be at least 1"};
+  }
+  if (profile > 2 && profile != static_cast<std::uint8_t>(VideoProfile::kRaw)) {
     return Error{"video request: profile " + std::to_string(profile) +
                  ", must be 0 to 2 (H.264) or 255 (raw)"};
+  }
   read.request.divisor = bytes[1];
   read.request.profile = static_cast<VideoProfile>(profile);
   read.request.bitrate = number_at<std::uint32_t>(bytes, 4);
-  if (read.request.bitrate == 0) return Error{"video request: bitrate 0, must be positive"};
+  if (read.request.bitrate == 0) {
+    return Error{"video request: bitrate 0, must be positive"};
+  }
   read.bytes = kFixedRequestBytes + kOptionBytes * bytes[8];
-  if (bytes.size() < read.bytes) return Answer{};
+  if (bytes.size() < read.bytes) {
+    return Answer{};
+  }
   return Answer{read};
 }
 
 std::optional<ImagePayload> split_image(Bytes payload) {
-  if (payload.size() <= kImageTrailerBytes) return std::nullopt;
+  if (payload.size() <= kImageTrailerBytes) {
+    return std::nullopt;
+  }
   const std::size_t image_bytes = payload.size() - kImageTrailerBytes;
   ByteReader reader(payload.subspan(image_bytes));
   ImagePayload split;
@@ -62,36 +80,47 @@ std::optional<ImagePayload> split_image(Bytes payload) {
 
 Result<std::optional<Transform<World, Rig>>> read_pose(Bytes pose) {
   using Answer = std::optional<Transform<World, Rig>>;
-  if (pose.size() != kPoseBytes)
+  if (pose.size() != kPoseBytes) {
     return Error{"pose: " + std::to_string(pose.size()) + " bytes, must be 64"};
+  }
   std::array<float, 16> m{};
-  for (std::size_t i = 0; i < m.size(); ++i) m[i] = number_at<float>(pose, 4 * i);
-  if (m[15] == 0.0f) return Answer{};
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    m[i] = number_at<float>(pose, 4 * i);
+  }
+  if (m[15] == 0.0f) {
+    return Answer{};
+  }
   // Row vectors: what stands there is the transpose.
   const auto is = [](float value, float expected) { return std::abs(value - expected) <= kSlack; };
-  if (!is(m[15], 1.0f) || !is(m[3], 0.0f) || !is(m[7], 0.0f) || !is(m[11], 0.0f))
+  if (!is(m[15], 1.0f) || !is(m[3], 0.0f) || !is(m[7], 0.0f) || !is(m[11], 0.0f)) {
     return Error{"pose: last column must be 0 0 0 1"};
+  }
   const Vec3 translation_m{m[12], m[13], m[14]};
-  if (!(translation_m.norm() <= kMaxWorldM))
+  if (!(translation_m.norm() <= kMaxWorldM)) {
     return Error{"pose: " + std::to_string(translation_m.norm()) + " m from the origin, limit " +
                  std::to_string(kMaxWorldM) + " m"};
+  }
   const Mat3 rotation = {{{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}}}};
   const auto checked = Transform<World, Rig>::checked(rotation, translation_m);
-  if (!checked) return Error{"pose: " + checked.error().message};
+  if (!checked) {
+    return Error{"pose: " + checked.error().message};
+  }
   return Answer{*checked};
 }
 
 void append_pose(std::vector<std::uint8_t>& bytes,
                  const std::optional<Transform<World, Rig>>& world_from_rig) {
-  for (std::size_t column = 0; column < 4; ++column)
+  for (std::size_t column = 0; column < 4; ++column) {
     for (int row = 0; row < 4; ++row) {
       double entry = 0.0;
-      if (world_from_rig && column < 3 && row < 3)
+      if (world_from_rig && column < 3 && row < 3) {
         entry = world_from_rig->rotation()[row][column];
-      else if (world_from_rig && column == 3)
+      } else if (world_from_rig && column == 3) {
         entry = row < 3 ? world_from_rig->translation()[row] : 1.0;
+      }
       append(bytes, static_cast<float>(entry));
     }
+  }
 }
 
 }  // namespace orthonav::hl2ss

@@ -11,7 +11,9 @@ constexpr std::size_t kMostUnderway = 8;
 }  // namespace
 
 std::vector<std::uint8_t> VideoStream::opening() {
-  if (decoder_) decoder_->restart();
+  if (decoder_) {
+    decoder_->restart();
+  }
   underway_.clear();
   return request_bytes(request_);
 }
@@ -23,33 +25,46 @@ void VideoStream::disconnected() {
 
 Status VideoStream::take(const Packet& packet, const Stamped& stamped) {
   const auto payload = split_image(packet.payload);
-  if (!payload) return {};
+  if (!payload) {
+    return {};
+  }
   // A pose that is none must not cost the image: the pair says that the head is not located.
   const auto pose = read_pose(packet.pose);
   Status damage;
-  if (!pose) damage = pose.error();
+  if (!pose) {
+    damage = pose.error();
+  }
   const auto world_from_rig = pose ? *pose : std::nullopt;
   image_.arrived = stamped.at;
   if (!decoder_) {
-    if (const Status taken = take_raw(payload->image); !taken) return taken;
+    if (const Status taken = take_raw(payload->image); !taken) {
+      return taken;
+    }
     image_.sensor_ticks = payload->trailer.sensor_ticks;
     image_.time = stamped.time;
     image_.world_from_rig = world_from_rig;
     sink_.take(side_, image_);
     return damage;
   }
-  if (underway_.size() == kMostUnderway) underway_.pop_front();
+  if (underway_.size() == kMostUnderway) {
+    underway_.pop_front();
+  }
   underway_.push_back({units_++, payload->trailer.sensor_ticks, stamped.time, world_from_rig});
   const auto decoded = take_h264(payload->image, stamped.in_order);
-  if (!decoded) return decoded.error();
-  if (*decoded) sink_.take(side_, image_);
+  if (!decoded) {
+    return decoded.error();
+  }
+  if (*decoded) {
+    sink_.take(side_, image_);
+  }
   return damage;
 }
 
 Status VideoStream::take_raw(Bytes picture) {
-  if (picture.size() != kImageBytes)
+  if (picture.size() != kImageBytes) {
     return Error{"raw image of " + std::to_string(picture.size()) + " bytes, must be " +
                  std::to_string(kImageBytes)};
+  }
   image_.image.width_px = kImageWidthPx;
   image_.image.height_px = kImageHeightPx;
   image_.image.pixels.assign(picture.begin(), picture.end());
@@ -63,11 +78,17 @@ Result<bool> VideoStream::take_h264(Bytes access_unit, bool in_order) {
     return Error{"H.264 pictures out of order"};
   }
   const auto unit = decoder_->decode(access_unit, underway_.back().unit, image_.image);
-  if (!unit) return unit.error();
-  if (!*unit) return false;
+  if (!unit) {
+    return unit.error();
+  }
+  if (!*unit) {
+    return false;
+  }
   const auto known = std::find_if(underway_.begin(), underway_.end(),
                                   [&](const Underway& each) { return each.unit == **unit; });
-  if (known == underway_.end()) return false;
+  if (known == underway_.end()) {
+    return false;
+  }
   image_.sensor_ticks = known->sensor_ticks;
   image_.time = known->time;
   image_.world_from_rig = known->world_from_rig;

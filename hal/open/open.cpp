@@ -34,35 +34,49 @@ Status apply_sim_key(const std::string& uri, std::string_view item, std::set<std
   const std::string key(item.substr(0, equals));
   const bool has_value = equals != std::string_view::npos;
   const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
-  if (key != "seed" && key != "perfect" && key != "realtime")
+  if (key != "seed" && key != "perfect" && key != "realtime") {
     return bad_uri(uri, "unknown key \"" + key + "\"; " + kKnownSimKeys);
-  if (!seen.insert(key).second) return bad_uri(uri, "key \"" + key + "\" is given twice");
+  }
+  if (!seen.insert(key).second) {
+    return bad_uri(uri, "key \"" + key + "\" is given twice");
+  }
   if (key == "seed") {
     const char* end = value.data() + value.size();
     const auto [rest, code] = std::from_chars(value.data(), end, options.seed);
-    if (value.empty() || code != std::errc{} || rest != end)
+    if (value.empty() || code != std::errc{} || rest != end) {
       return bad_uri(uri, "seed \"" + std::string(value) +
                               "\" is not a whole number from 0 to 18446744073709551615");
+    }
     return {};
   }
-  if (has_value) return bad_uri(uri, "key \"" + key + "\" takes no value");
-  if (key == "perfect") options.magnitudes = sim::Magnitudes::perfect();
-  if (key == "realtime") options.pace = sim::Pace::kRealtime;
+  if (has_value) {
+    return bad_uri(uri, "key \"" + key + "\" takes no value");
+  }
+  if (key == "perfect") {
+    options.error_model = sim::ErrorModel::perfect();
+  }
+  if (key == "realtime") {
+    options.pace = sim::Pace::kRealtime;
+  }
   return {};
 }
 
 Result<sim::SimOptions> sim_options(const std::string& uri, std::string_view rest,
                                     sim::SimOptions options) {
-  if (rest.empty()) return options;
-  if (rest.front() != '?')
+  if (rest.empty()) {
+    return options;
+  }
+  if (rest.front() != '?') {
     return bad_uri(
         uri, "sim: is followed by nothing or by ?key=value&...; " + std::string(kKnownSimKeys));
+  }
   rest.remove_prefix(1);
   std::set<std::string> seen;
   while (!rest.empty()) {
     const std::size_t end = rest.find('&');
-    if (Status status = apply_sim_key(uri, rest.substr(0, end), seen, options); !status)
+    if (Status status = apply_sim_key(uri, rest.substr(0, end), seen, options); !status) {
       return status.error();
+    }
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
   }
   return options;
@@ -74,16 +88,21 @@ Result<std::pair<std::string, replay::ReplayOptions>> replay_options(const std::
   // A folder's name may hold a question mark.
   const std::size_t question = rest.rfind("?pace");
   const std::string folder = rest.substr(0, question);
-  if (folder.empty()) return bad_uri(uri, "names no folder after replay:");
+  if (folder.empty()) {
+    return bad_uri(uri, "names no folder after replay:");
+  }
   replay::ReplayOptions options;
-  if (question == std::string::npos) return std::pair(folder, options);
+  if (question == std::string::npos) {
+    return std::pair(folder, options);
+  }
   const std::string pace = rest.substr(question);
-  if (pace == "?pace=realtime")
+  if (pace == "?pace=realtime") {
     options.pace = replay::ReplayPace::kRealtime;
-  else if (pace == "?pace=step")
+  } else if (pace == "?pace=step") {
     options.pace = replay::ReplayPace::kStepped;
-  else if (pace != "?pace=fast")
+  } else if (pace != "?pace=fast") {
     return bad_uri(uri, "pace is unknown; known are fast, realtime and step");
+  }
   return std::pair(folder, options);
 }
 
@@ -91,28 +110,39 @@ Result<std::pair<std::string, replay::ReplayOptions>> replay_options(const std::
 
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const OpenOptions& options) {
   const std::size_t colon = uri.find(':');
-  if (colon == std::string::npos)
+  if (colon == std::string::npos) {
     return bad_uri(uri, std::string("has no scheme; ") + kKnownSchemes);
+  }
   const std::string scheme = uri.substr(0, colon);
   const std::string rest = uri.substr(colon + 1);
   if (scheme == "sim") {
     auto chosen = sim_options(uri, rest, options.sim);
-    if (!chosen) return chosen.error();
+    if (!chosen) {
+      return chosen.error();
+    }
     sim::RoomDescription room = options.room;
-    if (room.tools.empty()) room.tools.push_back(default_pointer());
+    if (room.tools.empty()) {
+      room.tools.push_back(default_pointer());
+    }
     return as_headset(sim::SimHeadset::open(std::move(room), *chosen));
   }
   if (scheme == "replay") {
     const auto chosen = replay_options(uri, rest);
-    if (!chosen) return chosen.error();
+    if (!chosen) {
+      return chosen.error();
+    }
     return as_headset(replay::ReplayHeadset::open(chosen->first, chosen->second));
   }
   if (scheme == "hl2ss") {
     auto chosen = hl2ss::options_of(rest);
-    if (!chosen) return bad_uri(uri, chosen.error().message);
+    if (!chosen) {
+      return bad_uri(uri, chosen.error().message);
+    }
     return as_headset(hl2ss::Hl2ssHeadset::open(*chosen));
   }
-  if (scheme == "openxr") return open_openxr(uri, rest, options);
+  if (scheme == "openxr") {
+    return open_openxr(uri, rest, options);
+  }
   return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes);
 }
 

@@ -18,38 +18,49 @@ constexpr const char* kForm =
 /// Sixteen finite numbers in four rows; millimetres.
 Result<Transform<Eye, Rig>> pose_from(const nlohmann::json& json, const std::string& name) {
   const auto field = json.is_object() ? json.find("view_from_rig") : json.end();
-  if (!json.is_object() || field == json.end() || !field->is_array() || field->size() != 4)
+  if (!json.is_object() || field == json.end() || !field->is_array() || field->size() != 4) {
     return Error{name + ": view_from_rig must be four rows of four numbers"};
+  }
   std::array<double, 16> rows{};
   for (std::size_t r = 0; r < 4; ++r) {
     const auto& row = (*field)[r];
-    if (!row.is_array() || row.size() != 4)
+    if (!row.is_array() || row.size() != 4) {
       return Error{name + ": view_from_rig must be four rows of four numbers"};
+    }
     for (std::size_t c = 0; c < 4; ++c) {
-      if (!row[c].is_number())
+      if (!row[c].is_number()) {
         return Error{name + ": view_from_rig must be four rows of four numbers"};
+      }
       rows[4 * r + c] = row[c].get<double>();
     }
   }
-  if (rows[12] != 0.0 || rows[13] != 0.0 || rows[14] != 0.0 || rows[15] != 1.0)
+  if (rows[12] != 0.0 || rows[13] != 0.0 || rows[14] != 0.0 || rows[15] != 1.0) {
     return Error{name + ": the last row of view_from_rig must be 0 0 0 1"};
+  }
   constexpr double kMostAway_mm = 1000.0;
   for (const std::size_t i : {3u, 7u, 11u}) {
-    if (!(std::abs(rows[i]) <= kMostAway_mm))
+    if (!(std::abs(rows[i]) <= kMostAway_mm)) {
       return Error{name + ": view_from_rig is " + std::to_string(rows[i]) + " mm away, limit " +
                    std::to_string(kMostAway_mm) + " mm"};
+    }
     rows[i] *= 1e-3;
   }
   auto pose = Transform<Eye, Rig>::from_row_major(rows);
-  if (!pose) return Error{name + ": view_from_rig: " + pose.error().message};
+  if (!pose) {
+    return Error{name + ": view_from_rig: " + pose.error().message};
+  }
   return pose;
 }
 
 Result<Transform<Eye, Rig>> load_rig(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{path + ": can't be read"};
+  if (!file) {
+    return Error{path + ": can't be read"};
+  }
   const auto json = nlohmann::json::parse(file, nullptr, false);
-  if (json.is_discarded()) return Error{path + ": is no JSON"};
+  if (json.is_discarded()) {
+    return Error{path + ": is no JSON"};
+  }
   return pose_from(json, path);
 }
 
@@ -67,29 +78,40 @@ Result<std::unique_ptr<Headset>> open_openxr(const std::string& uri, std::string
     const std::size_t end = rest.find('+');
     const std::string_view query = rest.substr(1, end == rest.npos ? rest.npos : end - 1);
     constexpr std::string_view kRig = "rig=";
-    if (!query.starts_with(kRig) || query.size() == kRig.size())
+    if (!query.starts_with(kRig) || query.size() == kRig.size()) {
       return bad_uri(uri, "unknown key \"" + std::string(query.substr(0, query.find('='))) +
                               "\"; known is rig=FILE");
+    }
     rig_file = std::string(query.substr(kRig.size()));
     rest = end == rest.npos ? std::string_view() : rest.substr(end);
   }
-  if (rest.empty()) rest = "+sim:";
-  if (!rest.starts_with('+') || rest.size() == 1) return bad_uri(uri, kForm);
+  if (rest.empty()) {
+    rest = "+sim:";
+  }
+  if (!rest.starts_with('+') || rest.size() == 1) {
+    return bad_uri(uri, kForm);
+  }
   const std::string cameras_uri(rest.substr(1));
-  if (cameras_uri.starts_with("openxr:"))
+  if (cameras_uri.starts_with("openxr:")) {
     return bad_uri(uri, "the cameras of one openxr: can't be another one's");
+  }
   openxr::RigOnHead rig;
   rig.mounted = is_mounted(cameras_uri);
-  if (rig.mounted && !rig_file)
+  if (rig.mounted && !rig_file) {
     return bad_uri(uri,
                    "cameras on the head need rig=FILE: where they are mounted can't be guessed");
+  }
   if (rig_file) {
     auto pose = load_rig(*rig_file);
-    if (!pose) return bad_uri(uri, pose.error().message);
+    if (!pose) {
+      return bad_uri(uri, pose.error().message);
+    }
     rig.view_from_rig = *pose;
   }
   auto cameras = open_headset(cameras_uri, options);
-  if (!cameras) return cameras.error();
+  if (!cameras) {
+    return cameras.error();
+  }
   return std::unique_ptr<Headset>(openxr::OpenxrHeadset::around(std::move(*cameras), rig));
 }
 

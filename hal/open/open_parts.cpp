@@ -44,7 +44,9 @@ Result<PartUri> cut_up(const char* part, const std::string& uri) {
   PartUri cut;
   const std::size_t colon = uri.find(':');
   cut.scheme = uri.substr(0, colon);
-  if (colon == std::string::npos) return cut;
+  if (colon == std::string::npos) {
+    return cut;
+  }
   const std::size_t question = uri.find('?', colon);
   cut.rest = uri.substr(colon + 1, question == std::string::npos ? question : question - colon - 1);
   std::string_view query = question == std::string::npos
@@ -56,7 +58,9 @@ Result<PartUri> cut_up(const char* part, const std::string& uri) {
     query = query.size() > item.size() ? query.substr(item.size() + 1) : std::string_view();
     const std::size_t equals = item.find('=');
     const std::string key = item.substr(0, equals);
-    if (!seen.insert(key).second) return bad_part(part, uri, "key \"" + key + "\" is given twice");
+    if (!seen.insert(key).second) {
+      return bad_part(part, uri, "key \"" + key + "\" is given twice");
+    }
     cut.items.emplace_back(key, equals == std::string::npos
                                     ? std::nullopt
                                     : std::optional<std::string>(item.substr(equals + 1)));
@@ -66,10 +70,14 @@ Result<PartUri> cut_up(const char* part, const std::string& uri) {
 
 std::optional<Duration> milliseconds_in(const std::optional<std::string>& value) {
   int ms = 0;
-  if (!value) return std::nullopt;
+  if (!value) {
+    return std::nullopt;
+  }
   const char* end = value->data() + value->size();
   const auto [rest, code] = std::from_chars(value->data(), end, ms);
-  if (value->empty() || code != std::errc{} || rest != end) return std::nullopt;
+  if (value->empty() || code != std::errc{} || rest != end) {
+    return std::nullopt;
+  }
   return std::chrono::milliseconds(ms);
 }
 
@@ -80,8 +88,9 @@ Result<std::vector<int>> codes_of(const std::string& names) {
     const std::size_t end = std::min(names.find(',', begin), names.size());
     const std::string name = names.substr(begin, end - begin);
     const int code = desktop::key_code(name);
-    if (code < 0)
+    if (code < 0) {
       return Error{"key \"" + name + "\" is unknown; names are those of linux/input-event-codes.h"};
+    }
     codes.push_back(code);
     begin = end + 1;
   }
@@ -96,7 +105,9 @@ Status apply(const std::string& key, const std::optional<std::string>& value,
   }
   if (key == "keys" && value) {
     auto codes = codes_of(*value);
-    if (!codes) return codes.error();
+    if (!codes) {
+      return codes.error();
+    }
     options.keys.codes = std::move(*codes);
     return {};
   }
@@ -104,9 +115,13 @@ Status apply(const std::string& key, const std::optional<std::string>& value,
                      : key == "hold_ms"     ? &options.hold_after
                      : key == "debounce_ms" ? &options.debounce
                                             : nullptr;
-  if (!wanted) return Error{"unknown key \"" + key + "\"; " + kClickerKeys};
+  if (!wanted) {
+    return Error{"unknown key \"" + key + "\"; " + kClickerKeys};
+  }
   const auto ms = milliseconds_in(value);
-  if (!ms) return Error{key + " must be a whole number of milliseconds"};
+  if (!ms) {
+    return Error{key + " must be a whole number of milliseconds"};
+  }
   *wanted = *ms;
   return {};
 }
@@ -129,58 +144,83 @@ class BorrowedMicrophone final : public Microphone {
 
 Result<std::unique_ptr<Microphone>> microphone_of(const std::string& uri, Headset* headset) {
   Microphone* owned = headset ? headset->microphone() : nullptr;
-  if (!owned) return bad_part("voice", uri, "this headset has no microphone to listen to");
+  if (!owned) {
+    return bad_part("voice", uri, "this headset has no microphone to listen to");
+  }
   return std::unique_ptr<Microphone>(std::make_unique<BorrowedMicrophone>(*owned));
 }
 
 }  // namespace
 
 Result<std::unique_ptr<Clicker>> open_clicker(const std::string& uri, const Clock& clock) {
-  if (uri == "headset") return std::unique_ptr<Clicker>();
-  if (uri == "none") return std::unique_ptr<Clicker>(std::make_unique<NoClicker>());
+  if (uri == "headset") {
+    return std::unique_ptr<Clicker>();
+  }
+  if (uri == "none") {
+    return std::unique_ptr<Clicker>(std::make_unique<NoClicker>());
+  }
   const auto cut = cut_up("clicker", uri);
-  if (!cut) return cut.error();
-  if (cut->scheme != "evdev" && cut->scheme != "keyboard")
+  if (!cut) {
+    return cut.error();
+  }
+  if (cut->scheme != "evdev" && cut->scheme != "keyboard") {
     return bad_part("clicker", uri, std::string("is unknown; ") + kClickers);
+  }
   desktop::ClickerOptions options;
   options.device = cut->rest;
   options.full_keyboard = cut->scheme == "keyboard";
-  for (const auto& [key, value] : cut->items)
-    if (Status applied = apply(key, value, options); !applied)
+  for (const auto& [key, value] : cut->items) {
+    if (Status applied = apply(key, value, options); !applied) {
       return bad_part("clicker", uri, applied.error().message);
+    }
+  }
   auto clicker = desktop::EvdevClicker::open(options, clock);
-  if (!clicker) return clicker.error();
+  if (!clicker) {
+    return clicker.error();
+  }
   return std::unique_ptr<Clicker>(std::move(*clicker));
 }
 
 Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
                                           const std::vector<std::string>& commands,
                                           const Clock& clock, Headset* headset) {
-  if (uri == "headset") return std::unique_ptr<Voice>();
-  if (uri == "none") return std::unique_ptr<Voice>(std::make_unique<NoVoice>());
+  if (uri == "headset") {
+    return std::unique_ptr<Voice>();
+  }
+  if (uri == "none") {
+    return std::unique_ptr<Voice>(std::make_unique<NoVoice>());
+  }
   const auto cut = cut_up("voice", uri);
-  if (!cut) return cut.error();
-  if (cut->scheme != "mic" && cut->scheme != "wav" && cut->scheme != "headset-mic")
+  if (!cut) {
+    return cut.error();
+  }
+  if (cut->scheme != "mic" && cut->scheme != "wav" && cut->scheme != "headset-mic") {
     return bad_part("voice", uri, std::string("is unknown; ") + kVoices);
+  }
   voice::SpotterOptions options;
   options.commands = commands;
   for (const auto& [key, value] : cut->items) {
-    if (key != "wake") return bad_part("voice", uri, "unknown key \"" + key + "\"; " + kVoiceKeys);
-    if (value == "always")
+    if (key != "wake") {
+      return bad_part("voice", uri, "unknown key \"" + key + "\"; " + kVoiceKeys);
+    }
+    if (value == "always") {
       options.waking = voice::Waking::kAlways;
-    else if (value == "noise")
+    } else if (value == "noise") {
       options.waking = voice::Waking::kInNoise;
-    else if (value == "never")
+    } else if (value == "never") {
       options.waking = voice::Waking::kNever;
-    else
+    } else {
       return bad_part("voice", uri, kVoiceKeys);
+    }
   }
   const bool file = cut->scheme == "wav";
   auto microphone = file ? desktop::open_wav_microphone(cut->rest, clock)
                     : cut->scheme == "headset-mic"
                         ? microphone_of(uri, headset)
                         : desktop::open_portaudio_microphone(cut->rest, clock);
-  if (!microphone) return microphone.error();
+  if (!microphone) {
+    return microphone.error();
+  }
   return voice::open_spotted_voice(
       std::move(*microphone), options,
       file ? voice::Listening::kInPoll : voice::Listening::kOnItsOwnThread);

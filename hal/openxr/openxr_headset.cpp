@@ -28,11 +28,15 @@ class Cameras : public StereoCamera {
     // Buffers are reused, and a device whose map never moves does not touch this.
     frame.map_epoch = 0;
     auto answer = inner_.next(frame);
-    if (!answer || *answer != Next::kFrame) return answer;
+    if (!answer || *answer != Next::kFrame) {
+      return answer;
+    }
     if (mounted_) {
       const auto pose = display_.world_from_rig(frame.time);
       frame.world_from_rig.reset();
-      if (pose.origin == Origin::kMeasured) frame.world_from_rig = pose.value;
+      if (pose.status == PoseStatus::kMeasured) {
+        frame.world_from_rig = pose.value;
+      }
     }
     frame.map_epoch += display_.map_epoch(frame.time);
     return answer;
@@ -66,7 +70,9 @@ class Words : public Display {
 
  private:
   [[nodiscard]] Duration do_latency() const override {
-    if (mounted_) return display_.latency();
+    if (mounted_) {
+      return display_.latency();
+    }
     const Timestamp now = clock_.now();
     return inner_.predicted_display_time(now) - now;
   }
@@ -118,10 +124,16 @@ std::unique_ptr<OpenxrHeadset> OpenxrHeadset::around(std::unique_ptr<Headset> ca
 
 Result<std::string> describe_runtime() {
   auto runtime = Runtime::connect();
-  if (!runtime) return runtime.error();
-  if (const Status found = (*runtime)->find_headset(); !found) return found.error();
+  if (!runtime) {
+    return runtime.error();
+  }
+  if (const Status found = (*runtime)->find_headset(); !found) {
+    return found.error();
+  }
   const auto headset = (*runtime)->headset_name();
-  if (!headset) return headset.error();
+  if (!headset) {
+    return headset.error();
+  }
   return (*runtime)->name() + ", " + *headset;
 }
 

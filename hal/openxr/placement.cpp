@@ -14,14 +14,19 @@ constexpr std::size_t kKept = 8;
 WorldAnchor::WorldAnchor(Placement placement) : placement_(placement) {
   Stretch first;
   first.from = std::numeric_limits<XrTime>::min();
-  if (placement == Placement::kMounted) first.world_from_space = Transform<World, Space>();
+  if (placement == Placement::kMounted) {
+    first.world_from_space = Transform<World, Space>();
+  }
   stretches_.push_back(first);
 }
 
 const WorldAnchor::Stretch& WorldAnchor::at(XrTime time) const {
   const Stretch* found = &stretches_.front();
-  for (const Stretch& stretch : stretches_)
-    if (stretch.from <= time) found = &stretch;
+  for (const Stretch& stretch : stretches_) {
+    if (stretch.from <= time) {
+      found = &stretch;
+    }
+  }
   return *found;
 }
 
@@ -34,8 +39,9 @@ std::int64_t WorldAnchor::epoch(XrTime time) const { return at(time).epoch; }
 void WorldAnchor::lay(XrTime time, const Transform<World, Viewer>& world_from_viewer,
                       const Transform<Space, Viewer>& space_from_viewer) {
   auto& stretch = stretches_[static_cast<std::size_t>(&at(time) - stretches_.data())];
-  if (!stretch.world_from_space)
+  if (!stretch.world_from_space) {
     stretch.world_from_space = world_from_viewer * space_from_viewer.inverse();
+  }
 }
 
 void WorldAnchor::move(XrTime from, const std::optional<Transform<Space, Space>>& old_from_new) {
@@ -51,7 +57,9 @@ void WorldAnchor::move(XrTime from, const std::optional<Transform<Space, Space>>
     next.world_from_space = *before.world_from_space * *old_from_new;
   }
   stretches_.push_back(next);
-  if (stretches_.size() > kKept) stretches_.erase(stretches_.begin());
+  if (stretches_.size() > kKept) {
+    stretches_.erase(stretches_.begin());
+  }
 }
 
 }  // namespace orthonav::openxr

@@ -27,30 +27,41 @@ Error no_runtime(XrResult result) {
 Result<std::vector<std::string>> offered_extensions() {
   std::uint32_t count = 0;
   XrResult result = xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr);
-  if (XR_FAILED(result)) return no_runtime(result);
+  if (XR_FAILED(result)) {
+    return no_runtime(result);
+  }
   std::vector<XrExtensionProperties> properties(count, {XR_TYPE_EXTENSION_PROPERTIES});
   result = xrEnumerateInstanceExtensionProperties(nullptr, count, &count, properties.data());
-  if (XR_FAILED(result)) return no_runtime(result);
+  if (XR_FAILED(result)) {
+    return no_runtime(result);
+  }
   std::vector<std::string> names;
-  for (const XrExtensionProperties& property : properties)
+  for (const XrExtensionProperties& property : properties) {
     names.emplace_back(property.extensionName);
+  }
   return names;
 }
 
 Result<std::vector<std::string>> wanted_extensions() {
   const auto offered = offered_extensions();
-  if (!offered) return offered.error();
+  if (!offered) {
+    return offered.error();
+  }
   const auto is_offered = [&](const char* name) {
     return std::find(offered->begin(), offered->end(), name) != offered->end();
   };
   std::vector<std::string> wanted;
   for (const char* name : kNeeded) {
-    if (!is_offered(name))
+    if (!is_offered(name)) {
       return Error{std::string("openxr: the runtime has no ") + name + ", which is needed"};
+    }
     wanted.emplace_back(name);
   }
-  for (const char* name : kWelcome)
-    if (is_offered(name)) wanted.emplace_back(name);
+  for (const char* name : kWelcome) {
+    if (is_offered(name)) {
+      wanted.emplace_back(name);
+    }
+  }
   return wanted;
 }
 
@@ -64,9 +75,12 @@ XrResult load(XrInstance instance, const char* name, Function& function) {
 
 /// Both of what a call that makes something of Vulkan's answers.
 Status checked(const char* what, XrResult result, VkResult vulkan) {
-  if (XR_FAILED(result)) return error_of(what, result);
-  if (vulkan != 0)
+  if (XR_FAILED(result)) {
+    return error_of(what, result);
+  }
+  if (vulkan != 0) {
     return Error{std::string("openxr: ") + what + ": VkResult " + std::to_string(vulkan)};
+  }
   return {};
 }
 
@@ -82,9 +96,13 @@ Result<std::unique_ptr<Runtime>> Runtime::connect() {
   // Error. Who has asked it to speak is heard.
   ::setenv("XR_LOADER_DEBUG", "none", 0);
   auto extensions = wanted_extensions();
-  if (!extensions) return extensions.error();
+  if (!extensions) {
+    return extensions.error();
+  }
   std::vector<const char*> names;
-  for (const std::string& name : *extensions) names.push_back(name.c_str());
+  for (const std::string& name : *extensions) {
+    names.push_back(name.c_str());
+  }
   XrInstanceCreateInfo info = {XR_TYPE_INSTANCE_CREATE_INFO};
   std::snprintf(info.applicationInfo.applicationName, XR_MAX_APPLICATION_NAME_SIZE, "orthonav");
   info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
@@ -92,14 +110,20 @@ Result<std::unique_ptr<Runtime>> Runtime::connect() {
   info.enabledExtensionNames = names.data();
   XrInstance instance = XR_NULL_HANDLE;
   const XrResult created = xrCreateInstance(&info, &instance);
-  if (XR_FAILED(created)) return no_runtime(created);
+  if (XR_FAILED(created)) {
+    return no_runtime(created);
+  }
   std::unique_ptr<Runtime> runtime(new Runtime(instance, std::move(*extensions)));
   XrInstanceProperties properties = {XR_TYPE_INSTANCE_PROPERTIES};
   const XrResult told = xrGetInstanceProperties(instance, &properties);
-  if (XR_FAILED(told)) return error_of("ask the runtime for its name", told);
+  if (XR_FAILED(told)) {
+    return error_of("ask the runtime for its name", told);
+  }
   runtime->name_ =
       std::string(properties.runtimeName) + " " + version_text(properties.runtimeVersion);
-  if (const Status loaded = runtime->load_functions(); !loaded) return loaded.error();
+  if (const Status loaded = runtime->load_functions(); !loaded) {
+    return loaded.error();
+  }
   return runtime;
 }
 
@@ -113,8 +137,11 @@ Status Runtime::load_functions() {
       load(instance_, "xrCreateVulkanInstanceKHR", f.create_instance),
       load(instance_, "xrGetVulkanGraphicsDevice2KHR", f.graphics_device),
       load(instance_, "xrCreateVulkanDeviceKHR", f.create_device)};
-  for (const XrResult result : results)
-    if (XR_FAILED(result)) return error_of("load the functions of its extensions", result);
+  for (const XrResult result : results) {
+    if (XR_FAILED(result)) {
+      return error_of("load the functions of its extensions", result);
+    }
+  }
   return {};
 }
 
@@ -126,15 +153,18 @@ Status Runtime::find_headset() {
   XrSystemGetInfo info = {XR_TYPE_SYSTEM_GET_INFO};
   info.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
   const XrResult found = xrGetSystem(instance_, &info, &system_);
-  if (found == XR_ERROR_FORM_FACTOR_UNAVAILABLE)
+  if (found == XR_ERROR_FORM_FACTOR_UNAVAILABLE) {
     return Error{"openxr: " + name_ + " has no headset at the moment: plug it in or put it on"};
+  }
   return status_of("look for a headset", found);
 }
 
 Result<std::string> Runtime::headset_name() const {
   XrSystemProperties properties = {XR_TYPE_SYSTEM_PROPERTIES};
   const XrResult told = xrGetSystemProperties(instance_, system_, &properties);
-  if (XR_FAILED(told)) return error_of("ask the headset for its name", told);
+  if (XR_FAILED(told)) {
+    return error_of("ask the headset for its name", told);
+  }
   return std::string(properties.systemName);
 }
 
@@ -143,14 +173,18 @@ Result<XrTime> Runtime::now() const {
   ::clock_gettime(CLOCK_MONOTONIC, &monotonic);
   XrTime time = 0;
   const XrResult converted = functions_.time_from_timespec(instance_, &monotonic, &time);
-  if (XR_FAILED(converted)) return error_of("ask for the runtime's time", converted);
+  if (XR_FAILED(converted)) {
+    return error_of("ask for the runtime's time", converted);
+  }
   return time;
 }
 
 Result<std::array<GraphicsVersion, 2>> Runtime::vulkan_versions() const {
   XrGraphicsRequirementsVulkan2KHR needs = {XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR};
   const XrResult told = functions_.requirements(instance_, system_, &needs);
-  if (XR_FAILED(told)) return error_of("ask for the Vulkan that it needs", told);
+  if (XR_FAILED(told)) {
+    return error_of("ask for the Vulkan that it needs", told);
+  }
   return std::array<GraphicsVersion, 2>{version_of(needs.minApiVersionSupported),
                                         version_of(needs.maxApiVersionSupported)};
 }
@@ -163,8 +197,9 @@ Result<void*> Runtime::create_vulkan_instance(GraphicsFunction get_proc, const v
   VkInstance made = nullptr;
   VkResult vulkan = 0;
   const XrResult result = functions_.create_instance(instance_, &create, &made, &vulkan);
-  if (const Status status = checked("create a Vulkan instance", result, vulkan); !status)
+  if (const Status status = checked("create a Vulkan instance", result, vulkan); !status) {
     return status.error();
+  }
   return static_cast<void*>(made);
 }
 
@@ -174,7 +209,9 @@ Result<void*> Runtime::vulkan_device(void* vulkan_instance) const {
   get.vulkanInstance = static_cast<VkInstance>(vulkan_instance);
   VkPhysicalDevice physical = nullptr;
   const XrResult result = functions_.graphics_device(instance_, &get, &physical);
-  if (XR_FAILED(result)) return error_of("ask for its graphics device", result);
+  if (XR_FAILED(result)) {
+    return error_of("ask for its graphics device", result);
+  }
   return static_cast<void*>(physical);
 }
 
@@ -188,8 +225,9 @@ Result<void*> Runtime::create_vulkan_device(void* physical, GraphicsFunction get
   VkDevice made = nullptr;
   VkResult vulkan = 0;
   const XrResult result = functions_.create_device(instance_, &create, &made, &vulkan);
-  if (const Status status = checked("create a Vulkan device", result, vulkan); !status)
+  if (const Status status = checked("create a Vulkan device", result, vulkan); !status) {
     return status.error();
+  }
   return static_cast<void*>(made);
 }
 

@@ -29,7 +29,9 @@ constexpr std::array<Profile, 4> kProfiles = {{
 Result<XrPath> path_of(XrInstance instance, const std::string& text) {
   XrPath path = XR_NULL_PATH;
   const XrResult made = xrStringToPath(instance, text.c_str(), &path);
-  if (XR_FAILED(made)) return error_of("name " + text, made);
+  if (XR_FAILED(made)) {
+    return error_of("name " + text, made);
+  }
   return path;
 }
 
@@ -37,7 +39,9 @@ Status suggest(const Runtime& runtime, const Profile& profile, XrAction action) 
   const auto kind = path_of(runtime.instance(), profile.path);
   const auto left = path_of(runtime.instance(), std::string("/user/hand/left") + profile.input);
   const auto right = path_of(runtime.instance(), std::string("/user/hand/right") + profile.input);
-  if (!kind || !left || !right) return Error{"openxr: bad path of " + std::string(profile.path)};
+  if (!kind || !left || !right) {
+    return Error{"openxr: bad path of " + std::string(profile.path)};
+  }
   const std::array<XrActionSuggestedBinding, 2> bindings = {{{action, *left}, {action, *right}}};
   XrInteractionProfileSuggestedBinding suggestion = {XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
   suggestion.interactionProfile = *kind;
@@ -54,24 +58,34 @@ Status SelectButton::create(const Runtime& runtime) {
   std::snprintf(set.actionSetName, sizeof(set.actionSetName), "surgeon");
   std::snprintf(set.localizedActionSetName, sizeof(set.localizedActionSetName), "Surgeon");
   XrResult result = xrCreateActionSet(runtime.instance(), &set, &set_);
-  if (XR_FAILED(result)) return error_of("create an action set", result);
+  if (XR_FAILED(result)) {
+    return error_of("create an action set", result);
+  }
   XrActionCreateInfo action = {XR_TYPE_ACTION_CREATE_INFO};
   std::snprintf(action.actionName, sizeof(action.actionName), "select");
   std::snprintf(action.localizedActionName, sizeof(action.localizedActionName), "Select");
   action.actionType = XR_ACTION_TYPE_BOOLEAN_INPUT;
   result = xrCreateAction(set_, &action, &select_);
-  if (XR_FAILED(result)) return error_of("create an action", result);
+  if (XR_FAILED(result)) {
+    return error_of("create an action", result);
+  }
   // The plain controller every runtime knows; what one does not know of the others it goes without.
   for (const Profile& profile : kProfiles) {
-    if (profile.extension != nullptr && !runtime.has(profile.extension)) continue;
+    if (profile.extension != nullptr && !runtime.has(profile.extension)) {
+      continue;
+    }
     const Status suggested = suggest(runtime, profile, select_);
-    if (!suggested && profile.extension == nullptr) return suggested;
+    if (!suggested && profile.extension == nullptr) {
+      return suggested;
+    }
   }
   return {};
 }
 
 void SelectButton::destroy() {
-  if (set_ != XR_NULL_HANDLE) xrDestroyActionSet(set_);
+  if (set_ != XR_NULL_HANDLE) {
+    xrDestroyActionSet(set_);
+  }
   set_ = XR_NULL_HANDLE;
   select_ = XR_NULL_HANDLE;
 }
@@ -89,22 +103,34 @@ Result<std::optional<SelectButton::Change>> SelectButton::poll(XrSession session
   sync.countActiveActionSets = 1;
   sync.activeActionSets = &active;
   const XrResult synced = xrSyncActions(session, &sync);
-  if (XR_FAILED(synced)) return error_of("ask for input", synced);
-  if (synced == XR_SESSION_NOT_FOCUSED) return let_go(now);
+  if (XR_FAILED(synced)) {
+    return error_of("ask for input", synced);
+  }
+  if (synced == XR_SESSION_NOT_FOCUSED) {
+    return let_go(now);
+  }
   XrActionStateGetInfo get = {XR_TYPE_ACTION_STATE_GET_INFO};
   get.action = select_;
   XrActionStateBoolean state = {XR_TYPE_ACTION_STATE_BOOLEAN};
   const XrResult told = xrGetActionStateBoolean(session, &get, &state);
-  if (XR_FAILED(told)) return error_of("ask for the button", told);
-  if (!state.isActive) return let_go(now);
+  if (XR_FAILED(told)) {
+    return error_of("ask for the button", told);
+  }
+  if (!state.isActive) {
+    return let_go(now);
+  }
   const bool down = state.currentState == XR_TRUE;
-  if (down == down_) return std::optional<Change>();
+  if (down == down_) {
+    return std::optional<Change>();
+  }
   down_ = down;
   return std::optional<Change>({down, state.lastChangeTime});
 }
 
 std::optional<SelectButton::Change> SelectButton::let_go(XrTime now) {
-  if (!std::exchange(down_, false)) return std::nullopt;
+  if (!std::exchange(down_, false)) {
+    return std::nullopt;
+  }
   return Change{false, now};
 }
 

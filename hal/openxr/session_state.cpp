@@ -6,11 +6,15 @@ SessionDuty SessionState::take(XrSessionState state) {
   state_ = state;
   switch (state) {
     case XR_SESSION_STATE_READY:
-      if (running_) return SessionDuty::kNone;
+      if (running_) {
+        return SessionDuty::kNone;
+      }
       running_ = true;
       return SessionDuty::kBegin;
     case XR_SESSION_STATE_STOPPING:
-      if (!running_) return SessionDuty::kNone;
+      if (!running_) {
+        return SessionDuty::kNone;
+      }
       running_ = false;
       return SessionDuty::kEnd;
     case XR_SESSION_STATE_LOSS_PENDING:

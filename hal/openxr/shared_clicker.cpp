@@ -6,7 +6,9 @@ namespace orthonav::openxr {
 
 Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events) {
   clicked_.clear();
-  if (const Status status = inner_.poll(until, clicked_); !status) return status;
+  if (const Status status = inner_.poll(until, clicked_); !status) {
+    return status;
+  }
   changes_.clear();
   selected_.clear();
   display_.take_button(until, changes_);
@@ -19,12 +21,14 @@ Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events
   timer_.advance(until, selected_);
   auto select = selected_.begin();
   for (const ClickerEvent& click : clicked_) {
-    for (; select != selected_.end() && select->time <= click.time; ++select)
+    for (; select != selected_.end() && select->time <= click.time; ++select) {
       button_.offer(SharedButton::Hand::kFirst, *select, events);
+    }
     button_.offer(SharedButton::Hand::kSecond, click, events);
   }
-  for (; select != selected_.end(); ++select)
+  for (; select != selected_.end(); ++select) {
     button_.offer(SharedButton::Hand::kFirst, *select, events);
+  }
   told_ = until;
   return {};
 }

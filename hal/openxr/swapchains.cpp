@@ -12,22 +12,27 @@ Result<std::vector<std::int64_t>> formats_of(XrSession session) {
   std::uint32_t count = 0;
   XrResult told = xrEnumerateSwapchainFormats(session, 0, &count, nullptr);
   std::vector<std::int64_t> formats(count);
-  if (XR_SUCCEEDED(told))
+  if (XR_SUCCEEDED(told)) {
     told = xrEnumerateSwapchainFormats(session, count, &count, formats.data());
-  if (XR_FAILED(told)) return error_of("ask for the formats of its images", told);
+  }
+  if (XR_FAILED(told)) {
+    return error_of("ask for the formats of its images", told);
+  }
   return formats;
 }
 
-using Suits = int (ImageTaste::*)(std::int64_t) const;
+using Scores = int (FormatPreference::*)(std::int64_t) const;
 
 /// Of equally good ones the runtime's favourite, which comes first; 0 where none suits.
-std::int64_t best_format(const std::vector<std::int64_t>& formats, const ImageTaste& taste,
-                         Suits suits) {
+std::int64_t best_format(const std::vector<std::int64_t>& formats,
+                         const FormatPreference& preference, Scores format_score) {
   std::int64_t best = 0;
   int most = 0;
   for (const std::int64_t format : formats) {
-    if ((taste.*suits)(format) <= most) continue;
-    most = (taste.*suits)(format);
+    if ((preference.*format_score)(format) <= most) {
+      continue;
+    }
+    most = (preference.*format_score)(format);
     best = format;
   }
   return best;
@@ -35,34 +40,52 @@ std::int64_t best_format(const std::vector<std::int64_t>& formats, const ImageTa
 
 Error no_format(const std::vector<std::int64_t>& formats) {
   std::string offered;
-  for (const std::int64_t format : formats) offered += " " + std::to_string(format);
+  for (const std::int64_t format : formats) {
+    offered += " " + std::to_string(format);
+  }
   return Error{"openxr: none of the image formats can be drawn into; offered:" + offered};
 }
 
 }  // namespace
 
-Status Swapchains::create(XrSession session, const ViewSetup& setup, const ImageTaste& taste,
-                          bool depth) {
+Status Swapchains::create(XrSession session, const ViewSetup& setup,
+                          const FormatPreference& preference, bool depth) {
   const auto formats = formats_of(session);
-  if (!formats) return formats.error();
-  const std::int64_t format = best_format(*formats, taste, &ImageTaste::suits);
-  if (format == 0) return no_format(*formats);
-  images_ = {format, setup.width_px, setup.height_px, taste.takes_layers() ? 2u : 1u, {}, 0, {}};
-  if (depth) images_.depth_format = best_format(*formats, taste, &ImageTaste::suits_depth);
+  if (!formats) {
+    return formats.error();
+  }
+  const std::int64_t format = best_format(*formats, preference, &FormatPreference::format_score);
+  if (format == 0) {
+    return no_format(*formats);
+  }
+  images_ = {format, setup.width_px, setup.height_px, preference.takes_layers() ? 2u : 1u, {}, 0,
+             {}};
+  if (depth) {
+    images_.depth_format = best_format(*formats, preference, &FormatPreference::depth_format_score);
+  }
   if (images_.layers == 2) {
-    if (add_chains(session, Content::kColour) && add_chains(session, Content::kDepth)) return {};
+    if (add_chains(session, Content::kColour) && add_chains(session, Content::kDepth)) {
+      return {};
+    }
     // A runtime need not take layers: one swapchain an eye then.
     destroy();
     images_.layers = 1;
   }
-  if (const Status added = add_chains(session, Content::kColour); !added) return added;
+  if (const Status added = add_chains(session, Content::kColour); !added) {
+    return added;
+  }
   return add_chains(session, Content::kDepth);
 }
 
 Status Swapchains::add_chains(XrSession session, Content content) {
-  if (content == Content::kDepth && images_.depth_format == 0) return {};
-  for (std::uint32_t chain = 0; chain < 2 / images_.layers; ++chain)
-    if (const Status added = add_chain(session, content); !added) return added;
+  if (content == Content::kDepth && images_.depth_format == 0) {
+    return {};
+  }
+  for (std::uint32_t chain = 0; chain < 2 / images_.layers; ++chain) {
+    if (const Status added = add_chain(session, content); !added) {
+      return added;
+    }
+  }
   return {};
 }
 
@@ -81,24 +104,32 @@ Status Swapchains::add_chain(XrSession session, Content content) {
   info.mipCount = 1;
   Chain chain;
   const XrResult created = xrCreateSwapchain(session, &info, &chain.handle);
-  if (XR_FAILED(created)) return error_of("create a swapchain", created);
+  if (XR_FAILED(created)) {
+    return error_of("create a swapchain", created);
+  }
   chains_.push_back(chain);
   std::uint32_t count = 0;
   XrResult told = xrEnumerateSwapchainImages(chain.handle, 0, &count, nullptr);
   std::vector<XrSwapchainImageVulkan2KHR> images(count, {XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR});
-  if (XR_SUCCEEDED(told))
+  if (XR_SUCCEEDED(told)) {
     told = xrEnumerateSwapchainImages(chain.handle, count, &count,
                                       reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data()));
-  if (XR_FAILED(told)) return error_of("ask for the images of a swapchain", told);
+  }
+  if (XR_FAILED(told)) {
+    return error_of("ask for the images of a swapchain", told);
+  }
   std::vector<std::uint64_t> handles;
-  for (const XrSwapchainImageVulkan2KHR& image : images)
+  for (const XrSwapchainImageVulkan2KHR& image : images) {
     handles.push_back(reinterpret_cast<std::uint64_t>(image.image));
+  }
   (depth ? images_.depth_chains : images_.chains).push_back(std::move(handles));
   return {};
 }
 
 void Swapchains::destroy() {
-  for (const Chain& chain : chains_) xrDestroySwapchain(chain.handle);
+  for (const Chain& chain : chains_) {
+    xrDestroySwapchain(chain.handle);
+  }
   chains_.clear();
   images_.chains.clear();
   images_.depth_chains.clear();
@@ -108,13 +139,17 @@ XrResult Swapchains::acquire(Chain& chain) {
   if (!chain.acquired) {
     const XrSwapchainImageAcquireInfo info = {XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO};
     const XrResult acquired = xrAcquireSwapchainImage(chain.handle, &info, &chain.index);
-    if (XR_FAILED(acquired)) return acquired;
+    if (XR_FAILED(acquired)) {
+      return acquired;
+    }
     chain.acquired = true;
   }
   XrSwapchainImageWaitInfo info = {XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
   info.timeout = kPatience_ns;
   const XrResult waited = xrWaitSwapchainImage(chain.handle, &info);
-  if (waited == XR_SUCCESS || waited == XR_SESSION_LOSS_PENDING) chain.waited = true;
+  if (waited == XR_SUCCESS || waited == XR_SESSION_LOSS_PENDING) {
+    chain.waited = true;
+  }
   return waited;
 }
 
@@ -123,7 +158,9 @@ XrResult Swapchains::acquire(std::vector<std::uint32_t>& indices) {
   for (Chain& chain : chains_) {
     if (!chain.waited) {
       const XrResult acquired = acquire(chain);
-      if (!chain.waited) return acquired;
+      if (!chain.waited) {
+        return acquired;
+      }
     }
     indices.push_back(chain.index);
   }
@@ -133,11 +170,15 @@ XrResult Swapchains::acquire(std::vector<std::uint32_t>& indices) {
 XrResult Swapchains::release() {
   XrResult first = XR_SUCCESS;
   for (Chain& chain : chains_) {
-    if (!chain.waited) continue;
+    if (!chain.waited) {
+      continue;
+    }
     chain.acquired = chain.waited = false;
     const XrSwapchainImageReleaseInfo info = {XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
     const XrResult released = xrReleaseSwapchainImage(chain.handle, &info);
-    if (XR_FAILED(released) && first == XR_SUCCESS) first = released;
+    if (XR_FAILED(released) && first == XR_SUCCESS) {
+      first = released;
+    }
   }
   return first;
 }

@@ -18,7 +18,8 @@ class Swapchains {
 
   /// In the format that suits who draws best; an Error when none does.
   /// With depth where it is wanted and a format of it suits.
-  Status create(XrSession session, const ViewSetup& setup, const ImageTaste& taste, bool depth);
+  Status create(XrSession session, const ViewSetup& setup, const FormatPreference& preference,
+                bool depth);
   void destroy();
   [[nodiscard]] const EyeImages& images() const { return images_; }
 

@@ -16,9 +16,12 @@ Result<std::vector<XrViewConfigurationView>> views_of(const Runtime& runtime) {
   std::uint32_t count = 0;
   const XrResult told = xrEnumerateViewConfigurationViews(runtime.instance(), runtime.system(),
                                                           kStereo, 2, &count, views.data());
-  if (XR_FAILED(told)) return error_of("ask for the images of two eyes", told);
-  if (count != 2)
+  if (XR_FAILED(told)) {
+    return error_of("ask for the images of two eyes", told);
+  }
+  if (count != 2) {
     return Error{"openxr: the headset has " + std::to_string(count) + " views, must be 2"};
+  }
   return views;
 }
 
@@ -27,10 +30,13 @@ Result<std::vector<XrEnvironmentBlendMode>> blends_of(const Runtime& runtime) {
   XrResult told = xrEnumerateEnvironmentBlendModes(runtime.instance(), runtime.system(), kStereo, 0,
                                                    &count, nullptr);
   std::vector<XrEnvironmentBlendMode> modes(count);
-  if (XR_SUCCEEDED(told))
+  if (XR_SUCCEEDED(told)) {
     told = xrEnumerateEnvironmentBlendModes(runtime.instance(), runtime.system(), kStereo, count,
                                             &count, modes.data());
-  if (XR_FAILED(told)) return error_of("ask how it meets the world", told);
+  }
+  if (XR_FAILED(told)) {
+    return error_of("ask how it meets the world", told);
+  }
   return modes;
 }
 
@@ -39,13 +45,18 @@ Result<std::vector<XrEnvironmentBlendMode>> blends_of(const Runtime& runtime) {
 std::optional<XrEnvironmentBlendMode> best_blend(std::span<const XrEnvironmentBlendMode> offered) {
   for (const XrEnvironmentBlendMode mode :
        {XR_ENVIRONMENT_BLEND_MODE_ADDITIVE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND,
-        XR_ENVIRONMENT_BLEND_MODE_OPAQUE})
-    if (std::find(offered.begin(), offered.end(), mode) != offered.end()) return mode;
+        XR_ENVIRONMENT_BLEND_MODE_OPAQUE}) {
+    if (std::find(offered.begin(), offered.end(), mode) != offered.end()) {
+      return mode;
+    }
+  }
   return std::nullopt;
 }
 
 WorldBlend blend_of(XrEnvironmentBlendMode mode) {
-  if (mode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE) return WorldBlend::kAdditive;
+  if (mode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE) {
+    return WorldBlend::kAdditive;
+  }
   return mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND ? WorldBlend::kAlpha : WorldBlend::kOpaque;
 }
 
@@ -67,18 +78,27 @@ ViewSetup sized(std::span<const XrViewConfigurationView> views) {
 }
 
 XrReferenceSpaceType best_space(std::span<const XrReferenceSpaceType> offered) {
-  for (const XrReferenceSpaceType type : {XR_REFERENCE_SPACE_TYPE_STAGE, kLocalFloor})
-    if (std::find(offered.begin(), offered.end(), type) != offered.end()) return type;
+  for (const XrReferenceSpaceType type : {XR_REFERENCE_SPACE_TYPE_STAGE, kLocalFloor}) {
+    if (std::find(offered.begin(), offered.end(), type) != offered.end()) {
+      return type;
+    }
+  }
   return XR_REFERENCE_SPACE_TYPE_LOCAL;  // every runtime has it
 }
 
 Result<ViewSetup> view_setup_of(const Runtime& runtime) {
   const auto views = views_of(runtime);
-  if (!views) return views.error();
+  if (!views) {
+    return views.error();
+  }
   const auto blends = blends_of(runtime);
-  if (!blends) return blends.error();
+  if (!blends) {
+    return blends.error();
+  }
   const auto blend = best_blend(*blends);
-  if (!blend) return Error{"openxr: the headset offers no known way to meet the world"};
+  if (!blend) {
+    return Error{"openxr: the headset offers no known way to meet the world"};
+  }
   ViewSetup setup = sized(*views);
   setup.blend = *blend;
   return setup;

@@ -19,8 +19,9 @@ Result<GraphicsNeeds> XrDisplay::open() {
   return needs;
 }
 
-Result<EyeImages> XrDisplay::start(const GraphicsObjects& objects, const ImageTaste& taste) {
-  auto images = make_all(objects, taste);
+Result<EyeImages> XrDisplay::start(const GraphicsObjects& objects,
+                                   const FormatPreference& preference) {
+  auto images = make_all(objects, preference);
   instance_lost_ = !images.ok();
   return images;
 }
@@ -33,23 +34,35 @@ Result<GraphicsNeeds> XrDisplay::connect() {
       runtime_.reset();
     }
     auto runtime = Runtime::connect();
-    if (!runtime) return runtime.error();
-    if (const Status made = button_.create(**runtime); !made) return made.error();
+    if (!runtime) {
+      return runtime.error();
+    }
+    if (const Status made = button_.create(**runtime); !made) {
+      return made.error();
+    }
     const std::lock_guard lock(mutex_);
     runtime_ = std::move(*runtime);
   }
-  if (const Status found = runtime_->find_headset(); !found) return found.error();
+  if (const Status found = runtime_->find_headset(); !found) {
+    return found.error();
+  }
   const auto name = runtime_->headset_name();
-  if (!name) return name.error();
+  if (!name) {
+    return name.error();
+  }
   {
     const std::lock_guard lock(mutex_);
     headset_name_ = *name;
   }
   const auto setup = view_setup_of(*runtime_);
-  if (!setup) return setup.error();
+  if (!setup) {
+    return setup.error();
+  }
   setup_ = *setup;
   const auto versions = runtime_->vulkan_versions();
-  if (!versions) return versions.error();
+  if (!versions) {
+    return versions.error();
+  }
   return GraphicsNeeds{*versions, blend_of(setup_.blend)};
 }
 
@@ -66,14 +79,22 @@ Result<void*> XrDisplay::create_device(void* physical, GraphicsFunction get_proc
   return runtime_->create_vulkan_device(physical, get_proc, info);
 }
 
-Result<EyeImages> XrDisplay::make_all(const GraphicsObjects& objects, const ImageTaste& taste) {
-  if (const Status made = make_session(objects); !made) return made.error();
-  if (const Status attached = button_.attach(session_); !attached) return attached.error();
-  if (const Status made = make_spaces(); !made) return made.error();
-  near_m_ = taste.near_m();
-  const bool depth = runtime_->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
-  if (const Status made = swapchains_.create(session_, setup_, taste, depth); !made)
+Result<EyeImages> XrDisplay::make_all(const GraphicsObjects& objects,
+                                      const FormatPreference& preference) {
+  if (const Status made = make_session(objects); !made) {
     return made.error();
+  }
+  if (const Status attached = button_.attach(session_); !attached) {
+    return attached.error();
+  }
+  if (const Status made = make_spaces(); !made) {
+    return made.error();
+  }
+  near_m_ = preference.near_m();
+  const bool depth = runtime_->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
+  if (const Status made = swapchains_.create(session_, setup_, preference, depth); !made) {
+    return made.error();
+  }
   return swapchains_.images();
 }
 
@@ -96,9 +117,12 @@ Status XrDisplay::make_spaces() {
   std::uint32_t count = 0;
   XrResult result = xrEnumerateReferenceSpaces(session_, 0, &count, nullptr);
   std::vector<XrReferenceSpaceType> offered(count);
-  if (XR_SUCCEEDED(result))
+  if (XR_SUCCEEDED(result)) {
     result = xrEnumerateReferenceSpaces(session_, count, &count, offered.data());
-  if (XR_FAILED(result)) return error_of("ask for its reference spaces", result);
+  }
+  if (XR_FAILED(result)) {
+    return error_of("ask for its reference spaces", result);
+  }
   space_type_ = best_space(offered);
   const auto make = [this](XrReferenceSpaceType type, XrSpace& space) {
     XrReferenceSpaceCreateInfo info = {XR_TYPE_REFERENCE_SPACE_CREATE_INFO};
@@ -108,31 +132,48 @@ Status XrDisplay::make_spaces() {
   };
   const std::lock_guard lock(mutex_);
   result = make(space_type_, space_);
-  if (XR_SUCCEEDED(result)) result = make(XR_REFERENCE_SPACE_TYPE_VIEW, viewer_);
-  if (XR_FAILED(result)) return error_of("create a space", result);
+  if (XR_SUCCEEDED(result)) {
+    result = make(XR_REFERENCE_SPACE_TYPE_VIEW, viewer_);
+  }
+  if (XR_FAILED(result)) {
+    return error_of("create a space", result);
+  }
   // A new session's space is another one, of which nothing is known.
   const auto now = runtime_->now();
-  if (!now) return now.error();
-  if (std::exchange(had_session_, true)) anchor_.move(*now, std::nullopt);
+  if (!now) {
+    return now.error();
+  }
+  if (std::exchange(had_session_, true)) {
+    anchor_.move(*now, std::nullopt);
+  }
   return {};
 }
 
 void XrDisplay::ask_to_end() {
   end_asked_ = true;
-  if (state_.running()) xrRequestExitSession(session_);
+  if (state_.running()) {
+    xrRequestExitSession(session_);
+  }
 }
 
 void XrDisplay::close() {
   swapchains_.destroy();
   {
     const std::lock_guard lock(mutex_);
-    if (viewer_ != XR_NULL_HANDLE) xrDestroySpace(viewer_);
-    if (space_ != XR_NULL_HANDLE) xrDestroySpace(space_);
+    if (viewer_ != XR_NULL_HANDLE) {
+      xrDestroySpace(viewer_);
+    }
+    if (space_ != XR_NULL_HANDLE) {
+      xrDestroySpace(space_);
+    }
     space_ = viewer_ = XR_NULL_HANDLE;
-    if (const auto change = button_.let_go(0))
+    if (const auto change = button_.let_go(0)) {
       button_changes_.push_back({change->down, clock_.now()});
+    }
   }
-  if (session_ != XR_NULL_HANDLE) xrDestroySession(session_);
+  if (session_ != XR_NULL_HANDLE) {
+    xrDestroySession(session_);
+  }
   session_ = XR_NULL_HANDLE;
   state_ = {};
 }
@@ -143,36 +184,46 @@ std::string XrDisplay::name() const {
 }
 
 std::optional<XrTime> XrDisplay::xr_time(Timestamp at) const {
-  if (!runtime_) return std::nullopt;
+  if (!runtime_) {
+    return std::nullopt;
+  }
   const auto now = runtime_->now();
-  if (!now) return std::nullopt;
+  if (!now) {
+    return std::nullopt;
+  }
   return *now + (at - clock_.now()).count();
 }
 
 std::optional<Timestamp> XrDisplay::timestamp(XrTime at) const {
   const auto now = runtime_->now();
-  if (!now) return std::nullopt;
+  if (!now) {
+    return std::nullopt;
+  }
   return clock_.now() + Duration(at - *now);
 }
 
 XrDisplay::Located XrDisplay::locate_viewer(XrTime at) const {
   XrSpaceLocation location = {XR_TYPE_SPACE_LOCATION};
-  if (space_ == XR_NULL_HANDLE || XR_FAILED(xrLocateSpace(viewer_, space_, at, &location)))
+  if (space_ == XR_NULL_HANDLE || XR_FAILED(xrLocateSpace(viewer_, space_, at, &location))) {
     return {};
+  }
   constexpr XrSpaceLocationFlags kKnown =
       XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
   constexpr XrSpaceLocationFlags kTracked =
       XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
   // Cameras elsewhere need no place in the room: a headset that only turns stands still.
   if (mount_.placement == Placement::kElsewhere &&
-      (location.locationFlags & kKnown) == XR_SPACE_LOCATION_ORIENTATION_VALID_BIT)
+      (location.locationFlags & kKnown) == XR_SPACE_LOCATION_ORIENTATION_VALID_BIT) {
     location.pose.position = {};
-  else if ((location.locationFlags & kKnown) != kKnown)
+  } else if ((location.locationFlags & kKnown) != kKnown) {
     return {};
+  }
   const auto pose = transform_of<Space, Viewer>(location.pose);
-  if (!pose) return {};
+  if (!pose) {
+    return {};
+  }
   const bool tracked = (location.locationFlags & kTracked) == kTracked;
-  return {*pose, tracked ? Origin::kMeasured : Origin::kPredicted};
+  return {*pose, tracked ? PoseStatus::kMeasured : PoseStatus::kPredicted};
 }
 
 Tracked<Transform<World, Rig>> XrDisplay::world_from_rig(Timestamp at) const {
@@ -180,13 +231,17 @@ Tracked<Transform<World, Rig>> XrDisplay::world_from_rig(Timestamp at) const {
   answer.time = at;
   const std::lock_guard lock(mutex_);
   const auto time = xr_time(at);
-  if (!time) return answer;
+  if (!time) {
+    return answer;
+  }
   const Located viewer = locate_viewer(*time);
   const auto world_from_space = anchor_.world_from_space(*time);
-  if (viewer.origin == Origin::kLost || !world_from_space) return answer;
+  if (viewer.status == PoseStatus::kLost || !world_from_space) {
+    return answer;
+  }
   answer.value = *world_from_space * viewer.space_from_viewer * mount_.rig_from_viewer.inverse();
   const bool ahead = at > clock_.now();
-  answer.origin = ahead ? Origin::kPredicted : viewer.origin;
+  answer.status = ahead ? PoseStatus::kPredicted : viewer.status;
   return answer;
 }
 

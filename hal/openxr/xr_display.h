@@ -45,11 +45,12 @@ class XrDisplay : public PixelDisplay {
   Result<void*> create_instance(GraphicsFunction get_proc, const void* info) override;
   Result<void*> physical_device(void* instance) override;
   Result<void*> create_device(void* physical, GraphicsFunction get_proc, const void* info) override;
-  Result<EyeImages> start(const GraphicsObjects& objects, const ImageTaste& taste) override;
-  DisplayTurn next_turn() override;
+  Result<EyeImages> start(const GraphicsObjects& objects,
+                          const FormatPreference& preference) override;
+  DisplayFrame begin_frame() override;
   Result<std::vector<std::uint32_t>> acquire() override;
   EyeViews views() override;
-  Status finish_turn(bool drawn) override;
+  Status end_frame(bool drawn) override;
   void ask_to_end() override;
   void close() override;
 
@@ -70,20 +71,20 @@ class XrDisplay : public PixelDisplay {
   /// A pose of the viewer and how well it is known.
   struct Located {
     Transform<Space, Viewer> space_from_viewer;
-    Origin origin = Origin::kLost;
+    PoseStatus status = PoseStatus::kLost;
   };
 
   Result<GraphicsNeeds> connect();
-  Result<EyeImages> make_all(const GraphicsObjects& objects, const ImageTaste& taste);
+  Result<EyeImages> make_all(const GraphicsObjects& objects, const FormatPreference& preference);
   Status make_session(const GraphicsObjects& objects);
   Status make_spaces();
   /// The first thing that ends the session, if any event does.
-  std::optional<DisplayTurn> take_events();
-  std::optional<DisplayTurn> take_state(XrSessionState state);
+  std::optional<DisplayFrame> take_events();
+  std::optional<DisplayFrame> take_state(XrSessionState state);
   void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
   void poll_button();
-  DisplayTurn begin_frame();
-  [[nodiscard]] DisplayTurn lost(const std::string& what, XrResult result);
+  DisplayFrame wait_and_begin();
+  [[nodiscard]] DisplayFrame lost(const std::string& what, XrResult result);
   void lay_world(XrTime at);
   /// Puts the eyes' poses and fields of view for the frame begun into `located_`; how well known.
   XrViewStateFlags locate_eyes(XrSpace space);

@@ -13,9 +13,9 @@ const Event& as(const XrEventDataBuffer& event) {
   return reinterpret_cast<const Event&>(event);
 }
 
-DisplayTurn over(const char* why) {
-  DisplayTurn turn;
-  turn.kind = DisplayTurn::Kind::kOver;
+DisplayFrame over(const char* why) {
+  DisplayFrame turn;
+  turn.kind = DisplayFrame::Kind::kOver;
   turn.why = why;
   return turn;
 }
@@ -30,7 +30,9 @@ void stand_still(std::array<XrView, 2>& views) {
     XrPosef& pose = views[eye].pose;
     pose.position = {};
     const auto turned = transform_of<Space, Eye>(pose);
-    if (!turned) continue;
+    if (!turned) {
+      continue;
+    }
     const Vec3 at = (*turned * Direction<Eye>{{eye == 0 ? -kHalfApart_m : kHalfApart_m, 0, 0}}).v;
     pose.position = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
   }
@@ -38,15 +40,15 @@ void stand_still(std::array<XrView, 2>& views) {
 
 }  // namespace
 
-DisplayTurn XrDisplay::lost(const std::string& what, XrResult result) {
+DisplayFrame XrDisplay::lost(const std::string& what, XrResult result) {
   instance_lost_ = instance_lost_ || result == XR_ERROR_INSTANCE_LOST;
-  DisplayTurn turn;
-  turn.kind = DisplayTurn::Kind::kLost;
+  DisplayFrame turn;
+  turn.kind = DisplayFrame::Kind::kLost;
   turn.why = error_of(what, result).message;
   return turn;
 }
 
-std::optional<DisplayTurn> XrDisplay::take_state(XrSessionState state) {
+std::optional<DisplayFrame> XrDisplay::take_state(XrSessionState state) {
   switch (state_.take(state)) {
     case SessionDuty::kNone:
       return std::nullopt;
@@ -54,13 +56,19 @@ std::optional<DisplayTurn> XrDisplay::take_state(XrSessionState state) {
       XrSessionBeginInfo info = {XR_TYPE_SESSION_BEGIN_INFO};
       info.primaryViewConfigurationType = kStereo;
       const XrResult begun = xrBeginSession(session_, &info);
-      if (XR_FAILED(begun)) return lost("begin the session", begun);
-      if (end_asked_) xrRequestExitSession(session_);
+      if (XR_FAILED(begun)) {
+        return lost("begin the session", begun);
+      }
+      if (end_asked_) {
+        xrRequestExitSession(session_);
+      }
       return std::nullopt;
     }
     case SessionDuty::kEnd: {
       const XrResult ended = xrEndSession(session_);
-      if (XR_FAILED(ended)) return lost("end the session", ended);
+      if (XR_FAILED(ended)) {
+        return lost("end the session", ended);
+      }
       return std::nullopt;
     }
     case SessionDuty::kRestart:
@@ -73,26 +81,38 @@ std::optional<DisplayTurn> XrDisplay::take_state(XrSessionState state) {
 
 /// World moves with the space that it hangs on.
 void XrDisplay::take_space_change(const XrEventDataReferenceSpaceChangePending& change) {
-  if (change.session != session_ || change.referenceSpaceType != space_type_) return;
+  if (change.session != session_ || change.referenceSpaceType != space_type_) {
+    return;
+  }
   std::optional<Transform<Space, Space>> old_from_new;
-  if (change.poseValid == XR_TRUE)
-    if (const auto pose = transform_of<Space, Space>(change.poseInPreviousSpace))
+  if (change.poseValid == XR_TRUE) {
+    if (const auto pose = transform_of<Space, Space>(change.poseInPreviousSpace)) {
       old_from_new = *pose;
+    }
+  }
   const std::lock_guard lock(mutex_);
   anchor_.move(change.changeTime, old_from_new);
 }
 
-std::optional<DisplayTurn> XrDisplay::take_events() {
+std::optional<DisplayFrame> XrDisplay::take_events() {
   for (;;) {
     XrEventDataBuffer event = {XR_TYPE_EVENT_DATA_BUFFER};
     const XrResult polled = xrPollEvent(runtime_->instance(), &event);
-    if (polled == XR_EVENT_UNAVAILABLE) return std::nullopt;
-    if (XR_FAILED(polled)) return lost("ask for events", polled);
+    if (polled == XR_EVENT_UNAVAILABLE) {
+      return std::nullopt;
+    }
+    if (XR_FAILED(polled)) {
+      return lost("ask for events", polled);
+    }
     switch (event.type) {
       case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED: {
         const auto& change = as<XrEventDataSessionStateChanged>(event);
-        if (change.session != session_) break;
-        if (auto turn = take_state(change.state)) return turn;
+        if (change.session != session_) {
+          break;
+        }
+        if (auto turn = take_state(change.state)) {
+          return turn;
+        }
         break;
       }
       case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
@@ -108,41 +128,55 @@ std::optional<DisplayTurn> XrDisplay::take_events() {
 
 void XrDisplay::poll_button() {
   const auto now = runtime_->now();
-  if (!now) return;
+  if (!now) {
+    return;
+  }
   std::optional<SelectButton::Change> change;
   if (state_.focused()) {
     const auto polled = button_.poll(session_, *now);
-    if (polled) change = *polled;
+    if (polled) {
+      change = *polled;
+    }
   } else {
     change = button_.let_go(*now);
   }
-  if (!change) return;
+  if (!change) {
+    return;
+  }
   const auto time = timestamp(change->time);
   const std::lock_guard lock(mutex_);
-  if (time) button_changes_.push_back({change->down, *time});
+  if (time) {
+    button_changes_.push_back({change->down, *time});
+  }
 }
 
-DisplayTurn XrDisplay::next_turn() {
-  if (auto ended = take_events()) return *ended;
+DisplayFrame XrDisplay::begin_frame() {
+  if (auto ended = take_events()) {
+    return *ended;
+  }
   if (!state_.running()) {
     // Nobody will ever end a session that was not begun.
-    return end_asked_ ? over("openxr: ended") : DisplayTurn{};
+    return end_asked_ ? over("openxr: ended") : DisplayFrame{};
   }
   poll_button();
-  return begin_frame();
+  return wait_and_begin();
 }
 
-DisplayTurn XrDisplay::begin_frame() {
+DisplayFrame XrDisplay::wait_and_begin() {
   const XrFrameWaitInfo wait = {XR_TYPE_FRAME_WAIT_INFO};
   XrFrameState frame = {XR_TYPE_FRAME_STATE};
   const XrResult waited = xrWaitFrame(session_, &wait, &frame);
-  if (XR_FAILED(waited)) return lost("wait for a frame", waited);
+  if (XR_FAILED(waited)) {
+    return lost("wait for a frame", waited);
+  }
   const XrFrameBeginInfo begin = {XR_TYPE_FRAME_BEGIN_INFO};
   const XrResult begun = xrBeginFrame(session_, &begin);
-  if (XR_FAILED(begun)) return lost("begin a frame", begun);
+  if (XR_FAILED(begun)) {
+    return lost("begin a frame", begun);
+  }
   display_time_ = frame.predictedDisplayTime;
-  DisplayTurn turn;
-  turn.kind = DisplayTurn::Kind::kFrame;
+  DisplayFrame turn;
+  turn.kind = DisplayFrame::Kind::kFrame;
   const auto light = timestamp(display_time_);
   turn.draw = frame.shouldRender == XR_TRUE && light.has_value();
   if (light) {
@@ -155,8 +189,9 @@ DisplayTurn XrDisplay::begin_frame() {
 Result<std::vector<std::uint32_t>> XrDisplay::acquire() {
   std::vector<std::uint32_t> indices;
   const XrResult acquired = swapchains_.acquire(indices);
-  if (acquired != XR_SUCCESS && acquired != XR_SESSION_LOSS_PENDING)
+  if (acquired != XR_SUCCESS && acquired != XR_SESSION_LOSS_PENDING) {
     return error_of("acquire an image", acquired);
+  }
   return indices;
 }
 
@@ -164,13 +199,19 @@ Result<std::vector<std::uint32_t>> XrDisplay::acquire() {
 void XrDisplay::lay_world(XrTime at) {
   {
     const std::lock_guard lock(mutex_);
-    if (anchor_.world_from_space(at)) return;
+    if (anchor_.world_from_space(at)) {
+      return;
+    }
   }
   const auto world_from_rig = cameras_head_.world_from_rig(clock_.now());
-  if (world_from_rig.origin == Origin::kLost) return;
+  if (world_from_rig.status == PoseStatus::kLost) {
+    return;
+  }
   const std::lock_guard lock(mutex_);
   const Located viewer = locate_viewer(at);
-  if (viewer.origin == Origin::kLost) return;
+  if (viewer.status == PoseStatus::kLost) {
+    return;
+  }
   anchor_.lay(at, world_from_rig.value * mount_.rig_from_viewer, viewer.space_from_viewer);
 }
 
@@ -190,7 +231,9 @@ XrViewStateFlags XrDisplay::locate_eyes(XrSpace space) {
 bool XrDisplay::take_eyes(const Transform<World, Space>& world_from_space, EyeViews& views) const {
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const auto pose = transform_of<Space, Eye>(located_[eye].pose);
-    if (!pose || !take_fov(located_[eye].fov, views.value[eye])) return false;
+    if (!pose || !take_fov(located_[eye].fov, views.value[eye])) {
+      return false;
+    }
     views.value[eye].world_from_eye = world_from_space * *pose;
   }
   return true;
@@ -201,12 +244,15 @@ bool XrDisplay::locate_in_world(EyeViews& views) {
       XR_VIEW_STATE_ORIENTATION_TRACKED_BIT | XR_VIEW_STATE_POSITION_TRACKED_BIT;
   const XrViewStateFlags flags = locate_eyes(space_);
   const bool elsewhere = mount_.placement == Placement::kElsewhere;
-  if (elsewhere && (flags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT)
+  if (elsewhere && (flags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT) {
     stand_still(located_);
-  else if ((flags & kKnown) != kKnown)
+  } else if ((flags & kKnown) != kKnown) {
     return false;
+  }
   // A position that is guessed puts holograms beside the bone. Nothing hangs on a bone elsewhere.
-  if (!elsewhere && (flags & kTracked) != kTracked) return false;
+  if (!elsewhere && (flags & kTracked) != kTracked) {
+    return false;
+  }
   std::optional<Transform<World, Space>> world_from_space;
   {
     const std::lock_guard lock(mutex_);
@@ -218,15 +264,18 @@ bool XrDisplay::locate_in_world(EyeViews& views) {
 EyeViews XrDisplay::views() {
   lay_world(display_time_);
   EyeViews views;
-  if (const auto light = timestamp(display_time_)) views.time = *light;
-  if (locate_in_world(views))
-    views.origin = Origin::kPredicted;
-  else
+  if (const auto light = timestamp(display_time_)) {
+    views.time = *light;
+  }
+  if (locate_in_world(views)) {
+    views.status = PoseStatus::kPredicted;
+  } else {
     views.on_head = (locate_eyes(viewer_) & kKnown) == kKnown && take_eyes({}, views);
+  }
   return views;
 }
 
-Status XrDisplay::finish_turn(bool drawn) {
+Status XrDisplay::end_frame(bool drawn) {
   const XrResult released = swapchains_.release();
   std::array<XrCompositionLayerProjectionView, 2> eyes = {};
   std::array<XrCompositionLayerDepthInfoKHR, 2> depths = {};
@@ -235,7 +284,9 @@ Status XrDisplay::finish_turn(bool drawn) {
     eyes[eye].pose = located_[eye].pose;
     eyes[eye].fov = located_[eye].fov;
     eyes[eye].subImage = swapchains_.part_of(eye);
-    if (!swapchains_.has_depth()) continue;
+    if (!swapchains_.has_depth()) {
+      continue;
+    }
     depths[eye].type = XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR;
     depths[eye].subImage = swapchains_.depth_of(eye);
     depths[eye].maxDepth = 1.0f;
@@ -245,8 +296,9 @@ Status XrDisplay::finish_turn(bool drawn) {
   }
   XrCompositionLayerProjection layer = {XR_TYPE_COMPOSITION_LAYER_PROJECTION};
   // What we write is premultiplied; where nothing is drawn, the world is seen.
-  if (setup_.blend == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND)
+  if (setup_.blend == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) {
     layer.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
+  }
   layer.space = located_in_;
   layer.viewCount = 2;
   layer.views = eyes.data();
@@ -257,7 +309,9 @@ Status XrDisplay::finish_turn(bool drawn) {
   end.layerCount = drawn && XR_SUCCEEDED(released) ? 1 : 0;
   end.layers = &base;
   const XrResult ended = xrEndFrame(session_, &end);
-  if (XR_FAILED(released)) return error_of("release an image", released);
+  if (XR_FAILED(released)) {
+    return error_of("release an image", released);
+  }
   return status_of("end a frame", ended);
 }
 

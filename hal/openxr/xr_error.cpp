@@ -18,7 +18,9 @@ Error error_of(const std::string& what, XrResult result) {
 }
 
 Status status_of(const std::string& what, XrResult result) {
-  if (XR_FAILED(result)) return error_of(what, result);
+  if (XR_FAILED(result)) {
+    return error_of(what, result);
+  }
   return {};
 }
 

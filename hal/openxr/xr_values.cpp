@@ -11,13 +11,16 @@ Status take_fov(const XrFovf& fov, EyeView& view) {
   view.tan_up = std::tan(static_cast<double>(fov.angleUp));
   view.tan_down = -std::tan(static_cast<double>(fov.angleDown));
   constexpr float kMost_rad = 1.55f;  // a little less than a right angle
-  for (const float angle : {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown})
-    if (!(std::fabs(angle) < kMost_rad))
+  for (const float angle : {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown}) {
+    if (!(std::fabs(angle) < kMost_rad)) {
       return Error{"openxr: a field of view reaches " + std::to_string(angle) + " rad, limit " +
                    std::to_string(kMost_rad)};
-  if (fov.angleLeft >= fov.angleRight || fov.angleDown >= fov.angleUp)
+    }
+  }
+  if (fov.angleLeft >= fov.angleRight || fov.angleDown >= fov.angleUp) {
     return Error{"openxr: a field of view of " + std::to_string(fov.angleRight - fov.angleLeft) +
                  " x " + std::to_string(fov.angleUp - fov.angleDown) + " rad, must be positive"};
+  }
   return {};
 }
 

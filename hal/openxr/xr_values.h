@@ -18,9 +18,10 @@ template <class A, class B>
   const double z = static_cast<double>(pose.orientation.z);
   const double w = static_cast<double>(pose.orientation.w);
   const double squared = x * x + y * y + z * z + w * w;
-  if (!(squared > 0.98 && squared < 1.02))
+  if (!(squared > 0.98 && squared < 1.02)) {
     return Error{"openxr: a pose's quaternion has the squared length " + std::to_string(squared) +
                  ", must be 1 within 0.02"};
+  }
   const double s = 2.0 / squared;
   const Mat3 rotation = {{{{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
                            {s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},

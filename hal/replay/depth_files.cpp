@@ -33,8 +33,9 @@ constexpr std::array<Sensor, 5> kSensors = {{
 }};
 
 ImageLayout layout_of(const Sensor& sensor) {
-  if (sensor.hololens1)
+  if (sensor.hololens1) {
     return {hololens1_prefix(sensor.name), PixelKind::kLittleEndian16, 0, 0, false};
+  }
   return {"", PixelKind::kBigEndian16, 0, 0, true};
 }
 
@@ -42,7 +43,9 @@ ImageLayout layout_of(const Sensor& sensor) {
 Status add_images(const std::filesystem::path& path, std::int64_t epoch, RecordedDepth& depth) {
   for (const ImageMember& member : depth.images.members()) {
     const auto time = named_time(path, member.ticks, epoch);
-    if (!time) return time.error();
+    if (!time) {
+      return time.error();
+    }
     const auto sequence = static_cast<std::int64_t>(depth.frames.size());
     depth.frames.push_back({sequence, *time, *time, member, std::nullopt, std::nullopt, 0});
   }
@@ -52,21 +55,28 @@ Status add_images(const std::filesystem::path& path, std::int64_t epoch, Recorde
 /// The frames that our recorder listed.
 Status add_listed(const std::filesystem::path& path, std::int64_t epoch, RecordedDepth& depth) {
   const auto rows = read_frames(path);
-  if (!rows) return rows.error();
+  if (!rows) {
+    return rows.error();
+  }
   const auto& members = depth.images.members();
-  if (rows->size() != members.size())
+  if (rows->size() != members.size()) {
     return file_error(path, "lists " + std::to_string(rows->size()) +
                                 " frames, the archive holds " + std::to_string(members.size()));
+  }
   for (std::size_t i = 0; i < rows->size(); ++i) {
     const FrameRow& row = (*rows)[i];
-    if (row.ticks != members[i].ticks)
+    if (row.ticks != members[i].ticks) {
       return file_error(path, "sequence " + std::to_string(row.sequence) + " has ticks " +
                                   std::to_string(row.ticks) + ", its image " +
                                   std::to_string(members[i].ticks));
-    if (Status s = check_row(path, row, epoch); !s) return s;
-    if (row.clock < row.time)
+    }
+    if (Status s = check_row(path, row, epoch); !s) {
+      return s;
+    }
+    if (row.clock < row.time) {
       return file_error(
           path, "sequence " + std::to_string(row.sequence) + ": clock_ns lies before time_ns");
+    }
     depth.frames.push_back(
         {row.sequence, row.time, row.clock, members[i], std::nullopt, std::nullopt, 0});
   }
@@ -79,8 +89,12 @@ void add_brightness(RecordedDepth& depth) {
   auto image = images.begin();
   std::int64_t used = 0;
   for (RecordedDepthFrame& frame : depth.frames) {
-    while (image != images.end() && image->ticks < frame.range.ticks) ++image;
-    if (image == images.end() || image->ticks != frame.range.ticks) continue;
+    while (image != images.end() && image->ticks < frame.range.ticks) {
+      ++image;
+    }
+    if (image == images.end() || image->ticks != frame.range.ticks) {
+      continue;
+    }
     frame.brightness = *image;
     ++used;
   }
@@ -90,22 +104,27 @@ void add_brightness(RecordedDepth& depth) {
 void add_poses(const PosesByTicks& poses, RecordedDepth& depth) {
   for (RecordedDepthFrame& frame : depth.frames) {
     const auto found = poses.find(frame.range.ticks);
-    if (found != poses.end())
+    if (found != poses.end()) {
       frame.world_from_rig = found->second;
-    else
+    } else {
       ++depth.summary.frames_without_pose;
+    }
   }
 }
 
 Status read_hololens1(const std::filesystem::path& folder, const Sensor& sensor,
                       RecordedDepth& depth) {
   const auto frames = read_hololens1_depth(folder, sensor.name);
-  if (!frames) return frames.error();
+  if (!frames) {
+    return frames.error();
+  }
   add_poses(frames->world_from_rig, depth);
   const int width_px = depth.images.width_px();
   const int height_px = depth.images.height_px();
   auto rays = read_hololens1_rays(folder, sensor.name, width_px, height_px);
-  if (!rays) return rays.error();
+  if (!rays) {
+    return rays.error();
+  }
   depth.calibration = {sensor.stream, width_px, height_px, std::move(*rays),
                        frames->camera_from_rig};
   return {};
@@ -114,11 +133,15 @@ Status read_hololens1(const std::filesystem::path& folder, const Sensor& sensor,
 Status read_hololens2(const std::filesystem::path& folder, const Sensor& sensor,
                       RecordedDepth& depth) {
   const auto poses = read_poses(poses_of(folder, sensor.name));
-  if (!poses) return poses.error();
+  if (!poses) {
+    return poses.error();
+  }
   add_poses(*poses, depth);
   auto calibration = read_depth_calibration(folder, sensor.name, sensor.stream,
                                             depth.images.width_px(), depth.images.height_px());
-  if (!calibration) return calibration.error();
+  if (!calibration) {
+    return calibration.error();
+  }
   depth.calibration = std::move(*calibration);
   return {};
 }
@@ -126,8 +149,12 @@ Status read_hololens2(const std::filesystem::path& folder, const Sensor& sensor,
 Result<std::int64_t> own_epoch(const std::filesystem::path& folder, const ImageTar& images) {
   if (is_there(folder / kDeviceFile)) {
     const auto device = read_device(folder / kDeviceFile);
-    if (!device) return device.error();
-    if (device->epoch_ticks_100ns) return *device->epoch_ticks_100ns;
+    if (!device) {
+      return device.error();
+    }
+    if (device->epoch_ticks_100ns) {
+      return *device->epoch_ticks_100ns;
+    }
   }
   return epoch_of(images.members().front().ticks);
 }
@@ -136,17 +163,24 @@ Status read_depth(const std::filesystem::path& folder, const Sensor& sensor,
                   std::optional<std::int64_t> epoch_ticks, RecordedDepth& depth) {
   const auto tar = tar_of(folder, sensor.name);
   auto images = ImageTar::open(tar, layout_of(sensor));
-  if (!images) return images.error();
+  if (!images) {
+    return images.error();
+  }
   depth.images = std::move(*images);
   depth.invalid_from_mm = sensor.invalid_from_mm;
   const auto epoch = epoch_ticks ? Result(*epoch_ticks) : own_epoch(folder, depth.images);
-  if (!epoch) return epoch.error();
+  if (!epoch) {
+    return epoch.error();
+  }
   const auto list = frames_of(folder, sensor.name);
   if (Status s = is_there(list) ? add_listed(list, *epoch, depth) : add_images(tar, *epoch, depth);
-      !s)
+      !s) {
     return s;
+  }
   add_brightness(depth);
-  if (Status s = add_map_moves(map_of(folder, sensor.name), depth.frames); !s) return s;
+  if (Status s = add_map_moves(map_of(folder, sensor.name), depth.frames); !s) {
+    return s;
+  }
   return sensor.hololens1 ? read_hololens1(folder, sensor, depth)
                           : read_hololens2(folder, sensor, depth);
 }
@@ -154,13 +188,22 @@ Status read_depth(const std::filesystem::path& folder, const Sensor& sensor,
 }  // namespace
 
 Status RecordedDepth::read(const RecordedDepthFrame& recorded, DepthFrame& frame) {
-  if (Status s = images.read(recorded.range, frame.range_mm); !s) return s;
-  if (invalid_from_mm != 0)
-    for (std::uint16_t& range_mm : frame.range_mm.pixels)
-      if (range_mm >= invalid_from_mm) range_mm = 0;
+  if (Status s = images.read(recorded.range, frame.range_mm); !s) {
+    return s;
+  }
+  if (invalid_from_mm != 0) {
+    for (std::uint16_t& range_mm : frame.range_mm.pixels) {
+      if (range_mm >= invalid_from_mm) {
+        range_mm = 0;
+      }
+    }
+  }
   frame.brightness.clear();
-  if (recorded.brightness)
-    if (Status s = images.read(*recorded.brightness, frame.brightness); !s) return s;
+  if (recorded.brightness) {
+    if (Status s = images.read(*recorded.brightness, frame.brightness); !s) {
+      return s;
+    }
+  }
   frame.sequence = recorded.sequence;
   frame.map_epoch = recorded.map_epoch;
   frame.time = recorded.time;
@@ -172,7 +215,9 @@ RecordedDepths read_depths(const std::filesystem::path& folder,
                            std::optional<std::int64_t> epoch_ticks) {
   RecordedDepths depths;
   for (const Sensor& sensor : kSensors) {
-    if (!is_there(tar_of(folder, sensor.name))) continue;
+    if (!is_there(tar_of(folder, sensor.name))) {
+      continue;
+    }
     RecordedDepth depth;
     depth.summary.stream = sensor.stream;
     if (const Status status = read_depth(folder, sensor, epoch_ticks, depth); !status) {

@@ -22,22 +22,30 @@ constexpr std::array<std::pair<ClickerAction, std::string_view>, 5> kActions = {
      {ClickerAction::kDoubleClick, "double click"},
      {ClickerAction::kHold, "hold"}}};
 
-constexpr std::array<std::pair<Origin, std::string_view>, 3> kOrigins = {
-    {{Origin::kMeasured, "measured"}, {Origin::kPredicted, "predicted"}, {Origin::kLost, "lost"}}};
+constexpr std::array<std::pair<PoseStatus, std::string_view>, 3> kOrigins = {
+    {{PoseStatus::kMeasured, "measured"},
+     {PoseStatus::kPredicted, "predicted"},
+     {PoseStatus::kLost, "lost"}}};
 
 template <class Value, std::size_t N>
 std::string_view name_in(const std::array<std::pair<Value, std::string_view>, N>& table,
                          Value value) {
-  for (const auto& [candidate, name] : table)
-    if (candidate == value) return name;
+  for (const auto& [candidate, name] : table) {
+    if (candidate == value) {
+      return name;
+    }
+  }
   return "";
 }
 
 template <class Value, std::size_t N>
 std::optional<Value> value_in(const std::array<std::pair<Value, std::string_view>, N>& table,
                               std::string_view name) {
-  for (const auto& [value, candidate] : table)
-    if (candidate == name) return value;
+  for (const auto& [value, candidate] : table) {
+    if (candidate == name) {
+      return value;
+    }
+  }
   return std::nullopt;
 }
 
@@ -84,10 +92,13 @@ void append_times(std::string& line, Timestamp time, Timestamp available) {
 /// Delivery keeps the order, in time and in availability.
 template <class Event>
 Status add_in_order(std::vector<Delivered<Event>>& events, Delivered<Event> event) {
-  if (event.available < event.event.time) return Error{"available_ns lies before time_ns"};
+  if (event.available < event.event.time) {
+    return Error{"available_ns lies before time_ns"};
+  }
   if (!events.empty() &&
-      (event.event.time < events.back().event.time || event.available < events.back().available))
+      (event.event.time < events.back().event.time || event.available < events.back().available)) {
     return Error{"comes before the event above it"};
+  }
   events.push_back(std::move(event));
   return {};
 }
@@ -95,47 +106,67 @@ Status add_in_order(std::vector<Delivered<Event>>& events, Delivered<Event> even
 Status take_event(std::string_view line, std::vector<std::string_view>& fields,
                   RecordedEvents& events) {
   split(line, fields);
-  if (fields.size() < 6)
+  if (fields.size() < 6) {
     return Error{"holds " + std::to_string(fields.size()) + " fields, must be 6"};
+  }
   const auto time = parse_time(fields[3]);
   const auto available = parse_time(fields[4]);
-  if (!time || !available) return Error{"time_ns or available_ns is no whole number"};
-  for (const Timestamp t : {*time, *available})
-    if (t < Timestamp(Duration(-kMaxNs)) || t > Timestamp(Duration(kMaxNs)))
+  if (!time || !available) {
+    return Error{"time_ns or available_ns is no whole number"};
+  }
+  for (const Timestamp t : {*time, *available}) {
+    if (t < Timestamp(Duration(-kMaxNs)) || t > Timestamp(Duration(kMaxNs))) {
       return Error{"time_ns and available_ns must lie within 9e18"};
+    }
+  }
   if (fields[0] == "clicker") {
     const auto action = value_in(kActions, fields[1]);
-    if (!action)
+    if (!action) {
       return Error{"what is unknown; known are press, release, click, double click and hold"};
+    }
     return add_in_order(events.clicker, {{*action, *time}, *available});
   }
-  if (fields[0] != "voice") return Error{"device is unknown; known are clicker and voice"};
+  if (fields[0] != "voice") {
+    return Error{"device is unknown; known are clicker and voice"};
+  }
   const auto confidence = parse_double(fields[2]);
-  if (!confidence || !(*confidence >= 0.0 && *confidence <= 1.0))
+  if (!confidence || !(*confidence >= 0.0 && *confidence <= 1.0)) {
     return Error{"confidence must lie in [0, 1]"};
+  }
   // The text comes last and may hold commas.
   const std::string_view text =
       line.substr(static_cast<std::size_t>(fields[5].data() - line.data()));
-  if (text.empty()) return Error{"text is empty"};
+  if (text.empty()) {
+    return Error{"text is empty"};
+  }
   return add_in_order(events.voice, {{unescaped(text), *confidence, *time}, *available});
 }
 
 Status take_head_answer(std::string_view line, std::vector<std::string_view>& fields,
                         HeadAnswers& answers) {
   split(line, fields);
-  if (fields.size() != 19 && fields.size() != 19 + 36)
+  if (fields.size() != 19 && fields.size() != 19 + 36) {
     return Error{"holds " + std::to_string(fields.size()) + " fields, must be 19 or 55"};
+  }
   const auto sequence = parse_integer(fields[0]);
   const auto at = parse_time(fields[1]);
   const auto origin = value_in(kOrigins, fields[2]);
-  if (!sequence || !at) return Error{"sequence or at_ns is no whole number"};
-  if (!origin) return Error{"origin is unknown; known are measured, predicted and lost"};
+  if (!sequence || !at) {
+    return Error{"sequence or at_ns is no whole number"};
+  }
+  if (!origin) {
+    return Error{"origin is unknown; known are measured, predicted and lost"};
+  }
   const auto pose = parse_pose<World, Rig>(fields, 3, kMaxWorldM);
-  if (!pose) return pose.error();
+  if (!pose) {
+    return pose.error();
+  }
   Tracked<Transform<World, Rig>> answer{*pose, *at, *origin, {}};
   for (std::size_t i = 19; i < fields.size(); ++i) {
     const auto entry = parse_double(fields[i]);
-    if (!entry || !std::isfinite(*entry)) return Error{"covariance must be finite numbers"};
+    if (!entry || !std::isfinite(*entry)) {
+      return Error{"covariance must be finite numbers"};
+    }
     answer.covariance[i - 19] = *entry;
   }
   answers.add(*sequence, answer);
@@ -150,7 +181,9 @@ Result<RecordedEvents> read_events(const std::filesystem::path& path) {
   Status status = for_each_row(path, kMaxEventsBytes, kEventsHeader, [&](std::string_view line) {
     return take_event(line, fields, events);
   });
-  if (!status) return status.error();
+  if (!status) {
+    return status.error();
+  }
   return events;
 }
 
@@ -175,7 +208,9 @@ Result<HeadAnswers> read_head_answers(const std::filesystem::path& path) {
   Status status = for_each_row(path, kMaxHeadBytes, kHeadHeader, [&](std::string_view line) {
     return take_head_answer(line, fields, answers);
   });
-  if (!status) return status.error();
+  if (!status) {
+    return status.error();
+  }
   return answers;
 }
 
@@ -185,15 +220,17 @@ void append_head_answer(std::string& line, std::int64_t sequence,
   line += ',';
   append_number(line, std::int64_t{answer.time.time_since_epoch().count()});
   line += ',';
-  line += name_in(kOrigins, answer.origin);
+  line += name_in(kOrigins, answer.status);
   // What is lost has no value; whatever lies there is not to be read.
   const Transform<World, Rig> pose =
-      answer.origin == Origin::kLost ? Transform<World, Rig>{} : answer.value;
+      answer.status == PoseStatus::kLost ? Transform<World, Rig>{} : answer.value;
   for (const double entry : pose.row_major()) {
     line += ',';
     append_number(line, entry);
   }
-  if (answer.origin == Origin::kLost || answer.covariance == PoseCovariance{}) return;
+  if (answer.status == PoseStatus::kLost || answer.covariance == PoseCovariance{}) {
+    return;
+  }
   for (const double entry : answer.covariance) {
     line += ',';
     append_number(line, entry);

@@ -14,38 +14,51 @@ constexpr std::uintmax_t kMaxDeviceBytes = 4096;
 Status take_pose(std::string_view line, std::vector<std::string_view>& fields,
                  PosesByTicks& poses) {
   split(line, fields);
-  if (fields.size() != 17)
+  if (fields.size() != 17) {
     return Error{"holds " + std::to_string(fields.size()) + " values, must be 17 (ticks, matrix)"};
+  }
   const auto ticks = parse_integer(fields[0]);
-  if (!ticks || *ticks < 0) return Error{"ticks must be a whole number"};
+  if (!ticks || *ticks < 0) {
+    return Error{"ticks must be a whole number"};
+  }
   const auto pose = parse_pose<World, Rig>(fields, 1, kMaxWorldM);
-  if (!pose) return Error{"world_from_rig: " + pose.error().message};
+  if (!pose) {
+    return Error{"world_from_rig: " + pose.error().message};
+  }
   // A frame that was written twice says the same twice; a contradiction is damage.
   const auto [entry, added] = poses.emplace(*ticks, *pose);
-  if (!added && entry->second != *pose)
+  if (!added && entry->second != *pose) {
     return Error{"ticks " + std::to_string(*ticks) + " have another pose already"};
+  }
   return {};
 }
 
 Status take_frame(std::string_view line, std::vector<std::string_view>& fields,
                   std::vector<FrameRow>& rows) {
   split(line, fields);
-  if (fields.size() != 4)
+  if (fields.size() != 4) {
     return Error{"holds " + std::to_string(fields.size()) + " values, must be 4"};
+  }
   std::array<std::int64_t, 4> values{};
   for (std::size_t i = 0; i < 4; ++i) {
     const auto value = parse_integer(fields[i]);
-    if (!value) return Error{"value " + std::to_string(i + 1) + " must be a whole number"};
-    if (*value < -kMaxNs || *value > kMaxNs)
+    if (!value) {
+      return Error{"value " + std::to_string(i + 1) + " must be a whole number"};
+    }
+    if (*value < -kMaxNs || *value > kMaxNs) {
       return Error{"value " + std::to_string(i + 1) + " must lie within 9e18"};
+    }
     values[i] = *value;
   }
-  if (values[2] < 0) return Error{"ticks_100ns must not be negative"};
+  if (values[2] < 0) {
+    return Error{"ticks_100ns must not be negative"};
+  }
   const FrameRow row{values[0], Timestamp(Duration(values[1])), values[2],
                      Timestamp(Duration(values[3]))};
   if (!rows.empty() && (row.sequence <= rows.back().sequence || row.time <= rows.back().time ||
-                        row.ticks <= rows.back().ticks || row.clock < rows.back().clock))
+                        row.ticks <= rows.back().ticks || row.clock < rows.back().clock)) {
     return Error{"does not come after the line above it"};
+  }
   rows.push_back(row);
   return {};
 }
@@ -54,14 +67,19 @@ Status take_device(std::string_view line, RecordedDevice& device) {
   std::vector<std::string_view> fields;
   split(line, fields);
   const auto value = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
-  if (!value) return Error{"must be a key and a whole number"};
-  if (*value < -kMaxNs || *value > kMaxNs) return Error{"value must lie within 9e18"};
+  if (!value) {
+    return Error{"must be a key and a whole number"};
+  }
+  if (*value < -kMaxNs || *value > kMaxNs) {
+    return Error{"value must lie within 9e18"};
+  }
   if (fields[0] == "epoch_ticks_100ns") {
     device.epoch_ticks_100ns = *value;
   } else if (fields[0] == "display_latency_ns") {
     constexpr std::int64_t kMaxLatencyNs = 10'000'000'000;
-    if (*value < 0 || *value > kMaxLatencyNs)
+    if (*value < 0 || *value > kMaxLatencyNs) {
       return Error{"display_latency_ns must lie in [0, 10000000000]"};
+    }
     device.display_latency = Duration(*value);
   } else if (fields[0] == "clock_start_ns") {
     device.clock_start = Timestamp(Duration(*value));
@@ -76,15 +94,20 @@ Status take_device(std::string_view line, RecordedDevice& device) {
 
 Result<PosesByTicks> read_poses(const std::filesystem::path& path) {
   const auto text = read_text(path, kMaxPosesBytes);
-  if (!text) return text.error();
+  if (!text) {
+    return text.error();
+  }
   PosesByTicks poses;
   std::vector<std::string_view> fields;
   Status status = for_each_line(*text, [&](std::size_t number, std::string_view line) -> Status {
-    if (Status taken = take_pose(line, fields, poses); !taken)
+    if (Status taken = take_pose(line, fields, poses); !taken) {
       return line_error(path, number, taken.error().message);
+    }
     return {};
   });
-  if (!status) return status.error();
+  if (!status) {
+    return status.error();
+  }
   return poses;
 }
 
@@ -102,7 +125,9 @@ Result<std::vector<FrameRow>> read_frames(const std::filesystem::path& path) {
   Status status = for_each_row(path, kMaxFramesBytes, kFramesHeader, [&](std::string_view line) {
     return take_frame(line, fields, rows);
   });
-  if (!status) return status.error();
+  if (!status) {
+    return status.error();
+  }
   return rows;
 }
 
@@ -124,14 +149,20 @@ Result<std::vector<MapRow>> read_map_moves(const std::filesystem::path& path) {
         split(line, fields);
         const auto sequence = parse_integer(fields[0]);
         const auto epoch = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;
-        if (!sequence || !epoch) return Error{"must be two whole numbers"};
+        if (!sequence || !epoch) {
+          return Error{"must be two whole numbers"};
+        }
         const bool follows =
             rows.empty() || (*sequence > rows.back().sequence && *epoch > rows.back().map_epoch);
-        if (!follows) return Error{"does not come after the line above it"};
+        if (!follows) {
+          return Error{"does not come after the line above it"};
+        }
         rows.push_back({*sequence, *epoch});
         return {};
       });
-  if (!status) return status.error();
+  if (!status) {
+    return status.error();
+  }
   return rows;
 }
 
@@ -145,7 +176,9 @@ Result<RecordedDevice> read_device(const std::filesystem::path& path) {
   RecordedDevice device;
   Status status = for_each_row(path, kMaxDeviceBytes, kDeviceHeader,
                                [&](std::string_view line) { return take_device(line, device); });
-  if (!status) return status.error();
+  if (!status) {
+    return status.error();
+  }
   return device;
 }
 
@@ -168,18 +201,24 @@ std::int64_t epoch_of(std::int64_t first_ticks) {
 std::optional<Timestamp> device_time(std::int64_t ticks, std::int64_t epoch_ticks) {
   // The epoch is whatever a file says: compare before subtracting. Two numbers that are not
   // negative have a difference; under a negative epoch both sides of the sum are within 9e18.
-  if (ticks < 0 || epoch_ticks < -kMaxNs) return std::nullopt;
+  if (ticks < 0 || epoch_ticks < -kMaxNs) {
+    return std::nullopt;
+  }
   const bool fits = epoch_ticks >= 0
                         ? ticks - epoch_ticks <= kMaxTicks && ticks - epoch_ticks >= -kMaxTicks
                         : ticks <= kMaxTicks + epoch_ticks;
-  if (!fits) return std::nullopt;
+  if (!fits) {
+    return std::nullopt;
+  }
   return from_ticks_100ns(ticks - epoch_ticks);
 }
 
 Result<Timestamp> named_time(const std::filesystem::path& path, std::int64_t ticks,
                              std::int64_t epoch_ticks) {
   const auto time = device_time(ticks, epoch_ticks);
-  if (time) return *time;
+  if (time) {
+    return *time;
+  }
   return file_error(path, "time " + std::to_string(ticks) +
                               " lies more than 285 years from the recording's epoch " +
                               std::to_string(epoch_ticks));
@@ -187,7 +226,9 @@ Result<Timestamp> named_time(const std::filesystem::path& path, std::int64_t tic
 
 Status check_row(const std::filesystem::path& path, const FrameRow& row, std::int64_t epoch_ticks) {
   const auto by_ticks = device_time(row.ticks, epoch_ticks);
-  if (by_ticks && *by_ticks <= row.time && row.time < *by_ticks + Duration(100)) return {};
+  if (by_ticks && *by_ticks <= row.time && row.time < *by_ticks + Duration(100)) {
+    return {};
+  }
   return file_error(path, "sequence " + std::to_string(row.sequence) +
                               ": time_ns does not belong to its ticks_100ns");
 }

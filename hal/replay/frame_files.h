@@ -37,12 +37,20 @@ void append_map_move(std::string& line, const MapRow& row);
 /// Gives pairs or frames the maps of such a file, where there is one.
 template <class Frame>
 Status add_map_moves(const std::filesystem::path& path, std::vector<Frame>& frames) {
-  if (!is_there(path)) return {};
+  if (!is_there(path)) {
+    return {};
+  }
   const auto rows = read_map_moves(path);
-  if (!rows) return rows.error();
-  for (const MapRow& row : *rows)
-    for (Frame& frame : frames)
-      if (frame.sequence >= row.sequence) frame.map_epoch = row.map_epoch;
+  if (!rows) {
+    return rows.error();
+  }
+  for (const MapRow& row : *rows) {
+    for (Frame& frame : frames) {
+      if (frame.sequence >= row.sequence) {
+        frame.map_epoch = row.map_epoch;
+      }
+    }
+  }
   return {};
 }
 

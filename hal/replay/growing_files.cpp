@@ -25,23 +25,30 @@ std::string pgm_header(int width_px, int height_px, int maximum) {
 Status LineFile::open(const std::filesystem::path& path, const char* header) {
   path_ = path;
   file_.reset(std::fopen(path.c_str(), "wbe"));
-  if (!file_) return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
+  if (!file_) {
+    return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
+  }
   return header ? write(header) : Status{};
 }
 
 Status LineFile::write(const std::string& line) {
   const std::lock_guard lock(mutex_);
-  if (!file_) return file_error(path_, "is closed already");
+  if (!file_) {
+    return file_error(path_, "is closed already");
+  }
   const bool written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() &&
                        std::fputc('\n', file_.get()) != EOF && std::fflush(file_.get()) == 0;
-  if (!written) return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
+  if (!written) {
+    return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
+  }
   return {};
 }
 
 Status LineFile::close() {
   const std::lock_guard lock(mutex_);
-  if (file_ && std::fclose(file_.release()) != 0)
+  if (file_ && std::fclose(file_.release()) != 0) {
     return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
+  }
   return {};
 }
 
@@ -55,7 +62,9 @@ Status ImageTarWriter::open(const std::filesystem::path& path) {
   entry_.reset(archive_entry_new());
   archive_write_set_format_ustar(archive_.get());
   archive_write_set_bytes_per_block(archive_.get(), 0);  // nothing waits in a buffer
-  if (archive_write_open_filename(archive_.get(), path.c_str()) != ARCHIVE_OK) return failed();
+  if (archive_write_open_filename(archive_.get(), path.c_str()) != ARCHIVE_OK) {
+    return failed();
+  }
   return {};
 }
 
@@ -74,8 +83,9 @@ Status ImageTarWriter::write(std::int64_t ticks, const char* suffix, const Depth
   constexpr int kMaximum = 65535;
   swapped_ = image.pixels;
   static_assert(std::endian::native == std::endian::little, "the file is big-endian");
-  for (std::uint16_t& pixel : swapped_)
+  for (std::uint16_t& pixel : swapped_) {
     pixel = static_cast<std::uint16_t>(pixel << 8U | pixel >> 8U);
+  }
   return put(std::to_string(ticks) + suffix + ".pgm",
              pgm_header(image.width_px, image.height_px, kMaximum), swapped_.data(),
              swapped_.size() * sizeof(std::uint16_t));
@@ -89,17 +99,25 @@ Status ImageTarWriter::put(const std::string& name, const std::string& header, c
   archive_entry_set_perm(entry_.get(), 0644);
   archive_entry_set_mtime(entry_.get(), 0, 0);
   archive_entry_set_size(entry_.get(), static_cast<la_int64_t>(header.size() + bytes));
-  if (archive_write_header(archive_.get(), entry_.get()) != ARCHIVE_OK) return failed();
+  if (archive_write_header(archive_.get(), entry_.get()) != ARCHIVE_OK) {
+    return failed();
+  }
   const auto append = [this](const void* data, std::size_t count) {
     return archive_write_data(archive_.get(), data, count) == static_cast<la_ssize_t>(count);
   };
-  if (!append(header.data(), header.size()) || !append(pixels, bytes)) return failed();
-  if (archive_write_finish_entry(archive_.get()) != ARCHIVE_OK) return failed();
+  if (!append(header.data(), header.size()) || !append(pixels, bytes)) {
+    return failed();
+  }
+  if (archive_write_finish_entry(archive_.get()) != ARCHIVE_OK) {
+    return failed();
+  }
   return {};
 }
 
 Status ImageTarWriter::close() {
-  if (archive_ && archive_write_close(archive_.get()) != ARCHIVE_OK) return failed();
+  if (archive_ && archive_write_close(archive_.get()) != ARCHIVE_OK) {
+    return failed();
+  }
   archive_.reset();
   return {};
 }
@@ -107,13 +125,18 @@ Status ImageTarWriter::close() {
 Status FrameListWriter::open(const std::filesystem::path& frames, std::filesystem::path map,
                              const std::vector<std::filesystem::path>& poses) {
   map_path_ = std::move(map);
-  for (const std::filesystem::path& path : poses)
-    if (Status s = poses_.emplace_back().open(path, nullptr); !s) return s;
+  for (const std::filesystem::path& path : poses) {
+    if (Status s = poses_.emplace_back().open(path, nullptr); !s) {
+      return s;
+    }
+  }
   return frames_.open(frames, kFramesHeader);
 }
 
 Status FrameListWriter::check(std::int64_t ticks) const {
-  if (ticks >= 0 && ticks > last_ticks_) return {};
+  if (ticks >= 0 && ticks > last_ticks_) {
+    return {};
+  }
   return Error{"frame at " + std::to_string(ticks) +
                " ticks of 100 ns cannot be told from the one at " + std::to_string(last_ticks_)};
 }
@@ -123,29 +146,45 @@ Status FrameListWriter::write(const FrameRow& row, std::int64_t map_epoch,
   if (world_from_rig) {
     line_.clear();
     append_pose(line_, row.ticks, *world_from_rig);
-    for (LineFile& file : poses_)
-      if (Status s = file.write(line_); !s) return s;
+    for (LineFile& file : poses_) {
+      if (Status s = file.write(line_); !s) {
+        return s;
+      }
+    }
   }
   if (map_epoch != map_epoch_) {
-    if (!map_.is_open())
-      if (Status s = map_.open(map_path_, kMapHeader); !s) return s;
+    if (!map_.is_open()) {
+      if (Status s = map_.open(map_path_, kMapHeader); !s) {
+        return s;
+      }
+    }
     map_epoch_ = map_epoch;
     line_.clear();
     append_map_move(line_, {row.sequence, map_epoch});
-    if (Status s = map_.write(line_); !s) return s;
+    if (Status s = map_.write(line_); !s) {
+      return s;
+    }
   }
   line_.clear();
   append_frame(line_, row);
-  if (Status s = frames_.write(line_); !s) return s;
+  if (Status s = frames_.write(line_); !s) {
+    return s;
+  }
   last_ticks_ = row.ticks;
   return {};
 }
 
 Status FrameListWriter::close() {
-  for (LineFile& file : poses_)
-    if (Status s = file.close(); !s) return s;
-  if (map_.is_open())
-    if (Status s = map_.close(); !s) return s;
+  for (LineFile& file : poses_) {
+    if (Status s = file.close(); !s) {
+      return s;
+    }
+  }
+  if (map_.is_open()) {
+    if (Status s = map_.close(); !s) {
+      return s;
+    }
+  }
   return frames_.close();
 }
 

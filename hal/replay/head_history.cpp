@@ -17,18 +17,21 @@ Tracked<Transform<World, Rig>> HeadHistory::at(Timestamp time, Timestamp known_u
 }
 
 void HeadAnswers::add(std::int64_t sequence, const Tracked<Transform<World, Rig>>& answer) {
-  if (covariances_.empty() || covariances_.back() != answer.covariance)
+  if (covariances_.empty() || covariances_.back() != answer.covariance) {
     covariances_.push_back(answer.covariance);
+  }
   answers_.try_emplace({sequence, answer.time},
-                       Answer{answer.value, answer.origin, covariances_.size() - 1});
+                       Answer{answer.value, answer.status, covariances_.size() - 1});
 }
 
 std::optional<Tracked<Transform<World, Rig>>> HeadAnswers::find(std::int64_t sequence,
                                                                 Timestamp at) const {
   const auto found = answers_.find({sequence, at});
-  if (found == answers_.end()) return std::nullopt;
+  if (found == answers_.end()) {
+    return std::nullopt;
+  }
   const Answer& answer = found->second;
-  return Tracked<Transform<World, Rig>>{answer.value, at, answer.origin,
+  return Tracked<Transform<World, Rig>>{answer.value, at, answer.status,
                                         covariances_[answer.covariance]};
 }
 

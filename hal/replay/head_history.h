@@ -41,7 +41,7 @@ class HeadAnswers {
  private:
   struct Answer {
     Transform<World, Rig> value;
-    Origin origin = Origin::kLost;
+    PoseStatus status = PoseStatus::kLost;
     std::size_t covariance = 0;
   };
   std::map<std::pair<std::int64_t, Timestamp>, Answer> answers_;

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cctype>
 #include <string>
 #include <string_view>
 
+#include "base/check.h"
 #include "hal/replay/layout.h"
 #include "hal/replay/text.h"
 
@@ -33,7 +33,9 @@ std::string error_of(archive* a) {
 
 std::string printable(const std::string& name) {
   std::string shown;
-  for (const char c : name.substr(0, 60)) shown += c >= 32 && c < 127 ? c : '?';
+  for (const char c : name.substr(0, 60)) {
+    shown += c >= 32 && c < 127 ? c : '?';
+  }
   return shown;
 }
 
@@ -57,25 +59,36 @@ std::int64_t sort_unique(std::vector<ImageMember>& members) {
 Result<ImageTar> ImageTar::open(const std::filesystem::path& path, ImageLayout layout) {
   std::error_code code;
   const auto status = std::filesystem::status(path, code);
-  if (!std::filesystem::exists(status)) return file_error(path, "no such file");
-  if (!std::filesystem::is_regular_file(status)) return file_error(path, "is not a file");
+  if (!std::filesystem::exists(status)) {
+    return file_error(path, "no such file");
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    return file_error(path, "is not a file");
+  }
   ImageTar tar;
   tar.path_ = path;
   tar.layout_ = std::move(layout);
   tar.file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!tar.file_) return file_error(path, "cannot be opened");
-  if (Status indexed = tar.index(); !indexed) return indexed.error();
+  if (!tar.file_) {
+    return file_error(path, "cannot be opened");
+  }
+  if (Status indexed = tar.index(); !indexed) {
+    return indexed.error();
+  }
   return tar;
 }
 
 Status ImageTar::index() {
   std::error_code code;
   const std::uint64_t file_size = std::filesystem::file_size(path_, code);
-  if (code) return file_error(path_, "cannot be read: " + code.message());
+  if (code) {
+    return file_error(path_, "cannot be read: " + code.message());
+  }
   const ArchiveReader reader(archive_read_new());
   archive_read_support_format_tar(reader.get());
-  if (archive_read_open_filename(reader.get(), path_.c_str(), 64 * 1024) != ARCHIVE_OK)
+  if (archive_read_open_filename(reader.get(), path_.c_str(), 64 * 1024) != ARCHIVE_OK) {
     return file_error(path_, "is no tar archive: " + error_of(reader.get()));
+  }
   std::uint64_t end = 0;
   archive_entry* entry = nullptr;
   int answer = ARCHIVE_OK;
@@ -86,14 +99,18 @@ Status ImageTar::index() {
     const bool plain = archive_entry_filetype(entry) == AE_IFREG &&
                        archive_entry_sparse_count(entry) == 0 &&
                        archive_entry_hardlink(entry) == nullptr;
-    if (Status status = index_member(name ? name : "", plain, offset, size, file_size); !status)
+    if (Status status = index_member(name ? name : "", plain, offset, size, file_size); !status) {
       return status;
+    }
     end = (offset + size + kTarBlockBytes - 1) / kTarBlockBytes * kTarBlockBytes;
   }
-  if (answer != ARCHIVE_EOF)
+  if (answer != ARCHIVE_EOF) {
     return file_error(
         path_, "after " + std::to_string(members_.size()) + " images: " + error_of(reader.get()));
-  if (Status status = check_end(end, file_size); !status) return status;
+  }
+  if (Status status = check_end(end, file_size); !status) {
+    return status;
+  }
   repeated_ = sort_unique(members_) + sort_unique(brightness_);
   return {};
 }
@@ -103,12 +120,15 @@ std::optional<ImageTar::Name> ImageTar::parsed(std::string_view name) const {
   constexpr std::string_view kEnding = ".pgm";
   constexpr std::string_view kBrightness = "_ab";
   if (!name.starts_with(layout_.prefix) || !name.ends_with(kEnding) ||
-      name.size() <= layout_.prefix.size() + kEnding.size())
+      name.size() <= layout_.prefix.size() + kEnding.size()) {
     return std::nullopt;
+  }
   name.remove_prefix(layout_.prefix.size());
   name.remove_suffix(kEnding.size());
   const bool brightness = layout_.with_brightness && name.ends_with(kBrightness);
-  if (brightness) name.remove_suffix(kBrightness.size());
+  if (brightness) {
+    name.remove_suffix(kBrightness.size());
+  }
   const bool digits =
       std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
   const auto ticks = digits ? parse_integer(name) : std::nullopt;
@@ -120,19 +140,26 @@ Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t o
   const std::string name(name_text);
   const std::string member = "member \"" + printable(name) + "\" ";
   const auto known = parsed(name);
-  if (!plain || !known)
+  if (!plain || !known) {
     return file_error(path_, member + "is no image named " + layout_.prefix + "<ticks>.pgm" +
                                  (layout_.with_brightness ? " or <ticks>_ab.pgm" : ""));
-  if (offset > file_size || size > file_size - offset)
+  }
+  if (offset > file_size || size > file_size - offset) {
     return file_error(path_, member + "is cut off: the archive is truncated at " +
                                  std::to_string(file_size) + " bytes");
+  }
   std::array<char, 256> bytes;
   const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(size, bytes.size()));
-  if (!read_at(offset, bytes.data(), count)) return file_error(path_, member + "cannot be read");
+  if (!read_at(offset, bytes.data(), count)) {
+    return file_error(path_, member + "cannot be read");
+  }
   const auto header = parse_pgm_header(std::string_view(bytes.data(), count));
-  if (!header) return file_error(path_, member + header.error().message);
-  if (Status s = check_image(*header, size); !s)
+  if (!header) {
+    return file_error(path_, member + header.error().message);
+  }
+  if (Status s = check_image(*header, size); !s) {
     return file_error(path_, member + s.error().message);
+  }
   (known->brightness ? brightness_ : members_).push_back({known->ticks, offset + header->bytes});
   return {};
 }
@@ -143,23 +170,27 @@ Status ImageTar::check_image(const PgmHeader& header, std::uint64_t size) {
     const auto fits = [](std::int64_t side) {
       return side >= kMinDepthSidePx && side <= kMaxDepthSidePx;
     };
-    if (!fits(header.width_px) || !fits(header.height_px))
+    if (!fits(header.width_px) || !fits(header.height_px)) {
       return Error{"is " + size_text(header.width_px, header.height_px) +
                    " px, each side must be " + std::to_string(kMinDepthSidePx) + " to " +
                    std::to_string(kMaxDepthSidePx)};
+    }
     layout_.width_px = static_cast<int>(header.width_px);
     layout_.height_px = static_cast<int>(header.height_px);
   }
-  if (header.width_px != layout_.width_px || header.height_px != layout_.height_px)
+  if (header.width_px != layout_.width_px || header.height_px != layout_.height_px) {
     return Error{"is " + size_text(header.width_px, header.height_px) + " px, must be " +
                  size_text(layout_.width_px, layout_.height_px)};
+  }
   const std::int64_t maximum = layout_.pixels == PixelKind::kGrey8 ? 255 : 65535;
-  if (header.maximum != maximum)
+  if (header.maximum != maximum) {
     return Error{"has maximum grey " + std::to_string(header.maximum) + ", must be " +
                  std::to_string(maximum)};
+  }
   const std::uint64_t expected = header.bytes + image_bytes();
-  if (size != expected)
+  if (size != expected) {
     return Error{"holds " + std::to_string(size) + " bytes, must be " + std::to_string(expected)};
+  }
   return {};
 }
 
@@ -170,21 +201,27 @@ std::size_t ImageTar::image_bytes() const {
 }
 
 Status ImageTar::check_end(std::uint64_t end, std::uint64_t file_size) {
-  if (members_.empty()) return file_error(path_, "holds no image");
-  if (end + kTarBlockBytes > file_size)
+  if (members_.empty()) {
+    return file_error(path_, "holds no image");
+  }
+  if (end + kTarBlockBytes > file_size) {
     return file_error(path_, "has no end mark after " + std::to_string(members_.size()) +
                                  " images: the archive is truncated or was not finished");
+  }
   std::array<char, 4096> bytes;
   for (std::uint64_t at = end; at < file_size;) {
     const auto count =
         static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), file_size - at));
-    if (!read_at(at, bytes.data(), count)) return file_error(path_, "cannot be read to its end");
+    if (!read_at(at, bytes.data(), count)) {
+      return file_error(path_, "cannot be read to its end");
+    }
     const auto stray = std::find_if(bytes.data(), bytes.data() + count, [](char c) { return c; });
-    if (stray != bytes.data() + count)
+    if (stray != bytes.data() + count) {
       return file_error(path_,
                         "goes on at byte " +
                             std::to_string(at + static_cast<std::uint64_t>(stray - bytes.data())) +
                             " after its end mark: a header is damaged");
+    }
     at += count;
   }
   return {};
@@ -200,22 +237,28 @@ Status ImageTar::read_pixels(const ImageMember& member, PlainImage<Value>& image
   image.width_px = layout_.width_px;
   image.height_px = layout_.height_px;
   image.pixels.resize(image_bytes() / sizeof(Value));
-  if (read_at(member.pixels_offset, image.pixels.data(), image_bytes())) return {};
+  if (read_at(member.pixels_offset, image.pixels.data(), image_bytes())) {
+    return {};
+  }
   return file_error(path_, "image " + std::to_string(member.ticks) + ".pgm cannot be read");
 }
 
 Status ImageTar::read(const ImageMember& member, GreyImage& image) {
-  assert(layout_.pixels == PixelKind::kGrey8);
+  ORTHONAV_CHECK(layout_.pixels == PixelKind::kGrey8);
   return read_pixels(member, image);
 }
 
 Status ImageTar::read(const ImageMember& member, DepthImage& image) {
-  assert(layout_.pixels != PixelKind::kGrey8);
-  if (Status s = read_pixels(member, image); !s) return s;
+  ORTHONAV_CHECK(layout_.pixels != PixelKind::kGrey8);
+  if (Status s = read_pixels(member, image); !s) {
+    return s;
+  }
   static_assert(std::endian::native == std::endian::little);
-  if (layout_.pixels == PixelKind::kBigEndian16)
-    for (std::uint16_t& pixel : image.pixels)
+  if (layout_.pixels == PixelKind::kBigEndian16) {
+    for (std::uint16_t& pixel : image.pixels) {
       pixel = static_cast<std::uint16_t>(pixel << 8U | pixel >> 8U);
+    }
+  }
   return {};
 }
 

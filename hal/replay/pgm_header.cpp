@@ -20,13 +20,19 @@ class Fields {
   std::optional<std::int64_t> number() {
     skip_blanks();
     const std::size_t begin = position_;
-    while (position_ < bytes_.size() && is(&isdigit)) ++position_;
-    if (begin == position_ || position_ - begin > 9) return std::nullopt;
+    while (position_ < bytes_.size() && is(&isdigit)) {
+      ++position_;
+    }
+    if (begin == position_ || position_ - begin > 9) {
+      return std::nullopt;
+    }
     return parse_integer(bytes_.substr(begin, position_ - begin));
   }
   /// Bytes up to the first pixel.
   std::optional<std::size_t> end() {
-    if (position_ >= bytes_.size() || !is(&isspace)) return std::nullopt;
+    if (position_ >= bytes_.size() || !is(&isspace)) {
+      return std::nullopt;
+    }
     return position_ + 1;
   }
 
@@ -39,10 +45,13 @@ class Fields {
   }
   void skip_blanks() {
     while (position_ < bytes_.size() && (is(&isspace) || bytes_[position_] == '#')) {
-      if (bytes_[position_] == '#')
-        while (position_ < bytes_.size() && bytes_[position_] != '\n') ++position_;
-      else
+      if (bytes_[position_] == '#') {
+        while (position_ < bytes_.size() && bytes_[position_] != '\n') {
+          ++position_;
+        }
+      } else {
         ++position_;
+      }
     }
   }
 };
@@ -51,12 +60,16 @@ class Fields {
 
 Result<PgmHeader> parse_pgm_header(std::string_view bytes) {
   Fields fields(bytes);
-  if (!fields.magic()) return Error{"is no binary PGM (P5)"};
+  if (!fields.magic()) {
+    return Error{"is no binary PGM (P5)"};
+  }
   const auto width = fields.number();
   const auto height = fields.number();
   const auto maximum = fields.number();
   const auto end = fields.end();
-  if (!width || !height || !maximum || !end) return Error{"has a broken PGM header"};
+  if (!width || !height || !maximum || !end) {
+    return Error{"has a broken PGM header"};
+  }
   return PgmHeader{*width, *height, *maximum, *end};
 }
 

@@ -22,17 +22,24 @@ class Tape {
   /// Calls `write` with the writer while recording goes on.
   template <class Write>
   void record(const Write& write) {
-    if (!running_.load()) return;
+    if (!running_.load()) {
+      return;
+    }
     // Another thread may have closed meanwhile: what comes too late is no failure.
-    if (Status status = write(*writer_); !status && running_.load()) fail(status);
+    if (Status status = write(*writer_); !status && running_.load()) {
+      fail(status);
+    }
   }
   [[nodiscard]] Status status() const {
     const std::lock_guard lock(mutex_);
     return failure_;
   }
   Status close() {
-    if (running_.exchange(false))
-      if (Status status = writer_->close(); !status) fail(status);
+    if (running_.exchange(false)) {
+      if (Status status = writer_->close(); !status) {
+        fail(status);
+      }
+    }
     return status();
   }
 
@@ -47,7 +54,9 @@ class Tape {
   void fail(const Status& status) {
     const std::lock_guard lock(mutex_);
     running_ = false;
-    if (failure_.ok()) failure_ = status;
+    if (failure_.ok()) {
+      failure_ = status;
+    }
   }
 };
 
@@ -57,7 +66,9 @@ class RecordingDepth : public DepthCamera {
       : headset_(headset), inner_(inner), tape_(tape) {}
   /// Records all that there is.
   void drain() {
-    for (auto answer = next(unseen_); answer && *answer == Next::kFrame;) answer = next(unseen_);
+    for (auto answer = next(unseen_); answer && *answer == Next::kFrame;) {
+      answer = next(unseen_);
+    }
   }
 
  private:
@@ -71,7 +82,9 @@ class RecordingDepth : public DepthCamera {
   }
   Result<Next> do_next(DepthFrame& frame) override {
     auto answer = inner_.next(frame);
-    if (!answer || *answer != Next::kFrame) return answer;
+    if (!answer || *answer != Next::kFrame) {
+      return answer;
+    }
     tape_.record([&](RecordingWriter& w) {
       return w.depth(inner_.calibration(), frame, headset_.clock().now());
     });
@@ -100,7 +113,9 @@ class RecordingCamera : public StereoCamera {
       tape_.record([&](RecordingWriter& w) { return w.frame(frame, inner_.clock().now()); });
       tape_.newest_sequence = frame.sequence;
     }
-    for (const auto& depth : drained_) depth->drain();
+    for (const auto& depth : drained_) {
+      depth->drain();
+    }
     return answer;
   }
 };
@@ -174,8 +189,9 @@ class Recorder : public RecordingHeadset {
         clicker_(inner_.clicker(), tape_),
         voice_(inner_.voice(), tape_) {
     RecordingDepths& depths = takes_depth ? drained_ : passed_on_;
-    for (DepthCamera* camera : inner_.depth_cameras())
+    for (DepthCamera* camera : inner_.depth_cameras()) {
       depths.push_back(std::make_unique<RecordingDepth>(inner_, *camera, tape_));
+    }
   }
   ~Recorder() override { static_cast<void>(tape_.close()); }
   Recorder(const Recorder&) = delete;
@@ -217,7 +233,9 @@ Result<std::unique_ptr<RecordingHeadset>> make(Headset& inner, std::unique_ptr<H
   device.clock_start = inner.clock().now();
   auto writer =
       RecordingWriter::create(folder, inner.cameras().calibration(), device, options.tools_json);
-  if (!writer) return writer.error();
+  if (!writer) {
+    return writer.error();
+  }
   return std::unique_ptr<RecordingHeadset>(
       std::make_unique<Recorder>(inner, std::move(owned), std::move(*writer), options.takes_depth));
 }

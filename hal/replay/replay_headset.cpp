@@ -35,10 +35,16 @@ class ReplayCamera : public StereoCamera {
       progress_.pairs_over = true;
       return Next::kEnd;
     }
-    if (!due()) return Next::kNone;
+    if (!due()) {
+      return Next::kNone;
+    }
     const RecordedPair& pair = recording_.pairs[next_++];
-    if (Status s = recording_.left.read(pair.left, frame.left); !s) return s.error();
-    if (Status s = recording_.right.read(pair.right, frame.right); !s) return s.error();
+    if (Status s = recording_.left.read(pair.left, frame.left); !s) {
+      return s.error();
+    }
+    if (Status s = recording_.right.read(pair.right, frame.right); !s) {
+      return s.error();
+    }
     frame.sequence = pair.sequence;
     frame.map_epoch = pair.map_epoch;
     frame.time = pair.time;
@@ -50,16 +56,24 @@ class ReplayCamera : public StereoCamera {
   }
   /// Whether the next pair may come; in real time the newest that is due becomes the next.
   bool due() {
-    if (pace_ == ReplayPace::kFast) return true;
+    if (pace_ == ReplayPace::kFast) {
+      return true;
+    }
     if (pace_ == ReplayPace::kStepped) {
-      if (steps_ == 0) return false;
+      if (steps_ == 0) {
+        return false;
+      }
       --steps_;
       return true;
     }
     const std::vector<RecordedPair>& pairs = recording_.pairs;
     const Timestamp now = clock_.now();
-    if (pairs[next_].clock > now) return false;
-    while (next_ + 1 < pairs.size() && pairs[next_ + 1].clock <= now) ++next_;
+    if (pairs[next_].clock > now) {
+      return false;
+    }
+    while (next_ + 1 < pairs.size() && pairs[next_ + 1].clock <= now) {
+      ++next_;
+    }
     return true;
   }
 };
@@ -85,8 +99,9 @@ class Deliverer {
  public:
   explicit Deliverer(const std::vector<Delivered<Event>>& events) : events_(events) {}
   void deliver(Timestamp until, std::vector<Event>& out) {
-    while (next_ < events_.size() && events_[next_].available <= until)
+    while (next_ < events_.size() && events_[next_].available <= until) {
       out.push_back(events_[next_++].event);
+    }
   }
 
  private:
@@ -139,8 +154,9 @@ class Replay : public ReplayHeadset {
         clock_(progress_, options, recording_.clock_start),
         cameras_(recording_, progress_, clock_, options.pace) {
     progress_.clock = recording_.clock_start;
-    for (RecordedDepth& depth : recording_.depth)
+    for (RecordedDepth& depth : recording_.depth) {
       depth_.push_back(std::make_unique<ReplayDepth>(depth, progress_, clock_, options.pace));
+    }
   }
   [[nodiscard]] std::string name() const override { return name_; }
   [[nodiscard]] const Clock& clock() const override { return clock_; }
@@ -175,7 +191,9 @@ class Replay : public ReplayHeadset {
 Result<std::unique_ptr<ReplayHeadset>> ReplayHeadset::open(const std::filesystem::path& folder,
                                                            const ReplayOptions& options) {
   auto recording = read_recording(folder);
-  if (!recording) return recording.error();
+  if (!recording) {
+    return recording.error();
+  }
   return std::unique_ptr<ReplayHeadset>(
       std::make_unique<Replay>("replay:" + folder.string(), std::move(*recording), options));
 }

@@ -59,13 +59,18 @@ template <class A, class B>
 Result<Transform<A, B>> parse_pose(const std::vector<std::string_view>& fields,
                                    std::size_t first_field, double max_translation_m) {
   const auto matrix = parse_matrix(fields, first_field);
-  if (!matrix) return matrix.error();
+  if (!matrix) {
+    return matrix.error();
+  }
   auto pose = Transform<A, B>::from_row_major(*matrix);
-  if (!pose) return pose;
+  if (!pose) {
+    return pose;
+  }
   const double length_m = pose->translation().norm();
-  if (!(length_m <= max_translation_m))
+  if (!(length_m <= max_translation_m)) {
     return Error{"translation is " + std::to_string(length_m) + " m long, limit " +
                  std::to_string(max_translation_m) + " m"};
+  }
   return pose;
 }
 

@@ -10,7 +10,7 @@ namespace orthonav::sim {
 /// line says where its default comes from: a measurement, a publication, or our own estimate
 /// ("estimate": nobody published it for this device or this hand). SD is per axis where a vector
 /// is meant. docs/accuracy.md discusses which of them decide the outcome.
-struct Magnitudes {
+struct ErrorModel {
   // The camera: HoloLens 2 front cameras. Grey values are of 255.
 
   /// Gaussian SD of lens and pixel cross-talk, besides the pixel's own square. Estimate: edges in
@@ -108,10 +108,10 @@ struct Magnitudes {
   /// Relative SD of the duration over surgeons; 0.2 gives the published 27 s and 404 points.
   double pace_sd = 0.2;
 
-  static Magnitudes perfect();
+  static ErrorModel perfect();
   /// As documented up to what the headset shows; then the eye, the aiming hand and the wire do as
   /// they are told. What is left of an operation's errors is navigation's.
-  static Magnitudes navigation_alone();
+  static ErrorModel navigation_alone();
   /// Everything wrong with the numbers, a line each: name, value, limit. Empty: fine.
   [[nodiscard]] std::vector<std::string> check() const;
 };

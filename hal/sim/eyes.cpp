@@ -23,7 +23,9 @@ void Eyes::show(const ShownFrame& frame, const Transform<World, Rig>& believed) 
 }
 
 std::optional<Timestamp> Eyes::next_due() const {
-  if (count_ == 0) return std::nullopt;
+  if (count_ == 0) {
+    return std::nullopt;
+  }
   return waiting_[first_].frame.display_time;
 }
 
@@ -34,19 +36,25 @@ void Eyes::light_up(const Transform<Room, Rig>& true_room_from_rig) {
   first_ = (first_ + 1) % kMaxWaiting;
   --count_;
   seen_ = true;
-  if (const ShownHologram* line = find("H11")) status_ = line->text;
+  if (const ShownHologram* line = find("H11")) {
+    status_ = line->text;
+  }
 }
 
 std::optional<Timestamp> Eyes::seen_at() const {
-  if (!seen_) return std::nullopt;
+  if (!seen_) {
+    return std::nullopt;
+  }
   return view_.display_time;
 }
 
 const ShownHologram* Eyes::find(std::string_view id, std::string_view label) const {
-  for (const ShownHologram& hologram : view_.holograms)
+  for (const ShownHologram& hologram : view_.holograms) {
     if (first_word(hologram.name) == id &&
-        (label.empty() || hologram.text == label || hologram.name.ends_with(label)))
+        (label.empty() || hologram.text == label || hologram.name.ends_with(label))) {
       return &hologram;
+    }
+  }
   return nullptr;
 }
 

@@ -24,7 +24,9 @@ Vec3 perpendicular_to(Vec3 unit) {
 Vec3 turned_towards(Vec3 from, Vec3 to, double fraction) {
   const Vec3 axis = from.cross(to);
   const double angle = angle_between_rad(from, to);
-  if (axis.norm() < 1e-12) return fraction < 0.5 ? from : to;
+  if (axis.norm() < 1e-12) {
+    return fraction < 0.5 ? from : to;
+  }
   return (rotation_from_vector((fraction * angle) * axis.normalized()) * from).normalized();
 }
 

@@ -17,13 +17,13 @@ void follow(Vec3& value, Vec3& speed, Vec3 goal, double step_s) {
 
 }  // namespace
 
-HeadMotion::HeadMotion(const Random& random, const Magnitudes& magnitudes, Vec3 eyes_in_rig,
+HeadMotion::HeadMotion(const Random& random, const ErrorModel& error_model, Vec3 eyes_in_rig,
                        const HeadGoal& start)
     : eyes_in_rig_(eyes_in_rig),
       now_(start),
-      sway_m_(random.fork("sway position"), magnitudes.head_sway_m, kSlowestSway_hz,
+      sway_m_(random.fork("sway position"), error_model.head_sway_m, kSlowestSway_hz,
               kFastestSway_hz),
-      sway_rad_(random.fork("sway rotation"), magnitudes.head_sway_rad, kSlowestSway_hz,
+      sway_rad_(random.fork("sway rotation"), error_model.head_sway_rad, kSlowestSway_hz,
                 kFastestSway_hz) {}
 
 void HeadMotion::advance(double step_s, const HeadGoal& goal) {

@@ -16,7 +16,7 @@ struct HeadGoal {
 class HeadMotion {
  public:
   /// `eyes_in_rig`: the point of the headset that is kept at arm's length, between its cameras.
-  HeadMotion(const Random& random, const Magnitudes& magnitudes, Vec3 eyes_in_rig,
+  HeadMotion(const Random& random, const ErrorModel& error_model, Vec3 eyes_in_rig,
              const HeadGoal& start);
   void advance(double step_s, const HeadGoal& goal);
   /// With the sway of that moment.

@@ -4,10 +4,10 @@
 
 namespace orthonav::sim {
 
-HeadTrack::HeadTrack(const Random& random, const Magnitudes& magnitudes)
+HeadTrack::HeadTrack(const Random& random, const ErrorModel& error_model)
     : random_(random),
-      noise_m_(magnitudes.head_pose_noise_m),
-      noise_rad_(magnitudes.head_pose_noise_rad) {}
+      noise_m_(error_model.head_pose_noise_m),
+      noise_rad_(error_model.head_pose_noise_rad) {}
 
 void HeadTrack::add(std::int64_t frame, Timestamp time, const Transform<World, Rig>& pose,
                     Timestamp before, const Transform<World, Rig>& pose_before) {
@@ -19,7 +19,9 @@ void HeadTrack::add(std::int64_t frame, Timestamp time, const Transform<World, R
 }
 
 std::optional<Timestamp> HeadTrack::newest() const {
-  if (count_ == 0) return std::nullopt;
+  if (count_ == 0) {
+    return std::nullopt;
+  }
   return back(0).time;
 }
 
@@ -36,8 +38,12 @@ Tracked<Transform<World, Rig>> HeadTrack::at(Timestamp time, Timestamp known) co
   answer.time = time;
   const std::size_t size = std::min(count_, kKept);
   std::size_t steps = 0;
-  while (steps < size && back(steps).time > known) ++steps;
-  if (steps == size) return answer;
+  while (steps < size && back(steps).time > known) {
+    ++steps;
+  }
+  if (steps == size) {
+    return answer;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     answer.covariance[i * 7] = noise_m_ * noise_m_;
     answer.covariance[(i + 3) * 7] = noise_rad_ * noise_rad_;
@@ -46,17 +52,23 @@ Tracked<Transform<World, Rig>> HeadTrack::at(Timestamp time, Timestamp known) co
   if (time >= newest.time) {
     const double ahead = seconds(time - newest.before) / seconds(newest.time - newest.before);
     answer.value = noisy(newest, interpolated(newest.pose_before, newest.pose, ahead));
-    answer.origin = time == newest.time ? Origin::kMeasured : Origin::kPredicted;
+    answer.status = time == newest.time ? PoseStatus::kMeasured : PoseStatus::kPredicted;
     return answer;
   }
-  while (steps < size && back(steps).time > time) ++steps;
-  if (steps == size) return answer;
+  while (steps < size && back(steps).time > time) {
+    ++steps;
+  }
+  if (steps == size) {
+    return answer;
+  }
   const Node& a = back(steps);
   const Node& b = back(steps - 1);
   answer.value = interpolated(noisy(a, a.pose), noisy(b, b.pose),
                               seconds(time - a.time) / seconds(b.time - a.time));
-  if (time == a.time) answer.value = noisy(a, a.pose);
-  answer.origin = Origin::kMeasured;
+  if (time == a.time) {
+    answer.value = noisy(a, a.pose);
+  }
+  answer.status = PoseStatus::kMeasured;
   return answer;
 }
 

@@ -15,7 +15,7 @@ namespace orthonav::sim {
 /// well). Remembers 256 frames. Not thread-safe.
 class HeadTrack {
  public:
-  HeadTrack(const Random& random, const Magnitudes& magnitudes);
+  HeadTrack(const Random& random, const ErrorModel& error_model);
   /// The true poses at a frame and a moment before it.
   void add(std::int64_t frame, Timestamp time, const Transform<World, Rig>& pose, Timestamp before,
            const Transform<World, Rig>& pose_before);

@@ -16,15 +16,20 @@ SmoothNoise::SmoothNoise(Random random, double sd, double lowest, double highest
 }
 
 double SmoothNoise::at(double x) const {
-  if (amplitude_ == 0.0) return 0.0;
+  if (amplitude_ == 0.0) {
+    return 0.0;
+  }
   double sum = 0.0;
-  for (std::size_t i = 0; i < kWaves; ++i) sum += std::sin(rate_[i] * x + phase_[i]);
+  for (std::size_t i = 0; i < kWaves; ++i) {
+    sum += std::sin(rate_[i] * x + phase_[i]);
+  }
   return amplitude_ * sum;
 }
 
 SmoothNoise3::SmoothNoise3(const Random& random, double sd, double lowest, double highest) {
-  for (std::size_t i = 0; i < axes_.size(); ++i)
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
     axes_[i] = SmoothNoise(random.fork(i), sd, lowest, highest);
+  }
 }
 
 Vec3 SmoothNoise3::at(double x) const { return {axes_[0].at(x), axes_[1].at(x), axes_[2].at(x)}; }

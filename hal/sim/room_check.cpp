@@ -15,39 +15,54 @@ constexpr double kLongestTool_m = 1.0;
 
 Status check_level(const RoomLevel& level) {
   const std::string name = "room level \"" + level.label + "\": ";
-  if (level.label.empty()) return Error{"room level without a label"};
-  if (level.triangles.empty()) return Error{name + "has no triangles"};
-  for (const Vec3 vertex : level.vertices_m)
-    if (!vertex.is_finite() || vertex.norm() > kFarthestVertex_m)
+  if (level.label.empty()) {
+    return Error{"room level without a label"};
+  }
+  if (level.triangles.empty()) {
+    return Error{name + "has no triangles"};
+  }
+  for (const Vec3 vertex : level.vertices_m) {
+    if (!vertex.is_finite() || vertex.norm() > kFarthestVertex_m) {
       return Error{name + "has a vertex farther than 1 m from its origin or not finite"};
-  for (const auto& triangle : level.triangles)
-    for (const std::uint32_t corner : triangle)
-      if (corner >= level.vertices_m.size())
+    }
+  }
+  for (const auto& triangle : level.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      if (corner >= level.vertices_m.size()) {
         return Error{name + "has a triangle with vertex " + std::to_string(corner) + " of " +
                      std::to_string(level.vertices_m.size())};
+      }
+    }
+  }
   const auto& pose = level.spine_from_vertebra;
-  if (!Transform<Spine, Vertebra>::checked(pose.rotation(), pose.translation()))
+  if (!Transform<Spine, Vertebra>::checked(pose.rotation(), pose.translation())) {
     return Error{name + "its place in the spine is no rigid motion"};
+  }
   return {};
 }
 
 Status check_tool(const RoomTool& tool) {
   const std::string name = "room tool \"" + tool.name + "\": ";
-  if (!(tool.size_m > 0.0 && tool.size_m <= kLargestTag_m))
+  if (!(tool.size_m > 0.0 && tool.size_m <= kLargestTag_m)) {
     return Error{name + "tag size is " + std::to_string(tool.size_m) +
                  " m, must be more than 0 and at most 0.5"};
-  if (!tool.tip_in_marker.v.is_finite() || tool.tip_in_marker.v.norm() > kLongestTool_m)
+  }
+  if (!tool.tip_in_marker.v.is_finite() || tool.tip_in_marker.v.norm() > kLongestTool_m) {
     return Error{name + "tip is farther than 1 m from the tag or not finite"};
+  }
   const double length = tool.axis_in_marker.norm();
-  if (!(length > 0.999 && length < 1.001))
+  if (!(length > 0.999 && length < 1.001)) {
     return Error{name + "axis has length " + std::to_string(length) + ", must be 1"};
+  }
   const int ids = tag_count(tool.family);
-  if (ids == 0)
+  if (ids == 0) {
     return Error{name + "tag family \"" + tool.family + "\" is not known; known are " +
                  tag_families()};
-  if (tool.id < 0 || tool.id >= ids)
+  }
+  if (tool.id < 0 || tool.id >= ids) {
     return Error{name + "tag id is " + std::to_string(tool.id) + ", " + tool.family + " has 0 to " +
                  std::to_string(ids - 1)};
+  }
   return {};
 }
 
@@ -56,19 +71,27 @@ Status check_tool(const RoomTool& tool) {
 Status check_room(const RoomDescription& room) {
   std::set<std::string> labels;
   for (const RoomLevel& level : room.levels) {
-    if (Status status = check_level(level); !status) return status;
-    if (!labels.insert(level.label).second)
+    if (Status status = check_level(level); !status) {
+      return status;
+    }
+    if (!labels.insert(level.label).second) {
       return Error{"room level \"" + level.label + "\": label is given twice"};
+    }
   }
-  for (const std::string& label : room.operated)
-    if (!labels.contains(label))
+  for (const std::string& label : room.operated) {
+    if (!labels.contains(label)) {
       return Error{"room: operated level \"" + label + "\" does not exist"};
+    }
+  }
   std::set<std::pair<std::string, int>> tags;
   for (const RoomTool& tool : room.tools) {
-    if (Status status = check_tool(tool); !status) return status;
-    if (!tags.insert({tool.family, tool.id}).second)
+    if (Status status = check_tool(tool); !status) {
+      return status;
+    }
+    if (!tags.insert({tool.family, tool.id}).second) {
       return Error{"room tool \"" + tool.name + "\": tag id " + std::to_string(tool.id) + " of " +
                    tool.family + " is given twice"};
+    }
   }
   return {};
 }

@@ -27,10 +27,12 @@ struct Box {
 }  // namespace
 
 RoomLayout::RoomLayout(const RoomDescription& room) : room_(&room), middle_{kBareTable} {
-  for (std::size_t i = 0; i < room.levels.size(); ++i)
+  for (std::size_t i = 0; i < room.levels.size(); ++i) {
     if (room.operated.empty() || std::find(room.operated.begin(), room.operated.end(),
-                                           room.levels[i].label) != room.operated.end())
+                                           room.levels[i].label) != room.operated.end()) {
       operated_.push_back(i);
+    }
+  }
   Box all;
   Box operated;
   for (std::size_t i = 0; i < room.levels.size(); ++i) {
@@ -40,10 +42,14 @@ RoomLayout::RoomLayout(const RoomDescription& room) : room_(&room), middle_{kBar
     for (const Vec3 vertex : level.vertices_m) {
       const Vec3 in_spine = (level.spine_from_vertebra * Point<Vertebra>{vertex}).v;
       all.add(in_spine);
-      if (counts) operated.add(in_spine);
+      if (counts) {
+        operated.add(in_spine);
+      }
     }
   }
-  if (room.levels.empty()) return;
+  if (room.levels.empty()) {
+    return;
+  }
   const Vec3 centre = operated.middle();
   // Spine (x left, y posterior, z superior) and Room (y up) share their axes: a prone patient's
   // back is up.
@@ -51,24 +57,34 @@ RoomLayout::RoomLayout(const RoomDescription& room) : room_(&room), middle_{kBar
   for (const RoomLevel& level : room.levels) {
     room_from_vertebra_.push_back(room_from_spine_ * level.spine_from_vertebra);
     Box box;
-    for (const Vec3 vertex : level.vertices_m) box.add(vertex);
+    for (const Vec3 vertex : level.vertices_m) {
+      box.add(vertex);
+    }
     const Vec3 back{box.middle().x, 0.25 * box.low.y + 0.75 * box.high.y, box.middle().z};
     sites_.push_back(room_from_vertebra_.back() * Point<Vertebra>{back});
   }
   Vec3 sum;
-  for (const std::size_t i : operated_) sum += sites_[i].v;
+  for (const std::size_t i : operated_) {
+    sum += sites_[i].v;
+  }
   middle_ = {sum / static_cast<double>(operated_.size())};
 }
 
 std::optional<std::size_t> RoomLayout::find(std::string_view label) const {
-  for (std::size_t i = 0; i < room_->levels.size(); ++i)
-    if (room_->levels[i].label == label) return i;
+  for (std::size_t i = 0; i < room_->levels.size(); ++i) {
+    if (room_->levels[i].label == label) {
+      return i;
+    }
+  }
   return std::nullopt;
 }
 
 std::optional<std::size_t> RoomLayout::tool(ToolKind kind) const {
-  for (std::size_t i = 0; i < room_->tools.size(); ++i)
-    if (room_->tools[i].kind == kind) return i;
+  for (std::size_t i = 0; i < room_->tools.size(); ++i) {
+    if (room_->tools[i].kind == kind) {
+      return i;
+    }
+  }
   return std::nullopt;
 }
 

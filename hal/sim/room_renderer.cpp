@@ -26,27 +26,33 @@ void doubled(const HalfImage& from, HalfImage& to) {
     int x = 1;
     for (int k = 1; k < from.width; ++k) {
       const float here = top[k] + lower * (bottom[k] - top[k]);
-      if (x < to.width) out[x++] = 0.75F * before + 0.25F * here;
-      if (x < to.width) out[x++] = 0.25F * before + 0.75F * here;
+      if (x < to.width) {
+        out[x++] = 0.75F * before + 0.25F * here;
+      }
+      if (x < to.width) {
+        out[x++] = 0.25F * before + 0.75F * here;
+      }
       before = here;
     }
-    for (; x < to.width; ++x) out[x] = before;
+    for (; x < to.width; ++x) {
+      out[x] = before;
+    }
   }
 }
 
 }  // namespace
 
 std::unique_ptr<RoomRenderer> RoomRenderer::create(RoomDescription room,
-                                                   const Magnitudes& magnitudes) {
-  return std::make_unique<SoftwareRoomRenderer>(std::move(room), magnitudes);
+                                                   const ErrorModel& error_model) {
+  return std::make_unique<SoftwareRoomRenderer>(std::move(room), error_model);
 }
 
-SoftwareRoomRenderer::SoftwareRoomRenderer(RoomDescription room, const Magnitudes& magnitudes)
+SoftwareRoomRenderer::SoftwareRoomRenderer(RoomDescription room, const ErrorModel& error_model)
     : room_(std::move(room)),
       ground_(room_),
       coarse_bones_(room_, ground_, kBoneCellM),
       bodies_(room_.tools),
-      sensor_(magnitudes),
+      sensor_(error_model),
       painter_(room_, ground_) {}
 
 void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
@@ -62,7 +68,9 @@ void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
     const std::size_t at = static_cast<std::size_t>(j * quarter_.width + i);
     quarter_.grey[at] = 0.0F;
     kinds_[at] = Ground::Kind::kNothing;
-    if (std::isnan(ray.x)) return;
+    if (std::isnan(ray.x)) {
+      return;
+    }
     const Ground::Hit hit = ground_.hit(
         origin, {static_cast<float>(ray.x), static_cast<float>(ray.y), static_cast<float>(ray.z)});
     quarter_.grey[at] = ground_.grey(hit);
@@ -71,22 +79,32 @@ void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
   // Every second point first; the ones between only where something else than plain cloth is near.
   const int last_i = quarter_.width - 1;
   const int last_j = quarter_.height - 1;
-  for (int j = 0; j <= last_j; j += 2)
-    for (int i = 0; i <= last_i; i += 2) sample(i, j);
+  for (int j = 0; j <= last_j; j += 2) {
+    for (int i = 0; i <= last_i; i += 2) {
+      sample(i, j);
+    }
+  }
   const auto between = [&](int i, int j, int di, int dj) {
     const std::size_t a = static_cast<std::size_t>((j - dj) * quarter_.width + i - di);
     const std::size_t b = static_cast<std::size_t>((j + dj) * quarter_.width + i + di);
     if (i + di > last_i || j + dj > last_j || kinds_[a] != kinds_[b] ||
-        (kinds_[a] != Ground::Kind::kDrape && kinds_[a] != Ground::Kind::kFloor))
+        (kinds_[a] != Ground::Kind::kDrape && kinds_[a] != Ground::Kind::kFloor)) {
       return sample(i, j);
+    }
     const std::size_t at = static_cast<std::size_t>(j * quarter_.width + i);
     quarter_.grey[at] = 0.5F * (quarter_.grey[a] + quarter_.grey[b]);
     kinds_[at] = kinds_[a];
   };
-  for (int j = 0; j <= last_j; j += 2)
-    for (int i = 1; i <= last_i; i += 2) between(i, j, 1, 0);
-  for (int j = 1; j <= last_j; j += 2)
-    for (int i = 0; i <= last_i; ++i) between(i, j, 0, 1);
+  for (int j = 0; j <= last_j; j += 2) {
+    for (int i = 1; i <= last_i; i += 2) {
+      between(i, j, 1, 0);
+    }
+  }
+  for (int j = 1; j <= last_j; j += 2) {
+    for (int i = 0; i <= last_i; ++i) {
+      between(i, j, 0, 1);
+    }
+  }
 }
 
 void SoftwareRoomRenderer::draw_background(const CameraLens& lens,
@@ -97,12 +115,14 @@ void SoftwareRoomRenderer::draw_background(const CameraLens& lens,
   doubled(quarter_, background_);
   bone_image_.reset(background_.width, background_.height);
   bone_image_.draw(coarse_bones_, ground_, camera_from_spine, lens, 0.5);
-  for (int y = bone_image_.low_row(); y < bone_image_.high_row(); ++y)
+  for (int y = bone_image_.low_row(); y < bone_image_.high_row(); ++y) {
     for (int x = 0; x < background_.width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y * background_.width + x);
-      if (bone_image_.nearness()[i] > 0.0F)
+      if (bone_image_.nearness()[i] > 0.0F) {
         background_.grey[i] = 68.0F + 92.0F * bone_image_.lit()[i];
+      }
     }
+  }
 }
 
 void SoftwareRoomRenderer::render(std::span<const RoomState> states, const CameraModel& camera,

@@ -24,7 +24,7 @@ struct PinholeView {
 /// No allocation after the first frame. One thread at a time.
 class RoomRenderer {
  public:
-  static std::unique_ptr<RoomRenderer> create(RoomDescription room, const Magnitudes& magnitudes);
+  static std::unique_ptr<RoomRenderer> create(RoomDescription room, const ErrorModel& error_model);
   virtual ~RoomRenderer() = default;
   /// One camera's image. `states` are moments spread evenly over the exposure (at least one; the
   /// middle one is mid-exposure), `camera_from_rig` and `camera` the true ones, `noise_seed` makes

@@ -44,7 +44,7 @@ void Layers::draw(const Plate& plate, const Lens& lens) {
   Box box;
   corners_px_.clear();
   constexpr std::array<Vec2, 5> kTurns = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}};
-  for (std::size_t side = 0; side < 4; ++side)
+  for (std::size_t side = 0; side < 4; ++side) {
     for (int i = 0; i < kRimPieces; ++i) {
       const double s = static_cast<double>(i) / kRimPieces;
       const Vec2 at = plate.half_m * (kTurns[side] + s * (kTurns[side + 1] - kTurns[side]));
@@ -52,8 +52,11 @@ void Layers::draw(const Plate& plate, const Lens& lens) {
           lens.rough_pixel((plate.camera_from_marker * Point<Marker>{{at.x, at.y, 0.0}}).v));
       box.add(corners_px_.back());
     }
+  }
   Layer* layer = open_layer(box.low, box.high, lens);
-  if (layer == nullptr) return;
+  if (layer == nullptr) {
+    return;
+  }
   const bool front = plate.camera_from_marker.inverse().translation().z > 0.0;
   layer->tool = plate.tool;
   layer->rank = front ? 1 : -1;
@@ -69,7 +72,9 @@ void Layers::draw(const Plate& plate, const Lens& lens) {
   layer->nearness_y = plane[2];
   const float albedo = front ? kWhiteAlbedo : kBackAlbedo;
   const double sign = fill_outline(*layer, static_cast<double>(kFullGrey * plate.light * albedo));
-  if (front && plate.pattern != nullptr) draw_face(plate, lens, *layer, sign);
+  if (front && plate.pattern != nullptr) {
+    draw_face(plate, lens, *layer, sign);
+  }
   integrate(*layer, layer->alpha);
   integrate(*layer, layer->light);
 }
@@ -104,37 +109,44 @@ void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, doubl
   };
   // Only corners of black cells are needed; the projection is what costs.
   corners_px_.assign(static_cast<std::size_t>((n + 1) * (n + 1)), {});
-  for (int row = 0; row <= n; ++row)
+  for (int row = 0; row <= n; ++row) {
     for (int column = 0; column <= n; ++column) {
       const int black =
           int{pattern.is_black(row, column)} + int{pattern.is_black(row - 1, column)} +
           int{pattern.is_black(row, column - 1)} + int{pattern.is_black(row - 1, column - 1)};
-      if (black == 0 || black == 4) continue;
+      if (black == 0 || black == 4) {
+        continue;
+      }
       const Vec3 at{(column - 0.5 * n) * plate.cell_m, (0.5 * n - row) * plate.cell_m, 0.0};
       const Vec2 pixel = lens.pixel((plate.camera_from_marker * Point<Marker>{at}).v);
       corners_px_[vertex(row, column)] = {pixel.x - static_cast<double>(layer.x0),
                                           pixel.y - static_cast<double>(layer.y0)};
     }
+  }
   const double step = static_cast<double>(kFullGrey * plate.light * (kBlackAlbedo - kWhiteAlbedo));
   CoverageWindow light(arena_.data() + layer.light, spans_.data() + layer.spans, layer.width,
                        layer.height);
   // Counter-clockwise in Marker like the rim: right along a black cell's lower edge, up its right.
-  for (int row = 0; row <= n; ++row)
+  for (int row = 0; row <= n; ++row) {
     for (int column = 0; column < n; ++column) {
       const int turn = static_cast<int>(pattern.is_black(row - 1, column)) -
                        static_cast<int>(pattern.is_black(row, column));
-      if (turn != 0)
+      if (turn != 0) {
         light.add_segment(corners_px_[vertex(row, column)], corners_px_[vertex(row, column + 1)],
                           sign * step * turn);
+      }
     }
-  for (int row = 0; row < n; ++row)
+  }
+  for (int row = 0; row < n; ++row) {
     for (int column = 0; column <= n; ++column) {
       const int turn = static_cast<int>(pattern.is_black(row, column - 1)) -
                        static_cast<int>(pattern.is_black(row, column));
-      if (turn != 0)
+      if (turn != 0) {
         light.add_segment(corners_px_[vertex(row + 1, column)], corners_px_[vertex(row, column)],
                           sign * step * turn);
+      }
     }
+  }
 }
 
 void Layers::draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens) {
@@ -148,7 +160,9 @@ void Layers::draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens)
     box.add({b.x + s * rb, b.y + s * rb});
   }
   Layer* layer = open_layer(box.low, box.high, lens);
-  if (layer == nullptr) return;
+  if (layer == nullptr) {
+    return;
+  }
   // The outline: an arc round each end between the two tangents.
   const Vec2 axis = b - a;
   const double length = axis.norm();
@@ -167,8 +181,9 @@ void Layers::draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens)
   arc(b, rb, heading - lean, heading + lean);
   CoverageWindow alpha(arena_.data() + layer->alpha, spans_.data() + layer->spans, layer->width,
                        layer->height);
-  for (std::size_t i = 0; i < corners_px_.size(); ++i)
+  for (std::size_t i = 0; i < corners_px_.size(); ++i) {
     alpha.add_segment(corners_px_[i], corners_px_[(i + 1) % corners_px_.size()], -1.0);
+  }
   integrate(*layer, layer->alpha);
   shade(capsule, lamp_in_camera, a, b, ra, rb, *layer);
 }

@@ -39,18 +39,28 @@ Thinned thinned(const RoomLevel& level, double cell_m) {
     const Vec3 p = (level.spine_from_vertebra * Point<Vertebra>{v}).v;
     points.push_back(p);
     std::uint32_t index = static_cast<std::uint32_t>(out.clusters.size());
-    if (cell_m > 0.0) index = cells.try_emplace(cell_key(p, cell_m), index).first->second;
-    if (index == out.clusters.size()) out.clusters.emplace_back();
+    if (cell_m > 0.0) {
+      index = cells.try_emplace(cell_key(p, cell_m), index).first->second;
+    }
+    if (index == out.clusters.size()) {
+      out.clusters.emplace_back();
+    }
     out.clusters[index].sum += p;
     out.clusters[index].count += 1.0;
     cluster_of.push_back(index);
   }
   for (const auto& t : level.triangles) {
-    if (t[0] >= points.size() || t[1] >= points.size() || t[2] >= points.size()) continue;
+    if (t[0] >= points.size() || t[1] >= points.size() || t[2] >= points.size()) {
+      continue;
+    }
     const Vec3 normal = (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
     const std::array<std::uint32_t, 3> c{cluster_of[t[0]], cluster_of[t[1]], cluster_of[t[2]]};
-    for (const std::uint32_t i : c) out.clusters[i].normal += normal;
-    if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) out.triangles.push_back(c);
+    for (const std::uint32_t i : c) {
+      out.clusters[i].normal += normal;
+    }
+    if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) {
+      out.triangles.push_back(c);
+    }
   }
   return out;
 }
@@ -78,8 +88,12 @@ ShownBones::ShownBones(const RoomDescription& room, const Ground& ground, double
     };
     for (const auto& t : thin.triangles) {
       bool shows = false;
-      for (const std::uint32_t i : t) shows = shows || height_of(thin.clusters[i]) > -kBuriedM;
-      if (!shows) continue;
+      for (const std::uint32_t i : t) {
+        shows = shows || height_of(thin.clusters[i]) > -kBuriedM;
+      }
+      if (!shows) {
+        continue;
+      }
       std::array<std::uint32_t, 3> out{};
       for (std::size_t k = 0; k < 3; ++k) {
         const Cluster& c = thin.clusters[t[k]];
@@ -135,7 +149,9 @@ void BoneImage::draw(const ShownBones& bones, const Ground& ground,
             .v;
     Vertex& v = vertices_[i];
     v.nearness = 0.0F;
-    if (!(p.z > 0.06)) continue;
+    if (!(p.z > 0.06)) {
+      continue;
+    }
     const Vec2 pixel = lens.rough_pixel(p) * scale;
     v.x = static_cast<float>(pixel.x);
     v.y = static_cast<float>(pixel.y);
@@ -147,47 +163,61 @@ void BoneImage::draw(const ShownBones& bones, const Ground& ground,
     const float s = py < skin && ey > py ? (skin - py) / (ey - py) : 0.0F;
     v.seen = 1.0F - ground.rim_at(px + s * (ex - px), pz + s * (ez - pz));
   }
-  for (const auto& t : bones.triangles) draw(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]);
+  for (const auto& t : bones.triangles) {
+    draw(vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]);
+  }
 }
 
 void BoneImage::draw(const Vertex& a, const Vertex& b, const Vertex& c) {
-  if (a.nearness == 0.0F || b.nearness == 0.0F || c.nearness == 0.0F) return;
+  if (a.nearness == 0.0F || b.nearness == 0.0F || c.nearness == 0.0F) {
+    return;
+  }
   // Seen from outside a triangle turns clockwise on the image, y being down.
   const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  if (!(area < 0.0F) || (a.seen < 0.0F && b.seen < 0.0F && c.seen < 0.0F)) return;
+  if (!(area < 0.0F) || (a.seen < 0.0F && b.seen < 0.0F && c.seen < 0.0F)) {
+    return;
+  }
   const float limit_x = static_cast<float>(width_);
   const float limit_y = static_cast<float>(height_px_);
   const float low_x = std::max(std::min({a.x, b.x, c.x}), 0.0F);
   const float high_x = std::min(std::max({a.x, b.x, c.x}), limit_x);
   const float low_y = std::max(std::min({a.y, b.y, c.y}), 0.0F);
   const float high_y = std::min(std::max({a.y, b.y, c.y}), limit_y);
-  if (!(low_x < high_x && low_y < high_y)) return;
+  if (!(low_x < high_x && low_y < high_y)) {
+    return;
+  }
   const int x0 = static_cast<int>(std::ceil(low_x - 0.5F));
   const int x1 = static_cast<int>(std::ceil(high_x - 0.5F));
   const int y0 = static_cast<int>(std::ceil(low_y - 0.5F));
   const int y1 = static_cast<int>(std::ceil(high_y - 0.5F));
-  if (x0 >= x1 || y0 >= y1) return;
+  if (x0 >= x1 || y0 >= y1) {
+    return;
+  }
   low_row_ = std::min(low_row_, y0);
   high_row_ = std::max(high_row_, y1);
   const float inverse = 1.0F / area;
-  for (int row = y0; row < y1; ++row)
+  for (int row = y0; row < y1; ++row) {
     for (int column = x0; column < x1; ++column) {
       const float px = static_cast<float>(column) + 0.5F;
       const float py = static_cast<float>(row) + 0.5F;
       const float wb = ((px - a.x) * (c.y - a.y) - (py - a.y) * (c.x - a.x)) * inverse;
       const float wc = ((b.x - a.x) * (py - a.y) - (b.y - a.y) * (px - a.x)) * inverse;
       const float wa = 1.0F - wb - wc;
-      if (wa < 0.0F || wb < 0.0F || wc < 0.0F) continue;
+      if (wa < 0.0F || wb < 0.0F || wc < 0.0F) {
+        continue;
+      }
       const float near = wa * a.nearness + wb * b.nearness + wc * c.nearness;
       const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
                             static_cast<std::size_t>(column);
       const float height = wa * a.height + wb * b.height + wc * c.height;
-      if (near <= nearness_[i] || height < 0.0F || wa * a.seen + wb * b.seen + wc * c.seen < 0.0F)
+      if (near <= nearness_[i] || height < 0.0F || wa * a.seen + wb * b.seen + wc * c.seen < 0.0F) {
         continue;
+      }
       nearness_[i] = near;
       lit_[i] = wa * a.lit + wb * b.lit + wc * c.lit;
       height_[i] = height;
     }
+  }
 }
 
 template void BoneImage::draw(const ShownBones&, const Ground&, const Transform<LeftCamera, Spine>&,

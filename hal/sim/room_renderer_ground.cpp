@@ -28,21 +28,29 @@ std::array<double, 3> parabola(const std::vector<Vec2>& points) {
   for (const Vec2 p : points) {
     const std::array<double, 3> basis{1.0, p.x, p.x * p.x};
     for (std::size_t r = 0; r < terms; ++r) {
-      for (std::size_t c = 0; c < terms; ++c) m[r][c] += basis[r] * basis[c];
+      for (std::size_t c = 0; c < terms; ++c) {
+        m[r][c] += basis[r] * basis[c];
+      }
       m[r][3] += basis[r] * p.y;
     }
   }
   std::array<double, 3> solution{};
   for (std::size_t i = 0; i < terms; ++i) {
-    if (std::abs(m[i][i]) < 1e-18) continue;
+    if (std::abs(m[i][i]) < 1e-18) {
+      continue;
+    }
     for (std::size_t r = i + 1; r < terms; ++r) {
       const double factor = m[r][i] / m[i][i];
-      for (std::size_t c = i; c < 4; ++c) m[r][c] -= factor * m[i][c];
+      for (std::size_t c = i; c < 4; ++c) {
+        m[r][c] -= factor * m[i][c];
+      }
     }
   }
   for (std::size_t i = terms; i-- > 0;) {
     double sum = m[i][3];
-    for (std::size_t c = i + 1; c < terms; ++c) sum -= m[i][c] * solution[c];
+    for (std::size_t c = i + 1; c < terms; ++c) {
+      sum -= m[i][c] * solution[c];
+    }
     solution[i] = std::abs(m[i][i]) < 1e-18 ? 0.0 : sum / m[i][i];
   }
   return solution;
@@ -62,12 +70,16 @@ bool is_operated(const RoomDescription& room, const RoomLevel& level) {
 std::vector<Tip> tips_of(const RoomDescription& room) {
   std::vector<Tip> tips;
   for (const RoomLevel& level : room.levels) {
-    if (level.vertices_m.empty()) continue;
+    if (level.vertices_m.empty()) {
+      continue;
+    }
     Tip tip;
     tip.operated = is_operated(room, level);
     for (const Vec3 v : level.vertices_m) {
       const Vec3 p = (level.spine_from_vertebra * Point<Vertebra>{v}).v;
-      if (p.y > tip.in_spine.y) tip.in_spine = p;
+      if (p.y > tip.in_spine.y) {
+        tip.in_spine = p;
+      }
     }
     tips.push_back(tip);
   }
@@ -81,10 +93,12 @@ Blotches::Blotches() : values_(static_cast<std::size_t>(kPatch) * kPatch, 0.0F) 
   float total = 0.0F;
   for (int cells = 4; cells <= 64; cells *= 2) {
     std::vector<float> lattice;
-    for (int i = 0; i < cells * cells; ++i) lattice.push_back(static_cast<float>(random.uniform()));
-    const float share = 2.0F / std::sqrt(static_cast<float>(cells));
-    total += share;
-    for (int y = 0; y < kPatch; ++y)
+    for (int i = 0; i < cells * cells; ++i) {
+      lattice.push_back(static_cast<float>(random.uniform()));
+    }
+    const float fraction = 2.0F / std::sqrt(static_cast<float>(cells));
+    total += fraction;
+    for (int y = 0; y < kPatch; ++y) {
       for (int x = 0; x < kPatch; ++x) {
         const float u = static_cast<float>(x * cells) / kPatch;
         const float v = static_cast<float>(y * cells) / kPatch;
@@ -96,16 +110,21 @@ Blotches::Blotches() : values_(static_cast<std::size_t>(kPatch) * kPatch, 0.0F) 
           return lattice[static_cast<std::size_t>((row % cells) * cells + column % cells)];
         };
         values_[static_cast<std::size_t>(y * kPatch + x)] +=
-            share * ((1 - t) * ((1 - s) * value(i, j) + s * value(i + 1, j)) +
-                     t * ((1 - s) * value(i, j + 1) + s * value(i + 1, j + 1)));
+            fraction * ((1 - t) * ((1 - s) * value(i, j) + s * value(i + 1, j)) +
+                        t * ((1 - s) * value(i, j + 1) + s * value(i + 1, j + 1)));
       }
+    }
   }
-  for (float& v : values_) v = std::clamp(0.5F + 1.6F * (v / total - 0.5F), 0.0F, 1.0F);
+  for (float& v : values_) {
+    v = std::clamp(0.5F + 1.6F * (v / total - 0.5F), 0.0F, 1.0F);
+  }
 }
 
 Ground::Ground(const RoomDescription& room) {
   const std::vector<Tip> tips = tips_of(room);
-  if (tips.empty()) return;
+  if (tips.empty()) {
+    return;
+  }
   double z_low = 1e9;
   double z_high = -1e9;
   double wound_low = 1e9;
@@ -116,14 +135,18 @@ Ground::Ground(const RoomDescription& room) {
     z_low = std::min(z_low, p.z);
     z_high = std::max(z_high, p.z);
     x_sum += p.x;
-    if (!tip.operated) continue;
+    if (!tip.operated) {
+      continue;
+    }
     wound_ = true;
     wound_low = std::min(wound_low, p.z);
     wound_high = std::max(wound_high, p.z);
   }
   const double middle = 0.5 * (z_low + z_high);
   std::vector<Vec2> profile;
-  for (const Tip& tip : tips) profile.push_back({tip.in_spine.z - middle, tip.in_spine.y});
+  for (const Tip& tip : tips) {
+    profile.push_back({tip.in_spine.z - middle, tip.in_spine.y});
+  }
   const auto [a, b, c] = parabola(profile);
   z0_ = static_cast<float>(middle);
   a_ = static_cast<float>(a) + kSkinAboveTip;
@@ -134,7 +157,9 @@ Ground::Ground(const RoomDescription& room) {
   wound_x_ = static_cast<float>(x_sum / static_cast<double>(tips.size()));
   // A spinous process points down the back: the bone lies mostly above its tip.
   wound_z_ = z0_ + 0.006F;
-  if (!wound_) return;
+  if (!wound_) {
+    return;
+  }
   wound_z_ = static_cast<float>(0.5 * (wound_low + wound_high)) + 0.006F;
   half_width_ = kWoundHalfWidth;
   half_length_ = static_cast<float>(0.5 * (wound_high - wound_low)) + kWoundPastTips;
@@ -143,7 +168,9 @@ Ground::Ground(const RoomDescription& room) {
 Ground::Hit Ground::hit(const std::array<float, 3>& o, const std::array<float, 3>& d) const {
   Hit hit;
   hit.lamp = d[1];
-  if (!(d[1] < -1e-3F)) return hit;
+  if (!(d[1] < -1e-3F)) {
+    return hit;
+  }
   const auto reach = [&](float height, float from_z) {
     // Two steps suffice: the skin's height changes slowly along the back.
     float t = (height - o[1]) / d[1];
@@ -158,7 +185,9 @@ Ground::Hit Ground::hit(const std::array<float, 3>& o, const std::array<float, 3
     hit.z = z;
   };
   reach(a_, 0.0F);
-  if (hit.distance <= 0.0F) return hit;
+  if (hit.distance <= 0.0F) {
+    return hit;
+  }
   hit.rim = rim_at(hit.x, hit.z);
   hit.skin_rim = hit.rim;
   if (wound_ && hit.rim < 1.0F) {

@@ -44,8 +44,12 @@ Layers::Layers() : arena_(std::size_t{2} * 2 * 640 * 480, 0.0F), spans_(16 * 102
 
 void Layers::add_moment(const Solids& solids, const Lens& lens, float weight, Foreground& sum,
                         const float* hidden_by) {
-  for (const Plate& plate : solids.plates) draw(plate, lens);
-  for (const Capsule& capsule : solids.capsules) draw(capsule, solids.lamp_in_camera, lens);
+  for (const Plate& plate : solids.plates) {
+    draw(plate, lens);
+  }
+  for (const Capsule& capsule : solids.capsules) {
+    draw(capsule, solids.lamp_in_camera, lens);
+  }
   merge(weight, sum, hidden_by);
   wipe();
 }
@@ -53,13 +57,17 @@ void Layers::add_moment(const Solids& solids, const Lens& lens, float weight, Fo
 Layers::Layer* Layers::open_layer(Vec2 low, Vec2 high, const Lens& lens) {
   const double w = lens.width_px();
   const double h = lens.height_px();
-  if (!(low.x < w && low.y < h && high.x > 0.0 && high.y > 0.0)) return nullptr;
+  if (!(low.x < w && low.y < h && high.x > 0.0 && high.y > 0.0)) {
+    return nullptr;
+  }
   Layer layer;
   layer.x0 = static_cast<int>(std::max(std::floor(low.x), 0.0)) & ~3;  // in whole vectors
   layer.y0 = static_cast<int>(std::max(std::floor(low.y), 0.0));
   layer.width = (static_cast<int>(std::min(std::ceil(high.x), w)) - layer.x0 + 3) & ~3;
   layer.height = static_cast<int>(std::min(std::ceil(high.y), h)) - layer.y0;
-  if (layer.width <= 0 || layer.height <= 0) return nullptr;
+  if (layer.width <= 0 || layer.height <= 0) {
+    return nullptr;
+  }
   const std::size_t size = static_cast<std::size_t>(CoverageWindow::stride(layer.width)) *
                            static_cast<std::size_t>(layer.height);
   layer.alpha = arena_used_;
@@ -67,8 +75,12 @@ Layers::Layer* Layers::open_layer(Vec2 low, Vec2 high, const Lens& lens) {
   layer.spans = spans_used_;
   arena_used_ += 2 * size;
   spans_used_ += static_cast<std::size_t>(layer.height);
-  if (arena_.size() < arena_used_) arena_.resize(arena_used_ + arena_used_ / 2, 0.0F);
-  if (spans_.size() < spans_used_) spans_.resize(spans_used_ + spans_used_ / 2);
+  if (arena_.size() < arena_used_) {
+    arena_.resize(arena_used_ + arena_used_ / 2, 0.0F);
+  }
+  if (spans_.size() < spans_used_) {
+    spans_.resize(spans_used_ + spans_used_ / 2);
+  }
   layers_.push_back(layer);
   return &layers_.back();
 }
@@ -90,7 +102,7 @@ void Layers::integrate(const Layer& layer, std::size_t window) {
 }
 
 void Layers::wipe() {
-  for (const Layer& layer : layers_)
+  for (const Layer& layer : layers_) {
     for (int row = 0; row < layer.height; ++row) {
       Span& span = spans_[layer.spans + static_cast<std::size_t>(row)];
       const auto begin = static_cast<std::ptrdiff_t>(row) * CoverageWindow::stride(layer.width);
@@ -102,6 +114,7 @@ void Layers::wipe() {
       }
       span = {};
     }
+  }
   layers_.clear();
   arena_used_ = 0;
   spans_used_ = 0;

@@ -32,7 +32,9 @@ Vec2 CameraLens::linear(Vec2 u) const {
 
 Vec2 CameraLens::pixel(Vec3 p) const {
   const Vec2 u{p.x / p.z, p.y / p.z};
-  if (const auto exact = camera_.project(u)) return *exact;
+  if (const auto exact = camera_.project(u)) {
+    return *exact;
+  }
   return rough_pixel(p);
 }
 
@@ -48,7 +50,9 @@ Vec2 CameraLens::rough_pixel(Vec3 p) const {
     const int row =
         std::clamp(static_cast<int>(std::clamp(pixel.y, 0.0, 1e6)), 0, camera_.height_px() - 1);
     const Vec2 there = camera_.lookup()[index(column, row)];
-    if (is_nan(there)) return start;
+    if (is_nan(there)) {
+      return start;
+    }
     pixel = {column + 0.5 + scale_px_.x * (u.x - there.x),
              row + 0.5 + scale_px_.y * (u.y - there.y)};
   }

@@ -18,7 +18,9 @@ constexpr float kDepthSlack = 0.004F;
 
 bool Layers::in_front(const Layer& a, const Layer& b, int x, int y) {
   // Within a tool the plate covers its own rods, or they it: depths are too close to call.
-  if (a.tool == b.tool && a.rank != b.rank) return a.rank > b.rank;
+  if (a.tool == b.tool && a.rank != b.rank) {
+    return a.rank > b.rank;
+  }
   return a.nearness(x, y) > b.nearness(x, y);
 }
 
@@ -28,26 +30,35 @@ void Layers::merge(float weight, Foreground& sum, const float* hidden_by) {
     int high = 0;
     in_row_.clear();
     for (const Layer& layer : layers_) {
-      if (y < layer.y0 || y >= layer.y0 + layer.height) continue;
+      if (y < layer.y0 || y >= layer.y0 + layer.height) {
+        continue;
+      }
       const Span span = spans_[layer.spans + static_cast<std::size_t>(y - layer.y0)];
-      if (span.low >= span.high) continue;
+      if (span.low >= span.high) {
+        continue;
+      }
       const std::ptrdiff_t row =
           static_cast<std::ptrdiff_t>(y - layer.y0) * CoverageWindow::stride(layer.width) -
           layer.x0;
       const int end = std::min(layer.x0 + span.high, sum.width_px);
-      if (layer.x0 + span.low >= end) continue;
+      if (layer.x0 + span.low >= end) {
+        continue;
+      }
       in_row_.push_back({&layer, layer.x0 + span.low, end,
                          arena_.data() + static_cast<std::ptrdiff_t>(layer.alpha) + row,
                          arena_.data() + static_cast<std::ptrdiff_t>(layer.light) + row});
       low = std::min(low, layer.x0 + span.low);
       high = std::max(high, end);
     }
-    if (low >= high) continue;
+    if (low >= high) {
+      continue;
+    }
     Span& dirty = sum.spans[static_cast<std::size_t>(y)];
     dirty = dirty.low == dirty.high ? Span{low, high}
                                     : Span{std::min(dirty.low, low), std::max(dirty.high, high)};
-    for (int from = low - low % kBlockPx; from < high; from += kBlockPx)
+    for (int from = low - low % kBlockPx; from < high; from += kBlockPx) {
       merge_block(y, from, std::min(from + kBlockPx, high), weight, sum, hidden_by);
+    }
   }
 }
 
@@ -56,11 +67,14 @@ void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
   // Nearest first, by what holds at the block's left end.
   active_.clear();
   for (const RowLayer& row : in_row_) {
-    if (row.low >= to || row.high <= from) continue;
+    if (row.low >= to || row.high <= from) {
+      continue;
+    }
     std::size_t place = active_.size();
     active_.push_back(&row);
-    for (; place > 0 && in_front(*row.layer, *active_[place - 1]->layer, from, y); --place)
+    for (; place > 0 && in_front(*row.layer, *active_[place - 1]->layer, from, y); --place) {
       active_[place] = active_[place - 1];
+    }
     active_[place] = &row;
   }
   // The same at the right end: then everywhere, depths being linear. Within the hand it does not
@@ -78,17 +92,24 @@ void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
     for (const RowLayer* row : active_) {
       const int low = std::max(from, row->low);
       const int high = std::min(to, row->high);
-      if (hidden_by == nullptr && sum.channels == 1)
+      if (hidden_by == nullptr && sum.channels == 1) {
         lay_block_under(*row, y, from, low, high, through.data(), sum);
-      else
+      } else {
         lay_under(*row, y, from, low, high, through.data(), sum, hidden_by);
+      }
       float left = 0.0F;  // what is behind a closed surface need not be added up
-      for (const float t : through) left = std::max(left, t);
-      if (left < kNothing * weight) break;
+      for (const float t : through) {
+        left = std::max(left, t);
+      }
+      if (left < kNothing * weight) {
+        break;
+      }
     }
     return;
   }
-  for (int x = from; x < to; ++x) merge_pixel(x, y, weight, sum, hidden_by);
+  for (int x = from; x < to; ++x) {
+    merge_pixel(x, y, weight, sum, hidden_by);
+  }
 }
 
 void Layers::merge_pixel(int x, int y, float weight, Foreground& sum, const float* hidden_by) {
@@ -96,15 +117,19 @@ void Layers::merge_pixel(int x, int y, float weight, Foreground& sum, const floa
   std::array<const RowLayer*, kMost> order;
   std::size_t count = 0;
   for (const RowLayer* row : active_) {
-    if (x < row->low || x >= row->high || row->alpha[x] < kNothing || count == kMost) continue;
+    if (x < row->low || x >= row->high || row->alpha[x] < kNothing || count == kMost) {
+      continue;
+    }
     std::size_t place = count++;
-    for (; place > 0 && in_front(*row->layer, *order[place - 1]->layer, x, y); --place)
+    for (; place > 0 && in_front(*row->layer, *order[place - 1]->layer, x, y); --place) {
       order[place] = order[place - 1];
+    }
     order[place] = row;
   }
   float through = weight;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     lay_under(*order[i], y, x, x, x + 1, &through, sum, hidden_by);
+  }
 }
 
 // Layers begin at multiples of four and are zero beside their spans, blocks begin at multiples of
@@ -118,12 +143,13 @@ void Layers::lay_block_under(const RowLayer& row, int y, int block, int from, in
   float* __restrict through = left + (first - block);
   float* __restrict opacity = sum.opacity.data() + sum.row(y) + first;
   float* __restrict out = sum.light.data() + sum.row(y) + first;
-  for (int v = 0; v < vectors; ++v)
+  for (int v = 0; v < vectors; ++v) {
     for (int i = 4 * v; i < 4 * v + 4; ++i) {
       opacity[i] += through[i] * alpha[i];
       out[i] += through[i] * light[i];
       through[i] -= through[i] * alpha[i];
     }
+  }
 }
 
 void Layers::lay_under(const RowLayer& row, int y, int block, int from, int to, float* left,
@@ -134,12 +160,14 @@ void Layers::lay_under(const RowLayer& row, int y, int block, int from, int to, 
   float* through = left - block;
   float* opacity = sum.opacity.data() + at;
   for (int x = from; x < to; ++x) {
-    if (hidden_by != nullptr && row.layer->nearness(x, y) + kDepthSlack < hidden_by[at + x])
+    if (hidden_by != nullptr && row.layer->nearness(x, y) + kDepthSlack < hidden_by[at + x]) {
       continue;
+    }
     opacity[x] += through[x] * alpha[x];
-    for (std::size_t c = 0; c < static_cast<std::size_t>(sum.channels); ++c)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(sum.channels); ++c) {
       sum.light[c * sum.plane() + at + static_cast<std::size_t>(x)] +=
           through[x] * light[x] * row.layer->tint[c];
+    }
     through[x] -= through[x] * alpha[x];
   }
 }

@@ -37,8 +37,9 @@ std::array<float, 3> bone_colour(float lit, float height) {
 
 PicturePainter::PicturePainter(const RoomDescription& room, const Ground& ground)
     : ground_(ground), bones_(room, ground, 0.0) {
-  for (std::size_t i = 0; i < kEncodeSteps; ++i)
+  for (std::size_t i = 0; i < kEncodeSteps; ++i) {
     encode_.push_back(encoded(static_cast<float>(i) / (kEncodeSteps - 1)));
+  }
 }
 
 void PicturePainter::paint_ground(const PinholeLens& lens,
@@ -50,7 +51,7 @@ void PicturePainter::paint_ground(const PinholeLens& lens,
   const Vec3 eye = spine_from_camera.translation();
   const std::array<float, 3> origin{static_cast<float>(eye.x), static_cast<float>(eye.y),
                                     static_cast<float>(eye.z)};
-  for (int j = 0; j < rows; ++j)
+  for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       const Vec3 ray = spine_from_camera.rotation() * lens.ray({2.0 * i + 1.0, 2.0 * j + 1.0});
       const Ground::Hit hit = ground_.hit(
@@ -60,6 +61,7 @@ void PicturePainter::paint_ground(const PinholeLens& lens,
       coarse_[at] = ground_.colour(hit);
       coarse_nearness_[at] = hit.distance > 0.0F ? 1.0F / hit.distance : 0.0F;
     }
+  }
   light_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   nearness_.resize(light_.size());
   for (int y = 0; y < height_; ++y) {
@@ -75,8 +77,9 @@ void PicturePainter::paint_ground(const PinholeLens& lens,
       const auto& c = coarse_[static_cast<std::size_t>(high * columns + left)];
       const auto& d = coarse_[static_cast<std::size_t>(high * columns + right)];
       auto& out = light_[static_cast<std::size_t>(y * width_ + x)];
-      for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t k = 0; k < 3; ++k) {
         out[k] = (1 - t) * ((1 - s) * a[k] + s * b[k]) + t * ((1 - s) * c[k] + s * d[k]);
+      }
       nearness_[static_cast<std::size_t>(y * width_ + x)] =
           coarse_nearness_[static_cast<std::size_t>((y / 2) * columns + x / 2)];
     }
@@ -87,13 +90,16 @@ void PicturePainter::paint_bones(const PinholeLens& lens,
                                  const Transform<LeftCamera, Spine>& camera_from_spine) {
   bone_image_.reset(width_, height_);
   bone_image_.draw(bones_, ground_, camera_from_spine, lens, 1.0);
-  for (int y = bone_image_.low_row(); y < bone_image_.high_row(); ++y)
+  for (int y = bone_image_.low_row(); y < bone_image_.high_row(); ++y) {
     for (int x = 0; x < width_; ++x) {
       const std::size_t i = static_cast<std::size_t>(y * width_ + x);
-      if (bone_image_.nearness()[i] <= 0.0F) continue;
+      if (bone_image_.nearness()[i] <= 0.0F) {
+        continue;
+      }
       light_[i] = bone_colour(bone_image_.lit()[i], bone_image_.height()[i]);
       nearness_[i] = bone_image_.nearness()[i];
     }
+  }
 }
 
 void PicturePainter::merge_tools(RgbaImage& image) {
@@ -104,17 +110,19 @@ void PicturePainter::merge_tools(RgbaImage& image) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
       const std::array<float, 3>& c = light_[row + x];
       std::uint8_t* out = image.pixels.data() + 4 * (row + x);
-      for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t k = 0; k < 3; ++k) {
         out[k] = encode_[static_cast<std::size_t>(std::clamp(c[k], 0.0F, 1.0F) *
                                                   static_cast<float>(kEncodeSteps - 1))];
+      }
       // Bodies carry greys as a display shows them, so they are laid over the encoded background.
-      if (static_cast<int>(x) >= span.low && static_cast<int>(x) < span.high)
+      if (static_cast<int>(x) >= span.low && static_cast<int>(x) < span.high) {
         for (std::size_t k = 0; k < 3; ++k) {
           const float below = static_cast<float>(out[k]);
           const float v = below + kPrintLight * foreground_.light[k * plane + row + x] -
                           foreground_.opacity[row + x] * below;
           out[k] = static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F));
         }
+      }
       out[3] = 255;
     }
   }

@@ -15,7 +15,7 @@ namespace orthonav::sim {
 /// coverage over it, one pass of the sensor.
 class SoftwareRoomRenderer final : public RoomRenderer {
  public:
-  SoftwareRoomRenderer(RoomDescription room, const Magnitudes& magnitudes);
+  SoftwareRoomRenderer(RoomDescription room, const ErrorModel& error_model);
   void render(std::span<const RoomState> states, const CameraModel& camera,
               const Transform<LeftCamera, Rig>& camera_from_rig, std::uint64_t noise_seed,
               GreyImage& image) override;

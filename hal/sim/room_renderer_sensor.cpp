@@ -22,13 +22,19 @@ std::vector<float> discrete_gaussian(double sigma_px) {
     weights.clear();
     for (int n = 0; n < 64; ++n) {
       weights.push_back(std::exp(-t) * std::cyl_bessel_i(n, t));
-      if (weights.back() < 1e-5 * weights.front()) break;
+      if (weights.back() < 1e-5 * weights.front()) {
+        break;
+      }
     }
   }
   double sum = weights.front();
-  for (std::size_t n = 1; n < weights.size(); ++n) sum += 2.0 * weights[n];
+  for (std::size_t n = 1; n < weights.size(); ++n) {
+    sum += 2.0 * weights[n];
+  }
   std::vector<float> out;
-  for (const double w : weights) out.push_back(static_cast<float>(w / sum));
+  for (const double w : weights) {
+    out.push_back(static_cast<float>(w / sum));
+  }
   return out;
 }
 
@@ -38,7 +44,7 @@ void HalfImage::reset(int half_width, int half_height) {
   grey.resize(static_cast<std::size_t>(half_width) * static_cast<std::size_t>(half_height));
 }
 
-Sensor::Sensor(const Magnitudes& m)
+Sensor::Sensor(const ErrorModel& m)
     : shot_variance_per_grey_(static_cast<float>(std::max(m.shot_noise, 0.0))),
       read_variance_(static_cast<float>(m.read_noise_grey * m.read_noise_grey)),
       vignetting_(static_cast<float>(std::clamp(m.vignetting, 0.0, 1.0))),
@@ -52,11 +58,15 @@ Sensor::Sensor(const Magnitudes& m)
     normal_[i] = static_cast<float>(q);
   }
   const float scale = static_cast<float>(1.0 / std::sqrt(squares / kDraws));
-  for (float& v : normal_) v *= scale;
+  for (float& v : normal_) {
+    v *= scale;
+  }
 }
 
 void Sensor::resize(int width, int height) {
-  if (width == width_ && height == height_) return;
+  if (width == width_ && height == height_) {
+    return;
+  }
   width_ = width;
   height_ = height;
   const auto w = static_cast<std::size_t>(width);
@@ -84,7 +94,9 @@ void Sensor::compose_row(const HalfImage& background, const Foreground& foregrou
   const float* top = background.row(i);
   const float* bottom = background.row(j);
   float* half = line_.data();
-  for (int x = 0; x < background.width; ++x) half[x] = top[x] + lower * (bottom[x] - top[x]);
+  for (int x = 0; x < background.width; ++x) {
+    half[x] = top[x] + lower * (bottom[x] - top[x]);
+  }
   float* out = ring_row(y);
   const int pairs = width_ / 2;
   out[0] = half[0];
@@ -92,41 +104,58 @@ void Sensor::compose_row(const HalfImage& background, const Foreground& foregrou
     out[2 * x + 1] = 0.75F * half[x] + 0.25F * half[x + 1];
     out[2 * x + 2] = 0.25F * half[x] + 0.75F * half[x + 1];
   }
-  for (int x = 2 * pairs - 1; x < width_; ++x) out[x] = half[background.width - 1];
+  for (int x = 2 * pairs - 1; x < width_; ++x) {
+    out[x] = half[background.width - 1];
+  }
   const Span span = foreground.spans[static_cast<std::size_t>(y)];
   const float* light = foreground.light.data() + foreground.row(y);
   const float* opacity = foreground.opacity.data() + foreground.row(y);
-  for (int x = span.low; x < span.high; ++x) out[x] += light[x] - opacity[x] * out[x];
+  for (int x = span.low; x < span.high; ++x) {
+    out[x] += light[x] - opacity[x] * out[x];
+  }
 }
 
 void Sensor::blur_along(int y, Span span) {
-  if (radius_ == 0 || span.low >= span.high) return;
+  if (radius_ == 0 || span.low >= span.high) {
+    return;
+  }
   float* const row = ring_row(y);
   // The row with its ends repeated, from span.low - radius_.
-  for (int x = span.low - radius_; x < span.high + radius_; ++x)
+  for (int x = span.low - radius_; x < span.high + radius_; ++x) {
     line_[static_cast<std::size_t>(x - span.low + radius_)] = row[std::clamp(x, 0, width_ - 1)];
+  }
   const float* __restrict in = line_.data() + radius_;
   const int n = span.high - span.low;
   float* __restrict out = row + span.low;
   const float centre = kernel_[0];
-  for (int x = 0; x < n; ++x) out[x] = centre * in[x];
+  for (int x = 0; x < n; ++x) {
+    out[x] = centre * in[x];
+  }
   for (int k = 1; k <= radius_; ++k) {
     const float w = kernel_[static_cast<std::size_t>(k)];
-    for (int x = 0; x < n; ++x) out[x] += w * (in[x - k] + in[x + k]);
+    for (int x = 0; x < n; ++x) {
+      out[x] += w * (in[x - k] + in[x + k]);
+    }
   }
 }
 
 const float* Sensor::blur_across(int y, Span span) {
   const float* centre = ring_row(y);
-  if (radius_ == 0 || span.low >= span.high) return centre;
+  if (radius_ == 0 || span.low >= span.high) {
+    return centre;
+  }
   std::memcpy(across_.data(), centre, sizeof(float) * static_cast<std::size_t>(width_));
   float* __restrict out = across_.data();
-  for (int x = span.low; x < span.high; ++x) out[x] *= kernel_.front();
+  for (int x = span.low; x < span.high; ++x) {
+    out[x] *= kernel_.front();
+  }
   for (int k = 1; k <= radius_; ++k) {
     const float* __restrict above = ring_row(std::max(y - k, 0));
     const float* __restrict below = ring_row(std::min(y + k, height_ - 1));
     const float w = kernel_[static_cast<std::size_t>(k)];
-    for (int x = span.low; x < span.high; ++x) out[x] += w * (above[x] + below[x]);
+    for (int x = span.low; x < span.high; ++x) {
+      out[x] += w * (above[x] + below[x]);
+    }
   }
   return across_.data();
 }
@@ -135,7 +164,9 @@ Span Sensor::widened(const Foreground& foreground, int low_row, int high_row) co
   Span all{width_, 0};
   for (int y = std::max(low_row, 0); y <= std::min(high_row, height_ - 1); ++y) {
     const Span span = foreground.spans[static_cast<std::size_t>(y)];
-    if (span.low >= span.high) continue;
+    if (span.low >= span.high) {
+      continue;
+    }
     all.low = std::min(all.low, std::max(span.low - radius_, 0));
     all.high = std::max(all.high, std::min(span.high + radius_, width_));
   }
@@ -174,7 +205,9 @@ void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
   const float* __restrict noise = noise_.data();
   std::uint8_t* __restrict out = out_bytes;
   const bool noisy = shot > 0.0F || read > 0.0F;
-  if (noisy) draw_noise(y, noise_seed);
+  if (noisy) {
+    draw_noise(y, noise_seed);
+  }
   for (int x = 0; x < width; ++x) {
     const float mean = std::max(light[x] * (kept - loss[x]), 0.0F);
     const float v = mean + std::sqrt(shot * mean + read) * noise[x] + 0.5F;

@@ -25,7 +25,7 @@ struct HalfImage {
 /// From light to bytes: blur, vignetting, shot and read noise, 8 bits. One pass over the rows.
 class Sensor {
  public:
-  explicit Sensor(const Magnitudes& magnitudes);
+  explicit Sensor(const ErrorModel& error_model);
   void expose(const HalfImage& background, const Foreground& foreground, std::uint64_t noise_seed,
               GreyImage& image);
 

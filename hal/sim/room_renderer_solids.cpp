@@ -26,7 +26,9 @@ std::vector<Capsule> rods_of(const RoomTool& tool, double half_m) {
   std::vector<Capsule> rods;
   const Vec3 tip = tool.tip_in_marker.v;
   const double length = tool.axis_in_marker.norm();
-  if (!(length > 0.0)) return rods;
+  if (!(length > 0.0)) {
+    return rods;
+  }
   const Vec3 axis = tool.axis_in_marker / length;
   const double reach = -tip.dot(axis);  // along the axis to the point nearest the tag's centre
   const Vec3 foot = tip + reach * axis;
@@ -34,7 +36,9 @@ std::vector<Capsule> rods_of(const RoomTool& tool, double half_m) {
   // The rod ends at the plate's rim where it would cross the plate.
   const double rim = aside < half_m ? std::sqrt(half_m * half_m - aside * aside) : -0.02;
   const double end = reach - rim;
-  if (!(end > 0.012)) return rods;
+  if (!(end > 0.012)) {
+    return rods;
+  }
   const double shaft = tool.kind == ToolKind::kGuide ? 0.0045 : 0.0018;
   const double handle = tool.kind == ToolKind::kReference ? 0.004 : 0.0075;
   const double grip = 0.45 * end;
@@ -42,10 +46,11 @@ std::vector<Capsule> rods_of(const RoomTool& tool, double half_m) {
   const double point = tool.kind == ToolKind::kGuide ? 0.6 * shaft : 0.0004;
   rods.push_back(rod(at(0.0), at(0.008), point, shaft, 0.5F, 0.5F, kSteel));
   rods.push_back(rod(at(0.008), at(grip + 0.004), shaft, shaft, 0.5F, 0.5F, kSteel));
-  if (tool.kind == ToolKind::kReference)
+  if (tool.kind == ToolKind::kReference) {
     rods.push_back(rod(at(grip), at(end), handle, handle, 0.45F, 0.4F, kSteel));
-  else
+  } else {
     rods.push_back(rod(at(grip), at(end), handle, 0.85 * handle, 0.2F, 0.2F, kHandleTint));
+  }
   const Vec3 behind{0.0, 0.0, -0.006};
   rods.push_back(rod(at(end), behind, 0.004, 0.004, 0.35F, 0.3F, kSteel));
   return rods;
@@ -58,9 +63,15 @@ float lit(Vec3 normal_in_room) {
 
 /// Cuts what lies nearer than kNearM; false when nothing is left.
 bool clip_near(Capsule& c) {
-  if (!c.a.is_finite() || !c.b.is_finite()) return false;
-  if (c.a.z < kNearM && c.b.z < kNearM) return false;
-  if (c.a.z >= kNearM && c.b.z >= kNearM) return true;
+  if (!c.a.is_finite() || !c.b.is_finite()) {
+    return false;
+  }
+  if (c.a.z < kNearM && c.b.z < kNearM) {
+    return false;
+  }
+  if (c.a.z >= kNearM && c.b.z >= kNearM) {
+    return true;
+  }
   const double s = (kNearM - c.a.z) / (c.b.z - c.a.z);
   const Vec3 cut = c.a + s * (c.b - c.a);
   const double radius = c.radius_a_m + s * (c.radius_b_m - c.radius_a_m);
@@ -88,7 +99,9 @@ void add_hand(const RoomState& state, const Transform<LeftCamera, Room>& camera_
               0.1F,
               tint,
               -1};
-    if (clip_near(c)) capsules.push_back(c);
+    if (clip_near(c)) {
+      capsules.push_back(c);
+    }
   };
   // A fist round the handle: back of the hand, four fingers in two bones each, the thumb; then the
   // wrist and the sleeve of the gown over the glove.
@@ -132,24 +145,33 @@ void ToolBodies::gather(const RoomState& state, const Transform<LeftCamera, Room
   const std::size_t known =
       std::min({bodies_.size(), state.room_from_marker.size(), state.tool_present.size()});
   for (std::size_t i = 0; i < known; ++i) {
-    if (!state.tool_present[i]) continue;
+    if (!state.tool_present[i]) {
+      continue;
+    }
     const Body& body = bodies_[i];
     const auto camera_from_marker = camera_from_room * state.room_from_marker[i];
     const Vec3 at = camera_from_marker.translation();
-    if (!at.is_finite()) continue;
-    if (at.z - 1.5 * body.half_m > kNearM && body.half_m > 0.0)
+    if (!at.is_finite()) {
+      continue;
+    }
+    if (at.z - 1.5 * body.half_m > kNearM && body.half_m > 0.0) {
       solids.plates.push_back(
           {camera_from_marker, body.pattern ? &*body.pattern : nullptr, body.cell_m, body.half_m,
            lit(state.room_from_marker[i].rotation().column(2)), static_cast<int>(i)});
+    }
     for (const Capsule& in_marker : body.rods) {
       Capsule c = in_marker;
       c.tool = static_cast<int>(i);
       c.a = (camera_from_marker * Point<Marker>{c.a}).v;
       c.b = (camera_from_marker * Point<Marker>{c.b}).v;
-      if (clip_near(c)) solids.capsules.push_back(c);
+      if (clip_near(c)) {
+        solids.capsules.push_back(c);
+      }
     }
   }
-  if (state.hand) add_hand(state, camera_from_room, solids.capsules);
+  if (state.hand) {
+    add_hand(state, camera_from_room, solids.capsules);
+  }
 }
 
 }  // namespace orthonav::sim

@@ -15,52 +15,62 @@ const Transform<World, Room> kMapAtStart{rotation_from_vector({0.0, 0.7, 0.0}), 
 
 }  // namespace
 
-Theatre::Theatre(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig, Timestamp start)
+RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig,
+                               Timestamp start)
     : room_(std::move(room)),
-      magnitudes_(options.magnitudes),
+      error_model_(options.error_model),
       layout_(room_),
       start_(start),
       physics_(Random(options.seed).fork("physics")),
-      head_(Random(options.seed).fork("head"), magnitudes_, eyes_in_rig, {layout_.middle()}),
-      drift_(Random(options.seed).fork("map"), magnitudes_.map_drift_m_per_sqrt_s,
-             magnitudes_.map_drift_rad_per_sqrt_s, options.limit_s),
-      tremor_m_(Random(options.seed).fork("tremor position"), magnitudes_.tremor_m,
+      head_(Random(options.seed).fork("head"), error_model_, eyes_in_rig, {layout_.middle()}),
+      drift_(Random(options.seed).fork("map"), error_model_.map_drift_m_per_sqrt_s,
+             error_model_.map_drift_rad_per_sqrt_s, options.limit_s),
+      tremor_m_(Random(options.seed).fork("tremor position"), error_model_.tremor_m,
                 kSlowestTremor_hz, kFastestTremor_hz),
-      tremor_rad_(Random(options.seed).fork("tremor rotation"), magnitudes_.tremor_rad,
+      tremor_rad_(Random(options.seed).fork("tremor rotation"), error_model_.tremor_rad,
                   kSlowestTremor_hz, kFastestTremor_hz) {
   RoomState nothing;
   nothing.room_from_marker.resize(room_.tools.size());
   nothing.tool_present.resize(room_.tools.size());
   states_.resize(kKept, nothing);
-  if (options.surgeon && layout_.levels() > 0)
-    surgeon_ = std::make_unique<Surgeon>(layout_, magnitudes_, Random(options.seed).fork("surgeon"),
-                                         eyes_, truth_.heads);
+  if (options.surgeon && layout_.levels() > 0) {
+    surgeon_ = std::make_unique<Surgeon>(layout_, error_model_,
+                                         Random(options.seed).fork("surgeon"), eyes_, truth_.heads);
+  }
   step();
 }
 
-void Theatre::advance(Timestamp until) {
-  while (kept(steps_ - 1).time < until) step();
+void RoomSimulation::advance(Timestamp until) {
+  while (kept(steps_ - 1).time < until) {
+    step();
+  }
 }
 
-void Theatre::step() {
+void RoomSimulation::step() {
   RoomState& now = kept(steps_);
   now.time = start_ + static_cast<std::int64_t>(steps_) * kStep;
   now.room_from_spine = layout_.room_from_spine();
-  if (surgeon_) head_.advance(seconds(kStep), surgeon_->body().posture().head);
+  if (surgeon_) {
+    head_.advance(seconds(kStep), surgeon_->body().posture().head);
+  }
   now.room_from_rig = head_.pose(seconds_in(now.time));
   ++steps_;
-  for (auto due = eyes_.next_due(); due && *due <= now.time; due = eyes_.next_due())
+  for (auto due = eyes_.next_due(); due && *due <= now.time; due = eyes_.next_due()) {
     eyes_.light_up(room_from_rig(*due));
+  }
   std::fill(now.tool_present.begin(), now.tool_present.end(), false);
   now.hand.reset();
-  if (surgeon_)
+  if (surgeon_) {
     let_surgeon_act(now);
-  else
+  } else {
     let_tools_hover(now);
-  if (layout_.levels() > 0) leave_reference(now);
+  }
+  if (layout_.levels() > 0) {
+    leave_reference(now);
+  }
 }
 
-void Theatre::let_surgeon_act(RoomState& now) {
+void RoomSimulation::let_surgeon_act(RoomState& now) {
   surgeon_->tick(now.time);
   SurgeonBody& body = surgeon_->body();
   const Posture& posture = body.posture();
@@ -74,21 +84,27 @@ void Theatre::let_surgeon_act(RoomState& now) {
     now.hand = hand_on(room_.tools[*tool], posture.grip);
     now.hand_axis = (0.9 * across + 0.35 * Vec3{view.x, 0.0, view.z}).normalized();
   }
-  for (const Deed& deed : surgeon_->deeds()) pierce(deed);
-  surgeon_->deeds().clear();
+  for (const WireInsertion& insertion : surgeon_->wire_insertions()) {
+    pierce(insertion);
+  }
+  surgeon_->wire_insertions().clear();
   clicks_.insert(clicks_.end(), body.clicks.begin(), body.clicks.end());
   phrases_.insert(phrases_.end(), body.phrases.begin(), body.phrases.end());
   body.clicks.clear();
   body.phrases.clear();
-  if (surgeon_->finished() && !finished_at_) finished_at_ = now.time;
+  if (surgeon_->finished() && !finished_at_) {
+    finished_at_ = now.time;
+  }
   truth_.surgeon_gave_up = surgeon_->gave_up();
 }
 
 /// The reference is clamped to the patient, facing where the head is at the start, and stays so.
-void Theatre::leave_reference(RoomState& now) {
+void RoomSimulation::leave_reference(RoomState& now) {
   constexpr Vec3 kBesideTheSite_m{-0.02, 0.0, 0.13};
   const auto reference = layout_.tool(ToolKind::kReference);
-  if (!reference) return;
+  if (!reference) {
+    return;
+  }
   if (!room_from_reference_) {
     put(now, *reference, {layout_.middle() + kBesideTheSite_m, {0, 1, 0}, 0.0}, std::nullopt);
     room_from_reference_ = now.room_from_marker[*reference];
@@ -98,7 +114,7 @@ void Theatre::leave_reference(RoomState& now) {
 }
 
 /// Without a surgeon the tools float side by side over the table, slowly going round.
-void Theatre::let_tools_hover(RoomState& now) const {
+void RoomSimulation::let_tools_hover(RoomState& now) const {
   constexpr double kApart_m = 0.14;
   constexpr double kRound_m = 0.02;
   constexpr double kRound_hz = 0.05;
@@ -113,15 +129,17 @@ void Theatre::let_tools_hover(RoomState& now) const {
   }
 }
 
-void Theatre::put(RoomState& state, std::size_t tool, const Grip& grip,
-                  std::optional<Vec3> contact) const {
+void RoomSimulation::put(RoomState& state, std::size_t tool, const Grip& grip,
+                         std::optional<Vec3> contact) const {
   const RoomTool& made = room_.tools[tool];
   Grip shaken = grip;
   if (made.kind != ToolKind::kReference) {
     const double t = seconds_in(state.time);
     Vec3 shake = tremor_m_.at(t);
     // The bone does not give way: what would push the tip in slides it along instead.
-    if (contact) shake = shake - std::min(0.0, shake.dot(*contact)) * *contact;
+    if (contact) {
+      shake = shake - std::min(0.0, shake.dot(*contact)) * *contact;
+    }
     shaken.tip = grip.tip + shake;
     shaken.axis = rotation_from_vector(tremor_rad_.at(t)) * grip.axis;
   }
@@ -131,33 +149,35 @@ void Theatre::put(RoomState& state, std::size_t tool, const Grip& grip,
   state.tool_present[tool] = true;
 }
 
-void Theatre::pierce(const Deed& deed) {
+void RoomSimulation::pierce(const WireInsertion& insertion) {
   constexpr double kSearch_m = 0.02;
   constexpr double kHeadOverEntry_m = 0.010;
   const RoomState& now = kept(steps_ - 1);
   const auto guide = layout_.tool(ToolKind::kGuide);
-  if (!guide) return;
-  const auto room_from_vertebra = layout_.room_from_vertebra(deed.level);
+  if (!guide) {
+    return;
+  }
+  const auto room_from_vertebra = layout_.room_from_vertebra(insertion.level);
   const RoomTool& tool = room_.tools[*guide];
   const auto vertebra_from_marker = room_from_vertebra.inverse() * now.room_from_marker[*guide];
   const Vec3 tip = (vertebra_from_marker * tool.tip_in_marker).v;
   const Vec3 straight = -(vertebra_from_marker * Direction<Marker>{tool.axis_in_marker}).v;
-  const BoneSurface& bone = layout_.bone(deed.level);
-  const Vec3 slip = normal_vector(physics_, magnitudes_.wire_skiving_m);
+  const BoneSurface& bone = layout_.bone(insertion.level);
+  const Vec3 slip = normal_vector(physics_, error_model_.wire_skiving_m);
   const Vec3 normal = bone.closest(tip).normal;
   const Vec3 slipped = tip + (slip - slip.dot(normal) * normal);
-  const Vec3 bend = normal_vector(physics_, magnitudes_.wire_bending_rad);
+  const Vec3 bend = normal_vector(physics_, error_model_.wire_bending_rad);
   const Vec3 direction =
       (rotation_from_vector(bend - bend.dot(straight) * straight) * straight).normalized();
   const auto hit = bone.first_hit(slipped - kSearch_m * direction, direction, 2.0 * kSearch_m);
   const Point<Vertebra> entry{hit ? hit->point : bone.closest(slipped).point};
-  const std::string& label = room_.levels[deed.level].label;
-  truth_.wires.push_back({label, deed.side, entry, direction, now.time});
+  const std::string& label = room_.levels[insertion.level].label;
+  truth_.wires.push_back({label, insertion.side, entry, direction, now.time});
   truth_.heads.push_back(
-      {label, deed.side, room_from_vertebra * (entry - kHeadOverEntry_m * direction)});
+      {label, insertion.side, room_from_vertebra * (entry - kHeadOverEntry_m * direction)});
 }
 
-Theatre::Around Theatre::around(Timestamp time) const {
+RoomSimulation::Around RoomSimulation::around(Timestamp time) const {
   const std::size_t newest = steps_ - 1;
   const std::size_t oldest = steps_ > kKept ? steps_ - kKept : 0;
   const auto number =
@@ -169,25 +189,28 @@ Theatre::Around Theatre::around(Timestamp time) const {
   return {state, kept(std::min(before + 1, newest)), fraction};
 }
 
-void Theatre::state_at(Timestamp time, RoomState& state) const {
+void RoomSimulation::state_at(Timestamp time, RoomState& state) const {
   const auto [before, after, fraction] = around(time);
   state = after;
   state.time = time;
   state.room_from_rig = interpolated(before.room_from_rig, after.room_from_rig, fraction);
-  for (std::size_t i = 0; i < state.room_from_marker.size(); ++i)
-    if (before.tool_present[i] && after.tool_present[i])
+  for (std::size_t i = 0; i < state.room_from_marker.size(); ++i) {
+    if (before.tool_present[i] && after.tool_present[i]) {
       state.room_from_marker[i] =
           interpolated(before.room_from_marker[i], after.room_from_marker[i], fraction);
-  if (before.hand && after.hand)
+    }
+  }
+  if (before.hand && after.hand) {
     state.hand = *before.hand + fraction * (*after.hand - *before.hand);
+  }
 }
 
-Transform<Room, Rig> Theatre::room_from_rig(Timestamp time) const {
+Transform<Room, Rig> RoomSimulation::room_from_rig(Timestamp time) const {
   const auto [before, after, fraction] = around(time);
   return interpolated(before.room_from_rig, after.room_from_rig, fraction);
 }
 
-Transform<World, Room> Theatre::world_from_room(Timestamp time) const {
+Transform<World, Room> RoomSimulation::world_from_room(Timestamp time) const {
   const auto [shift, turn] = drift_.at(seconds_in(time));
   const Transform<World, Room> start = kMapAtStart;
   return start * Transform<Room, Room>{rotation_from_vector(turn), shift};

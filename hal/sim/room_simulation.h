@@ -16,12 +16,13 @@ namespace orthonav::sim {
 
 /// What moves in the room, in steps of 1/120 s: head, map, tools, surgeon. Keeps the last second,
 /// so that moments between the steps can be asked for. Not thread-safe.
-class Theatre {
+class RoomSimulation {
  public:
   /// `eyes_in_rig`: the middle between the cameras. The room must have passed `check_room`.
-  Theatre(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig, Timestamp start);
-  Theatre(const Theatre&) = delete;
-  Theatre& operator=(const Theatre&) = delete;
+  RoomSimulation(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig,
+                 Timestamp start);
+  RoomSimulation(const RoomSimulation&) = delete;
+  RoomSimulation& operator=(const RoomSimulation&) = delete;
 
   /// Goes on until at least `until`.
   void advance(Timestamp until);
@@ -57,14 +58,14 @@ class Theatre {
   void let_tools_hover(RoomState& now) const;
   void leave_reference(RoomState& now);
   void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact) const;
-  void pierce(const Deed& deed);
+  void pierce(const WireInsertion& insertion);
   [[nodiscard]] double seconds_in(Timestamp time) const { return seconds(time - start_); }
   [[nodiscard]] RoomState& kept(std::size_t number) { return states_[number % kKept]; }
   [[nodiscard]] const RoomState& kept(std::size_t number) const { return states_[number % kKept]; }
   [[nodiscard]] Around around(Timestamp time) const;
 
   RoomDescription room_;
-  Magnitudes magnitudes_;
+  ErrorModel error_model_;
   RoomLayout layout_;
   Timestamp start_;
   Random physics_;

@@ -38,7 +38,9 @@ class [[nodiscard]] Script {
     return *this;
   }
   ~Script() {
-    if (handle_) handle_.destroy();
+    if (handle_) {
+      handle_.destroy();
+    }
   }
 
   void start() { handle_.resume(); }
@@ -57,7 +59,9 @@ class [[nodiscard]] Script {
 };
 
 inline std::coroutine_handle<> Script::BackToCaller::await_suspend(Handle finished) const noexcept {
-  if (finished.promise().caller) return finished.promise().caller;
+  if (finished.promise().caller) {
+    return finished.promise().caller;
+  }
   return std::noop_coroutine();
 }
 
@@ -73,7 +77,9 @@ class Metronome {
   [[nodiscard]] NextTick next_tick() { return {*this}; }
   /// Lets the waiting script run on to its next wait; nothing when none waits.
   void tick() {
-    if (const auto waiting = std::exchange(waiting_, nullptr)) waiting.resume();
+    if (const auto waiting = std::exchange(waiting_, nullptr)) {
+      waiting.resume();
+    }
   }
 
  private:

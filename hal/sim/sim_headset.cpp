@@ -27,9 +27,10 @@ class SimClock final : public Clock {
  public:
   explicit SimClock(Pace pace) : pace_(pace), opened_(std::chrono::steady_clock::now()) {}
   [[nodiscard]] Timestamp now() const override {
-    if (pace_ == Pace::kRealtime)
+    if (pace_ == Pace::kRealtime) {
       return kStart +
              std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - opened_);
+    }
     return Timestamp(Duration(now_ns_.load()));
   }
   void set(Timestamp now) { now_ns_.store(now.time_since_epoch().count()); }
@@ -44,14 +45,14 @@ class SimClock final : public Clock {
 struct Shared {
   std::mutex mutex;
   SimClock clock;
-  Theatre theatre;
+  RoomSimulation simulation;
   HeadTrack head;
   Timestamp last_frame = kStart;
 
   Shared(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig)
       : clock(options.pace),
-        theatre(std::move(room), options, eyes_in_rig, kStart),
-        head(Random(options.seed).fork("head tracker"), options.magnitudes) {}
+        simulation(std::move(room), options, eyes_in_rig, kStart),
+        head(Random(options.seed).fork("head tracker"), options.error_model) {}
 };
 
 class SimCameras final : public StereoCamera {
@@ -60,12 +61,13 @@ class SimCameras final : public StereoCamera {
              StereoCalibration actual)
       : shared_(shared),
         options_(options),
-        half_exposure_(from_seconds(0.5 * options.magnitudes.exposure_s)),
+        half_exposure_(from_seconds(0.5 * options.error_model.exposure_s)),
         reported_(std::move(reported)),
-        states_(options.magnitudes.exposure_s > 0.0 ? 3 : 1) {
-    if (options.render)
-      renderer_ = std::make_unique<StereoRenderer>(shared.theatre.room(), options.magnitudes,
+        states_(options.error_model.exposure_s > 0.0 ? 3 : 1) {
+    if (options.render) {
+      renderer_ = std::make_unique<StereoRenderer>(shared.simulation.room(), options.error_model,
                                                    std::move(actual), options.seed);
+    }
   }
 
  private:
@@ -84,16 +86,22 @@ class SimCameras final : public StereoCamera {
   Result<Next> do_next(StereoFrame& frame) override {
     if (options_.pace == Pace::kRealtime) {
       const Timestamp now = shared_.clock.now();
-      if (delivery_of(number_) > now) return Next::kNone;
+      if (delivery_of(number_) > now) {
+        return Next::kNone;
+      }
       // Who comes late misses frames, as with a real camera.
-      while (delivery_of(number_ + 1) <= now) ++number_;
+      while (delivery_of(number_ + 1) <= now) {
+        ++number_;
+      }
     }
     const Timestamp time = time_of(number_);
     {
       const std::lock_guard lock(shared_.mutex);
-      const auto finished = shared_.theatre.finished_at();
-      if (seconds(time - kStart) > options_.limit_s || (finished && time > *finished + kAfterDone))
+      const auto finished = shared_.simulation.finished_at();
+      if (seconds(time - kStart) > options_.limit_s ||
+          (finished && time > *finished + kAfterDone)) {
         return Next::kEnd;
+      }
       expose(time, frame);
     }
     render(frame);
@@ -103,14 +111,16 @@ class SimCameras final : public StereoCamera {
   }
 
   void expose(Timestamp time, StereoFrame& frame) {
-    Theatre& theatre = shared_.theatre;
-    theatre.advance(time + half_exposure_);
+    RoomSimulation& simulation = shared_.simulation;
+    simulation.advance(time + half_exposure_);
     const auto middle = static_cast<std::int64_t>(states_.size() / 2);
-    for (std::size_t i = 0; i < states_.size(); ++i)
-      theatre.state_at(time + (static_cast<std::int64_t>(i) - middle) * half_exposure_, states_[i]);
-    const Timestamp before = time - Theatre::kStep;
-    shared_.head.add(number_, time, theatre.world_from_rig(time), before,
-                     theatre.world_from_rig(before));
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      simulation.state_at(time + (static_cast<std::int64_t>(i) - middle) * half_exposure_,
+                          states_[i]);
+    }
+    const Timestamp before = time - RoomSimulation::kStep;
+    shared_.head.add(number_, time, simulation.world_from_rig(time), before,
+                     simulation.world_from_rig(before));
     shared_.last_frame = time;
     frame.sequence = number_;
     frame.time = time;
@@ -118,7 +128,9 @@ class SimCameras final : public StereoCamera {
   }
 
   void render(StereoFrame& frame) {
-    if (renderer_) return renderer_->render(states_, number_, frame);
+    if (renderer_) {
+      return renderer_->render(states_, number_, frame);
+    }
     resize(frame.left, reported_.left);
     resize(frame.right, reported_.right);
   }
@@ -171,7 +183,7 @@ class SimClicker final : public Clicker {
  private:
   Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override {
     const std::lock_guard lock(shared_.mutex);
-    hand_over(shared_.theatre.clicks(), until, events);
+    hand_over(shared_.simulation.clicks(), until, events);
     return {};
   }
   Shared& shared_;
@@ -184,7 +196,7 @@ class SimVoice final : public Voice {
  private:
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
     const std::lock_guard lock(shared_.mutex);
-    hand_over(shared_.theatre.phrases(), until, phrases);
+    hand_over(shared_.simulation.phrases(), until, phrases);
     return {};
   }
   Shared& shared_;
@@ -200,8 +212,10 @@ class SimDisplay final : public Display {
     const std::lock_guard lock(shared_.mutex);
     // The display draws for the pose that it predicted when the frame was submitted.
     const auto believed = shared_.head.at(frame.display_time, frame.display_time - kDisplayLatency);
-    if (believed.origin == Origin::kLost) return {};
-    shared_.theatre.eyes().show(frame, believed.value);
+    if (believed.status == PoseStatus::kLost) {
+      return {};
+    }
+    shared_.simulation.eyes().show(frame, believed.value);
     return {};
   }
   Shared& shared_;
@@ -227,22 +241,22 @@ class SimulatedHeadset final : public SimHeadset {
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
 
-  [[nodiscard]] const Truth& truth() const override { return shared_.theatre.truth(); }
+  [[nodiscard]] const Truth& truth() const override { return shared_.simulation.truth(); }
   [[nodiscard]] RoomState state() const override {
     const std::lock_guard lock(shared_.mutex);
     RoomState state;
-    shared_.theatre.state_at(shared_.last_frame, state);
+    shared_.simulation.state_at(shared_.last_frame, state);
     return state;
   }
   [[nodiscard]] Transform<World, Room> world_from_room() const override {
     const std::lock_guard lock(shared_.mutex);
-    return shared_.theatre.world_from_room(shared_.last_frame);
+    return shared_.simulation.world_from_room(shared_.last_frame);
   }
   [[nodiscard]] std::vector<RoomTool> described_tools() const override {
-    return described(shared_.theatre.room().tools, options_.magnitudes,
+    return described(shared_.simulation.room().tools, options_.error_model,
                      Random(options_.seed).fork("tool descriptions"));
   }
-  [[nodiscard]] const RoomDescription& room() const override { return shared_.theatre.room(); }
+  [[nodiscard]] const RoomDescription& room() const override { return shared_.simulation.room(); }
   [[nodiscard]] const SimOptions& options() const override { return options_; }
 
  private:
@@ -264,13 +278,22 @@ class SimulatedHeadset final : public SimHeadset {
 
 Result<std::unique_ptr<SimHeadset>> SimHeadset::open(RoomDescription room,
                                                      const SimOptions& options) {
-  if (Status status = options.check(); !status) return status.error();
-  if (Status status = check_room(room); !status) return status.error();
-  if (options.surgeon && !room.levels.empty())
-    if (Status status = check_surgery(room); !status) return status.error();
+  if (Status status = options.check(); !status) {
+    return status.error();
+  }
+  if (Status status = check_room(room); !status) {
+    return status.error();
+  }
+  if (options.surgeon && !room.levels.empty()) {
+    if (Status status = check_surgery(room); !status) {
+      return status.error();
+    }
+  }
   const StereoCalibration reported = hololens2_calibration();
-  auto actual = perturbed(reported, options.magnitudes, Random(options.seed).fork("calibration"));
-  if (!actual) return actual.error();
+  auto actual = perturbed(reported, options.error_model, Random(options.seed).fork("calibration"));
+  if (!actual) {
+    return actual.error();
+  }
   return std::unique_ptr<SimHeadset>(std::make_unique<SimulatedHeadset>(
       std::move(room), options, reported, std::move(actual).value()));
 }

@@ -17,7 +17,7 @@ enum class Pace {
 
 struct SimOptions {
   std::uint64_t seed = 1;
-  Magnitudes magnitudes;
+  ErrorModel error_model;
   Pace pace = Pace::kFast;
   double frame_rate_hz = 30.0;
   /// The scripted surgeon plays; without one the tools hover over the table in slow motion.

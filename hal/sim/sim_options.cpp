@@ -12,28 +12,39 @@ constexpr double kFastestRate_hz = 240.0;
 }  // namespace
 
 Status SimOptions::check() const {
-  const auto problems = magnitudes.check();
-  if (!problems.empty()) return Error{joined(problems)};
-  if (!(frame_rate_hz >= 1.0 && frame_rate_hz <= kFastestRate_hz))
+  const auto problems = error_model.check();
+  if (!problems.empty()) {
+    return Error{joined(problems)};
+  }
+  if (!(frame_rate_hz >= 1.0 && frame_rate_hz <= kFastestRate_hz)) {
     return Error{"simulated frame rate is " + std::to_string(frame_rate_hz) +
                  " Hz, must lie in [1, 240]"};
-  if (magnitudes.exposure_s * frame_rate_hz > 1.0)
-    return Error{"simulated exposure of " + std::to_string(magnitudes.exposure_s) +
+  }
+  if (error_model.exposure_s * frame_rate_hz > 1.0) {
+    return Error{"simulated exposure of " + std::to_string(error_model.exposure_s) +
                  " s is longer than a frame at " + std::to_string(frame_rate_hz) + " Hz"};
-  if (!(limit_s > 0.0 && limit_s <= kLongest_s))
+  }
+  if (!(limit_s > 0.0 && limit_s <= kLongest_s)) {
     return Error{"simulated time limit is " + std::to_string(limit_s) +
                  " s, must be more than 0 and at most 86400"};
+  }
   return {};
 }
 
 Status check_surgery(const RoomDescription& room) {
   const RoomLayout layout(room);
-  if (!layout.tool(ToolKind::kPointer)) return Error{"room: the surgeon has no pointer"};
-  if (!layout.tool(ToolKind::kGuide)) return Error{"room: the surgeon has no guide"};
-  for (const std::size_t level : layout.operated())
-    if (plan_strokes(room.levels[level]).empty())
+  if (!layout.tool(ToolKind::kPointer)) {
+    return Error{"room: the surgeon has no pointer"};
+  }
+  if (!layout.tool(ToolKind::kGuide)) {
+    return Error{"room: the surgeon has no guide"};
+  }
+  for (const std::size_t level : layout.operated()) {
+    if (plan_strokes(room.levels[level]).empty()) {
       return Error{"room level \"" + room.levels[level].label +
                    "\": has no surface that a pointer reaches from behind (+y)"};
+    }
+  }
   return {};
 }
 

@@ -4,12 +4,12 @@
 
 namespace orthonav::sim {
 
-StereoRenderer::StereoRenderer(const RoomDescription& room, const Magnitudes& magnitudes,
+StereoRenderer::StereoRenderer(const RoomDescription& room, const ErrorModel& error_model,
                                StereoCalibration cameras, std::uint64_t seed)
     : cameras_(std::move(cameras)),
       seed_(seed),
-      left_(RoomRenderer::create(room, magnitudes)),
-      right_(RoomRenderer::create(room, magnitudes)),
+      left_(RoomRenderer::create(room, error_model)),
+      right_(RoomRenderer::create(room, error_model)),
       worker_([this] { work(); }) {}
 
 StereoRenderer::~StereoRenderer() {
@@ -42,7 +42,9 @@ void StereoRenderer::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return stop_ || job_.image != nullptr; });
-    if (stop_) return;
+    if (stop_) {
+      return;
+    }
     const Job job = job_;
     lock.unlock();
     right_->render(job.states, cameras_.right, right_from_rig, job.noise_seed, *job.image);

@@ -15,7 +15,7 @@ namespace orthonav::sim {
 /// on the arguments alone.
 class StereoRenderer {
  public:
-  StereoRenderer(const RoomDescription& room, const Magnitudes& magnitudes,
+  StereoRenderer(const RoomDescription& room, const ErrorModel& error_model,
                  StereoCalibration cameras, std::uint64_t seed);
   ~StereoRenderer();
   StereoRenderer(const StereoRenderer&) = delete;

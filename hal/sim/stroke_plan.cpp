@@ -53,7 +53,9 @@ using Run = std::vector<BoneSpot>;
 
 double length_of(const Run& run) {
   double sum = 0.0;
-  for (std::size_t i = 1; i < run.size(); ++i) sum += (run[i].point - run[i - 1].point).norm();
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    sum += (run[i].point - run[i - 1].point).norm();
+  }
   return sum;
 }
 
@@ -74,9 +76,13 @@ class Sweep {
       auto runs = runs_along(first_u_m + line * step);
       if (line % 2 == 1) {
         std::reverse(runs.begin(), runs.end());
-        for (Run& run : runs) std::reverse(run.begin(), run.end());
+        for (Run& run : runs) {
+          std::reverse(run.begin(), run.end());
+        }
       }
-      for (Run& run : runs) add(strokes, run);
+      for (Run& run : runs) {
+        add(strokes, run);
+      }
     }
     return strokes;
   }
@@ -84,7 +90,9 @@ class Sweep {
  private:
   [[nodiscard]] std::optional<BoneSpot> accepted(Vec2 uv) const {
     auto spot = map_.at(uv);
-    if (spot && spot->normal.dot(map_.from()) > kSteepest && accept_(*spot)) return spot;
+    if (spot && spot->normal.dot(map_.from()) > kSteepest && accept_(*spot)) {
+      return spot;
+    }
     return std::nullopt;
   }
 
@@ -92,14 +100,17 @@ class Sweep {
     std::vector<Run> runs;
     Run run;
     const auto close = [&runs, &run] {
-      if (length_of(run) >= kShortestLine_m) runs.push_back(run);
+      if (length_of(run) >= kShortestLine_m) {
+        runs.push_back(run);
+      }
       run.clear();
     };
     for (double v = map_.low().y; v <= map_.high().y; v += SurfaceMap::kStep_m) {
-      if (const auto spot = accepted({u_m, v}))
+      if (const auto spot = accepted({u_m, v})) {
         run.push_back(*spot);
-      else
+      } else {
         close();
+      }
     }
     close();
     return runs;
@@ -109,12 +120,16 @@ class Sweep {
   [[nodiscard]] std::optional<Run> bridge(Vec3 from, Vec3 to) const {
     const Vec2 start = map_.uv(from);
     const Vec2 way = map_.uv(to) - start;
-    if ((to - from).norm() > kLongestBridge_m) return std::nullopt;
+    if ((to - from).norm() > kLongestBridge_m) {
+      return std::nullopt;
+    }
     Run run;
     const int steps = static_cast<int>(way.norm() / SurfaceMap::kStep_m);
     for (int i = 1; i < steps; ++i) {
       const auto spot = accepted(start + (static_cast<double>(i) / steps) * way);
-      if (!spot) return std::nullopt;
+      if (!spot) {
+        return std::nullopt;
+      }
       run.push_back(*spot);
     }
     return run;
@@ -145,9 +160,15 @@ Stroke finished(const Run& run) {
   for (std::size_t i = 0; i < run.size(); ++i) {
     Vec3 sum;
     const std::size_t end = std::min(run.size(), i + kHalfWindow + 1);
-    for (std::size_t j = i > kHalfWindow ? i - kHalfWindow : 0; j < end; ++j) sum += run[j].normal;
-    if (sum.squared_norm() > 0.0) stroke.spots[i].normal = sum.normalized();
-    if (i > 0) stroke.arc_m[i] = stroke.arc_m[i - 1] + (run[i].point - run[i - 1].point).norm();
+    for (std::size_t j = i > kHalfWindow ? i - kHalfWindow : 0; j < end; ++j) {
+      sum += run[j].normal;
+    }
+    if (sum.squared_norm() > 0.0) {
+      stroke.spots[i].normal = sum.normalized();
+    }
+    if (i > 0) {
+      stroke.arc_m[i] = stroke.arc_m[i - 1] + (run[i].point - run[i - 1].point).norm();
+    }
   }
   return stroke;
 }
@@ -156,22 +177,30 @@ Stroke finished(const Run& run) {
 void append(std::vector<StrokeRegion>& regions, const std::vector<Run>& runs) {
   StrokeRegion region;
   for (const Run& run : runs) {
-    if (length_of(run) < kShortestStroke_m) continue;
+    if (length_of(run) < kShortestStroke_m) {
+      continue;
+    }
     if (!region.strokes.empty() && region.length_m() + length_of(run) > kLongestRegion_m) {
       regions.push_back(region);
       region = {};
     }
     region.strokes.push_back(finished(run));
   }
-  if (!region.strokes.empty()) regions.push_back(region);
+  if (!region.strokes.empty()) {
+    regions.push_back(region);
+  }
 }
 
 }  // namespace
 
 BoneSpot Stroke::at(double along_m) const {
   const auto after = std::upper_bound(arc_m.begin(), arc_m.end(), along_m);
-  if (after == arc_m.begin()) return spots.front();
-  if (after == arc_m.end()) return spots.back();
+  if (after == arc_m.begin()) {
+    return spots.front();
+  }
+  if (after == arc_m.end()) {
+    return spots.back();
+  }
   const auto i = static_cast<std::size_t>(after - arc_m.begin());
   const double fraction = (along_m - arc_m[i - 1]) / (arc_m[i] - arc_m[i - 1]);
   const BoneSpot& a = spots[i - 1];
@@ -183,7 +212,9 @@ BoneSpot Stroke::at(double along_m) const {
 
 double StrokeRegion::length_m() const {
   double sum = 0.0;
-  for (const Stroke& stroke : strokes) sum += stroke.length_m();
+  for (const Stroke& stroke : strokes) {
+    sum += stroke.length_m();
+  }
   return sum;
 }
 

@@ -15,9 +15,9 @@ constexpr double kComparing_s = 1.5;
 constexpr double kGlance_s = 0.1;
 
 /// Duration of everything against the median surgeon's; its mean over surgeons is 1 / pace.
-double slowness_of(const Magnitudes& magnitudes, Random random) {
-  const double sd = magnitudes.pace_sd;
-  return std::exp(sd * random.normal() - 0.5 * sd * sd) / magnitudes.pace;
+double slowness_of(const ErrorModel& error_model, Random random) {
+  const double sd = error_model.pace_sd;
+  return std::exp(sd * random.normal() - 0.5 * sd * sd) / error_model.pace;
 }
 
 Posture standing_at(const RoomLayout& layout) {
@@ -31,10 +31,11 @@ std::array<Vec3, 4> landmarks(const RoomLevel& level) {
   constexpr std::array<Vec3, 4> kDirections = {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0},
                                                Vec3{0, 0, 1}};
   std::array<Vec3, 4> found;
-  for (std::size_t i = 0; i < found.size(); ++i)
+  for (std::size_t i = 0; i < found.size(); ++i) {
     found[i] =
         *std::max_element(level.vertices_m.begin(), level.vertices_m.end(),
                           [d = kDirections[i]](Vec3 a, Vec3 b) { return a.dot(d) < b.dot(d); });
+  }
   return found;
 }
 
@@ -45,20 +46,21 @@ std::string without_first_word(const std::string& text) {
 
 }  // namespace
 
-Surgeon::Surgeon(const RoomLayout& layout, const Magnitudes& magnitudes, const Random& random,
+Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
                  const Eyes& eyes, const std::vector<PlacedHead>& heads)
     : layout_(&layout),
-      magnitudes_(&magnitudes),
+      error_model_(&error_model),
       eyes_(&eyes),
       heads_(&heads),
-      body_(random.fork("hand"), magnitudes, slowness_of(magnitudes, random.fork("pace")),
+      body_(random.fork("hand"), error_model, slowness_of(error_model, random.fork("pace")),
             standing_at(layout)),
       checking_(random.fork("checking")),
       regions_(layout.levels()),
       failures_(layout.levels()),
       life_(operate()) {
-  for (const std::size_t level : layout.operated())
+  for (const std::size_t level : layout.operated()) {
     regions_[level] = plan_strokes(layout.room().levels[level]);
+  }
   life_.start();
 }
 
@@ -77,12 +79,15 @@ void Surgeon::give_up() {
 Script Surgeon::operate() {
   co_await body_.next_tick();
   while (!finished_) {
-    if (eyes_->step().empty())
+    if (eyes_->step().empty()) {
       co_await await_change("", "");
-    else
+    } else {
       co_await perform(std::string(eyes_->step()));
+    }
   }
-  for (;;) co_await body_.next_tick();
+  for (;;) {
+    co_await body_.next_tick();
+  }
 }
 
 Script Surgeon::perform(std::string step) {
@@ -109,7 +114,9 @@ Script Surgeon::perform(std::string step) {
     co_await await_change(step, "next");
   } else if (verb == "guide" && level) {
     co_await guide(*level, side);
-    if (driven_.contains(step)) co_await await_change(step, "next");
+    if (driven_.contains(step)) {
+      co_await await_change(step, "next");
+    }
   } else if (verb == "rod") {
     co_await touch_heads(rest);
     co_await await_change(step, "done");
@@ -132,10 +139,14 @@ Script Surgeon::await_change(std::string step, std::string phrase) {
   for (int repeat = 0; repeat <= kRepeats; ++repeat) {
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
     while (body_.now() < end) {
-      if (!in_step(step)) co_return;
+      if (!in_step(step)) {
+        co_return;
+      }
       co_await body_.next_tick();
     }
-    if (repeat < kRepeats && !phrase.empty()) body_.say(phrase);
+    if (repeat < kRepeats && !phrase.empty()) {
+      body_.say(phrase);
+    }
   }
   give_up();
 }
@@ -152,8 +163,12 @@ Script Surgeon::verify(std::size_t level) {
     co_await body_.rest(kGlance_s / body_.slowness());
     const ShownHologram* model = eyes_->find("H2");
     while (!(model && sees_now() && model->points_in_world.size() == real.size())) {
-      if (body_.now() > patience) give_up();
-      if (!in_step(step) || finished_) co_return;
+      if (body_.now() > patience) {
+        give_up();
+      }
+      if (!in_step(step) || finished_) {
+        co_return;
+      }
       co_await body_.next_tick();
       model = eyes_->find("H2");
     }
@@ -163,17 +178,23 @@ Script Surgeon::verify(std::size_t level) {
       apart[i] += (kGlance_s / kComparing_s) * (eyes_->place(model->points_in_world[i]) - bone);
     }
   }
-  const Vec3 perceived_shift = normal_vector(body_.random(), magnitudes_->overlay_comparison_m);
+  const Vec3 perceived_shift = normal_vector(body_.random(), error_model_->overlay_comparison_m);
   bool fits = std::all_of(apart.begin(), apart.end(), [perceived_shift](Vec3 away) {
     return (away + perceived_shift).norm() <= kAcceptedOverlay_m;  // NaN does not fit
   });
   if (fits && asked_to_touch) {
     co_await check_by_touch(level, fits);
-    if (!in_step(step)) co_return;
+    if (!in_step(step)) {
+      co_return;
+    }
   }
   body_.say(fits ? "accept" : "reject");
-  if (!fits && ++failures_[level] >= kMaxFailures) give_up();
-  if (!finished_) co_await await_change(step, fits ? "accept" : "reject");
+  if (!fits && ++failures_[level] >= kMaxFailures) {
+    give_up();
+  }
+  if (!finished_) {
+    co_await await_change(step, fits ? "accept" : "reject");
+  }
 }
 
 }  // namespace orthonav::sim

@@ -15,7 +15,7 @@
 namespace orthonav::sim {
 
 /// A wire that pierces the bone, for the room to carry out and to remember.
-struct Deed {
+struct WireInsertion {
   std::size_t level = 0;
   std::string side;
 };
@@ -26,13 +26,13 @@ struct Deed {
 class Surgeon {
  public:
   /// The layout, the eyes and the heads must outlive it.
-  Surgeon(const RoomLayout& layout, const Magnitudes& magnitudes, const Random& random,
+  Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
           const Eyes& eyes, const std::vector<PlacedHead>& heads);
 
   /// Lives on to `now`.
   void tick(Timestamp now);
   [[nodiscard]] SurgeonBody& body() { return body_; }
-  [[nodiscard]] std::vector<Deed>& deeds() { return deeds_; }
+  [[nodiscard]] std::vector<WireInsertion>& wire_insertions() { return wire_insertions_; }
   /// Has seen the end of the operation, or has given up.
   [[nodiscard]] bool finished() const { return finished_; }
   [[nodiscard]] bool gave_up() const { return gave_up_; }
@@ -108,7 +108,7 @@ class Surgeon {
   void give_up();
 
   const RoomLayout* layout_;
-  const Magnitudes* magnitudes_;
+  const ErrorModel* error_model_;
   const Eyes* eyes_;
   const std::vector<PlacedHead>* heads_;
   SurgeonBody body_;
@@ -116,7 +116,7 @@ class Surgeon {
   std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
   std::vector<int> failures_;                       ///< refusals and rejections, for each level
   std::set<std::string> driven_;                    ///< guide steps whose wire is in
-  std::vector<Deed> deeds_;
+  std::vector<WireInsertion> wire_insertions_;
   bool finished_ = false;
   bool gave_up_ = false;
   Script life_;

@@ -21,9 +21,9 @@ constexpr double kBetweenClicks_s = 0.10;
 
 }  // namespace
 
-SurgeonBody::SurgeonBody(Random random, const Magnitudes& magnitudes, double slowness,
+SurgeonBody::SurgeonBody(Random random, const ErrorModel& error_model, double slowness,
                          const Posture& start)
-    : random_(random), magnitudes_(&magnitudes), slowness_(slowness), posture_(start) {}
+    : random_(random), error_model_(&error_model), slowness_(slowness), posture_(start) {}
 
 void SurgeonBody::tick(Timestamp now) {
   now_ = now;
@@ -33,8 +33,9 @@ void SurgeonBody::tick(Timestamp now) {
 
 Script SurgeonBody::rest(double duration_s) {
   const Timestamp end = now_ + from_seconds(slowness_ * duration_s);
-  do co_await next_tick();
-  while (now_ < end);
+  do {
+    co_await next_tick();
+  } while (now_ < end);
 }
 
 Script SurgeonBody::move(Grip goal, double duration_s, double lift_m) {
@@ -62,7 +63,9 @@ Script SurgeonBody::take(ToolKind tool, Point<Room> site) {
   look(site);
   const Grip over_site{site + kHover_m * kUp, pointer_axis(kUp), 0.0};
   if (posture_.in_hand != tool) {
-    if (posture_.in_hand) co_await move(parked(site), kReachForTool_s, 0.05);
+    if (posture_.in_hand) {
+      co_await move(parked(site), kReachForTool_s, 0.05);
+    }
     posture_.in_hand.reset();
     posture_.grip = parked(site);
     co_await rest(0.5);
@@ -95,7 +98,7 @@ Script SurgeonBody::double_click() {
 
 void SurgeonBody::say(const std::string& phrase) {
   const double confidence =
-      random_.normal(1.0 - magnitudes_->voice_doubt, magnitudes_->voice_doubt_sd);
+      random_.normal(1.0 - error_model_->voice_doubt, error_model_->voice_doubt_sd);
   phrases.push_back({phrase, std::clamp(confidence, 0.0, 1.0), now_});
 }
 
@@ -108,7 +111,7 @@ Vec3 SurgeonBody::pointer_axis(Vec3 surface_normal) const {
 Vec3 SurgeonBody::best_view(Vec3 axis) {
   Vec3 best;
   double least = 1e9;
-  for (double azimuth = -80.0; azimuth <= 80.0; azimuth += 10.0)
+  for (double azimuth = -80.0; azimuth <= 80.0; azimuth += 10.0) {
     for (double elevation = 35.0; elevation <= 65.0; elevation += 5.0) {
       const Vec3 view{
           std::cos(elevation * kRadiansPerDegree) * std::cos(azimuth * kRadiansPerDegree),
@@ -118,10 +121,13 @@ Vec3 SurgeonBody::best_view(Vec3 axis) {
           std::max(0.0, 58.0 - angle_between_rad(view, axis) / kRadiansPerDegree) / 8.0;
       const double cost = too_steep * too_steep + std::pow((elevation - 50.0) / 15.0, 2) +
                           std::pow(azimuth / 40.0, 2);
-      if (cost >= least) continue;
+      if (cost >= least) {
+        continue;
+      }
       least = cost;
       best = view;
     }
+  }
   return best;
 }
 

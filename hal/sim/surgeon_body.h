@@ -26,7 +26,7 @@ struct Posture {
 class SurgeonBody {
  public:
   /// The magnitudes must outlive it.
-  SurgeonBody(Random random, const Magnitudes& magnitudes, double slowness, const Posture& start);
+  SurgeonBody(Random random, const ErrorModel& error_model, double slowness, const Posture& start);
 
   /// A tick of the simulation: the script awaiting it goes on.
   void tick(Timestamp now);
@@ -65,7 +65,7 @@ class SurgeonBody {
   [[nodiscard]] Grip parked(Point<Room> site) const;
 
   Random random_;
-  const Magnitudes* magnitudes_;
+  const ErrorModel* error_model_;
   double slowness_;
   Posture posture_;
   Timestamp now_{};

@@ -21,24 +21,33 @@ constexpr double kFromEnd = 0.2;
 
 std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
   std::vector<BoneSpot> spots;
-  for (const StrokeRegion& region : regions_[level])
-    for (const Stroke& stroke : region.strokes)
-      for (double way = kFromEnd; way <= 1.0 - kFromEnd; way += 0.1)
+  for (const StrokeRegion& region : regions_[level]) {
+    for (const Stroke& stroke : region.strokes) {
+      for (double way = kFromEnd; way <= 1.0 - kFromEnd; way += 0.1) {
         spots.push_back(stroke.at(way * stroke.length_m()));
+      }
+    }
+  }
   std::vector<BoneSpot> places;
-  if (spots.empty()) return places;
+  if (spots.empty()) {
+    return places;
+  }
   const double any = checking_.uniform() * static_cast<double>(spots.size());
   places.push_back(spots[static_cast<std::size_t>(any)]);
   const auto nearest_m = [&places](const BoneSpot& spot) {
     double least = std::numeric_limits<double>::infinity();
-    for (const BoneSpot& place : places) least = std::min(least, (place.point - spot.point).norm());
+    for (const BoneSpot& place : places) {
+      least = std::min(least, (place.point - spot.point).norm());
+    }
     return least;
   };
   while (places.size() < kMostPlaces) {
     const auto farthest = std::max_element(
         spots.begin(), spots.end(),
         [&](const BoneSpot& a, const BoneSpot& b) { return nearest_m(a) < nearest_m(b); });
-    if (nearest_m(*farthest) < kApart_m) break;
+    if (nearest_m(*farthest) < kApart_m) {
+      break;
+    }
     places.push_back(*farthest);
   }
   return places;
@@ -46,7 +55,7 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
 
 Script Surgeon::touch_place(const std::string& step, const BoneSpot& place) {
   // The bone stops the tip, so soft tissue can only hold it off.
-  const double lift_m = std::abs(checking_.normal(0.0, magnitudes_->touch_lift_m));
+  const double lift_m = std::abs(checking_.normal(0.0, error_model_->touch_lift_m));
   const Point<Room> tip{place.point + lift_m * place.normal};
   body_.look(tip);
   body_.posture().contact_normal.reset();
@@ -57,7 +66,9 @@ Script Surgeon::touch_place(const std::string& step, const BoneSpot& place) {
     co_await body_.rest(kSettle_s);
     co_await body_.click();
     co_await body_.rest(kReadLine_s / body_.slowness());
-    if (!told("not recorded")) break;
+    if (!told("not recorded")) {
+      break;
+    }
   }
   body_.posture().contact_normal.reset();
 }
@@ -65,15 +76,21 @@ Script Surgeon::touch_place(const std::string& step, const BoneSpot& place) {
 Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
   const std::string step(eyes_->step());
   for (const BoneSpot& place : places_to_check(level)) {
-    if (!in_step(step) || !told("touch ")) break;
+    if (!in_step(step) || !told("touch ")) {
+      break;
+    }
     const auto& room_from_vertebra = layout_->room_from_vertebra(level);
     co_await touch_place(step, {(room_from_vertebra * Point<Vertebra>{place.point}).v,
                                 (room_from_vertebra * Direction<Vertebra>{place.normal}).v});
     // A message goes after a while, and the line asks again or is content.
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
-    while (in_step(step) && told("not recorded") && body_.now() < end) co_await body_.next_tick();
+    while (in_step(step) && told("not recorded") && body_.now() < end) {
+      co_await body_.next_tick();
+    }
   }
-  if (told("reject")) fits = false;
+  if (told("reject")) {
+    fits = false;
+  }
 }
 
 }  // namespace orthonav::sim

@@ -61,8 +61,10 @@ Script Surgeon::digitize(std::size_t level) {
   for (const StrokeRegion& region : regions_[level]) {
     bool slips = true;
     while (slips) {
-      if (!in_step(step)) co_return;
-      slips = body_.random().uniform() < magnitudes_->bad_stroke_probability;
+      if (!in_step(step)) {
+        co_return;
+      }
+      slips = body_.random().uniform() < error_model_->bad_stroke_probability;
       co_await record(level, region, slips);
     }
   }
@@ -71,7 +73,7 @@ Script Surgeon::digitize(std::size_t level) {
 
 Script Surgeon::record(std::size_t level, const StrokeRegion& region, bool slips) {
   const auto [stroking_s_per_m, around_s] = tempo(level);
-  const double speed = std::max(0.5, body_.random().normal(1.0, magnitudes_->stroke_pace_sd));
+  const double speed = std::max(0.5, body_.random().normal(1.0, error_model_->stroke_pace_sd));
   const auto slipping = static_cast<std::size_t>(body_.random().uniform() *
                                                  static_cast<double>(region.strokes.size()));
   for (std::size_t i = 0; i < region.strokes.size(); ++i) {
@@ -96,10 +98,10 @@ Script Surgeon::record(std::size_t level, const StrokeRegion& region, bool slips
 Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s, bool slips) {
   const auto& room_from_vertebra = layout_->room_from_vertebra(level);
   const double length_m = stroke.length_m();
-  const SmoothNoise lift(body_.random().fork(body_.random().next()), magnitudes_->stroke_lift_m,
+  const SmoothNoise lift(body_.random().fork(body_.random().next()), error_model_->stroke_lift_m,
                          1.0 / kLongestLift_m, 1.0 / kShortestLift_m);
   Slip slip{length_m * body_.random().uniform(0.3, 0.8), 0.06 * length_m + 1e-6,
-            slips ? body_.random().uniform(0.5, 1.0) * magnitudes_->bad_stroke_lift_m : 0.0};
+            slips ? body_.random().uniform(0.5, 1.0) * error_model_->bad_stroke_lift_m : 0.0};
   const Timestamp begin = body_.now();
   const double length_s = body_.slowness() * duration_s;
   for (double t = 0.0; t < 1.0;) {
@@ -120,14 +122,20 @@ Script Surgeon::await_verdict(std::size_t level, std::string step) {
   for (int repeat = 0; repeat <= kRepeats; ++repeat) {
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
     while (body_.now() < end) {
-      if (!in_step(step)) co_return;
+      if (!in_step(step)) {
+        co_return;
+      }
       if (eyes_->detail().find("refused") != std::string_view::npos) {
-        if (++failures_[level] >= kMaxFailures) give_up();
+        if (++failures_[level] >= kMaxFailures) {
+          give_up();
+        }
         co_return;
       }
       co_await body_.next_tick();
     }
-    if (repeat < kRepeats) co_await body_.double_click();
+    if (repeat < kRepeats) {
+      co_await body_.double_click();
+    }
   }
   give_up();
 }

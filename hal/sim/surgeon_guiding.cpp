@@ -23,10 +23,14 @@ Script Surgeon::guide(std::size_t level, std::string side) {
     co_await body_.take(ToolKind::kGuide, layout_->site(level));
     Aim aim;
     co_await find_entry(step, level, label, aim);
-    if (!in_step(step) || finished_) co_return;
+    if (!in_step(step) || finished_) {
+      co_return;
+    }
     co_await set_on(aim);
     co_await turn_tool(step, aim);
-    if (!in_step(step) || finished_) co_return;
+    if (!in_step(step) || finished_) {
+      co_return;
+    }
     co_await drive_wire(level, side, aim);
     driven_.insert(step);
   }
@@ -34,7 +38,7 @@ Script Surgeon::guide(std::size_t level, std::string side) {
 }
 
 Script Surgeon::set_on(const Aim& aim) {
-  const double guess_rad = body_.random().uniform(0.5, 1.0) * magnitudes_->first_guess_rad;
+  const double guess_rad = body_.random().uniform(0.5, 1.0) * error_model_->first_guess_rad;
   const double where = body_.random().uniform(0.0, 2.0 * std::numbers::pi);
   const Vec3 across = perpendicular_to(aim.outwards);
   const Vec3 tilt = std::cos(where) * across + std::sin(where) * aim.outwards.cross(across);
@@ -59,17 +63,21 @@ BoneSpot Surgeon::put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) cons
 
 Script Surgeon::find_entry(const std::string& step, std::size_t level, const std::string& label,
                            Aim& aim) {
-  const Vec3 perceived_shift = normal_vector(body_.random(), magnitudes_->overlay_perception_m) +
-                               normal_vector(body_.random(), magnitudes_->entry_pick_m);
+  const Vec3 perceived_shift = normal_vector(body_.random(), error_model_->overlay_perception_m) +
+                               normal_vector(body_.random(), error_model_->entry_pick_m);
   // First a glance for the direction, to stand right; then a look for the place.
   for (const double look_s : {kQuickLook_s, kLook_s}) {
     bool found = false;
     Vec3 entry;
     co_await look_at_entry(step, label, look_s, found, entry, aim.outwards);
-    if (!found) co_return;
+    if (!found) {
+      co_return;
+    }
     aim.on_bone = put_on_bone(level, entry + perceived_shift, aim.outwards);
     body_.look({aim.on_bone.point}, body_.best_view(aim.outwards));
-    if (look_s == kQuickLook_s) co_await body_.rest(kMoveHead_s);
+    if (look_s == kQuickLook_s) {
+      co_await body_.rest(kMoveHead_s);
+    }
   }
 }
 
@@ -82,17 +90,24 @@ Script Surgeon::look_at_entry(const std::string& step, const std::string& label,
   Duration looked{};
   for (Timestamp before = body_.now(); looked < from_seconds(look_s); before = body_.now()) {
     co_await body_.next_tick();
-    if (body_.now() > patience) give_up();
-    if (!in_step(step) || finished_) co_return;
+    if (body_.now() > patience) {
+      give_up();
+    }
+    if (!in_step(step) || finished_) {
+      co_return;
+    }
     const ShownHologram* spot = eyes_->find("H3", label);
     const ShownHologram* path = eyes_->find("H4");
     if (!sees_now() || !spot || spot->points_in_world.empty() || !path ||
-        path->points_in_world.size() < 3)
+        path->points_in_world.size() < 3) {
       continue;
+    }
     const Vec3 axis =
         eyes_->place(path->points_in_world[0]) - eyes_->place(path->points_in_world[2]);
     const Point<Room> place = eyes_->place(spot->points_in_world[0]);
-    if (!(axis.norm() > 1e-3) || !place.v.is_finite()) continue;
+    if (!(axis.norm() > 1e-3) || !place.v.is_finite()) {
+      continue;
+    }
     entries += place.v;
     axes += axis.normalized();
     looked += body_.now() - before;
@@ -104,7 +119,7 @@ Script Surgeon::look_at_entry(const std::string& step, const std::string& label,
 }
 
 Script Surgeon::drive_wire(std::size_t level, const std::string& side, const Aim& aim) {
-  deeds_.push_back({level, side});
+  wire_insertions_.push_back({level, side});
   body_.posture().contact_normal.reset();
   const Grip pierced = body_.posture().grip;
   Grip deep = pierced;

@@ -7,16 +7,23 @@ namespace orthonav::sim {
 Script Surgeon::touch_heads(const std::string& side) {
   const std::string step(eyes_->step());
   std::vector<Point<Room>> heads;
-  for (const PlacedHead& head : *heads_)
-    if (head.side == side) heads.push_back(head.position);
+  for (const PlacedHead& head : *heads_) {
+    if (head.side == side) {
+      heads.push_back(head.position);
+    }
+  }
   const Vec3 superior = (layout_->room_from_spine() * Direction<Spine>{{0, 0, 1}}).v;
   std::stable_sort(heads.begin(), heads.end(), [superior](Point<Room> a, Point<Room> b) {
     return a.v.dot(superior) > b.v.dot(superior);
   });
-  if (!heads.empty()) co_await body_.take(ToolKind::kPointer, heads.front());
+  if (!heads.empty()) {
+    co_await body_.take(ToolKind::kPointer, heads.front());
+  }
   for (const Point<Room>& head : heads) {
-    if (!in_step(step)) co_return;
-    const Point<Room> touched = head + normal_vector(body_.random(), magnitudes_->head_pick_m);
+    if (!in_step(step)) {
+      co_return;
+    }
+    const Point<Room> touched = head + normal_vector(body_.random(), error_model_->head_pick_m);
     body_.look(head);
     co_await body_.move({touched, body_.pointer_axis({0, 1, 0}), 0.0}, 1.5, 0.02);
     body_.posture().contact_normal = Vec3{0, 1, 0};
@@ -25,7 +32,9 @@ Script Surgeon::touch_heads(const std::string& side) {
       co_await body_.rest(1.0);
       co_await body_.click();
       co_await body_.rest(0.5);
-      if (eyes_->detail().find("not recorded") == std::string_view::npos) break;
+      if (eyes_->detail().find("not recorded") == std::string_view::npos) {
+        break;
+      }
     }
     body_.posture().contact_normal.reset();
   }

@@ -36,7 +36,7 @@ constexpr double kLost_s = 1.0;
 
 Script Surgeon::turn_tool(const std::string& step, const Aim& aim) {
   DeviationMemory memory;
-  const double strict_rad = std::max(magnitudes_->angle_reading_rad, kReadoutFloor_rad);
+  const double strict_rad = std::max(error_model_->angle_reading_rad, kReadoutFloor_rad);
   Timestamp last_seen = body_.now();
   Timestamp before = body_.now();
   double turning_s = 0.0;
@@ -47,23 +47,34 @@ Script Surgeon::turn_tool(const std::string& step, const Aim& aim) {
     const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
     if (!reading) {
       const double lost_s = seconds(body_.now() - last_seen);
-      if (lost_s > kLongPatience_s) give_up();
-      if (lost_s > kLost_s) show_tag(aim, lost_s - kLost_s, tick_s);
-      if (lost_s > kLost_s) memory.clear();
+      if (lost_s > kLongPatience_s) {
+        give_up();
+      }
+      if (lost_s > kLost_s) {
+        show_tag(aim, lost_s - kLost_s, tick_s);
+      }
+      if (lost_s > kLost_s) {
+        memory.clear();
+      }
       continue;
     }
     memory.add(*reading);
     last_seen = body_.now();
     turning_s += tick_s;
-    if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s)))
+    if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s))) {
       turn_by(kGain_per_s * tick_s * acted_on->turn);
+    }
     const double content_rad =
         strict_rad * std::exp2(std::max(0.0, turning_s - kStrict_s) / kDoublesEvery_s);
     const auto mean = memory.mean_since(body_.now() - from_seconds(kSteady_s));
-    if (!mean || mean->norm() > content_rad) continue;
+    if (!mean || mean->norm() > content_rad) {
+      continue;
+    }
     bool settled = false;
     co_await settle(content_rad, settled);
-    if (settled) co_return;
+    if (settled) {
+      co_return;
+    }
     before = body_.now();
     memory.clear();
   }
@@ -93,15 +104,19 @@ Script Surgeon::settle(double content_rad, bool& settled) {
         roll_rad + kRoll_rad * std::sin(2.0 * std::numbers::pi * kRolls * done);
     co_await body_.next_tick();
     const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
-    if (!reading || reading->seen_at == last) continue;
+    if (!reading || reading->seen_at == last) {
+      continue;
+    }
     last = reading->seen_at;
     sum += reading->turn;
     ++readings;
   }
   body_.posture().grip.roll_rad = roll_rad;
   const double limit_rad = std::max(2.0 * content_rad, kLastCorrection_rad);
-  if (readings < kFewestReadings || sum.norm() > limit_rad * readings) co_return;
-  const Vec3 misread = normal_vector(body_.random(), magnitudes_->angle_reading_rad);
+  if (readings < kFewestReadings || sum.norm() > limit_rad * readings) {
+    co_return;
+  }
+  const Vec3 misread = normal_vector(body_.random(), error_model_->angle_reading_rad);
   Grip last_grip = body_.posture().grip;
   last_grip.axis = (rotation_from_vector(sum / readings + misread) * last_grip.axis).normalized();
   co_await body_.move(last_grip, kLastMove_s);

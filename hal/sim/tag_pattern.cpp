@@ -33,8 +33,11 @@ using OpenFamily = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t
 
 /// The library's tables of a family; null for one that is not known.
 OpenFamily opened(const std::string& name) {
-  for (const Family& known : kFamilies)
-    if (name == known.name) return {known.create(), known.destroy};
+  for (const Family& known : kFamilies) {
+    if (name == known.name) {
+      return {known.create(), known.destroy};
+    }
+  }
   return {nullptr, [](apriltag_family_t*) {}};
 }
 
@@ -59,10 +62,12 @@ TagPattern pattern_of(const apriltag_family_t& family, int id) {
   }
   const int border = (family.total_width - family.width_at_border) / 2;
   const std::uint64_t code = family.codes[id];
-  for (std::uint32_t bit = 0; bit < family.nbits; ++bit)
-    if ((code >> (family.nbits - bit - 1)) & 1U)
+  for (std::uint32_t bit = 0; bit < family.nbits; ++bit) {
+    if ((code >> (family.nbits - bit - 1)) & 1U) {
       whiten(static_cast<int>(family.bit_y[bit]) + border,
              static_cast<int>(family.bit_x[bit]) + border);
+    }
+  }
   return pattern;
 }
 
@@ -76,7 +81,9 @@ int tag_count(const std::string& name) {
 std::string tag_families() {
   std::string names;
   for (const Family& known : kFamilies) {
-    if (!names.empty()) names += ", ";
+    if (!names.empty()) {
+      names += ", ";
+    }
     names += known.name;
   }
   return names;
@@ -84,7 +91,9 @@ std::string tag_families() {
 
 std::optional<TagPattern> tag_pattern(const std::string& name, int id) {
   const auto family = opened(name);
-  if (!family || id < 0 || id >= static_cast<int>(family->ncodes)) return std::nullopt;
+  if (!family || id < 0 || id >= static_cast<int>(family->ncodes)) {
+    return std::nullopt;
+  }
   return pattern_of(*family, id);
 }
 

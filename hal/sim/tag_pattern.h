@@ -14,7 +14,9 @@ struct TagPattern {
   std::vector<std::uint8_t> black;  ///< row-major, 1: black
 
   [[nodiscard]] bool is_black(int row, int column) const {
-    if (row < 0 || column < 0 || row >= cells || column >= cells) return false;
+    if (row < 0 || column < 0 || row >= cells || column >= cells) {
+      return false;
+    }
     return black[static_cast<std::size_t>(row * cells + column)] != 0;
   }
 };

@@ -24,8 +24,11 @@ void for_each_value(const AcousticMeans& means, Each each) {
   for (int codebook = 0; codebook < means.codebooks; ++codebook) {
     std::size_t first = 0;
     for (const int width : means.stream_widths) {
-      for (int density = 0; density < means.densities; ++density)
-        for (int i = 0; i < width; ++i) each(at++, first + static_cast<std::size_t>(i));
+      for (int density = 0; density < means.densities; ++density) {
+        for (int i = 0; i < width; ++i) {
+          each(at++, first + static_cast<std::size_t>(i));
+        }
+      }
       first += static_cast<std::size_t>(width);
     }
   }
@@ -34,7 +37,9 @@ void for_each_value(const AcousticMeans& means, Each each) {
 /// One step of a change for each component.
 std::vector<float> steps_of(const AcousticMeans& means) {
   std::size_t components = 0;
-  for (const int width : means.stream_widths) components += static_cast<std::size_t>(width);
+  for (const int width : means.stream_widths) {
+    components += static_cast<std::size_t>(width);
+  }
   std::vector<double> count(components), sum(components), square(components);
   for_each_value(means, [&](std::size_t at, std::size_t component) {
     const double value = means.values[at];
@@ -57,25 +62,31 @@ Result<AcousticMeans> read_means(const std::filesystem::path& path) {
   const std::string content = model_file(path);
   const Error refused{"voice: " + path.string() + " holds no means of an acoustic model"};
   const auto numbers = after_sphinx_file_start(content);
-  if (!numbers) return refused;
+  if (!numbers) {
+    return refused;
+  }
   std::string_view rest = *numbers;
   AcousticMeans means;
   means.codebooks = take<std::int32_t>(rest);
   const auto streams = take<std::int32_t>(rest);
   means.densities = take<std::int32_t>(rest);
   const auto sane = [](int value) { return value > 0 && value <= 65536; };
-  if (!sane(means.codebooks) || !sane(means.densities) || streams < 1 || streams > 16)
+  if (!sane(means.codebooks) || !sane(means.densities) || streams < 1 || streams > 16) {
     return refused;
+  }
   std::int64_t width = 0;
   for (int i = 0; i < streams; ++i) {
     means.stream_widths.push_back(take<std::int32_t>(rest));
-    if (!sane(means.stream_widths.back())) return refused;
+    if (!sane(means.stream_widths.back())) {
+      return refused;
+    }
     width += means.stream_widths.back();
   }
   const auto count = take<std::int32_t>(rest);
   if (count != width * means.codebooks * means.densities ||
-      rest.size() < static_cast<std::size_t>(count) * sizeof(float))
+      rest.size() < static_cast<std::size_t>(count) * sizeof(float)) {
     return refused;
+  }
   means.values.resize(static_cast<std::size_t>(count));
   std::memcpy(means.values.data(), rest.data(), means.values.size() * sizeof(float));
   return means;
@@ -86,9 +97,13 @@ std::string means_file(const AcousticMeans& means) {
   put(file, static_cast<std::int32_t>(means.codebooks));
   put(file, static_cast<std::int32_t>(means.stream_widths.size()));
   put(file, static_cast<std::int32_t>(means.densities));
-  for (const int width : means.stream_widths) put(file, static_cast<std::int32_t>(width));
+  for (const int width : means.stream_widths) {
+    put(file, static_cast<std::int32_t>(width));
+  }
   put(file, static_cast<std::int32_t>(means.values.size()));
-  for (const float value : means.values) put(file, value);
+  for (const float value : means.values) {
+    put(file, value);
+  }
   return file;
 }
 
@@ -104,10 +119,13 @@ std::string means_change(const AcousticMeans& from, const AcousticMeans& to) {
 }
 
 Status apply_change(std::string_view change, AcousticMeans& means) {
-  if (!change.starts_with(kMeansFileHeader)) return Error{"voice: no change of acoustic means"};
+  if (!change.starts_with(kMeansFileHeader)) {
+    return Error{"voice: no change of acoustic means"};
+  }
   change.remove_prefix(kMeansFileHeader.size());
-  if (take<std::uint64_t>(change) != hash_of_means(means) || change.size() != means.values.size())
+  if (take<std::uint64_t>(change) != hash_of_means(means) || change.size() != means.values.size()) {
     return made_for_another_model();
+  }
   const std::vector<float> steps = steps_of(means);
   for_each_value(means, [&](std::size_t at, std::size_t component) {
     means.values[at] += steps[component] * static_cast<float>(static_cast<std::int8_t>(change[at]));

@@ -29,8 +29,8 @@ struct MixtureWeights {
 
 /// Shares are kept as 8 bits of their logarithm, to the base 1.0001 and in units of 1024; of less
 /// than 1e-7 there are none.
-[[nodiscard]] std::uint8_t quantised_weight(double share);
-[[nodiscard]] double share_of(std::uint8_t quantised);
+[[nodiscard]] std::uint8_t quantised_weight(double fraction);
+[[nodiscard]] double fraction_of(std::uint8_t quantised);
 
 /// Refuses what is no such file, or one with clusters (which Debian's en-us has not).
 Result<MixtureWeights> read_mixture_weights(const std::filesystem::path& path);

@@ -35,7 +35,9 @@ std::optional<CommandEvidence> evidence_of(const Recognition& heard, const std::
   }
   const double least_around =
       std::lerp(kLeastAroundInQuiet, kLeastAroundInNoise, noisiness(above_background_db));
-  if (found.frames == 0 || heard.evidence_around < least_around) return std::nullopt;
+  if (found.frames == 0 || heard.evidence_around < least_around) {
+    return std::nullopt;
+  }
   found.evidence /= found.frames;
   found.evidence_around = heard.evidence_around;
   found.above_background_db = above_background_db;
@@ -44,8 +46,9 @@ std::optional<CommandEvidence> evidence_of(const Recognition& heard, const std::
 
 FeatureVector features_of(const CommandEvidence& evidence) {
   FeatureVector features{};
-  for (std::size_t i = 0; i < kWeighedCommands.size(); ++i)
+  for (std::size_t i = 0; i < kWeighedCommands.size(); ++i) {
     features[i] = evidence.command == kWeighedCommands[i] ? 1.0 : 0.0;
+  }
   const double noisy = noisiness(evidence.above_background_db);
   const double frames = evidence.frames;
   const double wake_evidence = evidence.wake ? evidence.wake->evidence : 0.0;
@@ -74,7 +77,9 @@ double log_odds(const CommandEvidence& evidence) {
   const FeatureVector features = features_of(evidence);
   const double sum = std::inner_product(features.begin(), features.end(), weights.begin(), 0.0);
   const auto* own = features.begin() + kWeighedCommands.size();
-  if (std::find(features.begin(), own, 1.0) != own) return sum;
+  if (std::find(features.begin(), own, 1.0) != own) {
+    return sum;
+  }
   return sum + *std::min_element(weights.begin(), weights.begin() + kWeighedCommands.size());
 }
 

@@ -33,15 +33,22 @@ std::optional<CommandEvidence> evidence_in(const SpeechSegment& segment,
 
 std::vector<std::string> SpotterOptions::check() const {
   std::vector<std::string> problems;
-  if (commands.empty()) problems.push_back("voice: no command to listen for");
-  if (!std::isfinite(least_log_odds) || !std::isfinite(more_log_odds_to_delete))
+  if (commands.empty()) {
+    problems.push_back("voice: no command to listen for");
+  }
+  if (!std::isfinite(least_log_odds) || !std::isfinite(more_log_odds_to_delete)) {
     problems.push_back("voice: log odds must be finite");
-  if (segments.margin_ms < 400) problems.push_back("voice: margin_ms must be at least 400");
-  if (segments.max_ms < 500 || segments.max_ms > 3000)
+  }
+  if (segments.margin_ms < 400) {
+    problems.push_back("voice: margin_ms must be at least 400");
+  }
+  if (segments.max_ms < 500 || segments.max_ms > 3000) {
     problems.push_back("voice: max_ms must lie in [500, 3000]");
+  }
   if (segments.end_ms < 150 || segments.end_in_noise_ms < segments.end_ms ||
-      segments.end_in_noise_ms > 1000)
+      segments.end_in_noise_ms > 1000) {
     problems.push_back("voice: end_ms and end_in_noise_ms must lie in [150, 1000], in this order");
+  }
   return problems;
 }
 
@@ -49,9 +56,13 @@ CommandSpotter::CommandSpotter(const SpotterOptions& options)
     : options_(options), segmenter_(options.segments) {}
 
 Result<std::unique_ptr<CommandSpotter>> CommandSpotter::create(const SpotterOptions& options) {
-  if (const auto problems = options.check(); !problems.empty()) return Error{joined(problems)};
+  if (const auto problems = options.check(); !problems.empty()) {
+    return Error{joined(problems)};
+  }
   auto recognizer = PhraseRecognizer::create(options.phrases(), options.acoustic_model);
-  if (!recognizer) return recognizer.error();
+  if (!recognizer) {
+    return recognizer.error();
+  }
   std::unique_ptr<CommandSpotter> spotter(new CommandSpotter(options));
   spotter->recognizer_ = std::move(*recognizer);
   return spotter;
@@ -62,18 +73,23 @@ void CommandSpotter::push(std::span<const std::int16_t> samples,
   segments_.clear();
   segmenter_.push(samples, segments_);
   for (const SpeechSegment& segment : segments_) {
-    if (!segment.ended)
+    if (!segment.ended) {
       candidate_ = judge(segment);
-    else if (const auto command = std::exchange(candidate_, std::nullopt); command)
+    } else if (const auto command = std::exchange(candidate_, std::nullopt); command) {
       commands.push_back(*command);
+    }
   }
 }
 
 std::optional<SpokenCommand> CommandSpotter::judge(const SpeechSegment& segment) {
   const auto evidence = evidence_in(segment, options_, *recognizer_);
-  if (!evidence) return std::nullopt;
+  if (!evidence) {
+    return std::nullopt;
+  }
   const double confidence = confidence_of(*evidence);
-  if (confidence < kHardlyLikely) return std::nullopt;
+  if (confidence < kHardlyLikely) {
+    return std::nullopt;
+  }
   return SpokenCommand{evidence->command, confidence, segment.begin, segment.end};
 }
 

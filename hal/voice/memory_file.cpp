@@ -11,11 +11,15 @@ namespace orthonav::voice {
 
 Result<MemoryFile> MemoryFile::create(std::string_view content) {
   const int descriptor = ::memfd_create("orthonav", MFD_CLOEXEC);
-  if (descriptor < 0) return Error{"voice: no file in memory: " + std::string(strerror(errno))};
+  if (descriptor < 0) {
+    return Error{"voice: no file in memory: " + std::string(strerror(errno))};
+  }
   MemoryFile file(descriptor);
   while (!content.empty()) {
     const ::ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written <= 0) return Error{"voice: no file in memory: " + std::string(strerror(errno))};
+    if (written <= 0) {
+      return Error{"voice: no file in memory: " + std::string(strerror(errno))};
+    }
     content.remove_prefix(static_cast<std::size_t>(written));
   }
   return file;
@@ -25,7 +29,9 @@ MemoryFile::MemoryFile(MemoryFile&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 MemoryFile::~MemoryFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
 }
 
 std::string MemoryFile::path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }

@@ -26,15 +26,21 @@ std::string sphinx_file_start() {
 
 std::optional<std::string_view> after_sphinx_file_start(std::string_view file) {
   const std::size_t header = file.find(kHeaderEnd);
-  if (header == std::string_view::npos || header > kLongestHeader) return std::nullopt;
+  if (header == std::string_view::npos || header > kLongestHeader) {
+    return std::nullopt;
+  }
   file.remove_prefix(header + kHeaderEnd.size());
-  if (take<std::uint32_t>(file) != kByteOrder) return std::nullopt;
+  if (take<std::uint32_t>(file) != kByteOrder) {
+    return std::nullopt;
+  }
   return file;
 }
 
 std::uint64_t hash_of(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  for (const char byte : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  }
   return hash;
 }
 

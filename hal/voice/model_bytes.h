@@ -21,7 +21,9 @@ void put(std::string& bytes, T value) {
 template <class T>
 T take(std::string_view& bytes) {
   T value{};
-  if (bytes.size() < sizeof(value)) return T{};
+  if (bytes.size() < sizeof(value)) {
+    return T{};
+  }
   std::memcpy(&value, bytes.data(), sizeof(value));
   bytes.remove_prefix(sizeof(value));
   return value;

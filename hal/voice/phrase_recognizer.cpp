@@ -35,24 +35,31 @@ std::set<std::string> words_of(const std::vector<std::string>& phrases) {
   std::set<std::string> words;
   for (const std::string& phrase : phrases) {
     std::istringstream text(phrase);
-    for (std::string word; text >> word;) words.insert(word);
+    for (std::string word; text >> word;) {
+      words.insert(word);
+    }
   }
   return words;
 }
 
 std::string phrases_grammar(const std::vector<std::string>& phrases) {
   std::string grammar = "#JSGF V1.0; grammar g; public <phrase> = ";
-  for (std::size_t i = 0; i < phrases.size(); ++i) grammar += (i ? " | " : "") + phrases[i];
+  for (std::size_t i = 0; i < phrases.size(); ++i) {
+    grammar += (i ? " | " : "") + phrases[i];
+  }
   return grammar + ";";
 }
 
 /// Any sounds in any order, or words that resemble a phrase.
 std::string anything_grammar() {
   std::string grammar = "#JSGF V1.0; grammar g; public <anything> = (";
-  for (std::size_t i = 0; i < kPhones.size(); ++i)
+  for (std::size_t i = 0; i < kPhones.size(); ++i) {
     grammar += (i ? " | " : "") + sound_word(kPhones[i]);
+  }
   grammar += ")+";
-  for (const Pronunciation& other : kOthers) grammar += " | " + std::string(other.word);
+  for (const Pronunciation& other : kOthers) {
+    grammar += " | " + std::string(other.word);
+  }
   return grammar + ";";
 }
 
@@ -67,45 +74,68 @@ std::filesystem::path default_acoustic_model() {
 Result<std::unique_ptr<PhraseRecognizer>> PhraseRecognizer::create(
     const std::vector<std::string>& phrases, const std::filesystem::path& model) {
   std::error_code code;
-  if (!std::filesystem::exists(model / "mdef", code))
+  if (!std::filesystem::exists(model / "mdef", code)) {
     return Error{"voice: no acoustic model in " + model.string() + " (Debian: pocketsphinx-en-us)"};
+  }
   err_set_logfp(nullptr);
   const std::string hmm = model.string();
   auto means = read_means(model / "means");
-  if (!means) return means.error();
-  if (Status moved = apply_change(embedded::voice_means(), *means); !moved) return moved.error();
-  auto mixtures = read_mixture_weights(model / "sendump");
-  if (!mixtures) return mixtures.error();
-  if (Status moved = apply_change(embedded::voice_mixtures(), *mixtures); !moved)
+  if (!means) {
+    return means.error();
+  }
+  if (Status moved = apply_change(embedded::voice_means(), *means); !moved) {
     return moved.error();
+  }
+  auto mixtures = read_mixture_weights(model / "sendump");
+  if (!mixtures) {
+    return mixtures.error();
+  }
+  if (Status moved = apply_change(embedded::voice_mixtures(), *mixtures); !moved) {
+    return moved.error();
+  }
   const auto means_in_memory = MemoryFile::create(means_file(*means));
-  if (!means_in_memory) return means_in_memory.error();
+  if (!means_in_memory) {
+    return means_in_memory.error();
+  }
   const auto mixtures_in_memory = MemoryFile::create(mixture_weights_file(*mixtures));
-  if (!mixtures_in_memory) return mixtures_in_memory.error();
+  if (!mixtures_in_memory) {
+    return mixtures_in_memory.error();
+  }
   // Noises that the model knows would explain what follows a word in a sentence; silence does not.
   const auto silences = MemoryFile::create("<s> SIL\n</s> SIL\n<sil> SIL\n");
-  if (!silences) return silences.error();
+  if (!silences) {
+    return silences.error();
+  }
   const std::unique_ptr<cmd_ln_t, FreeConfig> config(
       cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-mean",
                   means_in_memory->path().c_str(), "-sendump", mixtures_in_memory->path().c_str(),
                   "-fdict", silences->path().c_str(), "-cmn", "none", "-remove_silence", "no",
                   "-remove_noise", "no", "-bestpath", "no", "-logfn", "/dev/null", nullptr));
-  if (!config) return Error{"voice: PocketSphinx refuses its options"};
+  if (!config) {
+    return Error{"voice: PocketSphinx refuses its options"};
+  }
   std::unique_ptr<PhraseRecognizer> recognizer(new PhraseRecognizer);
   recognizer->decoder_.reset(ps_init(config.get()));
-  if (!recognizer->decoder_)
+  if (!recognizer->decoder_) {
     return Error{"voice: PocketSphinx can't read the acoustic model in " + hmm};
-  if (Status added = recognizer->add_words(); !added) return added.error();
+  }
+  if (Status added = recognizer->add_words(); !added) {
+    return added.error();
+  }
   ps_decoder_t* decoder = recognizer->decoder_.get();
-  for (const std::string& word : words_of(phrases))
-    if (char* sounds = ps_lookup_word(decoder, word.c_str()); sounds)
+  for (const std::string& word : words_of(phrases)) {
+    if (char* sounds = ps_lookup_word(decoder, word.c_str()); sounds) {
       ckd_free(sounds);
-    else
+    } else {
       return Error{"voice: nobody knows how \"" + word + "\" is pronounced"};
-  if (ps_set_jsgf_string(decoder, kCommands, phrases_grammar(phrases).c_str()) != 0)
+    }
+  }
+  if (ps_set_jsgf_string(decoder, kCommands, phrases_grammar(phrases).c_str()) != 0) {
     return Error{"voice: PocketSphinx refuses the grammar of the phrases"};
-  if (ps_set_jsgf_string(decoder, kAnything, anything_grammar().c_str()) != 0)
+  }
+  if (ps_set_jsgf_string(decoder, kAnything, anything_grammar().c_str()) != 0) {
     return Error{"voice: PocketSphinx refuses its grammar of other sounds"};
+  }
   return recognizer;
 }
 
@@ -114,13 +144,18 @@ Status PhraseRecognizer::add_words() {
     return ps_add_word(decoder_.get(), word.c_str(), sounds.c_str(), FALSE) >= 0;
   };
   for (const auto& list :
-       {std::span<const Pronunciation>(kSpoken), std::span<const Pronunciation>(kOthers)})
-    for (const Pronunciation& p : list)
-      if (!add(std::string(p.word), std::string(p.sounds)))
+       {std::span<const Pronunciation>(kSpoken), std::span<const Pronunciation>(kOthers)}) {
+    for (const Pronunciation& p : list) {
+      if (!add(std::string(p.word), std::string(p.sounds))) {
         return Error{"voice: PocketSphinx refuses the pronunciation of " + std::string(p.word)};
-  for (const std::string_view phone : kPhones)
-    if (!add(sound_word(phone), std::string(phone)))
+      }
+    }
+  }
+  for (const std::string_view phone : kPhones) {
+    if (!add(sound_word(phone), std::string(phone))) {
       return Error{"voice: the acoustic model has no sound " + std::string(phone)};
+    }
+  }
   return {};
 }
 
@@ -128,12 +163,18 @@ std::vector<PhraseRecognizer::Part> PhraseRecognizer::decode(const char* search,
                                                              std::vector<Cepstrum>& cepstra) {
   ps_decoder_t* decoder = decoder_.get();
   std::vector<mfcc_t*> rows;
-  for (Cepstrum& cepstrum : cepstra) rows.push_back(cepstrum.data());
-  if (ps_set_search(decoder, search) != 0 || ps_start_utt(decoder) != 0) return {};
+  for (Cepstrum& cepstrum : cepstra) {
+    rows.push_back(cepstrum.data());
+  }
+  if (ps_set_search(decoder, search) != 0 || ps_start_utt(decoder) != 0) {
+    return {};
+  }
   const int taken =
       ps_process_cep(decoder, rows.data(), static_cast<int>(rows.size()), FALSE, TRUE);
   int32 score = 0;
-  if (ps_end_utt(decoder) != 0 || taken < 0 || !ps_get_hyp(decoder, &score)) return {};
+  if (ps_end_utt(decoder) != 0 || taken < 0 || !ps_get_hyp(decoder, &score)) {
+    return {};
+  }
   std::vector<Part> parts;
   for (ps_seg_t* seg = ps_seg_iter(decoder); seg; seg = ps_seg_next(seg)) {
     Part part;
@@ -152,23 +193,30 @@ Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
   const auto frames = static_cast<int>(cepstra.size());
   const std::vector<Part> phrase = decode(kCommands, cepstra);
   // Where no phrase can be followed to the end, the decoder tells of one that ended before.
-  if (phrase.empty() || phrase.back().last < frames - 1) return {};
+  if (phrase.empty() || phrase.back().last < frames - 1) {
+    return {};
+  }
   std::vector<double> anything(cepstra.size(), 0.0);
-  for (const Part& part : decode(kAnything, cepstra))
-    for (int t = part.first; t <= std::min(part.last, frames - 1); ++t)
+  for (const Part& part : decode(kAnything, cepstra)) {
+    for (int t = part.first; t <= std::min(part.last, frames - 1); ++t) {
       anything[static_cast<std::size_t>(t)] = part.score / (part.last - part.first + 1);
+    }
+  }
   Recognition recognition;
   for (const Part& part : phrase) {
     double evidence = part.score;
-    for (int t = part.first; t <= part.last; ++t) evidence -= anything[static_cast<std::size_t>(t)];
+    for (int t = part.first; t <= part.last; ++t) {
+      evidence -= anything[static_cast<std::size_t>(t)];
+    }
     const int length = part.last - part.first + 1;
     // Silences are "<sil>", what joins the parts of a grammar is "(NULL)", and "save(2)" is
     // another way to say "save".
-    if (part.word.find_first_of("<(") == 0)
+    if (part.word.find_first_of("<(") == 0) {
       recognition.evidence_around += evidence;
-    else
+    } else {
       recognition.words.push_back(
           {part.word.substr(0, part.word.find('(')), length, evidence / length});
+    }
   }
   return recognition;
 }

@@ -22,9 +22,10 @@ using Spectrum = std::vector<std::complex<float>>;
 const std::vector<float>& window() {
   static const std::vector<float> values = [] {
     std::vector<float> made(kWindow);
-    for (std::size_t i = 0; i < kWindow; ++i)
+    for (std::size_t i = 0; i < kWindow; ++i) {
       made[i] =
           static_cast<float>(std::sin(std::numbers::pi * (static_cast<double>(i) + 0.5) / kWindow));
+    }
     return made;
   }();
   return values;
@@ -35,12 +36,16 @@ class Stft {
   Stft() { fft_.SetFlag(Eigen::FFT<float>::HalfSpectrum); }
   void forward(const float* samples, Spectrum& spectrum) {
     frame_.resize(kWindow);
-    for (std::size_t i = 0; i < kWindow; ++i) frame_[i] = samples[i] * window()[i];
+    for (std::size_t i = 0; i < kWindow; ++i) {
+      frame_[i] = samples[i] * window()[i];
+    }
     fft_.fwd(spectrum, frame_);
   }
   void add_inverse(const Spectrum& spectrum, float* samples) {
     fft_.inv(frame_, spectrum, kWindow);
-    for (std::size_t i = 0; i < kWindow; ++i) samples[i] += frame_[i] * window()[i];
+    for (std::size_t i = 0; i < kWindow; ++i) {
+      samples[i] += frame_[i] * window()[i];
+    }
   }
 
  private:
@@ -54,17 +59,22 @@ std::vector<float> mean_power(Stft& stft, std::span<const float> samples) {
   int frames = 0;
   for (std::size_t at = 0; at + kWindow <= samples.size(); at += kHop, ++frames) {
     stft.forward(samples.data() + at, spectrum);
-    for (std::size_t b = 0; b < kBins; ++b) power[b] += std::norm(spectrum[b]);
+    for (std::size_t b = 0; b < kBins; ++b) {
+      power[b] += std::norm(spectrum[b]);
+    }
   }
   // Few frames: neighbours in frequency make the estimate steady.
   std::vector<float> smooth(kBins, 0.0F);
   for (std::size_t b = 0; b < kBins; ++b) {
     const std::size_t first = b < 2 ? 0 : b - 2;
     const std::size_t last = std::min(b + 2, kBins - 1);
-    for (std::size_t k = first; k <= last; ++k)
+    for (std::size_t k = first; k <= last; ++k) {
       smooth[b] += power[k] / static_cast<float>(last - first + 1);
+    }
   }
-  for (float& p : smooth) p /= static_cast<float>(std::max(frames, 1));
+  for (float& p : smooth) {
+    p /= static_cast<float>(std::max(frames, 1));
+  }
   return smooth;
 }
 
@@ -98,15 +108,21 @@ double loudness(std::span<const float> samples) {
   std::vector<double> powers;
   for (std::size_t at = 0; at + kFrame <= samples.size(); at += kFrame) {
     double power = 0.0;
-    for (std::size_t i = 0; i < kFrame; ++i) power += double{samples[at + i]} * samples[at + i];
+    for (std::size_t i = 0; i < kFrame; ++i) {
+      power += double{samples[at + i]} * samples[at + i];
+    }
     powers.push_back(power / kFrame);
   }
-  if (powers.empty()) return 0.0;
+  if (powers.empty()) {
+    return 0.0;
+  }
   const double most = *std::max_element(powers.begin(), powers.end());
   double sum = 0.0;
   int count = 0;
   for (const double power : powers) {
-    if (power < 0.01 * most) continue;
+    if (power < 0.01 * most) {
+      continue;
+    }
     sum += power;
     ++count;
   }
@@ -127,10 +143,13 @@ std::vector<std::int16_t> cleaned(std::span<const std::int16_t> samples,
   const double mask = options.speech_rms * std::pow(10.0, options.masking_db / 20.0);
   Random random(1);
   std::vector<std::int16_t> out;
-  if (sound.size() <= background_samples) return out;
-  for (const float sample : std::span(sound).subspan(background_samples))
+  if (sound.size() <= background_samples) {
+    return out;
+  }
+  for (const float sample : std::span(sound).subspan(background_samples)) {
     out.push_back(static_cast<std::int16_t>(
         std::clamp(gain * double{sample} + mask * random.normal(), -32767.0, 32767.0)));
+  }
   return out;
 }
 

@@ -94,9 +94,11 @@ void LevelHistogram::remove(double level_db) {
   --frames_;
 }
 
-double LevelHistogram::level_above(double share) const {
+double LevelHistogram::level_above(double fraction) const {
   std::size_t bin = 0;
-  for (int below = counts_[0]; below < share * frames_; below += counts_[bin]) ++bin;
+  for (int below = counts_[0]; below < fraction * frames_; below += counts_[bin]) {
+    ++bin;
+  }
   return kSilenceDb + static_cast<double>(bin) + 0.5;
 }
 
@@ -112,13 +114,19 @@ void SpeechSegmenter::push(std::span<const std::int16_t> samples,
     kept_.push_back(sample);
     const double heard = high_pass_.next(low_pass_.next(sample / 32768.0));
     frame_energy_ += heard * heard;
-    if (++in_frame_ == kFrameSamples) end_frame(segments);
+    if (++in_frame_ == kFrameSamples) {
+      end_frame(segments);
+    }
   }
 }
 
 void SpeechSegmenter::keep_level(double level_db) {
-  if (frames_ >= kHistoryFrames) long_.remove(this->level_db(frames_));
-  if (frames_ >= kShortFrames) short_.remove(this->level_db(frames_ - kShortFrames));
+  if (frames_ >= kHistoryFrames) {
+    long_.remove(this->level_db(frames_));
+  }
+  if (frames_ >= kShortFrames) {
+    short_.remove(this->level_db(frames_ - kShortFrames));
+  }
   levels_db_[static_cast<std::size_t>(frames_ % kHistoryFrames)] = static_cast<float>(level_db);
   // As it is kept, to be found again.
   long_.add(this->level_db(frames_));
@@ -148,22 +156,32 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::stretch_above(double th
   const std::int64_t oldest = std::max<std::int64_t>(0, frames_ - kHistoryFrames);
   const std::int64_t pause = options_.quiet_before_ms / kFrameMs;
   std::int64_t at = frames_ - 1;
-  while (at >= oldest && level_db(at) <= threshold_db) --at;
+  while (at >= oldest && level_db(at) <= threshold_db) {
+    --at;
+  }
   Stretch stretch{at, at + 1, threshold_db, kSilenceDb};
   for (; at >= oldest && at >= stretch.begin - pause; --at) {
-    if (level_db(at) <= threshold_db) continue;
+    if (level_db(at) <= threshold_db) {
+      continue;
+    }
     stretch.loudest_db = std::max(stretch.loudest_db, level_db(at));
     stretch.begin = at;
-    if ((stretch.end - stretch.begin) * kFrameMs > options_.max_ms) return std::nullopt;
+    if ((stretch.end - stretch.begin) * kFrameMs > options_.max_ms) {
+      return std::nullopt;
+    }
   }
   // Where the stream itself began, nobody spoke before.
-  if (at < oldest && oldest > 0) return std::nullopt;
+  if (at < oldest && oldest > 0) {
+    return std::nullopt;
+  }
   return stretch;
 }
 
 /// Speech that is no part of the stretch, and so near before it that the stretch is none by itself.
 bool SpeechSegmenter::follows_speech(const Stretch& stretch) const {
-  if (stretch.begin < over_.end) return true;
+  if (stretch.begin < over_.end) {
+    return true;
+  }
   return (stretch.begin - over_.end) * kFrameMs < options_.quiet_before_ms &&
          over_.loudest_db > stretch.loudest_db - kBesideDb;
 }
@@ -172,8 +190,9 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::find(double background_
   double loudest_db = kSilenceDb;
   const std::int64_t recent =
       (options_.max_ms + options_.end_in_noise_ms) / kFrameMs + kRecentFrames;
-  for (std::int64_t at = std::max<std::int64_t>(0, frames_ - recent); at < frames_; ++at)
+  for (std::int64_t at = std::max<std::int64_t>(0, frames_ - recent); at < frames_; ++at) {
     loudest_db = std::max(loudest_db, level_db(at));
+  }
   const double least_db = std::max(background_db + options_.least_above_background_db,
                                    loudest_db - options_.below_loudest_db);
   const double most_db =
@@ -182,13 +201,17 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::find(double background_
   int quiet = quiet_frames(loudest_db - background_db);
   for (double threshold_db = least_db; threshold_db <= most_db; threshold_db += kThresholdStepDb) {
     auto stretch = stretch_above(threshold_db);
-    if (!stretch || stretch->loudest_db < threshold_db + options_.above_threshold_db) continue;
+    if (!stretch || stretch->loudest_db < threshold_db + options_.above_threshold_db) {
+      continue;
+    }
     stretch->quiet_frames = std::exchange(
         quiet,
         quiet + (threshold_db < loudest_db - kFaintDb ? kLittleMoreQuietFrames : kMoreQuietFrames));
     const bool told = frames_ - stretch->end >= stretch->quiet_frames - kForewarningFrames;
     const bool long_enough = (stretch->end - stretch->begin) * kFrameMs >= options_.least_ms;
-    if (!told || !long_enough || follows_speech(*stretch)) continue;
+    if (!told || !long_enough || follows_speech(*stretch)) {
+      continue;
+    }
     stretch->above_background_db = stretch->loudest_db - background_db;
     return stretch;
   }
@@ -201,10 +224,14 @@ void SpeechSegmenter::end_frame(std::vector<SpeechSegment>& segments) {
   keep_level(std::max(kSilenceDb, 10.0 * std::log10(smooth_energy_ + 1e-12)));
   in_frame_ = 0;
   frame_energy_ = 0.0;
-  if (waiting_ && level_db(frames_ - 1) > waiting_->threshold_db) waiting_.reset();
+  if (waiting_ && level_db(frames_ - 1) > waiting_->threshold_db) {
+    waiting_.reset();
+  }
   if (!waiting_) {
     waiting_ = find(background_db());
-    if (waiting_) segments.push_back(segment_of(*waiting_, false));
+    if (waiting_) {
+      segments.push_back(segment_of(*waiting_, false));
+    }
   }
   if (waiting_ && frames_ - waiting_->end >= waiting_->quiet_frames) {
     segments.push_back(segment_of(*waiting_, true));
@@ -219,7 +246,9 @@ SpeechSegment SpeechSegmenter::segment_of(const Stretch& stretch, bool ended) co
                         samples_of_frames(stretch.end),
                         stretch.above_background_db,
                         ended};
-  if (ended) return segment;
+  if (ended) {
+    return segment;
+  }
   const std::int64_t length =
       std::min(samples_of_frames(frames_ - stretch.begin) +
                    static_cast<std::int64_t>(samples_of(options_.margin_ms)),
@@ -233,8 +262,9 @@ void SpeechSegmenter::forget() {
   const std::size_t keep =
       samples_of(options_.margin_ms + options_.max_ms + options_.end_in_noise_ms) +
       static_cast<std::size_t>(kRecentFrames) * kFrameSamples;
-  if (kept_.size() > 2 * keep)
+  if (kept_.size() > 2 * keep) {
     kept_.erase(kept_.begin(), kept_.end() - static_cast<std::ptrdiff_t>(keep));
+  }
 }
 
 }  // namespace orthonav::voice

@@ -62,7 +62,7 @@ class LevelHistogram {
   void add(double level_db);
   void remove(double level_db);
   /// The level that a share of the frames stays below.
-  [[nodiscard]] double level_above(double share) const;
+  [[nodiscard]] double level_above(double fraction) const;
 
  private:
   std::vector<int> counts_;

@@ -27,15 +27,22 @@ class Listener {
     std::array<std::int16_t, 4096> block;
     for (;;) {
       const auto count = microphone_->read(block);
-      if (!count) return count.error();
-      if (*count == 0) return {};
+      if (!count) {
+        return count.error();
+      }
+      if (*count == 0) {
+        return {};
+      }
       sound_.clear();
-      if (Status s = resampler_.push(std::span(block).first(*count), sound_); !s) return s;
+      if (Status s = resampler_.push(std::span(block).first(*count), sound_); !s) {
+        return s;
+      }
       taken_ += static_cast<std::int64_t>(sound_.size());
       commands_.clear();
       spotter_->push(sound_, commands_);
-      for (SpokenCommand& command : commands_)
+      for (SpokenCommand& command : commands_) {
         phrases.push_back({std::move(command.text), command.confidence, time_of(command.begin)});
+      }
     }
   }
 
@@ -77,7 +84,9 @@ class VoiceInPoll : public Voice {
   std::vector<Phrase> heard_;
 
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
-    if (Status listened = listener_.listen(heard_); !listened) return listened;
+    if (Status listened = listener_.listen(heard_); !listened) {
+      return listened;
+    }
     return deliver(heard_, until, phrases);
   }
 };
@@ -115,13 +124,19 @@ class VoiceOnItsOwnThread : public Voice {
       const Status listened = listener_.listen(phrases);
       std::unique_lock lock(mutex_);
       heard_.insert(heard_.end(), phrases.begin(), phrases.end());
-      if (!listened) trouble_ = listened;
-      if (wake_.wait_for(lock, kBetweenReads, [this] { return stop_; })) return;
+      if (!listened) {
+        trouble_ = listened;
+      }
+      if (wake_.wait_for(lock, kBetweenReads, [this] { return stop_; })) {
+        return;
+      }
     }
   }
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
     const std::lock_guard lock(mutex_);
-    if (const Status trouble = std::exchange(trouble_, Status()); !trouble) return trouble;
+    if (const Status trouble = std::exchange(trouble_, Status()); !trouble) {
+      return trouble;
+    }
     return deliver(heard_, until, phrases);
   }
 };
@@ -132,12 +147,17 @@ Result<std::unique_ptr<Voice>> open_spotted_voice(std::unique_ptr<Microphone> mi
                                                   const SpotterOptions& options,
                                                   Listening listening) {
   auto spotter = CommandSpotter::create(options);
-  if (!spotter) return spotter.error();
+  if (!spotter) {
+    return spotter.error();
+  }
   auto resampler = Resampler::create(microphone->sample_rate_hz(), kSpeechRateHz);
-  if (!resampler) return resampler.error();
+  if (!resampler) {
+    return resampler.error();
+  }
   Listener listener(std::move(microphone), std::move(*spotter), std::move(*resampler));
-  if (listening == Listening::kInPoll)
+  if (listening == Listening::kInPoll) {
     return std::unique_ptr<Voice>(std::make_unique<VoiceInPoll>(std::move(listener)));
+  }
   return std::unique_ptr<Voice>(std::make_unique<VoiceOnItsOwnThread>(std::move(listener)));
 }
 

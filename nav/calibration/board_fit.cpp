@@ -15,7 +15,7 @@ using ObjectPoints = std::vector<std::vector<cv::Point3f>>;
 constexpr float kCentre = 0.5F;
 // Half the window in which a corner is refined, by the distance to the next corner: farther out
 // the next corner's edges come into sight.
-constexpr double kWindowShare = 0.3;
+constexpr double kWindowFraction = 0.3;
 // Softened by so much first: gradients of sharp edges lie between pixels and err with their place.
 constexpr double kSofteningPx = 1.0;
 constexpr int kSmallestWindowPx = 2;
@@ -41,11 +41,15 @@ int window_px(const Chessboard& board, const std::vector<cv::Point2f>& corners) 
   double nearest = std::numeric_limits<double>::infinity();
   const auto a_row = static_cast<std::size_t>(board.columns);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if ((i + 1) % a_row != 0) nearest = std::min(nearest, cv::norm(corners[i + 1] - corners[i]));
-    if (i + a_row < corners.size())
+    if ((i + 1) % a_row != 0) {
+      nearest = std::min(nearest, cv::norm(corners[i + 1] - corners[i]));
+    }
+    if (i + a_row < corners.size()) {
       nearest = std::min(nearest, cv::norm(corners[i + a_row] - corners[i]));
+    }
   }
-  return std::clamp(static_cast<int>(kWindowShare * nearest), kSmallestWindowPx, kLargestWindowPx);
+  return std::clamp(static_cast<int>(kWindowFraction * nearest), kSmallestWindowPx,
+                    kLargestWindowPx);
 }
 
 std::optional<std::vector<cv::Point2f>> corners_of(const cv::Mat& grey, const Chessboard& board) {
@@ -53,9 +57,12 @@ std::optional<std::vector<cv::Point2f>> corners_of(const cv::Mat& grey, const Ch
   std::vector<cv::Point2f> corners;
   if (!cv::findChessboardCorners(grey, size, corners,
                                  cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE) &&
-      !cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE))
+      !cv::findChessboardCornersSB(grey, size, corners, cv::CALIB_CB_NORMALIZE_IMAGE)) {
     return std::nullopt;
-  if (corners.size() != board.corners()) return std::nullopt;
+  }
+  if (corners.size() != board.corners()) {
+    return std::nullopt;
+  }
   const int half = window_px(board, corners);
   cv::Mat soft;
   cv::GaussianBlur(grey, soft, {0, 0}, kSofteningPx);
@@ -68,9 +75,10 @@ ImagePoints image_points(std::span<const BoardCorners> views) {
   ImagePoints all;
   for (const BoardCorners& view : views) {
     all.emplace_back();
-    for (const Vec2 corner : view)
+    for (const Vec2 corner : view) {
       all.back().emplace_back(static_cast<float>(corner.x) - kCentre,
                               static_cast<float>(corner.y) - kCentre);
+    }
   }
   return all;
 }
@@ -112,27 +120,36 @@ int flags_for(bool with_k3) { return with_k3 ? 0 : cv::CALIB_FIX_K3; }
 
 Result<Transform<RightCamera, LeftCamera>> transform_from(const cv::Mat& rotation,
                                                           const cv::Mat& translation) {
-  Mat3 turn;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) turn[r][static_cast<std::size_t>(c)] = rotation.at<double>(r, c);
+  Mat3 rotation_step;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      rotation_step[r][static_cast<std::size_t>(c)] = rotation.at<double>(r, c);
+    }
+  }
   return Transform<RightCamera, LeftCamera>::checked(
-      turn, {translation.at<double>(0), translation.at<double>(1), translation.at<double>(2)});
+      rotation_step,
+      {translation.at<double>(0), translation.at<double>(1), translation.at<double>(2)});
 }
 
 }  // namespace
 
 std::optional<BoardCorners> find_chessboard(const GreyImage& image, const Chessboard& board) {
   const QuietOpenCv quiet;
-  if (!board.check().empty() || image.width_px < 2 || image.height_px < 2) return std::nullopt;
+  if (!board.check().empty() || image.width_px < 2 || image.height_px < 2) {
+    return std::nullopt;
+  }
   try {
     // OpenCV takes no const pixels but does not write to these.
     const cv::Mat grey(image.height_px, image.width_px, CV_8UC1,
                        const_cast<std::uint8_t*>(image.pixels.data()));
     const auto found = corners_of(grey, board);
-    if (!found) return std::nullopt;
+    if (!found) {
+      return std::nullopt;
+    }
     BoardCorners corners;
-    for (const cv::Point2f& p : *found)
+    for (const cv::Point2f& p : *found) {
       corners.push_back({static_cast<double>(p.x + kCentre), static_cast<double>(p.y + kCentre)});
+    }
     put_in_order(image, board, corners);
     return corners;
   } catch (const cv::Exception&) {
@@ -188,10 +205,13 @@ Result<StereoFit> fit_stereo(const Chessboard& board, ImageSize size,
     fit.left = camera_from(size, left_matrix, left_distortion);
     fit.right = camera_from(size, right_matrix, right_distortion);
     const auto between = transform_from(rotation, translation);
-    if (!between) return Error{"camera calibration: " + between.error().message};
+    if (!between) {
+      return Error{"camera calibration: " + between.error().message};
+    }
     fit.right_from_left = *between;
-    for (int i = 0; i < view_rms.rows; ++i)
+    for (int i = 0; i < view_rms.rows; ++i) {
       fit.view_rms_px.push_back({view_rms.at<double>(i, 0), view_rms.at<double>(i, 1)});
+    }
     return fit;
   } catch (const cv::Exception& error) {
     return opencv_error(error);

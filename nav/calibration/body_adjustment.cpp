@@ -49,8 +49,12 @@ struct Blocks {
   int count = 0;
 
   explicit Blocks(const BodyProblem& problem) {
-    if (problem.find_right_camera) camera = count++;
-    for (const bool find : problem.find_tag) tags.push_back(find ? count++ : -1);
+    if (problem.find_right_camera) {
+      camera = count++;
+    }
+    for (const bool find : problem.find_tag) {
+      tags.push_back(find ? count++ : -1);
+    }
   }
 };
 
@@ -62,12 +66,17 @@ class System {
   [[nodiscard]] std::optional<std::vector<double>> lengths_px(const BodyState& at) const {
     std::vector<double> all;
     bool good = true;
-    for (std::size_t i = 0; i < problem_.pairs.size(); ++i)
+    for (std::size_t i = 0; i < problem_.pairs.size(); ++i) {
       for_each_corner(at, i, false, [&](const std::optional<Row>& row) {
         good = good && row.has_value();
-        if (row) all.push_back(row->corner.off_px.norm());
+        if (row) {
+          all.push_back(row->corner.off_px.norm());
+        }
       });
-    if (!good) return std::nullopt;
+    }
+    if (!good) {
+      return std::nullopt;
+    }
     return all;
   }
 
@@ -80,10 +89,13 @@ class System {
     body_.assign(count, Matrix6::Zero());
     body_right_.assign(count, Vector6::Zero());
     cross_.assign(count, Eigen::MatrixXd::Zero(size, 6));
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
       for_each_corner(at, i, true, [&](const std::optional<Row>& row) {
-        if (row) add(*row, i, scale_px);
+        if (row) {
+          add(*row, i, scale_px);
+        }
       });
+    }
   }
 
   /// The state after a damped step; nothing when it cannot be solved.
@@ -97,22 +109,30 @@ class System {
       Matrix6 damped = body_[i];
       damped.diagonal() *= 1.0 + damping;
       inverses.emplace_back(damped);
-      if (!is_sound(inverses.back())) return std::nullopt;
+      if (!is_sound(inverses.back())) {
+        return std::nullopt;
+      }
       reduced -= cross_[i] * inverses.back().solve(cross_[i].transpose());
       right -= cross_[i] * inverses.back().solve(body_right_[i]);
     }
     Eigen::VectorXd step = Eigen::VectorXd::Zero(size);
     if (size > 0) {
       const Eigen::LDLT<Eigen::MatrixXd> solver(reduced);
-      if (!is_sound(solver)) return std::nullopt;
+      if (!is_sound(solver)) {
+        return std::nullopt;
+      }
       step = solver.solve(right);
     }
-    if (!step.allFinite()) return std::nullopt;
+    if (!step.allFinite()) {
+      return std::nullopt;
+    }
     BodyState next = at;
     move_global(step, next);
     for (std::size_t i = 0; i < body_.size(); ++i) {
       const Vector6 own = inverses[i].solve(body_right_[i] - cross_[i].transpose() * step);
-      if (!own.allFinite()) return std::nullopt;
+      if (!own.allFinite()) {
+        return std::nullopt;
+      }
       next.rig_from_marker[i] = moved(next.rig_from_marker[i], own);
     }
     return next;
@@ -123,11 +143,15 @@ class System {
     Eigen::MatrixXd reduced = global_;
     for (std::size_t i = 0; i < body_.size(); ++i) {
       const Eigen::LDLT<Matrix6> inverse(body_[i]);
-      if (!is_sound(inverse)) return std::nullopt;
+      if (!is_sound(inverse)) {
+        return std::nullopt;
+      }
       reduced -= cross_[i] * inverse.solve(cross_[i].transpose());
     }
     const Eigen::LDLT<Eigen::MatrixXd> solver(reduced);
-    if (!is_sound(solver)) return std::nullopt;
+    if (!is_sound(solver)) {
+      return std::nullopt;
+    }
     const auto size = reduced.rows();
     return Eigen::MatrixXd(solver.solve(Eigen::MatrixXd::Identity(size, size)));
   }
@@ -154,14 +178,18 @@ class System {
         const auto corner =
             corner_residual(model, camera_from_rig, at.rig_from_marker[pair],
                             at.marker_from_tag[tag], Point<Tag>{corners[i]}, seen_px, derivatives);
-        if (!corner) return std::nullopt;
+        if (!corner) {
+          return std::nullopt;
+        }
         return Row{*corner, blocks_.tags[tag], camera_block};
       };
       for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (sighting.left_px)
+        if (sighting.left_px) {
           visit(one(i, cameras.left, cameras.left_from_rig, (*sighting.left_px)[i], -1));
-        if (sighting.right_px)
+        }
+        if (sighting.right_px) {
           visit(one(i, cameras.right, at.right_from_rig, (*sighting.right_px)[i], blocks_.camera));
+        }
       }
     }
   }
@@ -176,7 +204,9 @@ class System {
     body_[pair] += by_body.transpose() * weighted;
     body_right_[pair] -= by_body.transpose() * off;
     const auto add_block = [&](int block, const Matrix2x6& j) {
-      if (block < 0) return;
+      if (block < 0) {
+        return;
+      }
       const Matrix2x6 own = weight * j;
       global_.block<6, 6>(6 * block, 6 * block) += j.transpose() * own;
       global_right_.segment<6>(6 * block) -= j.transpose() * off;
@@ -184,7 +214,9 @@ class System {
     };
     add_block(row.tag_block, by_tag);
     add_block(row.camera_block, by_camera);
-    if (row.tag_block < 0 || row.camera_block < 0) return;
+    if (row.tag_block < 0 || row.camera_block < 0) {
+      return;
+    }
     const Matrix2x6 camera = weight * by_camera;
     const Matrix6 between = by_tag.transpose() * camera;
     global_.block<6, 6>(6 * row.tag_block, 6 * row.camera_block) += between;
@@ -192,12 +224,15 @@ class System {
   }
 
   void move_global(const Eigen::VectorXd& step, BodyState& next) const {
-    if (blocks_.camera >= 0)
+    if (blocks_.camera >= 0) {
       next.right_from_rig = moved(next.right_from_rig, step.segment<6>(6 * blocks_.camera));
-    for (std::size_t i = 0; i < blocks_.tags.size(); ++i)
-      if (blocks_.tags[i] >= 0)
+    }
+    for (std::size_t i = 0; i < blocks_.tags.size(); ++i) {
+      if (blocks_.tags[i] >= 0) {
         next.marker_from_tag[i] =
             moved(next.marker_from_tag[i], step.segment<6>(6 * blocks_.tags[i]));
+      }
+    }
   }
 
   const BodyProblem& problem_;
@@ -228,10 +263,12 @@ void summarize(const std::vector<double>& lengths_px, double scale_px, BodyFit& 
 /// The blocks on the diagonal, times the variance of one coordinate of a corner.
 std::vector<PoseCovariance> blocks_of(const Eigen::MatrixXd& inverse, double variance_px2) {
   std::vector<PoseCovariance> blocks(static_cast<std::size_t>(inverse.rows() / 6));
-  for (std::size_t block = 0; block < blocks.size(); ++block)
-    for (std::size_t i = 0; i < 36; ++i)
+  for (std::size_t block = 0; block < blocks.size(); ++block) {
+    for (std::size_t i = 0; i < 36; ++i) {
       blocks[block][i] = variance_px2 * inverse(static_cast<Eigen::Index>(6 * block + i / 6),
                                                 static_cast<Eigen::Index>(6 * block + i % 6));
+    }
+  }
   return blocks;
 }
 
@@ -240,14 +277,22 @@ std::vector<PoseCovariance> blocks_of(const Eigen::MatrixXd& inverse, double var
 Result<BodyFit> adjust(const BodyProblem& problem, BodyState& state) {
   System system(problem);
   auto lengths_px = system.lengths_px(state);
-  if (!lengths_px) return Error{"a tag's corner does not project where the adjustment starts"};
-  if (lengths_px->empty()) return Error{"no tag is seen"};
+  if (!lengths_px) {
+    return Error{"a tag's corner does not project where the adjustment starts"};
+  }
+  if (lengths_px->empty()) {
+    return Error{"no tag is seen"};
+  }
   double scale_px = cauchy_scale(*lengths_px);
   double damping = kFirstDamping;
   bool is_new = true;
   for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
-    if (is_new && step < kScaleSteps) scale_px = cauchy_scale(*lengths_px);
-    if (is_new) system.build(state, scale_px);
+    if (is_new && step < kScaleSteps) {
+      scale_px = cauchy_scale(*lengths_px);
+    }
+    if (is_new) {
+      system.build(state, scale_px);
+    }
     is_new = false;
     const double before = cauchy_cost(*lengths_px, scale_px);
     auto next = system.stepped(state, damping);
@@ -261,15 +306,21 @@ Result<BodyFit> adjust(const BodyProblem& problem, BodyState& state) {
     lengths_px = next_px;
     is_new = true;
     damping = std::max(kLeastDamping, damping * 0.1);
-    if (before - after < kConverged * before) break;
+    if (before - after < kConverged * before) {
+      break;
+    }
   }
   BodyFit fit;
   summarize(*lengths_px, scale_px, fit);
-  if (system.blocks() == 0) return fit;
+  if (system.blocks() == 0) {
+    return fit;
+  }
   const auto fit_blocks = static_cast<std::size_t>(system.blocks());
   system.build(state, scale_px);
   const auto covariance = system.covariance();
-  if (!covariance) return Error{"the corners seen do not determine what is to be found"};
+  if (!covariance) {
+    return Error{"the corners seen do not determine what is to be found"};
+  }
   const double numbers = 2.0 * static_cast<double>(fit.corners);
   const double unknowns = 6.0 * static_cast<double>(problem.pairs.size() + fit_blocks);
   // What is fitted takes its share of the noise.

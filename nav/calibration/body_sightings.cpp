@@ -5,7 +5,7 @@
 namespace orthonav::nav {
 namespace {
 
-constexpr MatchLimits kWide{.gap_px = 4.0, .size_share = 0.6};
+constexpr MatchLimits kWide{.gap_px = 4.0, .size_fraction = 0.6};
 
 }  // namespace
 
@@ -17,12 +17,19 @@ PairSightings sightings(std::span<const MarkerDefinition> tags, std::span<const 
                                    geometry, std::nullopt, kWide);
     TagSighting sighting;
     sighting.tag = i;
-    if (match.left) sighting.left_px = match.left->corners_px;
-    if (match.right) sighting.right_px = match.right->corners_px;
-    if (match.both())
+    if (match.left) {
+      sighting.left_px = match.left->corners_px;
+    }
+    if (match.right) {
+      sighting.right_px = match.right->corners_px;
+    }
+    if (match.both()) {
       sighting.pose =
           geometry.pose({match.left->corners_px, match.right->corners_px}, tags[i].size_m);
-    if (match.left || match.right) seen.push_back(sighting);
+    }
+    if (match.left || match.right) {
+      seen.push_back(sighting);
+    }
   }
   return seen;
 }
@@ -33,13 +40,19 @@ Result<SightingCollector> SightingCollector::create(const StereoCalibration& cal
   options.families = families_of(tags);
   options.refinement = Refinement::kEdges;
   auto detector = MarkerDetector::create(options);
-  if (!detector) return detector.error();
+  if (!detector) {
+    return detector.error();
+  }
   return SightingCollector(calibration, std::move(tags), std::move(detector).value());
 }
 
 void SightingCollector::add(const StereoFrame& frame) {
-  if (!detector_.detect(frame.left, left_)) left_.clear();
-  if (!detector_.detect(frame.right, right_)) right_.clear();
+  if (!detector_.detect(frame.left, left_)) {
+    left_.clear();
+  }
+  if (!detector_.detect(frame.right, right_)) {
+    right_.clear();
+  }
   pairs_.push_back(sightings(tags_, left_, right_, geometry_));
 }
 

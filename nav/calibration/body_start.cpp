@@ -21,11 +21,15 @@ Transform<Rig, Tag> rig_from_tag(const TagPose& pose) {
 /// From a later tag to an earlier one, wherever both were seen by both cameras.
 RelativePoses relative_poses(std::span<const PairSightings> pairs) {
   RelativePoses poses;
-  for (const PairSightings& pair : pairs)
-    for (const TagSighting& a : pair)
-      for (const TagSighting& b : pair)
-        if (a.tag < b.tag && a.pose && b.pose)
+  for (const PairSightings& pair : pairs) {
+    for (const TagSighting& a : pair) {
+      for (const TagSighting& b : pair) {
+        if (a.tag < b.tag && a.pose && b.pose) {
           poses[{a.tag, b.tag}].push_back(rig_from_tag(*a.pose).inverse() * rig_from_tag(*b.pose));
+        }
+      }
+    }
+  }
   return poses;
 }
 
@@ -42,10 +46,12 @@ double cost_px(const BodyProblem& problem, const BodyState& state, const PairSig
       sum += residual ? residual->off_px.norm() : std::numeric_limits<double>::infinity();
     };
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (seen.left_px)
+      if (seen.left_px) {
         add(i, problem.calibration.left, problem.calibration.left_from_rig, (*seen.left_px)[i]);
-      if (seen.right_px)
+      }
+      if (seen.right_px) {
         add(i, problem.calibration.right, state.right_from_rig, (*seen.right_px)[i]);
+      }
     }
   }
   return sum;
@@ -61,18 +67,23 @@ TagLayout first_layout(std::span<const PairSightings> pairs, std::size_t tags,
   for (;;) {
     // Of all ways on from what is reached, the one seen most often (Prim 1957).
     auto best = poses.end();
-    for (auto edge = poses.begin(); edge != poses.end(); ++edge)
+    for (auto edge = poses.begin(); edge != poses.end(); ++edge) {
       if (layout.reached[edge->first.first] != layout.reached[edge->first.second] &&
           edge->second.size() >= min_pairs &&
-          (best == poses.end() || edge->second.size() > best->second.size()))
+          (best == poses.end() || edge->second.size() > best->second.size())) {
         best = edge;
-    if (best == poses.end()) return layout;
+      }
+    }
+    if (best == poses.end()) {
+      return layout;
+    }
     const auto& [a, b] = best->first;
     const Transform<Tag, Tag> a_from_b = median_pose(best->second);
-    if (layout.reached[a])
+    if (layout.reached[a]) {
       layout.marker_from_tag[b] = layout.marker_from_tag[a] * a_from_b;
-    else
+    } else {
       layout.marker_from_tag[a] = layout.marker_from_tag[b] * a_from_b.inverse();
+    }
     layout.reached[a] = layout.reached[b] = true;
   }
 }
@@ -82,11 +93,15 @@ std::optional<Transform<Rig, Marker>> first_pose(const BodyProblem& problem, con
   std::optional<Transform<Rig, Marker>> best;
   double least_px = std::numeric_limits<double>::infinity();
   for (const TagSighting& seen : pair) {
-    if (!seen.pose) continue;
+    if (!seen.pose) {
+      continue;
+    }
     const Transform<Rig, Marker> candidate =
         rig_from_tag(*seen.pose) * state.marker_from_tag[seen.tag].inverse();
     const double now_px = cost_px(problem, state, pair, candidate);
-    if (!(now_px < least_px)) continue;
+    if (!(now_px < least_px)) {
+      continue;
+    }
     least_px = now_px;
     best = candidate;
   }
@@ -96,13 +111,18 @@ std::optional<Transform<Rig, Marker>> first_pose(const BodyProblem& problem, con
 void take_pairs(std::span<const PairSightings> pairs, std::size_t most, BodyProblem& problem,
                 BodyState& state) {
   std::vector<const PairSightings*> useful;
-  for (const PairSightings& pair : pairs)
-    if (pair.size() >= 2) useful.push_back(&pair);
+  for (const PairSightings& pair : pairs) {
+    if (pair.size() >= 2) {
+      useful.push_back(&pair);
+    }
+  }
   const std::size_t kept = std::min(most, useful.size());
   for (std::size_t i = 0; i < kept; ++i) {
     const PairSightings& pair = *useful[i * useful.size() / kept];
     const auto pose = first_pose(problem, state, pair);
-    if (!pose) continue;
+    if (!pose) {
+      continue;
+    }
     problem.pairs.push_back(pair);
     state.rig_from_marker.push_back(*pose);
   }

@@ -27,7 +27,9 @@ inline constexpr double kCauchyConstant = 2.385;
 
 [[nodiscard]] inline double cauchy_cost(const std::vector<double>& lengths_px, double scale_px) {
   double sum = 0.0;
-  for (const double length_px : lengths_px) sum -= std::log(cauchy_weight(length_px, scale_px));
+  for (const double length_px : lengths_px) {
+    sum -= std::log(cauchy_weight(length_px, scale_px));
+  }
   return sum;
 }
 

@@ -29,12 +29,18 @@ template <class Camera>
   const Point<Rig> in_rig = rig_from_marker * in_marker;
   const Vec3 p = (camera_from_rig * in_rig).v;
   const auto pixel = model.project(p);
-  if (!pixel) return std::nullopt;
+  if (!pixel) {
+    return std::nullopt;
+  }
   CornerResidual residual;
   residual.off_px = *pixel - seen_px;
-  if (!derivatives) return residual;
+  if (!derivatives) {
+    return residual;
+  }
   const auto slope = model.jacobian_px(*pixel);
-  if (!slope) return std::nullopt;
+  if (!slope) {
+    return std::nullopt;
+  }
   const Vec3 x_by_point{1.0 / p.z, 0.0, -p.x / (p.z * p.z)};
   const Vec3 y_by_point{0.0, 1.0 / p.z, -p.y / (p.z * p.z)};
   for (std::size_t row = 0; row < 2; ++row) {
@@ -42,11 +48,11 @@ template <class Camera>
     const Vec3 in_rig_axes = camera_from_rig.rotation().transposed() * by_point;
     const Vec3 in_marker_axes = rig_from_marker.rotation().transposed() * in_rig_axes;
     // A turn w moves a point on the arm a by w x a; its gradient is a x g.
-    const auto fill = [row](PixelByPose& out, Vec3 gradient, Vec3 arm) {
-      const Vec3 by_turn = arm.cross(gradient);
+    const auto fill = [row](PixelByPose& out, Vec3 gradient, Vec3 lever_arm) {
+      const Vec3 by_rotation = lever_arm.cross(gradient);
       for (int i = 0; i < 3; ++i) {
         out[6 * row + static_cast<std::size_t>(i)] = gradient[i];
-        out[6 * row + 3 + static_cast<std::size_t>(i)] = by_turn[i];
+        out[6 * row + 3 + static_cast<std::size_t>(i)] = by_rotation[i];
       }
     };
     fill(residual.by_camera, by_point, camera_from_rig.rotation() * in_rig.v);

@@ -18,7 +18,7 @@ class Coverage {
     const int row = std::clamp(static_cast<int>(place_px.y * kDown / height_px_), 0, kDown - 1);
     reached_[static_cast<std::size_t>(row * kAcross + column)] = true;
   }
-  [[nodiscard]] double share() const {
+  [[nodiscard]] double fraction() const {
     return static_cast<double>(std::count(reached_.begin(), reached_.end(), true)) /
            static_cast<double>(reached_.size());
   }

@@ -10,7 +10,9 @@ std::optional<double> across_epipolar_px(const CameraModel& left, const CameraMo
   const auto from_left = left.unproject(left_px);
   const auto from_right = right.unproject(right_px);
   const auto jacobian = right.jacobian_px(right_px);
-  if (!from_left || !from_right || !jacobian) return std::nullopt;
+  if (!from_left || !from_right || !jacobian) {
+    return std::nullopt;
+  }
   const Vec3 ray = right_from_left.rotation() * Vec3{from_left->x, from_left->y, 1.0};
   // The plane of both rays cuts the right camera's unit plane in line.x x + line.y y + line.z = 0.
   const Vec3 line = right_from_left.translation().cross(ray);
@@ -20,7 +22,9 @@ std::optional<double> across_epipolar_px(const CameraModel& left, const CameraMo
   const double det = a * d - b * c;
   const Vec2 gradient{(line.x * d - line.y * c) / det, (line.y * a - line.x * b) / det};
   const double steepness = gradient.norm();
-  if (!(steepness > 0.0) || !std::isfinite(steepness)) return std::nullopt;
+  if (!(steepness > 0.0) || !std::isfinite(steepness)) {
+    return std::nullopt;
+  }
   return off / steepness;
 }
 

@@ -31,7 +31,9 @@ Difference difference(const Pose& from, const Pose& to) {
 
 double total_m(const Pose& centre, std::span<const Pose> poses) {
   double sum = 0.0;
-  for (const Pose& pose : poses) sum += difference(centre, pose).length_m();
+  for (const Pose& pose : poses) {
+    sum += difference(centre, pose).length_m();
+  }
   return sum;
 }
 
@@ -42,7 +44,9 @@ Pose middle_one(std::span<const Pose> poses) {
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < poses.size(); i += stride) {
     const double sum_m = total_m(poses[i], poses);
-    if (!(sum_m < least_m)) continue;
+    if (!(sum_m < least_m)) {
+      continue;
+    }
     least_m = sum_m;
     best = poses[i];
   }
@@ -66,7 +70,9 @@ Pose median_pose(std::span<const Pose> poses) {
     mean = {mean.shift_m / total, mean.turn_rad / total};
     centre = {rotation_from_vector(mean.turn_rad) * centre.rotation(),
               centre.translation() + mean.shift_m};
-    if (mean.length_m() < kConvergedM) break;
+    if (mean.length_m() < kConvergedM) {
+      break;
+    }
   }
   return centre;
 }

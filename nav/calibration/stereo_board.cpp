@@ -20,17 +20,25 @@ constexpr double kNoMistakePx = 0.3;
 Status check_views(const Chessboard& board, ImageSize size, std::span<const BoardView> views,
                    const StereoBoardOptions& options) {
   std::vector<std::string> problems = board.check();
-  for (std::string& problem : options.check()) problems.push_back(std::move(problem));
-  if (size.width_px <= 0 || size.height_px <= 0) problems.emplace_back("images without pixels");
-  for (const BoardView& view : views)
+  for (std::string& problem : options.check()) {
+    problems.push_back(std::move(problem));
+  }
+  if (size.width_px <= 0 || size.height_px <= 0) {
+    problems.emplace_back("images without pixels");
+  }
+  for (const BoardView& view : views) {
     if (view.left_px.size() != board.corners() || view.right_px.size() != board.corners()) {
       problems.emplace_back("a view has not as many corners as the board");
       break;
     }
-  if (views.size() < options.min_views)
+  }
+  if (views.size() < options.min_views) {
     problems.push_back("the board is seen in " + std::to_string(views.size()) +
                        " pairs, at least " + std::to_string(options.min_views) + " are needed");
-  if (problems.empty()) return {};
+  }
+  if (problems.empty()) {
+    return {};
+  }
   return Error{"stereo calibration: " + joined(problems)};
 }
 
@@ -40,10 +48,14 @@ BoardViews aligned(const Chessboard& board, std::span<const BoardView> views) {
   for (const BoardView& view : views) {
     split.left.push_back(view.left_px);
     split.right.push_back(view.right_px);
-    if (!board.looks_the_same_turned()) continue;
+    if (!board.looks_the_same_turned()) {
+      continue;
+    }
     BoardCorners& right = split.right.back();
     const Vec2 along_left = view.left_px.back() - view.left_px.front();
-    if (along_left.dot(right.back() - right.front()) < 0) std::reverse(right.begin(), right.end());
+    if (along_left.dot(right.back() - right.front()) < 0) {
+      std::reverse(right.begin(), right.end());
+    }
   }
   return split;
 }
@@ -61,9 +73,13 @@ struct Start {
 Result<Start> start_with(const Chessboard& board, ImageSize size, const BoardViews& views,
                          bool with_k3) {
   const auto left = fit_camera(board, size, views.left, with_k3);
-  if (!left) return left.error();
+  if (!left) {
+    return left.error();
+  }
   const auto right = fit_camera(board, size, views.right, with_k3);
-  if (!right) return right.error();
+  if (!right) {
+    return right.error();
+  }
   return Start{*left, *right, with_k3};
 }
 
@@ -73,8 +89,9 @@ Result<Start> each_by_itself(const Chessboard& board, ImageSize size, const Boar
   };
   const auto full = start_with(board, size, views, true);
   if (full && (is_significant(full->left) || is_significant(full->right)) &&
-      is_invertible(full->left.camera) && is_invertible(full->right.camera))
+      is_invertible(full->left.camera) && is_invertible(full->right.camera)) {
     return full;
+  }
   return start_with(board, size, views, false);
 }
 
@@ -86,9 +103,13 @@ double view_rms_px(const StereoFit& fit, std::size_t view) {
 /// The worst view, if it holds a mistake.
 std::optional<std::size_t> mistaken_view(const StereoFit& fit, double factor) {
   std::vector<double> all;
-  for (std::size_t i = 0; i < fit.view_rms_px.size(); ++i) all.push_back(view_rms_px(fit, i));
+  for (std::size_t i = 0; i < fit.view_rms_px.size(); ++i) {
+    all.push_back(view_rms_px(fit, i));
+  }
   const auto worst = std::max_element(all.begin(), all.end());
-  if (*worst <= std::max(kNoMistakePx, factor * median(all))) return std::nullopt;
+  if (*worst <= std::max(kNoMistakePx, factor * median(all))) {
+    return std::nullopt;
+  }
   return static_cast<std::size_t>(worst - all.begin());
 }
 
@@ -103,18 +124,25 @@ Result<Fitted> without_mistakes(const Chessboard& board, ImageSize size, BoardVi
                                 const StereoBoardOptions& options,
                                 std::vector<BoardViewResidual>& residuals) {
   std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < views.left.size(); ++i) numbers.push_back(i);
+  for (std::size_t i = 0; i < views.left.size(); ++i) {
+    numbers.push_back(i);
+  }
   const auto most_left_out =
-      static_cast<std::size_t>(options.max_outlier_share * static_cast<double>(numbers.size()));
+      static_cast<std::size_t>(options.max_outlier_fraction * static_cast<double>(numbers.size()));
   for (std::size_t left_out = 0;; ++left_out) {
     const auto start = each_by_itself(board, size, views);
-    if (!start) return start.error();
+    if (!start) {
+      return start.error();
+    }
     const auto fit = fit_stereo(board, size, views.left, views.right, start->left.camera,
                                 start->right.camera, start->with_k3);
-    if (!fit) return fit.error();
+    if (!fit) {
+      return fit.error();
+    }
     const auto mistake = mistaken_view(*fit, options.outlier_factor);
-    if (!mistake || left_out == most_left_out || numbers.size() == options.min_views)
+    if (!mistake || left_out == most_left_out || numbers.size() == options.min_views) {
       return Fitted{*fit, *start, views, numbers};
+    }
     residuals[numbers[*mistake]] = {false, fit->view_rms_px[*mistake][0],
                                     fit->view_rms_px[*mistake][1], 0.0};
     views.leave_out(*mistake);
@@ -128,34 +156,41 @@ double epipolar_rms_px(const CameraModel& left, const CameraModel& right,
                        const BoardCorners& left_px, const BoardCorners& right_px) {
   double squared = 0.0;
   double count = 0.0;
-  for (std::size_t i = 0; i < left_px.size(); ++i)
+  for (std::size_t i = 0; i < left_px.size(); ++i) {
     if (const auto off =
             across_epipolar_px(left, right, right_from_left, left_px[i], right_px[i])) {
       squared += *off * *off;
       count += 1.0;
     }
+  }
   return count > 0 ? std::sqrt(squared / count) : 0.0;
 }
 
-double covered_share(ImageSize size, std::span<const BoardCorners> views) {
+double covered_fraction(ImageSize size, std::span<const BoardCorners> views) {
   Coverage coverage(size.width_px, size.height_px);
-  for (const BoardCorners& view : views)
-    for (const Vec2 p : view) coverage.add(p);
-  return coverage.share();
+  for (const BoardCorners& view : views) {
+    for (const Vec2 p : view) {
+      coverage.add(p);
+    }
+  }
+  return coverage.fraction();
 }
 
 Status fill_epipolar(const BoardViews& all, StereoBoardCalibration& result) {
   const auto left = CameraModel::from_brown_conrady(result.left);
   const auto right = CameraModel::from_brown_conrady(result.right);
-  if (!left || !right)
+  if (!left || !right) {
     return Error{"stereo calibration: the lens model folds over (" +
                  (left ? right : left).error().message + "): more views, up to the image's edges"};
+  }
   double squared = 0.0;
   for (std::size_t i = 0; i < result.views.size(); ++i) {
     BoardViewResidual& view = result.views[i];
     view.epipolar_rms_px =
         epipolar_rms_px(*left, *right, result.right_from_left, all.left[i], all.right[i]);
-    if (view.used) squared += view.epipolar_rms_px * view.epipolar_rms_px;
+    if (view.used) {
+      squared += view.epipolar_rms_px * view.epipolar_rms_px;
+    }
   }
   result.epipolar_rms_px = std::sqrt(squared / static_cast<double>(result.used));
   return {};
@@ -167,37 +202,43 @@ void judge_precision(const StereoBoardOptions& options, StereoBoardCalibration& 
     judgement.add(Verdict::kNote, "too few views to tell how exact it is");
     return;
   }
-  const double focal = result.sigma->focal_share;
+  const double focal = result.sigma->focal_fraction;
   const double baseline = result.sigma->baseline_m / result.baseline_m();
-  if (focal > options.note_focal_sigma_share)
+  if (focal > options.note_focal_sigma_fraction) {
     judgement.add(
-        focal > options.max_focal_sigma_share ? Verdict::kFail : Verdict::kNote,
+        focal > options.max_focal_sigma_fraction ? Verdict::kFail : Verdict::kNote,
         with_numbers("the focal length is known to %.2f %% only, better %.2f %% (tilt the board)",
-                     100 * focal, 100 * options.note_focal_sigma_share));
-  if (baseline > options.note_baseline_sigma_share)
+                     100 * focal, 100 * options.note_focal_sigma_fraction));
+  }
+  if (baseline > options.note_baseline_sigma_fraction) {
     judgement.add(Verdict::kNote,
                   with_numbers("the baseline is known to %.2f %% only, better %.2f %%",
-                               100 * baseline, 100 * options.note_baseline_sigma_share));
+                               100 * baseline, 100 * options.note_baseline_sigma_fraction));
+  }
 }
 
 void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
   Judgement& judgement = result.judgement;
-  if (!(result.stereo_rms_px <= options.note_rms_px))
+  if (!(result.stereo_rms_px <= options.note_rms_px)) {
     judgement.add(result.stereo_rms_px <= options.max_rms_px ? Verdict::kNote : Verdict::kFail,
                   with_numbers("stereo RMS %.2f px, limit %.2f px", result.stereo_rms_px,
                                result.stereo_rms_px <= options.max_rms_px ? options.note_rms_px
                                                                           : options.max_rms_px));
-  if (result.used < result.views.size())
+  }
+  if (result.used < result.views.size()) {
     judgement.add(Verdict::kNote, std::to_string(result.views.size() - result.used) +
                                       " views left out for their residuals");
-  if (result.used < options.note_views)
+  }
+  if (result.used < options.note_views) {
     judgement.add(Verdict::kNote,
                   with_numbers("%.0f views, better %.0f", static_cast<double>(result.used),
                                static_cast<double>(options.note_views)));
-  if (result.covered_share < options.note_covered_share)
+  }
+  if (result.covered_fraction < options.note_covered_fraction) {
     judgement.add(Verdict::kNote,
                   with_numbers("the board reached %.0f %% of the image only, better %.0f %%",
-                               100 * result.covered_share, 100 * options.note_covered_share));
+                               100 * result.covered_fraction, 100 * options.note_covered_fraction));
+  }
   judge_precision(options, result);
   judgement.conclude();
 }
@@ -206,19 +247,22 @@ void judge(const StereoBoardOptions& options, StereoBoardCalibration& result) {
 
 std::vector<std::string> StereoBoardOptions::check() const {
   std::vector<std::string> problems;
-  if (min_views < 3)
+  if (min_views < 3) {
     problems.push_back("min_views " + std::to_string(min_views) + ", must be at least 3");
-  if (!(outlier_factor > 1.0))
+  }
+  if (!(outlier_factor > 1.0)) {
     problems.push_back("outlier_factor " + std::to_string(outlier_factor) + ", must be above 1");
-  if (!(max_outlier_share >= 0.0 && max_outlier_share < 1.0))
-    problems.push_back("max_outlier_share " + std::to_string(max_outlier_share) +
+  }
+  if (!(max_outlier_fraction >= 0.0 && max_outlier_fraction < 1.0)) {
+    problems.push_back("max_outlier_fraction " + std::to_string(max_outlier_fraction) +
                        ", must be at least 0 and below 1");
+  }
   must_be_positive({{"max_rms_px", max_rms_px},
-                    {"max_focal_sigma_share", max_focal_sigma_share},
+                    {"max_focal_sigma_fraction", max_focal_sigma_fraction},
                     {"note_rms_px", note_rms_px},
-                    {"note_focal_sigma_share", note_focal_sigma_share},
-                    {"note_baseline_sigma_share", note_baseline_sigma_share},
-                    {"note_covered_share", note_covered_share}},
+                    {"note_focal_sigma_fraction", note_focal_sigma_fraction},
+                    {"note_baseline_sigma_fraction", note_baseline_sigma_fraction},
+                    {"note_covered_fraction", note_covered_fraction}},
                    problems);
   return problems;
 }
@@ -226,12 +270,16 @@ std::vector<std::string> StereoBoardOptions::check() const {
 Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSize size,
                                                 std::span<const BoardView> views,
                                                 const StereoBoardOptions& options) {
-  if (Status status = check_views(board, size, views, options); !status) return status.error();
+  if (Status status = check_views(board, size, views, options); !status) {
+    return status.error();
+  }
   const BoardViews all = aligned(board, views);
   StereoBoardCalibration result;
   result.views.resize(views.size());
   const auto fitted = without_mistakes(board, size, all, options, result.views);
-  if (!fitted) return fitted.error();
+  if (!fitted) {
+    return fitted.error();
+  }
   const StereoFit& fit = fitted->fit;
   result.left = fit.left;
   result.right = fit.right;
@@ -245,9 +293,11 @@ Result<StereoBoardCalibration> calibrate_stereo(const Chessboard& board, ImageSi
     view.left_rms_px = fit.view_rms_px[i][0];
     view.right_rms_px = fit.view_rms_px[i][1];
   }
-  result.covered_share =
-      std::min(covered_share(size, fitted->used.left), covered_share(size, fitted->used.right));
-  if (Status status = fill_epipolar(all, result); !status) return status.error();
+  result.covered_fraction = std::min(covered_fraction(size, fitted->used.left),
+                                     covered_fraction(size, fitted->used.right));
+  if (Status status = fill_epipolar(all, result); !status) {
+    return status.error();
+  }
   result.sigma = stereo_sigma(board, size, fitted->used, fit, fitted->start.with_k3);
   judge(options, result);
   return result;

@@ -21,15 +21,15 @@ struct StereoBoardOptions {
   /// A view whose residual is so many times the middle one's holds a mistake and is left out.
   double outlier_factor = 3.0;
   /// But at most this share of the views.
-  double max_outlier_share = 0.25;
+  double max_outlier_fraction = 0.25;
   double max_rms_px = 1.0;
-  double max_focal_sigma_share = 0.02;
+  double max_focal_sigma_fraction = 0.02;
   /// What deserves a note.
   std::size_t note_views = 10;
   double note_rms_px = 0.45;
-  double note_focal_sigma_share = 0.005;
-  double note_baseline_sigma_share = 0.005;
-  double note_covered_share = 0.5;
+  double note_focal_sigma_fraction = 0.005;
+  double note_baseline_sigma_fraction = 0.005;
+  double note_covered_fraction = 0.5;
 
   /// Every problem at once.
   [[nodiscard]] std::vector<std::string> check() const;
@@ -47,7 +47,7 @@ struct BoardViewResidual {
 struct StereoSigma {
   double baseline_m = 0.0;
   double rotation_rad = 0.0;        ///< 3-D, of the right camera to the left one
-  double focal_share = 0.0;         ///< the larger of both cameras, by the focal length
+  double focal_fraction = 0.0;      ///< the larger of both cameras, by the focal length
   double principal_point_px = 0.0;  ///< the larger of both cameras, 2-D
 };
 
@@ -59,7 +59,8 @@ struct StereoBoardCalibration {
   double right_rms_px = 0.0;   ///< of the right one
   double stereo_rms_px = 0.0;  ///< of both together
   double epipolar_rms_px = 0.0;
-  double covered_share = 0.0;  ///< of the image that the corners reach, the smaller of both cameras
+  double covered_fraction =
+      0.0;  ///< of the image that the corners reach, the smaller of both cameras
   std::optional<StereoSigma> sigma;  ///< with four views at least
   std::size_t used = 0;
   std::vector<BoardViewResidual> views;  ///< as given; of a view left out, what it had then

@@ -20,16 +20,21 @@ Error refused(const std::string& why) { return Error{"stereo calibration: " + wh
 /// What both cameras saw of the tags.
 std::vector<PairSightings> seen_by_both(std::span<const PairSightings> pairs) {
   std::vector<PairSightings> both(pairs.begin(), pairs.end());
-  for (PairSightings& pair : both)
+  for (PairSightings& pair : both) {
     std::erase_if(pair, [](const TagSighting& seen) { return !seen.pose; });
+  }
   return both;
 }
 
 double median_size_ratio(std::span<const PairSightings> pairs) {
   std::vector<double> ratios;
-  for (const PairSightings& pair : pairs)
-    for (const TagSighting& seen : pair)
-      if (seen.pose) ratios.push_back(seen.pose->size_ratio);
+  for (const PairSightings& pair : pairs) {
+    for (const TagSighting& seen : pair) {
+      if (seen.pose) {
+        ratios.push_back(seen.pose->size_ratio);
+      }
+    }
+  }
   return ratios.empty() ? 1.0 : median(std::move(ratios));
 }
 
@@ -40,29 +45,35 @@ std::vector<double> across_px(const BodyProblem& problem,
   const StereoCalibration& cameras = problem.calibration;
   const auto right_from_left = right_from_rig * cameras.left_from_rig.inverse();
   std::vector<double> all;
-  for (const PairSightings& pair : problem.pairs)
-    for (const TagSighting& seen : pair)
-      for (std::size_t i = 0; i < 4; ++i)
+  for (const PairSightings& pair : problem.pairs) {
+    for (const TagSighting& seen : pair) {
+      for (std::size_t i = 0; i < 4; ++i) {
         all.push_back(across_epipolar_px(cameras.left, cameras.right, right_from_left,
                                          (*seen.left_px)[i], (*seen.right_px)[i])
                           .value_or(std::nan("")));
+      }
+    }
+  }
   return all;
 }
 
 double rms(const std::vector<double>& values) {
   double squared = 0.0;
   double count = 0.0;
-  for (const double v : values)
+  for (const double v : values) {
     if (std::isfinite(v)) {
       squared += v * v;
       count += 1.0;
     }
+  }
   return std::sqrt(squared / std::max(count, 1.0));
 }
 
 /// RMS of what one calibration puts elsewhere across the lines than another.
 double rms_between(std::vector<double> a, const std::vector<double>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    a[i] -= b[i];
+  }
   return rms(a);
 }
 
@@ -75,35 +86,39 @@ struct Sigma {
 /// From leaving out each tenth of the pairs in turn.
 Sigma jackknife(const BodyProblem& problem, const BodyState& whole) {
   const std::vector<double> all_px = across_px(problem, whole.right_from_rig);
-  double turn = 0.0;
+  double rotation_step = 0.0;
   double shift = 0.0;
   double off = 0.0;
-  double tenths = 0.0;
-  for (const BodyState& state : adjusted_without_tenths(problem, whole)) {
+  double blocks = 0.0;
+  for (const BodyState& state : adjusted_without_blocks(problem, whole)) {
     const auto& a = whole.right_from_rig;
     const auto& b = state.right_from_rig;
-    turn += std::pow(rotation_angle_rad(a.rotation(), b.rotation()), 2);
+    rotation_step += std::pow(rotation_angle_rad(a.rotation(), b.rotation()), 2);
     shift += (b.translation() - a.translation()).squared_norm();
     off += std::pow(rms_between(across_px(problem, b), all_px), 2);
-    tenths += 1.0;
+    blocks += 1.0;
   }
-  if (tenths < 2.0) return {};
-  const double factor = (tenths - 1.0) / tenths;
-  return {std::sqrt(factor * turn), std::sqrt(factor * shift), std::sqrt(factor * off)};
+  if (blocks < 2.0) {
+    return {};
+  }
+  const double factor = (blocks - 1.0) / blocks;
+  return {std::sqrt(factor * rotation_step), std::sqrt(factor * shift), std::sqrt(factor * off)};
 }
 
-double covered_share(const BodyProblem& problem) {
+double covered_fraction(const BodyProblem& problem) {
   const CameraModel& left = problem.calibration.left;
   const CameraModel& right = problem.calibration.right;
   Coverage on_left(left.width_px(), left.height_px());
   Coverage on_right(right.width_px(), right.height_px());
-  for (const PairSightings& pair : problem.pairs)
-    for (const TagSighting& seen : pair)
+  for (const PairSightings& pair : problem.pairs) {
+    for (const TagSighting& seen : pair) {
       for (std::size_t i = 0; i < 4; ++i) {
         on_left.add((*seen.left_px)[i]);
         on_right.add((*seen.right_px)[i]);
       }
-  return std::min(on_left.share(), on_right.share());
+    }
+  }
+  return std::min(on_left.fraction(), on_right.fraction());
 }
 
 StereoRecording result_of(const BodyProblem& problem, const BodyState& state, const BodyFit& fit) {
@@ -120,13 +135,13 @@ StereoRecording result_of(const BodyProblem& problem, const BodyState& state, co
   result.epipolar_after_px = rms(after_px);
   result.off_px = rms_between(before_px, after_px);
   result.rms_px = fit.rms_px;
-  result.covered_share = covered_share(problem);
+  result.covered_fraction = covered_fraction(problem);
   result.size_ratio = median_size_ratio(problem.pairs);
   result.pairs = problem.pairs.size();
   const Sigma sigma = jackknife(problem, state);
   const PoseCovariance& c = fit.covariances.front();
-  result.turn_sigma_rad = std::max(turn_sigma_rad(c), sigma.turn_rad);
-  result.shift_sigma_m = std::max(shift_sigma_m(c), sigma.shift_m);
+  result.rotation_sigma_rad = std::max(rotation_sigma_rad(c), sigma.turn_rad);
+  result.translation_sigma_m = std::max(translation_sigma_m(c), sigma.shift_m);
   result.off_sigma_px = sigma.off_px;
   return result;
 }
@@ -137,32 +152,41 @@ void judge(const StereoRecordingOptions& options, StereoRecording& result) {
                   result.off_px > options.significance * result.off_sigma_px;
   const std::string off =
       with_numbers("%.3f ± %.3f px across the epipolar lines", result.off_px, result.off_sigma_px);
-  if (result.is_off) judgement.add(Verdict::kNote, "the device's calibration is off by " + off);
-  if (!(result.rms_px <= options.max_rms_px))
+  if (result.is_off) {
+    judgement.add(Verdict::kNote, "the device's calibration is off by " + off);
+  }
+  if (!(result.rms_px <= options.max_rms_px)) {
     judgement.add(Verdict::kFail, with_numbers("residual %.2f px RMS, limit %.2f px (is the board "
                                                "flat, are the lenses as the device says?)",
                                                result.rms_px, options.max_rms_px));
-  if (result.off_sigma_px > options.note_sigma_px)
+  }
+  if (result.off_sigma_px > options.note_sigma_px) {
     judgement.add(Verdict::kNote, with_numbers("known to %.2f px only, better %.2f px",
                                                result.off_sigma_px, options.note_sigma_px));
-  if (result.covered_share < options.note_covered_share)
+  }
+  if (result.covered_fraction < options.note_covered_fraction) {
     judgement.add(Verdict::kNote,
                   with_numbers("the board reached %.0f %% of the image only, better %.0f %%",
-                               100 * result.covered_share, 100 * options.note_covered_share));
-  if (!result.is_off) judgement.add(Verdict::kPass, "the device's calibration holds: " + off);
+                               100 * result.covered_fraction, 100 * options.note_covered_fraction));
+  }
+  if (!result.is_off) {
+    judgement.add(Verdict::kPass, "the device's calibration holds: " + off);
+  }
 }
 
 Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& options) {
-  if (problem.pairs.size() < options.min_pairs)
+  if (problem.pairs.size() < options.min_pairs) {
     return refused("both cameras see two tags of the board or more in " +
                    std::to_string(problem.pairs.size()) + " pairs, at least " +
                    std::to_string(options.min_pairs) + " are needed");
+  }
   const double ratio = median_size_ratio(problem.pairs);
-  if (!(std::abs(ratio - 1.0) <= options.max_size_deviation))
+  if (!(std::abs(ratio - 1.0) <= options.max_size_deviation)) {
     return refused(
         with_numbers("the tags' edges measure %.3f of the size given, must be within "
                      "%.2f of it (was the board printed at 100 %%?)",
                      ratio, options.max_size_deviation));
+  }
   return {};
 }
 
@@ -170,17 +194,19 @@ Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& opt
 
 std::vector<std::string> StereoRecordingOptions::check() const {
   std::vector<std::string> problems;
-  if (min_pairs < kTenths)
+  if (min_pairs < kJackknifeBlocks) {
     problems.push_back("min_pairs " + std::to_string(min_pairs) + ", must be at least " +
-                       std::to_string(kTenths));
-  if (max_pairs < min_pairs)
+                       std::to_string(kJackknifeBlocks));
+  }
+  if (max_pairs < min_pairs) {
     problems.push_back("max_pairs " + std::to_string(max_pairs) + ", must be at least min_pairs");
+  }
   must_be_positive({{"max_rms_px", max_rms_px},
                     {"max_size_deviation", max_size_deviation},
                     {"significance", significance},
                     {"min_off_px", min_off_px},
                     {"note_sigma_px", note_sigma_px},
-                    {"note_covered_share", note_covered_share}},
+                    {"note_covered_fraction", note_covered_fraction}},
                    problems);
   return problems;
 }
@@ -189,7 +215,9 @@ Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
                                          std::span<const BoardTag> board,
                                          std::span<const PairSightings> pairs,
                                          const StereoRecordingOptions& options) {
-  if (const auto problems = options.check(); !problems.empty()) return refused(problems.front());
+  if (const auto problems = options.check(); !problems.empty()) {
+    return refused(problems.front());
+  }
   BodyProblem problem;
   BodyState state;
   problem.calibration = calibration;
@@ -201,9 +229,13 @@ Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
     state.marker_from_tag.push_back(tag.board_from_tag);
   }
   take_pairs(seen_by_both(pairs), options.max_pairs, problem, state);
-  if (Status status = check_pairs(problem, options); !status) return status.error();
+  if (Status status = check_pairs(problem, options); !status) {
+    return status.error();
+  }
   const auto fit = adjust(problem, state);
-  if (!fit) return refused(fit.error().message);
+  if (!fit) {
+    return refused(fit.error().message);
+  }
   StereoRecording result = result_of(problem, state, *fit);
   judge(options, result);
   return result;

@@ -26,7 +26,7 @@ struct StereoRecordingOptions {
   double min_off_px = 0.1;
   /// What deserves a note.
   double note_sigma_px = 0.05;
-  double note_covered_share = 0.3;
+  double note_covered_fraction = 0.3;
 
   /// Every problem at once.
   [[nodiscard]] std::vector<std::string> check() const;
@@ -39,8 +39,8 @@ struct StereoRecording {
   /// From the device's right camera to the measured one, in its own frame.
   Vec3 turn_rad;
   Vec3 shift_m;
-  double turn_sigma_rad = 0.0;  ///< 3-D, the larger of predicted and jackknife
-  double shift_sigma_m = 0.0;
+  double rotation_sigma_rad = 0.0;  ///< 3-D, the larger of predicted and jackknife
+  double translation_sigma_m = 0.0;
   /// RMS over the corners of what turn and shift move them across the epipolar lines, and the SD
   /// of that: a jackknife over tenths of the recording.
   double off_px = 0.0;
@@ -50,7 +50,7 @@ struct StereoRecording {
       0.0;  ///< RMS distance from the epipolar lines, as the device has them
   double epipolar_after_px = 0.0;
   double rms_px = 0.0;  ///< of the corners, 2-D
-  double covered_share = 0.0;
+  double covered_fraction = 0.0;
   double size_ratio = 0.0;  ///< middle triangulated edge by the size given
   std::size_t pairs = 0;
   Judgement judgement;

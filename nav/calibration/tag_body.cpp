@@ -23,24 +23,38 @@ Error refused(const std::string& why) { return Error{"tool calibration: " + why}
 
 Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions& options) {
   std::vector<std::string> problems = options.check();
-  if (tags.size() < 2)
+  if (tags.size() < 2) {
     problems.push_back(std::to_string(tags.size()) + " tags, at least 2 are needed");
+  }
   ToolGeometry tool;
   tool.name = "tool";
-  if (!tags.empty()) tool.marker = tags.front();
-  for (std::size_t i = 1; i < tags.size(); ++i) tool.more_markers.push_back({tags[i], {}});
-  if (!tags.empty())
-    for (std::string& problem : problems_of({tool})) problems.push_back(std::move(problem));
-  if (problems.empty()) return {};
+  if (!tags.empty()) {
+    tool.marker = tags.front();
+  }
+  for (std::size_t i = 1; i < tags.size(); ++i) {
+    tool.more_markers.push_back({tags[i], {}});
+  }
+  if (!tags.empty()) {
+    for (std::string& problem : problems_of({tool})) {
+      problems.push_back(std::move(problem));
+    }
+  }
+  if (problems.empty()) {
+    return {};
+  }
   return refused(joined(problems));
 }
 
 /// 0 where both cameras never saw it together.
 double median_size_ratio(std::span<const PairSightings> pairs, std::size_t tag) {
   std::vector<double> ratios;
-  for (const PairSightings& pair : pairs)
-    for (const TagSighting& seen : pair)
-      if (seen.tag == tag && seen.pose) ratios.push_back(seen.pose->size_ratio);
+  for (const PairSightings& pair : pairs) {
+    for (const TagSighting& seen : pair) {
+      if (seen.tag == tag && seen.pose) {
+        ratios.push_back(seen.pose->size_ratio);
+      }
+    }
+  }
   return ratios.empty() ? 0.0 : median(std::move(ratios));
 }
 
@@ -57,11 +71,15 @@ Status check_connected(std::span<const MarkerDefinition> tags, std::span<const P
                        const TagLayout& layout, std::size_t min_pairs) {
   std::string names;
   for (std::size_t i = 0; i < tags.size(); ++i) {
-    if (layout.reached[i]) continue;
+    if (layout.reached[i]) {
+      continue;
+    }
     names += (names.empty() ? "" : ", ") + name_of(tags[i]) + " (seen in " +
              std::to_string(pairs_with(pairs, i)) + " pairs)";
   }
-  if (names.empty()) return {};
+  if (names.empty()) {
+    return {};
+  }
   return refused(names + ": not seen in " + std::to_string(min_pairs) +
                  " pairs together with tags that connect it with " + name_of(tags.front()));
 }
@@ -70,10 +88,11 @@ Status check_sizes(std::span<const MarkerDefinition> tags, std::span<const PairS
                    double limit) {
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const double ratio = median_size_ratio(pairs, i);
-    if (ratio > 0.0 && !(std::abs(ratio - 1.0) <= limit))
+    if (ratio > 0.0 && !(std::abs(ratio - 1.0) <= limit)) {
       return refused(name_of(tags[i]) +
                      with_numbers(": its edges measure %.2f mm, given are %.2f mm",
                                   ratio * tags[i].size_m * 1e3, tags[i].size_m * 1e3));
+    }
   }
   return {};
 }
@@ -98,25 +117,34 @@ struct Sigma {
 std::vector<Sigma> jackknife(const BodyProblem& problem, const BodyState& whole) {
   const std::size_t tags = problem.size_m.size();
   std::vector<Sigma> sigma(tags);
-  if (problem.pairs.size() < 2 * kTenths) return sigma;
+  if (problem.pairs.size() < 2 * kJackknifeBlocks) {
+    return sigma;
+  }
   std::vector<std::vector<Vec3>> shifts(tags);
   std::vector<std::vector<Vec3>> turns(tags);
-  for (const BodyState& state : adjusted_without_tenths(problem, whole))
+  for (const BodyState& state : adjusted_without_blocks(problem, whole)) {
     for (std::size_t i = 0; i < tags; ++i) {
       const auto& a = whole.marker_from_tag[i];
       const auto& b = state.marker_from_tag[i];
       shifts[i].push_back(b.translation() - a.translation());
       turns[i].push_back(vector_from_rotation(b.rotation() * a.rotation().transposed()));
     }
+  }
   const auto sd = [](const std::vector<Vec3>& values) {
     const auto count = static_cast<double>(values.size());
     Vec3 mean;
-    for (const Vec3& v : values) mean += v / count;
+    for (const Vec3& v : values) {
+      mean += v / count;
+    }
     double squared = 0.0;
-    for (const Vec3& v : values) squared += (v - mean).squared_norm();
+    for (const Vec3& v : values) {
+      squared += (v - mean).squared_norm();
+    }
     return values.size() < 2 ? 0.0 : std::sqrt((count - 1.0) / count * squared);
   };
-  for (std::size_t i = 0; i < tags; ++i) sigma[i] = {sd(shifts[i]), sd(turns[i])};
+  for (std::size_t i = 0; i < tags; ++i) {
+    sigma[i] = {sd(shifts[i]), sd(turns[i])};
+  }
   return sigma;
 }
 
@@ -125,14 +153,14 @@ TagBody body_of(std::span<const MarkerDefinition> tags, std::span<const PairSigh
   TagBody body;
   body.pairs = problem.pairs.size();
   body.rms_px = fit.rms_px;
-  body.outlier_share = static_cast<double>(fit.outliers) / static_cast<double>(fit.corners);
+  body.outlier_fraction = static_cast<double>(fit.outliers) / static_cast<double>(fit.corners);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     BodyTag tag{tags[i], state.marker_from_tag[i],   pairs_with(problem.pairs, i), 0,
                 0,       median_size_ratio(pairs, i)};
     if (i > 0) {
       const PoseCovariance& c = fit.covariances[i - 1];
-      tag.sigma_m = shift_sigma_m(c);
-      tag.sigma_rad = turn_sigma_rad(c);
+      tag.sigma_m = translation_sigma_m(c);
+      tag.sigma_rad = rotation_sigma_rad(c);
     }
     body.tags.push_back(tag);
   }
@@ -140,54 +168,63 @@ TagBody body_of(std::span<const MarkerDefinition> tags, std::span<const PairSigh
 }
 
 Status check_rigid(const TagBody& body, const TagBodyOptions& options) {
-  if (!(body.rms_px <= options.max_rms_px))
+  if (!(body.rms_px <= options.max_rms_px)) {
     return refused(
         with_numbers("residual %.2f px RMS, limit %.2f px (do the tags move against "
                      "each other?)",
                      body.rms_px, options.max_rms_px));
-  if (!(body.outlier_share <= options.max_outlier_share))
+  }
+  if (!(body.outlier_fraction <= options.max_outlier_fraction)) {
     return refused(
         with_numbers("%.0f %% of the corners do not fit, limit %.0f %% (do the tags "
                      "move against each other?)",
-                     100 * body.outlier_share, 100 * options.max_outlier_share));
+                     100 * body.outlier_fraction, 100 * options.max_outlier_fraction));
+  }
   return {};
 }
 
 Status check_sigma(const TagBody& body, const TagBodyOptions& options) {
-  for (const BodyTag& tag : body.tags)
-    if (!(tag.sigma_m <= options.max_sigma_m))
+  for (const BodyTag& tag : body.tags) {
+    if (!(tag.sigma_m <= options.max_sigma_m)) {
       return refused(name_of(tag.definition) +
                      with_numbers(": its place is known to %.2f mm, limit %.2f mm",
                                   tag.sigma_m * 1e3, options.max_sigma_m * 1e3));
+    }
+  }
   return {};
 }
 
 Judgement judged(const TagBody& body, const TagBodyOptions& options) {
   Judgement judgement;
-  if (body.outlier_share > options.note_outlier_share)
+  if (body.outlier_fraction > options.note_outlier_fraction) {
     judgement.add(Verdict::kNote,
                   with_numbers("%.0f %% of the corners do not fit, better %.0f %%",
-                               100 * body.outlier_share, 100 * options.note_outlier_share));
+                               100 * body.outlier_fraction, 100 * options.note_outlier_fraction));
+  }
   for (const BodyTag& tag : body.tags) {
     const std::string name = name_of(tag.definition);
-    if (tag.sigma_m > options.note_sigma_m)
+    if (tag.sigma_m > options.note_sigma_m) {
       judgement.add(Verdict::kNote,
                     name + with_numbers(": its place is known to %.2f mm only, better %.2f mm",
                                         tag.sigma_m * 1e3, options.note_sigma_m * 1e3));
-    if (tag.sigma_rad > options.note_sigma_rad)
+    }
+    if (tag.sigma_rad > options.note_sigma_rad) {
       judgement.add(Verdict::kNote,
                     name + with_numbers(": its turn is known to %.2f° only, better %.2f°",
                                         tag.sigma_rad * kDegreesPerRadian,
                                         options.note_sigma_rad * kDegreesPerRadian));
-    if (std::abs(tag.size_ratio - 1.0) > options.note_size_deviation)
+    }
+    if (std::abs(tag.size_ratio - 1.0) > options.note_size_deviation) {
       judgement.add(Verdict::kNote,
                     name + with_numbers(": its edges measure %.2f mm, given are %.2f mm",
                                         tag.size_ratio * tag.definition.size_m * 1e3,
                                         tag.definition.size_m * 1e3));
-    if (tag.pairs < options.note_pairs)
+    }
+    if (tag.pairs < options.note_pairs) {
       judgement.add(Verdict::kNote, name + with_numbers(": seen in %.0f pairs only, better %.0f",
                                                         static_cast<double>(tag.pairs),
                                                         static_cast<double>(options.note_pairs)));
+    }
   }
   judgement.conclude();
   return judgement;
@@ -197,18 +234,21 @@ Judgement judged(const TagBody& body, const TagBodyOptions& options) {
 
 std::vector<std::string> TagBodyOptions::check() const {
   std::vector<std::string> problems;
-  if (min_pairs_together < 1) problems.emplace_back("min_pairs_together 0, must be at least 1");
-  if (max_pairs < min_pairs_together)
+  if (min_pairs_together < 1) {
+    problems.emplace_back("min_pairs_together 0, must be at least 1");
+  }
+  if (max_pairs < min_pairs_together) {
     problems.push_back("max_pairs " + std::to_string(max_pairs) +
                        ", must be at least min_pairs_together");
+  }
   must_be_positive({{"max_rms_px", max_rms_px},
-                    {"max_outlier_share", max_outlier_share},
+                    {"max_outlier_fraction", max_outlier_fraction},
                     {"max_sigma_m", max_sigma_m},
                     {"max_size_deviation", max_size_deviation},
                     {"note_sigma_m", note_sigma_m},
                     {"note_sigma_rad", note_sigma_rad},
                     {"note_size_deviation", note_size_deviation},
-                    {"note_outlier_share", note_outlier_share}},
+                    {"note_outlier_fraction", note_outlier_fraction}},
                    problems);
   return problems;
 }
@@ -217,25 +257,35 @@ Result<TagBody> calibrate_tag_body(const StereoCalibration& calibration,
                                    std::span<const MarkerDefinition> tags,
                                    std::span<const PairSightings> pairs,
                                    const TagBodyOptions& options) {
-  if (Status status = check_input(tags, options); !status) return status.error();
-  if (Status status = check_sizes(tags, pairs, options.max_size_deviation); !status)
+  if (Status status = check_input(tags, options); !status) {
     return status.error();
+  }
+  if (Status status = check_sizes(tags, pairs, options.max_size_deviation); !status) {
+    return status.error();
+  }
   const TagLayout layout = first_layout(pairs, tags.size(), options.min_pairs_together);
-  if (Status status = check_connected(tags, pairs, layout, options.min_pairs_together); !status)
+  if (Status status = check_connected(tags, pairs, layout, options.min_pairs_together); !status) {
     return status.error();
+  }
   BodyProblem problem = problem_of(calibration, tags);
   BodyState state{calibration.right_from_rig, layout.marker_from_tag, {}};
   take_pairs(pairs, options.max_pairs, problem, state);
   const auto fit = adjust(problem, state);
-  if (!fit) return refused(fit.error().message);
+  if (!fit) {
+    return refused(fit.error().message);
+  }
   TagBody body = body_of(tags, pairs, problem, state, *fit);
-  if (Status status = check_rigid(body, options); !status) return status.error();
+  if (Status status = check_rigid(body, options); !status) {
+    return status.error();
+  }
   const std::vector<Sigma> left_out = jackknife(problem, state);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     body.tags[i].sigma_m = std::max(body.tags[i].sigma_m, left_out[i].m);
     body.tags[i].sigma_rad = std::max(body.tags[i].sigma_rad, left_out[i].rad);
   }
-  if (Status status = check_sigma(body, options); !status) return status.error();
+  if (Status status = check_sigma(body, options); !status) {
+    return status.error();
+  }
   body.judgement = judged(body, options);
   return body;
 }

@@ -17,14 +17,14 @@ struct TagBodyOptions {
   /// Tags that move against each other leave more corners that do not fit (a quarter, from a
   /// millimetre on), or a larger residual.
   double max_rms_px = 0.5;
-  double max_outlier_share = 0.15;
+  double max_outlier_fraction = 0.15;
   double max_sigma_m = 0.001;
   double max_size_deviation = 0.05;  ///< triangulated edge by the one given, less 1
   /// What deserves a note.
   double note_sigma_m = 0.0002;
   double note_sigma_rad = 0.005;
   double note_size_deviation = 0.02;
-  double note_outlier_share = 0.08;
+  double note_outlier_fraction = 0.08;
   std::size_t note_pairs = 50;
 
   /// Every problem at once.
@@ -47,7 +47,7 @@ struct TagBody {
   std::vector<BodyTag> tags;
   std::size_t pairs = 0;  ///< used: with two tags or more
   double rms_px = 0.0;    ///< of the corners, 2-D
-  double outlier_share = 0.0;
+  double outlier_fraction = 0.0;
   Judgement judgement;  ///< pass or note; what fails is refused
 };
 

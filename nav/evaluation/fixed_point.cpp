@@ -11,12 +11,15 @@ namespace {
 // Stretches begin and end at such blocks.
 constexpr double kBlock_s = 0.25;
 // A stretch that has not fitted for so many blocks more won't fit again.
-constexpr int kHopeless = 8;
+constexpr int kFarFromBest = 8;
 
 Eigen::Matrix3d as_eigen(const Mat3& m) {
   Eigen::Matrix3d out;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) out(r, c) = m[r][static_cast<std::size_t>(c)];
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      out(r, c) = m[r][static_cast<std::size_t>(c)];
+    }
+  }
   return out;
 }
 
@@ -62,9 +65,10 @@ Fit fit_of(const Sums& sums, double min_spread_rad) {
   solver.computeDirect(normal);
   fit.spread_rad = std::sqrt(std::max(0.0, solver.eigenvalues()(0)) / sums.n);
   // Without turning the offset is open; the tip where it should be is then as good as any.
-  if (fit.spread_rad >= min_spread_rad)
+  if (fit.spread_rad >= min_spread_rad) {
     fit.offset =
         normal.ldlt().solve(sums.rotation.transpose() * sums.tip / sums.n - sums.tip_in_marker);
+  }
   const Eigen::Vector3d p = (sums.tip + sums.rotation * fit.offset) / sums.n;
   const double squares = sums.squares + sums.n * fit.offset.squaredNorm() +
                          2.0 * fit.offset.dot(sums.tip_in_marker) - sums.n * p.squaredNorm();
@@ -102,13 +106,15 @@ Blocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
 
 std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world_from_marker,
                                               Point<Marker> tip, const FixedPointOptions& options) {
-  if (world_from_marker.empty()) return std::nullopt;
+  if (world_from_marker.empty()) {
+    return std::nullopt;
+  }
   const Blocks blocks = blocks_of(world_from_marker, tip);
   std::optional<FixedPoint> best;
   double best_score = 0.0;
   for (std::size_t from = 0; from + 1 < blocks.first.size(); ++from) {
     int unfit = 0;
-    for (std::size_t to = from + 1; to < blocks.first.size() && unfit < kHopeless; ++to) {
+    for (std::size_t to = from + 1; to < blocks.first.size() && unfit < kFarFromBest; ++to) {
       const std::size_t first = blocks.first[from];
       const std::size_t end = blocks.first[to];
       const Fit fit = fit_of(blocks.before[to] - blocks.before[from], options.min_spread_rad);
@@ -116,17 +122,22 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
         // While the tool has turned too little for the offset, a wrong tip looks like a motion, but
         // no larger one than its offset makes.
         if (fit.spread_rad >= options.min_spread_rad ||
-            fit.rmse_m > 2.0 * options.max_offset_m + options.max_rmse_m)
+            fit.rmse_m > 2.0 * options.max_offset_m + options.max_rmse_m) {
           ++unfit;
+        }
         continue;
       }
       unfit = 0;
       const double duration_s =
           seconds(world_from_marker[end - 1].time - world_from_marker[first].time);
-      if (duration_s < options.min_duration_s || fit.spread_rad < options.min_spread_rad) continue;
+      if (duration_s < options.min_duration_s || fit.spread_rad < options.min_spread_rad) {
+        continue;
+      }
       const double ratio = fit.rmse_m / options.max_rmse_m;
       const double score = duration_s * (1.0 - ratio * ratio);
-      if (score <= best_score) continue;
+      if (score <= best_score) {
+        continue;
+      }
       best_score = score;
       best = FixedPoint{first, end, {fit.offset.x(), fit.offset.y(), fit.offset.z()}, fit.rmse_m};
     }

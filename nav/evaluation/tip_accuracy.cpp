@@ -12,29 +12,40 @@ namespace {
 
 Status check_input(std::span<const Vec3> board_points_m, const AccuracyOptions& options) {
   const std::vector<std::string> problems = options.check();
-  if (!problems.empty()) return Error{problems.front()};
-  if (!board_points_m.empty() && board_points_m.size() < 3)
+  if (!problems.empty()) {
+    return Error{problems.front()};
+  }
+  if (!board_points_m.empty() && board_points_m.size() < 3) {
     return refused("board: %.0f points to touch, at least %.0f are needed",
                    static_cast<double>(board_points_m.size()), 3);
+  }
   // Rests must tell the points apart.
-  for (std::size_t i = 0; i < board_points_m.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (!((board_points_m[i] - board_points_m[k]).norm() >= 3.0 * options.rests.radius_m))
+  for (std::size_t i = 0; i < board_points_m.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!((board_points_m[i] - board_points_m[k]).norm() >= 3.0 * options.rests.radius_m)) {
         return refused("board: two points to touch are %.1f mm apart, at least %.1f mm are needed",
                        (board_points_m[i] - board_points_m[k]).norm() * 1e3,
                        3e3 * options.rests.radius_m);
+      }
+    }
+  }
   return {};
 }
 
 Result<PointerTrack> measured_track(std::span<const TrackedPose> poses, Point<Marker> tip) {
   PointerTrack track;
   for (const TrackedPose& pose : poses) {
-    if (pose.origin != Origin::kMeasured) continue;
+    if (pose.status != PoseStatus::kMeasured) {
+      continue;
+    }
     const Vec3 tip_m = (pose.value * tip).v;
-    if (!tip_m.is_finite()) return Error{"accuracy test: a pose is not finite"};
+    if (!tip_m.is_finite()) {
+      return Error{"accuracy test: a pose is not finite"};
+    }
     auto& kept = track.world_from_marker;
-    if (!kept.empty() && pose.time <= kept.back().time)
+    if (!kept.empty() && pose.time <= kept.back().time) {
       return Error{"accuracy test: the times of the poses do not increase"};
+    }
     kept.push_back(pose);
     track.tips.push_back({seconds(pose.time - kept.front().time), tip_m});
   }
@@ -53,14 +64,17 @@ FixedPointOptions fixed_point_options(const AccuracyOptions& options) {
 /// Where the tool's point stays in the stretch that was found.
 Vec3 fixed_place(const PointerTrack& track, const FixedPoint& found) {
   Vec3 sum_m{};
-  for (std::size_t i = found.first; i < found.end; ++i) sum_m += track.fixed[i].tip_m;
+  for (std::size_t i = found.first; i < found.end; ++i) {
+    sum_m += track.fixed[i].tip_m;
+  }
   return sum_m / static_cast<double>(found.end - found.first);
 }
 
 void add_fixed_points(Vec3 tip_m, PointerTrack& track) {
-  for (std::size_t i = 0; i < track.tips.size(); ++i)
+  for (std::size_t i = 0; i < track.tips.size(); ++i) {
     track.fixed.push_back(
         {track.tips[i].time_s, (track.world_from_marker[i].value * Point<Marker>{tip_m}).v});
+  }
 }
 
 /// The rests sorted: in the dimple, away from it (the touches), and beside it for so long that the
@@ -81,18 +95,21 @@ SortedRests sorted_rests(const PointerTrack& track, const FixedPoint& found,
     auto& dimple = out.dimple.samples;
     const double length_s =
         track.fixed[rest.samples.back()].time_s - track.fixed[rest.samples.front()].time_s;
-    if (off_m <= options.rests.radius_m)
+    if (off_m <= options.rests.radius_m) {
       dimple.insert(dimple.end(), rest.samples.begin(), rest.samples.end());
-    else if (off_m > options.dimple_m)
+    } else if (off_m > options.dimple_m) {
       out.touches.push_back(rest);
-    else if (length_s >= options.min_still_s && (!out.slip || off_m > out.slip->step_m))
+    } else if (length_s >= options.min_still_s && (!out.slip || off_m > out.slip->step_m)) {
       out.slip = TipSlip{track.fixed[rest.samples.front()].time_s, off_m};
+    }
   }
   return out;
 }
 
 void note_slip(const std::optional<TipSlip>& slip, AccuracyPart& part) {
-  if (!slip || !part.failure.empty()) return;
+  if (!slip || !part.failure.empty()) {
+    return;
+  }
   part.failure =
       with_numbers("the tip slipped by %.1f mm about %.1f s into the recording: repeat the test",
                    slip->step_m * 1e3, slip->time_s);
@@ -109,24 +126,30 @@ void note_slips(const PointerTrack& track, const SortedRests& rests,
 
 }  // namespace
 
-Result<AccuracyReport> accuracy_test(std::span<const TrackedPose> world_from_marker,
-                                     const ToolGeometry& pointer,
-                                     std::span<const Vec3> board_points_m,
-                                     const AccuracyOptions& options) {
-  if (Status s = check_input(board_points_m, options); !s) return s.error();
+Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from_marker,
+                                         const ToolGeometry& pointer,
+                                         std::span<const Vec3> board_points_m,
+                                         const AccuracyOptions& options) {
+  if (Status s = check_input(board_points_m, options); !s) {
+    return s.error();
+  }
   auto track = measured_track(world_from_marker, pointer.tip_in_marker);
-  if (!track) return track.error();
-  if (track->tips.size() < 2 * options.min_still_samples)
+  if (!track) {
+    return track.error();
+  }
+  if (track->tips.size() < 2 * options.min_still_samples) {
     return refused("accuracy test: %.0f measured poses of the pointer, at least %.0f are needed",
                    static_cast<double>(track->tips.size()),
                    2.0 * static_cast<double>(options.min_still_samples));
+  }
   const auto found = longest_fixed_point(track->world_from_marker, pointer.tip_in_marker,
                                          fixed_point_options(options));
-  if (!found)
+  if (!found) {
     return refused(
         "accuracy test: the pointer never turned about its resting tip, must do so for "
         "at least %.1f s and %.2f rad RMS about every axis",
         options.min_turning_s, options.min_turning_spread_rad);
+  }
   add_fixed_points(pointer.tip_in_marker.v + found->offset_m, *track);
   const SortedRests rests = sorted_rests(*track, *found, options);
 
@@ -134,15 +157,23 @@ Result<AccuracyReport> accuracy_test(std::span<const TrackedPose> world_from_mar
   report.samples = track->tips.size();
   report.duration_s = track->tips.back().time_s;
   const auto still = still_stretch(*track, rests.dimple, options);
-  if (!still) return still.error();
+  if (!still) {
+    return still.error();
+  }
   report.single_point = single_point_part(*track, pointer.tip_in_marker, *still, options);
   auto turning = turning_part(*track, pointer, rests.dimple, *still, options);
-  if (!turning) return turning.error();
+  if (!turning) {
+    return turning.error();
+  }
   report.turning = std::move(*turning);
   note_slips(*track, rests, *still, options, report);
-  if (board_points_m.empty()) return report;
+  if (board_points_m.empty()) {
+    return report;
+  }
   auto distances = distance_part(*track, rests.touches, board_points_m, options);
-  if (!distances) return distances.error();
+  if (!distances) {
+    return distances.error();
+  }
   report.distances = std::move(*distances);
   return report;
 }

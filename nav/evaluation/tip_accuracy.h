@@ -134,9 +134,9 @@ struct AccuracyReport {
 /// in the order of `board_points_m` (at least three; none: no such test). Only measured poses
 /// count. Refuses, in one line with value and limit, options that do not hold, times that do not
 /// increase, and data too few for a part.
-Result<AccuracyReport> accuracy_test(std::span<const TrackedPose> world_from_marker,
-                                     const ToolGeometry& pointer,
-                                     std::span<const Vec3> board_points_m,
-                                     const AccuracyOptions& options = {});
+Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from_marker,
+                                         const ToolGeometry& pointer,
+                                         std::span<const Vec3> board_points_m,
+                                         const AccuracyOptions& options = {});
 
 }  // namespace orthonav::nav

@@ -15,7 +15,9 @@ struct Number {
 };
 
 void check_number(const Number& number, std::vector<std::string>& problems) {
-  if (number.value >= number.low && number.value <= number.high) return;
+  if (number.value >= number.low && number.value <= number.high) {
+    return;
+  }
   std::array<char, 160> line{};
   std::snprintf(line.data(), line.size(), "accuracy test: %s %g, must be %g to %g", number.name,
                 number.value, number.low, number.high);
@@ -24,7 +26,9 @@ void check_number(const Number& number, std::vector<std::string>& problems) {
 
 void check_limits(const char* name, const AccuracyLimits& limits,
                   std::vector<std::string>& problems) {
-  if (limits.pass_m > 0.0 && limits.pass_m <= limits.note_m && limits.note_m <= 0.1) return;
+  if (limits.pass_m > 0.0 && limits.pass_m <= limits.note_m && limits.note_m <= 0.1) {
+    return;
+  }
   std::array<char, 160> line{};
   std::snprintf(line.data(), line.size(),
                 "accuracy test: limits of %s %g and %g mm, must rise from above 0 to 100 mm", name,
@@ -54,11 +58,14 @@ std::vector<std::string> AccuracyOptions::check() const {
       {"max_slip_m", max_slip_m, 1e-5, 0.05},
       {"max_board_rmse_m", max_board_rmse_m, 1e-4, 1.0},
   }};
-  for (const Number& number : numbers) check_number(number, problems);
+  for (const Number& number : numbers) {
+    check_number(number, problems);
+  }
   // More would be choices without end.
-  if (max_stray_rests > 6)
+  if (max_stray_rests > 6) {
     problems.push_back("accuracy test: max_stray_rests " + std::to_string(max_stray_rests) +
                        ", limit 6");
+  }
   check_limits("single_point_p95", single_point_p95, problems);
   check_limits("turning_p95", turning_p95, problems);
   check_limits("tip_bias", tip_bias, problems);
@@ -69,13 +76,17 @@ std::vector<std::string> AccuracyOptions::check() const {
 
 Verdict AccuracyPart::verdict() const {
   Verdict worst = failure.empty() ? Verdict::kPass : Verdict::kFail;
-  for (const Judged& figure : judged) worst = std::max(worst, figure.verdict);
+  for (const Judged& figure : judged) {
+    worst = std::max(worst, figure.verdict);
+  }
   return worst;
 }
 
 Verdict AccuracyReport::verdict() const {
   Verdict worst = std::max(single_point.verdict(), turning.verdict());
-  if (distances) worst = std::max(worst, distances->verdict());
+  if (distances) {
+    worst = std::max(worst, distances->verdict());
+  }
   return worst;
 }
 

@@ -20,7 +20,9 @@ const Mat3& rotation_at(const PointerTrack& track, std::size_t i) {
 }
 
 double length_s(const PointerTrack& track, const std::vector<std::size_t>& samples) {
-  if (samples.empty()) return 0.0;
+  if (samples.empty()) {
+    return 0.0;
+  }
   return track.tips[samples.back()].time_s - track.tips[samples.front()].time_s;
 }
 
@@ -31,18 +33,25 @@ double tip_variance_m2(const TrackedPose& pose, Point<Marker> tip) {
   const std::array<std::array<double, 6>, 3> rows = {
       {{1, 0, 0, 0, r.z, -r.y}, {0, 1, 0, -r.z, 0, r.x}, {0, 0, 1, r.y, -r.x, 0}}};
   double variance_m2 = 0.0;
-  for (const auto& row : rows)
-    for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t k = 0; k < 6; ++k)
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t k = 0; k < 6; ++k) {
         variance_m2 += row[i] * pose.covariance[6 * i + k] * row[k];
+      }
+    }
+  }
   return variance_m2;
 }
 
 std::optional<double> predicted_rms_m(const PointerTrack& track, Point<Marker> tip,
                                       const std::vector<std::size_t>& samples) {
   double sum_m2 = 0.0;
-  for (const std::size_t i : samples) sum_m2 += tip_variance_m2(track.world_from_marker[i], tip);
-  if (!(sum_m2 > 0.0) || !std::isfinite(sum_m2)) return std::nullopt;
+  for (const std::size_t i : samples) {
+    sum_m2 += tip_variance_m2(track.world_from_marker[i], tip);
+  }
+  if (!(sum_m2 > 0.0) || !std::isfinite(sum_m2)) {
+    return std::nullopt;
+  }
   return std::sqrt(sum_m2 / static_cast<double>(samples.size()));
 }
 
@@ -50,10 +59,12 @@ std::optional<double> predicted_rms_m(const PointerTrack& track, Point<Marker> t
 std::vector<std::size_t> without_ends(const PointerTrack& track,
                                       const std::vector<std::size_t>& samples, double ends_s) {
   std::vector<std::size_t> inner;
-  for (const std::size_t i : samples)
+  for (const std::size_t i : samples) {
     if (track.tips[i].time_s >= track.tips[samples.front()].time_s + ends_s &&
-        track.tips[i].time_s <= track.tips[samples.back()].time_s - ends_s)
+        track.tips[i].time_s <= track.tips[samples.back()].time_s - ends_s) {
       inner.push_back(i);
+    }
+  }
   return inner;
 }
 
@@ -61,10 +72,13 @@ std::vector<std::size_t> without_ends(const PointerTrack& track,
 std::vector<double> tilts_rad(const PointerTrack& track, Direction<Marker> axis,
                               const std::vector<std::size_t>& samples) {
   Vec3 mean{};
-  for (const std::size_t i : samples) mean += rotation_at(track, i) * axis.v;
+  for (const std::size_t i : samples) {
+    mean += rotation_at(track, i) * axis.v;
+  }
   std::vector<double> tilts;
-  for (const std::size_t i : samples)
+  for (const std::size_t i : samples) {
     tilts.push_back(angle_between_rad(mean, rotation_at(track, i) * axis.v));
+  }
   return tilts;
 }
 
@@ -83,8 +97,11 @@ std::vector<TiltBin> bins_of(const std::vector<TipSample>& tips, Vec3 mean_m,
     bin.rms_m += off_m * off_m;
     bin.max_m = std::max(bin.max_m, off_m);
   }
-  for (TiltBin& bin : bins)
-    if (bin.samples > 0) bin.rms_m = std::sqrt(bin.rms_m / static_cast<double>(bin.samples));
+  for (TiltBin& bin : bins) {
+    if (bin.samples > 0) {
+      bin.rms_m = std::sqrt(bin.rms_m / static_cast<double>(bin.samples));
+    }
+  }
   return bins;
 }
 
@@ -92,14 +109,17 @@ std::vector<TiltBin> bins_of(const std::vector<TipSample>& tips, Vec3 mean_m,
 Result<PivotFit> fit_in(const PointerTrack& track, const Dimple& dimple,
                         const AccuracyOptions& options) {
   std::vector<Transform<World, Marker>> poses;
-  for (const TrackedPose& pose : track.world_from_marker) poses.push_back(pose.value);
+  for (const TrackedPose& pose : track.world_from_marker) {
+    poses.push_back(pose.value);
+  }
   const auto fit = fit_pivot(poses, dimple.samples);
   const double spread_rad = fit ? fit->spread_rad : 0.0;
-  if (spread_rad < options.min_turning_spread_rad)
+  if (spread_rad < options.min_turning_spread_rad) {
     return refused(
         "accuracy test: the pointer turned by %.2f rad RMS about its resting tip, at "
         "least %.2f are needed",
         spread_rad, options.min_turning_spread_rad);
+  }
   return *fit;
 }
 
@@ -107,11 +127,12 @@ void add_distances(const std::vector<Vec3>& touched_m, std::span<const Vec3> kno
                    DistancePart& part) {
   std::vector<double> errors_m;
   double squares = 0.0;
-  for (std::size_t i = 0; i < touched_m.size(); ++i)
+  for (std::size_t i = 0; i < touched_m.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       errors_m.push_back((touched_m[i] - touched_m[k]).norm() - (known_m[i] - known_m[k]).norm());
       squares += errors_m.back() * errors_m.back();
     }
+  }
   const Summary summary = summarize(errors_m);
   part.distances = summary.count;
   part.mean_error_m = summary.mean;
@@ -132,7 +153,9 @@ Judged judged(std::string what, double value_m, const AccuracyLimits& limits) {
 std::vector<TipSample> picked(const std::vector<TipSample>& from,
                               const std::vector<std::size_t>& indices) {
   std::vector<TipSample> out;
-  for (const std::size_t i : indices) out.push_back(from[i]);
+  for (const std::size_t i : indices) {
+    out.push_back(from[i]);
+  }
   return out;
 }
 
@@ -144,28 +167,36 @@ Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const 
     const bool goes_on =
         stretch.empty() ||
         track.tips[i].time_s - track.tips[stretch.back()].time_s <= options.rests.max_gap_s;
-    if (!goes_on) stretch.clear();
+    if (!goes_on) {
+      stretch.clear();
+    }
     stretch.push_back(i);
     // The oldest leave until the newest is within the angle of all that stay.
     std::size_t drop = 0;
-    for (std::size_t k = 0; k + 1 < stretch.size(); ++k)
+    for (std::size_t k = 0; k + 1 < stretch.size(); ++k) {
       if (rotation_angle_rad(rotation_at(track, stretch[k]), rotation_at(track, i)) >
-          options.still_angle_rad)
+          options.still_angle_rad) {
         drop = k + 1;
+      }
+    }
     stretch.erase(stretch.begin(), stretch.begin() + static_cast<std::ptrdiff_t>(drop));
-    if (length_s(track, stretch) > length_s(track, best)) best = stretch;
+    if (length_s(track, stretch) > length_s(track, best)) {
+      best = stretch;
+    }
   }
   const std::vector<std::size_t> inner = without_ends(track, best, options.rests.settle_s);
-  if (length_s(track, inner) < options.min_still_s)
+  if (length_s(track, inner) < options.min_still_s) {
     return refused(
         "accuracy test: the pointer was held still in the dimple for %.1f s, at least "
         "%.1f s are needed",
         length_s(track, inner), options.min_still_s);
-  if (inner.size() < options.min_still_samples)
+  }
+  if (inner.size() < options.min_still_samples) {
     return refused(
         "accuracy test: %.0f measured poses while the pointer was held still, at least "
         "%.0f are needed",
         static_cast<double>(inner.size()), static_cast<double>(options.min_still_samples));
+  }
   return inner;
 }
 
@@ -186,16 +217,19 @@ Result<TurningPart> turning_part(const PointerTrack& track, const ToolGeometry& 
                                  const Dimple& dimple, const std::vector<std::size_t>& still,
                                  const AccuracyOptions& options) {
   const auto pivot = fit_in(track, dimple, options);
-  if (!pivot) return pivot.error();
+  if (!pivot) {
+    return pivot.error();
+  }
   // Held still, the tips are all at one tilt and would only dilute the spread.
   std::vector<std::size_t> turning;
   std::set_difference(dimple.samples.begin(), dimple.samples.end(), still.begin(), still.end(),
                       std::back_inserter(turning));
-  if (turning.size() < options.min_still_samples)
+  if (turning.size() < options.min_still_samples) {
     return refused(
         "accuracy test: %.0f measured poses while the pointer turned in the dimple, at "
         "least %.0f are needed",
         static_cast<double>(turning.size()), static_cast<double>(options.min_still_samples));
+  }
   TurningPart part;
   part.start_s = track.tips[turning.front()].time_s;
   part.end_s = track.tips[turning.back()].time_s;
@@ -218,10 +252,13 @@ Result<DistancePart> distance_part(const PointerTrack& track, const std::vector<
                                    std::span<const Vec3> board_points_m,
                                    const AccuracyOptions& options) {
   std::vector<Vec3> rests_m;
-  for (const TipRest& rest : touches)
+  for (const TipRest& rest : touches) {
     rests_m.push_back(tip_spread(picked(track.tips, rest.samples)).mean_m);
+  }
   const auto matched = board_touches(rests_m, board_points_m, options.max_stray_rests);
-  if (!matched) return Error{"accuracy test: " + matched.error().message};
+  if (!matched) {
+    return Error{"accuracy test: " + matched.error().message};
+  }
   DistancePart part;
   part.stray_rests = touches.size() - board_points_m.size();
   part.fit_rmse_m = matched->fit_rmse_m;
@@ -243,11 +280,12 @@ Result<DistancePart> distance_part(const PointerTrack& track, const std::vector<
       judged("mean error of the distances", std::abs(part.mean_error_m), options.distance_mean));
   part.judged.push_back(
       judged("largest error of a distance", part.max_error_m, options.distance_max));
-  if (part.fit_rmse_m > options.max_board_rmse_m)
+  if (part.fit_rmse_m > options.max_board_rmse_m) {
     part.failure = with_numbers(
         "the touches lie %.1f mm RMS from the board's points, limit %.1f mm: another board, "
         "another order, or a wrong size",
         part.fit_rmse_m * 1e3, options.max_board_rmse_m * 1e3);
+  }
   return part;
 }
 

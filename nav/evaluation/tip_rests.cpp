@@ -9,7 +9,9 @@ using Samples = std::span<const TipSample>;
 
 Vec3 mean_of(Samples samples, const std::vector<std::size_t>& indices) {
   Vec3 sum_m{};
-  for (const std::size_t i : indices) sum_m += samples[i].tip_m;
+  for (const std::size_t i : indices) {
+    sum_m += samples[i].tip_m;
+  }
   return sum_m / static_cast<double>(indices.size());
 }
 
@@ -19,11 +21,14 @@ std::vector<std::size_t> shortest(Samples samples, std::size_t first,
                                   const TipRestOptions& options) {
   std::vector<std::size_t> indices;
   for (std::size_t i = first; i < samples.size(); ++i) {
-    if (i > first && samples[i].time_s - samples[i - 1].time_s > options.max_gap_s) break;
+    if (i > first && samples[i].time_s - samples[i - 1].time_s > options.max_gap_s) {
+      break;
+    }
     indices.push_back(i);
     if (samples[i].time_s - samples[first].time_s >= options.dwell_s &&
-        indices.size() >= options.min_samples)
+        indices.size() >= options.min_samples) {
       return indices;
+    }
   }
   return {};
 }
@@ -39,10 +44,14 @@ void grow(Samples samples, const TipRestOptions& options, std::vector<std::size_
   Vec3 sum_m = static_cast<double>(indices.size()) * mean_of(samples, indices);
   std::size_t outliers = 0;
   for (std::size_t i = indices.back() + 1; i < samples.size(); ++i) {
-    if (samples[i].time_s - samples[i - 1].time_s > options.max_gap_s) return;
+    if (samples[i].time_s - samples[i - 1].time_s > options.max_gap_s) {
+      return;
+    }
     const Vec3 mean_m = sum_m / static_cast<double>(indices.size());
     if ((samples[i].tip_m - mean_m).norm() > options.radius_m) {
-      if (++outliers > options.max_outliers) return;
+      if (++outliers > options.max_outliers) {
+        return;
+      }
       continue;
     }
     outliers = 0;
@@ -57,11 +66,15 @@ TipRest settled(Samples samples, const std::vector<std::size_t>& indices,
   const double stop_s = samples[indices.back()].time_s;
   const double ends_s = std::min(options.settle_s, (stop_s - start_s) / 3.0);
   TipRest rest;
-  for (const std::size_t i : indices)
-    if (samples[i].time_s >= start_s + ends_s && samples[i].time_s <= stop_s - ends_s)
+  for (const std::size_t i : indices) {
+    if (samples[i].time_s >= start_s + ends_s && samples[i].time_s <= stop_s - ends_s) {
       rest.samples.push_back(i);
+    }
+  }
   // Few and uneven samples may leave the middle empty.
-  if (rest.samples.empty()) rest.samples.push_back(indices[indices.size() / 2]);
+  if (rest.samples.empty()) {
+    rest.samples.push_back(indices[indices.size() / 2]);
+  }
   rest.mean_m = mean_of(samples, rest.samples);
   return rest;
 }

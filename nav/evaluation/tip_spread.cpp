@@ -37,9 +37,13 @@ struct BlockMean {
 BlockMean block_mean(std::span<const TipSample> blocks) {
   const auto n = static_cast<double>(blocks.size());
   BlockMean mean;
-  for (const TipSample& block : blocks) mean.mean_m += block.tip_m / n;
+  for (const TipSample& block : blocks) {
+    mean.mean_m += block.tip_m / n;
+  }
   double squares = 0.0;
-  for (const TipSample& block : blocks) squares += (block.tip_m - mean.mean_m).squared_norm();
+  for (const TipSample& block : blocks) {
+    squares += (block.tip_m - mean.mean_m).squared_norm();
+  }
   mean.variance_of_mean_m2 = squares / (n - 1.0) / n;
   return mean;
 }
@@ -49,9 +53,13 @@ BlockMean block_mean(std::span<const TipSample> blocks) {
 TipSpread tip_spread(std::span<const TipSample> samples) {
   TipSpread spread;
   spread.samples = samples.size();
-  if (samples.empty()) return spread;
+  if (samples.empty()) {
+    return spread;
+  }
   const auto n = static_cast<double>(samples.size());
-  for (const TipSample& sample : samples) spread.mean_m += sample.tip_m / n;
+  for (const TipSample& sample : samples) {
+    spread.mean_m += sample.tip_m / n;
+  }
   std::vector<double> distances_m;
   double squares = 0.0;
   for (const TipSample& sample : samples) {
@@ -75,8 +83,12 @@ std::optional<TipSlip> tip_slip(std::span<const TipSample> samples, double max_s
     const BlockMean after = block_mean(all.subspan(split));
     const double step_m = (after.mean_m - before.mean_m).norm();
     const double scatter_m = std::sqrt(before.variance_of_mean_m2 + after.variance_of_mean_m2);
-    if (step_m <= max_step_m || step_m <= kSignificance * scatter_m) continue;
-    if (!worst || step_m > worst->step_m) worst = TipSlip{blocks[split].time_s, step_m};
+    if (step_m <= max_step_m || step_m <= kSignificance * scatter_m) {
+      continue;
+    }
+    if (!worst || step_m > worst->step_m) {
+      worst = TipSlip{blocks[split].time_s, step_m};
+    }
   }
   return worst;
 }

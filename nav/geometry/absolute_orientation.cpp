@@ -12,14 +12,19 @@ namespace {
 constexpr double kCollinear = 1e-4;
 
 bool all_finite(std::span<const Vec3> points) {
-  for (const Vec3& p : points)
-    if (!p.is_finite()) return false;
+  for (const Vec3& p : points) {
+    if (!p.is_finite()) {
+      return false;
+    }
+  }
   return true;
 }
 
 Vec3 centroid(std::span<const Vec3> points) {
   Vec3 sum;
-  for (const Vec3& p : points) sum += p;
+  for (const Vec3& p : points) {
+    sum += p;
+  }
   return sum / static_cast<double>(points.size());
 }
 
@@ -53,8 +58,11 @@ Mat3 best_rotation(std::span<const Vec3> from, Vec3 from_centre, std::span<const
   for (std::size_t i = 0; i < from.size(); ++i) {
     const Vec3 a = from[i] - from_centre;
     const Vec3 b = to[i] - to_centre;
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) s[r][static_cast<std::size_t>(c)] += a[r] * b[c];
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        s[r][static_cast<std::size_t>(c)] += a[r] * b[c];
+      }
+    }
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(horn_matrix(s));
   const Eigen::Vector4d q = solver.eigenvectors().col(3);
@@ -64,27 +72,34 @@ Mat3 best_rotation(std::span<const Vec3> from, Vec3 from_centre, std::span<const
 }  // namespace
 
 Result<RigidFit> absolute_orientation(std::span<const Vec3> from_m, std::span<const Vec3> to_m) {
-  if (from_m.size() != to_m.size())
+  if (from_m.size() != to_m.size()) {
     return Error{"absolute orientation: " + std::to_string(from_m.size()) + " points onto " +
                  std::to_string(to_m.size()) + ", the counts must be equal"};
-  if (from_m.size() < 3)
+  }
+  if (from_m.size() < 3) {
     return Error{"absolute orientation: " + std::to_string(from_m.size()) +
                  " points, at least 3 are needed"};
-  if (!all_finite(from_m) || !all_finite(to_m))
+  }
+  if (!all_finite(from_m) || !all_finite(to_m)) {
     return Error{"absolute orientation: a point is not finite"};
+  }
   const Vec3 from_centre = centroid(from_m);
   const Vec3 to_centre = centroid(to_m);
-  if (is_collinear(from_m, from_centre) || is_collinear(to_m, to_centre))
+  if (is_collinear(from_m, from_centre) || is_collinear(to_m, to_centre)) {
     return Error{"absolute orientation: the points lie on a line, the turn about it is unknown"};
+  }
 
   RigidFit fit;
   fit.rotation = best_rotation(from_m, from_centre, to_m, to_centre);
   fit.translation_m = to_centre - fit.rotation * from_centre;
   double squared = 0.0;
-  for (std::size_t i = 0; i < from_m.size(); ++i)
+  for (std::size_t i = 0; i < from_m.size(); ++i) {
     squared += (fit.rotation * from_m[i] + fit.translation_m - to_m[i]).squared_norm();
+  }
   fit.rmse_m = std::sqrt(squared / static_cast<double>(from_m.size()));
-  if (!std::isfinite(fit.rmse_m)) return Error{"absolute orientation: the points are too large"};
+  if (!std::isfinite(fit.rmse_m)) {
+    return Error{"absolute orientation: the points are too large"};
+  }
   return fit;
 }
 

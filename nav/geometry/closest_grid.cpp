@@ -55,18 +55,22 @@ Result<ClosestGrid> ClosestGrid::restored(const TriangleMesh& mesh, const Surfac
   constexpr double kSame_m = 1e-9;
   ClosestGrid grid(mesh, cell_m, margin_m);
   const std::size_t count = grid.cells();
-  if (closest_m.size() != count)
+  if (closest_m.size() != count) {
     return Error{"closest points of " + std::to_string(closest_m.size()) + " cells, the mesh has " +
                  std::to_string(count)};
+  }
   const bool finite =
       std::all_of(closest_m.begin(), closest_m.end(), [](const Vec3& p) { return p.is_finite(); });
-  if (!finite) return Error{"closest points are not all finite"};
+  if (!finite) {
+    return Error{"closest points are not all finite"};
+  }
   for (std::size_t i = 0; i < count; i += std::max<std::size_t>(1, count / kLookedAt)) {
     const Vec3 centre = grid.centre_m(i);
     const auto here = surface.nearest(centre);
     const auto there = surface.nearest(closest_m[i], kSame_m);
-    if (!here || !there || std::abs((closest_m[i] - centre).norm() - here->distance_m) > kSame_m)
+    if (!here || !there || std::abs((closest_m[i] - centre).norm() - here->distance_m) > kSame_m) {
       return Error{"closest points are of another mesh (cell " + std::to_string(i) + ")"};
+    }
   }
   grid.closest_m_ = std::move(closest_m);
   return grid;

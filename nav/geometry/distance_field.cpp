@@ -24,8 +24,9 @@ DistanceField::DistanceField(const TriangleMesh& mesh, double cell_m, double mar
   const Vec3 margin{margin_m, margin_m, margin_m};
   bounds_.low = box.low - margin;
   const Vec3 extent = box.high + margin - bounds_.low;
-  for (std::size_t k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < 3; ++k) {
     size_[k] = static_cast<int>(std::ceil(extent[static_cast<int>(k)] / cell_m)) + 1;
+  }
   bounds_.high = bounds_.low + cell_m * Vec3{size_[0] - 1.0, size_[1] - 1.0, size_[2] - 1.0};
 }
 
@@ -66,18 +67,21 @@ Result<DistanceField> DistanceField::restored(const TriangleMesh& mesh, const Su
   constexpr double kSame_m = 1e-7;  // floats of up to 0.3 m
   DistanceField field(mesh, cell_m, margin_m);
   const std::size_t samples = field.count();
-  if (samples_m.size() != samples)
+  if (samples_m.size() != samples) {
     return Error{"distances at " + std::to_string(samples_m.size()) + " places, the mesh has " +
                  std::to_string(samples)};
-  if (!std::all_of(samples_m.begin(), samples_m.end(), [](float d) { return std::isfinite(d); }))
+  }
+  if (!std::all_of(samples_m.begin(), samples_m.end(), [](float d) { return std::isfinite(d); })) {
     return Error{"distances are not all finite"};
+  }
   for (std::size_t i = 0; i < samples; i += std::max<std::size_t>(1, samples / kLookedAt)) {
     const Vec3 place = field.place_m(i);
     const auto found = near.nearest(place);
     const double right_m =
         found ? static_cast<double>(signed_distance_m(found->distance_m, bone, place)) : 0.0;
-    if (!found || !(std::abs(static_cast<double>(samples_m[i]) - right_m) <= kSame_m))
+    if (!found || !(std::abs(static_cast<double>(samples_m[i]) - right_m) <= kSame_m)) {
       return Error{"distances are of another mesh (place " + std::to_string(i) + ")"};
+    }
   }
   field.distance_m_ = std::move(samples_m);
   return field;
@@ -87,8 +91,9 @@ bool DistanceField::at(Vec3 query_m, Value& value) const {
   const Vec3 p = (query_m - bounds_.low) / cell_m_;
   // Negated, so that what is no number is outside as well.
   if (!(p.x >= 0.0 && p.y >= 0.0 && p.z >= 0.0 && p.x < size_[0] - 1 && p.y < size_[1] - 1 &&
-        p.z < size_[2] - 1))
+        p.z < size_[2] - 1)) {
     return false;
+  }
   const auto x = static_cast<int>(p.x);
   const auto y = static_cast<int>(p.y);
   const auto z = static_cast<int>(p.z);

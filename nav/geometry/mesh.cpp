@@ -15,7 +15,7 @@ namespace {
 constexpr double kSmallest_m = 0.030;
 constexpr double kLargest_m = 0.250;
 /// Less than this much of its bounding cube: folded flat, there is no inside.
-constexpr double kMinVolumeShare = 1e-4;
+constexpr double kMinVolumeFraction = 1e-4;
 
 struct DirectedEdge {
   std::uint32_t low;
@@ -30,19 +30,26 @@ std::string number(double value, const char* format) {
 }
 
 Status check_numbers(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty() || mesh.vertices_m.empty()) return Error{"mesh has no faces"};
-  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i)
-    if (!mesh.vertices_m[i].is_finite())
+  if (mesh.triangles.empty() || mesh.vertices_m.empty()) {
+    return Error{"mesh has no faces"};
+  }
+  for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i) {
+    if (!mesh.vertices_m[i].is_finite()) {
       return Error{"mesh vertex " + std::to_string(i) + " is not finite"};
+    }
+  }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
-    for (const std::uint32_t v : t)
-      if (v >= mesh.vertices_m.size())
+    for (const std::uint32_t v : t) {
+      if (v >= mesh.vertices_m.size()) {
         return Error{"mesh face " + std::to_string(i) + " names vertex " + std::to_string(v) +
                      ", but there are only " + std::to_string(mesh.vertices_m.size())};
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      }
+    }
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
       return Error{"mesh is not manifold: face " + std::to_string(i) + " names vertex " +
                    std::to_string(t[0] == t[1] ? t[0] : t[2]) + " twice"};
+    }
   }
   return {};
 }
@@ -54,26 +61,30 @@ double extent_m(const TriangleMesh& mesh) {
 }
 
 Status check_size(double size_m) {
-  if (size_m >= kSmallest_m && size_m <= kLargest_m) return {};
+  if (size_m >= kSmallest_m && size_m <= kLargest_m) {
+    return {};
+  }
   std::string message = "mesh is " + number(size_m * 1e3, "%.6g") +
                         " mm across, limit 30-250 mm (a lumbar vertebra is 60-130 mm)";
   const auto plausible = [](double m) { return m >= kSmallest_m && m <= kLargest_m; };
-  if (plausible(size_m * 1e3))
+  if (plausible(size_m * 1e3)) {
     message += ": its unit looks like metres taken for millimetres";
-  else if (plausible(size_m * 1e-3))
+  } else if (plausible(size_m * 1e-3)) {
     message += ": its unit looks like millimetres taken for metres";
+  }
   return Error{message};
 }
 
 std::vector<DirectedEdge> sorted_edges(const TriangleMesh& mesh) {
   std::vector<DirectedEdge> edges;
   edges.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
+  for (const auto& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k];
       const std::uint32_t b = t[(k + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), a < b});
     }
+  }
   std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
     return std::tie(a.low, a.high, a.upward) < std::tie(b.low, b.high, b.upward);
   });
@@ -87,20 +98,31 @@ Status check_closed(const TriangleMesh& mesh) {
   std::size_t against = 0;
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t j = i;
-    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) ++j;
-    if (j - i == 1) ++open;
-    if (j - i > 2) ++crowded;
-    if (j - i == 2 && edges[i].upward == edges[i + 1].upward) ++against;
+    while (j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high) {
+      ++j;
+    }
+    if (j - i == 1) {
+      ++open;
+    }
+    if (j - i > 2) {
+      ++crowded;
+    }
+    if (j - i == 2 && edges[i].upward == edges[i + 1].upward) {
+      ++against;
+    }
     i = j;
   }
-  if (open > 0)
+  if (open > 0) {
     return Error{"mesh is open: " + std::to_string(open) + " edges have one face, must have two"};
-  if (crowded > 0)
+  }
+  if (crowded > 0) {
     return Error{"mesh is not manifold: " + std::to_string(crowded) +
                  " edges have more than two faces"};
-  if (against > 0)
+  }
+  if (against > 0) {
     return Error{"mesh is not oriented: the faces at " + std::to_string(against) +
                  " edges are wound against each other"};
+  }
   return {};
 }
 
@@ -108,36 +130,51 @@ double signed_volume_m3(const TriangleMesh& mesh) {
   // About a vertex, so that a model far from its origin keeps its digits.
   const Vec3 o = mesh.vertices_m[mesh.triangles[0][0]];
   double six_volumes = 0.0;
-  for (const auto& t : mesh.triangles)
+  for (const auto& t : mesh.triangles) {
     six_volumes += (mesh.vertices_m[t[0]] - o)
                        .dot((mesh.vertices_m[t[1]] - o).cross(mesh.vertices_m[t[2]] - o));
+  }
   return six_volumes / 6.0;
 }
 
 }  // namespace
 
 Bounds bounds_of(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return {};
+  if (mesh.triangles.empty()) {
+    return {};
+  }
   Bounds box{mesh.vertices_m[mesh.triangles[0][0]], mesh.vertices_m[mesh.triangles[0][0]]};
-  for (const auto& t : mesh.triangles)
-    for (const std::uint32_t v : t)
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
       for (int axis = 0; axis < 3; ++axis) {
         box.low[axis] = std::min(box.low[axis], mesh.vertices_m[v][axis]);
         box.high[axis] = std::max(box.high[axis], mesh.vertices_m[v][axis]);
       }
+    }
+  }
   return box;
 }
 
 Result<TriangleMesh> checked_vertebra(TriangleMesh mesh) {
-  if (const Status s = check_numbers(mesh); !s) return s.error();
+  if (const Status s = check_numbers(mesh); !s) {
+    return s.error();
+  }
   const double size_m = extent_m(mesh);
-  if (const Status s = check_size(size_m); !s) return s.error();
-  if (const Status s = check_closed(mesh); !s) return s.error();
+  if (const Status s = check_size(size_m); !s) {
+    return s.error();
+  }
+  if (const Status s = check_closed(mesh); !s) {
+    return s.error();
+  }
   const double volume_m3 = signed_volume_m3(mesh);
-  if (std::abs(volume_m3) < kMinVolumeShare * size_m * size_m * size_m)
+  if (std::abs(volume_m3) < kMinVolumeFraction * size_m * size_m * size_m) {
     return Error{"mesh encloses no volume (" + number(volume_m3 * 1e9, "%.3g") + " mm3)"};
-  if (volume_m3 < 0.0)
-    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  if (volume_m3 < 0.0) {
+    for (auto& t : mesh.triangles) {
+      std::swap(t[1], t[2]);
+    }
+  }
   return mesh;
 }
 
@@ -154,7 +191,9 @@ TriangleMesh welded(const TriangleMesh& mesh) {
                                               std::bit_cast<std::uint64_t>(v.z + 0.0)};
     const auto next = static_cast<std::uint32_t>(result.vertices_m.size());
     const auto [entry, added] = known.try_emplace(key, next);
-    if (added) result.vertices_m.push_back(v);
+    if (added) {
+      result.vertices_m.push_back(v);
+    }
     renamed.push_back(entry->second);
   }
   for (std::array<std::uint32_t, 3> t : mesh.triangles) {
@@ -165,7 +204,9 @@ TriangleMesh welded(const TriangleMesh& mesh) {
       v = v < renamed.size() ? renamed[v] : std::numeric_limits<std::uint32_t>::max();
     }
     const bool collapsed = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-    if (!valid || !collapsed) result.triangles.push_back(t);
+    if (!valid || !collapsed) {
+      result.triangles.push_back(t);
+    }
   }
   return result;
 }

@@ -15,15 +15,21 @@ std::optional<RayMeeting> closest_point(const Ray& a, const Ray& b) {
   const Vec3 across = u.cross(v);
   const double sine_squared = across.squared_norm();
   // The negated comparison also turns away whatever is not finite.
-  if (!(sine_squared > kParallelRad * kParallelRad)) return std::nullopt;
+  if (!(sine_squared > kParallelRad * kParallelRad)) {
+    return std::nullopt;
+  }
   const Vec3 between = b.origin_m - a.origin_m;
   const double along_a_m = between.cross(v).dot(across) / sine_squared;
   const double along_b_m = between.cross(u).dot(across) / sine_squared;
-  if (!(along_a_m > 0.0) || !(along_b_m > 0.0)) return std::nullopt;
+  if (!(along_a_m > 0.0) || !(along_b_m > 0.0)) {
+    return std::nullopt;
+  }
   const Vec3 on_a = a.origin_m + along_a_m * u;
   const Vec3 on_b = b.origin_m + along_b_m * v;
   RayMeeting meeting{0.5 * (on_a + on_b), (on_a - on_b).norm()};
-  if (!meeting.point_m.is_finite()) return std::nullopt;
+  if (!meeting.point_m.is_finite()) {
+    return std::nullopt;
+  }
   return meeting;
 }
 

@@ -27,8 +27,9 @@ constexpr std::array<Node, 5> kGauss = {{{-0.9061798459386640, 0.236926885056189
 /// The length from a to b of a segment by one Gauss rule.
 double gauss_m(const CatmullRom& curve, std::size_t segment, double a, double b) {
   double sum = 0.0;
-  for (const Node& node : kGauss)
+  for (const Node& node : kGauss) {
     sum += node.weight * curve.derivative(segment, 0.5 * (a + b) + 0.5 * (b - a) * node.x).norm();
+  }
   return 0.5 * (b - a) * sum;
 }
 
@@ -38,8 +39,9 @@ double adaptive_m(const CatmullRom& curve, std::size_t segment, double a, double
   const double middle = 0.5 * (a + b);
   const double left_m = gauss_m(curve, segment, a, middle);
   const double right_m = gauss_m(curve, segment, middle, b);
-  if (depth >= kDeepest || std::abs(left_m + right_m - whole_m) <= tolerance_m)
+  if (depth >= kDeepest || std::abs(left_m + right_m - whole_m) <= tolerance_m) {
     return left_m + right_m;
+  }
   return adaptive_m(curve, segment, a, middle, left_m, 0.5 * tolerance_m, depth + 1) +
          adaptive_m(curve, segment, middle, b, right_m, 0.5 * tolerance_m, depth + 1);
 }
@@ -57,7 +59,9 @@ double parameter_at(const CatmullRom& curve, std::size_t segment, double target_
   double t = std::clamp(target_m / length_m, 0.0, 1.0);
   for (int i = 0; i < 40; ++i) {
     const double excess_m = arc_m(curve, segment, t) - target_m;
-    if (std::abs(excess_m) < 1e-9) break;
+    if (std::abs(excess_m) < 1e-9) {
+      break;
+    }
     (excess_m > 0.0 ? high : low) = t;
     const double next = t - excess_m / curve.derivative(segment, t).norm();
     t = next > low && next < high ? next : 0.5 * (low + high);
@@ -71,7 +75,9 @@ struct Knots {
 };
 Knots knots_of(const Vec3* p) {
   Knots k{};
-  for (std::size_t i = 1; i < 4; ++i) k.u[i] = k.u[i - 1] + std::sqrt((p[i] - p[i - 1]).norm());
+  for (std::size_t i = 1; i < 4; ++i) {
+    k.u[i] = k.u[i - 1] + std::sqrt((p[i] - p[i - 1]).norm());
+  }
   return k;
 }
 
@@ -94,12 +100,16 @@ Tangents tangents_of(const Vec3* p) {
 }  // namespace
 
 Result<CatmullRom> CatmullRom::through(std::span<const Vec3> points_m) {
-  if (points_m.size() < 2)
+  if (points_m.size() < 2) {
     return Error{"spline needs at least 2 points, got " + std::to_string(points_m.size())};
+  }
   for (std::size_t i = 0; i < points_m.size(); ++i) {
-    if (!points_m[i].is_finite())
+    if (!points_m[i].is_finite()) {
       return Error{"spline point " + std::to_string(i) + " is not finite"};
-    if (i == 0) continue;
+    }
+    if (i == 0) {
+      continue;
+    }
     const double gap_m = (points_m[i] - points_m[i - 1]).norm();
     if (!(gap_m >= kClosest_m)) {
       char text[128];
@@ -139,14 +149,18 @@ double CatmullRom::segment_length_m(std::size_t segment) const {
 
 double CatmullRom::length_m() const {
   double sum_m = 0.0;
-  for (std::size_t i = 0; i < segments(); ++i) sum_m += segment_length_m(i);
+  for (std::size_t i = 0; i < segments(); ++i) {
+    sum_m += segment_length_m(i);
+  }
   return sum_m;
 }
 
 std::vector<Vec3> CatmullRom::sampled(double spacing_m) const {
   std::vector<double> lengths_m(segments());
   double total_m = 0.0;
-  for (std::size_t i = 0; i < segments(); ++i) total_m += lengths_m[i] = segment_length_m(i);
+  for (std::size_t i = 0; i < segments(); ++i) {
+    total_m += lengths_m[i] = segment_length_m(i);
+  }
   constexpr double kMostIntervals = 1e5;
   const double wanted = spacing_m > 0.0 ? std::round(total_m / spacing_m) : kMostIntervals;
   const auto intervals = static_cast<std::size_t>(std::clamp(wanted, 1.0, kMostIntervals));
@@ -157,8 +171,9 @@ std::vector<Vec3> CatmullRom::sampled(double spacing_m) const {
   double before_m = 0.0;
   for (std::size_t k = 1; k < intervals; ++k) {
     const double s_m = total_m * static_cast<double>(k) / static_cast<double>(intervals);
-    while (segment + 1 < segments() && s_m > before_m + lengths_m[segment])
+    while (segment + 1 < segments() && s_m > before_m + lengths_m[segment]) {
       before_m += lengths_m[segment++];
+    }
     const double t = parameter_at(*this, segment, s_m - before_m, lengths_m[segment]);
     path_m.push_back(position(segment, t));
   }

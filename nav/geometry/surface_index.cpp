@@ -36,7 +36,9 @@ double entry_into_box(const BoxRay& ray, Vec3 low, Vec3 high, double limit) {
   double far = limit;
   for (int axis = 0; axis < 3; ++axis) {
     if (ray.direction[axis] == 0.0) {  // 0 · infinity would be no number
-      if (ray.origin[axis] < low[axis] || ray.origin[axis] > high[axis]) return kFar;
+      if (ray.origin[axis] < low[axis] || ray.origin[axis] > high[axis]) {
+        return kFar;
+      }
       continue;
     }
     const double a = (low[axis] - ray.origin[axis]) * ray.inverse[axis];
@@ -52,12 +54,16 @@ double entry_into_box(const BoxRay& ray, Vec3 low, Vec3 high, double limit) {
 
 SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) {
   const std::size_t n = mesh.triangles.size();
-  if (n == 0) return;
+  if (n == 0) {
+    return;
+  }
   std::vector<Triangle> unordered(n);
   std::vector<Vec3> centres_m(n);
   original_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) unordered[i][k] = mesh.vertices_m[mesh.triangles[i][k]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      unordered[i][k] = mesh.vertices_m[mesh.triangles[i][k]];
+    }
     centres_m[i] = (unordered[i][0] + unordered[i][1] + unordered[i][2]) / 3.0;
     original_[i] = static_cast<std::uint32_t>(i);
   }
@@ -65,7 +71,9 @@ SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) {
   nodes_.emplace_back();
   split(0, 0, n, centres_m, unordered);
   corners_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) corners_[i] = unordered[original_[i]];
+  for (std::size_t i = 0; i < n; ++i) {
+    corners_[i] = unordered[original_[i]];
+  }
 }
 
 void SurfaceIndex::split(std::size_t node, std::size_t begin, std::size_t end,
@@ -74,7 +82,7 @@ void SurfaceIndex::split(std::size_t node, std::size_t begin, std::size_t end,
   Vec3 high = -low;
   Vec3 low_centre = low;
   Vec3 high_centre = high;
-  for (std::size_t i = begin; i < end; ++i)
+  for (std::size_t i = begin; i < end; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const Vec3& v : unordered[original_[i]]) {
         low[axis] = std::min(low[axis], v[axis]);
@@ -83,9 +91,12 @@ void SurfaceIndex::split(std::size_t node, std::size_t begin, std::size_t end,
       low_centre[axis] = std::min(low_centre[axis], centres_m[original_[i]][axis]);
       high_centre[axis] = std::max(high_centre[axis], centres_m[original_[i]][axis]);
     }
+  }
   nodes_[node] = {low, high, static_cast<std::uint32_t>(begin),
                   static_cast<std::uint32_t>(end - begin)};
-  if (end - begin <= kLeafSize) return;
+  if (end - begin <= kLeafSize) {
+    return;
+  }
   const Vec3 size = high_centre - low_centre;
   const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
   const std::size_t middle = begin + (end - begin) / 2;
@@ -102,7 +113,9 @@ void SurfaceIndex::split(std::size_t node, std::size_t begin, std::size_t end,
 }
 
 std::optional<SurfacePoint> SurfaceIndex::nearest(Vec3 query_m, double within_m) const {
-  if (nodes_.empty() || !query_m.is_finite() || !(within_m >= 0.0)) return std::nullopt;
+  if (nodes_.empty() || !query_m.is_finite() || !(within_m >= 0.0)) {
+    return std::nullopt;
+  }
   struct Pending {
     std::uint32_t node;
     double distance2;
@@ -115,14 +128,18 @@ std::optional<SurfacePoint> SurfaceIndex::nearest(Vec3 query_m, double within_m)
   stack[depth++] = {0, squared_distance_to_box(query_m, nodes_[0].low, nodes_[0].high)};
   while (depth > 0) {
     const Pending pending = stack[--depth];
-    if (pending.distance2 > best2) continue;
+    if (pending.distance2 > best2) {
+      continue;
+    }
     const Node& node = nodes_[pending.node];
     if (node.count > 0) {
       for (std::size_t i = node.first; i < node.first + node.count; ++i) {
         const Vec3 point = nearest_on_triangle(query_m, corners_[i]);
         const double d2 = (point - query_m).squared_norm();
         const bool tie = d2 == best2 && (best == corners_.size() || original_[i] < original_[best]);
-        if (d2 < best2 || tie) best2 = d2, best = i, best_point = point;
+        if (d2 < best2 || tie) {
+          best2 = d2, best = i, best_point = point;
+        }
       }
       continue;
     }
@@ -134,15 +151,18 @@ std::optional<SurfacePoint> SurfaceIndex::nearest(Vec3 query_m, double within_m)
     stack[depth++] = left_first ? right : left;  // the nearer one is taken next
     stack[depth++] = left_first ? left : right;
   }
-  if (best == corners_.size()) return std::nullopt;
+  if (best == corners_.size()) {
+    return std::nullopt;
+  }
   return SurfacePoint{best_point, triangle_normal(corners_[best]), std::sqrt(best2),
                       original_[best]};
 }
 
 std::optional<RayHit> SurfaceIndex::first_hit(Vec3 origin_m, Vec3 direction) const {
   const double length = direction.norm();
-  if (nodes_.empty() || !origin_m.is_finite() || !std::isfinite(length) || !(length > 0.0))
+  if (nodes_.empty() || !origin_m.is_finite() || !std::isfinite(length) || !(length > 0.0)) {
     return std::nullopt;
+  }
   const Vec3 unit = direction / length;
   const BoxRay ray{origin_m, unit, {1.0 / unit.x, 1.0 / unit.y, 1.0 / unit.z}};
   struct Pending {
@@ -156,13 +176,17 @@ std::optional<RayHit> SurfaceIndex::first_hit(Vec3 origin_m, Vec3 direction) con
   stack[depth++] = {0, entry_into_box(ray, nodes_[0].low, nodes_[0].high, best)};
   while (depth > 0) {
     const Pending pending = stack[--depth];
-    if (pending.entry == kFar || pending.entry > best) continue;
+    if (pending.entry == kFar || pending.entry > best) {
+      continue;
+    }
     const Node& node = nodes_[pending.node];
     if (node.count > 0) {
-      for (std::size_t i = node.first; i < node.first + node.count; ++i)
+      for (std::size_t i = node.first; i < node.first + node.count; ++i) {
         if (const auto t = ray_meets_triangle(ray.origin, ray.direction, corners_[i]);
-            t && (*t < best || (*t == best && original_[i] < original_[hit])))
+            t && (*t < best || (*t == best && original_[i] < original_[hit]))) {
           best = *t, hit = i;
+        }
+      }
       continue;
     }
     const Node& a = nodes_[node.first];
@@ -173,7 +197,9 @@ std::optional<RayHit> SurfaceIndex::first_hit(Vec3 origin_m, Vec3 direction) con
     stack[depth++] = left_first ? right : left;
     stack[depth++] = left_first ? left : right;
   }
-  if (hit == corners_.size()) return std::nullopt;
+  if (hit == corners_.size()) {
+    return std::nullopt;
+  }
   return RayHit{origin_m + best * unit, triangle_normal(corners_[hit]), best, original_[hit]};
 }
 
@@ -183,9 +209,11 @@ bool SurfaceIndex::contains(Vec3 query_m) const {
   constexpr std::array<Vec3, 3> kDirections = {
       {{0.8164, 0.3147, 0.4842}, {-0.2741, 0.9013, -0.3353}, {0.1372, -0.5329, -0.8350}}};
   int inside = 0;
-  for (const Vec3& direction : kDirections)
-    if (const auto hit = first_hit(query_m, direction); hit && hit->normal.dot(direction) > 0.0)
+  for (const Vec3& direction : kDirections) {
+    if (const auto hit = first_hit(query_m, direction); hit && hit->normal.dot(direction) > 0.0) {
       ++inside;
+    }
+  }
   return inside >= 2;
 }
 

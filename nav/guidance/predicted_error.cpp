@@ -13,14 +13,17 @@ std::vector<PredictedScrewError> predicted_errors(const Registration& registrati
   };
   std::vector<PredictedScrewError> errors;
   errors.reserve(screws.size());
-  for (const ScrewPlan& screw : screws)
+  for (const ScrewPlan& screw : screws) {
     errors.push_back({screw.side, at(screw.entry), at(screw.target)});
+  }
   return errors;
 }
 
 double worst_m(std::span<const PredictedScrewError> errors) {
   double worst = 0.0;
-  for (const PredictedScrewError& error : errors) worst = std::max(worst, error.worst_m());
+  for (const PredictedScrewError& error : errors) {
+    worst = std::max(worst, error.worst_m());
+  }
   return worst;
 }
 

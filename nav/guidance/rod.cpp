@@ -22,20 +22,27 @@ std::string millimetres(double m) {
 }
 
 Status check(std::span<const Vec3> heads_m, double diameter_m) {
-  if (!(diameter_m >= kThinnestRod_m && diameter_m <= kThickestRod_m))
+  if (!(diameter_m >= kThinnestRod_m && diameter_m <= kThickestRod_m)) {
     return Error{"rod diameter is " + millimetres(diameter_m) + ", limit 1-15 mm"};
-  if (heads_m.size() < 2)
+  }
+  if (heads_m.size() < 2) {
     return Error{"rod needs at least 2 screw heads, got " + std::to_string(heads_m.size())};
-  for (std::size_t i = 0; i < heads_m.size(); ++i)
-    if (!heads_m[i].is_finite())
+  }
+  for (std::size_t i = 0; i < heads_m.size(); ++i) {
+    if (!heads_m[i].is_finite()) {
       return Error{"screw head " + std::to_string(i + 1) + " is not finite"};
-  for (std::size_t i = 0; i < heads_m.size(); ++i)
+    }
+  }
+  for (std::size_t i = 0; i < heads_m.size(); ++i) {
     for (std::size_t j = i + 1; j < heads_m.size(); ++j) {
       const double gap_m = (heads_m[i] - heads_m[j]).norm();
-      if (gap_m >= kClosest_m && gap_m <= kFarthest_m) continue;
+      if (gap_m >= kClosest_m && gap_m <= kFarthest_m) {
+        continue;
+      }
       return Error{"screw heads " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
                    " are " + millimetres(gap_m) + " apart, limit 1-600 mm"};
     }
+  }
   return {};
 }
 
@@ -47,26 +54,33 @@ std::vector<Vec3> in_order(std::span<const Vec3> heads_m) {
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](Vec3 a, Vec3 b) { return along(a) < along(b); });
   const double middle = 0.5 * (along(sorted.front()) + along(sorted.back()));
-  if (along(heads_m.front()) > middle) std::reverse(sorted.begin(), sorted.end());
+  if (along(heads_m.front()) > middle) {
+    std::reverse(sorted.begin(), sorted.end());
+  }
   return sorted;
 }
 
 }  // namespace
 
 Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_m) {
-  if (const Status s = check(heads_m, diameter_m); !s) return s.error();
+  if (const Status s = check(heads_m, diameter_m); !s) {
+    return s.error();
+  }
   RodTemplate rod;
   rod.diameter_m = diameter_m;
   rod.heads_m = in_order(heads_m);
   const auto spline = CatmullRom::through(rod.heads_m);
-  if (!spline) return spline.error();
+  if (!spline) {
+    return spline.error();
+  }
   rod.path_m = spline->sampled(kSampling_m);
   for (std::size_t i = 0; i + 1 < rod.heads_m.size(); ++i) {
-    if (i > 0)
+    if (i > 0) {
       rod.bends.push_back({rod.length_m,
                            angle_between_rad(rod.heads_m[i] - rod.heads_m[i - 1],
                                              rod.heads_m[i + 1] - rod.heads_m[i]),
                            rod.heads_m[i]});
+    }
     rod.length_m += spline->segment_length_m(i);
   }
   return rod;

@@ -37,26 +37,36 @@ Spread spread_of(std::span<const CheckPoint> points, const CheckPointRules& rule
   const auto apart = [&](std::size_t i, std::size_t j) {
     return (points[i].place - points[j].place).norm() >= rules.apart_m;
   };
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (!apart(i, j)) continue;
+      if (!apart(i, j)) {
+        continue;
+      }
       spread.apart = std::max<std::size_t>(spread.apart, 2);
       for (std::size_t k = 0; k < j; ++k) {
-        if (!apart(i, k) || !apart(j, k)) continue;
+        if (!apart(i, k) || !apart(j, k)) {
+          continue;
+        }
         spread.apart = 3;
-        if (height_m(points[i].place.v, points[j].place.v, points[k].place.v) >= rules.off_line_m)
+        if (height_m(points[i].place.v, points[j].place.v, points[k].place.v) >= rules.off_line_m) {
           spread.off_line = true;
+        }
       }
     }
+  }
   return spread;
 }
 
 std::string advice_on(const Spread& spread, const CheckPointRules& rules) {
-  if (spread.apart == 0) return worded("touch 3 places, %.0f mm apart", rules.apart_m * 1e3);
-  if (spread.apart == 1)
+  if (spread.apart == 0) {
+    return worded("touch 3 places, %.0f mm apart", rules.apart_m * 1e3);
+  }
+  if (spread.apart == 1) {
     return worded("touch 2 more places, %.0f mm from the others", rules.apart_m * 1e3);
-  if (spread.apart == 2)
+  }
+  if (spread.apart == 2) {
     return worded("touch 1 more place, %.0f mm from the others", rules.apart_m * 1e3);
+  }
   return worded("touch 1 more place, %.0f mm off the line of the others", rules.off_line_m * 1e3);
 }
 
@@ -64,12 +74,15 @@ std::string advice_on(const Spread& spread, const CheckPointRules& rules) {
 
 std::vector<std::string> CheckPointRules::check() const {
   std::vector<std::string> problems;
-  if (!(apart_m >= 0.005 && apart_m <= 0.05))
+  if (!(apart_m >= 0.005 && apart_m <= 0.05)) {
     problems.push_back("check_points.apart_m must lie in [0.005, 0.05]");
-  if (!(within_m > 0.0 && within_m <= 0.005))
+  }
+  if (!(within_m > 0.0 && within_m <= 0.005)) {
     problems.push_back("check_points.within_m must lie in (0, 0.005]");
-  if (!(off_line_m >= 0.0 && off_line_m <= 0.5 * apart_m))
+  }
+  if (!(off_line_m >= 0.0 && off_line_m <= 0.5 * apart_m)) {
     problems.push_back("check_points.off_line_m must lie in [0, half of apart_m]");
+  }
   return problems;
 }
 
@@ -80,9 +93,13 @@ CheckPoint check_point(const VertebraModel& model,
   point.place = touched;
   point.distance_m = std::numeric_limits<double>::infinity();
   const Vec3 in_vertebra = (world_from_vertebra.inverse() * touched).v;
-  if (!in_vertebra.is_finite()) return point;
+  if (!in_vertebra.is_finite()) {
+    return point;
+  }
   const auto nearest = model.reachable_surface().nearest(in_vertebra);
-  if (!nearest) return point;
+  if (!nearest) {
+    return point;
+  }
   // The whole bone tells in from out; at an edge the nearest triangle's normal may not.
   const double sign = model.surface().contains(in_vertebra) ? -1.0 : 1.0;
   point.distance_m = sign * nearest->distance_m;
@@ -95,28 +112,38 @@ std::vector<Point<World>> places_to_check(const VertebraModel& model,
                                           std::span<const Point<World>> stroked,
                                           const CheckPointRules& rules) {
   const auto vertebra_from_world = world_from_vertebra.inverse();
-  std::vector<Vec3> bare;
+  std::vector<Vec3> unstroked;
   Vec3 sum{};
   for (const Point<World>& point : stroked) {
     const auto nearest = model.reachable_surface().nearest((vertebra_from_world * point).v);
-    if (!nearest || nearest->distance_m > rules.within_m) continue;
-    bare.push_back((world_from_vertebra * Point<Vertebra>{nearest->point_m}).v);
-    sum += bare.back();
+    if (!nearest || nearest->distance_m > rules.within_m) {
+      continue;
+    }
+    unstroked.push_back((world_from_vertebra * Point<Vertebra>{nearest->point_m}).v);
+    sum += unstroked.back();
   }
   std::vector<Point<World>> places;
-  if (bare.empty()) return places;
-  const Vec3 middle = sum / static_cast<double>(bare.size());
+  if (unstroked.empty()) {
+    return places;
+  }
+  const Vec3 middle = sum / static_cast<double>(unstroked.size());
   // Each as far as can be: from the middle, from the first, from the line of the first two.
   const auto take = [&](const auto& distance, double at_least_m) {
-    const Vec3 best = *std::max_element(bare.begin(), bare.end(),
+    const Vec3 best = *std::max_element(unstroked.begin(), unstroked.end(),
                                         [&](Vec3 a, Vec3 b) { return distance(a) < distance(b); });
-    if (!(distance(best) >= at_least_m)) return false;
+    if (!(distance(best) >= at_least_m)) {
+      return false;
+    }
     places.push_back(Point<World>{best});
     return true;
   };
-  if (!take([&](Vec3 p) { return (p - middle).norm(); }, 0.0)) return places;
+  if (!take([&](Vec3 p) { return (p - middle).norm(); }, 0.0)) {
+    return places;
+  }
   const Vec3 first = places[0].v;
-  if (!take([&](Vec3 p) { return (p - first).norm(); }, rules.apart_m)) return places;
+  if (!take([&](Vec3 p) { return (p - first).norm(); }, rules.apart_m)) {
+    return places;
+  }
   const Vec3 second = places[1].v;
   const auto off_line = [&](Vec3 p) {
     const bool apart = (p - first).norm() >= rules.apart_m && (p - second).norm() >= rules.apart_m;
@@ -129,20 +156,25 @@ std::vector<Point<World>> places_to_check(const VertebraModel& model,
 std::vector<Point<World>> still_to_check(std::span<const Point<World>> places,
                                          std::span<const CheckPoint> touched) {
   std::vector<Point<World>> open;
-  for (const Point<World>& place : places)
+  for (const Point<World>& place : places) {
     if (std::none_of(touched.begin(), touched.end(), [&](const CheckPoint& point) {
           return (point.place - place).norm() < kTouchedWithin_m;
-        }))
+        })) {
       open.push_back(place);
+    }
+  }
   return open;
 }
 
 CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRules& rules) {
   CheckVerdict verdict;
-  for (const CheckPoint& point : points)
+  for (const CheckPoint& point : points) {
     verdict.worst_m = std::max(verdict.worst_m, std::abs(point.distance_m));
+  }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].within) continue;
+    if (points[i].within) {
+      continue;
+    }
     verdict.advice =
         worded("check point %zu is %.1f mm off, limit %.1f mm: reject and stroke again", i + 1,
                std::abs(points[i].distance_m) * 1e3, rules.within_m * 1e3);
@@ -150,7 +182,9 @@ CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRule
   }
   const Spread spread = spread_of(points, rules);
   verdict.passed = spread.off_line;
-  if (!verdict.passed) verdict.advice = advice_on(spread, rules);
+  if (!verdict.passed) {
+    verdict.advice = advice_on(spread, rules);
+  }
   return verdict;
 }
 

@@ -13,9 +13,9 @@ namespace {
 using Pose = Transform<World, Vertebra>;
 
 constexpr double kSamePlace_m = 0.003;
-constexpr double kSameTurn_rad = 0.1;
-constexpr double kShift_m = 0.009;
-constexpr double kTurn_rad = 0.35;
+constexpr double kSameRotation_rad = 0.1;
+constexpr double kTranslation_m = 0.009;
+constexpr double kRotation_rad = 0.35;
 constexpr int kShakes = 8;
 /// Proper pairings of three axes and their signs: all are worth shaking once doubles are gone.
 constexpr std::size_t kPairings = 24;
@@ -29,7 +29,9 @@ constexpr IcpOptions kShakeLook{25, 2e-5};
 std::vector<Point<World>> thinned(std::span<const Point<World>> points, std::size_t count) {
   const std::size_t step = std::max<std::size_t>(1, points.size() / count);
   std::vector<Point<World>> few;
-  for (std::size_t i = 0; i < points.size(); i += step) few.push_back(points[i]);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    few.push_back(points[i]);
+  }
   return few;
 }
 
@@ -39,10 +41,12 @@ std::vector<std::array<Vec3, 6>> proper_pairings(const std::array<Vec3, 6>& extr
   constexpr std::array<std::array<std::size_t, 3>, 6> kOrders = {
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};  // 3 even, 3 odd
   std::vector<std::array<Vec3, 6>> pairings;
-  for (std::size_t order = 0; order < kOrders.size(); ++order)
+  for (std::size_t order = 0; order < kOrders.size(); ++order) {
     for (unsigned flips = 0; flips < 8; ++flips) {
       const bool odd_flips = ((flips ^ (flips >> 1) ^ (flips >> 2)) & 1U) != 0;
-      if ((order >= 3) != odd_flips) continue;  // would mirror
+      if ((order >= 3) != odd_flips) {
+        continue;  // would mirror
+      }
       std::array<Vec3, 6> paired;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t axis = kOrders[order][k];
@@ -52,6 +56,7 @@ std::vector<std::array<Vec3, 6>> proper_pairings(const std::array<Vec3, 6>& extr
       }
       pairings.push_back(paired);
     }
+  }
   return pairings;
 }
 
@@ -67,13 +72,18 @@ class Search {
 
   [[nodiscard]] std::vector<CoarsePose> starts(std::span<const Point<World>> points) const {
     std::vector<Vec3> digitized(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) digitized[i] = points[i].v;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      digitized[i] = points[i].v;
+    }
     const auto extremes = extreme_points(digitized, principal_axes(digitized));
     std::vector<CoarsePose> found;
-    for (const auto& paired : proper_pairings(extremes))
-      if (const auto fit = absolute_orientation(model_.reachable_extremes(), paired))
-        if (const auto pose = look({fit->rotation, fit->translation_m}, kFirstLook))
+    for (const auto& paired : proper_pairings(extremes)) {
+      if (const auto fit = absolute_orientation(model_.reachable_extremes(), paired)) {
+        if (const auto pose = look({fit->rotation, fit->translation_m}, kFirstLook)) {
           found.push_back(*pose);
+        }
+      }
+    }
     return found;
   }
 
@@ -82,10 +92,16 @@ class Search {
   [[nodiscard]] CoarsePose shaken(CoarsePose pose) const {
     for (int i = 0; i < kShakes; ++i) {
       CoarsePose best = pose;
-      for (const Pose& start : neighbours(pose.world_from_vertebra))
-        if (const auto found = look(start, kShakeLook))
-          if (found->rmse_m < best.rmse_m - kBetter_m) best = *found;
-      if (best.rmse_m == pose.rmse_m) break;
+      for (const Pose& start : neighbours(pose.world_from_vertebra)) {
+        if (const auto found = look(start, kShakeLook)) {
+          if (found->rmse_m < best.rmse_m - kBetter_m) {
+            best = *found;
+          }
+        }
+      }
+      if (best.rmse_m == pose.rmse_m) {
+        break;
+      }
       pose = best;
     }
     return pose;
@@ -96,11 +112,13 @@ class Search {
                                                  std::size_t most) const {
     sort_by_fit(poses);
     std::vector<CoarsePose> kept;
-    for (const CoarsePose& pose : poses)
+    for (const CoarsePose& pose : poses) {
       if (kept.size() < most && std::all_of(kept.begin(), kept.end(), [&](const CoarsePose& k) {
             return differ_clearly(model_, k.world_from_vertebra, pose.world_from_vertebra);
-          }))
+          })) {
         kept.push_back(pose);
+      }
+    }
     return kept;
   }
 
@@ -108,17 +126,25 @@ class Search {
   /// ICP on the grid's rough closest points.
   [[nodiscard]] std::optional<CoarsePose> look(const Pose& start, const IcpOptions& options) const {
     std::vector<Vec3> digitized(few_.size());
-    for (std::size_t i = 0; i < few_.size(); ++i) digitized[i] = few_[i].v;
+    for (std::size_t i = 0; i < few_.size(); ++i) {
+      digitized[i] = few_[i].v;
+    }
     std::vector<Vec3> closest(few_.size());
     CoarsePose result{start, match(start, closest)};
     for (int i = 0; i < options.max_iterations; ++i) {
       const auto fit = absolute_orientation(closest, digitized);
-      if (!fit) return std::nullopt;
+      if (!fit) {
+        return std::nullopt;
+      }
       const Pose pose{fit->rotation, fit->translation_m};
       const double rmse_m = match(pose, closest);
       const double gained_m = result.rmse_m - rmse_m;
-      if (gained_m > 0.0) result = {pose, rmse_m};
-      if (!(gained_m > options.converged_m)) break;
+      if (gained_m > 0.0) {
+        result = {pose, rmse_m};
+      }
+      if (!(gained_m > options.converged_m)) {
+        break;
+      }
     }
     return result;
   }
@@ -137,13 +163,15 @@ class Search {
   [[nodiscard]] std::vector<Pose> neighbours(const Pose& pose) const {
     const Vec3 centre = (pose * Point<Vertebra>{model_.reachable_axes().centre_m}).v;
     std::vector<Pose> poses;
-    for (const Vec3& axis_in_vertebra : model_.reachable_axes().axes)
+    for (const Vec3& axis_in_vertebra : model_.reachable_axes().axes) {
       for (const double sign : {1.0, -1.0}) {
         const Vec3 axis = sign * (pose.rotation() * axis_in_vertebra);
-        poses.emplace_back(pose.rotation(), pose.translation() + kShift_m * axis);
-        const Mat3 turn = rotation_from_vector(kTurn_rad * axis);
-        poses.emplace_back(turn * pose.rotation(), turn * (pose.translation() - centre) + centre);
+        poses.emplace_back(pose.rotation(), pose.translation() + kTranslation_m * axis);
+        const Mat3 rotation_step = rotation_from_vector(kRotation_rad * axis);
+        poses.emplace_back(rotation_step * pose.rotation(),
+                           rotation_step * (pose.translation() - centre) + centre);
       }
+    }
     return poses;
   }
 
@@ -156,14 +184,16 @@ class Search {
 bool differ_clearly(const VertebraModel& model, const Pose& a, const Pose& b) {
   const Point<Vertebra> centre{model.reachable_axes().centre_m};
   return (a * centre - b * centre).norm() > kSamePlace_m ||
-         rotation_angle_rad(a.rotation(), b.rotation()) > kSameTurn_rad;
+         rotation_angle_rad(a.rotation(), b.rotation()) > kSameRotation_rad;
 }
 
 std::vector<CoarsePose> coarse_poses(const VertebraModel& model,
                                      std::span<const Point<World>> points_in_world) {
   const Search search(model, points_in_world);
   std::vector<CoarsePose> poses = search.distinct(search.starts(points_in_world), kPairings);
-  for (CoarsePose& pose : poses) pose = search.shaken(pose);
+  for (CoarsePose& pose : poses) {
+    pose = search.shaken(pose);
+  }
   return search.distinct(std::move(poses), 2);
 }
 

@@ -22,10 +22,11 @@ constexpr double kPinned_m = 0.0003;
 constexpr double kMidline_m = 0.007;
 constexpr double kLateral_m = 0.028;
 
-Eigen::Matrix<double, 3, 6> moves_at(Vec3 arm) {
+Eigen::Matrix<double, 3, 6> moves_at(Vec3 lever_arm) {
   Eigen::Matrix<double, 3, 6> m = Eigen::Matrix<double, 3, 6>::Zero();
   m.leftCols<3>().setIdentity();
-  m.rightCols<3>() << 0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0;
+  m.rightCols<3>() << 0, lever_arm.z, -lever_arm.y, -lever_arm.z, 0, lever_arm.x, lever_arm.y,
+      -lever_arm.x, 0;
   return m;
 }
 
@@ -46,7 +47,9 @@ std::string place_name(const VertebraModel& model, Vec3 p) {
   const Vec3 centre = model.reachable_axes().centre_m;
   const double x = p.x - centre.x;
   const char* height = p.z - centre.z > 0.006 ? "upper " : p.z - centre.z < -0.006 ? "lower " : "";
-  if (std::abs(x) < kMidline_m) return std::string("the ") + height + "spinous process";
+  if (std::abs(x) < kMidline_m) {
+    return std::string("the ") + height + "spinous process";
+  }
   const std::string side = x > 0.0 ? "left " : "right ";
   return "the " + side + height +
          (std::abs(x) > kLateral_m ? "facet and root of the transverse process" : "lamina");
@@ -61,15 +64,17 @@ std::string motion_name(const Vector6& motion, double lever_m) {
   double length = 0.0;
   for (std::size_t k = 0; k < 6; ++k) {
     const double m = std::abs(motion(static_cast<Eigen::Index>(k))) * (k < 3 ? 1.0 : lever_m);
-    if (m > length) length = m, most = k;
+    if (m > length) {
+      length = m, most = k;
+    }
   }
   return kNames[most];
 }
 
 }  // namespace
 
-Weakness weakness_of(const VertebraModel& model, const PoseUncertainty& uncertainty,
-                     std::span<const Point<Vertebra>> targets) {
+Degeneracy degeneracy_of(const VertebraModel& model, const PoseUncertainty& uncertainty,
+                         std::span<const Point<Vertebra>> targets) {
   const Matrix6 covariance = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(
       uncertainty.covariance().data());
   const Vec3 centre = uncertainty.centre_m();
@@ -85,7 +90,7 @@ Weakness weakness_of(const VertebraModel& model, const PoseUncertainty& uncertai
   const Matrix6 l = root.matrixL();
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(l.transpose() * at_targets * l);
   const Vector6 motion = l * solver.eigenvectors().col(5);
-  Weakness out;
+  Degeneracy out;
   std::array<char, 48> text{};
   const double before = tre2_m2(covariance, centre, targets);
   std::snprintf(text.data(), text.size(), " (%.1f mm at the screws)", std::sqrt(before) * 1e3);
@@ -100,9 +105,9 @@ Weakness weakness_of(const VertebraModel& model, const PoseUncertainty& uncertai
     const Vec3 at = middle(mesh, t);
     const Vec3 normal =
         triangle_normal({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
-    const Vec3 turn = (at - centre).cross(normal);
+    const Vec3 rotation_step = (at - centre).cross(normal);
     Vector6 j;
-    j << normal.x, normal.y, normal.z, turn.x, turn.y, turn.z;
+    j << normal.x, normal.y, normal.z, rotation_step.x, rotation_step.y, rotation_step.z;
     const Vector6 gain = covariance * j;
     const Matrix6 after =
         covariance - gain * gain.transpose() / (j.dot(gain) + kPinned_m * kPinned_m);
@@ -115,22 +120,28 @@ Weakness weakness_of(const VertebraModel& model, const PoseUncertainty& uncertai
   return out;
 }
 
-double coverage_share(const VertebraModel& model, const SurfaceFit& fit) {
+double coverage_fraction(const VertebraModel& model, const SurfaceFit& fit) {
   // Cells that hold a fitted point, and their neighbours.
   const auto cell = [](double x) { return static_cast<int>(std::floor(x / kCovered_m)); };
   std::set<std::array<int, 3>> touched;
   for (const FittedPoint& p : fit.points) {
-    if (!(p.weight > 0.0)) continue;
-    const Vec3 at = p.arm_m + fit.pose.centre_m;
+    if (!(p.weight > 0.0)) {
+      continue;
+    }
+    const Vec3 at = p.lever_arm_m + fit.pose.centre_m;
     touched.insert({cell(at.x), cell(at.y), cell(at.z)});
   }
   const auto near = [&](Vec3 at) {
-    for (const double dx : {-0.5, 0.5})
-      for (const double dy : {-0.5, 0.5})
-        for (const double dz : {-0.5, 0.5})
+    for (const double dx : {-0.5, 0.5}) {
+      for (const double dy : {-0.5, 0.5}) {
+        for (const double dz : {-0.5, 0.5}) {
           if (touched.count({cell(at.x + dx * kCovered_m), cell(at.y + dy * kCovered_m),
-                             cell(at.z + dz * kCovered_m)}) != 0)
+                             cell(at.z + dz * kCovered_m)}) != 0) {
             return true;
+          }
+        }
+      }
+    }
     return false;
   };
   double covered = 0.0;
@@ -140,7 +151,9 @@ double coverage_share(const VertebraModel& model, const SurfaceFit& fit) {
     const double area =
         triangle_area_m2({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
     all += area;
-    if (near(middle(mesh, t))) covered += area;
+    if (near(middle(mesh, t))) {
+      covered += area;
+    }
   }
   return all > 0.0 ? covered / all : 0.0;
 }

@@ -9,17 +9,18 @@
 namespace orthonav::nav {
 
 /// What the strokes tell least of, in words.
-struct Weakness {
+struct Degeneracy {
   std::string motion;  ///< "slides along the spine (0.4 mm)"
   std::string advice;  ///< "stroke the left facet and lamina, upper part"
 };
 
 /// The motion that adds most to the error at the worst of the targets, and the part of the
 /// reachable surface whose strokes would take most of it away.
-[[nodiscard]] Weakness weakness_of(const VertebraModel& model, const PoseUncertainty& uncertainty,
-                                   std::span<const Point<Vertebra>> targets);
+[[nodiscard]] Degeneracy degeneracy_of(const VertebraModel& model,
+                                       const PoseUncertainty& uncertainty,
+                                       std::span<const Point<Vertebra>> targets);
 
 /// Of the reachable surface's area, what lies within 5 mm of a fitted point.
-[[nodiscard]] double coverage_share(const VertebraModel& model, const SurfaceFit& fit);
+[[nodiscard]] double coverage_fraction(const VertebraModel& model, const SurfaceFit& fit);
 
 }  // namespace orthonav::nav

@@ -21,8 +21,8 @@ constexpr double kLeap_m = 0.008;
 constexpr std::size_t kLongestLag = 60;
 /// The autocorrelation is followed until it falls below that; what is smaller drowns in chance,
 /// and a fit that took part of it away. From there it is taken to fall as it did so far.
-constexpr double kDrowned = 0.12;
-constexpr double kForgotten = 0.01;
+constexpr double kNoiseCorrelation = 0.12;
+constexpr double kNegligibleCorrelation = 0.01;
 /// From one point to the next the rest of the noise falls at least so far.
 constexpr double kSlowest = 0.97;
 /// Variance beyond what the residuals tell of: measured (docs/registration.md).
@@ -33,10 +33,11 @@ constexpr double kLever_m = 0.03;
 /// The motion least seen may be this much less visible than the best seen one.
 constexpr double kWeakest = 1e-6;
 
-Vector7 derivative(const FittedPoint& p, bool with_lift) {
-  const Vec3 turn = p.arm_m.cross(p.gradient);
+Vector7 derivative(const FittedPoint& p, bool with_standoff) {
+  const Vec3 rotation_step = p.lever_arm_m.cross(p.gradient);
   Vector7 j;
-  j << p.gradient.x, p.gradient.y, p.gradient.z, turn.x, turn.y, turn.z, with_lift ? -1.0 : 0.0;
+  j << p.gradient.x, p.gradient.y, p.gradient.z, rotation_step.x, rotation_step.y, rotation_step.z,
+      with_standoff ? -1.0 : 0.0;
   return j;
 }
 
@@ -53,7 +54,7 @@ Strokes strokes_of(const SurfaceFit& fit) {
   int stroke = 0;
   std::size_t leaps = 0;
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
-    if (i > 0 && (fit.points[i].arm_m - fit.points[i - 1].arm_m).norm() > kLeap_m) {
+    if (i > 0 && (fit.points[i].lever_arm_m - fit.points[i - 1].lever_arm_m).norm() > kLeap_m) {
       ++stroke;
       ++leaps;
     }
@@ -73,19 +74,26 @@ std::vector<double> autocovariance(const SurfaceFit& fit, const std::vector<int>
     for (std::size_t i = 0; i + lag < n; ++i) {
       const FittedPoint& a = fit.points[i];
       const FittedPoint& b = fit.points[i + lag];
-      if (stroke[i] != stroke[i + lag] || !(a.weight > 0.0) || !(b.weight > 0.0)) continue;
+      if (stroke[i] != stroke[i + lag] || !(a.weight > 0.0) || !(b.weight > 0.0)) {
+        continue;
+      }
       sum += influence(a) * influence(b);
       count += 1.0;
     }
     const double value = count > 0.0 ? sum / count : 0.0;
-    if (lag > 0 && (count < 10.0 || value < kDrowned * out[0])) break;
+    if (lag > 0 && (count < 10.0 || value < kNoiseCorrelation * out[0])) {
+      break;
+    }
     out.push_back(value);
   }
-  if (out.size() < 3) return out;
+  if (out.size() < 3) {
+    return out;
+  }
   const double falls =
       std::min(kSlowest, std::pow(out.back() / out[1], 1.0 / static_cast<double>(out.size() - 2)));
-  while (out.size() < kLongestLag && out.back() > kForgotten * out[0])
+  while (out.size() < kLongestLag && out.back() > kNegligibleCorrelation * out[0]) {
     out.push_back(falls * out.back());
+  }
   return out;
 }
 
@@ -94,10 +102,12 @@ Matrix7 middle_along_strokes(const SurfaceFit& fit, const std::vector<Vector7>& 
   Matrix7 out = Matrix7::Zero();
   for (std::size_t lag = 0; lag < gamma.size(); ++lag) {
     Matrix7 sum = Matrix7::Zero();
-    for (std::size_t i = 0; i + lag < j.size(); ++i)
+    for (std::size_t i = 0; i + lag < j.size(); ++i) {
       if (stroke[i] == stroke[i + lag] && fit.points[i].weight > 0.0 &&
-          fit.points[i + lag].weight > 0.0)
+          fit.points[i + lag].weight > 0.0) {
         sum.noalias() += j[i] * j[i + lag].transpose();
+      }
+    }
     out += lag == 0 ? Matrix7(gamma[0] * sum) : Matrix7(gamma[lag] * (sum + sum.transpose()));
   }
   return out;
@@ -107,13 +117,17 @@ Matrix7 middle_along_strokes(const SurfaceFit& fit, const std::vector<Vector7>& 
 Matrix7 middle_by_cells(const SurfaceFit& fit, const std::vector<Vector7>& j, double gamma) {
   std::map<std::array<long, 3>, Vector7> cells;
   for (std::size_t i = 0; i < j.size(); ++i) {
-    if (!(fit.points[i].weight > 0.0)) continue;
+    if (!(fit.points[i].weight > 0.0)) {
+      continue;
+    }
     const auto cell = [](double x) { return std::lround(x / kCell_m); };
-    const Vec3 p = fit.points[i].arm_m;
+    const Vec3 p = fit.points[i].lever_arm_m;
     cells.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, Vector7::Zero()).first->second += j[i];
   }
   Matrix7 out = Matrix7::Zero();
-  for (const auto& [cell, sum] : cells) out += gamma * sum * sum.transpose();
+  for (const auto& [cell, sum] : cells) {
+    out += gamma * sum * sum.transpose();
+  }
   return out;
 }
 
@@ -123,7 +137,9 @@ std::optional<Matrix7> inverse_of(const Matrix7& information) {
   lever << 1, 1, 1, kLever_m, kLever_m, kLever_m, 1;
   const auto scale = lever.cwiseInverse().asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix7> solver(Matrix7(scale * information * scale));
-  if (!(solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[6])) return std::nullopt;
+  if (!(solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[6])) {
+    return std::nullopt;
+  }
   return Matrix7(scale *
                  (solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
                   solver.eigenvectors().transpose()) *
@@ -137,25 +153,35 @@ std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
   std::vector<Vector7> j;
   j.reserve(fit.points.size());
   Matrix7 plain = Matrix7::Zero();
-  if (!fit.with_lift) plain(6, 6) = 1.0;
+  if (!fit.with_standoff) {
+    plain(6, 6) = 1.0;
+  }
   double slope = 0.0;  // mean derivative of the influence by the residual
   double used = 0.0;
   for (const FittedPoint& p : fit.points) {
-    j.push_back(derivative(p, fit.with_lift));
-    if (!(p.weight > 0.0)) continue;
+    j.push_back(derivative(p, fit.with_standoff));
+    if (!(p.weight > 0.0)) {
+      continue;
+    }
     plain += j.back() * j.back().transpose();
     const double t = std::sqrt(p.weight);  // 1 - (r/c)^2
     slope += t * (t - 4.0 * (1.0 - t));
     used += 1.0;
   }
-  if (used < 12.0) return std::nullopt;
+  if (used < 12.0) {
+    return std::nullopt;
+  }
   slope = std::max(slope / used, 0.2);
   const auto inverse = inverse_of(plain);
-  if (!inverse) return std::nullopt;
+  if (!inverse) {
+    return std::nullopt;
+  }
   const std::vector<double> gamma =
       strokes.ordered ? autocovariance(fit, strokes.of) : std::vector<double>{[&] {
         double sum = 0.0;
-        for (const FittedPoint& p : fit.points) sum += influence(p) * influence(p);
+        for (const FittedPoint& p : fit.points) {
+          sum += influence(p) * influence(p);
+        }
         return sum / used;
       }()};
   const Matrix7 middle = strokes.ordered ? middle_along_strokes(fit, j, strokes.of, gamma)
@@ -171,7 +197,7 @@ std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
   // shows in no residual.
   const double more = kUnseen * out.effective_points / std::max(out.effective_points - 6.0, 1.0);
   covariance *= more;
-  out.lift_sd_m = std::sqrt(more * whole(6, 6));
+  out.standoff_sd_m = std::sqrt(more * whole(6, 6));
   std::array<double, 36> flat{};
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(flat.data()) =
       0.5 * (covariance + covariance.transpose());

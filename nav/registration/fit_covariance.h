@@ -13,7 +13,7 @@ struct FitCovariance {
   PoseUncertainty uncertainty;
   /// As many independent points would tell as much.
   double effective_points = 0.0;
-  double lift_sd_m = 0.0;  ///< of the mean height of the tip, where it was fitted
+  double standoff_sd_m = 0.0;  ///< of the mean height of the tip, where it was fitted
 };
 
 /// The covariance of a robust fit whose residuals are correlated from one point to the next: the

@@ -24,7 +24,9 @@ class Correspondences {
       const Vec3 query_m = (inverse * points_[i]).v;
       // The last closest point lies on the surface: no closer one is farther than it.
       const double within_m = first_ ? 1e9 : (closest_[i] - query_m).norm() * (1 + 1e-12) + 1e-15;
-      if (const auto found = surface_.nearest(query_m, within_m)) closest_[i] = found->point_m;
+      if (const auto found = surface_.nearest(query_m, within_m)) {
+        closest_[i] = found->point_m;
+      }
       sum_m2 += (closest_[i] - query_m).squared_norm();
     }
     first_ = false;
@@ -45,17 +47,23 @@ Result<IcpResult> refine_icp(const SurfaceIndex& surface,
                              std::span<const Point<World>> points_in_world,
                              const Transform<World, Vertebra>& start, const IcpOptions& options) {
   std::vector<Vec3> digitized(points_in_world.size());
-  for (std::size_t i = 0; i < digitized.size(); ++i) digitized[i] = points_in_world[i].v;
+  for (std::size_t i = 0; i < digitized.size(); ++i) {
+    digitized[i] = points_in_world[i].v;
+  }
   Correspondences correspondences(surface, points_in_world);
   IcpResult result{start, correspondences.update(start), 0};
   while (result.iterations < options.max_iterations) {
     const auto fit = absolute_orientation(correspondences.closest(), digitized);
-    if (!fit) return fit.error();
+    if (!fit) {
+      return fit.error();
+    }
     result.world_from_vertebra = {fit->rotation, fit->translation_m};
     const double before_m = result.rmse_m;
     result.rmse_m = correspondences.update(result.world_from_vertebra);
     ++result.iterations;
-    if (!(before_m - result.rmse_m > options.converged_m)) break;
+    if (!(before_m - result.rmse_m > options.converged_m)) {
+      break;
+    }
   }
   return result;
 }

@@ -23,37 +23,46 @@ std::string line(const char* format, double a, double b) {
 
 Status check_points(std::span<const Point<World>> points, std::size_t min_points) {
   const std::size_t fewest = std::max<std::size_t>(min_points, 3);
-  if (points.size() < fewest)
+  if (points.size() < fewest) {
     return Error{"registration has " + std::to_string(points.size()) + " points, needs at least " +
                  std::to_string(fewest)};
+  }
   std::vector<Vec3> numbers(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].v.is_finite())
+    if (!points[i].v.is_finite()) {
       return Error{"registration point " + std::to_string(i + 1) + " is not finite"};
+    }
     numbers[i] = points[i].v;
   }
   const PrincipalAxes axes = principal_axes(numbers);
-  if (!(axes.deviation_m[0] <= kWidest_m))
+  if (!(axes.deviation_m[0] <= kWidest_m)) {
     return Error{
         line("registration points spread %.4g mm (standard deviation), limit %.0f mm: not "
              "one vertebra, or not in the unit given",
              axes.deviation_m[0] * 1e3, kWidest_m * 1e3)};
-  if (!(axes.deviation_m[1] >= kNarrowest_m))
+  }
+  if (!(axes.deviation_m[1] >= kNarrowest_m)) {
     return Error{
         line("registration points lie on a line or in one place (%.3g mm wide, at least "
              "%.0f mm)",
              axes.deviation_m[1] * 1e3, kNarrowest_m * 1e3)};
+  }
   return {};
 }
 
 Status check_point_sds(std::span<const double> sd_m, std::size_t points) {
-  if (sd_m.empty()) return {};
-  if (sd_m.size() != points)
+  if (sd_m.empty()) {
+    return {};
+  }
+  if (sd_m.size() != points) {
     return Error{"registration: " + std::to_string(sd_m.size()) + " standard deviations of " +
                  std::to_string(points) + " points"};
+  }
   const auto bad =
       std::find_if(sd_m.begin(), sd_m.end(), [](double sd) { return !(sd >= 0.0 && sd < 1.0); });
-  if (bad == sd_m.end()) return {};
+  if (bad == sd_m.end()) {
+    return {};
+  }
   return Error{"registration: standard deviation of point " +
                std::to_string(bad - sd_m.begin() + 1) + " is " + std::to_string(*bad) +
                " m, must be between 0 and 1 m"};

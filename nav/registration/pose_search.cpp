@@ -68,9 +68,10 @@ class PlaceScan {
     const Vec3 inset{kInset_m, kInset_m, kInset_m};
     low_m_ = vertebra.reachable_bounds().low + inset;
     const Vec3 extent = vertebra.reachable_bounds().high - inset - low_m_;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       steps_[k] = std::max(
           1, 1 + static_cast<int>(extent[static_cast<int>(k)] / (kPlaceStep * cells_.cell_m)));
+    }
   }
 
   /// The two best places that are not neighbours.
@@ -83,11 +84,17 @@ class PlaceScan {
                     static_cast<std::ptrdiff_t>(p.y) * row + static_cast<std::ptrdiff_t>(p.x);
     }
     std::array<Place, 2> best;
-    for (int z = 0; z < steps_[2]; ++z)
-      for (int y = 0; y < steps_[1]; ++y)
-        for (int x = 0; x < steps_[0]; ++x) take({cost(x, y, z, row, slice), {x, y, z}}, best);
+    for (int z = 0; z < steps_[2]; ++z) {
+      for (int y = 0; y < steps_[1]; ++y) {
+        for (int x = 0; x < steps_[0]; ++x) {
+          take({cost(x, y, z, row, slice), {x, y, z}}, best);
+        }
+      }
+    }
     for (const Place& place : best) {
-      if (place.cost == kNone) continue;
+      if (place.cost == kNone) {
+        continue;
+      }
       const Vec3 at_m =
           low_m_ + kPlaceStep * cells_.cell_m *
                        Vec3{static_cast<double>(place.at[0]), static_cast<double>(place.at[1]),
@@ -102,8 +109,11 @@ class PlaceScan {
     std::uint32_t cost = kNone;
     std::array<int, 3> at{};
     [[nodiscard]] bool is_next_to(const Place& other) const {
-      for (std::size_t k = 0; k < 3; ++k)
-        if (std::abs(at[k] - other.at[k]) > 1) return false;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (std::abs(at[k] - other.at[k]) > 1) {
+          return false;
+        }
+      }
       return true;
     }
   };
@@ -112,14 +122,20 @@ class PlaceScan {
                                    std::ptrdiff_t slice) const {
     const std::uint8_t* from = cells_.cost.data() + kPlaceStep * (z * slice + y * row + x);
     std::uint32_t sum = 0;
-    for (const std::ptrdiff_t offset : offsets_) sum += from[offset];
+    for (const std::ptrdiff_t offset : offsets_) {
+      sum += from[offset];
+    }
     return sum;
   }
 
   static void take(const Place& place, std::array<Place, 2>& best) {
-    if (place.cost >= best[1].cost) return;
+    if (place.cost >= best[1].cost) {
+      return;
+    }
     if (place.cost < best[0].cost) {
-      if (best[0].cost != kNone && !place.is_next_to(best[0])) best[1] = best[0];
+      if (best[0].cost != kNone && !place.is_next_to(best[0])) {
+        best[1] = best[0];
+      }
       best[0] = place;
     } else if (!place.is_next_to(best[0])) {
       best[1] = place;
@@ -151,8 +167,12 @@ void drop_neighbours(std::vector<Scored>& poses, double same_m, double same_rad,
       return (k.pose.centre_m - pose.pose.centre_m).norm() < same_m &&
              rotation_angle_rad(k.pose.rotation, pose.pose.rotation) < same_rad;
     });
-    if (is_new) kept.push_back(pose);
-    if (kept.size() == count) break;
+    if (is_new) {
+      kept.push_back(pose);
+    }
+    if (kept.size() == count) {
+      break;
+    }
   }
   poses = std::move(kept);
 }
@@ -167,10 +187,12 @@ void refine(const SearchField& vertebra, std::span<const Vec3> points_m, const S
             double tip_radius_m, Scored& scored) {
   FieldStep step(vertebra.field(), tip_radius_m);
   for (int i = 0; i < stage.steps; ++i) {
-    const double share = stage.steps > 1 ? static_cast<double>(i) / (stage.steps - 1) : 1.0;
+    const double fraction = stage.steps > 1 ? static_cast<double>(i) / (stage.steps - 1) : 1.0;
     const double width_m =
-        stage.from_width_m * std::pow(stage.to_width_m / stage.from_width_m, share);
-    if (!step.improve(points_m, width_m, scored.pose)) break;
+        stage.from_width_m * std::pow(stage.to_width_m / stage.from_width_m, fraction);
+    if (!step.improve(points_m, width_m, scored.pose)) {
+      break;
+    }
   }
   scored.cost = step.cost_m2(points_m, stage.to_width_m, scored.pose);
 }
@@ -188,7 +210,9 @@ Result<SearchField> SearchField::restored(const TriangleMesh& reachable,
                                           const SurfaceIndex& bone, std::vector<float> samples_m) {
   auto field = DistanceField::restored(reachable, reachable_surface, bone, kFieldCell_m,
                                        kFieldMargin_m, std::move(samples_m));
-  if (!field) return field.error();
+  if (!field) {
+    return field.error();
+  }
   return SearchField(bounds_of(reachable), std::move(*field));
 }
 
@@ -199,10 +223,11 @@ SearchField::SearchField(const Bounds& reachable_bounds, DistanceField field)
   cells_.low_m = reachable_bounds_.low - pad;
   cells_.cell_m = kSearchCell_m;
   const Vec3 extent = reachable_bounds_.high + pad - cells_.low_m;
-  for (std::size_t k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < 3; ++k) {
     cells_.size[k] = 1 + static_cast<int>(extent[static_cast<int>(k)] / kSearchCell_m);
-  for (int z = 0; z < cells_.size[2]; ++z)
-    for (int y = 0; y < cells_.size[1]; ++y)
+  }
+  for (int z = 0; z < cells_.size[2]; ++z) {
+    for (int y = 0; y < cells_.size[1]; ++y) {
       for (int x = 0; x < cells_.size[0]; ++x) {
         DistanceField::Value value;
         const bool near =
@@ -212,34 +237,44 @@ SearchField::SearchField(const Bounds& reachable_bounds, DistanceField field)
         const double factor = near && value.distance_m < 0.0 ? kInsideFactor : 1.0;
         cells_.cost.push_back(static_cast<std::uint8_t>(kCostPerM * factor * distance));
       }
+    }
+  }
 }
 
 std::vector<FoundPose> search_poses(const SearchField& vertebra,
                                     std::span<const Vec3> points_in_world_m,
                                     const PoseSearchOptions& options) {
   const SpreadPoints spread(points_in_world_m, kReach_m);
-  if (spread.centred_m().size() < 6) return {};
+  if (spread.centred_m().size() < 6) {
+    return {};
+  }
   std::vector<Scored> poses;
   poses.reserve(2 * kRotations);
   {
     PlaceScan places(vertebra, spread.first(kPointsAdded));
-    for (const Mat3& rotation : all_rotations()) places.scan(rotation, poses);
+    for (const Mat3& rotation : all_rotations()) {
+      places.scan(rotation, poses);
+    }
   }
   keep_best(poses, kKeptFirst);
-  for (Scored& pose : poses)
+  for (Scored& pose : poses) {
     refine(vertebra, spread.first(kPointsFirst), {4, 0.012, 0.006}, options.tip_radius_m, pose);
+  }
   keep_best(poses, kKeptThen);
-  for (Scored& pose : poses)
+  for (Scored& pose : poses) {
     refine(vertebra, spread.first(kPointsThen), {6, 0.008, 0.004}, options.tip_radius_m, pose);
+  }
   keep_best(poses, kKeptThen);
   drop_neighbours(poses, options.same_m, options.same_rad, kKeptLast);
-  for (Scored& pose : poses)
+  for (Scored& pose : poses) {
     refine(vertebra, spread.first(kPointsLast), {8, 0.005, 0.003}, options.tip_radius_m, pose);
+  }
   keep_best(poses, kKeptLast);
   drop_neighbours(poses, options.same_m, options.same_rad, options.most);
   std::vector<FoundPose> found;
-  for (const Scored& pose : poses)
+  for (const Scored& pose : poses) {
     found.push_back({world_from(pose.pose, spread.centre_m()), pose.cost});
+  }
   return found;
 }
 

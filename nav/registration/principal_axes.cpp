@@ -10,8 +10,11 @@ namespace {
 /// Eigenvectors come with either sign; the largest component is made positive.
 Vec3 signed_axis(Vec3 v) {
   int largest = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(v[i]) > std::abs(v[largest])) largest = i;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(v[i]) > std::abs(v[largest])) {
+      largest = i;
+    }
+  }
   return v[largest] < 0.0 ? -v : v;
 }
 

@@ -13,20 +13,23 @@ namespace orthonav::nav {
 namespace {
 
 void judge(const VertebraModel& model, const RegistrationOptions& options, Registration& r) {
-  if (!(r.rmse_m <= options.max_rmse_m))
+  if (!(r.rmse_m <= options.max_rmse_m)) {
     r.reasons.push_back(with_numbers("registration RMSE %.1f mm, limit %.1f mm", r.rmse_m * 1e3,
                                      options.max_rmse_m * 1e3));
+  }
   // Two starts that end in the same pose agree; only another pose is a rival.
   const bool rival = differ_clearly(model, r.world_from_vertebra, r.runner_up);
-  if (rival && !(r.runner_up_rmse_m >= options.min_runner_up_ratio * r.rmse_m))
+  if (rival && !(r.runner_up_rmse_m >= options.min_runner_up_ratio * r.rmse_m)) {
     r.reasons.push_back(
         with_numbers("another pose fits nearly as well (%.2f times the RMSE, at least %.2f)",
                      r.runner_up_rmse_m / r.rmse_m, options.min_runner_up_ratio));
-  if (!(r.predicted_tre_m <= options.max_predicted_tre_m))
+  }
+  if (!(r.predicted_tre_m <= options.max_predicted_tre_m)) {
     r.reasons.push_back(
         with_numbers("the points leave the bone loose: %.1f mm error expected at its centre, "
                      "limit %.1f mm",
                      r.predicted_tre_m * 1e3, options.max_predicted_tre_m * 1e3));
+  }
   r.accepted = r.reasons.empty();
 }
 
@@ -34,29 +37,40 @@ void estimate_errors(const VertebraModel& model, std::span<const Point<World>> p
                      Registration& r) {
   r.predicted_tre_m = std::numeric_limits<double>::infinity();
   const auto uncertainty = PoseUncertainty::estimate(model, r.world_from_vertebra, points);
-  if (!uncertainty) return;
+  if (!uncertainty) {
+    return;
+  }
   r.uncertainty = *uncertainty;
   r.predicted_tre_m = uncertainty->predicted_tre_m({bounds_of(model.mesh()).centre()});
 }
 
 }  // namespace
 
-Result<Registration> register_paper(const VertebraModel& model,
-                                    std::span<const Point<World>> points_in_world,
-                                    const RegistrationOptions& options) {
-  if (const Status s = check_points(points_in_world, options.min_points); !s) return s.error();
+Result<Registration> register_by_principal_axes(const VertebraModel& model,
+                                                std::span<const Point<World>> points_in_world,
+                                                const RegistrationOptions& options) {
+  if (const Status s = check_points(points_in_world, options.min_points); !s) {
+    return s.error();
+  }
   const IcpOptions fine{options.max_iterations, options.converged_m};
   std::vector<IcpResult> refined;
   for (const CoarsePose& coarse : coarse_poses(model, points_in_world)) {
     auto result =
         refine_icp(model.reachable_surface(), points_in_world, coarse.world_from_vertebra, fine);
-    if (result) refined.push_back(*result);
+    if (result) {
+      refined.push_back(*result);
+    }
   }
-  if (refined.empty())
+  if (refined.empty()) {
     return Error{
         "registration finds no pose: the extreme points of the strokes fit no part of the model"};
-  if (refined.size() == 1) refined.push_back(refined[0]);
-  if (refined[1].rmse_m < refined[0].rmse_m) std::swap(refined[0], refined[1]);
+  }
+  if (refined.size() == 1) {
+    refined.push_back(refined[0]);
+  }
+  if (refined[1].rmse_m < refined[0].rmse_m) {
+    std::swap(refined[0], refined[1]);
+  }
   Registration r;
   r.world_from_vertebra = refined[0].world_from_vertebra;
   r.rmse_m = refined[0].rmse_m;

@@ -91,7 +91,7 @@ struct NeighbourLevel {
   const VertebraModel* model = nullptr;
 };
 
-struct BestRegistrationOptions {
+struct PoseSearchRegistrationOptions {
   std::size_t min_points = 100;
   /// Where the pose must be sure: the plan's entries and targets. Without any, places where screws
   /// usually go are taken.
@@ -101,18 +101,18 @@ struct BestRegistrationOptions {
   /// What 95 of 100 errors are below, at the worst of them; above: refused.
   double max_tre_95_m = 0.002;
   /// By how much another pose must explain the points worse (log-likelihood ratio).
-  double min_margin = 12.0;
-  double max_noise_m = 0.0016;       ///< SD of the points about the surface
-  double min_inlier_share = 0.7;     ///< of the points that lie on the surface within the noise
-  double min_coverage_share = 0.10;  ///< of the reachable surface within 5 mm of a point
-  double tip_radius_m = 0.0;         ///< of a ball at the pointer's end
+  double min_log_likelihood_ratio = 12.0;
+  double max_noise_m = 0.0016;          ///< SD of the points about the surface
+  double min_inlier_fraction = 0.7;     ///< of the points that lie on the surface within the noise
+  double min_coverage_fraction = 0.10;  ///< of the reachable surface within 5 mm of a point
+  double tip_radius_m = 0.0;            ///< of a ball at the pointer's end
   /// How exactly each point was tracked (SD along an axis): those known better count for more.
   /// Empty: all alike.
   std::vector<double> point_sd_m;
   /// From the tip back along the pointer's shaft, unit vectors in World: where it was is no bone.
   /// Empty: not known.
   std::vector<Vec3> shafts;
-  double max_swept_share = 0.15;  ///< of the points whose shaft would go through bone
+  double max_shaft_collision_fraction = 0.15;  ///< of the points whose shaft would go through bone
   std::vector<NeighbourLevel> neighbours;
 };
 
@@ -134,12 +134,13 @@ struct Registration {
   // What `best` says besides; zero and empty with `paper`.
   double tre_95_m = 0.0;          ///< at the worst target
   double noise_m = 0.0;           ///< SD of the points about the surface, outliers left aside
-  double lift_m = 0.0;            ///< mean height of the tip above the bone; 0 where not certain
-  double inlier_share = 0.0;      ///< of the points
+  double standoff_m = 0.0;        ///< mean height of the tip above the bone; 0 where not certain
+  double inlier_fraction = 0.0;   ///< of the points
   double effective_points = 0.0;  ///< independent ones that would tell as much
-  double margin = 0.0;            ///< of the runner-up, log-likelihood ratio
-  double coverage_share = 0.0;    ///< of the reachable surface
-  double swept_share = 0.0;       ///< of the points whose pointer would have gone through bone
+  double log_likelihood_ratio = 0.0;  ///< of the runner-up, log-likelihood ratio
+  double coverage_fraction = 0.0;     ///< of the reachable surface
+  double shaft_collision_fraction =
+      0.0;  ///< of the points whose pointer would have gone through bone
   /// The motion known worst, in words, and the part of the bone whose strokes would tell most.
   std::string weakest;
   std::string advice;
@@ -150,17 +151,17 @@ struct Registration {
 /// best configurations remain (nav/registration/coarse.h says where it goes further than eq. 2),
 /// ICP (Besl & McKay 1992) refines both on the reachable surface, the smaller RMSE wins. An Error
 /// means unusable input (too few, collinear, non-finite points).
-Result<Registration> register_paper(const VertebraModel& model,
-                                    std::span<const Point<World>> points_in_world,
-                                    const RegistrationOptions& options = {});
+Result<Registration> register_by_principal_axes(const VertebraModel& model,
+                                                std::span<const Point<World>> points_in_world,
+                                                const RegistrationOptions& options = {});
 
 /// Every pose is searched for, the best ones are fitted exactly and robustly
 /// (docs/registration.md). Accepted only when nothing else explains the points, the error to expect
 /// at every target is small, and no neighbouring level fits as well. `points_in_world` in the order
 /// of time.
-Result<Registration> register_best(const VertebraModel& model,
-                                   std::span<const Point<World>> points_in_world,
-                                   const BestRegistrationOptions& options = {});
+Result<Registration> register_by_pose_search(const VertebraModel& model,
+                                             std::span<const Point<World>> points_in_world,
+                                             const PoseSearchRegistrationOptions& options = {});
 
 /// What keeps points from being registered at all: too few, not finite, all over the place, a line.
 Status check_points(std::span<const Point<World>> points, std::size_t min_points);

@@ -10,14 +10,16 @@ namespace {
 
 constexpr double kCell_m = 0.004;
 /// So many of the points may be left out for lying in lonely cells.
-constexpr double kLonelyShare = 0.15;
+constexpr double kLonelyFraction = 0.15;
 
 /// The middle that outliers do not move: medians by coordinate.
 Vec3 middle_of(std::span<const Vec3> points_m) {
   Vec3 middle;
   std::vector<double> values(points_m.size());
   for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < points_m.size(); ++i) values[i] = points_m[i][axis];
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+      values[i] = points_m[i][axis];
+    }
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), at, values.end());
     middle[axis] = *at;
@@ -30,19 +32,25 @@ void order_by_distance(std::vector<Vec3>& points_m, std::size_t count) {
   std::vector<double> distance2(points_m.size(), 1e9);
   for (std::size_t i = 0; i < std::min(count, points_m.size()); ++i) {
     std::size_t farthest = i;
-    for (std::size_t k = i; k < points_m.size(); ++k)
-      if (distance2[k] > distance2[farthest]) farthest = k;
+    for (std::size_t k = i; k < points_m.size(); ++k) {
+      if (distance2[k] > distance2[farthest]) {
+        farthest = k;
+      }
+    }
     std::swap(points_m[i], points_m[farthest]);
     std::swap(distance2[i], distance2[farthest]);
-    for (std::size_t k = i + 1; k < points_m.size(); ++k)
+    for (std::size_t k = i + 1; k < points_m.size(); ++k) {
       distance2[k] = std::min(distance2[k], (points_m[k] - points_m[i]).squared_norm());
+    }
   }
 }
 
 }  // namespace
 
 SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
-  if (points_m.empty()) return;
+  if (points_m.empty()) {
+    return;
+  }
   const Vec3 middle = middle_of(points_m);
   // One of each cell: the first that came.
   struct Cell {
@@ -53,7 +61,9 @@ SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
   std::size_t all = 0;
   for (const Vec3& p : points_m) {
     const Vec3 q = p - middle;
-    if (!(q.norm() < reach_m)) continue;
+    if (!(q.norm() < reach_m)) {
+      continue;
+    }
     const auto place = [](double v) { return std::lround(v / kCell_m); };
     Cell& cell = by_place.try_emplace({place(q.x), place(q.y), place(q.z)}, Cell{q}).first->second;
     ++cell.count;
@@ -61,20 +71,27 @@ SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
   }
   // Outliers are few but lie apart, where each would have a cell of its own.
   std::vector<Cell> cells;
-  for (const auto& [place, cell] : by_place) cells.push_back(cell);
+  for (const auto& [place, cell] : by_place) {
+    cells.push_back(cell);
+  }
   std::stable_sort(cells.begin(), cells.end(),
                    [](const Cell& a, const Cell& b) { return a.count > b.count; });
-  auto room = static_cast<std::size_t>(kLonelyShare * static_cast<double>(all));
+  auto room = static_cast<std::size_t>(kLonelyFraction * static_cast<double>(all));
   while (cells.size() > 6 && cells.back().count <= room &&
          2 * cells.back().count < cells[cells.size() / 2].count) {
     room -= cells.back().count;
     cells.pop_back();
   }
   Vec3 mean;
-  for (const Cell& cell : cells) mean += cell.point / static_cast<double>(cells.size());
+  for (const Cell& cell : cells) {
+    mean += cell.point / static_cast<double>(cells.size());
+  }
   centre_m_ = middle + mean;
-  for (const Cell& cell : cells)
-    if ((cell.point - mean).norm() < reach_m) points_m_.push_back(cell.point - mean);
+  for (const Cell& cell : cells) {
+    if ((cell.point - mean).norm() < reach_m) {
+      points_m_.push_back(cell.point - mean);
+    }
+  }
   constexpr std::size_t kOrdered = 150;
   order_by_distance(points_m_, kOrdered);
 }

@@ -21,17 +21,18 @@ constexpr double kLeastRest = 0.1;
 constexpr double kRelativeDamping = 1e-9;
 constexpr double kNowhere_m = 1e3;
 /// Rounding must not hide what lies just as far.
-constexpr double kHair = 1.0 + 1e-12;
+constexpr double kRoundingAllowance = 1.0 + 1e-12;
 
 void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double farthest_m,
              double tip_radius_m, SurfaceFit& fit) {
-  const double height_m = tip_radius_m + fit.lift_m;
+  const double height_m = tip_radius_m + fit.standoff_m;
   for (std::size_t i = 0; i < points_m.size(); ++i) {
     FittedPoint& out = fit.points[i];
-    out.arm_m = fit.pose.rotation * points_m[i];
-    const Vec3 query = out.arm_m + fit.pose.centre_m;
+    out.lever_arm_m = fit.pose.rotation * points_m[i];
+    const Vec3 query = out.lever_arm_m + fit.pose.centre_m;
     // The surface is no farther than the place that was nearest before.
-    const double within_m = std::min(farthest_m, (query - out.nearest_m).norm() * kHair);
+    const double within_m =
+        std::min(farthest_m, (query - out.nearest_m).norm() * kRoundingAllowance);
     const auto near = surface.nearest(query, within_m);
     if (!near) {
       out.residual_m = farthest_m;
@@ -50,7 +51,9 @@ void measure(const SurfaceIndex& surface, std::span<const Vec3> points_m, double
 
 double spread_m(const SurfaceFit& fit, std::vector<double>& scratch) {
   scratch.clear();
-  for (const FittedPoint& p : fit.points) scratch.push_back(std::abs(p.residual_m));
+  for (const FittedPoint& p : fit.points) {
+    scratch.push_back(std::abs(p.residual_m));
+  }
   const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
   std::nth_element(scratch.begin(), middle, scratch.end());
   return kSdByMedian * *middle;
@@ -76,25 +79,31 @@ std::optional<double> step(SurfaceFit& fit) {
   Matrix7 normal = Matrix7::Zero();
   Vector7 right = Vector7::Zero();
   for (const FittedPoint& p : fit.points) {
-    if (!(p.weight > 0.0)) continue;
-    const Vec3 turn = p.arm_m.cross(p.gradient);
+    if (!(p.weight > 0.0)) {
+      continue;
+    }
+    const Vec3 rotation_step = p.lever_arm_m.cross(p.gradient);
     Vector7 j;
-    j << p.gradient.x, p.gradient.y, p.gradient.z, turn.x, turn.y, turn.z, -1.0;
+    j << p.gradient.x, p.gradient.y, p.gradient.z, rotation_step.x, rotation_step.y,
+        rotation_step.z, -1.0;
     normal.selfadjointView<Eigen::Lower>().rankUpdate(j, p.weight);
     right -= p.weight * p.residual_m * j;
   }
   const double shift = kRelativeDamping * normal.topLeftCorner<3, 3>().trace();
-  const double turn = kRelativeDamping * normal.block<3, 3>(3, 3).trace();
-  for (int k = 0; k < 6; ++k) normal(k, k) += k < 3 ? shift : turn;
-  if (!fit.with_lift) {
+  const double rotation_step = kRelativeDamping * normal.block<3, 3>(3, 3).trace();
+  for (int k = 0; k < 6; ++k) {
+    normal(k, k) += k < 3 ? shift : rotation_step;
+  }
+  if (!fit.with_standoff) {
     normal.row(6).setZero();
     normal(6, 6) = 1.0;
     right(6) = 0.0;
   }
   const Eigen::LDLT<Matrix7> solver(normal.selfadjointView<Eigen::Lower>());
   const Vector7 x = solver.solve(right);
-  if (solver.info() != Eigen::Success || !x.allFinite() || !(normal.trace() > 1.0))
+  if (solver.info() != Eigen::Success || !x.allFinite() || !(normal.trace() > 1.0)) {
     return std::nullopt;
+  }
   constexpr double kLongest_m = 0.005;
   constexpr double kLever_m = 0.03;
   const double length = x.head<3>().norm() + kLever_m * x.segment<3>(3).norm() + std::abs(x(6));
@@ -102,7 +111,7 @@ std::optional<double> step(SurfaceFit& fit) {
   fit.pose.rotation =
       orthonormalized(rotation_from_vector(scale * Vec3{x(3), x(4), x(5)}) * fit.pose.rotation);
   fit.pose.centre_m += scale * Vec3{x(0), x(1), x(2)};
-  fit.lift_m += scale * x(6);
+  fit.standoff_m += scale * x(6);
   return length;
 }
 
@@ -111,25 +120,33 @@ std::optional<double> step(SurfaceFit& fit) {
 std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
                                          std::span<const Vec3> points_m, const CentredPose& start,
                                          const SurfaceFitOptions& options) {
-  if (points_m.size() < 6) return std::nullopt;
-  if (!options.point_sd_m.empty() && options.point_sd_m.size() != points_m.size())
+  if (points_m.size() < 6) {
     return std::nullopt;
+  }
+  if (!options.point_sd_m.empty() && options.point_sd_m.size() != points_m.size()) {
+    return std::nullopt;
+  }
   SurfaceFit fit;
   fit.pose = start;
-  fit.with_lift = options.with_lift;
+  fit.with_standoff = options.with_standoff;
   fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
   std::vector<double> scratch;
   double known_m2 = 0.0;
-  for (const double sd : options.point_sd_m)
+  for (const double sd : options.point_sd_m) {
     known_m2 += sd * sd / static_cast<double>(points_m.size());
+  }
   for (bool last = false;; ++fit.iterations) {
     measure(surface, points_m, last ? options.counted_m : options.farthest_m, options.tip_radius_m,
             fit);
     fit.noise_m = std::clamp(spread_m(fit, scratch), options.least_noise_m, options.most_noise_m);
     weigh(options.point_sd_m, known_m2, fit);
-    if (last || fit.iterations == options.max_iterations) return fit;
+    if (last || fit.iterations == options.max_iterations) {
+      return fit;
+    }
     const auto length = step(fit);
-    if (!length) return std::nullopt;
+    if (!length) {
+      return std::nullopt;
+    }
     last = *length < options.last_step_m;
   }
 }

@@ -16,7 +16,7 @@ struct SurfaceFitOptions {
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end, whose centre the points are
   /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
   /// unknowns: surfaces that face different ways tell it from a shift.
-  bool with_lift = false;
+  bool with_standoff = false;
   /// SD of each point, as far as it is known; empty: all alike.
   std::span<const double> point_sd_m{};
   /// What residuals are never taken to be smaller or larger than (SD).
@@ -26,7 +26,7 @@ struct SurfaceFitOptions {
 
 /// One point at the fitted pose.
 struct FittedPoint {
-  Vec3 arm_m;               ///< from the points' centre, in the vertebra's frame
+  Vec3 lever_arm_m;         ///< from the points' centre, in the vertebra's frame
   Vec3 gradient;            ///< of the residual by the point's place
   Vec3 nearest_m;           ///< on the surface
   double residual_m = 0.0;  ///< outside the surface positive
@@ -35,9 +35,9 @@ struct FittedPoint {
 
 struct SurfaceFit {
   CentredPose pose;
-  bool with_lift = false;
-  double lift_m = 0.0;   ///< residuals are about it
-  double noise_m = 0.0;  ///< SD of the residuals, outliers left aside
+  bool with_standoff = false;
+  double standoff_m = 0.0;  ///< residuals are about it
+  double noise_m = 0.0;     ///< SD of the residuals, outliers left aside
   int iterations = 0;
   std::vector<FittedPoint> points;  ///< in the order given
 };

@@ -36,38 +36,52 @@ bool FieldStep::improve(std::span<const Vec3> centred_m, double width_m, Centred
   int used = 0;
   const double inverse_width2 = 1.0 / (width_m * width_m);
   for (const Vec3& p : centred_m) {
-    const Vec3 arm = pose.rotation * p;
+    const Vec3 lever_arm = pose.rotation * p;
     DistanceField::Value value;
-    if (!field_->at(arm + pose.centre_m, value)) continue;
+    if (!field_->at(lever_arm + pose.centre_m, value)) {
+      continue;
+    }
     const double r = value.distance_m - tip_radius_m_;
     const double t = 1.0 - r * r * inverse_width2;
-    if (!(t > 0.0)) continue;
+    if (!(t > 0.0)) {
+      continue;
+    }
     const Vec3 g = value.gradient;
-    const Vec3 turn = arm.cross(g);
-    const std::array<double, 6> j = {g.x, g.y, g.z, turn.x, turn.y, turn.z};
+    const Vec3 rotation_step = lever_arm.cross(g);
+    const std::array<double, 6> j = {
+        g.x, g.y, g.z, rotation_step.x, rotation_step.y, rotation_step.z};
     const double weight = t * t;
     std::size_t k = 0;
     for (std::size_t row = 0; row < 6; ++row) {
       const double weighted = weight * j[row];
-      for (std::size_t column = 0; column <= row; ++column) sums[k++] += weighted * j[column];
+      for (std::size_t column = 0; column <= row; ++column) {
+        sums[k++] += weighted * j[column];
+      }
       sums[21 + row] -= weighted * r;
     }
     ++used;
   }
-  if (used < 6) return false;
+  if (used < 6) {
+    return false;
+  }
   Matrix6 normal;
   Vector6 right;
   std::size_t k = 0;
   for (Eigen::Index row = 0; row < 6; ++row) {
-    for (Eigen::Index column = 0; column <= row; ++column)
+    for (Eigen::Index column = 0; column <= row; ++column) {
       normal(row, column) = normal(column, row) = sums[k++];
+    }
     right(row) = sums[21 + static_cast<std::size_t>(row)];
   }
   const double shift = kDamping * normal.topLeftCorner<3, 3>().trace();
-  const double turn = kDamping * normal.bottomRightCorner<3, 3>().trace();
-  for (int i = 0; i < 6; ++i) normal(i, i) += i < 3 ? shift : turn;
+  const double rotation_step = kDamping * normal.bottomRightCorner<3, 3>().trace();
+  for (int i = 0; i < 6; ++i) {
+    normal(i, i) += i < 3 ? shift : rotation_step;
+  }
   const Vector6 step = normal.ldlt().solve(right);
-  if (!step.allFinite()) return false;
+  if (!step.allFinite()) {
+    return false;
+  }
   const double scale = std::min({1.0, kLongest_m / std::max(step.head<3>().norm(), 1e-12),
                                  kWidest_rad / std::max(step.tail<3>().norm(), 1e-12)});
   const Vec3 rotation{step(3), step(4), step(5)};

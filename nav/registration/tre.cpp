@@ -33,7 +33,9 @@ std::vector<Touch> touches(const VertebraModel& model, const Transform<World, Ve
   std::vector<Touch> found;
   for (const Point<World>& point : points) {
     const auto surface = model.reachable_surface().nearest((inverse * point).v);
-    if (!surface) continue;
+    if (!surface) {
+      continue;
+    }
     const Vec3 p = surface->point_m;
     const auto cell = [](double x) { return std::lround(x / kCorrelation_m); };
     found.push_back({{cell(p.x), cell(p.y), cell(p.z)}, p, surface->normal, surface->distance_m});
@@ -45,9 +47,10 @@ std::vector<Touch> touches(const VertebraModel& model, const Transform<World, Ve
 
 /// What one touch tells of (shift, turn · lever): its residual's derivative.
 Vector6 derivative(const Touch& touch, Vec3 centre_m) {
-  const Vec3 turn = (touch.at_m - centre_m).cross(touch.normal) / kLever_m;
+  const Vec3 rotation_step = (touch.at_m - centre_m).cross(touch.normal) / kLever_m;
   Vector6 j;
-  j << touch.normal.x, touch.normal.y, touch.normal.z, turn.x, turn.y, turn.z;
+  j << touch.normal.x, touch.normal.y, touch.normal.z, rotation_step.x, rotation_step.y,
+      rotation_step.z;
   return j;
 }
 
@@ -84,8 +87,9 @@ Result<PoseUncertainty> PoseUncertainty::estimate(
     const VertebraModel& model, const Transform<World, Vertebra>& world_from_vertebra,
     std::span<const Point<World>> points_in_world) {
   const std::vector<Touch> found = touches(model, world_from_vertebra, points_in_world);
-  if (found.size() <= 6)
+  if (found.size() <= 6) {
     return Error{"predicted error needs more than 6 points, got " + std::to_string(found.size())};
+  }
   const auto n = static_cast<double>(found.size());
   PoseUncertainty result;
   double squares_m2 = 0.0;
@@ -95,18 +99,21 @@ Result<PoseUncertainty> PoseUncertainty::estimate(
   }
   const Matrix6 info = information(found, result.centre_m_);
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(info);
-  if (!(solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[5]))
+  if (!(solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[5])) {
     return Error{
         "the digitized points leave a motion of the bone open: digitize another side of it"};
+  }
   Vector6 scale;  // back from turn · lever to turn
   scale << 1, 1, 1, 1 / kLever_m, 1 / kLever_m, 1 / kLever_m;
   const Matrix6 inverse = solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
                           solver.eigenvectors().transpose();
   const Matrix6 covariance =
       (squares_m2 / (n - 6.0)) * scale.asDiagonal() * inverse * scale.asDiagonal();
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c)
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) {
       result.covariance_[static_cast<std::size_t>(6 * r + c)] = covariance(r, c);
+    }
+  }
   return result;
 }
 
@@ -132,8 +139,12 @@ double PoseUncertainty::tre_quantile_m(Point<Vertebra> target, double probabilit
   const std::array<double, 9> c = covariance_at(target);
   const double mean = c[0] + c[4] + c[8];
   double squares = 0.0;
-  for (const double v : c) squares += v * v;
-  if (!(mean > 0.0)) return 0.0;
+  for (const double v : c) {
+    squares += v * v;
+  }
+  if (!(mean > 0.0)) {
+    return 0.0;
+  }
   const double freedom = mean * mean / squares;
   const double k = 2.0 / (9.0 * freedom);
   const double root = std::max(0.0, 1.0 - k + normal_quantile(probability) * std::sqrt(k));

@@ -17,16 +17,18 @@ constexpr double kGrid_m = 0.001;
 /// A pointer doesn't come flatter than this onto a face.
 const double kFlattest = std::sin(10.0 * kDegree);
 /// Islands smaller than this share of the visible area are slivers seen through gaps.
-constexpr double kIslandShare = 0.02;
+constexpr double kIslandFraction = 0.02;
 constexpr double kSmallestCanal_m2 = 40e-6;
 
 std::vector<Vec3> directions_from_behind() {
   std::vector<Vec3> directions;
-  for (const double up : {0.0, 20.0, -20.0, 40.0, -40.0})
-    for (const double aside : {0.0, 25.0, -25.0, 50.0, -50.0, 75.0, -75.0})
+  for (const double up : {0.0, 20.0, -20.0, 40.0, -40.0}) {
+    for (const double aside : {0.0, 25.0, -25.0, 50.0, -50.0, 75.0, -75.0}) {
       directions.push_back({std::sin(aside * kDegree) * std::cos(up * kDegree),
                             std::cos(aside * kDegree) * std::cos(up * kDegree),
                             std::sin(up * kDegree)});
+    }
+  }
   return directions;
 }
 
@@ -53,13 +55,15 @@ class AxialView {
         columns_(static_cast<int>((b.high.x - b.low.x) / kGrid_m) + 3),
         rows_(static_cast<int>((b.high.y - b.low.y) / kGrid_m) + 3),
         bone_or_seen_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), false) {
-    for (int row = 0; row < rows_; ++row)
-      for (int column = 0; column < columns_; ++column)
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
         bone_or_seen_[cell(column, row)] =
             surface
                 .first_hit({b.low.x + (column - 0.5) * kGrid_m, y_of(row), b.low.z - kGrid_m},
                            {0, 0, 1})
                 .has_value();
+      }
+    }
     flood(0, 0);  // the outside; the border is one free cell wide
   }
 
@@ -67,14 +71,21 @@ class AxialView {
   std::optional<double> canal_front_m() {
     std::size_t largest = 0;
     std::optional<double> front_m;
-    for (int row = 0; row < rows_; ++row)
+    for (int row = 0; row < rows_; ++row) {
       for (int column = 0; column < columns_; ++column) {
-        if (bone_or_seen_[cell(column, row)]) continue;
+        if (bone_or_seen_[cell(column, row)]) {
+          continue;
+        }
         const std::size_t size = flood(column, row);
         // Rows run from front to back: the first cell met of a hole is its front.
-        if (size > largest) largest = size, front_m = y_of(row);
+        if (size > largest) {
+          largest = size, front_m = y_of(row);
+        }
       }
-    if (static_cast<double>(largest) * kGrid_m * kGrid_m < kSmallestCanal_m2) return std::nullopt;
+    }
+    if (static_cast<double>(largest) * kGrid_m * kGrid_m < kSmallestCanal_m2) {
+      return std::nullopt;
+    }
     return front_m;
   }
 
@@ -91,11 +102,14 @@ class AxialView {
     while (!pending_.empty()) {
       const auto [c, r] = pending_.back();
       pending_.pop_back();
-      if (c < 0 || r < 0 || c >= columns_ || r >= rows_ || bone_or_seen_[cell(c, r)]) continue;
+      if (c < 0 || r < 0 || c >= columns_ || r >= rows_ || bone_or_seen_[cell(c, r)]) {
+        continue;
+      }
       bone_or_seen_[cell(c, r)] = true;
       ++size;
-      for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      for (const auto& [dc, dr] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
         pending_.emplace_back(c + dc, r + dr);
+      }
     }
     return size;
   }
@@ -112,17 +126,23 @@ std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh, const std::vector<
   std::vector<std::uint32_t> parent(mesh.vertices_m.size());
   std::iota(parent.begin(), parent.end(), 0U);
   const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    while (parent[v] != v) {
+      v = parent[v] = parent[parent[v]];
+    }
     return v;
   };
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (!kept[i]) continue;
+    if (!kept[i]) {
+      continue;
+    }
     const auto& t = mesh.triangles[i];
     parent[root(t[1])] = root(t[0]);
     parent[root(t[2])] = root(t[0]);
   }
   std::vector<std::uint32_t> part(kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) part[i] = root(mesh.triangles[i][0]);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    part[i] = root(mesh.triangles[i][0]);
+  }
   return part;
 }
 
@@ -131,13 +151,18 @@ void drop_islands(const TriangleMesh& mesh, std::vector<bool>& kept) {
   std::vector<double> area_m2(mesh.vertices_m.size(), 0.0);
   double total_m2 = 0.0;
   for (std::size_t i = 0; i < kept.size(); ++i) {
-    if (!kept[i]) continue;
+    if (!kept[i]) {
+      continue;
+    }
     const double a = triangle_area_m2(corners_of(mesh, mesh.triangles[i]));
     area_m2[part[i]] += a;
     total_m2 += a;
   }
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    if (kept[i] && area_m2[part[i]] < kIslandShare * total_m2) kept[i] = false;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i] && area_m2[part[i]] < kIslandFraction * total_m2) {
+      kept[i] = false;
+    }
+  }
 }
 
 }  // namespace
@@ -175,8 +200,11 @@ std::vector<std::uint32_t> faces_reachable_from_behind(const TriangleMesh& mesh,
   }
   drop_islands(mesh, kept);
   std::vector<std::uint32_t> faces;
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    if (kept[i]) faces.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i]) {
+      faces.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
   return faces;
 }
 

@@ -28,12 +28,17 @@ PrincipalAxes axes_by_area(const TriangleMesh& mesh) {
 Status check_faces(const TriangleMesh& mesh, const SurfaceIndex& surface,
                    const std::vector<std::uint32_t>& faces) {
   constexpr std::size_t kLookedAt = 300;
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    if (faces[i] >= mesh.triangles.size() || (i > 0 && faces[i] <= faces[i - 1]))
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i] >= mesh.triangles.size() || (i > 0 && faces[i] <= faces[i - 1])) {
       return Error{"reachable faces are not in order, or not the mesh's"};
-  for (std::size_t i = 0; i < faces.size(); i += std::max<std::size_t>(1, faces.size() / kLookedAt))
-    if (!is_visible_from_behind(mesh, surface, faces[i]))
+    }
+  }
+  for (std::size_t i = 0; i < faces.size();
+       i += std::max<std::size_t>(1, faces.size() / kLookedAt)) {
+    if (!is_visible_from_behind(mesh, surface, faces[i])) {
       return Error{"reachable faces are of another mesh (face " + std::to_string(faces[i]) + ")"};
+    }
+  }
   return {};
 }
 
@@ -57,13 +62,16 @@ struct VertebraModel::Surfaces {
 
 Result<std::shared_ptr<const VertebraModel>> VertebraModel::prepare(TriangleMesh mesh) {
   auto checked = checked_vertebra(std::move(mesh));
-  if (!checked) return checked.error();
+  if (!checked) {
+    return checked.error();
+  }
   SurfaceIndex surface(*checked);
   std::vector<std::uint32_t> faces = faces_reachable_from_behind(*checked, surface);
-  if (faces.empty())
+  if (faces.empty()) {
     return Error{
         "model has no surface that a pointer can reach from behind (+y): its axes must be "
         "LPS"};
+  }
   Surfaces s(std::move(*checked), std::move(surface), std::move(faces));
   ClosestGrid grid(s.reachable, s.reachable_surface, kGridCell_m, kGridMargin_m);
   SearchField field(s.reachable, s.reachable_surface, s.surface);
@@ -74,17 +82,27 @@ Result<std::shared_ptr<const VertebraModel>> VertebraModel::prepare(TriangleMesh
 Result<std::shared_ptr<const VertebraModel>> VertebraModel::restore(TriangleMesh mesh,
                                                                     PreparedParts parts) {
   auto checked = checked_vertebra(std::move(mesh));
-  if (!checked) return checked.error();
-  if (parts.reachable.empty()) return Error{"no reachable faces"};
+  if (!checked) {
+    return checked.error();
+  }
+  if (parts.reachable.empty()) {
+    return Error{"no reachable faces"};
+  }
   SurfaceIndex surface(*checked);
-  if (const Status s = check_faces(*checked, surface, parts.reachable); !s) return s.error();
+  if (const Status s = check_faces(*checked, surface, parts.reachable); !s) {
+    return s.error();
+  }
   Surfaces s(std::move(*checked), std::move(surface), std::move(parts.reachable));
   auto grid = ClosestGrid::restored(s.reachable, s.reachable_surface, kGridCell_m, kGridMargin_m,
                                     std::move(parts.closest_m));
-  if (!grid) return grid.error();
+  if (!grid) {
+    return grid.error();
+  }
   auto field = SearchField::restored(s.reachable, s.reachable_surface, s.surface,
                                      std::move(parts.distance_m));
-  if (!field) return field.error();
+  if (!field) {
+    return field.error();
+  }
   return std::shared_ptr<const VertebraModel>(
       new VertebraModel(std::move(s), std::move(*grid), std::move(*field)));
 }

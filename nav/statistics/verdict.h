@@ -34,7 +34,9 @@ struct Judgement {
   }
   /// Says so where there was no finding.
   void conclude() {
-    if (reason.empty()) reason = "every figure is within its limit";
+    if (reason.empty()) {
+      reason = "every figure is within its limit";
+    }
   }
 };
 

@@ -26,7 +26,7 @@ inline float exponential(float x) {
 /// profile is a Gaussian with an excess of kurtosis (Gram-Charlier's series to the fourth moment),
 /// its tail after Abramowitz & Stegun 1964, 7.1.26.
 struct Beyond {
-  float share;
+  float fraction;
   float slope;
   float by_blur;
   float by_tails;

@@ -14,17 +14,22 @@ double focal_px_of(const CameraModel& camera) {
   const int w = camera.width_px();
   double nearest = 1e18;
   double focal = 1.0;
-  for (int y = 0; y < camera.height_px(); ++y)
+  for (int y = 0; y < camera.height_px(); ++y) {
     for (int x = 1; x < w; ++x) {
       const double off = std::hypot(x - 0.5 * w, y - 0.5 * camera.height_px());
-      if (off >= nearest) continue;
+      if (off >= nearest) {
+        continue;
+      }
       const auto i =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
       const double step = (rays[i] - rays[i - 1]).norm();
-      if (!(step > 0.0)) continue;
+      if (!(step > 0.0)) {
+        continue;
+      }
       nearest = off;
       focal = 1.0 / step;
     }
+  }
   return focal;
 }
 
@@ -48,7 +53,7 @@ BlurredTag::BlurredTag(TagTemplate tag, double size_m)
   const auto at = [&](int row, int column) {
     return tag_.at(std::clamp(row, 0, n - 1), std::clamp(column, 0, n - 1));
   };
-  for (int row = 0; row < n; ++row)
+  for (int row = 0; row < n; ++row) {
     for (int column = 0; column < n; ++column) {
       float* c = coefficients_.data() + 12 * static_cast<std::size_t>(row * n + column);
       const float here = at(row, column);
@@ -66,6 +71,7 @@ BlurredTag::BlurredTag(TagTemplate tag, double size_m)
       c[7] = at(row - 1, column + 1) - right - above + here;
       c[8] = at(row + 1, column + 1) - right - below + here;
     }
+  }
 }
 
 }  // namespace orthonav::nav

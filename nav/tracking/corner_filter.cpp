@@ -19,7 +19,9 @@ double extent_px(const CornerFilter::Corners& corners) {
 
 double squared_distance(const CornerFilter::Corners& a, const CornerFilter::Corners& b) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).dot(a[i] - b[i]);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += (a[i] - b[i]).dot(a[i] - b[i]);
+  }
   return sum;
 }
 
@@ -36,8 +38,9 @@ void CornerFilter::start(const Corners& measured_px, Timestamp time) {
 }
 
 void CornerFilter::advance(double dt_s) {
-  for (std::size_t i = 0; i < position_px_.size(); ++i)
+  for (std::size_t i = 0; i < position_px_.size(); ++i) {
     position_px_[i] = position_px_[i] + dt_s * velocity_px_[i];
+  }
   const double q = options_.acceleration_px;
   position_variance_ +=
       2.0 * dt_s * covariance_ + dt_s * dt_s * velocity_variance_ + q * dt_s * dt_s * dt_s / 3.0;
@@ -69,11 +72,15 @@ void CornerFilter::correct(const Corners& measured_px) {
 }
 
 void CornerFilter::update(const Corners& measured_px, Timestamp time) {
-  if (!alive_ || time <= time_) return start(measured_px, time);
+  if (!alive_ || time <= time_) {
+    return start(measured_px, time);
+  }
   const Prediction expected = predicted(time);
   const double moved_px =
       std::sqrt(squared_distance(measured_px, expected.corners_px) / kCoordinates * 2.0);
-  if (moved_px > kJumpOfExtent * extent_px(measured_px)) return start(measured_px, time);
+  if (moved_px > kJumpOfExtent * extent_px(measured_px)) {
+    return start(measured_px, time);
+  }
   advance(seconds(time - time_));
   time_ = time;
   correct(measured_px);

@@ -20,7 +20,7 @@ constexpr double kStepPx = 0.25;
 constexpr double kHalfBasePx = 0.5;
 // So much of each end of an edge is left out: the neighbouring edge's blur reaches there.
 constexpr double kEndPx = 1.0;
-constexpr double kEndShare = 0.08;
+constexpr double kEndFraction = 0.08;
 // A summed squared slope below is noise, in squared grey levels.
 constexpr double kFaintest = 1.0;
 // Tukey's constant: 95 % efficient for normal errors.
@@ -63,11 +63,15 @@ std::optional<Crossing> crossing(const GreyImage& image, Vec2 base, Vec2 rising,
     const double n = i * kStepPx;
     const double slope = grey_at(image, base + (n + kHalfBasePx) * rising) -
                          grey_at(image, base + (n - kHalfBasePx) * rising);
-    if (slope <= 0) continue;
+    if (slope <= 0) {
+      continue;
+    }
     sum += slope * slope * n;
     total += slope * slope;
   }
-  if (total < kFaintest) return std::nullopt;
+  if (total < kFaintest) {
+    return std::nullopt;
+  }
   return Crossing{base + (sum / total) * rising, std::sqrt(total)};
 }
 
@@ -80,7 +84,9 @@ std::optional<Line> line_through(const std::vector<Crossing>& seen,
     total += weights[i];
     mean = mean + weights[i] * seen[i].place;
   }
-  if (!(total > 0)) return std::nullopt;
+  if (!(total > 0)) {
+    return std::nullopt;
+  }
   mean = (1 / total) * mean;
   double xx = 0.0;
   double xy = 0.0;
@@ -97,12 +103,15 @@ std::optional<Line> line_through(const std::vector<Crossing>& seen,
 
 std::optional<Line> robust_line(const std::vector<Crossing>& seen) {
   std::vector<double> weights;
-  for (const Crossing& each : seen) weights.push_back(each.steepness);
+  for (const Crossing& each : seen) {
+    weights.push_back(each.steepness);
+  }
   std::vector<double> off_px(seen.size());
   std::optional<Line> line = line_through(seen, weights);
   for (int round = 0; round < kReweightings && line; ++round) {
-    for (std::size_t i = 0; i < seen.size(); ++i)
+    for (std::size_t i = 0; i < seen.size(); ++i) {
       off_px[i] = std::abs(cross(seen[i].place - line->point, line->direction));
+    }
     const double limit_px = kTukey * std::max(kLeastScalePx, kMadToSd * median(off_px));
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const double u = std::min(off_px[i] / limit_px, 1.0);
@@ -119,16 +128,19 @@ Line edge(const GreyImage& image, Vec2 a, Vec2 b, double reach_px) {
   const Vec2 along = (1 / length_px) * (b - a);
   const Vec2 normal{-along.y, along.x};
   const Vec2 rising = sense_of(image, a, b, normal) * normal;
-  const double end_px = std::max(kEndPx, kEndShare * length_px);
+  const double end_px = std::max(kEndPx, kEndFraction * length_px);
   const int rays = std::clamp(static_cast<int>(length_px), kFewestRays, kMostRays);
   std::vector<Crossing> seen;
   for (int i = 0; i < rays; ++i) {
     const double at_px = end_px + (length_px - 2 * end_px) * (i + 0.5) / rays;
-    if (const auto found = crossing(image, a + at_px * along, rising, reach_px))
+    if (const auto found = crossing(image, a + at_px * along, rising, reach_px)) {
       seen.push_back(*found);
+    }
   }
   const Line as_it_was{a, along};
-  if (seen.size() < static_cast<std::size_t>(rays) / 2) return as_it_was;
+  if (seen.size() < static_cast<std::size_t>(rays) / 2) {
+    return as_it_was;
+  }
   return robust_line(seen).value_or(as_it_was);
 }
 
@@ -136,12 +148,16 @@ Line edge(const GreyImage& image, Vec2 a, Vec2 b, double reach_px) {
 
 std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec2, 4>& corners_px,
                                     const CornerRefinementOptions& options) {
-  if (image.width_px < 2 || image.height_px < 2) return corners_px;
+  if (image.width_px < 2 || image.height_px < 2) {
+    return corners_px;
+  }
   std::array<Line, 4> edges;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2 a = corners_px[i];
     const Vec2 b = corners_px[(i + 1) % 4];
-    if (!((b - a).norm() >= kShortestEdgePx)) return corners_px;
+    if (!((b - a).norm() >= kShortestEdgePx)) {
+      return corners_px;
+    }
     edges[i] = edge(image, a, b, options.reach_px);
   }
   std::array<Vec2, 4> refined = corners_px;
@@ -149,11 +165,15 @@ std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec
     const Line& before = edges[(i + 3) % 4];
     const Line& after = edges[i];
     const double sine = cross(before.direction, after.direction);
-    if (std::abs(sine) < kLeastSine) continue;
+    if (std::abs(sine) < kLeastSine) {
+      continue;
+    }
     const double along = cross(after.point - before.point, after.direction) / sine;
     const Vec2 meeting = before.point + along * before.direction;
     // Farther than the edges were looked for, a corner has slid along a misjudged one.
-    if ((meeting - corners_px[i]).norm() <= 2 * options.reach_px) refined[i] = meeting;
+    if ((meeting - corners_px[i]).norm() <= 2 * options.reach_px) {
+      refined[i] = meeting;
+    }
   }
   return refined;
 }

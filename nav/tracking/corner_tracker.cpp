@@ -23,7 +23,8 @@ class PaperTracker final : public ToolTracker {
         tools_(std::move(tools)),
         options_(options),
         detector_(std::move(detector)) {
-    const CornerFilterOptions filter{options.corner_acceleration_px, options.corner_noise_px};
+    const CornerFilterOptions filter{options.corner_acceleration_px2_per_s3,
+                                     options.corner_noise_px};
     for (std::size_t i = 0; i < tools_.size(); ++i) {
       trails_.push_back({CornerFilter(filter), CornerFilter(filter), {}, {}});
       states_.push_back({i, {}, {}, 0.0});
@@ -31,15 +32,19 @@ class PaperTracker final : public ToolTracker {
   }
 
   std::span<const ToolState> track(const StereoFrame& frame) override {
-    if (std::exchange(map_epoch_, frame.map_epoch) != frame.map_epoch) forget_map();
+    if (std::exchange(map_epoch_, frame.map_epoch) != frame.map_epoch) {
+      forget_map();
+    }
     plan(frame.time);
     detector_->detect(frame);
     ++pairs_;
     missing_ = false;
     for (std::size_t i = 0; i < tools_.size(); ++i) {
       states_[i] = {i, {}, {}, 0.0};
-      if (!measure(i, frame)) predict(i, frame);
-      missing_ = missing_ || states_[i].world_from_marker.origin != Origin::kMeasured;
+      if (!measure(i, frame)) {
+        predict(i, frame);
+      }
+      missing_ = missing_ || states_[i].world_from_marker.status != PoseStatus::kMeasured;
     }
     return states_;
   }
@@ -56,7 +61,9 @@ class PaperTracker final : public ToolTracker {
 
   /// Poses of another map predict nothing; corners are the images' own.
   void forget_map() {
-    for (Trail& trail : trails_) trail.older = trail.newer = {};
+    for (Trail& trail : trails_) {
+      trail.older = trail.newer = {};
+    }
   }
 
   [[nodiscard]] bool is_recent(const CornerFilter& filter, Timestamp time) const {
@@ -65,10 +72,12 @@ class PaperTracker final : public ToolTracker {
 
   // After a gap in the stream what was just measured may be anywhere.
   [[nodiscard]] bool follows_a_gap(Timestamp time) const {
-    for (std::size_t i = 0; i < tools_.size(); ++i)
-      if (states_[i].world_from_marker.origin == Origin::kMeasured &&
-          !(is_recent(trails_[i].left, time) && is_recent(trails_[i].right, time)))
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      if (states_[i].world_from_marker.status == PoseStatus::kMeasured &&
+          !(is_recent(trails_[i].left, time) && is_recent(trails_[i].right, time))) {
         return true;
+      }
+    }
     return false;
   }
 
@@ -88,21 +97,29 @@ class PaperTracker final : public ToolTracker {
 
   void add_box(const CornerFilter& filter, const ToolGeometry& tool, Timestamp time,
                SearchPlan& plan) const {
-    if (!is_recent(filter, time)) return;
+    if (!is_recent(filter, time)) {
+      return;
+    }
     const CornerFilter::Prediction ahead = filter.predicted(time);
     plan.add(ahead.corners_px, {kBoxOfExtent, kBoxOfSd * ahead.sd_px + kBoxPx}, tool.marker.family,
              tool.marker.id);
   }
 
   [[nodiscard]] std::optional<TagPair> expected(const Trail& trail, Timestamp time) const {
-    if (!is_recent(trail.left, time) || !is_recent(trail.right, time)) return std::nullopt;
+    if (!is_recent(trail.left, time) || !is_recent(trail.right, time)) {
+      return std::nullopt;
+    }
     return TagPair{trail.left.predicted(time).corners_px, trail.right.predicted(time).corners_px};
   }
 
   static void follow(CornerFilter& filter, const MarkerCorners* seen, Timestamp time,
                      Duration coast) {
-    if (filter.alive() && time - filter.time() > coast) filter.stop();
-    if (seen) filter.update(seen->corners_px, time);
+    if (filter.alive() && time - filter.time() > coast) {
+      filter.stop();
+    }
+    if (seen) {
+      filter.update(seen->corners_px, time);
+    }
   }
 
   bool measure(std::size_t i, const StereoFrame& frame) {
@@ -112,22 +129,28 @@ class PaperTracker final : public ToolTracker {
                                    marker.size_m, geometry_, expected(trail, frame.time));
     follow(trail.left, match.left, frame.time, options_.coast);
     follow(trail.right, match.right, frame.time, options_.coast);
-    if (!match.both() || !frame.world_from_rig) return false;
+    if (!match.both() || !frame.world_from_rig) {
+      return false;
+    }
 
     const TagPair filtered{trail.left.corners_px(), trail.right.corners_px()};
     const TagPair seen{match.left->corners_px, match.right->corners_px};
     const std::optional<TagPose> pose = geometry_.pose(filtered, marker.size_m);
-    if (!pose) return false;
+    if (!pose) {
+      return false;
+    }
     const auto residual_px = geometry_.residual_px(pose->rig_from_marker, seen, marker.size_m);
     const auto covariance =
         geometry_.covariance(pose->rig_from_marker, filtered, marker.size_m,
                              trail.left.variance_px2(), trail.right.variance_px2());
-    if (!residual_px || !covariance) return false;
+    if (!residual_px || !covariance) {
+      return false;
+    }
     states_[i].rig_from_marker = pose->rig_from_marker;
     states_[i].residual_px = *residual_px;
     states_[i].cameras = 2;
     states_[i].world_from_marker = {*frame.world_from_rig * pose->rig_from_marker, frame.time,
-                                    Origin::kMeasured,
+                                    PoseStatus::kMeasured,
                                     turned(*covariance, frame.world_from_rig->rotation())};
     trail.older = trail.newer;
     trail.newer = states_[i].world_from_marker;
@@ -137,13 +160,19 @@ class PaperTracker final : public ToolTracker {
   void predict(std::size_t i, const StereoFrame& frame) {
     ToolState& state = states_[i];
     state.world_from_marker.time = frame.time;
-    if (!frame.world_from_rig) return;
+    if (!frame.world_from_rig) {
+      return;
+    }
     // At the time of the newest measurement itself there is nothing to predict: this pair is not
     // it.
-    if (frame.time <= trails_[i].newer.time) return;
+    if (frame.time <= trails_[i].newer.time) {
+      return;
+    }
     state.world_from_marker =
         predicted(trails_[i].older, trails_[i].newer, frame.time, options_.coast);
-    if (state.world_from_marker.origin == Origin::kLost) return;
+    if (state.world_from_marker.status == PoseStatus::kLost) {
+      return;
+    }
     state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
   }
 
@@ -160,19 +189,25 @@ class PaperTracker final : public ToolTracker {
 
 }  // namespace
 
-Result<std::unique_ptr<ToolTracker>> create_paper_tracker(const StereoCalibration& calibration,
-                                                          std::vector<ToolGeometry> tools,
-                                                          const TrackerOptions& options) {
-  if (Status status = check(calibration, tools, options); !status) return status.error();
+Result<std::unique_ptr<ToolTracker>> create_corner_tracker(const StereoCalibration& calibration,
+                                                           std::vector<ToolGeometry> tools,
+                                                           const TrackerOptions& options) {
+  if (Status status = check(calibration, tools, options); !status) {
+    return status.error();
+  }
   DetectorOptions detection;
   detection.decimate = options.decimate;
   // Each tool by its one marker, as published.
   std::vector<MarkerDefinition> markers;
-  for (const ToolGeometry& tool : tools) markers.push_back(tool.marker);
+  for (const ToolGeometry& tool : tools) {
+    markers.push_back(tool.marker);
+  }
   detection.families = families_of(markers);
   Result<std::unique_ptr<PairDetector>> detector =
       PairDetector::create(detection, options.parallel);
-  if (!detector) return detector.error();
+  if (!detector) {
+    return detector.error();
+  }
   std::unique_ptr<ToolTracker> tracker = std::make_unique<PaperTracker>(
       calibration, std::move(tools), options, std::move(detector).value());
   return tracker;

@@ -47,7 +47,9 @@ void ExposureEstimator::add(double blur_px2, double speed_px2) {
 }
 
 double ExposureEstimator::exposure_s() const {
-  if (!(n_ > 0.0)) return kUsual_s;
+  if (!(n_ > 0.0)) {
+    return kUsual_s;
+  }
   const double spread = xx_ - x_ * x_ / n_;
   const double both = xy_ - x_ * y_ / n_;
   const double squared = (both + kBelief * kUsual_s * kUsual_s) / (spread + kBelief);

@@ -12,10 +12,11 @@ namespace orthonav::nav {
 /// Searches the whole of a pair of images for tags while the next pair is awaited: begun at the end
 /// of one pair's tracking, its finds are there at the beginning of the next, so that they are the
 /// same however many threads there are.
-class WholeSearch {
+class FullImageSearch {
  public:
-  static Result<std::unique_ptr<WholeSearch>> create(const DetectorOptions& options, bool parallel);
-  WholeSearch(std::unique_ptr<PairDetector> detector, bool parallel);
+  static Result<std::unique_ptr<FullImageSearch>> create(const DetectorOptions& options,
+                                                         bool parallel);
+  FullImageSearch(std::unique_ptr<PairDetector> detector, bool parallel);
 
   /// Copies the images and begins; with one thread, searches at once.
   void start(const StereoFrame& frame);

@@ -33,7 +33,9 @@ struct Family {
 /// outer edge of the border, and finds quads at that edge.
 apriltag_family_t* tag36h11b2_create() {
   apriltag_family_t* family = tag36h11_create();
-  if (!family) return nullptr;
+  if (!family) {
+    return nullptr;
+  }
   family->width_at_border += 2;
   family->total_width += 2;
   for (std::uint32_t i = 0; i < family->nbits; ++i) {
@@ -97,7 +99,9 @@ std::span<const std::string_view> known_families() { return kNames; }
 std::string known_families_text() {
   std::string text;
   for (const std::string_view name : kNames) {
-    if (!text.empty()) text += ", ";
+    if (!text.empty()) {
+      text += ", ";
+    }
     text += name;
   }
   return text;
@@ -110,14 +114,19 @@ int family_size(std::string_view family) {
 
 std::optional<TagCode> tag_code(std::string_view family, int id) {
   const std::size_t index = family_index(family);
-  if (index >= kFamilies.size() || id < 0 || id >= kFamilies[index].codes) return std::nullopt;
+  if (index >= kFamilies.size() || id < 0 || id >= kFamilies[index].codes) {
+    return std::nullopt;
+  }
   const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> table(
       kFamilies[index].create(), kFamilies[index].destroy);
-  if (!table) return std::nullopt;
+  if (!table) {
+    return std::nullopt;
+  }
   TagCode code{table->total_width, table->width_at_border, table->reversed_border, {}};
-  for (std::uint32_t bit = 0; bit < table->nbits; ++bit)
+  for (std::uint32_t bit = 0; bit < table->nbits; ++bit) {
     code.bits.push_back({static_cast<int>(table->bit_y[bit]), static_cast<int>(table->bit_x[bit]),
                          ((table->codes[id] >> (table->nbits - bit - 1)) & 1U) != 0});
+  }
   return code;
 }
 
@@ -138,13 +147,19 @@ struct MarkerDetector::Library {
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
   ~Library() {
-    if (detector) apriltag_detector_destroy(detector);
-    for (const auto& [index, family] : families) kFamilies[index].destroy(family);
+    if (detector) {
+      apriltag_detector_destroy(detector);
+    }
+    for (const auto& [index, family] : families) {
+      kFamilies[index].destroy(family);
+    }
   }
 
   Status set_up(const DetectorOptions& options) {
     detector = apriltag_detector_create();
-    if (!detector) return Error{"marker detector: the AprilTag library gave none"};
+    if (!detector) {
+      return Error{"marker detector: the AprilTag library gave none"};
+    }
     detector->nthreads = options.threads;
     detector->quad_decimate = static_cast<float>(options.decimate);
     detector->refine_edges = options.refinement == Refinement::kLibrary;
@@ -153,37 +168,52 @@ struct MarkerDetector::Library {
     min_decision_margin = options.min_decision_margin;
     // 1.5 maps 3 pixels to 2: 12 pixels are the fewest that make whole tiles.
     step_px = options.decimate == 1.5 ? 12 : kTilePx * static_cast<int>(options.decimate);
-    for (const std::string& name : options.families)
-      if (Status status = add(name); !status) return status;
+    for (const std::string& name : options.families) {
+      if (Status status = add(name); !status) {
+        return status;
+      }
+    }
     return {};
   }
 
   Status add(const std::string& name) {
     const std::size_t index = family_index(name);
     apriltag_family_t* family = kFamilies[index].create();
-    if (!family) return Error{"tag family '" + name + "' could not be made"};
+    if (!family) {
+      return Error{"tag family '" + name + "' could not be made"};
+    }
     families.emplace_back(index, family);
-    if (max_hamming > 1 && family->ncodes > kMostCodesWithTwoBits)
+    if (max_hamming > 1 && family->ncodes > kMostCodesWithTwoBits) {
       return Error{"tag family '" + name + "' has " + std::to_string(family->ncodes) +
                    " codes; with so many max_hamming must be at most 1"};
+    }
     apriltag_detector_add_family_bits(detector, family, max_hamming);
-    if (!family->impl) return Error{"tag family '" + name + "': not enough memory for its codes"};
+    if (!family->impl) {
+      return Error{"tag family '" + name + "': not enough memory for its codes"};
+    }
     return {};
   }
 
   void append(const apriltag_detection_t& seen, Vec2 offset_px,
               std::vector<MarkerCorners>& found) const {
-    if (seen.hamming > max_hamming || seen.decision_margin < min_decision_margin) return;
+    if (seen.hamming > max_hamming || seen.decision_margin < min_decision_margin) {
+      return;
+    }
     MarkerCorners marker;
-    for (const auto& [index, family] : families)
-      if (family == seen.family) marker.family = kNames[index];
+    for (const auto& [index, family] : families) {
+      if (family == seen.family) {
+        marker.family = kNames[index];
+      }
+    }
     marker.id = seen.id;
     marker.decision_margin = static_cast<double>(seen.decision_margin);
     marker.hamming = seen.hamming;
     // The library's order is that of the header: (-1, 1), (1, 1), (1, -1), (-1, -1) with y down.
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec2 corner = Vec2{seen.p[i][0], seen.p[i][1]} + offset_px;
-      if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return;
+      if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) {
+        return;
+      }
       marker.corners_px[i] = corner;
     }
     found.push_back(marker);
@@ -199,7 +229,9 @@ struct MarkerDetector::Library {
     image_u8_t view = {crop.width_px, crop.height_px, image.width_px,
                        const_cast<std::uint8_t*>(image.pixels.data() + start)};
     zarray_t* seen = apriltag_detector_detect(detector, &view);
-    if (!seen) return Error{"the AprilTag library returned nothing (out of memory)"};
+    if (!seen) {
+      return Error{"the AprilTag library returned nothing (out of memory)"};
+    }
     for (int i = 0; i < zarray_size(seen); ++i) {
       apriltag_detection_t* detection = nullptr;
       zarray_get(seen, i, &detection);
@@ -216,15 +248,21 @@ MarkerDetector& MarkerDetector::operator=(MarkerDetector&&) noexcept = default;
 MarkerDetector::~MarkerDetector() = default;
 
 Result<MarkerDetector> MarkerDetector::create(const DetectorOptions& options) {
-  if (Status status = check(options); !status) return status.error();
+  if (Status status = check(options); !status) {
+    return status.error();
+  }
   auto library = std::make_unique<Library>();
-  if (Status status = library->set_up(options); !status) return status.error();
+  if (Status status = library->set_up(options); !status) {
+    return status.error();
+  }
   const auto& families = options.families;
   if (std::find(families.begin(), families.end(), kWideFamily) != families.end()) {
     DetectorOptions wide = options;
     wide.families = {std::string(kWideFamily)};
     library->wide = std::make_unique<Library>();
-    if (Status status = library->wide->set_up(wide); !status) return status.error();
+    if (Status status = library->wide->set_up(wide); !status) {
+      return status.error();
+    }
   }
   return MarkerDetector(std::move(library));
 }
@@ -236,17 +274,29 @@ Status MarkerDetector::detect(const GreyImage& image, std::vector<MarkerCorners>
 Status MarkerDetector::detect(const GreyImage& image, const PixelBox& box,
                               std::vector<MarkerCorners>& found) {
   found.clear();
-  if (Status status = check(image); !status) return status;
-  if (box.width_px <= 0 || box.height_px <= 0) return {};
+  if (Status status = check(image); !status) {
+    return status;
+  }
+  if (box.width_px <= 0 || box.height_px <= 0) {
+    return {};
+  }
   const PixelBox crop = in_whole_steps(box, image, library_->step_px);
   const int smallest_px = kSmallestPx * library_->step_px / kTilePx;
-  if (crop.width_px < smallest_px || crop.height_px < smallest_px) return {};
+  if (crop.width_px < smallest_px || crop.height_px < smallest_px) {
+    return {};
+  }
   const Vec2 offset_px{static_cast<double>(crop.x_px), static_cast<double>(crop.y_px)};
-  if (Status status = library_->detect(image, crop, offset_px, found); !status) return status;
-  if (library_->refine_edges)
-    for (MarkerCorners& marker : found)
+  if (Status status = library_->detect(image, crop, offset_px, found); !status) {
+    return status;
+  }
+  if (library_->refine_edges) {
+    for (MarkerCorners& marker : found) {
       marker.corners_px = refined_corners(image, marker.corners_px);
-  if (library_->wide) look_for_wide_borders(image, crop, found);
+    }
+  }
+  if (library_->wide) {
+    look_for_wide_borders(image, crop, found);
+  }
   std::sort(found.begin(), found.end(), comes_before);
   return {};
 }
@@ -264,11 +314,15 @@ void MarkerDetector::look_for_wide_borders(const GreyImage& image, const PixelBo
     const Vec2 offset_px = thinned_offset(window_px) +
                            Vec2{static_cast<double>(crop.x_px), static_cast<double>(crop.y_px)};
     more.clear();
-    if (!wide.detect(wide.thinned, all, offset_px, more)) return;
+    if (!wide.detect(wide.thinned, all, offset_px, more)) {
+      return;
+    }
     for (MarkerCorners& marker : more) {
       // Twice, since the thinned outline begins nearly as far off as edges are looked for.
       marker.corners_px = refined_corners(image, refined_corners(image, marker.corners_px));
-      if (!has_wide_border(image, marker.corners_px)) continue;
+      if (!has_wide_border(image, marker.corners_px)) {
+        continue;
+      }
       // Where squares touch the tag, its outline in the image itself is the worse one.
       std::erase_if(found, [&](const MarkerCorners& other) { return same_tag(marker, other); });
       found.push_back(marker);

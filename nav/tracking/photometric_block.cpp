@@ -18,9 +18,11 @@ constexpr float kLeastSlope2 = 1e-4F;
 
 float dot(const float* __restrict a, const float* __restrict b) {
   std::array<float, 8> lanes{};
-  for (int i = 0; i < 64; i += 8)
-    for (std::size_t l = 0; l < 8; ++l)
+  for (int i = 0; i < 64; i += 8) {
+    for (std::size_t l = 0; l < 8; ++l) {
       lanes[l] += a[i + static_cast<int>(l)] * b[i + static_cast<int>(l)];
+    }
+  }
   return ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
          ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
 }
@@ -98,7 +100,9 @@ void ViewModel::weigh(const Photometry& light, double doubt_cells) {
   float* __restrict kept = column(kKept);
   float* __restrict weight = column(kWeight);
   std::array<float, kBlock> belief;
-  for (std::size_t k = 0; k < kBlock; ++k) belief[k] = believed_[cell_[k]];
+  for (std::size_t k = 0; k < kBlock; ++k) {
+    belief[k] = believed_[cell_[k]];
+  }
   const auto dark = static_cast<float>(light.variance[0]);
   const auto more = static_cast<float>(light.variance[1] - light.variance[0]);
   const auto doubt =
@@ -122,9 +126,12 @@ void ViewModel::sum_up(ViewEquations& out) const {
   std::size_t place = 0;
   for (std::size_t a = 0; a <= kColumns; ++a) {
     const float* ja = j + a * kBlock;
-    for (std::size_t k = 0; k < kBlock; ++k) weighted[k] = weight[k] * ja[k];
-    for (std::size_t c = a; c <= kColumns; ++c)
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      weighted[k] = weight[k] * ja[k];
+    }
+    for (std::size_t c = a; c <= kColumns; ++c) {
       out.sums[place++] += static_cast<double>(dot(weighted.data(), j + c * kBlock));
+    }
   }
 }
 
@@ -143,14 +150,14 @@ void ViewModel::count(int pixels, ViewEquations& out) {
     const auto white = static_cast<double>(column(kT)[k]);
     const auto slope2 = static_cast<double>(column(kSlope2)[k]);
     out.edge_squares += kept * slope2 * (squared - static_cast<double>(column(kVariance)[k]));
-    out.edge_shares += kept * slope2 * slope2;
+    out.edge_fractions += kept * slope2 * slope2;
     const double steep = slope2 / (kEdgeSlope * kEdgeSlope);
     const double flat = kept / (1.0 + steep * steep);
     out.squares[0] += flat * (1.0 - white) * squared;
     out.squares[1] += flat * white * squared;
-    out.shares[0] += flat * (1.0 - white) * (1.0 - white);
-    out.shares[1] += flat * (1.0 - white) * white;
-    out.shares[2] += flat * white * white;
+    out.fractions[0] += flat * (1.0 - white) * (1.0 - white);
+    out.fractions[1] += flat * (1.0 - white) * white;
+    out.fractions[2] += flat * white * white;
   }
 }
 
@@ -159,21 +166,27 @@ void ViewModel::score(int pixels) {
   const auto column = [this](int c) { return block_.data() + c * kBlock; };
   const float* residual = column(kFirst + static_cast<int>(kColumns));
   for (int k = 0; k < pixels; ++k) {
-    if (column(kSlope2)[k] < kLeastSlope2) continue;
+    if (column(kSlope2)[k] < kLeastSlope2) {
+      continue;
+    }
     const auto across = static_cast<int>((column(kBx)[k] + half_ + 0.5F) / kPieceCells);
     const auto down = static_cast<int>((half_ - column(kBy)[k] + 0.5F) / kPieceCells);
     float* out =
         scores_.data() + static_cast<std::size_t>(down * pieces_across() + across) * kColumns;
     const float pull = column(kWeight)[k] * residual[k];
     const float* j = column(kFirst) + k;
-    for (std::size_t i = 0; i < kColumns; ++i) out[i] += pull * j[i * kBlock];
+    for (std::size_t i = 0; i < kColumns; ++i) {
+      out[i] += pull * j[i * kBlock];
+    }
   }
 }
 
 void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquations& out) {
   const int n = filled_;
   filled_ = 0;
-  if (n == 0) return;
+  if (n == 0) {
+    return;
+  }
   compare(light);
   weigh(light, doubt_cells);
   // What an earlier block left behind weighs nothing.

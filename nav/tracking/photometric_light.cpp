@@ -12,7 +12,7 @@ constexpr double kBlurCeilingCells = 0.6;
 constexpr double kLargestLightStep = 0.5;
 constexpr double kVarianceFloor = 0.3;
 /// Pixels of black and of white below which nothing is learnt of their noise.
-constexpr double kFewestShares = 20.0;
+constexpr double kFewestFractions = 20.0;
 /// Neither black nor white is quieter than this share of all.
 constexpr double kLeastOfMean = 0.25;
 
@@ -36,7 +36,9 @@ LightPrior light_prior(const Photometry& light) {
   about_zero(6, light.tails[0], 1.0);
   about_zero(7, light.tails[1], 1.0);
   about_zero(8, light.skew, 0.3);
-  for (std::size_t i = 0; i < light.response.size(); ++i) about_zero(9 + i, light.response[i], 0.5);
+  for (std::size_t i = 0; i < light.response.size(); ++i) {
+    about_zero(9 + i, light.response[i], 0.5);
+  }
   return prior;
 }
 
@@ -52,26 +54,32 @@ void apply(const LightStep& step, double px_a_cell, Photometry& light) {
   }
   light.skew = std::clamp(light.skew + bounded(step[8], 0.5), -0.8, 0.8);
   // Not far from where it would no longer rise everywhere.
-  for (std::size_t i = 0; i < light.response.size(); ++i)
+  for (std::size_t i = 0; i < light.response.size(); ++i) {
     light.response[i] = std::clamp(light.response[i] + bounded(step[9 + i], 0.3), -0.9, 0.9);
+  }
 }
 
-void learn_noise(const ViewEquations& e, double share, Photometry& light) {
+void learn_noise(const ViewEquations& e, double fraction, Photometry& light) {
   // Inverses are averaged: that of one pair now and then is large.
-  if (e.scatter > 0.0) light.scatter = 1.0 / ((1.0 - share) / light.scatter + share / e.scatter);
-  if (e.edge_shares > 0.0)
-    light.edge_variance =
-        (1.0 - share) * light.edge_variance + share * std::max(e.edge_squares / e.edge_shares, 0.0);
-  const auto [black, both, white] = e.shares;
+  if (e.scatter > 0.0) {
+    light.scatter = 1.0 / ((1.0 - fraction) / light.scatter + fraction / e.scatter);
+  }
+  if (e.edge_fractions > 0.0) {
+    light.edge_variance = (1.0 - fraction) * light.edge_variance +
+                          fraction * std::max(e.edge_squares / e.edge_fractions, 0.0);
+  }
+  const auto [black, both, white] = e.fractions;
   const double determinant = black * white - both * both;
-  if (black < kFewestShares || white < kFewestShares || !(determinant > 0.0)) return;
+  if (black < kFewestFractions || white < kFewestFractions || !(determinant > 0.0)) {
+    return;
+  }
   const double mean = (e.squares[0] + e.squares[1]) / (black + 2.0 * both + white);
   const std::array<double, 2> solved{(white * e.squares[0] - both * e.squares[1]) / determinant,
                                      (black * e.squares[1] - both * e.squares[0]) / determinant};
   for (std::size_t side = 0; side < 2; ++side) {
     const double found = std::max(solved[side], kLeastOfMean * mean) / kRobustVariance;
     light.variance[side] =
-        std::max(kVarianceFloor, (1.0 - share) * light.variance[side] + share * found);
+        std::max(kVarianceFloor, (1.0 - fraction) * light.variance[side] + fraction * found);
   }
 }
 

@@ -22,6 +22,6 @@ void apply(const LightStep& step, double px_a_cell, Photometry& light);
 
 /// Takes in the noise and the scatter about the model: `share` of what is remembered is that of
 /// these residuals.
-void learn_noise(const ViewEquations& equations, double share, Photometry& light);
+void learn_noise(const ViewEquations& equations, double fraction, Photometry& light);
 
 }  // namespace orthonav::nav

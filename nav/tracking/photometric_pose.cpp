@@ -14,7 +14,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kLargestStepCells = 0.5;
-constexpr double kNoiseShare = 0.3;  ///< of the newest pair in the noise that is remembered
+constexpr double kNoiseFraction = 0.3;  ///< of the newest pair in the noise that is remembered
 constexpr int kNewLightIterations = 5;
 constexpr double kFewestPixels = 30.0;
 /// A step leaves so much of itself to the next ones.
@@ -26,21 +26,24 @@ constexpr double kSettledPx = 0.05;
 /// frame, in metres.
 Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m) {
   Matrix6 out = Matrix6::Zero();
-  const Mat3 turn = marker_from_tag.rotation().transposed();
-  const Vec3 arm = marker_from_tag.translation();
+  const Mat3 rotation_step = marker_from_tag.rotation().transposed();
+  const Vec3 lever_arm = marker_from_tag.translation();
   Eigen::Matrix3d r;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) r(i, j) = turn[i][static_cast<std::size_t>(j)];
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      r(i, j) = rotation_step[i][static_cast<std::size_t>(j)];
+    }
+  }
   Eigen::Matrix3d cross;
-  cross << 0, -arm.z, arm.y, arm.z, 0, -arm.x, -arm.y, arm.x, 0;
+  cross << 0, -lever_arm.z, lever_arm.y, lever_arm.z, 0, -lever_arm.x, -lever_arm.y, lever_arm.x, 0;
   out.topLeftCorner<3, 3>() = r / cell_m;
   out.topRightCorner<3, 3>() = -r * cross / cell_m;
   out.bottomRightCorner<3, 3>() = r;
   return out;
 }
 
-Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 turn) {
-  return {orthonormalized(pose.rotation() * rotation_from_vector(turn)),
+Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 rotation_step) {
+  return {orthonormalized(pose.rotation() * rotation_from_vector(rotation_step)),
           pose.translation() + pose.rotation() * shift};
 }
 
@@ -49,10 +52,10 @@ Eigen::Matrix<double, 6, 3> tag_by_camera_turn(const CameraFromTag& pose, double
   Eigen::Matrix<double, 6, 3> out;
   const Mat3 back = pose.rotation.transposed();
   for (int axis = 0; axis < 3; ++axis) {
-    Vec3 turn{};
-    turn[axis] = 1.0;
-    const Vec3 shift = back * turn.cross(pose.translation_m) / cell_m;
-    const Vec3 rotation = back * turn;
+    Vec3 rotation_step{};
+    rotation_step[axis] = 1.0;
+    const Vec3 shift = back * rotation_step.cross(pose.translation_m) / cell_m;
+    const Vec3 rotation = back * rotation_step;
     out.col(axis) << shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z;
   }
   return out;
@@ -82,8 +85,8 @@ bool PhotometricSolver::gather(const StereoFrame& frame, const Transform<Rig, Ma
                    view.right ? right_rays_ : left_rays_, tag, camera_from_tag(view, pose),
                    view.light, doubt_m / tag.cell_m(), view.cell_weights, e);
   e.scatter = scatter(e, view.light, model_.scores());
-  view.kept_share = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
-  return e.pixels >= kFewestPixels && view.kept_share >= options.min_kept_share &&
+  view.kept_fraction = e.pixels > 0.0 ? e.kept / e.pixels : 0.0;
+  return e.pixels >= kFewestPixels && view.kept_fraction >= options.min_kept_fraction &&
          view.light.contrast >= options.min_contrast_grey;
 }
 
@@ -99,7 +102,9 @@ void PhotometricSolver::update_light(const std::array<double, 6>& step,
   const Eigen::Map<const Vector6> motion(step.data());
   for (std::size_t i = 0; i < views.size(); ++i) {
     TagView& view = views[i];
-    if (!view.used) continue;
+    if (!view.used) {
+      continue;
+    }
     const double cell_m = view.tag->cell_m();
     std::array<double, 6> of_tag;
     Eigen::Map<Vector6>(of_tag.data()) = tag_by_tool(view.marker_from_tag, cell_m) * motion;
@@ -121,9 +126,13 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
   fit.left = fit.right = false;
   for (std::size_t i = 0; i < views.size(); ++i) {
     TagView& view = views[i];
-    if (!view.used) continue;
+    if (!view.used) {
+      continue;
+    }
     view.used = gather(frame, fit.rig_from_marker, doubt_m, options, view, equations_[i]);
-    if (!view.used) continue;
+    if (!view.used) {
+      continue;
+    }
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
     const ReducedView own = reduced(equations_[i], view.light);
     const Eigen::Map<const Matrix6> own_normal(own.normal.data());
@@ -135,17 +144,22 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
     out.pixels_a_metre = std::max(out.pixels_a_metre, pixels_a_metre(view, fit.rig_from_marker));
     out.cell_m = std::min(out.cell_m, view.tag->cell_m());
   }
-  if (fit.views == 0) return std::nullopt;
+  if (fit.views == 0) {
+    return std::nullopt;
+  }
   const Eigen::LDLT<Matrix6> solver(normal);
   Eigen::Map<Vector6> motion(out.motion.data());
   motion = solver.solve(right);
-  if (solver.info() != Eigen::Success || !motion.allFinite() || !solver.isPositive())
+  if (solver.info() != Eigen::Success || !motion.allFinite() || !solver.isPositive()) {
     return std::nullopt;
+  }
   const Matrix6 covariance = solver.solve(Matrix6::Identity());
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c)
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) {
       fit.covariance[static_cast<std::size_t>(6 * r + c)] =
           0.5 * (covariance(r, c) + covariance(c, r));
+    }
+  }
   update_light(out.motion, fit.rig_from_marker, views);
   // Of the farthest cells, by shift and by turn.
   out.size_m = std::max(motion.head<3>().norm(), motion.tail<3>().norm() * 4.0 * out.cell_m);
@@ -165,10 +179,14 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
   fit.rig_from_marker = start;
   equations_.resize(views.size());
   double doubt = doubt_m;
-  for (TagView& view : views) view.cell_weights.clear();
+  for (TagView& view : views) {
+    view.cell_weights.clear();
+  }
   while (fit.iterations < options.max_iterations) {
     const auto taken = step(frame, doubt, options, views, fit);
-    if (!taken) return std::nullopt;
+    if (!taken) {
+      return std::nullopt;
+    }
     const auto& m = taken->motion;
     fit.rig_from_marker = moved(fit.rig_from_marker, {m[0], m[1], m[2]}, {m[3], m[4], m[5]});
     ++fit.iterations;
@@ -176,12 +194,17 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
         std::max(std::min(kLeftOfStep * taken->size_m, doubt), kSettledPx / taken->pixels_a_metre);
     const bool all_known = learn_new_light(views);
     const int least = all_known ? 2 : kNewLightIterations;
-    if (taken->size_m * taken->pixels_a_metre < options.last_step_px && fit.iterations >= least)
+    if (taken->size_m * taken->pixels_a_metre < options.last_step_px && fit.iterations >= least) {
       break;
+    }
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!views[i].used) continue;
-    if (views[i].light.known) learn_noise(equations_[i], kNoiseShare, views[i].light);
+    if (!views[i].used) {
+      continue;
+    }
+    if (views[i].light.known) {
+      learn_noise(equations_[i], kNoiseFraction, views[i].light);
+    }
     views[i].light.known = true;
   }
   return fit;
@@ -191,7 +214,9 @@ std::optional<PhotometricFit> PhotometricSolver::solve(const StereoFrame& frame,
 bool PhotometricSolver::learn_new_light(std::span<TagView> views) const {
   bool all_known = true;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!views[i].used || views[i].light.known) continue;
+    if (!views[i].used || views[i].light.known) {
+      continue;
+    }
     all_known = false;
     learn_noise(equations_[i], 1.0, views[i].light);
   }
@@ -200,15 +225,19 @@ bool PhotometricSolver::learn_new_light(std::span<TagView> views) const {
 
 std::optional<AlignmentEquations> PhotometricSolver::alignment(
     const PhotometricFit& fit, std::span<const TagView> views) const {
-  if (!fit.left || !fit.right || equations_.size() != views.size()) return std::nullopt;
+  if (!fit.left || !fit.right || equations_.size() != views.size()) {
+    return std::nullopt;
+  }
   Matrix6 pose = Matrix6::Zero();
   Eigen::Matrix<double, 6, 3> cross = Eigen::Matrix<double, 6, 3>::Zero();
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d rotation_step = Eigen::Matrix3d::Zero();
   Vector6 pose_right = Vector6::Zero();
   Eigen::Vector3d turn_right = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < views.size(); ++i) {
     const TagView& view = views[i];
-    if (!view.used) continue;
+    if (!view.used) {
+      continue;
+    }
     const ReducedView own = reduced(equations_[i], view.light);
     const Eigen::Map<const Matrix6> own_normal(own.normal.data());
     const Eigen::Map<const Vector6> own_right(own.right.data());
@@ -216,25 +245,27 @@ std::optional<AlignmentEquations> PhotometricSolver::alignment(
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, cell_m);
     pose += motion.transpose() * own_normal * motion;
     pose_right += motion.transpose() * own_right;
-    if (!view.right) continue;
-    const Eigen::Matrix<double, 6, 3> by_turn =
+    if (!view.right) {
+      continue;
+    }
+    const Eigen::Matrix<double, 6, 3> by_rotation =
         tag_by_camera_turn(camera_from_tag(view, fit.rig_from_marker), cell_m);
-    cross += motion.transpose() * own_normal * by_turn;
-    turn += by_turn.transpose() * own_normal * by_turn;
-    turn_right += by_turn.transpose() * own_right;
+    cross += motion.transpose() * own_normal * by_rotation;
+    rotation_step += by_rotation.transpose() * own_normal * by_rotation;
+    turn_right += by_rotation.transpose() * own_right;
   }
   const Eigen::LDLT<Matrix6> solver(pose);
   AlignmentEquations out;
   Eigen::Map<Eigen::Matrix3d>(out.information.data()) =
-      turn - cross.transpose() * solver.solve(cross);
+      rotation_step - cross.transpose() * solver.solve(cross);
   Eigen::Map<Eigen::Vector3d>(out.right.data()) =
       turn_right - cross.transpose() * solver.solve(pose_right);
   return out;
 }
 
 void PhotometricSolver::turn_right_camera(Vec3 rotation_rad) {
-  const Transform<RightCamera, RightCamera> turn(rotation_from_vector(rotation_rad), {});
-  calibration_.right_from_rig = turn * calibration_.right_from_rig;
+  const Transform<RightCamera, RightCamera> rotation_step(rotation_from_vector(rotation_rad), {});
+  calibration_.right_from_rig = rotation_step * calibration_.right_from_rig;
 }
 
 }  // namespace orthonav::nav

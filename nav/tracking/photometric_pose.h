@@ -20,7 +20,7 @@ struct TagView {
   Photometry light;
   std::vector<float> cell_weights;  ///< by cell: 0 where it is hidden
   // Of the last fit:
-  double kept_share = 0.0;  ///< of the pixels, by robust weight
+  double kept_fraction = 0.0;  ///< of the pixels, by robust weight
   /// In: whether to look at this view at all. Out: whether the fit rests on it.
   bool used = true;
 };
@@ -30,7 +30,7 @@ struct PhotometricOptions {
   /// Corrections below end the search: a small part of the noise of the pose.
   double last_step_px = 0.02;
   /// A view in which less of the tag agrees with its template is not used.
-  double min_kept_share = 0.45;
+  double min_kept_fraction = 0.45;
   double min_contrast_grey = 12.0;
 };
 

@@ -30,17 +30,27 @@ Split split(const ViewEquations& e) {
   const auto at = [&](std::size_t r, std::size_t c) {
     return e.sum(std::min(r, c), std::max(r, c));
   };
-  for (std::size_t r = 0; r < kColumns; ++r)
+  for (std::size_t r = 0; r < kColumns; ++r) {
     for (std::size_t c = 0; c < kColumns; ++c) {
       const auto row = static_cast<Eigen::Index>(r);
       const auto column = static_cast<Eigen::Index>(c);
-      if (r < 6 && c < 6) s.pose(row, column) = at(r, c);
-      if (r < 6 && c >= 6) s.cross(row, column - 6) = at(r, c);
-      if (r >= 6 && c >= 6) s.light(row - 6, column - 6) = at(r, c);
+      if (r < 6 && c < 6) {
+        s.pose(row, column) = at(r, c);
+      }
+      if (r < 6 && c >= 6) {
+        s.cross(row, column - 6) = at(r, c);
+      }
+      if (r >= 6 && c >= 6) {
+        s.light(row - 6, column - 6) = at(r, c);
+      }
     }
-  for (std::size_t r = 0; r < 6; ++r) s.pose_right(static_cast<Eigen::Index>(r)) = at(r, kColumns);
-  for (std::size_t r = 0; r < kLightColumns; ++r)
+  }
+  for (std::size_t r = 0; r < 6; ++r) {
+    s.pose_right(static_cast<Eigen::Index>(r)) = at(r, kColumns);
+  }
+  for (std::size_t r = 0; r < kLightColumns; ++r) {
     s.light_right(static_cast<Eigen::Index>(r)) = at(6 + r, kColumns);
+  }
   return s;
 }
 
@@ -94,7 +104,9 @@ double scatter(const ViewEquations& equations, const Photometry& known,
                std::span<const float> scores) {
   const Eliminated e(equations, known);
   const Eigen::LLT<Matrix6> pose(e.normal);
-  if (pose.info() != Eigen::Success) return 1.0;
+  if (pose.info() != Eigen::Success) {
+    return 1.0;
+  }
   double sum = 0.0;
   for (std::size_t i = 0; i + kColumns <= scores.size(); i += kColumns) {
     const Eigen::Map<const Eigen::Matrix<float, 6, 1>> of_pose(scores.data() + i);

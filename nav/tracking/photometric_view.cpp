@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::uint8_t kSaturated = 254;
 /// Of its pixels so many agree with a cell that is hidden in part, and with one that is free.
-constexpr float kHiddenShare = 0.45F;
-constexpr float kFreeShare = 0.8F;
+constexpr float kHiddenFraction = 0.45F;
+constexpr float kFreeFraction = 0.8F;
 /// Of areas without edges every so many columns and rows suffice: they tell the light only.
 constexpr int kFlatStep = 2;
 /// Where a corner lies outside the image, its place is known roughly.
@@ -47,7 +47,9 @@ enum RowColumn {
 void along(const float* __restrict place, const float* __restrict scale, int n, float half,
            float inverse_blur, float tails, float* __restrict out, std::ptrdiff_t stride) {
   float* __restrict column[kAxisColumns];
-  for (int c = 0; c < kAxisColumns; ++c) column[c] = out + c * stride;
+  for (int c = 0; c < kAxisColumns; ++c) {
+    column[c] = out + c * stride;
+  }
   for (int i = 0; i < n; ++i) {
     // In this order a place that is not a number becomes the low end.
     const float c = std::min(std::max(0.0F, place[i] + half), 2.0F * half - 1e-4F);
@@ -57,8 +59,8 @@ void along(const float* __restrict place, const float* __restrict scale, int n, 
     const Beyond low = beyond(f, inverse, tails);
     const Beyond high = beyond(1.0F - f, inverse, tails);
     column[kCell][i] = cell;
-    column[kLow][i] = low.share;
-    column[kHigh][i] = high.share;
+    column[kLow][i] = low.fraction;
+    column[kHigh][i] = high.fraction;
     column[kLowSlope][i] = -low.slope;
     column[kHighSlope][i] = high.slope;
     column[kLowBlur][i] = low.by_blur;
@@ -105,22 +107,28 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
   const double cell = tag.cell_m();
   const Vec3 t = pose.translation_m / cell;
   const Vec3 eye = -(pose.rotation.transposed() * t);
-  if (!(eye.z > 0.5) || !(t.z > 0.5)) return false;  // from behind, or behind the camera
+  if (!(eye.z > 0.5) || !(t.z > 0.5)) {
+    return false;  // from behind, or behind the camera
+  }
   eye_cells_ = eye;
   const Mat3 inverse =
       inverse_of(Mat3::from_columns(pose.rotation.column(0), pose.rotation.column(1), t));
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
       plane_from_ray_[static_cast<std::size_t>(3 * r + c)] =
           static_cast<float>(inverse[r][static_cast<std::size_t>(c)]);
+    }
+  }
   depth_ = static_cast<float>(t.z);
   half_ = 0.5F * static_cast<float>(tag.cells().cells);
   Vec2 low{1e9, 1e9};
   Vec2 high{-1e9, -1e9};
-  for (const double sx : {-1.0, 1.0})
+  for (const double sx : {-1.0, 1.0}) {
     for (const double sy : {-1.0, 1.0}) {
       const Vec3 p = pose.rotation * Vec3{sx * half_, sy * half_, 0.0} + t;
-      if (!(p.z > 0.5)) return false;
+      if (!(p.z > 0.5)) {
+        return false;
+      }
       const Vec2 u{p.x / p.z, p.y / p.z};
       const auto seen = camera.project(u);
       const Vec2 pixel = seen ? *seen : rough_pixel(camera, u);
@@ -128,6 +136,7 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
       low = {std::min(low.x, pixel.x - room), std::min(low.y, pixel.y - room)};
       high = {std::max(high.x, pixel.x + room), std::max(high.y, pixel.y + room)};
     }
+  }
   const auto within = [](double v, int size) {
     return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(size)));
   };
@@ -141,8 +150,9 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
 void ViewModel::spread(const RayTable& rays, int y, const Photometry& light) {
   const int n = x1_ - x0_;
   const std::ptrdiff_t stride = n;
-  if (row_.size() < static_cast<std::size_t>((kRowColumns + 1) * n))
+  if (row_.size() < static_cast<std::size_t>((kRowColumns + 1) * n)) {
     row_.resize(static_cast<std::size_t>((kRowColumns + 1) * std::max(n, rays.width_px)));
+  }
   const std::size_t start = static_cast<std::size_t>(y) * static_cast<std::size_t>(rays.width_px) +
                             static_cast<std::size_t>(x0_);
   const float* __restrict ray_x = rays.x.data() + start;
@@ -210,7 +220,9 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
   for (int i = 0; i < x1_ - x0_; ++i) {
     const float x = r[kX * stride + i];
     const float up = r[kY * stride + i];
-    if (!(std::abs(x) < half_ && std::abs(up) < half_) || pixels[i] >= kSaturated) continue;
+    if (!(std::abs(x) < half_ && std::abs(up) < half_) || pixels[i] >= kSaturated) {
+      continue;
+    }
     const float* across = r + kAcross * stride + i;
     const float* down = r + kDown * stride + i;
     const float column = across[kCell * stride];
@@ -222,17 +234,22 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
     const float below = down[kHighDensity * stride];
     // What lies outside the template is not known.
     if ((column == 0.0F && left > 0.0F) || (column == last && right > 0.0F) ||
-        (row == 0.0F && above > 0.0F) || (row == last && below > 0.0F))
+        (row == 0.0F && above > 0.0F) || (row == last && below > 0.0F)) {
       continue;
-    if (left + right + above + below == 0.0F && ((i + x0_) % kFlatStep != 0 || y % kFlatStep != 0))
+    }
+    if (left + right + above + below == 0.0F &&
+        ((i + x0_) % kFlatStep != 0 || y % kFlatStep != 0)) {
       continue;
+    }
     const int cell_row = static_cast<int>(row);
     const int cell_column = static_cast<int>(column);
     cell_[static_cast<std::size_t>(filled_)] =
         static_cast<std::uint16_t>(cell_row * tag.cells().cells + cell_column);
     add(filled_++, i, pixels[i], static_cast<float>(light.skew),
         tag.coefficients(cell_row, cell_column));
-    if (filled_ == kBlock) finish(light, doubt_cells, out);
+    if (filled_ == kBlock) {
+      finish(light, doubt_cells, out);
+    }
   }
 }
 
@@ -240,8 +257,9 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
 void ViewModel::judge_cells(std::vector<float>& cell_weights) const {
   cell_weights.resize(counted_.size());
   for (std::size_t i = 0; i < counted_.size(); ++i) {
-    const float share = counted_[i] > 0.0F ? kept_[i] / counted_[i] : 1.0F;
-    const float t = std::clamp((share - kHiddenShare) / (kFreeShare - kHiddenShare), 0.0F, 1.0F);
+    const float fraction = counted_[i] > 0.0F ? kept_[i] / counted_[i] : 1.0F;
+    const float t =
+        std::clamp((fraction - kHiddenFraction) / (kFreeFraction - kHiddenFraction), 0.0F, 1.0F);
     cell_weights[i] = t * t * (3.0F - 2.0F * t);
   }
 }
@@ -251,16 +269,19 @@ void ViewModel::linearize(const GreyImage& image, const CameraModel& camera, con
                           double doubt_cells, std::vector<float>& cell_weights,
                           ViewEquations& out) {
   out = {};
-  if (!place(camera, tag, pose)) return;
+  if (!place(camera, tag, pose)) {
+    return;
+  }
   const std::size_t cells = tag.cells().white.size();
   counted_.assign(cells, 0.0F);
   kept_.assign(cells, 0.0F);
   const auto pieces = static_cast<std::size_t>(pieces_across());
   scores_.assign(pieces * pieces * kColumns, 0.0F);
-  if (cell_weights.size() == cells)
+  if (cell_weights.size() == cells) {
     believed_.assign(cell_weights.begin(), cell_weights.end());
-  else
+  } else {
     believed_.assign(cells, 1.0F);
+  }
   for (int y = y0_; y < y1_; ++y) {
     spread(rays, y, light);
     collect(image, tag, y, light, doubt_cells, out);

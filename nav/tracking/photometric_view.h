@@ -69,10 +69,10 @@ struct ViewEquations {
   /// Least squares, by robust weight, of the residuals' squares on how black and how white the
   /// pixels are, away from edges: between the two the noise of light grows evenly.
   std::array<double, 2> squares{};
-  std::array<double, 3> shares{};  ///< black by black, black by white, white by white
+  std::array<double, 3> fractions{};  ///< black by black, black by white, white by white
   /// Least squares of what the residuals' squares are beyond that on the slope's square.
   double edge_squares = 0.0;
-  double edge_shares = 0.0;
+  double edge_fractions = 0.0;
 
   [[nodiscard]] double sum(std::size_t row, std::size_t column) const {
     return sums[row * (kColumns + 1) - row * (row + 1) / 2 + column];

@@ -22,12 +22,12 @@ struct PivotOptions {
   /// scatters 150 mm below a 40 mm tag; where poses scatter less, the limit follows them.
   double inlier_m = 0.005;
   /// Fewer inliers mean that no single pivot can be told: the tip moved, or did something else.
-  double min_inlier_share = 0.6;
+  double min_inlier_fraction = 0.6;
   double max_tip_sigma_m = 0.001;
   /// What deserves a note.
   double note_spread_rad = 0.25;
   double note_tip_sigma_m = 0.0003;
-  double note_inlier_share = 0.9;
+  double note_inlier_fraction = 0.9;
   int rounds = 500;  ///< random samples tried
   std::uint64_t seed = 1;
 

@@ -15,8 +15,11 @@ constexpr double kLeastSpreadRad = 1e-6;
 
 Eigen::Matrix3d as_eigen(const Mat3& m) {
   Eigen::Matrix3d out;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) out(r, c) = m[r][static_cast<std::size_t>(c)];
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      out(r, c) = m[r][static_cast<std::size_t>(c)];
+    }
+  }
   return out;
 }
 
@@ -42,29 +45,37 @@ Means means_of(Poses poses, Chosen chosen) {
 }  // namespace
 
 std::optional<PivotFit> fit_pivot(Poses poses, Chosen chosen) {
-  if (chosen.size() < 3) return std::nullopt;
+  if (chosen.size() < 3) {
+    return std::nullopt;
+  }
   const auto count = static_cast<double>(chosen.size());
   const Means mean = means_of(poses, chosen);
-  if (!mean.rotation.allFinite() || !mean.translation.allFinite()) return std::nullopt;
+  if (!mean.rotation.allFinite() || !mean.translation.allFinite()) {
+    return std::nullopt;
+  }
   // The pivot is the mean of R·tip + t; without it, (R - mean R)·tip = -(t - mean t).
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const std::size_t i : chosen) {
-    const Eigen::Matrix3d turn = as_eigen(poses[i].rotation()) - mean.rotation;
-    normal += turn.transpose() * turn;
-    right -= turn.transpose() * (as_eigen(poses[i].translation()) - mean.translation);
+    const Eigen::Matrix3d rotation_step = as_eigen(poses[i].rotation()) - mean.rotation;
+    normal += rotation_step.transpose() * rotation_step;
+    right -= rotation_step.transpose() * (as_eigen(poses[i].translation()) - mean.translation);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal);
   PivotFit fit;
   fit.spread_rad = std::sqrt(std::max(0.0, solver.eigenvalues()(0)) / count);
-  if (!(fit.spread_rad > kLeastSpreadRad)) return std::nullopt;
+  if (!(fit.spread_rad > kLeastSpreadRad)) {
+    return std::nullopt;
+  }
   const Eigen::Vector3d inverse = solver.eigenvalues().cwiseInverse();
   const Eigen::Vector3d tip =
       solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose() * right;
   fit.tip_in_marker = {from_eigen(tip)};
   fit.pivot_in_world = {from_eigen(mean.rotation * tip + mean.translation)};
   double squared = 0.0;
-  for (const std::size_t i : chosen) squared += fit.miss_m(poses[i]) * fit.miss_m(poses[i]);
+  for (const std::size_t i : chosen) {
+    squared += fit.miss_m(poses[i]) * fit.miss_m(poses[i]);
+  }
   fit.rmse_m = std::sqrt(squared / count);
   // 3 n equations for 6 unknowns.
   const double freedom = std::max(1.0, 3.0 * count - 6.0);

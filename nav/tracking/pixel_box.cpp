@@ -9,7 +9,9 @@ PixelBox in_whole_steps(const PixelBox& box, const GreyImage& image, int step_px
     return static_cast<int>(std::max<long long>(0, (v >= 0 ? v / step_px : -1) - 1) * step_px);
   };
   const auto high = [step_px](long long v, int size) {
-    if (v <= 0) return 0;
+    if (v <= 0) {
+      return 0;
+    }
     return static_cast<int>(std::min<long long>(size, ((v + step_px - 1) / step_px + 1) * step_px));
   };
   const long long right = static_cast<long long>(box.x_px) + box.width_px;

@@ -20,7 +20,9 @@ std::optional<Eigen::Matrix3d> homography(const std::array<Vec2, 4>& seen) {
     b(2 * i + 1) = u.y;
   }
   const Eigen::Matrix<double, 8, 1> h = a.fullPivLu().solve(b);
-  if (!h.allFinite() || !(a * h).isApprox(b, 1e-6)) return std::nullopt;
+  if (!h.allFinite() || !(a * h).isApprox(b, 1e-6)) {
+    return std::nullopt;
+  }
   Eigen::Matrix3d out;
   out << h(0), h(1), h(2), h(3), h(4), h(5), h(6), h(7), 1.0;
   return out;
@@ -31,9 +33,13 @@ std::optional<Eigen::Matrix3d> homography(const std::array<Vec2, 4>& seen) {
 std::optional<std::array<CameraFromTag, 2>> planar_poses(const std::array<Vec2, 4>& unit_plane,
                                                          double size_m) {
   const auto h = homography(unit_plane);
-  if (!h) return std::nullopt;
+  if (!h) {
+    return std::nullopt;
+  }
   const double scale = 0.5 * (h->col(0).norm() + h->col(1).norm());
-  if (!(scale > 0.0) || !std::isfinite(scale)) return std::nullopt;
+  if (!(scale > 0.0) || !std::isfinite(scale)) {
+    return std::nullopt;
+  }
   const auto vec = [&](int column) {
     return Vec3{(*h)(0, column), (*h)(1, column), (*h)(2, column)};
   };
@@ -46,13 +52,15 @@ std::optional<std::array<CameraFromTag, 2>> planar_poses(const std::array<Vec2, 
   const Vec3 y = (sum - difference).normalized();
   const Vec3 z = x.cross(y);
   const Vec3 place = (0.5 * size_m / scale) * vec(2);
-  if (!z.is_finite() || !(place.z > 0.0) || !(z.dot(place) < 0.0)) return std::nullopt;
-  const Mat3 turn = Mat3::from_columns(x, y, z);
+  if (!z.is_finite() || !(place.z > 0.0) || !(z.dot(place) < 0.0)) {
+    return std::nullopt;
+  }
+  const Mat3 rotation_step = Mat3::from_columns(x, y, z);
   // Depth mirrored along the line of sight, and the tag's back turned to its front again.
   const Vec3 sight = place.normalized();
   const auto mirrored = [&](Vec3 v) { return v - 2.0 * v.dot(sight) * sight; };
   const Mat3 other = Mat3::from_columns(mirrored(x), mirrored(y), -mirrored(z));
-  return std::array<CameraFromTag, 2>{{{turn, place}, {other, place}}};
+  return std::array<CameraFromTag, 2>{{{rotation_step, place}, {other, place}}};
 }
 
 std::optional<std::array<Transform<Rig, Tag>, 2>> poses_by_one(const StereoCalibration& calibration,
@@ -62,15 +70,20 @@ std::optional<std::array<Transform<Rig, Tag>, 2>> poses_by_one(const StereoCalib
   std::array<Vec2, 4> unit_plane;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto direction = camera.unproject(seen.corners_px[k]);
-    if (!direction) return std::nullopt;
+    if (!direction) {
+      return std::nullopt;
+    }
     unit_plane[k] = *direction;
   }
   const auto poses = planar_poses(unit_plane, size_m);
-  if (!poses) return std::nullopt;
+  if (!poses) {
+    return std::nullopt;
+  }
   const auto in_rig = [&](const CameraFromTag& p) -> Transform<Rig, Tag> {
-    if (right)
+    if (right) {
       return calibration.right_from_rig.inverse() *
              Transform<RightCamera, Tag>(p.rotation, p.translation_m);
+    }
     return calibration.left_from_rig.inverse() *
            Transform<LeftCamera, Tag>(p.rotation, p.translation_m);
   };

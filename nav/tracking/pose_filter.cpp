@@ -22,23 +22,25 @@ Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> as_eigen(const Po
 
 PoseCovariance as_array(const Matrix6& m) {
   PoseCovariance out;
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c)
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) {
       out[static_cast<std::size_t>(6 * r + c)] = 0.5 * (m(r, c) + m(c, r));
+    }
+  }
   return out;
 }
 
 /// What a pose lacks to another: shift, and the rotation vector that is multiplied from the left.
 Vector6 difference(const PoseFilter::Pose& to, const PoseFilter::Pose& from) {
   const Vec3 shift = to.translation() - from.translation();
-  const Vec3 turn = vector_from_rotation(to.rotation() * from.rotation().transposed());
+  const Vec3 rotation_step = vector_from_rotation(to.rotation() * from.rotation().transposed());
   Vector6 out;
-  out << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z;
+  out << shift.x, shift.y, shift.z, rotation_step.x, rotation_step.y, rotation_step.z;
   return out;
 }
 
-PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 turn) {
-  return {orthonormalized(rotation_from_vector(turn) * pose.rotation()),
+PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 rotation_step) {
+  return {orthonormalized(rotation_from_vector(rotation_step) * pose.rotation()),
           pose.translation() + shift};
 }
 
@@ -47,10 +49,11 @@ PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 turn) {
 double of_exposure(double exposure_s, double dt_s) { return std::pow(exposure_s / dt_s, 2) / 24.0; }
 
 /// Taking it off helps little, since the prediction errs as well: it stays in the covariance.
-PoseCovariance blurred(const PoseCovariance& noise, const Vector6& innovation, double share) {
+PoseCovariance blurred(const PoseCovariance& noise, const Vector6& innovation, double fraction) {
   PoseCovariance out = noise;
-  for (std::size_t i = 0; i < 6; ++i)
-    out[7 * i] += std::pow(share * innovation(static_cast<int>(i)), 2);
+  for (std::size_t i = 0; i < 6; ++i) {
+    out[7 * i] += std::pow(fraction * innovation(static_cast<int>(i)), 2);
+  }
   return out;
 }
 
@@ -81,7 +84,7 @@ Tracked<PoseFilter::Pose> PoseFilter::predicted(Timestamp time) const {
   const double dt = seconds(time - time_);
   // A tool at rest may be taken up at any moment.
   const Covariance p = grown(dt, options_.hand_m, options_.hand_rad);
-  return {moved(pose_, dt * velocity_m_, dt * velocity_rad_), time, Origin::kPredicted,
+  return {moved(pose_, dt * velocity_m_, dt * velocity_rad_), time, PoseStatus::kPredicted,
           as_array(as_eigen(p).topLeftCorner<6, 6>())};
 }
 
@@ -93,24 +96,29 @@ void PoseFilter::start(const Tracked<Pose>& measured) {
   velocity_rad_ = {};
   Matrix12 p = Matrix12::Zero();
   p.topLeftCorner<6, 6>() = as_eigen(measured.covariance);
-  for (int i = 6; i < 12; ++i)
+  for (int i = 6; i < 12; ++i) {
     p(i, i) = std::pow(i < 9 ? options_.first_speed_m : options_.first_speed_rad, 2);
+  }
   Eigen::Map<Matrix12>(covariance_.data()) = p;
   lasting_ = measured.covariance;
 }
 
 void PoseFilter::update(const Tracked<Pose>& measured, double exposure_s) {
   const double dt = seconds(measured.time - time_);
-  if (!alive_ || !(dt > 0.0)) return start(measured);
+  if (!alive_ || !(dt > 0.0)) {
+    return start(measured);
+  }
   const Pose ahead = moved(pose_, dt * velocity_m_, dt * velocity_rad_);
   Vector6 y = difference(measured.value, ahead);
   Covariance grown_p = grown(dt, options_.rest_m, options_.rest_rad);
   const bool at_rest = innovation(y, as_eigen(grown_p), measured.covariance) < options_.rest_limit;
-  if (!at_rest) grown_p = grown(dt, options_.hand_m, options_.hand_rad);
+  if (!at_rest) {
+    grown_p = grown(dt, options_.hand_m, options_.hand_rad);
+  }
   const Matrix12 p = as_eigen(grown_p);
-  const double share = of_exposure(exposure_s, dt);
-  lasting_ = blurred(measured.covariance, y, share);
-  y *= 1.0 - share;
+  const double fraction = of_exposure(exposure_s, dt);
+  lasting_ = blurred(measured.covariance, y, fraction);
+  y *= 1.0 - fraction;
   const Matrix6 noise = as_eigen(lasting_);
   const Matrix6 s = p.topLeftCorner<6, 6>() + noise;
   const Eigen::Matrix<double, 12, 6> gain = s.ldlt().solve(p.topRows<6>()).transpose();
@@ -130,9 +138,9 @@ Tracked<PoseFilter::Pose> PoseFilter::state() const {
   // The filter takes errors for independent from pair to pair; this share of them is not.
   const Matrix6 p = as_eigen(covariance_).topLeftCorner<6, 6>();
   const Matrix6 r = as_eigen(lasting_);
-  const double lasting = options_.lasting_share;
+  const double lasting = options_.lasting_fraction;
   const double averaged = std::clamp(p.trace() / r.trace(), 0.0, 1.0);
-  return {pose_, time_, Origin::kMeasured, as_array(p + lasting * (1.0 - averaged) * r)};
+  return {pose_, time_, PoseStatus::kMeasured, as_array(p + lasting * (1.0 - averaged) * r)};
 }
 
 }  // namespace orthonav::nav

@@ -20,7 +20,7 @@ struct PoseFilterOptions {
   double rest_limit = 24.0;
   /// Part of a measurement's variance that the next one repeats: what the model does not know
   /// averages out as little as it pleases.
-  double lasting_share = 0.05;
+  double lasting_fraction = 0.05;
   /// SD of an unknown velocity.
   double first_speed_m = 0.5;
   double first_speed_rad = 3.0;

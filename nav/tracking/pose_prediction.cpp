@@ -7,8 +7,8 @@ namespace {
 
 // What a hand does between two pairs, as white acceleration: about 1 m/s² and 10 rad/s² held for
 // 0.1 s (density = acceleration² · duration).
-constexpr double kAccelerationM = 0.1;     // m²/s³
-constexpr double kAccelerationRad = 10.0;  // rad²/s³
+constexpr double kAccelerationSpectrum_m2_per_s3 = 0.1;     // m²/s³
+constexpr double kAccelerationSpectrum_rad2_per_s3 = 10.0;  // rad²/s³
 // Without a usable older pose the velocity is unknown: a fast reach and a fast turn of the wrist.
 constexpr double kUnknownSpeedM = 0.3;    // m/s
 constexpr double kUnknownSpeedRad = 1.5;  // rad/s
@@ -16,8 +16,12 @@ constexpr double kUnknownSpeedRad = 1.5;  // rad/s
 constexpr double kLongestBaselineS = 0.2;
 
 void add_motion(PoseCovariance& covariance, double translation, double rotation) {
-  for (std::size_t i = 0; i < 3; ++i) covariance[7 * i] += translation;
-  for (std::size_t i = 3; i < 6; ++i) covariance[7 * i] += rotation;
+  for (std::size_t i = 0; i < 3; ++i) {
+    covariance[7 * i] += translation;
+  }
+  for (std::size_t i = 3; i < 6; ++i) {
+    covariance[7 * i] += rotation;
+  }
 }
 
 }  // namespace
@@ -26,30 +30,40 @@ TrackedPose predicted(const TrackedPose& older, const TrackedPose& newer, Timest
                       Duration coast) {
   TrackedPose pose;
   pose.time = time;
-  if (newer.origin != Origin::kMeasured || time - newer.time > coast) return pose;
-  if (time == newer.time) return newer;
+  if (newer.status != PoseStatus::kMeasured || time - newer.time > coast) {
+    return pose;
+  }
+  if (time == newer.time) {
+    return newer;
+  }
   const double baseline_s = seconds(newer.time - older.time);
   const bool moving =
-      older.origin == Origin::kMeasured && baseline_s > 0.0 && baseline_s <= kLongestBaselineS;
+      older.status == PoseStatus::kMeasured && baseline_s > 0.0 && baseline_s <= kLongestBaselineS;
   const double ahead_s = seconds(time - newer.time);
-  if (ahead_s < 0.0 && (!moving || time < older.time)) return pose;
+  if (ahead_s < 0.0 && (!moving || time < older.time)) {
+    return pose;
+  }
 
-  pose.origin = Origin::kPredicted;
+  pose.status = PoseStatus::kPredicted;
   const double dt = std::abs(ahead_s);
   const double grown = dt * dt * dt / 3.0;
   if (!moving) {
     pose.value = newer.value;
     pose.covariance = newer.covariance;
-    add_motion(pose.covariance, kUnknownSpeedM * kUnknownSpeedM * dt * dt + kAccelerationM * grown,
-               kUnknownSpeedRad * kUnknownSpeedRad * dt * dt + kAccelerationRad * grown);
+    add_motion(
+        pose.covariance,
+        kUnknownSpeedM * kUnknownSpeedM * dt * dt + kAccelerationSpectrum_m2_per_s3 * grown,
+        kUnknownSpeedRad * kUnknownSpeedRad * dt * dt + kAccelerationSpectrum_rad2_per_s3 * grown);
     return pose;
   }
   const double a = ahead_s / baseline_s;
   pose.value = interpolated(older.value, newer.value, 1.0 + a);
   // value = (1 + a) newer - a older, to first order in the rotation as well.
-  for (std::size_t i = 0; i < pose.covariance.size(); ++i)
+  for (std::size_t i = 0; i < pose.covariance.size(); ++i) {
     pose.covariance[i] = (1.0 + a) * (1.0 + a) * newer.covariance[i] + a * a * older.covariance[i];
-  add_motion(pose.covariance, kAccelerationM * grown, kAccelerationRad * grown);
+  }
+  add_motion(pose.covariance, kAccelerationSpectrum_m2_per_s3 * grown,
+             kAccelerationSpectrum_rad2_per_s3 * grown);
   return pose;
 }
 

@@ -6,9 +6,12 @@
 namespace orthonav::nav {
 
 void AlignmentEstimator::add(const AlignmentEquations& pair) {
-  for (std::size_t i = 0; i < 9; ++i)
-    information_[i] += options_.independent_share * pair.information[i];
-  for (std::size_t i = 0; i < 3; ++i) right_[i] += options_.independent_share * pair.right[i];
+  for (std::size_t i = 0; i < 9; ++i) {
+    information_[i] += options_.independent_fraction * pair.information[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    right_[i] += options_.independent_fraction * pair.right[i];
+  }
   ++pairs_;
 }
 
@@ -19,15 +22,18 @@ void AlignmentEstimator::restart() {
 }
 
 std::optional<StereoAlignment> AlignmentEstimator::estimate() const {
-  if (pairs_ == 0) return std::nullopt;
+  if (pairs_ == 0) {
+    return std::nullopt;
+  }
   const Eigen::Map<const Eigen::Matrix3d> information(information_.data());
   const Eigen::Map<const Eigen::Vector3d> right(right_.data());
   const Eigen::LDLT<Eigen::Matrix3d> solver(information);
   const Eigen::Vector3d rotation = solver.solve(right);
   const Eigen::Matrix3d covariance = solver.solve(Eigen::Matrix3d::Identity());
   if (solver.info() != Eigen::Success || !rotation.allFinite() || !covariance.allFinite() ||
-      !(covariance.diagonal().minCoeff() > 0.0))
+      !(covariance.diagonal().minCoeff() > 0.0)) {
     return std::nullopt;
+  }
   StereoAlignment out;
   out.rotation_rad = {rotation.x(), rotation.y(), rotation.z()};
   out.sd_rad = {std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)),

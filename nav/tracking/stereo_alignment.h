@@ -17,7 +17,7 @@ struct AlignmentEquations {
 
 struct AlignmentOptions {
   /// Errors repeat from pair to pair: so much of a pair's information is new.
-  double independent_share = 0.05;
+  double independent_fraction = 0.05;
   /// Less than 30 pairs are an accident.
   std::int64_t min_pairs = 30;
   /// Squared and normalised, 3 degrees of freedom: 1 in 10 million by chance.

@@ -14,24 +14,30 @@ Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
 Eigen::Matrix3d as_eigen(const Mat3& m) {
   Eigen::Matrix3d out;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) out(r, c) = m[r][static_cast<std::size_t>(c)];
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      out(r, c) = m[r][static_cast<std::size_t>(c)];
+    }
+  }
   return out;
 }
 
 PoseCovariance symmetrized(const Matrix6& m) {
   PoseCovariance out;
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c)
+  for (int r = 0; r < 6; ++r) {
+    for (int c = 0; c < 6; ++c) {
       out[static_cast<std::size_t>(6 * r + c)] = 0.5 * (m(r, c) + m(c, r));
+    }
+  }
   return out;
 }
 
 // How a point of the body moves with a small shift and turn: [I, -[arm]x].
-Matrix36 point_by_pose(Vec3 arm) {
+Matrix36 point_by_pose(Vec3 lever_arm) {
   Matrix36 j;
   j.leftCols<3>().setIdentity();
-  j.rightCols<3>() << 0, arm.z, -arm.y, -arm.z, 0, arm.x, arm.y, -arm.x, 0;
+  j.rightCols<3>() << 0, lever_arm.z, -lever_arm.y, -lever_arm.z, 0, lever_arm.x, lever_arm.y,
+      -lever_arm.x, 0;
   return j;
 }
 
@@ -51,14 +57,17 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
           corner_in_rig(corners.left_px[i] + left_step, corners.right_px[i] + right_step);
       const auto behind =
           corner_in_rig(corners.left_px[i] - left_step, corners.right_px[i] - right_step);
-      if (!ahead || !behind) return false;
+      if (!ahead || !behind) {
+        return false;
+      }
       const Eigen::Vector3d slope = as_eigen(*ahead - *behind) / (2.0 * kStepPx);
       noise += variance * slope * slope.transpose();
       return true;
     };
     if (!add({kStepPx, 0}, {}, left_variance_px2) || !add({0, kStepPx}, {}, left_variance_px2) ||
-        !add({}, {kStepPx, 0}, right_variance_px2) || !add({}, {0, kStepPx}, right_variance_px2))
+        !add({}, {kStepPx, 0}, right_variance_px2) || !add({}, {0, kStepPx}, right_variance_px2)) {
       return std::nullopt;
+    }
     const Matrix36 j = point_by_pose(rig_from_marker.rotation() * in_marker_m[i]);
     normal += j.transpose() * j;
     spread += j.transpose() * noise * j;

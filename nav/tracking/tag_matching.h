@@ -15,7 +15,7 @@ struct MatchLimits {
   /// off by 0.6 px across the epipolar lines; a chance match is off by tens.
   double gap_px = 2.0;
   /// Triangulated size by the tool's, and what the four corners depart from a square, by the size.
-  double size_share = 0.15;
+  double size_fraction = 0.15;
 };
 
 /// The sightings of one tag in a pair of images that belong together; null where there is none.

@@ -64,7 +64,9 @@ template <class CameraFrame>
   const auto in_tag = corners_in_marker(size_m);
   for (std::size_t k = 0; k < 4; ++k) {
     const auto seen = camera.project((camera_from_tag * Point<Tag>{in_tag[k]}).v);
-    if (!seen) return std::nullopt;
+    if (!seen) {
+      return std::nullopt;
+    }
     corners[k] = *seen;
   }
   return corners;

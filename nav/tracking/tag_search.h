@@ -14,7 +14,7 @@ struct CellMatch {
   Vec2 shift_px{};           ///< from where the pose puts the tag
   double correlation = 0.0;  ///< of grey and template, over the cells in the image
   double code = 0.0;         ///< the same over the cells that tell one id from another
-  double share = 0.0;        ///< of the cells that lie in the image
+  double fraction = 0.0;     ///< of the cells that lie in the image
 };
 
 /// Looks for a tag around where a pose puts it, by its bits: a correlation over the middles of its

@@ -12,21 +12,25 @@ bool TagSizeEstimator::is_due() {
 
 void TagSizeEstimator::add(const SizeEvidence& measured) {
   const double sd = std::max(measured.sd, options_.least_sd);
-  if (!std::isfinite(sd) || !std::isfinite(measured.share)) return;
+  if (!std::isfinite(sd) || !std::isfinite(measured.fraction)) {
+    return;
+  }
   information_ += 1.0 / (sd * sd);
-  sum_ += measured.share / (sd * sd);
+  sum_ += measured.fraction / (sd * sd);
   ++measurements_;
 }
 
 std::optional<TagSize> TagSizeEstimator::estimate() const {
-  if (measurements_ == 0) return std::nullopt;
+  if (measurements_ == 0) {
+    return std::nullopt;
+  }
   TagSize out;
-  out.share = sum_ / information_;
+  out.fraction = sum_ / information_;
   out.sd = 1.0 / std::sqrt(information_);
   out.measurements = measurements_;
-  out.notable = std::abs(out.share) > options_.min_share;
+  out.notable = std::abs(out.fraction) > options_.min_fraction;
   out.disagrees = out.notable && measurements_ >= options_.first &&
-                  std::abs(out.share) > options_.certain_sd * out.sd;
+                  std::abs(out.fraction) > options_.certain_sd * out.sd;
   return out;
 }
 

@@ -7,7 +7,7 @@ namespace orthonav::nav {
 
 /// The share by which a tool's tag was measured to be larger than stated.
 struct SizeEvidence {
-  double share = 0.0;
+  double fraction = 0.0;
   double sd = 0.0;
 };
 
@@ -21,12 +21,12 @@ struct TagSizeOptions {
   double certain_sd = 5.0;
   /// Less than this may be the cameras: 0.6 px across, as a real unit was off by, look like 0.8 %
   /// at arm's length. A page "fitted to paper" is 3 % and more.
-  double min_share = 0.015;
+  double min_fraction = 0.015;
 };
 
 /// A tool's tags as the two cameras measure them.
 struct TagSize {
-  double share = 0.0;  ///< by which they are larger than stated
+  double fraction = 0.0;  ///< by which they are larger than stated
   double sd = 0.0;
   std::int64_t measurements = 0;
   bool notable = false;  ///< more than small errors of the cameras look like

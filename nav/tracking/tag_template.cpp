@@ -8,7 +8,9 @@ namespace orthonav::nav {
 // is white, the border itself), and the bits that are set.
 std::optional<TagTemplate> tag_template(std::string_view family, int id) {
   const auto code = tag_code(family, id);
-  if (!code) return std::nullopt;
+  if (!code) {
+    return std::nullopt;
+  }
   TagTemplate tag;
   tag.cells = code->cells;
   tag.border_cells = code->border_cells;
@@ -20,14 +22,17 @@ std::optional<TagTemplate> tag_template(std::string_view family, int id) {
   const int ring = tag.border_cells + (code->white_border ? 0 : 2);
   const int first = (tag.cells - ring) / 2;
   const int last = first + ring - 1;
-  for (int i = first; i <= last; ++i)
+  for (int i = first; i <= last; ++i) {
     tag.white[index(first, i)] = tag.white[index(last, i)] = tag.white[index(i, first)] =
         tag.white[index(i, last)] = 1.0F;
+  }
   const int border = (tag.cells - tag.border_cells) / 2;
   for (const TagCode::Bit& bit : code->bits) {
     const std::size_t i = index(bit.row + border, bit.column + border);
     tag.code[i] = true;
-    if (bit.white) tag.white[i] = 1.0F;
+    if (bit.white) {
+      tag.white[i] = 1.0F;
+    }
   }
   return tag;
 }

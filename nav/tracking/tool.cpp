@@ -25,33 +25,39 @@ std::string number(double value) {
 
 void check_marker(const MarkerDefinition& marker, const std::string& name,
                   std::vector<std::string>& problems) {
-  if (!is_known_family(marker.family))
+  if (!is_known_family(marker.family)) {
     problems.push_back(name + ": unknown tag family '" + marker.family + "', known are " +
                        known_families_text());
+  }
   const int ids = family_size(marker.family);
-  if (marker.id < 0 || (ids > 0 && marker.id >= ids))
+  if (marker.id < 0 || (ids > 0 && marker.id >= ids)) {
     problems.push_back(name + ": tag id " + std::to_string(marker.id) + ", must be 0-" +
                        std::to_string(std::max(ids, 1) - 1));
-  if (!(marker.size_m >= kSmallestMarkerM && marker.size_m <= kLargestMarkerM))
+  }
+  if (!(marker.size_m >= kSmallestMarkerM && marker.size_m <= kLargestMarkerM)) {
     problems.push_back(name + ": tag size " + number(marker.size_m * 1e3) +
                        " mm, must be 5-200 mm");
+  }
 }
 
 void check_geometry(const ToolGeometry& tool, const std::string& name,
                     std::vector<std::string>& problems) {
   const double reach_m = tool.tip_in_marker.v.norm();
-  if (!(reach_m <= kFarthestM))
+  if (!(reach_m <= kFarthestM)) {
     problems.push_back(name + ": tip " + number(reach_m * 1e3) +
                        " mm from its marker, limit 1000 mm");
+  }
   const double length = tool.axis_in_marker.v.norm();
-  if (!(std::abs(length - 1.0) <= kUnitTolerance))
+  if (!(std::abs(length - 1.0) <= kUnitTolerance)) {
     problems.push_back(name + ": axis has length " + number(length) + ", must be 1");
+  }
   for (const AttachedMarker& more : tool.more_markers) {
     check_marker(more.definition, name, problems);
     const double distance_m = more.marker_from_tag.translation().norm();
-    if (!(distance_m <= kFarthestM))
+    if (!(distance_m <= kFarthestM)) {
       problems.push_back(name + ": tag id " + std::to_string(more.definition.id) + " lies " +
                          number(distance_m * 1e3) + " mm from its marker, limit 1000 mm");
+    }
   }
 }
 
@@ -64,9 +70,10 @@ void check_given_once(const MarkerDefinition& marker, const std::string& name,
                       std::map<std::pair<std::string, int>, std::string>& tags,
                       std::vector<std::string>& problems) {
   const auto [given, is_new] = tags.try_emplace({marker.family, marker.id}, name);
-  if (!is_new)
+  if (!is_new) {
     problems.push_back(name + ": tag " + marker.family + " id " + std::to_string(marker.id) +
                        " is already on " + given->second);
+  }
 }
 
 }  // namespace
@@ -74,28 +81,37 @@ void check_given_once(const MarkerDefinition& marker, const std::string& name,
 std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {
   std::vector<std::string> problems;
   std::map<std::pair<std::string, int>, std::string> tags;
-  if (tools.empty()) problems.push_back("no tools given");
+  if (tools.empty()) {
+    problems.push_back("no tools given");
+  }
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const ToolGeometry& tool = tools[i];
     const std::string name = title_of(tools, i);
-    if (tool.name.empty()) problems.push_back(name + ": name is empty");
+    if (tool.name.empty()) {
+      problems.push_back(name + ": name is empty");
+    }
     check_marker(tool.marker, name, problems);
     check_geometry(tool, name, problems);
-    for (std::size_t j = 0; j < i; ++j)
-      if (!tool.name.empty() && tools[j].name == tool.name)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!tool.name.empty() && tools[j].name == tool.name) {
         problems.push_back(name + ": the name is given twice");
+      }
+    }
     check_given_once(tool.marker, name, tags, problems);
-    for (const AttachedMarker& more : tool.more_markers)
+    for (const AttachedMarker& more : tool.more_markers) {
       check_given_once(more.definition, name, tags, problems);
+    }
   }
   return problems;
 }
 
 std::vector<std::string> families_of(const std::vector<MarkerDefinition>& tags) {
   std::vector<std::string> families;
-  for (const MarkerDefinition& tag : tags)
-    if (std::find(families.begin(), families.end(), tag.family) == families.end())
+  for (const MarkerDefinition& tag : tags) {
+    if (std::find(families.begin(), families.end(), tag.family) == families.end()) {
       families.push_back(tag.family);
+    }
+  }
   return families;
 }
 
@@ -103,7 +119,9 @@ std::vector<std::string> families_of(const std::vector<ToolGeometry>& tools) {
   std::vector<MarkerDefinition> tags;
   for (const ToolGeometry& tool : tools) {
     tags.push_back(tool.marker);
-    for (const AttachedMarker& more : tool.more_markers) tags.push_back(more.definition);
+    for (const AttachedMarker& more : tool.more_markers) {
+      tags.push_back(more.definition);
+    }
   }
   return families_of(tags);
 }

@@ -20,7 +20,7 @@ constexpr double kSameId = 0.5;
 /// A single camera must see so much of a tag: with less a wrong pose may explain the rest.
 constexpr double kKeptByOne = 0.7;
 /// Less of a tag in an image is not worth the risk.
-constexpr double kLeastShare = 0.5;
+constexpr double kLeastFraction = 0.5;
 /// Steeper than 80° a tag is a line.
 constexpr double kLeastCosine = 0.17;
 constexpr double kFarthestDoubtPx = 24.0;
@@ -42,7 +42,7 @@ bool faces(const CameraFromTag& pose) {
 }
 
 /// Shifts in the images become a shift in space, by least squares.
-struct ShiftInSpace {
+struct TranslationInSpace {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
 
@@ -51,7 +51,9 @@ struct ShiftInSpace {
     const Vec2 u{in_camera_m.x / in_camera_m.z, in_camera_m.y / in_camera_m.z};
     const auto from = camera.project(u);
     const auto to = from ? camera.unproject(*from + shift_px) : std::nullopt;
-    if (!to) return;
+    if (!to) {
+      return;
+    }
     for (int k = 0; k < 2; ++k) {
       const double slope = k == 0 ? u.x : u.y;
       const Vec3 row = (camera_from_rig.row(k) - slope * camera_from_rig.row(2)) / in_camera_m.z;
@@ -73,8 +75,9 @@ struct ShiftInSpace {
 Status ToolFollower::add(const MarkerDefinition& marker,
                          const Transform<Marker, Tag>& marker_from_tag) {
   auto tag = tag_template(marker.family, marker.id);
-  if (!tag)
+  if (!tag) {
     return Error{"tag family '" + marker.family + "' has no id " + std::to_string(marker.id)};
+  }
   tags_.emplace_back(std::move(*tag), marker.size_m);
   for (const bool right : {false, true}) {
     TagView view;
@@ -88,9 +91,12 @@ Status ToolFollower::add(const MarkerDefinition& marker,
 Result<ToolFollower> ToolFollower::create(const ToolGeometry& tool) {
   ToolFollower follower;
   Status added = follower.add(tool.marker, {});
-  for (std::size_t i = 0; i < tool.more_markers.size() && added; ++i)
+  for (std::size_t i = 0; i < tool.more_markers.size() && added; ++i) {
     added = follower.add(tool.more_markers[i].definition, tool.more_markers[i].marker_from_tag);
-  if (!added) return Error{"tool '" + tool.name + "': " + added.error().message};
+  }
+  if (!added) {
+    return Error{"tool '" + tool.name + "': " + added.error().message};
+  }
   follower.light_.resize(follower.views_.size());
   return follower;
 }
@@ -100,7 +106,7 @@ void ToolFollower::forget() { light_.assign(views_.size(), {}); }
 bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>& pose,
                                 double doubt_m, const PhotometricSolver& solver,
                                 TagSearch& search) {
-  ShiftInSpace shift;
+  TranslationInSpace shift;
   bool shifted = false;
   bool any = false;
   for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -109,25 +115,37 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     view.light = light_[i];
     view.used = false;
     const CameraFromTag seen = solver.camera_from_tag(view, pose);
-    if (!faces(seen)) continue;
+    if (!faces(seen)) {
+      continue;
+    }
     const CameraModel& camera = camera_of(solver, view);
     const GreyImage& image = image_of(frame, view);
     CellMatch match = search.match(image, camera, *view.tag, seen);
-    if (match.share < kLeastShare) continue;
+    if (match.fraction < kLeastFraction) {
+      continue;
+    }
     if (match.correlation < kFoundHere) {
       const double px = solver.focal_px(view.right) * doubt_m / seen.translation_m.z;
       match = search.best_shift(image, static_cast<int>(std::ceil(std::min(px, kFarthestDoubtPx))));
-      if (match.correlation < kFoundNear) continue;
+      if (match.correlation < kFoundNear) {
+        continue;
+      }
     }
-    if (match.code < kSameId) continue;
+    if (match.code < kSameId) {
+      continue;
+    }
     shifted = shifted || match.shift_px.norm() > 0.0;
-    const Mat3& turn = view.right ? solver.calibration().right_from_rig.rotation()
-                                  : solver.calibration().left_from_rig.rotation();
-    shift.add(camera, turn, seen.translation_m, match.shift_px);
+    const Mat3& rotation_step = view.right ? solver.calibration().right_from_rig.rotation()
+                                           : solver.calibration().left_from_rig.rotation();
+    shift.add(camera, rotation_step, seen.translation_m, match.shift_px);
     view.used = any = true;
   }
-  if (!any) return false;
-  if (shifted) pose = {pose.rotation(), pose.translation() + shift.solved()};
+  if (!any) {
+    return false;
+  }
+  if (shifted) {
+    pose = {pose.rotation(), pose.translation() + shift.solved()};
+  }
   return true;
 }
 
@@ -135,11 +153,17 @@ bool ToolFollower::looks_right(const StereoFrame& frame, const PhotometricFit& f
                                const PhotometricSolver& solver, TagSearch& search) const {
   const bool one_camera = fit.left != fit.right;
   for (const TagView& view : views_) {
-    if (!view.used) continue;
+    if (!view.used) {
+      continue;
+    }
     const CellMatch match = search.match(image_of(frame, view), camera_of(solver, view), *view.tag,
                                          solver.camera_from_tag(view, fit.rig_from_marker));
-    if (match.correlation < kBelieved || match.code < kSameId) return false;
-    if (one_camera && view.kept_share < kKeptByOne) return false;
+    if (match.correlation < kBelieved || match.code < kSameId) {
+      return false;
+    }
+    if (one_camera && view.kept_fraction < kKeptByOne) {
+      return false;
+    }
   }
   return true;
 }
@@ -148,12 +172,19 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
                                             const Transform<Rig, Marker>& expected, double doubt_m,
                                             PhotometricSolver& solver, TagSearch& search) {
   Transform<Rig, Marker> start = expected;
-  if (!choose_views(frame, start, doubt_m, solver, search)) return std::nullopt;
+  if (!choose_views(frame, start, doubt_m, solver, search)) {
+    return std::nullopt;
+  }
   const double cell_m = tags_.front().cell_m();
   const auto fit = solver.solve(frame, start, std::min(doubt_m, kUnshiftedCells * cell_m), views_);
-  if (!fit || !looks_right(frame, *fit, solver, search)) return std::nullopt;
-  for (std::size_t i = 0; i < views_.size(); ++i)
-    if (views_[i].used) light_[i] = views_[i].light;
+  if (!fit || !looks_right(frame, *fit, solver, search)) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    if (views_[i].used) {
+      light_[i] = views_[i].light;
+    }
+  }
   learn_exposure(frame, fit->rig_from_marker, solver);
   return ToolFit{fit->rig_from_marker, turned(fit->covariance, fit->rig_from_marker.rotation()),
                  fit->left, fit->right, solver.alignment(*fit, views_)};
@@ -162,7 +193,9 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
 void ToolFollower::learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,
                                   const PhotometricSolver& solver) {
   std::size_t i = 0;
-  while (!views_[i].used) ++i;
+  while (!views_[i].used) {
+    ++i;
+  }
   const TagView& view = views_[i];
   const CameraFromTag seen = solver.camera_from_tag(view, pose);
   const CameraModel& camera = camera_of(solver, view);
@@ -173,7 +206,9 @@ void ToolFollower::learn_exposure(const StereoFrame& frame, const Transform<Rig,
   const auto centre = pixel({});
   const auto across = pixel({cell_m, 0.0, 0.0});
   const auto down = pixel({0.0, -cell_m, 0.0});
-  if (!centre || !across || !down) return;
+  if (!centre || !across || !down) {
+    return;
+  }
   exposure_.add({i,
                  frame.time,
                  *centre,
@@ -186,8 +221,12 @@ std::optional<SizeEvidence> ToolFollower::measured_size(const StereoFrame& frame
                                                         const Transform<Rig, Marker>& pose,
                                                         PhotometricSolver& solver) {
   std::size_t tag = 0;
-  while (tag < tags_.size() && !(views_[2 * tag].used && views_[2 * tag + 1].used)) ++tag;
-  if (tag == tags_.size()) return std::nullopt;
+  while (tag < tags_.size() && !(views_[2 * tag].used && views_[2 * tag + 1].used)) {
+    ++tag;
+  }
+  if (tag == tags_.size()) {
+    return std::nullopt;
+  }
   const StereoCalibration& c = solver.calibration();
   const std::array<Vec3, 2> eyes = {c.left_from_rig.inverse().translation(),
                                     c.right_from_rig.inverse().translation()};
@@ -197,22 +236,29 @@ std::optional<SizeEvidence> ToolFollower::measured_size(const StereoFrame& frame
     alone_ = views_[2 * tag + k];
     const auto fit =
         solver.solve(frame, pose, kUnshiftedCells * alone_.tag->cell_m(), {&alone_, 1});
-    if (!fit) return std::nullopt;
+    if (!fit) {
+      return std::nullopt;
+    }
     const Transform<Rig, Tag> rig_from_tag = fit->rig_from_marker * alone_.marker_from_tag;
     alone[k] = rig_from_tag.translation();
     const Vec3 sight = alone[k] - eyes[k];
     const PoseCovariance in_rig = turned(fit->covariance, fit->rig_from_marker.rotation());
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t b = 0; b < 3; ++b)
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = 0; b < 3; ++b) {
         variance += 0.25 * sight[static_cast<int>(a)] * in_rig[6 * a + b] *
                     sight[static_cast<int>(b)] / std::pow(sight.squared_norm(), 2);
+      }
+    }
   }
   const auto both = closest_point({eyes[0], alone[0] - eyes[0]}, {eyes[1], alone[1] - eyes[1]});
-  if (!both) return std::nullopt;
-  double share = 0.0;
-  for (std::size_t k = 0; k < 2; ++k)
-    share += 0.5 * ((both->point_m - eyes[k]).norm() / (alone[k] - eyes[k]).norm() - 1.0);
-  return SizeEvidence{share, std::sqrt(variance)};
+  if (!both) {
+    return std::nullopt;
+  }
+  double fraction = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    fraction += 0.5 * ((both->point_m - eyes[k]).norm() / (alone[k] - eyes[k]).norm() - 1.0);
+  }
+  return SizeEvidence{fraction, std::sqrt(variance)};
 }
 
 }  // namespace orthonav::nav

@@ -37,7 +37,7 @@ struct TrackerOptions {
   Duration coast = std::chrono::milliseconds(100);
   /// Spectral density of the corner filter's white acceleration, px²/s³, and its measurement SD.
   /// Small, since the filter opens by itself when a hand accelerates more than that.
-  double corner_acceleration_px = 400.0;
+  double corner_acceleration_px2_per_s3 = 400.0;
   double corner_noise_px = 0.1;
 };
 
@@ -61,15 +61,15 @@ class ToolTracker {
 /// The published method (Liebmann et al. 2019, section 3.1): AprilTag corners in both images,
 /// a constant-velocity Kalman filter for each corner, look-up to the unit plane, the closest point
 /// between the two rays, absolute orientation.
-Result<std::unique_ptr<ToolTracker>> create_paper_tracker(const StereoCalibration& calibration,
-                                                          std::vector<ToolGeometry> tools,
-                                                          const TrackerOptions& options = {});
+Result<std::unique_ptr<ToolTracker>> create_corner_tracker(const StereoCalibration& calibration,
+                                                           std::vector<ToolGeometry> tools,
+                                                           const TrackerOptions& options = {});
 
 /// The pose that makes the tool's tags, as they are printed, explain both images at once, started
 /// by a prediction (docs/tracking.md). Whole images are searched only for tools that are lost.
-Result<std::unique_ptr<ToolTracker>> create_best_tracker(const StereoCalibration& calibration,
-                                                         std::vector<ToolGeometry> tools,
-                                                         const TrackerOptions& options = {});
+Result<std::unique_ptr<ToolTracker>> create_photometric_tracker(
+    const StereoCalibration& calibration, std::vector<ToolGeometry> tools,
+    const TrackerOptions& options = {});
 
 /// Everything that keeps a tracker from being created, in one line.
 Status check(const StereoCalibration& calibration, const std::vector<ToolGeometry>& tools,

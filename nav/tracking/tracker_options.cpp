@@ -8,18 +8,26 @@ namespace orthonav::nav {
 
 Status check(const StereoCalibration& calibration, const std::vector<ToolGeometry>& tools,
              const TrackerOptions& options) {
-  if (const auto problems = problems_of(tools); !problems.empty())
+  if (const auto problems = problems_of(tools); !problems.empty()) {
     return Error{"tools: " + joined(problems)};
-  if (calibration.left.width_px() <= 0 || calibration.right.width_px() <= 0)
+  }
+  if (calibration.left.width_px() <= 0 || calibration.right.width_px() <= 0) {
     return Error{"tracker: the stereo calibration has no camera model"};
-  if (options.full_search_interval < 1)
+  }
+  if (options.full_search_interval < 1) {
     return Error{"tracker: full_search_interval " + std::to_string(options.full_search_interval) +
                  ", must be at least 1"};
-  if (options.coast < Duration::zero()) return Error{"tracker: coast is negative"};
-  if (!(options.corner_acceleration_px > 0.0) || !std::isfinite(options.corner_acceleration_px))
-    return Error{"tracker: corner_acceleration_px must be positive"};
-  if (!(options.corner_noise_px > 0.0) || !std::isfinite(options.corner_noise_px))
+  }
+  if (options.coast < Duration::zero()) {
+    return Error{"tracker: coast is negative"};
+  }
+  if (!(options.corner_acceleration_px2_per_s3 > 0.0) ||
+      !std::isfinite(options.corner_acceleration_px2_per_s3)) {
+    return Error{"tracker: corner_acceleration_px2_per_s3 must be positive"};
+  }
+  if (!(options.corner_noise_px > 0.0) || !std::isfinite(options.corner_noise_px)) {
     return Error{"tracker: corner_noise_px must be positive"};
+  }
   return {};
 }
 

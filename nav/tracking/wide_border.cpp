@@ -69,16 +69,19 @@ void thin(const GreyImage& image, const PixelBox& box, int window_px, GreyImage&
   thinned.height_px = box.height_px;
   thinned.pixels.resize(static_cast<std::size_t>(box.width_px) *
                         static_cast<std::size_t>(box.height_px));
-  for (int y = 0; y < box.height_px; ++y)
+  for (int y = 0; y < box.height_px; ++y) {
     for (int x = 0; x < box.width_px; ++x) {
       const int right = std::min(box.x_px + x + window_px, image.width_px);
       const int bottom = std::min(box.y_px + y + window_px, image.height_px);
       std::uint8_t brightest = 0;
-      for (int row = box.y_px + y; row < bottom; ++row)
-        for (int column = box.x_px + x; column < right; ++column)
+      for (int row = box.y_px + y; row < bottom; ++row) {
+        for (int column = box.x_px + x; column < right; ++column) {
           brightest = std::max(brightest, image.at(column, row));
+        }
+      }
       thinned.at(x, y) = brightest;
     }
+  }
 }
 
 bool has_wide_border(const GreyImage& image, const std::array<Vec2, 4>& corners_px) {
@@ -86,7 +89,9 @@ bool has_wide_border(const GreyImage& image, const std::array<Vec2, 4>& corners_
   // The white around is not there everywhere (an AprilGrid's squares): three quarters of it are.
   const double black = ring_mean(image, place, 0);
   const double white = ring_mean(image, place, -1);
-  if (!(white > black)) return false;
+  if (!(white > black)) {
+    return false;
+  }
   const double middle = 0.5 * (black + white);
   int bright = 0;
   along_ring(image, place, 1, [&](double grey) { bright += grey > middle ? 1 : 0; });

@@ -1,6 +1,6 @@
 #include "nav/tracking/worker.h"
 
-#include <cassert>
+#include "base/check.h"
 
 namespace orthonav::nav {
 
@@ -18,7 +18,7 @@ Worker::~Worker() {
 void Worker::start(void (*task)(void*), void* argument) {
   {
     const std::lock_guard lock(mutex_);
-    assert(!task_);
+    ORTHONAV_CHECK(!task_);
     task_ = task;
     argument_ = argument;
   }
@@ -34,7 +34,9 @@ void Worker::loop() {
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return task_ || ending_; });
-    if (!task_) return;
+    if (!task_) {
+      return;
+    }
     lock.unlock();
     task_(argument_);
     lock.lock();

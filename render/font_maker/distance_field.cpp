@@ -13,7 +13,9 @@ void transform_line(float* cells, int count, int stride) {
   std::vector<float> f(count);
   std::vector<int> apex(count);
   std::vector<float> bound(count + 1);
-  for (int i = 0; i < count; ++i) f[i] = cells[i * stride];
+  for (int i = 0; i < count; ++i) {
+    f[i] = cells[i * stride];
+  }
   const auto crossing = [&](int q, int p) {
     const auto fq = f[q] + static_cast<float>(q) * static_cast<float>(q);
     const auto fp = f[p] + static_cast<float>(p) * static_cast<float>(p);
@@ -25,14 +27,18 @@ void transform_line(float* cells, int count, int stride) {
   bound[1] = std::numeric_limits<float>::infinity();
   for (int q = 1; q < count; ++q) {
     float at = crossing(q, apex[last]);
-    while (at <= bound[last]) at = crossing(q, apex[--last]);
+    while (at <= bound[last]) {
+      at = crossing(q, apex[--last]);
+    }
     apex[++last] = q;
     bound[last] = at;
     bound[last + 1] = std::numeric_limits<float>::infinity();
   }
   int k = 0;
   for (int q = 0; q < count; ++q) {
-    while (bound[k + 1] < static_cast<float>(q)) ++k;
+    while (bound[k + 1] < static_cast<float>(q)) {
+      ++k;
+    }
     const auto off = static_cast<float>(q - apex[k]);
     cells[q * stride] = off * off + f[apex[k]];
   }
@@ -44,9 +50,15 @@ std::vector<float> distance_to(const Mask& mask, std::uint8_t target) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     cells[i] = (mask.inside[i] != 0) == (target != 0) ? 0.0f : kFar;
   }
-  for (int x = 0; x < mask.width; ++x) transform_line(&cells[x], mask.height, mask.width);
-  for (int y = 0; y < mask.height; ++y) transform_line(&cells[y * mask.width], mask.width, 1);
-  for (float& cell : cells) cell = std::sqrt(cell);
+  for (int x = 0; x < mask.width; ++x) {
+    transform_line(&cells[x], mask.height, mask.width);
+  }
+  for (int y = 0; y < mask.height; ++y) {
+    transform_line(&cells[y * mask.width], mask.width, 1);
+  }
+  for (float& cell : cells) {
+    cell = std::sqrt(cell);
+  }
   return cells;
 }
 

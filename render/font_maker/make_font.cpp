@@ -29,11 +29,17 @@ constexpr char32_t kFigureDash = U'\u2012';
 /// Latin with accents, and the signs a navigation display needs.
 std::vector<char32_t> wanted() {
   std::vector<char32_t> codes;
-  for (char32_t c = 0x20; c < 0x7f; ++c) codes.push_back(c);
-  for (char32_t c = 0xa0; c < 0x180; ++c) codes.push_back(c);
+  for (char32_t c = 0x20; c < 0x7f; ++c) {
+    codes.push_back(c);
+  }
+  for (char32_t c = 0xa0; c < 0x180; ++c) {
+    codes.push_back(c);
+  }
   for (const char32_t c :
        U"ΔΘΣΩαβγδεθκλμπρσφω‐‑‒–—‘’“”•…′″←↑→↓↔↕−∞≈≠≤≥⌀□▲▶▼◀◆◇○◐●✓✗\u2007\u2009\u202f") {
-    if (c != 0) codes.push_back(c);
+    if (c != 0) {
+      codes.push_back(c);
+    }
   }
   std::sort(codes.begin(), codes.end());
   codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
@@ -66,8 +72,9 @@ std::uint8_t texel(const std::vector<float>& fine, int fine_width, int x, int y)
   const int cy = y * kOversampling + kOversampling / 2;
   float sum = 0;
   for (const int dy : {-1, 0}) {
-    for (const int dx : {-1, 0})
+    for (const int dx : {-1, 0}) {
       sum += fine[static_cast<std::size_t>(cy + dy) * fine_width + cx + dx];
+    }
   }
   const float distance_px = 0.25f * sum / kOversampling;
   const float value = 127.5f + 127.5f * distance_px / kPadding_px;
@@ -85,7 +92,9 @@ Cell cell_of(FT_Face face, char32_t code, float cap_px) {
   cell.glyph.advance =
       static_cast<float>(slot->linearHoriAdvance) / 65536.0f / kOversampling / cap_px;
   const FT_Bitmap& bitmap = slot->bitmap;
-  if (slot->outline.n_points == 0) return cell;  // a blank: nothing to draw
+  if (slot->outline.n_points == 0) {
+    return cell;  // a blank: nothing to draw
+  }
   // Bounds of the fine picture on the coarse grid, baseline origin, y up.
   const int pad = kPadding_px * kOversampling;
   const int x0 = floor_to(slot->bitmap_left - pad, kOversampling);
@@ -99,7 +108,9 @@ Cell cell_of(FT_Face face, char32_t code, float cap_px) {
   cell.width_px = mask.width / kOversampling;
   cell.height_px = mask.height / kOversampling;
   for (int y = 0; y < cell.height_px; ++y) {
-    for (int x = 0; x < cell.width_px; ++x) cell.texels.push_back(texel(fine, mask.width, x, y));
+    for (int x = 0; x < cell.width_px; ++x) {
+      cell.texels.push_back(texel(fine, mask.width, x, y));
+    }
   }
   const auto in_caps = [&](int fine_px) {
     return static_cast<float>(fine_px) / kOversampling / cap_px;
@@ -150,7 +161,9 @@ void set_apart(std::vector<Cell>& cells) {
   };
   const auto dash = find(kFigureDash);
   const auto hyphen = find(U'-');
-  if (dash == cells.end() || hyphen == cells.end()) return;
+  if (dash == cells.end() || hyphen == cells.end()) {
+    return;
+  }
   const float advance = dash->glyph.advance;
   const float shift = 0.5f * (advance - hyphen->glyph.advance);
   *dash = *hyphen;
@@ -172,12 +185,16 @@ int make(const char* font_path, const char* out_path) {
     return fail("the font can't be opened");
   }
   FT_Set_Pixel_Sizes(face, 0, kEm_px * kOversampling);
-  if (FT_Load_Char(face, U'H', FT_LOAD_NO_HINTING)) return fail("the font has no H");
+  if (FT_Load_Char(face, U'H', FT_LOAD_NO_HINTING)) {
+    return fail("the font has no H");
+  }
   const float cap_px =
       static_cast<float>(face->glyph->metrics.horiBearingY) / 64.0f / kOversampling;
   std::vector<Cell> cells;
   for (const char32_t code : wanted()) {
-    if (FT_Get_Char_Index(face, code) == 0) continue;
+    if (FT_Get_Char_Index(face, code) == 0) {
+      continue;
+    }
     if (FT_Load_Char(face, code, FT_LOAD_NO_HINTING) ||
         FT_Render_Glyph(face->glyph, FT_RENDER_MODE_MONO)) {
       return fail("a glyph can't be rendered");
@@ -209,6 +226,8 @@ int make(const char* font_path, const char* out_path) {
 }  // namespace orthonav::font_maker
 
 int main(int argc, char** argv) {
-  if (argc != 3) return orthonav::font_maker::fail("usage: make_font FONT.ttf OUT");
+  if (argc != 3) {
+    return orthonav::font_maker::fail("usage: make_font FONT.ttf OUT");
+  }
   return orthonav::font_maker::make(argv[1], argv[2]);
 }

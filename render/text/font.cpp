@@ -1,9 +1,9 @@
 #include "render/text/font.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 
+#include "base/check.h"
 #include "embedded/font_atlas.h"
 
 namespace orthonav::render {
@@ -15,11 +15,11 @@ constexpr char32_t kMissing = U'□';
 
 Font::Font() {
   const std::string_view file = embedded::font_atlas();
-  assert(file.size() > sizeof(header_));
+  ORTHONAV_CHECK(file.size() > sizeof(header_));
   std::memcpy(&header_, file.data(), sizeof(header_));
   const std::size_t glyph_bytes = header_.glyphs * sizeof(FontFileGlyph);
   const std::size_t texels = std::size_t{header_.width_px} * header_.height_px;
-  assert(file.size() == sizeof(header_) + glyph_bytes + texels);
+  ORTHONAV_CHECK(file.size() == sizeof(header_) + glyph_bytes + texels);
   glyphs_.resize(header_.glyphs);
   std::memcpy(glyphs_.data(), file.data() + sizeof(header_), glyph_bytes);
   atlas_.resize(texels);
@@ -38,7 +38,9 @@ bool Font::has(char32_t code) const { return find(code) != nullptr; }
 
 const FontFileGlyph& Font::glyph(char32_t code) const {
   const FontFileGlyph* found = find(code);
-  if (found == nullptr) found = find(kMissing);
+  if (found == nullptr) {
+    found = find(kMissing);
+  }
   return found != nullptr ? *found : glyphs_.front();
 }
 

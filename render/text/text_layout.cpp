@@ -27,34 +27,52 @@ struct Lead {
 };
 
 std::optional<Lead> lead_of(unsigned char byte) {
-  if (byte < 0x80) return Lead{0, byte, 0};
-  if ((byte & 0xe0) == 0xc0) return Lead{1, byte & 0x1fu, 0x80};
-  if ((byte & 0xf0) == 0xe0) return Lead{2, byte & 0x0fu, 0x800};
-  if ((byte & 0xf8) == 0xf0) return Lead{3, byte & 0x07u, 0x10000};
+  if (byte < 0x80) {
+    return Lead{0, byte, 0};
+  }
+  if ((byte & 0xe0) == 0xc0) {
+    return Lead{1, byte & 0x1fu, 0x80};
+  }
+  if ((byte & 0xf0) == 0xe0) {
+    return Lead{2, byte & 0x0fu, 0x800};
+  }
+  if ((byte & 0xf8) == 0xf0) {
+    return Lead{3, byte & 0x07u, 0x10000};
+  }
   return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<char32_t> take_code_point(std::string_view& text) {
-  if (text.empty()) return std::nullopt;
+  if (text.empty()) {
+    return std::nullopt;
+  }
   const std::optional<Lead> lead = lead_of(static_cast<unsigned char>(text.front()));
-  if (!lead || text.size() < static_cast<std::size_t>(lead->more) + 1) return std::nullopt;
+  if (!lead || text.size() < static_cast<std::size_t>(lead->more) + 1) {
+    return std::nullopt;
+  }
   char32_t code = lead->bits;
   for (int i = 1; i <= lead->more; ++i) {
     const auto byte = static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
-    if ((byte & 0xc0) != 0x80) return std::nullopt;
+    if ((byte & 0xc0) != 0x80) {
+      return std::nullopt;
+    }
     code = code << 6 | (byte & 0x3fu);
   }
   const bool surrogate = code >= 0xd800 && code < 0xe000;
-  if (code < lead->least || surrogate || code > 0x10ffff) return std::nullopt;
+  if (code < lead->least || surrogate || code > 0x10ffff) {
+    return std::nullopt;
+  }
   text.remove_prefix(static_cast<std::size_t>(lead->more) + 1);
   return code;
 }
 
 bool is_utf8(std::string_view text) {
   while (!text.empty()) {
-    if (!take_code_point(text)) return false;
+    if (!take_code_point(text)) {
+      return false;
+    }
   }
   return true;
 }
@@ -93,7 +111,9 @@ void find_missing(const Font& font, const TextItem& item, std::vector<char32_t>&
     while (const auto code = take_code_point(rest)) {
       const bool known =
           font.has(*code) || std::find(missing.begin(), missing.end(), *code) != missing.end();
-      if (!known) missing.push_back(*code);
+      if (!known) {
+        missing.push_back(*code);
+      }
     }
   }
 }

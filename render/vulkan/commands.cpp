@@ -53,11 +53,15 @@ void Commands::submit() {
 }
 
 void Commands::wait() {
-  if (!underway_) return;
+  if (!underway_) {
+    return;
+  }
   underway_ = false;
   const VkResult result = vkWaitForFences(device_, 1, &finished_.get(), VK_TRUE,
                                           static_cast<std::uint64_t>(patience_.count()));
-  if (result == VK_SUCCESS) return;
+  if (result == VK_SUCCESS) {
+    return;
+  }
   // The batch can't be taken back. Nothing that it reads may go before it ends or the driver gives
   // the device up, however long that takes; waiting again tells nothing new.
   lost_ = true;

@@ -15,7 +15,9 @@ std::optional<std::uint32_t> graphics_family(VkPhysicalDevice physical) {
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) return i;
+    if (families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) {
+      return i;
+    }
   }
   return std::nullopt;
 }
@@ -29,7 +31,9 @@ bool offers(VkPhysicalDevice physical, VkFormat format, VkFormatFeatureFlags fea
 VkFormat depth_format_of(VkPhysicalDevice physical) {
   // 24 bits resolve a micrometre at arm's length and cost half of what 32 + 8 do.
   for (const VkFormat format : {VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT}) {
-    if (offers(physical, format, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT)) return format;
+    if (offers(physical, format, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT)) {
+      return format;
+    }
   }
   return VK_FORMAT_UNDEFINED;
 }
@@ -50,9 +54,15 @@ std::string type_name(VkPhysicalDeviceType type) {
 }
 
 int rank(const std::string& type) {
-  if (type == "discrete GPU") return 4;
-  if (type == "integrated GPU") return 3;
-  if (type == "virtual GPU") return 2;
+  if (type == "discrete GPU") {
+    return 4;
+  }
+  if (type == "integrated GPU") {
+    return 3;
+  }
+  if (type == "virtual GPU") {
+    return 2;
+  }
   return type == "CPU" ? 1 : 0;
 }
 
@@ -74,8 +84,12 @@ std::string shortcoming(VkPhysicalDevice physical, const VkPhysicalDevicePropert
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features.pNext = &multiview;
   vkGetPhysicalDeviceFeatures2(physical, &features);
-  if (multiview.multiview != VK_TRUE) return "no multiview";
-  if (!graphics_family(physical)) return "no graphics queue";
+  if (multiview.multiview != VK_TRUE) {
+    return "no multiview";
+  }
+  if (!graphics_family(physical)) {
+    return "no graphics queue";
+  }
   if (!offers(physical, kColourFormat,
               VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT)) {
     return "no blending into sRGB images";
@@ -83,7 +97,9 @@ std::string shortcoming(VkPhysicalDevice physical, const VkPhysicalDevicePropert
   if (!offers(physical, kLabelFormat, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)) {
     return "no 32-bit integer images";
   }
-  if (depth_format_of(physical) == VK_FORMAT_UNDEFINED) return "no depth with stencil";
+  if (depth_format_of(physical) == VK_FORMAT_UNDEFINED) {
+    return "no depth with stencil";
+  }
   const VkSampleCountFlags samples = properties.limits.framebufferColorSampleCounts &
                                      properties.limits.framebufferDepthSampleCounts &
                                      properties.limits.framebufferStencilSampleCounts;
@@ -106,8 +122,12 @@ DeviceInfo describe(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties basic;
   vkGetPhysicalDeviceProperties(physical, &basic);
   // The driver's own name came with 1.2; before it there is only a number.
-  if (basic.apiVersion >= VK_API_VERSION_1_2) properties.pNext = &driver;
-  if (basic.apiVersion >= VK_API_VERSION_1_1) vkGetPhysicalDeviceProperties2(physical, &properties);
+  if (basic.apiVersion >= VK_API_VERSION_1_2) {
+    properties.pNext = &driver;
+  }
+  if (basic.apiVersion >= VK_API_VERSION_1_1) {
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+  }
   DeviceInfo info;
   info.name = basic.deviceName;
   info.driver = driver.driverName[0] != '\0'
@@ -127,12 +147,18 @@ VkPhysicalDevice choose_device(const Instance& instance, const std::string& want
     const DeviceInfo info = describe(physical);
     seen += (seen.empty() ? "" : ", ") + info.name + (info.usable ? "" : " (" + info.reason + ")");
     const bool named = lower(info.name).find(lower(wanted)) != std::string::npos;
-    if (!info.usable || !named || rank(info.type) <= best_rank) continue;
+    if (!info.usable || !named || rank(info.type) <= best_rank) {
+      continue;
+    }
     best = physical;
     best_rank = rank(info.type);
   }
-  if (best != VK_NULL_HANDLE) return best;
-  if (seen.empty()) throw std::runtime_error("renderer: no Vulkan device on this machine");
+  if (best != VK_NULL_HANDLE) {
+    return best;
+  }
+  if (seen.empty()) {
+    throw std::runtime_error("renderer: no Vulkan device on this machine");
+  }
   throw std::runtime_error("renderer: no usable Vulkan device" +
                            (wanted.empty() ? "" : " named '" + wanted + "'") +
                            "; there is: " + seen);
@@ -141,9 +167,13 @@ VkPhysicalDevice choose_device(const Instance& instance, const std::string& want
 VkPhysicalDevice device_of(VulkanHost& host, const Instance& instance) {
   std::string error;
   auto* physical = static_cast<VkPhysicalDevice>(host.physical_device(instance.get(), error));
-  if (physical == VK_NULL_HANDLE) throw std::runtime_error(error);
+  if (physical == VK_NULL_HANDLE) {
+    throw std::runtime_error(error);
+  }
   const DeviceInfo info = describe(physical);
-  if (!info.usable) throw std::runtime_error("renderer: " + info.name + ": " + info.reason);
+  if (!info.usable) {
+    throw std::runtime_error("renderer: " + info.name + ": " + info.reason);
+  }
   return physical;
 }
 
@@ -183,7 +213,9 @@ Device::Device(VkPhysicalDevice physical, VulkanHost* host) {
     std::string error;
     device_ = static_cast<VkDevice>(host->create_device(
         physical, reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr), &info, error));
-    if (device_ == VK_NULL_HANDLE) throw std::runtime_error(error);
+    if (device_ == VK_NULL_HANDLE) {
+      throw std::runtime_error(error);
+    }
   } else {
     check(vkCreateDevice(physical, &info, nullptr, &device_), "Vulkan device");
   }
@@ -200,7 +232,9 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags r
   for (const VkMemoryPropertyFlags flags : {required | preferred, required}) {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
       const bool fits = (memory_.memoryTypes[i].propertyFlags & flags) == flags;
-      if ((allowed >> i & 1u) != 0 && fits) return i;
+      if ((allowed >> i & 1u) != 0 && fits) {
+        return i;
+      }
     }
   }
   throw VulkanFailure(VK_ERROR_OUT_OF_DEVICE_MEMORY, "memory of the wanted kind");

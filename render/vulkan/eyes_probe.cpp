@@ -40,7 +40,9 @@ bool draws_both_eyes_whole(const Device& device, Commands& commands, const Bindi
   const FramePass pass(device, VK_NULL_HANDLE, bindings.layout(), small_target(), Blend::kAdditive);
   const FrameItems items = covering_items(font);
   GpuFrame content;
-  for (GpuEye& eye : content.eyes) eye.clip_from_world = clip_from_world(View{});
+  for (GpuEye& eye : content.eyes) {
+    eye.clip_from_world = clip_from_world(View{});
+  }
   content.target = {kSide_px, kSide_px, 0, 0};
   const Buffer frame(device, sizeof(content), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                      BufferPlace::kUpload);

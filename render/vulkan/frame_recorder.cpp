@@ -39,8 +39,9 @@ class Recording {
   void begin() const {
     std::array<VkClearValue, 3> clear = {};
     // Colour to black, opaque or not there at all; a label to 0 everywhere.
-    if (sources_.pass.targets.spec().kind == PassKind::kColour)
+    if (sources_.pass.targets.spec().kind == PassKind::kColour) {
       clear[0].color.float32[3] = sources_.pass.clear_alpha;
+    }
     clear[draws_depth() ? 0 : 1].depthStencil = {1.0f, 0};
     VkRenderPassBeginInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
@@ -56,9 +57,13 @@ class Recording {
   }
 
   void background() const {
-    if (!sources_.has_background) return;
+    if (!sources_.has_background) {
+      return;
+    }
     bool bound = false;
-    if (!shows(region_, Stage::kBackground, bound)) return;
+    if (!shows(region_, Stage::kBackground, bound)) {
+      return;
+    }
     vkCmdDraw(commands_, 3, 1, 0, 0);
   }
 
@@ -68,10 +73,10 @@ class Recording {
     // is made anew from the solids alone.
     mesh_stage(Stage::kDepth, items.solids());
     if (draws_depth()) {
-      mesh_stage(Stage::kVeil, items.veils());
+      mesh_stage(Stage::kTranslucent, items.translucent_meshes());
       return;
     }
-    if (mesh_stage(Stage::kVeil, items.veils())) {
+    if (mesh_stage(Stage::kTranslucent, items.translucent_meshes())) {
       clear(VK_IMAGE_ASPECT_DEPTH_BIT);
       mesh_stage(Stage::kDepth, items.solids());
     }
@@ -81,7 +86,9 @@ class Recording {
   void triangles() const {
     bool bound = false;
     for (const SpanDraw& draw : sources_.items.triangles()) {
-      if (!shows(draw.bounds, Stage::kTriangle, bound)) continue;
+      if (!shows(draw.bounds, Stage::kTriangle, bound)) {
+        continue;
+      }
       push({kIdentity, draw.colour, {}, {draw.label, draw.first}});
       vkCmdDraw(commands_, draw.count, 1, 0, 0);
     }
@@ -93,11 +100,16 @@ class Recording {
     std::uint32_t stencil = 0;
     std::uint32_t item = 0;
     for (const SpanDraw& draw : sources_.items.lines()) {
-      if (!shows(draw.bounds, Stage::kLine, bound)) continue;
-      if (first)
+      if (!shows(draw.bounds, Stage::kLine, bound)) {
+        continue;
+      }
+      if (first) {
         vkCmdBindIndexBuffer(commands_, sources_.line_indices.get(), 0, VK_INDEX_TYPE_UINT32);
+      }
       // Depth may be written as often as one likes: it needs no stencil.
-      if (!draws_depth() && (first || draw.item != item)) next_stencil(stencil);
+      if (!draws_depth() && (first || draw.item != item)) {
+        next_stencil(stencil);
+      }
       first = false;
       item = draw.item;
       const std::uint32_t rounded = draw.rounded ? 1 : 0;
@@ -114,7 +126,9 @@ class Recording {
   void texts() const {
     bool bound = false;
     for (const TextDraw& draw : sources_.items.texts()) {
-      if (!shows(draw.bounds, Stage::kText, bound)) continue;
+      if (!shows(draw.bounds, Stage::kText, bound)) {
+        continue;
+      }
       const Colour& rim = draw.rim;
       push({draw.world_from_caps, {}, {rim.r, rim.g, rim.b, rim.a}, {draw.label, draw.first}});
       vkCmdDraw(commands_, 6 * draw.count, 1, 0, 0);
@@ -156,7 +170,9 @@ class Recording {
   }
   /// Whether it shows in this region; binds the stage's pipeline before the first that does.
   bool shows(const PixelRect& bounds, Stage stage, bool& bound) const {
-    if (!touch(bounds, region_)) return false;
+    if (!touch(bounds, region_)) {
+      return false;
+    }
     if (!bound) {
       vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,
                         sources_.pass.pipelines.get(stage));
@@ -192,7 +208,9 @@ class Recording {
     bool bound = false;
     for (const auto& [item, bounds] : meshes) {
       const GpuMesh* copy = sources_.meshes.find(item->mesh);
-      if (copy == nullptr || copy->index_count == 0 || !shows(bounds, stage, bound)) continue;
+      if (copy == nullptr || copy->index_count == 0 || !shows(bounds, stage, bound)) {
+        continue;
+      }
       const std::uint32_t style = item->style == MeshStyle::kRim ? 1 : 0;
       const Colour& tint = item->tint;
       push({item->world_from_model,

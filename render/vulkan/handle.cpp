@@ -38,7 +38,9 @@ VulkanFailure::VulkanFailure(VkResult result, const std::string& what)
     : std::runtime_error("renderer: " + what + ": " + name_of(result)), result_(result) {}
 
 void check(VkResult result, const char* what) {
-  if (result != VK_SUCCESS) throw VulkanFailure(result, what);
+  if (result != VK_SUCCESS) {
+    throw VulkanFailure(result, what);
+  }
 }
 
 }  // namespace orthonav::render

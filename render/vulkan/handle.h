@@ -35,7 +35,9 @@ class Handle {
     return *this;
   }
   ~Handle() {
-    if (object_ != VK_NULL_HANDLE) Destroy(device_, object_, nullptr);
+    if (object_ != VK_NULL_HANDLE) {
+      Destroy(device_, object_, nullptr);
+    }
   }
   [[nodiscard]] const T& get() const { return object_; }
 

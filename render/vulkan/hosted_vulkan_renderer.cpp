@@ -50,7 +50,9 @@ int depth_rank_of(VkFormat format) {
 std::vector<VkImage> outer_images(const std::vector<std::vector<std::uint64_t>>& chains) {
   std::vector<VkImage> outer;
   for (const auto& chain : chains) {
-    for (const std::uint64_t image : chain) outer.push_back(reinterpret_cast<VkImage>(image));
+    for (const std::uint64_t image : chain) {
+      outer.push_back(reinterpret_cast<VkImage>(image));
+    }
   }
   return outer;
 }
@@ -60,32 +62,43 @@ std::string problem_of(const EyeTargets& targets, std::uint32_t most_px, bool ta
   const std::string size =
       std::to_string(targets.width_px) + "x" + std::to_string(targets.height_px) + " px";
   if (targets.width_px < 1 || targets.height_px < 1 ||
-      static_cast<std::uint32_t>(std::max(targets.width_px, targets.height_px)) > most_px)
+      static_cast<std::uint32_t>(std::max(targets.width_px, targets.height_px)) > most_px) {
     return "renderer: host's images of " + size + ", limit " + std::to_string(most_px) + " px";
+  }
   const std::size_t chains = targets.layers == 2 ? 1 : 2;
-  if (targets.layers < 1 || targets.layers > 2 || targets.chains.size() != chains)
+  if (targets.layers < 1 || targets.layers > 2 || targets.chains.size() != chains) {
     return "renderer: host's images have " + std::to_string(targets.layers) + " layers in " +
            std::to_string(targets.chains.size()) + " chains; needs 2 in 1 or 1 in 2";
-  if (targets.layers == 2 && !takes_layers)
+  }
+  if (targets.layers == 2 && !takes_layers) {
     return "renderer: host's images have 2 layers, which this device does not draw whole";
-  if (!targets.depth_chains.empty() && targets.depth_chains.size() != chains)
+  }
+  if (!targets.depth_chains.empty() && targets.depth_chains.size() != chains) {
     return "renderer: " + std::to_string(targets.depth_chains.size()) +
            " chains of depth images beside " + std::to_string(chains);
-  for (const auto* all : {&targets.chains, &targets.depth_chains})
-    for (const auto& chain : *all)
-      if (chain.empty() || chain.size() != all->front().size())
+  }
+  for (const auto* all : {&targets.chains, &targets.depth_chains}) {
+    for (const auto& chain : *all) {
+      if (chain.empty() || chain.size() != all->front().size()) {
         return "renderer: a chain of " + std::to_string(chain.size()) + " images beside one of " +
                std::to_string(all->front().size());
+      }
+    }
+  }
   return {};
 }
 
 /// Whether there is an image of that number in each chain, those of depth after the others.
 bool holds(const EyeTargets& targets, std::span<const std::uint32_t> images) {
   const std::size_t chains = targets.chains.size();
-  if (images.size() != chains + targets.depth_chains.size()) return false;
+  if (images.size() != chains + targets.depth_chains.size()) {
+    return false;
+  }
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto& chain = i < chains ? targets.chains[i] : targets.depth_chains[i - chains];
-    if (images[i] >= chain.size()) return false;
+    if (images[i] >= chain.size()) {
+      return false;
+    }
   }
   return true;
 }
@@ -118,12 +131,12 @@ bool HostedVulkanRenderer::offers(std::int64_t format, VkFormatFeatureFlags feat
   return (properties.optimalTilingFeatures & feature) != 0;
 }
 
-int HostedVulkanRenderer::suits(std::int64_t format) const {
+int HostedVulkanRenderer::format_score(std::int64_t format) const {
   const int rank = rank_of(static_cast<VkFormat>(format));
   return rank > 0 && offers(format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) ? rank : 0;
 }
 
-int HostedVulkanRenderer::suits_depth(std::int64_t format) const {
+int HostedVulkanRenderer::depth_format_score(std::int64_t format) const {
   const int rank = depth_rank_of(static_cast<VkFormat>(format));
   return rank > 0 && offers(format, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) ? rank : 0;
 }
@@ -149,7 +162,9 @@ void HostedVulkanRenderer::upload_blank_background() {
 /// Nothing thrown leaves it.
 template <class Work>
 bool HostedVulkanRenderer::attempt(std::string& error, const Work& work) {
-  if (lost_) return error = "renderer: device lost", false;
+  if (lost_) {
+    return error = "renderer: device lost", false;
+  }
   try {
     work();
     return true;
@@ -170,13 +185,17 @@ bool HostedVulkanRenderer::use(const EyeTargets& targets, std::string& error) {
     vkGetPhysicalDeviceProperties(physical_, &properties);
     const std::string problem =
         problem_of(targets, properties.limits.maxImageDimension2D, takes_layers());
-    if (!problem.empty()) throw std::runtime_error(problem);
-    if (!targets.depth_chains.empty() && suits_depth(targets.depth_format) == 0)
+    if (!problem.empty()) {
+      throw std::runtime_error(problem);
+    }
+    if (!targets.depth_chains.empty() && depth_format_score(targets.depth_format) == 0) {
       throw std::runtime_error("renderer: can't draw depth into VkFormat " +
                                std::to_string(targets.depth_format));
-    if (suits(targets.format) == 0)
+    }
+    if (format_score(targets.format) == 0) {
       throw std::runtime_error("renderer: can't draw into VkFormat " +
                                std::to_string(targets.format));
+    }
     drawing_.wait_for_all();
     pass_.reset();
     depth_pass_.reset();
@@ -206,8 +225,9 @@ bool HostedVulkanRenderer::prepare(const Scene& scene, std::string& error) {
     const auto start = std::chrono::steady_clock::now();
     drawing_.next_slot();
     timing_.gpu_ms = milliseconds_since(start);
-    if (const std::string problem = drawing_.take(scene); !problem.empty())
+    if (const std::string problem = drawing_.take(scene); !problem.empty()) {
       throw std::runtime_error(problem);
+    }
   });
 }
 
@@ -226,9 +246,10 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
                                  slot.line_indices, nobody_reads, 0, frame, false, outer});
     };
     draw(*pass_, first * targets_.chains.front().size() + images[first]);
-    if (depth_pass_)
+    if (depth_pass_) {
       draw(*depth_pass_,
            first * targets_.depth_chains.front().size() + images[targets_.chains.size() + first]);
+    }
   }
 }
 
@@ -236,9 +257,12 @@ bool HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& vie
                                 std::span<const std::uint32_t> images, std::string& error) {
   const bool drawn = attempt(error, [&] {
     const auto start = std::chrono::steady_clock::now();
-    if (const auto problem = problem_of_views(views)) throw std::runtime_error(*problem);
-    if (!pass_ || views.size() != kMostViews || !holds(targets_, images))
+    if (const auto problem = problem_of_views(views)) {
+      throw std::runtime_error(*problem);
+    }
+    if (!pass_ || views.size() != kMostViews || !holds(targets_, images)) {
       throw std::runtime_error("renderer: no such images of the host's");
+    }
     drawing_.build(scene, views, {targets_.width_px, targets_.height_px});
     record(views, images);
     timing_.record_ms = milliseconds_since(start);

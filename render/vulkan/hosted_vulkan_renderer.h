@@ -24,8 +24,8 @@ class HostedVulkanRenderer final : public HostedRenderer {
   HostedVulkanRenderer& operator=(const HostedVulkanRenderer&) = delete;
 
   [[nodiscard]] VulkanObjects objects() const override;
-  [[nodiscard]] int suits(std::int64_t format) const override;
-  [[nodiscard]] int suits_depth(std::int64_t format) const override;
+  [[nodiscard]] int format_score(std::int64_t format) const override;
+  [[nodiscard]] int depth_format_score(std::int64_t format) const override;
   [[nodiscard]] bool takes_layers() const override { return drawing_.views_a_pass() == 2; }
   [[nodiscard]] bool use(const EyeTargets& targets, std::string& error) override;
   [[nodiscard]] bool prepare(const Scene& scene, std::string& error) override;

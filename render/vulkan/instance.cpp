@@ -38,11 +38,15 @@ VKAPI_ATTR VkBool32 VKAPI_CALL listen(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                       VkDebugUtilsMessageTypeFlagsEXT,
                                       const VkDebugUtilsMessengerCallbackDataEXT* data,
                                       void* messages) {
-  if (is_useless(data->pMessageIdName)) return VK_FALSE;
+  if (is_useless(data->pMessageIdName)) {
+    return VK_FALSE;
+  }
   auto& lines = *static_cast<std::vector<std::string>*>(messages);
   std::string line = data->pMessage != nullptr ? data->pMessage : "";
   std::replace(line.begin(), line.end(), '\n', ' ');
-  if (lines.size() < kMostMessages) lines.push_back(std::move(line));
+  if (lines.size() < kMostMessages) {
+    lines.push_back(std::move(line));
+  }
   return VK_FALSE;
 }
 
@@ -60,7 +64,9 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>& mess
 
 bool has_validation_layer() {
   std::uint32_t count = 0;
-  if (vkEnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS) return false;
+  if (vkEnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS) {
+    return false;
+  }
   std::vector<VkLayerProperties> layers(count);
   vkEnumerateInstanceLayerProperties(&count, layers.data());
   return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& layer) {
@@ -70,7 +76,9 @@ bool has_validation_layer() {
 
 /// What the renderer needs, or more where the host does.
 std::uint32_t api_version_for(const VulkanHost* host) {
-  if (host == nullptr) return VK_API_VERSION_1_1;
+  if (host == nullptr) {
+    return VK_API_VERSION_1_1;
+  }
   const auto [least, most] = host->versions();
   const auto packed = [](VulkanVersion v) { return VK_MAKE_API_VERSION(0, v.major, v.minor, 0); };
   if (packed(most) < VK_API_VERSION_1_1) {
@@ -84,7 +92,9 @@ VkInstance made_by(VulkanHost& host, const VkInstanceCreateInfo& info) {
   std::string error;
   void* instance =
       host.create_instance(reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr), &info, error);
-  if (instance == nullptr) throw std::runtime_error(error);
+  if (instance == nullptr) {
+    throw std::runtime_error(error);
+  }
   return static_cast<VkInstance>(instance);
 }
 
@@ -126,7 +136,9 @@ Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
     check(vkCreateInstance(&info, nullptr, &instance_), "Vulkan");
   }
   keep_drivers_for_leak_check();
-  if (!validation) return;
+  if (!validation) {
+    return;
+  }
   const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
       vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
   if (create == nullptr || create(instance_, &listener, nullptr, &messenger_) != VK_SUCCESS) {
@@ -139,7 +151,9 @@ Instance::~Instance() {
   if (messenger_ != VK_NULL_HANDLE) {
     const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
-    if (destroy != nullptr) destroy(instance_, messenger_, nullptr);
+    if (destroy != nullptr) {
+      destroy(instance_, messenger_, nullptr);
+    }
   }
   vkDestroyInstance(instance_, nullptr);
 }

@@ -22,7 +22,9 @@ int collect(dl_phdr_info* module, std::size_t, void* names) {
   const std::string name = module->dlpi_name;
   const bool of_vulkan =
       name.find("libvulkan_") != std::string::npos || name.find("libVkLayer") != std::string::npos;
-  if (of_vulkan) static_cast<std::vector<std::string>*>(names)->push_back(name);
+  if (of_vulkan) {
+    static_cast<std::vector<std::string>*>(names)->push_back(name);
+  }
   return 0;
 }
 

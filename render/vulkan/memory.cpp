@@ -1,7 +1,8 @@
 #include "render/vulkan/memory.h"
 
-#include <cassert>
 #include <cstring>
+
+#include "base/check.h"
 
 namespace orthonav::render {
 namespace {
@@ -43,15 +44,19 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
     memory_ = allocated(device, needs, kMapped, preferred);
   }
   check(vkBindBufferMemory(device.get(), buffer, memory_.get(), 0), "buffer");
-  if (place == BufferPlace::kDevice) return;
+  if (place == BufferPlace::kDevice) {
+    return;
+  }
   void* mapped = nullptr;
   check(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &mapped), "buffer");
   mapped_ = static_cast<std::byte*>(mapped);
 }
 
 void Buffer::write(const void* bytes, std::size_t count, std::size_t offset) const {
-  assert(mapped_ != nullptr && offset + count <= size_);
-  if (count > 0) std::memcpy(mapped_ + offset, bytes, count);
+  ORTHONAV_CHECK(mapped_ != nullptr && offset + count <= size_);
+  if (count > 0) {
+    std::memcpy(mapped_ + offset, bytes, count);
+  }
 }
 
 DeviceImage::DeviceImage(const Device& device, const ImageSpec& spec) {

@@ -42,7 +42,9 @@ GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh) 
   GpuMesh copy;
   copy.index_count = static_cast<std::uint32_t>(mesh.indices.size());
   copy.box = box_of(mesh);
-  if (copy.index_count == 0) return copy;
+  if (copy.index_count == 0) {
+    return copy;
+  }
   const std::vector<GpuVertex> vertices = vertices_of(mesh);
   copy.vertices = uploaded(device, commands, vertices.data(), vertices.size() * sizeof(GpuVertex),
                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
@@ -56,14 +58,18 @@ GpuMesh copy_of(const Device& device, Commands& commands, const MeshData& mesh) 
 
 const GpuMesh* MeshCache::find(const std::shared_ptr<const MeshData>& mesh) const {
   for (const Entry& entry : entries_) {
-    if (entry.mesh == mesh) return &entry.copy;
+    if (entry.mesh == mesh) {
+      return &entry.copy;
+    }
   }
   return nullptr;
 }
 
 bool MeshCache::touch(const std::shared_ptr<const MeshData>& mesh) {
   for (Entry& entry : entries_) {
-    if (entry.mesh != mesh) continue;
+    if (entry.mesh != mesh) {
+      continue;
+    }
     entry.idle_frames = 0;
     return true;
   }
@@ -72,7 +78,9 @@ bool MeshCache::touch(const std::shared_ptr<const MeshData>& mesh) {
 
 std::string MeshCache::add(const Device& device, Commands& commands,
                            const std::shared_ptr<const MeshData>& mesh, const MeshDetail& detail) {
-  if (const auto problem = problem_of_mesh(*mesh)) return *problem;
+  if (const auto problem = problem_of_mesh(*mesh)) {
+    return *problem;
+  }
   Entry entry;
   entry.mesh = mesh;
   if (mesh->indices.size() > 3 * detail.enough_triangles) {
@@ -87,7 +95,9 @@ std::string MeshCache::add(const Device& device, Commands& commands,
 }
 
 void MeshCache::end_frame() {
-  for (Entry& entry : entries_) ++entry.idle_frames;
+  for (Entry& entry : entries_) {
+    ++entry.idle_frames;
+  }
   std::erase_if(entries_, [this](const Entry& entry) {
     const bool drawing = entry.idle_frames <= frames_in_flight_;
     return !drawing && (entry.mesh.use_count() == 1 || entry.idle_frames > kMostIdleFrames);

@@ -26,7 +26,9 @@ struct FileHead {
 /// FNV-1a.
 std::uint64_t checksum_of(const std::vector<char>& bytes) {
   std::uint64_t sum = 0xcbf29ce484222325u;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  for (const char byte : bytes) {
+    sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  }
   return sum;
 }
 
@@ -50,9 +52,13 @@ std::vector<char> read_file(const std::string& path) {
   FileHead head;
   const FileHead expected;
   file.read(reinterpret_cast<char*>(&head), sizeof(head));
-  if (!file || head.magic != expected.magic) return {};
+  if (!file || head.magic != expected.magic) {
+    return {};
+  }
   std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (bytes.size() != head.bytes || checksum_of(bytes) != head.checksum) return {};
+  if (bytes.size() != head.bytes || checksum_of(bytes) != head.checksum) {
+    return {};
+  }
   return bytes;
 }
 
@@ -69,7 +75,9 @@ void write_file(const std::string& path, const std::vector<char>& bytes) {
   file.write(reinterpret_cast<const char*>(&head), sizeof(head));
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (file) std::filesystem::rename(part, target, ignored);
+  if (file) {
+    std::filesystem::rename(part, target, ignored);
+  }
   std::filesystem::remove(part, ignored);
 }
 
@@ -82,7 +90,9 @@ std::string user_cache_folder() {
   };
   // A relative folder is to be ignored, says the XDG specification.
   const std::string folder = value("XDG_CACHE_HOME");
-  if (folder.starts_with('/')) return folder + "/orthonav";
+  if (folder.starts_with('/')) {
+    return folder + "/orthonav";
+  }
   const std::string home = value("HOME");
   return home.starts_with('/') ? home + "/.cache/orthonav" : "";
 }
@@ -113,12 +123,20 @@ PipelineCache::~PipelineCache() {
 }
 
 void PipelineCache::save() const {
-  if (path_.empty()) return;
+  if (path_.empty()) {
+    return;
+  }
   std::size_t count = 0;
-  if (vkGetPipelineCacheData(device_, cache_.get(), &count, nullptr) != VK_SUCCESS) return;
-  if (count == read_bytes_) return;
+  if (vkGetPipelineCacheData(device_, cache_.get(), &count, nullptr) != VK_SUCCESS) {
+    return;
+  }
+  if (count == read_bytes_) {
+    return;
+  }
   std::vector<char> bytes(count);
-  if (vkGetPipelineCacheData(device_, cache_.get(), &count, bytes.data()) != VK_SUCCESS) return;
+  if (vkGetPipelineCacheData(device_, cache_.get(), &count, bytes.data()) != VK_SUCCESS) {
+    return;
+  }
   bytes.resize(count);
   write_file(path_, bytes);
 }

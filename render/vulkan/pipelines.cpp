@@ -69,7 +69,7 @@ Recipe recipe_of(Stage stage, PassKind kind) {
     }
     case Stage::kDepth:
       return mesh_recipe({}, false, true, VK_COMPARE_OP_LESS);
-    case Stage::kVeil:
+    case Stage::kTranslucent:
       return mesh_recipe(labels ? flat : embedded::mesh_veil_frag(), false, true,
                          VK_COMPARE_OP_LESS);
     case Stage::kSolid:
@@ -119,8 +119,12 @@ VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind k
   // else puts them over the world, alpha says how much of it is hidden.
   state.colorWriteMask =
       VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
-  if (blend == Blend::kPremultiplied) state.colorWriteMask |= VK_COLOR_COMPONENT_A_BIT;
-  if (recipe.fragment.empty()) state.colorWriteMask = 0;
+  if (blend == Blend::kPremultiplied) {
+    state.colorWriteMask |= VK_COLOR_COMPONENT_A_BIT;
+  }
+  if (recipe.fragment.empty()) {
+    state.colorWriteMask = 0;
+  }
   state.blendEnable = recipe.blends && kind == PassKind::kColour;
   state.srcColorBlendFactor = VK_BLEND_FACTOR_ONE;
   state.dstColorBlendFactor =
@@ -250,7 +254,9 @@ Pipelines::Pipelines(const Device& device, VkPipelineCache cache, VkPipelineLayo
   for (std::size_t i = 0; i < pipelines_.size(); ++i) {
     const auto stage = static_cast<Stage>(i);
     const PassKind kind = targets.spec().kind;
-    if (stage == Stage::kBackground && kind != PassKind::kColour) continue;
+    if (stage == Stage::kBackground && kind != PassKind::kColour) {
+      continue;
+    }
     const Recipe recipe =
         kind == PassKind::kDepth ? depth_recipe_of(stage) : recipe_of(stage, kind);
     pipelines_[i] = make_pipeline(device, cache, layout, targets, recipe, blend);

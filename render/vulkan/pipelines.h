@@ -8,10 +8,10 @@ namespace orthonav::render {
 
 /// What a frame is drawn with, in this order.
 enum class Stage {
-  kBackground,  ///< the image behind everything; colour only
-  kDepth,       ///< solids into the depth alone
-  kVeil,        ///< see-through meshes: the nearest surface replaces what is there
-  kSolid,       ///< the nearest solid surface, blended
+  kBackground,   ///< the image behind everything; colour only
+  kDepth,        ///< solids into the depth alone
+  kTranslucent,  ///< see-through meshes: the nearest surface replaces what is there
+  kSolid,        ///< the nearest solid surface, blended
   kTriangle,
   kLine,  ///< the stencil lets each item touch a sample once
   kText,  ///< in front of everything: a number is never hidden

@@ -17,22 +17,24 @@ void take_regions(const std::byte* drawn, std::span<const PixelRect> regions, in
   }
 }
 
-std::size_t pixels_of(const Image& image) {
+std::size_t pixels_of(const RgbaImage& image) {
   return static_cast<std::size_t>(image.width_px) * image.height_px;
 }
 
 }  // namespace
 
-void take(const std::byte* drawn, std::span<const PixelRect> regions, const Image* background,
-          Image& image) {
-  image.rgba.resize(4 * pixels_of(image));
+void take(const std::byte* drawn, std::span<const PixelRect> regions, const RgbaImage* background,
+          RgbaImage& image) {
+  image.pixels.resize(4 * pixels_of(image));
   if (background != nullptr) {
-    std::memcpy(image.rgba.data(), background->rgba.data(), image.rgba.size());
+    std::memcpy(image.pixels.data(), background->pixels.data(), image.pixels.size());
   } else {
-    std::memset(image.rgba.data(), 0, image.rgba.size());
+    std::memset(image.pixels.data(), 0, image.pixels.size());
   }
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
-  take_regions(drawn, regions, image.width_px, image.rgba.data());
+  for (std::size_t i = 3; i < image.pixels.size(); i += 4) {
+    image.pixels[i] = 255;
+  }
+  take_regions(drawn, regions, image.width_px, image.pixels.data());
 }
 
 void take(const std::byte* drawn, std::span<const PixelRect> regions, LabelImage& image) {

@@ -12,8 +12,8 @@ namespace orthonav::render {
 // them what is seen where there is no hologram. `drawn` holds a whole image.
 
 /// Around the regions: the background, or opaque black without one.
-void take(const std::byte* drawn, std::span<const PixelRect> regions, const Image* background,
-          Image& image);
+void take(const std::byte* drawn, std::span<const PixelRect> regions, const RgbaImage* background,
+          RgbaImage& image);
 /// Around the regions: no hologram.
 void take(const std::byte* drawn, std::span<const PixelRect> regions, LabelImage& image);
 

@@ -33,7 +33,9 @@ void write_line_indices(const Buffer& buffer) {
   }
   for (std::uint32_t segment = 0; segment < segments; ++segment) {
     constexpr std::array<std::uint32_t, kIndicesPerQuad> kSides = {0, 6, 7, 0, 7, 13};
-    for (const std::uint32_t corner : kSides) *out++ = segment * kCornersPerSegment + corner;
+    for (const std::uint32_t corner : kSides) {
+      *out++ = segment * kCornersPerSegment + corner;
+    }
   }
 }
 
@@ -64,7 +66,9 @@ SceneDrawing::SceneDrawing(const RendererOptions& options, const Device& device,
       device_(device),
       cache_(device, physical, options.cache_folder.value_or(user_cache_folder())),
       meshes_(static_cast<int>(slots) - 1) {
-  for (std::size_t i = 0; i < slots; ++i) slots_.push_back(std::make_unique<FrameSlot>(device));
+  for (std::size_t i = 0; i < slots; ++i) {
+    slots_.push_back(std::make_unique<FrameSlot>(device));
+  }
   upload_atlas();
 }
 
@@ -84,11 +88,15 @@ void SceneDrawing::upload_atlas() {
   fill_image(slot().commands.begin(), {staging, atlas_, {spec.width, spec.height}, 1, 1, 1},
              {&all, 1});
   slot().commands.run();
-  for (const auto& slot : slots_) slot->bindings.bind_atlas(atlas_);
+  for (const auto& slot : slots_) {
+    slot->bindings.bind_atlas(atlas_);
+  }
 }
 
 void SceneDrawing::bind_background(const DeviceImage& background) {
-  for (const auto& slot : slots_) slot->bindings.bind_background(background);
+  for (const auto& slot : slots_) {
+    slot->bindings.bind_background(background);
+  }
 }
 
 void SceneDrawing::choose_views_a_pass() {
@@ -113,7 +121,9 @@ FrameSlot& SceneDrawing::next_slot() {
 }
 
 void SceneDrawing::wait_for_all() {
-  for (const auto& slot : slots_) slot->commands.wait();
+  for (const auto& slot : slots_) {
+    slot->commands.wait();
+  }
 }
 
 bool SceneDrawing::lost() const {
@@ -126,7 +136,9 @@ std::string SceneDrawing::add_mesh(const MeshItem& item, const std::string& name
   MeshDetail detail;
   detail.error = options_.surface_error_m / length({place[0], place[1], place[2]});
   std::string flaw = meshes_.add(device_, slot().commands, item.mesh, detail);
-  if (!flaw.empty()) return flaw;
+  if (!flaw.empty()) {
+    return flaw;
+  }
   const std::size_t drawn = meshes_.find(item.mesh)->index_count / 3;
   const std::size_t given = item.mesh->indices.size() / 3;
   if (given > detail.most_triangles) {
@@ -139,7 +151,9 @@ std::string SceneDrawing::add_mesh(const MeshItem& item, const std::string& name
 /// After so many there is nothing new to learn, and a frame loop would fill the memory.
 void SceneDrawing::note(std::string line) {
   constexpr std::size_t kMostNotes = 200;
-  if (notes_.size() < kMostNotes) notes_.push_back(std::move(line));
+  if (notes_.size() < kMostNotes) {
+    notes_.push_back(std::move(line));
+  }
 }
 
 /// Of each character that the font lacks, once: a box stands in its place.
@@ -157,13 +171,19 @@ void SceneDrawing::note_missing_glyphs(const Scene& scene) {
 }
 
 std::string SceneDrawing::take(const Scene& scene) {
-  if (const auto problem = problem_of_scene(scene)) return *problem;
+  if (const auto problem = problem_of_scene(scene)) {
+    return *problem;
+  }
   for (const MeshItem& item : scene.meshes) {
-    if (meshes_.touch(item.mesh)) continue;
+    if (meshes_.touch(item.mesh)) {
+      continue;
+    }
     const std::string name = "scene: mesh " + std::to_string(&item - scene.meshes.data()) +
                              " (label " + std::to_string(item.label) + ")";
     const std::string flaw = add_mesh(item, name);
-    if (!flaw.empty()) return name + ": " + flaw;
+    if (!flaw.empty()) {
+      return name + ": " + flaw;
+    }
   }
   note_missing_glyphs(scene);
   return {};

@@ -44,8 +44,12 @@ VkSubpassDependency before_reading(bool outer) {
   dependency.dstStageMask = VK_PIPELINE_STAGE_TRANSFER_BIT;
   dependency.srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
   dependency.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
-  if (outer) dependency.dstStageMask |= VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-  if (outer) dependency.dstAccessMask |= VK_ACCESS_SHADER_READ_BIT;
+  if (outer) {
+    dependency.dstStageMask |= VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+  }
+  if (outer) {
+    dependency.dstAccessMask |= VK_ACCESS_SHADER_READ_BIT;
+  }
   return dependency;
 }
 
@@ -86,9 +90,15 @@ ImageView view_of(const Device& device, const TargetSpec& spec, VkImage outer) {
 }  // namespace
 
 Targets::Targets(const Device& device, const TargetSpec& spec) : spec_(spec) {
-  if (spec.kind != PassKind::kColour) spec_.samples = VK_SAMPLE_COUNT_1_BIT;
-  if (spec.kind == PassKind::kLabels) spec_.colour = kLabelFormat;
-  for (const VkImage outer : spec_.outer) outer_.push_back(view_of(device, spec_, outer));
+  if (spec.kind != PassKind::kColour) {
+    spec_.samples = VK_SAMPLE_COUNT_1_BIT;
+  }
+  if (spec.kind == PassKind::kLabels) {
+    spec_.colour = kLabelFormat;
+  }
+  for (const VkImage outer : spec_.outer) {
+    outer_.push_back(view_of(device, spec_, outer));
+  }
   if (spec.kind == PassKind::kDepth) {
     make_depth_pass(device);
   } else {
@@ -106,8 +116,12 @@ void Targets::make_images(const Device& device) {
   image.layers = spec_.views;
   image.samples = spec_.samples;
   image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-  if (!resolves()) image.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-  if (resolves() || spec_.outer.empty()) colour_ = DeviceImage(device, image);
+  if (!resolves()) {
+    image.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  }
+  if (resolves() || spec_.outer.empty()) {
+    colour_ = DeviceImage(device, image);
+  }
   if (resolves() && spec_.outer.empty()) {
     ImageSpec result = image;
     result.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -122,10 +136,12 @@ void Targets::make_images(const Device& device) {
 }
 
 void Targets::make_framebuffers(const Device& device) {
-  for (const ImageView& outer : outer_)
+  for (const ImageView& outer : outer_) {
     framebuffers_.push_back(framebuffer_of(device, outer.get()));
-  if (outer_.empty())
+  }
+  if (outer_.empty()) {
     framebuffers_.push_back(framebuffer_of(device, resolves() ? result_.view() : colour_.view()));
+  }
 }
 
 /// `result`: the view that is read in the end.
@@ -172,7 +188,9 @@ void Targets::make_pass(const Device& device) {
   subpass.colorAttachmentCount = 1;
   subpass.pColorAttachments = &colour;
   subpass.pDepthStencilAttachment = &depth;
-  if (resolves()) subpass.pResolveAttachments = &result;
+  if (resolves()) {
+    subpass.pResolveAttachments = &result;
+  }
   const std::array<VkSubpassDependency, 2> dependencies = {before_drawing(),
                                                            before_reading(!spec_.outer.empty())};
   VkRenderPassCreateInfo info = {};

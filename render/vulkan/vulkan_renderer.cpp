@@ -15,7 +15,9 @@ namespace orthonav::render {
 namespace {
 
 RendererOptions checked(const RendererOptions& options) {
-  if (const auto problem = problem_of_options(options)) throw std::runtime_error(*problem);
+  if (const auto problem = problem_of_options(options)) {
+    throw std::runtime_error(*problem);
+  }
   return options;
 }
 
@@ -24,7 +26,9 @@ VkPhysicalDevice fitting(VkPhysicalDevice physical, const RendererOptions& optio
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical, &properties);
   const auto problem = problem_of_size(properties.limits, options.width_px, options.height_px);
-  if (problem) throw std::runtime_error(*problem);
+  if (problem) {
+    throw std::runtime_error(*problem);
+  }
   return physical;
 }
 
@@ -89,12 +93,18 @@ const FramePass& VulkanRenderer::pass_for(PassKind kind, std::size_t views) {
 }
 
 std::string VulkanRenderer::problem_of(const Scene& scene, const std::vector<View>& views,
-                                       const std::vector<const Image*>& backgrounds) {
-  if (lost_) return "renderer: device lost";
-  if (const auto problem = problem_of_views(views)) return *problem;
+                                       const std::vector<const RgbaImage*>& backgrounds) {
+  if (lost_) {
+    return "renderer: device lost";
+  }
+  if (const auto problem = problem_of_views(views)) {
+    return *problem;
+  }
   const auto problem =
       problem_of_backgrounds(backgrounds, views, options_.width_px, options_.height_px);
-  if (problem) return *problem;
+  if (problem) {
+    return *problem;
+  }
   return drawing_.take(scene);
 }
 
@@ -145,11 +155,11 @@ bool VulkanRenderer::attempt(std::string& error, const Work& work) {
 }
 
 bool VulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
-                          const std::vector<const Image*>& backgrounds, std::vector<Image>& images,
-                          std::string& error) {
+                          const std::vector<const RgbaImage*>& backgrounds,
+                          std::vector<RgbaImage>& images, std::string& error) {
   return attempt(error, [&] {
     draw_into(PassKind::kColour, scene, views, backgrounds);
-    read_back(views.size(), images, [&](std::size_t i, const std::byte* drawn, Image& image) {
+    read_back(views.size(), images, [&](std::size_t i, const std::byte* drawn, RgbaImage& image) {
       take(drawn, drawn_[i], backgrounds.empty() ? nullptr : backgrounds[i], image);
     });
   });

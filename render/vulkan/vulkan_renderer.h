@@ -21,8 +21,8 @@ class VulkanRenderer final : public Renderer {
   VulkanRenderer& operator=(const VulkanRenderer&) = delete;
 
   [[nodiscard]] bool draw(const Scene& scene, const std::vector<View>& views,
-                          const std::vector<const Image*>& backgrounds, std::vector<Image>& images,
-                          std::string& error) override;
+                          const std::vector<const RgbaImage*>& backgrounds,
+                          std::vector<RgbaImage>& images, std::string& error) override;
   [[nodiscard]] bool draw_labels(const Scene& scene, const std::vector<View>& views,
                                  std::vector<LabelImage>& images, std::string& error) override;
   [[nodiscard]] const DeviceInfo& device() const override { return info_; }
@@ -37,15 +37,15 @@ class VulkanRenderer final : public Renderer {
   bool attempt(std::string& error, const Work& work);
   std::string line_of_failure();
   void draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                 const std::vector<const Image*>& backgrounds);
+                 const std::vector<const RgbaImage*>& backgrounds);
   template <class Picture, class Take>
   void read_back(std::size_t views, std::vector<Picture>& pictures, const Take& take_picture);
   std::string problem_of(const Scene& scene, const std::vector<View>& views,
-                         const std::vector<const Image*>& backgrounds);
+                         const std::vector<const RgbaImage*>& backgrounds);
   const FramePass& pass_for(PassKind kind, std::size_t views);
   void record_pass(VkCommandBuffer batch, PassKind kind, std::span<const View> views,
-                   std::span<const Image* const> backgrounds, std::size_t first);
-  void upload_backgrounds(VkCommandBuffer batch, std::span<const Image* const> backgrounds,
+                   std::span<const RgbaImage* const> backgrounds, std::size_t first);
+  void upload_backgrounds(VkCommandBuffer batch, std::span<const RgbaImage* const> backgrounds,
                           std::size_t first);
   void upload_blank_background();
   [[nodiscard]] PixelSize size() const { return {options_.width_px, options_.height_px}; }

@@ -9,13 +9,13 @@
 namespace orthonav::render {
 /// The parts of them that shaders will look at, for the pass whose first view is `first`.
 void VulkanRenderer::upload_backgrounds(VkCommandBuffer batch,
-                                        std::span<const Image* const> backgrounds,
+                                        std::span<const RgbaImage* const> backgrounds,
                                         std::size_t first) {
   for (std::size_t i = 0; i < backgrounds.size(); ++i) {
     for (const PixelRect& region : drawing_.items().regions()) {
       for (int y = region.top; y < region.bottom; ++y) {
         const std::size_t at = 4 * (static_cast<std::size_t>(y) * options_.width_px + region.left);
-        background_staging_.write(&backgrounds[i]->rgba[at],
+        background_staging_.write(&backgrounds[i]->pixels[at],
                                   4 * static_cast<std::size_t>(region.width()),
                                   (first + i) * image_bytes() + at);
       }
@@ -30,11 +30,15 @@ void VulkanRenderer::upload_backgrounds(VkCommandBuffer batch,
 }
 
 void VulkanRenderer::record_pass(VkCommandBuffer batch, PassKind kind, std::span<const View> views,
-                                 std::span<const Image* const> backgrounds, std::size_t first) {
+                                 std::span<const RgbaImage* const> backgrounds, std::size_t first) {
   drawing_.place(views, first, size(), !backgrounds.empty());
   const FrameItems& items = drawing_.items();
-  for (std::size_t i = 0; i < views.size(); ++i) drawn_[first + i] = items.regions();
-  if (!backgrounds.empty()) upload_backgrounds(batch, backgrounds, first);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    drawn_[first + i] = items.regions();
+  }
+  if (!backgrounds.empty()) {
+    upload_backgrounds(batch, backgrounds, first);
+  }
   const FrameSlot& slot = drawing_.slot();
   record_frame(batch, {pass_for(kind, views.size()), slot.bindings, drawing_.meshes(), items,
                        slot.line_indices, readback_, first * image_bytes(),
@@ -42,16 +46,18 @@ void VulkanRenderer::record_pass(VkCommandBuffer batch, PassKind kind, std::span
 }
 
 void VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                               const std::vector<const Image*>& backgrounds) {
+                               const std::vector<const RgbaImage*>& backgrounds) {
   const auto start = std::chrono::steady_clock::now();
   const std::string problem = problem_of(scene, views, backgrounds);
-  if (!problem.empty()) throw std::runtime_error(problem);
+  if (!problem.empty()) {
+    throw std::runtime_error(problem);
+  }
   drawing_.build(scene, views, size());
   const std::size_t at_once = std::min(views.size(), drawing_.views_a_pass());
   Commands& commands = drawing_.slot().commands;
   const VkCommandBuffer batch = commands.begin();
   for (std::size_t first = 0; first < views.size(); first += at_once) {
-    const std::span<const Image* const> behind(backgrounds);
+    const std::span<const RgbaImage* const> behind(backgrounds);
     record_pass(batch, kind, std::span(views).subspan(first, at_once),
                 behind.empty() ? behind : behind.subspan(first, at_once), first);
   }

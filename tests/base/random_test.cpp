@@ -32,10 +32,14 @@ TEST(Random, RepeatsItselfAndPartsWithTheSeed) {
 TEST(Random, ForksDependOnNameAndSeedAlone) {
   Random drawn(3);
   const Random fresh(3);
-  for (int i = 0; i < 10; ++i) drawn.next();
+  for (int i = 0; i < 10; ++i) {
+    drawn.next();
+  }
   EXPECT_EQ(drawn.fork("head").next(), fresh.fork("head").next());
   std::set<std::uint64_t> firsts;
-  for (std::uint64_t n = 0; n < 1000; ++n) firsts.insert(fresh.fork(n).next());
+  for (std::uint64_t n = 0; n < 1000; ++n) {
+    firsts.insert(fresh.fork(n).next());
+  }
   firsts.insert(fresh.fork("head").next());
   firsts.insert(fresh.fork("hand").next());
   firsts.insert(fresh.fork(1).fork(2).next());
@@ -53,7 +57,9 @@ TEST(Random, UniformFillsItsInterval) {
     ++bins[static_cast<std::size_t>(u * 10.0)];
   }
   // Five standard deviations of a binomial count: 5·sqrt(1e5·0.1·0.9).
-  for (const int count : bins) EXPECT_NEAR(count, kDraws / 10, 475);
+  for (const int count : bins) {
+    EXPECT_NEAR(count, kDraws / 10, 475);
+  }
 }
 
 TEST(Random, NormalHasTheMomentsOfANormal) {

@@ -30,6 +30,22 @@ TEST(Result, TellsAnErrorFromAValueOfTheSameText) {
   EXPECT_FALSE(error.ok());
 }
 
+TEST(Result, CarriesACodeToBranchOn) {
+  const Result<int> error = Error{"scan.stl: no such file", ErrorCode::kNotFound};
+  EXPECT_EQ(error.error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(Error{"width 3 px, limit 4 px"}.code, ErrorCode::kInvalid);
+}
+
+// Release builds included: what is absent is never read.
+TEST(ResultDeathTest, EndsTheProgramWhereTheAbsentSideIsRead) {
+  const Result<int> error = Error{"width 3 px, limit 4 px"};
+  const Result<int> value = 7;
+  const Status done;
+  EXPECT_DEATH(static_cast<void>(*error), "internal error: .* does not hold \\(base/result.h:");
+  EXPECT_DEATH(static_cast<void>(value.error()), "internal error");
+  EXPECT_DEATH(static_cast<void>(done.error()), "internal error");
+}
+
 TEST(Status, IsSuccessUnlessMadeOfAnError) {
   EXPECT_TRUE(Status{}.ok());
   const Status failed = Error{"disk full"};

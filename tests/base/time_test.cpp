@@ -31,8 +31,9 @@ TEST(Ticks, CountHundredsOfNanosecondsRoundedDown) {
 
 TEST(Ticks, GoThroughFilesAndBack) {
   for (const std::int64_t ticks :
-       {std::int64_t{0}, std::int64_t{1}, std::int64_t{15555264000333333}, std::int64_t{-7}})
+       {std::int64_t{0}, std::int64_t{1}, std::int64_t{15555264000333333}, std::int64_t{-7}}) {
     EXPECT_EQ(ticks_100ns(from_ticks_100ns(ticks)), ticks);
+  }
 }
 
 TEST(Seconds, RoundToTheNearestNanosecond) {
@@ -44,7 +45,7 @@ TEST(Seconds, RoundToTheNearestNanosecond) {
 
 TEST(Tracked, HasAnAgeAndIsLostUnlessSaidOtherwise) {
   Tracked<int> value;
-  EXPECT_EQ(value.origin, Origin::kLost);
+  EXPECT_EQ(value.status, PoseStatus::kLost);
   value.time = Timestamp(Duration(100));
   EXPECT_EQ(value.age(Timestamp(Duration(350))), Duration(250));
 }

@@ -57,8 +57,11 @@ TEST(Rotation, GoesThroughVectorAndQuaternionAndBack) {
     EXPECT_GE(q.w, 0.0);
     EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1.0, kRounding);
     const Mat3 back = rotation_from_quaternion(q);
-    for (int r = 0; r < 3; ++r)
-      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(back[r][c], rotation[r][c], kRounding);
+    for (int r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(back[r][c], rotation[r][c], kRounding);
+      }
+    }
   }
 }
 

@@ -39,17 +39,22 @@ TEST_P(DeviceContract, DeliversPairsInOrderOfTheCalibrationsSize) {
     expect_size(frame.left, calibration.left);
     expect_size(frame.right, calibration.right);
     EXPECT_GE(frame.sequence, 0);
-    if (i == 0) continue;
+    if (i == 0) {
+      continue;
+    }
     EXPECT_GT(frame.time, log.moments[i - 1].frame.time);
     EXPECT_GT(frame.sequence, log.moments[i - 1].frame.sequence);
   }
 }
 
 TEST_P(DeviceContract, NeverDeliversTheSameImagesTwice) {
-  if (!GetParam().has_images) GTEST_SKIP() << "black by choice";
+  if (!GetParam().has_images) {
+    GTEST_SKIP() << "black by choice";
+  }
   const SessionLog log = play(*headset_);
-  for (std::size_t i = 1; i < log.moments.size(); ++i)
+  for (std::size_t i = 1; i < log.moments.size(); ++i) {
     EXPECT_FALSE(log.moments[i].frame.left == log.moments[i - 1].frame.left) << i;
+  }
 }
 
 TEST_P(DeviceContract, EndsForGood) {
@@ -77,8 +82,12 @@ TEST_P(DeviceContract, ReusesTheBuffersOfAFrame) {
   for (int call = 0; call < kMaxCalls; ++call) {
     const auto answer = headset_->cameras().next(frame);
     ASSERT_TRUE(answer.ok());
-    if (*answer == Next::kEnd) break;
-    if (*answer == Next::kFrame) buffers.insert(frame.left.pixels.data());
+    if (*answer == Next::kEnd) {
+      break;
+    }
+    if (*answer == Next::kFrame) {
+      buffers.insert(frame.left.pixels.data());
+    }
   }
   EXPECT_EQ(buffers.size(), 1u);
 }
@@ -94,7 +103,9 @@ TEST_P(DeviceContract, HasAClockThatNeverGoesBackAndKnowsItsPairs) {
     if (*answer == Next::kFrame) {
       EXPECT_GE(now, frame.time) << "a pair out of the future";
     }
-    if (*answer == Next::kEnd) break;
+    if (*answer == Next::kEnd) {
+      break;
+    }
     last = now;
   }
 }
@@ -104,15 +115,18 @@ TEST_P(DeviceContract, ProjectsWhatItUnprojects) {
   const StereoCalibration& calibration = headset_->cameras().calibration();
   for (const CameraModel* camera : {&calibration.left, &calibration.right}) {
     int seen = 0;
-    for (double y = 0.5; y < camera->height_px(); y += 23.7)
+    for (double y = 0.5; y < camera->height_px(); y += 23.7) {
       for (double x = 0.5; x < camera->width_px(); x += 31.3) {
         const auto direction = camera->unproject({x, y});
-        if (!direction) continue;
+        if (!direction) {
+          continue;
+        }
         const auto pixel = camera->project(*direction);
         ASSERT_TRUE(pixel.has_value()) << x << ", " << y;
         EXPECT_LT((*pixel - Vec2{x, y}).norm(), kInversePx);
         ++seen;
       }
+    }
     EXPECT_GT(seen, 100);
   }
 }
@@ -135,9 +149,11 @@ TEST_P(DeviceContract, KnowsTheHeadWhereAPairKnewIt) {
   int compared = 0;
   for (const auto& moment : play(*headset_).moments) {
     EXPECT_EQ(moment.head_now.time, moment.frame.time);
-    if (!moment.frame.world_from_rig) continue;
+    if (!moment.frame.world_from_rig) {
+      continue;
+    }
     const auto& in_frame = *moment.frame.world_from_rig;
-    ASSERT_EQ(moment.head_now.origin, Origin::kMeasured);
+    ASSERT_EQ(moment.head_now.status, PoseStatus::kMeasured);
     EXPECT_LT((moment.head_now.value.translation() - in_frame.translation()).norm(), kNoiseM);
     EXPECT_LT(rotation_angle_rad(moment.head_now.value.rotation(), in_frame.rotation()), kNoiseRad);
     ++compared;
@@ -152,10 +168,10 @@ TEST_P(DeviceContract, PredictsTheHeadSoonAndLosesItLater) {
   ASSERT_TRUE(log.moments.back().frame.world_from_rig.has_value());
   const Timestamp limit = newest + GetParam().head_ahead + HeadTracker::kMaxHeadPrediction;
   const auto later = headset_->head().world_from_rig(limit + Duration(1));
-  EXPECT_EQ(later.origin, Origin::kLost);
+  EXPECT_EQ(later.status, PoseStatus::kLost);
   EXPECT_EQ(later.time, limit + Duration(1));
   const auto soon = headset_->head().world_from_rig(newest + std::chrono::milliseconds(40));
-  EXPECT_EQ(soon.origin, Origin::kPredicted);
+  EXPECT_EQ(soon.status, PoseStatus::kPredicted);
   const double step_m =
       (soon.value.translation() - log.moments.back().frame.world_from_rig->translation()).norm();
   constexpr double kFastHeadM = 0.1;  // in 40 ms
@@ -164,9 +180,10 @@ TEST_P(DeviceContract, PredictsTheHeadSoonAndLosesItLater) {
 
 TEST_P(DeviceContract, AnswersForTheHeadWhenAskedForAnyTime) {
   play(*headset_);
-  for (const Timestamp at : {Timestamp::min(), Timestamp{}, Timestamp::max()})
+  for (const Timestamp at : {Timestamp::min(), Timestamp{}, Timestamp::max()}) {
     EXPECT_EQ(headset_->head().world_from_rig(at).time, at);
-  EXPECT_EQ(headset_->head().world_from_rig(Timestamp::max()).origin, Origin::kLost);
+  }
+  EXPECT_EQ(headset_->head().world_from_rig(Timestamp::max()).status, PoseStatus::kLost);
 }
 
 TEST_P(DeviceContract, AlternatesPressesAndReleasesInOrder) {
@@ -216,7 +233,9 @@ TEST_P(DeviceContract, DeliversEachEventOnceHoweverItIsAsked) {
   for (int call = 0; call < kMaxCalls; ++call) {
     const auto answer = again->cameras().next(frame);
     ASSERT_TRUE(answer.ok());
-    if (*answer == Next::kEnd) break;
+    if (*answer == Next::kEnd) {
+      break;
+    }
   }
   SessionLog at_once;
   const Timestamp end = again->clock().now();

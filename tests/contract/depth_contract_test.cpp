@@ -29,7 +29,9 @@ TEST_P(DepthContract, HasItsCamerasAtEveryCall) {
   const auto cameras = headset_->depth_cameras();
   EXPECT_EQ(cameras.size(), GetParam().depth_cameras);
   EXPECT_EQ(headset_->depth_cameras(), cameras);
-  for (const DepthCamera* camera : cameras) EXPECT_NE(camera, nullptr);
+  for (const DepthCamera* camera : cameras) {
+    EXPECT_NE(camera, nullptr);
+  }
 }
 
 TEST_P(DepthContract, DescribesEachPixelByAUnitRayOrNone) {
@@ -40,7 +42,9 @@ TEST_P(DepthContract, DescribesEachPixelByAUnitRayOrNone) {
     ASSERT_EQ(calibration.rays.size(), pixels);
     std::size_t seeing = 0;
     for (const auto& [x, y, z] : calibration.rays) {
-      if (z == 0.0F) continue;
+      if (z == 0.0F) {
+        continue;
+      }
       EXPECT_GT(z, 0.0F);
       EXPECT_NEAR(std::hypot(x, y, z), 1.0, 1e-6);
       ++seeing;
@@ -74,14 +78,18 @@ TEST_P(DepthContract, DeliversFramesInOrderOfTheCalibrationsSizeAndNoneFromTheFu
     last[moment.camera] = &frame;
     ++frames[moment.camera];
   }
-  for (const int count : frames) EXPECT_GE(count, 2);
+  for (const int count : frames) {
+    EXPECT_GE(count, 2);
+  }
 }
 
 TEST_P(DepthContract, NeverGivesAnAhatRangeThatIsNoMeasurement) {
   constexpr std::uint16_t kMark = 4090;
   const auto cameras = headset_->depth_cameras();
   for (const auto& moment : play(*headset_).depth) {
-    if (cameras[moment.camera]->calibration().stream != DepthStream::kAhat) continue;
+    if (cameras[moment.camera]->calibration().stream != DepthStream::kAhat) {
+      continue;
+    }
     for (const std::uint16_t range_mm : moment.frame.range_mm.pixels) {
       ASSERT_LT(range_mm, kMark);
     }
@@ -94,7 +102,9 @@ TEST_P(DepthContract, DoesNotHoldUpPairsWhereNobodyAsksForIt) {
   for (int call = 0; call < kMaxCalls; ++call) {
     const auto answer = headset_->cameras().next(frame);
     ASSERT_TRUE(answer.ok());
-    if (*answer == Next::kEnd) return;
+    if (*answer == Next::kEnd) {
+      return;
+    }
   }
   ADD_FAILURE() << "the pairs never end";
 }

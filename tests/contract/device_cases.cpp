@@ -66,7 +66,9 @@ class Prompting : public ForwardingHeadset {
     }
     Result<Next> do_next(StereoFrame& frame) override {
       auto answer = inner_.cameras().next(frame);
-      if (!answer || *answer != Next::kFrame) return answer;
+      if (!answer || *answer != Next::kFrame) {
+        return answer;
+      }
       ShownFrame shown;
       shown.display_time = inner_.display().predicted_display_time(inner_.clock().now());
       shown.holograms.push_back({"H11 status", step_, {}});
@@ -176,7 +178,9 @@ class Waiting : public ForwardingHeadset {
       for (;;) {
         auto answer = inner_.cameras().next(frame);
         const bool late = std::chrono::steady_clock::now() > until;
-        if (!answer || *answer != Next::kNone || late) return answer;
+        if (!answer || *answer != Next::kNone || late) {
+          return answer;
+        }
         std::this_thread::sleep_for(std::chrono::microseconds(200));
       }
     }
@@ -194,11 +198,15 @@ std::unique_ptr<Headset> open_served_sim(const std::string& profile) {
   auto server =
       hl2ss::Server::start(options, [] { return Result<std::unique_ptr<Headset>>(open_sim()); });
   EXPECT_TRUE(server.ok()) << server.error().message;
-  if (!server) return nullptr;
+  if (!server) {
+    return nullptr;
+  }
   auto headset = checked(open_headset(
       "hl2ss://127.0.0.1?port=" + std::to_string((*server)->first_port()) +
       "&standin=" + std::to_string((*server)->standin_port()) + "&profile=" + profile));
-  if (!headset) return nullptr;
+  if (!headset) {
+    return nullptr;
+  }
   return keeping(std::move(*server), std::make_unique<Waiting>(std::move(headset)));
 }
 
@@ -209,7 +217,7 @@ std::unique_ptr<Headset> open_surgeon() {
   options.sim.render = false;
   options.sim.frame_rate_hz = 10.0;
   options.sim.limit_s = 9.0;
-  options.sim.magnitudes.pace = 4.0;
+  options.sim.error_model.pace = 4.0;
   return std::make_unique<Prompting>(checked(open_headset("sim:?seed=11", options)), "digitize L3");
 }
 
@@ -269,7 +277,9 @@ std::vector<DeviceCase> device_cases() {
       {"replayed_hl2ss", [] { return open_replayed(open_served_sim("raw")); }, false},
       {"surgeon", open_surgeon, true, false},
       {"replayed_surgeon", [] { return open_replayed(open_surgeon()); }, true, false}};
-  for (DeviceCase& device : cases) device.depth_cameras = depth_cameras_of(device.name);
+  for (DeviceCase& device : cases) {
+    device.depth_cameras = depth_cameras_of(device.name);
+  }
   return cases;
 }
 

@@ -31,17 +31,20 @@ GreyImage first_image(const std::string& uri) {
   auto headset = open_headset(uri, brief());
   EXPECT_TRUE(headset.ok()) << uri << ": " << headset.error().message;
   StereoFrame frame;
-  if (!headset) return {};
+  if (!headset) {
+    return {};
+  }
   const auto answer = (*headset)->cameras().next(frame);
   EXPECT_TRUE(answer.ok() && *answer == Next::kFrame);
   return frame.left;
 }
 
 TEST(OpenHeadset, NamesWhatItKnowsWhenItKnowsNothingOfAUri) {
-  for (const char* uri : {"kinect:", "sim", "", "Sim:", "http://host/"})
+  for (const char* uri : {"kinect:", "sim", "", "Sim:", "http://host/"}) {
     EXPECT_THAT(refusal(uri),
                 AllOf(HasSubstr("known are sim:, replay:PATH, hl2ss://HOST and openxr:+URI"),
                       HasSubstr(uri), Not(HasSubstr("\n"))));
+  }
 }
 
 TEST(OpenHeadset, NamesTheKnownKeys) {
@@ -54,8 +57,9 @@ TEST(OpenHeadset, NamesTheKnownKeys) {
 }
 
 TEST(OpenHeadset, TakesWholeSeedsOnly) {
-  for (const char* seed : {"", "-1", "1.5", "0x10", "three", "18446744073709551616", " 1", "1 "})
+  for (const char* seed : {"", "-1", "1.5", "0x10", "three", "18446744073709551616", " 1", "1 "}) {
     EXPECT_THAT(refusal(std::string("sim:?seed=") + seed), HasSubstr("not a whole number")) << seed;
+  }
 }
 
 TEST(OpenHeadset, WantsCamerasForAnOpenxrHeadset) {

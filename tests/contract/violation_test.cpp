@@ -26,7 +26,9 @@ SessionLog play_with(Faults faults) {
 
 std::vector<std::int64_t> sequences(const SessionLog& log) {
   std::vector<std::int64_t> numbers;
-  for (const auto& moment : log.moments) numbers.push_back(moment.frame.sequence);
+  for (const auto& moment : log.moments) {
+    numbers.push_back(moment.frame.sequence);
+  }
   return numbers;
 }
 
@@ -75,14 +77,19 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(MapEpoch, ThatFallsIsReportedAndNotPassedOn) {
   Script script = scripted_session();
   std::int64_t number = 0;
-  for (CameraStep& step : script.camera)
-    if (auto* frame = std::get_if<StereoFrame>(&step)) frame->map_epoch = number++ == 2 ? 3 : 4;
+  for (CameraStep& step : script.camera) {
+    if (auto* frame = std::get_if<StereoFrame>(&step)) {
+      frame->map_epoch = number++ == 2 ? 3 : 4;
+    }
+  }
   FakeHeadset headset(script);
   StereoFrame frame;
   int refused = 0;
   for (int call = 0; call < 4; ++call) {
     const auto next = headset.cameras().next(frame);
-    if (next) continue;
+    if (next) {
+      continue;
+    }
     ++refused;
     EXPECT_THAT(next.error().message, HasSubstr("map epoch 3 comes after 4"));
   }
@@ -112,12 +119,12 @@ TEST_P(BrokenHead, IsAnsweredAsLost) {
   FailingHeadset failing(inner, {.head = {{1, GetParam()}}});
   const Timestamp at = scripted_time(1);
   const auto good = failing.head().world_from_rig(at);
-  EXPECT_EQ(good.origin, Origin::kMeasured);
+  EXPECT_EQ(good.status, PoseStatus::kMeasured);
   EXPECT_EQ(good.value, scripted_pose(1));
   const auto broken = failing.head().world_from_rig(at);
-  EXPECT_EQ(broken.origin, Origin::kLost);
+  EXPECT_EQ(broken.status, PoseStatus::kLost);
   EXPECT_EQ(broken.time, at);
-  EXPECT_EQ(failing.head().world_from_rig(at).origin, Origin::kMeasured);
+  EXPECT_EQ(failing.head().world_from_rig(at).status, PoseStatus::kMeasured);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, BrokenHead,
@@ -144,7 +151,9 @@ TEST_P(EventsUnderFault, AreReportedAndNotPassedOn) {
   std::vector<ClickerEvent> events = {{ClickerAction::kPress, Timestamp{}}};
   EXPECT_FALSE(poll(events, GetParam(), 3).ok());
   EXPECT_EQ(events.size(), 1u) << "what was there stays, nothing is added";
-  if (GetParam() == EventFault::kRepeat || GetParam() == EventFault::kDrop) return;
+  if (GetParam() == EventFault::kRepeat || GetParam() == EventFault::kDrop) {
+    return;
+  }
   std::vector<Phrase> phrases = {{"before", 1.0, Timestamp{}}};
   EXPECT_FALSE(poll(phrases, GetParam(), 1).ok());
   EXPECT_EQ(phrases.size(), 1u);
@@ -207,8 +216,12 @@ TEST(ButtonState, DecidesEveryActionInEveryState) {
     std::vector<ClickerAction> can_follow;
     for (const ClickerAction action : kActions) {
       ButtonState state;
-      for (const ClickerAction earlier : before) EXPECT_TRUE(state.take(earlier).ok());
-      if (state.take(action)) can_follow.push_back(action);
+      for (const ClickerAction earlier : before) {
+        EXPECT_TRUE(state.take(earlier).ok());
+      }
+      if (state.take(action)) {
+        can_follow.push_back(action);
+      }
     }
     return can_follow;
   };

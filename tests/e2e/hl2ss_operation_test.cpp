@@ -50,7 +50,9 @@ class MapLog : public SessionObserver {
  public:
   std::vector<Step> moved;
   void happened(Timestamp, Step from, Event event, Cell) override {
-    if (event == Event::kMapMoved) moved.push_back(from);
+    if (event == Event::kMapMoved) {
+      moved.push_back(from);
+    }
   }
 };
 
@@ -71,8 +73,8 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
   const auto model = operation.levels[0].model;
   const auto room = room_of(spine, operation, built_in_tools());
   sim::SimOptions sim;
-  sim.magnitudes = sim::Magnitudes::perfect();
-  sim.magnitudes.pace = 4.0;
+  sim.error_model = sim::ErrorModel::perfect();
+  sim.error_model.pace = 4.0;
   sim::Truth truth;
   hl2ss::ServerOptions options;
   options.first_port = 0;
@@ -80,14 +82,18 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
   options.faults = faults;
   auto server = *hl2ss::Server::start(options, [&]() -> Result<std::unique_ptr<Headset>> {
     auto opened = sim::SimHeadset::open(room, sim);
-    if (!opened) return opened.error();
+    if (!opened) {
+      return opened.error();
+    }
     return std::unique_ptr<Headset>(std::make_unique<Witnessed>(std::move(*opened), truth));
   });
   hl2ss::Hl2ssOptions client = server->client_options();
   client.profile = profile;
   auto headset = hl2ss::Hl2ssHeadset::open(client);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
-  if (!headset) return done;
+  if (!headset) {
+    return done;
+  }
   const Method method = *method_named("best");
   auto tracker = method.create_tracker((*headset)->cameras().calibration(), built_in_tools(),
                                        OperationOptions().tracker);
@@ -100,20 +106,25 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
   FrameLoop frames(**headset, **session, builder, loop);
   auto report = frames.run();
   EXPECT_TRUE(report.ok()) << report.error().message;
-  if (!report) return done;
+  if (!report) {
+    return done;
+  }
   done.result = outcome_of((*session)->levels(), (*session)->rods(), std::move(*report));
   done.statistics = (*headset)->statistics();
   done.map_moves = map_log.moved;
   headset->reset();
   server.reset();
-  for (const sim::DrivenWire& wire : truth.wires)
+  for (const sim::DrivenWire& wire : truth.wires) {
     for (const nav::ScrewPlan& plan : plans) {
-      if (wire.side != name_of(plan.side)) continue;
+      if (wire.side != name_of(plan.side)) {
+        continue;
+      }
       const nav::ScrewError error =
           nav::screw_error(plan, {wire.entry, wire.direction}, model->surface());
       done.wires.push_back(
           {wire.side, error.angle_rad * 180.0 / std::numbers::pi, error.entry_m.value_or(1.0)});
     }
+  }
   return done;
 }
 
@@ -169,7 +180,9 @@ TEST(OverTcp, TheHeadsetListensForTheWordsOfTheWorkflow) {
   } misheard;
   session->observe(&misheard);
   std::vector<Phrase> phrases;
-  for (const std::string& text : hl2ss::workflow_phrases()) phrases.push_back({text, 1.0, {}});
+  for (const std::string& text : hl2ss::workflow_phrases()) {
+    phrases.push_back({text, 1.0, {}});
+  }
   phrases.push_back({"accepted", 1.0, {}});
   Inputs inputs;
   inputs.phrases = phrases;

@@ -53,16 +53,21 @@ Apart compare(hl2ss::VideoProfile profile) {
   client.profile = profile;
   auto headset = hl2ss::Hl2ssHeadset::open(client);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
-  if (!headset) return {};
-  auto here = nav::create_best_tracker((*direct)->cameras().calibration(), built_in_tools());
-  auto there = nav::create_best_tracker((*headset)->cameras().calibration(), built_in_tools());
+  if (!headset) {
+    return {};
+  }
+  auto here = nav::create_photometric_tracker((*direct)->cameras().calibration(), built_in_tools());
+  auto there =
+      nav::create_photometric_tracker((*headset)->cameras().calibration(), built_in_tools());
   EXPECT_TRUE(here.ok() && there.ok());
   StereoFrame frame;
   StereoFrame expected;
   Apart apart;
   for (;;) {
     const auto next = (*headset)->cameras().next(frame);
-    if (next && *next == Next::kEnd) return apart;
+    if (next && *next == Next::kEnd) {
+      return apart;
+    }
     if (!next || *next == Next::kNone) {
       std::this_thread::sleep_for(std::chrono::microseconds(200));
       continue;
@@ -74,7 +79,9 @@ Apart compare(hl2ss::VideoProfile profile) {
     for (std::size_t i = 0; i < a.size(); ++i) {
       const auto& x = a[i].world_from_marker;
       const auto& y = b[i].world_from_marker;
-      if (x.origin != Origin::kMeasured || y.origin != Origin::kMeasured) continue;
+      if (x.status != PoseStatus::kMeasured || y.status != PoseStatus::kMeasured) {
+        continue;
+      }
       ++apart.poses;
       apart.worst_m =
           std::max(apart.worst_m, (x.value.translation() - y.value.translation()).norm());

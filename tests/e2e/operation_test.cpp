@@ -41,9 +41,9 @@ INSTANTIATE_TEST_SUITE_P(Operation, EveryMethod, ::testing::Values("paper", "bes
 TEST_P(EveryMethod, InAPerfectWorldEveryWireLiesOnItsPlan) {
   OperationOptions options = one_level();
   options.method = GetParam();
-  options.sim.magnitudes = sim::Magnitudes::perfect();
+  options.sim.error_model = sim::ErrorModel::perfect();
   // A brisk surgeon: the same work in half the frames.
-  options.sim.magnitudes.pace = 2.0;
+  options.sim.error_model.pace = 2.0;
   const auto result = run_operation(lumbar_spine(), options);
   ASSERT_TRUE(result.ok()) << result.error().message;
   EXPECT_TRUE(result->completed);
@@ -74,14 +74,15 @@ class PoseLog : public LoopObserver {
  public:
   const Session* session = nullptr;
   void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
-    for (const nav::ToolState& tool : session->tool_states())
-      lines.push_back({frame.time, guidance.step_text, tool.world_from_marker.origin,
+    for (const nav::ToolState& tool : session->tool_states()) {
+      lines.push_back({frame.time, guidance.step_text, tool.world_from_marker.status,
                        tool.world_from_marker.value.row_major()});
+    }
   }
   struct Line {
     Timestamp time{};
     std::string step;
-    Origin origin = Origin::kLost;
+    PoseStatus status = PoseStatus::kLost;
     std::array<double, 16> pose{};
     friend bool operator==(const Line&, const Line&) = default;
   };
@@ -95,14 +96,14 @@ struct LoggedOperation {
 
 LoggedOperation logged(const OperationOptions& options) {
   PoseLog log;
-  OperationGuests guests;
-  guests.loop = &log;
-  guests.opened = [&](sim::SimHeadset&, const Method&, const Session& session) {
+  OperationHooks hooks;
+  hooks.loop = &log;
+  hooks.opened = [&](sim::SimHeadset&, const Method&, const Session& session) {
     log.session = &session;
     return Status{};
   };
   LoggedOperation done;
-  done.result = run_operation(lumbar_spine(), options, guests);
+  done.result = run_operation(lumbar_spine(), options, hooks);
   done.poses = std::move(log.lines);
   return done;
 }
@@ -110,7 +111,7 @@ LoggedOperation logged(const OperationOptions& options) {
 TEST(Operation, AtItsDocumentedErrorsGivesTheSameReportWithOneAndTwoThreads) {
   OperationOptions options = one_level();
   // A hasty surgeon: the same errors, the whole operation in a third of the frames.
-  options.sim.magnitudes.pace = 3.0;
+  options.sim.error_model.pace = 3.0;
   options.tracker.parallel = true;
   const LoggedOperation two_threads = logged(options);
   ASSERT_TRUE(two_threads.result.ok()) << two_threads.result.error().message;
@@ -165,7 +166,7 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
   std::size_t measured = 0;
   for (std::size_t i = 0; i < live.poses.size(); ++i) {
     EXPECT_TRUE(again.lines[i] == live.poses[i]) << "line " << i;
-    measured += live.poses[i].origin == Origin::kMeasured ? 1 : 0;
+    measured += live.poses[i].status == PoseStatus::kMeasured ? 1 : 0;
   }
   // A comparison of nothing with nothing would pass too.
   EXPECT_GT(measured, 100u);

@@ -14,8 +14,11 @@ namespace {
 std::vector<std::filesystem::path> corpus_of(std::string_view name) {
   const auto folder = std::filesystem::path(ORTHONAV_SOURCE_DIR) / "tests/fuzz/corpus" / name;
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_regular_file()) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files.push_back(entry.path());
+    }
+  }
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -18,7 +18,9 @@ using hl2ss::Bytes;
 
 /// A stream that arrives torn: the input's first byte says in which pieces.
 void follow_stream(Bytes input) {
-  if (input.empty()) return;
+  if (input.empty()) {
+    return;
+  }
   const std::size_t piece = 1 + input[0];
   Bytes rest = input.subspan(1);
   hl2ss::PacketAssembler assembler("fuzz", {4096, true});
@@ -30,43 +32,65 @@ void follow_stream(Bytes input) {
     rest = rest.subspan(count);
     for (;;) {
       const auto packet = assembler.next();
-      if (!packet) return;
-      if (!*packet) break;
+      if (!packet) {
+        return;
+      }
+      if (!*packet) {
+        break;
+      }
       insist((*packet)->payload.size() <= 4096 && (*packet)->pose.size() == hl2ss::kPoseBytes);
-      if (const auto image = hl2ss::split_image((*packet)->payload)) insist(!image->image.empty());
+      if (const auto image = hl2ss::split_image((*packet)->payload)) {
+        insist(!image->image.empty());
+      }
       const auto pose = hl2ss::read_pose((*packet)->pose);
-      if (pose && *pose) insist((*pose)->translation().is_finite());
+      if (pose && *pose) {
+        insist((*pose)->translation().is_finite());
+      }
     }
   }
 }
 
 void read_alone(Bytes input) {
   const auto pose = hl2ss::read_pose(input);
-  if (pose && *pose) insist(orthonormality_error((*pose)->rotation()) <= 1e-9);
+  if (pose && *pose) {
+    insist(orthonormality_error((*pose)->rotation()) <= 1e-9);
+  }
   const auto request = hl2ss::read_video_request(input);
-  if (request && *request) insist((*request)->bytes <= input.size());
+  if (request && *request) {
+    insist((*request)->bytes <= input.size());
+  }
   const auto words = hl2ss::read_vocabulary(input);
-  if (words && *words) insist((*words)->bytes <= input.size());
+  if (words && *words) {
+    insist((*words)->bytes <= input.size());
+  }
   const auto voice = hl2ss::read_voice_answer(input);
-  if (voice && *voice) insist((*voice)->bytes <= input.size());
+  if (voice && *voice) {
+    insist((*voice)->bytes <= input.size());
+  }
   const auto standin = hl2ss::read_standin_message(input);
-  if (standin && *standin) insist((*standin)->bytes <= input.size());
+  if (standin && *standin) {
+    insist((*standin)->bytes <= input.size());
+  }
   hl2ss::H264Order order;
   (void)order.follow(input);
   const auto spatial = hl2ss::read_spatial_input(input);
-  if (spatial && spatial->world_from_head)
+  if (spatial && spatial->world_from_head) {
     insist(spatial->world_from_head->translation().is_finite());
+  }
 }
 
 }  // namespace
 
 /// The first byte chooses between a stream of packets and a message of its own.
 void fuzz_hl2ss(Bytes input) {
-  if (input.empty()) return;
-  if (input[0] % 2 == 0)
+  if (input.empty()) {
+    return;
+  }
+  if (input[0] % 2 == 0) {
     follow_stream(input.subspan(1));
-  else
+  } else {
     read_alone(input.subspan(1));
+  }
 }
 
 }  // namespace orthonav::fuzz

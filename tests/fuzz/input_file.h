@@ -16,7 +16,9 @@ class InputFile {
   explicit InputFile(std::span<const std::uint8_t> input) : file_(::memfd_create("input", 0)) {
     while (!input.empty()) {
       const ssize_t count = ::write(file_, input.data(), input.size());
-      if (count <= 0) std::abort();
+      if (count <= 0) {
+        std::abort();
+      }
       input = input.subspan(static_cast<std::size_t>(count));
     }
   }
@@ -31,7 +33,9 @@ class InputFile {
 
 /// What a reader let through must hold, or its word is worth nothing.
 inline void insist(bool holds) {
-  if (!holds) std::abort();
+  if (!holds) {
+    std::abort();
+  }
 }
 
 }  // namespace orthonav::fuzz

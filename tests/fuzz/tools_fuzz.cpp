@@ -13,8 +13,9 @@ void fuzz_tools(std::span<const std::uint8_t> input) {
   }
   const auto again = engine::parse_tools(engine::tools_text(*tools), "again");
   insist(again.ok() && again->size() == tools->size());
-  for (std::size_t i = 0; i < tools->size(); ++i)
+  for (std::size_t i = 0; i < tools->size(); ++i) {
     insist((*again)[i].tip_in_marker.v == (*tools)[i].tip_in_marker.v);
+  }
 }
 
 }  // namespace orthonav::fuzz

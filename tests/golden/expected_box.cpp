@@ -22,7 +22,9 @@ class SeenBox {
 
   void add(Float3 in_world, float width_m, double least_radius_px) {
     const auto at = render::project(view_, in_world, golden_.width_px, golden_.height_px);
-    if (!at) return;
+    if (!at) {
+      return;
+    }
     const double pixels_at_1m =
         static_cast<double>(golden_.height_px) / static_cast<double>(view_.tan_up + view_.tan_down);
     const double radius_px = std::max(
@@ -53,7 +55,9 @@ Box box_of_shapes(const GoldenScene& golden, render::Label label, std::size_t vi
     }
   }
   for (const render::TriangleItem& item : alone.scene.triangles) {
-    for (const Float3 p : item.corners) seen.add_point(p);
+    for (const Float3 p : item.corners) {
+      seen.add_point(p);
+    }
   }
   // Dashes are cut as the renderer cuts them: the last one of a line rarely ends where the line
   // does.

@@ -11,12 +11,16 @@ template <class Values, class Edit>
 void each_part(Values& values, int width_px, int views, std::ptrdiff_t per_pixel,
                const Edit& edit) {
   const std::ptrdiff_t part = width_px / views * per_pixel;
-  for (auto at = values.begin(); at < values.end(); at += part) edit(at, at + part);
+  for (auto at = values.begin(); at < values.end(); at += part) {
+    edit(at, at + part);
+  }
 }
 
 void mirror(std::vector<std::uint8_t>& rgba, int width_px, int views) {
   each_part(rgba, width_px, views, 4, [](auto begin, auto end) {
-    for (auto a = begin, b = end - 4; a < b; a += 4, b -= 4) std::swap_ranges(a, a + 4, b);
+    for (auto a = begin, b = end - 4; a < b; a += 4, b -= 4) {
+      std::swap_ranges(a, a + 4, b);
+    }
   });
 }
 
@@ -33,16 +37,16 @@ GoldenImages mirrored(const GoldenImages& images, int views) {
   GoldenImages out = images;
   each_part(out.labels.labels, out.labels.width_px, views, 1,
             [](auto begin, auto end) { std::reverse(begin, end); });
-  mirror(out.additive.rgba, out.additive.width_px, views);
-  mirror(out.over.rgba, out.over.width_px, views);
+  mirror(out.additive.pixels, out.additive.width_px, views);
+  mirror(out.over.pixels, out.over.width_px, views);
   return out;
 }
 
 GoldenImages eyes_swapped(const GoldenImages& images) {
   GoldenImages out = images;
   swap_halves(out.labels.labels, out.labels.width_px, 1);
-  swap_halves(out.additive.rgba, out.additive.width_px, 4);
-  swap_halves(out.over.rgba, out.over.width_px, 4);
+  swap_halves(out.additive.pixels, out.additive.width_px, 4);
+  swap_halves(out.over.pixels, out.over.width_px, 4);
   return out;
 }
 

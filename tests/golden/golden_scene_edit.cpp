@@ -28,7 +28,9 @@ std::vector<std::size_t> number_ends(const std::string& text) {
   const auto is_digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
   std::vector<std::size_t> ends;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (is_digit(i) && (i + 1 == text.size() || !is_digit(i + 1))) ends.push_back(i);
+    if (is_digit(i) && (i + 1 == text.size() || !is_digit(i + 1))) {
+      ends.push_back(i);
+    }
   }
   return ends;
 }
@@ -39,17 +41,27 @@ void erase_label(Items& items, render::Label label, bool equal) {
 }
 
 void dim(render::Colour& colour) {
-  for (float* channel : {&colour.r, &colour.g, &colour.b}) *channel *= 0.8f;
+  for (float* channel : {&colour.r, &colour.g, &colour.b}) {
+    *channel *= 0.8f;
+  }
 }
 
 }  // namespace
 
 std::set<render::Label> labels_in(const render::Scene& scene) {
   std::set<render::Label> labels;
-  for (const auto& item : scene.meshes) labels.insert(item.label);
-  for (const auto& item : scene.lines) labels.insert(item.label);
-  for (const auto& item : scene.triangles) labels.insert(item.label);
-  for (const auto& item : scene.texts) labels.insert(item.label);
+  for (const auto& item : scene.meshes) {
+    labels.insert(item.label);
+  }
+  for (const auto& item : scene.lines) {
+    labels.insert(item.label);
+  }
+  for (const auto& item : scene.triangles) {
+    labels.insert(item.label);
+  }
+  for (const auto& item : scene.texts) {
+    labels.insert(item.label);
+  }
   return labels;
 }
 
@@ -66,7 +78,9 @@ GoldenScene only(GoldenScene golden, render::Label label, bool with_text) {
   erase_label(golden.scene.lines, label, false);
   erase_label(golden.scene.triangles, label, false);
   erase_label(golden.scene.texts, label, false);
-  if (!with_text) golden.scene.texts.clear();
+  if (!with_text) {
+    golden.scene.texts.clear();
+  }
   return golden;
 }
 
@@ -77,7 +91,9 @@ GoldenScene only_shapes(GoldenScene golden) {
 
 GoldenScene moved(GoldenScene golden, render::Label label, PixelStep step) {
   for (auto& item : golden.scene.meshes) {
-    if (item.label != label) continue;
+    if (item.label != label) {
+      continue;
+    }
     render::Matrix4& m = item.world_from_model;
     const Float3 shift = step_at(golden, {m[12], m[13], m[14]}, step);
     m[12] += shift.x;
@@ -85,15 +101,25 @@ GoldenScene moved(GoldenScene golden, render::Label label, PixelStep step) {
     m[14] += shift.z;
   }
   for (auto& item : golden.scene.lines) {
-    if (item.label != label) continue;
-    for (Float3& point : item.points) point = point + step_at(golden, point, step);
+    if (item.label != label) {
+      continue;
+    }
+    for (Float3& point : item.points) {
+      point = point + step_at(golden, point, step);
+    }
   }
   for (auto& item : golden.scene.triangles) {
-    if (item.label != label) continue;
-    for (Float3& corner : item.corners) corner = corner + step_at(golden, corner, step);
+    if (item.label != label) {
+      continue;
+    }
+    for (Float3& corner : item.corners) {
+      corner = corner + step_at(golden, corner, step);
+    }
   }
   for (auto& item : golden.scene.texts) {
-    if (item.label != label) continue;
+    if (item.label != label) {
+      continue;
+    }
     if (item.place == render::TextPlace::kWorld) {
       item.position = item.position + step_at(golden, item.position, step);
     } else {
@@ -105,17 +131,27 @@ GoldenScene moved(GoldenScene golden, render::Label label, PixelStep step) {
 
 GoldenScene dimmed(GoldenScene golden, render::Label label) {
   for (auto& item : golden.scene.meshes) {
-    if (item.label == label) dim(item.colour);
+    if (item.label == label) {
+      dim(item.colour);
+    }
   }
   for (auto& item : golden.scene.lines) {
-    if (item.label == label) dim(item.colour);
+    if (item.label == label) {
+      dim(item.colour);
+    }
   }
   for (auto& item : golden.scene.triangles) {
-    if (item.label == label) dim(item.colour);
+    if (item.label == label) {
+      dim(item.colour);
+    }
   }
   for (auto& item : golden.scene.texts) {
-    if (item.label != label) continue;
-    for (auto& run : item.runs) dim(run.colour);
+    if (item.label != label) {
+      continue;
+    }
+    for (auto& run : item.runs) {
+      dim(run.colour);
+    }
     dim(item.rim);
   }
   return golden;

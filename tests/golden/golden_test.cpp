@@ -47,8 +47,11 @@ class Golden : public ::testing::TestWithParam<std::string> {
   }
   void SetUp() override {
     static const std::vector<GoldenScene> kScenes = golden_scenes();
-    for (const GoldenScene& scene : kScenes)
-      if (scene.name == GetParam()) golden_ = scene;
+    for (const GoldenScene& scene : kScenes) {
+      if (scene.name == GetParam()) {
+        golden_ = scene;
+      }
+    }
     ASSERT_EQ(golden_.name, GetParam());
   }
   GoldenImages painted(const GoldenScene& scene) { return painted_by(*painter_, scene); }
@@ -60,8 +63,8 @@ class Golden : public ::testing::TestWithParam<std::string> {
     return images.ok() ? std::move(*images) : GoldenImages{};
   }
   /// Labels of one view out of the views side by side.
-  render::LabelImage view_of(const render::LabelImage& joined, std::size_t view) const {
-    render::LabelImage one{golden_.width_px, golden_.height_px, {}};
+  LabelImage view_of(const LabelImage& joined, std::size_t view) const {
+    LabelImage one{golden_.width_px, golden_.height_px, {}};
     for (int y = 0; y < one.height_px; ++y) {
       const auto begin = joined.labels.begin() + y * joined.width_px +
                          static_cast<std::ptrdiff_t>(view) * one.width_px;
@@ -97,8 +100,9 @@ struct Caught {
     ++all;
     if (render::compare_labels(good.labels, spoilt.labels).alike() != labels_differ &&
         !render::compare_colour(good.additive, spoilt.additive).alike() &&
-        !render::compare_colour(good.over, spoilt.over).alike())
+        !render::compare_colour(good.over, spoilt.over).alike()) {
       ++noticed;
+    }
   }
   [[nodiscard]] std::string cell() const {
     return all == 0 ? "-" : std::to_string(noticed) + " of " + std::to_string(all);
@@ -108,8 +112,11 @@ struct Caught {
 /// The table of docs/golden-images.md that says which spoilt pictures are noticed.
 std::string line_of_table(const std::string& scene) {
   std::ifstream file(ORTHONAV_SOURCE_DIR "/docs/golden-images.md");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("| `" + scene + "` |")) return line;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("| `" + scene + "` |")) {
+      return line;
+    }
+  }
   return {};
 }
 
@@ -126,32 +133,43 @@ TEST_P(Golden, NoticesEveryControlAndSaysSoInTheTable) {
     shifted.count(good, spoilt(moved(golden_, label, {1, 0})));
     dim.count(good, spoilt(dimmed(golden_, label)), false);
   }
-  for (const GoldenScene& other : with_one_number_changed(golden_))
+  for (const GoldenScene& other : with_one_number_changed(golden_)) {
     digit.count(good, spoilt(other));
+  }
   const auto views = static_cast<int>(golden_.views.size());
   mirror.count(good, mirrored(good, views));
-  if (views == 2) swapped.count(good, eyes_swapped(good));
-  for (const Caught& caught : {hidden, shifted, dim, digit, mirror, swapped})
+  if (views == 2) {
+    swapped.count(good, eyes_swapped(good));
+  }
+  for (const Caught& caught : {hidden, shifted, dim, digit, mirror, swapped}) {
     EXPECT_EQ(caught.noticed, caught.all);
+  }
   std::string row = "| `" + golden_.name + "` |";
-  for (const Caught& caught : {hidden, shifted, digit, dim, mirror, swapped})
+  for (const Caught& caught : {hidden, shifted, digit, dim, mirror, swapped}) {
     row += " " + caught.cell() + " |";
+  }
   EXPECT_EQ(line_of_table(golden_.name), row) << "docs/golden-images.md is stale";
 }
 
 /// Whether the label lies at a point's pixel or at one beside it.
-bool covers(const render::LabelImage& image, Label label, const render::PixelPoint& at) {
+bool covers(const LabelImage& image, Label label, const render::PixelPoint& at) {
   for (int y = static_cast<int>(at.y_px) - 1; y <= static_cast<int>(at.y_px) + 1; ++y) {
     for (int x = static_cast<int>(at.x_px) - 1; x <= static_cast<int>(at.x_px) + 1; ++x) {
-      if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px) continue;
-      if (image.labels[static_cast<std::size_t>(y) * image.width_px + x] == label) return true;
+      if (x < 0 || y < 0 || x >= image.width_px || y >= image.height_px) {
+        continue;
+      }
+      if (image.labels[static_cast<std::size_t>(y) * image.width_px + x] == label) {
+        return true;
+      }
     }
   }
   return false;
 }
 
 TEST_P(Golden, CoversItsPointsInEveryView) {
-  if (golden_.covered.empty()) GTEST_SKIP() << "has no points to cover, its texts have boxes";
+  if (golden_.covered.empty()) {
+    GTEST_SKIP() << "has no points to cover, its texts have boxes";
+  }
   for (const GoldenPoint& point : golden_.covered) {
     const GoldenScene alone = only(golden_, point.label, false);
     const GoldenImages images = painted(alone);
@@ -167,7 +185,9 @@ TEST_P(Golden, CoversItsPointsInEveryView) {
 }
 
 TEST_P(Golden, IsCentredWhereItBelongsAndOnePixelAsideIsNot) {
-  if (golden_.centred.empty()) GTEST_SKIP() << "has nothing that is alike on all sides";
+  if (golden_.centred.empty()) {
+    GTEST_SKIP() << "has nothing that is alike on all sides";
+  }
   for (const GoldenPoint& point : golden_.centred) {
     const GoldenScene alone = only(golden_, point.label, false);
     const GoldenImages images = painted(alone);
@@ -213,11 +233,15 @@ TEST_P(Golden, ReachesAsFarAsItsShapesProject) {
       ++checked;
     }
   }
-  if (checked == 0) GTEST_SKIP() << "is text alone, which has boxes of its own";
+  if (checked == 0) {
+    GTEST_SKIP() << "is text alone, which has boxes of its own";
+  }
 }
 
 TEST_P(Golden, WritesEveryTextWhereTheLayoutSays) {
-  if (golden_.scene.texts.empty()) GTEST_SKIP() << "has no text";
+  if (golden_.scene.texts.empty()) {
+    GTEST_SKIP() << "has no text";
+  }
   for (const render::TextItem& item : golden_.scene.texts) {
     GoldenScene alone = golden_;
     alone.scene = {};
@@ -240,7 +264,9 @@ TEST_P(Golden, WritesEveryTextWhereTheLayoutSays) {
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
-  for (const GoldenScene& scene : golden_scenes()) names.push_back(scene.name);
+  for (const GoldenScene& scene : golden_scenes()) {
+    names.push_back(scene.name);
+  }
   return names;
 }
 

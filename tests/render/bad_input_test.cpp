@@ -38,8 +38,8 @@ Scene good_scene() {
 class BadScene : public ::testing::Test {
  protected:
   void SetUp() override {
-    const Image image = renderer_.draw(good_scene(), TestRenderer::straight_ahead());
-    ASSERT_FALSE(image.rgba.empty());
+    const RgbaImage image = renderer_.draw(good_scene(), TestRenderer::straight_ahead());
+    ASSERT_FALSE(image.pixels.empty());
   }
   /// After any refusal a good frame must still come out.
   void TearDown() override { renderer_.draw(good_scene(), TestRenderer::straight_ahead()); }
@@ -154,7 +154,7 @@ TEST_F(BadScene, EmptyItemsDrawNothing) {
   MeshItem mesh;
   mesh.mesh = std::make_shared<MeshData>();
   scene_.meshes.push_back(mesh);
-  const Image image = renderer_.draw(scene_, TestRenderer::straight_ahead());
+  const RgbaImage image = renderer_.draw(scene_, TestRenderer::straight_ahead());
   EXPECT_EQ(image, renderer_.draw({}, TestRenderer::straight_ahead()));
 }
 
@@ -168,7 +168,7 @@ TEST_F(BadScene, ViewsAreChecked) {
   view = TestRenderer::straight_ahead();
   view.tan_up = 0;
   EXPECT_THAT(renderer_.error_of(scene_, view), HasSubstr("tangent"));
-  std::vector<Image> images;
+  std::vector<RgbaImage> images;
   std::string error;
   EXPECT_FALSE(renderer_->draw(scene_, {}, {}, images, error));
   EXPECT_EQ(error, "views: 0, expected 1 or 2");
@@ -177,8 +177,8 @@ TEST_F(BadScene, ViewsAreChecked) {
 }
 
 TEST_F(BadScene, BackgroundsOfTheWrongSizeAreRefused) {
-  Image background{100, 120, std::vector<std::uint8_t>(4 * 100 * 120)};
-  std::vector<Image> images;
+  RgbaImage background{100, 120, std::vector<std::uint8_t>(4 * 100 * 120)};
+  std::vector<RgbaImage> images;
   std::string error;
   const std::vector<View> views = {TestRenderer::straight_ahead()};
   EXPECT_FALSE(renderer_->draw(scene_, views, {&background}, images, error));
@@ -223,8 +223,9 @@ TEST(Devices, AreListedWithTheSoftwareRasterizer) {
 TEST(NoDeviceDeathTest, IsOneLine) {
   EXPECT_EXIT(
       {
-        for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"})
+        for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) {
           setenv(name, "/none.json", 1);
+        }
         std::string error;
         const auto renderer = Renderer::create({}, error);
         std::fprintf(stderr, "%s|%zu\n", error.c_str(), list_devices().size());

@@ -5,7 +5,7 @@
 namespace orthonav::render {
 namespace {
 
-Image grey(int width_px, int height_px, std::uint8_t value) {
+RgbaImage grey(int width_px, int height_px, std::uint8_t value) {
   return {width_px, height_px,
           std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width_px) * height_px, value)};
 }
@@ -20,11 +20,11 @@ TEST(Compare, FindsEqualImagesAlike) {
 }
 
 TEST(Compare, AllowsTwoStepsAChannelAndNotThree) {
-  const Image expected = grey(9, 7, 80);
-  Image actual = expected;
-  actual.rgba[4 * (3 * 9 + 5) + 1] = 82;
+  const RgbaImage expected = grey(9, 7, 80);
+  RgbaImage actual = expected;
+  actual.pixels[4 * (3 * 9 + 5) + 1] = 82;
   EXPECT_TRUE(compare_colour(expected, actual).alike());
-  actual.rgba[4 * (3 * 9 + 5) + 1] = 83;
+  actual.pixels[4 * (3 * 9 + 5) + 1] = 83;
   const ColourDifference difference = compare_colour(expected, actual);
   EXPECT_FALSE(difference.alike());
   EXPECT_EQ(difference.outside, 1u);
@@ -35,16 +35,16 @@ TEST(Compare, AllowsTwoStepsAChannelAndNotThree) {
 }
 
 TEST(Compare, SeesDarkerAsWellAsBrighter) {
-  const Image expected = grey(4, 4, 80);
-  Image actual = expected;
-  actual.rgba[0] = 77;
+  const RgbaImage expected = grey(4, 4, 80);
+  RgbaImage actual = expected;
+  actual.pixels[0] = 77;
   EXPECT_FALSE(compare_colour(expected, actual).alike());
 }
 
 TEST(Compare, RefusesOtherSizesAndTornImages) {
   EXPECT_FALSE(compare_colour(grey(9, 7, 80), grey(7, 9, 80)).alike());
-  Image torn = grey(9, 7, 80);
-  torn.rgba.pop_back();
+  RgbaImage torn = grey(9, 7, 80);
+  torn.pixels.pop_back();
   EXPECT_FALSE(compare_colour(torn, torn).alike());
   EXPECT_FALSE(compare_labels(blank(9, 7), blank(7, 9)).alike());
   EXPECT_EQ(compare_labels(blank(9, 7), blank(7, 9)).text(), "sizes differ");
@@ -59,11 +59,11 @@ TEST(Compare, AllowsNoLabelToDiffer) {
 }
 
 TEST(Compare, MagnifiesDifferencesWithoutOverflow) {
-  Image actual = grey(2, 1, 80);
-  actual.rgba[0] = 83;
-  actual.rgba[5] = 200;
-  const Image difference = difference_image(grey(2, 1, 80), actual);
-  EXPECT_EQ(difference.rgba, (std::vector<std::uint8_t>{48, 0, 0, 255, 0, 255, 0, 255}));
+  RgbaImage actual = grey(2, 1, 80);
+  actual.pixels[0] = 83;
+  actual.pixels[5] = 200;
+  const RgbaImage difference = difference_image(grey(2, 1, 80), actual);
+  EXPECT_EQ(difference.pixels, (std::vector<std::uint8_t>{48, 0, 0, 255, 0, 255, 0, 255}));
 }
 
 TEST(LabelExtent, IsTheMeanOfPixelCentresAndTheBox) {

@@ -15,7 +15,7 @@ TEST(Eyes, TogetherSeeWhatEachSeesAlone) {
   scene.lines = {scene.lines[0]};
   scene.triangles = {scene.triangles[0]};
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
-  std::vector<Image> both;
+  std::vector<RgbaImage> both;
   std::string error;
   ASSERT_TRUE(renderer->draw(scene, eyes, {}, both, error)) << error;
   EXPECT_EQ(both.at(0), renderer.draw(scene, eyes[0]));
@@ -31,7 +31,9 @@ TEST(Eyes, BothSeeASurfaceThatFillsTheView) {
   std::string error;
   ASSERT_TRUE(
       renderer->draw_labels(scene, stereo_pair(TestRenderer::straight_ahead()), labels, error));
-  for (const LabelImage& eye : labels) EXPECT_EQ(extent_of(eye, 501)->pixels, 200u * 120u);
+  for (const LabelImage& eye : labels) {
+    EXPECT_EQ(extent_of(eye, 501)->pixels, 200u * 120u);
+  }
 }
 
 /// What llvmpipe draws right in one pass: it puts lines and triangles of both eyes into the first
@@ -49,8 +51,8 @@ TEST(Eyes, InOnePassSeeWhatTheySeeInTurn) {
   for (const Blend blend : {Blend::kAdditive, Blend::kOver}) {
     TestRenderer together(200, 120, blend, 4, EyesAPass::kTwo);
     TestRenderer in_turn(200, 120, blend, 4, EyesAPass::kOne);
-    std::vector<Image> expected;
-    std::vector<Image> actual;
+    std::vector<RgbaImage> expected;
+    std::vector<RgbaImage> actual;
     std::string error;
     ASSERT_TRUE(in_turn->draw(scene, eyes, {}, expected, error)) << error;
     ASSERT_TRUE(together->draw(scene, eyes, {}, actual, error)) << error;
@@ -81,7 +83,9 @@ TEST(Eyes, InOnePassHaveTheLabelsThatTheyHaveInTurn) {
 /// Both eyes' labels in one picture, so that a line is found in whichever layer a driver put it.
 LabelImage joined(const std::vector<LabelImage>& layers) {
   LabelImage all = layers.at(0);
-  for (std::size_t i = 0; i < all.labels.size(); ++i) all.labels[i] |= layers.at(1).labels[i];
+  for (std::size_t i = 0; i < all.labels.size(); ++i) {
+    all.labels[i] |= layers.at(1).labels[i];
+  }
   return all;
 }
 

@@ -40,12 +40,15 @@ TEST(FrameLoop, AllocatesNothingAfterTheFirstFrames) {
   ASSERT_NE(renderer, nullptr) << error;
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
   const std::vector<Scene> scenes = {moving_scene(0.00f), moving_scene(0.03f), moving_scene(0.05f)};
-  std::vector<Image> images;
-  for (const Scene& scene : scenes) ASSERT_TRUE(renderer->draw(scene, eyes, {}, images, error));
+  std::vector<RgbaImage> images;
+  for (const Scene& scene : scenes) {
+    ASSERT_TRUE(renderer->draw(scene, eyes, {}, images, error));
+  }
   const std::size_t before = test::allocation_count();
   bool drawn = true;
-  for (int i = 0; i < 6; ++i)
+  for (int i = 0; i < 6; ++i) {
     drawn = renderer->draw(scenes[i % 3], eyes, {}, images, error) && drawn;
+  }
   const std::size_t after = test::allocation_count();
   EXPECT_TRUE(drawn) << error;
   EXPECT_EQ(after, before);
@@ -58,7 +61,7 @@ TEST(FrameLoop, AllocatesNothingAfterTheFirstFrames) {
 TEST(FrameLoop, IsValid) {
   TestRenderer renderer;
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
-  std::vector<Image> images;
+  std::vector<RgbaImage> images;
   std::string error;
   for (int i = 0; i < 9; ++i) {
     const Scene scene = moving_scene(0.02f * static_cast<float>(i % 3));
@@ -70,7 +73,7 @@ TEST(FrameLoop, TellsARefusalWhenMemoryForTheImagesIsMissing) {
   TestRenderer renderer;
   const std::vector<View> views = {TestRenderer::straight_ahead()};
   const Scene scene = moving_scene(0);
-  std::vector<Image> images;
+  std::vector<RgbaImage> images;
   std::string error;
   ASSERT_TRUE(renderer->draw(scene, views, {}, images, error)) << error;
   images.clear();

@@ -16,7 +16,7 @@ TEST(Order, OfSubmissionNeverChangesAFrame) {
   for (const Blend blend : {Blend::kAdditive, Blend::kOver}) {
     TestRenderer renderer(200, 120, blend);
     Scene scene = crowded_scene();
-    const Image image = renderer.draw(scene, TestRenderer::straight_ahead());
+    const RgbaImage image = renderer.draw(scene, TestRenderer::straight_ahead());
     const LabelImage labels = renderer.labels(scene, TestRenderer::straight_ahead());
     std::reverse(scene.meshes.begin(), scene.meshes.end());
     std::reverse(scene.lines.begin(), scene.lines.end());
@@ -31,7 +31,7 @@ TEST(Order, OfSubmissionNeverChangesAFrame) {
 
 TEST(Frames, RepeatToTheBit) {
   TestRenderer renderer;
-  const Image first = renderer.draw(crowded_scene(), TestRenderer::straight_ahead());
+  const RgbaImage first = renderer.draw(crowded_scene(), TestRenderer::straight_ahead());
   TestRenderer other;
   EXPECT_EQ(renderer.draw(crowded_scene(), TestRenderer::straight_ahead()), first);
   EXPECT_EQ(other.draw(crowded_scene(), TestRenderer::straight_ahead()), first);
@@ -39,8 +39,8 @@ TEST(Frames, RepeatToTheBit) {
 
 TEST(Frames, OfOneSampleShowTheSameThings) {
   TestRenderer renderer(200, 120, Blend::kAdditive, 1);
-  const Image image = renderer.draw(line_scene(0.03f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
-                                    TestRenderer::straight_ahead());
+  const RgbaImage image = renderer.draw(line_scene(0.03f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
+                                        TestRenderer::straight_ahead());
   EXPECT_THAT(pixel(image, 100, 60), ElementsAre(255, 255, 255));
   EXPECT_EQ(pixel(image, 100, 20), kBlack);
 }

@@ -42,10 +42,10 @@ void draw(HostedRenderer& renderer, const Scene& scene, const std::vector<View>&
   ASSERT_TRUE(renderer.draw(scene, views, images, error)) << error;
 }
 
-std::vector<Image> as_drawn_into_images(const Scene& scene, const std::vector<View>& views,
-                                        Blend blend, int samples) {
+std::vector<RgbaImage> as_drawn_into_images(const Scene& scene, const std::vector<View>& views,
+                                            Blend blend, int samples) {
   TestRenderer plain(kWidth_px, kHeight_px, blend, samples);
-  std::vector<Image> images;
+  std::vector<RgbaImage> images;
   std::string error;
   EXPECT_TRUE(plain->draw(scene, views, {}, images, error)) << error;
   return images;
@@ -76,8 +76,8 @@ TEST_P(HostedRendererInEveryWay, DrawsTheSameBitsAsIntoImages) {
   ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
   draw(*hosted.renderer, scene, eyes(), std::vector<std::uint32_t>(2 / way.layers, 1));
   const auto drawn = both(images, 1);
-  EXPECT_TRUE(drawn[0] == expected[0].rgba);
-  EXPECT_TRUE(drawn[1] == expected[1].rgba);
+  EXPECT_TRUE(drawn[0] == expected[0].pixels);
+  EXPECT_TRUE(drawn[1] == expected[1].pixels);
   EXPECT_TRUE(hosted.renderer->finish(error)) << error;
 }
 
@@ -98,8 +98,8 @@ TEST(HostedRenderer, DrawsBothLayersInOnePass) {
   ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
   draw(*hosted.renderer, scene, eyes(), {1});
   const auto drawn = both(images, 1);
-  EXPECT_TRUE(drawn[0] == expected[0].rgba);
-  EXPECT_TRUE(drawn[1] == expected[1].rgba);
+  EXPECT_TRUE(drawn[0] == expected[0].pixels);
+  EXPECT_TRUE(drawn[1] == expected[1].pixels);
   EXPECT_FALSE(drawn[0] == drawn[1]);
   EXPECT_TRUE(hosted.renderer->finish(error)) << error;
 }
@@ -120,8 +120,8 @@ TEST(HostedRenderer, KeepsTwoFramesInFlightApart) {
   const auto green = both(images, 1);
   const auto expected_red = as_drawn_into_images(copy_of_first, eyes(), Blend::kAdditive, 4);
   const auto expected_green = as_drawn_into_images(second, eyes(), Blend::kAdditive, 4);
-  EXPECT_TRUE(red[0] == expected_red[0].rgba);
-  EXPECT_TRUE(green[1] == expected_green[1].rgba);
+  EXPECT_TRUE(red[0] == expected_red[0].pixels);
+  EXPECT_TRUE(green[1] == expected_green[1].pixels);
   EXPECT_TRUE(hosted.renderer->finish(error)) << error;
 }
 
@@ -134,13 +134,15 @@ TEST(HostedRenderer, TakesSwappedAndLinearFormats) {
   ASSERT_TRUE(hosted.renderer->use(swapped.targets(), error)) << error;
   draw(*hosted.renderer, scene, eyes(), {0, 0});
   auto bytes = both(swapped, 0)[0];
-  for (std::size_t i = 0; i < bytes.size(); i += 4) std::swap(bytes[i], bytes[i + 2]);
-  EXPECT_TRUE(bytes == expected[0].rgba);
-  EXPECT_GT(hosted.renderer->suits(VK_FORMAT_R8G8B8A8_SRGB),
-            hosted.renderer->suits(VK_FORMAT_R16G16B16A16_SFLOAT));
-  EXPECT_GT(hosted.renderer->suits(VK_FORMAT_R16G16B16A16_SFLOAT),
-            hosted.renderer->suits(VK_FORMAT_R8G8B8A8_UNORM));
-  EXPECT_EQ(hosted.renderer->suits(VK_FORMAT_D32_SFLOAT), 0);
+  for (std::size_t i = 0; i < bytes.size(); i += 4) {
+    std::swap(bytes[i], bytes[i + 2]);
+  }
+  EXPECT_TRUE(bytes == expected[0].pixels);
+  EXPECT_GT(hosted.renderer->format_score(VK_FORMAT_R8G8B8A8_SRGB),
+            hosted.renderer->format_score(VK_FORMAT_R16G16B16A16_SFLOAT));
+  EXPECT_GT(hosted.renderer->format_score(VK_FORMAT_R16G16B16A16_SFLOAT),
+            hosted.renderer->format_score(VK_FORMAT_R8G8B8A8_UNORM));
+  EXPECT_EQ(hosted.renderer->format_score(VK_FORMAT_D32_SFLOAT), 0);
   EXPECT_TRUE(hosted.renderer->finish(error)) << error;
 }
 
@@ -157,10 +159,11 @@ TEST(HostedRenderer, WritesOpacityAsAlphaForACompositor) {
   const auto bytes = both(images, 0)[0];
   const auto at = [&](int x, int y) { return 4ul * (static_cast<std::size_t>(y) * kWidth_px + x); };
   // Over black a premultiplied colour is itself.
-  for (std::size_t i = 0; i < bytes.size(); ++i)
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
     if (i % 4 != 3) {
-      ASSERT_EQ(bytes[i], over_black[0].rgba[i]) << "byte " << i;
+      ASSERT_EQ(bytes[i], over_black[0].pixels[i]) << "byte " << i;
     }
+  }
   EXPECT_EQ(bytes[at(2, 2) + 3], 0);
   EXPECT_EQ(bytes[at(106, 60) + 3], 255);
   EXPECT_NEAR(bytes[at(66, 62) + 3], 128, 1);

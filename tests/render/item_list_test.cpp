@@ -62,8 +62,12 @@ TEST(ItemList, CopiesAndComparesItsItemsAlone) {
 
 TEST(ItemList, TakesOneOfItsOwn) {
   ItemList<TextRun> list = {{"a text that is too long for a string's own room", {}}};
-  for (int i = 0; i < 9; ++i) list.push_back(list[0]);
-  for (const TextRun& run : list) EXPECT_EQ(run.text, list[0].text);
+  for (int i = 0; i < 9; ++i) {
+    list.push_back(list[0]);
+  }
+  for (const TextRun& run : list) {
+    EXPECT_EQ(run.text, list[0].text);
+  }
   EXPECT_EQ(list.size(), 10u);
 }
 

@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 
 /// Light in a column of pixels, in full pixels (linear).
-double light_in_column(const Image& image, int x_px) {
+double light_in_column(const RgbaImage& image, int x_px) {
   double light = 0;
   for (int y = 0; y < image.height_px; ++y) {
     const double value = pixel(image, x_px, y)[1] / 255.0;
@@ -23,20 +23,21 @@ double light_in_column(const Image& image, int x_px) {
 TEST(Line, IsAsWideAsTheWorldSays) {
   TestRenderer renderer;
   // 5 mm a pixel at 1 m: 30 mm are 6 px.
-  const Image image = renderer.draw(line_scene(0.030f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
-                                    TestRenderer::straight_ahead());
+  const RgbaImage image = renderer.draw(line_scene(0.030f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
+                                        TestRenderer::straight_ahead());
   EXPECT_NEAR(light_in_column(image, 100), 6.0, 0.26);  // a quarter sample row on either side
 }
 
 TEST(Line, IsNeverThinnerThanOneAndAHalfPixels) {
   TestRenderer renderer;
   for (const float width_m : {0.0f, 0.001f, 0.004f}) {
-    const Image image = renderer.draw(line_scene(width_m, {-0.4f, 0.003f, -1}, {0.4f, 0.003f, -1}),
-                                      TestRenderer::straight_ahead());
+    const RgbaImage image =
+        renderer.draw(line_scene(width_m, {-0.4f, 0.003f, -1}, {0.4f, 0.003f, -1}),
+                      TestRenderer::straight_ahead());
     EXPECT_NEAR(light_in_column(image, 100), 1.5, 0.26) << width_m;
   }
-  const Image thicker = renderer.draw(line_scene(0.012f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
-                                      TestRenderer::straight_ahead());
+  const RgbaImage thicker = renderer.draw(line_scene(0.012f, {-0.4f, 0, -1}, {0.4f, 0, -1}),
+                                          TestRenderer::straight_ahead());
   EXPECT_GT(light_in_column(thicker, 100), 2.0) << "the twin: 2.4 px are above the floor";
 }
 
@@ -46,10 +47,10 @@ TEST(Line, AddsItsLightOnceHoweverItCrossesItself) {
   scene.lines[0].points.push_back({-0.2f, 0.001f, -1});
   scene.lines[0].points.push_back({0.2f, -0.001f, -1});
   scene.lines[0].colour = {0.2f, 0.2f, 0.2f, 1};
-  const Image once = renderer.draw(scene, TestRenderer::straight_ahead());
+  const RgbaImage once = renderer.draw(scene, TestRenderer::straight_ahead());
   EXPECT_THAT(pixel(once, 100, 60), ElementsAre(124, 124, 124));  // 0.2 in sRGB
   scene.lines.push_back(scene.lines[0]);
-  const Image twice = renderer.draw(scene, TestRenderer::straight_ahead());
+  const RgbaImage twice = renderer.draw(scene, TestRenderer::straight_ahead());
   EXPECT_GT(pixel(twice, 100, 60)[0], 150) << "the twin: two lines do add";
 }
 
@@ -117,7 +118,9 @@ TEST(Line, MoreThanTwoHundredFiftyFiveAllShow) {
     scene.lines.push_back(one.lines[0]);
   }
   const LabelImage labels = renderer.labels(scene, TestRenderer::straight_ahead());
-  for (Label label = 1; label <= 600; ++label) EXPECT_TRUE(extent_of(labels, label)) << label;
+  for (Label label = 1; label <= 600; ++label) {
+    EXPECT_TRUE(extent_of(labels, label)) << label;
+  }
 }
 
 }  // namespace

@@ -28,10 +28,12 @@ TEST(Mesh, TakesItsTintWhereItSaysSo) {
     Scene scene = sphere_scene(style, {1, 0, 0, 1}, {0, 0, -1}, 301);
     scene.meshes[0].tint = {0, 0, 1, 1};
     auto left = std::make_shared<MeshData>(*scene.meshes[0].mesh);
-    for (const Float3 p : left->positions) left->tints.push_back(p.x < 0 ? 1.0f : 0.0f);
-    const Image plain = renderer.draw(scene, TestRenderer::straight_ahead());
+    for (const Float3 p : left->positions) {
+      left->tints.push_back(p.x < 0 ? 1.0f : 0.0f);
+    }
+    const RgbaImage plain = renderer.draw(scene, TestRenderer::straight_ahead());
     scene.meshes[0].mesh = left;
-    const Image image = renderer.draw(scene, TestRenderer::straight_ahead());
+    const RgbaImage image = renderer.draw(scene, TestRenderer::straight_ahead());
     EXPECT_EQ(pixel(image, 106, 60), pixel(plain, 106, 60));
     const auto there = pixel(image, 94, 60);
     EXPECT_EQ(there[0], 0);
@@ -59,9 +61,11 @@ TEST(Mesh, RimIsBrightAtTheEdgeAndThinInside) {
   TestRenderer renderer;
   Scene scene = sphere_scene(MeshStyle::kRim, {1, 1, 1, 0.35f}, {0, 0, -0.4f}, 201);
   scene.meshes[0].mesh = std::make_shared<MeshData>(make_sphere(0.05f, 192, 96));
-  const Image image = renderer.draw(scene, TestRenderer::straight_ahead());
+  const RgbaImage image = renderer.draw(scene, TestRenderer::straight_ahead());
   int brightest = 0;
-  for (int x = 0; x < 100; ++x) brightest = std::max(brightest, pixel(image, x, 60)[0]);
+  for (int x = 0; x < 100; ++x) {
+    brightest = std::max(brightest, pixel(image, x, 60)[0]);
+  }
   EXPECT_GT(brightest, 140);  // of a pixel that the edge covers in part
   EXPECT_LT(pixel(image, 100, 60)[0], 70);
   EXPECT_GT(pixel(image, 100, 60)[0], 20) << "there is an inside";

@@ -104,8 +104,9 @@ TEST(HugeMesh, IsDrawnWithFewerTrianglesAndANote) {
   const LabelImage plain = renderer.labels(scene, view);
   // Bumps of a tenth of a millimetre, as noise leaves them, which no error of 20 um lets go.
   MeshData bumpy = make_sphere(0.05f, 720, 360);
-  for (std::size_t i = 0; i < bumpy.positions.size(); ++i)
+  for (std::size_t i = 0; i < bumpy.positions.size(); ++i) {
     bumpy.positions[i] = (1 + 0.002f * static_cast<float>(i % 2)) * bumpy.positions[i];
+  }
   scene.meshes[0].mesh = std::make_shared<MeshData>(bumpy);
   const LabelImage labels = renderer.labels(scene, view);
   ASSERT_EQ(renderer->notes().size(), 1u);

@@ -63,8 +63,8 @@ TEST_F(PipelineCacheTest, LeavesTheRenderersPicturesAlone) {
   options.height_px = 120;
   options.device = "llvmpipe";
   options.cache_folder = folder_;
-  std::vector<Image> first;
-  std::vector<Image> second;
+  std::vector<RgbaImage> first;
+  std::vector<RgbaImage> second;
   for (auto* images : {&first, &second}) {
     std::string error;
     const auto renderer = Renderer::create(options, error);

@@ -37,11 +37,15 @@ TEST(Regions, ShareNoPixelAndHoldEveryRectangle) {
     }
     EXPECT_LE(regions.size(), 6u);
     for (std::size_t a = 0; a < regions.size(); ++a) {
-      for (std::size_t b = 0; b < a; ++b) EXPECT_FALSE(touch(regions[a], regions[b]));
+      for (std::size_t b = 0; b < a; ++b) {
+        EXPECT_FALSE(touch(regions[a], regions[b]));
+      }
     }
     for (const PixelRect& rect : rects) {
       int holding = 0;
-      for (const PixelRect& region : regions) holding += joined(region, rect) == region;
+      for (const PixelRect& region : regions) {
+        holding += joined(region, rect) == region;
+      }
       EXPECT_EQ(holding, 1);
     }
   }
@@ -65,7 +69,9 @@ TEST(ScreenBounds, HoldWhatIsDrawnWhereverItIs) {
   for (int i = 0; i < 60; ++i) {
     // Some reach through the near plane, some lie behind the eye, some beside the view.
     Float3 at = hop(i);
-    if (i % 10 == 0) at.z = -0.03f;
+    if (i % 10 == 0) {
+      at.z = -0.03f;
+    }
     Scene scene = sphere_scene(MeshStyle::kRim, {}, at, 201);
     scene.lines = line_scene(0.03f, at, hop(i + 7)).lines;
     const View view = TestRenderer::straight_ahead();
@@ -78,10 +84,14 @@ TEST(ScreenBounds, HoldWhatIsDrawnWhereverItIs) {
     scene.triangles.push_back({501, {Float3{-9, -9, -5}, {9, -9, -5}, {0, 9, -5}}, {}});
     for (const Float3 p : scene.meshes[0].mesh->positions) {
       const auto seen = project(view, at + p, kSize.width_px, kSize.height_px);
-      if (!seen) continue;
+      if (!seen) {
+        continue;
+      }
       const int x_px = static_cast<int>(std::floor(seen->x_px));
       const int y_px = static_cast<int>(std::floor(seen->y_px));
-      if (!holds({0, 0, kSize.width_px, kSize.height_px}, x_px, y_px)) continue;
+      if (!holds({0, 0, kSize.width_px, kSize.height_px}, x_px, y_px)) {
+        continue;
+      }
       EXPECT_TRUE(holds(sphere.rect(), x_px, y_px)) << i;
     }
     const LabelImage labels = renderer.labels(scene, view);
@@ -99,9 +109,11 @@ TEST(ScreenBounds, HoldWhatIsDrawnWhereverItIs) {
 }
 
 /// The brighter of two images, pixel by pixel.
-Image brighter(const Image& a, const Image& b) {
-  Image out = a;
-  for (std::size_t i = 0; i < out.rgba.size(); ++i) out.rgba[i] = std::max(a.rgba[i], b.rgba[i]);
+RgbaImage brighter(const RgbaImage& a, const RgbaImage& b) {
+  RgbaImage out = a;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+    out.pixels[i] = std::max(a.pixels[i], b.pixels[i]);
+  }
   return out;
 }
 
@@ -110,15 +122,21 @@ TEST(Regions, DrawnTogetherAreAsDrawnAlone) {
   const View view = TestRenderer::straight_ahead();
   const Scene left = sphere_scene(MeshStyle::kSolid, {1, 0.5f, 0, 1}, {-0.4f, 0.2f, -1}, 301);
   Scene right = crowded_scene();
-  for (MeshItem& item : right.meshes) item.world_from_model[12] += 0.35f;
+  for (MeshItem& item : right.meshes) {
+    item.world_from_model[12] += 0.35f;
+  }
   right.lines.clear();
   right.triangles.clear();
-  for (TextItem& text : right.texts) text.position.x += 0.35f;
+  for (TextItem& text : right.texts) {
+    text.position.x += 0.35f;
+  }
   Scene both = left;
-  for (const MeshItem& item : right.meshes) both.meshes.push_back(item);
+  for (const MeshItem& item : right.meshes) {
+    both.meshes.push_back(item);
+  }
   both.texts = right.texts;
-  const Image alone = renderer.draw(left, view);
-  const Image others = renderer.draw(right, view);
+  const RgbaImage alone = renderer.draw(left, view);
+  const RgbaImage others = renderer.draw(right, view);
   EXPECT_EQ(renderer.draw(both, view), brighter(alone, others));
   EXPECT_NE(others, brighter(alone, others)) << "the twin";
 }
@@ -137,12 +155,13 @@ TEST(Regions, SideBySideAreCopiedInTurn) {
 
 TEST(Regions, KeepTheirBackgroundAndTheRestItsOwn) {
   TestRenderer renderer(640, 400, Blend::kOver);
-  Image background{640, 400, std::vector<std::uint8_t>(4ul * 640 * 400)};
-  for (std::size_t i = 0; i < background.rgba.size(); ++i)
-    background.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 255 : i * 7 % 251);
+  RgbaImage background{640, 400, std::vector<std::uint8_t>(4ul * 640 * 400)};
+  for (std::size_t i = 0; i < background.pixels.size(); ++i) {
+    background.pixels[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 255 : i * 7 % 251);
+  }
   const View view = TestRenderer::straight_ahead();
   Scene scene = sphere_scene(MeshStyle::kSolid, {1, 1, 1, 1}, {-0.4f, 0.2f, -1}, 301);
-  const Image image = renderer.draw(scene, view, &background);
+  const RgbaImage image = renderer.draw(scene, view, &background);
   const LabelImage labels = renderer.labels(scene, view);
   std::size_t changed = 0;
   for (int y = 0; y < 400; ++y) {

@@ -33,13 +33,17 @@ bool is_closed(const MeshData& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Float3 a = mesh.positions[mesh.indices[t + k]];
       const Float3 b = mesh.positions[mesh.indices[t + (k + 1) % 3]];
-      if (a == b) continue;  // of a triangle at a pole
+      if (a == b) {
+        continue;  // of a triangle at a pole
+      }
       ++walked[{a.x, a.y, a.z, b.x, b.y, b.z}];
       --walked[{b.x, b.y, b.z, a.x, a.y, a.z}];
     }
   }
   for (const auto& [edge, balance] : walked) {
-    if (balance != 0) return false;
+    if (balance != 0) {
+      return false;
+    }
   }
   return !walked.empty();
 }
@@ -71,7 +75,9 @@ TEST(Tube, KeepsItsSectionAroundABend) {
   const MeshData tube = make_tube(path, 0.00275f, 32);
   EXPECT_TRUE(is_closed(tube));
   double run_m = 0;
-  for (std::size_t i = 1; i < path.size(); ++i) run_m += length(path[i] - path[i - 1]);
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    run_m += length(path[i] - path[i - 1]);
+  }
   const double section = std::numbers::pi * 0.00275 * 0.00275;
   EXPECT_NEAR(volume_of(tube) / (section * run_m), 1.0, 0.01);
 }
@@ -101,7 +107,9 @@ TEST(SmoothNormals, OfAFlatSheetStandOnIt) {
   const std::vector<std::uint32_t> indices = {0, 1, 2, 0, 2, 3, 0, 1, 77};
   const std::vector<Float3> normals = smooth_normals(corners, indices);
   ASSERT_EQ(normals.size(), 5u);
-  for (const Float3 normal : normals) EXPECT_EQ(normal, (Float3{0, 0, 1}));
+  for (const Float3 normal : normals) {
+    EXPECT_EQ(normal, (Float3{0, 0, 1}));
+  }
 }
 
 }  // namespace

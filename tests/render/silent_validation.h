@@ -17,8 +17,12 @@ class SilentValidation {
   SilentValidation() = default;
   ~SilentValidation() {
     std::string all;
-    for (const std::string& message : *messages_) all += "\n" + message;
-    if (!all.empty()) ADD_FAILURE() << "validation:" << all;
+    for (const std::string& message : *messages_) {
+      all += "\n" + message;
+    }
+    if (!all.empty()) {
+      ADD_FAILURE() << "validation:" << all;
+    }
   }
   SilentValidation(const SilentValidation&) = delete;
   SilentValidation& operator=(const SilentValidation&) = delete;

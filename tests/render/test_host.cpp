@@ -8,7 +8,9 @@ void* TestHost::create_instance(VulkanFunction, const void* info, std::string& e
   const auto* asked = static_cast<const VkInstanceCreateInfo*>(info);
   asked_version = asked->pApplicationInfo->apiVersion;
   VkInstance instance = VK_NULL_HANDLE;
-  if (vkCreateInstance(asked, nullptr, &instance) != VK_SUCCESS) error = "no instance";
+  if (vkCreateInstance(asked, nullptr, &instance) != VK_SUCCESS) {
+    error = "no instance";
+  }
   return instance;
 }
 
@@ -19,7 +21,9 @@ void* TestHost::physical_device(void* instance, std::string& error) {
   for (std::uint32_t i = 0; i < count; ++i) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(devices[i], &properties);
-    if (std::strstr(properties.deviceName, "llvmpipe") != nullptr) return devices[i];
+    if (std::strstr(properties.deviceName, "llvmpipe") != nullptr) {
+      return devices[i];
+    }
   }
   error = "no llvmpipe";
   return nullptr;
@@ -27,12 +31,16 @@ void* TestHost::physical_device(void* instance, std::string& error) {
 
 void* TestHost::create_device(void* physical, VulkanFunction, const void* info,
                               std::string& error) {
-  if (!refusal.empty()) return error = refusal, nullptr;
+  if (!refusal.empty()) {
+    return error = refusal, nullptr;
+  }
   VkDevice device = VK_NULL_HANDLE;
   const VkResult made =
       vkCreateDevice(static_cast<VkPhysicalDevice>(physical),
                      static_cast<const VkDeviceCreateInfo*>(info), nullptr, &device);
-  if (made != VK_SUCCESS) error = "no device";
+  if (made != VK_SUCCESS) {
+    error = "no device";
+  }
   return device;
 }
 

@@ -38,13 +38,15 @@ class TestRenderer {
   Renderer& operator*() { return *renderer_; }
   Renderer* operator->() { return renderer_.get(); }
 
-  Image draw(const Scene& scene, const View& view, const Image* background = nullptr) {
-    std::vector<const Image*> backgrounds;
-    if (background != nullptr) backgrounds.push_back(background);
-    std::vector<Image> images;
+  RgbaImage draw(const Scene& scene, const View& view, const RgbaImage* background = nullptr) {
+    std::vector<const RgbaImage*> backgrounds;
+    if (background != nullptr) {
+      backgrounds.push_back(background);
+    }
+    std::vector<RgbaImage> images;
     std::string error;
     EXPECT_TRUE(renderer_->draw(scene, {view}, backgrounds, images, error)) << error;
-    return images.empty() ? Image{} : images.front();
+    return images.empty() ? RgbaImage{} : images.front();
   }
   LabelImage labels(const Scene& scene, const View& view) {
     std::vector<LabelImage> images;
@@ -53,7 +55,7 @@ class TestRenderer {
     return images.empty() ? LabelImage{} : images.front();
   }
   std::string error_of(const Scene& scene, const View& view = straight_ahead()) {
-    std::vector<Image> images;
+    std::vector<RgbaImage> images;
     std::string error;
     EXPECT_FALSE(renderer_->draw(scene, {view}, {}, images, error));
     return error;
@@ -73,9 +75,9 @@ class TestRenderer {
 };
 
 /// Red, green and blue at a pixel.
-inline std::array<int, 3> pixel(const Image& image, int x_px, int y_px) {
+inline std::array<int, 3> pixel(const RgbaImage& image, int x_px, int y_px) {
   const std::size_t i = 4 * (static_cast<std::size_t>(y_px) * image.width_px + x_px);
-  return {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]};
+  return {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]};
 }
 
 }  // namespace orthonav::render

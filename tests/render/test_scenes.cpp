@@ -32,8 +32,12 @@ Scene sphere_scene(MeshStyle style, Colour colour, Float3 at, Label label) {
 Scene crowded_scene() {
   Scene scene = sphere_scene(MeshStyle::kRim, {0.9f, 0.8f, 0.7f, 0.35f}, {0, 0, -1}, 201);
   const auto add = [&](const Scene& more) {
-    for (const MeshItem& item : more.meshes) scene.meshes.push_back(item);
-    for (const LineItem& item : more.lines) scene.lines.push_back(item);
+    for (const MeshItem& item : more.meshes) {
+      scene.meshes.push_back(item);
+    }
+    for (const LineItem& item : more.lines) {
+      scene.lines.push_back(item);
+    }
   };
   add(sphere_scene(MeshStyle::kRim, {0.4f, 0.8f, 0.7f, 0.5f}, {0.03f, 0, -0.98f}, 202));
   add(sphere_scene(MeshStyle::kSolid, {0.1f, 0.3f, 1, 1}, {-0.05f, 0.02f, -1}, 301));

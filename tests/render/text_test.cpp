@@ -38,7 +38,7 @@ TEST(Text, IsSharpFromHalfToFourTimesItsSize) {
     text.height_m = height_m;
     text.runs = {{"H", {1, 1, 1, 1}}};
     scene.texts.push_back(text);
-    const Image image = renderer.draw(scene, TestRenderer::straight_ahead());
+    const RgbaImage image = renderer.draw(scene, TestRenderer::straight_ahead());
     // Along a row that cuts the stems, edges are at most two pixels of grey on each of four flanks.
     const int row = 384 / 2 - 2;
     int grey = 0;

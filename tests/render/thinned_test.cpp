@@ -38,8 +38,9 @@ TEST(Thinned, KeepsTheLineWithinTheAngle) {
   EXPECT_EQ(kept.back(), points.back());
   for (const Float3 p : points) {
     float nearest = 1;
-    for (std::size_t i = 1; i < kept.size(); ++i)
+    for (std::size_t i = 1; i < kept.size(); ++i) {
       nearest = std::min(nearest, distance(p, kept[i - 1], kept[i]));
+    }
     EXPECT_LE(nearest, 1.01f * kAngle_rad * length(p));
   }
 }

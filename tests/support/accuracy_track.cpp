@@ -28,7 +28,7 @@ class Writer {
     // The tracker errs in where the tag is and how it is turned.
     out.value = Pose(rotation_from_vector(turn) * rotation, tip_m - rotation * true_tip_m + shift);
     out.time = Timestamp(from_seconds(10.0 + static_cast<double>(count_++) / options_.rate_hz));
-    out.origin = Origin::kMeasured;
+    out.status = PoseStatus::kMeasured;
     for (std::size_t i = 0; i < 3; ++i) {
       out.covariance[7 * i] = p * p;
       out.covariance[7 * (i + 3)] = r * r;
@@ -41,14 +41,16 @@ class Writer {
     const int steps = count_of(kMoving_s);
     for (int i = 1; i <= steps; ++i) {
       // Slow at both ends, and over a little arch.
-      const double share = 0.5 - 0.5 * std::cos(std::numbers::pi * i / steps);
+      const double fraction = 0.5 - 0.5 * std::cos(std::numbers::pi * i / steps);
       const double lift_m = 0.03 * std::sin(std::numbers::pi * i / steps);
-      pose(from_m + share * (to_m - from_m) + Vec3{0, lift_m, 0}, held(0.02 * i));
+      pose(from_m + fraction * (to_m - from_m) + Vec3{0, lift_m, 0}, held(0.02 * i));
     }
   }
   void rest(Vec3 at_m, double duration_s, Vec3 slip_m = {}) {
     const int steps = count_of(duration_s);
-    for (int i = 0; i < steps; ++i) pose(2 * i < steps ? at_m : at_m + slip_m, held(0.0));
+    for (int i = 0; i < steps; ++i) {
+      pose(2 * i < steps ? at_m : at_m + slip_m, held(0.0));
+    }
   }
   void turn(Vec3 at_m, Vec3 slip_m) {
     const int steps = count_of(options_.turning_s);
@@ -89,9 +91,11 @@ nav::ToolGeometry accuracy_pointer() {
 
 std::vector<Vec3> accuracy_board() {
   std::vector<Vec3> points;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
       points.push_back({0.06 * column, 0.05 * (2 - row), 0.0});
+    }
+  }
   return points;
 }
 

@@ -21,7 +21,9 @@ void* counted(std::size_t size) noexcept {
 }  // namespace
 
 void* operator new(std::size_t size) {
-  if (void* memory = counted(size)) return memory;
+  if (void* memory = counted(size)) {
+    return memory;
+  }
   throw std::bad_alloc();
 }
 void* operator new[](std::size_t size) { return operator new(size); }

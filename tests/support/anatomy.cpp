@@ -20,8 +20,9 @@ nav::TriangleMesh binary_stl(const std::string& bytes) {
     float values[12];
     std::memcpy(values, bytes.data() + at, sizeof values);
     const auto base = static_cast<std::uint32_t>(mesh.vertices_m.size());
-    for (std::size_t k = 3; k < 12; k += 3)
+    for (std::size_t k = 3; k < 12; k += 3) {
       mesh.vertices_m.push_back({values[k] * 1e-3, values[k + 1] * 1e-3, values[k + 2] * 1e-3});
+    }
     mesh.triangles.push_back({base, base + 1, base + 2});
   }
   return nav::welded(mesh);
@@ -67,7 +68,9 @@ struct Stroker {
 
   void touch(Vec3 from_m, Vec3 direction) {
     const auto hit = surface.first_hit(from_m, direction);
-    if (hit && hit->point_m.y > front_m) tips_m.push_back(hit->point_m);
+    if (hit && hit->point_m.y > front_m) {
+      tips_m.push_back(hit->point_m);
+    }
   }
   /// A sweep to and fro from behind over x in [from, to], drifting from z low to high.
   void sweep(double from_x, double to_x, double low_z, double high_z, int rows) {
@@ -98,18 +101,26 @@ struct Stroker {
 
 std::vector<AnatomyLevel> anatomy_levels() {
   std::vector<std::filesystem::path> files;
-  if (std::filesystem::is_directory(kRoot))
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot))
-      if (entry.path().extension() == ".stl") files.push_back(entry.path());
+  if (std::filesystem::is_directory(kRoot)) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot)) {
+      if (entry.path().extension() == ".stl") {
+        files.push_back(entry.path());
+      }
+    }
+  }
   std::sort(files.begin(), files.end());
   std::vector<AnatomyLevel> levels;
-  for (const std::filesystem::path& file : files) levels.push_back(level_of(file));
+  for (const std::filesystem::path& file : files) {
+    levels.push_back(level_of(file));
+  }
   return levels;
 }
 
 std::optional<AnatomyLevel> anatomy_level(const std::string& name) {
   const std::filesystem::path file = kRoot / (name + ".stl");
-  if (!std::filesystem::is_regular_file(file)) return std::nullopt;
+  if (!std::filesystem::is_regular_file(file)) {
+    return std::nullopt;
+  }
   return level_of(file);
 }
 
@@ -120,8 +131,11 @@ std::vector<Vec3> strokes(const AnatomyLevel& level, const StrokeRegions& region
   Stroker s{nav::SurfaceIndex(level.mesh), middle.y - 0.010, random, {}};
   double back_y = -1.0;
   double back_z = 0.0;
-  for (const Vec3& v : level.mesh.vertices_m)
-    if (std::abs(v.x) < 0.006 && v.y > back_y) back_y = v.y, back_z = v.z;
+  for (const Vec3& v : level.mesh.vertices_m) {
+    if (std::abs(v.x) < 0.006 && v.y > back_y) {
+      back_y = v.y, back_z = v.z;
+    }
+  }
   const double half_m = 0.5 * std::abs(left.x - right.x);
   if (regions.laminae) {
     s.sweep(0.003, 0.6 * half_m, middle.z - 0.022, middle.z - 0.002, 8);
@@ -131,10 +145,13 @@ std::vector<Vec3> strokes(const AnatomyLevel& level, const StrokeRegions& region
     s.sweep(0.5 * half_m, half_m + 0.006, middle.z - 0.025, middle.z + 0.012, 8);
     s.sweep(-0.5 * half_m, -half_m - 0.006, middle.z - 0.025, middle.z + 0.012, 8);
   }
-  if (regions.spinous_process)
-    for (int row = 0; row < 4; ++row)
-      for (const double side : {1.0, -1.0})
+  if (regions.spinous_process) {
+    for (int row = 0; row < 4; ++row) {
+      for (const double side : {1.0, -1.0}) {
         s.flank(side, middle.y + 0.008, back_y, back_z + random.uniform(-0.008, 0.010));
+      }
+    }
+  }
   return std::move(s.tips_m);
 }
 

@@ -19,7 +19,7 @@ inline RoomLevel vertebra(const std::string& label, double z_m, int rings) {
   const auto add = [&](Vec3 centre, Vec3 radii) {
     const auto base = static_cast<std::uint32_t>(level.vertices_m.size());
     const int around = 2 * rings;
-    for (int r = 0; r <= rings; ++r)
+    for (int r = 0; r <= rings; ++r) {
       for (int a = 0; a < around; ++a) {
         const double polar = std::numbers::pi * r / rings;
         const double turn = 2.0 * std::numbers::pi * a / around;
@@ -27,7 +27,8 @@ inline RoomLevel vertebra(const std::string& label, double z_m, int rings) {
                                                  radii.y * std::sin(polar) * std::sin(turn),
                                                  radii.z * std::cos(polar)});
       }
-    for (int r = 0; r < rings; ++r)
+    }
+    for (int r = 0; r < rings; ++r) {
       for (int a = 0; a < around; ++a) {
         const auto at = [&](int ring, int column) {
           return base + static_cast<std::uint32_t>(ring * around + column % around);
@@ -35,6 +36,7 @@ inline RoomLevel vertebra(const std::string& label, double z_m, int rings) {
         level.triangles.push_back({at(r, a), at(r + 1, a), at(r + 1, a + 1)});
         level.triangles.push_back({at(r, a), at(r + 1, a + 1), at(r, a + 1)});
       }
+    }
   };
   add({0.0, 0.0, 0.0}, {0.024, 0.018, 0.014});
   add({0.0, 0.045, -0.004}, {0.005, 0.022, 0.010});
@@ -54,8 +56,9 @@ inline RoomTool tool(const std::string& name, ToolKind kind, int id, double size
 
 inline RoomDescription operating_room(int rings = 33) {
   RoomDescription room;
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 5; ++i) {
     room.levels.push_back(vertebra("L" + std::to_string(i + 1), 0.07 - 0.035 * i, rings));
+  }
   room.operated = {"L3", "L4"};
   room.tools = {tool("pointer", ToolKind::kPointer, 3, 0.050, 0.15),
                 tool("guide", ToolKind::kGuide, 5, 0.070, 0.15),
@@ -101,9 +104,11 @@ inline RoomState operating_state(const RoomDescription& room) {
 /// Three moments of an exposure in which every tool moves a little.
 inline std::vector<RoomState> exposure(const RoomState& middle, Vec3 step_m) {
   std::vector<RoomState> states(3, middle);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (auto& marker : states[i].room_from_marker)
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (auto& marker : states[i].room_from_marker) {
       marker = {marker.rotation(), marker.translation() + (static_cast<double>(i) - 1.0) * step_m};
+    }
+  }
   return states;
 }
 

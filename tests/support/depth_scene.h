@@ -44,7 +44,9 @@ struct DepthScene {
   /// Pictures at these ticks, all located.
   static std::vector<Picture> located(std::initializer_list<std::int64_t> ticks) {
     std::vector<Picture> made;
-    for (const std::int64_t at : ticks) made.push_back({at, pose(static_cast<int>(made.size()))});
+    for (const std::int64_t at : ticks) {
+      made.push_back({at, pose(static_cast<int>(made.size()))});
+    }
     return made;
   }
   /// The direction through a continuous pixel, on the unit plane of vision axes.
@@ -69,7 +71,9 @@ struct DepthScene {
   /// Distance along the ray in whole millimetres; every ninth pixel has no measurement.
   [[nodiscard]] std::uint16_t range_mm(const Picture& picture, int x_px, int y_px,
                                        std::uint16_t invalid) const {
-    if ((x_px + 5 * y_px) % 9 == 0) return invalid;
+    if ((x_px + 5 * y_px) % 9 == 0) {
+      return invalid;
+    }
     const Vec3 to_hit = hit(picture, x_px, y_px).v - world_from_sensor(picture).translation();
     return static_cast<std::uint16_t>(std::lround(1e3 * to_hit.norm()));
   }
@@ -80,7 +84,7 @@ struct DepthScene {
   [[nodiscard]] std::string pgm(bool big_endian, const Value& value) const {
     std::string bytes =
         "P5\n" + std::to_string(width_px) + " " + std::to_string(height_px) + "\n65535\n";
-    for (int y = 0; y < height_px; ++y)
+    for (int y = 0; y < height_px; ++y) {
       for (int x = 0; x < width_px; ++x) {
         const unsigned number = value(x, y);
         const auto high = static_cast<char>(number / 256);
@@ -88,6 +92,7 @@ struct DepthScene {
         bytes += big_endian ? high : low;
         bytes += big_endian ? low : high;
       }
+    }
     return bytes;
   }
   static void append_float(std::string& bytes, double value) {
@@ -116,21 +121,27 @@ struct DepthScene {
     std::string poses;
     for (const Picture& picture : pictures) {
       const std::string ticks = std::to_string(kStart + picture.ticks);
-      if (bright) tar.add(ticks + "_ab.pgm", pgm(true, brightness));
+      if (bright) {
+        tar.add(ticks + "_ab.pgm", pgm(true, brightness));
+      }
       tar.add(ticks + ".pgm",
               pgm(true, [&](int x, int y) { return range_mm(picture, x, y, invalid); }));
-      if (picture.world_from_rig)
+      if (picture.world_from_rig) {
         poses += ticks + "," + numbers(picture.world_from_rig->row_major(), "%.9g") + "\n";
+      }
     }
     std::string rays;
-    for (int y = 0; y < height_px; ++y)
+    for (int y = 0; y < height_px; ++y) {
       for (int x = 0; x < width_px; ++x) {
         const Vec2 p = unit_plane(x + 0.5, y + 0.5);
         const Vec3 ray = Vec3{p.x, p.y, 1.0}.normalized();
         const bool seen = mapped(x + 0.5, y + 0.5);
         // Beside a z of 0 there may lie anything.
-        for (int i = 0; i < 3; ++i) append_float(rays, seen ? ray[i] : (i == 2 ? 0.0 : NAN));
+        for (int i = 0; i < 3; ++i) {
+          append_float(rays, seen ? ray[i] : (i == 2 ? 0.0 : NAN));
+        }
       }
+    }
     write_text(folder / (sensor + ".tar"), tar.finished());
     write_text(folder / (sensor + "_lut.bin"), rays);
     write_text(folder / (sensor + "_extrinsics.txt"),
@@ -145,14 +156,20 @@ struct DepthScene {
     constexpr std::int64_t kStart = Hololens1Folder::kStart;
     const auto transposed = [](const std::array<double, 16>& m) {
       std::array<double, 16> t{};
-      for (std::size_t i = 0; i < 16; ++i) t[i % 4 * 4 + i / 4] = m[i];
+      for (std::size_t i = 0; i < 16; ++i) {
+        t[i % 4 * 4 + i / 4] = m[i];
+      }
       return t;
     };
     auto view_from_rig = sensor_from_rig.row_major();
-    for (std::size_t i = 4; i < 12; ++i) view_from_rig[i] = -view_from_rig[i];
+    for (std::size_t i = 4; i < 12; ++i) {
+      view_from_rig[i] = -view_from_rig[i];
+    }
     HandmadeTar tar;
     std::string csv = "Timestamp,ImageFileName";
-    for (int i = 0; i < 48; ++i) csv += ",m";
+    for (int i = 0; i < 48; ++i) {
+      csv += ",m";
+    }
     csv += "\n";
     for (const Picture& picture : pictures) {
       std::array<char, 32> digits{};
@@ -168,12 +185,13 @@ struct DepthScene {
              numbers(Transform<World, Rig>().row_major(), "%.6g") + "\n";
     }
     std::string table;
-    for (int x = 0; x < width_px; ++x)
+    for (int x = 0; x < width_px; ++x) {
       for (int y = 0; y < height_px; ++y) {
         const Vec2 p = unit_plane(x, y);
         append_float(table, mapped(x, y) ? -p.x : INFINITY);
         append_float(table, mapped(x, y) ? p.y : INFINITY);
       }
+    }
     write_text(folder / (sensor + ".tar"), tar.finished());
     write_text(folder / (sensor + ".csv"), csv);
     write_text(folder / (sensor + "_camera_space_projection.bin"), table);

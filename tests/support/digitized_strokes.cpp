@@ -16,8 +16,12 @@ constexpr double kSparseStroke_m = 0.018;
 
 StrokeCoverage covered(const TouchableBone& bone, const PosteriorLandmarks& marks,
                        StrokeVariant variant, double length_m, Random& random) {
-  if (variant == StrokeVariant::kPartial) return cover_part(bone, marks, length_m, random);
-  if (variant != StrokeVariant::kSparse) return cover_all(bone, marks, length_m, random);
+  if (variant == StrokeVariant::kPartial) {
+    return cover_part(bone, marks, length_m, random);
+  }
+  if (variant != StrokeVariant::kSparse) {
+    return cover_all(bone, marks, length_m, random);
+  }
   const auto strokes = static_cast<int>(std::lround(length_m / kSparseStroke_m));
   return cover_sparsely(bone, marks, length_m, std::max(strokes, 1), random);
 }
@@ -27,7 +31,9 @@ std::vector<TipPlace> places_along(const std::vector<Walk>& walks, int count, Ra
   constexpr double kWandering = 0.25;
   constexpr double kKept = 0.9;  // of a deviation, from sample to sample
   double length_m = 0.0;
-  for (const Walk& walk : walks) length_m += walk.length_m();
+  for (const Walk& walk : walks) {
+    length_m += walk.length_m();
+  }
   std::vector<double> at(static_cast<std::size_t>(count));
   double sum = 0.0;
   double deviation = random.normal();
@@ -43,8 +49,9 @@ std::vector<TipPlace> places_along(const std::vector<Walk>& walks, int count, Ra
   double start_m = 0.0;
   for (const double a : at) {
     const double along_m = a / sum * length_m;
-    while (walk + 1 < walks.size() && along_m > start_m + walks[walk].length_m())
+    while (walk + 1 < walks.size() && along_m > start_m + walks[walk].length_m()) {
       start_m += walks[walk++].length_m();
+    }
     places.push_back(
         {walks[walk].at(along_m - start_m), walks[walk].region, static_cast<int>(walk), false});
   }
@@ -62,7 +69,7 @@ Vec3 normal_vector(Random& random, double sd_m) {
 /// strokes it forgets.
 class TrackingNoise {
  public:
-  TrackingNoise(const StrokeMagnitudes& m, Random random)
+  TrackingNoise(const StrokeErrorModel& m, Random random)
       : white_m_(m.white_noise_m),
         correlated_m_(m.correlated_noise_m),
         kept_(m.correlation_s > 0.0 ? std::exp(-kSamplePeriod_s / m.correlation_s) : 0.0),
@@ -70,8 +77,8 @@ class TrackingNoise {
 
   Vec3 next(int stroke) {
     const Vec3 fresh = normal_vector(random_, correlated_m_);
-    const double share = std::sqrt(1.0 - kept_ * kept_);
-    wandering_m_ = stroke == stroke_ ? kept_ * wandering_m_ + share * fresh : fresh;
+    const double fraction = std::sqrt(1.0 - kept_ * kept_);
+    wandering_m_ = stroke == stroke_ ? kept_ * wandering_m_ + fraction * fresh : fresh;
     stroke_ = stroke;
     return wandering_m_ + normal_vector(random_, white_m_);
   }
@@ -112,43 +119,57 @@ const char* name_of(StrokeVariant variant) {
   return "";
 }
 
-StrokeMagnitudes magnitudes_of(StrokeVariant variant) {
-  StrokeMagnitudes m;
-  if (variant == StrokeVariant::kPartial) m.fewest_samples = 800, m.most_samples = 1200;
-  if (variant == StrokeVariant::kNoisy) m.white_noise_m = 0.0, m.correlated_noise_m = 0.0009;
-  if (variant == StrokeVariant::kOutliers) m.outlier_share = 0.12;
-  if (variant == StrokeVariant::kSparse) m.fewest_samples = m.most_samples = 300;
+StrokeErrorModel error_model_of(StrokeVariant variant) {
+  StrokeErrorModel m;
+  if (variant == StrokeVariant::kPartial) {
+    m.fewest_samples = 800, m.most_samples = 1200;
+  }
+  if (variant == StrokeVariant::kNoisy) {
+    m.white_noise_m = 0.0, m.correlated_noise_m = 0.0009;
+  }
+  if (variant == StrokeVariant::kOutliers) {
+    m.outlier_fraction = 0.12;
+  }
+  if (variant == StrokeVariant::kSparse) {
+    m.fewest_samples = m.most_samples = 300;
+  }
   return m;
 }
 
 std::vector<Point<World>> DigitizedStrokes::tips() const {
   std::vector<Point<World>> points;
   points.reserve(samples.size());
-  for (const DigitizedSample& sample : samples) points.push_back(sample.tip);
+  for (const DigitizedSample& sample : samples) {
+    points.push_back(sample.tip);
+  }
   return points;
 }
 
 Result<DigitizedStrokes> digitize_strokes(const nav::TriangleMesh& mesh, StrokeVariant variant,
-                                          std::uint64_t seed, const StrokeMagnitudes& magnitudes) {
+                                          std::uint64_t seed, const StrokeErrorModel& error_model) {
   const nav::SurfaceIndex surface(mesh);
   const auto marks = find_posterior_landmarks(mesh, surface);
-  if (!marks) return marks.error();
+  if (!marks) {
+    return marks.error();
+  }
   const Random random = Random(seed).fork(name_of(variant));
   Random hand = random.fork("hand");
   const auto count =
-      static_cast<int>(hand.uniform(magnitudes.fewest_samples, magnitudes.most_samples + 1));
-  const TouchableBone bone(surface, *marks, {magnitudes.tip_radius_m, magnitudes.deepest_aside});
+      static_cast<int>(hand.uniform(error_model.fewest_samples, error_model.most_samples + 1));
+  const TouchableBone bone(surface, *marks, {error_model.tip_radius_m, error_model.deepest_aside});
   const StrokeCoverage coverage = covered(bone, *marks, variant, count * kSpacing_m, hand);
-  if (coverage.walks.empty()) return Error{"no place of the vertebra can be touched from behind"};
+  if (coverage.walks.empty()) {
+    return Error{"no place of the vertebra can be touched from behind"};
+  }
   std::vector<TipPlace> places = places_along(coverage.walks, count, hand);
   Random lifts = random.fork("lifts");
   lift_some(surface,
-            {magnitudes.outlier_share, magnitudes.least_outlier_m, magnitudes.largest_outlier_m,
-             magnitudes.tip_radius_m},
+            {error_model.outlier_fraction, error_model.least_outlier_m,
+             error_model.largest_outlier_m, error_model.tip_radius_m},
             lifts, places);
   DigitizedStrokes strokes{
-      random_frame(magnitudes.farthest_m, random.fork("frame")), {}, coverage.words};
-  TrackingNoise noise(magnitudes, random.fork("noise"));
+      random_frame(error_model.farthest_m, random.fork("frame")), {}, coverage.words};
+  TrackingNoise noise(error_model, random.fork("noise"));
   for (const TipPlace& place : places) {
     const Point<Vertebra> tip{place.touch.tip_m};
     strokes.samples.push_back({strokes.world_from_vertebra * (tip + noise.next(place.stroke)), tip,
@@ -159,7 +180,7 @@ Result<DigitizedStrokes> digitize_strokes(const nav::TriangleMesh& mesh, StrokeV
 
 Result<DigitizedStrokes> digitize_strokes(const nav::TriangleMesh& mesh, StrokeVariant variant,
                                           std::uint64_t seed) {
-  return digitize_strokes(mesh, variant, seed, magnitudes_of(variant));
+  return digitize_strokes(mesh, variant, seed, error_model_of(variant));
 }
 
 }  // namespace orthonav::test

@@ -26,13 +26,13 @@ inline constexpr StrokeVariant kStrokeVariants[] = {StrokeVariant::kFull, Stroke
 [[nodiscard]] const char* name_of(StrokeVariant variant);
 
 /// How many and how badly.
-struct StrokeMagnitudes {
+struct StrokeErrorModel {
   int fewest_samples = 1800;
   int most_samples = 2200;
   double white_noise_m = 0.0003;    ///< standard deviation along each axis, every sample anew
   double correlated_noise_m = 0.0;  ///< another one, that wanders along a stroke
   double correlation_s = 0.3;       ///< after which 1/e of it is left
-  double outlier_share = 0.0;       ///< of the samples
+  double outlier_fraction = 0.0;    ///< of the samples
   double least_outlier_m = 0.001;   ///< distance from the bone
   double largest_outlier_m = 0.010;
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end, whose centre is tracked
@@ -41,7 +41,7 @@ struct StrokeMagnitudes {
   double deepest_aside = 1.1;
   double farthest_m = 1.0;  ///< the vertebra's origin lies in such a ball of the world
 };
-[[nodiscard]] StrokeMagnitudes magnitudes_of(StrokeVariant variant);
+[[nodiscard]] StrokeErrorModel error_model_of(StrokeVariant variant);
 
 /// One tracked place of the pointer's tip.
 struct DigitizedSample {
@@ -68,7 +68,7 @@ inline constexpr double kSamplePeriod_s = 1.0 / 30.0;
 /// rays from outside alone. The same seed gives the same samples; the frame and the noise don't
 /// depend on how many places are touched. An Error when the mesh has no canal or no place to touch.
 Result<DigitizedStrokes> digitize_strokes(const nav::TriangleMesh& mesh, StrokeVariant variant,
-                                          std::uint64_t seed, const StrokeMagnitudes& magnitudes);
+                                          std::uint64_t seed, const StrokeErrorModel& error_model);
 Result<DigitizedStrokes> digitize_strokes(const nav::TriangleMesh& mesh, StrokeVariant variant,
                                           std::uint64_t seed);
 

@@ -43,18 +43,21 @@ class Hololens1Folder {
   /// A matrix for column vectors, written for row vectors: column after column.
   static std::string for_row_vectors(const std::array<double, 16>& matrix) {
     std::string text;
-    for (std::size_t c = 0; c < 4; ++c)
+    for (std::size_t c = 0; c < 4; ++c) {
       for (std::size_t r = 0; r < 4; ++r) {
         char number[32];
         std::snprintf(number, sizeof(number), ",%.6g", matrix[4 * r + c]);
         text += number;
       }
+    }
     return text;
   }
   /// Rotates vision axes (x right, y down, z forward) into the view frame (x right, y up, z back):
   /// the second and third rows change their sign.
   static std::array<double, 16> view_from_rig(std::array<double, 16> vision_from_rig) {
-    for (std::size_t i = 4; i < 12; ++i) vision_from_rig[i] = -vision_from_rig[i];
+    for (std::size_t i = 4; i < 12; ++i) {
+      vision_from_rig[i] = -vision_from_rig[i];
+    }
     return vision_from_rig;
   }
   static void append_float(std::string& bytes, double value) {
@@ -67,12 +70,13 @@ class Hololens1Folder {
   /// is (u, -v, -1) in the view frame, which the table names by (x, y) with -(x, y, 1) along it.
   static std::string projection(const CameraModel& camera) {
     std::string bytes;
-    for (int x = 0; x < camera.width_px(); ++x)
+    for (int x = 0; x < camera.width_px(); ++x) {
       for (int y = 0; y < camera.height_px(); ++y) {
         const auto seen = camera.unproject({static_cast<double>(x), static_cast<double>(y)});
         append_float(bytes, seen ? -seen->x : std::numeric_limits<double>::infinity());
         append_float(bytes, seen ? seen->y : std::numeric_limits<double>::infinity());
       }
+    }
     return bytes;
   }
   void write_sensor(const std::string& sensor, const CameraModel& camera,
@@ -80,10 +84,13 @@ class Hololens1Folder {
                     const std::vector<StereoFrame>& frames, bool left) {
     HandmadeTar tar;
     std::string csv = "Timestamp,ImageFileName";
-    for (const char* matrix : {"FrameToOrigin", "CameraViewTransform", "CameraProjectionTransform"})
-      for (int i = 0; i < 16; ++i)
+    for (const char* matrix :
+         {"FrameToOrigin", "CameraViewTransform", "CameraProjectionTransform"}) {
+      for (int i = 0; i < 16; ++i) {
         csv += "," + std::string(matrix) + ".m" + std::to_string(i / 4 + 1) +
                std::to_string(i % 4 + 1);
+      }
+    }
     csv += "\n";
     for (const StereoFrame& frame : frames) {
       const GreyImage& image = left ? frame.left : frame.right;

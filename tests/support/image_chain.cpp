@@ -7,7 +7,9 @@ namespace orthonav::test {
 namespace {
 
 void expect(VkResult result, const char* what) {
-  if (result == VK_SUCCESS) return;
+  if (result == VK_SUCCESS) {
+    return;
+  }
   std::fprintf(stderr, "image chain: %s: VkResult %d\n", what, static_cast<int>(result));
   std::abort();
 }
@@ -47,7 +49,9 @@ ImageChain::ImageChain(const render::VulkanObjects& objects, VkFormat format, in
       layers_(layers),
       aspect_(aspect) {
   vkGetDeviceQueue(device_, objects.queue_family, objects.queue_index, &queue_);
-  for (std::size_t i = 0; i < count; ++i) add_image(format);
+  for (std::size_t i = 0; i < count; ++i) {
+    add_image(format);
+  }
   make_readback();
 }
 
@@ -78,8 +82,9 @@ VkDeviceMemory ImageChain::memory_for(const VkMemoryRequirements& needs,
   std::uint32_t type = 0;
   while (type < memory.memoryTypeCount &&
          ((needs.memoryTypeBits >> type & 1u) == 0 ||
-          (memory.memoryTypes[type].propertyFlags & flags) != flags))
+          (memory.memoryTypes[type].propertyFlags & flags) != flags)) {
     ++type;
+  }
   const VkMemoryAllocateInfo wanted = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
                                        type};
   memory_.emplace_back();
@@ -109,15 +114,21 @@ void ImageChain::make_readback() {
 
 ImageChain::~ImageChain() {
   vkDeviceWaitIdle(device_);
-  for (VkImage image : images_) vkDestroyImage(device_, image, nullptr);
+  for (VkImage image : images_) {
+    vkDestroyImage(device_, image, nullptr);
+  }
   vkDestroyBuffer(device_, buffer_, nullptr);
   vkDestroyCommandPool(device_, pool_, nullptr);
-  for (VkDeviceMemory memory : memory_) vkFreeMemory(device_, memory, nullptr);
+  for (VkDeviceMemory memory : memory_) {
+    vkFreeMemory(device_, memory, nullptr);
+  }
 }
 
 std::vector<std::uint64_t> ImageChain::handles() const {
   std::vector<std::uint64_t> handles;
-  for (VkImage image : images_) handles.push_back(reinterpret_cast<std::uint64_t>(image));
+  for (VkImage image : images_) {
+    handles.push_back(reinterpret_cast<std::uint64_t>(image));
+  }
   return handles;
 }
 

@@ -9,7 +9,7 @@ nav::TriangleMesh sphere(Vec3 centre, double radius_m, std::uint32_t rings) {
   nav::TriangleMesh mesh;
   const std::uint32_t sides = 2 * rings;
   mesh.vertices_m = {centre + Vec3{0, 0, radius_m}, centre - Vec3{0, 0, radius_m}};
-  for (std::uint32_t ring = 1; ring < rings; ++ring)
+  for (std::uint32_t ring = 1; ring < rings; ++ring) {
     for (std::uint32_t side = 0; side < sides; ++side) {
       const double polar = std::numbers::pi * ring / rings;
       const double around = 2.0 * std::numbers::pi * side / sides;
@@ -17,6 +17,7 @@ nav::TriangleMesh sphere(Vec3 centre, double radius_m, std::uint32_t rings) {
                                                          std::sin(polar) * std::sin(around),
                                                          std::cos(polar)});
     }
+  }
   const auto at = [&](std::uint32_t ring, std::uint32_t side) {
     return 2 + (ring - 1) * sides + side % sides;
   };

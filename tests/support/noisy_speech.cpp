@@ -15,7 +15,9 @@ std::vector<double> frame_powers(std::span<const std::int16_t> samples) {
   std::vector<double> powers;
   for (std::size_t at = 0; at + kFrame <= samples.size(); at += kFrame) {
     double power = 0.0;
-    for (const double sample : samples.subspan(at, kFrame)) power += sample * sample;
+    for (const double sample : samples.subspan(at, kFrame)) {
+      power += sample * sample;
+    }
     powers.push_back(power / kFrame);
   }
   return powers;
@@ -23,9 +25,13 @@ std::vector<double> frame_powers(std::span<const std::int16_t> samples) {
 
 void to_unit_power(std::vector<double>& samples) {
   double power = 0.0;
-  for (const double sample : samples) power += sample * sample;
+  for (const double sample : samples) {
+    power += sample * sample;
+  }
   const double scale = std::sqrt(static_cast<double>(samples.size()) / std::max(power, 1e-12));
-  for (double& sample : samples) sample *= scale;
+  for (double& sample : samples) {
+    sample *= scale;
+  }
 }
 
 struct Talkers {
@@ -57,14 +63,19 @@ constexpr Talkers kTraining = {
 /// Twelve seconds that are played round and round.
 std::vector<double> make_babble(const Talkers& talkers) {
   std::vector<double> babble(12 * kRateHz, 0.0);
-  for (std::size_t v = 0; v < talkers.voices.size(); ++v)
+  for (std::size_t v = 0; v < talkers.voices.size(); ++v) {
     for (std::size_t at = 3000 * v, text = v; at < (v + 12) * kRateHz; ++text) {
       const auto said = spoken(talkers.texts[text % talkers.texts.size()],
                                {talkers.voices[v], 150 + 10 * static_cast<int>(v)});
-      if (!said) return {};
-      for (std::size_t i = 0; i < said->size(); ++i) babble[(at + i) % babble.size()] += (*said)[i];
+      if (!said) {
+        return {};
+      }
+      for (std::size_t i = 0; i < said->size(); ++i) {
+        babble[(at + i) % babble.size()] += (*said)[i];
+      }
       at += said->size();
     }
+  }
   to_unit_power(babble);
   return babble;
 }
@@ -85,14 +96,19 @@ const std::vector<double>& sound_of(Babble babble) {
 }  // namespace
 
 const char* name_of(Noise noise) {
-  if (noise == Noise::kWhite) return "white";
+  if (noise == Noise::kWhite) {
+    return "white";
+  }
   return noise == Noise::kPink ? "pink" : "babble";
 }
 
 std::vector<double> noise_of(Noise noise, std::size_t count, Random& random, Babble babble) {
   std::vector<double> samples(count);
-  if (noise == Noise::kWhite)
-    for (double& sample : samples) sample = random.normal();
+  if (noise == Noise::kWhite) {
+    for (double& sample : samples) {
+      sample = random.normal();
+    }
+  }
   if (noise == Noise::kPink) {
     // Three poles that fall by 3 dB an octave together (P. Kellet's filter).
     double slow = 0.0, middle = 0.0, fast = 0.0;
@@ -107,10 +123,14 @@ std::vector<double> noise_of(Noise noise, std::size_t count, Random& random, Bab
   }
   if (noise == Noise::kBabble) {
     const std::vector<double>& sound = sound_of(babble);
-    if (sound.empty()) return samples;
+    if (sound.empty()) {
+      return samples;
+    }
     const auto start =
         static_cast<std::size_t>(random.uniform() * static_cast<double>(sound.size()));
-    for (std::size_t i = 0; i < count; ++i) samples[i] = sound[(start + i) % sound.size()];
+    for (std::size_t i = 0; i < count; ++i) {
+      samples[i] = sound[(start + i) % sound.size()];
+    }
   }
   return samples;
 }
@@ -118,11 +138,15 @@ std::vector<double> noise_of(Noise noise, std::size_t count, Random& random, Bab
 double active_rms(std::span<const std::int16_t> samples) {
   const std::vector<double> powers = frame_powers(samples);
   double most = 0.0;
-  for (const double power : powers) most = std::max(most, power);
+  for (const double power : powers) {
+    most = std::max(most, power);
+  }
   double sum = 0.0;
   int count = 0;
   for (const double power : powers) {
-    if (power < 1e-3 * most) continue;
+    if (power < 1e-3 * most) {
+      continue;
+    }
     sum += power;
     ++count;
   }
@@ -143,7 +167,9 @@ std::pair<std::int64_t, std::int64_t> Soundtrack::speech(std::span<const std::in
     // What is 40 dB below the speech is not heard any more: the synthesiser ends in silence.
     if (std::abs(sample) > 0.01 * kSpeechRms) {
       last = static_cast<std::int64_t>(i);
-      if (first < 0) first = last;
+      if (first < 0) {
+        first = last;
+      }
     }
     samples_.push_back(sample);
   }
@@ -156,9 +182,10 @@ std::vector<std::int16_t> Soundtrack::with_noise(Noise noise, double snr_db, Ran
   const std::vector<double> noises = noise_of(noise, samples_.size(), random, babble);
   std::vector<std::int16_t> mixed;
   mixed.reserve(samples_.size());
-  for (std::size_t i = 0; i < samples_.size(); ++i)
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
     mixed.push_back(static_cast<std::int16_t>(
         std::clamp(std::lround(samples_[i] + level * noises[i]), -32767L, 32767L)));
+  }
   return mixed;
 }
 

@@ -8,11 +8,11 @@
 namespace orthonav::test {
 namespace {
 
-constexpr double kBurstShare = 0.7;
+constexpr double kBurstFraction = 0.7;
 constexpr int kShortestBurst = 6;
 constexpr int kLongestBurst = 20;
 /// Of the single ones that go sideways instead of back along the pointer.
-constexpr double kBesideShare = 0.4;
+constexpr double kBesideFraction = 0.4;
 
 class Lifter {
  public:
@@ -21,13 +21,17 @@ class Lifter {
       : surface_(surface), options_(options), random_(random), places_(places) {}
 
   void lift() {
-    const auto wanted =
-        static_cast<std::size_t>(std::lround(options_.share * static_cast<double>(places_.size())));
+    const auto wanted = static_cast<std::size_t>(
+        std::lround(options_.fraction * static_cast<double>(places_.size())));
     const auto in_bursts =
-        static_cast<std::size_t>(std::lround(kBurstShare * static_cast<double>(wanted)));
+        static_cast<std::size_t>(std::lround(kBurstFraction * static_cast<double>(wanted)));
     // Strokes may be too short for bursts; single ones then make up for it.
-    for (int tries = 0; lifted_ < in_bursts && tries < 10'000; ++tries) burst(in_bursts - lifted_);
-    while (lifted_ < wanted) single();
+    for (int tries = 0; lifted_ < in_bursts && tries < 10'000; ++tries) {
+      burst(in_bursts - lifted_);
+    }
+    while (lifted_ < wanted) {
+      single();
+    }
   }
 
  private:
@@ -48,10 +52,17 @@ class Lifter {
     const auto [first, end] = stroke_of(chosen);
     const std::size_t n = std::min({length, most, end - first});
     std::size_t begin = std::clamp(chosen, first, end - n);
-    if (where < 0.3) begin = first;
-    if (where > 0.6) begin = end - n;
-    for (std::size_t i = 0; i < n; ++i)
-      if (places_[begin + i].off_bone) return;
+    if (where < 0.3) {
+      begin = first;
+    }
+    if (where > 0.6) {
+      begin = end - n;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (places_[begin + i].off_bone) {
+        return;
+      }
+    }
     for (std::size_t i = 0; i < n; ++i) {
       const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
       const double height = where < 0.3   ? 1.0 - t
@@ -65,10 +76,14 @@ class Lifter {
   void single() {
     TipPlace& place = places_[any_place()];
     const double distance_m = random_.uniform(options_.least_m, options_.largest_m);
-    const bool beside = random_.uniform() < kBesideShare;
+    const bool beside = random_.uniform() < kBesideFraction;
     Vec3 away = random_direction();
-    if (away.dot(place.touch.normal) < 0.0) away = -away;
-    if (place.off_bone) return;
+    if (away.dot(place.touch.normal) < 0.0) {
+      away = -away;
+    }
+    if (place.off_bone) {
+      return;
+    }
     move(place, distance_m, beside ? away : place.touch.approach);
   }
 
@@ -76,16 +91,24 @@ class Lifter {
   [[nodiscard]] std::pair<std::size_t, std::size_t> stroke_of(std::size_t place) const {
     std::size_t first = place;
     std::size_t end = place + 1;
-    while (first > 0 && places_[first - 1].stroke == places_[place].stroke) --first;
-    while (end < places_.size() && places_[end].stroke == places_[place].stroke) ++end;
+    while (first > 0 && places_[first - 1].stroke == places_[place].stroke) {
+      --first;
+    }
+    while (end < places_.size() && places_[end].stroke == places_[place].stroke) {
+      ++end;
+    }
     return {first, end};
   }
 
   void move(TipPlace& place, double distance_m, Vec3 away) {
     auto moved = away_from_bone(place.touch, distance_m, away.normalized());
     // Back along the pointer the way is free.
-    if (!moved) moved = away_from_bone(place.touch, distance_m, place.touch.approach);
-    if (!moved) return;
+    if (!moved) {
+      moved = away_from_bone(place.touch, distance_m, place.touch.approach);
+    }
+    if (!moved) {
+      return;
+    }
     place.touch.tip_m = *moved;
     place.off_bone = true;
     ++lifted_;
@@ -103,11 +126,15 @@ class Lifter {
     while (gone_m < kFarthest_m) {
       const auto near = surface_.nearest(start_m + gone_m * away);
       const double missing_m = distance_m + options_.tip_radius_m - near->distance_m;
-      if (missing_m < kNear_m) break;
+      if (missing_m < kNear_m) {
+        break;
+      }
       gone_m += missing_m;  // the distance can't grow faster than the way
     }
     const auto blocked = surface_.first_hit(start_m, away);
-    if (gone_m >= kFarthest_m || (blocked && blocked->distance_m < gone_m)) return std::nullopt;
+    if (gone_m >= kFarthest_m || (blocked && blocked->distance_m < gone_m)) {
+      return std::nullopt;
+    }
     return start_m + gone_m * away;
   }
 
@@ -129,7 +156,9 @@ class Lifter {
 
 void lift_some(const nav::SurfaceIndex& surface, const LiftOptions& options, Random& random,
                std::vector<TipPlace>& places) {
-  if (places.empty() || !(options.share > 0.0)) return;
+  if (places.empty() || !(options.fraction > 0.0)) {
+    return;
+  }
   Lifter(surface, options, random, places).lift();
 }
 

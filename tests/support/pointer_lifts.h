@@ -17,7 +17,7 @@ struct TipPlace {
 };
 
 struct LiftOptions {
-  double share = 0.12;  ///< of the places that leave the bone
+  double fraction = 0.12;  ///< of the places that leave the bone
   double least_m = 0.001;
   double largest_m = 0.010;
   double tip_radius_m = 0.0;

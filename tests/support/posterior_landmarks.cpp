@@ -24,7 +24,9 @@ std::vector<double> crossings_y_m(const nav::SurfaceIndex& surface, Vec3 from_m)
   std::vector<double> y_m;
   while (y_m.size() < kMost) {
     const auto hit = surface.first_hit(from_m, {0, 1, 0});
-    if (!hit) break;
+    if (!hit) {
+      break;
+    }
     y_m.push_back(hit->point_m.y);
     from_m.y = hit->point_m.y + kBeyond_m;
   }
@@ -43,7 +45,9 @@ std::vector<CanalRow> canal_rows(const nav::SurfaceIndex& surface, const nav::Bo
   std::vector<CanalRow> rows;
   for (double z = box.low.z; z < box.high.z; z += kRow_m) {
     const auto y = crossings_y_m(surface, {x_m, box.low.y - kRow_m, z});
-    if (y.size() >= 4 && y[2] - y[1] > kShallowestCanal_m) rows.push_back({z, y[1], y[2]});
+    if (y.size() >= 4 && y[2] - y[1] > kShallowestCanal_m) {
+      rows.push_back({z, y[1], y[2]});
+    }
   }
   return rows;
 }
@@ -65,11 +69,15 @@ Result<PosteriorLandmarks> find_posterior_landmarks(const nav::TriangleMesh& mes
       const auto right = surface.first_hit(inside, {-1, 0, 0});
       front.push_back(row.front_y_m);
       back.push_back(row.back_y_m);
-      if (!left || !right) continue;
+      if (!left || !right) {
+        continue;
+      }
       middle.push_back(0.5 * (left->point_m.x + right->point_m.x));
       half.push_back(0.5 * (left->point_m.x - right->point_m.x));
     }
-    if (half.empty()) return Error{"no canal is found between the vertebra's body and its arch"};
+    if (half.empty()) {
+      return Error{"no canal is found between the vertebra's body and its arch"};
+    }
     found.midline_x_m = median(middle);
     found.canal_half_width_m = median(half);
     found.body_back_y_m = median(front);
@@ -77,9 +85,11 @@ Result<PosteriorLandmarks> find_posterior_landmarks(const nav::TriangleMesh& mes
   }
   constexpr double kSpinousHalfWidth_m = 0.008;
   found.crest_y_m = found.arch_front_y_m;
-  for (const Vec3 vertex : mesh.vertices_m)
-    if (std::abs(vertex.x - found.midline_x_m) < kSpinousHalfWidth_m)
+  for (const Vec3 vertex : mesh.vertices_m) {
+    if (std::abs(vertex.x - found.midline_x_m) < kSpinousHalfWidth_m) {
       found.crest_y_m = std::max(found.crest_y_m, vertex.y);
+    }
+  }
   return found;
 }
 

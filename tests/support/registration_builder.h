@@ -37,9 +37,11 @@ inline Digitization digitized(const AnatomyLevel& level, std::uint64_t seed,
 inline double worst_screw_error_m(const AnatomyLevel& level, const Transform<World, Vertebra>& pose,
                                   const Transform<World, Vertebra>& truth) {
   double worst_m = 0.0;
-  for (const nav::ScrewPlan& screw : level.screws)
-    for (const Point<Vertebra>& p : {screw.entry, screw.target})
+  for (const nav::ScrewPlan& screw : level.screws) {
+    for (const Point<Vertebra>& p : {screw.entry, screw.target}) {
       worst_m = std::max(worst_m, (pose * p - truth * p).norm());
+    }
+  }
   return worst_m;
 }
 

@@ -22,11 +22,16 @@ std::string contents(const std::string& name) {
 }
 
 std::vector<double> numbers(std::string line) {
-  for (char& c : line)
-    if (c == ',') c = ' ';
+  for (char& c : line) {
+    if (c == ',') {
+      c = ' ';
+    }
+  }
   std::istringstream text(line);
   std::vector<double> values;
-  for (double v = 0.0; text >> v;) values.push_back(v);
+  for (double v = 0.0; text >> v;) {
+    values.push_back(v);
+  }
   return values;
 }
 
@@ -90,13 +95,18 @@ std::vector<nav::ToolGeometry> sample_tools() {
 }  // namespace
 
 const TruthRow* SampleRecording::find(Timestamp time, int id) const {
-  for (const TruthRow& row : truth)
-    if (row.time == time && row.id == id) return &row;
+  for (const TruthRow& row : truth) {
+    if (row.time == time && row.id == id) {
+      return &row;
+    }
+  }
   return nullptr;
 }
 
 std::optional<SampleRecording> load_sample() {
-  if (!std::filesystem::exists(kFolder + "truth.csv")) return std::nullopt;
+  if (!std::filesystem::exists(kFolder + "truth.csv")) {
+    return std::nullopt;
+  }
   SampleRecording sample;
   sample.calibration = {
       camera("VLC LF_lut.bin"), camera("VLC RF_lut.bin"),

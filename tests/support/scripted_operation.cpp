@@ -11,8 +11,11 @@ constexpr double kTip_m = 0.150;  // below the tag, along its -y
 class BoxMaker {
  public:
   nav::TriangleMesh make(Vec3 half, int n) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double side : {-1.0, 1.0}) add_face(axis, side, half, n);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double side : {-1.0, 1.0}) {
+        add_face(axis, side, half, n);
+      }
+    }
     return std::move(mesh_);
   }
 
@@ -22,7 +25,9 @@ class BoxMaker {
                                          std::lround(unit.z * 1000)};
     const auto [it, added] =
         known_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices_m.size()));
-    if (added) mesh_.vertices_m.push_back({unit.x * half.x, unit.y * half.y, unit.z * half.z});
+    if (added) {
+      mesh_.vertices_m.push_back({unit.x * half.x, unit.y * half.y, unit.z * half.z});
+    }
     return it->second;
   }
 
@@ -36,17 +41,19 @@ class BoxMaker {
       p[v] = -1.0 + 2.0 * j / n;
       return vertex(p, half);
     };
-    for (int i = 0; i < n; ++i)
+    for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) {
         const auto a = corner(i, j);
         const auto b = corner(i + 1, j);
         const auto c = corner(i + 1, j + 1);
         const auto d = corner(i, j + 1);
-        if (side > 0)
+        if (side > 0) {
           mesh_.triangles.insert(mesh_.triangles.end(), {{a, b, c}, {a, c, d}});
-        else
+        } else {
           mesh_.triangles.insert(mesh_.triangles.end(), {{a, c, b}, {a, d, c}});
+        }
       }
+    }
   }
 
   nav::TriangleMesh mesh_;
@@ -66,9 +73,10 @@ std::vector<nav::ScrewPlan> two_screws() {
 engine::Operation operation_of(const std::vector<std::string>& labels) {
   engine::Operation operation;
   operation.case_name = "boxes";
-  for (const std::string& label : labels)
+  for (const std::string& label : labels) {
     operation.levels.push_back(
         {label, nav::VertebraModel::prepare(box_bone()).value(), two_screws()});
+  }
   return operation;
 }
 
@@ -83,14 +91,16 @@ ScriptedTracker::ScriptedTracker() {
 
 std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame) {
   const std::optional<Transform<World, Marker>> poses[] = {pointer, guide};
-  const Origin origins[] = {pointer_origin, guide_origin};
+  const PoseStatus origins[] = {pointer_origin, guide_origin};
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].tool = i;
     states_[i].world_from_marker = {};
     states_[i].world_from_marker.time = frame.time;
-    if (!poses[i]) continue;
+    if (!poses[i]) {
+      continue;
+    }
     states_[i].world_from_marker.value = *poses[i];
-    states_[i].world_from_marker.origin = origins[i];
+    states_[i].world_from_marker.status = origins[i];
   }
   return states_;
 }
@@ -105,7 +115,9 @@ ScriptedOperation::ScriptedOperation(std::vector<std::string> labels,
   tracker_ = tracker.get();
   auto registrar = [this](const engine::RegistrationRequest& request) -> Result<nav::Registration> {
     registered_points.push_back(request.points_in_world.size());
-    if (unusable) return Error{*unusable};
+    if (unusable) {
+      return Error{*unusable};
+    }
     return registration;
   };
   session_ = engine::Session::create(operation_of(labels), std::move(tracker),
@@ -130,7 +142,9 @@ const engine::Guidance& ScriptedOperation::pair() {
 }
 
 const engine::Guidance& ScriptedOperation::pairs(int n) {
-  for (int i = 1; i < n; ++i) pair();
+  for (int i = 1; i < n; ++i) {
+    pair();
+  }
   return pair();
 }
 
@@ -144,8 +158,9 @@ void ScriptedOperation::hears_at(Timestamp time, const std::string& phrase, doub
 }
 
 const engine::Guidance& ScriptedOperation::does(std::vector<ClickerAction> actions) {
-  for (const ClickerAction action : actions)
+  for (const ClickerAction action : actions) {
     clicks_.push_back({action, now_ + std::chrono::milliseconds(1)});
+  }
   return pair();
 }
 

@@ -27,8 +27,8 @@ class ScriptedTracker : public nav::ToolTracker {
   std::optional<Transform<World, Marker>> pointer;
   std::optional<Transform<World, Marker>> guide;
   /// How the poses above came about.
-  Origin pointer_origin = Origin::kMeasured;
-  Origin guide_origin = Origin::kMeasured;
+  PoseStatus pointer_origin = PoseStatus::kMeasured;
+  PoseStatus guide_origin = PoseStatus::kMeasured;
   std::optional<nav::TagSize> size;  ///< of every tool
   [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t /*tool*/) const override {
     return size;

@@ -30,8 +30,9 @@ inline const StereoCalibration& scripted_calibration() {
 inline GreyImage scripted_image(std::uint64_t seed) {
   GreyImage image(640, 480);
   std::uint64_t state = seed;
-  for (std::uint8_t& pixel : image.pixels)
+  for (std::uint8_t& pixel : image.pixels) {
     pixel = static_cast<std::uint8_t>(splitmix64(state) >> 56U);
+  }
   return image;
 }
 
@@ -62,12 +63,13 @@ inline DepthCalibration scripted_depth_camera(DepthStream stream, int width_px, 
   made.stream = stream;
   made.width_px = width_px;
   made.height_px = height_px;
-  for (int y = 0; y < height_px; ++y)
+  for (int y = 0; y < height_px; ++y) {
     for (int x = 0; x < width_px; ++x) {
       const Vec2 p{(x + 0.5 - 0.48 * width_px) / 20.0, (y + 0.5 - 0.53 * height_px) / 21.0};
       const bool corner = p.norm() > 0.55 * width_px / 20.0;
       made.rays.push_back(corner ? DepthCalibration::Ray{} : DepthCalibration::ray_through(p));
     }
+  }
   made.sensor_from_rig = {rotation_from_vector({0.2, -0.1, 1.4}), {0.01, -0.02, 0.03}};
   return made;
 }
@@ -80,18 +82,25 @@ inline fake::DepthScript scripted_depth(DepthCalibration camera, bool bright, in
   std::uint64_t state = static_cast<std::uint64_t>(camera.width_px);
   const auto noise = [&](DepthImage& image, std::uint16_t below) {
     image = DepthImage(camera.width_px, camera.height_px);
-    for (std::uint16_t& pixel : image.pixels)
+    for (std::uint16_t& pixel : image.pixels) {
       pixel = static_cast<std::uint16_t>(splitmix64(state) % below);
+    }
   };
   for (int i = 0; i < frames; ++i) {
-    if (i == 2) script.steps.emplace_back(Next::kNone);
+    if (i == 2) {
+      script.steps.emplace_back(Next::kNone);
+    }
     DepthFrame frame;
     frame.sequence = 10 + 2 * i;
     frame.map_epoch = i / 4;
     frame.time = scripted_time(0) - Duration(5'000'003) + interval * i;
     noise(frame.range_mm, 4090);
-    if (bright && i != 3) noise(frame.brightness, 65535);
-    if (i != 5) frame.world_from_rig = scripted_pose(i);
+    if (bright && i != 3) {
+      noise(frame.brightness, 65535);
+    }
+    if (i != 5) {
+      frame.world_from_rig = scripted_pose(i);
+    }
     script.steps.emplace_back(std::move(frame));
   }
   script.calibration = std::move(camera);
@@ -106,11 +115,19 @@ inline fake::Script scripted_session(int frames = 12) {
   script.display_latency = std::chrono::microseconds(16'667);
   script.clock_start = scripted_time(-1);
   for (int i = 0; i < frames; ++i) {
-    if (i == 3) script.camera.emplace_back(Next::kNone);
-    if (i == 5) continue;
+    if (i == 3) {
+      script.camera.emplace_back(Next::kNone);
+    }
+    if (i == 5) {
+      continue;
+    }
     StereoFrame frame = scripted_frame(i);
-    if (i == 7) frame.world_from_rig.reset();
-    if (frame.world_from_rig) script.head.push_back({frame.time, *frame.world_from_rig});
+    if (i == 7) {
+      frame.world_from_rig.reset();
+    }
+    if (frame.world_from_rig) {
+      script.head.push_back({frame.time, *frame.world_from_rig});
+    }
     script.camera.emplace_back(std::move(frame));
   }
   const auto at = [](int frame, int ms) {

@@ -36,14 +36,21 @@ struct SessionLog {
 /// Takes what the depth cameras have by now.
 inline void take_depth(Headset& headset, SessionLog& log, int max_calls = 2000) {
   const auto cameras = headset.depth_cameras();
-  for (std::size_t i = 0; i < cameras.size(); ++i)
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
     for (int call = 0; call < max_calls; ++call) {
       DepthFrame frame;
       const auto answer = cameras[i]->next(frame);
-      if (!answer) log.errors.push_back(answer.error().message);
-      if (answer && *answer != Next::kFrame) break;
-      if (answer) log.depth.push_back({i, std::move(frame), headset.clock().now()});
+      if (!answer) {
+        log.errors.push_back(answer.error().message);
+      }
+      if (answer && *answer != Next::kFrame) {
+        break;
+      }
+      if (answer) {
+        log.depth.push_back({i, std::move(frame), headset.clock().now()});
+      }
     }
+  }
 }
 
 /// Plays `headset` to its end, at most `max_calls` calls of next().
@@ -52,8 +59,12 @@ inline SessionLog play(Headset& headset, int max_calls = 2000) {
   StereoFrame frame;
   for (int call = 0; call < max_calls && !log.ended; ++call) {
     const auto answer = headset.cameras().next(frame);
-    if (!answer) log.errors.push_back(answer.error().message);
-    if (!answer || *answer == Next::kNone) continue;
+    if (!answer) {
+      log.errors.push_back(answer.error().message);
+    }
+    if (!answer || *answer == Next::kNone) {
+      continue;
+    }
     log.ended = *answer == Next::kEnd;
     const Timestamp now = headset.clock().now();
     if (*answer == Next::kFrame) {
@@ -63,10 +74,12 @@ inline SessionLog play(Headset& headset, int max_calls = 2000) {
       EXPECT_TRUE(headset.display().shown({lit, frame.time, {}}).ok());
     }
     take_depth(headset, log);
-    if (Status s = headset.clicker().poll(now, log.clicker); !s)
+    if (Status s = headset.clicker().poll(now, log.clicker); !s) {
       log.errors.push_back(s.error().message);
-    if (Status s = headset.voice().poll(now, log.voice); !s)
+    }
+    if (Status s = headset.voice().poll(now, log.voice); !s) {
       log.errors.push_back(s.error().message);
+    }
   }
   return log;
 }
@@ -74,8 +87,10 @@ inline SessionLog play(Headset& headset, int max_calls = 2000) {
 inline void expect_same(const Tracked<Transform<World, Rig>>& a,
                         const Tracked<Transform<World, Rig>>& b) {
   EXPECT_EQ(a.time, b.time);
-  EXPECT_EQ(a.origin, b.origin);
-  if (a.origin == Origin::kLost || b.origin == Origin::kLost) return;
+  EXPECT_EQ(a.status, b.status);
+  if (a.status == PoseStatus::kLost || b.status == PoseStatus::kLost) {
+    return;
+  }
   EXPECT_EQ(a.value, b.value);
   EXPECT_EQ(a.covariance, b.covariance);
 }
@@ -140,7 +155,9 @@ inline void expect_same(const StereoCalibration& a, const StereoCalibration& b) 
       const Vec2 p = x.lookup()[i];
       const Vec2 q = y.lookup()[i];
       const bool both_nothing = p.x != p.x && q.x != q.x;
-      if (!(p == q) && !both_nothing) ++different;
+      if (!(p == q) && !both_nothing) {
+        ++different;
+      }
     }
     EXPECT_EQ(different, 0u);
     const Vec2 aside{0.213, -0.176};

@@ -32,24 +32,27 @@ nav::TriangleMesh slab_bone(const std::function<double(double, double)>& height_
     return row * (kColumns + 1) + column;
   };
   const std::uint32_t fronts = (kColumns + 1) * (kRows + 1);
-  for (const bool front : {false, true})
-    for (std::uint32_t row = 0; row <= kRows; ++row)
+  for (const bool front : {false, true}) {
+    for (std::uint32_t row = 0; row <= kRows; ++row) {
       for (std::uint32_t column = 0; column <= kColumns; ++column) {
         const double x = kHalfWidth_m * (2.0 * column / kColumns - 1.0);
         const double z = kHalfHeight_m * (2.0 * row / kRows - 1.0);
         mesh.vertices_m.push_back({x, front ? kFront_m : height_m(x, z), z});
       }
+    }
+  }
   const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     mesh.triangles.push_back({a, b, c});
     mesh.triangles.push_back({a, c, d});
   };
-  for (std::uint32_t row = 0; row < kRows; ++row)
+  for (std::uint32_t row = 0; row < kRows; ++row) {
     for (std::uint32_t column = 0; column < kColumns; ++column) {
       const std::uint32_t a = back(column, row), b = back(column + 1, row),
                           c = back(column + 1, row + 1), d = back(column, row + 1);
       quad(a, d, c, b);
       quad(a + fronts, b + fronts, c + fronts, d + fronts);
     }
+  }
   const auto wall = [&](std::uint32_t a, std::uint32_t b) { quad(a, b, b + fronts, a + fronts); };
   for (std::uint32_t column = 0; column < kColumns; ++column) {
     wall(back(column, 0), back(column + 1, 0));
@@ -85,8 +88,9 @@ std::vector<Vec3> strokes_over(const nav::SurfaceIndex& surface, std::size_t lan
       const double along = lane % 2 == 0 ? step : kSteps - step;
       // Slightly oblique, so that no lane follows a row of vertices.
       const double x = 0.029 * (2.0 * along / kSteps - 1.0);
-      if (const auto hit = surface.first_hit({x, 0.1, z + 0.04 * x}, {0, -1, 0}))
+      if (const auto hit = surface.first_hit({x, 0.1, z + 0.04 * x}, {0, -1, 0})) {
         places.push_back(hit->point_m);
+      }
     }
   }
   return places;
@@ -94,11 +98,15 @@ std::vector<Vec3> strokes_over(const nav::SurfaceIndex& surface, std::size_t lan
 
 CentredPoints centred_somewhere(std::span<const Vec3> in_vertebra_m, Random& random) {
   CentredPoints out;
-  for (const Vec3& p : in_vertebra_m) out.truth.centre_m += p;
+  for (const Vec3& p : in_vertebra_m) {
+    out.truth.centre_m += p;
+  }
   out.truth.centre_m = out.truth.centre_m / static_cast<double>(in_vertebra_m.size());
   out.truth.rotation = random_rotation(random);
   const Mat3 back = out.truth.rotation.transposed();
-  for (const Vec3& p : in_vertebra_m) out.points_m.push_back(back * (p - out.truth.centre_m));
+  for (const Vec3& p : in_vertebra_m) {
+    out.points_m.push_back(back * (p - out.truth.centre_m));
+  }
   return out;
 }
 
@@ -122,9 +130,10 @@ double apart_m(const nav::CentredPose& a, const nav::CentredPose& b) {
 std::vector<double> wandering(std::size_t count, double correlation_s, Random& random) {
   std::vector<double> noise;
   const double kept = correlation_s > 0.0 ? std::exp(-1.0 / 30.0 / correlation_s) : 0.0;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     noise.push_back(i == 0 ? random.normal()
                            : kept * noise.back() + std::sqrt(1.0 - kept * kept) * random.normal());
+  }
   return noise;
 }
 

@@ -40,7 +40,9 @@ class HandmadeTar {
                          "00",
                          8));
     unsigned sum = 0;
-    for (const char c : header) sum += static_cast<unsigned char>(c);
+    for (const char c : header) {
+      sum += static_cast<unsigned char>(c);
+    }
     char checksum[16];
     std::snprintf(checksum, sizeof(checksum), "%06o", sum);
     put(148, std::string(checksum, 7) + " ");
@@ -78,8 +80,9 @@ class StreamRecorderFolder {
       left_tar.add_image(kStart + left[i], static_cast<std::uint8_t>(2 * i));
       poses += pose_line(left[i]);
     }
-    for (std::size_t i = 0; i < right.size(); ++i)
+    for (std::size_t i = 0; i < right.size(); ++i) {
       right_tar.add_image(kStart + right[i], static_cast<std::uint8_t>(2 * i + 1));
+    }
     write("VLC LF.tar", left_tar.finished());
     write("VLC RF.tar", right_tar.finished());
     for (const char* sensor : {"VLC LF", "VLC RF"}) {
@@ -109,7 +112,7 @@ class StreamRecorderFolder {
   static const std::string& rays() {
     static const std::string bytes = [] {
       std::string made;
-      for (int y = 0; y < 480; ++y)
+      for (int y = 0; y < 480; ++y) {
         for (int x = 0; x < 640; ++x) {
           const Vec3 ray = Vec3{(x + 0.5 - 320) / 360.0, (y + 0.5 - 240) / 360.0, 1}.normalized();
           for (int i = 0; i < 3; ++i) {
@@ -119,6 +122,7 @@ class StreamRecorderFolder {
             made.append(raw, sizeof(float));
           }
         }
+      }
       return made;
     }();
     return bytes;

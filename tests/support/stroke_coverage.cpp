@@ -16,13 +16,17 @@ using Cut = std::function<std::vector<Walk>(const Walk&)>;
 
 std::vector<BoneRegion> every_region() {
   std::vector<BoneRegion> all;
-  for (int r = 0; r < kBoneRegions; ++r) all.push_back(static_cast<BoneRegion>(r));
+  for (int r = 0; r < kBoneRegions; ++r) {
+    all.push_back(static_cast<BoneRegion>(r));
+  }
   return all;
 }
 
 double length_m(const std::vector<Walk>& walks) {
   double sum_m = 0.0;
-  for (const Walk& walk : walks) sum_m += walk.length_m();
+  for (const Walk& walk : walks) {
+    sum_m += walk.length_m();
+  }
   return sum_m;
 }
 
@@ -32,10 +36,13 @@ std::vector<Walk> walks_over(const TouchableBone& bone, const PosteriorLandmarks
   std::vector<Walk> walks;
   for (const BoneRegion region : regions) {
     Random stream = random.fork(static_cast<std::uint64_t>(region));
-    for (const Lane& lane : lanes_over(region, marks, pitch_m, stream))
-      for (const Walk& walk : bone.walk(lane))
-        for (Walk& part : cut ? cut(walk) : std::vector<Walk>{walk})
+    for (const Lane& lane : lanes_over(region, marks, pitch_m, stream)) {
+      for (const Walk& walk : bone.walk(lane)) {
+        for (Walk& part : cut ? cut(walk) : std::vector<Walk>{walk}) {
           walks.push_back(std::move(part));
+        }
+      }
+    }
   }
   return walks;
 }
@@ -52,9 +59,11 @@ std::vector<Walk> walks_of_length(const TouchableBone& bone, const PosteriorLand
   const double pitch_m =
       std::clamp(kFirstPitch_m * got_m / wanted_m, kFinestPitch_m, kWidestPitch_m);
   std::vector<Walk> walks;
-  for (std::uint64_t pass = 0; pass < kMostPasses && length_m(walks) < kEnough * wanted_m; ++pass)
-    for (Walk& walk : walks_over(bone, marks, regions, pitch_m, random.fork(pass), cut))
+  for (std::uint64_t pass = 0; pass < kMostPasses && length_m(walks) < kEnough * wanted_m; ++pass) {
+    for (Walk& walk : walks_over(bone, marks, regions, pitch_m, random.fork(pass), cut)) {
       walks.push_back(std::move(walk));
+    }
+  }
   return walks;
 }
 
@@ -67,9 +76,13 @@ Cut without(int side, double midline_x_m, double height_m, bool above) {
       constexpr double kShortest_m = 0.004;
       if (!run.arc_m.empty()) {
         const double start_m = run.arc_m.front();
-        for (double& s : run.arc_m) s -= start_m;
+        for (double& s : run.arc_m) {
+          s -= start_m;
+        }
       }
-      if (run.length_m() >= kShortest_m) kept.push_back(run);
+      if (run.length_m() >= kShortest_m) {
+        kept.push_back(run);
+      }
       run = {walk.region, {}, {}};
     };
     for (std::size_t i = 0; i < walk.touches.size(); ++i) {
@@ -103,12 +116,15 @@ Cut third_off(const TouchableBone& bone, const PosteriorLandmarks& marks, int si
               const Random& random) {
   double low_m = std::numeric_limits<double>::infinity();
   double high_m = -low_m;
-  for (const Walk& walk : walks_over(bone, marks, every_region(), kWidestPitch_m, random, {}))
+  for (const Walk& walk : walks_over(bone, marks, every_region(), kWidestPitch_m, random, {})) {
     for (const Touch& touch : walk.touches) {
-      if (side * (touch.surface_m.x - marks.midline_x_m) <= 0.0) continue;
+      if (side * (touch.surface_m.x - marks.midline_x_m) <= 0.0) {
+        continue;
+      }
       low_m = std::min(low_m, touch.surface_m.z);
       high_m = std::max(high_m, touch.surface_m.z);
     }
+  }
   const double third_m = (high_m - low_m) / 3.0;
   return without(side, marks.midline_x_m, above ? high_m - third_m : low_m + third_m, above);
 }
@@ -163,11 +179,15 @@ StrokeCoverage cover_sparsely(const TouchableBone& bone, const PosteriorLandmark
     auto walks = walks_over(bone, marks, {region}, kPitch_m, random, {});
     // A small process has no long strokes, but a place among the few.
     double longest_m = 0.0;
-    for (const Walk& walk : walks) longest_m = std::max(longest_m, walk.length_m());
+    for (const Walk& walk : walks) {
+      longest_m = std::max(longest_m, walk.length_m());
+    }
     std::erase_if(walks, [&](const Walk& walk) {
       return walk.length_m() < 0.7 * std::min(piece_m, longest_m);
     });
-    if (!walks.empty()) by_region.push_back(std::move(walks));
+    if (!walks.empty()) {
+      by_region.push_back(std::move(walks));
+    }
   }
   StrokeCoverage coverage{{}, "few short strokes"};
   // Each region in turn, so that no part of the bone is left out.

@@ -64,7 +64,9 @@ class LaneMaker {
 
  private:
   void cover(Strip strip, double first_deg, double last_deg) {
-    if (across_) std::swap(strip.b, strip.c);
+    if (across_) {
+      std::swap(strip.b, strip.c);
+    }
     const double breadth_m = (strip.c - strip.a).norm();
     const int count = std::max(1, static_cast<int>(std::lround(breadth_m / pitch_m_)));
     for (int k = 0; k < count; ++k) {
@@ -78,7 +80,9 @@ class LaneMaker {
                 .sway_m = random_.uniform(0.0002, 0.0010),
                 .wave_m = random_.uniform(0.010, 0.025),
                 .phase_rad = random_.uniform(0.0, 2.0 * std::numbers::pi)};
-      if (k % 2 == 1) std::swap(lane.from_m, lane.to_m);
+      if (k % 2 == 1) {
+        std::swap(lane.from_m, lane.to_m);
+      }
       lanes.push_back(lane);
     }
   }
@@ -107,7 +111,9 @@ const char* name_of(BoneRegion region) {
 }
 
 int side_of(BoneRegion region) {
-  if (region == BoneRegion::kCrest) return 0;
+  if (region == BoneRegion::kCrest) {
+    return 0;
+  }
   return static_cast<int>(region) % 2 == 0 ? 1 : -1;
 }
 

@@ -29,7 +29,9 @@ bool is_spinous_side(BoneRegion r) {
 
 const Touch& Walk::at(double along_m) const {
   const auto after = std::lower_bound(arc_m.begin(), arc_m.end(), along_m);
-  if (after == arc_m.end()) return touches.back();
+  if (after == arc_m.end()) {
+    return touches.back();
+  }
   const auto i = static_cast<std::size_t>(after - arc_m.begin());
   return i > 0 && along_m - arc_m[i - 1] < arc_m[i] - along_m ? touches[i - 1] : touches[i];
 }
@@ -37,18 +39,24 @@ const Touch& Walk::at(double along_m) const {
 Walk Walk::part(double from_m, double to_m) const {
   Walk cut{region, {}, {}};
   for (std::size_t i = 0; i < touches.size(); ++i) {
-    if (arc_m[i] < from_m || arc_m[i] > to_m) continue;
+    if (arc_m[i] < from_m || arc_m[i] > to_m) {
+      continue;
+    }
     cut.touches.push_back(touches[i]);
     cut.arc_m.push_back(arc_m[i]);
   }
   const double start_m = cut.arc_m.empty() ? 0.0 : cut.arc_m.front();
-  for (double& s : cut.arc_m) s -= start_m;
+  for (double& s : cut.arc_m) {
+    s -= start_m;
+  }
   return cut;
 }
 
 bool TouchableBone::belongs(BoneRegion region, const Touch& touch) const {
   constexpr double kOverCrest_m = 0.002;
-  if (touch.normal.dot(touch.approach) < kFlattest) return false;
+  if (touch.normal.dot(touch.approach) < kFlattest) {
+    return false;
+  }
   const double aside_m = touch.surface_m.x - marks_.midline_x_m;
   const double width_m = marks_.canal_half_width_m;
   const double y_m = touch.surface_m.y;
@@ -56,10 +64,13 @@ bool TouchableBone::belongs(BoneRegion region, const Touch& touch) const {
   // beside the isthmus its hind edge, where the nerve root lies.
   const double canal_m = marks_.arch_front_y_m - marks_.body_back_y_m;
   const double depth_m = marks_.arch_front_y_m - y_m;
-  if (depth_m > (std::abs(aside_m) < 1.2 * width_m ? kDeepest : pointer_.deepest_aside) * canal_m)
+  if (depth_m > (std::abs(aside_m) < 1.2 * width_m ? kDeepest : pointer_.deepest_aside) * canal_m) {
     return false;
+  }
   const int side = side_of(region);
-  if (is_spinous_side(region)) return side * aside_m > -kOverCrest_m && std::abs(aside_m) < width_m;
+  if (is_spinous_side(region)) {
+    return side * aside_m > -kOverCrest_m && std::abs(aside_m) < width_m;
+  }
   return std::abs(aside_m) < 2.6 * width_m && side * aside_m >= 0.0;
 }
 
@@ -67,7 +78,9 @@ std::optional<Touch> TouchableBone::lower(Vec3 aim_m, Vec3 approach) const {
   const Vec3 start_m = aim_m + kOutside_m * approach;
   if (pointer_.tip_radius_m <= 0.0) {
     const auto hit = surface_->first_hit(start_m, -approach);
-    if (!hit) return std::nullopt;
+    if (!hit) {
+      return std::nullopt;
+    }
     return Touch{hit->point_m, hit->point_m, hit->normal, approach};
   }
   // The ball may go as far as the surface is away, and then look again.
@@ -77,10 +90,13 @@ std::optional<Touch> TouchableBone::lower(Vec3 aim_m, Vec3 approach) const {
   for (int step = 0; step < kMostSteps && gone_m < 2.0 * kOutside_m; ++step) {
     const Vec3 centre_m = start_m - gone_m * approach;
     const auto near = surface_->nearest(centre_m);
-    if (!near) return std::nullopt;
+    if (!near) {
+      return std::nullopt;
+    }
     const double free_m = near->distance_m - pointer_.tip_radius_m;
-    if (free_m < kTouching_m)
+    if (free_m < kTouching_m) {
       return Touch{centre_m, near->point_m, (centre_m - near->point_m).normalized(), approach};
+    }
     gone_m += free_m;
   }
   return std::nullopt;
@@ -90,7 +106,9 @@ std::vector<Walk> TouchableBone::walk(const Lane& lane) const {
   std::vector<Walk> walks;
   Walk walk{lane.region, {}, {}};
   const auto end = [&] {
-    if (walk.length_m() >= kShortestWalk_m) walks.push_back(walk);
+    if (walk.length_m() >= kShortestWalk_m) {
+      walks.push_back(walk);
+    }
     walk.touches.clear();
     walk.arc_m.clear();
   };
@@ -108,7 +126,9 @@ std::vector<Walk> TouchableBone::walk(const Lane& lane) const {
     }
     const double step_m =
         walk.touches.empty() ? 0.0 : (touch->tip_m - walk.touches.back().tip_m).norm();
-    if (step_m > kFall_m) end();
+    if (step_m > kFall_m) {
+      end();
+    }
     walk.arc_m.push_back(walk.arc_m.empty() ? 0.0 : walk.arc_m.back() + step_m);
     walk.touches.push_back(*touch);
   }

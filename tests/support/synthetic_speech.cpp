@@ -14,8 +14,11 @@ constexpr int kRateHz = 16000;
 
 int keep(short* samples, int count, espeak_EVENT* events) {
   auto* out = events ? static_cast<std::vector<float>*>(events->user_data) : nullptr;
-  if (samples && out)
-    for (int i = 0; i < count; ++i) out->push_back(static_cast<float>(samples[i]) / 32768.0F);
+  if (samples && out) {
+    for (int i = 0; i < count; ++i) {
+      out->push_back(static_cast<float>(samples[i]) / 32768.0F);
+    }
+  }
   return 0;
 }
 
@@ -34,14 +37,18 @@ int start_synthesiser() {
 
 Result<std::vector<std::int16_t>> spoken(const std::string& text, const Speaker& speaker) {
   const int rate_hz = start_synthesiser();
-  if (rate_hz == 0) return Error{"espeak-ng can't be started"};
-  if (espeak_SetVoiceByName(speaker.voice.c_str()) != EE_OK)
+  if (rate_hz == 0) {
+    return Error{"espeak-ng can't be started"};
+  }
+  if (espeak_SetVoiceByName(speaker.voice.c_str()) != EE_OK) {
     return Error{"espeak-ng has no voice " + speaker.voice};
+  }
   espeak_SetParameter(espeakRATE, speaker.words_a_minute, 0);
   std::vector<float> own_rate;
   if (espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0, espeakCHARS_UTF8, nullptr,
-                   &own_rate) != EE_OK)
+                   &own_rate) != EE_OK) {
     return Error{"espeak-ng can't say \"" + text + "\""};
+  }
   espeak_Synchronize();
   const double ratio = static_cast<double>(kRateHz) / rate_hz;
   std::vector<float> resampled(
@@ -52,11 +59,14 @@ Result<std::vector<std::int16_t>> spoken(const std::string& text, const Speaker&
   work.data_out = resampled.data();
   work.output_frames = static_cast<long>(resampled.size());
   work.src_ratio = ratio;
-  if (src_simple(&work, SRC_SINC_MEDIUM_QUALITY, 1) != 0) return Error{"speech can't be resampled"};
+  if (src_simple(&work, SRC_SINC_MEDIUM_QUALITY, 1) != 0) {
+    return Error{"speech can't be resampled"};
+  }
   std::vector<std::int16_t> samples;
-  for (long i = 0; i < work.output_frames_gen; ++i)
+  for (long i = 0; i < work.output_frames_gen; ++i) {
     samples.push_back(static_cast<std::int16_t>(
         std::lround(std::clamp(resampled[static_cast<std::size_t>(i)], -1.0F, 1.0F) * 32767.0F)));
+  }
   return samples;
 }
 

@@ -15,14 +15,17 @@ std::optional<nav::TagCorners> corners_in(const CameraModel& model,
                                           double noise_px, Random& random) {
   const Vec3 to_tag = (camera_from_rig * rig_from_tag.origin()).v;
   const Vec3 face = camera_from_rig.rotation() * (rig_from_tag.rotation() * Vec3{0, 0, 1});
-  if (-face.dot(to_tag.normalized()) < kSteepestCosine) return std::nullopt;
+  if (-face.dot(to_tag.normalized()) < kSteepestCosine) {
+    return std::nullopt;
+  }
   nav::TagCorners corners;
   const auto in_tag = nav::corners_in_marker(size_m);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto pixel = model.project((camera_from_rig * (rig_from_tag * Point<Tag>{in_tag[i]})).v);
     if (!pixel || pixel->x < kMarginPx || pixel->y < kMarginPx ||
-        pixel->x > model.width_px() - kMarginPx || pixel->y > model.height_px() - kMarginPx)
+        pixel->x > model.width_px() - kMarginPx || pixel->y > model.height_px() - kMarginPx) {
       return std::nullopt;
+    }
     corners[i] = *pixel + Vec2{random.normal(0, noise_px), random.normal(0, noise_px)};
   }
   return corners;
@@ -42,9 +45,12 @@ nav::PairSightings TagBodyScene::seen(const Transform<Rig, Marker>& rig_from_mar
                                   noise_px, random);
     sighting.right_px = corners_in(seen_by.right, seen_by.right_from_rig, rig_from_tag,
                                    tags[i].size_m, noise_px, random);
-    if (sighting.left_px && sighting.right_px)
+    if (sighting.left_px && sighting.right_px) {
       sighting.pose = geometry.pose({*sighting.left_px, *sighting.right_px}, tags[i].size_m);
-    if (sighting.left_px || sighting.right_px) sightings.push_back(sighting);
+    }
+    if (sighting.left_px || sighting.right_px) {
+      sightings.push_back(sighting);
+    }
   }
   return sightings;
 }

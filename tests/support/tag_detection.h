@@ -27,7 +27,9 @@ inline Detections detect(const GreyImage& image) {
   for (int i = 0; i < zarray_size(found); ++i) {
     apriltag_detection_t* one = nullptr;
     zarray_get(found, i, &one);
-    for (std::size_t k = 0; k < 4; ++k) detections[one->id][k] = {one->p[k][0], one->p[k][1]};
+    for (std::size_t k = 0; k < 4; ++k) {
+      detections[one->id][k] = {one->p[k][0], one->p[k][1]};
+    }
   }
   apriltag_detections_destroy(found);
   apriltag_detector_destroy(detector);

@@ -50,7 +50,9 @@ double grey_on(const TagPicture& tag, double size_m, double x_m, double y_m) {
   const double cell_m = size_m / (tag.cells - 2 * tag.border_cells);
   const int column = static_cast<int>(std::floor(x_m / cell_m + tag.cells / 2.0));
   const int row = static_cast<int>(std::floor(-y_m / cell_m + tag.cells / 2.0));
-  if (column < 0 || row < 0 || column >= tag.cells || row >= tag.cells) return -1.0;
+  if (column < 0 || row < 0 || column >= tag.cells || row >= tag.cells) {
+    return -1.0;
+  }
   return tag.white[static_cast<std::size_t>(row * tag.cells + column)] ? kWhite : kBlack;
 }
 
@@ -68,7 +70,9 @@ nav::PixelBox box_of(const Camera& camera, const PlacedTag& tag, double border) 
     const Vec3 in_camera = camera.rig_from_camera.rotation().transposed() *
                            (in_rig - camera.rig_from_camera.translation());
     const auto seen = camera.model.project(in_camera);
-    if (!seen) return {0, 0, camera.model.width_px(), camera.model.height_px()};
+    if (!seen) {
+      return {0, 0, camera.model.width_px(), camera.model.height_px()};
+    }
     low = {std::min(low.x, seen->x), std::min(low.y, seen->y)};
     high = {std::max(high.x, seen->x), std::max(high.y, seen->y)};
   }
@@ -97,38 +101,49 @@ void draw(const Camera& camera, const PlacedTag& tag, std::vector<double>& sums,
   const Mat3 turn = marker_from_rig * camera.rig_from_camera.rotation();
   const Vec3 eye =
       marker_from_rig * (camera.rig_from_camera.translation() - tag.rig_from_marker.translation());
-  if (eye.z < 0.0) return;
+  if (eye.z < 0.0) {
+    return;
+  }
   const double border = double(cells.cells) / (cells.cells - 2 * cells.border_cells);
   const nav::PixelBox box = box_of(camera, tag, border);
   const auto grey = [&](Vec2 place) {
     const auto unit = camera.model.unproject(place);
-    if (!unit) return -1.0;
+    if (!unit) {
+      return -1.0;
+    }
     const Vec3 direction = turn * Vec3{unit->x, unit->y, 1.0};
     const double along = -eye.z / direction.z;
-    if (!(along > 0.0)) return -1.0;
+    if (!(along > 0.0)) {
+      return -1.0;
+    }
     return grey_on(cells, tag.size_m, eye.x + along * direction.x, eye.y + along * direction.y);
   };
   // Footprints overlap: the quarter of one that is looked at here belongs to four pixels.
-  for (int y = box.y_px; y <= box.y_px + box.height_px; ++y)
+  for (int y = box.y_px; y <= box.y_px + box.height_px; ++y) {
     for (int x = box.x_px; x <= box.x_px + box.width_px; ++x) {
       double sum = 0.0;
       double count = 0.0;
       for (int ray = 0; ray < kRaysASide * kRaysASide / 4; ++ray) {
         const double seen = grey(quarter_place_of(x, y, ray));
-        if (seen < 0.0) continue;
+        if (seen < 0.0) {
+          continue;
+        }
         sum += seen;
         count += 1.0;
       }
-      for (const int row : {y - 1, y})
+      for (const int row : {y - 1, y}) {
         for (const int column : {x - 1, x}) {
           if (row < box.y_px || column < box.x_px || row == box.y_px + box.height_px ||
-              column == box.x_px + box.width_px)
+              column == box.x_px + box.width_px) {
             continue;
+          }
           const auto i = static_cast<std::size_t>(row * camera.model.width_px() + column);
           sums[i] += sum;
           covered[i] += count;
         }
+      }
     }
+  }
 }
 
 template <class CameraFrame>
@@ -137,9 +152,10 @@ std::array<Vec2, 4> corners_seen(const CameraModel& model,
                                  const PlacedTag& tag) {
   std::array<Vec2, 4> seen;
   const auto corners = nav::corners_in_marker(tag.size_m);
-  for (std::size_t i = 0; i < 4; ++i)
+  for (std::size_t i = 0; i < 4; ++i) {
     seen[i] = model.project((camera_from_rig * (tag.rig_from_marker * Point<Marker>{corners[i]})).v)
                   .value();
+  }
   return seen;
 }
 
@@ -154,28 +170,39 @@ TagPicture with_wider_border(const TagPicture& tag) {
   wide.border_cells = tag.border_cells;
   const auto is_white = [&](int column, int row) {
     const int last = wide.cells - 1;
-    if (column == 0 || row == 0 || column == last || row == last) return true;
-    if (column == 1 || row == 1 || column == last - 1 || row == last - 1) return false;
+    if (column == 0 || row == 0 || column == last || row == last) {
+      return true;
+    }
+    if (column == 1 || row == 1 || column == last - 1 || row == last - 1) {
+      return false;
+    }
     return bool(tag.white[static_cast<std::size_t>((row - 1) * tag.cells + column - 1)]);
   };
-  for (int row = 0; row < wide.cells; ++row)
-    for (int column = 0; column < wide.cells; ++column) wide.white.push_back(is_white(column, row));
+  for (int row = 0; row < wide.cells; ++row) {
+    for (int column = 0; column < wide.cells; ++column) {
+      wide.white.push_back(is_white(column, row));
+    }
+  }
   return wide;
 }
 
 }  // namespace
 
 TagPicture tag_picture(const std::string& family, int id) {
-  if (family == "tag36h11b2") return with_wider_border(tag_picture("tag36h11", id));
+  if (family == "tag36h11b2") {
+    return with_wider_border(tag_picture("tag36h11", id));
+  }
   const Family& known = families().at(family);
   apriltag_family_t* made = known.create();
   image_u8_t* image = apriltag_to_image(made, id);
   TagPicture picture;
   picture.cells = image->width;
   picture.border_cells = (made->total_width - made->width_at_border) / 2;
-  for (int y = 0; y < image->height; ++y)
-    for (int x = 0; x < image->width; ++x)
+  for (int y = 0; y < image->height; ++y) {
+    for (int x = 0; x < image->width; ++x) {
       picture.white.push_back(image->buf[y * image->stride + x] > 127);
+    }
+  }
   // What the library calls image_u8_destroy, which Debian's does not export.
   std::free(image->buf);
   std::free(image);
@@ -201,14 +228,18 @@ GreyImage picture(const CameraModel& camera, const Transform<Rig, Marker>& rig_f
   GreyImage image(camera.width_px(), camera.height_px());
   std::vector<double> sums(image.pixels.size(), 0.0);
   std::vector<double> covered(image.pixels.size(), 0.0);
-  for (const PlacedTag& tag : tags) draw({camera, rig_from_camera}, tag, sums, covered);
+  for (const PlacedTag& tag : tags) {
+    draw({camera, rig_from_camera}, tag, sums, covered);
+  }
   constexpr double kRays = kRaysASide * kRaysASide;
   std::fill(image.pixels.begin(), image.pixels.end(), static_cast<std::uint8_t>(kBackground));
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    if (covered[i] > 0.0)
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (covered[i] > 0.0) {
       image.pixels[i] = static_cast<std::uint8_t>(
           std::lround((sums[i] + kBackground * std::max(0.0, kRays - covered[i])) /
                       std::max(kRays, covered[i])));
+    }
+  }
   return image;
 }
 
@@ -240,7 +271,9 @@ Transform<Rig, Marker> facing(Vec3 offset_m, Vec3 turn_rad) {
 
 GreyImage april_grid_picture(int columns, int rows, double cell_px, double spacing) {
   std::vector<TagPicture> tags;
-  for (int id = 0; id < columns * rows; ++id) tags.push_back(tag_picture("tag36h11b2", id));
+  for (int id = 0; id < columns * rows; ++id) {
+    tags.push_back(tag_picture("tag36h11b2", id));
+  }
   const double edge_px = 10 * cell_px;
   const double pitch_px = (1 + spacing) * edge_px;
   const auto grey = [&](Vec2 p) {
@@ -249,20 +282,27 @@ GreyImage april_grid_picture(int columns, int rows, double cell_px, double spaci
     const Vec2 in{p.x - spacing * edge_px - column * pitch_px,
                   p.y - spacing * edge_px - row * pitch_px};
     const bool on_tag = in.x < edge_px && in.y < edge_px;
-    if (in.x >= edge_px && in.y >= edge_px && column < columns && row < rows) return kBlack;
-    if (!on_tag || column < 0 || row < 0 || column >= columns || row >= rows) return kWhite;
+    if (in.x >= edge_px && in.y >= edge_px && column < columns && row < rows) {
+      return kBlack;
+    }
+    if (!on_tag || column < 0 || row < 0 || column >= columns || row >= rows) {
+      return kWhite;
+    }
     return grey_on(tags[static_cast<std::size_t>(row * columns + column)], edge_px,
                    in.x - edge_px / 2, edge_px / 2 - in.y);
   };
   GreyImage image(static_cast<int>(columns * pitch_px + 2 * spacing * edge_px),
                   static_cast<int>(rows * pitch_px + 2 * spacing * edge_px));
   constexpr int kSide = 8;
-  for (int y = 0; y < image.height_px; ++y)
+  for (int y = 0; y < image.height_px; ++y) {
     for (int x = 0; x < image.width_px; ++x) {
       double sum = 0.0;
-      for (int ray = 0; ray < kSide * kSide; ++ray) sum += grey(place_of(x, y, ray, kSide));
+      for (int ray = 0; ray < kSide * kSide; ++ray) {
+        sum += grey(place_of(x, y, ray, kSide));
+      }
       image.at(x, y) = static_cast<std::uint8_t>(std::lround(sum / (kSide * kSide)));
     }
+  }
   return image;
 }
 
@@ -272,7 +312,7 @@ GreyImage flat_picture(const std::string& family, int id, int width_px, int heig
   GreyImage image(width_px, height_px);
   constexpr int kSide = 16;
   const double edge_px = cell_px * (tag.cells - 2 * tag.border_cells);
-  for (int y = 0; y < height_px; ++y)
+  for (int y = 0; y < height_px; ++y) {
     for (int x = 0; x < width_px; ++x) {
       double sum = 0.0;
       for (int ray = 0; ray < kSide * kSide; ++ray) {
@@ -282,6 +322,7 @@ GreyImage flat_picture(const std::string& family, int id, int width_px, int heig
       }
       image.at(x, y) = static_cast<std::uint8_t>(std::lround(sum / (kSide * kSide)));
     }
+  }
   return image;
 }
 

@@ -47,9 +47,11 @@ void record_test(const std::string& folder, bool with_board) {
   options.still_s = 3.0;
   options.turning_s = 6.0;
   std::vector<Vec3> points_m;
-  if (with_board)
-    for (const engine::TouchPoint& point : engine::touch_points(board()))
+  if (with_board) {
+    for (const engine::TouchPoint& point : engine::touch_points(board())) {
       points_m.push_back({point.at_m.x, point.at_m.y, 0.0});
+    }
+  }
   const auto track = accuracy_track(options, points_m);
   // Between the dimple and the board when the pointer is held as at first.
   const auto rig_from_world = facing({0.1, 0.06, 0.0}) * track[15].value.inverse();
@@ -59,8 +61,9 @@ void record_test(const std::string& folder, bool with_board) {
   const auto tip_m = [&](std::size_t i) { return (track[i].value * Point<Marker>{kTip}).v; };
   for (std::size_t i = 0; i < track.size(); ++i) {
     pairs.emplace_back();
-    if (i > 0 && (tip_m(i) - tip_m(i - 1)).norm() < 1e-6)
+    if (i > 0 && (tip_m(i) - tip_m(i - 1)).norm() < 1e-6) {
       pairs.back().push_back({"tag36h11", 3, kTagM, rig_from_world * track[i].value});
+    }
   }
   record(folder, test_calibration(), pairs, kRateHz);
 }
@@ -87,7 +90,9 @@ void expect_within_what_the_method_can(const json& report) {
   EXPECT_GT(report["single_point"]["rms_mm"], 0.01);
   EXPECT_GT(report["turning"]["largest_tilt_deg"], 20.0);
   EXPECT_LT(report["turning"]["residual_rms_mm"], 1.0);
-  for (const double bias_mm : report["turning"]["tip_bias_mm"]) EXPECT_LT(std::abs(bias_mm), 1.0);
+  for (const double bias_mm : report["turning"]["tip_bias_mm"]) {
+    EXPECT_LT(std::abs(bias_mm), 1.0);
+  }
   EXPECT_EQ(report["distances"]["distances"], 36);
   EXPECT_EQ(report["distances"]["points"].size(), 9u);
   EXPECT_LT(std::abs(report["distances"]["mean_error_mm"].get<double>()), 1.0);

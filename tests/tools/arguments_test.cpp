@@ -39,10 +39,12 @@ TEST(CommandLine, NamesTheWordThatIsWrongInOneLine) {
 
 TEST(CommandLine, TakesDecimalNumbersInTheirRangesAndNothingElse) {
   for (const std::string seed :
-       {"-1", "99999999999999999999", "0x10", "", "1e3", "1.5", " 1", "+1"})
+       {"-1", "99999999999999999999", "0x10", "", "1e3", "1.5", " 1", "+1"}) {
     expect_one_line({"demo", "--seed", seed}, "--seed: \"" + seed + "\" must be a whole number");
-  for (const std::string frames : {"-3", "0x1", "99999999999999999999", "", "many"})
+  }
+  for (const std::string frames : {"-3", "0x1", "99999999999999999999", "", "many"}) {
     expect_one_line({"run", "--frames", frames}, "--frames: \"" + frames + "\" must be");
+  }
   expect_one_line({"demo", "--threads", "3"}, "from 1 to 2");
   expect_one_line({"study", "--jobs", "-1"}, "--jobs: \"-1\"");
   expect_one_line({"track", "r", "--tools", "t", "--csv", "c", "--full-search-every", "0"}, "1000");
@@ -74,7 +76,9 @@ int code_with_full_output(const char* argument) {
   if (child == 0) {
     const int full = open("/dev/full", O_WRONLY);
     const int nothing = open("/dev/null", O_WRONLY);
-    if (full < 0 || dup2(full, STDOUT_FILENO) < 0 || dup2(nothing, STDERR_FILENO) < 0) _exit(126);
+    if (full < 0 || dup2(full, STDOUT_FILENO) < 0 || dup2(nothing, STDERR_FILENO) < 0) {
+      _exit(126);
+    }
     execl(ORTHONAV_COMMAND, ORTHONAV_COMMAND, argument, nullptr);
     _exit(127);
   }

@@ -21,7 +21,9 @@ class CalibrateStereo : public ::testing::Test {
  protected:
   void SetUp() override {
     boards_ = shared("recordings/opencv-stereo-chessboard");
-    if (boards_.empty()) GTEST_SKIP() << "the photographs of a chessboard are not here";
+    if (boards_.empty()) {
+      GTEST_SKIP() << "the photographs of a chessboard are not here";
+    }
   }
   Called stereo(const std::string& left, const std::string& right,
                 std::vector<std::string> more = {}) const {
@@ -64,13 +66,15 @@ TEST_F(CalibrateStereo, NamesAndSkipsImagesWithoutABoardOrAPartner) {
   }
   take("left06.jpg");
   const std::string grey(640 * 480, 'x');
-  for (const char* name : {"left07.pgm", "right07.pgm"})
+  for (const char* name : {"left07.pgm", "right07.pgm"}) {
     ASSERT_FALSE(folder_.with(name, "P5\n640 480\n255\n" + grey).empty());
+  }
   const std::string out = folder_.file("stereo.json");
   const Called called = stereo(folder_.file("left*"), folder_.file("right*"), {"--json", out});
   ASSERT_EQ(called.code, 0) << called.err;
-  for (const char* name : {"left06.jpg", "left07.pgm", "right07.pgm"})
+  for (const char* name : {"left06.jpg", "left07.pgm", "right07.pgm"}) {
     EXPECT_THAT(called.err, HasSubstr(std::string(name) + ": no board of 9x6, or no partner"));
+  }
   const auto json = nlohmann::json::parse(content_of(out));
   EXPECT_EQ(json["views_used"], 5);
   EXPECT_EQ(json["skipped"].size(), 3u);
@@ -79,9 +83,12 @@ TEST_F(CalibrateStereo, NamesAndSkipsImagesWithoutABoardOrAPartner) {
 }
 
 TEST_F(CalibrateStereo, PairsByTheNumbersInTheNames) {
-  for (const char* n : {"01", "02", "04", "05", "06", "07"}) take(std::string("left") + n + ".jpg");
-  for (const char* n : {"02", "03", "04", "05", "06", "07"})
+  for (const char* n : {"01", "02", "04", "05", "06", "07"}) {
+    take(std::string("left") + n + ".jpg");
+  }
+  for (const char* n : {"02", "03", "04", "05", "06", "07"}) {
     take(std::string("right") + n + ".jpg");
+  }
   const Called called = stereo(folder_.file("left*"), folder_.file("right*"), {"--json"});
   ASSERT_EQ(called.code, 0) << called.err;
   const auto json = nlohmann::json::parse(called.out);

@@ -29,7 +29,9 @@ void record_prism(const std::string& folder, int count = kPairs, std::size_t wit
   for (const auto& rig_from_marker : turning(count)) {
     pairs.emplace_back();
     for (std::size_t i = 0; i < scene.tags.size(); ++i) {
-      if (i == without) continue;
+      if (i == without) {
+        continue;
+      }
       const auto rig_from_tag = rig_from_marker * scene.marker_from_tag[i];
       pairs.back().push_back({scene.tags[i].family,
                               scene.tags[i].id,

@@ -13,7 +13,9 @@ namespace {
 
 void redirect(const std::string& path, int descriptor) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  if (file < 0 || dup2(file, descriptor) < 0) _exit(126);
+  if (file < 0 || dup2(file, descriptor) < 0) {
+    _exit(126);
+  }
 }
 
 }  // namespace
@@ -25,7 +27,9 @@ Called orthonav(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {ORTHONAV_COMMAND};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
+  for (std::string& word : words) {
+    pointers.push_back(word.data());
+  }
   pointers.push_back(nullptr);
   const pid_t child = fork();
   if (child == 0) {
@@ -36,8 +40,9 @@ Called orthonav(const std::vector<std::string>& arguments) {
   }
   int status = 0;
   Called called;
-  if (child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status))
+  if (child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status)) {
     called.code = WEXITSTATUS(status);
+  }
   called.out = content_of(out);
   called.err = content_of(err);
   return called;
@@ -45,7 +50,9 @@ Called orthonav(const std::vector<std::string>& arguments) {
 
 ScratchFolder::ScratchFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "orthonav-test-XXXXXX").string();
-  if (!mkdtemp(name.data())) std::abort();
+  if (!mkdtemp(name.data())) {
+    std::abort();
+  }
   path_ = name;
 }
 
@@ -61,8 +68,9 @@ std::string ScratchFolder::with(const std::string& name, const std::string& cont
 
 std::vector<std::string> ScratchFolder::names() const {
   std::vector<std::string> found;
-  for (const auto& entry : std::filesystem::directory_iterator(path_))
+  for (const auto& entry : std::filesystem::directory_iterator(path_)) {
     found.push_back(entry.path().filename().string());
+  }
   std::sort(found.begin(), found.end());
   return found;
 }

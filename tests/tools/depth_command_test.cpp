@@ -53,8 +53,9 @@ std::vector<Vec3> points_of(const std::string& ply) {
 
 double farthest_from_plane_m(const std::vector<Vec3>& points) {
   double worst = 0.0;
-  for (const Vec3 p : points)
+  for (const Vec3 p : points) {
     worst = std::max(worst, std::abs(scene().normal.dot(p) - scene().offset_m));
+  }
   return worst;
 }
 
@@ -162,7 +163,7 @@ TEST_F(DepthCommand, DrawsAPicture) {
   ASSERT_EQ(picture->width_px, 44);
   const DepthScene seen = scene();
   const auto grey = [&](int x, int y) {
-    return picture->rgba[static_cast<std::size_t>(4 * (y * 44 + x))];
+    return picture->pixels[static_cast<std::size_t>(4 * (y * 44 + x))];
   };
   const auto range = [&](int x, int y) { return seen.range_mm(seen.pictures[2], x, y, 0); };
   int compared = 0;

@@ -36,7 +36,9 @@ nlohmann::json detected(std::vector<std::string> arguments) {
 
 std::vector<int> ids_of(const nlohmann::json& image) {
   std::vector<int> ids;
-  for (const auto& marker : image["markers"]) ids.push_back(marker["id"]);
+  for (const auto& marker : image["markers"]) {
+    ids.push_back(marker["id"]);
+  }
   std::sort(ids.begin(), ids.end());
   return ids;
 }
@@ -50,7 +52,9 @@ void expect_as_listed(const std::string& folder, std::size_t more) {
     const std::string name = line.substr(0, line.find('\t'));
     std::istringstream listed(line.substr(line.find("ids=") + 4));
     std::vector<int> expected;
-    for (std::string id; listed >> id;) expected.push_back(std::stoi(id));
+    for (std::string id; listed >> id;) {
+      expected.push_back(std::stoi(id));
+    }
     std::sort(expected.begin(), expected.end());
     const auto json = detected({folder + "/" + name});
     const std::vector<int> found = ids_of(json["images"][0]);
@@ -68,7 +72,7 @@ void expect_as_listed(const std::string& folder, std::size_t more) {
 std::array<double, 4> nearest_px(const Corners& truth, const nlohmann::json& markers) {
   std::array<double, 4> best;
   best.fill(1e9);
-  for (const auto& marker : markers)
+  for (const auto& marker : markers) {
     for (std::size_t start = 0; start < 4; ++start) {
       std::array<double, 4> errors;
       for (std::size_t i = 0; i < 4; ++i) {
@@ -76,8 +80,11 @@ std::array<double, 4> nearest_px(const Corners& truth, const nlohmann::json& mar
         errors[i] = std::hypot(c[0].get<double>() - truth[i][0], c[1].get<double>() - truth[i][1]);
       }
       const auto sum = [](const auto& a) { return std::accumulate(a.begin(), a.end(), 0.0); };
-      if (sum(errors) < sum(best)) best = errors;
+      if (sum(errors) < sum(best)) {
+        best = errors;
+      }
     }
+  }
   return best;
 }
 
@@ -85,13 +92,18 @@ std::vector<Corners> truth_of(const std::string& file) {
   std::vector<Corners> all;
   std::istringstream lines(content_of(file));
   for (std::string line; std::getline(lines, line);) {
-    for (char& c : line)
-      if (c == '(' || c == ')' || c == ',') c = ' ';
+    for (char& c : line) {
+      if (c == '(' || c == ')' || c == ',') {
+        c = ' ';
+      }
+    }
     std::istringstream numbers(line);
     int id = 0;
     Corners corners;
     numbers >> id;
-    for (auto& corner : corners) numbers >> corner[0] >> corner[1];
+    for (auto& corner : corners) {
+      numbers >> corner[0] >> corner[1];
+    }
     all.push_back(corners);
   }
   return all;
@@ -99,14 +111,18 @@ std::vector<Corners> truth_of(const std::string& file) {
 
 TEST(DetectCommand, FindsEveryTagOfThePhotographs) {
   const std::string folder = shared("recordings/apriltag-testdata");
-  if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
+  if (folder.empty()) {
+    GTEST_SKIP() << "AprilTag's photographs are not here";
+  }
   // The truth has a tag more than the list, and it is found.
   expect_as_listed(folder, 1);
 }
 
 TEST(DetectCommand, FindsEveryTagOfTheMeasuredSeries) {
   const std::string folder = shared("recordings/dt-apriltags");
-  if (folder.empty()) GTEST_SKIP() << "the dt-apriltags images are not here";
+  if (folder.empty()) {
+    GTEST_SKIP() << "the dt-apriltags images are not here";
+  }
   expect_as_listed(folder, 0);
 }
 
@@ -123,20 +139,24 @@ PhotographErrors photograph_errors(const std::string& folder, const std::string&
     const auto json = detected({folder + "/" + name + ".jpg", "--refine", refinement});
     for (const Corners& truth : truth_of(folder + "/" + name + ".txt")) {
       const auto nearest = nearest_px(truth, json["images"][0]["markers"]);
-      if (*std::max_element(nearest.begin(), nearest.end()) < 10.0)
+      if (*std::max_element(nearest.begin(), nearest.end()) < 10.0) {
         errors.corners_px.insert(errors.corners_px.end(), nearest.begin(), nearest.end());
-      else
+      } else {
         ++errors.unmatched_tags;
+      }
     }
   }
-  for (const double error : errors.corners_px)
+  for (const double error : errors.corners_px) {
     errors.mean_px += error / static_cast<double>(errors.corners_px.size());
+  }
   return errors;
 }
 
 TEST(DetectCommand, PutsCornersWhereThePhotographsTruthHasThem) {
   const std::string folder = shared("recordings/apriltag-testdata");
-  if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
+  if (folder.empty()) {
+    GTEST_SKIP() << "AprilTag's photographs are not here";
+  }
   const PhotographErrors errors = photograph_errors(folder, "edges");
   EXPECT_EQ(errors.unmatched_tags, 0u);
   ASSERT_EQ(errors.corners_px.size(), 4 * 47u);
@@ -146,7 +166,9 @@ TEST(DetectCommand, PutsCornersWhereThePhotographsTruthHasThem) {
 
 TEST(DetectCommand, GivesTheLibrarysOwnCornersWhenAsked) {
   const std::string folder = shared("recordings/apriltag-testdata");
-  if (folder.empty()) GTEST_SKIP() << "AprilTag's photographs are not here";
+  if (folder.empty()) {
+    GTEST_SKIP() << "AprilTag's photographs are not here";
+  }
   const PhotographErrors as_truth = photograph_errors(folder, "none");
   EXPECT_LT(as_truth.mean_px, kSamePx);
   EXPECT_GT(photograph_errors(folder, "library").mean_px, kMeanPx) << "the bound can be failed";
@@ -190,7 +212,9 @@ TEST(DetectCommand, RefusesBadInputInOneLine) {
 
 TEST(DetectCommand, LooksForTheFamilyItIsGiven) {
   const std::string folder = shared("recordings/dt-apriltags");
-  if (folder.empty()) GTEST_SKIP() << "the dt-apriltags images are not here";
+  if (folder.empty()) {
+    GTEST_SKIP() << "the dt-apriltags images are not here";
+  }
   const std::string image = folder + "/test_image_multiple_02.png";
   EXPECT_THAT(ids_of(detected({image, "--family", "tag25h9"})["images"][0]), IsEmpty());
   const auto both = detected({image, "--family", "tag25h9", "--family", "tag36h11"});

@@ -30,8 +30,11 @@ class Environment {
 nlohmann::json offer(const Called& called, const std::string& name) {
   const nlohmann::json out = nlohmann::json::parse(called.out, nullptr, false);
   EXPECT_FALSE(out.is_discarded()) << called.out;
-  for (const auto& entry : out["offers"])
-    if (entry["name"] == name) return entry;
+  for (const auto& entry : out["offers"]) {
+    if (entry["name"] == name) {
+      return entry;
+    }
+  }
   ADD_FAILURE() << "says nothing of " << name << ":\n" << called.out;
   return {};
 }
@@ -64,8 +67,9 @@ TEST(Doctor, AnswersNoWithoutAVulkanDevice) {
 
 TEST(Doctor, FindsMicrophoneClickerAndRuntimeWhereTheKernelListsThem) {
   const ScratchFolder root;
-  for (const char* folder : {"proc/asound", "proc/bus/input", "dev/input", "etc/xdg/openxr/1"})
+  for (const char* folder : {"proc/asound", "proc/bus/input", "dev/input", "etc/xdg/openxr/1"}) {
     std::filesystem::create_directories(root.file(folder));
+  }
   std::ignore = root.with("proc/asound/pcm", "00-00: ALC : ALC : playback 1 : capture 1\n");
   std::ignore = root.with("proc/bus/input/devices",
                           "I: Bus=0005\nN: Name=\"Clicker 2\"\nH: Handlers=sysrq kbd event7\n\n"

@@ -135,9 +135,13 @@ TEST(GoldenCommand, RefusesBadArgumentsInOneLine) {
 
 TEST(GoldenCommand, WithoutVulkanSaysSoInOneLine) {
   const ScratchFolder folder;
-  for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) setenv(name, "/none.json", 1);
+  for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) {
+    setenv(name, "/none.json", 1);
+  }
   const Called called = orthonav({"golden", "render", "h5_red", "--out", folder.file("o")});
-  for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) unsetenv(name);
+  for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) {
+    unsetenv(name);
+  }
   EXPECT_EQ(called.code, 2);
   EXPECT_THAT(called.err, HasSubstr("no Vulkan"));
   EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1);

@@ -50,13 +50,15 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   const ScratchFolder folder;
   const std::string out = folder.file("out");
   std::filesystem::create_directories(out);
-  for (const char* stale : {"12-done.png", "report.json", "mine-01-setup.png", "notes.txt"})
+  for (const char* stale : {"12-done.png", "report.json", "mine-01-setup.png", "notes.txt"}) {
     std::ignore = folder.with("out/" + std::string(stale), "of an earlier run");
+  }
   const Called demo = orthonav({"demo", "--levels", "L5", "--pace", "3", "--out", out, "--json"});
   ASSERT_EQ(demo.code, 0) << demo.err;
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(out))
+  for (const auto& entry : std::filesystem::directory_iterator(out)) {
     names.insert(entry.path().filename().string());
+  }
   for (const char* name : {"report.html", "report.json", "timing.json", "session.orthonav",
                            "operation.mp4", "01-setup.png"}) {
     EXPECT_EQ(names.count(name), 1u) << name;
@@ -67,12 +69,15 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
       return name.size() == step.size() + 7 && name.ends_with("-" + step + ".png");
     });
   };
-  for (const char* step : {"digitize-L5", "guide-L5-left", "guide-L5-right", "rod-left"})
+  for (const char* step : {"digitize-L5", "guide-L5-left", "guide-L5-right", "rod-left"}) {
     EXPECT_TRUE(shows(step)) << step;
+  }
   EXPECT_EQ(names.count("12-done.png"), 0u) << "a picture of the run before";
   EXPECT_EQ(content_of(out + "/mine-01-setup.png"), "of an earlier run") << "not ours to remove";
   EXPECT_EQ(names.count("notes.txt"), 1u);
-  for (const std::string& name : names) EXPECT_THAT(name, Not(HasSubstr(".part")));
+  for (const std::string& name : names) {
+    EXPECT_THAT(name, Not(HasSubstr(".part")));
+  }
 
   EXPECT_EQ(content_of(out + "/report.json"), demo.out);
   const json report = json::parse(demo.out);
@@ -89,8 +94,9 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   EXPECT_THAT(page, HasSubstr("aria-label=\"from above\""));
   std::istringstream journal(content_of(out + "/session.orthonav"));
   int lines = 0;
-  for (std::string line; std::getline(journal, line); ++lines)
+  for (std::string line; std::getline(journal, line); ++lines) {
     EXPECT_TRUE(json::accept(line)) << line;
+  }
   EXPECT_GT(lines, 20);
   EXPECT_THAT(content_of(out + "/operation.mp4"), HasSubstr("ftyp"));
 }

@@ -60,7 +60,9 @@ TEST(PrintCommand, PrintsTagsAtTheirSizes) {
   EXPECT_THAT(called.out, HasSubstr("6 tags on 1 page (A4); print at 100 %"));
   EXPECT_THAT(folder.names(), ElementsAre("tags.pdf"));
   const std::string image = rendered(pdf, folder.file("page"));
-  if (image.empty()) GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+  if (image.empty()) {
+    GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+  }
   const auto seen = seen_in(image);
   ASSERT_EQ(seen.size(), 6u);
   for (const int id : {0, 1, 2, 3, 4, 17}) {
@@ -71,8 +73,9 @@ TEST(PrintCommand, PrintsTagsAtTheirSizes) {
 
 TEST(PrintCommand, PrintsTheSameBytesAgain) {
   const ScratchFolder folder;
-  for (const std::string name : {"a.pdf", "b.pdf"})
+  for (const std::string name : {"a.pdf", "b.pdf"}) {
     ASSERT_EQ(orthonav({"print", "tags", "--ids", "3", "--out", folder.file(name)}).code, 0);
+  }
   EXPECT_EQ(content_of(folder.file("a.pdf")), content_of(folder.file("b.pdf")));
 }
 
@@ -90,7 +93,9 @@ TEST(PrintCommand, PrintsTheTagsOfATool) {
   ASSERT_EQ(called.code, 0) << called.err;
   EXPECT_THAT(called.out, HasSubstr("2 tags on 1 page"));
   const std::string image = rendered(pdf, folder.file("page"));
-  if (image.empty()) GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+  if (image.empty()) {
+    GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+  }
   const auto seen = seen_in(image);
   ASSERT_EQ(seen.size(), 2u);
   EXPECT_NEAR(seen.at(3).size_mm, 50, kToleranceMm);
@@ -112,11 +117,13 @@ TEST(PrintCommand, PrintsABoardAndItsDescription) {
   EXPECT_EQ(board["gap_mm"], 8.0);
   EXPECT_EQ(board["border_cells"], 1);
   const std::string image = rendered(pdf, folder.file("page"));
-  if (image.empty()) GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+  if (image.empty()) {
+    GTEST_SKIP() << "pdftoppm (poppler-utils) is not installed";
+  }
   const auto seen = seen_in(image);
   ASSERT_EQ(seen.size(), 12u);
   const Seen first = seen.at(board["ids"][0][0].get<int>());
-  for (std::size_t row = 0; row < 3; ++row)
+  for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {
       const int id = board["ids"][row][column].get<int>();
       EXPECT_EQ(id, 20 + static_cast<int>(4 * row + column));
@@ -125,6 +132,7 @@ TEST(PrintCommand, PrintsABoardAndItsDescription) {
                   kToleranceMm);
       EXPECT_NEAR(seen.at(id).top_mm - first.top_mm, 33.0 * static_cast<double>(row), kToleranceMm);
     }
+  }
 }
 
 TEST(PrintCommand, PutsTheDescriptionWhereItIsTold) {
@@ -173,7 +181,9 @@ TEST(PrintCommand, RefusesInOneLineAndLeavesNothing) {
   for (const Case& c : cases) {
     std::vector<std::string> arguments = {"print"};
     arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
-    if (!c.arguments.empty()) arguments.insert(arguments.end(), {"--out", out});
+    if (!c.arguments.empty()) {
+      arguments.insert(arguments.end(), {"--out", out});
+    }
     const Called called = orthonav(arguments);
     EXPECT_EQ(called.code, 2) << c.expected;
     EXPECT_THAT(called.err, AllOf(StartsWith("orthonav: "), HasSubstr(c.expected)));

@@ -36,15 +36,17 @@ class RegisterCase : public ::testing::TestWithParam<const char*> {
       case_ = engine::phantom();
     } else {
       folder_of_case_ = shared("anatomy/" + std::string(GetParam()));
-      if (folder_of_case_.empty()) GTEST_SKIP() << "shared anatomy is absent";
+      if (folder_of_case_.empty()) {
+        GTEST_SKIP() << "shared anatomy is absent";
+      }
       case_ = engine::load_case(folder_of_case_).value();
     }
   }
   DigitizedStrokes strokes(const std::string& label, StrokeVariant variant, std::uint64_t seed,
                            double tip_radius_m = 0.0) const {
-    StrokeMagnitudes magnitudes = magnitudes_of(variant);
-    magnitudes.tip_radius_m = tip_radius_m;
-    return digitize_strokes(case_.find(label)->mesh, variant, seed, magnitudes).value();
+    StrokeErrorModel error_model = error_model_of(variant);
+    error_model.tip_radius_m = tip_radius_m;
+    return digitize_strokes(case_.find(label)->mesh, variant, seed, error_model).value();
   }
   std::string file_of(const std::vector<Point<World>>& points) const {
     std::string csv = "x,y,z\n";
@@ -58,7 +60,9 @@ class RegisterCase : public ::testing::TestWithParam<const char*> {
   Called registered(const std::string& label, const std::vector<Point<World>>& points,
                     std::vector<std::string> more = {"--json", "-"}) const {
     std::vector<std::string> arguments{"register", "--level", label, "--points", file_of(points)};
-    if (!folder_of_case_.empty()) more.insert(more.end(), {"--case", folder_of_case_});
+    if (!folder_of_case_.empty()) {
+      more.insert(more.end(), {"--case", folder_of_case_});
+    }
     arguments.insert(arguments.end(), more.begin(), more.end());
     return orthonav(arguments);
   }
@@ -68,14 +72,16 @@ class RegisterCase : public ::testing::TestWithParam<const char*> {
                   const char* matrix = "model_to_points") const {
     double worst = 0.0;
     const json& m = report.at(matrix);
-    for (const nav::ScrewPlan& screw : case_.find(label)->screws)
+    for (const nav::ScrewPlan& screw : case_.find(label)->screws) {
       for (const Point<Vertebra>& p : {screw.entry, screw.target}) {
         Vec3 mapped;
-        for (int r = 0; r < 3; ++r)
+        for (int r = 0; r < 3; ++r) {
           mapped[r] = m[r][0].get<double>() * p.v.x * 1e3 + m[r][1].get<double>() * p.v.y * 1e3 +
                       m[r][2].get<double>() * p.v.z * 1e3 + m[r][3].get<double>();
+        }
         worst = std::max(worst, (mapped - 1e3 * (truth * p).v).norm());
       }
+    }
     return worst;
   }
   ScratchFolder folder_;
@@ -91,8 +97,9 @@ void expect_covariance(const json& covariance, double rms_mm) {
     ASSERT_EQ(covariance[r].size(), 3U);
     EXPECT_GE(covariance[r][r].get<double>(), 0.0);
     trace += covariance[r][r].get<double>();
-    for (std::size_t c = 0; c < r; ++c)
+    for (std::size_t c = 0; c < r; ++c) {
       EXPECT_NEAR(covariance[r][c].get<double>(), covariance[c][r].get<double>(), 1e-9);
+    }
   }
   EXPECT_NEAR(std::sqrt(trace), rms_mm, 1e-6);
 }
@@ -119,7 +126,7 @@ TEST_P(RegisterCase, CarriesEveryFigureAndHowSureItIs) {
   ASSERT_EQ(report["screws"].size(), 2U);
   double worst = 0.0;
   double worst_95 = 0.0;
-  for (const json& screw : report["screws"])
+  for (const json& screw : report["screws"]) {
     for (const std::string place : {"entry", "target"}) {
       const double rms = screw["predicted_" + place + "_tre_mm"];
       const double within = screw["predicted_" + place + "_tre_95_mm"];
@@ -129,6 +136,7 @@ TEST_P(RegisterCase, CarriesEveryFigureAndHowSureItIs) {
       worst = std::max(worst, rms);
       worst_95 = std::max(worst_95, within);
     }
+  }
   EXPECT_EQ(report["predicted_tre_mm"], worst);
   EXPECT_EQ(report["predicted_tre_95_mm"], worst_95);
   EXPECT_LT(worst_95, 2.0) << "accepted";
@@ -165,8 +173,11 @@ TEST_P(RegisterCase, SaysWhyNotAndWhatToStrokeNext) {
   // One flank of the spinous process alone, touched by a bad tracker.
   const auto stroked = strokes("L4", StrokeVariant::kNoisy, 3);
   std::vector<Point<World>> flank;
-  for (const DigitizedSample& sample : stroked.samples)
-    if (sample.region == BoneRegion::kLeftSpinousSide) flank.push_back(sample.tip);
+  for (const DigitizedSample& sample : stroked.samples) {
+    if (sample.region == BoneRegion::kLeftSpinousSide) {
+      flank.push_back(sample.tip);
+    }
+  }
   ASSERT_GT(flank.size(), 100U);
   const Called called = registered("L4", flank, {});
   ASSERT_EQ(called.code, 1) << called.out;
@@ -191,7 +202,9 @@ TEST_P(RegisterCase, TakesTheBallAtThePointersEndIntoAccount) {
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++n;
+  }
   return n;
 }
 
@@ -201,17 +214,21 @@ TEST_P(RegisterCase, DrawsTheRegistrationOnAPageOfItsOwn) {
   const Called called = registered("L4", stroked.tips(), {"--report", page_file});
   ASSERT_EQ(called.code, 0) << called.err;
   const std::string page = content_of(page_file);
-  for (const char* view : {"from behind", "from the left", "from above"})
+  for (const char* view : {"from behind", "from the left", "from above"}) {
     EXPECT_EQ(count(page, "role=img aria-label=\"" + std::string(view) + "\""), 1U) << view;
+  }
   EXPECT_EQ(count(page, "href=\"data:image/png;base64,iVBOR"), 3U) << "the shaded bone";
   EXPECT_EQ(count(page, "<ellipse "), 3U * 4U) << "two screws, entry and target, three views";
   EXPECT_EQ(count(page, "class=\"points\""), 3U);
   EXPECT_EQ(count(page, "class=\"off\""), 3U) << "12 % lie off the bone";
   for (const char* piece : {"Registration of L4", "accepted by its figures", "95 of 100 errors",
-                            "not stroked", "left entry", "right target", "points.csv"})
+                            "not stroked", "left entry", "right target", "points.csv"}) {
     EXPECT_THAT(page, HasSubstr(piece));
-  for (const char* piece : {"http:", "https:", "<script", "\"nan", " nan", "-nan", "\"inf", " inf"})
+  }
+  for (const char* piece :
+       {"http:", "https:", "<script", "\"nan", " nan", "-nan", "\"inf", " inf"}) {
     EXPECT_EQ(count(page, piece), 0U) << piece;
+  }
   EXPECT_EQ(registered("L4", stroked.tips(), {"--report", folder_.file("again.html")}).code, 0);
   EXPECT_TRUE(page == content_of(folder_.file("again.html"))) << "the same bytes";
 }

@@ -34,12 +34,19 @@ std::vector<Vec3> touched(const nav::TriangleMesh& mesh, double front_m) {
   std::vector<Vec3> points;
   const auto touch = [&](Vec3 from, Vec3 direction) {
     const auto hit = surface.first_hit(from, direction);
-    if (hit && hit->point_m.y > front_m) points.push_back(hit->point_m);
+    if (hit && hit->point_m.y > front_m) {
+      points.push_back(hit->point_m);
+    }
   };
   for (double z = -0.025; z <= 0.015; z += 0.002) {
-    for (double x = -0.03; x <= 0.03; x += 0.0015) touch({x, 0.2, z}, {0, -1, 0});
-    for (double y = front_m; y < 0.08; y += 0.002)
-      for (const double side : {0.1, -0.1}) touch({side, y + 0.05, z}, {-side, -0.05, 0});
+    for (double x = -0.03; x <= 0.03; x += 0.0015) {
+      touch({x, 0.2, z}, {0, -1, 0});
+    }
+    for (double y = front_m; y < 0.08; y += 0.002) {
+      for (const double side : {0.1, -0.1}) {
+        touch({side, y + 0.05, z}, {-side, -0.05, 0});
+      }
+    }
   }
   return points;
 }
@@ -51,7 +58,9 @@ class RegisterCommand : public ::testing::TestWithParam<const char*> {
     if (std::string(GetParam()) == "phantom") {
       use_phantom();
     } else {
-      if (shared("anatomy").empty()) GTEST_SKIP() << "shared anatomy is absent";
+      if (shared("anatomy").empty()) {
+        GTEST_SKIP() << "shared anatomy is absent";
+      }
       model_ = shared("anatomy/visible-human/L4.stl");
       plan_file_ = shared("anatomy/visible-human/L4.plan.json");
     }
@@ -88,16 +97,18 @@ class RegisterCommand : public ::testing::TestWithParam<const char*> {
   double error_m(const json& report, double per_metre, double sign_xy = 1.0) const {
     double worst = 0.0;
     const json& m = report.at("model_to_points");
-    for (const nav::ScrewPlan& screw : plan_.screws)
+    for (const nav::ScrewPlan& screw : plan_.screws) {
       for (const Point<Vertebra>& p : {screw.entry, screw.target}) {
         const Vec3 file{sign_xy * p.v.x * per_metre, sign_xy * p.v.y * per_metre,
                         p.v.z * per_metre};
         Vec3 mapped;
-        for (int r = 0; r < 3; ++r)
+        for (int r = 0; r < 3; ++r) {
           mapped[r] = m[r][0].get<double>() * file.x + m[r][1].get<double>() * file.y +
                       m[r][2].get<double>() * file.z + m[r][3].get<double>();
+        }
         worst = std::max(worst, (mapped / per_metre - (truth_ * p).v).norm());
       }
+    }
     return worst;
   }
   ScratchFolder folder_;
@@ -155,9 +166,10 @@ TEST_P(RegisterCommand, FindsThePoseAndWritesEveryFigure) {
   }
   ASSERT_EQ(report["screws"].size(), 2U);
   double worst_mm = 0.0;
-  for (const json& screw : report["screws"])
+  for (const json& screw : report["screws"]) {
     worst_mm = std::max({worst_mm, screw["predicted_entry_tre_mm"].get<double>(),
                          screw["predicted_target_tre_mm"].get<double>()});
+  }
   EXPECT_EQ(report["predicted_tre_mm"].get<double>(), worst_mm);
   EXPECT_GT(worst_mm, 0.02);
   EXPECT_LT(worst_mm, 2.0);
@@ -175,16 +187,19 @@ TEST_P(RegisterCommand, GivesTheMatrixInThePointsUnit) {
 
 TEST_P(RegisterCommand, TakesAModelInRas) {
   nav::TriangleMesh turned = mesh_;
-  for (Vec3& v : turned.vertices_m) v = {-v.x, -v.y, v.z};
+  for (Vec3& v : turned.vertices_m) {
+    v = {-v.x, -v.y, v.z};
+  }
   std::string obj;
   char row[120];
   for (const Vec3& v : turned.vertices_m) {
     std::snprintf(row, sizeof row, "v %.9g %.9g %.9g\n", v.x * 1e3, v.y * 1e3, v.z * 1e3);
     obj += row;
   }
-  for (const auto& t : turned.triangles)
+  for (const auto& t : turned.triangles) {
     obj += "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " +
            std::to_string(t[2] + 1) + "\n";
+  }
   const std::string model = folder_.with("ras.obj", obj);
   const Called called = orthonav({"register", "--model", model, "--points", points_file(1e3),
                                   "--frame", "RAS", "--json", "-"});
@@ -196,8 +211,9 @@ TEST_P(RegisterCommand, TakesAModelInRas) {
 
 TEST_P(RegisterCommand, SaysNoToACloudThatIsNotTheBone) {
   Random random(3);
-  for (Vec3& p : points_m_)
+  for (Vec3& p : points_m_) {
     p = {random.normal(0, 0.02), random.normal(0, 0.02), random.normal(0, 0.02)};
+  }
   const Called called =
       orthonav({"register", "--model", model_, "--points", points_file(1e3), "--json", "-"});
   EXPECT_EQ(called.code, 1);
@@ -214,7 +230,9 @@ TEST_P(RegisterCommand, SaysNoToACloudThatIsNotTheBone) {
 TEST_P(RegisterCommand, RefusesBadInputInOneLineAndWritesNothing) {
   const std::string good = points_file(1e3);
   std::string few = "x,y,z\n";
-  for (int i = 0; i < 99; ++i) few += std::to_string(i) + ",0,0\n";
+  for (int i = 0; i < 99; ++i) {
+    few += std::to_string(i) + ",0,0\n";
+  }
   const std::string metres = points_file(1.0, "metres.csv");
   struct Case {
     std::string model, points, expected;
@@ -242,7 +260,9 @@ TEST_P(RegisterCommand, RefusesBadInputInOneLineAndWritesNothing) {
 
 TEST_P(RegisterCommand, NamesMetresTakenForMillimetres) {
   nav::TriangleMesh small = mesh_;
-  for (Vec3& v : small.vertices_m) v = v * 1e-3;  // written as mm: 0.09 mm across
+  for (Vec3& v : small.vertices_m) {
+    v = v * 1e-3;  // written as mm: 0.09 mm across
+  }
   const std::string model = folder_.file("small.stl");
   ASSERT_TRUE(engine::save_stl(model, small).ok());
   const Called called = orthonav({"register", "--model", model, "--points", points_file(1e3)});
@@ -259,8 +279,9 @@ TEST_P(RegisterCommand, TellsOfThePublishedMethodWhatItKnows) {
   EXPECT_LT(error_m(report, 1e3), kRight_m);
   EXPECT_GT(report["runner_up_rmse_mm"].get<double>(), 1.25 * report["rmse_mm"].get<double>());
   EXPECT_THAT(report["ambiguity"].get<std::string>(), StartsWith("unambiguous: "));
-  for (const char* key : {"noise_mm", "inlier_share", "coverage_share", "runner_up_margin"})
+  for (const char* key : {"noise_mm", "inlier_share", "coverage_share", "runner_up_margin"}) {
     EXPECT_FALSE(report.contains(key)) << key << " is not known to it";
+  }
 }
 
 TEST_P(RegisterCommand, RefusesAnUnwritablePlaceAndUnknownWords) {

@@ -36,9 +36,10 @@ TEST(RodCommand, GivesLengthAndBends) {
   double chords_mm = 0.0;
   for (std::size_t i = 1; i < rod["path_mm"].size(); ++i) {
     double squares = 0.0;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       squares +=
           std::pow(rod["path_mm"][i][k].get<double>() - rod["path_mm"][i - 1][k].get<double>(), 2);
+    }
     chords_mm += std::sqrt(squares);
   }
   EXPECT_NEAR(chords_mm, length_mm, 0.02);

@@ -14,9 +14,10 @@ namespace {
 constexpr double kNoiseSd = 2.0;
 
 void add_noise(GreyImage& image, Random& random) {
-  for (std::uint8_t& pixel : image.pixels)
+  for (std::uint8_t& pixel : image.pixels) {
     pixel =
         static_cast<std::uint8_t>(std::clamp(pixel + random.normal(0, kNoiseSd) + 0.5, 0.0, 255.0));
+  }
 }
 
 }  // namespace

@@ -43,7 +43,9 @@ std::map<Key, Row> rows_of(const std::string& csv) {
   while (std::getline(text, line)) {
     Row row;
     std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');) row.fields.push_back(field);
+    for (std::string field; std::getline(fields, field, ',');) {
+      row.fields.push_back(field);
+    }
     const auto number = [&row](std::size_t i) { return std::stod(row.fields.at(i)); };
     row.position = {number(2), number(3), number(4)};
     row.rotation = {number(5), number(6), number(7), number(8)};
@@ -58,9 +60,15 @@ std::size_t digits(const std::string& number) {
   std::size_t count = 0;
   bool started = false;
   for (const char c : number) {
-    if (c == 'e') break;
-    if (c >= '1' && c <= '9') started = true;
-    if (started && c >= '0' && c <= '9') ++count;
+    if (c == 'e') {
+      break;
+    }
+    if (c >= '1' && c <= '9') {
+      started = true;
+    }
+    if (started && c >= '0' && c <= '9') {
+      ++count;
+    }
   }
   return count;
 }
@@ -69,7 +77,9 @@ class TrackCommand : public ::testing::Test {
  protected:
   void SetUp() override {
     sample_ = shared(kSample);
-    if (sample_.empty()) GTEST_SKIP() << "the recorded sample is not here";
+    if (sample_.empty()) {
+      GTEST_SKIP() << "the recorded sample is not here";
+    }
   }
   Called track(std::vector<std::string> more) const {
     std::vector<std::string> all = {
@@ -136,7 +146,9 @@ TEST_F(TrackCommand, WarnsOfATagThatIsNotOfTheStatedSize) {
   std::string tools = content_of(sample_ + "/tools.json");
   EXPECT_THAT(track({}).err, Not(HasSubstr("warning"))) << "the twin";
   auto json = nlohmann::json::parse(tools);
-  for (auto& tool : json["tools"]) tool["marker"]["size_mm"] = 41.2;
+  for (auto& tool : json["tools"]) {
+    tool["marker"]["size_mm"] = 41.2;
+  }
   const std::string wrong = folder_.file("tools.json");
   std::ofstream(wrong) << json.dump();
   const Called called =
@@ -155,7 +167,9 @@ TEST_F(TrackCommand, WritesARowForEveryVisibleTagAndNoOther) {
   const auto truth = rows_of(content_of(sample_ + "/truth.csv"));
   std::size_t visible = 0;
   for (const auto& [key, expected] : truth) {
-    if (expected.fields.at(9) != "1") continue;
+    if (expected.fields.at(9) != "1") {
+      continue;
+    }
     ++visible;
     ASSERT_EQ(rows.count(key), 1u) << "missing: " << key.first << " id " << key.second;
     const Row& row = rows.at(key);

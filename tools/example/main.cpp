@@ -16,12 +16,15 @@ using namespace orthonav::engine;
 
 struct Printer : LoopObserver {
   void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
-    if (frame.sequence % 30 != 0) return;
+    if (frame.sequence % 30 != 0) {
+      return;
+    }
     std::printf("%s  %s", guidance.step_text.c_str(), guidance.detail.c_str());
-    if (guidance.tool && guidance.tool->measured)
+    if (guidance.tool && guidance.tool->measured) {
       std::printf("  %.1f deg off the plan, tip %.1f mm from the entry",
                   guidance.tool->measured->angle_rad * 57.2958,
                   guidance.tool->measured->tip_to_entry_m * 1e3);
+    }
     std::puts("");
   }
 };

@@ -30,23 +30,28 @@ void Camera::start_orbit(const Transform<sim::Room, Eye>& stage_from_eye) {
 }
 
 void Camera::turn(Vec2 by) {
-  if (!orbits_) return;
+  if (!orbits_) {
+    return;
+  }
   yaw_rad_ = std::remainder(yaw_rad_ - kTurnPerHeight_rad * by.x, 2.0 * std::numbers::pi);
   pitch_rad_ = std::clamp(pitch_rad_ + kTurnPerHeight_rad * by.y, -kSteepest_rad, kSteepest_rad);
 }
 
 void Camera::pan(Vec2 by) {
-  if (!orbits_) return;
+  if (!orbits_) {
+    return;
+  }
   const Mat3 axes = stage_from_eye().rotation();
   focus_ += distance_m_ * (by.y * axes.column(1) - by.x * axes.column(0));
 }
 
 void Camera::zoom(double steps) {
   const double factor = std::pow(kZoomStep, steps);
-  if (orbits_)
+  if (orbits_) {
     distance_m_ = std::clamp(distance_m_ / factor, kNearest_m, kFarthest_m);
-  else
+  } else {
     magnification_ = std::clamp(magnification_ * factor, 1.0, kMostMagnification);
+  }
 }
 
 Transform<sim::Room, Eye> Camera::stage_from_eye() const {

@@ -11,7 +11,7 @@ struct ErrorSource {
   const char* group;
   const char* name;
   const char* unit;
-  double sim::Magnitudes::*value;
+  double sim::ErrorModel::*value;
   double scale;  ///< shown = scale * value
   double most;   ///< of what is shown; the least is `least`
   double least = 0.0;

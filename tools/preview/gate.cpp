@@ -31,7 +31,9 @@ bool Gate::paused() const {
 
 void Gate::step(int pairs) {
   const std::lock_guard lock(mutex_);
-  if (paused_) steps_ += pairs;
+  if (paused_) {
+    steps_ += pairs;
+  }
 }
 
 void Gate::set_speed(double speed) {
@@ -76,15 +78,27 @@ bool Gate::may_pass() {
 }
 
 bool Gate::is_open() {
-  if (steps_ > 0 || passed_ < run_to_) return true;
-  if (paused_) return false;
-  if (speed_ <= 0.0 || !last_) return true;
+  if (steps_ > 0 || passed_ < run_to_) {
+    return true;
+  }
+  if (paused_) {
+    return false;
+  }
+  if (speed_ <= 0.0 || !last_) {
+    return true;
+  }
   const Timestamp now = wall_.now();
-  if (!anchor_) anchor_ = Anchor{*last_, now};
+  if (!anchor_) {
+    anchor_ = Anchor{*last_, now};
+  }
   const Duration due = from_seconds(seconds(*last_ - anchor_->pair) / speed_);
   const Duration late = now - anchor_->wall - due;
-  if (late < Duration::zero()) return false;
-  if (late > kMostLag) anchor_ = Anchor{*last_, now};
+  if (late < Duration::zero()) {
+    return false;
+  }
+  if (late > kMostLag) {
+    anchor_ = Anchor{*last_, now};
+  }
   return true;
 }
 

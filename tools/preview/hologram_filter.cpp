@@ -6,14 +6,17 @@
 namespace orthonav::preview {
 
 void HologramFilter::show(unsigned number, bool shown) {
-  if (number <= kLastHologram) shown_.set(number, shown);
+  if (number <= kLastHologram) {
+    shown_.set(number, shown);
+  }
 }
 
 void HologramFilter::toggle_all() {
-  if (shown_.all())
+  if (shown_.all()) {
     shown_.reset();
-  else
+  } else {
     shown_.set();
+  }
 }
 
 void HologramFilter::apply(const render::Scene& scene, render::Scene& seen) const {

@@ -65,7 +65,9 @@ const KeyBinding* binding_of(Key key) {
 
 std::optional<Key> key_named(std::string_view name) {
   const KeyBinding* binding = find([name](const KeyBinding& b) { return b.name == name; });
-  if (!binding) return std::nullopt;
+  if (!binding) {
+    return std::nullopt;
+  }
   return binding->key;
 }
 

@@ -20,13 +20,16 @@ engine::LoopOptions loop_options() {
 }
 
 ToolSeen seen(const nav::ToolGeometry& tool, const nav::TrackedPose& pose) {
-  ToolSeen seen{tool.name, pose.origin, shift_sigma_m(pose.covariance), {}, {}};
-  if (pose.origin == Origin::kLost) return seen;
+  ToolSeen seen{tool.name, pose.status, translation_sigma_m(pose.covariance), {}, {}};
+  if (pose.status == PoseStatus::kLost) {
+    return seen;
+  }
   const double half = 0.5 * tool.marker.size_m;
   const std::array<Vec3, 4> corners = {
       {{-half, half, 0.0}, {half, half, 0.0}, {half, -half, 0.0}, {-half, -half, 0.0}}};
-  for (std::size_t i = 0; i < corners.size(); ++i)
+  for (std::size_t i = 0; i < corners.size(); ++i) {
     seen.tag_in_world[i] = pose.value * Point<Marker>{corners[i]};
+  }
   seen.tip_in_world = pose.value * tool.tip_in_marker;
   return seen;
 }
@@ -40,15 +43,20 @@ Result<std::unique_ptr<LiveOperation>> LiveOperation::open(const OperationSource
   options.room = engine::room_of(source.source, source.operation, engine::built_in_tools());
   options.sim = room;
   auto headset = open_headset(source.headset, options);
-  if (!headset) return headset.error();
-  if ((*headset)->pixels() != nullptr)
+  if (!headset) {
+    return headset.error();
+  }
+  if ((*headset)->pixels() != nullptr) {
     return Error{
         "headset URI \"" + source.headset +
         "\": it has a display of its own, for which there is orthonav run; a preview takes "
         "the headset of its cameras, the URI after the plus"};
+  }
   std::unique_ptr<LiveOperation> live(
       new LiveOperation(std::move(*headset), gate, keyboard, timeline));
-  if (const Status ready = live->prepare(source); !ready) return ready.error();
+  if (const Status ready = live->prepare(source); !ready) {
+    return ready.error();
+  }
   return live;
 }
 
@@ -61,19 +69,29 @@ LiveOperation::LiveOperation(std::unique_ptr<Headset> headset, Gate& gate, Keybo
       timeline_(timeline) {}
 
 LiveOperation::~LiveOperation() {
-  if (loop_) loop_->stop();
-  if (thread_.joinable()) thread_.join();
+  if (loop_) {
+    loop_->stop();
+  }
+  if (thread_.joinable()) {
+    thread_.join();
+  }
 }
 
 Status LiveOperation::prepare(const OperationSource& source) {
   const auto tools = source.tools_file.empty() ? engine::tools_known_to(*headset_)
                                                : engine::load_tools(source.tools_file);
-  if (!tools) return tools.error();
+  if (!tools) {
+    return tools.error();
+  }
   auto tracker = source.method.create_tracker(headset_->cameras().calibration(), *tools,
                                               {.full_search_interval = 10});
-  if (!tracker) return tracker.error();
+  if (!tracker) {
+    return tracker.error();
+  }
   auto session = engine::Session::create(source.operation, std::move(*tracker), source.method);
-  if (!session) return session.error();
+  if (!session) {
+    return session.error();
+  }
   session_ = std::move(*session);
   loop_ = std::make_unique<engine::FrameLoop>(gated_, *session_, builder_, loop_options());
   loop_->observe(this);
@@ -86,7 +104,9 @@ void LiveOperation::start() {
 }
 
 void LiveOperation::run() {
-  if (const auto report = loop_->run(); !report) outcome_ = report.error();
+  if (const auto report = loop_->run(); !report) {
+    outcome_ = report.error();
+  }
   ended_ = true;
 }
 
@@ -99,19 +119,24 @@ void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*in
   moment_.time = frame.time;
   moment_.step = guidance.step;
   moment_.world_from_rig = headset_->head().world_from_rig(frame.time);
-  if (room_) moment_.room = room_->state();
+  if (room_) {
+    moment_.room = room_->state();
+  }
   moment_.tools.clear();
   const auto tools = session_->tracker().tools();
   const auto states = session_->tool_states();
-  for (std::size_t i = 0; i < tools.size() && i < states.size(); ++i)
+  for (std::size_t i = 0; i < tools.size() && i < states.size(); ++i) {
     moment_.tools.push_back(seen(tools[i], states[i].world_from_marker));
+  }
   moment_.detail = guidance.detail;
 }
 
 /// Follows `stepped` for the same pair; or comes without one, when guidance is taken back.
 void LiveOperation::captured(const engine::Snapshot& snapshot) {
   moment_.step_text = snapshot.step_text;
-  if (snapshot.blank) moment_.detail = "ended";
+  if (snapshot.blank) {
+    moment_.detail = "ended";
+  }
   moment_.scene = snapshot.scene;
   timeline_.push(std::make_shared<const Moment>(moment_));
 }

@@ -26,8 +26,9 @@ void set_look_and_feel() {
   style.Colors[ImGuiCol_FrameBg] = {0.19f, 0.21f, 0.25f, 1.0f};
   style.Colors[ImGuiCol_CheckMark] = {0.55f, 0.85f, 0.60f, 1.0f};
   std::error_code code;
-  if (std::filesystem::exists(kFont, code))
+  if (std::filesystem::exists(kFont, code)) {
     ImGui::GetIO().Fonts->AddFontFromFileTTF(kFont, kFont_px, nullptr, kGlyphs);
+  }
 }
 
 }  // namespace orthonav::preview

@@ -16,7 +16,9 @@ bool lost = false;
 void watch_display() {
   lost = false;
   Display* display = glfwGetX11Display();
-  if (!display) return;
+  if (!display) {
+    return;
+  }
   // The default prints two lines and exits.
   XSetIOErrorHandler([](Display*) { return 0; });
   XSetIOErrorExitHandler(

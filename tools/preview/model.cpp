@@ -14,9 +14,13 @@ constexpr std::array<double, 6> kSpeeds = {0.1, 0.25, 0.5, 1.0, 4.0, 0.0};
 
 void PreviewModel::key(Key key, bool down) {
   const KeyBinding* binding = binding_of(key);
-  if (!binding) return;
+  if (!binding) {
+    return;
+  }
   if (binding->command == Command::kClicker) {
-    if (std::exchange(clicker_down_, down) != down) keyboard_.button(down);
+    if (std::exchange(clicker_down_, down) != down) {
+      keyboard_.button(down);
+    }
   } else if (down) {
     obey(*binding);
   }
@@ -73,20 +77,30 @@ void PreviewModel::obey(const KeyBinding& binding) {
 
 void PreviewModel::pause(bool paused) {
   gate_.pause(paused);
-  if (!paused) live();
+  if (!paused) {
+    live();
+  }
 }
 
 void PreviewModel::step_on() {
-  if (!gate_.paused()) return pause(true);
-  if (!looked_at_) return gate_.step();
+  if (!gate_.paused()) {
+    return pause(true);
+  }
+  if (!looked_at_) {
+    return gate_.step();
+  }
   looked_at_ = timeline_.after(looked_at_->pair);
-  if (looked_at_ == timeline_.newest()) live();
+  if (looked_at_ == timeline_.newest()) {
+    live();
+  }
 }
 
 void PreviewModel::step_back() {
   const auto now = shown();
   gate_.pause(true);
-  if (now) looked_at_ = timeline_.before(now->pair);
+  if (now) {
+    looked_at_ = timeline_.before(now->pair);
+  }
 }
 
 void PreviewModel::scrub_to(std::int64_t pair) {
@@ -109,10 +123,11 @@ void PreviewModel::change_speed(bool faster) {
 }
 
 void PreviewModel::orbit(bool orbits) {
-  if (orbits)
+  if (orbits) {
     look_.camera.start_orbit(eye_);
-  else
+  } else {
     look_.camera.end_orbit();
+  }
 }
 
 std::shared_ptr<const Moment> PreviewModel::shown() const {

@@ -24,8 +24,9 @@ void add_line(render::Scene& scene, const std::vector<render::Float3>& points,
 
 void add_tool(const ToolSeen& tool, render::Scene& scene) {
   std::vector<render::Float3> corners;
-  for (const Point<World>& corner : tool.tag_in_world)
+  for (const Point<World>& corner : tool.tag_in_world) {
     corners.push_back(engine::to_float3(corner.v));
+  }
   add_line(scene, corners, kToolColour, true);
   const Vec3 middle = 0.5 * (tool.tag_in_world[0].v + tool.tag_in_world[2].v);
   add_line(scene, {engine::to_float3(middle), engine::to_float3(tool.tip_in_world.v)}, kToolColour,
@@ -56,9 +57,14 @@ void add_head(const Transform<World, Rig>& world_from_rig, render::Scene& scene)
 }  // namespace
 
 void add_outlines(const Moment& moment, bool with_head, render::Scene& scene) {
-  for (const ToolSeen& tool : moment.tools)
-    if (tool.origin != Origin::kLost) add_tool(tool, scene);
-  if (with_head) add_head(moment.world_from_rig.value, scene);
+  for (const ToolSeen& tool : moment.tools) {
+    if (tool.status != PoseStatus::kLost) {
+      add_tool(tool, scene);
+    }
+  }
+  if (with_head) {
+    add_head(moment.world_from_rig.value, scene);
+  }
 }
 
 }  // namespace orthonav::preview

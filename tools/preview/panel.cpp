@@ -23,7 +23,9 @@ void draw_step(const Moment& moment) {
     const auto step = static_cast<engine::Step>(i);
     const bool now = step == moment.step;
     // Two rows: seven names are too long for one.
-    if (i != 0 && i != 4) ImGui::SameLine(0.0f, 6.0f);
+    if (i != 0 && i != 4) {
+      ImGui::SameLine(0.0f, 6.0f);
+    }
     ImGui::TextColored(now ? kGood : kDim, "%s%s", now ? "\u25b6 " : "",
                        std::string(engine::name_of(step)).c_str());
   }
@@ -35,18 +37,20 @@ void draw_step(const Moment& moment) {
 
 void draw_tools(const Moment& moment) {
   for (const ToolSeen& tool : moment.tools) {
-    const bool measured = tool.origin == Origin::kMeasured;
-    const bool lost = tool.origin == Origin::kLost;
+    const bool measured = tool.status == PoseStatus::kMeasured;
+    const bool lost = tool.status == PoseStatus::kLost;
     ImGui::TextColored(measured ? kGood : lost ? kBad : kFair, "\u25cf");
     ImGui::SameLine();
     text(tool.name);
     ImGui::SameLine(120.0f);
     ImGui::TextColored(kDim, "%s", measured ? "measured" : lost ? "lost" : "predicted");
-    if (lost) continue;
+    if (lost) {
+      continue;
+    }
     ImGui::SameLine(230.0f);
-    ImGui::Text("\u03c3 %.2f mm", 1e3 * tool.shift_sigma_m);
+    ImGui::Text("\u03c3 %.2f mm", 1e3 * tool.translation_sigma_m);
   }
-  const bool located = moment.world_from_rig.origin != Origin::kLost;
+  const bool located = moment.world_from_rig.status != PoseStatus::kLost;
   ImGui::TextColored(located ? kGood : kBad, "\u25cf");
   ImGui::SameLine();
   text("head");
@@ -73,26 +77,36 @@ void draw_timings(const Moment& moment, const PanelFacts& facts) {
 
 void draw_time(PreviewModel& model, const Moment& moment, const PanelFacts& facts) {
   bool paused = model.gate().paused();
-  if (ImGui::Button(paused ? "\u25b6 go on" : "\u2016 pause", {86.0f, 0.0f})) model.pause(!paused);
+  if (ImGui::Button(paused ? "\u25b6 go on" : "\u2016 pause", {86.0f, 0.0f})) {
+    model.pause(!paused);
+  }
   ImGui::SameLine();
-  if (ImGui::Button("\u2190")) model.step_back();
+  if (ImGui::Button("\u2190")) {
+    model.step_back();
+  }
   ImGui::SameLine();
-  if (ImGui::Button("\u2192")) model.step_on();
+  if (ImGui::Button("\u2192")) {
+    model.step_on();
+  }
   ImGui::SameLine();
-  if (ImGui::Button("newest")) model.live();
+  if (ImGui::Button("newest")) {
+    model.live();
+  }
   ImGui::SameLine();
   const double speed = model.gate().speed();
-  if (speed > 0.0)
+  if (speed > 0.0) {
     ImGui::Text("%g\u00d7", speed);
-  else
+  } else {
     text("fastest");
+  }
   const auto newest = model.timeline().newest();
   const std::int64_t last = std::max({facts.pairs, newest ? newest->pair : 1, std::int64_t{1}});
   const std::int64_t first = 1;
   std::int64_t pair = moment.pair;
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::SliderScalar("##pair", ImGuiDataType_S64, &pair, &first, &last, "pair %lld"))
+  if (ImGui::SliderScalar("##pair", ImGuiDataType_S64, &pair, &first, &last, "pair %lld")) {
     model.scrub_to(pair);
+  }
   ImGui::TextColored(model.looks_back() ? kFair : kDim, "%s%.2f s of the headset's clock",
                      model.looks_back() ? "looking back, " : "",
                      seconds(moment.time.time_since_epoch()));
@@ -104,32 +118,46 @@ void draw_holograms(PreviewModel& model) {
     bool shown = filter.shows(hologram.number);
     char name[48];
     std::snprintf(name, sizeof name, "H%u %s", hologram.number, hologram.name);
-    if (hologram.number % 2 == 0) ImGui::SameLine(190.0f);
-    if (ImGui::Checkbox(name, &shown)) filter.show(hologram.number, shown);
+    if (hologram.number % 2 == 0) {
+      ImGui::SameLine(190.0f);
+    }
+    if (ImGui::Checkbox(name, &shown)) {
+      filter.show(hologram.number, shown);
+    }
   }
 }
 
-void draw_error_sources(PreviewModel& model, const PanelFacts& facts, sim::Magnitudes& magnitudes) {
-  if (ImGui::Button("start again")) model.wishes().restart = true;
+void draw_error_sources(PreviewModel& model, const PanelFacts& facts,
+                        sim::ErrorModel& error_model) {
+  if (ImGui::Button("start again")) {
+    model.wishes().restart = true;
+  }
   ImGui::SameLine();
-  if (ImGui::Button("perfect")) magnitudes = sim::Magnitudes::perfect();
+  if (ImGui::Button("perfect")) {
+    error_model = sim::ErrorModel::perfect();
+  }
   ImGui::SameLine();
-  if (ImGui::Button("usual")) magnitudes = sim::Magnitudes();
+  if (ImGui::Button("usual")) {
+    error_model = sim::ErrorModel();
+  }
   ImGui::TextColored(kDim, "take effect when started again");
   std::string_view group;
   for (const ErrorSource& source : error_sources()) {
-    if (group != source.group) ImGui::TextColored(kDim, "%s", source.group);
+    if (group != source.group) {
+      ImGui::TextColored(kDim, "%s", source.group);
+    }
     group = source.group;
-    double shown = magnitudes.*source.value * source.scale;
+    double shown = error_model.*source.value * source.scale;
     char format[32];
     std::snprintf(format, sizeof format, "%%.3g %s%s", source.unit[0] == '%' ? "%" : "",
                   source.unit);
-    const bool changed = magnitudes.*source.value != facts.running->*source.value;
+    const bool changed = error_model.*source.value != facts.running->*source.value;
     ImGui::PushID(&source);
     ImGui::SetNextItemWidth(130.0f);
     if (ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &source.least, &source.most,
-                            format, ImGuiSliderFlags_AlwaysClamp))
-      magnitudes.*source.value = shown / source.scale;
+                            format, ImGuiSliderFlags_AlwaysClamp)) {
+      error_model.*source.value = shown / source.scale;
+    }
     ImGui::SameLine();
     ImGui::TextColored(changed ? kFair : ImGui::GetStyle().Colors[ImGuiCol_Text], "%s",
                        source.name);
@@ -139,16 +167,24 @@ void draw_error_sources(PreviewModel& model, const PanelFacts& facts, sim::Magni
 
 void draw_buttons(PreviewModel& model, const PanelFacts& facts) {
   bool orbits = model.look().camera.orbits();
-  if (ImGui::Checkbox("orbit", &orbits)) model.orbit(orbits);
+  if (ImGui::Checkbox("orbit", &orbits)) {
+    model.orbit(orbits);
+  }
   ImGui::SameLine(80.0f);
   ImGui::Checkbox("tools", &model.look().tools);
   ImGui::SameLine(155.0f);
   bool muted = model.keyboard().muted();
-  if (ImGui::Checkbox("mute", &muted)) model.mute(muted);
+  if (ImGui::Checkbox("mute", &muted)) {
+    model.mute(muted);
+  }
   ImGui::SameLine(230.0f);
-  if (ImGui::Button("screenshot")) model.wishes().screenshot = true;
+  if (ImGui::Button("screenshot")) {
+    model.wishes().screenshot = true;
+  }
   ImGui::SameLine();
-  if (ImGui::Button(facts.video ? "stop" : "video")) model.wishes().video = true;
+  if (ImGui::Button(facts.video ? "stop" : "video")) {
+    model.wishes().video = true;
+  }
   ImGui::PushTextWrapPos(0.0f);
   // An empty line too, so that nothing jumps when there is something to say.
   ImGui::TextColored(kFair, "%s", facts.note.c_str());
@@ -163,7 +199,9 @@ void draw_help() {
   ImGui::Begin("help", nullptr, kFlags);
   for (const KeyBinding& binding : key_bindings()) {
     // The digits show and hide what the panel lists; one line for them all.
-    if (binding.command == Command::kHologram && binding.hologram != 1) continue;
+    if (binding.command == Command::kHologram && binding.hologram != 1) {
+      continue;
+    }
     const bool holograms = binding.command == Command::kHologram;
     text(holograms ? "1 - 9, f10 - f12" : std::string(binding.name));
     ImGui::SameLine(140.0f);
@@ -178,9 +216,13 @@ void draw_help() {
 
 }  // namespace
 
-void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::Magnitudes& magnitudes) {
-  if (model.help()) draw_help();
-  if (!model.panel()) return;
+void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& error_model) {
+  if (model.help()) {
+    draw_help();
+  }
+  if (!model.panel()) {
+    return;
+  }
   const ImVec2 room = ImGui::GetIO().DisplaySize;
   const float width = std::min(static_cast<float>(kPanel_px), room.x);
   ImGui::SetNextWindowPos({room.x - width, 0.0f});
@@ -199,13 +241,22 @@ void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::Magnitudes& m
   } else {
     draw_time(model, *moment, facts);
     draw_buttons(model, facts);
-    if (ImGui::CollapsingHeader("workflow", ImGuiTreeNodeFlags_DefaultOpen)) draw_step(*moment);
-    if (ImGui::CollapsingHeader("tracking", ImGuiTreeNodeFlags_DefaultOpen)) draw_tools(*moment);
-    if (ImGui::CollapsingHeader("holograms", ImGuiTreeNodeFlags_DefaultOpen)) draw_holograms(model);
-    if (ImGui::CollapsingHeader("timings")) draw_timings(*moment, facts);
+    if (ImGui::CollapsingHeader("workflow", ImGuiTreeNodeFlags_DefaultOpen)) {
+      draw_step(*moment);
+    }
+    if (ImGui::CollapsingHeader("tracking", ImGuiTreeNodeFlags_DefaultOpen)) {
+      draw_tools(*moment);
+    }
+    if (ImGui::CollapsingHeader("holograms", ImGuiTreeNodeFlags_DefaultOpen)) {
+      draw_holograms(model);
+    }
+    if (ImGui::CollapsingHeader("timings")) {
+      draw_timings(*moment, facts);
+    }
   }
-  if (facts.running && ImGui::CollapsingHeader("error sources"))
-    draw_error_sources(model, facts, magnitudes);
+  if (facts.running && ImGui::CollapsingHeader("error sources")) {
+    draw_error_sources(model, facts, error_model);
+  }
   ImGui::PopAllowKeyboardFocus();
   ImGui::End();
 }

@@ -22,11 +22,11 @@ struct PanelFacts {
   bool ended = false;
   std::shared_ptr<const Moment> moment;      ///< that the picture is of; null: none yet
   std::string note;                          ///< the newest thing to say
-  const sim::Magnitudes* running = nullptr;  ///< of a simulated room
+  const sim::ErrorModel* running = nullptr;  ///< of a simulated room
 };
 
 /// The panel and the help, made of Dear ImGui within a window's frame. `magnitudes` are those of
 /// the next start.
-void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::Magnitudes& magnitudes);
+void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& error_model);
 
 }  // namespace orthonav::preview

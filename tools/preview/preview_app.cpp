@@ -26,7 +26,9 @@ PreviewApp::PreviewApp(PreviewOptions options, std::optional<Script> script)
 
 Status PreviewApp::open_window() {
   auto stage = StageView::create(options_.stage);
-  if (!stage) return stage.error();
+  if (!stage) {
+    return stage.error();
+  }
   stage_ = std::move(*stage);
   WindowInput input;
   input.key = [this](Key key, bool down) { model_.key(key, down); };
@@ -36,28 +38,34 @@ Status PreviewApp::open_window() {
   input.scroll = [this](double steps) { model_.look().camera.zoom(steps); };
   auto window = Window::open("orthonav preview", options_.stage.width_px + kPanel_px,
                              options_.stage.height_px, std::move(input));
-  if (!window) return window.error();
+  if (!window) {
+    return window.error();
+  }
   window_ = std::move(*window);
   facts_.device = stage_->device().name;
   facts_.note = "preparing the models";
-  window_->draw(kPanel_px, [this] { draw_panel(model_, facts_, magnitudes_); });
+  window_->draw(kPanel_px, [this] { draw_panel(model_, facts_, error_model_); });
   window_->present();
   return {};
 }
 
 Status PreviewApp::open_operation(OperationSource source) {
   source_ = std::move(source);
-  if (const Status started = start_operation(); !started) return started;
+  if (const Status started = start_operation(); !started) {
+    return started;
+  }
   if (operation_->room()) {
     // What the URI asks for is kept for every further start.
     options_.room = operation_->room()->options();
     source_.headset = "sim:";
-    magnitudes_ = running_ = options_.room.magnitudes;
+    error_model_ = running_ = options_.room.error_model;
     facts_.running = &running_;
     stage_->look_at_room(*operation_->room());
   } else if (is_replay(source_.headset)) {
     auto images = RecordedImages::open(source_.headset.substr(std::string(kReplay).size()));
-    if (!images) return images.error();
+    if (!images) {
+      return images.error();
+    }
     facts_.pairs = images->pairs();
     stage_->look_at_recording(std::move(*images));
   }
@@ -75,7 +83,9 @@ Status PreviewApp::start_operation() {
   facts_.ended = false;
   facts_.note.clear();
   auto operation = LiveOperation::open(source_, options_.room, gate_, keyboard_, timeline_);
-  if (!operation) return operation.error();
+  if (!operation) {
+    return operation.error();
+  }
   operation_ = std::move(*operation);
   // One pair, so that there is something to see.
   gate_.step();
@@ -88,26 +98,44 @@ Status PreviewApp::run() {
   const Status watched = watch();
   // However it ended, what was recorded is worth keeping.
   const Status stopped = stop_video();
-  if (!watched) return watched;
-  if (!stopped) return stopped;
-  if (script_ && !script_->done()) return Error{"script: the window was closed before its end"};
+  if (!watched) {
+    return watched;
+  }
+  if (!stopped) {
+    return stopped;
+  }
+  if (script_ && !script_->done()) {
+    return Error{"script: the window was closed before its end"};
+  }
   return operation_->ended() ? operation_->outcome() : Status{};
 }
 
 Status PreviewApp::watch() {
   while (!window_->closed()) {
     const Timestamp begun = wall_.now();
-    if (window_->lost()) return Error{"window: the display has gone"};
-    if (const Status did = run_script(); !did) return did;
+    if (window_->lost()) {
+      return Error{"window: the display has gone"};
+    }
+    if (const Status did = run_script(); !did) {
+      return did;
+    }
     const Wishes wishes = model_.take_wishes();
-    if (wishes.quit || (script_ && script_->done() && wanted_screenshot_.empty())) return {};
-    if (const Status granted = grant(wishes); !granted) return granted;
-    if (const Status shown = show_moment(); !shown) return shown;
+    if (wishes.quit || (script_ && script_->done() && wanted_screenshot_.empty())) {
+      return {};
+    }
+    if (const Status granted = grant(wishes); !granted) {
+      return granted;
+    }
+    if (const Status shown = show_moment(); !shown) {
+      return shown;
+    }
     window_->draw(model_.panel() ? kPanel_px : 0,
-                  [this] { draw_panel(model_, facts_, magnitudes_); });
-    if (!wanted_screenshot_.empty())
-      if (const Status taken = take_screenshot(std::exchange(wanted_screenshot_, {})); !taken)
+                  [this] { draw_panel(model_, facts_, error_model_); });
+    if (!wanted_screenshot_.empty()) {
+      if (const Status taken = take_screenshot(std::exchange(wanted_screenshot_, {})); !taken) {
         return taken;
+      }
+    }
     window_->present();
     count_pictures();
     window_->poll(1.0 / kPictures_hz - seconds(wall_.now() - begun));
@@ -116,7 +144,9 @@ Status PreviewApp::watch() {
 }
 
 Status PreviewApp::run_script() {
-  if (!script_) return {};
+  if (!script_) {
+    return {};
+  }
   ScriptStage stage;
   stage.resize = [this](int width, int height) { window_->resize(width, height); };
   stage.screenshot = [this](const std::string& name) { wanted_screenshot_ = name; };
@@ -125,57 +155,79 @@ Status PreviewApp::run_script() {
 
 /// The title names the step, so that it is read off a bar of windows, and by who drives the window.
 void PreviewApp::set_title(const Moment& moment) {
-  if (facts_.moment && facts_.moment->step_text == moment.step_text) return;
+  if (facts_.moment && facts_.moment->step_text == moment.step_text) {
+    return;
+  }
   window_->set_title("orthonav preview: " + moment.step_text);
 }
 
 Status PreviewApp::show_moment() {
-  if (operation_->ended() && !std::exchange(facts_.ended, true))
+  if (operation_->ended() && !std::exchange(facts_.ended, true)) {
     facts_.note =
         operation_->outcome() ? "the operation has ended" : operation_->outcome().error().message;
+  }
   const auto moment = model_.shown();
-  if (!moment) return {};
+  if (!moment) {
+    return {};
+  }
   model_.seen_from(stage_->eye_of(*moment));
-  if (moment == drawn_ && model_.look() == drawn_look_) return {};
-  if (const Status drawn = stage_->draw(*moment, model_.look()); !drawn) return drawn;
+  if (moment == drawn_ && model_.look() == drawn_look_) {
+    return {};
+  }
+  if (const Status drawn = stage_->draw(*moment, model_.look()); !drawn) {
+    return drawn;
+  }
   set_title(*moment);
   drawn_ = facts_.moment = moment;
   drawn_look_ = model_.look();
   facts_.background_ms = stage_->background_ms();
   facts_.holograms_ms = stage_->holograms_ms();
   window_->upload(stage_->picture());
-  if (!video_) return {};
+  if (!video_) {
+    return {};
+  }
   frame_.width_px = stage_->picture().width_px;
   frame_.height_px = stage_->picture().height_px;
-  frame_.pixels = stage_->picture().rgba;
+  frame_.pixels = stage_->picture().pixels;
   return video_->write(frame_);
 }
 
 /// What goes wrong with a screenshot or a video is said in the panel; the preview goes on.
 Status PreviewApp::grant(const Wishes& wishes) {
-  if (wishes.screenshot) wanted_screenshot_ = next_name(".png");
-  if (wishes.video)
-    if (const Status toggled = toggle_video(); !toggled) facts_.note = toggled.error().message;
+  if (wishes.screenshot) {
+    wanted_screenshot_ = next_name(".png");
+  }
+  if (wishes.video) {
+    if (const Status toggled = toggle_video(); !toggled) {
+      facts_.note = toggled.error().message;
+    }
+  }
   return wishes.restart ? start_again() : Status{};
 }
 
 /// With the error sources as set; where no room can be made of them, as before.
 Status PreviewApp::start_again() {
-  options_.room.magnitudes = magnitudes_;
+  options_.room.error_model = error_model_;
   if (const Status started = start_operation(); !started) {
-    options_.room.magnitudes = running_;
-    if (const Status restored = start_operation(); !restored) return restored;
+    options_.room.error_model = running_;
+    if (const Status restored = start_operation(); !restored) {
+      return restored;
+    }
     facts_.note = started.error().message;
   }
-  running_ = options_.room.magnitudes;
-  if (operation_->room()) stage_->look_at_room(*operation_->room());
+  running_ = options_.room.error_model;
+  if (operation_->room()) {
+    stage_->look_at_room(*operation_->room());
+  }
   return {};
 }
 
 Status PreviewApp::make_out() {
   std::error_code code;
   fs::create_directories(options_.out, code);
-  if (code) return Error{"--out " + options_.out + ": cannot be made: " + code.message()};
+  if (code) {
+    return Error{"--out " + options_.out + ": cannot be made: " + code.message()};
+  }
   return {};
 }
 
@@ -184,30 +236,41 @@ std::string PreviewApp::next_name(const std::string& ending) {
     char name[32];
     std::snprintf(name, sizeof name, "preview-%03d", number);
     std::error_code code;
-    if (!fs::exists(fs::path(options_.out) / (name + ending), code)) return name + ending;
+    if (!fs::exists(fs::path(options_.out) / (name + ending), code)) {
+      return name + ending;
+    }
   }
 }
 
 Status PreviewApp::take_screenshot(const std::string& name) {
-  const render::Image image = window_->screenshot();
+  const RgbaImage image = window_->screenshot();
   const fs::path path = fs::path(options_.out) / name;
-  Status taken = image.rgba.empty() ? Status(Error{"screenshot: nothing of the window can be seen"})
-                                    : make_out();
-  if (taken) taken = engine::write_png(path, image);
+  Status taken = image.pixels.empty()
+                     ? Status(Error{"screenshot: nothing of the window can be seen"})
+                     : make_out();
+  if (taken) {
+    taken = engine::write_png(path, image);
+  }
   facts_.note = taken ? "wrote " + path.string() : taken.error().message;
   // A script that gets no picture has failed; a person reads why.
   return script_ ? taken : Status{};
 }
 
 Status PreviewApp::toggle_video() {
-  if (video_) return stop_video();
-  if (const Status made = make_out(); !made) return made;
+  if (video_) {
+    return stop_video();
+  }
+  if (const Status made = make_out(); !made) {
+    return made;
+  }
   video_name_ = (fs::path(options_.out) / next_name(".mp4")).string();
   engine::VideoOptions video_options;
   video_options.width_px = options_.stage.width_px;
   video_options.height_px = options_.stage.height_px;
   auto video = engine::VideoWriter::create(video_name_, video_options);
-  if (!video) return video.error();
+  if (!video) {
+    return video.error();
+  }
   video_ = std::move(*video);
   facts_.video = true;
   drawn_.reset();
@@ -216,10 +279,14 @@ Status PreviewApp::toggle_video() {
 }
 
 Status PreviewApp::stop_video() {
-  if (!video_) return {};
+  if (!video_) {
+    return {};
+  }
   const auto video = std::exchange(video_, nullptr);
   facts_.video = false;
-  if (const Status finished = video->finish(); !finished) return finished;
+  if (const Status finished = video->finish(); !finished) {
+    return finished;
+  }
   facts_.note = "wrote " + video_name_;
   return {};
 }
@@ -227,7 +294,9 @@ Status PreviewApp::stop_video() {
 void PreviewApp::count_pictures() {
   ++counted_;
   const double passed_s = seconds(wall_.now() - counted_since_);
-  if (passed_s < 0.5) return;
+  if (passed_s < 0.5) {
+    return;
+  }
   facts_.pictures_a_second = counted_ / passed_s;
   counted_ = 0;
   counted_since_ = wall_.now();

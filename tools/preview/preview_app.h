@@ -62,8 +62,8 @@ class PreviewApp {
   std::unique_ptr<engine::VideoWriter> video_;
   std::string video_name_;
   PanelFacts facts_;
-  sim::Magnitudes magnitudes_;  ///< of the next start
-  sim::Magnitudes running_;
+  sim::ErrorModel error_model_;  ///< of the next start
+  sim::ErrorModel running_;
   std::string wanted_screenshot_;  ///< name of the file; empty: none
   std::shared_ptr<const Moment> drawn_;
   Look drawn_look_;

@@ -3,7 +3,9 @@
 namespace orthonav::preview {
 
 Result<Next> PreviewHeadset::GatedCameras::do_next(StereoFrame& frame) {
-  if (!gate_.may_pass()) return Next::kNone;
+  if (!gate_.may_pass()) {
+    return Next::kNone;
+  }
   const Timestamp asked = WallClock().now();
   auto answer = inner_.next(frame);
   if (!answer || *answer != Next::kFrame) {

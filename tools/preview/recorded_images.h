@@ -27,12 +27,12 @@ class RecordedImages {
   [[nodiscard]] Vec3 eye_in_rig() const;
   /// Draws the image with this sequence number into the picture; what the camera does not see, or
   /// an image that cannot be read, leaves the picture as it is.
-  void draw(std::int64_t sequence, const render::View& view, render::Image& picture);
+  void draw(std::int64_t sequence, const render::View& view, RgbaImage& picture);
 
  private:
   struct Source;
   explicit RecordedImages(std::unique_ptr<Source> source);
-  void make_map(const render::View& view, const render::Image& picture);
+  void make_map(const render::View& view, const RgbaImage& picture);
 
   std::unique_ptr<Source> source_;
   std::int64_t read_ = -1;  ///< sequence number of `image_`

@@ -40,10 +40,15 @@ constexpr auto kWords = std::to_array<Word>({
 std::optional<std::array<double, 2>> numbers(const std::string& text, int count) {
   std::istringstream in(text);
   std::array<double, 2> values{};
-  for (int i = 0; i < count; ++i)
-    if (!(in >> values[static_cast<std::size_t>(i)])) return std::nullopt;
+  for (int i = 0; i < count; ++i) {
+    if (!(in >> values[static_cast<std::size_t>(i)])) {
+      return std::nullopt;
+    }
+  }
   std::string more;
-  if (in >> more) return std::nullopt;
+  if (in >> more) {
+    return std::nullopt;
+  }
   return values;
 }
 
@@ -51,13 +56,17 @@ std::optional<std::array<double, 2>> numbers(const std::string& text, int count)
 
 std::vector<std::string_view> script_words() {
   std::vector<std::string_view> words;
-  for (const Word& word : kWords) words.push_back(word.word);
+  for (const Word& word : kWords) {
+    words.push_back(word.word);
+  }
   return words;
 }
 
 Result<Script> Script::load(const std::filesystem::path& path) {
   const auto text = engine::read_text(path.string());
-  if (!text) return text.error();
+  if (!text) {
+    return text.error();
+  }
   return parse(*text, path.string());
 }
 
@@ -67,12 +76,17 @@ Result<Script> Script::parse(const std::string& text, const std::string& name) {
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     line = engine::trimmed(std::string_view(line).substr(0, line.find('#')));
-    if (line.empty()) continue;
+    if (line.empty()) {
+      continue;
+    }
     const auto space = line.find(' ');
     ScriptLine parsed{number, line.substr(0, space), {}};
-    if (space != std::string::npos)
+    if (space != std::string::npos) {
       parsed.rest = engine::trimmed(std::string_view(line).substr(space));
-    if (const Status known = script.check(parsed); !known) return known.error();
+    }
+    if (const Status known = script.check(parsed); !known) {
+      return known.error();
+    }
     script.lines_.push_back(std::move(parsed));
   }
   return script;
@@ -85,24 +99,36 @@ Error Script::error(const ScriptLine& line, const std::string& why) const {
 Status Script::check(const ScriptLine& line) const {
   const auto word = std::find_if(kWords.begin(), kWords.end(),
                                  [&](const Word& w) { return w.word == line.word; });
-  if (word == kWords.end()) return error(line, "is no word of a script");
+  if (word == kWords.end()) {
+    return error(line, "is no word of a script");
+  }
   switch (word->follows) {
     case Follows::kNothing:
-      if (!line.rest.empty()) return error(line, "stands alone");
+      if (!line.rest.empty()) {
+        return error(line, "stands alone");
+      }
       return {};
     case Follows::kText:
-      if (line.rest.empty()) return error(line, "lacks what follows it");
+      if (line.rest.empty()) {
+        return error(line, "lacks what follows it");
+      }
       return {};
     case Follows::kKey:
-      if (!key_named(line.rest)) return error(line, "there is no key \"" + line.rest + "\"");
+      if (!key_named(line.rest)) {
+        return error(line, "there is no key \"" + line.rest + "\"");
+      }
       return {};
     case Follows::kNumber:
-      if (!numbers(line.rest, 1)) return error(line, "needs a number");
+      if (!numbers(line.rest, 1)) {
+        return error(line, "needs a number");
+      }
       return {};
     case Follows::kTwoNumbers:
       break;
   }
-  if (!numbers(line.rest, 2)) return error(line, "needs two numbers");
+  if (!numbers(line.rest, 2)) {
+    return error(line, "needs two numbers");
+  }
   return {};
 }
 
@@ -110,12 +136,16 @@ Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp no
   while (!done()) {
     const ScriptLine& line = lines_[next_];
     if (perform(line, model, stage) == Did::kWait) {
-      if (!waits_since_) waits_since_ = now;
-      if (ended && line.word != "wait")
+      if (!waits_since_) {
+        waits_since_ = now;
+      }
+      if (ended && line.word != "wait") {
         return error(line, "waits for " + line.rest + ", but nothing more comes");
-      if (now - *waits_since_ > kPatience)
+      }
+      if (now - *waits_since_ > kPatience) {
         return error(line, "waited " + std::to_string(seconds(now - *waits_since_)) + " s for " +
                                line.rest + " (limit " + std::to_string(seconds(kPatience)) + " s)");
+      }
       return {};
     }
     waits_since_.reset();
@@ -123,7 +153,9 @@ Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp no
     waited_ = 0;
     ++next_;
     // A picture is of what was done before it: one a call.
-    if (line.word == "screenshot" || line.word == "resize") return {};
+    if (line.word == "screenshot" || line.word == "resize") {
+      return {};
+    }
   }
   return {};
 }
@@ -133,27 +165,45 @@ Script::Did Script::perform(const ScriptLine& line, PreviewModel& model, const S
   const double one = numbers(line.rest, 1).value_or(std::array<double, 2>{})[0];
   const auto shown = model.shown();
   if (line.word == "key" || line.word == "press" || line.word == "release") {
-    if (line.word != "release") model.key(*key_named(line.rest), true);
-    if (line.word != "press") model.key(*key_named(line.rest), false);
+    if (line.word != "release") {
+      model.key(*key_named(line.rest), true);
+    }
+    if (line.word != "press") {
+      model.key(*key_named(line.rest), false);
+    }
   } else if (line.word == "until") {
-    if (!shown || shown->step_text.rfind(line.rest, 0) != 0) return Did::kWait;
+    if (!shown || shown->step_text.rfind(line.rest, 0) != 0) {
+      return Did::kWait;
+    }
   } else if (line.word == "first") {
     const auto first = model.timeline().first_of(line.rest);
-    if (!first) return Did::kWait;
+    if (!first) {
+      return Did::kWait;
+    }
     model.scrub_to(first->pair);
   } else if (line.word == "pause") {
-    if (!model.gate().paused()) model.pause(true);
-    if (!model.at_rest()) return Did::kWait;
+    if (!model.gate().paused()) {
+      model.pause(true);
+    }
+    if (!model.at_rest()) {
+      return Did::kWait;
+    }
   } else if (line.word == "pairs" || line.word == "scrub") {
     const auto more = static_cast<std::int64_t>(one);
     const bool absolute = line.word == "scrub";
     if (!wait_for_pair_) {
       wait_for_pair_ = absolute ? more : model.gate().passed() + more;
-      if (absolute) model.scrub_to(more);
+      if (absolute) {
+        model.scrub_to(more);
+      }
     }
-    if (!shown || shown->pair < *wait_for_pair_) return Did::kWait;
+    if (!shown || shown->pair < *wait_for_pair_) {
+      return Did::kWait;
+    }
   } else if (line.word == "wait") {
-    if (waited_++ < static_cast<int>(one)) return Did::kWait;
+    if (waited_++ < static_cast<int>(one)) {
+      return Did::kWait;
+    }
   } else if (line.word == "drag") {
     model.look().camera.turn(0.01 * Vec2{two[0], two[1]});
   } else if (line.word == "zoom") {

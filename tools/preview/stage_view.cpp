@@ -25,7 +25,9 @@ Result<std::unique_ptr<StageView>> StageView::create(const StageOptions& options
   renderer_options.device = options.device;
   std::string error;
   auto renderer = render::Renderer::create(renderer_options, error);
-  if (!renderer) return Error{error};
+  if (!renderer) {
+    return Error{error};
+  }
   return std::unique_ptr<StageView>(new StageView(options, std::move(renderer)));
 }
 
@@ -36,13 +38,13 @@ StageView::StageView(const StageOptions& options, std::unique_ptr<render::Render
   const std::size_t bytes =
       4u * static_cast<std::size_t>(options.width_px) * static_cast<std::size_t>(options.height_px);
   room_picture_.pixels.resize(bytes);
-  background_.rgba.resize(bytes);
+  background_.pixels.resize(bytes);
   images_[0] = background_;
   backgrounds_.assign(1, &background_);
 }
 
 void StageView::look_at_room(const sim::SimHeadset& headset) {
-  room_ = sim::RoomRenderer::create(headset.room(), headset.options().magnitudes);
+  room_ = sim::RoomRenderer::create(headset.room(), headset.options().error_model);
   recording_.reset();
 }
 
@@ -52,7 +54,9 @@ void StageView::look_at_recording(RecordedImages images) {
 }
 
 Transform<sim::Room, Eye> StageView::eye_of(const Moment& moment) const {
-  if (moment.room) return moment.room->room_from_rig * tools::rig_from_eye();
+  if (moment.room) {
+    return moment.room->room_from_rig * tools::rig_from_eye();
+  }
   // Without a room the stage is the map itself, and the eye is the camera whose image is behind.
   const Transform<sim::Room, World> stage_from_world;
   const Vec3 eye = recording_ ? recording_->eye_in_rig() : Vec3{};
@@ -77,11 +81,14 @@ void StageView::draw_background(const Moment& moment, const Look& look,
         stage_from_eye, static_cast<double>(view.tan_left), static_cast<double>(view.tan_right),
         static_cast<double>(view.tan_up), static_cast<double>(view.tan_down)};
     room_->picture(*moment.room, seen, room_picture_);
-    background_.rgba.swap(room_picture_.pixels);
+    background_.pixels.swap(room_picture_.pixels);
   } else {
-    for (std::size_t i = 0; i < background_.rgba.size(); i += 4)
-      std::copy(kEmpty.begin(), kEmpty.end(), background_.rgba.begin() + static_cast<long>(i));
-    if (recording_ && !look.camera.orbits()) recording_->draw(moment.sequence, view, background_);
+    for (std::size_t i = 0; i < background_.pixels.size(); i += 4) {
+      std::copy(kEmpty.begin(), kEmpty.end(), background_.pixels.begin() + static_cast<long>(i));
+    }
+    if (recording_ && !look.camera.orbits()) {
+      recording_->draw(moment.sequence, view, background_);
+    }
   }
   background_ms_ =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
@@ -93,20 +100,25 @@ Status StageView::draw(const Moment& moment, const Look& look) {
   draw_background(moment, look, stage_from_eye);
   // A headset that does not know where it is shows nothing.
   scene_ = {};
-  if (moment.world_from_rig.origin != Origin::kLost) {
+  if (moment.world_from_rig.status != PoseStatus::kLost) {
     look.holograms.apply(moment.scene, scene_);
     // Nothing else shows where things are, where there is no picture.
     const bool no_picture = !moment.room && look.camera.orbits();
-    if (look.tools || no_picture) add_outlines(moment, look.camera.orbits(), scene_);
+    if (look.tools || no_picture) {
+      add_outlines(moment, look.camera.orbits(), scene_);
+    }
     // Holograms hang where the headset draws them against the true head.
     Transform<sim::Room, World> stage_from_world;
-    if (moment.room)
+    if (moment.room) {
       stage_from_world = moment.room->room_from_rig * moment.world_from_rig.value.inverse();
+    }
     const auto eye_from_world = stage_from_eye.inverse() * stage_from_world;
     views_[0].eye_from_world = engine::to_matrix(eye_from_world.row_major());
   }
   std::string error;
-  if (!renderer_->draw(scene_, views_, backgrounds_, images_, error)) return Error{error};
+  if (!renderer_->draw(scene_, views_, backgrounds_, images_, error)) {
+    return Error{error};
+  }
   return {};
 }
 

@@ -35,7 +35,7 @@ class StageView {
   void look_at_recording(RecordedImages images);
 
   Status draw(const Moment& moment, const Look& look);
-  [[nodiscard]] const render::Image& picture() const { return images_.front(); }
+  [[nodiscard]] const RgbaImage& picture() const { return images_.front(); }
   /// From where the moment is seen with the surgeon's eye.
   [[nodiscard]] Transform<sim::Room, Eye> eye_of(const Moment& moment) const;
   [[nodiscard]] const render::DeviceInfo& device() const { return renderer_->device(); }
@@ -57,11 +57,11 @@ class StageView {
 
   // Reused from picture to picture.
   RgbaImage room_picture_;
-  render::Image background_;
+  RgbaImage background_;
   render::Scene scene_;
   std::vector<render::View> views_;
-  std::vector<const render::Image*> backgrounds_;
-  std::vector<render::Image> images_;
+  std::vector<const RgbaImage*> backgrounds_;
+  std::vector<RgbaImage> images_;
 };
 
 }  // namespace orthonav::preview

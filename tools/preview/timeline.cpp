@@ -9,7 +9,9 @@ void Timeline::push(std::shared_ptr<const Moment> moment) {
   const std::lock_guard lock(mutex_);
   if (!moments_.empty()) {
     const std::int64_t last = moments_.back()->pair;
-    if (last >= moment->pair || !keeps(last)) moments_.pop_back();
+    if (last >= moment->pair || !keeps(last)) {
+      moments_.pop_back();
+    }
   }
   while (moments_.size() >= most_) {
     stride_ *= 2;
@@ -56,14 +58,18 @@ std::shared_ptr<const Moment> Timeline::first_of(std::string_view step) const {
 
 std::shared_ptr<const Moment> Timeline::before(std::int64_t pair) const {
   const std::lock_guard lock(mutex_);
-  if (moments_.empty()) return nullptr;
+  if (moments_.empty()) {
+    return nullptr;
+  }
   const std::size_t index = index_of(pair);
   return moments_[index == 0 ? 0 : index - 1];
 }
 
 std::shared_ptr<const Moment> Timeline::after(std::int64_t pair) const {
   const std::lock_guard lock(mutex_);
-  if (moments_.empty()) return nullptr;
+  if (moments_.empty()) {
+    return nullptr;
+  }
   return moments_[std::min(index_of(pair) + 1, moments_.size() - 1)];
 }
 

@@ -20,8 +20,8 @@ namespace orthonav::preview {
 /// How a tool was seen.
 struct ToolSeen {
   std::string name;
-  Origin origin = Origin::kLost;
-  double shift_sigma_m = 0.0;
+  PoseStatus status = PoseStatus::kLost;
+  double translation_sigma_m = 0.0;
   // Unless lost:
   std::array<Point<World>, 4> tag_in_world;  ///< its corners
   Point<World> tip_in_world;

@@ -43,9 +43,12 @@ std::optional<Key> key_of_glfw(int key) {
     default:
       break;
   }
-  if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
+  if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z) {
     return key_of(static_cast<char>('a' + key - GLFW_KEY_A));
-  if (key >= GLFW_KEY_SPACE && key < GLFW_KEY_ESCAPE) return key_of(static_cast<char>(key));
+  }
+  if (key >= GLFW_KEY_SPACE && key < GLFW_KEY_ESCAPE) {
+    return key_of(static_cast<char>(key));
+  }
   return std::nullopt;
 }
 
@@ -69,20 +72,26 @@ struct Window::Glfw {
       ImGui_ImplGlfw_Shutdown();
       ImGui::DestroyContext();
     }
-    if (window) glfwDestroyWindow(window);
+    if (window) {
+      glfwDestroyWindow(window);
+    }
     glfwTerminate();
   }
 };
 
 Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width_px, int height_px,
                                              WindowInput input) {
-  if (!glfwInit()) return Error{"window: " + newest_glfw_error("no display")};
+  if (!glfwInit()) {
+    return Error{"window: " + newest_glfw_error("no display")};
+  }
   auto glfw = std::make_unique<Glfw>();
   watch_display();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 1);
   glfw->window = glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr);
-  if (!glfw->window) return Error{"window: " + newest_glfw_error("cannot be opened")};
+  if (!glfw->window) {
+    return Error{"window: " + newest_glfw_error("cannot be opened")};
+  }
   glfwMakeContextCurrent(glfw->window);
   glfwSwapInterval(1);
   return std::unique_ptr<Window>(new Window(std::move(glfw), std::move(input)));
@@ -98,7 +107,9 @@ Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
     const auto known = key_of_glfw(key);
     // What goes up was let go of, wherever the focus is now.
     const bool ours = action == GLFW_RELEASE || !ImGui::GetIO().WantTextInput;
-    if (known && ours && action != GLFW_REPEAT) self->input_.key(*known, action == GLFW_PRESS);
+    if (known && ours && action != GLFW_REPEAT) {
+      self->input_.key(*known, action == GLFW_PRESS);
+    }
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
@@ -109,11 +120,15 @@ Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
     const bool other = glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS ||
                        glfwGetMouseButton(w, GLFW_MOUSE_BUTTON_MIDDLE) == GLFW_PRESS;
     const bool shift = glfwGetKey(w, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
-    if ((left || other) && !ImGui::GetIO().WantCaptureMouse) self->input_.drag(by, other || shift);
+    if ((left || other) && !ImGui::GetIO().WantCaptureMouse) {
+      self->input_.drag(by, other || shift);
+    }
   });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double steps) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
-    if (!ImGui::GetIO().WantCaptureMouse) self->input_.scroll(steps);
+    if (!ImGui::GetIO().WantCaptureMouse) {
+      self->input_.scroll(steps);
+    }
   });
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
@@ -127,16 +142,21 @@ Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
 }
 
 Window::~Window() {
-  if (texture_) glDeleteTextures(1, &texture_);
+  if (texture_) {
+    glDeleteTextures(1, &texture_);
+  }
 }
 
 void Window::poll(double wait_s) {
-  if (wait_s > 0.0)
+  if (wait_s > 0.0) {
     glfwWaitEventsTimeout(wait_s);
-  else
+  } else {
     glfwPollEvents();
+  }
   glfwGetFramebufferSize(glfw_->window, &width_px_, &height_px_);
-  if (glfwGetWindowAttrib(glfw_->window, GLFW_ICONIFIED)) width_px_ = height_px_ = 0;
+  if (glfwGetWindowAttrib(glfw_->window, GLFW_ICONIFIED)) {
+    width_px_ = height_px_ = 0;
+  }
 }
 
 bool Window::lost() const { return display_is_lost(); }
@@ -151,7 +171,7 @@ void Window::set_title(const std::string& title) {
   glfwSetWindowTitle(glfw_->window, title.c_str());
 }
 
-void Window::upload(const render::Image& picture) {
+void Window::upload(const RgbaImage& picture) {
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -160,7 +180,7 @@ void Window::upload(const render::Image& picture) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, picture.width_px, picture.height_px, 0, GL_RGBA,
-               GL_UNSIGNED_BYTE, picture.rgba.data());
+               GL_UNSIGNED_BYTE, picture.pixels.data());
   picture_width_px_ = picture.width_px;
   picture_height_px_ = picture.height_px;
 }
@@ -169,7 +189,9 @@ void Window::upload(const render::Image& picture) {
 void Window::place_picture(int panel_px) {
   const ImVec2 room = ImGui::GetIO().DisplaySize;
   const float across = std::max(room.x - static_cast<float>(panel_px), 1.0f);
-  if (picture_width_px_ == 0 || room.y < 1.0f) return;
+  if (picture_width_px_ == 0 || room.y < 1.0f) {
+    return;
+  }
   const auto width = static_cast<float>(picture_width_px_);
   const auto height = static_cast<float>(picture_height_px_);
   const float scale = std::min(across / width, room.y / height);
@@ -182,7 +204,9 @@ void Window::place_picture(int panel_px) {
 }
 
 void Window::draw(int panel_px, const std::function<void()>& panels) {
-  if (width_px_ <= 0 || height_px_ <= 0) return;
+  if (width_px_ <= 0 || height_px_ <= 0) {
+    return;
+  }
   ImGui_ImplOpenGL2_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
@@ -196,23 +220,30 @@ void Window::draw(int panel_px, const std::function<void()>& panels) {
 }
 
 void Window::present() {
-  if (width_px_ > 0 && height_px_ > 0) glfwSwapBuffers(glfw_->window);
+  if (width_px_ > 0 && height_px_ > 0) {
+    glfwSwapBuffers(glfw_->window);
+  }
 }
 
-render::Image Window::screenshot() const {
-  render::Image image;
-  if (width_px_ <= 0 || height_px_ <= 0) return image;
+RgbaImage Window::screenshot() const {
+  RgbaImage image;
+  if (width_px_ <= 0 || height_px_ <= 0) {
+    return image;
+  }
   image.width_px = width_px_;
   image.height_px = height_px_;
   const auto row = 4u * static_cast<std::size_t>(width_px_);
   std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(height_px_));
-  image.rgba.resize(upside_down.size());
+  image.pixels.resize(upside_down.size());
   glReadBuffer(GL_BACK);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_px_, height_px_, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.data());
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height_px_); ++y)
-    std::memcpy(&image.rgba[y * row], &upside_down[upside_down.size() - (y + 1) * row], row);
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height_px_); ++y) {
+    std::memcpy(&image.pixels[y * row], &upside_down[upside_down.size() - (y + 1) * row], row);
+  }
+  for (std::size_t i = 3; i < image.pixels.size(); i += 4) {
+    image.pixels[i] = 255;
+  }
   return image;
 }
 

@@ -40,11 +40,11 @@ class Window {
   void resize(int width_px, int height_px);
   void set_title(const std::string& title);
   /// The picture from now on.
-  void upload(const render::Image& picture);
+  void upload(const RgbaImage& picture);
   /// Draws the picture to the left of `panel_px` and the panels that `panels` makes of Dear ImGui.
   void draw(int panel_px, const std::function<void()>& panels);
   /// What was drawn, until it is presented; empty when nothing can be seen.
-  [[nodiscard]] render::Image screenshot() const;
+  [[nodiscard]] RgbaImage screenshot() const;
   void present();
   [[nodiscard]] int width_px() const { return width_px_; }
   [[nodiscard]] int height_px() const { return height_px_; }

@@ -32,7 +32,9 @@ inline std::vector<voice::SpeechSegment> cut_out(std::span<const std::int16_t> s
   segmenter.push(sound, told);
   std::vector<voice::SpeechSegment> ended;
   for (std::size_t i = 0; i < told.size(); ++i) {
-    if (!told[i].ended) continue;
+    if (!told[i].ended) {
+      continue;
+    }
     // The one before it told of it.
     ended.push_back(std::move(told[i]));
     ended.back().samples = std::move(told[i - 1].samples);

@@ -36,10 +36,10 @@ struct Options {
   std::string means;            ///< to align with; the model's own where empty
   std::string mixture;          ///< where the model's mixture weights go
   std::string change;           ///< where the change goes that leads to `means`
-  double share = 0.6;           ///< of the way
+  double fraction = 0.6;        ///< of the way
   std::string adapted_mixture;  ///< an adapted model's mixture weights
   std::string mixture_change;   ///< where the change goes that leads to them
-  double mixture_share = 0.6;
+  double mixture_fraction = 0.6;
 };
 
 [[noreturn]] void give_up(const std::string& why) {
@@ -49,7 +49,9 @@ struct Options {
 
 void write_file(const std::string& path, const std::string& content) {
   std::ofstream file(path, std::ios::binary);
-  if (!(file << content)) give_up("can't write " + path);
+  if (!(file << content)) {
+    give_up("can't write " + path);
+  }
 }
 
 /// Which way a phrase was said, by the model itself.
@@ -67,9 +69,12 @@ class Aligner {
                           "-beam", "1e-200", "-pbeam", "1e-200", "-wbeam", "1e-150", "-logfn",
                           "/dev/null", nullptr);
     decoder_.reset(config_ ? ps_init(config_) : nullptr);
-    if (!decoder_) give_up("PocketSphinx can't start");
-    for (const Pronunciation& p : kSpoken)
+    if (!decoder_) {
+      give_up("PocketSphinx can't start");
+    }
+    for (const Pronunciation& p : kSpoken) {
       ps_add_word(decoder_.get(), p.word.data(), p.sounds.data(), FALSE);
+    }
   }
   [[nodiscard]] fe_t* front_end() const { return ps_get_fe(decoder_.get()); }
 
@@ -78,20 +83,28 @@ class Aligner {
     ps_decoder_t* decoder = decoder_.get();
     const std::string grammar = "#JSGF V1.0; grammar g; public <phrase> = " + phrase + ";";
     std::vector<mfcc_t*> rows;
-    for (Cepstrum& cepstrum : cepstra) rows.push_back(cepstrum.data());
+    for (Cepstrum& cepstrum : cepstra) {
+      rows.push_back(cepstrum.data());
+    }
     ps_set_jsgf_string(decoder, "phrase", grammar.c_str());
     ps_set_search(decoder, "phrase");
     ps_start_utt(decoder);
     ps_process_cep(decoder, rows.data(), static_cast<int>(rows.size()), FALSE, FALSE);
     ps_end_utt(decoder);
     int32 score = 0;
-    if (!ps_get_hyp(decoder, &score)) return "";
+    if (!ps_get_hyp(decoder, &score)) {
+      return "";
+    }
     std::string words;
     std::string silence;
     for (ps_seg_t* seg = ps_seg_iter(decoder); seg; seg = ps_seg_next(seg)) {
       const std::string word = ps_seg_word(seg);
-      if (word == "<sil>" && !words.empty()) silence = " <sil>";
-      if (word.find_first_of("<(") == 0) continue;
+      if (word == "<sil>" && !words.empty()) {
+        silence = " <sil>";
+      }
+      if (word.find_first_of("<(") == 0) {
+        continue;
+      }
       words += (words.empty() ? "" : silence + " ") + word;
       silence.clear();
     }
@@ -107,11 +120,11 @@ class Aligner {
 };
 
 /// Microphones brighten and dull a voice.
-void tilt(std::vector<std::int16_t>& samples, double share) {
+void tilt(std::vector<std::int16_t>& samples, double fraction) {
   double before = 0.0;
   for (std::int16_t& sample : samples) {
     const double now = sample;
-    sample = static_cast<std::int16_t>(0.5 * (now + share * before));
+    sample = static_cast<std::int16_t>(0.5 * (now + fraction * before));
     before = now;
   }
 }
@@ -126,11 +139,15 @@ std::vector<std::int16_t> heard(const std::string& phrase, const std::string& vo
   const auto noise = static_cast<Noise>(static_cast<int>(3.0 * random.uniform()));
   const double tilted = random.uniform(-0.5, 0.5);
   auto said = spoken(phrase, {voice, words_a_minute});
-  if (!said) give_up(said.error().message);
+  if (!said) {
+    give_up(said.error().message);
+  }
   tilt(*said, tilted);
   const auto room = phrase_in_room(*said, noise, silent ? 60.0 : snr_db, random, Babble::kTraining);
   const auto segments = cut_out(room.sound);
-  if (segments.size() != 1) return {};
+  if (segments.size() != 1) {
+    return {};
+  }
   return cleaned(segments.front().samples, kBackgroundSamples);
 }
 
@@ -143,28 +160,36 @@ void write_corpus(const Options& options) {
   const auto add = [&](const std::string& phrase, const std::string& voice) {
     std::vector<Cepstrum> cepstra = cepstra_of(aligner.front_end(), heard(phrase, voice, random));
     const std::string words = cepstra.empty() ? "" : aligner.words_of(phrase, cepstra);
-    if (words.empty()) return;
+    if (words.empty()) {
+      return;
+    }
     const std::string name = "phrase-" + std::to_string(count++);
     std::string file;
     put(file, static_cast<std::int32_t>(cepstra.size() * cepstra.front().size()));
-    for (const Cepstrum& cepstrum : cepstra) put(file, cepstrum);
+    for (const Cepstrum& cepstrum : cepstra) {
+      put(file, cepstrum);
+    }
     write_file(options.folder + "/" + name + ".mfc", file);
     names += name + "\n";
     transcription += "<s> " + words + " </s> (" + name + ")\n";
   };
   std::size_t voice = 0;
   for (const std::string_view variant : kTrainingVariants) {
-    for (std::size_t accent = 0; accent < std::size(kTrainingAccents) / 2; ++accent)
-      for (const std::string& command : engine::spoken_commands())
-        for (const char* wake : {"", "", "ortho ", "ortho "})
+    for (std::size_t accent = 0; accent < std::size(kTrainingAccents) / 2; ++accent) {
+      for (const std::string& command : engine::spoken_commands()) {
+        for (const char* wake : {"", "", "ortho ", "ortho "}) {
           add(wake + command,
               std::string(kTrainingAccents[(voice + 2 * accent) % std::size(kTrainingAccents)]) +
                   "+" + std::string(variant));
+        }
+      }
+    }
     ++voice;
   }
   std::string dictionary;
-  for (const Pronunciation& p : kSpoken)
+  for (const Pronunciation& p : kSpoken) {
     dictionary += std::string(p.word) + " " + std::string(p.sounds) + "\n";
+  }
   write_file(options.folder + "/names", names);
   write_file(options.folder + "/transcription", transcription);
   write_file(options.folder + "/dictionary", dictionary);
@@ -173,19 +198,24 @@ void write_corpus(const Options& options) {
 
 MixtureWeights own_mixture_weights() {
   auto own = read_mixture_weights(default_acoustic_model() / "sendump");
-  if (!own) give_up(own.error().message);
+  if (!own) {
+    give_up(own.error().message);
+  }
   return std::move(*own);
 }
 
 /// One stream of a senone.
-std::vector<double> shares_of(const MixtureWeights& weights, int stream, int senone) {
-  std::vector<double> shares;
-  for (int density = 0; density < weights.densities; ++density)
-    shares.push_back(
-        share_of(static_cast<std::uint8_t>(weights.values[weights.at(stream, density, senone)])));
-  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-  for (double& share : shares) share /= sum;
-  return shares;
+std::vector<double> fractions_of(const MixtureWeights& weights, int stream, int senone) {
+  std::vector<double> fractions;
+  for (int density = 0; density < weights.densities; ++density) {
+    fractions.push_back(fraction_of(
+        static_cast<std::uint8_t>(weights.values[weights.at(stream, density, senone)])));
+  }
+  const double sum = std::accumulate(fractions.begin(), fractions.end(), 0.0);
+  for (double& fraction : fractions) {
+    fraction /= sum;
+  }
+  return fractions;
 }
 
 /// The numbers before the shares in a file of sphinxtrain's.
@@ -198,10 +228,16 @@ std::array<std::int32_t, 4> sphinx_shape_of(const MixtureWeights& weights) {
 void write_mixture_weights(const std::string& path) {
   const MixtureWeights own = own_mixture_weights();
   std::string out = sphinx_file_start();
-  for (const int number : sphinx_shape_of(own)) put(out, number);
-  for (int senone = 0; senone < own.senones; ++senone)
-    for (int stream = 0; stream < own.streams; ++stream)
-      for (const double share : shares_of(own, stream, senone)) put(out, static_cast<float>(share));
+  for (const int number : sphinx_shape_of(own)) {
+    put(out, number);
+  }
+  for (int senone = 0; senone < own.senones; ++senone) {
+    for (int stream = 0; stream < own.streams; ++stream) {
+      for (const double fraction : fractions_of(own, stream, senone)) {
+        put(out, static_cast<float>(fraction));
+      }
+    }
+  }
   write_file(path, out);
 }
 
@@ -214,38 +250,52 @@ void write_mixture_change(const Options& options) {
   const std::string content = model_file(options.adapted_mixture);
   std::string_view rest = after_sphinx_file_start(content).value_or("");
   bool fits = true;
-  for (const int number : sphinx_shape_of(own)) fits = fits && take<std::int32_t>(rest) == number;
-  if (!fits || rest.size() < own.values.size() * sizeof(float))
+  for (const int number : sphinx_shape_of(own)) {
+    fits = fits && take<std::int32_t>(rest) == number;
+  }
+  if (!fits || rest.size() < own.values.size() * sizeof(float)) {
     give_up(options.adapted_mixture + " is another model's");
+  }
   MixtureWeights adapted = own;
-  for (int senone = 0; senone < own.senones; ++senone)
+  for (int senone = 0; senone < own.senones; ++senone) {
     for (int stream = 0; stream < own.streams; ++stream) {
-      const std::vector<double> before = shares_of(own, stream, senone);
+      const std::vector<double> before = fractions_of(own, stream, senone);
       std::vector<double> after;
-      for (int i = 0; i < own.densities; ++i) after.push_back(take<float>(rest));
+      for (int i = 0; i < own.densities; ++i) {
+        after.push_back(take<float>(rest));
+      }
       const double sum = std::accumulate(after.begin(), after.end(), 0.0);
       double most = 0.0;
       for (std::size_t i = 0; i < after.size(); ++i) {
         after[i] = sum > 0.0 ? after[i] / sum : before[i];
         most = std::max(most, std::abs(after[i] - before[i]));
-        after[i] = std::lerp(before[i], after[i], options.mixture_share);
+        after[i] = std::lerp(before[i], after[i], options.mixture_fraction);
       }
-      if (most < kUntouched) continue;
-      for (int i = 0; i < own.densities; ++i)
+      if (most < kUntouched) {
+        continue;
+      }
+      for (int i = 0; i < own.densities; ++i) {
         adapted.values[own.at(stream, i, senone)] =
             static_cast<char>(quantised_weight(after[static_cast<std::size_t>(i)]));
+      }
     }
+  }
   write_file(options.mixture_change, mixture_weights_change(own, adapted));
 }
 
 void write_change(const Options& options) {
   const auto own = read_means(default_acoustic_model() / "means");
   auto adapted = read_means(options.means);
-  if (!own || !adapted) give_up((own ? adapted.error() : own.error()).message);
-  if (adapted->values.size() != own->values.size()) give_up(options.means + " is another model's");
-  for (std::size_t i = 0; i < own->values.size(); ++i)
+  if (!own || !adapted) {
+    give_up((own ? adapted.error() : own.error()).message);
+  }
+  if (adapted->values.size() != own->values.size()) {
+    give_up(options.means + " is another model's");
+  }
+  for (std::size_t i = 0; i < own->values.size(); ++i) {
     adapted->values[i] =
-        std::lerp(own->values[i], adapted->values[i], static_cast<float>(options.share));
+        std::lerp(own->values[i], adapted->values[i], static_cast<float>(options.fraction));
+  }
   write_file(options.change, means_change(*own, *adapted));
 }
 
@@ -259,16 +309,24 @@ int main(int argc, char** argv) {
   app.add_option("--means", options.means, "an adapted model's means");
   app.add_option("--mixture-weights", options.mixture, "a file for the model's own");
   app.add_option("--change", options.change, "a file for what leads from the model to --means");
-  app.add_option("--share", options.share, "of the way")->capture_default_str();
+  app.add_option("--share", options.fraction, "of the way")->capture_default_str();
   app.add_option("--adapted-mixture-weights", options.adapted_mixture, "an adapted model's");
   app.add_option("--mixture-change", options.mixture_change,
                  "a file for what leads from the model to --adapted-mixture-weights");
-  app.add_option("--mixture-share", options.mixture_share, "of the way")->capture_default_str();
+  app.add_option("--mixture-share", options.mixture_fraction, "of the way")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   using namespace orthonav::bench;
-  if (!options.mixture.empty()) write_mixture_weights(options.mixture);
-  if (!options.folder.empty()) write_corpus(options);
-  if (!options.change.empty()) write_change(options);
-  if (!options.mixture_change.empty()) write_mixture_change(options);
+  if (!options.mixture.empty()) {
+    write_mixture_weights(options.mixture);
+  }
+  if (!options.folder.empty()) {
+    write_corpus(options);
+  }
+  if (!options.change.empty()) {
+    write_change(options);
+  }
+  if (!options.mixture_change.empty()) {
+    write_mixture_change(options);
+  }
   return 0;
 }

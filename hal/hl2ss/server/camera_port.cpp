@@ -26,8 +26,12 @@ bool CameraPort::is_streaming() const {
 
 Result<std::size_t> CameraPort::understand(Bytes said) {
   const auto read = read_video_request(said);
-  if (!read) return read.error();
-  if (!*read) return std::size_t{0};
+  if (!read) {
+    return read.error();
+  }
+  if (!*read) {
+    return std::size_t{0};
+  }
   if ((*read)->request.mode == Mode::kCalibration) {
     port_.send({Chunk{calibration_}});
   } else {
@@ -40,7 +44,9 @@ Result<std::size_t> CameraPort::understand(Bytes said) {
 
 Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& request,
                                                        const GreyImage& picture) {
-  if (request.profile == VideoProfile::kRaw) return picture.pixels;
+  if (request.profile == VideoProfile::kRaw) {
+    return picture.pixels;
+  }
   std::int64_t stream = 0;
   {
     const std::lock_guard lock(mutex_);
@@ -49,7 +55,9 @@ Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& reque
   // A new client must get a key frame first.
   if (!encoder_ || encoded_stream_ != stream) {
     auto encoder = H264Encoder::create(request.bitrate);
-    if (!encoder) return encoder.error();
+    if (!encoder) {
+      return encoder.error();
+    }
     encoder_ = std::move(*encoder);
     encoded_stream_ = stream;
   }
@@ -62,16 +70,26 @@ Result<bool> CameraPort::send(const Image& image) {
     const std::lock_guard lock(mutex_);
     request = request_;
   }
-  if (!request || images_++ % request->divisor != 0) return false;
+  if (!request || images_++ % request->divisor != 0) {
+    return false;
+  }
   const auto picture = pictured(*request, *image.picture);
-  if (!picture) return picture.error();
+  if (!picture) {
+    return picture.error();
+  }
   auto packet = image_packet(image.ticks, *picture, {image.sensor_ticks, kExposureNs, 100});
-  if (request->mode == Mode::kVideoAndPose) append_pose(packet, image.world_from_rig);
+  if (request->mode == Mode::kVideoAndPose) {
+    append_pose(packet, image.world_from_rig);
+  }
   std::vector<Chunk> chunks;
   const Fate fate = image.spoil ? spoil(packet, chunks) : Fate::kUntouched;
   const bool held = !held_back_.empty();
-  if (fate == Fate::kUntouched) chunks.push_back({std::move(packet)});
-  if (held && !chunks.empty()) chunks.push_back({std::exchange(held_back_, {})});
+  if (fate == Fate::kUntouched) {
+    chunks.push_back({std::move(packet)});
+  }
+  if (held && !chunks.empty()) {
+    chunks.push_back({std::exchange(held_back_, {})});
+  }
   port_.send(std::move(chunks));
   return fate != Fate::kBroken;
 }
@@ -85,7 +103,9 @@ bool CameraPort::strikes(double probability) {
 /// What becomes of a packet; unless it is untouched, `chunks` is what is sent instead.
 CameraPort::Fate CameraPort::spoil(std::vector<std::uint8_t>& packet, std::vector<Chunk>& chunks) {
   const auto half = packet.begin() + static_cast<std::ptrdiff_t>(packet.size() / 2);
-  if (strikes(faults_.lose)) return Fate::kBroken;
+  if (strikes(faults_.lose)) {
+    return Fate::kBroken;
+  }
   if (strikes(faults_.reorder) && held_back_.empty()) {
     held_back_ = std::move(packet);
     return Fate::kBroken;
@@ -103,7 +123,9 @@ CameraPort::Fate CameraPort::spoil(std::vector<std::uint8_t>& packet, std::vecto
     chunks.push_back({{packet.begin(), half}, {}, true});
     return Fate::kBroken;
   }
-  if (!strikes(faults_.corrupt)) return Fate::kUntouched;
+  if (!strikes(faults_.corrupt)) {
+    return Fate::kUntouched;
+  }
   corrupt(packet);
   chunks.push_back({std::move(packet)});
   return Fate::kBroken;
@@ -130,8 +152,9 @@ void CameraPort::corrupt(std::vector<std::uint8_t>& packet) {
     case 4:  // an hour back
       return overwrite(packet, 0, number_at<std::uint64_t>(packet, 0) - 36'000'000'000u);
     default:  // noise in the trailer and the pose
-      for (std::size_t at = pose_at - kImageTrailerBytes; at < packet.size(); ++at)
+      for (std::size_t at = pose_at - kImageTrailerBytes; at < packet.size(); ++at) {
         packet[at] = static_cast<std::uint8_t>(random_.next());
+      }
   }
 }
 

@@ -28,7 +28,9 @@ constexpr double kALittle = 0.01;
 
 Status apply(std::string_view item, Faults& faults) {
   if (item == "all") {
-    for (const auto& [name, member] : kProbabilities) faults.*member = kALittle;
+    for (const auto& [name, member] : kProbabilities) {
+      faults.*member = kALittle;
+    }
     return {};
   }
   const std::size_t equals = std::min(item.find('='), item.size());
@@ -42,11 +44,12 @@ Status apply(std::string_view item, Faults& faults) {
     faults.jump_at.push_back(static_cast<std::int64_t>(number));
     return {};
   }
-  for (const auto& [name, member] : kProbabilities)
+  for (const auto& [name, member] : kProbabilities) {
     if (key == name && is_number) {
       faults.*member = number;
       return {};
     }
+  }
   return Error{"faults: \"" + std::string(item) + "\" is not understood; " + kKnown};
 }
 
@@ -54,9 +57,11 @@ Status apply(std::string_view item, Faults& faults) {
 
 std::vector<std::string> Faults::check() const {
   std::vector<std::string> problems;
-  for (const auto& [name, member] : kProbabilities)
-    if (!(this->*member >= 0.0 && this->*member <= 1.0))
+  for (const auto& [name, member] : kProbabilities) {
+    if (!(this->*member >= 0.0 && this->*member <= 1.0)) {
       problems.push_back(std::string(name) + " must lie in [0, 1]");
+    }
+  }
   return problems;
 }
 
@@ -64,12 +69,15 @@ Result<Faults> faults_of(std::string_view text) {
   Faults faults;
   while (!text.empty()) {
     const std::size_t comma = text.find(',');
-    if (const Status applied = apply(text.substr(0, comma), faults); !applied)
+    if (const Status applied = apply(text.substr(0, comma), faults); !applied) {
       return applied.error();
+    }
     text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
   }
   const auto problems = faults.check();
-  if (!problems.empty()) return Error{"faults: " + joined(problems)};
+  if (!problems.empty()) {
+    return Error{"faults: " + joined(problems)};
+  }
   return faults;
 }
 

@@ -41,12 +41,15 @@ struct H264Encoder::Codec {
 
 Status H264Encoder::Codec::open(std::uint32_t bitrate) {
   const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
-  if (h264 == nullptr) return Error{"libavcodec has no H.264 encoder (libx264)"};
+  if (h264 == nullptr) {
+    return Error{"libavcodec has no H.264 encoder (libx264)"};
+  }
   context = avcodec_alloc_context3(h264);
   frame = av_frame_alloc();
   packet = av_packet_alloc();
-  if (context == nullptr || frame == nullptr || packet == nullptr)
+  if (context == nullptr || frame == nullptr || packet == nullptr) {
     return Error{"out of memory for the H.264 encoder"};
+  }
   context->width = kImageWidthPx;
   context->height = kImageHeightPx;
   context->time_base = {1, kFramesPerSecond};
@@ -59,17 +62,22 @@ Status H264Encoder::Codec::open(std::uint32_t bitrate) {
   context->bit_rate = std::int64_t{bitrate};
   const std::pair<const char*, const char*> settings[] = {
       {"preset", "ultrafast"}, {"tune", "zerolatency"}, {"profile", "baseline"}};
-  for (const auto& [key, value] : settings)
-    if (const int code = av_opt_set(context->priv_data, key, value, 0); code < 0)
+  for (const auto& [key, value] : settings) {
+    if (const int code = av_opt_set(context->priv_data, key, value, 0); code < 0) {
       return failed(key, code);
+    }
+  }
   context->log_level_offset = 64;  // a library does not print
-  if (const int code = avcodec_open2(context, h264, nullptr); code < 0)
+  if (const int code = avcodec_open2(context, h264, nullptr); code < 0) {
     return failed("refused the settings", code);
+  }
   frame->format = context->pix_fmt;
   frame->width = kImageWidthPx;
   frame->height = kImageHeightPx;
   frame->color_range = AVCOL_RANGE_JPEG;
-  if (const int code = av_frame_get_buffer(frame, 0); code < 0) return failed("no frame", code);
+  if (const int code = av_frame_get_buffer(frame, 0); code < 0) {
+    return failed("no frame", code);
+  }
   return {};
 }
 
@@ -78,27 +86,36 @@ H264Encoder::~H264Encoder() = default;
 
 Result<std::unique_ptr<H264Encoder>> H264Encoder::create(std::uint32_t bitrate) {
   auto codec = std::make_unique<Codec>();
-  if (const Status opened = codec->open(bitrate); !opened) return opened.error();
+  if (const Status opened = codec->open(bitrate); !opened) {
+    return opened.error();
+  }
   return std::unique_ptr<H264Encoder>(new H264Encoder(std::move(codec)));
 }
 
 Result<std::vector<std::uint8_t>> H264Encoder::encode(const GreyImage& image) {
   Codec& codec = *codec_;
-  if (image.width_px != kImageWidthPx || image.height_px != kImageHeightPx)
+  if (image.width_px != kImageWidthPx || image.height_px != kImageHeightPx) {
     return Error{"H.264 encoder: image must be 640x480"};
-  if (const int code = av_frame_make_writable(codec.frame); code < 0)
+  }
+  if (const int code = av_frame_make_writable(codec.frame); code < 0) {
     return failed("no frame", code);
-  for (int y = 0; y < kImageHeightPx; ++y)
+  }
+  for (int y = 0; y < kImageHeightPx; ++y) {
     std::copy_n(image.pixels.begin() + std::ptrdiff_t{y} * kImageWidthPx, kImageWidthPx,
                 codec.frame->data[0] + std::ptrdiff_t{y} * codec.frame->linesize[0]);
-  for (int plane = 1; plane < 3; ++plane)
+  }
+  for (int plane = 1; plane < 3; ++plane) {
     std::fill_n(codec.frame->data[plane],
                 std::ptrdiff_t{codec.frame->linesize[plane]} * (kImageHeightPx / 2), kNoColour);
+  }
   codec.frame->pts = codec.frames++;
-  if (const int code = avcodec_send_frame(codec.context, codec.frame); code < 0)
+  if (const int code = avcodec_send_frame(codec.context, codec.frame); code < 0) {
     return failed("took no picture", code);
+  }
   const int code = avcodec_receive_packet(codec.context, codec.packet);
-  if (code < 0) return failed("gave no picture", code);
+  if (code < 0) {
+    return failed("gave no picture", code);
+  }
   std::vector<std::uint8_t> bytes(codec.packet->data, codec.packet->data + codec.packet->size);
   av_packet_unref(codec.packet);
   return bytes;

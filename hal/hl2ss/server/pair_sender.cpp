@@ -36,24 +36,33 @@ std::int64_t PairSender::faults_done() const {
 
 Result<bool> PairSender::send(Headset& headset, const StereoFrame& frame) {
   const std::int64_t number = pairs_++;
-  if (std::count(faults_.jump_at.begin(), faults_.jump_at.end(), number) > 0) jump();
+  if (std::count(faults_.jump_at.begin(), faults_.jump_at.end(), number) > 0) {
+    jump();
+  }
   send_events(headset, frame);
   const bool gap = strikes(faults_.gap);
   const bool unlocated = strikes(faults_.unlocated);
-  if (gap) return false;
+  if (gap) {
+    return false;
+  }
   CameraPort::Image image;
   image.ticks = ticks_100ns(frame.time);
   image.sensor_ticks = static_cast<std::uint64_t>(image.ticks + kSensorTicksAhead);
   image.picture = &frame.left;
   image.spoil = number >= kUntouchedPairs;
-  if (frame.world_from_rig && !unlocated)
+  if (frame.world_from_rig && !unlocated) {
     image.world_from_rig = jumped_from_world_ * *frame.world_from_rig;
+  }
   const auto left = left_.send(image);
   image.ticks += kRightLaterTicks;
   image.picture = &frame.right;
   const auto right = right_.send(image);
-  if (!left) return left;
-  if (!right) return right;
+  if (!left) {
+    return left;
+  }
+  if (!right) {
+    return right;
+  }
   return *left && *right;
 }
 
@@ -70,11 +79,13 @@ void PairSender::send_events(Headset& headset, const StereoFrame& frame) {
     const auto pose = jumped_from_world_ * *frame.world_from_rig;
     head = Transform<World, Eye>(pose.rotation(), pose.translation());
   }
-  for (const std::int64_t earlier : {kHalfPairTicks, std::int64_t{0}})
+  for (const std::int64_t earlier : {kHalfPairTicks, std::int64_t{0}}) {
     sides_.spatial.send({{packet_bytes(ticks - earlier, spatial_input_bytes(head))}});
-  if (sides_.hears.load())
+  }
+  if (sides_.hears.load()) {
     sides_.microphone.send(
         {{packet_bytes(ticks, tone_bytes(kSamplesAPair * pairs_, kSamplesAPair))}});
+  }
 }
 
 void PairSender::jump() {

@@ -15,7 +15,9 @@ constexpr std::size_t kMaxHeard = std::size_t{4} << 20;
 
 Status Port::listen(const Endpoint& host, int port) {
   auto listener = listen_at(host, port);
-  if (!listener) return listener.error();
+  if (!listener) {
+    return listener.error();
+  }
   listener_ = std::move(*listener);
   return {};
 }
@@ -23,7 +25,9 @@ Status Port::listen(const Endpoint& host, int port) {
 int Port::fd() const { return client_.is_open() ? client_.fd() : listener_.fd(); }
 
 short Port::events() const {
-  if (!client_.is_open()) return POLLIN;
+  if (!client_.is_open()) {
+    return POLLIN;
+  }
   const std::lock_guard lock(mutex_);
   const bool speaks = !queue_.empty() && HostClock::now() >= silent_until_;
   return static_cast<short>(speaks ? POLLIN | POLLOUT : POLLIN);
@@ -31,7 +35,9 @@ short Port::events() const {
 
 void Port::step(short revents, HostTime now) {
   if (!client_.is_open()) {
-    if ((revents & POLLIN) == 0) return;
+    if ((revents & POLLIN) == 0) {
+      return;
+    }
     if (auto client = accept_one(listener_)) {
       client_ = std::move(*client);
       has_client_ = true;
@@ -39,19 +45,29 @@ void Port::step(short revents, HostTime now) {
     }
     return;
   }
-  if ((revents & (POLLIN | POLLERR | POLLHUP)) != 0) read();
-  if (client_.is_open()) write(now);
+  if ((revents & (POLLIN | POLLERR | POLLHUP)) != 0) {
+    read();
+  }
+  if (client_.is_open()) {
+    write(now);
+  }
 }
 
 void Port::read() {
   std::array<std::uint8_t, 65536> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   const auto count = receive_some(client_, bytes);
-  if (!count) return close();
+  if (!count) {
+    return close();
+  }
   heard_.insert(heard_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(*count));
   while (!heard_.empty()) {
     const auto used = talk_.understand(heard_);
-    if (!used || heard_.size() > kMaxHeard) return close();
-    if (*used == 0) return;
+    if (!used || heard_.size() > kMaxHeard) {
+      return close();
+    }
+    if (*used == 0) {
+      return;
+    }
     heard_.erase(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(*used));
   }
 }
@@ -64,7 +80,9 @@ void Port::write(HostTime now) {
       Chunk& chunk = queue_.front();
       const auto count = send_some(client_, Bytes(chunk.bytes).subspan(sent_of_first_));
       sent_of_first_ += count ? *count : 0;
-      if (!count || sent_of_first_ < chunk.bytes.size()) break;
+      if (!count || sent_of_first_ < chunk.bytes.size()) {
+        break;
+      }
       silent_until_ = now + chunk.pause;
       closes = chunk.close;
       queued_bytes_ -= chunk.bytes.size();
@@ -72,7 +90,9 @@ void Port::write(HostTime now) {
       queue_.pop_front();
     }
   }
-  if (closes) close();
+  if (closes) {
+    close();
+  }
 }
 
 void Port::close() {
@@ -90,13 +110,21 @@ void Port::close() {
 }
 
 void Port::send(std::vector<Chunk> chunks) {
-  if (!has_client()) return;
+  if (!has_client()) {
+    return;
+  }
   std::size_t bytes = 0;
-  for (const Chunk& chunk : chunks) bytes += chunk.bytes.size();
+  for (const Chunk& chunk : chunks) {
+    bytes += chunk.bytes.size();
+  }
   const std::lock_guard lock(mutex_);
-  if (queued_bytes_ + bytes > kMaxQueued) return;
+  if (queued_bytes_ + bytes > kMaxQueued) {
+    return;
+  }
   queued_bytes_ += bytes;
-  for (Chunk& chunk : chunks) queue_.push_back(std::move(chunk));
+  for (Chunk& chunk : chunks) {
+    queue_.push_back(std::move(chunk));
+  }
 }
 
 }  // namespace orthonav::hl2ss

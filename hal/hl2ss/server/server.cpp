@@ -39,17 +39,25 @@ class RunningServer final : public Server {
         sender_(options.faults, options.seed, left_, right_, sides_) {}
   ~RunningServer() override {
     stop_ = true;
-    if (producer_.joinable()) producer_.join();
-    if (network_.joinable()) network_.join();
+    if (producer_.joinable()) {
+      producer_.join();
+    }
+    if (network_.joinable()) {
+      network_.join();
+    }
   }
 
   Status listen(const Endpoint& host) {
     for (int base = options_.first_port > 0 ? options_.first_port : kFirstFreePort;;
          base += kPortStep) {
       const Status listening = listen_from(host, base);
-      if (listening) return {};
+      if (listening) {
+        return {};
+      }
       const bool may_look_on = options_.first_port == 0 && base < 60000;
-      if (!may_look_on) return listening;
+      if (!may_look_on) {
+        return listening;
+      }
     }
   }
   void run() {
@@ -62,7 +70,9 @@ class RunningServer final : public Server {
     Hl2ssOptions options;
     options.host = "127.0.0.1";
     options.first_port = first_port_;
-    if (options_.standin) options.standin_port = standin_port();
+    if (options_.standin) {
+      options.standin_port = standin_port();
+    }
     return options;
   }
   [[nodiscard]] ServerReport report() const override {
@@ -86,12 +96,17 @@ class RunningServer final : public Server {
         {&sides_.microphone, offset_of(Service::kMicrophone)},
         {&sides_.spatial, offset_of(Service::kSpatialInput)},
         {&sides_.voice, offset_of(Service::kVoice)}};
-    if (options_.standin) all.emplace_back(&sides_.standin, kStandinOffset);
+    if (options_.standin) {
+      all.emplace_back(&sides_.standin, kStandinOffset);
+    }
     return all;
   }
   Status listen_from(const Endpoint& host, int base) {
-    for (const auto& [port, offset] : ports())
-      if (const Status listening = port->listen(host, base + offset); !listening) return listening;
+    for (const auto& [port, offset] : ports()) {
+      if (const Status listening = port->listen(host, base + offset); !listening) {
+        return listening;
+      }
+    }
     first_port_ = base;
     return {};
   }
@@ -102,10 +117,14 @@ class RunningServer final : public Server {
     const auto all = ports();
     while (!stop_) {
       watched.clear();
-      for (const auto& [port, offset] : all) watched.push_back({port->fd(), port->events(), 0});
+      for (const auto& [port, offset] : all) {
+        watched.push_back({port->fd(), port->events(), 0});
+      }
       (void)::poll(watched.data(), watched.size(), kTurnMs);
       const HostTime now = HostClock::now();
-      for (std::size_t i = 0; i < all.size(); ++i) all[i].first->step(watched[i].revents, now);
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i].first->step(watched[i].revents, now);
+      }
       show();
     }
   }
@@ -114,9 +133,14 @@ class RunningServer final : public Server {
     const Transform<World, World> back = sender_.world_from_jumped();
     for (ShownFrame& frame : sides_.take_shown()) {
       const std::lock_guard lock(headset_mutex_);
-      for (ShownHologram& hologram : frame.holograms)
-        for (Point<World>& point : hologram.points_in_world) point = back * point;
-      if (headset_ && in_session_) (void)headset_->display().shown(frame);
+      for (ShownHologram& hologram : frame.holograms) {
+        for (Point<World>& point : hologram.points_in_world) {
+          point = back * point;
+        }
+      }
+      if (headset_ && in_session_) {
+        (void)headset_->display().shown(frame);
+      }
     }
     sides_.publish_took();
   }
@@ -133,7 +157,9 @@ class RunningServer final : public Server {
         std::this_thread::sleep_for(kIdle);
         continue;
       }
-      if (begin_session()) run_session();
+      if (begin_session()) {
+        run_session();
+      }
       end_session();
     }
   }
@@ -166,24 +192,33 @@ class RunningServer final : public Server {
     }
     note([](ServerReport& report) { report.is_streaming = false; });
     sides_.end();
-    while (!stop_ && (left_.is_streaming() || right_.is_streaming()))
+    while (!stop_ && (left_.is_streaming() || right_.is_streaming())) {
       std::this_thread::sleep_for(kIdle);
+    }
   }
   void run_session() {
     StereoFrame frame;
     auto gone_since = HostClock::now();
     while (!stop_) {
       // A client may come back; for one that does not, nothing goes on.
-      if (left_.port().has_client() || right_.port().has_client()) gone_since = HostClock::now();
-      if (HostClock::now() - gone_since > kPatience) return;
+      if (left_.port().has_client() || right_.port().has_client()) {
+        gone_since = HostClock::now();
+      }
+      if (HostClock::now() - gone_since > kPatience) {
+        return;
+      }
       const auto next = headset_->cameras().next(frame);
-      if (next && *next == Next::kEnd) return;
+      if (next && *next == Next::kEnd) {
+        return;
+      }
       if (!next || *next == Next::kNone) {
         std::this_thread::sleep_for(kIdle);
         continue;
       }
       const bool whole = send_pair(frame);
-      if (!options_.paced) continue;
+      if (!options_.paced) {
+        continue;
+      }
       wait_for_client(whole ? std::optional(frame.time) : std::nullopt);
     }
   }
@@ -192,11 +227,14 @@ class RunningServer final : public Server {
   void wait_for_client(std::optional<Timestamp> pair_time) {
     const auto deadline = HostClock::now() + (follows_ && pair_time ? kPatience : kImpatience);
     while (!stop_ && pair_time && is_wanted() && !sides_.took(*pair_time) &&
-           HostClock::now() < deadline)
+           HostClock::now() < deadline) {
       sides_.wait_for_took();
+    }
     follows_ = pair_time && sides_.took(*pair_time);
     const auto back_by = HostClock::now() + kPatience;
-    while (!stop_ && !is_wanted() && HostClock::now() < back_by) sides_.wait_for_took();
+    while (!stop_ && !is_wanted() && HostClock::now() < back_by) {
+      sides_.wait_for_took();
+    }
   }
 
   /// Whether the client can be done with it.
@@ -205,7 +243,9 @@ class RunningServer final : public Server {
     note([&](ServerReport& report) {
       ++report.pairs;
       report.faults = sender_.faults_done();
-      if (!whole) report.last_trouble = whole.error().message;
+      if (!whole) {
+        report.last_trouble = whole.error().message;
+      }
     });
     return whole && *whole;
   }
@@ -238,24 +278,36 @@ class RunningServer final : public Server {
 
 std::vector<std::string> ServerOptions::check() const {
   std::vector<std::string> problems = faults.check();
-  if (first_port < 0 || first_port > 65535 - kStandinOffset)
+  if (first_port < 0 || first_port > 65535 - kStandinOffset) {
     problems.push_back("first_port must lie in [0, " + std::to_string(65535 - kStandinOffset) +
                        "]");
-  if (paced && !standin) problems.push_back("paced needs standin");
-  if (utc_offset_ticks < 0) problems.push_back("utc_offset_ticks must not be negative");
+  }
+  if (paced && !standin) {
+    problems.push_back("paced needs standin");
+  }
+  if (utc_offset_ticks < 0) {
+    problems.push_back("utc_offset_ticks must not be negative");
+  }
   return problems;
 }
 
 Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, OpenHeadset open) {
   const auto problems = options.check();
-  if (!problems.empty()) return Error{"hl2ss server: " + joined(problems)};
+  if (!problems.empty()) {
+    return Error{"hl2ss server: " + joined(problems)};
+  }
   const auto host = resolve(options.host);
-  if (!host) return Error{"hl2ss server: " + host.error().message};
+  if (!host) {
+    return Error{"hl2ss server: " + host.error().message};
+  }
   auto first = open();
-  if (!first) return first.error();
+  if (!first) {
+    return first.error();
+  }
   auto server = std::make_unique<RunningServer>(options, std::move(open), std::move(*first));
-  if (const Status listening = server->listen(*host); !listening)
+  if (const Status listening = server->listen(*host); !listening) {
     return Error{"hl2ss server: " + listening.error().message};
+  }
   server->run();
   return std::unique_ptr<Server>(std::move(server));
 }

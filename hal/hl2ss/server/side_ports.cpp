@@ -13,8 +13,12 @@ constexpr std::array<std::uint16_t, 4> kVersion = {1, 0, 0, 0};
 constexpr std::size_t kMostWaiting = 64;
 
 std::uint32_t graded(double confidence) {
-  if (confidence >= 0.75) return 0;
-  if (confidence >= 0.5) return 1;
+  if (confidence >= 0.75) {
+    return 0;
+  }
+  if (confidence >= 0.5) {
+    return 1;
+  }
   return confidence > 0.0 ? 2 : 3;
 }
 
@@ -22,19 +26,26 @@ std::uint32_t graded(double confidence) {
 
 Result<std::size_t> SidePorts::configure(Bytes said) {
   std::vector<std::uint8_t> answer;
-  if (said[0] == 0)
-    for (const std::uint16_t number : kVersion) append(answer, number);
-  else if (said[0] == 1)
+  if (said[0] == 0) {
+    for (const std::uint16_t number : kVersion) {
+      append(answer, number);
+    }
+  } else if (said[0] == 1) {
     append(answer, static_cast<std::uint64_t>(utc_offset_ticks_));
-  else
+  } else {
     return Error{"configuration: unknown question"};
+  }
   configuration.send({{std::move(answer)}});
   return std::size_t{1};
 }
 
 Result<std::size_t> SidePorts::listen(Bytes said) {
-  if (said.size() < 2) return std::size_t{0};
-  if (said[0] != 255) return Error{"microphone: raw sound only"};
+  if (said.size() < 2) {
+    return std::size_t{0};
+  }
+  if (said[0] != 255) {
+    return Error{"microphone: raw sound only"};
+  }
   hears = true;
   return std::size_t{2};
 }
@@ -45,15 +56,23 @@ Result<std::size_t> SidePorts::recognize(Bytes said) {
     const std::lock_guard lock(mutex_);
     if (!vocabulary_) {
       auto words = read_vocabulary(said);
-      if (!words) return words.error();
-      if (!*words) return std::size_t{0};
+      if (!words) {
+        return words.error();
+      }
+      if (!*words) {
+        return std::size_t{0};
+      }
       vocabulary_ = std::move((*words)->phrases);
       return (*words)->bytes;
     }
     polled = said[0] == kPollVoice;
-    if (said[0] == kStopVoice) vocabulary_.reset();
+    if (said[0] == kStopVoice) {
+      vocabulary_.reset();
+    }
   }
-  if (polled) voice.send({{voice_answer_bytes(results())}});
+  if (polled) {
+    voice.send({{voice_answer_bytes(results())}});
+  }
   return std::size_t{1};
 }
 
@@ -74,11 +93,17 @@ std::vector<VoiceResult> SidePorts::results() {
 
 Result<std::size_t> SidePorts::hear_client(Bytes said) {
   const auto read = read_standin_message(said);
-  if (!read) return read.error();
-  if (!*read) return std::size_t{0};
+  if (!read) {
+    return read.error();
+  }
+  if (!*read) {
+    return std::size_t{0};
+  }
   const std::lock_guard lock(mutex_);
   if (const auto* shown = std::get_if<StandinShown>(&(*read)->message)) {
-    if (shown_.size() < kMostWaiting) shown_.push_back(shown->frame);
+    if (shown_.size() < kMostWaiting) {
+      shown_.push_back(shown->frame);
+    }
   } else if (const auto* took = std::get_if<StandinTook>(&(*read)->message)) {
     heard_took_ = std::max(heard_took_, took->pair_time);
   } else {
@@ -114,12 +139,17 @@ void SidePorts::end() {
 
 void SidePorts::tell(const std::vector<ClickerEvent>& clicks, const std::vector<Phrase>& phrases,
                      const StandinUpTo& up_to) {
-  if (!clicks.empty()) send_to_client(StandinClicks{clicks});
+  if (!clicks.empty()) {
+    send_to_client(StandinClicks{clicks});
+  }
   send_to_client(up_to);
   const std::lock_guard lock(mutex_);
-  if (phrases_.size() < kMostWaiting)
+  if (phrases_.size() < kMostWaiting) {
     phrases_.insert(phrases_.end(), phrases.begin(), phrases.end());
-  if (hello_) hello_->clock = up_to.clock;
+  }
+  if (hello_) {
+    hello_->clock = up_to.clock;
+  }
 }
 
 std::vector<ShownFrame> SidePorts::take_shown() {
@@ -140,7 +170,9 @@ void SidePorts::wait_for_took() {
 void SidePorts::publish_took() {
   {
     const std::lock_guard lock(mutex_);
-    if (took_ == heard_took_) return;
+    if (took_ == heard_took_) {
+      return;
+    }
     took_ = heard_took_;
   }
   took_changed_.notify_all();

@@ -63,7 +63,9 @@ class SidePorts {
               }}};
   Port standin{{[this](Bytes said) { return hear_client(said); },
                 [this] {
-                  if (const auto hello = hello_now()) send_to_client(*hello);
+                  if (const auto hello = hello_now()) {
+                    send_to_client(*hello);
+                  }
                 }}};
 
  private:

@@ -79,7 +79,9 @@ TEST_F(CaseFile, StacksModelsThatWouldLieInOneAnother) {
 
 TEST_F(CaseFile, LeavesModelsOfOneScanWhereTheyAre) {
   nav::TriangleMesh lower = box_mesh();
-  for (Vec3& v : lower.vertices_m) v.z -= 0.045;
+  for (Vec3& v : lower.vertices_m) {
+    v.z -= 0.045;
+  }
   ASSERT_TRUE(save_stl(folder_.file("L5.stl"), lower).ok());
   Plan plan;
   plan.screws = {{nav::Side::kLeft, {{0.02, 0.03, -0.045}}, {{0.01, -0.01, -0.045}}, 0.003}};
@@ -92,7 +94,9 @@ TEST_F(CaseFile, LeavesModelsOfOneScanWhereTheyAre) {
 
 TEST_F(CaseFile, TurnsARasMatrixWithItsModel) {
   nav::TriangleMesh in_ras_axes = box_mesh();
-  for (Vec3& v : in_ras_axes.vertices_m) v = to_lps(v, Axes::kRas);
+  for (Vec3& v : in_ras_axes.vertices_m) {
+    v = to_lps(v, Axes::kRas);
+  }
   std::ignore = folder_.with("L4.obj", as_obj(in_ras_axes, 1e3));
   std::ignore =
       folder_.with("L4.plan.json", R"({"units": "mm", "frame": "RAS", "screws": [{"side": "left",
@@ -205,7 +209,9 @@ TEST(Case, NamesEveryProblemAtOnce) {
 
 TEST(Case, ReadsTheRealSpines) {
   const std::filesystem::path anatomy = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
-  if (!std::filesystem::exists(anatomy)) GTEST_SKIP() << "no " << anatomy;
+  if (!std::filesystem::exists(anatomy)) {
+    GTEST_SKIP() << "no " << anatomy;
+  }
   for (const auto& [name, levels] :
        {std::pair{"visible-human", 5u}, {"morph-a", 4u}, {"morph-b", 4u}, {"shape-mean", 4u}}) {
     const auto loaded = load_case((anatomy / name).string());
@@ -213,8 +219,9 @@ TEST(Case, ReadsTheRealSpines) {
     EXPECT_EQ(loaded->levels.size(), levels);
     for (const CaseLevel& level : loaded->levels) {
       EXPECT_EQ(level.screws.size(), 2u);
-      for (const nav::ScrewPlan& screw : level.screws)
+      for (const nav::ScrewPlan& screw : level.screws) {
         EXPECT_NEAR((screw.target - screw.entry).norm(), 0.045, 1e-4);
+      }
     }
   }
 }

@@ -30,9 +30,10 @@ using ::testing::SizeIs;
 /// The smallest bone there may be, with no two sides alike: its file has half a megabyte.
 TriangleMesh small_bone() {
   TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 8; ++i) {
     mesh.vertices_m.push_back({(i & 1) != 0 ? 0.021 : -0.018, (i & 2) != 0 ? 0.017 : -0.015,
                                (i & 4) != 0 ? 0.012 : -0.02});
+  }
   mesh.vertices_m[7] = {0.019, 0.020, 0.010};
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
@@ -56,7 +57,9 @@ std::uint32_t crc32_by_hand(std::string_view bytes) {
   std::uint32_t crc = 0xffffffffu;
   for (const char c : bytes) {
     crc ^= static_cast<unsigned char>(c);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1u) ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = (crc >> 1u) ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
+    }
   }
   return ~crc;
 }
@@ -178,10 +181,12 @@ TEST_F(ModelFiles, AreMadeAnewWhenTheyAreNotWhatTheyShouldBe) {
 
 TEST_F(ModelFiles, AreNotBelievedTheirSizes) {
   constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
-  for (const std::size_t at : {48, 56, 64})
+  for (const std::size_t at : {48, 56, 64}) {
     for (const std::uint64_t count :
-         {kMost, kMost / 4 + 1, kMost / 24 + 1, std::uint64_t{1} << 40u})
+         {kMost, kMost / 4 + 1, kMost / 24 + 1, std::uint64_t{1} << 40u}) {
       expect_made_anew(with_number(bytes_, at, count), "not as long");
+    }
+  }
 }
 
 TEST_F(ModelFiles, OfAnotherMeshUnderThisNameAreMadeAnew) {
@@ -234,7 +239,9 @@ std::string damaged(std::string bytes, Random& random) {
       bytes[at] = static_cast<char>(bytes[at] ^ (1 << any(8)));
       break;
     case 1:
-      for (std::size_t i = 0; i < length; ++i) bytes[at + i] = static_cast<char>(random.next());
+      for (std::size_t i = 0; i < length; ++i) {
+        bytes[at + i] = static_cast<char>(random.next());
+      }
       break;
     case 2:
       bytes.resize(at);
@@ -293,8 +300,9 @@ TEST_F(ModelFiles, DamagedOnDiskAreMadeAnew) {
 /// refused or searched without harm.
 TEST_F(ModelFiles, WithWrongNumbersAndARightChecksumNeverCrash) {
   std::vector<Vec3> strokes;
-  for (int i = 0; i < 200; ++i)
+  for (int i = 0; i < 200; ++i) {
     strokes.push_back({0.001 * (i % 20), 0.0004 * (i / 20), 0.0002 * (i % 7)});
+  }
   int refused = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     Random random(seed);
@@ -328,7 +336,9 @@ TEST_F(ModelFiles, WithWrongNumbersAndARightChecksumNeverCrash) {
     ASSERT_TRUE(read.ok());
     const auto model = VertebraModel::restore(bone_, *read);
     refused += model.ok() ? 0 : 1;
-    if (model.ok() && seed % 10 == 0) (void)nav::search_poses((*model)->search_field(), strokes);
+    if (model.ok() && seed % 10 == 0) {
+      (void)nav::search_poses((*model)->search_field(), strokes);
+    }
   }
   EXPECT_GT(refused, 60) << "wrong counts and what is not finite";
 }
@@ -342,9 +352,15 @@ TEST(PreparationVersion, IsRaisedWithEveryChangeOfThePreparation) {
   double faces = 0.0;
   double closest_m = 0.0;
   double distance_m = 0.0;
-  for (std::size_t i = 0; i < parts.reachable.size(); ++i) faces += parts.reachable[i];
-  for (const Vec3& p : parts.closest_m) closest_m += p.norm();
-  for (const float d : parts.distance_m) distance_m += static_cast<double>(d);
+  for (std::size_t i = 0; i < parts.reachable.size(); ++i) {
+    faces += parts.reachable[i];
+  }
+  for (const Vec3& p : parts.closest_m) {
+    closest_m += p.norm();
+  }
+  for (const float d : parts.distance_m) {
+    distance_m += static_cast<double>(d);
+  }
   EXPECT_EQ(nav::kPreparationVersion, 1u);
   EXPECT_EQ(parts.reachable.size(), 9675u);
   EXPECT_EQ(parts.closest_m.size(), 35588u);

@@ -131,7 +131,9 @@ TEST(PointsFile, RefusesBrokenPly) {
 TEST(PointsFile, RefusesEveryTruncationOfAPly) {
   const std::string whole =
       ply_head("binary_little_endian") + ply_vertex(1, 2, 3, false) + ply_vertex(-4, -5, -6, false);
-  for (std::size_t size = 0; size < whole.size(); ++size) refusal("p.ply", whole.substr(0, size));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    refusal("p.ply", whole.substr(0, size));
+  }
 }
 
 TEST(PointsFile, ReadsMarkupsWithTheirFrame) {

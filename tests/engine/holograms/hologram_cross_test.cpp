@@ -72,8 +72,9 @@ TEST(TargetCross, TakesTheSideThatThePlanDoesNotLeanTo) {
   };
   EXPECT_EQ(side(0.4f, LabelSide::kRight), LabelSide::kLeft);
   EXPECT_EQ(side(-0.4f, LabelSide::kLeft), LabelSide::kRight);
-  for (const LabelSide kept : {LabelSide::kLeft, LabelSide::kRight})
+  for (const LabelSide kept : {LabelSide::kLeft, LabelSide::kRight}) {
     EXPECT_EQ(side(0.05f, kept), kept) << "hardly leans";
+  }
 }
 
 TEST(TargetCross, TakenOffItsDotsItSaysWhatALostOneSays) {

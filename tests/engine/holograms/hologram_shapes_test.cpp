@@ -89,7 +89,9 @@ TEST(PlannedTrajectory, StandsSixtyMillimetresOut) {
   EXPECT_EQ(scene.lines[0].dash_m, 0);
   EXPECT_GT(scene.lines[1].dash_m, 0);
   EXPECT_EQ(scene.lines[1].points.back(), target);
-  for (const render::LineItem& line : scene.lines) EXPECT_FLOAT_EQ(line.width_m, 0.002f);
+  for (const render::LineItem& line : scene.lines) {
+    EXPECT_FLOAT_EQ(line.width_m, 0.002f);
+  }
 }
 
 TEST(Entry, GetsATickWhenTheScrewIsIn) {
@@ -97,7 +99,9 @@ TEST(Entry, GetsATickWhenTheScrewIsIn) {
     render::Scene scene;
     add_entry(scene, {{0, 0, 0}, {0, 1, 0}, "L4 left", done}, 301);
     std::string text;
-    for (const render::TextRun& run : scene.texts.at(0).runs) text += run.text;
+    for (const render::TextRun& run : scene.texts.at(0).runs) {
+      text += run.text;
+    }
     EXPECT_EQ(text, done ? "L4 left ✓" : "L4 left");
   }
 }
@@ -118,7 +122,9 @@ TEST(StatusLine, TellsToolsApartByShapeToo) {
   render::Scene scene;
   add_status_line(scene, "setup", tools, 1101);
   std::string text;
-  for (const render::TextRun& run : scene.texts.at(0).runs) text += run.text;
+  for (const render::TextRun& run : scene.texts.at(0).runs) {
+    text += run.text;
+  }
   EXPECT_EQ(text, "setup  ● a  ◐ b  ○ c");
 }
 

@@ -7,12 +7,12 @@
 namespace orthonav::engine {
 namespace {
 
-render::Image plain(std::uint8_t grey) {
+RgbaImage plain(std::uint8_t grey) {
   return {2, 1, {grey, grey, grey, 255, grey, grey, grey, 255}};
 }
 
 constexpr render::Label kLabel = 301;
-const render::LabelImage kLabels{2, 1, {kLabel, 0}};
+const LabelImage kLabels{2, 1, {kLabel, 0}};
 
 TEST(OpticalModel, ContrastIsTheLuminanceWithByThatWithout) {
   const OpticalModel model{400.0, 1000.0, 0.5};
@@ -41,15 +41,15 @@ TEST(OpticalModel, MoreLightInTheRoomTakesContrast) {
 
 TEST(OpticalModel, WhatTheEyeSeesIsDisplayAndWorldTogether) {
   const OpticalModel model{400.0, 1000.0, 0.5};
-  const render::Image black = through_combiner(plain(0), plain(0), model);
-  EXPECT_EQ(black.rgba[0], 0);
-  render::Image light = plain(0);
-  light.rgba[0] = light.rgba[1] = light.rgba[2] = 255;
-  const render::Image seen = through_combiner(light, plain(255), model);
-  EXPECT_EQ(seen.rgba[0], 255) << "the brightest is white";
-  EXPECT_LT(seen.rgba[4], 160) << "the world alone is darker";
-  EXPECT_GT(seen.rgba[4], 120);
-  EXPECT_EQ(seen.rgba[3], 255);
+  const RgbaImage black = through_combiner(plain(0), plain(0), model);
+  EXPECT_EQ(black.pixels[0], 0);
+  RgbaImage light = plain(0);
+  light.pixels[0] = light.pixels[1] = light.pixels[2] = 255;
+  const RgbaImage seen = through_combiner(light, plain(255), model);
+  EXPECT_EQ(seen.pixels[0], 255) << "the brightest is white";
+  EXPECT_LT(seen.pixels[4], 160) << "the world alone is darker";
+  EXPECT_GT(seen.pixels[4], 120);
+  EXPECT_EQ(seen.pixels[3], 255);
 }
 
 TEST(OpticalModel, NamesEveryProblem) {

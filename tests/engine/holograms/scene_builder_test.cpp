@@ -47,10 +47,18 @@ std::vector<int> drawn(const Guidance& guidance) {
   builder.write_scene(guidance, scene);
   std::vector<int> ids;
   const auto note = [&](render::Label label) { ids.push_back(static_cast<int>(label / 100)); };
-  for (const auto& item : scene.meshes) note(item.label);
-  for (const auto& item : scene.lines) note(item.label);
-  for (const auto& item : scene.triangles) note(item.label);
-  for (const auto& item : scene.texts) note(item.label);
+  for (const auto& item : scene.meshes) {
+    note(item.label);
+  }
+  for (const auto& item : scene.lines) {
+    note(item.label);
+  }
+  for (const auto& item : scene.triangles) {
+    note(item.label);
+  }
+  for (const auto& item : scene.texts) {
+    note(item.label);
+  }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
@@ -59,8 +67,9 @@ std::vector<int> drawn(const Guidance& guidance) {
 /// The same of what the display is told.
 std::vector<int> told(const Guidance& guidance) {
   std::vector<int> ids;
-  for (const ShownHologram& h : shown(guidance).holograms)
+  for (const ShownHologram& h : shown(guidance).holograms) {
     ids.push_back(std::stoi(h.name.substr(1)));
+  }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
@@ -110,7 +119,9 @@ TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
   const ShownFrame frame = shown(g);
   std::vector<std::string> texts;
   for (const ShownHologram& hologram : frame.holograms) {
-    if (hologram.name != "H12 check point") continue;
+    if (hologram.name != "H12 check point") {
+      continue;
+    }
     texts.push_back(hologram.text);
     ASSERT_EQ(hologram.points_in_world.size(), 1u);
   }
@@ -120,8 +131,11 @@ TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
   builder.update(g);
   builder.write_scene(g, scene);
   const auto colour = [&](render::Label label) {
-    for (const auto& mesh : scene.meshes)
-      if (mesh.label == label) return mesh.colour;
+    for (const auto& mesh : scene.meshes) {
+      if (mesh.label == label) {
+        return mesh.colour;
+      }
+    }
     return render::Colour{};
   };
   const auto open = static_cast<render::Label>(g.to_check.size());
@@ -141,8 +155,11 @@ TEST(SceneBuilder, FadesADeletedRegionAndThenForgetsIt) {
     render::Scene scene;
     builder.update(g);
     builder.write_scene(g, scene);
-    for (const auto& line : scene.lines)
-      if (line.label / 100 == 1) return line.colour.a;
+    for (const auto& line : scene.lines) {
+      if (line.label / 100 == 1) {
+        return line.colour.a;
+      }
+    }
     return 0.0f;
   };
   const float before = opacity(s.pair());
@@ -247,7 +264,7 @@ TEST_F(Guiding, TheCrossHasADotForTheTipAndOneForTheToolFartherUp) {
 }
 
 TEST_F(Guiding, TheCrossShowsNoDotOfAPredictionAndSaysWhenTheToolIsLost) {
-  s.tracker().guide_origin = Origin::kPredicted;
+  s.tracker().guide_origin = PoseStatus::kPredicted;
   const ShownFrame predicted = shown(s.pair());
   EXPECT_EQ(find(predicted, "H7 cross")->points_in_world.size(), 1u);
   EXPECT_EQ(find(predicted, "H7 cross")->text, "");
@@ -293,7 +310,7 @@ TEST_F(Guiding, HidesTheTriangleBeyond40mmAndShowsItWithin) {
 
 TEST_F(Guiding, ALostToolHidesTheTriangleAndTheNumberSaysSo) {
   // The tracker goes on predicting; the overlay stands for a moment, without a number.
-  s.tracker().guide_origin = Origin::kPredicted;
+  s.tracker().guide_origin = PoseStatus::kPredicted;
   const Guidance& fresh = s.pair();
   EXPECT_NE(find(shown(fresh), "H5 triangle"), nullptr);
   EXPECT_EQ(find(shown(fresh), "H6 angle")->text, "--.-°");
@@ -325,9 +342,15 @@ TEST_F(Guiding, TicksAScrewThatIsDone) {
   std::string right;
   for (const render::TextItem& text : scene.texts) {
     std::string whole;
-    for (const render::TextRun& run : text.runs) whole += run.text;
-    if (whole.starts_with("L4 left")) left = whole;
-    if (whole.starts_with("L4 right")) right = whole;
+    for (const render::TextRun& run : text.runs) {
+      whole += run.text;
+    }
+    if (whole.starts_with("L4 left")) {
+      left = whole;
+    }
+    if (whole.starts_with("L4 right")) {
+      right = whole;
+    }
   }
   EXPECT_THAT(left, ::testing::HasSubstr("✓"));
   EXPECT_EQ(right, "L4 right");
@@ -364,7 +387,9 @@ TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
 TEST(SceneBuilder, ARodThatCantBeMadeHasNoLength) {
   ScriptedOperation s({"L5"});
   s.accepts_first_level();
-  for (int i = 0; i < 3; ++i) s.says("next");
+  for (int i = 0; i < 3; ++i) {
+    s.says("next");
+  }
   s.touches({0.02, 0.03, 0.00});
   const Guidance& g = s.touches({0.02, 0.03, 0.00});
   ASSERT_EQ(g.rods[0].heads.size(), 2u);
@@ -373,7 +398,9 @@ TEST(SceneBuilder, ARodThatCantBeMadeHasNoLength) {
   render::Scene scene;
   builder.update(g);
   builder.write_scene(g, scene);
-  for (const render::TextItem& text : scene.texts) EXPECT_NE(text.label / 100, 10u);
+  for (const render::TextItem& text : scene.texts) {
+    EXPECT_NE(text.label / 100, 10u);
+  }
 }
 
 TEST_F(Guiding, GradesByTheLimitsItWasGiven) {
@@ -400,24 +427,38 @@ TEST_F(Guiding, WhatIsDrawnTooLateLosesTriangleAndNumber) {
   ASSERT_FALSE(scene.triangles.empty());
   hide_tool_guidance(scene);
   EXPECT_TRUE(scene.triangles.empty());
-  for (const render::LineItem& line : scene.lines) EXPECT_NE(line.label / 100, 5u);
+  for (const render::LineItem& line : scene.lines) {
+    EXPECT_NE(line.label / 100, 5u);
+  }
   render::Scene late;
   builder.update(g, g.tool->pose_time + g.stale_after + Duration(1));
   builder.write_scene(g, late);
   const auto readout = [](const render::Scene& of) {
-    for (const render::TextItem& text : of.texts)
-      if (text.label / 100 == 6) return text.runs.at(0).text;
+    for (const render::TextItem& text : of.texts) {
+      if (text.label / 100 == 6) {
+        return text.runs.at(0).text;
+      }
+    }
     return std::string("absent");
   };
   EXPECT_EQ(readout(scene), readout(late));
   const auto cross = [](const render::Scene& of) {
     std::vector<std::pair<render::Label, std::string>> items;
-    for (const render::MeshItem& mesh : of.meshes)
-      if (mesh.label / 100 == 7) items.emplace_back(mesh.label, "surface");
-    for (const render::LineItem& line : of.lines)
-      if (line.label / 100 == 7) items.emplace_back(line.label, "line");
-    for (const render::TextItem& text : of.texts)
-      if (text.label / 100 == 7) items.emplace_back(text.label, text.runs.at(0).text);
+    for (const render::MeshItem& mesh : of.meshes) {
+      if (mesh.label / 100 == 7) {
+        items.emplace_back(mesh.label, "surface");
+      }
+    }
+    for (const render::LineItem& line : of.lines) {
+      if (line.label / 100 == 7) {
+        items.emplace_back(line.label, "line");
+      }
+    }
+    for (const render::TextItem& text : of.texts) {
+      if (text.label / 100 == 7) {
+        items.emplace_back(text.label, text.runs.at(0).text);
+      }
+    }
     return items;
   };
   EXPECT_EQ(cross(scene), cross(late));
@@ -436,7 +477,9 @@ TEST(VisibilityRules, NamesEveryProblem) {
 TEST(SceneBuilder, MakesATubeOnceForARod) {
   ScriptedOperation s({"L5"});
   s.accepts_first_level();
-  for (int i = 0; i < 3; ++i) s.says("next");
+  for (int i = 0; i < 3; ++i) {
+    s.says("next");
+  }
   s.touches({0.02, 0.03, 0.00});
   SceneBuilder builder;
   render::Scene scene;
@@ -445,10 +488,12 @@ TEST(SceneBuilder, MakesATubeOnceForARod) {
     builder.write_scene(g, scene);
     std::size_t most = 0;
     std::shared_ptr<const render::MeshData> found;
-    for (const auto& item : scene.meshes)
+    for (const auto& item : scene.meshes) {
       if (item.label / 100 == 10 && item.mesh->positions.size() > most &&
-          item.colour == look::kTitanium)
+          item.colour == look::kTitanium) {
         found = item.mesh, most = item.mesh->positions.size();
+      }
+    }
     return found;
   };
   const auto first = tube(s.touches({0.02, 0.03, 0.04}));

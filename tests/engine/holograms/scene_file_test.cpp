@@ -63,7 +63,9 @@ TEST_F(SceneFiles, EveryKindIsInTheSchemaAndIsKnown) {
     ++kinds;
   }
   EXPECT_EQ(kinds, 14);
-  for (render::Label n = 1; n <= 12; ++n) EXPECT_TRUE(numbers.contains(n)) << n;
+  for (render::Label n = 1; n <= 12; ++n) {
+    EXPECT_TRUE(numbers.contains(n)) << n;
+  }
 }
 
 TEST_F(SceneFiles, SayWhatWhereAndTheLimit) {

@@ -42,9 +42,10 @@ TEST(GreyImageFile, RefusesDamagedPgm) {
   EXPECT_THAT(refusal("P5 -3 2 255\n123456"), HasSubstr("empty"));
   EXPECT_THAT(refusal("P5 99999999 99999999 255\n1"), HasSubstr("limit 100 megapixels"));
   EXPECT_THAT(refusal("P5 99999999999999999999 1 255\n1"), HasSubstr("header is damaged"));
-  for (const char* text :
-       {"P5", "P5 3", "P5 3 2", "P5 3 2 255", "P5 a b 255\n", "P5 3 2 255x1234567", "P5 # endless"})
+  for (const char* text : {"P5", "P5 3", "P5 3 2", "P5 3 2 255", "P5 a b 255\n",
+                           "P5 3 2 255x1234567", "P5 # endless"}) {
     EXPECT_THAT(refusal(text), HasSubstr("header is damaged")) << text;
+  }
 }
 
 TEST(GreyImageFile, RefusesWhatIsNoImage) {
@@ -60,7 +61,9 @@ class Photograph : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     content_ = content_of(std::string(ORTHONAV_SHARED_DIR) + "/recordings/" + GetParam());
-    if (content_.empty()) GTEST_SKIP() << GetParam() << " is not here";
+    if (content_.empty()) {
+      GTEST_SKIP() << GetParam() << " is not here";
+    }
   }
   std::string content_;
 };
@@ -73,10 +76,10 @@ TEST_P(Photograph, IsReadWhole) {
 }
 
 TEST_P(Photograph, IsRefusedWhenCutShort) {
-  for (const double share : {0.001, 0.01, 0.3, 0.7, 0.99}) {
-    const auto bytes = static_cast<std::size_t>(share * static_cast<double>(content_.size()));
+  for (const double fraction : {0.001, 0.01, 0.3, 0.7, 0.99}) {
+    const auto bytes = static_cast<std::size_t>(fraction * static_cast<double>(content_.size()));
     EXPECT_THAT(refusal(std::string_view(content_).substr(0, bytes)), HasSubstr("is damaged"))
-        << share;
+        << fraction;
   }
 }
 

@@ -22,11 +22,11 @@ class ImageFile : public ::testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   /// Every byte value in every channel.
-  static render::Image picture() {
-    render::Image image{37, 29, {}};
+  static RgbaImage picture() {
+    RgbaImage image{37, 29, {}};
     for (int i = 0; i < 37 * 29; ++i) {
       for (const int factor : {1, 3, 7, 11}) {
-        image.rgba.push_back(static_cast<std::uint8_t>(i * factor % 256));
+        image.pixels.push_back(static_cast<std::uint8_t>(i * factor % 256));
       }
     }
     return image;
@@ -44,7 +44,7 @@ TEST_F(ImageFile, ComesBackToTheBit) {
 }
 
 TEST_F(ImageFile, LabelsComeBackExactly) {
-  render::LabelImage labels{3, 2, {0, 1, 501, 1101, 65536, 0xffffff}};
+  LabelImage labels{3, 2, {0, 1, 501, 1101, 65536, 0xffffff}};
   const auto picture = picture_of_labels(labels);
   ASSERT_TRUE(picture.ok());
   const fs::path path = folder_ / "labels.png";
@@ -77,8 +77,8 @@ TEST_F(ImageFile, RefusesEveryTruncation) {
 TEST_F(ImageFile, LeavesNothingWhereItCantWrite) {
   EXPECT_FALSE(write_png(folder_ / "no" / "a.png", picture()).ok());
   EXPECT_FALSE(write_png(folder_ / "a.png", {}).ok());
-  render::Image torn = picture();
-  torn.rgba.pop_back();
+  RgbaImage torn = picture();
+  torn.pixels.pop_back();
   EXPECT_FALSE(write_png(folder_ / "a.png", torn).ok());
   EXPECT_TRUE(fs::is_empty(folder_));
 }

@@ -48,12 +48,14 @@ TEST(MeshFile, ReadsObjAndPlyInTheUnitGiven) {
       "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n"
       "property float z\nelement face 12\nproperty list uchar int vertex_indices\n"
       "end_header\n";
-  for (const Vec3& v : box_mesh().vertices_m)
+  for (const Vec3& v : box_mesh().vertices_m) {
     ply += std::to_string(v.x / kMm) + " " + std::to_string(v.y / kMm) + " " +
            std::to_string(v.z / kMm) + "\n";
-  for (const auto& t : box_mesh().triangles)
+  }
+  for (const auto& t : box_mesh().triangles) {
     ply += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) +
            "\n";
+  }
   const auto from_ply = load_mesh(folder.with("box.PLY", ply), kMm);
   ASSERT_TRUE(from_ply.ok()) << from_ply.error().message;
   EXPECT_NEAR(volume_m3(*from_ply), 0.08 * 0.06 * 0.04, 1e-9);
@@ -61,7 +63,9 @@ TEST(MeshFile, ReadsObjAndPlyInTheUnitGiven) {
 
 TEST(MeshFile, TurnsRasHalfRoundWithoutMirroring) {
   nav::TriangleMesh box = box_mesh();
-  for (Vec3& v : box.vertices_m) v += Vec3{0.010, 0.020, 0.030};
+  for (Vec3& v : box.vertices_m) {
+    v += Vec3{0.010, 0.020, 0.030};
+  }
   const TemporaryFolder folder;
   const std::string path = folder.with("box.obj", as_obj(box, 1000.0));
   const auto lps = load_mesh(path, kMm, Axes::kLps);
@@ -71,21 +75,29 @@ TEST(MeshFile, TurnsRasHalfRoundWithoutMirroring) {
   EXPECT_GT(volume_m3(*ras), 0.0) << "still outward";
   Vec3 lps_sum;
   Vec3 ras_sum;
-  for (const Vec3& v : lps->vertices_m) lps_sum += v / 8.0;
-  for (const Vec3& v : ras->vertices_m) ras_sum += v / 8.0;
+  for (const Vec3& v : lps->vertices_m) {
+    lps_sum += v / 8.0;
+  }
+  for (const Vec3& v : ras->vertices_m) {
+    ras_sum += v / 8.0;
+  }
   EXPECT_LT((lps_sum - Vec3{0.010, 0.020, 0.030}).norm(), kFileDigits_m);
   EXPECT_LT((ras_sum - Vec3{-0.010, -0.020, 0.030}).norm(), kFileDigits_m);
 }
 
 TEST(MeshFile, BelievesTheAxesThatTheFileDeclares) {
   nav::TriangleMesh box = box_mesh();
-  for (Vec3& v : box.vertices_m) v += Vec3{0.010, 0, 0};
+  for (Vec3& v : box.vertices_m) {
+    v += Vec3{0.010, 0, 0};
+  }
   const TemporaryFolder folder;
   ASSERT_TRUE(save_stl(folder.file("box.stl"), box).ok());
   const auto mesh = load_mesh(folder.file("box.stl"), kMm, Axes::kRas);
   ASSERT_TRUE(mesh.ok());
   Vec3 sum;
-  for (const Vec3& v : mesh->vertices_m) sum += v / 8.0;
+  for (const Vec3& v : mesh->vertices_m) {
+    sum += v / 8.0;
+  }
   EXPECT_LT((sum - Vec3{0.010, 0, 0}).norm(), kFileDigits_m) << "SPACE=LPS stands in the header";
 }
 
@@ -105,7 +117,9 @@ TEST(MeshFile, RefusesAxesThatItDoesNotKnow) {
 
 TEST(MeshFile, ReadsEveryRealVertebra) {
   const std::filesystem::path anatomy = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
-  if (!std::filesystem::exists(anatomy)) GTEST_SKIP() << "no " << anatomy;
+  if (!std::filesystem::exists(anatomy)) {
+    GTEST_SKIP() << "no " << anatomy;
+  }
   const auto mesh = load_mesh((anatomy / "visible-human" / "L4.stl").string(), kMm);
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
   EXPECT_EQ(mesh->triangles.size(), 8738u);
@@ -152,8 +166,9 @@ TEST(MeshFile, RefusesEveryTruncationOfAnStl) {
   ASSERT_TRUE(save_stl(folder.file("box.stl"), box_mesh()).ok());
   const std::string whole = content_of(folder.file("box.stl"));
   ASSERT_EQ(whole.size(), 84u + 12u * 50u);
-  for (std::size_t size = 0; size < whole.size(); size += 7)
+  for (std::size_t size = 0; size < whole.size(); size += 7) {
     refusal(folder.with("cut.stl", whole.substr(0, size)));
+  }
 }
 
 }  // namespace

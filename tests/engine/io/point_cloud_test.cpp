@@ -15,7 +15,9 @@ using ::testing::IsEmpty;
 
 PointCloud filled(double cell_m, const std::vector<Vec3>& points_m) {
   PointCloud cloud(cell_m);
-  for (const Vec3 p : points_m) cloud.add(p);
+  for (const Vec3 p : points_m) {
+    cloud.add(p);
+  }
   return cloud;
 }
 
@@ -57,14 +59,14 @@ TEST(RangePicture, IsWhiteNearDarkFarAndBlackWhereNothingWasMeasured) {
   EXPECT_EQ(picture.white_mm, 500);
   EXPECT_EQ(picture.dark_mm, 900);
   const auto grey = [&](int x, int y) {
-    return static_cast<int>(picture.image.rgba[static_cast<std::size_t>(4 * (20 * y + x))]);
+    return static_cast<int>(picture.image.pixels[static_cast<std::size_t>(4 * (20 * y + x))]);
   };
   EXPECT_EQ(grey(0, 0), 0);
   EXPECT_EQ(grey(5, 3), 255);
   EXPECT_EQ(grey(6, 3), 40);
   EXPECT_EQ(grey(6, 19), 40) << "clipped";
   EXPECT_NEAR(grey(1, 1), 148, 1);
-  EXPECT_EQ(picture_of_ranges(DepthImage(2, 2)).image.rgba,
+  EXPECT_EQ(picture_of_ranges(DepthImage(2, 2)).image.pixels,
             (std::vector<std::uint8_t>{0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255}));
 }
 

@@ -23,8 +23,9 @@ TEST(VideoWriter, PutsTheFileInPlaceOnlyWhenFinished) {
   fs::remove(path);
   auto writer = VideoWriter::create(path, {.width_px = 64, .height_px = 48});
   ASSERT_TRUE(writer.ok()) << writer.error().message;
-  for (int i = 0; i < 10; ++i)
+  for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE((*writer)->write(picture(64, 48, static_cast<std::uint8_t>(20 * i))).ok());
+  }
   EXPECT_FALSE(fs::exists(path));
   ASSERT_TRUE((*writer)->finish().ok());
   EXPECT_TRUE(fs::exists(path));

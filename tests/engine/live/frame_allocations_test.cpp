@@ -44,7 +44,9 @@ class Frames {
 /// places, and every buffer grows to the largest.
 template <class Work>
 std::size_t allocations_of(const Work& work) {
-  for (int i = 0; i < 20; ++i) work();
+  for (int i = 0; i < 20; ++i) {
+    work();
+  }
   const std::size_t before = test::allocation_count();
   work();
   return test::allocation_count() - before;
@@ -90,8 +92,9 @@ TEST_F(FrameAllocations, AreNoneWhileAToolIsGuided) {
     frames.make(far);
   };
   EXPECT_EQ(allocations_of(both), 0u);
-  for (const std::uint32_t hologram : {3, 4, 5, 6, 7, 8, 9, 11})
+  for (const std::uint32_t hologram : {3, 4, 5, 6, 7, 8, 9, 11}) {
     EXPECT_TRUE(frames.shows(hologram)) << "H" << hologram;
+  }
 }
 
 TEST_F(FrameAllocations, AreNoneWhereGuidanceIsTakenBack) {
@@ -104,7 +107,9 @@ TEST_F(FrameAllocations, AreNoneWhereGuidanceIsTakenBack) {
 TEST_F(FrameAllocations, AreNoneWhileARodIsShown) {
   ScriptedOperation one({"L5"});
   one.accepts_first_level();
-  for (int i = 0; i < 3; ++i) one.says("next");
+  for (int i = 0; i < 3; ++i) {
+    one.says("next");
+  }
   one.touches({0.02, 0.03, 0.00});
   const Guidance& g = one.touches({0.02, 0.03, 0.04});
   ASSERT_TRUE(g.rods[0].rod.has_value());

@@ -17,8 +17,11 @@ using test::kStart;
 using test::pairs;
 
 std::string text_of(const ShownFrame& frame, const std::string& name) {
-  for (const ShownHologram& hologram : frame.holograms)
-    if (hologram.name == name) return hologram.text;
+  for (const ShownHologram& hologram : frame.holograms) {
+    if (hologram.name == name) {
+      return hologram.text;
+    }
+  }
   return "absent";
 }
 
@@ -36,7 +39,9 @@ class WaitingCamera : public StereoCamera {
   }
   Result<Next> do_next(StereoFrame& frame) override {
     auto next = inner_.cameras().next(frame);
-    if (next && *next == Next::kNone) inner_.manual_clock().advance(std::chrono::milliseconds(20));
+    if (next && *next == Next::kNone) {
+      inner_.manual_clock().advance(std::chrono::milliseconds(20));
+    }
     return next;
   }
 };
@@ -79,7 +84,9 @@ class GuidingLoop : public ::testing::Test {
 TEST_F(GuidingLoop, TakesGuidanceBackWhilePairsFail) {
   fake::FakeHeadset inner(pairs(12));
   fake::Faults faults;
-  for (int i = 5; i < 9; ++i) faults.camera.push_back({i, fake::CameraFault::kError});
+  for (int i = 5; i < 9; ++i) {
+    faults.camera.push_back({i, fake::CameraFault::kError});
+  }
   fake::FailingHeadset headset(inner, faults);
   const auto report = run(headset);
   ASSERT_TRUE(report.ok()) << report.error().message;
@@ -98,7 +105,9 @@ TEST_F(GuidingLoop, TakesGuidanceBackWhilePairsFail) {
 
 TEST_F(GuidingLoop, TakesGuidanceBackWhileNoPairComes) {
   fake::Script script = pairs(2);
-  for (int i = 0; i < 10; ++i) script.camera.emplace_back(Next::kNone);
+  for (int i = 0; i < 10; ++i) {
+    script.camera.emplace_back(Next::kNone);
+  }
   script.camera.emplace_back(test::dark_pair(10));
   fake::FakeHeadset inner(std::move(script));
   WaitingHeadset headset(inner);
@@ -114,7 +123,9 @@ TEST_F(GuidingLoop, TakesGuidanceBackWhileNoPairComes) {
 
 TEST_F(GuidingLoop, EndsWhenNoPairEverComesAgain) {
   fake::Script script = pairs(2);
-  for (int i = 0; i < 100; ++i) script.camera.emplace_back(Next::kNone);
+  for (int i = 0; i < 100; ++i) {
+    script.camera.emplace_back(Next::kNone);
+  }
   fake::FakeHeadset inner(std::move(script));
   WaitingHeadset headset(inner);
   options.longest_silence = std::chrono::milliseconds(500);
@@ -136,7 +147,9 @@ TEST_F(GuidingLoop, AnAnswerWithoutAPairDoesNotExcuseTheErrorsAroundIt) {
 
 TEST_F(GuidingLoop, LeavesOnlyTheStatusLineHoweverItEnds) {
   fake::Script script = pairs(3);
-  for (int i = 0; i < 10; ++i) script.camera.emplace_back(Error{"cable"});
+  for (int i = 0; i < 10; ++i) {
+    script.camera.emplace_back(Error{"cable"});
+  }
   options.max_errors_in_a_row = 5;
   fake::FakeHeadset failing(std::move(script));
   EXPECT_FALSE(run(failing).ok());

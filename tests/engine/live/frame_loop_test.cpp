@@ -28,10 +28,16 @@ std::unique_ptr<Session> session() {
 class CountingSink : public SnapshotSink {
  public:
   Status draw(const Snapshot& snapshot) override {
-    if (snapshot.blank) return {};
+    if (snapshot.blank) {
+      return {};
+    }
     frames.push_back(snapshot.frame);
-    while (display && display->frames().size() < wait_for_shown) std::this_thread::yield();
-    if (fail_at >= 0 && snapshot.frame >= fail_at) return Error{"display unplugged"};
+    while (display && display->frames().size() < wait_for_shown) {
+      std::this_thread::yield();
+    }
+    if (fail_at >= 0 && snapshot.frame >= fail_at) {
+      return Error{"display unplugged"};
+    }
     return {};
   }
   std::vector<std::int64_t> frames;
@@ -139,7 +145,9 @@ TEST(FrameLoop, GoesOnAfterFailuresOfEveryDevice) {
 
 TEST(FrameLoop, GivesUpOnADeviceThatFailsForGood) {
   fake::Script script = pairs(0);
-  for (int i = 0; i < 100; ++i) script.camera.push_back(Error{"cable"});
+  for (int i = 0; i < 100; ++i) {
+    script.camera.push_back(Error{"cable"});
+  }
   fake::FakeHeadset headset(std::move(script));
   const auto navigation = session();
   SceneBuilder builder;

@@ -29,7 +29,9 @@ std::size_t components(const nav::TriangleMesh& mesh) {
   std::vector<std::uint32_t> parent(mesh.vertices_m.size());
   std::iota(parent.begin(), parent.end(), 0u);
   const auto root = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    while (parent[i] != i) {
+      i = parent[i] = parent[parent[i]];
+    }
     return i;
   };
   for (const auto& t : mesh.triangles) {
@@ -37,18 +39,21 @@ std::size_t components(const nav::TriangleMesh& mesh) {
     parent[root(t[1])] = root(t[2]);
   }
   std::size_t count = 0;
-  for (std::uint32_t i = 0; i < parent.size(); ++i) count += root(i) == i ? 1 : 0;
+  for (std::uint32_t i = 0; i < parent.size(); ++i) {
+    count += root(i) == i ? 1 : 0;
+  }
   return count;
 }
 
 Vec3 extent_m(const nav::TriangleMesh& mesh) {
   Vec3 low = mesh.vertices_m.front();
   Vec3 high = low;
-  for (const Vec3& v : mesh.vertices_m)
+  for (const Vec3& v : mesh.vertices_m) {
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], v[axis]);
       high[axis] = std::max(high[axis], v[axis]);
     }
+  }
   return high - low;
 }
 
@@ -197,13 +202,14 @@ TEST(Phantom, KeepsNeighboursApart) {
     const nav::SurfaceIndex bone(upper.mesh);
     const auto upper_from_lower = upper.spine_from_vertebra.inverse() * lower.spine_from_vertebra;
     std::size_t inside = 0;
-    for (const Vec3& v : lower.mesh.vertices_m)
+    for (const Vec3& v : lower.mesh.vertices_m) {
       inside += bone.contains((Transform<Vertebra, Vertebra>(upper_from_lower.rotation(),
                                                              upper_from_lower.translation()) *
                                Point<Vertebra>{v})
                                   .v)
                     ? 1
                     : 0;
+    }
     EXPECT_EQ(inside, 0u) << lower.label << " in " << upper.label;
   }
 }
@@ -221,8 +227,11 @@ TEST(Phantom, IsNotItsOwnMirrorImage) {
   // The spinous processes lean a little to one side, as they do in people.
   for (const CaseLevel& level : spine().levels) {
     Vec3 tip{0, -1, 0};
-    for (const Vec3& v : level.mesh.vertices_m)
-      if (v.y > tip.y) tip = v;
+    for (const Vec3& v : level.mesh.vertices_m) {
+      if (v.y > tip.y) {
+        tip = v;
+      }
+    }
     EXPECT_GT(std::abs(tip.x), 0.0005) << level.label;
   }
 }
@@ -246,7 +255,9 @@ TEST(ImplicitSurface, MeshesABallToItsRadius) {
   const nav::TriangleMesh ball = surface_of([](Vec3 p) { return p.norm() - kRadius_m; },
                                             {-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03}, 0.0014);
   ASSERT_GT(ball.vertices_m.size(), 1000u);
-  for (const Vec3& v : ball.vertices_m) EXPECT_NEAR(v.norm(), kRadius_m, kOnTheSurface_m);
+  for (const Vec3& v : ball.vertices_m) {
+    EXPECT_NEAR(v.norm(), kRadius_m, kOnTheSurface_m);
+  }
   EXPECT_EQ(ball.vertices_m.size() * 2, ball.triangles.size() + 4) << "a sphere: genus 0";
   const double ball_m3 = 4.0 / 3.0 * std::numbers::pi * std::pow(kRadius_m, 3);
   EXPECT_NEAR(volume_m3(ball) / ball_m3, 1.0, 0.005) << "flat facets cut off a little";

@@ -87,9 +87,11 @@ TEST(Board, SpreadsTouchPointsOverCornersThatAreThere) {
   EXPECT_NEAR(points[8].at_m.y, 0.0, 1e-12);
   for (const TouchPoint& point : points) {
     bool is_corner = false;
-    for (std::size_t tag = 0; tag < board.ids.size(); ++tag)
-      for (const Vec2 corner : tag_corners_m(board, tag))
+    for (std::size_t tag = 0; tag < board.ids.size(); ++tag) {
+      for (const Vec2 corner : tag_corners_m(board, tag)) {
         is_corner = is_corner || (corner - point.at_m).norm() < 1e-9;
+      }
+    }
     EXPECT_TRUE(is_corner) << point.at_m.x << " " << point.at_m.y;
   }
   Board single = board;
@@ -101,9 +103,10 @@ TEST(Board, TouchesInnerCornersOfAChessboard) {
   const auto points = touch_points(chessboard());
   const auto corners = inner_corners_m(chessboard());
   ASSERT_EQ(points.size(), 9u);
-  for (const TouchPoint& point : points)
+  for (const TouchPoint& point : points) {
     EXPECT_TRUE(std::any_of(corners.begin(), corners.end(),
                             [&](Vec2 corner) { return (corner - point.at_m).norm() < 1e-9; }));
+  }
   EXPECT_EQ(points.front().at_m, corners.front());
 }
 

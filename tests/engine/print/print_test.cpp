@@ -56,8 +56,9 @@ std::map<int, Corners> detected(const GreyImage& image, const std::string& famil
   std::map<int, Corners> corners;
   for (const nav::MarkerCorners& marker : found) {
     EXPECT_FALSE(corners.contains(marker.id)) << "id " << marker.id << " twice";
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < 4; ++i) {
       corners[marker.id][i] = marker.corners_px[i] * (1.0 / kPxPerMm);
+    }
   }
   return corners;
 }
@@ -71,7 +72,9 @@ Corners square(double left_mm, double top_mm, double size_mm) {
 
 double farthest_mm(const Corners& a, const Corners& b) {
   double farthest = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) farthest = std::max(farthest, (a[i] - b[i]).norm());
+  for (std::size_t i = 0; i < 4; ++i) {
+    farthest = std::max(farthest, (a[i] - b[i]).norm());
+  }
   return farthest;
 }
 
@@ -96,9 +99,12 @@ std::map<int, Corners> detected_with_wide_borders(const GreyImage& image) {
   for (int i = 0; i < zarray_size(detections); ++i) {
     apriltag_detection_t* found = nullptr;
     zarray_get(detections, i, &found);
-    if (found->decision_margin < nav::DetectorOptions().min_decision_margin) continue;
-    for (std::size_t k = 0; k < 4; ++k)
+    if (found->decision_margin < nav::DetectorOptions().min_decision_margin) {
+      continue;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
       corners[found->id][k] = {found->p[k][0] / kPxPerMm, found->p[k][1] / kPxPerMm};
+    }
   }
   apriltag_detections_destroy(detections);
   return corners;
@@ -107,7 +113,9 @@ std::map<int, Corners> detected_with_wide_borders(const GreyImage& image) {
 TEST(PrintedTags, LieAndMeasureWhatTheLayoutSays) {
   for (const std::string family : {"tag36h11", "tagStandard41h12", "tag25h9", "tag36h10"}) {
     std::vector<PrintedTag> tags;
-    for (int id = 0; id < 4; ++id) tags.push_back(tag(family, id, 0.030));
+    for (int id = 0; id < 4; ++id) {
+      tags.push_back(tag(family, id, 0.030));
+    }
     tags.push_back(tag(family, 7, 0.0475, "pointer"));
     const auto sheets = tag_sheets(tags, {a4(), 1.0});
     ASSERT_TRUE(sheets) << sheets.error().message;
@@ -154,13 +162,17 @@ TEST(PrintedTags, HaveWideBordersWhereTheirFamilySaysSo) {
 
 TEST(PrintedTags, GoOnToFurtherPages) {
   std::vector<PrintedTag> tags;
-  for (int id = 0; id < 20; ++id) tags.push_back(tag("tag36h11", id, 0.038));
+  for (int id = 0; id < 20; ++id) {
+    tags.push_back(tag("tag36h11", id, 0.038));
+  }
   const auto sheets = tag_sheets(tags, {a4(), 2.0});
   ASSERT_TRUE(sheets);
   // Three columns and three rows of 57 mm and text on a page.
   ASSERT_EQ(sheets->sheets.size(), 3u);
   std::size_t found = 0;
-  for (const Sheet& sheet : sheets->sheets) found += detected(drawn(sheet), "tag36h11").size();
+  for (const Sheet& sheet : sheets->sheets) {
+    found += detected(drawn(sheet), "tag36h11").size();
+  }
   EXPECT_EQ(found, 20u);
   EXPECT_EQ(sheets->placed.back().sheet, 2u);
 }
@@ -221,11 +233,13 @@ std::pair<double, double> rulers_mm(const Page& page, double px_per_mm) {
   const SheetRect upward = vertical_ruler(page);
   const auto px = [](double mm) { return static_cast<int>(std::lround(mm * kPxPerMm)); };
   std::vector<std::uint8_t> row;
-  for (int x = px(across.x_mm - 1); x < px(across.x_mm + across.width_mm + 1); ++x)
+  for (int x = px(across.x_mm - 1); x < px(across.x_mm + across.width_mm + 1); ++x) {
     row.push_back(image.at(x, px(across.y_mm + 1)));
+  }
   std::vector<std::uint8_t> column;
-  for (int y = px(upward.y_mm - 1); y < px(upward.y_mm + upward.height_mm + 1); ++y)
+  for (int y = px(upward.y_mm - 1); y < px(upward.y_mm + upward.height_mm + 1); ++y) {
     column.push_back(image.at(px(upward.x_mm + upward.width_mm - 1), y));
+  }
   const auto length_mm = [](const std::vector<double>& ticks) {
     EXPECT_EQ(ticks.size(), 101u);
     return ticks.empty() ? 0.0 : (ticks.back() - ticks.front()) / kPxPerMm;
@@ -234,7 +248,7 @@ std::pair<double, double> rulers_mm(const Page& page, double px_per_mm) {
 }
 
 TEST(PrintedPage, HasRulersOf100Mm) {
-  for (const PageSize& size : kPageSizes)
+  for (const PageSize& size : kPageSizes) {
     for (const bool landscape : {false, true}) {
       const auto page = page_named(std::string(size.name), landscape);
       ASSERT_TRUE(page);
@@ -242,6 +256,7 @@ TEST(PrintedPage, HasRulersOf100Mm) {
       EXPECT_NEAR(across, 100.0, kRulerToleranceMm) << page->name;
       EXPECT_NEAR(upward, 100.0, kRulerToleranceMm) << page->name;
     }
+  }
 }
 
 TEST(PrintedPage, RulersTellAPrintThatIsTooSmall) {
@@ -273,9 +288,10 @@ void expect_every_tag_in_place(const std::map<int, Corners>& found, const Board&
   for (std::size_t i = 0; i < board.ids.size(); ++i) {
     Corners expected;
     const std::vector<Vec2> corners = tag_corners_m(board, i);
-    for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < 4; ++k) {
       expected[k] = {sheet.origin_x_mm + corners[k].x * 1e3,
                      sheet.origin_y_mm - corners[k].y * 1e3};
+    }
     ASSERT_TRUE(found.contains(board.ids[i])) << board.ids[i];
     EXPECT_LT(farthest_mm(found.at(board.ids[i]), expected), kPlaceToleranceMm) << board.ids[i];
   }
@@ -316,13 +332,14 @@ TEST(PrintedBoard, HasBlackSquaresWhereTheGapsOfAnAprilGridCross) {
   ASSERT_TRUE(sheet);
   const GreyImage image = drawn(sheet->sheet);
   // All squares at their corner away from the number, and the white between two of them.
-  for (int row = 0; row <= board.rows; ++row)
+  for (int row = 0; row <= board.rows; ++row) {
     for (int column = 0; column <= board.columns; ++column) {
       EXPECT_TRUE(is_dark(image, *sheet, column * 26 - 0.3, row * 26 - 5.7)) << row << column;
       EXPECT_TRUE(is_dark(image, *sheet, column * 26 - 5.7, row * 26 - 5.7)) << row << column;
       EXPECT_FALSE(is_dark(image, *sheet, column * 26 - 3, row * 26 + 0.3)) << row << column;
       EXPECT_FALSE(is_dark(image, *sheet, column * 26 + 0.3, row * 26 - 3)) << row << column;
     }
+  }
 }
 
 TEST(PrintedBoard, AlternatesTheSquaresOfAChessboard) {
@@ -330,11 +347,14 @@ TEST(PrintedBoard, AlternatesTheSquaresOfAChessboard) {
   const auto sheet = board_sheet(board, a4());
   ASSERT_TRUE(sheet) << sheet.error().message;
   const GreyImage image = drawn(sheet->sheet);
-  for (int up = 0; up < board.rows; ++up)
-    for (int column = 0; column < board.columns; ++column)
-      for (const double inside_mm : {0.2, 19.8})
+  for (int up = 0; up < board.rows; ++up) {
+    for (int column = 0; column < board.columns; ++column) {
+      for (const double inside_mm : {0.2, 19.8}) {
         EXPECT_EQ(is_dark(image, *sheet, column * 20 + inside_mm, up * 20 + inside_mm),
                   (board.rows - 1 - up + column) % 2 == 0);
+      }
+    }
+  }
   EXPECT_FALSE(is_dark(image, *sheet, -0.2, 139));
   EXPECT_FALSE(is_dark(image, *sheet, 1, 140.2));
 }

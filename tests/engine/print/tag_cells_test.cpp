@@ -11,10 +11,12 @@ namespace {
 void expect_alike(const TagCells& printed, const nav::TagTemplate& tracked) {
   ASSERT_EQ(printed.cells, tracked.cells);
   EXPECT_EQ(printed.border_cells, tracked.border_cells);
-  for (int row = 0; row < printed.cells; ++row)
-    for (int column = 0; column < printed.cells; ++column)
+  for (int row = 0; row < printed.cells; ++row) {
+    for (int column = 0; column < printed.cells; ++column) {
       EXPECT_EQ(printed.is_black(row, column), tracked.at(row, column) < 0.5F)
           << row << ", " << column;
+    }
+  }
 }
 
 TEST(TagCells, AreWhatIsTracked) {
@@ -26,11 +28,12 @@ TEST(TagCells, AreWhatIsTracked) {
 }
 
 TEST(TagCells, OfAWideBorderAreWhatIsTrackedWithAWideBorder) {
-  for (const int id : {0, 7, 586})
+  for (const int id : {0, 7, 586}) {
     for (const auto& printed : {tag_cells("tag36h11", id, 2), tag_cells("tag36h11b2", id)}) {
       ASSERT_TRUE(printed.ok()) << printed.error().message;
       expect_alike(*printed, nav::tag_template("tag36h11b2", id).value());
     }
+  }
 }
 
 }  // namespace

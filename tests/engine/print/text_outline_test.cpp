@@ -47,8 +47,9 @@ TEST(TextOutline, TakesUtf8AndDrawsABoxForWhatIsNone) {
   const auto font = PrintFont::open();
   ASSERT_TRUE(font);
   // Each one letter of the font.
-  for (const char* letter : {"\xC3\xA4", "\xC2\xB5", "\xE2\x82\xAC"})
+  for (const char* letter : {"\xC3\xA4", "\xC2\xB5", "\xE2\x82\xAC"}) {
     EXPECT_FALSE(font->outline(letter).steps.empty()) << letter;
+  }
   const auto box = font->outline("\xFF");
   EXPECT_FALSE(box.steps.empty());
   // Cut off, or too long: a box, then the rest.

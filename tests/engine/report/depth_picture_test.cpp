@@ -20,9 +20,9 @@ nav::TriangleMesh square(double half_m, double height_m) {
           {{{0, 1, 2}}, {{0, 2, 3}}}};
 }
 
-std::array<int, 4> pixel(const render::Image& image, int x, int y) {
+std::array<int, 4> pixel(const RgbaImage& image, int x, int y) {
   const auto at = 4 * static_cast<std::size_t>(y * image.width_px + x);
-  return {image.rgba[at], image.rgba[at + 1], image.rgba[at + 2], image.rgba[at + 3]};
+  return {image.pixels[at], image.pixels[at + 1], image.pixels[at + 2], image.pixels[at + 3]};
 }
 
 TEST(DepthPicture, ShowsWhatIsNearerWhateverIsDrawnFirst) {
@@ -32,7 +32,7 @@ TEST(DepthPicture, ShowsWhatIsNearerWhateverIsDrawnFirst) {
     const nav::TriangleMesh far = square(0.007, 0.0);
     picture.draw(near_first ? near : far, {{}, 0, kBlue, near_first ? kRed : kBlue});
     picture.draw(near_first ? far : near, {{}, 0, kBlue, near_first ? kBlue : kRed});
-    const render::Image image = picture.image();
+    const RgbaImage image = picture.image();
     ASSERT_EQ(image.width_px, 20);
     ASSERT_EQ(image.height_px, 20);
     EXPECT_GT(pixel(image, 10, 10)[0], 100) << "the near one is red";
@@ -56,7 +56,7 @@ TEST(DepthPicture, ColoursByTheValuesAtTheVertices) {
   const std::vector<double> values = {0, 10, 10, 0};  // rises from left to right
   DepthPicture picture(kFromAbove, kArea, 1.0);
   picture.draw(square(0.008, 0.0), {values, 5.0, kRed, kBlue});
-  const render::Image image = picture.image();
+  const RgbaImage image = picture.image();
   EXPECT_GT(pixel(image, 5, 10)[0], 100) << "below the limit";
   EXPECT_EQ(pixel(image, 5, 10)[2], 0);
   EXPECT_GT(pixel(image, 14, 10)[2], 100) << "above";
@@ -65,7 +65,9 @@ TEST(DepthPicture, ColoursByTheValuesAtTheVertices) {
 TEST(DepthPicture, PutsUpAboveAndRightToTheRight) {
   DepthPicture picture(kFromAbove, kArea, 1.0);
   nav::TriangleMesh mesh = square(0.002, 0.0);
-  for (Vec3& v : mesh.vertices_m) v += Vec3{0.005, 0.006, 0.0};
+  for (Vec3& v : mesh.vertices_m) {
+    v += Vec3{0.005, 0.006, 0.0};
+  }
   picture.draw(mesh, {{}, 0, kRed, kRed});
   EXPECT_EQ(pixel(picture.image(), 15, 4)[3], 255);
   EXPECT_EQ(pixel(picture.image(), 4, 15)[3], 0);

@@ -30,7 +30,9 @@ OperationResult measured() {
   result.levels.push_back(level);
   result.rods.push_back({nav::Side::kLeft, 2, 0.040, 0.001, 0.002});
   result.rods.push_back({nav::Side::kRight, 2, 0.042, -0.003, 0.001});
-  for (int i = 1; i <= 100; ++i) result.loop.intervals_ms.push_back(i);
+  for (int i = 1; i <= 100; ++i) {
+    result.loop.intervals_ms.push_back(i);
+  }
   result.loop.displayed = 101;
   return result;
 }
@@ -91,8 +93,9 @@ TEST(ReportJson, LeavesFiguresOutWhereNothingWasMeasured) {
   OperationResult result;
   result.levels.emplace_back();
   const auto json = nlohmann::json::parse(report_json(result));
-  for (const char* key : {"rmse_mm", "points", "digitization_s"})
+  for (const char* key : {"rmse_mm", "points", "digitization_s"}) {
     EXPECT_FALSE(json["levels"][0].contains(key)) << key;
+  }
   EXPECT_FALSE(json.contains("seed"));
   EXPECT_FALSE(json["frames"].contains("p99_ms"));
   EXPECT_FALSE(nlohmann::json::parse(timing_json({}))["draw_wall"].contains("median_ms"));
@@ -149,7 +152,9 @@ TEST(OperationPlan, TakesTheTwoLowestLevelsInTheOrderOfTheCase) {
 TEST(OperationPlan, TakesTheTwoLowestOfOneScanWhereAllModelsShareAFrame) {
   Case scan = phantom();
   for (CaseLevel& level : scan.levels) {
-    for (Vec3& v : level.mesh.vertices_m) v = (level.spine_from_vertebra * Point<Vertebra>{v}).v;
+    for (Vec3& v : level.mesh.vertices_m) {
+      v = (level.spine_from_vertebra * Point<Vertebra>{v}).v;
+    }
     for (nav::ScrewPlan& screw : level.screws) {
       screw.entry = {(level.spine_from_vertebra * screw.entry).v};
       screw.target = {(level.spine_from_vertebra * screw.target).v};

@@ -43,11 +43,15 @@ RegisteredLevel exact() {
   level.registration.noise_m = 0.0002;
   level.registration.uncertainty = shifts_only();
   const auto& vertices = level.model->reachable().vertices_m;
-  for (std::size_t i = 0; i < vertices.size(); i += 5)
+  for (std::size_t i = 0; i < vertices.size(); i += 5) {
     level.points.push_back(level.registration.world_from_vertebra * Point<Vertebra>{vertices[i]});
+  }
   Vec3 hindmost = vertices.front();
-  for (const Vec3& v : vertices)
-    if (v.y > hindmost.y) hindmost = v;
+  for (const Vec3& v : vertices) {
+    if (v.y > hindmost.y) {
+      hindmost = v;
+    }
+  }
   level.points.push_back(level.registration.world_from_vertebra *
                          Point<Vertebra>{hindmost + Vec3{0, 0.008, 0}});
   level.registration.points = level.points.size();
@@ -72,7 +76,7 @@ TEST(RegistrationScene, CountsABallsRadiusAndTheInsideAsNegative) {
 
 TEST(RegistrationScene, TakesTheMeanHeightOfTheTipOff) {
   RegisteredLevel level = exact();
-  level.registration.lift_m = 0.0005;
+  level.registration.standoff_m = 0.0005;
   EXPECT_NEAR(registration_scene(level).points.back().residual_m, 0.0075, 1e-9);
 }
 
@@ -89,8 +93,9 @@ TEST(RegistrationPage, ShowsWhatWasTouchedToVerify) {
 
 TEST(RegistrationScene, IsThinnedOutWhereThereAreTooManyPoints) {
   RegisteredLevel level = exact();
-  while (level.points.size() < 50000)
+  while (level.points.size() < 50000) {
     level.points.insert(level.points.end(), level.points.begin(), level.points.end());
+  }
   EXPECT_LE(registration_scene(level).points.size(), 4000U);
   EXPECT_THAT(registration_section(level).value(), HasSubstr("Drawn: "));
 }
@@ -187,17 +192,19 @@ TEST(RegistrationFigures, MeasureTheRunnerUpAtTheWorstScrew) {
   const Transform<Vertebra, Vertebra> turn(rotation_from_vector({0, 0, 3.14159265358979}), {});
   level.registration.runner_up = pose * turn;
   level.registration.runner_up_rmse_m = 0.002;
-  level.registration.margin = 3.0;
+  level.registration.log_likelihood_ratio = 3.0;
   double worst = 0.0;
-  for (const nav::ScrewPlan& s : level.screws)
-    for (const Vec3 v : {s.entry.v, s.target.v})
+  for (const nav::ScrewPlan& s : level.screws) {
+    for (const Vec3 v : {s.entry.v, s.target.v}) {
       worst = std::max(worst, 2.0 * std::hypot(v.x, v.y));
+    }
+  }
   const auto distance = runner_up_distance(level);
   ASSERT_TRUE(distance.has_value());
   EXPECT_NEAR(distance->apart_m, worst, 1e-9);
   EXPECT_NEAR(distance->turned_rad, 3.14159265, 1e-6);
   EXPECT_THAT(ambiguity_of(level), StartsWith("ambiguous: another pose, "));
-  level.registration.margin = 50.0;
+  level.registration.log_likelihood_ratio = 50.0;
   EXPECT_THAT(ambiguity_of(level), StartsWith("unambiguous: the next best pose, "));
   level.registration.fits_better = "L5";
   EXPECT_EQ(ambiguity_of(level), "ambiguous: the points fit level L5 as well or better");

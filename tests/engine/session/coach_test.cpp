@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 
 nav::Registration promising() {
   nav::Registration r;
-  r.margin = 30.0;
+  r.log_likelihood_ratio = 30.0;
   r.predicted_tre_m = 0.0024;
   r.advice = "stroke the left lamina";
   r.reasons = {"error expected at the screws 2.4 mm, limit 1.5 mm"};
@@ -48,7 +48,7 @@ TEST(Coaching, SaysWhenItIsEnough) {
 
 TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
   nav::Registration r = promising();
-  r.margin = 3.0;
+  r.log_likelihood_ratio = 3.0;
   r.predicted_tre_m = 0.0006;
   EXPECT_EQ(text_of(coaching_from(r)), "could be more than one pose, stroke the left lamina");
 }
@@ -92,11 +92,14 @@ class CoachTest : public ::testing::Test {
  protected:
   CoachTest() : coach(gate.registrar()) {}
   void stroke(std::size_t samples) {
-    for (std::size_t i = 0; i < samples; ++i)
+    for (std::size_t i = 0; i < samples; ++i) {
       regions.back().samples.push_back({Point<World>{{0.001, 0.0, 0.0}}, {}});
+    }
   }
   void pairs(int n) {
-    for (int i = 0; i < n; ++i) coach.step(operation.levels[0], regions);
+    for (int i = 0; i < n; ++i) {
+      coach.step(operation.levels[0], regions);
+    }
   }
   Operation operation = test::operation_of({"L4"});
   std::vector<nav::Region> regions = std::vector<nav::Region>(1);

@@ -31,7 +31,9 @@ class JournalTest : public ::testing::Test {
   std::vector<nlohmann::json> lines() const {
     std::ifstream in(path_);
     std::vector<nlohmann::json> all;
-    for (std::string line; std::getline(in, line);) all.push_back(nlohmann::json::parse(line));
+    for (std::string line; std::getline(in, line);) {
+      all.push_back(nlohmann::json::parse(line));
+    }
     return all;
   }
 
@@ -62,18 +64,22 @@ TEST_F(JournalTest, TellsTheWholeOperation) {
   EXPECT_EQ(all[0]["format"], "orthonav session");
   EXPECT_EQ(all[0]["seed"], 7);
   std::map<std::string, int> count;
-  for (std::size_t i = 1; i < all.size(); ++i) ++count[all[i]["what"]];
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    ++count[all[i]["what"]];
+  }
   EXPECT_EQ(count["registration"], 1);
   EXPECT_EQ(count["screw"], 2);
   EXPECT_EQ(count["head"], 2);
   EXPECT_EQ(count["rod"], 2);
   EXPECT_EQ(count["not understood"], 1);
-  for (std::size_t i = 1; i < all.size(); ++i)
+  for (std::size_t i = 1; i < all.size(); ++i) {
     EXPECT_EQ(all[i]["time_100ns"].get<std::int64_t>(),
               kEpoch + all[i]["time_ns"].get<std::int64_t>() / 100)
         << i;
-  for (std::size_t i = 2; i < all.size(); ++i)
+  }
+  for (std::size_t i = 2; i < all.size(); ++i) {
     EXPECT_GE(all[i]["time_100ns"], all[i - 1]["time_100ns"]) << i;
+  }
   for (const auto& line : all) {
     if (line.value("what", "") == "screw" && line["side"] == "left") {
       EXPECT_NEAR(line["angle_deg"].get<double>(), 5.7296, 1e-3);
@@ -88,12 +94,16 @@ TEST_F(JournalTest, EveryLineIsInTheFileBeforeTheNextComes) {
   s.says("start");
   EXPECT_FALSE(fs::exists(path_)) << "named only when it is whole";
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder_)) files.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    files.push_back(entry.path());
+  }
   ASSERT_EQ(files.size(), 1u);
   std::ifstream in(files[0]);
   std::string line;
   int count = 0;
-  for (; std::getline(in, line); ++count) EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+  for (; std::getline(in, line); ++count) {
+    EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+  }
   EXPECT_EQ(count, 2) << "the header and the word";
   journal.reset();
   EXPECT_FALSE(fs::exists(path_)) << "nothing under its name without finish";
@@ -123,8 +133,11 @@ TEST_F(JournalTest, GivesNoNumbersOfARegistrationThatThereIsNot) {
   s.does({ClickerAction::kDoubleClick});
   ASSERT_TRUE(journal->finish().ok());
   std::vector<nlohmann::json> registrations;
-  for (const auto& line : lines())
-    if (line.value("what", "") == "registration") registrations.push_back(line);
+  for (const auto& line : lines()) {
+    if (line.value("what", "") == "registration") {
+      registrations.push_back(line);
+    }
+  }
   ASSERT_EQ(registrations.size(), 2u);
   EXPECT_EQ(registrations[0]["reason"], "0 points, at least 100 needed");
   for (const char* key : {"points", "rmse_mm", "world_from_vertebra_mm", "predicted_tre_mm"}) {
@@ -139,10 +152,10 @@ TEST_F(JournalTest, TellsWhatBestSaysOfARegistrationAndThePlacesTouchedToCheckIt
   s.session().observe(journal.get());
   s.tracker().size = nav::TagSize{-0.032, 0.001, 12, true, true};
   s.registration.noise_m = 0.0007;
-  s.registration.inlier_share = 0.97;
+  s.registration.inlier_fraction = 0.97;
   s.registration.effective_points = 120.0;
-  s.registration.margin = std::numeric_limits<double>::infinity();
-  s.registration.coverage_share = 0.6;
+  s.registration.log_likelihood_ratio = std::numeric_limits<double>::infinity();
+  s.registration.coverage_fraction = 0.6;
   s.registration.predicted_tre_m = 0.0008;
   s.registration.tre_95_m = 0.0014;
   s.registration.weakest = "nods up and down";
@@ -154,8 +167,11 @@ TEST_F(JournalTest, TellsWhatBestSaysOfARegistrationAndThePlacesTouchedToCheckIt
   s.says("delete");
   ASSERT_TRUE(journal->finish().ok());
   std::map<std::string, std::vector<nlohmann::json>> by_what;
-  for (const auto& line : lines())
-    if (line.contains("what")) by_what[line["what"]].push_back(line);
+  for (const auto& line : lines()) {
+    if (line.contains("what")) {
+      by_what[line["what"]].push_back(line);
+    }
+  }
   ASSERT_EQ(by_what["registration"].size(), 1u);
   const auto& line = by_what["registration"][0];
   EXPECT_DOUBLE_EQ(line["noise_mm"], 0.7);
@@ -186,9 +202,12 @@ TEST_F(JournalTest, SaysNothingOfBestWhereItWasNotAsked) {
   s.registers_first_level();
   ASSERT_TRUE(journal->finish().ok());
   for (const auto& line : lines()) {
-    if (line.value("what", "") != "registration") continue;
-    for (const char* key : {"noise_mm", "margin", "weakest", "advice", "warning", "tre_95_mm"})
+    if (line.value("what", "") != "registration") {
+      continue;
+    }
+    for (const char* key : {"noise_mm", "margin", "weakest", "advice", "warning", "tre_95_mm"}) {
       EXPECT_FALSE(line.contains(key)) << key;
+    }
   }
 }
 

@@ -68,7 +68,9 @@ TEST_F(CheckedSession, AcceptsNothingWithAPlaceTooFarOff) {
 }
 
 TEST_F(CheckedSession, TheSamePlaceThreeTimesIsOnePlace) {
-  for (int i = 0; i < 3; ++i) s.touches(kFirst + Vec3{0.001 * i, 0, 0});
+  for (int i = 0; i < 3; ++i) {
+    s.touches(kFirst + Vec3{0.001 * i, 0, 0});
+  }
   EXPECT_THAT(s.pair().detail, HasSubstr("touch 2 more places"));
   EXPECT_EQ(s.says("accept").step, Step::kVerify);
 }
@@ -122,7 +124,9 @@ TEST_F(CheckedSession, APressFromTheStrokesIsNoTouch) {
 }
 
 TEST_F(CheckedSession, StopsCountingAtTwenty) {
-  for (std::size_t i = 0; i < nav::kMostCheckPoints; ++i) s.touches(kFirst);
+  for (std::size_t i = 0; i < nav::kMostCheckPoints; ++i) {
+    s.touches(kFirst);
+  }
   EXPECT_EQ(s.touches(kFirst).detail, "check point not recorded: there are 20 already");
   EXPECT_EQ(points().size(), nav::kMostCheckPoints);
 }

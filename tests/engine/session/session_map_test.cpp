@@ -21,8 +21,11 @@ std::vector<std::string> holograms(const Guidance& guidance) {
   ShownFrame shown;
   builder.write_shown(guidance, shown);
   std::vector<std::string> names;
-  for (const ShownHologram& hologram : shown.holograms)
-    if (!hologram.name.starts_with("H11")) names.push_back(hologram.name);
+  for (const ShownHologram& hologram : shown.holograms) {
+    if (!hologram.name.starts_with("H11")) {
+      names.push_back(hologram.name);
+    }
+  }
   return names;
 }
 
@@ -65,7 +68,9 @@ TEST(MapMoved, TakesARegistrationBackInEveryStep) {
   for (const Step step : {Step::kVerify, Step::kAccepted, Step::kGuide}) {
     ScriptedOperation s;
     s.registers_first_level();
-    if (step != Step::kVerify) s.accepts();
+    if (step != Step::kVerify) {
+      s.accepts();
+    }
     if (step == Step::kGuide) {
       s.says("next");
       s.tracker().guide = guide_at(kLeftEntry, 0.1);
@@ -110,12 +115,16 @@ TEST(MapMoved, KeepsTheScrewsThatAreInAndGuidesTheOthersAfterANewRegistration) {
 /// Both levels guided, and two heads of the left rod touched.
 void comes_to_the_rod(ScriptedOperation& s) {
   s.accepts_first_level();
-  for (int i = 0; i < 3; ++i) s.says("next");
+  for (int i = 0; i < 3; ++i) {
+    s.says("next");
+  }
   s.strokes(5);
   s.says("save");
   s.does({kDoubleClick});
   s.accepts();
-  for (int i = 0; i < 3; ++i) s.says("next");
+  for (int i = 0; i < 3; ++i) {
+    s.says("next");
+  }
   s.touches({0, 0.02, 0});
   s.touches({0, 0.02, 0.03});
 }

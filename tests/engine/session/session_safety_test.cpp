@@ -76,17 +76,17 @@ class Guided : public ::testing::Test {
 };
 
 TEST_F(Guided, APredictedPoseGivesAnOverlayButNoNumber) {
-  s.tracker().guide_origin = Origin::kPredicted;
+  s.tracker().guide_origin = PoseStatus::kPredicted;
   const Guidance& g = s.pair();
   ASSERT_TRUE(g.tool.has_value());
   EXPECT_FALSE(g.tool->measured.has_value());
   EXPECT_NEAR(g.tool->shown.angle_rad, 0.1, kExact);
-  s.tracker().guide_origin = Origin::kMeasured;
+  s.tracker().guide_origin = PoseStatus::kMeasured;
   EXPECT_TRUE(s.pair().tool->measured.has_value());
 }
 
 TEST_F(Guided, APredictionIsShownNoLongerThanItsMeasurementIsFresh) {
-  s.tracker().guide_origin = Origin::kPredicted;
+  s.tracker().guide_origin = PoseStatus::kPredicted;
   // 33 ms a pair, lit up 16 ms later: the second still lights up 83 ms after the measurement.
   EXPECT_TRUE(s.pairs(2).tool.has_value());
   EXPECT_FALSE(s.pair().tool.has_value());

@@ -70,7 +70,9 @@ TEST(Session, DoesNotSampleAToolThatIsNotMeasured) {
   s.says("start");
   s.strokes(5);
   std::size_t samples = 0;
-  for (const nav::Region& region : s.pair().regions) samples += region.samples.size();
+  for (const nav::Region& region : s.pair().regions) {
+    samples += region.samples.size();
+  }
   EXPECT_EQ(samples, 0u);
 }
 
@@ -137,8 +139,12 @@ TEST(Session, RejectClearsTheLevelInVerifyAcceptedAndGuide) {
     s.strokes(5);
     s.says("save");
     s.does({kDoubleClick});
-    if (words > 0) s.accepts();
-    if (words > 1) s.says("next");
+    if (words > 0) {
+      s.accepts();
+    }
+    if (words > 1) {
+      s.says("next");
+    }
     const Guidance& g = s.says("reject");
     EXPECT_EQ(g.step_text, "digitize L4") << words;
     EXPECT_FALSE(g.levels[0].registration.has_value()) << words;
@@ -182,11 +188,11 @@ TEST(Session, HidesGuidanceOnceThePoseIsOlderThanItsLimit) {
   s.pairs(3);
   ASSERT_TRUE(s.pair().tool.has_value());
   // The tracker goes on predicting for ever; its measurement ages all the same.
-  s.tracker().guide_origin = Origin::kPredicted;
+  s.tracker().guide_origin = PoseStatus::kPredicted;
   EXPECT_TRUE(s.pair().tool.has_value());
   EXPECT_EQ(s.pair().detail, "guide lost");
   EXPECT_FALSE(s.pairs(2).tool.has_value());
-  s.tracker().guide_origin = Origin::kMeasured;
+  s.tracker().guide_origin = PoseStatus::kMeasured;
   const Guidance& g = s.pair();
   EXPECT_TRUE(g.tool.has_value());
   EXPECT_THAT(g.detail, StartsWith("RMSE"));

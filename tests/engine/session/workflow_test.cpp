@@ -19,7 +19,9 @@ std::string written_workflow() {
   const std::string all = text.str();
   const std::size_t begin = all.find(kBegin);
   const std::size_t end = all.find(kEnd);
-  if (begin == std::string::npos || end == std::string::npos) return {};
+  if (begin == std::string::npos || end == std::string::npos) {
+    return {};
+  }
   const std::size_t from = begin + std::string(kBegin).size();
   return all.substr(from, end - from);
 }
@@ -38,34 +40,44 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
       {Step::kGuide, Event::kAnotherScrew},  {Step::kGuide, Event::kAnotherLevel},
       {Step::kGuide, Event::kNoScrewLeft},   {Step::kRod, Event::kAnotherSide},
       {Step::kRod, Event::kNoSideLeft}};
-  for (const auto& [step, event] : kRaised)
+  for (const auto& [step, event] : kRaised) {
     EXPECT_NE(answer(step, event).action, Action::kRefuse) << name_of(step) << name_of(event);
+  }
   // A button says nothing by itself: pressing it somewhere else is no mistake.
-  for (std::size_t s = 0; s < kStepCount; ++s)
-    for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold})
+  for (std::size_t s = 0; s < kStepCount; ++s) {
+    for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold}) {
       EXPECT_NE(answer(static_cast<Step>(s), event).action, Action::kRefuse) << s;
+    }
+  }
 }
 
 TEST(Workflow, AForgottenCellRefusesAndStays) {
   // No rule is written for this one.
   EXPECT_EQ(answer(Step::kSetup, Event::kSayAccept), (Cell{Step::kSetup, Action::kRefuse}));
-  for (std::size_t s = 0; s < kStepCount; ++s)
-    for (const Cell& cell : kWorkflow[s])
+  for (std::size_t s = 0; s < kStepCount; ++s) {
+    for (const Cell& cell : kWorkflow[s]) {
       if (cell.action == Action::kRefuse) {
         EXPECT_EQ(cell.next, static_cast<Step>(s));
       }
+    }
+  }
 }
 
 TEST(Workflow, EveryStepCanBeReachedAndAllButTheLastCanBeLeft) {
   std::set<Step> reached = {Step::kSetup};
-  for (std::size_t round = 0; round < kStepCount; ++round)
-    for (const Step step : std::set<Step>(reached))
-      for (std::size_t e = 0; e < kEventCount; ++e)
+  for (std::size_t round = 0; round < kStepCount; ++round) {
+    for (const Step step : std::set<Step>(reached)) {
+      for (std::size_t e = 0; e < kEventCount; ++e) {
         reached.insert(answer(step, static_cast<Event>(e)).next);
+      }
+    }
+  }
   EXPECT_EQ(reached.size(), kStepCount);
   for (std::size_t s = 0; s + 1 < kStepCount; ++s) {
     bool leaves = false;
-    for (const Cell& cell : kWorkflow[s]) leaves = leaves || cell.next != static_cast<Step>(s);
+    for (const Cell& cell : kWorkflow[s]) {
+      leaves = leaves || cell.next != static_cast<Step>(s);
+    }
     EXPECT_TRUE(leaves) << name_of(static_cast<Step>(s));
   }
 }
@@ -78,7 +90,7 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
   // What is raised on his "accept" when the touched places bear it out, else the word itself.
   const Event accepting =
       GetParam() == Verification::kByTouch ? Event::kChecked : Event::kSayAccept;
-  for (std::size_t s = 0; s < kStepCount; ++s)
+  for (std::size_t s = 0; s < kStepCount; ++s) {
     for (std::size_t e = 0; e < kEventCount; ++e) {
       const auto step = static_cast<Step>(s);
       const auto event = static_cast<Event>(e);
@@ -90,6 +102,7 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
         EXPECT_TRUE(step == Step::kAccepted && event == Event::kSayNext) << s << " " << e;
       }
     }
+  }
   EXPECT_EQ(answer(Step::kVerify, accepting, GetParam()), (Cell{Step::kAccepted, Action::kAccept}));
 }
 
@@ -99,40 +112,50 @@ TEST(Workflow, VerifyingByTouchTheWordAloneAcceptsNothing) {
 }
 
 TEST(Workflow, VerifyingByEyeDiffersInVerifyAlone) {
-  for (std::size_t s = 0; s < kStepCount; ++s)
+  for (std::size_t s = 0; s < kStepCount; ++s) {
     for (std::size_t e = 0; e < kEventCount; ++e) {
       const auto step = static_cast<Step>(s);
       const auto event = static_cast<Event>(e);
-      if (step == Step::kVerify) continue;
+      if (step == Step::kVerify) {
+        continue;
+      }
       EXPECT_EQ(answer(step, event, Verification::kByEye), answer(step, event)) << s << " " << e;
     }
+  }
   // The published way has nothing to click at and nothing to take back.
-  for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold})
+  for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold}) {
     EXPECT_EQ(answer(Step::kVerify, event, Verification::kByEye),
               (Cell{Step::kVerify, Action::kIgnore}));
+  }
   EXPECT_EQ(answer(Step::kVerify, Event::kSayDelete, Verification::kByEye).action, Action::kRefuse);
 }
 
 TEST(Workflow, LosingAToolNeverChangesTheStep) {
-  for (std::size_t s = 0; s < kStepCount; ++s)
+  for (std::size_t s = 0; s < kStepCount; ++s) {
     for (const Event event : {Event::kTrackingLost, Event::kPoseStale, Event::kTrackingRegained}) {
       const Cell cell = answer(static_cast<Step>(s), event);
       EXPECT_EQ(cell.next, static_cast<Step>(s));
       EXPECT_NE(cell.action, Action::kRefuse) << "what tracking finds out can't be refused";
     }
+  }
 }
 
 TEST(Workflow, AStalePoseHidesWhereverAToolIsUsed) {
-  for (const Step step : {Step::kDigitize, Step::kVerify, Step::kGuide, Step::kRod})
+  for (const Step step : {Step::kDigitize, Step::kVerify, Step::kGuide, Step::kRod}) {
     EXPECT_EQ(answer(step, Event::kPoseStale).action, Action::kHideGuidance) << name_of(step);
+  }
 }
 
 TEST(Workflow, NamesAreDistinct) {
   std::set<std::string_view> names;
-  for (std::size_t e = 0; e < kEventCount; ++e) names.insert(name_of(static_cast<Event>(e)));
+  for (std::size_t e = 0; e < kEventCount; ++e) {
+    names.insert(name_of(static_cast<Event>(e)));
+  }
   EXPECT_EQ(names.size(), kEventCount);
   names.clear();
-  for (std::size_t a = 0; a < kActionCount; ++a) names.insert(name_of(static_cast<Action>(a)));
+  for (std::size_t a = 0; a < kActionCount; ++a) {
+    names.insert(name_of(static_cast<Action>(a)));
+  }
   EXPECT_EQ(names.size(), kActionCount);
 }
 

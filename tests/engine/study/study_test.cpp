@@ -33,7 +33,9 @@ std::string study_of(const std::string& method, const std::vector<json>& runs) {
 
 Result<std::string> merged(const std::vector<std::string>& texts) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < texts.size(); ++i) names.push_back("part" + std::to_string(i + 1));
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    names.push_back("part" + std::to_string(i + 1));
+  }
   return merge_studies(texts, names);
 }
 

@@ -31,9 +31,11 @@ CameraModel wide_angle_model() { return CameraModel::from_brown_conrady(wide_ang
 /// A pinhole's table of a small image.
 std::vector<Vec2> pinhole_table(int width, int height, double focal) {
   std::vector<Vec2> table;
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
       table.push_back({(u + 0.5 - width / 2.0) / focal, (v + 0.5 - height / 2.0) / focal});
+    }
+  }
   return table;
 }
 
@@ -44,23 +46,30 @@ std::string refusal(int width, int height, std::vector<Vec2> table) {
 
 double worst_round_trip_px(const CameraModel& model) {
   double worst = 0.0;
-  for (double v = 0.0; v <= model.height_px(); v += 7.3)
+  for (double v = 0.0; v <= model.height_px(); v += 7.3) {
     for (double u = 0.0; u <= model.width_px(); u += 6.1) {
       const auto ray = model.unproject({u, v});
-      if (!ray) continue;
+      if (!ray) {
+        continue;
+      }
       const auto back = model.project(*ray);
-      if (!back) return 1e9;
+      if (!back) {
+        return 1e9;
+      }
       worst = std::max(worst, (*back - Vec2{u, v}).norm());
     }
+  }
   return worst;
 }
 
 TEST(CameraModel, PixelCentresGiveTheTableItself) {
   const CameraModel model = wide_angle_model();
-  for (const int v : {0, 239, 479})
-    for (const int u : {0, 320, 639})
+  for (const int v : {0, 239, 479}) {
+    for (const int u : {0, 320, 639}) {
       EXPECT_EQ(*model.unproject({u + 0.5, v + 0.5}),
                 model.lookup()[static_cast<std::size_t>(v * 640 + u)]);
+    }
+  }
 }
 
 TEST(CameraModel, ProjectInvertsUnproject) {
@@ -71,12 +80,13 @@ TEST(CameraModel, ProjectFollowsTheDistortionFormula) {
   const BrownConrady parameters = wide_angle();
   const CameraModel model = wide_angle_model();
   double worst = 0.0;
-  for (double y = -0.6; y <= 0.6; y += 0.037)
+  for (double y = -0.6; y <= 0.6; y += 0.037) {
     for (double x = -0.8; x <= 0.8; x += 0.041) {
       const auto pixel = model.project(Vec2{x, y});
       ASSERT_TRUE(pixel) << x << " " << y;
       worst = std::max(worst, (*pixel - parameters.distort({x, y})).norm());
     }
+  }
   EXPECT_LT(worst, kInterpolationPx);
 }
 
@@ -152,15 +162,21 @@ TEST(CameraModel, RefusesATableThatFolds) {
 
 TEST(CameraModel, LonelyPixelsAreNoCamera) {
   auto lonely = pinhole_table(5, 5, 10.0);
-  for (std::size_t i = 0; i < lonely.size(); i += 2) lonely[i] = {kNaN, 0.0};
+  for (std::size_t i = 0; i < lonely.size(); i += 2) {
+    lonely[i] = {kNaN, 0.0};
+  }
   EXPECT_THAT(refusal(5, 5, lonely), HasSubstr("no four neighbouring"));
 }
 
 TEST(CameraModel, NanPixelsSeeNothingAndTheOthersStillWork) {
   auto table = pinhole_table(64, 48, 60.0);
-  for (int v = 0; v < 48; ++v)
-    for (int u = 0; u < 64; ++u)
-      if (std::hypot(u - 32, v - 24) > 20) table[static_cast<std::size_t>(v * 64 + u)].y = kNaN;
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 0; u < 64; ++u) {
+      if (std::hypot(u - 32, v - 24) > 20) {
+        table[static_cast<std::size_t>(v * 64 + u)].y = kNaN;
+      }
+    }
+  }
   const CameraModel model = CameraModel::from_lookup(64, 48, table).value();
   EXPECT_FALSE(model.unproject({2.5, 2.5}));
   EXPECT_FALSE(model.project(Vec2{(2.5 - 32) / 60.0, (2.5 - 24) / 60.0}));
@@ -208,7 +224,7 @@ std::vector<Vec2> shifted_to_centres(const std::vector<float>& uv2xy, int width,
     return Vec2{static_cast<double>(uv2xy[i]), static_cast<double>(uv2xy[i + 1])};
   };
   std::vector<Vec2> table;
-  for (int v = 0; v < height; ++v)
+  for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
       const int column = std::min(u, width - 2);
       const int row = std::min(v, height - 2);
@@ -217,13 +233,16 @@ std::vector<Vec2> shifted_to_centres(const std::vector<float>& uv2xy, int width,
       table.push_back((1 - t) * ((1 - s) * at(column, row) + s * at(column + 1, row)) +
                       t * ((1 - s) * at(column, row + 1) + s * at(column + 1, row + 1)));
     }
+  }
   return table;
 }
 
 TEST(CameraModel, TakesTheFactoryTableOfARealDevice) {
   for (const std::string side : {"leftfront", "rightfront"}) {
     const std::string path = kShared + "/recordings/hololens2-calibration/rm_vlc_" + side;
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+    if (!std::filesystem::exists(path)) {
+      GTEST_SKIP() << path << " is not here";
+    }
     const std::vector<float> uv2xy = floats_of(path + "/uv2xy.bin");
     ASSERT_EQ(uv2xy.size(), 640u * 480u * 2u);
     const auto model = CameraModel::from_lookup(640, 480, shifted_to_centres(uv2xy, 640, 480));
@@ -240,7 +259,9 @@ TEST(CameraModel, TakesTheFactoryTableOfARealDevice) {
 TEST(CameraModel, TakesTheTablesOfARecording) {
   for (const std::string side : {"LF", "RF"}) {
     const std::string path = kShared + "/recordings/streamrecorder-sample/VLC " + side + "_lut.bin";
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+    if (!std::filesystem::exists(path)) {
+      GTEST_SKIP() << path << " is not here";
+    }
     const std::vector<float> rays = floats_of(path);
     ASSERT_EQ(rays.size(), 640u * 480u * 3u);
     std::vector<Vec2> table;

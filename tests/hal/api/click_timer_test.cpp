@@ -62,8 +62,11 @@ TEST_F(ClickTimerTest, StartsAnewAfterADoubleClick) {
     up(t + 50);
   }
   std::vector<ClickerAction> clicks;
-  for (const ClickerEvent& event : events_)
-    if (event.action == kClick || event.action == kDoubleClick) clicks.push_back(event.action);
+  for (const ClickerEvent& event : events_) {
+    if (event.action == kClick || event.action == kDoubleClick) {
+      clicks.push_back(event.action);
+    }
+  }
   EXPECT_THAT(clicks, ElementsAre(kClick, kDoubleClick, kClick, kDoubleClick));
 }
 

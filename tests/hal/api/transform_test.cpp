@@ -95,22 +95,31 @@ TEST(Transform, RefusesMirroredNonFiniteAndNonRigidNumbers) {
     return result.ok() ? std::string("accepted") : result.error().message;
   };
   EXPECT_EQ(message(good), "accepted");
-  for (std::size_t i = 0; i < 12; ++i)
-    for (const double bad : {kNan, kInf, -kInf})
+  for (std::size_t i = 0; i < 12; ++i) {
+    for (const double bad : {kNan, kInf, -kInf}) {
       EXPECT_NE(message(with(good, i, bad)).find("not finite"), std::string::npos) << i;
+    }
+  }
   auto mirrored = good;
-  for (std::size_t c = 0; c < 3; ++c) mirrored[c] = -mirrored[c];
+  for (std::size_t c = 0; c < 3; ++c) {
+    mirrored[c] = -mirrored[c];
+  }
   EXPECT_NE(message(mirrored).find("mirrors"), std::string::npos);
   auto scaled = good;
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c) scaled[4 * r + c] *= 1.01;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      scaled[4 * r + c] *= 1.01;
+    }
+  }
   EXPECT_NE(message(scaled).find("not rigid"), std::string::npos);
   EXPECT_NE(message(std::array<double, 16>{}).find("not rigid"), std::string::npos);
 }
 
 TEST(Transform, OrthonormalizesWhatAFileRoundedAndKeepsWhatIsExact) {
   auto rounded = kTurned.row_major();
-  for (double& entry : rounded) entry = std::round(entry * 1e6) * 1e-6;
+  for (double& entry : rounded) {
+    entry = std::round(entry * 1e6) * 1e-6;
+  }
   const auto result = Transform<World, Rig>::from_row_major(rounded);
   ASSERT_TRUE(result.ok());
   EXPECT_LT(orthonormality_error(result->rotation()), kRounding);

@@ -37,9 +37,12 @@ class RecordedClicker : public ::testing::Test {
     EXPECT_TRUE(clicker.ok()) << clicker.error().message;
     std::vector<ClickerEvent> events;
     // Polled as a frame loop does; the answers must not depend on it.
-    for (int t = 0; clicker && t <= until_ms; t += 7)
+    for (int t = 0; clicker && t <= until_ms; t += 7) {
       EXPECT_TRUE((*clicker)->poll(ms(10000 + t), events).ok());
-    for (ClickerEvent& event : events) event.time -= milliseconds(10000);
+    }
+    for (ClickerEvent& event : events) {
+      event.time -= milliseconds(10000);
+    }
     return events;
   }
   static EventBytes from_zero() { return EventBytes().key(KEY_F24, 0, milliseconds(0)); }
@@ -59,8 +62,9 @@ TEST_F(RecordedClicker, MakesAClickOfAKeyThatGoesDownAndUp) {
 
 TEST_F(RecordedClicker, MakesADoubleClickWithinTheTimeChosen) {
   auto bytes = from_zero();
-  for (const int t : {100, 350})
+  for (const int t : {100, 350}) {
     bytes.key(KEY_ENTER, 1, milliseconds(t)).key(KEY_ENTER, 0, milliseconds(t + 60));
+  }
   EXPECT_EQ(all(bytes, 600).back().action, kDoubleClick);
   options_.double_within = milliseconds(200);
   EXPECT_EQ(all(bytes, 600).back().action, kClick);
@@ -69,7 +73,9 @@ TEST_F(RecordedClicker, MakesADoubleClickWithinTheTimeChosen) {
 TEST_F(RecordedClicker, HoldsAKeyThatRepeats) {
   auto bytes = from_zero();
   bytes.key(BTN_0, 1, milliseconds(100));
-  for (int t = 150; t < 800; t += 50) bytes.key(BTN_0, 2, milliseconds(t));
+  for (int t = 150; t < 800; t += 50) {
+    bytes.key(BTN_0, 2, milliseconds(t));
+  }
   bytes.key(BTN_0, 0, milliseconds(800));
   EXPECT_THAT(all(bytes, 900),
               ElementsAre(ClickerEvent{kPress, ms(100)}, ClickerEvent{kHold, ms(600)},
@@ -78,8 +84,9 @@ TEST_F(RecordedClicker, HoldsAKeyThatRepeats) {
 
 TEST_F(RecordedClicker, SwallowsTheBounceOfAContact) {
   auto bytes = from_zero();
-  for (const int t : {100, 104, 109})
+  for (const int t : {100, 104, 109}) {
     bytes.key(KEY_SPACE, 1, milliseconds(t)).key(KEY_SPACE, 0, milliseconds(t + 2));
+  }
   bytes.key(KEY_SPACE, 1, milliseconds(115)).key(KEY_SPACE, 0, milliseconds(200));
   EXPECT_THAT(all(bytes, 400),
               ElementsAre(ClickerEvent{kPress, ms(100)}, ClickerEvent{kRelease, ms(200)},
@@ -164,7 +171,9 @@ TEST(EvdevKeys, RefusesWhatIsNoEventDevice) {
 
 /// A device that appears after the clicker was opened, and goes again.
 TEST(EvdevClicker, TakesUpADeviceThatIsPluggedIn) {
-  if (::access("/dev/uinput", W_OK) != 0) GTEST_SKIP() << "no /dev/uinput that may be written";
+  if (::access("/dev/uinput", W_OK) != 0) {
+    GTEST_SKIP() << "no /dev/uinput that may be written";
+  }
   const fake::ManualClock clock;
   ClickerOptions options;
   options.device = "orthonav test clicker";
@@ -179,17 +188,20 @@ TEST(EvdevClicker, TakesUpADeviceThatIsPluggedIn) {
   std::vector<ClickerEvent> events;
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
   const Timestamp until(std::chrono::hours(1));
-  while ((*clicker)->device_name().empty() && std::chrono::steady_clock::now() < deadline)
+  while ((*clicker)->device_name().empty() && std::chrono::steady_clock::now() < deadline) {
     (void)(*clicker)->poll(until, events);
+  }
   EXPECT_EQ((*clicker)->device_name(), options.device);
   libevdev_uinput_write_event(device, EV_KEY, KEY_VOLUMEUP, 1);
   libevdev_uinput_write_event(device, EV_SYN, SYN_REPORT, 0);
-  while (events.empty() && std::chrono::steady_clock::now() < deadline)
+  while (events.empty() && std::chrono::steady_clock::now() < deadline) {
     (void)(*clicker)->poll(until, events);
+  }
   libevdev_uinput_destroy(device);
   libevdev_free(description);
-  while (events.size() < 2 && std::chrono::steady_clock::now() < deadline)
+  while (events.size() < 2 && std::chrono::steady_clock::now() < deadline) {
     (void)(*clicker)->poll(until, events);
+  }
   ASSERT_GE(events.size(), 2u);
   EXPECT_EQ(events[0].action, kPress);
   EXPECT_EQ(events[1].action, kRelease);

@@ -25,9 +25,10 @@ std::string voice_refusal(const std::string& uri) {
 }
 
 TEST(OpenClicker, NamesWhatItKnows) {
-  for (const char* uri : {"bluetooth:", "", "Evdev:"})
+  for (const char* uri : {"bluetooth:", "", "Evdev:"}) {
     EXPECT_THAT(clicker_refusal(uri), AllOf(HasSubstr("known are headset, none, evdev:"),
                                             HasSubstr(uri), Not(HasSubstr("\n"))));
+  }
   EXPECT_THAT(clicker_refusal("evdev:x?colour=red"),
               AllOf(HasSubstr("\"colour\""), HasSubstr("double_ms=N")));
   EXPECT_THAT(clicker_refusal("evdev:x?keys=hyper7"), HasSubstr("\"hyper7\" is unknown"));
@@ -55,9 +56,10 @@ TEST(OpenClicker, GivesNoneForTheHeadsetsOwn) {
 }
 
 TEST(OpenVoice, NamesWhatItKnows) {
-  for (const char* uri : {"alexa:", "", "Mic:"})
+  for (const char* uri : {"alexa:", "", "Mic:"}) {
     EXPECT_THAT(voice_refusal(uri),
                 AllOf(HasSubstr("known are headset, none, mic:"), HasSubstr(uri)));
+  }
   EXPECT_THAT(voice_refusal("wav:x.wav?loud"), HasSubstr("unknown key \"loud\""));
   EXPECT_THAT(voice_refusal("wav:x.wav?wake=maybe"), HasSubstr("wake=always"));
   EXPECT_THAT(voice_refusal("wav:/nowhere/x.wav"), HasSubstr("/nowhere/x.wav"));

@@ -56,7 +56,9 @@ TEST(Calibration, StandsAtTheCornersOfPixels) {
 TEST(Calibration, OfARealDeviceIsTaken) {
   const std::string folder =
       std::string(ORTHONAV_SHARED_DIR) + "/recordings/hololens2-calibration/rm_vlc_leftfront";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not here";
+  if (!std::filesystem::exists(folder)) {
+    GTEST_SKIP() << folder << " is not here";
+  }
   const auto bytes_of = [&](const char* name) {
     std::ifstream in(folder + "/" + name, std::ios::binary);
     return std::vector<std::uint8_t>{std::istreambuf_iterator<char>(in), {}};

@@ -36,7 +36,9 @@ Seen go_through(const sim::SimOptions& sim, const ServerOptions& options, VideoP
   ServedRoom room(sim, options);
   const auto headset = room.connect(profile);
   EXPECT_NE(headset, nullptr);
-  if (!headset) return {};
+  if (!headset) {
+    return {};
+  }
   auto direct = *sim::SimHeadset::open(orthonav::test::bare_room(), sim);
   StereoFrame expected;
   StereoFrame frame;
@@ -45,7 +47,9 @@ Seen go_through(const sim::SimOptions& sim, const ServerOptions& options, VideoP
   for (;;) {
     const Next next = next_pair(*headset, frame, &seen.errors);
     seen.ended = next == Next::kEnd;
-    if (next != Next::kFrame) return seen;
+    if (next != Next::kFrame) {
+      return seen;
+    }
     ++seen.pairs;
     seen.ordered = seen.ordered && frame.time > last;
     last = frame.time;
@@ -53,11 +57,12 @@ Seen go_through(const sim::SimOptions& sim, const ServerOptions& options, VideoP
     while (expected.time < frame.time && *direct->cameras().next(expected) == Next::kFrame) {
     }
     seen.sound = seen.sound && expected.time == frame.time;
-    if (frame.world_from_rig && options.faults.jump_at.empty())
+    if (frame.world_from_rig && options.faults.jump_at.empty()) {
       seen.sound =
           seen.sound &&
           (frame.world_from_rig->translation() - expected.world_from_rig->translation()).norm() <
               1e-6;
+    }
   }
 }
 
@@ -141,8 +146,10 @@ TEST(Reconnecting, GoesOnWithANewServer) {
   auto headset = Hl2ssHeadset::open(client);
   ASSERT_TRUE(headset.ok()) << headset.error().message;
   StereoFrame frame;
-  for (int i = 0; i < 10; ++i) ASSERT_EQ(next_pair(**headset, frame), Next::kFrame);
-  EXPECT_EQ((*headset)->head().world_from_rig(frame.time).origin, Origin::kMeasured);
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_EQ(next_pair(**headset, frame), Next::kFrame);
+  }
+  EXPECT_EQ((*headset)->head().world_from_rig(frame.time).status, PoseStatus::kMeasured);
   first->reset();
   const auto deadline = std::chrono::steady_clock::now() + kLongest;
   int errors = 0;
@@ -151,7 +158,7 @@ TEST(Reconnecting, GoesOnWithANewServer) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   EXPECT_EQ(errors, 1) << "the loss is told";
-  EXPECT_EQ((*headset)->head().world_from_rig(frame.time).origin, Origin::kLost);
+  EXPECT_EQ((*headset)->head().world_from_rig(frame.time).status, PoseStatus::kLost);
   server.first_port = client.first_port;
   const auto second = Server::start(server, open);
   ASSERT_TRUE(second.ok()) << second.error().message;
@@ -178,11 +185,15 @@ TEST(Probing, TellsWhichPortsAnswer) {
   const auto ports = probe(options);
   ASSERT_TRUE(ports.ok());
   ASSERT_EQ(ports->size(), 6u);
-  for (const ProbedPort& port : *ports) EXPECT_EQ(port.trouble, "") << port.name;
+  for (const ProbedPort& port : *ports) {
+    EXPECT_EQ(port.trouble, "") << port.name;
+  }
   options.first_port = 19000;
   const auto closed = probe(options);
   ASSERT_TRUE(closed.ok());
-  for (const ProbedPort& port : *closed) EXPECT_NE(port.trouble, "") << port.name;
+  for (const ProbedPort& port : *closed) {
+    EXPECT_NE(port.trouble, "") << port.name;
+  }
 }
 
 TEST(Serving, SaysWhichPortIsTaken) {

@@ -13,12 +13,17 @@ constexpr std::uint32_t kBitrate = 12'000'000;
 /// A bright square that wanders over a textured ground.
 GreyImage picture(int number) {
   GreyImage image(640, 480);
-  for (int y = 0; y < 480; ++y)
-    for (int x = 0; x < 640; ++x)
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
       image.at(x, y) = static_cast<std::uint8_t>(40 + (x * 7 + y * 3) % 31);
+    }
+  }
   const int left = 20 + 9 * (number % 40);
-  for (int y = 200; y < 280; ++y)
-    for (int x = left; x < left + 80; ++x) image.at(x, y) = 220;
+  for (int y = 200; y < 280; ++y) {
+    for (int x = left; x < left + 80; ++x) {
+      image.at(x, y) = 220;
+    }
+  }
   return image;
 }
 
@@ -61,7 +66,9 @@ Decoded decode(const std::vector<std::pair<int, std::vector<std::uint8_t>>>& uni
   for (const auto& [number, bytes] : units) {
     const auto unit = (*decoder)->decode(bytes, number, image);
     decoded.errors += unit ? 0 : 1;
-    if (!unit || !*unit) continue;
+    if (!unit || !*unit) {
+      continue;
+    }
     decoded.units.push_back(**unit);
     decoded.worst_rms = std::max(decoded.worst_rms, rms(image, picture(static_cast<int>(**unit))));
   }
@@ -71,15 +78,18 @@ Decoded decode(const std::vector<std::pair<int, std::vector<std::uint8_t>>>& uni
 std::vector<std::pair<int, std::vector<std::uint8_t>>> numbered(int count) {
   auto units = encoded(count);
   std::vector<std::pair<int, std::vector<std::uint8_t>>> all;
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
     all.emplace_back(i, std::move(units[static_cast<std::size_t>(i)]));
+  }
   return all;
 }
 
 TEST(H264, EveryPictureComesOutAtOnce) {
   const Decoded decoded = decode(numbered(40));
   ASSERT_EQ(decoded.units.size(), 40u);
-  for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(decoded.units[i], static_cast<std::int64_t>(i));
+  for (std::size_t i = 0; i < 40; ++i) {
+    EXPECT_EQ(decoded.units[i], static_cast<std::int64_t>(i));
+  }
   EXPECT_LT(decoded.worst_rms, kCodecNoise);
   EXPECT_EQ(decoded.errors, 0);
   EXPECT_GT(rms(picture(3), picture(4)), kCodecNoise) << "the twin: a picture late would be caught";
@@ -102,7 +112,9 @@ TEST(H264, ADamagedPictureIsNotPassedOn) {
   for (const std::size_t at : {6u, 40u, 200u}) {
     auto units = numbered(40);
     auto& bytes = units[12].second;
-    for (std::size_t i = at; i < std::min(at + 60, bytes.size()); ++i) bytes[i] ^= 0x5a;
+    for (std::size_t i = at; i < std::min(at + 60, bytes.size()); ++i) {
+      bytes[i] ^= 0x5a;
+    }
     const Decoded decoded = decode(units);
     EXPECT_LT(decoded.worst_rms, kCodecNoise) << at;
     EXPECT_EQ(decoded.units.back(), 39) << at;
@@ -131,8 +143,9 @@ TEST(H264, RefusesGarbage) {
   ASSERT_TRUE(decoder.ok());
   GreyImage image;
   std::vector<std::uint8_t> garbage(5000);
-  for (std::size_t i = 0; i < garbage.size(); ++i)
+  for (std::size_t i = 0; i < garbage.size(); ++i) {
     garbage[i] = static_cast<std::uint8_t>(i * 37 % 251);
+  }
   const auto unit = (*decoder)->decode(garbage, 1, image);
   EXPECT_TRUE(!unit || !*unit);
   EXPECT_TRUE(image.pixels.empty());

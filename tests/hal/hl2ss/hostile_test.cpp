@@ -46,15 +46,20 @@ class HostileServer {
     ASSERT_TRUE(host.ok());
     for (base_ = 30000; base_ < 60000; base_ += 20) {
       bool free = true;
-      for (std::size_t i = 0; i < ports_.size() && free; ++i)
+      for (std::size_t i = 0; i < ports_.size() && free; ++i) {
         free = ports_[i]->listen(*host, base_ + kOffsets[i]).ok();
-      if (free) break;
+      }
+      if (free) {
+        break;
+      }
     }
     thread_ = std::thread([this] { serve(); });
   }
   ~HostileServer() {
     stop_ = true;
-    if (thread_.joinable()) thread_.join();
+    if (thread_.joinable()) {
+      thread_.join();
+    }
   }
   [[nodiscard]] Hl2ssOptions client() const {
     Hl2ssOptions options;
@@ -69,23 +74,34 @@ class HostileServer {
   void serve() {
     while (!stop_) {
       std::vector<pollfd> watched;
-      for (Port* port : ports_) watched.push_back({port->fd(), port->events(), 0});
+      for (Port* port : ports_) {
+        watched.push_back({port->fd(), port->events(), 0});
+      }
       (void)::poll(watched.data(), watched.size(), 2);
-      for (std::size_t i = 0; i < ports_.size(); ++i)
+      for (std::size_t i = 0; i < ports_.size(); ++i) {
         ports_[i]->step(watched[i].revents, HostClock::now());
+      }
       const auto now = HostClock::now();
-      if (now - last_turn_ < std::chrono::milliseconds(5)) continue;
+      if (now - last_turn_ < std::chrono::milliseconds(5)) {
+        continue;
+      }
       last_turn_ = now;
       ++turn_;
-      if (streams_left_) left_port_.send({{left(turn_)}});
-      if (streams_right_) right_port_.send({{right(turn_)}});
+      if (streams_left_) {
+        left_port_.send({{left(turn_)}});
+      }
+      if (streams_right_) {
+        right_port_.send({{right(turn_)}});
+      }
       spatial_port_.send({{spatial(turn_)}});
       voice_port_.send({{voice(turn_)}});
     }
   }
   Result<std::size_t> camera(Port& port, const std::vector<std::uint8_t>& calibration,
                              bool& streams, Bytes said) {
-    if (said[0] == 2) port.send({{calibration}});
+    if (said[0] == 2) {
+      port.send({{calibration}});
+    }
     streams = said[0] != 2;
     return said.size();
   }
@@ -139,7 +155,9 @@ TEST(HostileServer, ThatBehavesIsFollowed) {
 TEST(HostileServer, GarbageOnAnyPortHurtsThatPortAlone) {
   const auto garbage = [random = Random(7)](std::int64_t) mutable {
     std::vector<std::uint8_t> bytes(random.next() % 5000);
-    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.next());
+    for (std::uint8_t& byte : bytes) {
+      byte = static_cast<std::uint8_t>(random.next());
+    }
     return bytes;
   };
   HostileServer server;
@@ -176,7 +194,9 @@ TEST(HostileServer, ImagesOfNoSizeAndNanPosesAreCounted) {
       packet = image_packet(HostileServer::ticks_of(turn), std::vector<std::uint8_t>(100), {});
       append_pose(packet, Transform<World, Rig>{});
     }
-    if (turn % 3 == 2) std::fill(packet.end() - 64, packet.end(), std::uint8_t{0xff});
+    if (turn % 3 == 2) {
+      std::fill(packet.end() - 64, packet.end(), std::uint8_t{0xff});
+    }
     return packet;
   };
   server.start();

@@ -27,8 +27,12 @@ std::vector<std::uint8_t> packet_of(std::uint64_t ticks, std::size_t payload, bo
   std::vector<std::uint8_t> bytes;
   append(bytes, ticks);
   append(bytes, static_cast<std::uint32_t>(payload));
-  for (std::size_t i = 0; i < payload; ++i) bytes.push_back(static_cast<std::uint8_t>(i));
-  if (pose) append_pose(bytes, some_pose());
+  for (std::size_t i = 0; i < payload; ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(i));
+  }
+  if (pose) {
+    append_pose(bytes, some_pose());
+  }
   return bytes;
 }
 
@@ -96,7 +100,9 @@ TEST(Packets, ComeOutHoweverTheyWereTorn) {
       for (;;) {
         const auto packet = assembler.next();
         ASSERT_TRUE(packet.ok());
-        if (!*packet) break;
+        if (!*packet) {
+          break;
+        }
         ticks.push_back((*packet)->ticks);
         sizes.push_back((*packet)->payload.size());
         EXPECT_TRUE(*read_pose((*packet)->pose));
@@ -156,8 +162,9 @@ TEST(Poses, ThatAreNoneAreToldFromDamage) {
     return pose ? "accepted" : pose.error().message;
   };
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (int entry = 0; entry < 16; ++entry)
+  for (int entry = 0; entry < 16; ++entry) {
     EXPECT_THAT(refusal(entry, nan), HasSubstr("pose: ")) << entry;
+  }
   EXPECT_THAT(refusal(13, std::numeric_limits<float>::infinity()), HasSubstr("from the origin"));
   EXPECT_THAT(refusal(12, 2e4f), HasSubstr("limit"));
   EXPECT_THAT(refusal(0, 3.0f), HasSubstr("not rigid"));
@@ -192,8 +199,9 @@ TEST(VoiceAnswers, ComeWhole) {
   const std::vector<VoiceResult> results = {{2, 0, 5, 6, 0.9}, {9, 3, 7, 8, 0.1}};
   const auto bytes = voice_answer_bytes(results);
   ASSERT_EQ(bytes.size(), 4u + 2 * 32);
-  for (std::size_t i = 0; i < bytes.size(); ++i)
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
     EXPECT_FALSE(read_voice_answer(Bytes(bytes).first(i))->has_value());
+  }
   const auto read = read_voice_answer(bytes);
   ASSERT_TRUE(read.ok() && *read);
   EXPECT_EQ((*read)->bytes, bytes.size());
@@ -211,8 +219,9 @@ TEST(VoiceAnswers, WithTooManyOrUnknownResultsAreRefused) {
 
 TEST(VoiceAnswers, HaveConfidencesAsPhrasesDo) {
   std::vector<double> confidences;
-  for (const std::uint32_t confidence : {0u, 1u, 2u, 3u})
+  for (const std::uint32_t confidence : {0u, 1u, 2u, 3u}) {
     confidences.push_back(VoiceResult{0, confidence}.confidence_of_phrase());
+  }
   EXPECT_THAT(confidences, ElementsAre(0.9, 0.6, 0.3, 0.0));
 }
 
@@ -223,8 +232,9 @@ TEST(StandinMessages, ComeBackAsTheyWere) {
   frame.holograms = {{"H11 status", "guide L4 left", {}}, {"H10 rod", "", {{{1, 2, 3}}}}};
   std::vector<std::uint8_t> bytes;
   append(bytes, StandinMessage{StandinShown{frame}});
-  for (std::size_t i = 0; i < bytes.size(); ++i)
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
     EXPECT_FALSE(read_standin_message(Bytes(bytes).first(i))->has_value());
+  }
   const auto read = read_standin_message(bytes);
   ASSERT_TRUE(read.ok() && *read);
   EXPECT_EQ((*read)->bytes, bytes.size());

@@ -53,14 +53,18 @@ TEST(Pairer, NeverGoesBackAndNeverMixesMoments) {
 
 TEST(Pairer, HoldsNoMoreThanAFew) {
   Pairer pairer;
-  for (std::uint64_t i = 1; i <= 1000; ++i) add(pairer, Side::kLeft, i * 333'333);
+  for (std::uint64_t i = 1; i <= 1000; ++i) {
+    add(pairer, Side::kLeft, i * 333'333);
+  }
   EXPECT_EQ(pairer.unpaired(), 996);
   EXPECT_EQ(add(pairer, Side::kRight, 1000 * 333'333ull), 1000 * 333'333ull);
 }
 
 TEST(Pairer, IsNotBlockedByTicksFromNowhere) {
   Pairer pairer;
-  for (std::uint64_t i = 0; i < 10; ++i) add(pairer, Side::kLeft, (1ull << 63) + i * 100'000);
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    add(pairer, Side::kLeft, (1ull << 63) + i * 100'000);
+  }
   add(pairer, Side::kLeft, 500'000);
   EXPECT_EQ(add(pairer, Side::kRight, 500'000), 500'000u);
 }
@@ -96,8 +100,9 @@ TEST(StampReader, GoesOnWhenTheHeadsetsClockBeginsAnew) {
   std::optional<Timestamp> time;
   int doubted = 0;
   HostTime at = kStart + seconds(60);
-  for (std::uint64_t i = 0; i < 100 && !time; ++i, ++doubted, at += milliseconds(33))
+  for (std::uint64_t i = 0; i < 100 && !time; ++i, ++doubted, at += milliseconds(33)) {
     time = stamps.time_of(5 * kSecond + i * 333'333, at);
+  }
   ASSERT_TRUE(time.has_value());
   EXPECT_EQ(doubted, 20);
   EXPECT_EQ(stamps.restarts(), 1);
@@ -170,7 +175,9 @@ Transform<World, Rig> head_at(int n) {
 TEST(MapWatch, LetsAHeadMove) {
   MapWatch watch;
   for (int n = 0; n < 300; ++n) {
-    if (n % 17 == 5) continue;  // gaps
+    if (n % 17 == 5) {
+      continue;  // gaps
+    }
     EXPECT_FALSE(watch.moved(pair_time(n), head_at(n))) << n;
   }
 }
@@ -181,7 +188,9 @@ TEST(MapWatch, LetsAHeadStartAndStopAsFastAsHeadsDo) {
   double place = 0.0;
   for (int n = 0; n < 60; ++n) {
     speed += n % 20 < 5 ? 20.0 / 30.0 : (n % 20 >= 15 ? -20.0 / 30.0 : 0.0);
-    if (std::abs(speed) > 1.5) speed = std::copysign(1.5, speed);
+    if (std::abs(speed) > 1.5) {
+      speed = std::copysign(1.5, speed);
+    }
     place += speed / 30.0;
     EXPECT_FALSE(watch.moved(pair_time(n), {Mat3::identity(), {place, 0, 0}})) << n;
   }
@@ -191,8 +200,9 @@ TEST(MapWatch, FindsAJumpOnceAndGoesOn) {
   const Transform<World, World> moved(rotation_from_vector({0, 0.3, 0}), {0.06, 0, 0});
   MapWatch watch;
   int moves = 0;
-  for (int n = 0; n < 60; ++n)
+  for (int n = 0; n < 60; ++n) {
     moves += watch.moved(pair_time(n), n < 30 ? head_at(n) : moved * head_at(n)) ? 1 : 0;
+  }
   EXPECT_EQ(moves, 1);
 }
 
@@ -200,8 +210,9 @@ TEST(MapWatch, FindsAShiftOfSixCentimetres) {
   for (const double shift_m : {0.06, 0.02}) {
     MapWatch watch;
     int moves = 0;
-    for (int n = 0; n < 20; ++n)
+    for (int n = 0; n < 20; ++n) {
       moves += watch.moved(pair_time(n), {Mat3::identity(), {n < 10 ? 0.0 : shift_m, 0, 0}});
+    }
     EXPECT_EQ(moves, shift_m > 0.05 ? 1 : 0) << "the smaller one may be a head's start";
   }
 }
@@ -216,26 +227,28 @@ TEST(MapWatch, VouchesForNothingAfterALongSilence) {
 
 TEST(HeadTrack, KnowsBetweenPosesAndALittleBeyond) {
   HeadTrack head;
-  for (int n = 0; n < 5; ++n) head.add(pair_time(n), head_at(n), 0);
-  EXPECT_EQ(head.world_from_rig(pair_time(3)).origin, Origin::kMeasured);
-  EXPECT_EQ(head.world_from_rig(pair_time(3) + milliseconds(10)).origin, Origin::kMeasured);
+  for (int n = 0; n < 5; ++n) {
+    head.add(pair_time(n), head_at(n), 0);
+  }
+  EXPECT_EQ(head.world_from_rig(pair_time(3)).status, PoseStatus::kMeasured);
+  EXPECT_EQ(head.world_from_rig(pair_time(3) + milliseconds(10)).status, PoseStatus::kMeasured);
   const auto ahead = head.world_from_rig(pair_time(5));
-  EXPECT_EQ(ahead.origin, Origin::kPredicted);
+  EXPECT_EQ(ahead.status, PoseStatus::kPredicted);
   EXPECT_LT((ahead.value.translation() - head_at(5).translation()).norm(), 1e-9);
-  EXPECT_EQ(head.world_from_rig(pair_time(4) + milliseconds(101)).origin, Origin::kLost);
-  EXPECT_EQ(head.world_from_rig(Timestamp(-Duration(1))).origin, Origin::kLost);
+  EXPECT_EQ(head.world_from_rig(pair_time(4) + milliseconds(101)).status, PoseStatus::kLost);
+  EXPECT_EQ(head.world_from_rig(Timestamp(-Duration(1))).status, PoseStatus::kLost);
 }
 
 TEST(HeadTrack, KnowsNothingOfAnotherMapNorAcrossAGap) {
   HeadTrack head;
   head.add(pair_time(0), head_at(0), 0);
   head.add(pair_time(1), head_at(1), 1);
-  EXPECT_EQ(head.world_from_rig(pair_time(0)).origin, Origin::kLost);
-  EXPECT_EQ(head.world_from_rig(pair_time(1)).origin, Origin::kMeasured);
+  EXPECT_EQ(head.world_from_rig(pair_time(0)).status, PoseStatus::kLost);
+  EXPECT_EQ(head.world_from_rig(pair_time(1)).status, PoseStatus::kMeasured);
   head.add(pair_time(9), head_at(9), 1);
-  EXPECT_EQ(head.world_from_rig(pair_time(5)).origin, Origin::kLost);
+  EXPECT_EQ(head.world_from_rig(pair_time(5)).status, PoseStatus::kLost);
   head.lose();
-  EXPECT_EQ(head.world_from_rig(pair_time(9)).origin, Origin::kLost);
+  EXPECT_EQ(head.world_from_rig(pair_time(9)).status, PoseStatus::kLost);
 }
 
 TEST(Uri, NamesHostProfileAndPorts) {

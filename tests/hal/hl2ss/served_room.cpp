@@ -12,7 +12,9 @@ ServedRoom::ServedRoom(const sim::SimOptions& sim, hl2ss::ServerOptions options,
   auto started = hl2ss::Server::start(
       options, [sim, room] { return as_headset(sim::SimHeadset::open(room, sim)); });
   EXPECT_TRUE(started.ok()) << started.error().message;
-  if (started) server_ = std::move(*started);
+  if (started) {
+    server_ = std::move(*started);
+  }
 }
 
 hl2ss::Hl2ssOptions ServedRoom::client_options() const { return server_->client_options(); }
@@ -29,8 +31,12 @@ Next next_pair(Headset& headset, StereoFrame& frame, int* errors) {
   const auto deadline = std::chrono::steady_clock::now() + kLongest;
   while (std::chrono::steady_clock::now() < deadline) {
     const auto next = headset.cameras().next(frame);
-    if (!next && errors) ++*errors;
-    if (next && *next != Next::kNone) return *next;
+    if (!next && errors) {
+      ++*errors;
+    }
+    if (next && *next != Next::kNone) {
+      return *next;
+    }
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
   return Next::kNone;

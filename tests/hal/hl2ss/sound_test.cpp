@@ -34,7 +34,9 @@ TEST(SoundOfAHeadset, IsTheMeanOfBothChannels) {
     ASSERT_EQ(next_pair(*headset, frame), Next::kFrame);
     const auto count = microphone.read(samples);
     ASSERT_TRUE(count.ok()) << count.error().message;
-    for (std::size_t i = 0; i < *count; ++i) loudest = std::max(loudest, std::abs(samples[i]));
+    for (std::size_t i = 0; i < *count; ++i) {
+      loudest = std::max(loudest, std::abs(samples[i]));
+    }
     heard += *count;
   }
   // 8,000 on the left, half of it on the right.
@@ -61,7 +63,9 @@ TEST(SoundOfAHeadset, IsDroppedWhereNobodyReads) {
   for (int pairs = 0; pairs < 900 && !dropped; ++pairs) {
     ASSERT_EQ(next_pair(*headset, frame), Next::kFrame);
     // A read at times, so that the test sees the loss and not more.
-    if (pairs % 100 == 99) dropped = !microphone.read(samples).ok();
+    if (pairs % 100 == 99) {
+      dropped = !microphone.read(samples).ok();
+    }
   }
   EXPECT_TRUE(dropped) << "what is older than a second is gone, and said to be";
   const auto count = microphone.read(samples);

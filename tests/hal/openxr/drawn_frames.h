@@ -32,12 +32,13 @@ class FrameComparison {
     std::size_t lit_px = 0;
   };
   Difference compare(const DrawnScene& drawn, const SubmittedFrame& frame) {
-    std::vector<render::Image> images;
+    std::vector<RgbaImage> images;
     std::string error;
     EXPECT_TRUE(renderer_->draw(drawn.scene, drawn.views, {}, images, error)) << error;
     Difference difference;
-    for (std::size_t eye = 0; eye < 2; ++eye)
-      add(images[eye].rgba, frame.pixels[eye], frame.format, difference);
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      add(images[eye].pixels, frame.pixels[eye], frame.format, difference);
+    }
     return difference;
   }
 
@@ -52,13 +53,18 @@ class FrameComparison {
                   std::int64_t format, Difference& difference) {
     ASSERT_EQ(expected.size(), got.size());
     for (std::size_t i = 0; i < got.size(); ++i) {
-      if (i % 4 == 3) continue;
+      if (i % 4 == 3) {
+        continue;
+      }
       const std::size_t from = is_swapped(format) ? i - i % 4 + (2 - i % 4) : i;
       int wanted = expected[i];
-      if (is_linear(format))
+      if (is_linear(format)) {
         wanted = static_cast<int>(std::lround(255.0 * linear_from_srgb(wanted / 255.0)));
+      }
       difference.most = std::max(difference.most, std::abs(wanted - got[from]));
-      if (i % 4 == 0 && (got[i] | got[i + 1] | got[i + 2]) != 0) ++difference.lit_px;
+      if (i % 4 == 0 && (got[i] | got[i + 1] | got[i + 2]) != 0) {
+        ++difference.lit_px;
+      }
     }
   }
 
@@ -70,8 +76,11 @@ inline std::vector<std::pair<DrawnScene, SubmittedFrame>> matched(
     const std::vector<DrawnScene>& drawn, const std::vector<SubmittedFrame>& frames) {
   std::vector<std::pair<DrawnScene, SubmittedFrame>> pairs;
   auto scene = drawn.rbegin();
-  for (auto frame = frames.rbegin(); frame != frames.rend() && scene != drawn.rend(); ++frame)
-    if (frame->layers > 0) pairs.emplace_back(*scene++, *frame);
+  for (auto frame = frames.rbegin(); frame != frames.rend() && scene != drawn.rend(); ++frame) {
+    if (frame->layers > 0) {
+      pairs.emplace_back(*scene++, *frame);
+    }
+  }
   return pairs;
 }
 

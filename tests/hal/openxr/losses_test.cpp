@@ -171,7 +171,7 @@ TEST_F(MountedTest, PairsGetThePoseOfTheHeadset) {
       vector_from_rotation(frame.world_from_rig->rotation().transposed() * expected.rotation())
           .norm(),
       1e-5);
-  EXPECT_EQ(headset_->head().world_from_rig(frame.time).origin, Origin::kMeasured);
+  EXPECT_EQ(headset_->head().world_from_rig(frame.time).status, PoseStatus::kMeasured);
 }
 
 TEST_F(MountedTest, PairsHaveNoPoseThatIsOnlyGuessed) {
@@ -179,11 +179,11 @@ TEST_F(MountedTest, PairsHaveNoPoseThatIsOnlyGuessed) {
   runtime().set_tracked(true, false);
   ASSERT_TRUE(next_frame(frame));
   EXPECT_FALSE(frame.world_from_rig.has_value());
-  EXPECT_EQ(headset_->head().world_from_rig(frame.time).origin, Origin::kPredicted);
+  EXPECT_EQ(headset_->head().world_from_rig(frame.time).status, PoseStatus::kPredicted);
   runtime().set_tracked(false, false);
   ASSERT_TRUE(next_frame(frame));
   EXPECT_FALSE(frame.world_from_rig.has_value());
-  EXPECT_EQ(headset_->head().world_from_rig(frame.time).origin, Origin::kLost);
+  EXPECT_EQ(headset_->head().world_from_rig(frame.time).status, PoseStatus::kLost);
 }
 
 TEST_F(MountedTest, NothingInTheWorldIsDrawnWhereThePositionIsGuessed) {
@@ -193,8 +193,9 @@ TEST_F(MountedTest, NothingInTheWorldIsDrawnWhereThePositionIsGuessed) {
   ASSERT_TRUE(frames_pass(10));
   const auto frames = drawn();
   ASSERT_GT(frames.size(), before);
-  for (std::size_t i = before; i < frames.size(); ++i)
+  for (std::size_t i = before; i < frames.size(); ++i) {
     EXPECT_TRUE(hangs_on_head(frames[i].scene)) << "frame " << i;
+  }
 }
 
 TEST_F(MountedTest, TheMapsEpochRisesWithAMoveAndANewSession) {
@@ -214,7 +215,7 @@ TEST_F(MountedTest, WithoutSessionTheHeadIsLostAndPairsHaveNoPose) {
   StereoFrame frame;
   ASSERT_TRUE(next_frame(frame));
   EXPECT_FALSE(frame.world_from_rig.has_value());
-  EXPECT_EQ(headset_->head().world_from_rig(frame.time).origin, Origin::kLost);
+  EXPECT_EQ(headset_->head().world_from_rig(frame.time).status, PoseStatus::kLost);
 }
 
 using Action = ClickerAction;
@@ -234,7 +235,9 @@ class SelectTest : public RuntimeTest {
     std::vector<ClickerEvent> events;
     EXPECT_TRUE(headset_->clicker().poll(cameras_->clock().now(), events).ok());
     std::vector<Action> actions;
-    for (const ClickerEvent& event : events) actions.push_back(event.action);
+    for (const ClickerEvent& event : events) {
+      actions.push_back(event.action);
+    }
     return actions;
   }
 };

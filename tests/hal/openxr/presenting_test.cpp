@@ -15,8 +15,11 @@ using ::testing::IsEmpty;
 /// Of the golden scene of that name.
 const engine::GoldenScene& golden(const std::string& name) {
   static const std::vector<engine::GoldenScene> kScenes = engine::golden_scenes();
-  for (const engine::GoldenScene& scene : kScenes)
-    if (scene.name == name) return scene;
+  for (const engine::GoldenScene& scene : kScenes) {
+    if (scene.name == name) {
+      return scene;
+    }
+  }
   ADD_FAILURE() << "no golden scene " << name;
   return kScenes.front();
 }
@@ -24,9 +27,11 @@ const engine::GoldenScene& golden(const std::string& name) {
 /// Where the head is that sees a golden scene as its picture does.
 Transform<World, Rig> head_of(const engine::GoldenScene& scene) {
   std::array<double, 16> rows{};
-  for (std::size_t r = 0; r < 4; ++r)
-    for (std::size_t c = 0; c < 4; ++c)
+  for (std::size_t r = 0; r < 4; ++r) {
+    for (std::size_t c = 0; c < 4; ++c) {
       rows[4 * r + c] = static_cast<double>(scene.views.front().eye_from_world[4 * c + r]);
+    }
+  }
   const auto eye_from_world = Transform<Rig, World>::from_row_major(rows);
   EXPECT_TRUE(eye_from_world.ok());
   return eye_from_world->inverse();
@@ -84,8 +89,9 @@ std::vector<Variant> runtimes() {
        })});
   all.back().mode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
   // Both leave over black what is drawn over black.
-  for (auto variant = all.end() - 2; variant != all.end(); ++variant)
+  for (auto variant = all.end() - 2; variant != all.end(); ++variant) {
     variant->blend = render::Blend::kOver;
+  }
   return all;
 }
 
@@ -196,7 +202,9 @@ TEST_F(RuntimeTest, SubmitsNothingWhereNothingIsToBeRendered) {
   presenter_->stop();
   const auto frames = runtime().frames();
   ASSERT_GE(frames.size(), 6u);
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(frames[i].layers, 0u) << "frame " << i;
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(frames[i].layers, 0u) << "frame " << i;
+  }
   EXPECT_FALSE(frames[0].should_render);
 }
 
@@ -265,7 +273,9 @@ TEST_F(RuntimeTest, TellsHowOldTheHeadsPoseIsWithEachFrame) {
   ASSERT_TRUE(eventually([&] { return count_drawn() >= 10; }));
   const engine::PresentReport report = presenter_->stop();
   ASSERT_EQ(report.latch_ms.size(), static_cast<std::size_t>(report.drawn));
-  for (const double latch_ms : report.latch_ms) EXPECT_GT(latch_ms, 0.0);
+  for (const double latch_ms : report.latch_ms) {
+    EXPECT_GT(latch_ms, 0.0);
+  }
 }
 
 std::string refusal(RuntimeTraits traits, Headset& headset) {

@@ -86,7 +86,9 @@ class RuntimeTest : public ::testing::Test {
       drawn_.push_back({scene, views});
     };
     auto presenter = engine::Presenter::start(*headset_->pixels(), options);
-    if (!presenter) return presenter.error();
+    if (!presenter) {
+      return presenter.error();
+    }
     presenter_ = std::move(*presenter);
     return {};
   }
@@ -110,7 +112,9 @@ class RuntimeTest : public ::testing::Test {
   static bool eventually(const std::function<bool()>& so) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!so()) {
-      if (std::chrono::steady_clock::now() > until) return false;
+      if (std::chrono::steady_clock::now() > until) {
+        return false;
+      }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return true;

@@ -8,7 +8,9 @@ namespace {
 /// Takes states one after the other; what the last one asks for.
 SessionDuty after(SessionState& state, std::initializer_list<XrSessionState> states) {
   SessionDuty duty = SessionDuty::kNone;
-  for (const XrSessionState next : states) duty = state.take(next);
+  for (const XrSessionState next : states) {
+    duty = state.take(next);
+  }
   return duty;
 }
 

@@ -116,7 +116,9 @@ TEST(WorldAnchor, CountsMovesFromTheirTimeOn) {
   anchor.move(200, std::nullopt);
   EXPECT_EQ(anchor.epoch(150), 1);
   EXPECT_EQ(anchor.epoch(1000), 2);
-  for (int i = 0; i < 50; ++i) anchor.move(1000 + i, std::nullopt);
+  for (int i = 0; i < 50; ++i) {
+    anchor.move(1000 + i, std::nullopt);
+  }
   EXPECT_EQ(anchor.epoch(2000), 52);
 }
 

@@ -36,8 +36,8 @@ class OperationOnOpenxr : public RuntimeTest {
     auto operation = engine::plan_operation(spine, {"L5"}, models);
     ASSERT_TRUE(operation.ok()) << operation.error().message;
     sim::SimOptions options;
-    options.magnitudes = sim::Magnitudes::perfect();
-    options.magnitudes.pace = 4.0;
+    options.error_model = sim::ErrorModel::perfect();
+    options.error_model.pace = 4.0;
     auto room = sim::SimHeadset::open(engine::room_of(spine, *operation, engine::built_in_tools()),
                                       options);
     ASSERT_TRUE(room.ok()) << room.error().message;
@@ -81,11 +81,17 @@ class Watch : public engine::LoopObserver {
     }
     ++pairs_in_step_;
     // So many, so that the step's holograms have come up and were drawn.
-    if (pairs_in_step_ < 10 || runtime_.ended_frames() < frames_before_ + 4) return;
-    if (frames_.contains(step_)) return;
+    if (pairs_in_step_ < 10 || runtime_.ended_frames() < frames_before_ + 4) {
+      return;
+    }
+    if (frames_.contains(step_)) {
+      return;
+    }
     const SubmittedFrame last = runtime_.frames().back();
     // Until the first picture, and only until then, frames are without one.
-    if (last.layers > 0 || !frames_.empty()) frames_[step_] = last;
+    if (last.layers > 0 || !frames_.empty()) {
+      frames_[step_] = last;
+    }
   }
   [[nodiscard]] const std::map<engine::Step, SubmittedFrame>& frames() const { return frames_; }
 
@@ -121,8 +127,11 @@ TEST_F(OperationOnOpenxr, GoesThroughWithEachStepsFramesAsTheRendererDrawsThem) 
   const std::vector<DrawnScene> all = drawn();
   const auto last = runtime().frames();
   std::int64_t first_drawn = -1;
-  for (const auto& frame : last)
-    if (frame.layers > 0) first_drawn = frame.number + 1 - static_cast<std::int64_t>(all.size());
+  for (const auto& frame : last) {
+    if (frame.layers > 0) {
+      first_drawn = frame.number + 1 - static_cast<std::int64_t>(all.size());
+    }
+  }
   FrameComparison comparison(160, 120, render::Blend::kAdditive);
   for (const auto& [step, frame] : watch.frames()) {
     const DrawnScene* scene = scene_of(frame, all, first_drawn);

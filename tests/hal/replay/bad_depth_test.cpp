@@ -80,10 +80,11 @@ std::vector<Damage> damages() {
   const std::string good = header("44 36", "65535") + pixels;
   std::vector<Damage> all;
   for (const char* file :
-       {"Depth AHaT_lut.bin", "Depth AHaT_extrinsics.txt", "Depth AHaT_rig2world.txt"})
+       {"Depth AHaT_lut.bin", "Depth AHaT_extrinsics.txt", "Depth AHaT_rig2world.txt"}) {
     all.push_back({std::string("no ") + file,
                    [file](const Folder& f) { std::filesystem::remove(f / file); },
                    {file, "no such file"}});
+  }
   all.insert(
       all.end(),
       {{"cut within an image",
@@ -179,13 +180,18 @@ TEST_P(BadDepth, IsLeftOutInOneLineThatSaysWhy) {
   EXPECT_EQ(left_out.stream, DepthStream::kAhat);
   EXPECT_NE(left_out.trouble, "");
   EXPECT_THAT(left_out.trouble, Not(HasSubstr("\n")));
-  for (const std::string& part : GetParam().says) EXPECT_THAT(left_out.trouble, HasSubstr(part));
+  for (const std::string& part : GetParam().says) {
+    EXPECT_THAT(left_out.trouble, HasSubstr(part));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadDepth, ::testing::ValuesIn(damages()), [](const auto& damage) {
   std::string name = damage.param.name;
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) {
+      c = '_';
+    }
+  }
   return name;
 });
 

@@ -75,10 +75,11 @@ std::vector<Damage> damages() {
   std::vector<Damage> all;
   for (const char* file :
        {"VLC LF.tar", "VLC RF.tar", "VLC LF_lut.bin", "VLC RF_lut.bin", "VLC LF_extrinsics.txt",
-        "VLC RF_extrinsics.txt", "VLC LF_rig2world.txt", "VLC RF_rig2world.txt"})
+        "VLC RF_extrinsics.txt", "VLC LF_rig2world.txt", "VLC RF_rig2world.txt"}) {
     all.push_back({std::string("no ") + file,
                    [file](const StreamRecorderFolder& f) { f.remove(file); },
                    {file, "no such file"}});
+  }
   all.insert(
       all.end(),
       {tar_damage("cut within an image", [] { return two_images().substr(0, 400'000); },
@@ -136,8 +137,9 @@ std::vector<Damage> damages() {
               {"backward ray",
                [](const StreamRecorderFolder& f) {
                  std::string rays = StreamRecorderFolder::rays();
-                 for (std::size_t i = 2 * sizeof(float) + 3; i < rays.size(); i += 12)
+                 for (std::size_t i = 2 * sizeof(float) + 3; i < rays.size(); i += 12) {
                    rays[i] = static_cast<char>(rays[i] ^ static_cast<char>(0x80));
+                 }
                  f.write("VLC RF_lut.bin", rays);
                },
                {"VLC RF_lut.bin", "must point ahead"}},
@@ -202,13 +204,18 @@ TEST_P(BadRecording, IsRefusedInOneLineThatSaysWhy) {
   const std::string line = refusal(folder.path());
   EXPECT_NE(line, "accepted");
   EXPECT_THAT(line, Not(HasSubstr("\n")));
-  for (const std::string& part : GetParam().says) EXPECT_THAT(line, HasSubstr(part));
+  for (const std::string& part : GetParam().says) {
+    EXPECT_THAT(line, HasSubstr(part));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadRecording, ::testing::ValuesIn(damages()), [](const auto& damage) {
   std::string name = damage.param.name;
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) {
+      c = '_';
+    }
+  }
   return name;
 });
 

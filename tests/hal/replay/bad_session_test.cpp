@@ -55,18 +55,21 @@ TEST(BadSession, NeedsTicksThatAreNotNegative) {
 }
 
 TEST(BadSession, NeedsAnEpochThatItsTimesFit) {
-  for (const char* epoch : {"-9000000000000000000", "9000000000000000000"})
+  for (const char* epoch : {"-9000000000000000000", "9000000000000000000"}) {
     EXPECT_NE(
         refusal(kDeviceFile, std::string(kDeviceHeader) + "\nepoch_ticks_100ns," + epoch + "\n"),
         "accepted");
+  }
 }
 
 TEST(DeviceTime, IsWithinReachOrNothing) {
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
-  for (const std::int64_t ticks : {kLeast, std::int64_t{-1}, kMost})
-    for (const std::int64_t epoch : {kLeast, -kMaxNs, std::int64_t{0}, kMaxNs})
+  for (const std::int64_t ticks : {kLeast, std::int64_t{-1}, kMost}) {
+    for (const std::int64_t epoch : {kLeast, -kMaxNs, std::int64_t{0}, kMaxNs}) {
       EXPECT_FALSE(device_time(ticks, epoch).has_value()) << ticks << " from " << epoch;
+    }
+  }
   EXPECT_EQ(device_time(kMaxTicks, 0), Timestamp(Duration(kMaxNs)));
   EXPECT_FALSE(device_time(kMaxTicks + 1, 0).has_value());
   EXPECT_EQ(device_time(0, kMaxTicks), Timestamp(Duration(-kMaxNs)));

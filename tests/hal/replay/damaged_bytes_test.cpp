@@ -47,10 +47,14 @@ class DamagedBytes : public ::testing::Test {
     }
     const auto log = orthonav::test::play(**headset);
     EXPECT_TRUE(log.ended);
-    for (const auto& moment : log.depth) EXPECT_LE(moment.frame.time, moment.clock);
+    for (const auto& moment : log.depth) {
+      EXPECT_LE(moment.frame.time, moment.clock);
+    }
     for (const DepthSummary& depth : (*headset)->summary().depth) {
       EXPECT_THAT(depth.trouble, Not(HasSubstr("\n")));
-      if (!depth.trouble.empty()) ++left_out_;
+      if (!depth.trouble.empty()) {
+        ++left_out_;
+      }
     }
   }
   void damage(const std::string& name, int rounds) {
@@ -63,12 +67,13 @@ class DamagedBytes : public ::testing::Test {
       // Headers and text lie at the front: half of the damage goes there.
       const std::size_t front = std::min<std::size_t>(whole.size(), 600);
       const std::size_t at = round % 2 == 0 ? below(front) : below(whole.size());
-      if (round % 4 < 2)
+      if (round % 4 < 2) {
         bytes.resize(at);
-      else if (round % 4 == 2)
+      } else if (round % 4 == 2) {
         bytes[at] = static_cast<char>(random.next() & 255U);
-      else
+      } else {
         bytes.replace(at, std::min<std::size_t>(bytes.size() - at, 1 + below(8)), "-1e999,nan");
+      }
       write_text(path, bytes);
       expect_no_harm(name + " round " + std::to_string(round));
     }
@@ -88,22 +93,25 @@ TEST_F(DamagedBytes, OfArchivesDoNoHarm) {
 
 TEST_F(DamagedBytes, OfTablesDoNoHarm) {
   for (const char* name :
-       {"VLC LF_lut.bin", "VLC RF_lut.bin", "VLC LF_lut64.bin", "VLC RF_lut64.bin"})
+       {"VLC LF_lut.bin", "VLC RF_lut.bin", "VLC LF_lut64.bin", "VLC RF_lut64.bin"}) {
     damage(name, 8);
+  }
   EXPECT_GE(refused_, 16);
 }
 
 TEST_F(DamagedBytes, OfTextFilesDoNoHarm) {
   for (const char* name : {"VLC LF_extrinsics.txt", "VLC LF_rig2world.txt", "VLC RF_rig2world.txt",
-                           "frames.csv", "events.csv", "head.csv", "device.csv", "tools.json"})
+                           "frames.csv", "events.csv", "head.csv", "device.csv", "tools.json"}) {
     damage(name, 24);
+  }
   EXPECT_GT(refused_, 80);
 }
 
 TEST_F(DamagedBytes, OfDepthLeavesThePairsUnharmed) {
   for (const char* name : {"Depth AHaT.tar", "Depth AHaT_lut.bin", "Depth AHaT_extrinsics.txt",
-                           "Depth AHaT_rig2world.txt", "Depth AHaT_frames.csv"})
+                           "Depth AHaT_rig2world.txt", "Depth AHaT_frames.csv"}) {
     damage(name, 40);
+  }
   EXPECT_GT(left_out_, 100);
   EXPECT_EQ(refused_, 0);
 }

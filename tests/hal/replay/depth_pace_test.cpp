@@ -38,7 +38,9 @@ std::vector<std::int64_t> taken(ReplayHeadset& headset) {
   for (;;) {
     const auto next = headset.depth_cameras().front()->next(frame);
     EXPECT_TRUE(next.ok());
-    if (!next || *next != Next::kFrame) return ticks;
+    if (!next || *next != Next::kFrame) {
+      return ticks;
+    }
     EXPECT_LE(frame.time, headset.clock().now()) << "out of the future";
     ticks.push_back(headset.file_ticks_100ns(frame.time) - StreamRecorderFolder::kStart);
   }

@@ -40,12 +40,16 @@ struct Deviation {
 Deviation deviation(const DepthScene& scene, const DepthScene::Picture& picture,
                     const DepthCalibration& camera, const DepthFrame& frame) {
   Deviation worst;
-  if (!frame.world_from_rig) return worst;
+  if (!frame.world_from_rig) {
+    return worst;
+  }
   const auto world_from_sensor = *frame.world_from_rig * camera.sensor_from_rig.inverse();
-  for (int y = 0; y < camera.height_px; ++y)
+  for (int y = 0; y < camera.height_px; ++y) {
     for (int x = 0; x < camera.width_px; ++x) {
       const auto point = camera.point_at(x, y, frame.range_mm.at(x, y));
-      if (!point) continue;
+      if (!point) {
+        continue;
+      }
       const Vec3 in_world = (world_from_sensor * *point).v;
       worst.from_place_m =
           std::max(worst.from_place_m, (in_world - scene.hit(picture, x, y).v).norm());
@@ -53,13 +57,14 @@ Deviation deviation(const DepthScene& scene, const DepthScene::Picture& picture,
           std::max(worst.from_plane_m, std::abs(scene.normal.dot(in_world) - scene.offset_m));
       ++worst.points;
     }
+  }
   return worst;
 }
 
 /// The pixels that have both a ray and a measurement in the files.
 int measured_pixels(const DepthScene& scene, const DepthScene::Picture& picture, bool hololens1) {
   int count = 0;
-  for (int y = 0; y < scene.height_px; ++y)
+  for (int y = 0; y < scene.height_px; ++y) {
     for (int x = 0; x < scene.width_px; ++x) {
       bool mapped = scene.mapped(x + 0.5, y + 0.5);
       if (hololens1) {  // all four corners of a pixel must be known, and past the last none is
@@ -68,8 +73,11 @@ int measured_pixels(const DepthScene& scene, const DepthScene::Picture& picture,
         mapped = scene.mapped(x0, y0) && scene.mapped(x0 + 1, y0) && scene.mapped(x0, y0 + 1) &&
                  scene.mapped(x0 + 1, y0 + 1);
       }
-      if (mapped && scene.range_mm(picture, x, y, 0) != 0) ++count;
+      if (mapped && scene.range_mm(picture, x, y, 0) != 0) {
+        ++count;
+      }
     }
+  }
   return count;
 }
 
@@ -88,7 +96,9 @@ void expect_plane(const DepthScene& scene, ReplayHeadset& headset, DepthStream s
     ASSERT_EQ(*next, Next::kFrame);
     EXPECT_EQ(headset.file_ticks_100ns(frame.time), StreamRecorderFolder::kStart + picture.ticks);
     EXPECT_EQ(frame.world_from_rig.has_value(), picture.world_from_rig.has_value());
-    if (!picture.world_from_rig) continue;
+    if (!picture.world_from_rig) {
+      continue;
+    }
     const Deviation worst = deviation(scene, picture, camera.calibration(), frame);
     EXPECT_LT(worst.from_place_m, kQuantisationM);
     EXPECT_LT(worst.from_plane_m, kQuantisationM);
@@ -145,34 +155,42 @@ TEST(Depth, IsToldApartFromItsMirrorsAndTransposes) {
   DepthFrame frame;
   frame.range_mm = DepthImage(scene.width_px, scene.height_px);
   frame.world_from_rig = picture.world_from_rig;
-  for (int y = 0; y < scene.height_px; ++y)
+  for (int y = 0; y < scene.height_px; ++y) {
     for (int x = 0; x < scene.width_px; ++x) {
       camera.rays.push_back(DepthCalibration::ray_through(scene.unit_plane(x + 0.5, y + 0.5)));
       frame.range_mm.at(x, y) = scene.range_mm(picture, x, y, 0);
     }
+  }
   const auto place = [&](const DepthCalibration& c, const DepthFrame& f) {
     return deviation(scene, picture, c, f).from_place_m;
   };
   EXPECT_LT(place(camera, frame), kQuantisationM);
   constexpr double kPlainM = 0.005;
   DepthFrame swapped = frame;
-  for (std::uint16_t& pixel : swapped.range_mm.pixels)
+  for (std::uint16_t& pixel : swapped.range_mm.pixels) {
     pixel = static_cast<std::uint16_t>(pixel << 8U | pixel >> 8U);
+  }
   EXPECT_GT(place(camera, swapped), kPlainM);
   DepthCalibration along_z = camera;  // as if the range were z
   for (DepthCalibration::Ray& ray : along_z.rays) {
     const float z = ray[2];
-    for (float& part : ray) part /= z;
+    for (float& part : ray) {
+      part /= z;
+    }
   }
   EXPECT_GT(place(along_z, frame), kPlainM);
   DepthCalibration upside_down = camera;
-  for (DepthCalibration::Ray& ray : upside_down.rays) ray[1] = -ray[1];
+  for (DepthCalibration::Ray& ray : upside_down.rays) {
+    ray[1] = -ray[1];
+  }
   EXPECT_GT(place(upside_down, frame), kPlainM);
   DepthCalibration half_a_pixel = camera;
-  for (int y = 0; y < scene.height_px; ++y)
-    for (int x = 0; x < scene.width_px; ++x)
+  for (int y = 0; y < scene.height_px; ++y) {
+    for (int x = 0; x < scene.width_px; ++x) {
       half_a_pixel.rays[static_cast<std::size_t>(y * scene.width_px + x)] =
           DepthCalibration::ray_through(scene.unit_plane(x, y));
+    }
+  }
   EXPECT_GT(place(half_a_pixel, frame), kPlainM);
   DepthCalibration transposed = camera;
   transposed.sensor_from_rig = {camera.sensor_from_rig.rotation().transposed(),
@@ -250,14 +268,20 @@ TEST(Depth, IsNotMissedWhereThereIsNone) {
 TEST(Depth, OfTheRecordedSampleCanBeRead) {
   const std::filesystem::path sample =
       std::filesystem::path(ORTHONAV_SHARED_DIR) / "recordings/streamrecorder-sample";
-  if (!std::filesystem::exists(sample)) GTEST_SKIP() << "the recorded sample is not here";
+  if (!std::filesystem::exists(sample)) {
+    GTEST_SKIP() << "the recorded sample is not here";
+  }
   RecordedDepths depths = read_depths(sample);
   ASSERT_THAT(depths.unreadable, IsEmpty());
-  if (depths.streams.empty()) GTEST_SKIP() << "the recorded sample has no depth";
+  if (depths.streams.empty()) {
+    GTEST_SKIP() << "the recorded sample has no depth";
+  }
   DepthFrame frame;
-  for (RecordedDepth& depth : depths.streams)
-    for (const RecordedDepthFrame& recorded : depth.frames)
+  for (RecordedDepth& depth : depths.streams) {
+    for (const RecordedDepthFrame& recorded : depth.frames) {
       EXPECT_TRUE(depth.read(recorded, frame).ok());
+    }
+  }
 }
 
 }  // namespace

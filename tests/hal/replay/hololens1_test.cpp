@@ -46,11 +46,15 @@ std::vector<StereoFrame> frames_of_noise() {
     frame.time = Timestamp(std::chrono::milliseconds(33 * i));
     frame.left = GreyImage(640, 480);
     frame.right = GreyImage(640, 480);
-    for (GreyImage* image : {&frame.left, &frame.right})
-      for (std::uint8_t& pixel : image->pixels) pixel = static_cast<std::uint8_t>(random.next());
-    if (i != 2)
+    for (GreyImage* image : {&frame.left, &frame.right}) {
+      for (std::uint8_t& pixel : image->pixels) {
+        pixel = static_cast<std::uint8_t>(random.next());
+      }
+    }
+    if (i != 2) {
       frame.world_from_rig =
           Transform<World, Rig>(rotation_from_vector({0.2 * i, 0.5, -0.1}), {0.1 * i, 0.4, -0.7});
+    }
     frames.push_back(frame);
   }
   return frames;
@@ -60,12 +64,15 @@ template <class A, class B>
 void expect_near(const Transform<A, B>& actual, const Transform<A, B>& expected) {
   const auto a = actual.row_major();
   const auto e = expected.row_major();
-  for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(a[i], e[i], kSixDigits) << i;
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_NEAR(a[i], e[i], kSixDigits) << i;
+  }
 }
 
 void expect_near(const CameraModel& actual, const CameraModel& expected) {
-  for (std::size_t i = 0; i < expected.lookup().size(); i += 997)
+  for (std::size_t i = 0; i < expected.lookup().size(); i += 997) {
     EXPECT_LT((actual.lookup()[i] - expected.lookup()[i]).norm(), kDirection) << i;
+  }
   const std::size_t last = expected.lookup().size() - 1;
   EXPECT_LT((actual.lookup()[last] - expected.lookup()[last]).norm(), kDirection);
 }
@@ -95,7 +102,9 @@ TEST(Hololens1, ComesBackAsItWasWritten) {
     EXPECT_TRUE(frame.left == expected.left);
     EXPECT_TRUE(frame.right == expected.right);
     ASSERT_EQ(frame.world_from_rig.has_value(), expected.world_from_rig.has_value());
-    if (frame.world_from_rig) expect_near(*frame.world_from_rig, *expected.world_from_rig);
+    if (frame.world_from_rig) {
+      expect_near(*frame.world_from_rig, *expected.world_from_rig);
+    }
   }
   EXPECT_EQ(*(*replay)->cameras().next(frame), Next::kEnd);
   EXPECT_EQ((*replay)->summary().pairs_without_pose, 1);
@@ -162,10 +171,14 @@ TEST(Hololens1, RefusesDamageInOneLine) {
   EXPECT_THAT(damaged(header + "1,2,3\n"), HasSubstr("line 2: holds 3 columns, must be 50"));
   EXPECT_THAT(damaged(header), HasSubstr("holds no CameraViewTransform"));
   std::string mirrored = header + "132000000000000000,x,-1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1";
-  for (int i = 0; i < 2; ++i) mirrored += ",1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1";
+  for (int i = 0; i < 2; ++i) {
+    mirrored += ",1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1";
+  }
   EXPECT_THAT(damaged(mirrored + "\n"), AllOf(HasSubstr("FrameToOrigin"), HasSubstr("mirrors")));
   std::string columns = header + "132000000000000000,x,1,0,0,5,0,1,0,0,0,0,1,0,0,0,0,1";
-  for (int i = 0; i < 2; ++i) columns += ",1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1";
+  for (int i = 0; i < 2; ++i) {
+    columns += ",1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1";
+  }
   EXPECT_THAT(damaged(columns + "\n"), HasSubstr("row vectors"));
   folder.write("vlc_rf_camera_space_projection.bin", "short");
   EXPECT_THAT(refusal(folder), HasSubstr("holds 5 bytes, must be 2457600"));

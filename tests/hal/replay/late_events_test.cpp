@@ -44,7 +44,9 @@ Session recorded(fake::Faults faults, const std::vector<Timestamp>& times) {
   EXPECT_TRUE((*recorder)->close().ok());
   auto replayed = ReplayHeadset::open(folder / "session");
   EXPECT_TRUE(replayed.ok()) << replayed.error().message;
-  if (replayed) session.replayed = polls(**replayed, times);
+  if (replayed) {
+    session.replayed = polls(**replayed, times);
+  }
   return session;
 }
 

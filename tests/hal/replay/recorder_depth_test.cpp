@@ -44,8 +44,9 @@ TEST(RecorderDepth, ReplaysToTheBit) {
   ASSERT_NE(replayed, nullptr);
   const auto cameras = replayed->depth_cameras();
   ASSERT_EQ(cameras.size(), 2u);
-  for (std::size_t i = 0; i < cameras.size(); ++i)
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
     expect_same(cameras[i]->calibration(), headset.depth_cameras()[i]->calibration());
+  }
   expect_same(play(*replayed), live);
 }
 

@@ -74,8 +74,11 @@ TEST(Recorder, RecordsAReplayAsTheSameFiles) {
 TEST(Recorder, KeepsWhenTheMapMoved) {
   fake::Script script = scripted_session();
   std::int64_t epoch = 0;
-  for (fake::CameraStep& step : script.camera)
-    if (auto* frame = std::get_if<StereoFrame>(&step)) frame->map_epoch = epoch++ / 4;
+  for (fake::CameraStep& step : script.camera) {
+    if (auto* frame = std::get_if<StereoFrame>(&step)) {
+      frame->map_epoch = epoch++ / 4;
+    }
+  }
   const TemporaryFolder folder;
   const SessionLog live = record(std::make_unique<fake::FakeHeadset>(script), folder / "session");
   EXPECT_TRUE(std::filesystem::exists(folder / "session" / "map.csv"));
@@ -83,8 +86,9 @@ TEST(Recorder, KeepsWhenTheMapMoved) {
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
   const SessionLog log = play(**replayed);
   ASSERT_EQ(log.moments.size(), live.moments.size());
-  for (std::size_t i = 0; i < log.moments.size(); ++i)
+  for (std::size_t i = 0; i < log.moments.size(); ++i) {
     EXPECT_EQ(log.moments[i].frame.map_epoch, live.moments[i].frame.map_epoch) << i;
+  }
   EXPECT_GT(log.moments.back().frame.map_epoch, 0);
 }
 
@@ -110,8 +114,9 @@ TEST(Recorder, KeepsWhatItHasWithoutItsOwnFiles) {
   const TemporaryFolder folder;
   const SessionLog live = record(headset(), folder / "session");
   for (const char* name : {"frames.csv", "events.csv", "head.csv", "device.csv", "VLC LF_lut64.bin",
-                           "VLC RF_lut64.bin"})
+                           "VLC RF_lut64.bin"}) {
     ASSERT_TRUE(std::filesystem::remove(folder / "session" / name)) << name;
+  }
   auto replayed = ReplayHeadset::open(folder / "session");
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
   const SessionLog log = play(**replayed);
@@ -248,7 +253,9 @@ TEST(Recorder, RecordsOddLookUpTablesToTheBit) {
   const auto table = script.calibration.left.lookup();
   std::vector<Vec2> holes(table.begin(), table.end());
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < 640 * 3; ++i) holes[i] = {kNan, kNan};
+  for (std::size_t i = 0; i < 640 * 3; ++i) {
+    holes[i] = {kNan, kNan};
+  }
   auto camera = CameraModel::from_lookup(640, 480, holes);
   ASSERT_TRUE(camera.ok());
   script.calibration.left = std::move(*camera);
@@ -273,7 +280,9 @@ TEST(Recorder, TakesQuestionsFromOtherThreads) {
     }
   });
   const SessionLog log = play(**recorder);
-  while (asked.load() == 0) std::this_thread::yield();
+  while (asked.load() == 0) {
+    std::this_thread::yield();
+  }
   EXPECT_TRUE((*recorder)->close().ok());
   done = true;
   display.join();

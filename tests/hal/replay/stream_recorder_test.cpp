@@ -118,7 +118,7 @@ TEST(StreamRecorder, SurvivesAHeadThatWasNeverLocated) {
   ASSERT_EQ(log.moments.size(), 2u);
   for (const auto& moment : log.moments) {
     EXPECT_FALSE(moment.frame.world_from_rig.has_value());
-    EXPECT_EQ(moment.head_now.origin, Origin::kLost);
+    EXPECT_EQ(moment.head_now.status, PoseStatus::kLost);
   }
 }
 
@@ -157,7 +157,9 @@ class ReplayedHead : public ::testing::Test {
   }
   void play_frames(int count) {
     StereoFrame frame;
-    for (int i = 0; i < count; ++i) ASSERT_TRUE(headset_->cameras().next(frame).ok());
+    for (int i = 0; i < count; ++i) {
+      ASSERT_TRUE(headset_->cameras().next(frame).ok());
+    }
   }
   [[nodiscard]] Tracked<Transform<World, Rig>> head(std::int64_t ticks) const {
     return headset_->head().world_from_rig(at(ticks));
@@ -170,38 +172,38 @@ class ReplayedHead : public ::testing::Test {
   static constexpr double kNineDigits = 1e-8;
 };
 
-TEST_F(ReplayedHead, IsUnknownBeforeTheFirstPair) { EXPECT_EQ(head(0).origin, Origin::kLost); }
+TEST_F(ReplayedHead, IsUnknownBeforeTheFirstPair) { EXPECT_EQ(head(0).status, PoseStatus::kLost); }
 
 TEST_F(ReplayedHead, IsMeasuredAtAndBetweenPoses) {
   play_frames(3);
-  EXPECT_EQ(head(kFrame).origin, Origin::kMeasured);
+  EXPECT_EQ(head(kFrame).status, PoseStatus::kMeasured);
   const auto between = head(kFrame + kFrame / 4);
-  EXPECT_EQ(between.origin, Origin::kMeasured);
+  EXPECT_EQ(between.status, PoseStatus::kMeasured);
   const double t = 1e-7 * (kFrame + kFrame / 4);
   EXPECT_NEAR(between.value.translation().x, 0.1 * t, kNineDigits);
   EXPECT_NEAR(between.value.rotation()[0][2], std::sin(0.1 * t), kNineDigits);
-  EXPECT_EQ(head(-1).origin, Origin::kLost);
+  EXPECT_EQ(head(-1).status, PoseStatus::kLost);
 }
 
 TEST_F(ReplayedHead, IsPredictedBeyondTheNewestPoseAndLostPastTheLimit) {
   play_frames(2);
   const auto soon = head(2 * kFrame);  // recorded, but not yet delivered
-  EXPECT_EQ(soon.origin, Origin::kPredicted);
+  EXPECT_EQ(soon.status, PoseStatus::kPredicted);
   EXPECT_NEAR(soon.value.translation().x, 0.1 * 2e-7 * kFrame, kNineDigits);
-  EXPECT_EQ(head(kFrame + 1'000'000).origin, Origin::kPredicted);
-  EXPECT_EQ(head(kFrame + 1'000'001).origin, Origin::kLost);
+  EXPECT_EQ(head(kFrame + 1'000'000).status, PoseStatus::kPredicted);
+  EXPECT_EQ(head(kFrame + 1'000'001).status, PoseStatus::kLost);
 }
 
 TEST_F(ReplayedHead, IsLostWithinALongGap) {
   play_frames(4);
-  EXPECT_EQ(head(10 * kFrame).origin, Origin::kLost);
-  EXPECT_EQ(head(30 * kFrame).origin, Origin::kMeasured);
+  EXPECT_EQ(head(10 * kFrame).status, PoseStatus::kLost);
+  EXPECT_EQ(head(30 * kFrame).status, PoseStatus::kMeasured);
 }
 
 TEST_F(ReplayedHead, AnswersEveryTimeThereIs) {
   play_frames(4);
   for (const Timestamp t : {Timestamp::min(), Timestamp::max(), Timestamp{}}) {
-    EXPECT_EQ(headset_->head().world_from_rig(t).origin, Origin::kLost);
+    EXPECT_EQ(headset_->head().world_from_rig(t).status, PoseStatus::kLost);
     EXPECT_EQ(headset_->head().world_from_rig(t).time, t);
   }
 }
@@ -209,7 +211,9 @@ TEST_F(ReplayedHead, AnswersEveryTimeThereIs) {
 TEST(Sample, GivesEveryPairAndPoseOfTheRecordingBesideTheProject) {
   const std::filesystem::path path =
       std::filesystem::path(ORTHONAV_SHARED_DIR) / "recordings" / "streamrecorder-sample";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no sample recording at " << path;
+  if (!std::filesystem::exists(path)) {
+    GTEST_SKIP() << "no sample recording at " << path;
+  }
   const auto headset = opened(path);
   ASSERT_TRUE(headset);
   const SessionLog log = play(*headset);
@@ -228,7 +232,9 @@ TEST(Sample, GivesEveryPairAndPoseOfTheRecordingBesideTheProject) {
   std::ifstream truth(path / "truth.csv");
   std::string line;
   std::getline(truth, line);
-  while (std::getline(truth, line)) EXPECT_TRUE(times.contains(std::stoll(line))) << line;
+  while (std::getline(truth, line)) {
+    EXPECT_TRUE(times.contains(std::stoll(line))) << line;
+  }
   EXPECT_EQ(headset->cameras().calibration().left_from_rig.rotation()[0][1], 1.0);
 }
 

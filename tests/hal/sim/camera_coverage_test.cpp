@@ -28,13 +28,15 @@ struct Canvas {
         spans(static_cast<std::size_t>(h)) {}
   void draw(const std::vector<Vec2>& polygon) {
     CoverageWindow window(cells.data(), spans.data(), width, height);
-    for (std::size_t i = 0; i < polygon.size(); ++i)
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
       window.add_segment(polygon[i], polygon[(i + 1) % polygon.size()], 1.0);
+    }
   }
   [[nodiscard]] double covered(int x, int y) const {
     double sum = 0.0;
-    for (int i = 0; i <= x; ++i)
+    for (int i = 0; i <= x; ++i) {
       sum += static_cast<double>(cells[static_cast<std::size_t>(y * (width + 2) + i)]);
+    }
     return sum;
   }
 };
@@ -56,8 +58,12 @@ double clipped_area(std::vector<Vec2> polygon, int px, int py) {
       const Vec2 b = polygon[(i + 1) % polygon.size()];
       const double da = nx * a.x + ny * a.y + d;
       const double db = nx * b.x + ny * b.y + d;
-      if (da >= 0) kept.push_back(a);
-      if ((da >= 0) != (db >= 0)) kept.push_back(a + (da / (da - db)) * (b - a));
+      if (da >= 0) {
+        kept.push_back(a);
+      }
+      if ((da >= 0) != (db >= 0)) {
+        kept.push_back(a + (da / (da - db)) * (b - a));
+      }
     }
     polygon = kept;
   }
@@ -79,30 +85,38 @@ TEST(CoverageWindow, IsTheExactAreaInEveryPixel) {
     const std::vector<Vec2> shape = triangle(corner(), corner(), corner());
     Canvas canvas(12, 9);
     canvas.draw(shape);
-    for (int y = 0; y < 9; ++y)
-      for (int x = 0; x < 12; ++x)
+    for (int y = 0; y < 9; ++y) {
+      for (int x = 0; x < 12; ++x) {
         ASSERT_NEAR(canvas.covered(x, y), clipped_area(shape, x, y), kRounding)
             << "pixel " << x << ", " << y << " of triangle " << round;
+      }
+    }
   }
 }
 
 TEST(CoverageWindow, SpansNameEveryCoveredPixel) {
   Canvas canvas(12, 9);
   canvas.draw(triangle({3.2, 1.5}, {30.0, 4.0}, {5.0, 7.7}));  // open to the right
-  for (int y = 0; y < 9; ++y)
+  for (int y = 0; y < 9; ++y) {
     for (int x = 0; x < 12; ++x) {
-      if (canvas.covered(x, y) < kRounding) continue;
+      if (canvas.covered(x, y) < kRounding) {
+        continue;
+      }
       const auto span = canvas.spans[static_cast<std::size_t>(y)];
       EXPECT_GE(x, span.low);
       EXPECT_LT(x, span.high);
     }
+  }
 }
 
 TEST(CoverageWindow, IgnoresWhatIsNotANumber) {
   Canvas canvas(4, 4);
   canvas.draw({{std::nan(""), 1.0}, {2.0, std::nan("")}, {1.0, 3.0}});
-  for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 4; ++x) EXPECT_TRUE(std::isfinite(canvas.covered(x, y)));
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      EXPECT_TRUE(std::isfinite(canvas.covered(x, y)));
+    }
+  }
 }
 
 TEST(TagPattern, HasABlackBorderInAWhiteMargin) {

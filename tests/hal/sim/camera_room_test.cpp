@@ -36,14 +36,16 @@ TEST(RoomRenderer, SeesEveryToolFromBothCameras) {
   const RoomDescription room = scene::operating_room(16);
   RoomState state = scene::operating_state(room);
   state.hand.reset();
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   GreyImage right;
   renderer->render(std::vector<RoomState>{state}, calibration().right,
                    scene::as_camera(calibration().right_from_rig), 2, right);
   for (const GreyImage& image : {left(*renderer, state), right}) {
     const auto found = scene::detect(image);
     EXPECT_EQ(found.size(), 3u);
-    for (const int id : {3, 5, 17}) EXPECT_TRUE(found.contains(id)) << id;
+    for (const int id : {3, 5, 17}) {
+      EXPECT_TRUE(found.contains(id)) << id;
+    }
   }
 }
 
@@ -54,8 +56,8 @@ TEST(RoomRenderer, SameArgumentsGiveTheSameBytesInAnyOrder) {
   second.room_from_marker[0] = {second.room_from_marker[0].rotation(),
                                 second.room_from_marker[0].translation() + Vec3{0.02, 0.01, 0}};
   second.hand.reset();
-  const auto a = RoomRenderer::create(room, Magnitudes{});
-  const auto b = RoomRenderer::create(room, Magnitudes{});
+  const auto a = RoomRenderer::create(room, ErrorModel{});
+  const auto b = RoomRenderer::create(room, ErrorModel{});
   const GreyImage first_a = left(*a, first, 11);
   const GreyImage second_a = left(*a, second, 12);
   RgbaImage picture;
@@ -69,7 +71,7 @@ TEST(RoomRenderer, SameArgumentsGiveTheSameBytesInAnyOrder) {
 TEST(RoomRenderer, TheHandCoversWhatIsBehindIt) {
   const RoomDescription room = scene::operating_room(8);
   RoomState state = scene::operating_state(room);
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   const Vec3 eye = state.room_from_rig.translation();
   const Vec3 tag = state.room_from_marker[0].translation();
   const Vec3 towards_eye = (eye - tag).normalized();
@@ -84,7 +86,7 @@ TEST(RoomRenderer, ANearTagCoversAFarOne) {
   const RoomDescription room = scene::operating_room(8);
   RoomState state = scene::operating_state(room);
   state.hand.reset();
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   const Vec3 eye = state.room_from_rig.translation();
   // The guide's plate (id 5) slides in front of the pointer's (id 3), then behind it.
   const auto pointer = state.room_from_marker[0];
@@ -102,18 +104,23 @@ TEST(RoomRenderer, ANearTagCoversAFarOne) {
 TEST(RoomRenderer, BonesShowInTheWoundOnly) {
   const RoomDescription room = scene::operating_room(24);
   RoomDescription boneless = room;
-  for (RoomLevel& level : boneless.levels) level.triangles.clear();
+  for (RoomLevel& level : boneless.levels) {
+    level.triangles.clear();
+  }
   RoomState state = scene::operating_state(room);
   state.tool_present.assign(3, false);
   state.hand.reset();
-  const Magnitudes perfect = Magnitudes::perfect();
+  const ErrorModel perfect = ErrorModel::perfect();
   const GreyImage with = left(*RoomRenderer::create(room, perfect), state);
   const GreyImage without = left(*RoomRenderer::create(boneless, perfect), state);
   const auto camera_from_spine =
       calibration().left_from_rig * state.room_from_rig.inverse() * state.room_from_spine;
   int differing = 0;
-  for (int y = 0; y < 480; ++y)
-    for (int x = 0; x < 640; ++x) differing += with.at(x, y) != without.at(x, y) ? 1 : 0;
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) {
+      differing += with.at(x, y) != without.at(x, y) ? 1 : 0;
+    }
+  }
   EXPECT_GT(differing, 300);
   EXPECT_LT(differing, 20000);
   const auto grey_at = [&](const GreyImage& image, Vec3 in_spine) {
@@ -127,7 +134,7 @@ TEST(RoomRenderer, BonesShowInTheWoundOnly) {
 }
 
 TEST(RoomRenderer, AnEmptyRoomIsATable) {
-  const auto renderer = RoomRenderer::create({}, Magnitudes::perfect());
+  const auto renderer = RoomRenderer::create({}, ErrorModel::perfect());
   RoomState state;
   state.room_from_rig = scene::looking({0.3, 0.6, 0.0}, {0.0, 0.0, 0.0});
   const GreyImage image = left(*renderer, state);
@@ -143,7 +150,7 @@ TEST(RoomRenderer, AnEmptyRoomIsATable) {
 }
 
 TEST(RoomRenderer, NoStatesGiveABlackImage) {
-  const auto renderer = RoomRenderer::create({}, Magnitudes{});
+  const auto renderer = RoomRenderer::create({}, ErrorModel{});
   GreyImage image;
   renderer->render({}, calibration().left, calibration().left_from_rig, 1, image);
   EXPECT_EQ(image, GreyImage(640, 480));
@@ -155,7 +162,7 @@ TEST(RoomRenderer, UnknownTagsAreBlankPlates) {
   room.tools[1].id = 100000;
   RoomState state = scene::operating_state(room);
   state.hand.reset();
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   const auto found = scene::detect(left(*renderer, state));
   EXPECT_EQ(found.size(), 1u);
   EXPECT_TRUE(found.contains(17));
@@ -164,12 +171,15 @@ TEST(RoomRenderer, UnknownTagsAreBlankPlates) {
 TEST(RoomRenderer, PixelsWithoutADirectionStayBlack) {
   std::vector<Vec2> table(calibration().left.lookup().begin(), calibration().left.lookup().end());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < table.size(); ++i)
-    if (i % 640 < 100) table[i] = {nan, nan};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (i % 640 < 100) {
+      table[i] = {nan, nan};
+    }
+  }
   const CameraModel blind = CameraModel::from_lookup(640, 480, table).value();
   const RoomDescription room = scene::operating_room(8);
   GreyImage image;
-  RoomRenderer::create(room, Magnitudes::perfect())
+  RoomRenderer::create(room, ErrorModel::perfect())
       ->render(std::vector<RoomState>{scene::operating_state(room)}, blind,
                calibration().left_from_rig, 1, image);
   EXPECT_EQ(image.at(20, 20), 0);
@@ -179,7 +189,7 @@ TEST(RoomRenderer, PixelsWithoutADirectionStayBlack) {
 TEST(RoomRenderer, NothingIsAllocatedAfterTheFirstFrame) {
   const RoomDescription room = scene::operating_room(16);
   RoomState state = scene::operating_state(room);
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   const auto right_from_rig = scene::as_camera(calibration().right_from_rig);
   std::vector<RoomState> states = scene::exposure(state, {0.001, 0, 0});
   GreyImage image;
@@ -192,9 +202,10 @@ TEST(RoomRenderer, NothingIsAllocatedAfterTheFirstFrame) {
   frame(1);
   const std::size_t before = test::allocation_count();
   for (std::uint64_t i = 2; i < 12; ++i) {
-    for (RoomState& moment : states)  // closer and closer: everything grows on the image
+    for (RoomState& moment : states) {  // closer and closer: everything grows on the image
       moment.room_from_rig = {moment.room_from_rig.rotation(),
                               moment.room_from_rig.translation() + Vec3{-0.01, -0.015, 0}};
+    }
     frame(i);
   }
   EXPECT_EQ(test::allocation_count(), before);
@@ -214,7 +225,7 @@ TEST(RoomRenderer, ImagesOfOddSizesAreFilledToTheEdge) {
   odd.cy_px = 60.0;
   const CameraModel camera = CameraModel::from_brown_conrady(odd).value();
   const RoomDescription room = scene::operating_room(8);
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   GreyImage image;
   for (int turn = 0; turn < 8; ++turn) {  // tools and hand leave over every edge
     RoomState state = scene::operating_state(room);
@@ -223,8 +234,12 @@ TEST(RoomRenderer, ImagesOfOddSizesAreFilledToTheEdge) {
                            state.room_from_rig.translation()};
     renderer->render(std::vector<RoomState>{state}, camera, calibration().left_from_rig, 1, image);
     ASSERT_EQ(image.pixels.size(), 157u * 119u);
-    for (int y = 0; y < 119; ++y) ASSERT_GT(image.at(156, y), 5);
-    for (int x = 0; x < 157; ++x) ASSERT_GT(image.at(x, 118), 5);
+    for (int y = 0; y < 119; ++y) {
+      ASSERT_GT(image.at(156, y), 5);
+    }
+    for (int x = 0; x < 157; ++x) {
+      ASSERT_GT(image.at(x, 118), 5);
+    }
   }
 }
 
@@ -232,7 +247,7 @@ TEST(RoomPicture, ShowsDrapeTissueBoneAndTags) {
   const RoomDescription room = scene::operating_room(24);
   RoomState state = scene::operating_state(room);
   state.hand.reset();
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   RgbaImage image;
   const PinholeView view = view_of(state);
   renderer->picture(state, view, image);
@@ -260,13 +275,15 @@ TEST(RoomPicture, ShowsDrapeTissueBoneAndTags) {
   const int x = static_cast<int>(480.0 * (1.0 + in_eye.x / -in_eye.z / 0.42));
   const int y = static_cast<int>(270.0 * (1.0 - in_eye.y / -in_eye.z / 0.236));
   const std::size_t at = 4 * static_cast<std::size_t>(y * 960 + x);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_GT(image.pixels[at + k], 150) << k;
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_GT(image.pixels[at + k], 150) << k;
+  }
 }
 
 TEST(RoomPicture, TakesTheSizeItIsGiven) {
   const RoomDescription room = scene::operating_room(8);
   const RoomState state = scene::operating_state(room);
-  const auto renderer = RoomRenderer::create(room, Magnitudes{});
+  const auto renderer = RoomRenderer::create(room, ErrorModel{});
   RgbaImage small;
   small.width_px = 321;
   small.height_px = 181;

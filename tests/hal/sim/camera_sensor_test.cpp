@@ -14,8 +14,8 @@ namespace {
 /// 10,000 samples a bin give the SD to 1 %; quantiles in 4096 steps lose another 0.3 %.
 constexpr double kSdRatio = 0.04;
 
-Magnitudes only(double shot, double read) {
-  Magnitudes m;
+ErrorModel only(double shot, double read) {
+  ErrorModel m;
   m.blur_sigma_px = 0.0;
   m.vignetting = 0.0;
   m.shot_noise = shot;
@@ -23,11 +23,11 @@ Magnitudes only(double shot, double read) {
   return m;
 }
 
-GreyImage view(const Magnitudes& magnitudes, std::uint64_t seed) {
+GreyImage view(const ErrorModel& error_model, std::uint64_t seed) {
   static const RoomDescription room = scene::operating_room(8);
   static const StereoCalibration calibration = hololens2_calibration();
   GreyImage image;
-  RoomRenderer::create(room, magnitudes)
+  RoomRenderer::create(room, error_model)
       ->render(std::vector<RoomState>{scene::operating_state(room)}, calibration.left,
                calibration.left_from_rig, seed, image);
   return image;
@@ -35,13 +35,13 @@ GreyImage view(const Magnitudes& magnitudes, std::uint64_t seed) {
 
 /// The worst relative deviation, over grey levels, of the noise's SD from a formula.
 template <class Formula>
-double worst_sd_ratio(const Magnitudes& magnitudes, const Formula& sd_of) {
+double worst_sd_ratio(const ErrorModel& error_model, const Formula& sd_of) {
   const GreyImage clean = view(only(0, 0), 0);
   std::array<double, 256> squares{};
   std::array<double, 256> counts{};
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const GreyImage a = view(magnitudes, 2 * seed);
-    const GreyImage b = view(magnitudes, 2 * seed + 1);
+    const GreyImage a = view(error_model, 2 * seed);
+    const GreyImage b = view(error_model, 2 * seed + 1);
     for (std::size_t i = 0; i < clean.pixels.size(); ++i) {
       const double difference = a.pixels[i] - b.pixels[i];
       squares[clean.pixels[i]] += difference * difference / 2.0;
@@ -52,7 +52,9 @@ double worst_sd_ratio(const Magnitudes& magnitudes, const Formula& sd_of) {
   int bins = 0;
   for (int grey = 20; grey < 230; ++grey) {
     const auto i = static_cast<std::size_t>(grey);
-    if (counts[i] < 10000) continue;
+    if (counts[i] < 10000) {
+      continue;
+    }
     ++bins;
     worst = std::max(worst, std::abs(std::sqrt(squares[i] / counts[i]) / sd_of(grey) - 1.0));
   }
@@ -106,20 +108,25 @@ TEST(Sensor, AnotherSeedIsAnotherNoise) {
 }
 
 TEST(Sensor, VignettingTakesItsShareInTheCorner) {
-  Magnitudes dim = only(0, 0);
+  ErrorModel dim = only(0, 0);
   dim.vignetting = 0.4;
   const GreyImage full = view(only(0, 0), 0);
   const GreyImage vignetted = view(dim, 0);
   const auto mean = [](const GreyImage& image, int x0, int y0) {
     double sum = 0.0;
-    for (int y = y0; y < y0 + 8; ++y)
-      for (int x = x0; x < x0 + 8; ++x) sum += image.at(x, y);
+    for (int y = y0; y < y0 + 8; ++y) {
+      for (int x = x0; x < x0 + 8; ++x) {
+        sum += image.at(x, y);
+      }
+    }
     return sum / 64;
   };
   EXPECT_NEAR(mean(vignetted, 316, 236) / mean(full, 316, 236), 1.0, 0.01);
-  for (const int x : {0, 632})
-    for (const int y : {0, 472})
+  for (const int x : {0, 632}) {
+    for (const int y : {0, 472}) {
       EXPECT_NEAR(mean(vignetted, x, y) / mean(full, x, y), 0.6, 0.02) << x << " " << y;
+    }
+  }
   // Half way to the corner a quarter of the loss.
   EXPECT_NEAR(mean(vignetted, 156, 116) / mean(full, 156, 116), 0.9, 0.02);
 }

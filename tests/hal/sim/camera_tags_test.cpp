@@ -20,8 +20,8 @@ constexpr double kBlurredEdgeBiasPx = 0.015;
 /// AprilTag's own bias on blur-free edges is a few hundredths of a pixel.
 constexpr double kCornerPx = 0.25;
 
-Magnitudes perfect_camera() {
-  Magnitudes m;
+ErrorModel perfect_camera() {
+  ErrorModel m;
   m.blur_sigma_px = 0.0;
   m.vignetting = 0.0;
   m.shot_noise = 0.0;
@@ -47,9 +47,9 @@ struct TagScene {
     state.room_from_marker = {state.room_from_rig * calibration.left_from_rig.inverse() * pose};
     state.tool_present = {true};
   }
-  [[nodiscard]] GreyImage left(const Magnitudes& magnitudes, std::uint64_t seed = 1) const {
+  [[nodiscard]] GreyImage left(const ErrorModel& error_model, std::uint64_t seed = 1) const {
     GreyImage image;
-    RoomRenderer::create(room, magnitudes)
+    RoomRenderer::create(room, error_model)
         ->render(std::vector<RoomState>{state}, calibration.left, calibration.left_from_rig, seed,
                  image);
     return image;
@@ -75,14 +75,17 @@ double side_offset_px(const TagScene& s, const GreyImage& image, int side, doubl
   const Vec2 a = corners[static_cast<std::size_t>(side)];
   const Vec2 b = corners[static_cast<std::size_t>(side) + 1];
   std::vector<Vec2> edge;  // without the ends, where the other sides' corners are
-  for (int i = 150; i <= 850; ++i)
+  for (int i = 150; i <= 850; ++i) {
     edge.push_back(s.projected(a.x + (b.x - a.x) * i / 1000, a.y + (b.y - a.y) * i / 1000));
+  }
   const Vec2 middle = s.projected(0, 0);
   const Vec2 run = edge.back() - edge.front();
   const bool upright = std::abs(run.y) > std::abs(run.x);
   const auto along = [&](Vec2 p) { return upright ? p.y : p.x; };
   const auto across = [&](Vec2 p) { return upright ? p.x : p.y; };
-  if (along(edge.front()) > along(edge.back())) std::reverse(edge.begin(), edge.end());
+  if (along(edge.front()) > along(edge.back())) {
+    std::reverse(edge.begin(), edge.end());
+  }
   const double outward = across(edge[edge.size() / 2]) > across(middle) ? 1.0 : -1.0;
   double sum = 0.0;
   int count = 0;
@@ -103,8 +106,9 @@ double side_offset_px(const TagScene& s, const GreyImage& image, int side, doubl
     const double black = grey(centre - step * (kReach + 1));
     const double white = grey(centre + step * (kReach + 1));
     double dark_px = 0.0;  // how far black reaches out from the window's inner end
-    for (int i = centre - kReach; i <= centre + kReach; ++i)
+    for (int i = centre - kReach; i <= centre + kReach; ++i) {
       dark_px += (white - grey(i)) / (white - black);
+    }
     const double measured = outward > 0 ? centre - kReach + dark_px : centre + kReach + 1 - dark_px;
     sum += outward * (measured - expected) - shift_px;
     ++count;
@@ -126,9 +130,10 @@ TEST(RenderedTag, EdgesLieWhereTheyProject) {
   for (const EdgePose& pose : kEdgePoses) {
     const TagScene s(0.07, facing(pose.turn_rad), pose.at_m);
     const GreyImage image = s.left(perfect_camera());
-    for (int side = 0; side < 4; ++side)
+    for (int side = 0; side < 4; ++side) {
       EXPECT_LT(std::abs(side_offset_px(s, image, side)), kEdgeBiasPx)
           << "side " << side << " of the pose at " << pose.at_m.x;
+    }
   }
 }
 
@@ -142,39 +147,42 @@ TEST(RenderedTag, EdgesTwoHundredthsOffAreCaught) {
 }
 
 TEST(RenderedTag, BlurLeavesEdgesInPlace) {
-  Magnitudes blurred = perfect_camera();
+  ErrorModel blurred = perfect_camera();
   blurred.blur_sigma_px = 0.7;
   const TagScene s(0.07, facing({0.1, -0.1, 0.15}), {0.05, 0.03, 0.35});
   const GreyImage image = s.left(blurred);
-  for (int side = 0; side < 4; ++side)
+  for (int side = 0; side < 4; ++side) {
     EXPECT_LT(std::abs(side_offset_px(s, image, side)), kBlurredEdgeBiasPx);
+  }
 }
 
 TEST(RenderedTag, AprilTagFindsItsCornersWhereTheyAre) {
   for (const EdgePose& pose : kEdgePoses) {
     const TagScene s(0.07, facing(pose.turn_rad), pose.at_m);
-    const auto found = scene::detect(s.left(Magnitudes{}));
+    const auto found = scene::detect(s.left(ErrorModel{}));
     ASSERT_EQ(found.size(), 1u);
     ASSERT_TRUE(found.contains(3));
     const double h = 0.035;
     const std::array<Vec2, 4> corners = {{{-h, -h}, {h, -h}, {h, h}, {-h, h}}};
-    for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_LT((found.at(3)[k] - s.projected(corners[k].x, corners[k].y)).norm(), kCornerPx) << k;
+    }
   }
 }
 
 TEST(RenderedTag, IsDetectedAtArmsLength) {
   // 30 mm at 0.7 m is 15 px across; every distance and direction a surgeon works at must be read.
   Random random(4);
-  for (const double distance_m : {0.3, 0.4, 0.5, 0.6, 0.7})
+  for (const double distance_m : {0.3, 0.4, 0.5, 0.6, 0.7}) {
     for (int i = 0; i < 12; ++i) {
       const Vec3 tilt{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),
                       random.uniform(-3.1, 3.1)};
       const Vec3 at = distance_m * Vec3{random.uniform(-0.3, 0.3), random.uniform(-0.25, 0.25), 1};
       const TagScene s(0.03, facing(tilt), at);
-      EXPECT_TRUE(scene::detect(s.left(Magnitudes{}, random.next())).contains(3))
+      EXPECT_TRUE(scene::detect(s.left(ErrorModel{}, random.next())).contains(3))
           << distance_m << " m, try " << i;
     }
+  }
 }
 
 TEST(RenderedTag, FacingAwayShowsAGreyBack) {
@@ -240,8 +248,9 @@ TEST(RenderedTag, MotionSmearsAlongTheMotionOnly) {
   EXPECT_LE(soft(still, right, 1, 0), 1);
   EXPECT_GE(soft(moving, right, 1, 0), 4);
   EXPECT_LE(soft(moving, top, 0, 1), soft(still, top, 0, 1));
-  for (int side = 0; side < 4; ++side)  // and its middle is where the tag is at mid-exposure
+  for (int side = 0; side < 4; ++side) {  // and its middle is where the tag is at mid-exposure
     EXPECT_LT(std::abs(side_offset_px(s, moving, side)), 2 * kEdgeBiasPx);
+  }
 }
 
 }  // namespace

@@ -9,8 +9,11 @@ namespace orthonav::sim {
 namespace {
 
 std::size_t tool_of(const RoomDescription& room, ToolKind kind) {
-  for (std::size_t i = 0; i < room.tools.size(); ++i)
-    if (room.tools[i].kind == kind) return i;
+  for (std::size_t i = 0; i < room.tools.size(); ++i) {
+    if (room.tools[i].kind == kind) {
+      return i;
+    }
+  }
   return 0;
 }
 
@@ -18,10 +21,10 @@ std::string time_text(Timestamp time) { return std::to_string(time.time_since_ep
 
 }  // namespace
 
-SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes) {
+SimOptions without_pixels(std::uint64_t seed, const ErrorModel& error_model) {
   SimOptions options;
   options.seed = seed;
-  options.magnitudes = magnitudes;
+  options.error_model = error_model;
   options.render = false;
   return options;
 }
@@ -29,8 +32,11 @@ SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes) {
 FakeEngine::FakeEngine(SimHeadset& headset, const TestCase& test_case, EngineOptions options)
     : headset_(headset), case_(test_case), options_(options) {
   order_ = test_case.room.operated;
-  if (order_.empty())
-    for (const RoomLevel& level : test_case.room.levels) order_.push_back(level.label);
+  if (order_.empty()) {
+    for (const RoomLevel& level : test_case.room.levels) {
+      order_.push_back(level.label);
+    }
+  }
 }
 
 int FakeEngine::run() {
@@ -40,16 +46,28 @@ int FakeEngine::run() {
   int frames = 0;
   for (;;) {
     const auto next = headset_.cameras().next(frame);
-    if (!next || *next == Next::kEnd) return next ? frames : -1;
+    if (!next || *next == Next::kEnd) {
+      return next ? frames : -1;
+    }
     ++frames;
     clicks.clear();
     phrases.clear();
-    if (!headset_.clicker().poll(frame.time, clicks)) return -1;
-    if (!headset_.voice().poll(frame.time, phrases)) return -1;
-    for (const ClickerEvent& event : clicks) take(event);
-    for (const Phrase& phrase : phrases) take(phrase);
+    if (!headset_.clicker().poll(frame.time, clicks)) {
+      return -1;
+    }
+    if (!headset_.voice().poll(frame.time, phrases)) {
+      return -1;
+    }
+    for (const ClickerEvent& event : clicks) {
+      take(event);
+    }
+    for (const Phrase& phrase : phrases) {
+      take(phrase);
+    }
     draw(frame);
-    if (on_frame) on_frame(frame, step_);
+    if (on_frame) {
+      on_frame(frame, step_);
+    }
   }
 }
 
@@ -65,12 +83,20 @@ void FakeEngine::take(const ClickerEvent& event) {
   const bool digitizing = step_.starts_with("digitize");
   if (event.action == ClickerAction::kPress) {
     pressed_ = true;
-    if (digitizing && !first_press_) first_press_ = event.time;
+    if (digitizing && !first_press_) {
+      first_press_ = event.time;
+    }
   }
-  if (event.action == ClickerAction::kRelease) pressed_ = false;
-  if (event.action == ClickerAction::kDoubleClick && digitizing) double_clicked(event.time);
+  if (event.action == ClickerAction::kRelease) {
+    pressed_ = false;
+  }
+  if (event.action == ClickerAction::kDoubleClick && digitizing) {
+    double_clicked(event.time);
+  }
   const bool checking = options_.check_points > 0 && step_.starts_with("verify");
-  if (event.action == ClickerAction::kClick && (checking || step_.starts_with("rod"))) touched();
+  if (event.action == ClickerAction::kClick && (checking || step_.starts_with("rod"))) {
+    touched();
+  }
 }
 
 Point<World> FakeEngine::tip() const {
@@ -100,12 +126,13 @@ void FakeEngine::touched() {
 void FakeEngine::ask_for_checks() {
   const int done = static_cast<int>(levels_[level_label()].checks_in_vertebra.size());
   const int missing = options_.check_points - done;
-  if (options_.off && done > 1)
+  if (options_.off && done > 1) {
     reason_ = " | check point 2 is 3.1 mm off, limit 2.0 mm: reject and stroke again";
-  else if (missing > 0)
+  } else if (missing > 0) {
     reason_ = " | 0.5 mm expected; touch " + std::to_string(missing) + " more places";
-  else
+  } else {
     reason_ = " | 0.5 mm expected; checked, worst 0.4 mm";
+  }
 }
 
 void FakeEngine::double_clicked(Timestamp time) {
@@ -118,13 +145,17 @@ void FakeEngine::double_clicked(Timestamp time) {
   }
   enter("verify " + level_label());
   level.checks_in_vertebra.clear();
-  if (options_.check_points > 0) ask_for_checks();
+  if (options_.check_points > 0) {
+    ask_for_checks();
+  }
 }
 
 void FakeEngine::take(const Phrase& phrase) {
   events_.push_back(time_text(phrase.time) + " " + phrase.text);
   phrases_.push_back(phrase);
-  if (options_.deaf) return;
+  if (options_.deaf) {
+    return;
+  }
   DigitizedLevel& level = levels_[level_label()];
   if (step_ == "setup" && phrase.text == "start") {
     enter("digitize " + level_label());
@@ -154,14 +185,17 @@ void FakeEngine::take(const Phrase& phrase) {
 
 void FakeEngine::next_screw() {
   const bool fresh = step_.starts_with("accepted");
-  for (std::size_t i = fresh ? 0 : screw_ + 1; i < case_.screws.size(); ++i)
+  for (std::size_t i = fresh ? 0 : screw_ + 1; i < case_.screws.size(); ++i) {
     if (case_.screws[i].level == level_label()) {
       screw_ = i;
       return enter("guide " + level_label() + " " + case_.screws[i].side);
     }
+  }
   first_press_.reset();
   attempts_ = 0;
-  if (++level_ < order_.size()) return enter("digitize " + level_label());
+  if (++level_ < order_.size()) {
+    return enter("digitize " + level_label());
+  }
   --level_;
   enter("rod left");
 }
@@ -187,7 +221,9 @@ void FakeEngine::draw(const StereoFrame& frame) {
     const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
     const auto tip = world_from_vertebra(level_label()).inverse() * headset_.world_from_room() *
                      state.room_from_marker[pointer] * case_.room.tools[pointer].tip_in_marker;
-    if (state.tool_present[pointer]) region_.push_back(tip.v);
+    if (state.tool_present[pointer]) {
+      region_.push_back(tip.v);
+    }
   }
   ShownFrame shown;
   shown.pose_time = frame.time;
@@ -204,7 +240,9 @@ void FakeEngine::draw(const StereoFrame& frame) {
     }
     shown.holograms.push_back(model);
   }
-  if (step_.starts_with("guide")) draw_screw(shown, state, blind);
+  if (step_.starts_with("guide")) {
+    draw_screw(shown, state, blind);
+  }
   static_cast<void>(headset_.display().shown(shown));
 }
 
@@ -219,11 +257,15 @@ void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blin
   shown.holograms.push_back({"H3 entry " + label, label, {entry}});
   shown.holograms.push_back({"H4 trajectory", "", {entry + 0.060 * outwards, entry, target}});
   const std::size_t guide = tool_of(case_.room, ToolKind::kGuide);
-  if (blind || !state.tool_present[guide]) return;
+  if (blind || !state.tool_present[guide]) {
+    return;
+  }
   const auto world_from_marker = headset_.world_from_room() * state.room_from_marker[guide];
   const RoomTool& tool = case_.room.tools[guide];
   const Vec3 axis = (world_from_marker * Direction<Marker>{tool.axis_in_marker}).v;
-  if ((world_from_marker * tool.tip_in_marker - entry).norm() > 0.040) return;
+  if ((world_from_marker * tool.tip_in_marker - entry).norm() > 0.040) {
+    return;
+  }
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1f°",
                 angle_between_rad(axis, outwards) * 180.0 / std::numbers::pi);

@@ -31,7 +31,7 @@ struct EngineOptions {
 };
 
 /// For a simulation that renders nothing: who only talks to the engine needs no images.
-SimOptions without_pixels(std::uint64_t seed, const Magnitudes& magnitudes = {});
+SimOptions without_pixels(std::uint64_t seed, const ErrorModel& error_model = {});
 
 /// Stands in for the engine: walks through the workflow as clicker and voice say and draws the
 /// holograms that an engine without any error would draw, from the truth.

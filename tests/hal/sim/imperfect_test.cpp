@@ -12,7 +12,7 @@ namespace {
 
 TEST(PerturbedCalibration, IsTheReportedOneInAPerfectWorld) {
   const StereoCalibration reported = hololens2_calibration();
-  const auto actual = perturbed(reported, Magnitudes::perfect(), Random(1));
+  const auto actual = perturbed(reported, ErrorModel::perfect(), Random(1));
   ASSERT_TRUE(actual.ok());
   EXPECT_EQ(actual->right_from_rig, reported.right_from_rig);
   EXPECT_EQ(actual->left.lookup()[1234], reported.left.lookup()[1234]);
@@ -23,9 +23,9 @@ TEST(PerturbedCalibration, IsOffByItsMagnitudes) {
   const Vec3 forward{0.0, 0.0, 0.5};
   const auto middle = reported.left.project(forward);
   ASSERT_TRUE(middle.has_value());
-  Magnitudes only_centre = Magnitudes::perfect();
+  ErrorModel only_centre = ErrorModel::perfect();
   only_centre.calibration_centre_px = 0.3;
-  Magnitudes only_rig = Magnitudes::perfect();
+  ErrorModel only_rig = ErrorModel::perfect();
   only_rig.calibration_rotation_rad = 0.0008;
   only_rig.calibration_baseline_m = 0.0002;
   double centre = 0.0;
@@ -55,7 +55,7 @@ TEST(PerturbedCalibration, IsOffByItsMagnitudes) {
 
 TEST(PerturbedCalibration, ZoomMovesTheEdgeAndKeepsTheMiddle) {
   const StereoCalibration reported = hololens2_calibration();
-  Magnitudes zoom = Magnitudes::perfect();
+  ErrorModel zoom = ErrorModel::perfect();
   zoom.calibration_focal_ratio = 0.01;
   const auto actual = perturbed(reported, zoom, Random(3));
   ASSERT_TRUE(actual.ok());
@@ -69,7 +69,7 @@ TEST(PerturbedCalibration, ZoomMovesTheEdgeAndKeepsTheMiddle) {
 }
 
 TEST(DescribedTools, AreAsTheyWereMadeInAPerfectWorld) {
-  const auto tools = described(test_tools(), Magnitudes::perfect(), Random(1));
+  const auto tools = described(test_tools(), ErrorModel::perfect(), Random(1));
   ASSERT_EQ(tools.size(), 2U);
   EXPECT_EQ(tools[0].tip_in_marker, test_tools()[0].tip_in_marker);
   EXPECT_EQ(tools[1].axis_in_marker, test_tools()[1].axis_in_marker);
@@ -81,13 +81,13 @@ TEST(DescribedTools, AreOffByTheirMagnitudes) {
   constexpr int kSeeds = 400;
   const RoomTool made = test_tools()[1];
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
-    const RoomTool told = described(test_tools(), Magnitudes{}, Random(seed))[1];
+    const RoomTool told = described(test_tools(), ErrorModel{}, Random(seed))[1];
     tip += (told.tip_in_marker - made.tip_in_marker).squared_norm();
     axis += std::pow(angle_between_rad(told.axis_in_marker, made.axis_in_marker), 2);
   }
   // SD an axis, three for the tip, two for a direction; five standard errors.
-  EXPECT_NEAR(std::sqrt(tip / kSeeds / 3), Magnitudes{}.tip_calibration_m, 0.00006);
-  EXPECT_NEAR(std::sqrt(axis / kSeeds / 2), Magnitudes{}.axis_calibration_rad, 0.0004);
+  EXPECT_NEAR(std::sqrt(tip / kSeeds / 3), ErrorModel{}.tip_calibration_m, 0.00006);
+  EXPECT_NEAR(std::sqrt(axis / kSeeds / 2), ErrorModel{}.axis_calibration_rad, 0.0004);
 }
 
 }  // namespace

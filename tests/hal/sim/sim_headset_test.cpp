@@ -25,7 +25,9 @@ SimOptions hovering(std::uint64_t seed = 1) {
 }
 
 std::unique_ptr<SimHeadset> opened(const SimOptions& options, RoomDescription room = {}) {
-  if (room.tools.empty()) room.tools = test_tools();
+  if (room.tools.empty()) {
+    room.tools = test_tools();
+  }
   auto headset = SimHeadset::open(std::move(room), options);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
   return std::move(headset).value();
@@ -64,7 +66,9 @@ TEST(SimHeadset, EndsAtItsLimitForGood) {
   for (;; ++frames) {
     const auto next = headset->cameras().next(frame);
     ASSERT_TRUE(next.ok());
-    if (*next == Next::kEnd) break;
+    if (*next == Next::kEnd) {
+      break;
+    }
     ASSERT_LT(frames, 100);
   }
   EXPECT_EQ(frames, 30);
@@ -84,7 +88,7 @@ TEST(SimHeadset, RealtimePaceHasNothingBeforeTheFirstFrameIsDue) {
 
 TEST(SimHeadset, PerfectHeadPoseIsTheTruth) {
   SimOptions options = hovering();
-  options.magnitudes = Magnitudes::perfect();
+  options.error_model = ErrorModel::perfect();
   const auto headset = opened(options);
   for (int i = 0; i < 5; ++i) {
     const StereoFrame frame = next_frame(*headset);
@@ -97,8 +101,8 @@ TEST(SimHeadset, PerfectHeadPoseIsTheTruth) {
 
 TEST(SimHeadset, ReportedHeadPoseHasTheNoiseOfItsMagnitudes) {
   SimOptions options = hovering();
-  options.magnitudes.head_pose_noise_m = 0.001;
-  options.magnitudes.head_pose_noise_rad = 0.002;
+  options.error_model.head_pose_noise_m = 0.001;
+  options.error_model.head_pose_noise_rad = 0.002;
   const auto headset = opened(options);
   double shift = 0.0;
   double turn = 0.0;
@@ -116,7 +120,7 @@ TEST(SimHeadset, ReportedHeadPoseHasTheNoiseOfItsMagnitudes) {
 
 TEST(SimHeadset, HeadSwaysAndMapDriftsByTheirMagnitudes) {
   SimOptions options = hovering();
-  options.magnitudes.map_drift_m_per_sqrt_s = 0.001;
+  options.error_model.map_drift_m_per_sqrt_s = 0.001;
   const auto headset = opened(options);
   next_frame(*headset);
   const auto start = headset->world_from_room();
@@ -131,7 +135,7 @@ TEST(SimHeadset, HeadSwaysAndMapDriftsByTheirMagnitudes) {
   }
   const double variance = squares / kFrames - (sum / kFrames).squared_norm();
   // Sway in rotation turns about the point between the cameras and adds next to nothing.
-  EXPECT_NEAR(std::sqrt(variance / 3), Magnitudes{}.head_sway_m, 0.003);
+  EXPECT_NEAR(std::sqrt(variance / 3), ErrorModel{}.head_sway_m, 0.003);
   // 200 s of a walk of 1 mm per root second and axis: 24 mm expected length.
   const double drift = (headset->world_from_room().translation() - start.translation()).norm();
   EXPECT_GT(drift, 0.004);
@@ -140,22 +144,24 @@ TEST(SimHeadset, HeadSwaysAndMapDriftsByTheirMagnitudes) {
 
 TEST(SimHeadset, PredictsTheHeadFromItsVelocityAndLosesItBeyondItsReach) {
   SimOptions options = hovering();
-  options.magnitudes.head_pose_noise_m = 0.0;
-  options.magnitudes.head_pose_noise_rad = 0.0;
+  options.error_model.head_pose_noise_m = 0.0;
+  options.error_model.head_pose_noise_rad = 0.0;
   const auto headset = opened(options);
-  EXPECT_EQ(headset->head().world_from_rig(headset->clock().now()).origin, Origin::kLost);
+  EXPECT_EQ(headset->head().world_from_rig(headset->clock().now()).status, PoseStatus::kLost);
   StereoFrame frame;
-  for (int i = 0; i < 50; ++i) frame = next_frame(*headset);
+  for (int i = 0; i < 50; ++i) {
+    frame = next_frame(*headset);
+  }
   const Timestamp ahead = frame.time + (next_frame(*headset).time - frame.time);
   const auto predicted = headset->head().world_from_rig(ahead + std::chrono::milliseconds(33));
-  EXPECT_EQ(predicted.origin, Origin::kPredicted);
+  EXPECT_EQ(predicted.status, PoseStatus::kPredicted);
   next_frame(*headset);
   const auto truth = headset->world_from_room() * headset->state().room_from_rig;
   // A swaying head is predicted over a frame within a tenth of a millimetre.
   EXPECT_LT((predicted.value.translation() - truth.translation()).norm(), 0.0005);
-  EXPECT_EQ(headset->head().world_from_rig(frame.time).origin, Origin::kMeasured);
-  EXPECT_EQ(headset->head().world_from_rig(ahead + std::chrono::milliseconds(200)).origin,
-            Origin::kLost);
+  EXPECT_EQ(headset->head().world_from_rig(frame.time).status, PoseStatus::kMeasured);
+  EXPECT_EQ(headset->head().world_from_rig(ahead + std::chrono::milliseconds(200)).status,
+            PoseStatus::kLost);
 }
 
 /// A room point as both cameras of a calibration would see it from the headset's true place.
@@ -175,9 +181,11 @@ TEST(SimHeadset, HoveringToolsShowTheirTagsToBothCameras) {
       ASSERT_TRUE(state.tool_present[t]);
       const auto& tag = state.room_from_marker[t];
       const double half = 0.6 * headset->room().tools[t].size_m;
-      for (const double x : {-half, half})
-        for (const double y : {-half, half})
+      for (const double x : {-half, half}) {
+        for (const double y : {-half, half}) {
           EXPECT_TRUE(both_see(cameras, *headset, tag * Point<Marker>{{x, y, 0.0}}));
+        }
+      }
       const Vec3 view = (state.room_from_rig.translation() - tag.translation()).normalized();
       EXPECT_GT((tag * Direction<Marker>{{0, 0, 1}}).v.dot(view), std::cos(0.9));
     }
@@ -188,7 +196,7 @@ TEST(SimHeadset, RefusesWhatMakesNoSenseInOneLine) {
   RoomDescription room = synthetic_case().room;
   EXPECT_EQ(refusal(room), "accepted");
   SimOptions options = hovering();
-  options.magnitudes.tremor_m = std::numeric_limits<double>::quiet_NaN();
+  options.error_model.tremor_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal(room, options), HasSubstr("tremor_m"));
   options = hovering();
   options.frame_rate_hz = 0.0;
@@ -198,7 +206,7 @@ TEST(SimHeadset, RefusesWhatMakesNoSenseInOneLine) {
   EXPECT_THAT(refusal(room, options), HasSubstr("time limit is -1"));
   options = hovering();
   options.frame_rate_hz = 200.0;
-  options.magnitudes.exposure_s = 0.02;
+  options.error_model.exposure_s = 0.02;
   EXPECT_THAT(refusal(room, options), HasSubstr("longer than a frame"));
 }
 
@@ -283,7 +291,9 @@ TEST(SimHeadset, PartsMayBeUsedFromDifferentThreads) {
       static_cast<void>(headset->world_from_room());
     }
   });
-  for (int i = 0; i < 600; ++i) next_frame(*headset);
+  for (int i = 0; i < 600; ++i) {
+    next_frame(*headset);
+  }
   running = false;
   other.join();
 }

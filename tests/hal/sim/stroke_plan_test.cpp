@@ -10,15 +10,21 @@ namespace orthonav::sim {
 namespace {
 
 RoomLevel shifted(RoomLevel level, Vec3 by) {
-  for (Vec3& vertex : level.vertices_m) vertex += by;
+  for (Vec3& vertex : level.vertices_m) {
+    vertex += by;
+  }
   return level;
 }
 
 std::vector<Vec3> spots_of(const std::vector<StrokeRegion>& regions) {
   std::vector<Vec3> spots;
-  for (const StrokeRegion& region : regions)
-    for (const Stroke& stroke : region.strokes)
-      for (const BoneSpot& spot : stroke.spots) spots.push_back(spot.point);
+  for (const StrokeRegion& region : regions) {
+    for (const Stroke& stroke : region.strokes) {
+      for (const BoneSpot& spot : stroke.spots) {
+        spots.push_back(spot.point);
+      }
+    }
+  }
   return spots;
 }
 
@@ -27,7 +33,9 @@ double farthest_m(const std::vector<Vec3>& spots, const std::vector<Vec3>& other
   double worst = 0.0;
   for (const Vec3 spot : spots) {
     double nearest = 1.0;
-    for (const Vec3 other : others) nearest = std::min(nearest, (spot - other).norm());
+    for (const Vec3 other : others) {
+      nearest = std::min(nearest, (spot - other).norm());
+    }
     worst = std::max(worst, nearest);
   }
   return worst;
@@ -35,7 +43,9 @@ double farthest_m(const std::vector<Vec3>& spots, const std::vector<Vec3>& other
 
 double length_m(const std::vector<StrokeRegion>& regions) {
   double sum = 0.0;
-  for (const StrokeRegion& region : regions) sum += region.length_m();
+  for (const StrokeRegion& region : regions) {
+    sum += region.length_m();
+  }
   return sum;
 }
 
@@ -48,7 +58,9 @@ void expect_the_same_strokes(const RoomLevel& level, Vec3 by) {
   EXPECT_EQ(there.size(), here.size());
   EXPECT_NEAR(length_m(there), length_m(here), 0.01 * length_m(here));
   std::vector<Vec3> back = spots_of(there);
-  for (Vec3& spot : back) spot -= by;
+  for (Vec3& spot : back) {
+    spot -= by;
+  }
   EXPECT_LT(farthest_m(back, spots_of(here)), kCells_m);
   EXPECT_LT(farthest_m(spots_of(here), back), kCells_m);
 }
@@ -61,9 +73,14 @@ TEST(StrokePlan, DoesNotDependOnTheModelsOrigin) {
 
 TEST(StrokePlan, DoesNotDependOnARealModelsOrigin) {
   const auto test_case = visible_human_case({"L4"});
-  if (!test_case) GTEST_SKIP() << "no anatomy beside the sources";
-  for (const RoomLevel& level : test_case->room.levels)
-    if (level.label == "L4") expect_the_same_strokes(level, {0.090, -0.120, 0.400});
+  if (!test_case) {
+    GTEST_SKIP() << "no anatomy beside the sources";
+  }
+  for (const RoomLevel& level : test_case->room.levels) {
+    if (level.label == "L4") {
+      expect_the_same_strokes(level, {0.090, -0.120, 0.400});
+    }
+  }
 }
 
 TEST(StrokePlan, CoversBothSidesOfAModelAwayFromItsOrigin) {

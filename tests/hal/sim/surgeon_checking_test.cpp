@@ -13,14 +13,16 @@ using ::testing::ElementsAre;
 /// The events without their times.
 std::vector<std::string> words_of(const FakeEngine& engine) {
   std::vector<std::string> words;
-  for (const std::string& event : engine.events()) words.push_back(event.substr(event.find(' ')));
+  for (const std::string& event : engine.events()) {
+    words.push_back(event.substr(event.find(' ')));
+  }
   return words;
 }
 
 TEST(CheckingSurgeon, TouchesSpreadPlacesOfTheBoneUntilNoMoreAreAskedFor) {
   const TestCase test_case = synthetic_case();
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    auto headset = SimHeadset::open(test_case.room, without_pixels(seed, Magnitudes::perfect()));
+    auto headset = SimHeadset::open(test_case.room, without_pixels(seed, ErrorModel::perfect()));
     ASSERT_TRUE(headset.ok()) << headset.error().message;
     EngineOptions options;
     options.check_points = 4;
@@ -32,7 +34,9 @@ TEST(CheckingSurgeon, TouchesSpreadPlacesOfTheBoneUntilNoMoreAreAskedFor) {
       ASSERT_EQ(touched.size(), 4U) << level.label << ": as many as asked for and no more";
       for (std::size_t i = 0; i < touched.size(); ++i) {
         EXPECT_LT((BoneSurface(level).closest(touched[i]).point - touched[i]).norm(), 0.0003);
-        for (std::size_t j = 0; j < i; ++j) EXPECT_GT((touched[i] - touched[j]).norm(), 0.016);
+        for (std::size_t j = 0; j < i; ++j) {
+          EXPECT_GT((touched[i] - touched[j]).norm(), 0.016);
+        }
       }
     }
   }

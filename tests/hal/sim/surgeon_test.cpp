@@ -20,11 +20,14 @@ struct ScrewError {
 /// Executed against planned; the entry is the distance of the planned entry from the wire's.
 std::vector<ScrewError> screw_errors(const TestCase& test_case, const Truth& truth) {
   std::vector<ScrewError> errors;
-  for (const DrivenWire& wire : truth.wires)
-    for (const TestScrew& screw : test_case.screws)
-      if (screw.level == wire.level && screw.side == wire.side)
+  for (const DrivenWire& wire : truth.wires) {
+    for (const TestScrew& screw : test_case.screws) {
+      if (screw.level == wire.level && screw.side == wire.side) {
         errors.push_back({angle_between_rad(screw.target - screw.entry, wire.direction),
                           (wire.entry - screw.entry).norm()});
+      }
+    }
+  }
   return errors;
 }
 
@@ -63,7 +66,7 @@ TEST(Surgeon, InAPerfectWorldHitsWhatPerfectHologramsShow) {
   constexpr double kMaxAngle_rad = 0.05 * kDeg;
   constexpr double kMaxEntry_m = 0.00005;
   const TestCase test_case = synthetic_case();
-  auto headset = SimHeadset::open(test_case.room, without_pixels(2, Magnitudes::perfect()));
+  auto headset = SimHeadset::open(test_case.room, without_pixels(2, ErrorModel::perfect()));
   ASSERT_TRUE(headset.ok());
   FakeEngine engine(**headset, test_case);
   ASSERT_GT(engine.run(), 0);
@@ -78,7 +81,7 @@ TEST(Surgeon, InAPerfectWorldHitsWhatPerfectHologramsShow) {
 TEST(Surgeon, FollowsTheHologramsAndNotThePlan) {
   // The twin of the perfect world: holograms 2 mm off must put the wire 2 mm off.
   const TestCase test_case = synthetic_case();
-  auto headset = SimHeadset::open(test_case.room, without_pixels(2, Magnitudes::perfect()));
+  auto headset = SimHeadset::open(test_case.room, without_pixels(2, ErrorModel::perfect()));
   ASSERT_TRUE(headset.ok());
   EngineOptions off;
   off.registration_error_m = {0.0, 0.0, 0.002};
@@ -86,24 +89,29 @@ TEST(Surgeon, FollowsTheHologramsAndNotThePlan) {
   ASSERT_GT(engine.run(), 0);
   const auto errors = screw_errors(test_case, (*headset)->truth());
   ASSERT_EQ(errors.size(), 4U);
-  for (const ScrewError& error : errors) EXPECT_NEAR(error.entry_m, 0.002, 0.001);
+  for (const ScrewError& error : errors) {
+    EXPECT_NEAR(error.entry_m, 0.002, 0.001);
+  }
 }
 
 /// RMS per axis of where the heads were touched against where they stand.
-double head_error_m(const Magnitudes& magnitudes, int seeds) {
+double head_error_m(const ErrorModel& error_model, int seeds) {
   const TestCase test_case = synthetic_case();
   double squares = 0.0;
   std::size_t heads = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    auto headset = SimHeadset::open(test_case.room, without_pixels(seed, magnitudes));
-    if (!headset.ok()) return -1.0;
+    auto headset = SimHeadset::open(test_case.room, without_pixels(seed, error_model));
+    if (!headset.ok()) {
+      return -1.0;
+    }
     FakeEngine engine(**headset, test_case);
     engine.run();
     for (const Point<World> touched : engine.heads()) {
       double nearest = 1.0;
-      for (const PlacedHead& head : (*headset)->truth().heads)
+      for (const PlacedHead& head : (*headset)->truth().heads) {
         nearest = std::min(
             nearest, ((*headset)->world_from_room().inverse() * touched - head.position).norm());
+      }
       squares += nearest * nearest;
       ++heads;
     }
@@ -112,11 +120,11 @@ double head_error_m(const Magnitudes& magnitudes, int seeds) {
 }
 
 TEST(Surgeon, TouchesScrewHeadsAsWellAsItsMagnitudeSays) {
-  Magnitudes magnitudes = Magnitudes::perfect();
-  EXPECT_NEAR(head_error_m(magnitudes, 1), 0.0, 1e-6);
-  magnitudes.head_pick_m = 0.0008;
+  ErrorModel error_model = ErrorModel::perfect();
+  EXPECT_NEAR(head_error_m(error_model, 1), 0.0, 1e-6);
+  error_model.head_pick_m = 0.0008;
   // 16 heads, 48 draws: three standard errors are 3 / sqrt(96) = 31 %.
-  EXPECT_NEAR(head_error_m(magnitudes, 4), 0.0008, 0.00025);
+  EXPECT_NEAR(head_error_m(error_model, 4), 0.0008, 0.00025);
 }
 
 TEST(Surgeon, RejectsAModelThatIsNotWhereTheBoneIs) {
@@ -165,7 +173,7 @@ TEST(Surgeon, GivesUpWhenNobodyListens) {
 
 TEST(Surgeon, WaitsWhileTheToolIsLost) {
   const TestCase test_case = synthetic_case();
-  auto headset = SimHeadset::open(test_case.room, without_pixels(6, Magnitudes::perfect()));
+  auto headset = SimHeadset::open(test_case.room, without_pixels(6, ErrorModel::perfect()));
   ASSERT_TRUE(headset.ok());
   EngineOptions blind;
   blind.blind_from_s = 100.0;
@@ -180,8 +188,9 @@ TEST(Surgeon, WaitsWhileTheToolIsLost) {
     const double time_s = seconds(wire.time.time_since_epoch()) - 100.0;
     EXPECT_TRUE(time_s < blind.blind_from_s || time_s > blind.blind_to_s) << time_s;
   }
-  for (const ScrewError& error : screw_errors(test_case, (*headset)->truth()))
+  for (const ScrewError& error : screw_errors(test_case, (*headset)->truth())) {
     EXPECT_LT(error.angle_rad, 0.05 * kDeg);
+  }
 }
 
 TEST(Surgeon, DoesTheSameAgainWithTheSameSeed) {
@@ -208,7 +217,9 @@ TEST(Surgeon, DoesTheSameAgainWithTheSameSeed) {
 
 TEST(Surgeon, KeepsThePaperPaceOnARealVertebra) {
   const auto test_case = visible_human_case({"L4"});
-  if (!test_case) GTEST_SKIP() << "no anatomy beside the sources";
+  if (!test_case) {
+    GTEST_SKIP() << "no anatomy beside the sources";
+  }
   constexpr int kSeeds = 40;
   double sum_s = 0.0;
   double squares_s = 0.0;
@@ -240,8 +251,10 @@ TEST(Surgeon, KeepsThePaperPaceOnARealVertebra) {
 
 TEST(Surgeon, StrokesLieOnTheBoneAndSpreadOverItsBack) {
   const auto test_case = visible_human_case({"L3", "L4"});
-  if (!test_case) GTEST_SKIP() << "no anatomy beside the sources";
-  auto headset = SimHeadset::open(test_case->room, without_pixels(1, Magnitudes::perfect()));
+  if (!test_case) {
+    GTEST_SKIP() << "no anatomy beside the sources";
+  }
+  auto headset = SimHeadset::open(test_case->room, without_pixels(1, ErrorModel::perfect()));
   ASSERT_TRUE(headset.ok()) << headset.error().message;
   FakeEngine engine(**headset, *test_case);
   ASSERT_GT(engine.run(), 0);

@@ -30,7 +30,9 @@ RoomLevel read_stl(const std::string& path) {
   RoomLevel level;
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (bytes.size() < 84) return level;
+  if (bytes.size() < 84) {
+    return level;
+  }
   std::map<std::tuple<float, float, float>, std::uint32_t> known;
   for (std::size_t at = 84; at + 50 <= bytes.size(); at += 50) {
     std::array<float, 9> xyz{};
@@ -40,7 +42,9 @@ RoomLevel read_stl(const std::string& path) {
       const auto key = std::make_tuple(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
       const auto [found, fresh] =
           known.emplace(key, static_cast<std::uint32_t>(level.vertices_m.size()));
-      if (fresh) level.vertices_m.push_back(kMm * Vec3{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
+      if (fresh) {
+        level.vertices_m.push_back(kMm * Vec3{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
+      }
       triangle[i] = found->second;
     }
     level.triangles.push_back(triangle);
@@ -54,9 +58,11 @@ Vec3 vector_from(const nlohmann::json& numbers) {
 
 Transform<Spine, Vertebra> pose_from(const nlohmann::json& rows) {
   Mat3 rotation;
-  for (int r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c)
+  for (int r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
       rotation[r][c] = rows[static_cast<std::size_t>(r)][c].get<double>();
+    }
+  }
   const auto at = [&rows](std::size_t r) { return kMm * rows[r][3].get<double>(); };
   return {orthonormalized(rotation), {at(0), at(1), at(2)}};
 }
@@ -84,23 +90,33 @@ RoomLevel synthetic_level(const std::string& label, double z_in_spine_m) {
     return radius_m(direction) * direction;
   };
   level.vertices_m.push_back(vertex(0, 0));
-  for (int ring = 1; ring < kRings; ++ring)
-    for (int slice = 0; slice < kSlices; ++slice) level.vertices_m.push_back(vertex(ring, slice));
+  for (int ring = 1; ring < kRings; ++ring) {
+    for (int slice = 0; slice < kSlices; ++slice) {
+      level.vertices_m.push_back(vertex(ring, slice));
+    }
+  }
   level.vertices_m.push_back(vertex(kRings, 0));
   const auto index = [](int ring, int slice) {
-    if (ring == 0) return 0U;
-    if (ring == kRings) return static_cast<std::uint32_t>(1 + (kRings - 1) * kSlices);
+    if (ring == 0) {
+      return 0U;
+    }
+    if (ring == kRings) {
+      return static_cast<std::uint32_t>(1 + (kRings - 1) * kSlices);
+    }
     return static_cast<std::uint32_t>(1 + (ring - 1) * kSlices + slice % kSlices);
   };
-  for (int ring = 0; ring < kRings; ++ring)
+  for (int ring = 0; ring < kRings; ++ring) {
     for (int slice = 0; slice < kSlices; ++slice) {
-      if (ring > 0)
+      if (ring > 0) {
         level.triangles.push_back(
             {index(ring, slice), index(ring + 1, slice), index(ring, slice + 1)});
-      if (ring < kRings - 1)
+      }
+      if (ring < kRings - 1) {
         level.triangles.push_back(
             {index(ring, slice + 1), index(ring + 1, slice), index(ring + 1, slice + 1)});
+      }
     }
+  }
   return level;
 }
 
@@ -108,20 +124,23 @@ TestCase synthetic_case() {
   TestCase made;
   made.room.tools = test_tools();
   made.room.levels = {synthetic_level("L4", 0.0), synthetic_level("L5", -0.045)};
-  for (const RoomLevel& level : made.room.levels)
+  for (const RoomLevel& level : made.room.levels) {
     for (const double side : {1.0, -1.0}) {
       const Vec3 target{side * 0.006, -0.005, 0.002};
       const Vec3 outwards = Vec3{side * 0.45, 0.88, -0.1}.normalized();
       const auto entry = BoneSurface(level).first_hit(target + 0.2 * outwards, -outwards, 0.2);
       made.screws.push_back({level.label, side > 0 ? "left" : "right", {entry->point}, {target}});
     }
+  }
   return made;
 }
 
 std::optional<TestCase> visible_human_case(const std::vector<std::string>& operated) {
   const std::string folder = std::string(ORTHONAV_SHARED_DIR) + "/anatomy/visible-human/";
   std::ifstream file(folder + "case.json");
-  if (!file) return std::nullopt;
+  if (!file) {
+    return std::nullopt;
+  }
   TestCase made;
   made.room.tools = test_tools();
   made.room.operated = operated;
@@ -132,11 +151,12 @@ std::optional<TestCase> visible_human_case(const std::vector<std::string>& opera
     level.spine_from_vertebra = pose_from(entry["spine_from_model"]);
     std::ifstream plan_file(folder + entry["plan"].get<std::string>());
     const auto plan = nlohmann::json::parse(plan_file);
-    for (const auto& screw : plan["screws"])
+    for (const auto& screw : plan["screws"]) {
       made.screws.push_back({level.label,
                              screw["side"],
                              {vector_from(screw["entry"])},
                              {vector_from(screw["target"])}});
+    }
     made.room.levels.push_back(std::move(level));
   }
   return made;

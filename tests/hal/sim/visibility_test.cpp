@@ -58,7 +58,7 @@ void write_pgm(const GreyImage& image, const std::string& path) {
 struct Count {
   int seen = 0;
   int looked = 0;
-  [[nodiscard]] double share() const { return looked > 0 ? 1.0 * seen / looked : 0.0; }
+  [[nodiscard]] double fraction() const { return looked > 0 ? 1.0 * seen / looked : 0.0; }
 };
 
 /// Renders a moment every now and then of an operation and counts how often both cameras' images
@@ -71,7 +71,7 @@ std::map<std::string, Count> count_tags(const TestCase& test_case, std::uint64_t
   EXPECT_TRUE(headset.ok());
   FakeEngine engine(**headset, test_case);
   const StereoCalibration cameras = hololens2_calibration();
-  const auto renderer = RoomRenderer::create(test_case.room, options.magnitudes);
+  const auto renderer = RoomRenderer::create(test_case.room, options.error_model);
   TagFinder finder;
   GreyImage image;
   std::map<std::string, Count> counts;
@@ -84,22 +84,29 @@ std::map<std::string, Count> count_tags(const TestCase& test_case, std::uint64_t
     // Three seconds pass before a tool that was swapped is in use.
     const bool used = step.starts_with("digitize") || step.starts_with("guide");
     const int every = step.starts_with("digitize") ? 240 : 60;
-    if (!used || in_step < 150 || in_step % every != 0) return;
+    if (!used || in_step < 150 || in_step % every != 0) {
+      return;
+    }
     const RoomState state = (*headset)->state();
     const int id = step.starts_with("digitize") ? 3 : 5;
     renderer->render({&state, 1}, cameras.left, cameras.left_from_rig,
                      static_cast<std::uint64_t>(frame.sequence), image);
     const bool left = finder.find(image).contains(id);
-    if (dump) write_pgm(image, std::string(dump) + "/" + std::to_string(frame.sequence) + ".pgm");
+    if (dump) {
+      write_pgm(image, std::string(dump) + "/" + std::to_string(frame.sequence) + ".pgm");
+    }
     renderer->render({&state, 1}, cameras.right,
                      {cameras.right_from_rig.rotation(), cameras.right_from_rig.translation()},
                      static_cast<std::uint64_t>(frame.sequence) + 1, image);
     const bool right = finder.find(image).contains(id);
     Count& count = counts[step];
     ++count.looked;
-    if (left && right) ++count.seen;
-    if (dump && !(left && right))
+    if (left && right) {
+      ++count.seen;
+    }
+    if (dump && !(left && right)) {
       std::printf("missed %s at %d\n", step.c_str(), static_cast<int>(frame.sequence));
+    }
   };
   EXPECT_GT(engine.run(), 0);
   return counts;
@@ -107,12 +114,14 @@ std::map<std::string, Count> count_tags(const TestCase& test_case, std::uint64_t
 
 TEST(Visibility, SurgeonKeepsTheTagInUseInBothImages) {
   const auto test_case = visible_human_case({"L4", "L5"});
-  if (!test_case) GTEST_SKIP() << "no anatomy beside the sources";
+  if (!test_case) {
+    GTEST_SKIP() << "no anatomy beside the sources";
+  }
   const auto counts = count_tags(*test_case, 1);
   ASSERT_EQ(counts.size(), 6U) << "two digitizations and four screws";
   for (const auto& [step, count] : counts) {
     std::printf("%s: %d of %d\n", step.c_str(), count.seen, count.looked);
-    EXPECT_GT(count.share(), 0.95) << step;
+    EXPECT_GT(count.fraction(), 0.95) << step;
   }
 }
 

@@ -18,7 +18,9 @@ AcousticMeans some_means(std::uint64_t seed) {
   AcousticMeans means{4, {3, 2}, 8, {}};
   Random random(seed);
   means.values.resize(std::size_t{4} * 8 * 5);
-  for (float& value : means.values) value = static_cast<float>(random.normal(1.0, 2.0));
+  for (float& value : means.values) {
+    value = static_cast<float>(random.normal(1.0, 2.0));
+  }
   return means;
 }
 
@@ -37,8 +39,9 @@ TEST(AdaptedMeans, AreRefusedWhereTheFileIsAnother) {
   const TemporaryFolder folder;
   const std::string file = means_file(some_means(1));
   for (const std::string& bytes :
-       {std::string(), std::string("s3\n"), file.substr(0, 30), file.substr(0, file.size() - 1)})
+       {std::string(), std::string("s3\n"), file.substr(0, 30), file.substr(0, file.size() - 1)}) {
     EXPECT_FALSE(read_means(folder.with("means", bytes)).ok());
+  }
   EXPECT_FALSE(read_means(folder.file("absent")).ok());
 }
 
@@ -46,12 +49,15 @@ TEST(AdaptedMeans, AreReachedByTheirChange) {
   const AcousticMeans from = some_means(1);
   AcousticMeans to = from;
   Random random(2);
-  for (float& value : to.values) value += static_cast<float>(random.normal(0.0, 1.0));
+  for (float& value : to.values) {
+    value += static_cast<float>(random.normal(0.0, 1.0));
+  }
   AcousticMeans changed = from;
   ASSERT_TRUE(apply_change(means_change(from, to), changed).ok());
   // Half a step, of a spread that is drawn about 2.
-  for (std::size_t i = 0; i < to.values.size(); ++i)
+  for (std::size_t i = 0; i < to.values.size(); ++i) {
     EXPECT_NEAR(changed.values[i], to.values[i], 0.5 * kStepOfSpread * 3.0);
+  }
 }
 
 TEST(AdaptedMeans, RefuseAChangeThatWasMadeForOthers) {

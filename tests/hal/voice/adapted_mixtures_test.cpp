@@ -22,10 +22,13 @@ MixtureWeights some_weights(std::uint64_t seed) {
     put(weights.header, static_cast<std::int32_t>(std::string(text).size() + 1));
     weights.header += std::string(text) + '\0';
   }
-  for (const std::int32_t number : {0, kDensities, kSenones}) put(weights.header, number);
+  for (const std::int32_t number : {0, kDensities, kSenones}) {
+    put(weights.header, number);
+  }
   Random random(seed);
-  for (int i = 0; i < kStreams * kDensities * kSenones; ++i)
+  for (int i = 0; i < kStreams * kDensities * kSenones; ++i) {
     weights.values += static_cast<char>(160.0 * random.uniform());
+  }
   return weights;
 }
 
@@ -44,13 +47,16 @@ TEST(AdaptedMixtures, AreReadAsTheyWereWritten) {
 TEST(AdaptedMixtures, OfTheModelAreShares) {
   const auto read = read_mixture_weights(default_acoustic_model() / "sendump");
   ASSERT_TRUE(read.ok()) << read.error().message;
-  for (const int senone : {0, 17, read->senones - 1})
+  for (const int senone : {0, 17, read->senones - 1}) {
     for (int stream = 0; stream < read->streams; ++stream) {
       double sum = 0.0;
-      for (int density = 0; density < read->densities; ++density)
-        sum += share_of(static_cast<std::uint8_t>(read->values[read->at(stream, density, senone)]));
+      for (int density = 0; density < read->densities; ++density) {
+        sum +=
+            fraction_of(static_cast<std::uint8_t>(read->values[read->at(stream, density, senone)]));
+      }
       EXPECT_NEAR(sum, 1.0, 0.06) << senone;  // a step is a tenth of a share
     }
+  }
 }
 
 TEST(AdaptedMixtures, AreRefusedWhereTheFileIsAnother) {
@@ -61,8 +67,9 @@ TEST(AdaptedMixtures, AreRefusedWhereTheFileIsAnother) {
   std::string huge = file;
   huge[3] = '\x7f';
   for (const std::string& bytes : {std::string(), std::string("s3\n"), file.substr(0, 30),
-                                   file.substr(0, file.size() - 1), file + "x", negative, huge})
+                                   file.substr(0, file.size() - 1), file + "x", negative, huge}) {
     EXPECT_FALSE(read_mixture_weights(folder.with("sendump", bytes)).ok());
+  }
   EXPECT_FALSE(read_mixture_weights(folder.file("absent")).ok());
 }
 
@@ -99,8 +106,9 @@ TEST(AdaptedMixtures, StayAsTheyAreUnderAChangeThatIsNotTheirs) {
 }
 
 TEST(AdaptedMixtures, KeepSharesWithinHalfAStep) {
-  for (const double share : {1.0, 0.3, 0.01, 1e-5})
-    EXPECT_NEAR(share_of(quantised_weight(share)) / share, 1.0, 0.053) << share;
+  for (const double fraction : {1.0, 0.3, 0.01, 1e-5}) {
+    EXPECT_NEAR(fraction_of(quantised_weight(fraction)) / fraction, 1.0, 0.053) << fraction;
+  }
   EXPECT_EQ(quantised_weight(0.0), quantised_weight(1e-7));
 }
 

@@ -81,7 +81,9 @@ TEST(CommandEvidence, OfAHurriedWakeWordSaysLess) {
 
 TEST(CommandEvidence, OfAnUnweighedCommandIsTakenForTheWorst) {
   double worst = 1e9;
-  for (const char* command : kWeighedCommands) worst = std::min(worst, log_odds(likely(command)));
+  for (const char* command : kWeighedCommands) {
+    worst = std::min(worst, log_odds(likely(command)));
+  }
   EXPECT_NEAR(log_odds(likely("zoom")), worst, 1e-9);
 }
 

@@ -34,8 +34,9 @@ TEST(SpeechSegmenter, DropsWhatIsTooLongForACommand) {
   say(sound, "save");
   Random random(6);
   int ended = 0;
-  for (const SpeechSegment& segment : segments_of(sound.with_noise(Noise::kPink, 40.0, random)))
+  for (const SpeechSegment& segment : segments_of(sound.with_noise(Noise::kPink, 40.0, random))) {
     ended += segment.ended ? 1 : 0;
+  }
   EXPECT_EQ(ended, 1);
 }
 
@@ -51,7 +52,9 @@ TEST(SpeechSegmenter, TellsOfASegmentATenthOfASecondBeforeItEnds) {
   constexpr std::size_t kStep = 160;
   for (std::size_t at = 0; at + kStep <= samples.size(); at += kStep) {
     segmenter.push(std::span(samples).subspan(at, kStep), segments);
-    while (told_at.size() < segments.size()) told_at.push_back(at);
+    while (told_at.size() < segments.size()) {
+      told_at.push_back(at);
+    }
   }
   ASSERT_EQ(segments.size(), 2u);
   EXPECT_FALSE(segments[0].ended);
@@ -70,8 +73,11 @@ TEST(SpeechSegmenter, HearsAWordSoonAfterAFanWasSwitchedOn) {
   auto samples = sound.with_noise(Noise::kWhite, 20.0, random);
   std::fill_n(samples.begin(), kSpeechRateHz / 2, std::int16_t{0});
   std::int64_t last_begin = -1;
-  for (const SpeechSegment& segment : segments_of(samples))
-    if (segment.ended) last_begin = segment.begin;
+  for (const SpeechSegment& segment : segments_of(samples)) {
+    if (segment.ended) {
+      last_begin = segment.begin;
+    }
+  }
   EXPECT_NEAR(static_cast<double>(last_begin), 2.05 * kSpeechRateHz, 0.1 * kSpeechRateHz);
 }
 
@@ -79,10 +85,12 @@ TEST(SpeechSegmenter, HearsAWordSoonAfterAFanWasSwitchedOn) {
 int found_whole(Noise noise, double snr_db, double quiet_s, const std::string& before = "") {
   int found = 0;
   Random random(9);
-  for (const char* voice : {"en-us-nyc", "en-us+f4", "gmw/en+f4"})
+  for (const char* voice : {"en-us-nyc", "en-us+f4", "gmw/en+f4"}) {
     for (const char* text : {"ortho accept", "ortho done", "ortho move rod", "ortho next"}) {
       const auto samples = orthonav::test::spoken(text, {voice, 150});
-      if (!samples) return 0;
+      if (!samples) {
+        return 0;
+      }
       Soundtrack sound;
       if (!before.empty()) {
         sound.silence(0.5);
@@ -92,10 +100,13 @@ int found_whole(Noise noise, double snr_db, double quiet_s, const std::string& b
       const auto [begin, end] = sound.speech(*samples);
       sound.silence(0.8);
       for (const SpeechSegment& segment :
-           segments_of(sound.with_noise(noise, snr_db, random, orthonav::test::Babble::kTuning)))
-        if (segment.ended && segment.begin < end && segment.end > begin)
+           segments_of(sound.with_noise(noise, snr_db, random, orthonav::test::Babble::kTuning))) {
+        if (segment.ended && segment.begin < end && segment.end > begin) {
           found += 10 * (segment.end - segment.begin) > 6 * (end - begin) ? 1 : 0;
+        }
+      }
     }
+  }
   return found;
 }
 
@@ -128,7 +139,7 @@ TEST(SpeechSegmenter, FindsNoWordWithinASentence) {
     sound.silence(0.3);
   }
   Random random(10);
-  for (const double snr_db : {60.0, 20.0})
+  for (const double snr_db : {60.0, 20.0}) {
     for (const SpeechSegment& segment :
          segments_of(sound.with_noise(Noise::kPink, snr_db, random))) {
       // Its first words may stand by themselves.
@@ -137,14 +148,16 @@ TEST(SpeechSegmenter, FindsNoWordWithinASentence) {
       });
       EXPECT_TRUE(near) << snr_db << " dB, at " << segment.begin / 16 << " ms";
     }
+  }
 }
 
 TEST(SpeechSegmenter, FindsNothingWhereNobodySpeaks) {
   Soundtrack sound;
   sound.silence(20.0);
   Random random(11);
-  for (const Noise noise : {Noise::kWhite, Noise::kPink})
+  for (const Noise noise : {Noise::kWhite, Noise::kPink}) {
     EXPECT_TRUE(segments_of(sound.with_noise(noise, 10.0, random)).empty());
+  }
   EXPECT_TRUE(segments_of(std::vector<std::int16_t>(320000, 0)).empty());
 }
 

@@ -54,8 +54,11 @@ std::unique_ptr<CommandSpotter> spotter(Waking waking = Waking::kInNoise) {
 
 std::vector<std::string> sure_texts(const std::vector<SpokenCommand>& commands) {
   std::vector<std::string> texts;
-  for (const SpokenCommand& command : commands)
-    if (command.confidence >= 0.5) texts.push_back(command.text);
+  for (const SpokenCommand& command : commands) {
+    if (command.confidence >= 0.5) {
+      texts.push_back(command.text);
+    }
+  }
   return texts;
 }
 
@@ -63,7 +66,9 @@ TEST(CommandSpotter, HearsEveryCommandInAQuietRoom) {
   const auto heard = spotter();
   ASSERT_NE(heard, nullptr);
   std::vector<std::string> phrases;
-  for (const std::string& command : kCommands) phrases.push_back("ortho " + command);
+  for (const std::string& command : kCommands) {
+    phrases.push_back("ortho " + command);
+  }
   std::vector<SpokenCommand> commands;
   heard->push(quiet_room(phrases), commands);
   EXPECT_THAT(sure_texts(commands), ::testing::ElementsAreArray(kCommands));
@@ -139,8 +144,9 @@ TEST(CommandSpotter, WaitsForTheWakeWord) {
   std::vector<SpokenCommand> commands;
   heard->push(quiet_room({"save", "ortho save", "delete", "ortho delete"}), commands);
   EXPECT_THAT(sure_texts(commands), ::testing::ElementsAre("save", "delete"));
-  for (const SpokenCommand& command : commands)
+  for (const SpokenCommand& command : commands) {
     EXPECT_TRUE(command.begin > 2 * kSpeechRateHz || command.confidence < 0.5) << "not addressed";
+  }
 }
 
 TEST(CommandSpotter, HearsNoCommandInASentence) {
@@ -161,9 +167,10 @@ TEST(CommandSpotter, SaysTheSameHoweverTheSoundIsCut) {
   std::vector<SpokenCommand> expected;
   std::vector<SpokenCommand> commands;
   whole->push(sound, expected);
-  for (std::size_t at = 0; at < sound.size(); at += 777)
+  for (std::size_t at = 0; at < sound.size(); at += 777) {
     pieces->push(std::span(sound).subspan(at, std::min<std::size_t>(777, sound.size() - at)),
                  commands);
+  }
   ASSERT_EQ(commands.size(), expected.size());
   ASSERT_FALSE(expected.empty());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -194,14 +201,17 @@ TEST(Resampler, KeepsATonesPitchAndLevel) {
   auto resampler = Resampler::create(48000, 16000);
   ASSERT_TRUE(resampler.ok());
   std::vector<std::int16_t> in;
-  for (int i = 0; i < 48000; ++i)
+  for (int i = 0; i < 48000; ++i) {
     in.push_back(
         static_cast<std::int16_t>(10000.0 * std::sin(2.0 * 3.14159265 * 440.0 * i / 48000)));
+  }
   std::vector<std::int16_t> out;
   ASSERT_TRUE(resampler->push(in, out).ok());
   ASSERT_NEAR(static_cast<double>(out.size()), 16000.0, 100.0);
   int crossings = 0;
-  for (std::size_t i = 1000; i < 15000; ++i) crossings += out[i - 1] < 0 && out[i] >= 0 ? 1 : 0;
+  for (std::size_t i = 1000; i < 15000; ++i) {
+    crossings += out[i - 1] < 0 && out[i] >= 0 ? 1 : 0;
+  }
   EXPECT_NEAR(crossings, 440.0 * 14000 / 16000, 2.0);
   EXPECT_NEAR(*std::max_element(out.begin() + 1000, out.end()), 10000, 200);
   EXPECT_FALSE(Resampler::create(100, 16000).ok());
@@ -254,8 +264,9 @@ TEST(WavMicrophone, HearsAsTheClockGoesOn) {
 TEST(WavMicrophone, RefusesWhatIsNoSoundFile) {
   const TemporaryFolder folder;
   const fake::ManualClock clock;
-  for (const std::string& bytes : {std::string("no sound"), std::string(), wav_of({}, 8000, 1)})
+  for (const std::string& bytes : {std::string("no sound"), std::string(), wav_of({}, 8000, 1)}) {
     EXPECT_FALSE(desktop::open_wav_microphone(folder.with("bad.wav", bytes), clock).ok());
+  }
   EXPECT_FALSE(desktop::open_wav_microphone(folder.file("absent.wav"), clock).ok());
 }
 
@@ -304,7 +315,9 @@ TEST(SpottedVoice, HearsTheSameOnItsOwnThread) {
   const auto expected = phrases_of("wav:" + path + "?wake=noise", 5.0);
   const auto phrases = phrases_of("wav:" + path + "?wake=noise", 5.0, true);
   ASSERT_EQ(phrases.size(), expected.size());
-  for (std::size_t i = 0; i < phrases.size(); ++i) EXPECT_EQ(phrases[i].text, expected[i].text);
+  for (std::size_t i = 0; i < phrases.size(); ++i) {
+    EXPECT_EQ(phrases[i].text, expected[i].text);
+  }
 }
 
 }  // namespace

@@ -44,7 +44,9 @@ std::optional<BoardView> view_of(const Chessboard& board, const Cameras& cameras
     const Point<LeftCamera> in_left = left_from_board * Point<Board>{{place.x, place.y, 0}};
     const Vec2 left = seen(cameras.left, in_left.v);
     const Vec2 right = seen(cameras.right, (cameras.right_from_left * in_left).v);
-    if (!inside(left) || !inside(right)) return std::nullopt;
+    if (!inside(left) || !inside(right)) {
+      return std::nullopt;
+    }
     view.left_px.push_back(left + Vec2{random.normal(0, noise_px), random.normal(0, noise_px)});
     view.right_px.push_back(right + Vec2{random.normal(0, noise_px), random.normal(0, noise_px)});
   }
@@ -62,8 +64,9 @@ std::vector<BoardView> views(int count, Random& random, double noise_px = kNoise
                       random.uniform(0.25, 0.5)};
     const Vec3 half{0.5 * board.square_m * (board.columns - 1),
                     0.5 * board.square_m * (board.rows - 1), 0};
-    if (const auto view = view_of(board, cameras, {turn, middle - turn * half}, noise_px, random))
+    if (const auto view = view_of(board, cameras, {turn, middle - turn * half}, noise_px, random)) {
       all.push_back(*view);
+    }
   }
   return all;
 }
@@ -122,19 +125,23 @@ TEST(StereoBoard, LeavesOutViewsWithMistakesAndNamesThem) {
   Random random(3);
   const Cameras cameras;
   auto all = views(14, random);
-  for (Vec2& corner : all[4].right_px) corner = corner + Vec2{random.normal(0, 2), 1.0};
+  for (Vec2& corner : all[4].right_px) {
+    corner = corner + Vec2{random.normal(0, 2), 1.0};
+  }
   all[9].left_px[7] = all[9].left_px[7] + Vec2{14, -9};
   const auto found = calibrate_stereo(kBoard, kSize, all);
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_EQ(found->used, 12u);
-  for (std::size_t i = 0; i < 14; ++i) EXPECT_EQ(found->views[i].used, i != 4 && i != 9) << i;
+  for (std::size_t i = 0; i < 14; ++i) {
+    EXPECT_EQ(found->views[i].used, i != 4 && i != 9) << i;
+  }
   EXPECT_GT(found->views[4].right_rms_px, 1.0);
   EXPECT_LT(turned_rad(*found, cameras), 0.004);
   EXPECT_EQ(found->judgement.verdict, Verdict::kNote);
   EXPECT_THAT(found->judgement.reason, HasSubstr("2 views left out"));
 
   StereoBoardOptions keep_all;
-  keep_all.max_outlier_share = 0.0;
+  keep_all.max_outlier_fraction = 0.0;
   const auto spoiled = calibrate_stereo(kBoard, kSize, all, keep_all);
   ASSERT_TRUE(spoiled.ok());
   EXPECT_GT(spoiled->stereo_rms_px, 3.0 * found->stereo_rms_px) << "the mistakes do harm";
@@ -163,8 +170,9 @@ TEST(StereoBoard, TakesABoardThatLooksTheSameTurned) {
   upright.right_from_left = {rotation_from_vector({0.01, -0.02, 0.005}), {-0.099, 0.001, 0.003}};
   Random random(6);
   auto all = views(12, random, kNoisePx, even, upright);
-  for (std::size_t i = 0; i < all.size(); i += 2)
+  for (std::size_t i = 0; i < all.size(); i += 2) {
     std::reverse(all[i].right_px.begin(), all[i].right_px.end());
+  }
   const auto found = calibrate_stereo(even, kSize, all);
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_LT(found->stereo_rms_px, 0.2);
@@ -188,7 +196,7 @@ TEST(StereoBoard, RefusesWhatCannotBeCalibrated) {
   StereoBoardOptions bad;
   bad.min_views = 1;
   bad.outlier_factor = 1.0;
-  bad.max_outlier_share = 1.0;
+  bad.max_outlier_fraction = 1.0;
   bad.max_rms_px = std::nan("");
   EXPECT_THAT(bad.check(), SizeIs(4));
   EXPECT_THAT(refusal(kBoard, all, bad), HasSubstr("min_views 1"));
@@ -208,29 +216,38 @@ GreyImage picture_of_board(const Chessboard& board, const BrownConrady& paramete
   const Vec3 eye = board_from_camera.translation();
   const auto grey = [&](Vec2 pixel) {
     const auto unit = camera.unproject(pixel);
-    if (!unit) return 128.0;
+    if (!unit) {
+      return 128.0;
+    }
     const Vec3 ray = board_from_camera.rotation() * Vec3{unit->x, unit->y, 1.0};
     const Vec3 p = eye - (eye.z / ray.z) * ray;
     const int column = static_cast<int>(std::floor(p.x / board.square_m));
     const int row = static_cast<int>(std::floor(p.y / board.square_m));
-    if (column < -2 || row < -2 || column > board.columns || row > board.rows) return 128.0;
-    if (column < -1 || row < -1 || column >= board.columns || row >= board.rows) return 225.0;
+    if (column < -2 || row < -2 || column > board.columns || row > board.rows) {
+      return 128.0;
+    }
+    if (column < -1 || row < -1 || column >= board.columns || row >= board.rows) {
+      return 225.0;
+    }
     return (column + row) % 2 == 0 ? 30.0 : 225.0;  // the first inner square is dark
   };
   // Hammersley's points in a box two pixels wide: in each direction 64 different places, so that
   // edges along the rows do not move in steps.
   constexpr unsigned kRays = 64;
   GreyImage image(kSize.width_px, kSize.height_px);
-  for (int y = 0; y < image.height_px; ++y)
+  for (int y = 0; y < image.height_px; ++y) {
     for (int x = 0; x < image.width_px; ++x) {
       double sum = 0.0;
       for (unsigned i = 0; i < kRays; ++i) {
         unsigned reversed = 0;
-        for (unsigned bit = 0; bit < 6; ++bit) reversed |= ((i >> bit) & 1U) << (5U - bit);
+        for (unsigned bit = 0; bit < 6; ++bit) {
+          reversed |= ((i >> bit) & 1U) << (5U - bit);
+        }
         sum += grey({x - 0.5 + (i + 0.5) / 32.0, y - 0.5 + (reversed + 0.5) / 32.0});
       }
       image.at(x, y) = static_cast<std::uint8_t>(std::lround(sum / kRays));
     }
+  }
   return image;
 }
 

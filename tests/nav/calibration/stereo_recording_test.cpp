@@ -19,9 +19,10 @@ constexpr double kNoisePx = 0.05;
 /// Four by three tags of 30 mm, 38 mm apart.
 std::vector<BoardTag> board() {
   std::vector<BoardTag> tags;
-  for (int i = 0; i < 12; ++i)
+  for (int i = 0; i < 12; ++i) {
     tags.push_back({{"tag36h11", i, 0.03},
                     {Mat3::identity(), {0.038 * (i % 4 - 1.5), 0.038 * (1 - i / 4), 0}}});
+  }
   return tags;
 }
 
@@ -73,11 +74,11 @@ TEST(StereoRecording, FindsByHowMuchTheRightCameraIsOff) {
     EXPECT_GT(found->epipolar_before_px, 0.5);
     // One coordinate of the right corner, and the left corner's along with it.
     EXPECT_NEAR(found->epipolar_after_px, std::sqrt(2.0) * kNoisePx, 0.01);
-    EXPECT_LT((found->shift_m - shift).norm(), 4.0 * found->shift_sigma_m);
+    EXPECT_LT((found->shift_m - shift).norm(), 4.0 * found->translation_sigma_m);
     EXPECT_EQ(found->judgement.verdict, Verdict::kNote);
     EXPECT_THAT(found->judgement.reason, HasSubstr("the device's calibration is off by 0."));
     turn_off += (found->turn_rad - turn).squared_norm();
-    turn_sigma += found->turn_sigma_rad * found->turn_sigma_rad;
+    turn_sigma += found->rotation_sigma_rad * found->rotation_sigma_rad;
   }
   // 18 numbers, and the larger of two estimates is told: within a factor of two.
   EXPECT_LT(turn_off / turn_sigma, 2.0);
@@ -124,9 +125,13 @@ TEST(StereoRecording, RefusesTooLittleAndWrongSizes) {
   EXPECT_THAT(refusal(std::span(pairs).first(12)), HasSubstr("in 12 pairs, at least 20"));
   EXPECT_THAT(refusal({}), HasSubstr("in 0 pairs"));
   auto scaled = pairs;
-  for (PairSightings& pair : scaled)
-    for (TagSighting& tag : pair)
-      if (tag.pose) tag.pose->size_ratio *= 0.9;
+  for (PairSightings& pair : scaled) {
+    for (TagSighting& tag : pair) {
+      if (tag.pose) {
+        tag.pose->size_ratio *= 0.9;
+      }
+    }
+  }
   EXPECT_THAT(refusal(scaled), HasSubstr("printed at 100 %"));
   StereoRecordingOptions bad;
   bad.min_pairs = 5;

@@ -20,7 +20,9 @@ using ::testing::SizeIs;
 std::vector<PairSightings> seen(const test::TagBodyScene& scene, int pairs, std::uint64_t seed) {
   Random random(seed);
   std::vector<PairSightings> all;
-  for (const auto& pose : test::turning(pairs)) all.push_back(scene.seen(pose, random));
+  for (const auto& pose : test::turning(pairs)) {
+    all.push_back(scene.seen(pose, random));
+  }
   return all;
 }
 
@@ -90,36 +92,49 @@ TEST(TagBody, BearsTagsThatWereSeenWrongly) {
   const test::TagBodyScene scene = test::prism();
   auto pairs = seen(scene, 80, 3);
   const TagGeometry geometry(scene.calibration);
-  for (std::size_t i = 0; i < pairs.size(); i += 6)
+  for (std::size_t i = 0; i < pairs.size(); i += 6) {
     for (TagSighting& sighting : pairs[i]) {
-      if (sighting.tag != 1 || !sighting.pose) continue;
-      for (Vec2& corner : *sighting.left_px) corner = corner + Vec2{4.0, 3.0};
+      if (sighting.tag != 1 || !sighting.pose) {
+        continue;
+      }
+      for (Vec2& corner : *sighting.left_px) {
+        corner = corner + Vec2{4.0, 3.0};
+      }
       sighting.pose = geometry.pose({*sighting.left_px, *sighting.right_px}, 0.04);
     }
+  }
   const auto body = calibrated(scene, pairs);
   ASSERT_TRUE(body.ok()) << body.error().message;
-  EXPECT_GT(body->outlier_share, 0.01);
-  for (std::size_t i = 1; i < 3; ++i)
+  EXPECT_GT(body->outlier_fraction, 0.01);
+  for (std::size_t i = 1; i < 3; ++i) {
     EXPECT_LT(shift_m(body->tags[i], scene.marker_from_tag[i]), 0.0001);
+  }
 }
 
 TEST(TagBody, ConnectsTagsThroughOthers) {
   // 4 and 5 never meet, 3 meets both.
   const test::TagBodyScene scene = test::prism();
   auto pairs = seen(scene, 80, 4);
-  for (PairSightings& pair : pairs)
-    if (pair.size() == 3) pair.pop_back();
+  for (PairSightings& pair : pairs) {
+    if (pair.size() == 3) {
+      pair.pop_back();
+    }
+  }
   const auto body = calibrated(scene, pairs);
   ASSERT_TRUE(body.ok()) << body.error().message;
-  for (std::size_t i = 1; i < 3; ++i)
+  for (std::size_t i = 1; i < 3; ++i) {
     EXPECT_LT(shift_m(body->tags[i], scene.marker_from_tag[i]), 0.0002);
+  }
 }
 
 TEST(TagBody, NamesTagsThatNothingConnects) {
   const test::TagBodyScene scene = test::prism();
   auto pairs = seen(scene, 80, 5);
-  for (PairSightings& pair : pairs)
-    if (pair.size() > 1) std::erase_if(pair, [](const TagSighting& s) { return s.tag == 2; });
+  for (PairSightings& pair : pairs) {
+    if (pair.size() > 1) {
+      std::erase_if(pair, [](const TagSighting& s) { return s.tag == 2; });
+    }
+  }
   EXPECT_THAT(refusal(scene, pairs),
               AllOf(HasSubstr("tag tag36h11 id 5 (seen in"), HasSubstr("not seen in 10 pairs"),
                     HasSubstr("connect it with tag tag36h11 id 3")));
@@ -147,10 +162,16 @@ TEST(TagBody, RefusesASizeThatTheImagesContradict) {
   // 36 mm are given for all of them; the corners say 40.
   auto wrong = pairs;
   const TagGeometry geometry(scene.calibration);
-  for (PairSightings& pair : wrong)
-    for (TagSighting& s : pair)
-      if (s.pose) s.pose = geometry.pose({*s.left_px, *s.right_px}, 0.036);
-  for (MarkerDefinition& tag : scene.tags) tag.size_m = 0.036;
+  for (PairSightings& pair : wrong) {
+    for (TagSighting& s : pair) {
+      if (s.pose) {
+        s.pose = geometry.pose({*s.left_px, *s.right_px}, 0.036);
+      }
+    }
+  }
+  for (MarkerDefinition& tag : scene.tags) {
+    tag.size_m = 0.036;
+  }
   EXPECT_THAT(refusal(scene, wrong), HasSubstr("id 3: its edges measure 40."));
   TagBodyOptions lenient;
   lenient.max_size_deviation = 0.2;

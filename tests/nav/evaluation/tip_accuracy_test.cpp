@@ -22,8 +22,8 @@ using ::testing::SizeIs;
 
 Result<AccuracyReport> tested(const AccuracyTrackOptions& track,
                               const AccuracyOptions& options = {}) {
-  return accuracy_test(accuracy_track(track, accuracy_board()), accuracy_pointer(),
-                       accuracy_board(), options);
+  return test_tip_accuracy(accuracy_track(track, accuracy_board()), accuracy_pointer(),
+                           accuracy_board(), options);
 }
 
 std::string refusal(const Result<AccuracyReport>& report) {
@@ -86,8 +86,10 @@ TEST(AccuracyTest, MeasuresTheRepeatabilityThatIsThere) {
 
 TEST(AccuracyTest, GivesNoPredictionWithoutACovariance) {
   auto poses = accuracy_track({}, {});
-  for (TrackedPose& pose : poses) pose.covariance = {};
-  const auto report = accuracy_test(poses, accuracy_pointer(), {});
+  for (TrackedPose& pose : poses) {
+    pose.covariance = {};
+  }
+  const auto report = test_tip_accuracy(poses, accuracy_pointer(), {});
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_FALSE(report->single_point.predicted_rms_m);
   EXPECT_FALSE(report->distances);
@@ -151,7 +153,9 @@ TEST(AccuracyTest, ShowsTheSpreadGrowWithTheTilt) {
   ASSERT_GE(bins.size(), 3u);
   EXPECT_GT(bins.back().rms_m, bins.front().rms_m);
   std::size_t samples = 0;
-  for (const TiltBin& bin : bins) samples += bin.samples;
+  for (const TiltBin& bin : bins) {
+    samples += bin.samples;
+  }
   EXPECT_EQ(samples, report->turning.spread.samples);
 }
 
@@ -209,7 +213,7 @@ TEST(AccuracyTest, FailsABoardTouchedInAnotherOrder) {
   auto board = accuracy_board();
   std::swap(board[1], board[7]);
   const auto report =
-      accuracy_test(accuracy_track({}, board), accuracy_pointer(), accuracy_board());
+      test_tip_accuracy(accuracy_track({}, board), accuracy_pointer(), accuracy_board());
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_THAT(report->distances->failure, HasSubstr("another order"));
   EXPECT_EQ(report->verdict(), Verdict::kFail);
@@ -229,12 +233,13 @@ TEST(AccuracyTest, RefusesABoardTouchedInPart) {
   auto board = accuracy_board();
   board.pop_back();
   EXPECT_THAT(
-      refusal(accuracy_test(accuracy_track({}, board), accuracy_pointer(), accuracy_board())),
+      refusal(test_tip_accuracy(accuracy_track({}, board), accuracy_pointer(), accuracy_board())),
       HasSubstr("the tip rested at 8 places away from the dimple, must be 9 to 13"));
 }
 
 TEST(AccuracyTest, RefusesTooFewData) {
-  EXPECT_THAT(refusal(accuracy_test({}, accuracy_pointer(), {})), HasSubstr("0 measured poses"));
+  EXPECT_THAT(refusal(test_tip_accuracy({}, accuracy_pointer(), {})),
+              HasSubstr("0 measured poses"));
   AccuracyTrackOptions track;
   track.tilt_rad = 0.1;
   EXPECT_THAT(refusal(tested(track)), HasSubstr("never turned about its resting tip"));
@@ -253,18 +258,18 @@ TEST(AccuracyTest, RefusesTooFewData) {
 
 TEST(AccuracyTest, CountsMeasuredPosesOnly) {
   auto poses = accuracy_track({}, accuracy_board());
-  const auto before = accuracy_test(poses, accuracy_pointer(), accuracy_board());
+  const auto before = test_tip_accuracy(poses, accuracy_pointer(), accuracy_board());
   ASSERT_TRUE(before);
   // Wild predictions between the measurements change nothing.
   std::vector<TrackedPose> mixed;
   for (const TrackedPose& pose : poses) {
     mixed.push_back(pose);
     TrackedPose predicted = pose;
-    predicted.origin = Origin::kPredicted;
+    predicted.status = PoseStatus::kPredicted;
     predicted.value = {pose.value.rotation(), pose.value.translation() + Vec3{0.1, 0, 0}};
     mixed.push_back(predicted);
   }
-  const auto after = accuracy_test(mixed, accuracy_pointer(), accuracy_board());
+  const auto after = test_tip_accuracy(mixed, accuracy_pointer(), accuracy_board());
   ASSERT_TRUE(after);
   EXPECT_EQ(after->single_point.spread.rms_m, before->single_point.spread.rms_m);
   EXPECT_EQ(after->distances->rms_m, before->distances->rms_m);
@@ -273,15 +278,16 @@ TEST(AccuracyTest, CountsMeasuredPosesOnly) {
 TEST(AccuracyTest, RefusesBadInput) {
   auto poses = accuracy_track({}, accuracy_board());
   std::swap(poses[4].time, poses[5].time);
-  EXPECT_THAT(refusal(accuracy_test(poses, accuracy_pointer(), {})), HasSubstr("do not increase"));
+  EXPECT_THAT(refusal(test_tip_accuracy(poses, accuracy_pointer(), {})),
+              HasSubstr("do not increase"));
   poses = accuracy_track({}, accuracy_board());
   poses[7].value = {poses[7].value.rotation(), {std::numeric_limits<double>::quiet_NaN(), 0, 0}};
-  EXPECT_THAT(refusal(accuracy_test(poses, accuracy_pointer(), {})), HasSubstr("not finite"));
+  EXPECT_THAT(refusal(test_tip_accuracy(poses, accuracy_pointer(), {})), HasSubstr("not finite"));
   poses = accuracy_track({}, accuracy_board());
   const std::vector<Vec3> two = {{0, 0, 0}, {0.1, 0, 0}};
-  EXPECT_THAT(refusal(accuracy_test(poses, accuracy_pointer(), two)), HasSubstr("2 points"));
+  EXPECT_THAT(refusal(test_tip_accuracy(poses, accuracy_pointer(), two)), HasSubstr("2 points"));
   const std::vector<Vec3> close = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.01, 0}};
-  EXPECT_THAT(refusal(accuracy_test(poses, accuracy_pointer(), close)),
+  EXPECT_THAT(refusal(test_tip_accuracy(poses, accuracy_pointer(), close)),
               HasSubstr("10.0 mm apart, at least 15.0 mm"));
   AccuracyOptions options;
   options.tip_bias = {0.002, 0.001};
@@ -306,7 +312,7 @@ TEST(AccuracyTest, WorksAtTenPairsASecondAndWithHiddenTags) {
   std::erase_if(poses, [](const TrackedPose& pose) {
     return std::fmod(seconds(pose.time.time_since_epoch()), 3.0) < 0.4;
   });
-  const auto hidden = accuracy_test(poses, accuracy_pointer(), accuracy_board());
+  const auto hidden = test_tip_accuracy(poses, accuracy_pointer(), accuracy_board());
   ASSERT_TRUE(hidden) << hidden.error().message;
   EXPECT_EQ(hidden->verdict(), Verdict::kPass);
 }

@@ -48,7 +48,9 @@ FieldErrors errors(const DistanceField& field, const SurfaceIndex& surface, int 
     const Vec3 p = anywhere_in(field.bounds(), random);
     const double right_m = signed_distance_m(surface, surface, p);
     DistanceField::Value value;
-    if (!field.at(p, value) || std::abs(std::abs(right_m) - kSigned_m) < kMixed_m) continue;
+    if (!field.at(p, value) || std::abs(std::abs(right_m) - kSigned_m) < kMixed_m) {
+      continue;
+    }
     all.push_back(std::abs(value.distance_m - right_m));
   }
   std::sort(all.begin(), all.end());
@@ -96,7 +98,9 @@ TEST(DistanceField, IsNegativeInsideAsDeepAsItSays) {
     const double distance_m = s.index.nearest(p)->distance_m;
     DistanceField::Value value;
     // Nearer to the surface than the error the sign is nobody's.
-    if (distance_m < 0.5 * kCell_m || !field.at(p, value)) continue;
+    if (distance_m < 0.5 * kCell_m || !field.at(p, value)) {
+      continue;
+    }
     if (!s.index.contains(p)) {
       EXPECT_GT(value.distance_m, 0.0);
     } else if (distance_m < kSigned_m - kMixed_m) {
@@ -121,7 +125,9 @@ TEST(DistanceField, PointsAwayFromTheSurfaceAndIsItsOwnDerivative) {
     const Vec3 p = anywhere_in(field.bounds(), random);
     DistanceField::Value here;
     // Within the skin where it is signed.
-    if (std::abs(p.norm() - 0.02) > kSigned_m - kMixed_m || !field.at(p, here)) continue;
+    if (std::abs(p.norm() - 0.02) > kSigned_m - kMixed_m || !field.at(p, here)) {
+      continue;
+    }
     worst = std::max(worst, (here.gradient - p / p.norm()).norm());
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 beside = p;
@@ -173,15 +179,18 @@ TEST(DistanceField, TakesTheDistanceToOneSurfaceAndTheSignByAnother) {
   const DistanceField field(back.mesh, back.index, bone.index, kCell_m, kMargin_m);
   const Vec3 low = field.bounds().low;
   int negative = 0;
-  for (int x = 0; x < 40; ++x)
+  for (int x = 0; x < 40; ++x) {
     for (int y = 0; y < 20; ++y) {
       const Vec3 node = low + kCell_m * Vec3{x + 1.0, y + 1.0, 20.0};
       DistanceField::Value value;
-      if (!field.at(node + 1e-9 * Vec3{1, 1, 1}, value)) continue;
+      if (!field.at(node + 1e-9 * Vec3{1, 1, 1}, value)) {
+        continue;
+      }
       const double right_m = signed_distance_m(back.index, bone.index, node);
       EXPECT_NEAR(value.distance_m, right_m, 2e-7);  // floats, and the nudge into the cell
       negative += right_m < 0.0 ? 1 : 0;
     }
+  }
   EXPECT_GT(negative, 50);
 }
 

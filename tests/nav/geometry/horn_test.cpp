@@ -23,13 +23,17 @@ Vec3 random_vector(Random& random, double half) {
 
 std::vector<Vec3> random_points(Random& random, std::size_t count) {
   std::vector<Vec3> points;
-  for (std::size_t i = 0; i < count; ++i) points.push_back(random_vector(random, 0.1));
+  for (std::size_t i = 0; i < count; ++i) {
+    points.push_back(random_vector(random, 0.1));
+  }
   return points;
 }
 
 std::vector<Vec3> moved(const std::vector<Vec3>& points, const Mat3& rotation, Vec3 shift) {
   std::vector<Vec3> out;
-  for (const Vec3& p : points) out.push_back(rotation * p + shift);
+  for (const Vec3& p : points) {
+    out.push_back(rotation * p + shift);
+  }
   return out;
 }
 
@@ -78,7 +82,9 @@ TEST(AbsoluteOrientation, FitsNoisyPointsAsWellAsTheSvd) {
   for (int trial = 0; trial < 200; ++trial) {
     const auto from = random_points(random, 8);
     auto to = moved(from, rotation_from_vector(random_vector(random, 3.0)), {0.2, 0.1, 0.0});
-    for (Vec3& p : to) p += Vec3{random.normal(), random.normal(), random.normal()} * 0.005;
+    for (Vec3& p : to) {
+      p += Vec3{random.normal(), random.normal(), random.normal()} * 0.005;
+    }
     const auto fit = absolute_orientation(from, to);
     ASSERT_TRUE(fit.ok());
     EXPECT_NEAR(fit->rmse_m, rmse_by_svd(from, to), 1e-10);
@@ -90,7 +96,9 @@ TEST(AbsoluteOrientation, NeverMirrors) {
   for (int trial = 0; trial < 100; ++trial) {
     const auto from = random_points(random, 6);
     std::vector<Vec3> mirrored;
-    for (const Vec3& p : from) mirrored.push_back({-p.x, p.y, p.z});
+    for (const Vec3& p : from) {
+      mirrored.push_back({-p.x, p.y, p.z});
+    }
     const auto fit = absolute_orientation(from, mirrored);
     ASSERT_TRUE(fit.ok());
     EXPECT_NEAR(fit->rotation.determinant(), 1.0, 1e-12);
@@ -124,7 +132,9 @@ TEST(AbsoluteOrientation, RefusesWhatIsNotFinite) {
 
 TEST(AbsoluteOrientation, RefusesPointsOnALineButNotJustBesideOne) {
   std::vector<Vec3> line;
-  for (int i = 0; i < 5; ++i) line.push_back(Vec3{0.01, 0.02, -0.005} * i + Vec3{1.0, 2.0, 3.0});
+  for (int i = 0; i < 5; ++i) {
+    line.push_back(Vec3{0.01, 0.02, -0.005} * i + Vec3{1.0, 2.0, 3.0});
+  }
   EXPECT_THAT(absolute_orientation(line, line).error().message, HasSubstr("on a line"));
   Random random(7);
   EXPECT_FALSE(absolute_orientation(random_points(random, 5), line).ok());

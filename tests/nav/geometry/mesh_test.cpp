@@ -25,8 +25,9 @@ TriangleMesh vertebra_sized_box() { return box({-0.04, -0.03, -0.02}, {0.04, 0.0
 
 double volume_m3(const TriangleMesh& mesh) {
   double v = 0.0;
-  for (const auto& t : mesh.triangles)
+  for (const auto& t : mesh.triangles) {
     v += mesh.vertices_m[t[0]].dot(mesh.vertices_m[t[1]].cross(mesh.vertices_m[t[2]])) / 6.0;
+  }
   return v;
 }
 
@@ -45,7 +46,9 @@ TEST(CheckedVertebra, TakesAClosedMeshAsItIs) {
 
 TEST(CheckedVertebra, TurnsAnInwardMesh) {
   TriangleMesh mesh = vertebra_sized_box();
-  for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
+  for (auto& t : mesh.triangles) {
+    std::swap(t[0], t[1]);
+  }
   ASSERT_LT(volume_m3(mesh), 0.0);
   const auto checked = checked_vertebra(mesh);
   ASSERT_TRUE(checked.ok());
@@ -108,10 +111,14 @@ TEST(CheckedVertebra, RefusesAMeshWithoutInside) {
 
 TEST(CheckedVertebra, NamesMetresTakenForMillimetres) {
   TriangleMesh mesh = vertebra_sized_box();
-  for (Vec3& v : mesh.vertices_m) v = v * 1e-3;
+  for (Vec3& v : mesh.vertices_m) {
+    v = v * 1e-3;
+  }
   EXPECT_THAT(refusal(mesh), HasSubstr("mesh is 0.08 mm across, limit 30-250 mm"));
   EXPECT_THAT(refusal(mesh), HasSubstr("metres taken for millimetres"));
-  for (Vec3& v : mesh.vertices_m) v = v * 1e6;
+  for (Vec3& v : mesh.vertices_m) {
+    v = v * 1e6;
+  }
   EXPECT_THAT(refusal(mesh), HasSubstr("millimetres taken for metres"));
 }
 
@@ -127,7 +134,9 @@ TEST(Welded, JoinsTheCornersOfALooseMesh) {
   TriangleMesh loose;
   for (const auto& t : whole.triangles) {
     const auto base = static_cast<std::uint32_t>(loose.vertices_m.size());
-    for (const std::uint32_t v : t) loose.vertices_m.push_back(whole.vertices_m[v]);
+    for (const std::uint32_t v : t) {
+      loose.vertices_m.push_back(whole.vertices_m[v]);
+    }
     loose.triangles.push_back({base, base + 1, base + 2});
   }
   EXPECT_THAT(refusal(loose), HasSubstr("open"));
@@ -153,8 +162,9 @@ SurfacePoint nearest_of_all(const TriangleMesh& mesh, Vec3 query_m) {
     const auto& t = mesh.triangles[i];
     const Triangle corners{mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]};
     const Vec3 p = nearest_on_triangle(query_m, corners);
-    if ((p - query_m).norm() < best.distance_m)
+    if ((p - query_m).norm() < best.distance_m) {
       best = {p, triangle_normal(corners), (p - query_m).norm(), i};
+    }
   }
   return best;
 }
@@ -163,7 +173,9 @@ SurfacePoint nearest_of_all(const TriangleMesh& mesh, Vec3 query_m) {
 TriangleMesh potato() {
   TriangleMesh mesh = sphere({0.01, 0.02, -0.01}, 0.04, 18);
   Random random(5);
-  for (Vec3& v : mesh.vertices_m) v = v + 0.003 * Vec3{random.normal(), random.normal(), 0.4};
+  for (Vec3& v : mesh.vertices_m) {
+    v = v + 0.003 * Vec3{random.normal(), random.normal(), 0.4};
+  }
   return mesh;
 }
 
@@ -203,14 +215,18 @@ TEST(SurfaceIndex, MeetsTheSameFirstTriangleAsTryingEveryOne) {
     const Vec3 origin_m = somewhere(random, 0.08);
     const Vec3 direction = somewhere(random, 7.0);
     double expected = 1e9;
-    for (const auto& t : mesh.triangles)
+    for (const auto& t : mesh.triangles) {
       if (const auto s = ray_meets_triangle(
               origin_m, direction,
-              {mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]}))
+              {mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]})) {
         expected = std::min(expected, *s * direction.norm());
+      }
+    }
     const auto found = index.first_hit(origin_m, direction);
     ASSERT_EQ(found.has_value(), expected < 1e9) << i;
-    if (!found) continue;
+    if (!found) {
+      continue;
+    }
     ++hits;
     ASSERT_NEAR(found->distance_m, expected, 1e-12) << i;
   }
@@ -237,7 +253,9 @@ TEST(SurfaceIndex, KnowsInsideFromOutside) {
   for (int i = 0; i < 1000; ++i) {
     const Vec3 offset = somewhere(random, 0.05);
     // Between the flat triangles' and the sphere's radius either answer is right.
-    if (offset.norm() > 0.0395 && offset.norm() < 0.0401) continue;
+    if (offset.norm() > 0.0395 && offset.norm() < 0.0401) {
+      continue;
+    }
     ASSERT_EQ(index.contains(centre + offset), offset.norm() < 0.04) << i;
   }
 }

@@ -31,17 +31,21 @@ std::vector<Vec3> lordosis() {
 double length_by_chords_m(const CatmullRom& spline) {
   double sum_m = 0.0;
   constexpr int kChords = 200000;
-  for (std::size_t s = 0; s < spline.segments(); ++s)
-    for (int i = 0; i < kChords; ++i)
+  for (std::size_t s = 0; s < spline.segments(); ++s) {
+    for (int i = 0; i < kChords; ++i) {
       sum_m +=
           (spline.position(s, (i + 1.0) / kChords) - spline.position(s, 1.0 * i / kChords)).norm();
+    }
+  }
   return sum_m;
 }
 
 /// The spline by Barry and Goldman's pyramid (1988), as textbooks give it.
 Vec3 pyramid(std::span<const Vec3, 4> p, double t) {
   double u[4] = {0, 0, 0, 0};
-  for (int i = 1; i < 4; ++i) u[i] = u[i - 1] + std::sqrt((p[i] - p[i - 1]).norm());
+  for (int i = 1; i < 4; ++i) {
+    u[i] = u[i - 1] + std::sqrt((p[i] - p[i - 1]).norm());
+  }
   const double x = u[1] + t * (u[2] - u[1]);
   const auto mix = [&](Vec3 a, Vec3 b, int i, int j) {
     return ((u[j] - x) * a + (x - u[i]) * b) / (u[j] - u[i]);
@@ -67,25 +71,28 @@ TEST(CatmullRom, IsTheCentripetalSplineOfThePyramid) {
   const auto points = lordosis();
   const auto spline = CatmullRom::through(points);
   ASSERT_TRUE(spline.ok());
-  for (std::size_t segment = 1; segment <= 2; ++segment)
+  for (std::size_t segment = 1; segment <= 2; ++segment) {
     for (const double t : {0.1, 0.37, 0.5, 0.93}) {
       const Vec3 expected = pyramid(std::span<const Vec3, 4>(&points[segment - 1], 4), t);
       EXPECT_LT((spline->position(segment, t) - expected).norm(), 1e-14);
     }
+  }
 }
 
 TEST(CatmullRom, HasItsDerivativeAndNoCornerAtThePoints) {
   const auto spline = CatmullRom::through(lordosis());
   ASSERT_TRUE(spline.ok());
   constexpr double kStep = 1e-6;
-  for (std::size_t s = 0; s < 4; ++s)
+  for (std::size_t s = 0; s < 4; ++s) {
     for (const double t : {0.2, 0.6}) {
       const Vec3 numeric =
           (spline->position(s, t + kStep) - spline->position(s, t - kStep)) / (2 * kStep);
       EXPECT_LT((spline->derivative(s, t) - numeric).norm(), 1e-9);
     }
-  for (std::size_t s = 0; s + 1 < 4; ++s)
+  }
+  for (std::size_t s = 0; s + 1 < 4; ++s) {
     EXPECT_LT(angle_between_rad(spline->derivative(s, 1.0), spline->derivative(s + 1, 0.0)), 1e-7);
+  }
 }
 
 TEST(CatmullRom, MeasuresItsLengthToAMicrometre) {
@@ -115,8 +122,9 @@ TEST(CatmullRom, SamplesEvenlyAlongTheArc) {
   EXPECT_NEAR(step_m, 0.001, 5e-6);
   EXPECT_EQ(path.front(), lordosis().front());
   EXPECT_EQ(path.back(), lordosis().back());
-  for (std::size_t i = 1; i < path.size(); ++i)
+  for (std::size_t i = 1; i < path.size(); ++i) {
     EXPECT_NEAR((path[i] - path[i - 1]).norm(), step_m, 1e-6) << i;  // chord against arc
+  }
 }
 
 TEST(CatmullRom, RefusesWhatIsNoCurve) {
@@ -174,8 +182,9 @@ TEST(RodTemplate, RefusesWhatIsNoRod) {
   std::vector<Vec3> broken = good;
   broken[2].x = kNaN;
   EXPECT_THAT(rod_template(broken).error().message, HasSubstr("head 3 is not finite"));
-  for (const double diameter_m : {0.0, -0.0055, 5.5, kNaN})
+  for (const double diameter_m : {0.0, -0.0055, 5.5, kNaN}) {
     EXPECT_THAT(rod_template(good, diameter_m).error().message, HasSubstr("limit 1-15 mm"));
+  }
 }
 
 }  // namespace

@@ -101,9 +101,11 @@ TEST(CheckPoints, AreProposedOnTheSurfaceWhereItWasStrokedFarApart) {
   ASSERT_TRUE(model.ok()) << model.error().message;
   const Transform<World, Vertebra> pose(rotation_from_vector({0.2, -0.4, 0.1}), {0.3, 0.1, -0.5});
   std::vector<Point<World>> stroked;
-  for (int x = -25; x <= 25; x += 5)
-    for (int z = -20; z <= 20; z += 5)
+  for (int x = -25; x <= 25; x += 5) {
+    for (int z = -20; z <= 20; z += 5) {
       stroked.push_back(pose * Point<Vertebra>{{x * 1e-3, 0.0204, z * 1e-3}});
+    }
+  }
   stroked.push_back(pose * Point<Vertebra>{{0.09, 0.05, 0.0}});  // off the bone
   const auto places = places_to_check(**model, pose, stroked);
   ASSERT_EQ(places.size(), 3u);

@@ -18,8 +18,8 @@ const std::filesystem::path kAnatomy = std::filesystem::path(ORTHONAV_SHARED_DIR
 /// A ray meets the mesh to rounding; the frame there and back adds some more.
 constexpr double kOnBone_m = 0.00005;
 
-StrokeMagnitudes without_noise(StrokeVariant variant) {
-  StrokeMagnitudes m = magnitudes_of(variant);
+StrokeErrorModel without_noise(StrokeVariant variant) {
+  StrokeErrorModel m = error_model_of(variant);
   m.white_noise_m = m.correlated_noise_m = 0.0;
   return m;
 }
@@ -29,22 +29,29 @@ class DigitizedStrokesTest : public ::testing::Test {
   static void SetUpTestSuite() {
     for (const char* name : {"visible-human", "shape-mean", "morph-a", "morph-b"}) {
       const auto source = engine::load_case((kAnatomy / name).string());
-      if (!source) continue;
-      for (const engine::CaseLevel& level : source->levels) meshes_.push_back(level.mesh);
+      if (!source) {
+        continue;
+      }
+      for (const engine::CaseLevel& level : source->levels) {
+        meshes_.push_back(level.mesh);
+      }
     }
-    for (const nav::TriangleMesh& mesh : meshes_)
+    for (const nav::TriangleMesh& mesh : meshes_) {
       surfaces_.push_back(std::make_unique<nav::SurfaceIndex>(mesh));
+    }
   }
   static void TearDownTestSuite() { meshes_.clear(), surfaces_.clear(); }
   void SetUp() override {
-    if (meshes_.empty()) GTEST_SKIP() << "shared anatomy is absent";
+    if (meshes_.empty()) {
+      GTEST_SKIP() << "shared anatomy is absent";
+    }
   }
   static DigitizedStrokes strokes(std::size_t level, StrokeVariant variant, std::uint64_t seed,
-                                  const StrokeMagnitudes& magnitudes) {
-    return digitize_strokes(meshes_[level], variant, seed, magnitudes).value();
+                                  const StrokeErrorModel& error_model) {
+    return digitize_strokes(meshes_[level], variant, seed, error_model).value();
   }
   static DigitizedStrokes strokes(std::size_t level, StrokeVariant variant, std::uint64_t seed) {
-    return strokes(level, variant, seed, magnitudes_of(variant));
+    return strokes(level, variant, seed, error_model_of(variant));
   }
   /// Of what was tracked, brought back by the true pose.
   static double distance_m(std::size_t level, const DigitizedStrokes& d,
@@ -56,20 +63,26 @@ class DigitizedStrokesTest : public ::testing::Test {
 };
 
 TEST_F(DigitizedStrokesTest, LieOnTheBoneWithoutNoise) {
-  for (std::size_t level = 0; level < meshes_.size(); ++level)
+  for (std::size_t level = 0; level < meshes_.size(); ++level) {
     for (const StrokeVariant variant : kStrokeVariants) {
       const auto d = strokes(level, variant, level, without_noise(variant));
       double worst_m = 0.0;
-      for (const DigitizedSample& sample : d.samples)
-        if (!sample.off_bone) worst_m = std::max(worst_m, distance_m(level, d, sample));
+      for (const DigitizedSample& sample : d.samples) {
+        if (!sample.off_bone) {
+          worst_m = std::max(worst_m, distance_m(level, d, sample));
+        }
+      }
       EXPECT_LT(worst_m, kOnBone_m) << "level " << level << " " << name_of(variant);
     }
+  }
 }
 
 TEST_F(DigitizedStrokesTest, AreOffTheBoneByTheNoise) {
   const auto d = strokes(3, StrokeVariant::kFull, 1);
   double sum_m2 = 0.0;
-  for (const DigitizedSample& sample : d.samples) sum_m2 += std::pow(distance_m(3, d, sample), 2);
+  for (const DigitizedSample& sample : d.samples) {
+    sum_m2 += std::pow(distance_m(3, d, sample), 2);
+  }
   // Across the surface only one of three axes counts; near edges a little less.
   EXPECT_NEAR(std::sqrt(sum_m2 / static_cast<double>(d.samples.size())), 0.0003, 0.00003);
 }
@@ -77,7 +90,7 @@ TEST_F(DigitizedStrokesTest, AreOffTheBoneByTheNoise) {
 TEST_F(DigitizedStrokesTest, LetTheTipsBallRestOnTheBone) {
   constexpr double kRadius_m = 0.0015;
   for (const StrokeVariant variant : {StrokeVariant::kFull, StrokeVariant::kSparse}) {
-    StrokeMagnitudes m = without_noise(variant);
+    StrokeErrorModel m = without_noise(variant);
     m.tip_radius_m = kRadius_m;
     const auto d = strokes(3, variant, 5, m);
     for (const DigitizedSample& sample : d.samples) {
@@ -102,13 +115,15 @@ TEST_F(DigitizedStrokesTest, HaveAsManySamplesAsTheVariantSays) {
 }
 
 TEST_F(DigitizedStrokesTest, MoveLikeAHandAlongTheBone) {
-  for (std::size_t level = 0; level < meshes_.size(); ++level)
+  for (std::size_t level = 0; level < meshes_.size(); ++level) {
     for (const StrokeVariant variant : {StrokeVariant::kFull, StrokeVariant::kPartial}) {
       const auto d = strokes(level, variant, 3 + level, without_noise(variant));
       std::vector<double> steps_m;
-      for (std::size_t i = 1; i < d.samples.size(); ++i)
-        if (d.samples[i].stroke == d.samples[i - 1].stroke)
+      for (std::size_t i = 1; i < d.samples.size(); ++i) {
+        if (d.samples[i].stroke == d.samples[i - 1].stroke) {
           steps_m.push_back((d.samples[i].true_tip - d.samples[i - 1].true_tip).norm());
+        }
+      }
       std::sort(steps_m.begin(), steps_m.end());
       EXPECT_GT(steps_m[steps_m.size() / 2], 0.0004) << level << " " << name_of(variant);
       EXPECT_LT(steps_m[steps_m.size() / 2], 0.0011) << level << " " << name_of(variant);
@@ -116,22 +131,25 @@ TEST_F(DigitizedStrokesTest, MoveLikeAHandAlongTheBone) {
       // Continuous strokes, no scattered dots.
       EXPECT_GT(steps_m.size(), d.samples.size() * 9 / 10);
     }
+  }
 }
 
 TEST_F(DigitizedStrokesTest, ReachEveryRegionWhenFull) {
   for (std::size_t level = 0; level < meshes_.size(); ++level) {
     std::array<int, kBoneRegions> count{};
-    for (const DigitizedSample& s : strokes(level, StrokeVariant::kFull, level).samples)
+    for (const DigitizedSample& s : strokes(level, StrokeVariant::kFull, level).samples) {
       ++count[static_cast<std::size_t>(s.region)];
-    for (int r = 0; r < kBoneRegions; ++r)
+    }
+    for (int r = 0; r < kBoneRegions; ++r) {
       EXPECT_GE(count[static_cast<std::size_t>(r)], 15)
           << "level " << level << ", " << name_of(static_cast<BoneRegion>(r));
+    }
   }
 }
 
 TEST_F(DigitizedStrokesTest, GoAsDeepAsToldAndThereBeyondWhatTrimmingKeeps) {
   for (const double deepest : {0.7, 1.1, 1.25}) {
-    StrokeMagnitudes m = magnitudes_of(StrokeVariant::kFull);
+    StrokeErrorModel m = error_model_of(StrokeVariant::kFull);
     m.deepest_aside = deepest;
     double beyond = 0.0;
     double all = 0.0;
@@ -159,7 +177,9 @@ TEST_F(DigitizedStrokesTest, CoverPartsOfAllKindsOnBothSides) {
     const auto d = strokes(seed % meshes_.size(), StrokeVariant::kPartial, seed);
     words.insert(d.coverage);
     std::set<BoneRegion> regions;
-    for (const DigitizedSample& s : d.samples) regions.insert(s.region);
+    for (const DigitizedSample& s : d.samples) {
+      regions.insert(s.region);
+    }
     using R = BoneRegion;
     if (d.coverage == "laminae only") {
       EXPECT_EQ(regions, (std::set<R>{R::kLeftLamina, R::kRightLamina}));
@@ -181,7 +201,9 @@ TEST_F(DigitizedStrokesTest, LeaveAThirdOfASideOut) {
   int seen = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const auto d = strokes(2, StrokeVariant::kPartial, seed);
-    if (d.coverage != "left side without its upper third") continue;
+    if (d.coverage != "left side without its upper third") {
+      continue;
+    }
     ++seen;
     const auto marks = find_posterior_landmarks(meshes_[2], *surfaces_[2]).value();
     double left_m = -1.0;
@@ -210,7 +232,7 @@ TEST_F(DigitizedStrokesTest, AreFewAndShortWhenSparse) {
 }
 
 TEST_F(DigitizedStrokesTest, StandInAnyFrameOfTheWorld) {
-  StrokeMagnitudes few = without_noise(StrokeVariant::kSparse);
+  StrokeErrorModel few = without_noise(StrokeVariant::kSparse);
   few.fewest_samples = few.most_samples = 20;
   constexpr int kFrames = 150;
   Vec3 place{};
@@ -249,8 +271,9 @@ TEST_F(DigitizedStrokesTest, AreTheSameForTheSameSeed) {
 
 TEST(DigitizedStrokes, RefusesWhatHasNoCanal) {
   nav::TriangleMesh box;
-  for (int i = 0; i < 8; ++i)
+  for (int i = 0; i < 8; ++i) {
     box.vertices_m.push_back({(i & 1) * 0.08, (i & 2) * 0.04, (i & 4) * 0.01});
+  }
   box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   EXPECT_FALSE(digitize_strokes(box, StrokeVariant::kFull, 1).ok());

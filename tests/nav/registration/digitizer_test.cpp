@@ -14,11 +14,11 @@ using std::chrono::milliseconds;
 
 Timestamp at(int ms) { return Timestamp(milliseconds(ms)); }
 
-TrackedPose pose(int ms, Origin origin = Origin::kMeasured) {
+TrackedPose pose(int ms, PoseStatus status = PoseStatus::kMeasured) {
   TrackedPose tracked;
   tracked.value = {Mat3::identity(), {0.001 * ms, 0, 0}};
   tracked.time = at(ms);
-  tracked.origin = origin;
+  tracked.status = status;
   return tracked;
 }
 
@@ -27,7 +27,9 @@ const Point<Marker> kTip{{0, -0.15, 0}};
 /// Holds the button and adds `count` samples from `ms` on, 33 ms apart.
 void stroke(Digitizer& digitizer, int ms, int count) {
   digitizer.press(at(ms));
-  for (int i = 0; i < count; ++i) EXPECT_TRUE(digitizer.add(pose(ms + 33 * i), kTip));
+  for (int i = 0; i < count; ++i) {
+    EXPECT_TRUE(digitizer.add(pose(ms + 33 * i), kTip));
+  }
   digitizer.release(at(ms + 33 * count));
 }
 
@@ -35,7 +37,9 @@ TEST(Digitizer, KnowsHowExactlyEachTipWasTracked) {
   Digitizer digitizer;
   digitizer.press(at(10));
   TrackedPose sure = pose(33);
-  for (const std::size_t axis : {0U, 1U, 2U}) sure.covariance[7 * axis] = 1e-8;
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    sure.covariance[7 * axis] = 1e-8;
+  }
   EXPECT_TRUE(digitizer.add(sure, kTip));
   // A turn of 2 mrad about x and about z moves a tip 150 mm below by 0.3 mm each.
   TrackedPose turning = pose(66);
@@ -72,8 +76,8 @@ TEST(Digitizer, TakesTheTipOnlyWhileTheButtonIsHeld) {
 TEST(Digitizer, TakesOnlyWhatWasMeasured) {
   Digitizer digitizer;
   digitizer.press(at(0));
-  EXPECT_FALSE(digitizer.add(pose(33, Origin::kPredicted), kTip));
-  EXPECT_FALSE(digitizer.add(pose(33, Origin::kLost), kTip));
+  EXPECT_FALSE(digitizer.add(pose(33, PoseStatus::kPredicted), kTip));
+  EXPECT_FALSE(digitizer.add(pose(33, PoseStatus::kLost), kTip));
   EXPECT_TRUE(digitizer.add(pose(33), kTip));
 }
 
@@ -178,7 +182,9 @@ TEST(Digitizer, AllocatesNothingWhileRecording) {
   Digitizer digitizer;
   digitizer.press(at(0));
   const std::size_t before = test::allocation_count();
-  for (int i = 1; i <= 1800; ++i) digitizer.add(pose(33 * i), kTip);  // a minute
+  for (int i = 1; i <= 1800; ++i) {
+    digitizer.add(pose(33 * i), kTip);  // a minute
+  }
   EXPECT_EQ(test::allocation_count(), before);
   EXPECT_EQ(digitizer.regions()[0].samples.size(), 1800U);
 }

@@ -47,20 +47,28 @@ class FitCovarianceTest : public ::testing::Test {
     for (int trial = 0; trial < kTrials; ++trial) {
       Random random(static_cast<std::uint64_t>(trial));
       std::vector<Vec3> noisy = places;
-      for (int axis = 0; axis < 3; ++axis)
+      for (int axis = 0; axis < 3; ++axis) {
         for (std::size_t from = 0; from < noisy.size(); from += a_stroke) {
           const auto slow = test::wandering(a_stroke, noise.correlation_s, random);
-          for (std::size_t i = 0; i < a_stroke && from + i < noisy.size(); ++i)
+          for (std::size_t i = 0; i < a_stroke && from + i < noisy.size(); ++i) {
             noisy[from + i][axis] += noise.wandering_m * slow[i] + random.normal(0, noise.white_m);
+          }
         }
-      if (noise.shuffled)
-        for (std::size_t i = noisy.size(); i > 1; --i)
+      }
+      if (noise.shuffled) {
+        for (std::size_t i = noisy.size(); i > 1; --i) {
           std::swap(noisy[i - 1], noisy[static_cast<std::size_t>(random.next() % i)]);
+        }
+      }
       const CentredPoints cloud = test::centred_somewhere(noisy, random);
       const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, {});
-      if (!fit) continue;
+      if (!fit) {
+        continue;
+      }
       const auto covariance = covariance_of(*fit);
-      if (!covariance) continue;
+      if (!covariance) {
+        continue;
+      }
       out.effective_points += covariance->effective_points / kTrials;
       for (const Point<Vertebra>& target : kTargets) {
         // Where the fit puts what lies at the target.
@@ -106,7 +114,9 @@ TEST_F(FitCovarianceTest, GrowsWithTheNoiseAndFallsWithTheStrokes) {
   const auto tre_m = [&](double noise_m, std::size_t lanes) {
     Random random(3);
     std::vector<Vec3> places = test::strokes_over(surface_, lanes);
-    for (Vec3& p : places) p += Vec3{0, random.normal(0, noise_m), 0};
+    for (Vec3& p : places) {
+      p += Vec3{0, random.normal(0, noise_m), 0};
+    }
     const CentredPoints cloud = test::centred_somewhere(places, random);
     const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, {});
     return covariance_of(*fit)->uncertainty.predicted_tre_m(kTargets[0]);
@@ -120,9 +130,10 @@ TEST_F(FitCovarianceTest, IsNoneWhenAMotionIsOpen) {
   // On a flat front three motions are open.
   Random random(4);
   std::vector<Vec3> flat;
-  for (int i = 0; i < 500; ++i)
+  for (int i = 0; i < 500; ++i) {
     flat.push_back({random.uniform(-0.02, 0.02), -0.02 + random.normal(0, 0.0002),
                     random.uniform(-0.01, 0.01)});
+  }
   const CentredPoints cloud = test::centred_somewhere(flat, random);
   const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, {});
   if (fit) {

@@ -35,10 +35,11 @@ Transform<World, Vertebra> anywhere(Random& random) {
 std::vector<Vec3> in_world(const std::vector<Vec3>& in_vertebra,
                            const Transform<World, Vertebra>& pose, Random& random) {
   std::vector<Vec3> out;
-  for (const Vec3& p : in_vertebra)
+  for (const Vec3& p : in_vertebra) {
     out.push_back((pose * Point<Vertebra>{p}).v + Vec3{random.normal(0, kNoise_m),
                                                        random.normal(0, kNoise_m),
                                                        random.normal(0, kNoise_m)});
+  }
   return out;
 }
 
@@ -87,8 +88,9 @@ TEST_F(SlabSearch, FindsBothPosesOfABoneThatHasTwo) {
     const auto truth = anywhere(random);
     const auto found = search_poses(twofold->search_field(), in_world(places, truth, random));
     ASSERT_GE(found.size(), 2U);
-    for (const auto& pose : {truth, truth * half_turn})
+    for (const auto& pose : {truth, truth * half_turn}) {
       EXPECT_TRUE(is_found(found[0], pose, {}) || is_found(found[1], pose, {})) << seed;
+    }
     EXPECT_LT(found[1].cost_m2, 1.2 * found[0].cost_m2);
   }
 }
@@ -109,19 +111,22 @@ TEST_F(SlabSearch, KeepsToWhatIsAsked) {
   expect_in_order(found, three);
   ASSERT_EQ(found.size(), 3U);
   const Point<Vertebra> at{{0, 0, 0}};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t k = 0; k < i; ++k)
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
       EXPECT_TRUE(rotation_angle_rad(found[i].world_from_vertebra.rotation(),
                                      found[k].world_from_vertebra.rotation()) >= three.same_rad ||
                   (found[i].world_from_vertebra * at - found[k].world_from_vertebra * at).norm() >=
                       three.same_m - 0.001);
+    }
+  }
 }
 
 TEST_F(SlabSearch, KnowsATipWithARadius) {
   constexpr double kRadius_m = 0.002;
   std::vector<Vec3> centres;
-  for (const Vec3& p : places_)
+  for (const Vec3& p : places_) {
     centres.push_back(p + kRadius_m * model_->surface().nearest(p)->normal);
+  }
   Random random(2);
   const auto truth = anywhere(random);
   PoseSearchOptions ball;
@@ -139,11 +144,13 @@ TEST(PhantomSearch, FindsThePoseAmongItsResultsHoweverItWasStroked) {
   const auto mesh = engine::phantom({"L4"}).levels.at(0).mesh;
   const auto model = VertebraModel::prepare(mesh).value();
   std::uint64_t seed = 0;
-  for (const StrokeVariant variant : orthonav::test::kStrokeVariants)
+  for (const StrokeVariant variant : orthonav::test::kStrokeVariants) {
     for (int i = 0; i < 2; ++i, ++seed) {
       const auto strokes = digitize_strokes(mesh, variant, seed).value();
       std::vector<Vec3> points;
-      for (const Point<World>& p : strokes.tips()) points.push_back(p.v);
+      for (const Point<World>& p : strokes.tips()) {
+        points.push_back(p.v);
+      }
       const auto found = search_poses(model->search_field(), points);
       expect_in_order(found, {});
       const Point<Vertebra> back{model->reachable_axes().centre_m};
@@ -157,6 +164,7 @@ TEST(PhantomSearch, FindsThePoseAmongItsResultsHoweverItWasStroked) {
       EXPECT_LT(rank, whole ? 1 : static_cast<std::ptrdiff_t>(found.size()))
           << name_of(variant) << " seed " << seed;
     }
+  }
 }
 
 }  // namespace

@@ -41,29 +41,34 @@ class RegisterBest : public ::testing::Test {
   static void TearDownTestSuite() { levels_.clear(); }
   static const Level& level(const std::string& label) {
     const auto known = levels_.find(label);
-    if (known != levels_.end()) return known->second;
+    if (known != levels_.end()) {
+      return known->second;
+    }
     Level made{engine::phantom({label}).levels.at(0), {}};
     made.model = VertebraModel::prepare(made.from.mesh).value();
     return levels_.emplace(label, std::move(made)).first->second;
   }
   static const Level& l4() { return level("L4"); }
-  static BestRegistrationOptions options(const Level& of,
-                                         const std::vector<std::string>& neighbours = {}) {
-    BestRegistrationOptions o;
-    for (const ScrewPlan& screw : of.from.screws)
+  static PoseSearchRegistrationOptions options(const Level& of,
+                                               const std::vector<std::string>& neighbours = {}) {
+    PoseSearchRegistrationOptions o;
+    for (const ScrewPlan& screw : of.from.screws) {
       o.targets.insert(o.targets.end(), {screw.entry, screw.target});
-    for (const std::string& label : neighbours)
+    }
+    for (const std::string& label : neighbours) {
       o.neighbours.push_back({label, level(label).model.get()});
+    }
     return o;
   }
   static Result<Registration> registered(const Points& points) {
-    return register_best(*l4().model, points, options(l4()));
+    return register_by_pose_search(*l4().model, points, options(l4()));
   }
   static double error_m(const Level& of, const Transform<World, Vertebra>& pose,
                         const Transform<World, Vertebra>& truth) {
     double worst = 0.0;
-    for (const Point<Vertebra>& p : options(of).targets)
+    for (const Point<Vertebra>& p : options(of).targets) {
       worst = std::max(worst, (pose * p - truth * p).norm());
+    }
     return worst;
   }
   /// Refused, whether as bad input or by a verdict, never with a mirror image.
@@ -82,15 +87,15 @@ class RegisterBest : public ::testing::Test {
 };
 
 TEST_F(RegisterBest, AcceptsFullStrokesAndSaysHowSureItIs) {
-  const auto r = register_best(*l4().model, full_.tips(), options(l4(), {"L3", "L5"}));
+  const auto r = register_by_pose_search(*l4().model, full_.tips(), options(l4(), {"L3", "L5"}));
   ASSERT_TRUE(r.ok()) << r.error().message;
   EXPECT_TRUE(r->accepted);
   EXPECT_THAT(r->reasons, IsEmpty());
   EXPECT_LT(error_m(l4(), r->world_from_vertebra, full_.world_from_vertebra), 0.0005);
   EXPECT_EQ(r->points, full_.samples.size());
-  EXPECT_GT(r->margin, BestRegistrationOptions().min_margin);
-  EXPECT_GT(r->inlier_share, 0.9);
-  EXPECT_GT(r->coverage_share, 0.3);
+  EXPECT_GT(r->log_likelihood_ratio, PoseSearchRegistrationOptions().min_log_likelihood_ratio);
+  EXPECT_GT(r->inlier_fraction, 0.9);
+  EXPECT_GT(r->coverage_fraction, 0.3);
   EXPECT_THAT(r->fits_better, IsEmpty());
   EXPECT_GT(r->predicted_tre_m, 0.00002);
   EXPECT_LT(r->predicted_tre_m, 0.0005);
@@ -103,7 +108,7 @@ TEST_F(RegisterBest, AcceptsFullStrokesAndSaysHowSureItIs) {
 TEST_F(RegisterBest, IsNeverSilentlyWrongHoweverItWasStroked) {
   std::uint64_t seed = 20;
   int accepted = 0;
-  for (const StrokeVariant variant : orthonav::test::kStrokeVariants)
+  for (const StrokeVariant variant : orthonav::test::kStrokeVariants) {
     for (int i = 0; i < 2; ++i, ++seed) {
       const auto strokes = digitize_strokes(l4().from.mesh, variant, seed).value();
       const auto r = registered(strokes.tips());
@@ -116,38 +121,41 @@ TEST_F(RegisterBest, IsNeverSilentlyWrongHoweverItWasStroked) {
             << name_of(variant) << " seed " << seed;
       }
     }
+  }
   EXPECT_GE(accepted, 8) << "of 10: who refuses all is never wrong either";
 }
 
 TEST_F(RegisterBest, RefusesAPoseAtWhichThePointerGoesThroughBone) {
   const Points tips = full_.tips();
   const auto vertebra_from_world = full_.world_from_vertebra.inverse();
-  BestRegistrationOptions o = options(l4());
+  PoseSearchRegistrationOptions o = options(l4());
   for (const Point<World>& tip : tips) {
     const auto on_bone = l4().model->surface().nearest((vertebra_from_world * tip).v);
     o.shafts.push_back(full_.world_from_vertebra.rotation() *
                        (on_bone->normal + Vec3{0.0, 1.0, 0.0}).normalized());
   }
-  EXPECT_LT(swept_bone_share(*l4().model, full_.world_from_vertebra, tips, o.shafts), 0.1);
-  const auto held = register_best(*l4().model, tips, o).value();
+  EXPECT_LT(shaft_collision_fraction(*l4().model, full_.world_from_vertebra, tips, o.shafts), 0.1);
+  const auto held = register_by_pose_search(*l4().model, tips, o).value();
   EXPECT_TRUE(held.accepted) << ::testing::PrintToString(held.reasons);
-  EXPECT_LT(held.swept_share, 0.1);
+  EXPECT_LT(held.shaft_collision_fraction, 0.1);
   // As if the bone had been touched from within.
-  for (Vec3& shaft : o.shafts) shaft = -shaft;
-  const auto through = register_best(*l4().model, tips, o).value();
+  for (Vec3& shaft : o.shafts) {
+    shaft = -shaft;
+  }
+  const auto through = register_by_pose_search(*l4().model, tips, o).value();
   EXPECT_FALSE(through.accepted);
   EXPECT_THAT(through.reasons, ::testing::Contains(HasSubstr("gone through bone")));
   // Nothing is said of shafts that nobody knows.
-  EXPECT_EQ(swept_bone_share(*l4().model, full_.world_from_vertebra, tips, {}), 0.0);
+  EXPECT_EQ(shaft_collision_fraction(*l4().model, full_.world_from_vertebra, tips, {}), 0.0);
   const std::vector<Vec3> unknown(tips.size());
-  EXPECT_EQ(swept_bone_share(*l4().model, full_.world_from_vertebra, tips, unknown), 0.0);
+  EXPECT_EQ(shaft_collision_fraction(*l4().model, full_.world_from_vertebra, tips, unknown), 0.0);
 }
 
 TEST_F(RegisterBest, SaysTheSameTwice) {
   const auto a = registered(full_.tips()).value();
   const auto b = registered(full_.tips()).value();
   EXPECT_EQ(a.world_from_vertebra.row_major(), b.world_from_vertebra.row_major());
-  EXPECT_EQ(a.margin, b.margin);
+  EXPECT_EQ(a.log_likelihood_ratio, b.log_likelihood_ratio);
   EXPECT_EQ(a.predicted_tre_m, b.predicted_tre_m);
   EXPECT_EQ(a.weakest + a.advice, b.weakest + b.advice);
 }
@@ -164,7 +172,9 @@ TEST_F(RegisterBest, FindsTheSamePoseInAnyFrame) {
         test::random_rotation(random),
         {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)});
     Points points;
-    for (const Point<World>& p : full_.tips()) points.push_back(other * p);
+    for (const Point<World>& p : full_.tips()) {
+      points.push_back(other * p);
+    }
     const auto r = registered(points).value();
     EXPECT_TRUE(r.accepted);
     EXPECT_LT(error_m(l4(), r.world_from_vertebra, other * first.world_from_vertebra), kLastStep_m);
@@ -176,8 +186,8 @@ TEST_F(RegisterBest, NamesTheLevelThatWasStrokedInstead) {
   for (const auto& [stroked, asked] : {std::pair{"L3", "L4"}, {"L5", "L4"}, {"L4", "L3"}}) {
     const auto strokes =
         digitize_strokes(level(stroked).from.mesh, StrokeVariant::kFull, 7).value();
-    const auto r =
-        register_best(*level(asked).model, strokes.tips(), options(level(asked), {stroked}));
+    const auto r = register_by_pose_search(*level(asked).model, strokes.tips(),
+                                           options(level(asked), {stroked}));
     ASSERT_TRUE(r.ok()) << r.error().message;
     EXPECT_FALSE(r->accepted) << stroked << " on " << asked;
     EXPECT_EQ(r->fits_better, stroked);
@@ -206,7 +216,9 @@ TEST_F(RegisterBest, NeverMirrorsToFit) {
   // and no reflection is ever taken to fit them better.
   for (const int axis : {0, 1, 2}) {
     Points mirrored = full_.tips();
-    for (Point<World>& p : mirrored) p.v[axis] = -p.v[axis];
+    for (Point<World>& p : mirrored) {
+      p.v[axis] = -p.v[axis];
+    }
     const auto r = registered(mirrored);
     ASSERT_TRUE(r.ok()) << r.error().message;
     EXPECT_NEAR(r->world_from_vertebra.rotation().determinant(), 1.0, 1e-9);
@@ -226,24 +238,28 @@ TEST_F(RegisterBest, RefusesBadInputInOneLine) {
   EXPECT_THAT(refused(Points(tips.begin(), tips.begin() + 99)), HasSubstr("at least 100"));
   EXPECT_THAT(refused(Points(3000, tips[0])), HasSubstr("in one place"));
   Points line;
-  for (int i = 0; i < 500; ++i) line.push_back({{0.0001 * i, 0.0002 * i, 1.0}});
+  for (int i = 0; i < 500; ++i) {
+    line.push_back({{0.0001 * i, 0.0002 * i, 1.0}});
+  }
   EXPECT_THAT(refused(line), HasSubstr("on a line"));
   for (const double strange : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Points broken = tips;
     broken[17].v.z = strange;
     EXPECT_THAT(refused(broken), HasSubstr("point 18 is not finite"));
   }
-  BestRegistrationOptions o = options(l4());
+  PoseSearchRegistrationOptions o = options(l4());
   o.point_sd_m.assign(tips.size(), 0.0002);
-  EXPECT_TRUE(register_best(*l4().model, tips, o).ok());
+  EXPECT_TRUE(register_by_pose_search(*l4().model, tips, o).ok());
   o.point_sd_m[4] = std::nan("");
-  EXPECT_THAT(register_best(*l4().model, tips, o).error().message,
+  EXPECT_THAT(register_by_pose_search(*l4().model, tips, o).error().message,
               HasSubstr("standard deviation of point 5 is"));
   o.point_sd_m.resize(7);
-  EXPECT_THAT(register_best(*l4().model, tips, o).error().message,
+  EXPECT_THAT(register_by_pose_search(*l4().model, tips, o).error().message,
               HasSubstr("7 standard deviations of"));
   Points in_millimetres = tips;
-  for (Point<World>& p : in_millimetres) p.v = 1e3 * p.v;
+  for (Point<World>& p : in_millimetres) {
+    p.v = 1e3 * p.v;
+  }
   EXPECT_THAT(refused(in_millimetres), HasSubstr("unit"));
 }
 
@@ -253,7 +269,9 @@ TEST_F(RegisterBest, IsNotMisledByClumpsAndStrays) {
   rested.insert(rested.end(), 1800, rested.back());
   // One sample in a hundred is somewhere else altogether.
   Points strays = full_.tips();
-  for (std::size_t i = 0; i < strays.size(); i += 100) strays[i].v += Vec3{0.1, -0.2, 0.3};
+  for (std::size_t i = 0; i < strays.size(); i += 100) {
+    strays[i].v += Vec3{0.1, -0.2, 0.3};
+  }
   for (const Points& points : {rested, strays}) {
     const auto r = registered(points);
     ASSERT_TRUE(r.ok()) << r.error().message;
@@ -270,14 +288,14 @@ Registration slab_verdict(double (*back)(double, double), bool mirrored) {
     p += Vec3{random.normal(0, 0.0003), random.normal(0, 0.0003), random.normal(0, 0.0003)};
     points.push_back({{mirrored ? -p.x : p.x, p.y, p.z}});
   }
-  return register_best(*model, points).value();
+  return register_by_pose_search(*model, points).value();
 }
 
 TEST_F(RegisterBest, RefusesABoneThatLooksTheSameFromTwoSides) {
   const Registration twofold = slab_verdict(test::twofold_back, false);
   EXPECT_FALSE(twofold.accepted);
   EXPECT_THAT(twofold.reasons, Contains(HasSubstr("another pose fits nearly as well")));
-  EXPECT_LT(std::abs(twofold.margin), 6.0);
+  EXPECT_LT(std::abs(twofold.log_likelihood_ratio), 6.0);
   // The rival is the other one: half a turn away.
   EXPECT_NEAR(
       rotation_angle_rad(twofold.runner_up.rotation(), twofold.world_from_vertebra.rotation()),
@@ -289,7 +307,8 @@ TEST_F(RegisterBest, RefusesABoneThatLooksTheSameFromTwoSides) {
 
 TEST_F(RegisterBest, RefusesTheMirrorImageOfACrookedBone) {
   const Registration mirrored = slab_verdict(test::crooked_back, true);
-  EXPECT_FALSE(mirrored.accepted) << "noise " << mirrored.noise_m << " margin " << mirrored.margin;
+  EXPECT_FALSE(mirrored.accepted) << "noise " << mirrored.noise_m << " margin "
+                                  << mirrored.log_likelihood_ratio;
   EXPECT_NEAR(mirrored.world_from_vertebra.rotation().determinant(), 1.0, 1e-9);
 }
 
@@ -297,9 +316,14 @@ TEST_F(RegisterBest, RefusesTooSmallAPartAndSaysWhatToStroke) {
   // The tip of the spinous process alone.
   Points few;
   const double hind_m = bounds_of(l4().model->mesh()).high.y;
-  for (const auto& s : full_.samples)
-    if (s.true_tip.v.y > hind_m - 0.012) few.push_back(s.tip);
-  while (few.size() < 150) few.insert(few.end(), few.begin(), few.end());
+  for (const auto& s : full_.samples) {
+    if (s.true_tip.v.y > hind_m - 0.012) {
+      few.push_back(s.tip);
+    }
+  }
+  while (few.size() < 150) {
+    few.insert(few.end(), few.begin(), few.end());
+  }
   const auto r = registered(few);
   ASSERT_TRUE(r.ok()) << r.error().message;
   EXPECT_FALSE(r->accepted);

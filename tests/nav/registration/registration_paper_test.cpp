@@ -30,14 +30,18 @@ class RegisterPaper : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     level_ = test::anatomy_level("visible-human/L4");
-    if (level_) model_ = VertebraModel::prepare(level_->mesh).value();
+    if (level_) {
+      model_ = VertebraModel::prepare(level_->mesh).value();
+    }
   }
   static void TearDownTestSuite() { model_.reset(), level_.reset(); }
   void SetUp() override {
-    if (!level_) GTEST_SKIP() << "shared anatomy is absent";
+    if (!level_) {
+      GTEST_SKIP() << "shared anatomy is absent";
+    }
   }
   std::string error(const std::vector<Point<World>>& points) const {
-    const auto r = register_paper(*model_, points);
+    const auto r = register_by_principal_axes(*model_, points);
     return r ? "registered" : r.error().message;
   }
   static inline std::optional<test::AnatomyLevel> level_;
@@ -46,13 +50,15 @@ class RegisterPaper : public ::testing::Test {
 
 TEST(RegisterPaperOnAnatomy, FindsEveryLevelFromFullStrokesInAnyFrame) {
   const auto levels = test::anatomy_levels();
-  if (levels.empty()) GTEST_SKIP() << "shared anatomy is absent";
+  if (levels.empty()) {
+    GTEST_SKIP() << "shared anatomy is absent";
+  }
   for (const auto& level : levels) {
     const auto model = VertebraModel::prepare(level.mesh);
     ASSERT_TRUE(model.ok()) << level.name;
     for (std::uint64_t seed = 0; seed < 1; ++seed) {
       const auto d = digitized(level, seed);
-      const auto r = register_paper(**model, d.points);
+      const auto r = register_by_principal_axes(**model, d.points);
       ASSERT_TRUE(r.ok()) << level.name << ": " << r.error().message;
       EXPECT_THAT(r->reasons, IsEmpty()) << level.name << " seed " << seed;
       EXPECT_TRUE(r->accepted);
@@ -69,7 +75,7 @@ TEST(RegisterPaperOnAnatomy, FindsEveryLevelFromFullStrokesInAnyFrame) {
 
 TEST_F(RegisterPaper, IsExactWithoutNoise) {
   const auto d = digitized(*level_, 3, {}, 0.0);
-  const auto r = register_paper(*model_, d.points);
+  const auto r = register_by_principal_axes(*model_, d.points);
   ASSERT_TRUE(r.ok());
   EXPECT_LT(r->rmse_m, 1e-5);  // ICP creeps: it ends 10 µm before its end
   EXPECT_LT(worst_screw_error_m(*level_, r->world_from_vertebra, d.truth), 1e-4);
@@ -77,8 +83,9 @@ TEST_F(RegisterPaper, IsExactWithoutNoise) {
 
 TEST_F(RegisterPaper, GivesTheSameBitsEveryTime) {
   const auto d = digitized(*level_, 4);
-  const auto a = register_paper(*model_, d.points);
-  const auto b = register_paper(*VertebraModel::prepare(level_->mesh).value(), d.points);
+  const auto a = register_by_principal_axes(*model_, d.points);
+  const auto b =
+      register_by_principal_axes(*VertebraModel::prepare(level_->mesh).value(), d.points);
   ASSERT_TRUE(a.ok() && b.ok());
   EXPECT_EQ(a->world_from_vertebra, b->world_from_vertebra);
   EXPECT_EQ(a->runner_up, b->runner_up);
@@ -105,24 +112,31 @@ TEST_F(RegisterPaper, RefusesPointsInOnePlaceOrOnALine) {
               HasSubstr("on a line or in one place"));
   EXPECT_THAT(error(std::vector<Point<World>>(200)), HasSubstr("on a line or in one place"));
   std::vector<Point<World>> line;
-  for (int i = 0; i < 200; ++i) line.push_back({{0.0001 * i, 0.0002 * i, 0}});
+  for (int i = 0; i < 200; ++i) {
+    line.push_back({{0.0001 * i, 0.0002 * i, 0}});
+  }
   EXPECT_THAT(error(line), HasSubstr("on a line or in one place"));
 }
 
 TEST_F(RegisterPaper, RefusesPointsInTheWrongUnit) {
   auto d = digitized(*level_, 5);
-  for (auto& p : d.points) p.v = p.v * 1000.0;
+  for (auto& p : d.points) {
+    p.v = p.v * 1000.0;
+  }
   EXPECT_THAT(error(d.points), HasSubstr("not in the unit given"));
-  for (auto& p : d.points) p.v = p.v * 1e-6;
+  for (auto& p : d.points) {
+    p.v = p.v * 1e-6;
+  }
   EXPECT_THAT(error(d.points), HasSubstr("in one place"));
 }
 
 TEST_F(RegisterPaper, RefusesACloudThatIsNotTheBone) {
   Random random(6);
   std::vector<Point<World>> cloud;
-  for (int i = 0; i < 500; ++i)
+  for (int i = 0; i < 500; ++i) {
     cloud.push_back({{random.normal(0, 0.02), random.normal(0, 0.02), random.normal(0, 0.02)}});
-  const auto r = register_paper(*model_, cloud);
+  }
+  const auto r = register_by_principal_axes(*model_, cloud);
   ASSERT_TRUE(r.ok());
   EXPECT_FALSE(r->accepted);
   EXPECT_THAT(r->reasons, ::testing::Contains(HasSubstr("registration RMSE")));
@@ -132,17 +146,17 @@ TEST_F(RegisterPaper, SaysWhyItRefuses) {
   const auto d = digitized(*level_, 7);
   RegistrationOptions strict;
   strict.max_rmse_m = 0.0005;
-  const auto r = register_paper(*model_, d.points, strict);
+  const auto r = register_by_principal_axes(*model_, d.points, strict);
   ASSERT_TRUE(r.ok());
   EXPECT_FALSE(r->accepted);
   EXPECT_THAT(r->reasons, ElementsAre(HasSubstr("registration RMSE 0.9 mm, limit 0.5 mm")));
   strict.max_rmse_m = 0.003;
   strict.min_runner_up_ratio = 50.0;
-  EXPECT_THAT(register_paper(*model_, d.points, strict)->reasons,
+  EXPECT_THAT(register_by_principal_axes(*model_, d.points, strict)->reasons,
               ElementsAre(HasSubstr("another pose fits nearly as well")));
   strict.min_runner_up_ratio = 1.0;
   strict.max_predicted_tre_m = 1e-5;
-  EXPECT_THAT(register_paper(*model_, d.points, strict)->reasons,
+  EXPECT_THAT(register_by_principal_axes(*model_, d.points, strict)->reasons,
               ElementsAre(HasSubstr("leave the bone loose")));
 }
 
@@ -151,11 +165,14 @@ TEST_F(RegisterPaper, DoesNotTrustASmallPatch) {
   const Point<World> middle = d.points[d.points.size() / 4];
   Random random(9);
   std::vector<Point<World>> patch;
-  while (patch.size() < 300)
-    for (const auto& p : d.points)
-      if ((p - middle).norm() < 0.006)
+  while (patch.size() < 300) {
+    for (const auto& p : d.points) {
+      if ((p - middle).norm() < 0.006) {
         patch.push_back(p + 0.0005 * Vec3{random.normal(), random.normal(), random.normal()});
-  const auto r = register_paper(*model_, patch);
+      }
+    }
+  }
+  const auto r = register_by_principal_axes(*model_, patch);
   ASSERT_TRUE(r.ok());
   EXPECT_FALSE(r->accepted);
 }
@@ -190,7 +207,7 @@ TEST_F(RegisterPaper, PredictsItsErrorOnTheSafeSide) {
   constexpr int kRuns = 12;
   for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
     const auto d = digitized(*level_, 100 + seed);
-    const auto r = register_paper(*model_, d.points);
+    const auto r = register_by_principal_axes(*model_, d.points);
     ASSERT_TRUE(r.ok());
     const auto u = PoseUncertainty::estimate(*model_, r->world_from_vertebra, d.points);
     ASSERT_TRUE(u.ok());
@@ -206,7 +223,7 @@ TEST_F(RegisterPaper, PredictsItsErrorOnTheSafeSide) {
 
 TEST_F(RegisterPaper, SaysWhatToExpectAtEachScrew) {
   const auto d = digitized(*level_, 12);
-  const auto r = register_paper(*model_, d.points);
+  const auto r = register_by_principal_axes(*model_, d.points);
   ASSERT_TRUE(r.ok() && r->uncertainty);
   const auto errors = predicted_errors(*r, level_->screws);
   ASSERT_EQ(errors.size(), level_->screws.size());
@@ -242,13 +259,16 @@ TEST(PoseUncertainty, RefusesASurfaceThatLeavesAMotionOpen) {
   const auto model = VertebraModel::prepare(test::box({-0.04, -0.03, -0.02}, {0.04, 0.03, 0.02}));
   ASSERT_TRUE(model.ok());
   std::vector<Point<World>> plane;  // all on the back face: free to slide
-  for (int i = 0; i < 20; ++i)
-    for (int j = 0; j < 20; ++j) plane.push_back({{-0.03 + 0.003 * i, 0.0301, -0.01 + 0.001 * j}});
+  for (int i = 0; i < 20; ++i) {
+    for (int j = 0; j < 20; ++j) {
+      plane.push_back({{-0.03 + 0.003 * i, 0.0301, -0.01 + 0.001 * j}});
+    }
+  }
   const auto u = PoseUncertainty::estimate(**model, {}, plane);
   ASSERT_FALSE(u.ok());
   EXPECT_THAT(u.error().message, HasSubstr("leave a motion of the bone open"));
   EXPECT_FALSE(PoseUncertainty::estimate(**model, {}, std::span(plane).first(6)).ok());
-  const auto r = register_paper(**model, plane);
+  const auto r = register_by_principal_axes(**model, plane);
   EXPECT_FALSE(r.ok() && r->accepted);
 }
 

@@ -19,10 +19,13 @@ TriangleMesh tube() {
   TriangleMesh mesh;
   const double outer = 0.015;
   const double inner = 0.010;
-  for (const double z : {-0.015, 0.015})
-    for (const double r : {outer, inner})
-      for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+  for (const double z : {-0.015, 0.015}) {
+    for (const double r : {outer, inner}) {
+      for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
         mesh.vertices_m.push_back({r * x, r * y, z});
+      }
+    }
+  }
   for (std::uint32_t k = 0; k < 4; ++k) {
     const std::uint32_t n = (k + 1) % 4;
     const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
@@ -58,20 +61,27 @@ TEST(Trimming, KeepsTheBackAndDropsCanalAndFront) {
 
 TEST(Trimming, LeavesTheBodyOutOfEveryRealVertebraAndKeepsWhatIsStroked) {
   const auto levels = test::anatomy_levels();
-  if (levels.empty()) GTEST_SKIP() << "shared anatomy is absent";
+  if (levels.empty()) {
+    GTEST_SKIP() << "shared anatomy is absent";
+  }
   for (const auto& level : levels) {
     const auto model = VertebraModel::prepare(level.mesh);
     ASSERT_TRUE(model.ok()) << level.name << ": " << model.error().message;
     const auto& reachable = (*model)->reachable();
     // The origin is the body's centroid; its back wall lies at least 10 mm behind it.
-    for (const Vec3& v : reachable.vertices_m) ASSERT_GT(v.y, 0.010) << level.name;
+    for (const Vec3& v : reachable.vertices_m) {
+      ASSERT_GT(v.y, 0.010) << level.name;
+    }
     EXPECT_LT(reachable.triangles.size(), level.mesh.triangles.size() * 6 / 10) << level.name;
     Random random(11);
     std::size_t off = 0;
     const auto tips = test::strokes(level, {}, random);
     ASSERT_GT(tips.size(), 400U) << level.name;
-    for (const Vec3& tip : tips)
-      if ((*model)->reachable_surface().nearest(tip)->distance_m > 1e-4) ++off;
+    for (const Vec3& tip : tips) {
+      if ((*model)->reachable_surface().nearest(tip)->distance_m > 1e-4) {
+        ++off;
+      }
+    }
     EXPECT_EQ(off, 0U) << level.name;
   }
 }
@@ -85,10 +95,11 @@ TEST(PrincipalAxes, AreRightHandedAndSortedBySpread) {
   Random random(4);
   const Mat3 turn = test::random_rotation(random);
   std::vector<Vec3> points;
-  for (int i = 0; i < 20000; ++i)
+  for (int i = 0; i < 20000; ++i) {
     points.push_back(
         turn * Vec3{random.normal(0, 0.03), random.normal(0, 0.02), random.normal(0, 0.01)} +
         Vec3{1, 2, 3});
+  }
   const PrincipalAxes axes = principal_axes(points);
   EXPECT_NEAR(Mat3::from_columns(axes.axes[0], axes.axes[1], axes.axes[2]).determinant(), 1.0,
               1e-12);

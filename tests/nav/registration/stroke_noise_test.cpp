@@ -15,7 +15,9 @@ class StrokeNoise : public ::testing::Test {
   void SetUp() override {
     const auto source = engine::load_case(
         (std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy" / "visible-human").string());
-    if (!source) GTEST_SKIP() << "shared anatomy is absent";
+    if (!source) {
+      GTEST_SKIP() << "shared anatomy is absent";
+    }
     mesh_ = source->find("L3")->mesh;
     surface_ = std::make_unique<nav::SurfaceIndex>(mesh_);
   }
@@ -41,12 +43,18 @@ Moments moments(const std::vector<DigitizedStrokes>& many, std::size_t apart) {
     };
     for (std::size_t i = 0; i < d.samples.size(); ++i) {
       const Vec3 e = error(i);
-      for (int k = 0; k < 3; ++k) sum[k] += e[k] * e[k];
+      for (int k = 0; k < 3; ++k) {
+        sum[k] += e[k] * e[k];
+      }
       crossed += e.x * e.y;
       ++count;
-      if (i < apart || d.samples[i].stroke != d.samples[i - apart].stroke) continue;
+      if (i < apart || d.samples[i].stroke != d.samples[i - apart].stroke) {
+        continue;
+      }
       const Vec3 before = error(i - apart);
-      for (int k = 0; k < 3; ++k) lagged[k] += e[k] * before[k];
+      for (int k = 0; k < 3; ++k) {
+        lagged[k] += e[k] * before[k];
+      }
       ++pairs;
     }
   }
@@ -61,21 +69,27 @@ Moments moments(const std::vector<DigitizedStrokes>& many, std::size_t apart) {
 
 TEST_F(StrokeNoise, IsWhiteUnlessItIsToWander) {
   std::vector<DigitizedStrokes> many;
-  for (std::uint64_t seed = 0; seed < 4; ++seed)
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
     many.push_back(strokes(StrokeVariant::kFull, seed));
+  }
   const Moments m = moments(many, 1);
   // 8,000 samples: the standard deviation is known to 0.8 %, a correlation to 0.01.
-  for (const double sd_m : m.sd_m) EXPECT_NEAR(sd_m, 0.0003, 0.00001);
+  for (const double sd_m : m.sd_m) {
+    EXPECT_NEAR(sd_m, 0.0003, 0.00001);
+  }
   EXPECT_NEAR(m.correlation, 0.0, 0.03);
 }
 
 TEST_F(StrokeNoise, WandersAlongAStroke) {
   std::vector<DigitizedStrokes> many;
-  for (std::uint64_t seed = 0; seed < 10; ++seed)
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
     many.push_back(strokes(StrokeVariant::kNoisy, seed));
+  }
   // 20,000 samples, about one in twenty of which is news.
   const Moments next = moments(many, 1);
-  for (const double sd_m : next.sd_m) EXPECT_NEAR(sd_m, 0.0009, 0.00006);
+  for (const double sd_m : next.sd_m) {
+    EXPECT_NEAR(sd_m, 0.0009, 0.00006);
+  }
   EXPECT_NEAR(next.correlation, std::exp(-1.0 / 9.0), 0.02);
   EXPECT_NEAR(next.between_axes, 0.0, 0.12);
   EXPECT_NEAR(moments(many, 9).correlation, std::exp(-1.0), 0.10);
@@ -86,7 +100,9 @@ TEST_F(StrokeNoise, StartsAfreshWithEveryStroke) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto d = strokes(StrokeVariant::kNoisy, seed);
     for (std::size_t i = 1; i < d.samples.size(); ++i) {
-      if (d.samples[i].stroke == d.samples[i - 1].stroke) continue;
+      if (d.samples[i].stroke == d.samples[i - 1].stroke) {
+        continue;
+      }
       const auto back = d.world_from_vertebra.inverse();
       const Vec3 e = back * d.samples[i].tip - d.samples[i].true_tip;
       const Vec3 before = back * d.samples[i - 1].tip - d.samples[i - 1].true_tip;
@@ -124,10 +140,13 @@ TEST_F(StrokeNoise, TakesThemOffInBurstsAndOneByOne) {
     for (std::size_t i = 0; i < d.samples.size();) {
       std::size_t end = i;
       while (end < d.samples.size() && d.samples[end].off_bone &&
-             d.samples[end].stroke == d.samples[i].stroke)
+             d.samples[end].stroke == d.samples[i].stroke) {
         farther += surface_->nearest(d.samples[end++].true_tip.v)->distance_m > 0.005 ? 1.0 : 0.0;
+      }
       all += static_cast<double>(end - i);
-      if (end - i >= 5) in_bursts += static_cast<double>(end - i);
+      if (end - i >= 5) {
+        in_bursts += static_cast<double>(end - i);
+      }
       i = std::max(end, i + 1);
     }
   }
@@ -138,8 +157,11 @@ TEST_F(StrokeNoise, TakesThemOffInBurstsAndOneByOne) {
 
 TEST_F(StrokeNoise, LeavesTheOthersOnTheBone) {
   for (const StrokeVariant variant : {StrokeVariant::kFull, StrokeVariant::kPartial,
-                                      StrokeVariant::kNoisy, StrokeVariant::kSparse})
-    for (const DigitizedSample& s : strokes(variant, 2).samples) ASSERT_FALSE(s.off_bone);
+                                      StrokeVariant::kNoisy, StrokeVariant::kSparse}) {
+    for (const DigitizedSample& s : strokes(variant, 2).samples) {
+      ASSERT_FALSE(s.off_bone);
+    }
+  }
 }
 
 }  // namespace

@@ -38,7 +38,9 @@ class SurfaceFitTest : public ::testing::Test {
       const CentredPoints cloud = test::centred_somewhere(in_vertebra, random);
       const CentredPose start = test::moved(cloud.truth, shift_m, kStartTurn_rad, random);
       const auto fit = fit_to_surface(surface_, cloud.points_m, start, options);
-      if (!fit) return 1.0;
+      if (!fit) {
+        return 1.0;
+      }
       worst = std::max(worst, apart_m(fit->pose, cloud.truth));
     }
     return worst;
@@ -97,8 +99,9 @@ TEST_F(SurfaceFitTest, TrustsPointsByHowExactlyTheyWereTracked) {
 TEST_F(SurfaceFitTest, EndsAtTheSamePoseFromWhereverItStarts) {
   Random random(9);
   std::vector<Vec3> noisy = places_;
-  for (Vec3& p : noisy)
+  for (Vec3& p : noisy) {
     p += Vec3{random.normal(0, 0.0004), random.normal(0, 0.0004), random.normal(0, 0.0004)};
+  }
   const CentredPoints cloud = test::centred_somewhere(noisy, random);
   const auto once = fit_to_surface(surface_, cloud.points_m, cloud.truth, to_the_end());
   ASSERT_TRUE(once.has_value());
@@ -116,8 +119,11 @@ TEST_F(SurfaceFitTest, EndsAtTheSamePoseFromWhereverItStarts) {
 TEST_F(SurfaceFitTest, IgnoresOneInEightPointsOffTheBone) {
   Random random(12);
   std::vector<Vec3> soiled = places_;
-  for (Vec3& p : soiled)
-    if (random.uniform() < 0.12) p.y += random.uniform(0.0015, 0.010);
+  for (Vec3& p : soiled) {
+    if (random.uniform() < 0.12) {
+      p.y += random.uniform(0.0015, 0.010);
+    }
+  }
   EXPECT_LT(worst_m(soiled, to_the_end()), kExact_m);
   // Least squares, which weigh every point alike, do not: the outliers are there.
   SurfaceFitOptions plain = to_the_end();
@@ -133,7 +139,9 @@ TEST_F(SurfaceFitTest, CountsOutliersAsNoneAndLeavesTheRestTheirWeight) {
   for (Vec3& p : soiled) {
     p += Vec3{random.normal(0, 0.0001), random.normal(0, 0.0001), random.normal(0, 0.0001)};
     off.push_back(random.uniform() < 0.12);
-    if (off.back()) p.y += random.uniform(0.004, 0.010);
+    if (off.back()) {
+      p.y += random.uniform(0.004, 0.010);
+    }
   }
   const CentredPoints cloud = test::centred_somewhere(soiled, random);
   const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, {});
@@ -159,8 +167,9 @@ TEST_F(SurfaceFitTest, TakesTheTipsRadiusIntoAccount) {
   for (const Vec3& p : places_) {
     const Vec3 centre = p + kRadius_m * surface_.nearest(p)->normal;
     // In a hollow the ball would touch elsewhere.
-    if (std::abs(surface_.nearest(centre)->distance_m - kRadius_m) < 1e-9)
+    if (std::abs(surface_.nearest(centre)->distance_m - kRadius_m) < 1e-9) {
       centres.push_back(centre);
+    }
   }
   ASSERT_GT(centres.size(), places_.size() / 3);
   SurfaceFitOptions ball = to_the_end();
@@ -180,7 +189,9 @@ TEST_F(SurfaceFitTest, IsNothingForTooFewPointsOrPointsFarAway) {
 TEST_F(SurfaceFitTest, NeverBecomesAMirrorImage) {
   Random random(21);
   std::vector<Vec3> mirrored = places_;
-  for (Vec3& p : mirrored) p.x = -p.x;
+  for (Vec3& p : mirrored) {
+    p.x = -p.x;
+  }
   const CentredPoints cloud = test::centred_somewhere(mirrored, random);
   const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, to_the_end());
   ASSERT_TRUE(fit.has_value());

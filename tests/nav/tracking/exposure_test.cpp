@@ -36,13 +36,16 @@ BlurSighting swinging(int k, double amplitude_px, double exposure_s, Random& ran
 double estimated_s(double amplitude_px, double exposure_s) {
   ExposureEstimator estimator;
   Random random(3);
-  for (int k = 0; k < 90; ++k) estimator.add(swinging(k, amplitude_px, exposure_s, random));
+  for (int k = 0; k < 90; ++k) {
+    estimator.add(swinging(k, amplitude_px, exposure_s, random));
+  }
   return estimator.exposure_s();
 }
 
 TEST(ExposureEstimator, IsToldByTheBlurOfMotion) {
-  for (const double exposure_s : {0.002, 0.004, 0.010, 0.020})
+  for (const double exposure_s : {0.002, 0.004, 0.010, 0.020}) {
     EXPECT_NEAR(estimated_s(120.0, exposure_s), exposure_s, 0.001) << exposure_s;
+  }
 }
 
 TEST(ExposureEstimator, StaysAtTheUsualWhereNothingMoves) {
@@ -64,7 +67,9 @@ TEST(ExposureEstimator, BelievesNoGapNoOtherTagAndNoNonsense) {
     other.add(s);
     s = swinging(k, 120.0, 0.020, random);
     s.row_px = s.column_px;
-    if (k % 3 == 0) s.centre_px.x = std::numeric_limits<double>::quiet_NaN();
+    if (k % 3 == 0) {
+      s.centre_px.x = std::numeric_limits<double>::quiet_NaN();
+    }
     nonsense.add(s);
   }
   EXPECT_EQ(gaps.exposure_s(), kUsual_s);
@@ -75,8 +80,12 @@ TEST(ExposureEstimator, BelievesNoGapNoOtherTagAndNoNonsense) {
 TEST(ExposureEstimator, FollowsTheLight) {
   ExposureEstimator estimator;
   Random random(3);
-  for (int k = 0; k < 300; ++k) estimator.add(swinging(k, 120.0, 0.004, random));
-  for (int k = 300; k < 900; ++k) estimator.add(swinging(k, 120.0, 0.012, random));
+  for (int k = 0; k < 300; ++k) {
+    estimator.add(swinging(k, 120.0, 0.004, random));
+  }
+  for (int k = 300; k < 900; ++k) {
+    estimator.add(swinging(k, 120.0, 0.012, random));
+  }
   EXPECT_NEAR(estimator.exposure_s(), 0.012, 0.001);
 }
 

@@ -39,7 +39,9 @@ Transform<Rig, Marker> roughly(const Transform<Rig, Marker>& pose) {
 
 std::vector<TagView> both_views(const BlurredTag& tag) {
   std::vector<TagView> views(2);
-  for (TagView& view : views) view.tag = &tag;
+  for (TagView& view : views) {
+    view.tag = &tag;
+  }
   views[1].right = true;
   return views;
 }
@@ -49,8 +51,9 @@ BlurredTag drawn(const std::string& family = "tag36h11", int id = 3) {
 }
 
 void add_noise(GreyImage& image, double sd, Random& random) {
-  for (std::uint8_t& grey : image.pixels)
+  for (std::uint8_t& grey : image.pixels) {
     grey = static_cast<std::uint8_t>(std::clamp(grey + random.normal(0.0, sd) + 0.5, 0.0, 255.0));
+  }
 }
 
 double tip_error_m(const Transform<Rig, Marker>& pose, const Transform<Rig, Marker>& truth) {
@@ -84,8 +87,11 @@ TEST(PhotometricPose, IsExactWhereTheImagesAre) {
 
 TEST(PhotometricPose, FindsTheLightAndTheBlurByItself) {
   Shown shown(tilted());
-  for (GreyImage* image : {&shown.frame.left, &shown.frame.right})
-    for (std::uint8_t& grey : image->pixels) grey = static_cast<std::uint8_t>(20 + grey / 4);
+  for (GreyImage* image : {&shown.frame.left, &shown.frame.right}) {
+    for (std::uint8_t& grey : image->pixels) {
+      grey = static_cast<std::uint8_t>(20 + grey / 4);
+    }
+  }
   const BlurredTag tag = drawn();
   PhotometricSolver solver(shown.calibration);
   auto views = both_views(tag);
@@ -103,9 +109,11 @@ TEST(PhotometricPose, FindsTheLightAndTheBlurByItself) {
 TEST(PhotometricPose, IsNotMisledByASensorThatIsNoLine) {
   // As of a camera that encodes grey for a screen: white areas grow by a part of the blur.
   Shown shown(tilted());
-  for (GreyImage* image : {&shown.frame.left, &shown.frame.right})
-    for (std::uint8_t& grey : image->pixels)
+  for (GreyImage* image : {&shown.frame.left, &shown.frame.right}) {
+    for (std::uint8_t& grey : image->pixels) {
       grey = static_cast<std::uint8_t>(250.0 * std::pow(grey / 250.0, 1.0 / 2.2) + 0.5);
+    }
+  }
   const BlurredTag tag = drawn();
   PhotometricSolver solver(shown.calibration);
   auto views = both_views(tag);
@@ -124,15 +132,19 @@ TEST(PhotometricPose, GoesOnWhenAPartIsHidden) {
   ASSERT_TRUE(solver.solve(shown.frame, tilted(), 0.001, views)) << "the light is known then";
   const auto cover = [&](GreyImage& image, const std::array<Vec2, 4>& corners) {
     const Vec2 middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-    for (int y = 0; y < image.height_px; ++y)
-      for (int x = 0; x < image.width_px; ++x)
-        if (x > middle.x + 6.0) image.at(x, y) = 120;
+    for (int y = 0; y < image.height_px; ++y) {
+      for (int x = 0; x < image.width_px; ++x) {
+        if (x > middle.x + 6.0) {
+          image.at(x, y) = 120;
+        }
+      }
+    }
   };
   cover(shown.frame.left, test::left_corners(shown.calibration, shown.tag));
   cover(shown.frame.right, test::right_corners(shown.calibration, shown.tag));
   const auto fit = solver.solve(shown.frame, roughly(tilted()), 0.001, views);
   ASSERT_TRUE(fit.has_value());
-  EXPECT_LT(views[0].kept_share, 0.9);
+  EXPECT_LT(views[0].kept_fraction, 0.9);
   EXPECT_LT(tip_error_m(fit->rig_from_marker, tilted()), 6.0 * kExactTipM);
 }
 
@@ -170,7 +182,9 @@ TEST(PhotometricPose, SaysHowFarItMayBeOff) {
     auto views = both_views(tag);
     std::optional<PhotometricFit> fit;
     // The second time the noise is known.
-    for (int k = 0; k < 3; ++k) fit = solver.solve(shown.frame, pose, 0.0005, views);
+    for (int k = 0; k < 3; ++k) {
+      fit = solver.solve(shown.frame, pose, 0.0005, views);
+    }
     ASSERT_TRUE(fit.has_value());
     sum += nees(*fit, pose);
   }
@@ -196,11 +210,13 @@ TEST_P(EveryTemplate, IsWhatTheLibraryDraws) {
   const test::TagPicture picture = test::tag_picture(GetParam(), 3);
   ASSERT_EQ(tag.cells, picture.cells);
   EXPECT_EQ(tag.border_cells, picture.cells - 2 * picture.border_cells);
-  for (int row = 0; row < tag.cells; ++row)
-    for (int column = 0; column < tag.cells; ++column)
+  for (int row = 0; row < tag.cells; ++row) {
+    for (int column = 0; column < tag.cells; ++column) {
       EXPECT_EQ(tag.at(row, column) > 0.5F,
                 picture.white[static_cast<std::size_t>(row * tag.cells + column)])
           << row << ", " << column;
+    }
+  }
 }
 INSTANTIATE_TEST_SUITE_P(Families, EveryTemplate,
                          ::testing::Values("tag36h11", "tag36h10", "tagStandard41h12", "tag25h9"));
@@ -215,8 +231,11 @@ TEST(TagTemplate, HasAWiderBorderWhereTheNameSaysSo) {
   const TagTemplate plain = tag_template("tag36h11", 7).value();
   const TagTemplate wide = tag_template("tag36h11b2", 7).value();
   ASSERT_EQ(wide.border_cells, 10);
-  for (int i = 0; i < 6; ++i)
-    for (int k = 0; k < 6; ++k) EXPECT_EQ(wide.at(i + 3, k + 3), plain.at(i + 2, k + 2));
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k < 6; ++k) {
+      EXPECT_EQ(wide.at(i + 3, k + 3), plain.at(i + 2, k + 2));
+    }
+  }
   for (int i = 1; i < 11; ++i) {
     EXPECT_EQ(wide.at(2, i), 0.0F);
     EXPECT_EQ(wide.at(1, i), 0.0F);

@@ -70,8 +70,9 @@ TEST(PivotCalibration, RefusesTooLittleTurning) {
 
 // Moves the tip at some of the poses, as when it is lifted off or the tag is seen wrongly.
 void disturb(std::vector<Pose>& poses, std::size_t from, std::size_t to, Vec3 shift_m) {
-  for (std::size_t i = from; i < to; ++i)
+  for (std::size_t i = from; i < to; ++i) {
     poses[i] = {poses[i].rotation(), poses[i].translation() + shift_m};
+  }
 }
 
 TEST(PivotCalibration, RefusesATipThatSlipped) {
@@ -92,15 +93,17 @@ TEST(PivotCalibration, LeavesOutWhatIsNoPivoting) {
     disturb(poses, i, i + 1, {far_m, far_m, 0});
     disturb(poses, 199 - i, 200 - i, {0, far_m, far_m});
   }
-  for (std::size_t i = 30; i < 170; i += 10)
+  for (std::size_t i = 30; i < 170; i += 10) {
     poses[i] = {rotation_from_vector({0, 0, 0.5}) * poses[i].rotation(), poses[i].translation()};
+  }
   const auto found = pivot_calibration(poses);
   ASSERT_TRUE(found.ok()) << found.error().message;
   EXPECT_LT((found->tip_in_marker.v - kTip).norm(), 4.0 * found->tip_sigma_m);
   EXPECT_LT(found->tip_sigma_m, 0.0001);
   EXPECT_EQ(found->inliers, 146u);
-  for (std::size_t i = 0; i < 200; ++i)
+  for (std::size_t i = 0; i < 200; ++i) {
     EXPECT_EQ(found->inlier[i], i >= 20 && i < 180 && (i < 30 || i >= 170 || i % 10 != 0)) << i;
+  }
   EXPECT_EQ(found->judgement.verdict, Verdict::kNote);
   EXPECT_THAT(found->judgement.reason, HasSubstr("73 % of the poses agree, better 90 %"));
 }
@@ -108,12 +111,13 @@ TEST(PivotCalibration, LeavesOutWhatIsNoPivoting) {
 TEST(PivotCalibration, RefusesWhenTooFewPosesAgree) {
   Random random(6);
   auto poses = pivoting(0.4, 0.2, 0.0002, random);
-  for (std::size_t i = 0; i < 90; ++i)  // 45 % everywhere
+  for (std::size_t i = 0; i < 90; ++i) {  // 45 % everywhere
     disturb(poses, i, i + 1, {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.05});
+  }
   EXPECT_THAT(pivot_calibration(poses).error().message,
               HasSubstr("55 % of the poses agree on a pivot, at least 60 %"));
   PivotOptions lenient;
-  lenient.min_inlier_share = 0.5;
+  lenient.min_inlier_fraction = 0.5;
   EXPECT_TRUE(pivot_calibration(poses, lenient).ok());
 }
 
@@ -160,8 +164,8 @@ TEST(PivotCalibration, ChecksItsOptions) {
   bad.max_rmse_m = -1.0;
   bad.inlier_m = std::numeric_limits<double>::quiet_NaN();
   bad.max_tip_sigma_m = std::numeric_limits<double>::infinity();
-  bad.min_inlier_share = 1.1;
-  bad.note_inlier_share = 0.0;
+  bad.min_inlier_fraction = 1.1;
+  bad.note_inlier_fraction = 0.0;
   bad.rounds = 0;
   EXPECT_THAT(bad.check(), ::testing::SizeIs(8));
   Random random(9);

@@ -45,7 +45,9 @@ TEST(PlanarPoses, HoldTheOneThatLooksAlike) {
   // Its corners are seen within what perspective moves them by: a fiftieth of the tag.
   const auto a = seen_at((*poses)[0]);
   const auto b = seen_at((*poses)[1]);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_LT((a[i] - b[i]).norm(), 0.04 * kTagM / 0.45);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LT((a[i] - b[i]).norm(), 0.04 * kTagM / 0.45);
+  }
   EXPECT_LT(other.column(2).dot((*poses)[1].translation_m), 0.0) << "it faces the camera too";
 }
 

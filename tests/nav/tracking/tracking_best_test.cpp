@@ -42,9 +42,11 @@ struct Tracking {
   explicit Tracking(const TrackerOptions& options = {},
                     std::vector<ToolGeometry> tools = {tool("pointer", 3, 0.05),
                                                        tool("guide", 5, 0.07)}) {
-    auto made = create_best_tracker(calibration, std::move(tools), options);
+    auto made = create_photometric_tracker(calibration, std::move(tools), options);
     EXPECT_TRUE(made.ok()) << made.error().message;
-    if (made) tracker = std::move(made).value();
+    if (made) {
+      tracker = std::move(made).value();
+    }
   }
   [[nodiscard]] StereoFrame frame(int pair) const {
     StereoFrame made = test::stereo_frame(calibration, tags_at(pair), at(pair));
@@ -67,7 +69,7 @@ TEST(BestTracker, SeesEveryToolInEveryPairFromTheFirstOn) {
     const auto truth = tags_at(k);
     ASSERT_EQ(states.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
-      ASSERT_EQ(states[i].world_from_marker.origin, Origin::kMeasured) << "pair " << k;
+      ASSERT_EQ(states[i].world_from_marker.status, PoseStatus::kMeasured) << "pair " << k;
       EXPECT_EQ(states[i].world_from_marker.time, at(k));
       EXPECT_EQ(states[i].cameras, 2);
       EXPECT_LT(tip_error_m(states[i], truth[i]), kTipM) << "pair " << k << " tool " << i;
@@ -77,12 +79,14 @@ TEST(BestTracker, SeesEveryToolInEveryPairFromTheFirstOn) {
 
 TEST(BestTracker, GoesOnWithOneCameraAndSaysSo) {
   Tracking t;
-  for (int k = 0; k < 5; ++k) t.tracker->track(t.frame(k));
+  for (int k = 0; k < 5; ++k) {
+    t.tracker->track(t.frame(k));
+  }
   const double sure = t.tracker->track(t.frame(5))[0].world_from_marker.covariance[14];
   StereoFrame frame = t.frame(6);
   hide(frame.right);
   const auto states = t.tracker->track(frame);
-  ASSERT_EQ(states[0].world_from_marker.origin, Origin::kMeasured);
+  ASSERT_EQ(states[0].world_from_marker.status, PoseStatus::kMeasured);
   EXPECT_EQ(states[0].cameras, 1);
   EXPECT_GT(states[0].world_from_marker.covariance[14], 2.0 * sure);
   EXPECT_LT(tip_error_m(states[0], tags_at(6)[0]), 0.005);
@@ -91,36 +95,42 @@ TEST(BestTracker, GoesOnWithOneCameraAndSaysSo) {
 TEST(BestTracker, PredictsNothingFromAnotherMapAndFindsAgain) {
   for (const std::int64_t epoch : {0, 1}) {
     Tracking t;
-    for (int k = 0; k < 5; ++k) t.tracker->track(t.frame(k));
+    for (int k = 0; k < 5; ++k) {
+      t.tracker->track(t.frame(k));
+    }
     StereoFrame hidden = t.frame(5);
     hide(hidden.left);
     hide(hidden.right);
     hidden.map_epoch = epoch;
-    EXPECT_EQ(t.tracker->track(hidden)[0].world_from_marker.origin,
-              epoch == 0 ? Origin::kPredicted : Origin::kLost);
+    EXPECT_EQ(t.tracker->track(hidden)[0].world_from_marker.status,
+              epoch == 0 ? PoseStatus::kPredicted : PoseStatus::kLost);
     int needed = 0;
-    for (Origin origin = Origin::kLost; origin != Origin::kMeasured; ++needed) {
+    for (PoseStatus status = PoseStatus::kLost; status != PoseStatus::kMeasured; ++needed) {
       ASSERT_LT(needed, 4);
       StereoFrame frame = t.frame(6 + needed);
       frame.map_epoch = epoch;
-      origin = t.tracker->track(frame)[0].world_from_marker.origin;
+      status = t.tracker->track(frame)[0].world_from_marker.status;
     }
   }
 }
 
 TEST(BestTracker, PredictsThenLosesAndFindsAgainAtOnce) {
   Tracking t;
-  for (int k = 0; k < 5; ++k) t.tracker->track(t.frame(k));
+  for (int k = 0; k < 5; ++k) {
+    t.tracker->track(t.frame(k));
+  }
   for (int k = 5; k < 14; ++k) {
     StereoFrame frame = t.frame(k);
     hide(frame.left);
     hide(frame.right);
-    const Origin origin = t.tracker->track(frame)[0].world_from_marker.origin;
-    EXPECT_EQ(origin, k < 8 ? Origin::kPredicted : Origin::kLost) << "pair " << k;
+    const PoseStatus status = t.tracker->track(frame)[0].world_from_marker.status;
+    EXPECT_EQ(status, k < 8 ? PoseStatus::kPredicted : PoseStatus::kLost) << "pair " << k;
   }
   int needed = 0;
-  while (t.tracker->track(t.frame(14 + needed))[0].world_from_marker.origin != Origin::kMeasured)
+  while (t.tracker->track(t.frame(14 + needed))[0].world_from_marker.status !=
+         PoseStatus::kMeasured) {
     ASSERT_LT(++needed, 3);
+  }
   EXPECT_LT(tip_error_m(t.tracker->track(t.frame(15 + needed))[0], tags_at(15 + needed)[0]),
             2 * kTipM);
 }
@@ -130,11 +140,13 @@ TEST(BestTracker, FindsAToolWhoseBorderOneCameraSeesOnlyInPart) {
   StereoFrame frame = t.frame(0);
   const auto corners = test::left_corners(t.calibration, tags_at(0)[0]);
   // A patch over one corner of the tag: no square there for a detector.
-  for (int y = -5; y <= 5; ++y)
-    for (int x = -5; x <= 5; ++x)
+  for (int y = -5; y <= 5; ++y) {
+    for (int x = -5; x <= 5; ++x) {
       frame.left.at(static_cast<int>(corners[0].x) + x, static_cast<int>(corners[0].y) + y) = 130;
+    }
+  }
   const auto states = t.tracker->track(frame);
-  ASSERT_EQ(states[0].world_from_marker.origin, Origin::kMeasured);
+  ASSERT_EQ(states[0].world_from_marker.status, PoseStatus::kMeasured);
   EXPECT_EQ(states[0].cameras, 2);
   EXPECT_LT(tip_error_m(states[0], tags_at(0)[0]), 4 * kTipM);
 }
@@ -143,18 +155,20 @@ TEST(BestTracker, DoesNotFindAToolThatOnlyOneCameraSees) {
   Tracking t;
   StereoFrame frame = t.frame(0);
   hide(frame.right);
-  EXPECT_NE(t.tracker->track(frame)[0].world_from_marker.origin, Origin::kMeasured);
+  EXPECT_NE(t.tracker->track(frame)[0].world_from_marker.status, PoseStatus::kMeasured);
 }
 
 TEST(BestTracker, DoesNotTakeOneTagForAnother) {
   // The pointer's place is taken by a tag of another tool between two pairs.
   Tracking t;
-  for (int k = 0; k < 5; ++k) t.tracker->track(t.frame(k));
+  for (int k = 0; k < 5; ++k) {
+    t.tracker->track(t.frame(k));
+  }
   auto tags = tags_at(5);
   tags[0].id = 11;
   StereoFrame frame = test::stereo_frame(t.calibration, tags, at(5));
   frame.world_from_rig = Transform<World, Rig>{};
-  EXPECT_NE(t.tracker->track(frame)[0].world_from_marker.origin, Origin::kMeasured);
+  EXPECT_NE(t.tracker->track(frame)[0].world_from_marker.status, PoseStatus::kMeasured);
 }
 
 TEST(BestTracker, MeasuresNothingWithoutAHeadPose) {
@@ -162,22 +176,24 @@ TEST(BestTracker, MeasuresNothingWithoutAHeadPose) {
   t.tracker->track(t.frame(0));
   StereoFrame frame = t.frame(1);
   frame.world_from_rig.reset();
-  EXPECT_EQ(t.tracker->track(frame)[0].world_from_marker.origin, Origin::kLost);
-  EXPECT_EQ(t.tracker->track(t.frame(2))[0].world_from_marker.origin, Origin::kMeasured);
+  EXPECT_EQ(t.tracker->track(frame)[0].world_from_marker.status, PoseStatus::kLost);
+  EXPECT_EQ(t.tracker->track(t.frame(2))[0].world_from_marker.status, PoseStatus::kMeasured);
 }
 
 /// The worst tip late in a sequence of which the cameras are not as reported.
 double worst_late_tip_m(const StereoCalibration& truth, const StereoCalibration& reported,
                         std::optional<StereoAlignment>& found) {
-  auto tracker = create_best_tracker(reported, {tool("pointer", 3, 0.05), tool("guide", 5, 0.07)});
+  auto tracker =
+      create_photometric_tracker(reported, {tool("pointer", 3, 0.05), tool("guide", 5, 0.07)});
   EXPECT_TRUE(tracker.ok());
   double worst = 0.0;
   for (int k = 0; k < 60; ++k) {
     StereoFrame frame = test::stereo_frame(truth, tags_at(k), at(k));
     frame.world_from_rig = Transform<World, Rig>{};
     const auto states = (*tracker)->track(frame);
-    for (std::size_t i = 0; i < 2 && k > 50; ++i)
+    for (std::size_t i = 0; i < 2 && k > 50; ++i) {
       worst = std::max(worst, tip_error_m(states[i], tags_at(k)[i]));
+    }
   }
   found = (*tracker)->alignment();
   return worst;
@@ -208,10 +224,12 @@ TEST(BestTracker, LeavesAGoodCalibrationAlone) {
 }
 
 /// Tracks resting tags that were printed at `share` of their stated size.
-std::unique_ptr<ToolTracker> tracked_at_size(double share, int pairs) {
+std::unique_ptr<ToolTracker> tracked_at_size(double fraction, int pairs) {
   Tracking t;
   auto tags = tags_at(0);
-  for (test::PlacedTag& tag : tags) tag.size_m *= share;
+  for (test::PlacedTag& tag : tags) {
+    tag.size_m *= fraction;
+  }
   StereoFrame frame = test::stereo_frame(t.calibration, tags, at(0));
   frame.world_from_rig = Transform<World, Rig>{};
   for (int k = 0; k < pairs; ++k) {
@@ -226,9 +244,9 @@ TEST(BestTracker, SaysThatTagsWerePrintedTooSmall) {
   for (std::size_t i = 0; i < 2; ++i) {
     const auto size = tracker->tag_size(i);
     ASSERT_TRUE(size.has_value());
-    EXPECT_TRUE(size->disagrees) << size->share << " SD " << size->sd << " of "
+    EXPECT_TRUE(size->disagrees) << size->fraction << " SD " << size->sd << " of "
                                  << size->measurements;
-    EXPECT_NEAR(size->share, -0.04, 0.004);
+    EXPECT_NEAR(size->fraction, -0.04, 0.004);
   }
   const auto alignment = tracker->alignment();
   EXPECT_FALSE(alignment && alignment->applied) << "a wrong print is no reason to turn a camera";
@@ -239,7 +257,7 @@ TEST(BestTracker, SaysThatTagsHaveAWrongUnitOrSize) {
   const auto size = tracker->tag_size(0);
   ASSERT_TRUE(size.has_value());
   EXPECT_TRUE(size->disagrees);
-  EXPECT_NEAR(size->share, -0.25, 0.03);
+  EXPECT_NEAR(size->fraction, -0.25, 0.03);
 }
 
 TEST(BestTracker, HasNothingToSayOfTagsOfTheirStatedSize) {
@@ -247,19 +265,24 @@ TEST(BestTracker, HasNothingToSayOfTagsOfTheirStatedSize) {
   const auto size = tracker->tag_size(0);
   ASSERT_TRUE(size.has_value());
   EXPECT_FALSE(size->disagrees);
-  EXPECT_NEAR(size->share, 0.0, 0.004);
+  EXPECT_NEAR(size->fraction, 0.0, 0.004);
 }
 
 TEST(BestTracker, GoesOnWhenTheLightChanges) {
   Tracking t;
-  for (int k = 0; k < 5; ++k) t.tracker->track(t.frame(k));
+  for (int k = 0; k < 5; ++k) {
+    t.tracker->track(t.frame(k));
+  }
   for (int k = 5; k < 8; ++k) {
     StereoFrame frame = t.frame(k);
-    for (GreyImage* image : {&frame.left, &frame.right})
-      for (std::uint8_t& grey : image->pixels) grey = static_cast<std::uint8_t>(grey * 2 / 5);
+    for (GreyImage* image : {&frame.left, &frame.right}) {
+      for (std::uint8_t& grey : image->pixels) {
+        grey = static_cast<std::uint8_t>(grey * 2 / 5);
+      }
+    }
     const auto states = t.tracker->track(frame);
-    EXPECT_EQ(states[0].world_from_marker.origin, Origin::kMeasured) << "pair " << k;
-    EXPECT_EQ(states[1].world_from_marker.origin, Origin::kMeasured) << "pair " << k;
+    EXPECT_EQ(states[0].world_from_marker.status, PoseStatus::kMeasured) << "pair " << k;
+    EXPECT_EQ(states[1].world_from_marker.status, PoseStatus::kMeasured) << "pair " << k;
     EXPECT_LT(tip_error_m(states[0], tags_at(k)[0]), 2 * kTipM) << "pair " << k;
   }
 }
@@ -271,11 +294,13 @@ TEST(BestTracker, IsTheSameWithOneThreadAndTwo) {
   Tracking b;
   for (int k = 0; k < 6; ++k) {
     StereoFrame frame = a.frame(k);
-    if (k == 3) hide(frame.left);
+    if (k == 3) {
+      hide(frame.left);
+    }
     const auto x = a.tracker->track(frame);
     const auto y = b.tracker->track(frame);
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_EQ(x[i].world_from_marker.origin, y[i].world_from_marker.origin);
+      EXPECT_EQ(x[i].world_from_marker.status, y[i].world_from_marker.status);
       EXPECT_EQ(x[i].world_from_marker.value, y[i].world_from_marker.value) << "pair " << k;
       EXPECT_EQ(x[i].world_from_marker.covariance, y[i].world_from_marker.covariance);
     }
@@ -292,18 +317,24 @@ TEST(BestTracker, SeesAToolByWhicheverOfItsTagsIsInSight) {
     const Transform<Rig, Tag> second = pose * beside;
     std::vector<test::PlacedTag> tags = {
         {"tag36h11", 8, 0.05, {second.rotation(), second.translation()}}};
-    if (first) tags.push_back({"tag36h11", 3, 0.05, pose});
+    if (first) {
+      tags.push_back({"tag36h11", 3, 0.05, pose});
+    }
     StereoFrame frame = test::stereo_frame(t.calibration, tags, at(k));
     frame.world_from_rig = Transform<World, Rig>{};
     const auto states = t.tracker->track(frame);
-    EXPECT_EQ(states[0].world_from_marker.origin, Origin::kMeasured) << "pair " << k;
+    EXPECT_EQ(states[0].world_from_marker.status, PoseStatus::kMeasured) << "pair " << k;
     EXPECT_LT(tip_error_m(states[0], {"tag36h11", 3, 0.05, pose}), 2 * kTipM) << "pair " << k;
     return states[0].world_from_marker.covariance[28];  // rotation about y
   };
   double both = 0.0;
-  for (int k = 0; k < 4; ++k) both = shown(k, true);
+  for (int k = 0; k < 4; ++k) {
+    both = shown(k, true);
+  }
   double one = 0.0;
-  for (int k = 4; k < 8; ++k) one = shown(k, false);
+  for (int k = 4; k < 8; ++k) {
+    one = shown(k, false);
+  }
   EXPECT_GT(one, both);
 }
 
@@ -312,17 +343,24 @@ TEST(BestTracker, AllocatesNothingWhileItFollows) {
   options.parallel = false;
   Tracking t(options);
   std::vector<StereoFrame> frames;
-  for (int k = 0; k < 10; ++k) frames.push_back(t.frame(k));
-  for (int k = 0; k < 5; ++k) t.tracker->track(frames[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 10; ++k) {
+    frames.push_back(t.frame(k));
+  }
+  for (int k = 0; k < 5; ++k) {
+    t.tracker->track(frames[static_cast<std::size_t>(k)]);
+  }
   const std::size_t before = test::allocation_count();
-  for (int k = 5; k < 10; ++k) t.tracker->track(frames[static_cast<std::size_t>(k)]);
+  for (int k = 5; k < 10; ++k) {
+    t.tracker->track(frames[static_cast<std::size_t>(k)]);
+  }
   EXPECT_EQ(test::allocation_count(), before);
   const std::vector<int> one(3, 1);
   EXPECT_GT(test::allocation_count(), before) << "the twin: the counter counts " << one.size();
 }
 
 TEST(BestTracker, RefusesATagThatItsFamilyDoesNotHave) {
-  const auto made = create_best_tracker(test::test_calibration(), {tool("pointer", 600, 0.05)}, {});
+  const auto made =
+      create_photometric_tracker(test::test_calibration(), {tool("pointer", 600, 0.05)}, {});
   ASSERT_FALSE(made.ok());
   EXPECT_THAT(made.error().message, ::testing::HasSubstr("600"));
 }
@@ -333,32 +371,37 @@ TEST(BestTracker, TakesAFrameOfNoImageForNoTag) {
   StereoFrame frame = t.frame(1);
   frame.left = {};
   frame.right = {};
-  EXPECT_NE(t.tracker->track(frame)[0].world_from_marker.origin, Origin::kMeasured);
+  EXPECT_NE(t.tracker->track(frame)[0].world_from_marker.status, PoseStatus::kMeasured);
 }
 
 // The recorded sample: a fifteenth of the published method's error, and the bound is in sight.
 TEST(BestTracker, IsFarBetterThanThePublishedMethodOnTheSample) {
   const auto sample = test::load_sample();
-  if (!sample) GTEST_SKIP() << "shared/recordings/streamrecorder-sample is absent";
+  if (!sample) {
+    GTEST_SKIP() << "shared/recordings/streamrecorder-sample is absent";
+  }
   const auto tip_rms_m = [&](auto create) {
     auto tracker = create(sample->calibration, sample->tools, TrackerOptions{});
     EXPECT_TRUE(tracker.ok());
     double sum = 0.0;
     int count = 0;
     const Point<Marker> tip{{0.0, -0.15, 0.0}};
-    for (const StereoFrame& frame : sample->frames)
+    for (const StereoFrame& frame : sample->frames) {
       for (const ToolState& state : (*tracker)->track(frame)) {
         const auto* truth = sample->find(frame.time, sample->tools[state.tool].marker.id);
-        if (!truth || !truth->visible) continue;
-        EXPECT_EQ(state.world_from_marker.origin, Origin::kMeasured);
+        if (!truth || !truth->visible) {
+          continue;
+        }
+        EXPECT_EQ(state.world_from_marker.status, PoseStatus::kMeasured);
         sum +=
             (state.world_from_marker.value * tip - truth->world_from_marker * tip).squared_norm();
         ++count;
       }
+    }
     EXPECT_EQ(count, 60);
     return std::sqrt(sum / count);
   };
-  EXPECT_LT(tip_rms_m(create_best_tracker), 0.10 * tip_rms_m(create_paper_tracker));
+  EXPECT_LT(tip_rms_m(create_photometric_tracker), 0.10 * tip_rms_m(create_corner_tracker));
 }
 
 }  // namespace

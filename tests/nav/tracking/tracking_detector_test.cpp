@@ -29,7 +29,9 @@ constexpr double kSamePx = 1e-3;
 
 MarkerDetector detector(DetectorOptions options = {}) {
   auto made = MarkerDetector::create(options);
-  if (!made) throw std::runtime_error(made.error().message);
+  if (!made) {
+    throw std::runtime_error(made.error().message);
+  }
   return std::move(made).value();
 }
 
@@ -40,7 +42,9 @@ std::string refusal(const DetectorOptions& options) {
 
 double worst_px(const std::array<Vec2, 4>& a, const std::array<Vec2, 4>& b) {
   double worst = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) worst = std::max(worst, (a[i] - b[i]).norm());
+  for (std::size_t i = 0; i < 4; ++i) {
+    worst = std::max(worst, (a[i] - b[i]).norm());
+  }
   return worst;
 }
 
@@ -98,8 +102,9 @@ std::map<Refinement, CornerErrors> corner_errors(const std::vector<Refinement>& 
                                            {0.02 * k - 0.4, 0.3 - 0.017 * k, 0.1 + 0.16 * k})};
     auto image =
         test::picture(calibration.left, {from_left.rotation(), from_left.translation()}, {tag});
-    for (auto& p : image.pixels)
+    for (auto& p : image.pixels) {
       p = static_cast<std::uint8_t>(std::clamp(p + random.normal(0, noise_sd), 0.0, 255.0));
+    }
     const auto truth = left_corners(calibration, tag);
     // The noise all around is the detector's slow part; what it sees in a box is tested elsewhere.
     const PixelBox around{static_cast<int>(truth[0].x) - 80, static_cast<int>(truth[0].y) - 80, 160,
@@ -108,7 +113,9 @@ std::map<Refinement, CornerErrors> corner_errors(const std::vector<Refinement>& 
       std::vector<MarkerCorners> found;
       EXPECT_TRUE(detector({.refinement = refinement}).detect(image, around, found));
       EXPECT_THAT(found, SizeIs(1));
-      if (found.size() != 1) continue;
+      if (found.size() != 1) {
+        continue;
+      }
       CornerErrors& sum = errors[refinement];
       for (std::size_t i = 0; i < 4; ++i) {
         const Vec2 error = found[0].corners_px[i] - truth[i];
@@ -117,7 +124,9 @@ std::map<Refinement, CornerErrors> corner_errors(const std::vector<Refinement>& 
       }
     }
   }
-  for (auto& [refinement, sum] : errors) sum.rms_px = std::sqrt(sum.rms_px);
+  for (auto& [refinement, sum] : errors) {
+    sum.rms_px = std::sqrt(sum.rms_px);
+  }
   return errors;
 }
 
@@ -212,8 +221,9 @@ GreyImage three_tags(const std::vector<test::PlacedTag>& tags) {
   auto image =
       test::picture(calibration.left, {from_left.rotation(), from_left.translation()}, tags);
   Random random(5);
-  for (auto& p : image.pixels)
+  for (auto& p : image.pixels) {
     p = static_cast<std::uint8_t>(std::clamp(p + random.normal(0, 3), 0.0, 255.0));
+  }
   return image;
 }
 
@@ -230,7 +240,7 @@ TEST(MarkerDetector, ABoxGivesTheSameCornersAsTheWholeImage) {
     std::vector<MarkerCorners> boxed;
     ASSERT_TRUE(d.detect(image, whole));
     ASSERT_THAT(whole, SizeIs(3)) << decimate;
-    for (const MarkerCorners& marker : whole)
+    for (const MarkerCorners& marker : whole) {
       for (int shift = 0; shift < 4; ++shift) {
         Vec2 low{1e9, 1e9};
         Vec2 high{-1e9, -1e9};
@@ -247,6 +257,7 @@ TEST(MarkerDetector, ABoxGivesTheSameCornersAsTheWholeImage) {
         EXPECT_EQ(boxed[0].hamming, marker.hamming);
         EXPECT_LT(worst_px(boxed[0].corners_px, marker.corners_px), kSamePx);
       }
+    }
   }
   EXPECT_LT(worst_px(left_corners(calibration, tags[0]),
                      [&] {
@@ -280,13 +291,16 @@ TEST(MarkerDetector, TakesImagesOfAnySize) {
   Random random(9);
   auto d = detector();
   std::vector<MarkerCorners> found;
-  for (int width = 1; width < 40; width += 3)
+  for (int width = 1; width < 40; width += 3) {
     for (int height = 1; height < 40; height += 4) {
       GreyImage image(width, height);
-      for (auto& p : image.pixels) p = static_cast<std::uint8_t>(random.next());
+      for (auto& p : image.pixels) {
+        p = static_cast<std::uint8_t>(random.next());
+      }
       EXPECT_TRUE(d.detect(image, found));
       EXPECT_THAT(found, IsEmpty());
     }
+  }
 }
 
 TEST(MarkerDetector, RefusesImagesThatAreNone) {
@@ -324,9 +338,11 @@ TEST(MarkerDetector, RefusesBadOptions) {
 TEST(MarkerDetector, LeavesOutWhatIsDecodedBadly) {
   auto image = test::flat_picture("tag36h11", 3, 200, 200, {60, 60}, 10.0);
   auto corrected = image;
-  for (int y = 71; y < 80; ++y)  // one bit turned over
-    for (int x = 71; x < 80; ++x)
+  for (int y = 71; y < 80; ++y) {  // one bit turned over
+    for (int x = 71; x < 80; ++x) {
       corrected.at(x, y) = static_cast<std::uint8_t>(250 - corrected.at(x, y));
+    }
+  }
   std::vector<MarkerCorners> found;
   ASSERT_TRUE(detector({.max_hamming = 1}).detect(corrected, found));
   ASSERT_THAT(found, SizeIs(1));

@@ -18,13 +18,17 @@ CornerFilter::Corners tag_at(Vec2 place) {
 }
 
 CornerFilter::Corners noisy(CornerFilter::Corners corners, double sd_px, Random& random) {
-  for (Vec2& c : corners) c = c + Vec2{random.normal(0, sd_px), random.normal(0, sd_px)};
+  for (Vec2& c : corners) {
+    c = c + Vec2{random.normal(0, sd_px), random.normal(0, sd_px)};
+  }
   return corners;
 }
 
 double rms_px(const CornerFilter::Corners& a, const CornerFilter::Corners& b) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) sum += (a[i] - b[i]).dot(a[i] - b[i]);
+  for (std::size_t i = 0; i < 4; ++i) {
+    sum += (a[i] - b[i]).dot(a[i] - b[i]);
+  }
   return std::sqrt(sum / 8.0);
 }
 
@@ -37,7 +41,9 @@ TEST(CornerFilter, QuietensATagThatIsStillAndKnowsHowMuch) {
   constexpr int kFrames = 3000;
   for (int k = 0; k < kFrames; ++k) {
     filter.update(noisy(truth, 0.1, random), at_frame(k));
-    if (k < 20) continue;
+    if (k < 20) {
+      continue;
+    }
     squared += std::pow(rms_px(filter.corners_px(), truth), 2);
     claimed += filter.variance_px2();
   }
@@ -52,7 +58,9 @@ TEST(CornerFilter, DoesNotLagBehindConstantVelocity) {
   for (int k = 0; k < 30; ++k) {
     const auto truth = tag_at({100 + 200.0 * k * kFrameS, 200 - 90.0 * k * kFrameS});
     filter.update(truth, at_frame(k));
-    if (k <= 5) continue;
+    if (k <= 5) {
+      continue;
+    }
     EXPECT_LT(rms_px(filter.corners_px(), truth), 0.02) << "frame " << k;
   }
 }
@@ -64,14 +72,18 @@ TEST(CornerFilter, OpensWhenTheHandAccelerates) {
   for (int k = 0; k < 90; ++k) {
     const auto truth = tag_at({300 + 25 * std::sin(2 * 3.141592653589793 * k * kFrameS), 200});
     filter.update(truth, at_frame(k));
-    if (k > 5) worst = std::max(worst, rms_px(filter.corners_px(), truth));
+    if (k > 5) {
+      worst = std::max(worst, rms_px(filter.corners_px(), truth));
+    }
   }
   EXPECT_LT(worst, 0.1);  // the noise of one measurement
 }
 
 TEST(CornerFilter, PredictsAlongTheVelocityWithGrowingDoubt) {
   CornerFilter filter;
-  for (int k = 0; k < 30; ++k) filter.update(tag_at({100.0 + 3 * k, 200}), at_frame(k));
+  for (int k = 0; k < 30; ++k) {
+    filter.update(tag_at({100.0 + 3 * k, 200}), at_frame(k));
+  }
   const auto next = filter.predicted(at_frame(30));
   EXPECT_LT(rms_px(next.corners_px, tag_at({190, 200})), 0.05);
   const auto later = filter.predicted(at_frame(33));
@@ -82,7 +94,9 @@ TEST(CornerFilter, PredictsAlongTheVelocityWithGrowingDoubt) {
 
 TEST(CornerFilter, StartsAfreshAfterAJump) {
   CornerFilter filter;
-  for (int k = 0; k < 10; ++k) filter.update(tag_at({100, 200}), at_frame(k));
+  for (int k = 0; k < 10; ++k) {
+    filter.update(tag_at({100, 200}), at_frame(k));
+  }
   filter.update(tag_at({300, 220}), at_frame(10));
   EXPECT_EQ(rms_px(filter.corners_px(), tag_at({300, 220})), 0.0);
   // No velocity is made of the jump.
@@ -92,7 +106,9 @@ TEST(CornerFilter, StartsAfreshAfterAJump) {
 TEST(CornerFilter, StartsAfreshWhenTimeStandsStillOrGoesBack) {
   for (const int k : {10, 5}) {
     CornerFilter filter;
-    for (int i = 0; i <= 10; ++i) filter.update(tag_at({100, 200}), at_frame(i));
+    for (int i = 0; i <= 10; ++i) {
+      filter.update(tag_at({100, 200}), at_frame(i));
+    }
     filter.update(tag_at({105, 200}), at_frame(k));
     EXPECT_EQ(filter.time(), at_frame(k));
     EXPECT_EQ(rms_px(filter.corners_px(), tag_at({105, 200})), 0.0);

@@ -39,14 +39,16 @@ std::vector<ToolGeometry> two_tools() { return {tool("pointer", 3, 0.05), tool("
 
 std::unique_ptr<ToolTracker> tracker(const TrackerOptions& options = {},
                                      std::vector<ToolGeometry> tools = two_tools()) {
-  auto made = create_paper_tracker(calibration(), std::move(tools), options);
-  if (!made) throw std::runtime_error(made.error().message);
+  auto made = create_corner_tracker(calibration(), std::move(tools), options);
+  if (!made) {
+    throw std::runtime_error(made.error().message);
+  }
   return std::move(made).value();
 }
 
 std::string refusal(const TrackerOptions& options, std::vector<ToolGeometry> tools = two_tools(),
                     const StereoCalibration& cameras = calibration()) {
-  auto made = create_paper_tracker(cameras, std::move(tools), options);
+  auto made = create_corner_tracker(cameras, std::move(tools), options);
   return made ? "" : made.error().message;
 }
 
@@ -71,7 +73,9 @@ StereoFrame frame_at(int k, const std::vector<PlacedTag>& tags) {
 const std::vector<StereoFrame>& stroke() {
   static const std::vector<StereoFrame> frames = [] {
     std::vector<StereoFrame> made;
-    for (int k = 0; k < 6; ++k) made.push_back(frame_at(k, {pointer_at(k), guide_at(k)}));
+    for (int k = 0; k < 6; ++k) {
+      made.push_back(frame_at(k, {pointer_at(k), guide_at(k)}));
+    }
     return made;
   }();
   return frames;
@@ -93,7 +97,8 @@ TEST(PaperTracker, FindsPosesFromPixels) {
     ASSERT_EQ(states.size(), 2u);
     for (const auto& [state, tag] :
          {std::pair{states[0], pointer_at(k)}, {states[1], guide_at(k)}}) {
-      ASSERT_EQ(state.world_from_marker.origin, Origin::kMeasured) << tag.id << " in pair " << k;
+      ASSERT_EQ(state.world_from_marker.status, PoseStatus::kMeasured)
+          << tag.id << " in pair " << k;
       EXPECT_EQ(state.world_from_marker.time, frame.time);
       const auto truth = *frame.world_from_rig * tag.rig_from_marker;
       const auto& pose = state.world_from_marker.value;
@@ -110,41 +115,48 @@ TEST(PaperTracker, FindsPosesFromPixels) {
 TEST(PaperTracker, PredictsThenLosesAToolThatOneCameraMisses) {
   for (const bool blind_left : {true, false}) {
     auto t = tracker();
-    for (int k = 0; k < 4; ++k) (void)t->track(stroke()[static_cast<std::size_t>(k)]);
-    std::vector<Origin> origins;
+    for (int k = 0; k < 4; ++k) {
+      (void)t->track(stroke()[static_cast<std::size_t>(k)]);
+    }
+    std::vector<PoseStatus> origins;
     for (int k = 4; k < 9; ++k) {
       StereoFrame frame = shown(stroke()[4], k);
       blind(blind_left ? frame.left : frame.right);
-      origins.push_back(t->track(frame)[0].world_from_marker.origin);
+      origins.push_back(t->track(frame)[0].world_from_marker.status);
     }
     // Coasting for 100 ms: three pairs of 33 ms after the last measured one.
-    EXPECT_THAT(origins, ::testing::ElementsAre(Origin::kPredicted, Origin::kPredicted,
-                                                Origin::kPredicted, Origin::kLost, Origin::kLost));
-    EXPECT_EQ(t->track(shown(stroke()[5], 9))[0].world_from_marker.origin, Origin::kMeasured);
+    EXPECT_THAT(origins, ::testing::ElementsAre(PoseStatus::kPredicted, PoseStatus::kPredicted,
+                                                PoseStatus::kPredicted, PoseStatus::kLost,
+                                                PoseStatus::kLost));
+    EXPECT_EQ(t->track(shown(stroke()[5], 9))[0].world_from_marker.status, PoseStatus::kMeasured);
   }
 }
 
 TEST(PaperTracker, PredictsNothingFromAnotherMap) {
   for (const std::int64_t epoch : {0, 1}) {
     auto t = tracker();
-    for (int k = 0; k < 4; ++k) (void)t->track(stroke()[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 4; ++k) {
+      (void)t->track(stroke()[static_cast<std::size_t>(k)]);
+    }
     StereoFrame frame = stroke()[4];
     blind(frame.left);
     blind(frame.right);
     frame.map_epoch = epoch;
-    EXPECT_EQ(t->track(frame)[0].world_from_marker.origin,
-              epoch == 0 ? Origin::kPredicted : Origin::kLost);
+    EXPECT_EQ(t->track(frame)[0].world_from_marker.status,
+              epoch == 0 ? PoseStatus::kPredicted : PoseStatus::kLost);
   }
 }
 
 TEST(PaperTracker, PredictsAlongTheMotion) {
   auto t = tracker();
-  for (int k = 0; k < 5; ++k) (void)t->track(stroke()[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 5; ++k) {
+    (void)t->track(stroke()[static_cast<std::size_t>(k)]);
+  }
   StereoFrame frame = stroke()[5];
   blind(frame.left);
   blind(frame.right);
   const ToolState state = t->track(frame)[0];
-  ASSERT_EQ(state.world_from_marker.origin, Origin::kPredicted);
+  ASSERT_EQ(state.world_from_marker.status, PoseStatus::kPredicted);
   const auto truth = pointer_at(5).rig_from_marker;
   EXPECT_LT((state.rig_from_marker.translation() - truth.translation()).norm(), 2 * kPoseM);
   const auto last = pointer_at(4).rig_from_marker;
@@ -156,9 +168,10 @@ TEST(PaperTracker, DoesNotMeasureWithoutTheHead) {
   (void)t->track(stroke()[0]);
   StereoFrame frame = stroke()[1];
   frame.world_from_rig.reset();
-  for (const ToolState& state : t->track(frame))
-    EXPECT_EQ(state.world_from_marker.origin, Origin::kLost);
-  EXPECT_EQ(t->track(stroke()[2])[0].world_from_marker.origin, Origin::kMeasured);
+  for (const ToolState& state : t->track(frame)) {
+    EXPECT_EQ(state.world_from_marker.status, PoseStatus::kLost);
+  }
+  EXPECT_EQ(t->track(stroke()[2])[0].world_from_marker.status, PoseStatus::kMeasured);
 }
 
 TEST(PaperTracker, GivesTheSameWithOneThreadAndTwo) {
@@ -182,7 +195,7 @@ TEST(PaperTracker, BoxesGiveTheSameAsTheWholeImage) {
     const auto a = whole->track(frame);
     const auto b = boxes->track(frame);
     for (std::size_t i = 0; i < 2; ++i) {
-      ASSERT_EQ(b[i].world_from_marker.origin, Origin::kMeasured);
+      ASSERT_EQ(b[i].world_from_marker.status, PoseStatus::kMeasured);
       // 1e-3 px, the detector's promise, is 1 µm and 0.05 mrad here.
       EXPECT_LT((a[i].rig_from_marker.translation() - b[i].rig_from_marker.translation()).norm(),
                 1e-5);
@@ -200,8 +213,8 @@ TEST(PaperTracker, LooksForMissingToolsEveryNthPairOnly) {
   std::vector<bool> guide_seen;
   for (int k = 0; k < 9; ++k) {
     const auto states = t->track(shown(k == 0 ? pointer_only : both, k));
-    EXPECT_EQ(states[0].world_from_marker.origin, Origin::kMeasured) << k;
-    guide_seen.push_back(states[1].world_from_marker.origin == Origin::kMeasured);
+    EXPECT_EQ(states[0].world_from_marker.status, PoseStatus::kMeasured) << k;
+    guide_seen.push_back(states[1].world_from_marker.status == PoseStatus::kMeasured);
   }
   EXPECT_THAT(guide_seen,
               ::testing::ElementsAre(false, false, false, false, true, true, true, true, true));
@@ -211,20 +224,25 @@ TEST(PaperTracker, LooksEverywhereAtOnceAfterAGap) {
   auto t = tracker({.full_search_interval = 1000});
   (void)t->track(shown(stroke()[0], 0));
   (void)t->track(shown(stroke()[0], 1));
-  for (const ToolState& state : t->track(shown(stroke()[5], 40)))
-    EXPECT_EQ(state.world_from_marker.origin, Origin::kMeasured);
+  for (const ToolState& state : t->track(shown(stroke()[5], 40))) {
+    EXPECT_EQ(state.world_from_marker.status, PoseStatus::kMeasured);
+  }
 }
 
 TEST(PaperTracker, FindsAToolAgainThatJumped) {
   auto t = tracker({.full_search_interval = 3});
-  for (int k = 0; k < 6; ++k) (void)t->track(shown(stroke()[0], k));
+  for (int k = 0; k < 6; ++k) {
+    (void)t->track(shown(stroke()[0], k));
+  }
   PlacedTag elsewhere = pointer_at(0);
   elsewhere.rig_from_marker = test::facing({-0.03, 0.12, -0.05}, {-0.2, 0.3, 0.5});
   const StereoFrame jumped = frame_at(0, {elsewhere, guide_at(0)});
   int found_after = -1;
   for (int k = 6; k < 12 && found_after < 0; ++k) {
     const ToolState state = t->track(shown(jumped, k))[0];
-    if (state.world_from_marker.origin != Origin::kMeasured) continue;
+    if (state.world_from_marker.status != PoseStatus::kMeasured) {
+      continue;
+    }
     found_after = k - 6;
     EXPECT_LT(
         (state.rig_from_marker.translation() - elsewhere.rig_from_marker.translation()).norm(),
@@ -256,12 +274,12 @@ TEST(PaperTracker, AllocatesNothingOnceWarm) {
 
 TEST(PaperTracker, RejectsATagOfTheWrongSize) {
   PlacedTag tag = pointer_at(0);
-  for (const auto& [size_m, origin] : {std::pair{0.05, Origin::kMeasured},
-                                       {0.05 * 1.12, Origin::kMeasured},
-                                       {0.05 * 1.18, Origin::kLost},
-                                       {0.05 * 0.8, Origin::kLost}}) {
+  for (const auto& [size_m, origin] : {std::pair{0.05, PoseStatus::kMeasured},
+                                       {0.05 * 1.12, PoseStatus::kMeasured},
+                                       {0.05 * 1.18, PoseStatus::kLost},
+                                       {0.05 * 0.8, PoseStatus::kLost}}) {
     tag.size_m = size_m;
-    EXPECT_EQ(tracker()->track(frame_at(0, {tag}))[0].world_from_marker.origin, origin) << size_m;
+    EXPECT_EQ(tracker()->track(frame_at(0, {tag}))[0].world_from_marker.status, origin) << size_m;
   }
 }
 
@@ -270,7 +288,7 @@ TEST(PaperTracker, TakesThePairThatFitsWhenAnIdIsSeenTwice) {
   PlacedTag copy{"tag36h11", 3, 0.1, test::facing({-0.03, -0.1, 0.0}, {0.1, 0.2, 0.0})};
   const StereoFrame frame = frame_at(0, {pointer_at(0), copy});
   const ToolState state = tracker()->track(frame)[0];
-  ASSERT_EQ(state.world_from_marker.origin, Origin::kMeasured);
+  ASSERT_EQ(state.world_from_marker.status, PoseStatus::kMeasured);
   EXPECT_LT(
       (state.rig_from_marker.translation() - pointer_at(0).rig_from_marker.translation()).norm(),
       kPoseM);
@@ -282,7 +300,7 @@ TEST(PaperTracker, StaysWithTheToolItFollowsWhenAnEqualCopyAppears) {
   auto t = tracker();
   (void)t->track(frame_at(0, {pointer_at(0)}));
   const ToolState state = t->track(frame_at(1, {pointer_at(1), copy}))[0];
-  ASSERT_EQ(state.world_from_marker.origin, Origin::kMeasured);
+  ASSERT_EQ(state.world_from_marker.status, PoseStatus::kMeasured);
   EXPECT_LT(
       (state.rig_from_marker.translation() - pointer_at(1).rig_from_marker.translation()).norm(),
       2 * kPoseM);
@@ -295,7 +313,7 @@ TEST(PaperTracker, RejectsImagesThatDoNotBelongTogether) {
   other.rig_from_marker = {other.rig_from_marker.rotation(),
                            other.rig_from_marker.translation() + Vec3{0.0, 0.03, 0.0}};
   frame.right = frame_at(0, {other}).right;
-  EXPECT_EQ(tracker()->track(frame)[0].world_from_marker.origin, Origin::kLost);
+  EXPECT_EQ(tracker()->track(frame)[0].world_from_marker.status, PoseStatus::kLost);
 }
 
 TEST(PaperTracker, SurvivesImagesThatAreNone) {
@@ -304,11 +322,11 @@ TEST(PaperTracker, SurvivesImagesThatAreNone) {
   StereoFrame frame = stroke()[1];
   frame.left = GreyImage();
   frame.right.pixels.resize(7);
-  EXPECT_EQ(t->track(frame)[0].world_from_marker.origin, Origin::kPredicted);
+  EXPECT_EQ(t->track(frame)[0].world_from_marker.status, PoseStatus::kPredicted);
   StereoFrame small = stroke()[2];
   small.left = GreyImage(320, 240, 128);
-  EXPECT_EQ(t->track(small)[0].world_from_marker.origin, Origin::kPredicted);
-  EXPECT_EQ(t->track(stroke()[3])[0].world_from_marker.origin, Origin::kMeasured);
+  EXPECT_EQ(t->track(small)[0].world_from_marker.status, PoseStatus::kPredicted);
+  EXPECT_EQ(t->track(stroke()[3])[0].world_from_marker.status, PoseStatus::kMeasured);
 }
 
 TEST(PaperTracker, SurvivesTimeStandingStill) {
@@ -317,7 +335,9 @@ TEST(PaperTracker, SurvivesTimeStandingStill) {
   for (int k = 0; k < 3; ++k) {
     for (const ToolState& state : t->track(stroke()[0])) {
       EXPECT_TRUE(std::isfinite(state.world_from_marker.covariance[0]));
-      if (state.world_from_marker.origin == Origin::kLost) continue;
+      if (state.world_from_marker.status == PoseStatus::kLost) {
+        continue;
+      }
       EXPECT_TRUE(state.world_from_marker.value.translation().is_finite());
     }
   }
@@ -331,7 +351,8 @@ TEST(PaperTracker, RefusesBadToolsOptionsAndCameras) {
   EXPECT_THAT(refusal({.full_search_interval = 0}), HasSubstr("full_search_interval 0"));
   EXPECT_THAT(refusal({.decimate = 7}), HasSubstr("decimate"));
   EXPECT_THAT(refusal({.coast = std::chrono::milliseconds(-1)}), HasSubstr("coast"));
-  EXPECT_THAT(refusal({.corner_acceleration_px = 0}), HasSubstr("corner_acceleration_px"));
+  EXPECT_THAT(refusal({.corner_acceleration_px2_per_s3 = 0}),
+              HasSubstr("corner_acceleration_px2_per_s3"));
   EXPECT_THAT(refusal({.corner_noise_px = std::nan("")}), HasSubstr("corner_noise_px"));
   EXPECT_THAT(refusal({}, two_tools(), {}), HasSubstr("no camera model"));
 }
@@ -382,8 +403,11 @@ TEST(TagGeometry, CovarianceMatchesWhatCornerNoiseDoes) {
   constexpr int kDraws = 2000;
   for (int draw = 0; draw < kDraws; ++draw) {
     TagPair seen = exact;
-    for (auto* corners : {&seen.left_px, &seen.right_px})
-      for (Vec2& c : *corners) c = c + Vec2{random.normal(0, kNoisePx), random.normal(0, kNoisePx)};
+    for (auto* corners : {&seen.left_px, &seen.right_px}) {
+      for (Vec2& c : *corners) {
+        c = c + Vec2{random.normal(0, kNoisePx), random.normal(0, kNoisePx)};
+      }
+    }
     const auto pose = geometry.pose(seen, tag.size_m);
     ASSERT_TRUE(pose);
     const Vec3 shift = pose->rig_from_marker.translation() - tag.rig_from_marker.translation();
@@ -395,7 +419,9 @@ TEST(TagGeometry, CovarianceMatchesWhatCornerNoiseDoes) {
     }
   }
   // 2000 draws know a variance to 3 % (1 SD); to first order only, so 15 %.
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(squared[i] / (*claimed)[7 * i], 1.0, 0.15) << i;
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(squared[i] / (*claimed)[7 * i], 1.0, 0.15) << i;
+  }
 }
 
 TEST(TagGeometry, TurnedCovarianceIsThatOfTheTurnedPose) {

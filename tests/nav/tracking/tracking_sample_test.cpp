@@ -52,9 +52,11 @@ class HandMade {
     const auto left = detect(frame.left);
     const auto right = detect(frame.right);
     std::map<int, Pose> found;
-    for (const auto& [id, corners] : left)
-      if (right.count(id) > 0)
+    for (const auto& [id, corners] : left) {
+      if (right.count(id) > 0) {
         found[id] = *frame.world_from_rig * horn(triangulated(corners, right.at(id)));
+      }
+    }
     return found;
   }
 
@@ -68,7 +70,9 @@ class HandMade {
     for (int i = 0; i < zarray_size(seen); ++i) {
       apriltag_detection_t* tag = nullptr;
       zarray_get(seen, i, &tag);
-      for (std::size_t k = 0; k < 4; ++k) found[tag->id][k] = {tag->p[k][0], tag->p[k][1]};
+      for (std::size_t k = 0; k < 4; ++k) {
+        found[tag->id][k] = {tag->p[k][0], tag->p[k][1]};
+      }
     }
     apriltag_detections_destroy(seen);
     return found;
@@ -104,8 +108,11 @@ class HandMade {
     in_marker << -0.02, 0.02, 0.02, -0.02, -0.02, -0.02, 0.02, 0.02, 0, 0, 0, 0;
     const Eigen::Matrix4d t = Eigen::umeyama(in_marker, in_rig, false);
     Mat3 rotation;
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) rotation[r][static_cast<std::size_t>(c)] = t(r, c);
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        rotation[r][static_cast<std::size_t>(c)] = t(r, c);
+      }
+    }
     return {rotation, {t(0, 3), t(1, 3), t(2, 3)}};
   }
 
@@ -118,24 +125,28 @@ class RecordedSample : public ::testing::Test {
  protected:
   void SetUp() override {
     sample_ = test::load_sample();
-    if (!sample_) GTEST_SKIP() << "the recorded sample is not here";
+    if (!sample_) {
+      GTEST_SKIP() << "the recorded sample is not here";
+    }
   }
 
   // Errors by tag id; every visible tag must be measured and nothing else.
   std::map<int, Errors> tracked(const TrackerOptions& options) {
-    auto tracker = create_paper_tracker(sample_->calibration, sample_->tools, options);
+    auto tracker = create_corner_tracker(sample_->calibration, sample_->tools, options);
     EXPECT_TRUE(tracker.ok());
     std::map<int, Errors> errors;
-    for (const StereoFrame& frame : sample_->frames)
+    for (const StereoFrame& frame : sample_->frames) {
       for (const ToolState& state : (*tracker)->track(frame)) {
         const int id = sample_->tools[state.tool].marker.id;
         const test::TruthRow* truth = sample_->find(frame.time, id);
-        const bool measured = state.world_from_marker.origin == Origin::kMeasured;
+        const bool measured = state.world_from_marker.status == PoseStatus::kMeasured;
         EXPECT_EQ(measured, truth && truth->visible)
             << "tag " << id << " in pair " << frame.sequence;
-        if (measured && truth)
+        if (measured && truth) {
           errors[id].add(state.world_from_marker.value, truth->world_from_marker);
+        }
       }
+    }
     return errors;
   }
 
@@ -145,9 +156,11 @@ class RecordedSample : public ::testing::Test {
 TEST_F(RecordedSample, TipIsAsGoodAsDoneByHand) {
   HandMade hand(sample_->calibration);
   std::map<int, Errors> by_hand;
-  for (const StereoFrame& frame : sample_->frames)
-    for (const auto& [id, pose] : hand.poses(frame))
+  for (const StereoFrame& frame : sample_->frames) {
+    for (const auto& [id, pose] : hand.poses(frame)) {
       by_hand[id].add(pose, sample_->find(frame.time, id)->world_from_marker);
+    }
+  }
   const std::map<int, Errors> ours = tracked({});
   ASSERT_EQ(ours.size(), 2u);
   for (const auto& [id, errors] : ours) {
@@ -162,9 +175,10 @@ TEST_F(RecordedSample, TipIsAsGoodAsDoneByHand) {
 TEST_F(RecordedSample, FilteringHelpsTheTip) {
   // An acceleration density without bounds switches the filter off.
   const auto filtered = tracked({});
-  const auto unfiltered = tracked({.corner_acceleration_px = 1e9});
-  for (const auto& [id, errors] : filtered)
+  const auto unfiltered = tracked({.corner_acceleration_px2_per_s3 = 1e9});
+  for (const auto& [id, errors] : filtered) {
     EXPECT_LT(errors.tip_rms_m(), 0.95 * unfiltered.at(id).tip_rms_m()) << "tag " << id;
+  }
 }
 
 TEST_F(RecordedSample, PosesAreNearTheTruth) {

@@ -17,7 +17,9 @@ XrResult XRAPI_CALL formats(XrSession, std::uint32_t capacity, std::uint32_t* co
                             std::int64_t* values) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   return enumerate(d.traits.formats, capacity, count, values);
 }
 
@@ -25,20 +27,28 @@ XrResult XRAPI_CALL create_swapchain(XrSession, const XrSwapchainCreateInfo* inf
                                      XrSwapchain* handle) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   const auto& offered = d.traits.formats;
-  if (std::find(offered.begin(), offered.end(), info->format) == offered.end())
+  if (std::find(offered.begin(), offered.end(), info->format) == offered.end()) {
     return d.violated("a format that was not offered", XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED);
-  if (info->sampleCount != 1 || info->mipCount != 1 || info->faceCount != 1)
+  }
+  if (info->sampleCount != 1 || info->mipCount != 1 || info->faceCount != 1) {
     return d.violated("a swapchain of more than plain images", XR_ERROR_FEATURE_UNSUPPORTED);
-  if (info->width == 0 || info->width > 4096 || info->height == 0 || info->height > 4096)
+  }
+  if (info->width == 0 || info->width > 4096 || info->height == 0 || info->height > 4096) {
     return d.violated("a swapchain of no size", XR_ERROR_SWAPCHAIN_RECT_INVALID);
-  if (info->arraySize > d.traits.most_layers) return XR_ERROR_FEATURE_UNSUPPORTED;
+  }
+  if (info->arraySize > d.traits.most_layers) {
+    return XR_ERROR_FEATURE_UNSUPPORTED;
+  }
   const bool depth = info->format == VK_FORMAT_D32_SFLOAT;
   const auto wanted = depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                             : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT;
-  if ((info->usageFlags & wanted) == 0)
+  if ((info->usageFlags & wanted) == 0) {
     return d.violated("images that can't be drawn into", XR_ERROR_FEATURE_UNSUPPORTED);
+  }
   auto* chain = new DoubleSwapchain;
   chain->info = *info;
   chain->chain = std::make_unique<ImageChain>(
@@ -54,7 +64,9 @@ XrResult XRAPI_CALL destroy_swapchain(XrSwapchain handle) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
   DoubleSwapchain* chain = chain_of(d, handle);
-  if (chain == nullptr) return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
+  if (chain == nullptr) {
+    return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
+  }
   d.session->swapchains.erase(chain);
   delete chain;
   return XR_SUCCESS;
@@ -65,15 +77,22 @@ XrResult XRAPI_CALL images(XrSwapchain handle, std::uint32_t capacity, std::uint
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
   DoubleSwapchain* chain = chain_of(d, handle);
-  if (chain == nullptr) return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
+  if (chain == nullptr) {
+    return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
+  }
   const auto& all = chain->chain->images();
   *count = static_cast<std::uint32_t>(all.size());
-  if (capacity == 0) return XR_SUCCESS;
-  if (capacity < all.size()) return XR_ERROR_SIZE_INSUFFICIENT;
+  if (capacity == 0) {
+    return XR_SUCCESS;
+  }
+  if (capacity < all.size()) {
+    return XR_ERROR_SIZE_INSUFFICIENT;
+  }
   auto* out = reinterpret_cast<XrSwapchainImageVulkan2KHR*>(values);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (out[i].type != XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR)
+    if (out[i].type != XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR) {
       return d.violated("images of another kind", XR_ERROR_VALIDATION_FAILURE);
+    }
     out[i].image = all[i];
   }
   return XR_SUCCESS;
@@ -83,11 +102,16 @@ XrResult XRAPI_CALL acquire(XrSwapchain handle, const XrSwapchainImageAcquireInf
                             std::uint32_t* index) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   DoubleSwapchain* chain = chain_of(d, handle);
-  if (chain == nullptr) return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
-  if (chain->acquired.size() == chain->chain->images().size())
+  if (chain == nullptr) {
+    return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
+  }
+  if (chain->acquired.size() == chain->chain->images().size()) {
     return d.violated("more images than there are", XR_ERROR_CALL_ORDER_INVALID);
+  }
   *index = chain->next;
   chain->acquired.push_back(chain->next);
   chain->next = (chain->next + 1) % static_cast<std::uint32_t>(chain->chain->images().size());
@@ -97,11 +121,16 @@ XrResult XRAPI_CALL acquire(XrSwapchain handle, const XrSwapchainImageAcquireInf
 XrResult XRAPI_CALL wait_image(XrSwapchain handle, const XrSwapchainImageWaitInfo*) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   DoubleSwapchain* chain = chain_of(d, handle);
-  if (chain == nullptr) return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
-  if (chain->acquired.empty() || chain->waited)
+  if (chain == nullptr) {
+    return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
+  }
+  if (chain->acquired.empty() || chain->waited) {
     return d.violated("an image waited for out of turn", XR_ERROR_CALL_ORDER_INVALID);
+  }
   chain->waited = true;
   return XR_SUCCESS;
 }
@@ -109,11 +138,16 @@ XrResult XRAPI_CALL wait_image(XrSwapchain handle, const XrSwapchainImageWaitInf
 XrResult XRAPI_CALL release(XrSwapchain handle, const XrSwapchainImageReleaseInfo*) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   DoubleSwapchain* chain = chain_of(d, handle);
-  if (chain == nullptr) return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
-  if (!chain->waited)
+  if (chain == nullptr) {
+    return d.violated("an unknown swapchain", XR_ERROR_HANDLE_INVALID);
+  }
+  if (!chain->waited) {
     return d.violated("an image released that was not waited for", XR_ERROR_CALL_ORDER_INVALID);
+  }
   chain->released = chain->acquired.front();
   chain->acquired.pop_front();
   chain->waited = false;
@@ -125,15 +159,25 @@ XrResult XRAPI_CALL wait_frame(XrSession, const XrFrameWaitInfo*, XrFrameState* 
   std::int64_t pause_ns = 0;
   {
     const std::lock_guard lock(d.mutex);
-    if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+    if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+      return dead;
+    }
     DoubleSession& session = *d.session;
-    if (!session.running) return d.violated("a frame of no session", XR_ERROR_SESSION_NOT_RUNNING);
-    if (session.waited) return d.violated("waited twice for a frame", XR_ERROR_CALL_ORDER_INVALID);
+    if (!session.running) {
+      return d.violated("a frame of no session", XR_ERROR_SESSION_NOT_RUNNING);
+    }
+    if (session.waited) {
+      return d.violated("waited twice for a frame", XR_ERROR_CALL_ORDER_INVALID);
+    }
     session.waited = true;
-    if (d.traits.stepped) d.stepped_now += d.traits.period_ns;
+    if (d.traits.stepped) {
+      d.stepped_now += d.traits.period_ns;
+    }
     const XrTime now = d.now();
     const XrTime next = (now / d.traits.period_ns + 1) * d.traits.period_ns;
-    if (!d.traits.stepped) pause_ns = next - now;
+    if (!d.traits.stepped) {
+      pause_ns = next - now;
+    }
     session.predicted = next + 2 * d.traits.period_ns;
     session.should_render =
         d.waited_frames++ >= d.traits.frames_without_render &&
@@ -142,20 +186,29 @@ XrResult XRAPI_CALL wait_frame(XrSession, const XrFrameWaitInfo*, XrFrameState* 
     state->predictedDisplayPeriod = d.traits.period_ns;
     state->shouldRender = session.should_render ? XR_TRUE : XR_FALSE;
   }
-  if (pause_ns > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(pause_ns));
+  if (pause_ns > 0) {
+    std::this_thread::sleep_for(std::chrono::nanoseconds(pause_ns));
+  }
   return XR_SUCCESS;
 }
 
 XrResult XRAPI_CALL begin_frame(XrSession, const XrFrameBeginInfo*) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   DoubleSession& session = *d.session;
-  if (!session.running) return d.violated("a frame of no session", XR_ERROR_SESSION_NOT_RUNNING);
-  if (!session.waited)
+  if (!session.running) {
+    return d.violated("a frame of no session", XR_ERROR_SESSION_NOT_RUNNING);
+  }
+  if (!session.waited) {
     return d.violated("a frame begun that was not waited for", XR_ERROR_CALL_ORDER_INVALID);
+  }
   const bool discarded = session.begun;
-  if (discarded) d.violated("a frame begun before the last was ended", XR_SUCCESS);
+  if (discarded) {
+    d.violated("a frame begun before the last was ended", XR_SUCCESS);
+  }
   session.waited = false;
   session.begun = true;
   return discarded ? XR_FRAME_DISCARDED : XR_SUCCESS;
@@ -164,24 +217,35 @@ XrResult XRAPI_CALL begin_frame(XrSession, const XrFrameBeginInfo*) {
 /// Why a part of an image can't be shown; empty when it can.
 std::string flaw_of(Double& d, const XrSwapchainSubImage& part) {
   const DoubleSwapchain* chain = chain_of(d, part.swapchain);
-  if (chain == nullptr) return "a view of no swapchain";
-  if (!chain->released) return "a view of an image that was never released";
+  if (chain == nullptr) {
+    return "a view of no swapchain";
+  }
+  if (!chain->released) {
+    return "a view of an image that was never released";
+  }
   const XrRect2Di& rect = part.imageRect;
   if (rect.offset.x < 0 || rect.offset.y < 0 || rect.extent.width <= 0 || rect.extent.height <= 0 ||
       rect.offset.x + rect.extent.width > static_cast<int>(chain->info.width) ||
-      rect.offset.y + rect.extent.height > static_cast<int>(chain->info.height))
+      rect.offset.y + rect.extent.height > static_cast<int>(chain->info.height)) {
     return "a view outside its image";
-  if (part.imageArrayIndex >= chain->info.arraySize) return "a view of a layer too many";
+  }
+  if (part.imageArrayIndex >= chain->info.arraySize) {
+    return "a view of a layer too many";
+  }
   return {};
 }
 
 std::string flaw_of(Double& d, const XrCompositionLayerProjectionView& view) {
-  if (std::string flaw = flaw_of(d, view.subImage); !flaw.empty()) return flaw;
+  if (std::string flaw = flaw_of(d, view.subImage); !flaw.empty()) {
+    return flaw;
+  }
   const XrQuaternionf& q = view.pose.orientation;
-  if (std::fabs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) > 0.01f)
+  if (std::fabs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) > 0.01f) {
     return "a view with a pose that is none";
-  if (!(view.fov.angleLeft < view.fov.angleRight && view.fov.angleDown < view.fov.angleUp))
+  }
+  if (!(view.fov.angleLeft < view.fov.angleRight && view.fov.angleDown < view.fov.angleUp)) {
     return "a view of nothing";
+  }
   return {};
 }
 
@@ -189,46 +253,60 @@ std::string flaw_of(Double& d, const XrCompositionLayerProjectionView& view) {
 std::string take_depth(Double& d, const XrCompositionLayerProjectionView& view,
                        std::vector<float>& metres) {
   const auto* depth = static_cast<const XrCompositionLayerDepthInfoKHR*>(view.next);
-  if (depth == nullptr) return {};
-  if (!d.traits.takes_depth || depth->type != XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR)
+  if (depth == nullptr) {
+    return {};
+  }
+  if (!d.traits.takes_depth || depth->type != XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR) {
     return "a view with what was not switched on";
-  if (std::string flaw = flaw_of(d, depth->subImage); !flaw.empty()) return flaw;
+  }
+  if (std::string flaw = flaw_of(d, depth->subImage); !flaw.empty()) {
+    return flaw;
+  }
   if (!(depth->minDepth >= 0 && depth->minDepth < depth->maxDepth && depth->maxDepth <= 1 &&
-        depth->nearZ > 0 && depth->nearZ < depth->farZ))
+        depth->nearZ > 0 && depth->nearZ < depth->farZ)) {
     return "a depth of no range";
+  }
   DoubleSwapchain& chain = *chain_of(d, depth->subImage.swapchain);
-  if (chain.info.format != VK_FORMAT_D32_SFLOAT) return "a depth that is none";
+  if (chain.info.format != VK_FORMAT_D32_SFLOAT) {
+    return "a depth that is none";
+  }
   const auto bytes = chain.chain->read(*chain.released, depth->subImage.imageArrayIndex);
   metres.resize(bytes.size() / sizeof(float));
   std::memcpy(metres.data(), bytes.data(), bytes.size());
   // The hyperbola of a projection with the far plane anywhere, also at infinity.
-  for (float& value : metres)
+  for (float& value : metres) {
     value = 1.0f / (1.0f / depth->nearZ + value * (1.0f / depth->farZ - 1.0f / depth->nearZ));
+  }
   return {};
 }
 
 XrResult take_layer(Double& d, const XrFrameEndInfo& info, SubmittedFrame& frame) {
   const auto* layer = reinterpret_cast<const XrCompositionLayerProjection*>(info.layers[0]);
   if (info.layerCount != 1 || layer->type != XR_TYPE_COMPOSITION_LAYER_PROJECTION ||
-      layer->viewCount != 2)
+      layer->viewCount != 2) {
     return d.violated("layers that this runtime does not know", XR_ERROR_LAYER_INVALID);
+  }
   auto* space = reinterpret_cast<DoubleSpace*>(layer->space);
-  if (d.session->spaces.count(space) == 0)
+  if (d.session->spaces.count(space) == 0) {
     return d.violated("a layer in no space", XR_ERROR_HANDLE_INVALID);
+  }
   frame.on_head = space->type == XR_REFERENCE_SPACE_TYPE_VIEW;
   frame.flags = layer->layerFlags;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const XrCompositionLayerProjectionView& view = layer->views[eye];
-    if (const std::string flaw = flaw_of(d, view); !flaw.empty())
+    if (const std::string flaw = flaw_of(d, view); !flaw.empty()) {
       return d.violated(flaw, XR_ERROR_SWAPCHAIN_RECT_INVALID);
+    }
     DoubleSwapchain& chain = *chain_of(d, view.subImage.swapchain);
     frame.poses[eye] = view.pose;
     frame.fovs[eye] = view.fov;
     frame.format = chain.info.format;
-    if (d.traits.frames_kept > 0)
+    if (d.traits.frames_kept > 0) {
       frame.pixels[eye] = chain.chain->read(*chain.released, view.subImage.imageArrayIndex);
-    if (const std::string flaw = take_depth(d, view, frame.depth_m[eye]); !flaw.empty())
+    }
+    if (const std::string flaw = take_depth(d, view, frame.depth_m[eye]); !flaw.empty()) {
       return d.violated(flaw, XR_ERROR_VALIDATION_FAILURE);
+    }
   }
   return XR_SUCCESS;
 }
@@ -238,18 +316,24 @@ XrResult XRAPI_CALL end_frame(XrSession, const XrFrameEndInfo* info) {
   std::function<void()> action;
   {
     const std::lock_guard lock(d.mutex);
-    if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+    if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+      return dead;
+    }
     DoubleSession& session = *d.session;
-    if (!session.begun)
+    if (!session.begun) {
       return d.violated("a frame ended that was not begun", XR_ERROR_CALL_ORDER_INVALID);
-    if (info->displayTime != session.predicted)
+    }
+    if (info->displayTime != session.predicted) {
       d.violated("a frame ended for another time", XR_SUCCESS);
+    }
     const auto& blends = d.traits.blends;
-    if (std::find(blends.begin(), blends.end(), info->environmentBlendMode) == blends.end())
+    if (std::find(blends.begin(), blends.end(), info->environmentBlendMode) == blends.end()) {
       return d.violated("a blend mode that was not offered",
                         XR_ERROR_ENVIRONMENT_BLEND_MODE_UNSUPPORTED);
-    if (!session.should_render && info->layerCount > 0)
+    }
+    if (!session.should_render && info->layerCount > 0) {
       d.violated("drawn where nothing is to be drawn", XR_SUCCESS);
+    }
     session.begun = false;
     SubmittedFrame frame;
     frame.number = d.ended++;
@@ -257,14 +341,23 @@ XrResult XRAPI_CALL end_frame(XrSession, const XrFrameEndInfo* info) {
     frame.should_render = session.should_render;
     frame.layers = info->layerCount;
     frame.blend = info->environmentBlendMode;
-    if (info->layerCount > 0)
-      if (const XrResult taken = take_layer(d, *info, frame); taken != XR_SUCCESS) return taken;
+    if (info->layerCount > 0) {
+      if (const XrResult taken = take_layer(d, *info, frame); taken != XR_SUCCESS) {
+        return taken;
+      }
+    }
     d.kept.push_back(std::move(frame));
-    while (d.kept.size() > std::max<std::size_t>(d.traits.frames_kept, 1)) d.kept.pop_front();
+    while (d.kept.size() > std::max<std::size_t>(d.traits.frames_kept, 1)) {
+      d.kept.pop_front();
+    }
     const auto found = d.actions.find(d.ended - 1);
-    if (found != d.actions.end()) action = found->second;
+    if (found != d.actions.end()) {
+      action = found->second;
+    }
   }
-  if (action) action();
+  if (action) {
+    action();
+  }
   return XR_SUCCESS;
 }
 

@@ -20,10 +20,16 @@ XrResult XRAPI_CALL enumerate_extensions(const char* layer, std::uint32_t capaci
     property.extensionVersion = version;
     all.push_back(property);
   };
-  if (layer != nullptr) return XR_ERROR_API_LAYER_NOT_PRESENT;
+  if (layer != nullptr) {
+    return XR_ERROR_API_LAYER_NOT_PRESENT;
+  }
   add(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME, 2);
-  if (d.traits.converts_time) add(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME, 1);
-  if (d.traits.takes_depth) add(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, 5);
+  if (d.traits.converts_time) {
+    add(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME, 1);
+  }
+  if (d.traits.takes_depth) {
+    add(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, 5);
+  }
   return enumerate(all, capacity, count, properties);
 }
 
@@ -31,7 +37,9 @@ XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info, XrInstance
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
   take_script(d);
-  if (d.instance) return XR_ERROR_LIMIT_REACHED;
+  if (d.instance) {
+    return XR_ERROR_LIMIT_REACHED;
+  }
   if (d.refusals > 0) {
     --d.refusals;
     return XR_ERROR_RUNTIME_FAILURE;
@@ -40,8 +48,9 @@ XrResult XRAPI_CALL create_instance(const XrInstanceCreateInfo* info, XrInstance
     const std::string name = info->enabledExtensionNames[i];
     if (name != XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME &&
         name != XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME &&
-        !(d.traits.takes_depth && name == XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME))
+        !(d.traits.takes_depth && name == XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME)) {
       return d.violated("extension " + name + " was not offered", XR_ERROR_EXTENSION_NOT_PRESENT);
+    }
   }
   d.instance = true;
   d.instance_lost = false;
@@ -57,7 +66,9 @@ XrResult XRAPI_CALL destroy_instance(XrInstance) {
   const std::lock_guard lock(d.mutex);
   d.instance = false;
   // An instance takes its children with it; an order that can be kept is kept by whoever is tidy.
-  if (d.session && !d.instance_lost) d.violated("the instance went before its session", XR_SUCCESS);
+  if (d.session && !d.instance_lost) {
+    d.violated("the instance went before its session", XR_SUCCESS);
+  }
   d.session.reset();
   write_report(d);
   return XR_SUCCESS;
@@ -72,8 +83,12 @@ XrResult XRAPI_CALL instance_properties(XrInstance, XrInstanceProperties* proper
 XrResult XRAPI_CALL poll_event(XrInstance, XrEventDataBuffer* event) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (d.instance_lost) return XR_ERROR_INSTANCE_LOST;
-  if (d.events.empty()) return XR_EVENT_UNAVAILABLE;
+  if (d.instance_lost) {
+    return XR_ERROR_INSTANCE_LOST;
+  }
+  if (d.events.empty()) {
+    return XR_EVENT_UNAVAILABLE;
+  }
   *event = d.events.front();
   d.events.pop_front();
   return XR_SUCCESS;
@@ -87,10 +102,15 @@ XrResult XRAPI_CALL result_to_string(XrInstance, XrResult value, char* text) {
 XrResult XRAPI_CALL get_system(XrInstance, const XrSystemGetInfo* info, XrSystemId* system) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (d.instance_lost) return XR_ERROR_INSTANCE_LOST;
-  if (info->formFactor != XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY)
+  if (d.instance_lost) {
+    return XR_ERROR_INSTANCE_LOST;
+  }
+  if (info->formFactor != XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY) {
     return XR_ERROR_FORM_FACTOR_UNSUPPORTED;
-  if (!d.traits.headset) return XR_ERROR_FORM_FACTOR_UNAVAILABLE;
+  }
+  if (!d.traits.headset) {
+    return XR_ERROR_FORM_FACTOR_UNAVAILABLE;
+  }
   *system = kSystem;
   return XR_SUCCESS;
 }
@@ -121,9 +141,12 @@ XrResult XRAPI_CALL configuration_views(XrInstance, XrSystemId, XrViewConfigurat
                                         XrViewConfigurationView* views) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (d.instance_lost) return XR_ERROR_INSTANCE_LOST;
-  if (type != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO)
+  if (d.instance_lost) {
+    return XR_ERROR_INSTANCE_LOST;
+  }
+  if (type != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) {
     return XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED;
+  }
   XrViewConfigurationView view = {XR_TYPE_VIEW_CONFIGURATION_VIEW};
   view.recommendedImageRectWidth = d.traits.width_px;
   view.recommendedImageRectHeight = d.traits.height_px;
@@ -135,7 +158,9 @@ XrResult XRAPI_CALL configuration_views(XrInstance, XrSystemId, XrViewConfigurat
 XrResult XRAPI_CALL time_from_timespec(XrInstance, const timespec* monotonic, XrTime* time) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (d.instance_lost) return XR_ERROR_INSTANCE_LOST;
+  if (d.instance_lost) {
+    return XR_ERROR_INSTANCE_LOST;
+  }
   timespec real = {};
   ::clock_gettime(CLOCK_MONOTONIC, &real);
   const auto count = [](const timespec& t) { return t.tv_sec * 1'000'000'000 + t.tv_nsec; };
@@ -146,7 +171,9 @@ XrResult XRAPI_CALL time_from_timespec(XrInstance, const timespec* monotonic, Xr
 XrResult XRAPI_CALL requirements(XrInstance, XrSystemId, XrGraphicsRequirementsVulkanKHR* needs) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (d.instance_lost) return XR_ERROR_INSTANCE_LOST;
+  if (d.instance_lost) {
+    return XR_ERROR_INSTANCE_LOST;
+  }
   d.requirements_asked = true;
   needs->minApiVersionSupported = d.traits.least_vulkan;
   needs->maxApiVersionSupported = d.traits.most_vulkan;
@@ -157,9 +184,10 @@ XrResult XRAPI_CALL create_vulkan_instance(XrInstance, const XrVulkanInstanceCre
                                            VkInstance* instance, VkResult* result) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (!d.requirements_asked)
+  if (!d.requirements_asked) {
     return d.violated("a Vulkan instance before its requirements",
                       XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING);
+  }
   const auto create = reinterpret_cast<PFN_vkCreateInstance>(
       info->pfnGetInstanceProcAddr(VK_NULL_HANDLE, "vkCreateInstance"));
   *result = create(info->vulkanCreateInfo, info->vulkanAllocator, instance);
@@ -171,15 +199,18 @@ XrResult XRAPI_CALL graphics_device(XrInstance, const XrVulkanGraphicsDeviceGetI
                                     VkPhysicalDevice* physical) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (info->vulkanInstance != d.vk_instance)
+  if (info->vulkanInstance != d.vk_instance) {
     return d.violated("a device of another Vulkan instance", XR_ERROR_VALIDATION_FAILURE);
+  }
   std::uint32_t count = 8;
   std::array<VkPhysicalDevice, 8> devices = {};
   vkEnumeratePhysicalDevices(d.vk_instance, &count, devices.data());
   for (std::uint32_t i = 0; i < count; ++i) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(devices[i], &properties);
-    if (std::strstr(properties.deviceName, "llvmpipe") != nullptr) *physical = devices[i];
+    if (std::strstr(properties.deviceName, "llvmpipe") != nullptr) {
+      *physical = devices[i];
+    }
   }
   d.vk_physical = *physical;
   return *physical == VK_NULL_HANDLE ? XR_ERROR_RUNTIME_FAILURE : XR_SUCCESS;
@@ -189,8 +220,9 @@ XrResult XRAPI_CALL create_vulkan_device(XrInstance, const XrVulkanDeviceCreateI
                                          VkDevice* device, VkResult* result) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (info->vulkanPhysicalDevice != d.vk_physical)
+  if (info->vulkanPhysicalDevice != d.vk_physical) {
     return d.violated("a device other than the one that was named", XR_ERROR_VALIDATION_FAILURE);
+  }
   const auto create = reinterpret_cast<PFN_vkCreateDevice>(
       info->pfnGetInstanceProcAddr(d.vk_instance, "vkCreateDevice"));
   *result =
@@ -263,8 +295,9 @@ extern "C" XrResult xrNegotiateLoaderRuntimeInterface(const LoaderInfo* loader,
 extern "C" XrResult xrNegotiateLoaderRuntimeInterface(const LoaderInfo* loader,
                                                       RuntimeRequest* request) {
   constexpr std::uint32_t kInterface = 1;
-  if (loader == nullptr || request == nullptr || loader->least_interface > kInterface)
+  if (loader == nullptr || request == nullptr || loader->least_interface > kInterface) {
     return XR_ERROR_INITIALIZATION_FAILED;
+  }
   request->interface = kInterface;
   request->api = XR_CURRENT_API_VERSION;
   request->get_proc = get_proc;

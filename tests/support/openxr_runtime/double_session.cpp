@@ -8,17 +8,24 @@ namespace {
 XrResult XRAPI_CALL create_session(XrInstance, const XrSessionCreateInfo* info, XrSession* handle) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (d.instance_lost) return XR_ERROR_INSTANCE_LOST;
-  if (d.session) return d.violated("a second session", XR_ERROR_LIMIT_REACHED);
-  if (!d.requirements_asked)
+  if (d.instance_lost) {
+    return XR_ERROR_INSTANCE_LOST;
+  }
+  if (d.session) {
+    return d.violated("a second session", XR_ERROR_LIMIT_REACHED);
+  }
+  if (!d.requirements_asked) {
     return d.violated("a session before the graphics requirements were asked",
                       XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING);
+  }
   const auto* binding = static_cast<const XrGraphicsBindingVulkan2KHR*>(info->next);
-  if (binding == nullptr || binding->type != XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR)
+  if (binding == nullptr || binding->type != XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR) {
     return d.violated("a session without a graphics binding", XR_ERROR_GRAPHICS_DEVICE_INVALID);
+  }
   if (binding->instance != d.vk_instance || binding->physicalDevice != d.vk_physical ||
-      binding->device != d.vk_device)
+      binding->device != d.vk_device) {
     return d.violated("a session on another device", XR_ERROR_GRAPHICS_DEVICE_INVALID);
+  }
   d.session = std::make_unique<DoubleSession>();
   d.session->objects = {binding->instance, binding->physicalDevice, binding->device,
                         binding->queueFamilyIndex, binding->queueIndex};
@@ -30,8 +37,12 @@ XrResult XRAPI_CALL create_session(XrInstance, const XrSessionCreateInfo* info, 
 }
 
 void destroy_chains(DoubleSession& session) {
-  for (DoubleSwapchain* chain : session.swapchains) delete chain;
-  for (DoubleSpace* space : session.spaces) delete space;
+  for (DoubleSwapchain* chain : session.swapchains) {
+    delete chain;
+  }
+  for (DoubleSpace* space : session.spaces) {
+    delete space;
+  }
   session.swapchains.clear();
   session.spaces.clear();
 }
@@ -39,7 +50,9 @@ void destroy_chains(DoubleSession& session) {
 XrResult XRAPI_CALL destroy_session(XrSession handle) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (!d.is_session(handle)) return d.violated("an unknown session", XR_ERROR_HANDLE_INVALID);
+  if (!d.is_session(handle)) {
+    return d.violated("an unknown session", XR_ERROR_HANDLE_INVALID);
+  }
   destroy_chains(*d.session);
   d.session.reset();
   return XR_SUCCESS;
@@ -48,29 +61,43 @@ XrResult XRAPI_CALL destroy_session(XrSession handle) {
 XrResult XRAPI_CALL begin_session(XrSession, const XrSessionBeginInfo* info) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   DoubleSession& session = *d.session;
-  if (info->primaryViewConfigurationType != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO)
+  if (info->primaryViewConfigurationType != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) {
     return XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED;
-  if (session.running) return d.violated("begun twice", XR_ERROR_SESSION_RUNNING);
-  if (session.state != XR_SESSION_STATE_READY)
+  }
+  if (session.running) {
+    return d.violated("begun twice", XR_ERROR_SESSION_RUNNING);
+  }
+  if (session.state != XR_SESSION_STATE_READY) {
     return d.violated("begun before READY", XR_ERROR_SESSION_NOT_READY);
+  }
   session.running = true;
   for (const XrSessionState state :
-       {XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_VISIBLE, XR_SESSION_STATE_FOCUSED})
+       {XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_VISIBLE, XR_SESSION_STATE_FOCUSED}) {
     d.enter(session, state);
+  }
   return XR_SUCCESS;
 }
 
 XrResult XRAPI_CALL end_session(XrSession) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   DoubleSession& session = *d.session;
-  if (!session.running) return d.violated("ended twice", XR_ERROR_SESSION_NOT_RUNNING);
-  if (session.state != XR_SESSION_STATE_STOPPING)
+  if (!session.running) {
+    return d.violated("ended twice", XR_ERROR_SESSION_NOT_RUNNING);
+  }
+  if (session.state != XR_SESSION_STATE_STOPPING) {
     return d.violated("ended before STOPPING", XR_ERROR_SESSION_NOT_STOPPING);
-  if (session.waited || session.begun) d.violated("ended with a frame open", XR_SUCCESS);
+  }
+  if (session.waited || session.begun) {
+    d.violated("ended with a frame open", XR_SUCCESS);
+  }
   session.running = false;
   d.enter(session, XR_SESSION_STATE_IDLE);
   d.enter(session, session.exit_requested ? XR_SESSION_STATE_EXITING : XR_SESSION_STATE_READY);
@@ -80,9 +107,12 @@ XrResult XRAPI_CALL end_session(XrSession) {
 XrResult XRAPI_CALL request_exit(XrSession) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
-  if (!d.session->running)
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
+  if (!d.session->running) {
     return d.violated("exit of what does not run", XR_ERROR_SESSION_NOT_RUNNING);
+  }
   d.session->exit_requested = true;
   d.enter(*d.session, XR_SESSION_STATE_STOPPING);
   return XR_SUCCESS;
@@ -92,7 +122,9 @@ XrResult XRAPI_CALL reference_spaces(XrSession, std::uint32_t capacity, std::uin
                                      XrReferenceSpaceType* types) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   return enumerate(d.traits.spaces, capacity, count, types);
 }
 
@@ -100,10 +132,13 @@ XrResult XRAPI_CALL create_space(XrSession, const XrReferenceSpaceCreateInfo* in
                                  XrSpace* handle) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
   const auto& spaces = d.traits.spaces;
-  if (std::find(spaces.begin(), spaces.end(), info->referenceSpaceType) == spaces.end())
+  if (std::find(spaces.begin(), spaces.end(), info->referenceSpaceType) == spaces.end()) {
     return d.violated("a space that was not offered", XR_ERROR_REFERENCE_SPACE_UNSUPPORTED);
+  }
   auto* space = new DoubleSpace{info->referenceSpaceType};
   d.session->spaces.insert(space);
   *handle = reinterpret_cast<XrSpace>(space);
@@ -114,8 +149,9 @@ XrResult XRAPI_CALL destroy_space(XrSpace handle) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
   auto* space = reinterpret_cast<DoubleSpace*>(handle);
-  if (!d.session || d.session->spaces.erase(space) == 0)
+  if (!d.session || d.session->spaces.erase(space) == 0) {
     return d.violated("an unknown space", XR_ERROR_HANDLE_INVALID);
+  }
   delete space;
   return XR_SUCCESS;
 }
@@ -124,17 +160,25 @@ XrResult XRAPI_CALL locate_space(XrSpace viewer, XrSpace base, XrTime time,
                                  XrSpaceLocation* location) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
-  if (time <= 0) return d.violated("a time of " + std::to_string(time), XR_ERROR_TIME_INVALID);
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
+  if (time <= 0) {
+    return d.violated("a time of " + std::to_string(time), XR_ERROR_TIME_INVALID);
+  }
   const auto* of = reinterpret_cast<DoubleSpace*>(viewer);
   const auto* in = reinterpret_cast<DoubleSpace*>(base);
   if (d.session->spaces.count(const_cast<DoubleSpace*>(of)) == 0 ||
-      d.session->spaces.count(const_cast<DoubleSpace*>(in)) == 0)
+      d.session->spaces.count(const_cast<DoubleSpace*>(in)) == 0) {
     return d.violated("a space of nobody's", XR_ERROR_HANDLE_INVALID);
-  if (of->type != XR_REFERENCE_SPACE_TYPE_VIEW || in->type == XR_REFERENCE_SPACE_TYPE_VIEW)
+  }
+  if (of->type != XR_REFERENCE_SPACE_TYPE_VIEW || in->type == XR_REFERENCE_SPACE_TYPE_VIEW) {
     return d.violated("spaces that this runtime can't relate", XR_ERROR_RUNTIME_FAILURE);
+  }
   location->pose = d.viewer_at(time);
-  if (!d.traits.position_known) location->pose.position = {1e30f, -1e30f, 1e30f};
+  if (!d.traits.position_known) {
+    location->pose.position = {1e30f, -1e30f, 1e30f};
+  }
   location->locationFlags = d.flags();
   return XR_SUCCESS;
 }
@@ -147,11 +191,16 @@ XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrView
                                  std::uint32_t capacity, std::uint32_t* count, XrView* views) {
   Double& d = the_double();
   const std::lock_guard lock(d.mutex);
-  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) return dead;
-  if (info->displayTime <= 0) return d.violated("views at no time", XR_ERROR_TIME_INVALID);
+  if (const XrResult dead = d.alive(); dead != XR_SUCCESS) {
+    return dead;
+  }
+  if (info->displayTime <= 0) {
+    return d.violated("views at no time", XR_ERROR_TIME_INVALID);
+  }
   auto* space = reinterpret_cast<DoubleSpace*>(info->space);
-  if (d.session->spaces.count(space) == 0)
+  if (d.session->spaces.count(space) == 0) {
     return d.violated("views in a space of nobody's", XR_ERROR_HANDLE_INVALID);
+  }
   const bool on_head = space->type == XR_REFERENCE_SPACE_TYPE_VIEW;
   // Where the eyes are on the head is known however lost the head is.
   state->viewStateFlags = on_head ? kAllFlags : d.flags();
@@ -160,7 +209,9 @@ XrResult XRAPI_CALL locate_views(XrSession, const XrViewLocateInfo* info, XrView
     XrPosef offset = {{0, 0, 0, 1}, {eye == 0 ? -0.0315f : 0.0315f, 0, 0}};
     both[eye].pose = on_head ? offset : multiplied(d.viewer_at(info->displayTime), offset);
     // What is not known may be anything.
-    if (!d.traits.position_known && !on_head) both[eye].pose.position = {1e30f, -1e30f, 1e30f};
+    if (!d.traits.position_known && !on_head) {
+      both[eye].pose.position = {1e30f, -1e30f, 1e30f};
+    }
     const float inner = 0.40f;
     const float outer = 0.50f;
     both[eye].fov = {eye == 0 ? -outer : -inner, eye == 0 ? inner : outer, 0.36f, -0.40f};

@@ -90,7 +90,9 @@ void Double::press(bool down) {
 
 void Double::tell(XrSessionState state) {
   const std::lock_guard lock(mutex);
-  if (session) enter(*session, state);
+  if (session) {
+    enter(*session, state);
+  }
 }
 
 void Double::enter(DoubleSession& of, XrSessionState state) {
@@ -114,7 +116,9 @@ void Double::recentre(const XrPosef& old_from_new, bool known, int frames_ahead)
   change.poseValid = known ? XR_TRUE : XR_FALSE;
   change.poseInPreviousSpace = old_from_new;
   for (const XrReferenceSpaceType type : traits.spaces) {
-    if (type == XR_REFERENCE_SPACE_TYPE_VIEW) continue;
+    if (type == XR_REFERENCE_SPACE_TYPE_VIEW) {
+      continue;
+    }
     change.referenceSpaceType = type;
     events.emplace_back();
     *reinterpret_cast<XrEventDataReferenceSpaceChangePending*>(&events.back()) = change;
@@ -123,11 +127,14 @@ void Double::recentre(const XrPosef& old_from_new, bool known, int frames_ahead)
 
 void Double::lose_session(bool announced) {
   const std::lock_guard lock(mutex);
-  if (!session) return;
-  if (announced)
+  if (!session) {
+    return;
+  }
+  if (announced) {
     enter(*session, XR_SESSION_STATE_LOSS_PENDING);
-  else
+  } else {
     session->lost = true;
+  }
 }
 
 void Double::lose_instance(bool announced) {
@@ -178,12 +185,16 @@ std::vector<std::string> Double::violations() const {
 }
 
 XrResult Double::violated(const std::string& what, XrResult result) {
-  if (wrong.size() < 100) wrong.push_back(what);
+  if (wrong.size() < 100) {
+    wrong.push_back(what);
+  }
   return result;
 }
 
 XrTime Double::now() const {
-  if (traits.stepped) return stepped_now;
+  if (traits.stepped) {
+    return stepped_now;
+  }
   timespec time = {};
   ::clock_gettime(CLOCK_MONOTONIC, &time);
   // Far from CLOCK_MONOTONIC, so that who takes one for the other is found out.
@@ -195,25 +206,38 @@ bool Double::is_session(XrSession handle) const {
 }
 
 XrResult Double::alive() const {
-  if (instance_lost) return XR_ERROR_INSTANCE_LOST;
-  if (!session) return XR_ERROR_HANDLE_INVALID;
+  if (instance_lost) {
+    return XR_ERROR_INSTANCE_LOST;
+  }
+  if (!session) {
+    return XR_ERROR_HANDLE_INVALID;
+  }
   return session->lost ? XR_ERROR_SESSION_LOST : XR_SUCCESS;
 }
 
 XrPosef Double::viewer_at(XrTime time) const {
   XrPosef pose = head(time);
-  for (const SpaceMove& move : moves)
-    if (move.from <= time) pose = multiplied(inverse(move.old_from_new), pose);
+  for (const SpaceMove& move : moves) {
+    if (move.from <= time) {
+      pose = multiplied(inverse(move.old_from_new), pose);
+    }
+  }
   return pose;
 }
 
 XrSpaceLocationFlags Double::flags() const {
-  if (!traits.valid) return 0;
-  if (!traits.position_known) return XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+  if (!traits.valid) {
+    return 0;
+  }
+  if (!traits.position_known) {
+    return XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+  }
   XrSpaceLocationFlags flags = XR_SPACE_LOCATION_ORIENTATION_VALID_BIT |
                                XR_SPACE_LOCATION_POSITION_VALID_BIT |
                                XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT;
-  if (traits.position_tracked) flags |= XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
+  if (traits.position_tracked) {
+    flags |= XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
+  }
   return flags;
 }
 

@@ -132,9 +132,15 @@ template <class T>
 XrResult enumerate(const std::vector<T>& all, std::uint32_t capacity, std::uint32_t* count,
                    T* values) {
   *count = static_cast<std::uint32_t>(all.size());
-  if (capacity == 0) return XR_SUCCESS;
-  if (capacity < all.size()) return XR_ERROR_SIZE_INSUFFICIENT;
-  for (std::size_t i = 0; i < all.size(); ++i) values[i] = all[i];
+  if (capacity == 0) {
+    return XR_SUCCESS;
+  }
+  if (capacity < all.size()) {
+    return XR_ERROR_SIZE_INSUFFICIENT;
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    values[i] = all[i];
+  }
   return XR_SUCCESS;
 }
 

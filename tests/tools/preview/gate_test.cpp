@@ -18,14 +18,18 @@ struct Stream {
   Timestamp pair{milliseconds(5000)};
 
   bool next() {
-    if (!gate.may_pass()) return false;
+    if (!gate.may_pass()) {
+      return false;
+    }
     pair += kInterval;
     gate.pass(pair);
     return true;
   }
   int pass_all(int most) {
     int passed = 0;
-    while (passed < most && next()) ++passed;
+    while (passed < most && next()) {
+      ++passed;
+    }
     return passed;
   }
 };

@@ -26,7 +26,9 @@ struct Buttons {
     const Status status = shared.poll(at_ms(ms), events);
     EXPECT_TRUE(status.ok()) << status.error().message;
     std::vector<ClickerAction> actions;
-    for (const ClickerEvent& event : events) actions.push_back(event.action);
+    for (const ClickerEvent& event : events) {
+      actions.push_back(event.action);
+    }
     return actions;
   }
 };

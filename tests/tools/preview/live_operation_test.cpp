@@ -23,7 +23,7 @@ const OperationSource& source() {
 
 sim::SimOptions perfect_room() {
   sim::SimOptions options;
-  options.magnitudes = sim::Magnitudes::perfect();
+  options.error_model = sim::ErrorModel::perfect();
   return options;
 }
 
@@ -47,7 +47,9 @@ struct Stage {
     gate.run_to(pair);
     while (true) {
       const auto newest = timeline.newest();
-      if (newest && newest->pair >= pair && gate.at_rest()) return newest;
+      if (newest && newest->pair >= pair && gate.at_rest()) {
+        return newest;
+      }
       std::this_thread::yield();
     }
   }
@@ -81,8 +83,9 @@ TEST(LiveOperation, IsTheSameWhenStartedAgain) {
   EXPECT_EQ(once->room->room_from_rig, again->room->room_from_rig);
   ASSERT_EQ(once->scene.texts.size(), again->scene.texts.size());
   ASSERT_FALSE(once->tools.empty());
-  for (std::size_t i = 0; i < once->tools.size(); ++i)
+  for (std::size_t i = 0; i < once->tools.size(); ++i) {
     EXPECT_EQ(once->tools[i].tip_in_world, again->tools[i].tip_in_world);
+  }
 }
 
 TEST(LiveOperation, HearsTheKeyboardAtTheNextPair) {

@@ -37,7 +37,9 @@ struct Bench : ModelBench {
 
 TEST(PreviewModel, SaysWhatTheKeysStandFor) {
   Bench bench;
-  for (const char c : {'s', 'v', 'd', 'a', 'r', 'n', 'f', 'm', 't'}) bench.tap(c);
+  for (const char c : {'s', 'v', 'd', 'a', 'r', 'n', 'f', 'm', 't'}) {
+    bench.tap(c);
+  }
   EXPECT_THAT(bench.said(), ElementsAre("start", "save", "delete", "accept", "reject", "next",
                                         "done", "move rod", "twin"));
   bench.tap('y');
@@ -46,7 +48,9 @@ TEST(PreviewModel, SaysWhatTheKeysStandFor) {
 
 TEST(PreviewModel, TellsTheClickerOfChangesOnly) {
   Bench bench;
-  for (const bool down : {true, true, false, false, true}) bench.model.key(Key::kSpace, down);
+  for (const bool down : {true, true, false, false, true}) {
+    bench.model.key(Key::kSpace, down);
+  }
   std::vector<bool> downs;
   bench.keyboard.take_button(downs);
   EXPECT_THAT(downs, ElementsAre(true, false, true));
@@ -104,17 +108,23 @@ TEST(PreviewModel, ScrubsToWhatIsToCome) {
 
 TEST(PreviewModel, ChangesSpeedBetweenItsEnds) {
   Bench bench;
-  for (int i = 0; i < 10; ++i) bench.tap('=');
+  for (int i = 0; i < 10; ++i) {
+    bench.tap('=');
+  }
   EXPECT_EQ(bench.gate.speed(), 0.0);
   bench.tap('-');
   EXPECT_EQ(bench.gate.speed(), 4.0);
-  for (int i = 0; i < 10; ++i) bench.tap('-');
+  for (int i = 0; i < 10; ++i) {
+    bench.tap('-');
+  }
   EXPECT_EQ(bench.gate.speed(), 0.1);
 }
 
 TEST(PreviewModel, HandsWishesOutOnce) {
   Bench bench;
-  for (const char c : {'i', 'k', 'q'}) bench.tap(c);
+  for (const char c : {'i', 'k', 'q'}) {
+    bench.tap(c);
+  }
   const Wishes wishes = bench.model.take_wishes();
   EXPECT_TRUE(wishes.screenshot && wishes.video && wishes.quit && !wishes.restart);
   EXPECT_FALSE(bench.model.take_wishes().quit);
@@ -150,7 +160,9 @@ TEST(HologramFilter, TakesOutWhatIsHiddenAndNothingElse) {
     ASSERT_EQ(seen.lines.size(), kLastHologram - 1) << hidden;
     EXPECT_EQ(seen.meshes.size() + seen.triangles.size() + seen.texts.size(),
               3 * (kLastHologram - 1));
-    for (const auto& line : seen.lines) EXPECT_NE(line.label / 100, hidden);
+    for (const auto& line : seen.lines) {
+      EXPECT_NE(line.label / 100, hidden);
+    }
   }
 }
 
@@ -175,7 +187,9 @@ TEST(Timeline, CoversTheWholeTimeInABoundedSpace) {
   EXPECT_EQ(timeline.at(1)->pair, 1);
   EXPECT_EQ(timeline.at(-5)->pair, 1);
   // Nowhere is a gap of more than a few parts of the whole.
-  for (int i = 1; i <= 10000; i += 100) EXPECT_LE(std::abs(timeline.at(i)->pair - i), 640) << i;
+  for (int i = 1; i <= 10000; i += 100) {
+    EXPECT_LE(std::abs(timeline.at(i)->pair - i), 640) << i;
+  }
   EXPECT_EQ(timeline.before(1)->pair, 1);
   EXPECT_EQ(timeline.after(10000)->pair, 10000);
 }
@@ -195,7 +209,9 @@ TEST(Camera, GoesRoundWhatItLooksAt) {
   camera.start_orbit({rotation_from_vector({-0.8, 0.0, 0.0}), {0.0, 0.4, 0.3}});
   const auto focus = [&camera] { return camera.stage_from_eye() * Point<Eye>{{0.0, 0.0, -0.45}}; };
   const Vec3 before = focus().v;
-  for (int i = 0; i < 50; ++i) camera.turn({0.07, 0.05});
+  for (int i = 0; i < 50; ++i) {
+    camera.turn({0.07, 0.05});
+  }
   EXPECT_LT((focus().v - before).norm(), 1e-9);
   // However far it is dragged, up stays up.
   EXPECT_GT(camera.stage_from_eye().rotation().column(1).y, 0.0);
@@ -216,15 +232,15 @@ TEST(Camera, MagnifiesOnlyWithTheEye) {
 }
 
 TEST(ErrorSources, HaveTheirDefaultsOnTheSliderAndBothEndsAreAllowed) {
-  const sim::Magnitudes usual;
+  const sim::ErrorModel usual;
   for (const ErrorSource& source : error_sources()) {
     const double shown = usual.*source.value * source.scale;
     EXPECT_GE(shown, source.least) << source.name;
     EXPECT_LE(shown, source.most) << source.name;
     for (const double end : {source.least, source.most}) {
-      sim::Magnitudes magnitudes;
-      magnitudes.*source.value = end / source.scale;
-      EXPECT_THAT(magnitudes.check(), IsEmpty()) << source.name << " " << end;
+      sim::ErrorModel error_model;
+      error_model.*source.value = end / source.scale;
+      EXPECT_THAT(error_model.check(), IsEmpty()) << source.name << " " << end;
     }
   }
 }

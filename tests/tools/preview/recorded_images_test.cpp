@@ -29,9 +29,9 @@ sim::RoomDescription table() {
   return room;
 }
 
-render::Image dark() {
-  render::Image picture{kWidth_px, kHeight_px, {}};
-  picture.rgba.resize(4u * kWidth_px * kHeight_px);
+RgbaImage dark() {
+  RgbaImage picture{kWidth_px, kHeight_px, {}};
+  picture.pixels.resize(4u * kWidth_px * kHeight_px);
   return picture;
 }
 
@@ -39,7 +39,7 @@ render::Image dark() {
 double correlation(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b,
                    int shift_px) {
   double n = 0, sum_a = 0, sum_b = 0, sum_aa = 0, sum_bb = 0, sum_ab = 0;
-  for (int y = 0; y < kHeight_px; ++y)
+  for (int y = 0; y < kHeight_px; ++y) {
     for (int x = shift_px; x < kWidth_px; ++x) {
       const double va = a[static_cast<std::size_t>(4 * (y * kWidth_px + x))];
       const double vb = b[static_cast<std::size_t>(4 * (y * kWidth_px + x - shift_px))];
@@ -50,6 +50,7 @@ double correlation(const std::vector<std::uint8_t>& a, const std::vector<std::ui
       sum_bb += vb * vb;
       sum_ab += va * vb;
     }
+  }
   return (n * sum_ab - sum_a * sum_b) /
          std::sqrt((n * sum_aa - sum_a * sum_a) * (n * sum_bb - sum_b * sum_b));
 }
@@ -58,13 +59,15 @@ TEST(RecordedImages, AreWhatAnEyeInTheCamerasPlaceSees) {
   const fs::path folder = fs::path(::testing::TempDir()) / "preview-recorded-images";
   fs::remove_all(folder);
   sim::SimOptions options;
-  options.magnitudes = sim::Magnitudes::perfect();
+  options.error_model = sim::ErrorModel::perfect();
   auto headset = sim::SimHeadset::open(table(), options);
   ASSERT_TRUE(headset.ok()) << headset.error().message;
   auto recorder = replay::RecordingHeadset::around(**headset, folder);
   ASSERT_TRUE(recorder.ok()) << recorder.error().message;
   StereoFrame frame;
-  for (int i = 0; i < 3; ++i) ASSERT_EQ(*(*recorder)->cameras().next(frame), Next::kFrame);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(*(*recorder)->cameras().next(frame), Next::kFrame);
+  }
   const sim::RoomState state = (*headset)->state();
   ASSERT_TRUE((*recorder)->close().ok());
 
@@ -74,23 +77,23 @@ TEST(RecordedImages, AreWhatAnEyeInTheCamerasPlaceSees) {
   render::View view;
   view.tan_left = view.tan_right = 0.48f;
   view.tan_up = view.tan_down = 0.36f;
-  render::Image straightened = dark();
+  RgbaImage straightened = dark();
   images->draw(frame.sequence, view, straightened);
-  render::Image untouched = dark();
+  RgbaImage untouched = dark();
   images->draw(frame.sequence + 7, view, untouched);
   EXPECT_TRUE(untouched == dark());
   fs::remove_all(folder);
 
-  RgbaImage seen{kWidth_px, kHeight_px, dark().rgba};
+  RgbaImage seen{kWidth_px, kHeight_px, dark().pixels};
   const sim::PinholeView eye{
       state.room_from_rig * Transform<Rig, Eye>{Mat3::identity(), images->eye_in_rig()}, 0.48, 0.48,
       0.36, 0.36};
-  sim::RoomRenderer::create((*headset)->room(), options.magnitudes)->picture(state, eye, seen);
+  sim::RoomRenderer::create((*headset)->room(), options.error_model)->picture(state, eye, seen);
   // Colour against grey and a soft lens against none: never quite one. Two pixels aside it is less.
-  const double there = correlation(straightened.rgba, seen.pixels, 0);
+  const double there = correlation(straightened.pixels, seen.pixels, 0);
   EXPECT_GT(there, 0.85);
-  EXPECT_LT(correlation(straightened.rgba, seen.pixels, 2), there - 0.005);
-  EXPECT_LT(correlation(seen.pixels, straightened.rgba, 2), there - 0.005);
+  EXPECT_LT(correlation(straightened.pixels, seen.pixels, 2), there - 0.005);
+  EXPECT_LT(correlation(seen.pixels, straightened.pixels, 2), there - 0.005);
 }
 
 }  // namespace

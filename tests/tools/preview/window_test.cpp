@@ -20,16 +20,20 @@ using ::testing::HasSubstr;
 class WindowTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    for (const char* needed : {"Xvfb", "xdotool"})
-      if (std::system((std::string("command -v ") + needed + " >/dev/null").c_str()) != 0)
+    for (const char* needed : {"Xvfb", "xdotool"}) {
+      if (std::system((std::string("command -v ") + needed + " >/dev/null").c_str()) != 0) {
         GTEST_SKIP() << needed << " is not installed (tools/setup installs it)";
+      }
+    }
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ = fs::path(::testing::TempDir()) / (std::string("preview-") + info->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
   void TearDown() override {
-    if (!HasFailure()) fs::remove_all(folder_);
+    if (!HasFailure()) {
+      fs::remove_all(folder_);
+    }
   }
 
   void write(const std::string& name, const std::string& text) const {
@@ -56,35 +60,39 @@ preview=')" ORTHONAV_COMMAND R"( preview --levels L5 --perfect --pace 4 --size 6
                                        .c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  render::Image picture(const std::string& name) const {
+  RgbaImage picture(const std::string& name) const {
     auto image = engine::read_png(folder_ / name);
     EXPECT_TRUE(image.ok()) << (image ? "" : image.error().message) << content("out");
-    return image ? *image : render::Image{};
+    return image ? *image : RgbaImage{};
   }
 
   fs::path folder_;
 };
 
 /// How many pixels differ by more than the eye would see; all of them when the sizes do.
-std::size_t different(const render::Image& a, const render::Image& b) {
-  if (a.rgba.size() != b.rgba.size()) return std::max(a.rgba.size(), b.rgba.size()) / 4;
+std::size_t different(const RgbaImage& a, const RgbaImage& b) {
+  if (a.pixels.size() != b.pixels.size()) {
+    return std::max(a.pixels.size(), b.pixels.size()) / 4;
+  }
   std::size_t count = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); i += 4) {
+  for (std::size_t i = 0; i < a.pixels.size(); i += 4) {
     int most = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      most = std::max(most, std::abs(int{a.rgba[i + c]} - int{b.rgba[i + c]}));
+    for (std::size_t c = 0; c < 3; ++c) {
+      most = std::max(most, std::abs(int{a.pixels[i + c]} - int{b.pixels[i + c]}));
+    }
     count += most > 16 ? 1 : 0;
   }
   return count;
 }
 
 /// Pixels close to a colour; sRGB.
-std::size_t coloured(const render::Image& image, const std::array<int, 3>& colour) {
+std::size_t coloured(const RgbaImage& image, const std::array<int, 3>& colour) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
     int most = 0;
-    for (std::size_t c = 0; c < 3; ++c)
-      most = std::max(most, std::abs(int{image.rgba[i + c]} - colour[c]));
+    for (std::size_t c = 0; c < 3; ++c) {
+      most = std::max(most, std::abs(int{image.pixels[i + c]} - colour[c]));
+    }
     count += most < 40 ? 1 : 0;
   }
   return count;
@@ -122,9 +130,9 @@ wait 2
 screenshot help.png
 )");
   ASSERT_EQ(shell("$preview --speed 0 --script script"), 0) << content("out");
-  const render::Image guide = picture("guide.png");
+  const RgbaImage guide = picture("guide.png");
   // The status line has green dots of its own.
-  const render::Image without = picture("guide-without-trajectory.png");
+  const RgbaImage without = picture("guide-without-trajectory.png");
   EXPECT_GT(coloured(guide, kGreen), coloured(without, kGreen) + 60u);
   EXPECT_LT(different(guide, without), 3000u);
   EXPECT_TRUE(guide == picture("guide-again.png"));
@@ -184,7 +192,7 @@ xdotool key Escape
 wait $pid
 )";
   ASSERT_EQ(shell(storm), 0) << content("out");
-  const render::Image after = picture("preview-001.png");
+  const RgbaImage after = picture("preview-001.png");
   EXPECT_EQ(after.width_px, 1000);
   EXPECT_EQ(after.height_px, 400);
   EXPECT_EQ(content("out"), "");
@@ -224,7 +232,7 @@ screenshot next.png
                   "$preview --headset replay:recording --paused --script script"),
             0)
       << content("out");
-  const render::Image early = picture("early.png");
+  const RgbaImage early = picture("early.png");
   EXPECT_TRUE(early == picture("early-again.png"));
   EXPECT_GT(different(early, picture("late.png")), 1000u);
   EXPECT_FALSE(early == picture("next.png"));
