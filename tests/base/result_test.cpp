@@ -41,7 +41,7 @@ TEST(ResultDeathTest, EndsTheProgramWhereTheAbsentSideIsRead) {
   const Result<int> error = Error{"width 3 px, limit 4 px"};
   const Result<int> value = 7;
   const Status done;
-  EXPECT_DEATH(static_cast<void>(*error), "internal error: .* does not hold \\(base/result.h:");
+  EXPECT_DEATH(static_cast<void>(*error), "internal error: .* does not hold .*base/result.h:");
   EXPECT_DEATH(static_cast<void>(value.error()), "internal error");
   EXPECT_DEATH(static_cast<void>(done.error()), "internal error");
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
 
 namespace orthonav::test {
 
@@ -51,8 +52,6 @@ std::vector<nav::ScrewPlan> plan(const std::string& text) {
   }
   return screws;
 }
-
-const std::filesystem::path kRoot = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
 
 AnatomyLevel level_of(std::filesystem::path file) {
   const std::string name = file.parent_path().filename().string() + "/" + file.stem().string();
@@ -101,14 +100,22 @@ struct Stroker {
 
 std::vector<AnatomyLevel> anatomy_levels() {
   std::vector<std::filesystem::path> files;
-  if (std::filesystem::is_directory(kRoot)) {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot)) {
+  for (const char* subject : {"morph-a", "morph-b", "shape-mean", "visible-human"}) {
+    const std::filesystem::path folder = test_data("anatomy/" + std::string(subject));
+    if (!std::filesystem::is_directory(folder)) {
+      continue;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() == ".stl") {
         files.push_back(entry.path());
       }
     }
   }
-  std::sort(files.begin(), files.end());
+  // By subject and level, wherever each of them lies.
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.parent_path().filename(), a.filename()) <
+           std::pair(b.parent_path().filename(), b.filename());
+  });
   std::vector<AnatomyLevel> levels;
   for (const std::filesystem::path& file : files) {
     levels.push_back(level_of(file));
@@ -117,7 +124,7 @@ std::vector<AnatomyLevel> anatomy_levels() {
 }
 
 std::optional<AnatomyLevel> anatomy_level(const std::string& name) {
-  const std::filesystem::path file = kRoot / (name + ".stl");
+  const std::filesystem::path file = test_data("anatomy/" + name + ".stl");
   if (!std::filesystem::is_regular_file(file)) {
     return std::nullopt;
   }

@@ -1,4 +1,5 @@
 #include "tests/tools/command_line.h"
+#include "tests/support/test_data.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -76,7 +77,7 @@ std::vector<std::string> ScratchFolder::names() const {
 }
 
 std::string shared(const std::string& name) {
-  const std::string path = std::string(ORTHONAV_SHARED_DIR) + "/" + name;
+  const std::string path = test_data(name).string();
   return std::filesystem::exists(path) ? path : std::string();
 }
 

@@ -58,9 +58,6 @@ class RegisterCommand : public ::testing::TestWithParam<const char*> {
     if (std::string(GetParam()) == "phantom") {
       use_phantom();
     } else {
-      if (shared("anatomy").empty()) {
-        GTEST_SKIP() << "shared anatomy is absent";
-      }
       model_ = shared("anatomy/visible-human/L4.stl");
       plan_file_ = shared("anatomy/visible-human/L4.plan.json");
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test_data.h"
 #include "tests/support/test_meshes.h"
 
 namespace orthonav::engine {
@@ -116,11 +117,7 @@ TEST(MeshFile, RefusesAxesThatItDoesNotKnow) {
 }
 
 TEST(MeshFile, ReadsEveryRealVertebra) {
-  const std::filesystem::path anatomy = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
-  if (!std::filesystem::exists(anatomy)) {
-    GTEST_SKIP() << "no " << anatomy;
-  }
-  const auto mesh = load_mesh((anatomy / "visible-human" / "L4.stl").string(), kMm);
+  const auto mesh = load_mesh(test::test_data("anatomy/visible-human/L4.stl").string(), kMm);
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
   EXPECT_EQ(mesh->triangles.size(), 8738u);
   // A closed surface of genus 1: V - E + F = 0 with E = 3F/2.

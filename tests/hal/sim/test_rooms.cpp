@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "hal/sim/bone_surface.h"
+#include "tests/support/test_data.h"
 
 namespace orthonav::sim {
 namespace {
@@ -136,7 +137,7 @@ TestCase synthetic_case() {
 }
 
 std::optional<TestCase> visible_human_case(const std::vector<std::string>& operated) {
-  const std::string folder = std::string(ORTHONAV_SHARED_DIR) + "/anatomy/visible-human/";
+  const std::string folder = test::test_data("anatomy/visible-human").string() + "/";
   std::ifstream file(folder + "case.json");
   if (!file) {
     return std::nullopt;

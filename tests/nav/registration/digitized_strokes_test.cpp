@@ -10,11 +10,11 @@
 #include "engine/case/case_file.h"
 #include "nav/registration/registration.h"
 #include "tests/support/posterior_landmarks.h"
+#include "tests/support/test_data.h"
 
 namespace orthonav::test {
 namespace {
 
-const std::filesystem::path kAnatomy = std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy";
 /// A ray meets the mesh to rounding; the frame there and back adds some more.
 constexpr double kOnBone_m = 0.00005;
 
@@ -28,7 +28,7 @@ class DigitizedStrokesTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     for (const char* name : {"visible-human", "shape-mean", "morph-a", "morph-b"}) {
-      const auto source = engine::load_case((kAnatomy / name).string());
+      const auto source = engine::load_case(test_data("anatomy/" + std::string(name)).string());
       if (!source) {
         continue;
       }

@@ -6,6 +6,7 @@
 
 #include "engine/case/case_file.h"
 #include "tests/support/digitized_strokes.h"
+#include "tests/support/test_data.h"
 
 namespace orthonav::test {
 namespace {
@@ -13,11 +14,8 @@ namespace {
 class StrokeNoise : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto source = engine::load_case(
-        (std::filesystem::path(ORTHONAV_SHARED_DIR) / "anatomy" / "visible-human").string());
-    if (!source) {
-      GTEST_SKIP() << "shared anatomy is absent";
-    }
+    const auto source = engine::load_case(test_data("anatomy/visible-human").string());
+    ASSERT_TRUE(source.ok()) << source.error().message;
     mesh_ = source->find("L3")->mesh;
     surface_ = std::make_unique<nav::SurfaceIndex>(mesh_);
   }
