@@ -79,6 +79,7 @@ TEST(SessionAllocations, AreNoneWhileSamplesAreRecorded) {
 
 TEST(SessionAllocations, AreNoneWhileCoachingTellsWhatToStroke) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch, true);
+  s.registration.accepted = false;
   s.registration.advice = "stroke the left lamina, from its base to the spinous process";
   s.tracker().pointer = pointer_at(kFirst);
   s.says("start");
