@@ -1,9 +1,8 @@
 #include "engine/session/coach.h"
 
-#include <cmath>
 #include <utility>
 
-#include "base/length_text.h"
+#include "engine/session/status_text.h"
 
 namespace orthonav::engine {
 namespace {
@@ -35,18 +34,24 @@ Coaching coaching_from(const nav::Registration& registration) {
 
 std::string text_of(const Coaching& coaching) {
   std::string out;
+  append_text_of(out, coaching);
+  return out;
+}
+
+void append_text_of(std::string& out, const Coaching& coaching) {
   if (!coaching.unique) {
     // An error about a pose that may be the wrong one says nothing.
-    out = "could be more than one pose";
-  } else if (!std::isfinite(coaching.expected_m)) {
-    out = "-- mm expected";
+    out += "could be more than one pose";
   } else {
-    out = in_mm(coaching.expected_m) + " expected";
+    append_mm(out, coaching.expected_m, 1);
+    out += " expected";
   }
   if (coaching.enough) {
-    return out + ", enough to register";
+    out += ", enough to register";
+  } else if (!coaching.advice.empty()) {
+    out += ", ";
+    out += coaching.advice;
   }
-  return coaching.advice.empty() ? out : out + ", " + coaching.advice;
 }
 
 void Coach::step(const OperatedLevel& level, std::span<const nav::Region> regions) {

@@ -21,6 +21,7 @@ struct Coaching {
 [[nodiscard]] Coaching coaching_from(const nav::Registration& registration);
 /// `0.6 mm expected, stroke the left lamina`.
 [[nodiscard]] std::string text_of(const Coaching& coaching);
+void append_text_of(std::string& out, const Coaching& coaching);
 
 /// Registers while the surgeon strokes, beside the frame loop, to tell what the strokes are worth;
 /// nothing of it registers anything. A trial starts after so many new samples and is answered

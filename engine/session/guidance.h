@@ -49,6 +49,15 @@ struct LevelState {
   [[nodiscard]] bool finished() const {
     return std::find(screw_done.begin(), screw_done.end(), false) == screw_done.end();
   }
+  /// Throws the registration away with what stands on it. Wires driven on it are not undone: what
+  /// was done stays.
+  void forget_registration() {
+    registration.reset();
+    predicted.clear();
+    check_points.clear();
+    accepted = false;
+    first_press.reset();
+  }
   /// World's vertebra may be shown and guided on.
   [[nodiscard]] bool usable() const { return accepted && registration && !map_moved; }
 };

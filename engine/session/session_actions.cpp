@@ -1,227 +1,130 @@
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 
-#include "base/joined.h"
 #include "engine/session/session.h"
-#include "nav/registration/unstroked_surface.h"
 
 namespace orthonav::engine {
-namespace {
 
-/// A saved region goes when "delete" is said twice within this time.
-constexpr Duration kSaidTwiceWithin = std::chrono::seconds(5);
-
-}  // namespace
-
+// An action that is forgotten here does not compile, whatever warnings are asked for
+// (tests/build_failures).
+// clang-format off
+#pragma GCC diagnostic push
+#pragma GCC diagnostic error "-Wswitch"
 void Session::act(Action action, Event event, Timestamp time) {
+  using enum Action;
   switch (action) {
-    case Action::kRefuse:
-      say("not possible now: " + std::string(name_of(event)), time);
-      return;
-    case Action::kIgnore:
-      return;
-    case Action::kWarnLost:
-      return;  // the status line shows it from `seen_`
-    case Action::kHideGuidance:
-      guidance_hidden_ = true;
-      return;
-    case Action::kShowGuidance:
-      guidance_hidden_ = false;
-      return;
-    case Action::kCountRefusal:
-      return;  // the reason was said where it arose
-    case Action::kForgetMap:
-      forget_map(time);
-      return;
-    case Action::kEndTouch:
-      touching_ = false;
-      return;  // the click that may follow uses the touch
-    default:
-      break;
-  }
-  message_.clear();
-  act_on_regions(action, time);
-  act_on_level(action, time);
-  act_on_touch(action, time);
-  act_on_checks(action, time);
-  act_on_rod(action, time);
-}
-
-void Session::act_on_regions(Action action, Timestamp time) {
-  switch (action) {
-    case Action::kStartSampling:
-      digitizer_.press(time);
-      if (!level().first_press) {
-        level().first_press = time;
-      }
-      return;
-    case Action::kStopSampling:
-      digitizer_.release(time);
-      return;
-    case Action::kSaveRegion:
-      digitizer_.save();
-      return;
-    case Action::kDropRegion:
-      drop_region(time);
-      return;
-    default:
-      return;
+    case kRefuse: return messages_.say("not possible now: " + std::string(name_of(event)), time);
+    case kIgnore: return;
+    case kBeginLevel: return begin_level();
+    case kStartSampling: return digitizing_.press(level(), time);
+    case kStopSampling: return digitizing_.release(time);
+    case kSaveRegion: return digitizing_.save();
+    case kDropRegion: return drop_region(time);
+    case kRegister: return register_level(time);
+    case kShowRegistration: return show_registration();
+    case kCountRefusal: return;  // the reason was said where it arose
+    case kJudgeChecks: return judge_checks(time);
+    case kAskForChecks: return messages_.say("not accepted: " + verifying_.verdict().advice, time);
+    case kRecordCheck: return record_check(time);
+    case kDropCheck: return drop_check(time);
+    case kAccept: level().accepted = true; return;
+    case kClearLevel: return clear_level();
+    case kSelectScrew: return select_screw();
+    case kFinishScrew: return finish_screw(time);
+    case kBeginRod: return rod_templating_.begin();
+    case kBeginTouch: return touch_of_step().begin();
+    case kEndTouch: return touch_of_step().release();
+    case kDropTouch: return drop_touch(time);
+    case kRecordHead: return record_head(time);
+    case kDropHead: return drop_head(time);
+    case kFinishRod: return finish_rod(time);
+    case kMoveRod: return rod_templating_.move_away();
+    case kToggleTwin: return guiding_.toggle_twin();
+    case kFinish: return;  // both rods were told of when they were done
+    case kWarnLost: return;  // the status line shows it from the tool in use
+    case kHideGuidance: return in_use_.hide_guidance(true);
+    case kShowGuidance: return in_use_.hide_guidance(false);
+    case kForgetMap: return forget_map(time);
   }
 }
-
-void Session::act_on_level(Action action, Timestamp time) {
-  switch (action) {
-    case Action::kBeginLevel:
-      begin_level();
-      return;
-    case Action::kRegister:
-      digitizer_.release(time);
-      // What is not saved is not registered: the two clicks that ask for it are no strokes.
-      digitizer_.drop();
-      try_registration(time);
-      return;
-    case Action::kShowRegistration:
-      verify_visible_at_.reset();
-      level().check_points.clear();
-      measure_residuals();
-      unstroked_ = nav::unstroked_surface(
-          *level().plan.model, level().registration->world_from_vertebra, level().newest->points);
-      propose_checks();
-      end_touch();
-      return;
-    case Action::kAccept:
-      level().accepted = true;
-      return;
-    case Action::kClearLevel:
-      level().registration.reset();
-      level().predicted.clear();
-      level().check_points.clear();
-      level().accepted = false;
-      if (coach_) {
-        coach_->forget();
-      }
-      level().first_press.reset();
-      // Wires driven on a registration that is thrown away are not undone; what was done stays.
-      digitizer_.clear();
-      last_guidance_.reset();
-      return;
-    case Action::kSelectScrew: {
-      digitizer_.clear();
-      const auto& done = level().screw_done;
-      const auto open = std::find(done.begin(), done.end(), false);
-      screw_ = open == done.end() ? 0 : static_cast<std::size_t>(open - done.begin());
-      last_guidance_.reset();
-      return;
-    }
-    case Action::kToggleTwin:
-      twin_ = !twin_;
-      return;
-    case Action::kFinishScrew:
-      finish_screw(time);
-      return;
-    default:
-      return;
-  }
-}
+// clang-format on
+#pragma GCC diagnostic pop
 
 void Session::begin_level() {
   const auto open = std::find_if(levels_.begin(), levels_.end(),
                                  [](const LevelState& level) { return !level.finished(); });
   level_ = open == levels_.end() ? 0 : static_cast<std::size_t>(open - levels_.begin());
-  screw_ = 0;
-  digitizer_.clear();
-  if (coach_) {
-    coach_->forget();
-  }
-  last_guidance_.reset();
+  digitizing_.clear();
+  guiding_.begin_level();
 }
 
 void Session::drop_region(Timestamp time) {
-  std::optional<nav::Region> gone = digitizer_.drop();
-  const bool asked = std::exchange(asked_to_drop_saved_, std::nullopt) >= time - kSaidTwiceWithin;
-  if (!gone && asked) {
-    gone = digitizer_.drop_saved();
+  std::string answer = digitizing_.drop_region(time);
+  if (!answer.empty()) {
+    messages_.say(std::move(answer), time);
   }
-  if (gone) {
-    // It fades instead of vanishing.
-    dropped_ = {std::move(*gone), time};
-    return;
-  }
-  // One word too many must not cost a good region.
-  const auto regions = digitizer_.regions();
-  const auto last =
-      std::find_if(regions.rbegin(), regions.rend(), [](const nav::Region& r) { return r.saved; });
-  if (last == regions.rend()) {
-    say("nothing to delete", time);
-    return;
-  }
-  asked_to_drop_saved_ = time;
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "say delete again to drop the last saved %zu points",
-                last->samples.size());
-  say(text.data(), time);
 }
 
-void Session::try_registration(Timestamp time) {
+void Session::register_level(Timestamp time) {
   LevelState& now = level();
-  ++now.attempts;
-  now.warning = tag_size_warning();
-  // The trial under way has lost its use, and this one shall have the machine to itself.
-  if (coach_) {
-    coach_->forget();
-  }
-  const std::vector<Point<World>> points = digitizer_.saved_points();
-  const std::vector<double> sds_m = digitizer_.saved_point_sds_m();
-  const std::vector<Vec3> shafts = digitizer_.saved_shafts();
-  const auto result = method_.registrar(
-      {*now.plan.model, points, now.plan.screws, now.plan.neighbours, sds_m, shafts});
-  now.newest.reset();
-  if (result) {
-    now.newest = RegistrationAttempt{points, *result};
-  }
-  std::string reason;
-  if (!result) {
-    reason = result.error().message;
-  } else if (!result->accepted) {
-    reason = joined(result->reasons);
-    if (reason.empty()) {
-      reason = "registration not accepted";
-    }
-  }
-  if (reason.empty()) {
-    now.registration = *result;
-    now.predicted = nav::predicted_errors(*result, now.plan.screws);
-    now.digitization_s = now.first_press ? seconds(time - *now.first_press) : 0.0;
-  } else {
-    refuse_registration(reason, result ? &*result : nullptr, time);
+  now.warning.clear();
+  tools_.append_tag_size_warning(now.warning, tools_.pointer());
+  const RegistrationOutcome outcome = digitizing_.register_level(now, method_.registrar, time);
+  const bool passed = outcome.refusal.empty();
+  if (!passed) {
+    messages_.say(outcome.told(), time);
   }
   if (observer_) {
-    observer_->registered(time, now, result ? &*result : nullptr, reason);
+    observer_->registered(time, now, outcome.result ? &*outcome.result : nullptr, outcome.refusal);
   }
-  handle(reason.empty() ? Event::kRegistered : Event::kRegistrationRefused, time);
+  handle(passed ? Event::kRegistered : Event::kRegistrationRefused, time);
 }
 
-/// With what to do about it, if that is known.
-void Session::refuse_registration(const std::string& reason, const nav::Registration* result,
-                                  Timestamp time) {
-  std::string advice;
-  if (result) {
-    advice = result->fits_better.empty() ? result->advice : "make sure of the level";
+void Session::show_registration() {
+  level().check_points.clear();
+  verifying_ = Verifying(level(), method_.verification, options_.check_points);
+}
+
+void Session::clear_level() {
+  level().forget_registration();
+  digitizing_.clear();
+  verifying_ = Verifying{};
+  guiding_.forget_guidance();
+}
+
+void Session::judge_checks(Timestamp time) {
+  handle(verifying_.verdict().passed ? Event::kChecked : Event::kNotChecked, time);
+}
+
+void Session::record_check(Timestamp time) {
+  const Status recorded = verifying_.record(level(), touched_place(time));
+  if (!recorded) {
+    messages_.say(recorded.error().message, time);
+  } else if (observer_) {
+    observer_->check_point_recorded(time, level());
   }
-  say("refused: " + reason + (advice.empty() ? "" : "; " + advice), time);
-  if (result && coach_) {
-    coach_->tell(coaching_from(*result), digitizer_.saved_count());
+}
+
+void Session::drop_check(Timestamp time) {
+  const Status dropped = verifying_.drop(level());
+  if (!dropped) {
+    messages_.say(dropped.error().message, time);
+  } else if (observer_) {
+    observer_->check_point_dropped(time, level());
   }
+}
+
+void Session::select_screw() {
+  digitizing_.clear();
+  guiding_.select_open_screw(level());
 }
 
 void Session::finish_screw(Timestamp time) {
   LevelState& now = level();
-  now.screw_done[screw_] = true;
+  const std::size_t screw = guiding_.screw();
+  now.screw_done[screw] = true;
   if (observer_) {
-    observer_->screw_done(time, now, now.plan.screws[screw_],
-                          last_guidance_ ? &*last_guidance_ : nullptr);
+    observer_->screw_done(time, now, now.plan.screws[screw], guiding_.last());
   }
   const auto finished = [](const LevelState& state) { return state.finished(); };
   if (!finished(now)) {
@@ -230,6 +133,86 @@ void Session::finish_screw(Timestamp time) {
     handle(Event::kAnotherLevel, time);
   } else {
     handle(Event::kNoScrewLeft, time);
+  }
+}
+
+/// Only `verify` and `rod` are touched in: the table asks for no touch elsewhere.
+Touch& Session::touch_of_step() {
+  return step_ == Step::kRod ? rod_templating_.touch() : verifying_.touch();
+}
+
+Result<Point<World>> Session::touched_place(Timestamp time) {
+  return touch_of_step().take_place(tools_.pointer_tip(time, options_.stale_after),
+                                    options_.max_touch_spread_m);
+}
+
+void Session::drop_touch(Timestamp time) {
+  touch_of_step().drop();
+  const char* what = step_ == Step::kRod ? "head" : "check point";
+  messages_.say(std::string(what) + " not recorded: hold too long", time);
+}
+
+void Session::record_head(Timestamp time) {
+  const auto head = touched_place(time);
+  if (!head) {
+    messages_.say("head not recorded: " + head.error().message, time);
+    return;
+  }
+  rod_templating_.add_head(*head);
+  bend_rod(time);
+  if (observer_) {
+    observer_->head_recorded(time, rod_templating_.current().side, *head);
+  }
+}
+
+void Session::drop_head(Timestamp time) {
+  if (!rod_templating_.drop_head()) {
+    messages_.say("no head to delete", time);
+    return;
+  }
+  bend_rod(time);
+  if (observer_) {
+    observer_->head_dropped(time, rod_templating_.current().side);
+  }
+}
+
+void Session::bend_rod(Timestamp time) {
+  const Status bent = rod_templating_.bend(options_.rod_diameter_m);
+  if (!bent) {
+    messages_.say(bent.error().message, time);
+  }
+}
+
+void Session::finish_rod(Timestamp time) {
+  if (observer_) {
+    observer_->rod_done(time, rod_templating_.current());
+  }
+  handle(rod_templating_.finish() ? Event::kAnotherSide : Event::kNoSideLeft, time);
+}
+
+/// World is another one: whatever was measured in it is gone. What the patient has already, and
+/// what was measured of it, stays in the report.
+void Session::forget_map(Timestamp time) {
+  for (LevelState& level : levels_) {
+    level.map_moved = level.registration.has_value() && level.finished();
+    if (!level.map_moved) {
+      level.forget_registration();
+    }
+  }
+  digitizing_.forget_map();
+  verifying_ = Verifying{};
+  guiding_.forget_guidance();
+  rod_templating_.forget_map();
+  tools_.forget_poses();
+  guidance_.head.reset();
+  if (step_ == Step::kDigitize) {
+    messages_.say("the headset's map moved: digitize again", time);
+  }
+  if (step_ == Step::kRod) {
+    messages_.say("the headset's map moved: touch this rod's heads again", time);
+  }
+  if (step_ == Step::kDone) {
+    messages_.say("the headset's map moved", time);
   }
 }
 

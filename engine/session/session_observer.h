@@ -24,7 +24,8 @@ class SessionObserver {
   virtual void check_point_recorded(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The last of them was taken back; `level` is without it.
   virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
-  /// The surgeon declared the screw done; `last` is what he was guided by at the end, if anything.
+  /// The surgeon declared the screw done; `last` is what they were guided by at the end, if
+  /// anything.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,
                           const nav::ScrewPlan& /*screw*/, const ToolGuidance* /*last*/) {}
   virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, Point<World> /*head*/) {}

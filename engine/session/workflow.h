@@ -133,7 +133,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDigitize, kMapMoved, kForgetMap, kDigitize},
 
     // The surgeon looks at the hologram on the bone and touches places that were not stroked for it.
-    // The only way on is his own word, and it counts once the touched places bear it out.
+    // The only way on is their own word, and it counts once the touched places bear it out.
     {kVerify, kSayAccept, kJudgeChecks, kVerify},
     {kVerify, kChecked, kAccept, kAccepted},
     {kVerify, kNotChecked, kAskForChecks, kVerify},

@@ -1,0 +1,59 @@
+#include "engine/session/guiding.h"
+
+#include <algorithm>
+
+#include "engine/session/status_text.h"
+
+namespace orthonav::engine {
+
+void Guiding::select_open_screw(const LevelState& level) {
+  const auto& done = level.screw_done;
+  const auto open = std::find(done.begin(), done.end(), false);
+  screw_ = open == done.end() ? 0 : static_cast<std::size_t>(open - done.begin());
+  last_.reset();
+}
+
+void Guiding::begin_level() {
+  screw_ = 0;
+  last_.reset();
+}
+
+std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWatch& watch,
+                                           const nav::ToolGeometry& tool, Timestamp now,
+                                           Timestamp display_time, Duration stale_after) {
+  if (!level.registration || !watch.fresh(now, stale_after)) {
+    return std::nullopt;
+  }
+  // Between two measurements the overlay is predicted, as long as the tracker itself still follows
+  // the tool; the number is not.
+  const nav::TrackedPose at_display = watch.at(display_time, stale_after);
+  if (watch.newest().status == PoseStatus::kLost || at_display.status == PoseStatus::kLost) {
+    return std::nullopt;
+  }
+  const auto& world_from_vertebra = level.registration->world_from_vertebra;
+  const nav::ScrewPlan& plan = level.plan.screws[screw_];
+  const auto against_plan = [&](const Transform<World, Marker>& pose) {
+    return nav::guide(world_from_vertebra, plan, pose * tool.tip_in_marker,
+                      (pose * tool.axis_in_marker).v);
+  };
+  ToolGuidance guidance{std::nullopt, against_plan(at_display.value),
+                        watch.last_measured().value_or(Timestamp{})};
+  if (watch.measured_now()) {
+    guidance.measured = against_plan(watch.newest().value);
+    last_ = guidance;
+  }
+  return guidance;
+}
+
+void Guiding::append_state(std::string& out, const LevelState& level) const {
+  if (!level.registration) {
+    return;
+  }
+  out += "RMSE ";
+  append_mm(out, level.registration->rmse_m, 2);
+  out += ", ";
+  append_mm(out, level.predicted[screw_].worst_m(), 1);
+  out += " expected";
+}
+
+}  // namespace orthonav::engine

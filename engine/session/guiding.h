@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "engine/session/guidance.h"
+#include "engine/session/tool_watch.h"
+
+namespace orthonav::engine {
+
+/// The step in which screws are guided: which one, and by what.
+class Guiding {
+ public:
+  /// The level's first screw that is not done, or its first.
+  void select_open_screw(const LevelState& level);
+  /// Another level: what guided on the one before has no part in it.
+  void begin_level();
+  /// Nothing guided so far holds any more; the screw stays selected.
+  void forget_guidance() { last_.reset(); }
+  void toggle_twin() { twin_ = !twin_; }
+
+  /// The tool against the selected screw. Absent where nothing fresh is there to guide on.
+  [[nodiscard]] std::optional<ToolGuidance> guide(const LevelState& level, const ToolWatch& watch,
+                                                  const nav::ToolGeometry& tool, Timestamp now,
+                                                  Timestamp display_time, Duration stale_after);
+
+  [[nodiscard]] std::size_t screw() const { return screw_; }
+  [[nodiscard]] bool twin() const { return twin_; }
+  /// The newest measured guidance on the selected screw, or null.
+  [[nodiscard]] const ToolGuidance* last() const { return last_ ? &*last_ : nullptr; }
+  void append_state(std::string& out, const LevelState& level) const;
+
+ private:
+  std::size_t screw_ = 0;
+  std::optional<ToolGuidance> last_;
+  bool twin_ = false;
+};
+
+}  // namespace orthonav::engine

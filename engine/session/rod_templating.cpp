@@ -1,0 +1,65 @@
+#include "engine/session/rod_templating.h"
+
+#include <utility>
+#include <vector>
+
+#include "engine/session/status_text.h"
+
+namespace orthonav::engine {
+
+RodTemplating::RodTemplating() {
+  rods_[0].side = nav::Side::kLeft;
+  rods_[1].side = nav::Side::kRight;
+}
+
+bool RodTemplating::drop_head() {
+  if (rod().heads.empty()) {
+    return false;
+  }
+  rod().heads.pop_back();
+  return true;
+}
+
+Status RodTemplating::bend(double rod_diameter_m) {
+  rod().rod.reset();
+  if (rod().heads.size() < 2) {
+    return {};
+  }
+  std::vector<Vec3> heads;
+  for (const Point<World>& head : rod().heads) {
+    heads.push_back(head.v);
+  }
+  auto made = nav::rod_template(heads, rod_diameter_m);
+  if (!made) {
+    return Error{"no rod: " + made.error().message};
+  }
+  rod().rod = std::move(*made);
+  return {};
+}
+
+bool RodTemplating::finish() {
+  rod().done = true;
+  const bool another = current_ + 1 < rods_.size();
+  if (another) {
+    ++current_;
+  }
+  return another;
+}
+
+void RodTemplating::forget_map() {
+  for (RodState& rod : rods_) {
+    if (rod.done) {
+      rod.map_moved = true;
+    } else {
+      rod = RodState{.side = rod.side};
+    }
+  }
+  touch_.drop();
+}
+
+void RodTemplating::append_state(std::string& out) const {
+  append_count(out, current().heads.size());
+  out += " heads";
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "engine/session/guidance.h"
+#include "engine/session/touch.h"
+
+namespace orthonav::engine {
+
+/// The step in which the heads of the screws are touched, the left rod's, then the right one's, and
+/// a rod is bent through them.
+class RodTemplating {
+ public:
+  RodTemplating();
+
+  /// The first rod, or the next one: a press from before it is no touch of its heads.
+  void begin() { touch_.drop(); }
+  [[nodiscard]] Touch& touch() { return touch_; }
+  void add_head(Point<World> head) { rod().heads.push_back(head); }
+  /// False when there is none to drop.
+  bool drop_head();
+  /// Makes the template of the heads as they are now; an Error says why they give none.
+  Status bend(double rod_diameter_m);
+  /// The rod is done; false when there is no other left.
+  bool finish();
+  void move_away() { moved_away_ = !moved_away_; }
+  /// A finished rod stays in the report, shown nowhere; one under way begins anew.
+  void forget_map();
+
+  [[nodiscard]] const RodState& current() const { return rods_[current_]; }
+  [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
+  [[nodiscard]] bool moved_away() const { return moved_away_; }
+  void append_state(std::string& out) const;
+
+ private:
+  [[nodiscard]] RodState& rod() { return rods_[current_]; }
+
+  std::array<RodState, 2> rods_;  ///< left, right
+  std::size_t current_ = 0;
+  bool moved_away_ = false;
+  Touch touch_;
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "base/time.h"
+#include "nav/registration/check_points.h"
+
+namespace orthonav::engine {
+
+struct SessionOptions {
+  /// Guidance on a pose older than this is hidden, never frozen.
+  Duration stale_after = std::chrono::milliseconds(100);
+  /// A phrase understood less surely than this is not acted upon: a wrong "accept" is worse than
+  /// one said twice.
+  double min_voice_confidence = 0.5;
+  double rod_diameter_m = 0.0055;
+  /// A screw head or a check point whose tips scatter more than this over one click (root mean
+  /// square about their mean) was not touched at rest. Noise and tremor at the end of a 130 mm
+  /// lever already make up to 2.5 mm over three pairs in the simulated room; a moving tip makes 5
+  /// mm and more.
+  double max_touch_spread_m = 0.003;
+  nav::CheckPointRules check_points;
+  /// A message to the surgeon goes by itself after so long.
+  Duration message_for = std::chrono::seconds(3);
+  /// What was heard stays on the status line for so long.
+  Duration heard_for = std::chrono::seconds(2);
+  /// A deleted path fades for so long.
+  Duration fade = std::chrono::milliseconds(300);
+
+  /// Every problem at once; empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+}  // namespace orthonav::engine

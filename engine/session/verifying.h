@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/session/guidance.h"
+#include "engine/session/method.h"
+#include "engine/session/touch.h"
+
+namespace orthonav::engine {
+
+/// The step in which one registration is verified, by eye and by touch. Another registration is
+/// another object.
+class Verifying {
+ public:
+  Verifying() = default;  ///< nothing was registered
+  /// Of the level's registration and the points that it was made of; both are there.
+  Verifying(const LevelState& level, Verification verification, const nav::CheckPointRules& rules);
+
+  /// The registration lights up then, if it has not done so before.
+  void show(Timestamp display_time);
+  /// What was said before the registration first lit up can't be a judgement of it.
+  [[nodiscard]] bool shown_before(Timestamp spoken) const;
+
+  [[nodiscard]] Touch& touch() { return touch_; }
+  /// Adds a check point, or says why there is none.
+  Status record(LevelState& level, const Result<Point<World>>& place);
+  /// Takes the last one back, or says that there is none.
+  Status drop(LevelState& level);
+  [[nodiscard]] const nav::CheckVerdict& verdict() const { return verdict_; }
+
+  /// How far the points of the registration lie from its surface, in their order.
+  [[nodiscard]] std::span<const float> residuals_m() const { return residuals_m_; }
+  [[nodiscard]] std::span<const float> unstroked() const { return unstroked_; }
+  [[nodiscard]] std::span<const Point<World>> to_check() const { return to_check_; }
+  /// Of a registration that is verified by touch.
+  void append_state(std::string& out, const LevelState& level) const;
+  /// What is to be touched, and how the last touch was.
+  void append_checks(std::string& out, const LevelState& level) const;
+
+ private:
+  void judge(const LevelState& level);
+
+  nav::CheckPointRules rules_;
+  std::vector<float> residuals_m_;
+  std::vector<float> unstroked_;
+  std::vector<Point<World>> places_;    ///< proposed to be touched
+  std::vector<Point<World>> to_check_;  ///< of them those that were not touched yet
+  /// Made when a check point comes or goes: its advice is text, and the status line is written with
+  /// every pair.
+  nav::CheckVerdict verdict_;
+  std::optional<Timestamp> visible_at_;
+  Touch touch_;
+};
+
+/// What the level's registration says of itself.
+void append_registration(std::string& out, const LevelState& level);
+
+}  // namespace orthonav::engine

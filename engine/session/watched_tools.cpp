@@ -1,0 +1,92 @@
+#include "engine/session/watched_tools.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace orthonav::engine {
+namespace {
+
+Result<std::size_t> only_tool(std::span<const nav::ToolGeometry> tools, nav::ToolRole role,
+                              const char* name) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    if (tools[i].role != role) {
+      continue;
+    }
+    if (found) {
+      return Error{std::string("tools: more than one ") + name + ", exactly 1 needed"};
+    }
+    found = i;
+  }
+  if (!found) {
+    return Error{std::string("tools: no ") + name + ", exactly 1 needed"};
+  }
+  return *found;
+}
+
+}  // namespace
+
+Result<WatchedTools> WatchedTools::create(std::unique_ptr<nav::ToolTracker> tracker) {
+  const auto pointer = only_tool(tracker->tools(), nav::ToolRole::kPointer, "pointer");
+  if (!pointer) {
+    return pointer.error();
+  }
+  const auto guide = only_tool(tracker->tools(), nav::ToolRole::kGuide, "guide");
+  if (!guide) {
+    return guide.error();
+  }
+  return WatchedTools(std::move(tracker), *pointer, *guide);
+}
+
+WatchedTools::WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer,
+                           std::size_t guide)
+    : tracker_(std::move(tracker)), pointer_(pointer), guide_(guide) {
+  watches_.resize(tracker_->tools().size());
+  for (const nav::ToolGeometry& tool : tracker_->tools()) {
+    sights_.push_back({tool.name, tool.role, PoseStatus::kLost});
+  }
+}
+
+void WatchedTools::track(const StereoFrame& frame) {
+  states_ = tracker_->track(frame);
+  for (std::size_t i = 0; i < watches_.size() && i < states_.size(); ++i) {
+    watches_[i].update(states_[i].world_from_marker);
+    sights_[i].status = states_[i].world_from_marker.status;
+  }
+}
+
+void WatchedTools::forget_poses() {
+  for (ToolWatch& watch : watches_) {
+    watch = {};
+  }
+}
+
+void WatchedTools::lose_sight() {
+  for (ToolSight& sight : sights_) {
+    sight.status = PoseStatus::kLost;
+  }
+}
+
+std::optional<Point<World>> WatchedTools::pointer_tip(Timestamp now, Duration within) const {
+  const ToolWatch& watch = watches_[pointer_];
+  if (!watch.fresh(now, within)) {
+    return std::nullopt;
+  }
+  return watch.last_measured_pose().value * geometry(pointer_).tip_in_marker;
+}
+
+void WatchedTools::append_tag_size_warning(std::string& out, std::size_t tool) const {
+  const auto size = tracker_->tag_size(tool);
+  if (!size || !size->disagrees) {
+    return;
+  }
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), "%s: tag %.1f %% %s than stated, check print and unit",
+                geometry(tool).name.c_str(), 100.0 * std::abs(size->fraction),
+                size->fraction > 0.0 ? "larger" : "smaller");
+  out += text.data();
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "engine/session/guidance.h"
+#include "engine/session/tool_watch.h"
+#include "nav/tracking/tool_tracker.h"
+
+namespace orthonav::engine {
+
+/// The tools of an operation, exactly one pointer and one guide among them, and what the pairs so
+/// far have shown of each.
+class WatchedTools {
+ public:
+  /// Refuses tools without a pointer and a guide.
+  static Result<WatchedTools> create(std::unique_ptr<nav::ToolTracker> tracker);
+
+  void track(const StereoFrame& frame);
+  /// Where they were says nothing any more.
+  void forget_poses();
+  /// No pair tells of them.
+  void lose_sight();
+
+  [[nodiscard]] std::size_t pointer() const { return pointer_; }
+  [[nodiscard]] std::size_t guide() const { return guide_; }
+  [[nodiscard]] const ToolWatch& watch(std::size_t tool) const { return watches_[tool]; }
+  [[nodiscard]] const nav::ToolGeometry& geometry(std::size_t tool) const {
+    return tracker_->tools()[tool];
+  }
+  /// The pointer's tip where it was last measured, no longer than `within` before `now`.
+  [[nodiscard]] std::optional<Point<World>> pointer_tip(Timestamp now, Duration within) const;
+  /// A tag that is not as large as its tool's definition says gives wrong poses: appends what to
+  /// check; nothing when all is well.
+  void append_tag_size_warning(std::string& out, std::size_t tool) const;
+
+  [[nodiscard]] std::span<const nav::ToolState> states() const { return states_; }
+  [[nodiscard]] std::span<const ToolSight> sights() const { return sights_; }
+  [[nodiscard]] const nav::ToolTracker& tracker() const { return *tracker_; }
+
+ private:
+  WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer, std::size_t guide);
+
+  std::unique_ptr<nav::ToolTracker> tracker_;
+  std::size_t pointer_ = 0;
+  std::size_t guide_ = 0;
+  std::span<const nav::ToolState> states_;
+  std::vector<ToolWatch> watches_;
+  std::vector<ToolSight> sights_;
+};
+
+}  // namespace orthonav::engine

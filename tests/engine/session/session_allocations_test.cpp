@@ -1,0 +1,179 @@
+#include <gtest/gtest.h>
+
+#include "engine/session/session.h"
+#include "tests/support/allocation_count.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine::session_allocations_test {
+namespace {
+
+using test::guide_at;
+using test::pointer_at;
+using test::ScriptedOperation;
+using enum ClickerAction;
+
+constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
+// On the box's posterior face (y = 20 mm), more than 15 mm apart and not on a line.
+constexpr Vec3 kFirst{-0.015, 0.020, -0.010};
+constexpr Vec3 kSecond{0.015, 0.020, -0.010};
+constexpr Vec3 kThird{0.000, 0.020, 0.012};
+/// More than what a message and the echo of a phrase stay for, at 30 pairs a second.
+constexpr int kWarm = 100;
+constexpr int kCounted = 100;
+
+/// Of pairs alone: nothing is said or done.
+std::size_t allocations_of(ScriptedOperation& s, int pairs) {
+  const std::size_t before = test::allocation_count();
+  s.pairs(pairs);
+  return test::allocation_count() - before;
+}
+
+/// Where the operation stands and stays, once buffers have grown.
+std::size_t allocations_once_warm(ScriptedOperation& s) {
+  s.pairs(kWarm);
+  return allocations_of(s, kCounted);
+}
+
+/// Of pairs in which the tool in use comes and goes: the status line changes with it.
+std::size_t allocations_while_a_tool_comes_and_goes(ScriptedOperation& s,
+                                                    std::optional<Transform<World, Marker>>& tool) {
+  const auto seen = tool;
+  const auto comes_and_goes = [&] {
+    tool.reset();
+    s.pairs(10);
+    tool = seen;
+    s.pairs(10);
+  };
+  comes_and_goes();
+  const std::size_t before = test::allocation_count();
+  comes_and_goes();
+  return test::allocation_count() - before;
+}
+
+TEST(SessionAllocations, AreNoneInSetup) {
+  ScriptedOperation s;
+  EXPECT_EQ(s.pair().step, Step::kSetup);
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileDigitizing) {
+  ScriptedOperation s;
+  s.tracker().pointer = pointer_at(kFirst);
+  s.says("start");
+  EXPECT_EQ(allocations_once_warm(s), 0u) << "with nothing stroked";
+  s.strokes(40);
+  s.says("save");
+  s.strokes(40);
+  EXPECT_EQ(s.pair().detail, "80 points");
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+  EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileSamplesAreRecorded) {
+  ScriptedOperation s;
+  s.tracker().pointer = pointer_at(kFirst);
+  s.says("start");
+  s.does({kPress});
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileCoachingTellsWhatToStroke) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch, true);
+  s.registration.accepted = false;
+  s.registration.advice = "stroke the left lamina, from its base to the spinous process";
+  s.tracker().pointer = pointer_at(kFirst);
+  s.says("start");
+  s.strokes(static_cast<int>(Coach::kFewestSamples));
+  s.pairs(Coach::kPairsToAnswer);
+  EXPECT_TRUE(s.pair().detail.ends_with("spinous process")) << s.pair().detail;
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileVerifyingByTouch) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.registers_first_level();
+  EXPECT_EQ(allocations_once_warm(s), 0u) << "with nothing touched";
+  for (const Vec3 place : {kFirst, kSecond, kThird}) {
+    s.touches(place);
+    EXPECT_EQ(allocations_once_warm(s), 0u);
+  }
+  EXPECT_TRUE(s.pair().detail.ends_with("checked, worst 0.0 mm")) << s.pair().detail;
+  EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileACheckPointIsTooFarOff) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.registers_first_level();
+  s.touches(kFirst + Vec3{0, 0.004, 0});
+  EXPECT_TRUE(s.pair().detail.ends_with("reject and stroke again")) << s.pair().detail;
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileThePointerTouches) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.registers_first_level();
+  s.tracker().pointer = pointer_at(kFirst);
+  s.pairs(kWarm);
+  s.does({kPress});
+  EXPECT_EQ(allocations_of(s, 15), 0u) << "half a second, then the button counts as held";
+}
+
+TEST(SessionAllocations, AreNoneWhileVerifyingByEyeAndOnceAccepted) {
+  ScriptedOperation s;
+  s.registers_first_level();
+  EXPECT_EQ(s.pair().step, Step::kVerify);
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+  EXPECT_EQ(s.accepts().step, Step::kAccepted);
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileGuiding) {
+  ScriptedOperation s;
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, 0.1);
+  EXPECT_TRUE(s.pairs(2).tool.has_value());
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+  s.says("twin");
+  s.tracker().guide_origin = PoseStatus::kPredicted;
+  EXPECT_EQ(allocations_of(s, kCounted), 0u) << "on poses that are predicted";
+  s.tracker().guide_origin = PoseStatus::kMeasured;
+  EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().guide), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileATagOfTheWrongSizeIsWarnedOf) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.tracker().size = nav::TagSize{.fraction = 0.03, .disagrees = true};
+  s.registers_first_level();
+  EXPECT_TRUE(s.pairs(kWarm).detail.starts_with("pointer: tag 3.0 % larger than stated"));
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileHeadsAreTouchedAndOnceAllIsDone) {
+  ScriptedOperation s({"L4"});
+  s.accepts_first_level();
+  for (int i = 0; i < 3; ++i) {
+    s.says("next");
+  }
+  EXPECT_EQ(s.pair().step_text, "rod left");
+  EXPECT_EQ(allocations_once_warm(s), 0u) << "with no head touched";
+  s.touches({0, 0.02, 0});
+  s.touches({0, 0.02, 0.03});
+  EXPECT_EQ(s.pair().detail, "2 heads");
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+  EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
+  s.says("done");
+  EXPECT_EQ(s.says("done").step, Step::kDone);
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
+TEST(SessionAllocations, OfAWordAreCounted) {
+  ScriptedOperation s;
+  s.pairs(kWarm);
+  const std::size_t before = test::allocation_count();
+  s.says("start");
+  EXPECT_GT(test::allocation_count(), before) << "the twin: the counter counts";
+}
+
+}  // namespace
+}  // namespace orthonav::engine::session_allocations_test
