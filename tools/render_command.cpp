@@ -85,10 +85,9 @@ void print_contrasts(const RgbaImage& light, const LabelImage& labels, const Rgb
 Status see_through(const RenderArguments& arguments, const engine::SceneFile& file,
                    const RgbaImage& background, render::Renderer& renderer,
                    std::vector<RgbaImage>& images) {
-  std::string error;
   std::vector<LabelImage> labels;
-  if (!renderer.draw_labels(file.scene, file.eyes, labels, error)) {
-    return Error{error};
+  if (const Status drawn = renderer.draw_labels(file.scene, file.eyes, labels); !drawn) {
+    return drawn;
   }
   print_contrasts(images.front(), labels.front(), background, arguments.model);
   for (RgbaImage& image : images) {
@@ -123,20 +122,21 @@ int render_scene(const RenderArguments& arguments) {
   if (!background) {
     return bad_input(background.error().message);
   }
-  std::string error;
-  const auto renderer = render::Renderer::create(options, error);
-  if (!renderer) {
-    return bad_input(error);
+  const auto made = render::Renderer::create(options);
+  if (!made) {
+    return bad_input(made.error().message);
   }
+  render::Renderer& renderer = **made;
   std::vector<const RgbaImage*> backgrounds;
   if (*background && !arguments.optics) {
     backgrounds.assign(file->eyes.size(), &**background);
   }
   std::vector<RgbaImage> images;
-  if (!renderer->draw(file->scene, file->eyes, backgrounds, images, error)) {
-    return bad_input(arguments.scene + ": " + error);
+  const Status drawn = renderer.draw(file->scene, file->eyes, backgrounds, images);
+  if (!drawn) {
+    return bad_input(arguments.scene + ": " + drawn.error().message);
   }
-  for (const std::string& note : renderer->notes()) {
+  for (const std::string& note : renderer.notes()) {
     std::fprintf(stderr, "orthonav: %s\n", note.c_str());
   }
   if (arguments.optics) {
@@ -144,7 +144,7 @@ int render_scene(const RenderArguments& arguments) {
         *background ? **background
                     : RgbaImage{options.width_px, options.height_px,
                                 std::vector<std::uint8_t>(images.front().pixels.size(), 0)};
-    if (const Status seen = see_through(arguments, *file, behind, *renderer, images); !seen) {
+    if (const Status seen = see_through(arguments, *file, behind, renderer, images); !seen) {
       return bad_input(seen.error().message);
     }
   }
@@ -155,7 +155,7 @@ int render_scene(const RenderArguments& arguments) {
   }
   std::printf("%s: %zu eye%s, %dx%d px each, drawn by %s\n", arguments.out.c_str(), images.size(),
               images.size() == 1 ? "" : "s", options.width_px, options.height_px,
-              renderer->device().name.c_str());
+              renderer.device().name.c_str());
   return kDone;
 }
 

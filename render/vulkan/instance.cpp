@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
-#include "render/vulkan/handle.h"
+#include "render/vulkan/failure.h"
 #include "render/vulkan/keep_drivers.h"
 
 namespace orthonav::render {
@@ -82,28 +81,30 @@ std::uint32_t api_version_for(const VulkanHost* host) {
   const auto [least, most] = host->versions();
   const auto packed = [](VulkanVersion v) { return VK_MAKE_API_VERSION(0, v.major, v.minor, 0); };
   if (packed(most) < VK_API_VERSION_1_1) {
-    throw std::runtime_error("renderer: the host allows Vulkan " + std::to_string(most.major) +
-                             "." + std::to_string(most.minor) + " at the most, needs 1.1");
+    throw Failure(Error{"renderer: the host allows Vulkan " + std::to_string(most.major) + "." +
+                        std::to_string(most.minor) + " at the most, needs 1.1"});
   }
   return std::max(packed(least), VK_API_VERSION_1_1);
 }
 
 VkInstance made_by(VulkanHost& host, const VkInstanceCreateInfo& info) {
-  std::string error;
-  void* instance =
-      host.create_instance(reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr), &info, error);
-  if (instance == nullptr) {
-    throw std::runtime_error(error);
-  }
-  return static_cast<VkInstance>(instance);
+  const auto get = reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr);
+  return static_cast<VkInstance>(value_of(handle_of(host.create_instance(get, &info))));
 }
 
 }  // namespace
 
+Result<void*> handle_of(Result<void*> answer) {
+  if (answer && *answer == nullptr) {
+    return Error{"renderer: the host answers with a null handle"};
+  }
+  return answer;
+}
+
 Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
     : messages_(messages ? std::move(messages) : std::make_shared<std::vector<std::string>>()) {
   if (validation && !has_validation_layer()) {
-    throw VulkanFailure(VK_ERROR_LAYER_NOT_PRESENT, "validation layer");
+    throw Failure(VK_ERROR_LAYER_NOT_PRESENT, "validation layer");
   }
   VkApplicationInfo application = {};
   application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
@@ -143,7 +144,7 @@ Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
       vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
   if (create == nullptr || create(instance_, &listener, nullptr, &messenger_) != VK_SUCCESS) {
     vkDestroyInstance(instance_, nullptr);
-    throw VulkanFailure(VK_ERROR_EXTENSION_NOT_PRESENT, "validation messages");
+    throw Failure(VK_ERROR_EXTENSION_NOT_PRESENT, "validation messages");
   }
 }
 

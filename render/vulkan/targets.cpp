@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "render/vulkan/failure.h"
+
 namespace orthonav::render {
 namespace {
 

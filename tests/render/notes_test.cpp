@@ -120,7 +120,7 @@ TEST(HugeMesh, IsDrawnWithFewerTrianglesAndANote) {
 TEST(HugeMesh, HasNoMoreTrianglesThanTheLimitWhateverTheError) {
   SilentValidation validation;
   const Instance instance(true, validation.sink());
-  const Device device(choose_device(instance, "llvmpipe"));
+  const Device device(choose_device(instance, "llvmpipe").value());
   Commands commands(device);
   MeshCache cache;
   const auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f, 180, 90));
