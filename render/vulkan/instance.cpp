@@ -61,6 +61,19 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>& mess
   return info;
 }
 
+constexpr std::array<VkValidationFeatureEnableEXT, 2> kEnabled = {
+    VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+    VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT};
+
+VkValidationFeaturesEXT features_for(const VkDebugUtilsMessengerCreateInfoEXT& listener) {
+  VkValidationFeaturesEXT features = {};
+  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+  features.pNext = &listener;
+  features.enabledValidationFeatureCount = static_cast<std::uint32_t>(kEnabled.size());
+  features.pEnabledValidationFeatures = kEnabled.data();
+  return features;
+}
+
 bool has_validation_layer() {
   std::uint32_t count = 0;
   if (vkEnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS) {
@@ -111,14 +124,7 @@ Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
   application.pApplicationName = "orthonav";
   application.apiVersion = api_version_for(host);
   VkDebugUtilsMessengerCreateInfoEXT listener = messenger_info(*messages_);
-  const std::array<VkValidationFeatureEnableEXT, 2> enabled = {
-      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
-      VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT};
-  VkValidationFeaturesEXT features = {};
-  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-  features.pNext = &listener;
-  features.enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size());
-  features.pEnabledValidationFeatures = enabled.data();
+  const VkValidationFeaturesEXT features = features_for(listener);
   const std::array<const char*, 2> extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
                                                  VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   VkInstanceCreateInfo info = {};
