@@ -37,17 +37,17 @@ void draw_both_eyes(benchmark::State& state) {
   render::RendererOptions options;
   options.width_px = static_cast<int>(state.range(0));
   options.height_px = static_cast<int>(state.range(1));
-  std::string error;
-  const auto renderer = render::Renderer::create(options, error);
+  const auto renderer = render::Renderer::create(options);
   if (!renderer) {
-    state.SkipWithError(error.c_str());
+    state.SkipWithError(renderer.error().message.c_str());
     return;
   }
-  state.SetLabel(renderer->device().name);
+  state.SetLabel((*renderer)->device().name);
   std::vector<RgbaImage> images;
   for (auto _ : state) {
-    if (!renderer->draw(scene.scene, scene.views, {}, images, error)) {
-      state.SkipWithError(error.c_str());
+    const Status drawn = (*renderer)->draw(scene.scene, scene.views, {}, images);
+    if (!drawn) {
+      state.SkipWithError(drawn.error().message.c_str());
     }
   }
 }

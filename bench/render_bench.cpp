@@ -77,13 +77,12 @@ std::unique_ptr<render::Renderer> make_renderer(const Options& options, int samp
   wanted.samples = samples;
   wanted.device = "llvmpipe";
   wanted.surface_error_m = surface_error_m;
-  std::string error;
-  auto renderer = render::Renderer::create(wanted, error);
+  auto renderer = render::Renderer::create(wanted);
   if (!renderer) {
-    std::fprintf(stderr, "%s\n", error.c_str());
+    std::fprintf(stderr, "%s\n", renderer.error().message.c_str());
     std::exit(1);
   }
-  return renderer;
+  return std::move(*renderer);
 }
 
 class Ours {
@@ -94,9 +93,9 @@ class Ours {
         full_(full) {}
 
   void draw(int frame, Row* row) {
-    std::string error;
-    if (!renderer_->draw(full_.scene, swayed(full_.views, frame), {}, images_, error)) {
-      std::fprintf(stderr, "%s\n", error.c_str());
+    const Status drawn = renderer_->draw(full_.scene, swayed(full_.views, frame), {}, images_);
+    if (!drawn) {
+      std::fprintf(stderr, "%s\n", drawn.error().message.c_str());
       std::exit(1);
     }
     if (row == nullptr) {

@@ -2,17 +2,19 @@
 
 #include <exception>
 
+#include "render/vulkan/failure.h"
 #include "render/vulkan/hosted_vulkan_renderer.h"
 
 namespace orthonav::render {
 
-std::unique_ptr<HostedRenderer> HostedRenderer::create(const RendererOptions& options,
-                                                       VulkanHost& host, std::string& error) {
+Result<std::unique_ptr<HostedRenderer>> HostedRenderer::create(const RendererOptions& options,
+                                                               VulkanHost& host) {
   try {
-    return std::make_unique<HostedVulkanRenderer>(options, host);
-  } catch (const std::exception& failure) {
-    error = failure.what();
-    return nullptr;
+    std::unique_ptr<HostedRenderer> renderer =
+        std::make_unique<HostedVulkanRenderer>(options, host);
+    return renderer;
+  } catch (const std::exception&) {
+    return error_in_flight();
   }
 }
 

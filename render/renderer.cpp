@@ -2,16 +2,21 @@
 
 #include <exception>
 
+#include "render/scene_check.h"
+#include "render/vulkan/failure.h"
 #include "render/vulkan/vulkan_renderer.h"
 
 namespace orthonav::render {
 
-std::unique_ptr<Renderer> Renderer::create(const RendererOptions& options, std::string& error) {
+Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& options) {
+  if (const Status checked = check_options(options); !checked) {
+    return checked.error();
+  }
   try {
-    return std::make_unique<VulkanRenderer>(options);
-  } catch (const std::exception& failure) {
-    error = failure.what();
-    return nullptr;
+    std::unique_ptr<Renderer> renderer = std::make_unique<VulkanRenderer>(options);
+    return renderer;
+  } catch (const std::exception&) {
+    return error_in_flight();
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/result.h"
 #include "render/scene.h"
 
 namespace orthonav::render {
@@ -57,24 +58,24 @@ struct FrameTiming {
   double total_ms = 0;
 };
 
-/// Draws scenes into images. Owns a Vulkan device; one thread at a time. Failures come back as one
-/// line in `error`, never as an exception; the renderer stays usable unless the device is lost.
+/// Draws scenes into images. Owns a Vulkan device; one thread at a time. Nothing is thrown, an
+/// Error is one line, and the renderer stays usable after it unless its code is kLost: then the
+/// device is lost, and every call fails from here on.
 class Renderer {
  public:
-  /// nullptr and a line in `error` when there is no Vulkan device that serves.
-  [[nodiscard]] static std::unique_ptr<Renderer> create(const RendererOptions& options,
-                                                        std::string& error);
+  /// An Error when the options can't be met or there is no Vulkan device that serves.
+  static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options);
   virtual ~Renderer() = default;
 
-  /// Draws `scene` for one or two views. `backgrounds` is empty (black) or one image a view of the
-  /// renderer's size. Fills one image a view; on failure false and a line in `error`, and the
+  /// Draws `scene` for one or two views. `backgrounds` is empty (black) or one image per view of
+  /// the renderer's size. Fills one image per view, reusing what `images` holds; after an Error the
   /// images mean nothing.
-  [[nodiscard]] virtual bool draw(const Scene& scene, const std::vector<View>& views,
-                                  const std::vector<const RgbaImage*>& backgrounds,
-                                  std::vector<RgbaImage>& images, std::string& error) = 0;
+  virtual Status draw(const Scene& scene, const std::vector<View>& views,
+                      const std::vector<const RgbaImage*>& backgrounds,
+                      std::vector<RgbaImage>& images) = 0;
   /// The label images of the same scene.
-  [[nodiscard]] virtual bool draw_labels(const Scene& scene, const std::vector<View>& views,
-                                         std::vector<LabelImage>& images, std::string& error) = 0;
+  virtual Status draw_labels(const Scene& scene, const std::vector<View>& views,
+                             std::vector<LabelImage>& images) = 0;
   [[nodiscard]] virtual const DeviceInfo& device() const = 0;
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;
   /// What the validation layer said so far; empty when silent or off.

@@ -9,8 +9,6 @@
 namespace orthonav::render {
 namespace {
 
-using Problem = std::optional<std::string>;
-
 constexpr float kFarthest_m = 1e5f;  // beyond it, floats resolve centimetres only
 constexpr float kWidest_m = 10.0f;
 constexpr float kMostDashes = 20000.0f;
@@ -68,208 +66,208 @@ bool is_uniform(const Matrix4& m) {
          std::abs(dot(z, x)) <= slack;
 }
 
-Problem problem_of(const MeshItem& item) {
+Status check_item(const MeshItem& item) {
   if (!item.mesh) {
-    return "has no mesh";
+    return Error{"has no mesh"};
   }
   if (!is_affine(item.world_from_model)) {
-    return "has a place that is not a finite affine matrix";
+    return Error{"has a place that is not a finite affine matrix"};
   }
   if (!(volume(item.world_from_model) > 0)) {
-    return "has a place that mirrors or flattens it";
+    return Error{"has a place that mirrors or flattens it"};
   }
   if (!is_uniform(item.world_from_model)) {
-    return "has a place that shears or scales unevenly";
+    return Error{"has a place that shears or scales unevenly"};
   }
   if (!is_colour(item.colour)) {
-    return "has a colour outside 0 to 1";
+    return Error{"has a colour outside 0 to 1"};
   }
   if (!is_colour(item.tint)) {
-    return "has a tint outside 0 to 1";
+    return Error{"has a tint outside 0 to 1"};
   }
-  return std::nullopt;
+  return {};
 }
 
-Problem problem_of(const LineItem& item) {
+Status check_item(const LineItem& item) {
   float run_m = 0;
   for (std::size_t i = 0; i < item.points.size(); ++i) {
     if (!is_place(item.points[i])) {
-      return "point " + std::to_string(i) + " is not a finite place";
+      return Error{"point " + std::to_string(i) + " is not a finite place"};
     }
     if (i > 0) {
       run_m += length(item.points[i] - item.points[i - 1]);
     }
   }
   if (!is_between(item.width_m, 0, kWidest_m)) {
-    return "has a width outside 0 to 10 m";
+    return Error{"has a width outside 0 to 10 m"};
   }
   if (!is_between(item.dash_m, 0, kWidest_m)) {
-    return "has dashes outside 0 to 10 m";
+    return Error{"has dashes outside 0 to 10 m"};
   }
   if (item.dash_m > 0 && run_m / item.dash_m > kMostDashes) {
-    return "has more than 20000 dashes";
+    return Error{"has more than 20000 dashes"};
   }
   if (!is_colour(item.colour)) {
-    return "has a colour outside 0 to 1";
+    return Error{"has a colour outside 0 to 1"};
   }
-  return std::nullopt;
+  return {};
 }
 
-Problem problem_of(const TriangleItem& item) {
+Status check_item(const TriangleItem& item) {
   if (!std::all_of(item.corners.begin(), item.corners.end(), is_place)) {
-    return "has a corner that is not a finite place";
+    return Error{"has a corner that is not a finite place"};
   }
   if (!is_colour(item.colour)) {
-    return "has a colour outside 0 to 1";
+    return Error{"has a colour outside 0 to 1"};
   }
-  return std::nullopt;
+  return {};
 }
 
-Problem problem_of(const TextItem& item) {
+Status check_item(const TextItem& item) {
   for (const TextRun& run : item.runs) {
     if (!is_utf8(run.text)) {
-      return "is not valid UTF-8";
+      return Error{"is not valid UTF-8"};
     }
     if (!is_colour(run.colour)) {
-      return "has a colour outside 0 to 1";
+      return Error{"has a colour outside 0 to 1"};
     }
   }
   if (!is_place(item.position)) {
-    return "is not at a finite place";
+    return Error{"is not at a finite place"};
   }
   if (!is_between(item.height_m, 0, kWidest_m)) {
-    return "has a height outside 0 to 10 m";
+    return Error{"has a height outside 0 to 10 m"};
   }
   if (!is_between(item.min_height_deg, 0, 45)) {
-    return "has a least height outside 0 to 45 deg";
+    return Error{"has a least height outside 0 to 45 deg"};
   }
   if (!is_colour(item.rim)) {
-    return "has a rim outside 0 to 1";
+    return Error{"has a rim outside 0 to 1"};
   }
   if (!is_place({item.offset_right, item.offset_up, 0})) {
-    return "has an offset that is not finite";
+    return Error{"has an offset that is not finite"};
   }
-  return std::nullopt;
+  return {};
 }
 
 template <class Item>
-Problem first_problem(const ItemList<Item>& items, const char* kind) {
+Status check_items(const ItemList<Item>& items, const char* kind) {
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (const Problem problem = problem_of(items[i])) {
-      return std::string("scene: ") + kind + " " + std::to_string(i) + " (label " +
-             std::to_string(items[i].label) + ") " + *problem;
+    if (const Status checked = check_item(items[i]); !checked) {
+      return Error{std::string("scene: ") + kind + " " + std::to_string(i) + " (label " +
+                   std::to_string(items[i].label) + ") " + checked.error().message};
     }
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
 
-std::optional<std::string> problem_of_scene(const Scene& scene) {
-  if (const Problem problem = first_problem(scene.meshes, "mesh")) {
-    return problem;
+Status check_scene(const Scene& scene) {
+  if (const Status checked = check_items(scene.meshes, "mesh"); !checked) {
+    return checked;
   }
-  if (const Problem problem = first_problem(scene.lines, "line")) {
-    return problem;
+  if (const Status checked = check_items(scene.lines, "line"); !checked) {
+    return checked;
   }
-  if (const Problem problem = first_problem(scene.triangles, "triangle")) {
-    return problem;
+  if (const Status checked = check_items(scene.triangles, "triangle"); !checked) {
+    return checked;
   }
-  return first_problem(scene.texts, "text");
+  return check_items(scene.texts, "text");
 }
 
-std::optional<std::string> problem_of_views(const std::vector<View>& views) {
+Status check_views(const std::vector<View>& views) {
   if (views.empty() || views.size() > 2) {
-    return "views: " + std::to_string(views.size()) + ", expected 1 or 2";
+    return Error{"views: " + std::to_string(views.size()) + ", expected 1 or 2"};
   }
   for (std::size_t i = 0; i < views.size(); ++i) {
     const View& view = views[i];
     const std::string name = "view " + std::to_string(i);
     if (!is_rigid(view.eye_from_world)) {
-      return name + ": eye_from_world is not a rigid transform";
+      return Error{name + ": eye_from_world is not a rigid transform"};
     }
     for (const float tangent : {view.tan_left, view.tan_right, view.tan_up, view.tan_down}) {
       if (!is_between(tangent, 1e-4f, 100.0f)) {
-        return name + ": tangent of a half angle " + std::to_string(tangent) +
-               ", expected 0.0001 to 100";
+        return Error{name + ": tangent of a half angle " + std::to_string(tangent) +
+                     ", expected 0.0001 to 100"};
       }
     }
   }
-  return std::nullopt;
+  return {};
 }
 
-std::optional<std::string> problem_of_mesh(const MeshData& mesh) {
+Status check_mesh(const MeshData& mesh) {
   if (mesh.normals.size() != mesh.positions.size()) {
-    return std::to_string(mesh.normals.size()) + " normals for " +
-           std::to_string(mesh.positions.size()) + " vertices";
+    return Error{std::to_string(mesh.normals.size()) + " normals for " +
+                 std::to_string(mesh.positions.size()) + " vertices"};
   }
   if (!mesh.tints.empty() && mesh.tints.size() != mesh.positions.size()) {
-    return std::to_string(mesh.tints.size()) + " tints for " +
-           std::to_string(mesh.positions.size()) + " vertices";
+    return Error{std::to_string(mesh.tints.size()) + " tints for " +
+                 std::to_string(mesh.positions.size()) + " vertices"};
   }
   for (std::size_t i = 0; i < mesh.tints.size(); ++i) {
     if (!is_between(mesh.tints[i], 0, 1)) {
-      return "tint " + std::to_string(i) + " is outside 0 to 1";
+      return Error{"tint " + std::to_string(i) + " is outside 0 to 1"};
     }
   }
   if (mesh.indices.size() % 3 != 0) {
-    return std::to_string(mesh.indices.size()) + " indices, expected three a triangle";
+    return Error{std::to_string(mesh.indices.size()) + " indices, expected three a triangle"};
   }
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (!is_place(mesh.positions[i])) {
-      return "vertex " + std::to_string(i) + " is not finite";
+      return Error{"vertex " + std::to_string(i) + " is not finite"};
     }
     // One of no length has no direction, and its light would be no number.
     if (!is_between(length(mesh.normals[i]), 1 - kUnitSlack, 1 + kUnitSlack)) {
-      return "normal " + std::to_string(i) + " is not of unit length";
+      return Error{"normal " + std::to_string(i) + " is not of unit length"};
     }
   }
   for (const std::uint32_t index : mesh.indices) {
     if (index >= mesh.positions.size()) {
-      return "index " + std::to_string(index) + ", limit " + std::to_string(mesh.positions.size()) +
-             " vertices";
+      return Error{"index " + std::to_string(index) + ", limit " +
+                   std::to_string(mesh.positions.size()) + " vertices"};
     }
   }
-  return std::nullopt;
+  return {};
 }
 
-std::optional<std::string> problem_of_backgrounds(const std::vector<const RgbaImage*>& backgrounds,
-                                                  const std::vector<View>& views, int width_px,
-                                                  int height_px) {
+Status check_backgrounds(const std::vector<const RgbaImage*>& backgrounds,
+                         const std::vector<View>& views, int width_px, int height_px) {
   if (backgrounds.empty()) {
-    return std::nullopt;
+    return {};
   }
   if (backgrounds.size() != views.size()) {
-    return "backgrounds: " + std::to_string(backgrounds.size()) + " for " +
-           std::to_string(views.size()) + " views";
+    return Error{"backgrounds: " + std::to_string(backgrounds.size()) + " for " +
+                 std::to_string(views.size()) + " views"};
   }
   const std::string wanted = std::to_string(width_px) + "x" + std::to_string(height_px) + " px";
   for (std::size_t i = 0; i < backgrounds.size(); ++i) {
     const std::string name = "background " + std::to_string(i);
     if (backgrounds[i] == nullptr) {
-      return name + " is missing";
+      return Error{name + " is missing"};
     }
     const RgbaImage& image = *backgrounds[i];
     const auto bytes = 4 * static_cast<std::size_t>(width_px) * height_px;
     if (image.width_px != width_px || image.height_px != height_px ||
         image.pixels.size() != bytes) {
-      return name + ": " + std::to_string(image.width_px) + "x" + std::to_string(image.height_px) +
-             " px with " + std::to_string(image.pixels.size()) + " bytes, expected " + wanted;
+      return Error{name + ": " + std::to_string(image.width_px) + "x" +
+                   std::to_string(image.height_px) + " px with " +
+                   std::to_string(image.pixels.size()) + " bytes, expected " + wanted};
     }
   }
-  return std::nullopt;
+  return {};
 }
 
-std::optional<std::string> problem_of_options(const RendererOptions& options) {
+Status check_options(const RendererOptions& options) {
   for (const int side_px : {options.width_px, options.height_px}) {
     if (side_px < 16 || side_px > 8192) {
-      return "renderer: image side " + std::to_string(side_px) + " px, expected 16 to 8192";
+      return Error{"renderer: image side " + std::to_string(side_px) + " px, expected 16 to 8192"};
     }
   }
   if (options.samples != 1 && options.samples != 4) {
-    return "renderer: " + std::to_string(options.samples) + " samples, expected 1 or 4";
+    return Error{"renderer: " + std::to_string(options.samples) + " samples, expected 1 or 4"};
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace orthonav::render

@@ -85,15 +85,49 @@ void print_contrasts(const RgbaImage& light, const LabelImage& labels, const Rgb
 Status see_through(const RenderArguments& arguments, const engine::SceneFile& file,
                    const RgbaImage& background, render::Renderer& renderer,
                    std::vector<RgbaImage>& images) {
-  std::string error;
   std::vector<LabelImage> labels;
-  if (!renderer.draw_labels(file.scene, file.eyes, labels, error)) {
-    return Error{error};
+  if (const Status drawn = renderer.draw_labels(file.scene, file.eyes, labels); !drawn) {
+    return drawn;
   }
   print_contrasts(images.front(), labels.front(), background, arguments.model);
   for (RgbaImage& image : images) {
     image = engine::through_combiner(image, background, arguments.model);
   }
+  return {};
+}
+
+/// Draws the scene and writes the picture; `background` is one eye's, if there is one.
+Status draw_scene(const RenderArguments& arguments, const engine::SceneFile& file,
+                  const std::optional<RgbaImage>& background, render::Renderer& renderer) {
+  std::vector<const RgbaImage*> backgrounds;
+  if (background && !arguments.optics) {
+    backgrounds.assign(file.eyes.size(), &*background);
+  }
+  std::vector<RgbaImage> images;
+  const Status drawn = renderer.draw(file.scene, file.eyes, backgrounds, images);
+  if (!drawn) {
+    return Error{arguments.scene + ": " + drawn.error().message, drawn.error().code};
+  }
+  for (const std::string& note : renderer.notes()) {
+    std::fprintf(stderr, "orthonav: %s\n", note.c_str());
+  }
+  if (arguments.optics) {
+    const RgbaImage behind =
+        background ? *background
+                   : RgbaImage{file.width_px, file.height_px,
+                               std::vector<std::uint8_t>(images.front().pixels.size(), 0)};
+    if (const Status seen = see_through(arguments, file, behind, renderer, images); !seen) {
+      return seen;
+    }
+  }
+  const Status written =
+      engine::write_png(arguments.out, engine::side_by_side(images, &RgbaImage::pixels, 4));
+  if (!written) {
+    return written;
+  }
+  std::printf("%s: %zu eye%s, %dx%d px each, drawn by %s\n", arguments.out.c_str(), images.size(),
+              images.size() == 1 ? "" : "s", file.width_px, file.height_px,
+              renderer.device().name.c_str());
   return {};
 }
 
@@ -123,40 +157,12 @@ int render_scene(const RenderArguments& arguments) {
   if (!background) {
     return bad_input(background.error().message);
   }
-  std::string error;
-  const auto renderer = render::Renderer::create(options, error);
+  const auto renderer = render::Renderer::create(options);
   if (!renderer) {
-    return bad_input(error);
+    return bad_input(renderer.error().message);
   }
-  std::vector<const RgbaImage*> backgrounds;
-  if (*background && !arguments.optics) {
-    backgrounds.assign(file->eyes.size(), &**background);
-  }
-  std::vector<RgbaImage> images;
-  if (!renderer->draw(file->scene, file->eyes, backgrounds, images, error)) {
-    return bad_input(arguments.scene + ": " + error);
-  }
-  for (const std::string& note : renderer->notes()) {
-    std::fprintf(stderr, "orthonav: %s\n", note.c_str());
-  }
-  if (arguments.optics) {
-    const RgbaImage behind =
-        *background ? **background
-                    : RgbaImage{options.width_px, options.height_px,
-                                std::vector<std::uint8_t>(images.front().pixels.size(), 0)};
-    if (const Status seen = see_through(arguments, *file, behind, *renderer, images); !seen) {
-      return bad_input(seen.error().message);
-    }
-  }
-  const Status written =
-      engine::write_png(arguments.out, engine::side_by_side(images, &RgbaImage::pixels, 4));
-  if (!written) {
-    return bad_input(written.error().message);
-  }
-  std::printf("%s: %zu eye%s, %dx%d px each, drawn by %s\n", arguments.out.c_str(), images.size(),
-              images.size() == 1 ? "" : "s", options.width_px, options.height_px,
-              renderer->device().name.c_str());
-  return kDone;
+  const Status drawn = draw_scene(arguments, *file, *background, **renderer);
+  return drawn ? kDone : bad_input(drawn.error().message);
 }
 
 }  // namespace

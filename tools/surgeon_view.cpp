@@ -14,12 +14,11 @@ Result<std::unique_ptr<SurgeonView>> SurgeonView::create(const SurgeonViewOption
   renderer_options.height_px = options.height_px;
   renderer_options.blend = render::Blend::kAdditive;
   renderer_options.device = options.device;
-  std::string error;
-  auto renderer = render::Renderer::create(renderer_options, error);
+  auto renderer = render::Renderer::create(renderer_options);
   if (!renderer) {
-    return Error{error};
+    return renderer.error();
   }
-  return std::unique_ptr<SurgeonView>(new SurgeonView(options, std::move(renderer)));
+  return std::unique_ptr<SurgeonView>(new SurgeonView(options, std::move(*renderer)));
 }
 
 SurgeonView::SurgeonView(const SurgeonViewOptions& options,
@@ -70,15 +69,14 @@ Status SurgeonView::draw(const engine::Snapshot& snapshot) {
     views_[0].eye_from_world = engine::to_matrix(eye_from_world.row_major());
   }
   backgrounds_.assign(1, &background_);
-  std::string error;
   if (!located) {
     engine::write_head_lost(snapshot.scene, head_lost_);
   }
-  const bool drawn =
-      renderer_->draw(located ? snapshot.scene : head_lost_, views_, backgrounds_, images_, error);
+  const Status drawn =
+      renderer_->draw(located ? snapshot.scene : head_lost_, views_, backgrounds_, images_);
   background_.pixels.swap(room_picture_.pixels);
   if (!drawn) {
-    return Error{error};
+    return drawn;
   }
   for (PictureSink* sink : sinks_) {
     if (const Status taken = sink->picture(images_[0], snapshot); !taken) {

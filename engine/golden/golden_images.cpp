@@ -26,11 +26,11 @@ Result<render::Renderer*> GoldenPainter::renderer_for(const GoldenScene& scene,
   options.device = device_;
   options.validation = validation_;
   options.messages = messages_;
-  std::string error;
-  renderer = render::Renderer::create(options, error);
-  if (!renderer) {
-    return Error{error};
+  auto made = render::Renderer::create(options);
+  if (!made) {
+    return made.error();
   }
+  renderer = std::move(*made);
   return renderer.get();
 }
 
@@ -44,21 +44,23 @@ Result<GoldenImages> GoldenPainter::paint(const GoldenScene& scene) {
     return over.error();
   }
   GoldenImages images;
-  std::string error;
   std::vector<RgbaImage> colour;
-  if (!(*additive)->draw(scene.scene, scene.views, {}, colour, error)) {
-    return Error{error};
+  Status drawn = (*additive)->draw(scene.scene, scene.views, {}, colour);
+  if (!drawn) {
+    return drawn.error();
   }
   images.additive = side_by_side(colour, &RgbaImage::pixels, 4);
   const RgbaImage background = golden_background(scene.width_px, scene.height_px);
   const std::vector<const RgbaImage*> behind(scene.views.size(), &background);
-  if (!(*over)->draw(scene.scene, scene.views, behind, colour, error)) {
-    return Error{error};
+  drawn = (*over)->draw(scene.scene, scene.views, behind, colour);
+  if (!drawn) {
+    return drawn.error();
   }
   images.over = side_by_side(colour, &RgbaImage::pixels, 4);
   std::vector<LabelImage> labels;
-  if (!(*additive)->draw_labels(scene.scene, scene.views, labels, error)) {
-    return Error{error};
+  drawn = (*additive)->draw_labels(scene.scene, scene.views, labels);
+  if (!drawn) {
+    return drawn.error();
   }
   images.labels = side_by_side(labels, &LabelImage::labels, 1);
   return images;

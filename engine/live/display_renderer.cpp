@@ -13,30 +13,18 @@ namespace {
 class Host : public render::VulkanHost {
  public:
   Host(PixelDisplay& display, const GraphicsNeeds& needs) : display_(display), needs_(needs) {}
-  [[nodiscard]] std::array<render::VulkanVersion, 2> versions() const override {
-    const auto& [least, most] = needs_.vulkan;
-    return {render::VulkanVersion{least.major, least.minor},
-            render::VulkanVersion{most.major, most.minor}};
+  [[nodiscard]] std::array<VulkanVersion, 2> versions() const override { return needs_.vulkan; }
+  Result<void*> create_instance(VulkanFunction get, const void* info) override {
+    return display_.create_instance(get, info);
   }
-  void* create_instance(render::VulkanFunction get, const void* info, std::string& error) override {
-    return made(display_.create_instance(get, info), error);
+  Result<void*> physical_device(void* instance) override {
+    return display_.physical_device(instance);
   }
-  void* physical_device(void* instance, std::string& error) override {
-    return made(display_.physical_device(instance), error);
-  }
-  void* create_device(void* physical, render::VulkanFunction get, const void* info,
-                      std::string& error) override {
-    return made(display_.create_device(physical, get, info), error);
+  Result<void*> create_device(void* physical, VulkanFunction get, const void* info) override {
+    return display_.create_device(physical, get, info);
   }
 
  private:
-  static void* made(Result<void*> answer, std::string& error) {
-    if (!answer) {
-      return error = answer.error().message, nullptr;
-    }
-    return *answer;
-  }
-
   PixelDisplay& display_;
   GraphicsNeeds needs_;
 };
@@ -64,11 +52,6 @@ render::Blend blend_for(WorldBlend blend) {
   return blend == WorldBlend::kAlpha ? render::Blend::kPremultiplied : render::Blend::kOver;
 }
 
-GraphicsObjects objects_of(const render::VulkanObjects& objects) {
-  return {objects.instance, objects.physical, objects.device, objects.queue_family,
-          objects.queue_index};
-}
-
 render::View view_of(const EyeView& eye) {
   render::View view;
   view.eye_from_world = to_matrix(eye.world_from_eye.inverse().row_major());
@@ -89,31 +72,26 @@ Result<std::unique_ptr<DisplayRenderer>> DisplayRenderer::start(PixelDisplay& di
   }
   options.blend = blend_for(needs->blend);
   Host host(display, *needs);
-  std::string error;
   std::unique_ptr<DisplayRenderer> made(new DisplayRenderer(display));
-  made->renderer_ = render::HostedRenderer::create(options, host, error);
-  if (!made->renderer_) {
-    return Error{error};
+  auto renderer = render::HostedRenderer::create(options, host);
+  if (!renderer) {
+    return renderer.error();
   }
-  const auto images =
-      display.start(objects_of(made->renderer_->objects()), Preference(*made->renderer_));
+  made->renderer_ = std::move(*renderer);
+  const auto images = display.start(made->renderer_->objects(), Preference(*made->renderer_));
   if (!images) {
     return images.error();
   }
-  const render::EyeTargets targets = {images->format,      images->width_px, images->height_px,
-                                      images->layers,      images->chains,   images->depth_format,
-                                      images->depth_chains};
-  if (!made->renderer_->use(targets, error)) {
-    return Error{error};
+  if (const Status used = made->renderer_->use(*images); !used) {
+    return used.error();
   }
   return made;
 }
 
 DisplayRenderer::~DisplayRenderer() {
-  // A device that is lost has no frames in flight; there is nobody to be told.
-  std::string ignored;
   if (renderer_) {
-    static_cast<void>(renderer_->finish(ignored));
+    // A lost device has no frames in flight, and there is nobody left to tell.
+    static_cast<void>(renderer_->finish());
   }
   display_.close();
 }
@@ -123,9 +101,8 @@ Result<bool> DisplayRenderer::draw(const render::Scene& scene) {
   if (!images) {
     return images.error();
   }
-  std::string error;
-  if (!renderer_->prepare(scene, error)) {
-    return Error{error};
+  if (const Status prepared = renderer_->prepare(scene); !prepared) {
+    return prepared.error();
   }
   const EyeViews eyes = display_.views();
   drawn_ = &scene;
@@ -133,18 +110,18 @@ Result<bool> DisplayRenderer::draw(const render::Scene& scene) {
     if (!eyes.on_head) {
       return false;
     }
-    write_head_lost(scene, left_);
-    if (!renderer_->prepare(left_, error)) {
-      return Error{error};
+    write_head_lost(scene, head_lost_);
+    if (const Status prepared = renderer_->prepare(head_lost_); !prepared) {
+      return prepared.error();
     }
-    drawn_ = &left_;
+    drawn_ = &head_lost_;
   }
   views_.clear();
   for (const EyeView& eye : eyes.value) {
     views_.push_back(view_of(eye));
   }
-  if (!renderer_->draw(*drawn_, views_, *images, error)) {
-    return Error{error};
+  if (const Status drawn = renderer_->draw(*drawn_, views_, *images); !drawn) {
+    return drawn.error();
   }
   return true;
 }

@@ -2,30 +2,32 @@
 
 #include <memory>
 
+#include "base/result.h"
 #include "hal/api/pixel_display.h"
 #include "render/hosted_renderer.h"
 
 namespace orthonav::engine {
 
-/// A renderer on the device that a display's runtime makes, drawing into the display's images. The
-/// one place where both meet: neither knows the other.
+/// A renderer on the device that the display's runtime makes, drawing into the display's images.
+/// The one place where the two meet: neither knows the other.
 class DisplayRenderer {
  public:
-  /// Opens the display and starts it. `options` as for HostedRenderer, but for the blend, which is
-  /// the display's.
+  /// Opens the display and starts it. `options` as for HostedRenderer, except that the display
+  /// decides the blend.
   static Result<std::unique_ptr<DisplayRenderer>> start(PixelDisplay& display,
                                                         render::RendererOptions options);
-  /// Waits for the frames in flight, then closes the display, then lets the device go.
+  /// Waits for the frames in flight, closes the display, then destroys the device.
   ~DisplayRenderer();
   DisplayRenderer(const DisplayRenderer&) = delete;
   DisplayRenderer& operator=(const DisplayRenderer&) = delete;
 
-  /// Draws a scene into a frame that was begun. While the head is not located only what hangs on it
-  /// is drawn, and where its eyes are not known either nothing: then false. The head is asked for
-  /// its pose last, when all that takes time but recording is done.
+  /// Draws a scene into a frame that was begun. While the head is not located, only what hangs on
+  /// it is drawn; if it is not known either where the eyes are on the head, nothing is drawn and
+  /// the answer is false. The eyes are located as late as possible: only laying out, recording and
+  /// submitting come after that.
   Result<bool> draw(const render::Scene& scene);
   [[nodiscard]] const render::HostedRenderer& renderer() const { return *renderer_; }
-  /// What was drawn last, the scene given or what was left of it, and its views.
+  /// What was drawn last, the scene given or what of it hangs on the head, and its views.
   [[nodiscard]] const render::Scene& drawn() const { return *drawn_; }
   [[nodiscard]] const std::vector<render::View>& views() const { return views_; }
 
@@ -35,8 +37,8 @@ class DisplayRenderer {
   PixelDisplay& display_;
   std::unique_ptr<render::HostedRenderer> renderer_;
   std::vector<render::View> views_;
-  render::Scene left_;  ///< while the head is not located
-  const render::Scene* drawn_ = &left_;
+  render::Scene head_lost_;  ///< what is drawn while the head is not located
+  const render::Scene* drawn_ = &head_lost_;
 };
 
 }  // namespace orthonav::engine

@@ -8,11 +8,11 @@
 namespace orthonav::engine {
 namespace {
 
-/// A display that nobody looks at is asked again after this.
+/// How long to wait before asking again while nobody is looking at the display.
 constexpr auto kIdlePause = std::chrono::milliseconds(5);
-/// A runtime that takes longer to end a session is left without.
+/// A runtime that takes longer to end a session is no longer waited for.
 constexpr auto kLongestGoodbye = std::chrono::seconds(2);
-// After so many there is nothing new to learn.
+// More than this tell nothing new.
 constexpr std::size_t kMostProblems = 20;
 constexpr std::size_t kMostLatches = 100'000;
 
@@ -70,9 +70,9 @@ void Presenter::lose(const std::string& why) {
   ++report_.losses;
 }
 
-void Presenter::pause(Duration by_the_wall) {
+void Presenter::pause(Duration wall_time) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, by_the_wall, [this] { return stopping_; });
+  changed_.wait_for(lock, wall_time, [this] { return stopping_; });
 }
 
 void Presenter::run() {
@@ -86,7 +86,7 @@ void Presenter::run() {
     if (over_) {
       pause(std::chrono::seconds(1));
     } else if (renderer_) {
-      take_turn();
+      next_frame();
     } else {
       look_again();
     }
@@ -94,20 +94,20 @@ void Presenter::run() {
   leave();
 }
 
-void Presenter::take_turn() {
-  const DisplayFrame turn = display_.begin_frame();
-  switch (turn.kind) {
+void Presenter::next_frame() {
+  const DisplayFrame frame = display_.begin_frame();
+  switch (frame.kind) {
     case DisplayFrame::Kind::kFrame:
-      present(turn);
+      present(frame);
       return;
     case DisplayFrame::Kind::kIdle:
       pause(kIdlePause);
       return;
     case DisplayFrame::Kind::kLost:
-      lose(turn.why);
+      lose(frame.why);
       return;
     case DisplayFrame::Kind::kOver:
-      note(turn.why);
+      note(frame.why);
       renderer_.reset();
       over_ = true;
       if (options_.on_over) {
@@ -117,9 +117,9 @@ void Presenter::take_turn() {
   }
 }
 
-/// Each frame that was begun is ended, whatever comes of it.
-void Presenter::present(const DisplayFrame& turn) {
-  const bool drawn = draw_scene(turn);
+/// A frame that was begun is always ended, drawn or not.
+void Presenter::present(const DisplayFrame& frame) {
+  const bool drawn = draw_scene(frame);
   const Status finished = display_.end_frame(drawn);
   if (!finished) {
     note(finished.error().message);
@@ -135,7 +135,7 @@ void Presenter::present(const DisplayFrame& turn) {
   }
 }
 
-bool Presenter::draw_scene(const DisplayFrame& turn) {
+bool Presenter::draw_scene(const DisplayFrame& frame) {
   {
     const std::lock_guard lock(mutex_);
     if (std::exchange(fresh_, false)) {
@@ -143,11 +143,11 @@ bool Presenter::draw_scene(const DisplayFrame& turn) {
       has_snapshot_ = true;
     }
   }
-  if (!turn.draw || !has_snapshot_) {
+  if (!frame.draw || !has_snapshot_) {
     return false;
   }
-  // However old the snapshot: the tracking thread may have stalled since.
-  if (shown_.expires && turn.display_time > *shown_.expires) {
+  // Checked for every frame: the tracking thread may have stalled since the snapshot.
+  if (shown_.expires && frame.display_time > *shown_.expires) {
     hide_tool_guidance(shown_.scene);
     shown_.expires.reset();
     const std::lock_guard lock(mutex_);
@@ -183,7 +183,7 @@ void Presenter::look_again() {
   pause(options_.look_again_after);
 }
 
-/// In order, as long as the runtime plays along.
+/// Ends the session in order, as long as the runtime cooperates.
 void Presenter::leave() {
   if (!renderer_) {
     return;
@@ -191,11 +191,11 @@ void Presenter::leave() {
   display_.ask_to_end();
   const auto until = std::chrono::steady_clock::now() + kLongestGoodbye;
   while (std::chrono::steady_clock::now() < until) {
-    const DisplayFrame turn = display_.begin_frame();
-    if (turn.kind == DisplayFrame::Kind::kLost || turn.kind == DisplayFrame::Kind::kOver) {
+    const DisplayFrame frame = display_.begin_frame();
+    if (frame.kind == DisplayFrame::Kind::kLost || frame.kind == DisplayFrame::Kind::kOver) {
       break;
     }
-    if (turn.kind == DisplayFrame::Kind::kFrame) {
+    if (frame.kind == DisplayFrame::Kind::kFrame) {
       static_cast<void>(display_.end_frame(false));
     } else {
       std::this_thread::sleep_for(kIdlePause);

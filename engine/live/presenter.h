@@ -14,12 +14,12 @@
 
 namespace orthonav::engine {
 
-/// What was put before the surgeon's eyes.
+/// What the surgeon was shown.
 struct PresentReport {
-  std::int64_t frames = 0;  ///< that the display asked for
+  std::int64_t frames = 0;  ///< frames that the display asked for
   std::int64_t drawn = 0;
-  std::int64_t hidden = 0;  ///< snapshots whose guidance had grown too old before it was drawn
-  std::int64_t losses = 0;  ///< of the session or the runtime; each with its line in `problems`
+  std::int64_t hidden = 0;  ///< snapshots whose guidance was too old by the time it was drawn
+  std::int64_t losses = 0;  ///< of session, runtime or device; each with its line in `problems`
   std::int64_t failures = 0;
   std::vector<std::string> problems;  ///< the first few, one line each
   /// Wall time from asking for the head's pose until the device has its orders.
@@ -28,7 +28,7 @@ struct PresentReport {
 
 struct PresenterOptions {
   render::RendererOptions renderer;
-  /// How long to wait, by the wall, before a display that went away is looked for again.
+  /// Wall time to wait before looking again for a display that went away.
   Duration look_again_after = std::chrono::seconds(1);
   /// Called on the presenting thread once the user has ended the session.
   std::function<void()> on_over;
@@ -36,9 +36,9 @@ struct PresenterOptions {
   std::function<void(const render::Scene&, const std::vector<render::View>&)> on_drawn;
 };
 
-/// Draws the newest snapshot again and again as the display asks for frames, in a thread of its
-/// own, each time for where the head is then. A display that goes away is looked for again;
-/// meanwhile tracking goes on.
+/// Draws the newest snapshot for every frame that the display asks for, in a thread of its own and
+/// for the head's newest pose. A display that goes away is looked for again; tracking goes on
+/// meanwhile.
 class Presenter : public SnapshotSink {
  public:
   /// An Error when the display can't be opened. `display` must outlive it.
@@ -47,9 +47,10 @@ class Presenter : public SnapshotSink {
   Presenter(const Presenter&) = delete;
   Presenter& operator=(const Presenter&) = delete;
 
-  /// Shows it from the next frame on. An Error tells of what went wrong since the last call, once.
+  /// Shows it from the next frame on. An Error is the last problem since the previous call; each is
+  /// told once.
   Status draw(const Snapshot& snapshot) override;
-  /// Ends the session in order; nothing is shown from here on.
+  /// Ends the session in order; nothing is shown after that.
   PresentReport stop();
 
  private:
@@ -57,15 +58,15 @@ class Presenter : public SnapshotSink {
       : display_(display), options_(std::move(options)) {}
 
   void run();
-  void take_turn();
-  void present(const DisplayFrame& turn);
-  bool draw_scene(const DisplayFrame& turn);
+  void next_frame();
+  void present(const DisplayFrame& frame);
+  bool draw_scene(const DisplayFrame& frame);
   void look_again();
   void leave();
   void lose(const std::string& why);
   void note(const std::string& problem);
   /// Returns early when stopped.
-  void pause(Duration by_the_wall);
+  void pause(Duration wall_time);
 
   PixelDisplay& display_;
   PresenterOptions options_;
@@ -78,7 +79,7 @@ class Presenter : public SnapshotSink {
   Snapshot incoming_;
   bool fresh_ = false;
   PresentReport report_;
-  std::string untold_;  ///< the last problem that `draw` has not told yet
+  std::string untold_;  ///< the last problem, if `draw` has not told it yet
 
   // Of the presenting thread.
   std::unique_ptr<DisplayRenderer> renderer_;

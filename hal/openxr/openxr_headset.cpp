@@ -14,7 +14,7 @@ Mount mount_of(const RigOnHead& rig) {
           {rig_from_view.rotation(), rig_from_view.translation()}};
 }
 
-/// The other headset's pairs, with poses and maps of the display where they are mounted on it.
+/// The other headset's pairs; with the display's poses and maps if the cameras are mounted on it.
 class Cameras : public StereoCamera {
  public:
   Cameras(StereoCamera& inner, const XrDisplay& display, bool mounted)
@@ -25,7 +25,7 @@ class Cameras : public StereoCamera {
     return inner_.calibration();
   }
   Result<Next> do_next(StereoFrame& frame) override {
-    // Buffers are reused, and a device whose map never moves does not touch this.
+    // The frame is reused, and a device whose map never moves does not write this.
     frame.map_epoch = 0;
     auto answer = inner_.next(frame);
     if (!answer || *answer != Next::kFrame) {
@@ -62,7 +62,7 @@ class Head : public HeadTracker {
   bool mounted_;
 };
 
-/// Frames in words go to the other headset too: a simulated wearer reads them there.
+/// Frames in words go to the other headset too, where a simulated wearer reads them.
 class Words : public Display {
  public:
   Words(Display& inner, const Clock& clock, const XrDisplay& display, bool mounted)

@@ -8,15 +8,16 @@
 
 namespace orthonav::openxr {
 
-/// Any headset with OpenXR and Vulkan, with the cameras of another one: `cameras` gives pairs,
-/// clock, voice, and its clicker beside the runtime's select button. Pixels go to the runtime.
+/// Any headset with OpenXR and Vulkan, with the cameras of another one: pairs, clock and voice come
+/// from `cameras`, clicks from its clicker and the runtime's select button. Pixels go to the
+/// runtime.
 ///
-/// Mounted cameras get their poses from the runtime; what tracks them otherwise is not asked. Those
-/// elsewhere keep their own world, and the display is laid into it. The map's epoch rises when the
+/// Mounted cameras get their poses from the runtime, and their own tracking is not asked. Cameras
+/// elsewhere keep their own world, and the display is placed in it. The map's epoch rises when the
 /// runtime's space moves and with each new session.
 class OpenxrHeadset : public ForwardingHeadset {
  public:
-  /// Connects with nothing yet: that is `pixels().open()`.
+  /// Does not connect yet; `pixels().open()` does.
   static std::unique_ptr<OpenxrHeadset> around(std::unique_ptr<Headset> cameras,
                                                const RigOnHead& rig);
 
@@ -24,8 +25,8 @@ class OpenxrHeadset : public ForwardingHeadset {
   explicit OpenxrHeadset(Headset& cameras) : ForwardingHeadset(cameras) {}
 };
 
-/// The runtime of this machine in words, such as "Monado(XRT) 21.0.0, Simulated HMD"; an Error says
-/// in one line what is missing and how to get it.
+/// Names the runtime of this machine, such as "Monado(XRT) 21.0.0, Simulated HMD". An Error says in
+/// one line what is missing and how to get it.
 [[nodiscard]] Result<std::string> describe_runtime();
 
 }  // namespace orthonav::openxr

@@ -53,7 +53,7 @@ void WorldAnchor::move(XrTime from, const std::optional<Transform<Space, Space>>
     // World is the new space, and what was measured in the old one is gone.
     next.world_from_space = Transform<World, Space>();
   } else if (before.world_from_space && old_from_new) {
-    // The wearer keeps the place where he stood.
+    // The wearer stays where they stood.
     next.world_from_space = *before.world_from_space * *old_from_new;
   }
   stretches_.push_back(next);

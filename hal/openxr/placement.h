@@ -9,31 +9,31 @@
 
 namespace orthonav::openxr {
 
-/// How the cameras' world and the display's space belong together.
+/// How the cameras' world relates to the display's space.
 enum class Placement {
   /// The cameras are mounted on the headset: World is the runtime's space, and a pair's pose is the
   /// headset's.
   kMounted,
-  /// The cameras are elsewhere, in a simulation or a recording: World is theirs, and the space is
-  /// laid into it such that the wearer begins where they are.
+  /// The cameras are elsewhere, in a simulation or a recording: World is the cameras', and the
+  /// runtime's space is placed in it so that the wearer begins at the cameras.
   kElsewhere
 };
 
 /// Where World is in the runtime's space, and which of its maps this is. A move is announced ahead
-/// of its time: asked for a time before it, the answer is the old one. One thread at a time.
+/// of its time; for a time before it the answer is still the old one. One thread at a time.
 class WorldAnchor {
  public:
   explicit WorldAnchor(Placement placement);
 
-  /// Nothing until it is laid.
+  /// Nothing until World is laid.
   [[nodiscard]] std::optional<Transform<World, Space>> world_from_space(XrTime at) const;
   /// Counts moves.
   [[nodiscard]] std::int64_t epoch(XrTime at) const;
-  /// Lays World so that the viewer is at `world_from_viewer`, where that is still open.
+  /// Lays World so that the viewer is at `world_from_viewer`, unless it is laid already.
   void lay(XrTime at, const Transform<World, Viewer>& world_from_viewer,
            const Transform<Space, Viewer>& space_from_viewer);
-  /// From then on the runtime's space is a new one; where it is in the one before, if that is
-  /// known.
+  /// From then on the runtime's space is a new one. `old_from_new`: where it is in the old one, if
+  /// that is known.
   void move(XrTime from, const std::optional<Transform<Space, Space>>& old_from_new);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<const char*, 2> kNeeded = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
                                                 XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME};
-// Switched on where they are offered. Some are younger than the loader's headers.
+// Enabled if offered. Some are newer than the loader's headers.
 constexpr std::array<const char*, 5> kWelcome = {
     XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, XR_MSFT_HAND_INTERACTION_EXTENSION_NAME,
     "XR_EXT_hand_interaction", "XR_ML_ml2_controller_interaction", "XR_EXT_local_floor"};
@@ -73,7 +73,7 @@ XrResult load(XrInstance instance, const char* name, Function& function) {
   return result;
 }
 
-/// Both of what a call that makes something of Vulkan's answers.
+/// Both results of a call that makes a Vulkan object.
 Status checked(const char* what, XrResult result, VkResult vulkan) {
   if (XR_FAILED(result)) {
     return error_of(what, result);
@@ -84,7 +84,7 @@ Status checked(const char* what, XrResult result, VkResult vulkan) {
   return {};
 }
 
-GraphicsVersion version_of(XrVersion version) {
+VulkanVersion version_of(XrVersion version) {
   return {static_cast<std::uint32_t>(XR_VERSION_MAJOR(version)),
           static_cast<std::uint32_t>(XR_VERSION_MINOR(version))};
 }
@@ -92,8 +92,8 @@ GraphicsVersion version_of(XrVersion version) {
 }  // namespace
 
 Result<std::unique_ptr<Runtime>> Runtime::connect() {
-  // The loader tells standard error what goes wrong unless it is told not to; it is told here as an
-  // Error. Who has asked it to speak is heard.
+  // The loader prints what goes wrong on standard error; here it comes back as an Error instead. A
+  // user who set the variable still gets the output.
   ::setenv("XR_LOADER_DEBUG", "none", 0);
   auto extensions = wanted_extensions();
   if (!extensions) {
@@ -179,17 +179,17 @@ Result<XrTime> Runtime::now() const {
   return time;
 }
 
-Result<std::array<GraphicsVersion, 2>> Runtime::vulkan_versions() const {
+Result<std::array<VulkanVersion, 2>> Runtime::vulkan_versions() const {
   XrGraphicsRequirementsVulkan2KHR needs = {XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR};
   const XrResult told = functions_.requirements(instance_, system_, &needs);
   if (XR_FAILED(told)) {
     return error_of("ask for the Vulkan that it needs", told);
   }
-  return std::array<GraphicsVersion, 2>{version_of(needs.minApiVersionSupported),
-                                        version_of(needs.maxApiVersionSupported)};
+  return std::array<VulkanVersion, 2>{version_of(needs.minApiVersionSupported),
+                                      version_of(needs.maxApiVersionSupported)};
 }
 
-Result<void*> Runtime::create_vulkan_instance(GraphicsFunction get_proc, const void* info) const {
+Result<void*> Runtime::create_vulkan_instance(VulkanFunction get_proc, const void* info) const {
   XrVulkanInstanceCreateInfoKHR create = {XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR};
   create.systemId = system_;
   create.pfnGetInstanceProcAddr = get_proc;
@@ -215,7 +215,7 @@ Result<void*> Runtime::vulkan_device(void* vulkan_instance) const {
   return static_cast<void*>(physical);
 }
 
-Result<void*> Runtime::create_vulkan_device(void* physical, GraphicsFunction get_proc,
+Result<void*> Runtime::create_vulkan_device(void* physical, VulkanFunction get_proc,
                                             const void* info) const {
   XrVulkanDeviceCreateInfoKHR create = {XR_TYPE_VULKAN_DEVICE_CREATE_INFO_KHR};
   create.systemId = system_;

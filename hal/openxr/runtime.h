@@ -11,10 +11,10 @@
 namespace orthonav::openxr {
 
 /// The connection with the OpenXR runtime of this machine: an instance and, once it is found, the
-/// headset. Its calls are thread-safe, as the runtime's are; who destroys it must be alone.
+/// headset. Its calls are thread-safe, as the runtime's are; no call may run while it is destroyed.
 class Runtime {
  public:
-  /// One line when there is none, or one that lacks what is needed.
+  /// An Error when there is no runtime, or it lacks what is needed.
   static Result<std::unique_ptr<Runtime>> connect();
   ~Runtime();
   Runtime(const Runtime&) = delete;
@@ -23,7 +23,7 @@ class Runtime {
   /// "Monado(XRT) 21.0.0"
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] XrInstance instance() const { return instance_; }
-  /// Whether this optional extension is there and switched on.
+  /// Whether this optional extension is enabled.
   [[nodiscard]] bool has(const char* extension) const;
 
   /// Looks for a headset; it may be plugged in later.
@@ -36,10 +36,10 @@ class Runtime {
   [[nodiscard]] Result<XrTime> now() const;
 
   // XR_KHR_vulkan_enable2
-  [[nodiscard]] Result<std::array<GraphicsVersion, 2>> vulkan_versions() const;
-  Result<void*> create_vulkan_instance(GraphicsFunction get_proc, const void* info) const;
+  [[nodiscard]] Result<std::array<VulkanVersion, 2>> vulkan_versions() const;
+  Result<void*> create_vulkan_instance(VulkanFunction get_proc, const void* info) const;
   [[nodiscard]] Result<void*> vulkan_device(void* vulkan_instance) const;
-  Result<void*> create_vulkan_device(void* physical, GraphicsFunction get_proc,
+  Result<void*> create_vulkan_device(void* physical, VulkanFunction get_proc,
                                      const void* info) const;
 
  private:

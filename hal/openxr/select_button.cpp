@@ -10,7 +10,8 @@
 namespace orthonav::openxr {
 namespace {
 
-/// What the button is on a kind of controller; of an extension, or of OpenXR itself (null).
+/// The button's path on one kind of controller, which comes from an extension, or from OpenXR
+/// itself (null).
 struct Profile {
   const char* extension;
   const char* path;
@@ -69,7 +70,8 @@ Status SelectButton::create(const Runtime& runtime) {
   if (XR_FAILED(result)) {
     return error_of("create an action", result);
   }
-  // The plain controller every runtime knows; what one does not know of the others it goes without.
+  // Every runtime knows the simple controller; those of the others that it does not know are left
+  // out.
   for (const Profile& profile : kProfiles) {
     if (profile.extension != nullptr && !runtime.has(profile.extension)) {
       continue;

@@ -7,8 +7,8 @@
 
 namespace orthonav::openxr {
 
-/// The "select" of whatever the surgeon holds, or the pinch of his hands, as one button. Works with
-/// no controller at all: then it is never pressed.
+/// The "select" of whatever controller the surgeon holds, or the pinch of a hand, as one button.
+/// Without any controller it is never pressed.
 class SelectButton {
  public:
   ~SelectButton() { destroy(); }
@@ -16,20 +16,20 @@ class SelectButton {
   SelectButton(const SelectButton&) = delete;
   SelectButton& operator=(const SelectButton&) = delete;
 
-  /// Actions and their bindings; once for each runtime.
+  /// Makes actions and their bindings; once per runtime.
   Status create(const Runtime& runtime);
   void destroy();
-  /// To a new session, once.
+  /// Attaches them to a new session; once per session.
   Status attach(XrSession session);
 
   struct Change {
     bool down = false;
     XrTime time = 0;
   };
-  /// Asks for its position; a change since it was asked last, or nothing. Who drops the controller
-  /// lets the button go, now.
+  /// The change since the last call, if there was one. A controller that goes away releases the
+  /// button, now.
   Result<std::optional<Change>> poll(XrSession session, XrTime now);
-  /// Nobody can hold it any more: the session is gone or has lost the focus.
+  /// Releases the button: the session is gone or has lost the focus.
   std::optional<Change> let_go(XrTime now);
 
  private:

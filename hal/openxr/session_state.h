@@ -13,13 +13,13 @@ enum class SessionDuty {
   kLeave     ///< the user has left: destroy it
 };
 
-/// The life of a session as OpenXR 1.0, 9.1 has it. A pure table: `take` says what is to be done
-/// and takes it for done.
+/// The life cycle of a session after OpenXR 1.0, section 9.1. A pure table: `take` says what is to
+/// be done and assumes that it is.
 class SessionState {
  public:
-  /// A state that this version does not know asks for nothing.
+  /// An unknown state asks for nothing.
   SessionDuty take(XrSessionState state);
-  /// Frames are to be waited for, begun and ended.
+  /// Frames must be waited for, begun and ended.
   [[nodiscard]] bool running() const { return running_; }
   /// Input reaches the application.
   [[nodiscard]] bool focused() const { return running_ && state_ == XR_SESSION_STATE_FOCUSED; }

@@ -13,7 +13,7 @@ Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events
   selected_.clear();
   display_.take_button(until, changes_);
   for (const ButtonChange& change : changes_) {
-    // The runtime tells of a press a frame later: it may belong before what was told already.
+    // The runtime reports a press one frame late: it may lie before what was passed on already.
     const Timestamp time = std::max(change.time, told_);
     timer_.advance(time, selected_);
     timer_.button(change.down, time, selected_);

@@ -19,7 +19,7 @@ class SharedClicker : public Clicker {
   Clicker& inner_;
   ClickTimer timer_;
   SharedButton button_;
-  Timestamp told_ = Timestamp::min();  ///< nothing comes before it any more
+  Timestamp told_ = Timestamp::min();  ///< no event may come before this
   std::vector<ButtonChange> changes_;
   std::vector<ClickerEvent> selected_;
   std::vector<ClickerEvent> clicked_;

@@ -5,7 +5,7 @@
 namespace orthonav::openxr {
 namespace {
 
-/// A runtime that keeps an image for so long has stalled; frames go on without.
+/// A runtime that holds an image longer than this has stalled; the frame goes without pixels.
 constexpr XrDuration kPatience_ns = 200'000'000;
 
 Result<std::vector<std::int64_t>> formats_of(XrSession session) {
@@ -23,7 +23,8 @@ Result<std::vector<std::int64_t>> formats_of(XrSession session) {
 
 using Scores = int (FormatPreference::*)(std::int64_t) const;
 
-/// Of equally good ones the runtime's favourite, which comes first; 0 where none suits.
+/// The format with the highest score, the runtime's preferred one (which comes first) among equals;
+/// 0 if none suits.
 std::int64_t best_format(const std::vector<std::int64_t>& formats,
                          const FormatPreference& preference, Scores format_score) {
   std::int64_t best = 0;
@@ -67,7 +68,7 @@ Status Swapchains::create(XrSession session, const ViewSetup& setup,
     if (add_chains(session, Content::kColour) && add_chains(session, Content::kDepth)) {
       return {};
     }
-    // A runtime need not take layers: one swapchain an eye then.
+    // A runtime need not support layers: one swapchain per eye then.
     destroy();
     images_.layers = 1;
   }
@@ -96,7 +97,7 @@ Status Swapchains::add_chain(XrSession session, Content content) {
       XR_SWAPCHAIN_USAGE_SAMPLED_BIT | (depth ? XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                               : XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT);
   info.format = depth ? images_.depth_format : images_.format;
-  info.sampleCount = 1;  // what has more is resolved into it
+  info.sampleCount = 1;  // multisampled images are resolved into it
   info.width = static_cast<std::uint32_t>(images_.width_px);
   info.height = static_cast<std::uint32_t>(images_.height_px);
   info.faceCount = 1;

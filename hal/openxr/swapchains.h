@@ -7,8 +7,8 @@
 
 namespace orthonav::openxr {
 
-/// The images of both eyes: one swapchain of two layers, or one an eye. Between `acquire` and
-/// `release` one image of each chain belongs to the application.
+/// The images of both eyes: one swapchain of two layers, or one swapchain per eye. Between
+/// `acquire` and `release` one image of each chain belongs to the application.
 class Swapchains {
  public:
   Swapchains() = default;
@@ -16,19 +16,19 @@ class Swapchains {
   Swapchains(const Swapchains&) = delete;
   Swapchains& operator=(const Swapchains&) = delete;
 
-  /// In the format that suits who draws best; an Error when none does.
-  /// With depth where it is wanted and a format of it suits.
+  /// In the format that suits the renderer best; an Error when none does. With depth if it is
+  /// wanted and the renderer can draw into a depth format that is offered.
   Status create(XrSession session, const ViewSetup& setup, const FormatPreference& preference,
                 bool depth);
   void destroy();
   [[nodiscard]] const EyeImages& images() const { return images_; }
 
-  /// XR_TIMEOUT_EXPIRED when an image is not free in time: this frame goes without pixels, the next
-  /// may ask again.
+  /// XR_TIMEOUT_EXPIRED when an image is not free in time: this frame goes without pixels, and the
+  /// next may ask again.
   XrResult acquire(std::vector<std::uint32_t>& indices);
-  /// Whatever was acquired and waited for.
+  /// Releases every image that was acquired and waited for.
   XrResult release();
-  /// Where an eye's picture lies.
+  /// The part of the images that shows an eye's view.
   [[nodiscard]] XrSwapchainSubImage part_of(std::size_t eye) const { return part(0, eye); }
   [[nodiscard]] bool has_depth() const { return !images_.depth_chains.empty(); }
   [[nodiscard]] XrSwapchainSubImage depth_of(std::size_t eye) const {
@@ -48,7 +48,7 @@ class Swapchains {
   [[nodiscard]] XrSwapchainSubImage part(std::size_t first_chain, std::size_t eye) const;
   XrResult acquire(Chain& chain);
 
-  std::vector<Chain> chains_;  ///< of colour, then of depth
+  std::vector<Chain> chains_;  ///< those of colour, then those of depth
   EyeImages images_;
 };
 

@@ -8,7 +8,7 @@
 namespace orthonav::openxr {
 namespace {
 
-// Younger than the loader's headers: XR_EXT_local_floor.
+// XR_EXT_local_floor, which is newer than the loader's headers.
 constexpr auto kLocalFloor = static_cast<XrReferenceSpaceType>(1000426000);
 
 Result<std::vector<XrViewConfigurationView>> views_of(const Runtime& runtime) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// OpenXR's headers, for the files of this folder. They speak of Vulkan; here its handles are names
-// of things that are passed on, and its headers stay in render/.
+// OpenXR's headers, for the files of this folder. They mention Vulkan; here its handles are opaque
+// names that are only passed on, and its headers stay in render/.
 
 #include <ctime>
 
@@ -18,7 +18,7 @@ using VkDevice = VkDevice_T*;
 using VkImage = VkImage_T*;
 static_assert(sizeof(void*) == 8, "where pointers are shorter, VkImage is a number");
 using PFN_vkGetInstanceProcAddr = void (*)();
-// Enumerations, which are ints to C.
+// Enumerations, which are ints in C.
 using VkResult = int;
 using VkFormat = int;
 using VkFilter = int;

@@ -12,14 +12,14 @@ XrDisplay::~XrDisplay() {
   button_.destroy();
 }
 
-/// Whatever goes wrong on the way, the next attempt starts from nothing.
+/// After any failure the next attempt starts from scratch.
 Result<GraphicsNeeds> XrDisplay::open() {
   auto needs = connect();
   instance_lost_ = !needs.ok();
   return needs;
 }
 
-Result<EyeImages> XrDisplay::start(const GraphicsObjects& objects,
+Result<EyeImages> XrDisplay::start(const VulkanObjects& objects,
                                    const FormatPreference& preference) {
   auto images = make_all(objects, preference);
   instance_lost_ = !images.ok();
@@ -66,7 +66,7 @@ Result<GraphicsNeeds> XrDisplay::connect() {
   return GraphicsNeeds{*versions, blend_of(setup_.blend)};
 }
 
-Result<void*> XrDisplay::create_instance(GraphicsFunction get_proc, const void* info) {
+Result<void*> XrDisplay::create_instance(VulkanFunction get_proc, const void* info) {
   return runtime_->create_vulkan_instance(get_proc, info);
 }
 
@@ -74,12 +74,11 @@ Result<void*> XrDisplay::physical_device(void* instance) {
   return runtime_->vulkan_device(instance);
 }
 
-Result<void*> XrDisplay::create_device(void* physical, GraphicsFunction get_proc,
-                                       const void* info) {
+Result<void*> XrDisplay::create_device(void* physical, VulkanFunction get_proc, const void* info) {
   return runtime_->create_vulkan_device(physical, get_proc, info);
 }
 
-Result<EyeImages> XrDisplay::make_all(const GraphicsObjects& objects,
+Result<EyeImages> XrDisplay::make_all(const VulkanObjects& objects,
                                       const FormatPreference& preference) {
   if (const Status made = make_session(objects); !made) {
     return made.error();
@@ -98,7 +97,7 @@ Result<EyeImages> XrDisplay::make_all(const GraphicsObjects& objects,
   return swapchains_.images();
 }
 
-Status XrDisplay::make_session(const GraphicsObjects& objects) {
+Status XrDisplay::make_session(const VulkanObjects& objects) {
   XrGraphicsBindingVulkan2KHR binding = {XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR};
   binding.instance = static_cast<VkInstance>(objects.instance);
   binding.physicalDevice = static_cast<VkPhysicalDevice>(objects.physical);
@@ -138,7 +137,7 @@ Status XrDisplay::make_spaces() {
   if (XR_FAILED(result)) {
     return error_of("create a space", result);
   }
-  // A new session's space is another one, of which nothing is known.
+  // A new session's space is a new one; where it is in the old one is not known.
   const auto now = runtime_->now();
   if (!now) {
     return now.error();
@@ -211,7 +210,8 @@ XrDisplay::Located XrDisplay::locate_viewer(XrTime at) const {
       XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
   constexpr XrSpaceLocationFlags kTracked =
       XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
-  // Cameras elsewhere need no place in the room: a headset that only turns stands still.
+  // With cameras elsewhere the position in the room is not needed: a headset that tracks rotation
+  // alone stands still.
   if (mount_.placement == Placement::kElsewhere &&
       (location.locationFlags & kKnown) == XR_SPACE_LOCATION_ORIENTATION_VALID_BIT) {
     location.pose.position = {};
@@ -247,7 +247,7 @@ Tracked<Transform<World, Rig>> XrDisplay::world_from_rig(Timestamp at) const {
 
 std::int64_t XrDisplay::map_epoch(Timestamp at) const {
   const std::lock_guard lock(mutex_);
-  // Without a runtime nothing moves: the newest map is the one that there was.
+  // Without a runtime nothing moves: the newest map still holds.
   return anchor_.epoch(xr_time(at).value_or(std::numeric_limits<XrTime>::max()));
 }
 

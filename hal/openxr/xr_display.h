@@ -17,21 +17,22 @@
 
 namespace orthonav::openxr {
 
-/// What the display and the cameras have to know of one another.
+/// What the display and the cameras must know about each other.
 struct Mount {
   Placement placement = Placement::kElsewhere;
-  /// Of the cameras' rig on the head. Elsewhere: where the wearer begins.
+  /// The pose of the head in the cameras' rig. With cameras elsewhere: where the wearer begins.
   Transform<Rig, Viewer> rig_from_viewer;
 };
 
-/// A button that changed, by the headset's clock.
+/// A change of the button, by the headset's clock.
 struct ButtonChange {
   bool down = false;
   Timestamp time{};
 };
 
-/// The display of an OpenXR headset: session, images, frames. The thread that presents calls what
-/// PixelDisplay has; the rest may be asked from any thread, also while there is no session.
+/// The display of an OpenXR headset: session, images, frames. The presenting thread calls the
+/// functions of PixelDisplay; the others may be called from any thread, also while there is no
+/// session.
 class XrDisplay : public PixelDisplay {
  public:
   /// `clock` is the headset's; `cameras_head` tells where the cameras are. Both must outlive it.
@@ -42,10 +43,10 @@ class XrDisplay : public PixelDisplay {
   XrDisplay& operator=(const XrDisplay&) = delete;
 
   Result<GraphicsNeeds> open() override;
-  Result<void*> create_instance(GraphicsFunction get_proc, const void* info) override;
+  Result<void*> create_instance(VulkanFunction get_proc, const void* info) override;
   Result<void*> physical_device(void* instance) override;
-  Result<void*> create_device(void* physical, GraphicsFunction get_proc, const void* info) override;
-  Result<EyeImages> start(const GraphicsObjects& objects,
+  Result<void*> create_device(void* physical, VulkanFunction get_proc, const void* info) override;
+  Result<EyeImages> start(const VulkanObjects& objects,
                           const FormatPreference& preference) override;
   DisplayFrame begin_frame() override;
   Result<std::vector<std::uint32_t>> acquire() override;
@@ -55,30 +56,30 @@ class XrDisplay : public PixelDisplay {
   void close() override;
 
   // From any thread.
-  /// "Monado(XRT) 21.0.0, Simulated HMD"; empty before it was opened.
+  /// "Monado(XRT) 21.0.0, Simulated HMD"; empty before the display is opened.
   [[nodiscard]] std::string name() const;
-  /// Where the mounted cameras were or will be. kPredicted where the runtime knows a pose without
-  /// tracking it; kLost where it knows none.
+  /// Where the mounted cameras were or will be. kPredicted if the runtime knows the pose without
+  /// tracking it, kLost if it knows none.
   [[nodiscard]] Tracked<Transform<World, Rig>> world_from_rig(Timestamp at) const;
-  /// Which map World is at that time.
+  /// Which map World belongs to at that time.
   [[nodiscard]] std::int64_t map_epoch(Timestamp at) const;
-  /// From submitting to light, as last predicted.
+  /// From submitting a frame to its display time, as last predicted.
   [[nodiscard]] Duration latency() const { return latency_.load(); }
   /// Changes up to `until`, in order.
   void take_button(Timestamp until, std::vector<ButtonChange>& changes);
 
  private:
-  /// A pose of the viewer and how well it is known.
+  /// The viewer's pose and how well it is known.
   struct Located {
     Transform<Space, Viewer> space_from_viewer;
     PoseStatus status = PoseStatus::kLost;
   };
 
   Result<GraphicsNeeds> connect();
-  Result<EyeImages> make_all(const GraphicsObjects& objects, const FormatPreference& preference);
-  Status make_session(const GraphicsObjects& objects);
+  Result<EyeImages> make_all(const VulkanObjects& objects, const FormatPreference& preference);
+  Status make_session(const VulkanObjects& objects);
   Status make_spaces();
-  /// The first thing that ends the session, if any event does.
+  /// The first event that ends the session, if there is one.
   std::optional<DisplayFrame> take_events();
   std::optional<DisplayFrame> take_state(XrSessionState state);
   void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
@@ -86,13 +87,14 @@ class XrDisplay : public PixelDisplay {
   DisplayFrame wait_and_begin();
   [[nodiscard]] DisplayFrame lost(const std::string& what, XrResult result);
   void lay_world(XrTime at);
-  /// Puts the eyes' poses and fields of view for the frame begun into `located_`; how well known.
+  /// Writes the eyes' poses and fields of view for the frame begun into `located_` and says how
+  /// well they are known.
   XrViewStateFlags locate_eyes(XrSpace space);
-  /// Of `located_`; false where a pose or a field of view can't be used.
+  /// Converts `located_`; false if a pose or a field of view can't be used.
   bool take_eyes(const Transform<World, Space>& world_from_space, EyeViews& views) const;
   bool locate_in_world(EyeViews& views);
   [[nodiscard]] Located locate_viewer(XrTime at) const;
-  /// Both clocks read at once.
+  // Between the runtime's clock and ours, both read now.
   [[nodiscard]] std::optional<XrTime> xr_time(Timestamp at) const;
   [[nodiscard]] std::optional<Timestamp> timestamp(XrTime at) const;
 
@@ -101,7 +103,7 @@ class XrDisplay : public PixelDisplay {
   const HeadTracker& cameras_head_;
   std::atomic<Duration> latency_{std::chrono::milliseconds(20)};
 
-  // Changed by the presenting thread under the mutex; read by others under it.
+  // Changed by the presenting thread under the mutex; read by other threads under it.
   mutable std::mutex mutex_;
   std::unique_ptr<Runtime> runtime_;
   std::string headset_name_;
@@ -110,18 +112,18 @@ class XrDisplay : public PixelDisplay {
   WorldAnchor anchor_;
   std::deque<ButtonChange> button_changes_;
 
-  // Of the presenting thread alone.
+  // For the presenting thread alone.
   ViewSetup setup_;
   XrSession session_ = XR_NULL_HANDLE;
   XrReferenceSpaceType space_type_ = XR_REFERENCE_SPACE_TYPE_LOCAL;
   SessionState state_;
-  bool instance_lost_ = false;  ///< or no good: the next `open` begins with a new one
+  bool instance_lost_ = false;  ///< or unusable: the next `open` makes a new one
   bool had_session_ = false;
   bool end_asked_ = false;
   Swapchains swapchains_;
-  double near_m_ = 0.0;  ///< where depth is 0
+  double near_m_ = 0.0;  ///< distance at which depth is 0
   SelectButton button_;
-  XrTime display_time_ = 0;  ///< of the frame begun
+  XrTime display_time_ = 0;  ///< of the frame that was begun
   std::array<XrView, 2> located_{};
   XrSpace located_in_ = XR_NULL_HANDLE;
 };

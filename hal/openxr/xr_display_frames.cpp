@@ -14,38 +14,20 @@ const Event& as(const XrEventDataBuffer& event) {
 }
 
 DisplayFrame over(const char* why) {
-  DisplayFrame turn;
-  turn.kind = DisplayFrame::Kind::kOver;
-  turn.why = why;
-  return turn;
-}
-
-constexpr XrViewStateFlags kKnown =
-    XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
-
-/// Eyes of a head whose place is not known, beside the origin as far as eyes are apart.
-void stand_still(std::array<XrView, 2>& views) {
-  constexpr double kHalfApart_m = 0.0315;
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    XrPosef& pose = views[eye].pose;
-    pose.position = {};
-    const auto turned = transform_of<Space, Eye>(pose);
-    if (!turned) {
-      continue;
-    }
-    const Vec3 at = (*turned * Direction<Eye>{{eye == 0 ? -kHalfApart_m : kHalfApart_m, 0, 0}}).v;
-    pose.position = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
-  }
+  DisplayFrame frame;
+  frame.kind = DisplayFrame::Kind::kOver;
+  frame.why = why;
+  return frame;
 }
 
 }  // namespace
 
 DisplayFrame XrDisplay::lost(const std::string& what, XrResult result) {
   instance_lost_ = instance_lost_ || result == XR_ERROR_INSTANCE_LOST;
-  DisplayFrame turn;
-  turn.kind = DisplayFrame::Kind::kLost;
-  turn.why = error_of(what, result).message;
-  return turn;
+  DisplayFrame frame;
+  frame.kind = DisplayFrame::Kind::kLost;
+  frame.why = error_of(what, result).message;
+  return frame;
 }
 
 std::optional<DisplayFrame> XrDisplay::take_state(XrSessionState state) {
@@ -79,7 +61,7 @@ std::optional<DisplayFrame> XrDisplay::take_state(XrSessionState state) {
   return std::nullopt;
 }
 
-/// World moves with the space that it hangs on.
+/// World moves with the runtime's space.
 void XrDisplay::take_space_change(const XrEventDataReferenceSpaceChangePending& change) {
   if (change.session != session_ || change.referenceSpaceType != space_type_) {
     return;
@@ -110,8 +92,8 @@ std::optional<DisplayFrame> XrDisplay::take_events() {
         if (change.session != session_) {
           break;
         }
-        if (auto turn = take_state(change.state)) {
-          return turn;
+        if (auto ended = take_state(change.state)) {
+          return ended;
         }
         break;
       }
@@ -155,7 +137,7 @@ DisplayFrame XrDisplay::begin_frame() {
     return *ended;
   }
   if (!state_.running()) {
-    // Nobody will ever end a session that was not begun.
+    // A session that was never begun gets no event that ends it.
     return end_asked_ ? over("openxr: ended") : DisplayFrame{};
   }
   poll_button();
@@ -164,8 +146,8 @@ DisplayFrame XrDisplay::begin_frame() {
 
 DisplayFrame XrDisplay::wait_and_begin() {
   const XrFrameWaitInfo wait = {XR_TYPE_FRAME_WAIT_INFO};
-  XrFrameState frame = {XR_TYPE_FRAME_STATE};
-  const XrResult waited = xrWaitFrame(session_, &wait, &frame);
+  XrFrameState state = {XR_TYPE_FRAME_STATE};
+  const XrResult waited = xrWaitFrame(session_, &wait, &state);
   if (XR_FAILED(waited)) {
     return lost("wait for a frame", waited);
   }
@@ -174,16 +156,16 @@ DisplayFrame XrDisplay::wait_and_begin() {
   if (XR_FAILED(begun)) {
     return lost("begin a frame", begun);
   }
-  display_time_ = frame.predictedDisplayTime;
-  DisplayFrame turn;
-  turn.kind = DisplayFrame::Kind::kFrame;
-  const auto light = timestamp(display_time_);
-  turn.draw = frame.shouldRender == XR_TRUE && light.has_value();
-  if (light) {
-    turn.display_time = *light;
-    latency_ = std::max(Duration::zero(), *light - clock_.now());
+  display_time_ = state.predictedDisplayTime;
+  DisplayFrame frame;
+  frame.kind = DisplayFrame::Kind::kFrame;
+  const auto display_time = timestamp(display_time_);
+  frame.draw = state.shouldRender == XR_TRUE && display_time.has_value();
+  if (display_time) {
+    frame.display_time = *display_time;
+    latency_ = std::max(Duration::zero(), *display_time - clock_.now());
   }
-  return turn;
+  return frame;
 }
 
 Result<std::vector<std::uint32_t>> XrDisplay::acquire() {
@@ -193,86 +175,6 @@ Result<std::vector<std::uint32_t>> XrDisplay::acquire() {
     return error_of("acquire an image", acquired);
   }
   return indices;
-}
-
-/// Where World is still open, it is laid as soon as both heads are known.
-void XrDisplay::lay_world(XrTime at) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (anchor_.world_from_space(at)) {
-      return;
-    }
-  }
-  const auto world_from_rig = cameras_head_.world_from_rig(clock_.now());
-  if (world_from_rig.status == PoseStatus::kLost) {
-    return;
-  }
-  const std::lock_guard lock(mutex_);
-  const Located viewer = locate_viewer(at);
-  if (viewer.status == PoseStatus::kLost) {
-    return;
-  }
-  anchor_.lay(at, world_from_rig.value * mount_.rig_from_viewer, viewer.space_from_viewer);
-}
-
-XrViewStateFlags XrDisplay::locate_eyes(XrSpace space) {
-  XrViewLocateInfo info = {XR_TYPE_VIEW_LOCATE_INFO};
-  info.viewConfigurationType = kStereo;
-  info.displayTime = display_time_;
-  info.space = space;
-  XrViewState state = {XR_TYPE_VIEW_STATE};
-  std::uint32_t count = 0;
-  located_.fill({XR_TYPE_VIEW});
-  const XrResult located = xrLocateViews(session_, &info, &state, 2, &count, located_.data());
-  located_in_ = space;
-  return XR_FAILED(located) || count != 2 ? 0 : state.viewStateFlags;
-}
-
-bool XrDisplay::take_eyes(const Transform<World, Space>& world_from_space, EyeViews& views) const {
-  for (std::size_t eye = 0; eye < 2; ++eye) {
-    const auto pose = transform_of<Space, Eye>(located_[eye].pose);
-    if (!pose || !take_fov(located_[eye].fov, views.value[eye])) {
-      return false;
-    }
-    views.value[eye].world_from_eye = world_from_space * *pose;
-  }
-  return true;
-}
-
-bool XrDisplay::locate_in_world(EyeViews& views) {
-  constexpr XrViewStateFlags kTracked =
-      XR_VIEW_STATE_ORIENTATION_TRACKED_BIT | XR_VIEW_STATE_POSITION_TRACKED_BIT;
-  const XrViewStateFlags flags = locate_eyes(space_);
-  const bool elsewhere = mount_.placement == Placement::kElsewhere;
-  if (elsewhere && (flags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT) {
-    stand_still(located_);
-  } else if ((flags & kKnown) != kKnown) {
-    return false;
-  }
-  // A position that is guessed puts holograms beside the bone. Nothing hangs on a bone elsewhere.
-  if (!elsewhere && (flags & kTracked) != kTracked) {
-    return false;
-  }
-  std::optional<Transform<World, Space>> world_from_space;
-  {
-    const std::lock_guard lock(mutex_);
-    world_from_space = anchor_.world_from_space(display_time_);
-  }
-  return world_from_space && take_eyes(*world_from_space, views);
-}
-
-EyeViews XrDisplay::views() {
-  lay_world(display_time_);
-  EyeViews views;
-  if (const auto light = timestamp(display_time_)) {
-    views.time = *light;
-  }
-  if (locate_in_world(views)) {
-    views.status = PoseStatus::kPredicted;
-  } else {
-    views.on_head = (locate_eyes(viewer_) & kKnown) == kKnown && take_eyes({}, views);
-  }
-  return views;
 }
 
 Status XrDisplay::end_frame(bool drawn) {
@@ -295,7 +197,7 @@ Status XrDisplay::end_frame(bool drawn) {
     eyes[eye].next = &depths[eye];
   }
   XrCompositionLayerProjection layer = {XR_TYPE_COMPOSITION_LAYER_PROJECTION};
-  // What we write is premultiplied; where nothing is drawn, the world is seen.
+  // The images are premultiplied; the world shows where nothing is drawn.
   if (setup_.blend == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) {
     layer.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
   }

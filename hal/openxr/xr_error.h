@@ -7,13 +7,13 @@
 
 namespace orthonav::openxr {
 
-/// "XR_ERROR_FORM_FACTOR_UNAVAILABLE", or the number of what came after 1.0.20.
+/// "XR_ERROR_FORM_FACTOR_UNAVAILABLE", or the number of a result newer than OpenXR 1.0.20.
 [[nodiscard]] std::string name_of(XrResult result);
 /// "openxr: begin a frame: XR_ERROR_SESSION_NOT_RUNNING".
 [[nodiscard]] Error error_of(const std::string& what, XrResult result);
-/// Success as Status.
+/// The same as a Status; success if the call succeeded.
 [[nodiscard]] Status status_of(const std::string& what, XrResult result);
-/// Nothing but a new session helps.
+/// Whether only a new session helps.
 [[nodiscard]] bool is_loss(XrResult result);
 
 /// "2.1.0"

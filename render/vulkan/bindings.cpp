@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "render/vulkan/failure.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {

@@ -1,6 +1,7 @@
 #include "render/vulkan/commands.h"
 
 #include "render/vulkan/elapsed.h"
+#include "render/vulkan/failure.h"
 
 namespace orthonav::render {
 
@@ -67,11 +68,10 @@ void Commands::wait() {
   lost_ = true;
   vkDeviceWaitIdle(device_);
   if (result == VK_TIMEOUT) {
-    throw VulkanFailure(
-        VK_ERROR_DEVICE_LOST,
-        "drawing for over " + std::to_string(patience_.count() / 1'000'000) + " ms");
+    throw Failure(VK_ERROR_DEVICE_LOST,
+                  "drawing for over " + std::to_string(patience_.count() / 1'000'000) + " ms");
   }
-  throw VulkanFailure(result, "drawing");
+  throw Failure(result, "drawing");
 }
 
 void change_layout(VkCommandBuffer commands, const LayoutChange& change) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <stdexcept>
+#include <optional>
 
-#include "render/vulkan/handle.h"
+#include "render/vulkan/failure.h"
 
 namespace orthonav::render {
 namespace {
@@ -139,7 +139,7 @@ DeviceInfo describe(VkPhysicalDevice physical) {
   return info;
 }
 
-VkPhysicalDevice choose_device(const Instance& instance, const std::string& wanted) {
+Result<VkPhysicalDevice> choose_device(const Instance& instance, const std::string& wanted) {
   VkPhysicalDevice best = VK_NULL_HANDLE;
   int best_rank = -1;
   std::string seen;
@@ -157,38 +157,37 @@ VkPhysicalDevice choose_device(const Instance& instance, const std::string& want
     return best;
   }
   if (seen.empty()) {
-    throw std::runtime_error("renderer: no Vulkan device on this machine");
+    return Error{"renderer: no Vulkan device on this machine", ErrorCode::kNotFound};
   }
-  throw std::runtime_error("renderer: no usable Vulkan device" +
-                           (wanted.empty() ? "" : " named '" + wanted + "'") +
-                           "; there is: " + seen);
+  return Error{"renderer: no usable Vulkan device" +
+                   (wanted.empty() ? "" : " named '" + wanted + "'") + "; there is: " + seen,
+               ErrorCode::kNotFound};
 }
 
-VkPhysicalDevice device_of(VulkanHost& host, const Instance& instance) {
-  std::string error;
-  auto* physical = static_cast<VkPhysicalDevice>(host.physical_device(instance.get(), error));
-  if (physical == VK_NULL_HANDLE) {
-    throw std::runtime_error(error);
+Result<VkPhysicalDevice> device_of(VulkanHost& host, const Instance& instance) {
+  const Result<void*> answer = handle_of(host.physical_device(instance.get()));
+  if (!answer) {
+    return answer.error();
   }
+  auto* physical = static_cast<VkPhysicalDevice>(*answer);
   const DeviceInfo info = describe(physical);
   if (!info.usable) {
-    throw std::runtime_error("renderer: " + info.name + ": " + info.reason);
+    return Error{"renderer: " + info.name + ": " + info.reason};
   }
   return physical;
 }
 
-std::optional<std::string> problem_of_size(const VkPhysicalDeviceLimits& limits, int width_px,
-                                           int height_px) {
+Status check_size(const VkPhysicalDeviceLimits& limits, int width_px, int height_px) {
   const std::uint32_t most_across =
       std::min(limits.maxImageDimension2D, limits.maxFramebufferWidth);
   const std::uint32_t most_down = std::min(limits.maxImageDimension2D, limits.maxFramebufferHeight);
   if (static_cast<std::uint32_t>(width_px) <= most_across &&
       static_cast<std::uint32_t>(height_px) <= most_down) {
-    return std::nullopt;
+    return {};
   }
-  return "renderer: image of " + std::to_string(width_px) + "x" + std::to_string(height_px) +
-         " px, limit of the device " + std::to_string(most_across) + "x" +
-         std::to_string(most_down) + " px";
+  return Error{"renderer: image of " + std::to_string(width_px) + "x" + std::to_string(height_px) +
+               " px, limit of the device " + std::to_string(most_across) + "x" +
+               std::to_string(most_down) + " px"};
 }
 
 Device::Device(VkPhysicalDevice physical, VulkanHost* host) {
@@ -210,12 +209,8 @@ Device::Device(VkPhysicalDevice physical, VulkanHost* host) {
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   if (host != nullptr) {
-    std::string error;
-    device_ = static_cast<VkDevice>(host->create_device(
-        physical, reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr), &info, error));
-    if (device_ == VK_NULL_HANDLE) {
-      throw std::runtime_error(error);
-    }
+    const auto get = reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr);
+    device_ = static_cast<VkDevice>(value_of(handle_of(host->create_device(physical, get, &info))));
   } else {
     check(vkCreateDevice(physical, &info, nullptr, &device_), "Vulkan device");
   }
@@ -237,7 +232,7 @@ std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags r
       }
     }
   }
-  throw VulkanFailure(VK_ERROR_OUT_OF_DEVICE_MEMORY, "memory of the wanted kind");
+  throw Failure(VK_ERROR_OUT_OF_DEVICE_MEMORY, "memory of the wanted kind");
 }
 
 }  // namespace orthonav::render

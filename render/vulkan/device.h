@@ -2,10 +2,10 @@
 
 #include <vulkan/vulkan.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "render/renderer.h"
 #include "render/vulkan/instance.h"
 
@@ -18,20 +18,20 @@ inline constexpr VkFormat kLabelFormat = VK_FORMAT_R32_UINT;
 [[nodiscard]] DeviceInfo describe(VkPhysicalDevice physical);
 
 /// The device to draw with: the best usable one whose name contains `wanted` (case ignored);
-/// discrete before integrated before virtual before CPU. Throws std::runtime_error with one line.
-[[nodiscard]] VkPhysicalDevice choose_device(const Instance& instance, const std::string& wanted);
+/// discrete before integrated before virtual before CPU.
+[[nodiscard]] Result<VkPhysicalDevice> choose_device(const Instance& instance,
+                                                     const std::string& wanted);
 
-/// The device that the host wants to be used. Throws std::runtime_error with one line.
-[[nodiscard]] VkPhysicalDevice device_of(VulkanHost& host, const Instance& instance);
+/// The device that the host wants to be used.
+[[nodiscard]] Result<VkPhysicalDevice> device_of(VulkanHost& host, const Instance& instance);
 
-/// Why the device can't hold one eye's image; nothing when it can.
-[[nodiscard]] std::optional<std::string> problem_of_size(const VkPhysicalDeviceLimits& limits,
-                                                         int width_px, int height_px);
+/// Whether the device can hold one eye's image.
+[[nodiscard]] Status check_size(const VkPhysicalDeviceLimits& limits, int width_px, int height_px);
 
 /// A logical device with one graphics queue.
 class Device {
  public:
-  /// With a host it is the host who makes it.
+  /// With a host, the host makes it. Throws Failure.
   explicit Device(VkPhysicalDevice physical, VulkanHost* host = nullptr);
   ~Device();
   Device(const Device&) = delete;

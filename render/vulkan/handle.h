@@ -2,24 +2,9 @@
 
 #include <vulkan/vulkan.h>
 
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace orthonav::render {
-
-/// A Vulkan call that failed. Never leaves render/: the renderer's public calls turn it to a line.
-class VulkanFailure : public std::runtime_error {
- public:
-  VulkanFailure(VkResult result, const std::string& what);
-  [[nodiscard]] VkResult result() const { return result_; }
-
- private:
-  VkResult result_;
-};
-
-/// Throws VulkanFailure unless `result` is success. `what` names what was tried.
-void check(VkResult result, const char* what);
 
 /// Owns one object of a device, destroyed by `Destroy`.
 template <class T, auto Destroy>

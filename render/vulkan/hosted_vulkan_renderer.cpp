@@ -1,12 +1,13 @@
 #include "render/vulkan/hosted_vulkan_renderer.h"
 
 #include <algorithm>
-#include <new>
-#include <stdexcept>
+#include <array>
+#include <exception>
 #include <utility>
 
 #include "render/scene_check.h"
 #include "render/vulkan/elapsed.h"
+#include "render/vulkan/failure.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {
@@ -57,46 +58,47 @@ std::vector<VkImage> outer_images(const std::vector<std::vector<std::uint64_t>>&
   return outer;
 }
 
-/// What can't be drawn into, as one line; empty when all is well.
-std::string problem_of(const EyeTargets& targets, std::uint32_t most_px, bool takes_layers) {
+/// Whether such images can be drawn into, whatever their formats.
+Status check_shape(const EyeImages& images, std::uint32_t most_px, bool takes_layers) {
   const std::string size =
-      std::to_string(targets.width_px) + "x" + std::to_string(targets.height_px) + " px";
-  if (targets.width_px < 1 || targets.height_px < 1 ||
-      static_cast<std::uint32_t>(std::max(targets.width_px, targets.height_px)) > most_px) {
-    return "renderer: host's images of " + size + ", limit " + std::to_string(most_px) + " px";
+      std::to_string(images.width_px) + "x" + std::to_string(images.height_px) + " px";
+  if (images.width_px < 1 || images.height_px < 1 ||
+      static_cast<std::uint32_t>(std::max(images.width_px, images.height_px)) > most_px) {
+    return Error{"renderer: host's images of " + size + ", limit " + std::to_string(most_px) +
+                 " px"};
   }
-  const std::size_t chains = targets.layers == 2 ? 1 : 2;
-  if (targets.layers < 1 || targets.layers > 2 || targets.chains.size() != chains) {
-    return "renderer: host's images have " + std::to_string(targets.layers) + " layers in " +
-           std::to_string(targets.chains.size()) + " chains; needs 2 in 1 or 1 in 2";
+  const std::size_t chains = images.layers == 2 ? 1 : 2;
+  if (images.layers < 1 || images.layers > 2 || images.chains.size() != chains) {
+    return Error{"renderer: host's images have " + std::to_string(images.layers) + " layers in " +
+                 std::to_string(images.chains.size()) + " chains; needs 2 in 1 or 1 in 2"};
   }
-  if (targets.layers == 2 && !takes_layers) {
-    return "renderer: host's images have 2 layers, which this device does not draw whole";
+  if (images.layers == 2 && !takes_layers) {
+    return Error{"renderer: host's images have 2 layers, which this device does not draw whole"};
   }
-  if (!targets.depth_chains.empty() && targets.depth_chains.size() != chains) {
-    return "renderer: " + std::to_string(targets.depth_chains.size()) +
-           " chains of depth images beside " + std::to_string(chains);
+  if (!images.depth_chains.empty() && images.depth_chains.size() != chains) {
+    return Error{"renderer: " + std::to_string(images.depth_chains.size()) +
+                 " chains of depth images beside " + std::to_string(chains)};
   }
-  for (const auto* all : {&targets.chains, &targets.depth_chains}) {
+  for (const auto* all : {&images.chains, &images.depth_chains}) {
     for (const auto& chain : *all) {
       if (chain.empty() || chain.size() != all->front().size()) {
-        return "renderer: a chain of " + std::to_string(chain.size()) + " images beside one of " +
-               std::to_string(all->front().size());
+        return Error{"renderer: a chain of " + std::to_string(chain.size()) +
+                     " images beside one of " + std::to_string(all->front().size())};
       }
     }
   }
   return {};
 }
 
-/// Whether there is an image of that number in each chain, those of depth after the others.
-bool holds(const EyeTargets& targets, std::span<const std::uint32_t> images) {
-  const std::size_t chains = targets.chains.size();
-  if (images.size() != chains + targets.depth_chains.size()) {
+/// Whether there is an image of that index in each chain, the chains of depth after the others.
+bool holds(const EyeImages& images, std::span<const std::uint32_t> indices) {
+  const std::size_t chains = images.chains.size();
+  if (indices.size() != chains + images.depth_chains.size()) {
     return false;
   }
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const auto& chain = i < chains ? targets.chains[i] : targets.depth_chains[i - chains];
-    if (images[i] >= chain.size()) {
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const auto& chain = i < chains ? images.chains[i] : images.depth_chains[i - chains];
+    if (indices[i] >= chain.size()) {
       return false;
     }
   }
@@ -108,7 +110,7 @@ bool holds(const EyeTargets& targets, std::span<const std::uint32_t> images) {
 HostedVulkanRenderer::HostedVulkanRenderer(const RendererOptions& options, VulkanHost& host)
     : options_(options),
       instance_(options.validation, options.messages, &host),
-      physical_(device_of(host, instance_)),
+      physical_(value_of(device_of(host, instance_))),
       info_(describe(physical_)),
       device_(physical_, &host),
       drawing_(options, device_, physical_, kFramesInFlight) {
@@ -161,82 +163,88 @@ void HostedVulkanRenderer::upload_blank_background() {
 
 /// Nothing thrown leaves it.
 template <class Work>
-bool HostedVulkanRenderer::attempt(std::string& error, const Work& work) {
+Status HostedVulkanRenderer::attempt(const Work& work) {
   if (lost_) {
-    return error = "renderer: device lost", false;
+    return Error{"renderer: device lost", ErrorCode::kLost};
   }
   try {
-    work();
-    return true;
-  } catch (const VulkanFailure& failure) {
-    lost_ = drawing_.lost() || failure.result() == VK_ERROR_DEVICE_LOST;
-    error = failure.what();
-  } catch (const std::bad_alloc&) {
-    error = "renderer: out of host memory";
-  } catch (const std::exception& failure) {
-    error = failure.what();
+    return work();
+  } catch (const std::exception&) {
+    Error error = error_in_flight();
+    lost_ = drawing_.lost() || error.code == ErrorCode::kLost;
+    if (lost_) {
+      error.code = ErrorCode::kLost;
+    }
+    return error;
   }
-  return false;
 }
 
-bool HostedVulkanRenderer::use(const EyeTargets& targets, std::string& error) {
-  return attempt(error, [&] {
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(physical_, &properties);
-    const std::string problem =
-        problem_of(targets, properties.limits.maxImageDimension2D, takes_layers());
-    if (!problem.empty()) {
-      throw std::runtime_error(problem);
-    }
-    if (!targets.depth_chains.empty() && depth_format_score(targets.depth_format) == 0) {
-      throw std::runtime_error("renderer: can't draw depth into VkFormat " +
-                               std::to_string(targets.depth_format));
-    }
-    if (format_score(targets.format) == 0) {
-      throw std::runtime_error("renderer: can't draw into VkFormat " +
-                               std::to_string(targets.format));
+Status HostedVulkanRenderer::check_images(const EyeImages& images) const {
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical_, &properties);
+  const Status shape = check_shape(images, properties.limits.maxImageDimension2D, takes_layers());
+  if (!shape) {
+    return shape;
+  }
+  if (!images.depth_chains.empty() && depth_format_score(images.depth_format) == 0) {
+    return Error{"renderer: can't draw depth into VkFormat " + std::to_string(images.depth_format)};
+  }
+  if (format_score(images.format) == 0) {
+    return Error{"renderer: can't draw into VkFormat " + std::to_string(images.format)};
+  }
+  return {};
+}
+
+void HostedVulkanRenderer::make_passes() {
+  TargetSpec spec;
+  spec.width = static_cast<std::uint32_t>(images_.width_px);
+  spec.height = static_cast<std::uint32_t>(images_.height_px);
+  spec.samples = options_.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+  spec.colour = static_cast<VkFormat>(images_.format);
+  spec.views = images_.layers;
+  spec.outer = outer_images(images_.chains);
+  auto pass = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
+                                          options_.blend);
+  if (!images_.depth_chains.empty()) {
+    spec.kind = PassKind::kDepth;
+    spec.depth = static_cast<VkFormat>(images_.depth_format);
+    spec.outer = outer_images(images_.depth_chains);
+    depth_pass_ = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
+                                              options_.blend);
+  }
+  pass_ = std::move(pass);
+}
+
+Status HostedVulkanRenderer::use(const EyeImages& images) {
+  return attempt([&]() -> Status {
+    if (const Status checked = check_images(images); !checked) {
+      return checked;
     }
     drawing_.wait_for_all();
     pass_.reset();
     depth_pass_.reset();
-    TargetSpec spec;
-    spec.width = static_cast<std::uint32_t>(targets.width_px);
-    spec.height = static_cast<std::uint32_t>(targets.height_px);
-    spec.samples = options_.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
-    spec.colour = static_cast<VkFormat>(targets.format);
-    spec.views = targets.layers;
-    spec.outer = outer_images(targets.chains);
-    pass_ = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
-                                        options_.blend);
-    if (!targets.depth_chains.empty()) {
-      spec.kind = PassKind::kDepth;
-      spec.depth = static_cast<VkFormat>(targets.depth_format);
-      spec.outer = outer_images(targets.depth_chains);
-      depth_pass_ = std::make_unique<FramePass>(device_, drawing_.cache(), drawing_.layout(), spec,
-                                                options_.blend);
-    }
-    targets_ = targets;
+    images_ = images;
+    make_passes();
+    return {};
   });
 }
 
-bool HostedVulkanRenderer::prepare(const Scene& scene, std::string& error) {
+Status HostedVulkanRenderer::prepare(const Scene& scene) {
   timing_ = {};
-  return attempt(error, [&] {
+  return attempt([&] {
     const auto start = std::chrono::steady_clock::now();
     drawing_.next_slot();
     timing_.gpu_ms = milliseconds_since(start);
-    if (const std::string problem = drawing_.take(scene); !problem.empty()) {
-      throw std::runtime_error(problem);
-    }
+    return drawing_.take(scene);
   });
 }
 
 void HostedVulkanRenderer::record(const std::vector<View>& views,
-                                  std::span<const std::uint32_t> images) {
+                                  std::span<const std::uint32_t> indices) {
   const FrameSlot& slot = drawing_.slot();
   const VkCommandBuffer batch = drawing_.slot().commands.begin();
   const std::size_t at_once = pass_->targets.spec().views;
-  const PixelSize size{targets_.width_px, targets_.height_px};
+  const PixelSize size{images_.width_px, images_.height_px};
   const Buffer nobody_reads;
   for (std::size_t first = 0; first < views.size(); first += at_once) {
     drawing_.place(std::span(views).subspan(first, at_once), first, size, false);
@@ -245,40 +253,42 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
       record_outer_frame(batch, {pass, slot.bindings, drawing_.meshes(), drawing_.items(),
                                  slot.line_indices, nobody_reads, 0, frame, false, outer});
     };
-    draw(*pass_, first * targets_.chains.front().size() + images[first]);
+    draw(*pass_, first * images_.chains.front().size() + indices[first]);
     if (depth_pass_) {
       draw(*depth_pass_,
-           first * targets_.depth_chains.front().size() + images[targets_.chains.size() + first]);
+           first * images_.depth_chains.front().size() + indices[images_.chains.size() + first]);
     }
   }
 }
 
-bool HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
-                                std::span<const std::uint32_t> images, std::string& error) {
-  const bool drawn = attempt(error, [&] {
+Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
+                                  std::span<const std::uint32_t> indices) {
+  Status drawn = attempt([&]() -> Status {
     const auto start = std::chrono::steady_clock::now();
-    if (const auto problem = problem_of_views(views)) {
-      throw std::runtime_error(*problem);
+    if (const Status checked = check_views(views); !checked) {
+      return checked;
     }
-    if (!pass_ || views.size() != kMostViews || !holds(targets_, images)) {
-      throw std::runtime_error("renderer: no such images of the host's");
+    if (!pass_ || views.size() != kMostViews || !holds(images_, indices)) {
+      return Error{"renderer: no such images of the host's"};
     }
-    drawing_.build(scene, views, {targets_.width_px, targets_.height_px});
-    record(views, images);
+    drawing_.build(scene, views, {images_.width_px, images_.height_px});
+    record(views, indices);
     timing_.record_ms = milliseconds_since(start);
     drawing_.slot().commands.submit();
     timing_.submit_ms = drawing_.slot().commands.submit_ms();
     timing_.total_ms = milliseconds_since(start);
+    return {};
   });
   drawing_.end_frame();
   return drawn;
 }
 
-bool HostedVulkanRenderer::finish(std::string& error) {
-  return attempt(error, [&] {
+Status HostedVulkanRenderer::finish() {
+  return attempt([&]() -> Status {
     drawing_.wait_for_all();
     pass_.reset();
     depth_pass_.reset();
+    return {};
   });
 }
 

@@ -17,7 +17,7 @@ class HostedVulkanRenderer final : public HostedRenderer {
  public:
   static constexpr std::size_t kFramesInFlight = 2;
 
-  /// Throws VulkanFailure or std::runtime_error with one line.
+  /// Throws Failure.
   HostedVulkanRenderer(const RendererOptions& options, VulkanHost& host);
   ~HostedVulkanRenderer() override;
   HostedVulkanRenderer(const HostedVulkanRenderer&) = delete;
@@ -27,11 +27,11 @@ class HostedVulkanRenderer final : public HostedRenderer {
   [[nodiscard]] int format_score(std::int64_t format) const override;
   [[nodiscard]] int depth_format_score(std::int64_t format) const override;
   [[nodiscard]] bool takes_layers() const override { return drawing_.views_a_pass() == 2; }
-  [[nodiscard]] bool use(const EyeTargets& targets, std::string& error) override;
-  [[nodiscard]] bool prepare(const Scene& scene, std::string& error) override;
-  [[nodiscard]] bool draw(const Scene& scene, const std::vector<View>& views,
-                          std::span<const std::uint32_t> images, std::string& error) override;
-  [[nodiscard]] bool finish(std::string& error) override;
+  Status use(const EyeImages& images) override;
+  Status prepare(const Scene& scene) override;
+  Status draw(const Scene& scene, const std::vector<View>& views,
+              std::span<const std::uint32_t> indices) override;
+  Status finish() override;
   [[nodiscard]] bool lost() const override { return lost_; }
   [[nodiscard]] const DeviceInfo& device() const override { return info_; }
   [[nodiscard]] FrameTiming last_timing() const override { return timing_; }
@@ -42,10 +42,12 @@ class HostedVulkanRenderer final : public HostedRenderer {
 
  private:
   template <class Work>
-  bool attempt(std::string& error, const Work& work);
+  Status attempt(const Work& work);
+  [[nodiscard]] Status check_images(const EyeImages& images) const;
+  void make_passes();
   void upload_blank_background();
   [[nodiscard]] bool offers(std::int64_t format, VkFormatFeatureFlags feature) const;
-  void record(const std::vector<View>& views, std::span<const std::uint32_t> images);
+  void record(const std::vector<View>& views, std::span<const std::uint32_t> indices);
 
   RendererOptions options_;
   Instance instance_;
@@ -54,7 +56,7 @@ class HostedVulkanRenderer final : public HostedRenderer {
   Device device_;
   SceneDrawing drawing_;
   DeviceImage background_;  ///< of one pixel: shaders want one bound
-  EyeTargets targets_;
+  EyeImages images_;
   std::unique_ptr<FramePass> pass_;
   std::unique_ptr<FramePass> depth_pass_;  ///< where the host wants depth
   FrameTiming timing_;

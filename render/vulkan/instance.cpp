@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
-#include "render/vulkan/handle.h"
+#include "render/vulkan/failure.h"
 #include "render/vulkan/keep_drivers.h"
 
 namespace orthonav::render {
@@ -62,6 +61,19 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>& mess
   return info;
 }
 
+constexpr std::array<VkValidationFeatureEnableEXT, 2> kEnabled = {
+    VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+    VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT};
+
+VkValidationFeaturesEXT features_for(const VkDebugUtilsMessengerCreateInfoEXT& listener) {
+  VkValidationFeaturesEXT features = {};
+  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+  features.pNext = &listener;
+  features.enabledValidationFeatureCount = static_cast<std::uint32_t>(kEnabled.size());
+  features.pEnabledValidationFeatures = kEnabled.data();
+  return features;
+}
+
 bool has_validation_layer() {
   std::uint32_t count = 0;
   if (vkEnumerateInstanceLayerProperties(&count, nullptr) != VK_SUCCESS) {
@@ -82,42 +94,37 @@ std::uint32_t api_version_for(const VulkanHost* host) {
   const auto [least, most] = host->versions();
   const auto packed = [](VulkanVersion v) { return VK_MAKE_API_VERSION(0, v.major, v.minor, 0); };
   if (packed(most) < VK_API_VERSION_1_1) {
-    throw std::runtime_error("renderer: the host allows Vulkan " + std::to_string(most.major) +
-                             "." + std::to_string(most.minor) + " at the most, needs 1.1");
+    throw Failure(Error{"renderer: the host allows Vulkan " + std::to_string(most.major) + "." +
+                        std::to_string(most.minor) + " at the most, needs 1.1"});
   }
   return std::max(packed(least), VK_API_VERSION_1_1);
 }
 
 VkInstance made_by(VulkanHost& host, const VkInstanceCreateInfo& info) {
-  std::string error;
-  void* instance =
-      host.create_instance(reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr), &info, error);
-  if (instance == nullptr) {
-    throw std::runtime_error(error);
-  }
-  return static_cast<VkInstance>(instance);
+  const auto get = reinterpret_cast<VulkanFunction>(vkGetInstanceProcAddr);
+  return static_cast<VkInstance>(value_of(handle_of(host.create_instance(get, &info))));
 }
 
 }  // namespace
 
+Result<void*> handle_of(Result<void*> answer) {
+  if (answer && *answer == nullptr) {
+    return Error{"renderer: the host answers with a null handle"};
+  }
+  return answer;
+}
+
 Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
     : messages_(messages ? std::move(messages) : std::make_shared<std::vector<std::string>>()) {
   if (validation && !has_validation_layer()) {
-    throw VulkanFailure(VK_ERROR_LAYER_NOT_PRESENT, "validation layer");
+    throw Failure(VK_ERROR_LAYER_NOT_PRESENT, "validation layer");
   }
   VkApplicationInfo application = {};
   application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   application.pApplicationName = "orthonav";
   application.apiVersion = api_version_for(host);
   VkDebugUtilsMessengerCreateInfoEXT listener = messenger_info(*messages_);
-  const std::array<VkValidationFeatureEnableEXT, 2> enabled = {
-      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
-      VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT};
-  VkValidationFeaturesEXT features = {};
-  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-  features.pNext = &listener;
-  features.enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size());
-  features.pEnabledValidationFeatures = enabled.data();
+  const VkValidationFeaturesEXT features = features_for(listener);
   const std::array<const char*, 2> extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
                                                  VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   VkInstanceCreateInfo info = {};
@@ -143,7 +150,7 @@ Instance::Instance(bool validation, MessageSink messages, VulkanHost* host)
       vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
   if (create == nullptr || create(instance_, &listener, nullptr, &messenger_) != VK_SUCCESS) {
     vkDestroyInstance(instance_, nullptr);
-    throw VulkanFailure(VK_ERROR_EXTENSION_NOT_PRESENT, "validation messages");
+    throw Failure(VK_ERROR_EXTENSION_NOT_PRESENT, "validation messages");
   }
 }
 

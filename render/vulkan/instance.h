@@ -11,12 +11,14 @@
 
 namespace orthonav::render {
 
+/// A host's answer, in which a null handle is an Error too.
+[[nodiscard]] Result<void*> handle_of(Result<void*> answer);
+
 /// The door to Vulkan: an instance, with the validation layer listening where it is asked for.
 class Instance {
  public:
-  /// Throws VulkanFailure when there is no Vulkan here, or no validation layer where asked for.
-  /// Messages go to `messages`, or to a sink of its own where that is empty. With a host it is the
-  /// host who makes it.
+  /// Throws Failure when there is no Vulkan here, or no validation layer where asked for. Messages
+  /// go to `messages`, or to a sink of its own if that is empty. With a host, the host makes it.
   explicit Instance(bool validation, MessageSink messages = nullptr, VulkanHost* host = nullptr);
   ~Instance();
   Instance(const Instance&) = delete;

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "base/check.h"
+#include "render/vulkan/failure.h"
 
 namespace orthonav::render {
 namespace {

@@ -76,10 +76,10 @@ bool MeshCache::touch(const std::shared_ptr<const MeshData>& mesh) {
   return false;
 }
 
-std::string MeshCache::add(const Device& device, Commands& commands,
-                           const std::shared_ptr<const MeshData>& mesh, const MeshDetail& detail) {
-  if (const auto problem = problem_of_mesh(*mesh)) {
-    return *problem;
+Status MeshCache::add(const Device& device, Commands& commands,
+                      const std::shared_ptr<const MeshData>& mesh, const MeshDetail& detail) {
+  if (const Status checked = check_mesh(*mesh); !checked) {
+    return checked;
   }
   Entry entry;
   entry.mesh = mesh;

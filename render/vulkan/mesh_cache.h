@@ -1,9 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "render/renderer.h"
 #include "render/screen_bounds.h"
 #include "render/vulkan/commands.h"
@@ -36,10 +36,10 @@ class MeshCache {
   /// The copy of a mesh, or nullptr.
   [[nodiscard]] const GpuMesh* find(const std::shared_ptr<const MeshData>& mesh) const;
   /// Checks and uploads a mesh that has no copy yet, with as many triangles as `detail` asks for.
-  /// Its problem comes back as a line; empty: none.
-  [[nodiscard]] std::string add(const Device& device, Commands& commands,
-                                const std::shared_ptr<const MeshData>& mesh,
-                                const MeshDetail& detail = {});
+  /// Throws Failure where the device fails.
+  [[nodiscard]] Status add(const Device& device, Commands& commands,
+                           const std::shared_ptr<const MeshData>& mesh,
+                           const MeshDetail& detail = {});
   /// Marks the frame's end: drops what is unused.
   void end_frame();
   /// Marks a mesh as used in this frame; false when it has no copy yet.

@@ -12,6 +12,8 @@
 #include <system_error>
 #include <vector>
 
+#include "render/vulkan/failure.h"
+
 namespace orthonav::render {
 namespace {
 

@@ -17,6 +17,7 @@
 #include "embedded/text_label_frag.h"
 #include "embedded/text_vert.h"
 #include "embedded/triangle_vert.h"
+#include "render/vulkan/failure.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {

@@ -131,13 +131,12 @@ bool SceneDrawing::lost() const {
                      [](const auto& slot) { return slot->commands.lost(); });
 }
 
-std::string SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
+Status SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
   const Matrix4& place = item.world_from_model;
   MeshDetail detail;
   detail.error = options_.surface_error_m / length({place[0], place[1], place[2]});
-  std::string flaw = meshes_.add(device_, slot().commands, item.mesh, detail);
-  if (!flaw.empty()) {
-    return flaw;
+  if (const Status added = meshes_.add(device_, slot().commands, item.mesh, detail); !added) {
+    return Error{name + ": " + added.error().message, added.error().code};
   }
   const std::size_t drawn = meshes_.find(item.mesh)->index_count / 3;
   const std::size_t given = item.mesh->indices.size() / 3;
@@ -170,9 +169,9 @@ void SceneDrawing::note_missing_glyphs(const Scene& scene) {
   }
 }
 
-std::string SceneDrawing::take(const Scene& scene) {
-  if (const auto problem = problem_of_scene(scene)) {
-    return *problem;
+Status SceneDrawing::take(const Scene& scene) {
+  if (const Status checked = check_scene(scene); !checked) {
+    return checked;
   }
   for (const MeshItem& item : scene.meshes) {
     if (meshes_.touch(item.mesh)) {
@@ -180,9 +179,8 @@ std::string SceneDrawing::take(const Scene& scene) {
     }
     const std::string name = "scene: mesh " + std::to_string(&item - scene.meshes.data()) +
                              " (label " + std::to_string(item.label) + ")";
-    const std::string flaw = add_mesh(item, name);
-    if (!flaw.empty()) {
-      return name + ": " + flaw;
+    if (const Status added = add_mesh(item, name); !added) {
+      return added;
     }
   }
   note_missing_glyphs(scene);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/result.h"
 #include "render/frame_items.h"
 #include "render/renderer.h"
 #include "render/vulkan/bindings.h"
@@ -34,7 +35,7 @@ struct FrameSlot {
 /// in the slots. After the first frames it allocates nothing.
 class SceneDrawing {
  public:
-  /// Throws VulkanFailure or std::runtime_error with one line. `device` must outlive it.
+  /// Throws Failure, as its other calls do where the device fails. `device` must outlive it.
   SceneDrawing(const RendererOptions& options, const Device& device, VkPhysicalDevice physical,
                std::size_t slots);
 
@@ -50,8 +51,8 @@ class SceneDrawing {
   void wait_for_all();
   [[nodiscard]] bool lost() const;
 
-  /// Checks the scene and uploads its meshes; its problem as a line, or empty.
-  std::string take(const Scene& scene);
+  /// Checks the scene and uploads its meshes.
+  [[nodiscard]] Status take(const Scene& scene);
   /// Lays the scene out for these views in images of this size, into the current slot.
   void build(const Scene& scene, const std::vector<View>& views, PixelSize size);
   /// Of the pass whose first view is `first`: places its items and tells the shaders of its views.
@@ -69,7 +70,7 @@ class SceneDrawing {
  private:
   void upload_atlas();
   void prepare_data();
-  std::string add_mesh(const MeshItem& item, const std::string& name);
+  Status add_mesh(const MeshItem& item, const std::string& name);
   void note(std::string line);
   void note_missing_glyphs(const Scene& scene);
 

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "render/vulkan/failure.h"
+
 namespace orthonav::render {
 namespace {
 
@@ -36,7 +38,7 @@ VkSubpassDependency before_drawing() {
   return dependency;
 }
 
-/// Before the result is copied; before somebody else samples or copies his image.
+/// Before the result is copied; before the host samples or copies its image.
 VkSubpassDependency before_reading(bool outer) {
   VkSubpassDependency dependency = {};
   dependency.dstSubpass = VK_SUBPASS_EXTERNAL;

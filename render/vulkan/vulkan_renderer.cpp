@@ -2,32 +2,28 @@
 
 #include <chrono>
 #include <cstring>
-#include <new>
+#include <exception>
 #include <span>
-#include <stdexcept>
-#include <utility>
 
 #include "render/scene_check.h"
 #include "render/vulkan/elapsed.h"
+#include "render/vulkan/failure.h"
 #include "render/vulkan/readback.h"
 
 namespace orthonav::render {
 namespace {
 
-RendererOptions checked(const RendererOptions& options) {
-  if (const auto problem = problem_of_options(options)) {
-    throw std::runtime_error(*problem);
+/// The device to draw with, if it can hold the images.
+Result<VkPhysicalDevice> fitting_device(const Instance& instance, const RendererOptions& options) {
+  const auto physical = choose_device(instance, options.device);
+  if (!physical) {
+    return physical;
   }
-  return options;
-}
-
-/// The device, where it can hold the images.
-VkPhysicalDevice fitting(VkPhysicalDevice physical, const RendererOptions& options) {
   VkPhysicalDeviceProperties properties;
-  vkGetPhysicalDeviceProperties(physical, &properties);
-  const auto problem = problem_of_size(properties.limits, options.width_px, options.height_px);
-  if (problem) {
-    throw std::runtime_error(*problem);
+  vkGetPhysicalDeviceProperties(*physical, &properties);
+  const Status fits = check_size(properties.limits, options.width_px, options.height_px);
+  if (!fits) {
+    return fits.error();
   }
   return physical;
 }
@@ -35,9 +31,9 @@ VkPhysicalDevice fitting(VkPhysicalDevice physical, const RendererOptions& optio
 }  // namespace
 
 VulkanRenderer::VulkanRenderer(const RendererOptions& options)
-    : options_(checked(options)),
+    : options_(options),
       instance_(options.validation, options.messages),
-      physical_(fitting(choose_device(instance_, options.device), options)),
+      physical_(value_of(fitting_device(instance_, options))),
       info_(describe(physical_)),
       device_(physical_),
       drawing_(options, device_, physical_, 1) {
@@ -92,18 +88,18 @@ const FramePass& VulkanRenderer::pass_for(PassKind kind, std::size_t views) {
   return *pass;
 }
 
-std::string VulkanRenderer::problem_of(const Scene& scene, const std::vector<View>& views,
-                                       const std::vector<const RgbaImage*>& backgrounds) {
+Status VulkanRenderer::take_input(const Scene& scene, const std::vector<View>& views,
+                                  const std::vector<const RgbaImage*>& backgrounds) {
   if (lost_) {
-    return "renderer: device lost";
+    return Error{"renderer: device lost", ErrorCode::kLost};
   }
-  if (const auto problem = problem_of_views(views)) {
-    return *problem;
+  if (const Status checked = check_views(views); !checked) {
+    return checked;
   }
-  const auto problem =
-      problem_of_backgrounds(backgrounds, views, options_.width_px, options_.height_px);
-  if (problem) {
-    return *problem;
+  const Status checked =
+      check_backgrounds(backgrounds, views, options_.width_px, options_.height_px);
+  if (!checked) {
+    return checked;
   }
   return drawing_.take(scene);
 }
@@ -121,57 +117,51 @@ void VulkanRenderer::read_back(std::size_t views, std::vector<Picture>& pictures
   timing_.read_ms = milliseconds_since(start);
 }
 
-/// The line for the exception in flight.
-std::string VulkanRenderer::line_of_failure() {
-  try {
-    throw;
-  } catch (const VulkanFailure& failure) {
-    lost_ = lost_ || drawing_.lost() || failure.result() == VK_ERROR_DEVICE_LOST;
-    return failure.what();
-  } catch (const std::runtime_error& refusal) {
-    return refusal.what();
-  } catch (const std::bad_alloc&) {
-    return "renderer: out of host memory";
-  } catch (const std::exception& failure) {
-    return std::string("renderer: ") + failure.what();
-  }
-}
-
 /// Nothing thrown leaves it, and a frame ends for the meshes however it ended.
 template <class Work>
-bool VulkanRenderer::attempt(std::string& error, const Work& work) {
+Status VulkanRenderer::attempt(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   timing_ = {};
-  bool drawn = false;
+  Status drawn;
   try {
-    work();
-    drawn = true;
+    drawn = work();
   } catch (const std::exception&) {
-    error = line_of_failure();
+    Error error = error_in_flight();
+    lost_ = lost_ || drawing_.lost() || error.code == ErrorCode::kLost;
+    if (lost_) {
+      error.code = ErrorCode::kLost;
+    }
+    drawn = error;
   }
   drawing_.end_frame();
   timing_.total_ms = milliseconds_since(start);
   return drawn;
 }
 
-bool VulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
-                          const std::vector<const RgbaImage*>& backgrounds,
-                          std::vector<RgbaImage>& images, std::string& error) {
-  return attempt(error, [&] {
-    draw_into(PassKind::kColour, scene, views, backgrounds);
+Status VulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
+                            const std::vector<const RgbaImage*>& backgrounds,
+                            std::vector<RgbaImage>& images) {
+  return attempt([&]() -> Status {
+    if (const Status drawn = draw_into(PassKind::kColour, scene, views, backgrounds); !drawn) {
+      return drawn;
+    }
     read_back(views.size(), images, [&](std::size_t i, const std::byte* drawn, RgbaImage& image) {
       take(drawn, drawn_[i], backgrounds.empty() ? nullptr : backgrounds[i], image);
     });
+    return {};
   });
 }
 
-bool VulkanRenderer::draw_labels(const Scene& scene, const std::vector<View>& views,
-                                 std::vector<LabelImage>& images, std::string& error) {
-  return attempt(error, [&] {
-    draw_into(PassKind::kLabels, scene, views, {});
+Status VulkanRenderer::draw_labels(const Scene& scene, const std::vector<View>& views,
+                                   std::vector<LabelImage>& images) {
+  return attempt([&]() -> Status {
+    if (const Status drawn = draw_into(PassKind::kLabels, scene, views, {}); !drawn) {
+      return drawn;
+    }
     read_back(views.size(), images, [&](std::size_t i, const std::byte* drawn, LabelImage& image) {
       take(drawn, drawn_[i], image);
     });
+    return {};
   });
 }
 

@@ -14,17 +14,17 @@ namespace orthonav::render {
 /// Draws one frame after the other, each to its end, out of buffers that are kept.
 class VulkanRenderer final : public Renderer {
  public:
-  /// Throws VulkanFailure or std::runtime_error with one line.
+  /// Of checked options. Throws Failure.
   explicit VulkanRenderer(const RendererOptions& options);
   ~VulkanRenderer() override;
   VulkanRenderer(const VulkanRenderer&) = delete;
   VulkanRenderer& operator=(const VulkanRenderer&) = delete;
 
-  [[nodiscard]] bool draw(const Scene& scene, const std::vector<View>& views,
-                          const std::vector<const RgbaImage*>& backgrounds,
-                          std::vector<RgbaImage>& images, std::string& error) override;
-  [[nodiscard]] bool draw_labels(const Scene& scene, const std::vector<View>& views,
-                                 std::vector<LabelImage>& images, std::string& error) override;
+  Status draw(const Scene& scene, const std::vector<View>& views,
+              const std::vector<const RgbaImage*>& backgrounds,
+              std::vector<RgbaImage>& images) override;
+  Status draw_labels(const Scene& scene, const std::vector<View>& views,
+                     std::vector<LabelImage>& images) override;
   [[nodiscard]] const DeviceInfo& device() const override { return info_; }
   [[nodiscard]] FrameTiming last_timing() const override { return timing_; }
   [[nodiscard]] const std::vector<std::string>& validation_messages() const override {
@@ -34,14 +34,14 @@ class VulkanRenderer final : public Renderer {
 
  private:
   template <class Work>
-  bool attempt(std::string& error, const Work& work);
-  std::string line_of_failure();
-  void draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                 const std::vector<const RgbaImage*>& backgrounds);
+  Status attempt(const Work& work);
+  Status draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
+                   const std::vector<const RgbaImage*>& backgrounds);
   template <class Picture, class Take>
   void read_back(std::size_t views, std::vector<Picture>& pictures, const Take& take_picture);
-  std::string problem_of(const Scene& scene, const std::vector<View>& views,
-                         const std::vector<const RgbaImage*>& backgrounds);
+  /// Checks everything and uploads the scene's meshes.
+  Status take_input(const Scene& scene, const std::vector<View>& views,
+                    const std::vector<const RgbaImage*>& backgrounds);
   const FramePass& pass_for(PassKind kind, std::size_t views);
   void record_pass(VkCommandBuffer batch, PassKind kind, std::span<const View> views,
                    std::span<const RgbaImage* const> backgrounds, std::size_t first);

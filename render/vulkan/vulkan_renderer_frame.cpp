@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 
 #include "render/vulkan/elapsed.h"
 #include "render/vulkan/gpu_types.h"
 #include "render/vulkan/vulkan_renderer.h"
 
 namespace orthonav::render {
+
 /// The parts of them that shaders will look at, for the pass whose first view is `first`.
 void VulkanRenderer::upload_backgrounds(VkCommandBuffer batch,
                                         std::span<const RgbaImage* const> backgrounds,
@@ -45,12 +45,11 @@ void VulkanRenderer::record_pass(VkCommandBuffer batch, PassKind kind, std::span
                        static_cast<std::uint32_t>(first * kFrameStride), !backgrounds.empty()});
 }
 
-void VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
-                               const std::vector<const RgbaImage*>& backgrounds) {
+Status VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
+                                 const std::vector<const RgbaImage*>& backgrounds) {
   const auto start = std::chrono::steady_clock::now();
-  const std::string problem = problem_of(scene, views, backgrounds);
-  if (!problem.empty()) {
-    throw std::runtime_error(problem);
+  if (const Status taken = take_input(scene, views, backgrounds); !taken) {
+    return taken;
   }
   drawing_.build(scene, views, size());
   const std::size_t at_once = std::min(views.size(), drawing_.views_a_pass());
@@ -65,6 +64,7 @@ void VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vec
   commands.run();
   timing_.submit_ms = commands.submit_ms();
   timing_.gpu_ms = milliseconds_since(start) - timing_.record_ms - timing_.submit_ms;
+  return {};
 }
 
 }  // namespace orthonav::render

@@ -58,10 +58,8 @@ TEST(Background, ReachesBothEyes) {
   const RgbaImage left = plain_background(200, 0, 0);
   const RgbaImage right = plain_background(0, 0, 200);
   std::vector<RgbaImage> images;
-  std::string error;
-  ASSERT_TRUE(renderer->draw({}, stereo_pair(TestRenderer::straight_ahead()), {&left, &right},
-                             images, error))
-      << error;
+  ASSERT_TRUE(test::is_ok(
+      renderer->draw({}, stereo_pair(TestRenderer::straight_ahead()), {&left, &right}, images)));
   EXPECT_EQ(images.at(0), left);
   EXPECT_EQ(images.at(1), right);
 }

@@ -169,46 +169,43 @@ TEST_F(BadScene, ViewsAreChecked) {
   view.tan_up = 0;
   EXPECT_THAT(renderer_.error_of(scene_, view), HasSubstr("tangent"));
   std::vector<RgbaImage> images;
-  std::string error;
-  EXPECT_FALSE(renderer_->draw(scene_, {}, {}, images, error));
-  EXPECT_EQ(error, "views: 0, expected 1 or 2");
-  EXPECT_FALSE(renderer_->draw(scene_, std::vector<View>(3), {}, images, error));
-  EXPECT_EQ(error, "views: 3, expected 1 or 2");
+  EXPECT_EQ(test::error_of(renderer_->draw(scene_, {}, {}, images)), "views: 0, expected 1 or 2");
+  EXPECT_EQ(test::error_of(renderer_->draw(scene_, std::vector<View>(3), {}, images)),
+            "views: 3, expected 1 or 2");
 }
 
 TEST_F(BadScene, BackgroundsOfTheWrongSizeAreRefused) {
   RgbaImage background{100, 120, std::vector<std::uint8_t>(4 * 100 * 120)};
   std::vector<RgbaImage> images;
-  std::string error;
   const std::vector<View> views = {TestRenderer::straight_ahead()};
-  EXPECT_FALSE(renderer_->draw(scene_, views, {&background}, images, error));
-  EXPECT_THAT(error, HasSubstr("background 0: 100x120 px"));
-  EXPECT_THAT(error, HasSubstr("expected 200x120 px"));
-  EXPECT_FALSE(renderer_->draw(scene_, views, {nullptr}, images, error));
-  EXPECT_EQ(error, "background 0 is missing");
-  EXPECT_FALSE(renderer_->draw(scene_, views, {&background, &background}, images, error));
-  EXPECT_EQ(error, "backgrounds: 2 for 1 views");
+  const auto error_with = [&](const std::vector<const RgbaImage*>& backgrounds) {
+    return test::error_of(renderer_->draw(scene_, views, backgrounds, images));
+  };
+  EXPECT_THAT(error_with({&background}), HasSubstr("background 0: 100x120 px"));
+  EXPECT_THAT(error_with({&background}), HasSubstr("expected 200x120 px"));
+  EXPECT_EQ(error_with({nullptr}), "background 0 is missing");
+  EXPECT_EQ(error_with({&background, &background}), "backgrounds: 2 for 1 views");
 }
 
 TEST(BadOptions, AreOneLineEach) {
-  std::string error;
   RendererOptions options;
   options.width_px = 0;
-  EXPECT_EQ(Renderer::create(options, error), nullptr);
-  EXPECT_EQ(error, "renderer: image side 0 px, expected 16 to 8192");
+  EXPECT_EQ(test::error_of(Renderer::create(options)),
+            "renderer: image side 0 px, expected 16 to 8192");
   options = {};
   options.samples = 3;
-  EXPECT_EQ(Renderer::create(options, error), nullptr);
-  EXPECT_EQ(error, "renderer: 3 samples, expected 1 or 4");
+  EXPECT_EQ(test::error_of(Renderer::create(options)), "renderer: 3 samples, expected 1 or 4");
 }
 
 TEST(BadOptions, UnknownDeviceListsWhatThereIs) {
-  std::string error;
   RendererOptions options;
   options.device = "no such card";
-  EXPECT_EQ(Renderer::create(options, error), nullptr);
-  EXPECT_THAT(error, HasSubstr("no usable Vulkan device named 'no such card'; there is: "));
-  EXPECT_THAT(error, HasSubstr("llvmpipe"));
+  const auto renderer = Renderer::create(options);
+  ASSERT_FALSE(renderer.ok());
+  EXPECT_THAT(renderer.error().message,
+              HasSubstr("no usable Vulkan device named 'no such card'; there is: "));
+  EXPECT_THAT(renderer.error().message, HasSubstr("llvmpipe"));
+  EXPECT_EQ(renderer.error().code, ErrorCode::kNotFound);
 }
 
 TEST(Devices, AreListedWithTheSoftwareRasterizer) {
@@ -226,10 +223,9 @@ TEST(NoDeviceDeathTest, IsOneLine) {
         for (const char* name : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES"}) {
           setenv(name, "/none.json", 1);
         }
-        std::string error;
-        const auto renderer = Renderer::create({}, error);
-        std::fprintf(stderr, "%s|%zu\n", error.c_str(), list_devices().size());
-        std::_Exit(renderer == nullptr ? 0 : 1);
+        const auto renderer = Renderer::create({});
+        std::fprintf(stderr, "%s|%zu\n", test::error_of(renderer).c_str(), list_devices().size());
+        std::_Exit(renderer ? 1 : 0);
       },
       ::testing::ExitedWithCode(0), "renderer: .*no Vulkan (driver|device).*\\|0");
 }

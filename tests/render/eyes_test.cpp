@@ -16,8 +16,7 @@ TEST(Eyes, TogetherSeeWhatEachSeesAlone) {
   scene.triangles = {scene.triangles[0]};
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
   std::vector<RgbaImage> both;
-  std::string error;
-  ASSERT_TRUE(renderer->draw(scene, eyes, {}, both, error)) << error;
+  ASSERT_TRUE(test::is_ok(renderer->draw(scene, eyes, {}, both)));
   EXPECT_EQ(both.at(0), renderer.draw(scene, eyes[0]));
   EXPECT_EQ(both.at(1), renderer.draw(scene, eyes[1]));
   EXPECT_NE(both.at(0), both.at(1)) << "the twin";
@@ -28,9 +27,8 @@ TEST(Eyes, BothSeeASurfaceThatFillsTheView) {
   Scene scene;
   scene.triangles.push_back({501, {Float3{-9, -9, -1}, {9, -9, -1}, {0, 9, -1}}, {}});
   std::vector<LabelImage> labels;
-  std::string error;
-  ASSERT_TRUE(
-      renderer->draw_labels(scene, stereo_pair(TestRenderer::straight_ahead()), labels, error));
+  ASSERT_TRUE(test::is_ok(
+      renderer->draw_labels(scene, stereo_pair(TestRenderer::straight_ahead()), labels)));
   for (const LabelImage& eye : labels) {
     EXPECT_EQ(extent_of(eye, 501)->pixels, 200u * 120u);
   }
@@ -53,9 +51,8 @@ TEST(Eyes, InOnePassSeeWhatTheySeeInTurn) {
     TestRenderer in_turn(200, 120, blend, 4, EyesAPass::kOne);
     std::vector<RgbaImage> expected;
     std::vector<RgbaImage> actual;
-    std::string error;
-    ASSERT_TRUE(in_turn->draw(scene, eyes, {}, expected, error)) << error;
-    ASSERT_TRUE(together->draw(scene, eyes, {}, actual, error)) << error;
+    ASSERT_TRUE(test::is_ok(in_turn->draw(scene, eyes, {}, expected)));
+    ASSERT_TRUE(test::is_ok(together->draw(scene, eyes, {}, actual)));
     for (std::size_t eye = 0; eye < 2; ++eye) {
       const ColourDifference difference = compare_colour(expected.at(eye), actual.at(eye));
       EXPECT_TRUE(difference.alike()) << eye << ": " << difference.text();
@@ -70,9 +67,8 @@ TEST(Eyes, InOnePassHaveTheLabelsThatTheyHaveInTurn) {
   TestRenderer in_turn(200, 120, Blend::kAdditive, 4, EyesAPass::kOne);
   std::vector<LabelImage> expected;
   std::vector<LabelImage> actual;
-  std::string error;
-  ASSERT_TRUE(in_turn->draw_labels(meshes_and_texts(), eyes, expected, error)) << error;
-  ASSERT_TRUE(together->draw_labels(meshes_and_texts(), eyes, actual, error)) << error;
+  ASSERT_TRUE(test::is_ok(in_turn->draw_labels(meshes_and_texts(), eyes, expected)));
+  ASSERT_TRUE(test::is_ok(together->draw_labels(meshes_and_texts(), eyes, actual)));
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const LabelDifference difference = compare_labels(expected.at(eye), actual.at(eye));
     EXPECT_TRUE(difference.alike()) << eye << ": " << difference.text();
@@ -100,8 +96,7 @@ TEST(Eyes, OfUnevenAnglesEachHaveTheirOwnScale) {
   for (const EyesAPass passes : {EyesAPass::kTwo, EyesAPass::kOne}) {
     TestRenderer renderer(200, 120, Blend::kAdditive, 4, passes);
     std::vector<LabelImage> layers;
-    std::string error;
-    ASSERT_TRUE(renderer->draw_labels(scene, eyes, layers, error)) << error;
+    ASSERT_TRUE(test::is_ok(renderer->draw_labels(scene, eyes, layers)));
     const LabelImage labels = joined(layers);
     const auto height_at = [&](int x_px) {
       int height_px = 0;

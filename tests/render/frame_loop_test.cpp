@@ -35,22 +35,22 @@ TEST(FrameLoop, AllocatesNothingAfterTheFirstFrames) {
   options.height_px = 120;
   options.device = "llvmpipe";
   options.cache_folder = "";
-  std::string error;
-  const auto renderer = Renderer::create(options, error);
-  ASSERT_NE(renderer, nullptr) << error;
+  const auto made = Renderer::create(options);
+  ASSERT_TRUE(test::is_ok(made));
+  Renderer& renderer = **made;
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
   const std::vector<Scene> scenes = {moving_scene(0.00f), moving_scene(0.03f), moving_scene(0.05f)};
   std::vector<RgbaImage> images;
   for (const Scene& scene : scenes) {
-    ASSERT_TRUE(renderer->draw(scene, eyes, {}, images, error));
+    ASSERT_TRUE(test::is_ok(renderer.draw(scene, eyes, {}, images)));
   }
   const std::size_t before = test::allocation_count();
   bool drawn = true;
   for (int i = 0; i < 6; ++i) {
-    drawn = renderer->draw(scenes[i % 3], eyes, {}, images, error) && drawn;
+    drawn = renderer.draw(scenes[i % 3], eyes, {}, images).ok() && drawn;
   }
   const std::size_t after = test::allocation_count();
-  EXPECT_TRUE(drawn) << error;
+  EXPECT_TRUE(drawn);
   EXPECT_EQ(after, before);
   const Scene copy = scenes[0];
   EXPECT_GT(test::allocation_count(), after)
@@ -62,10 +62,9 @@ TEST(FrameLoop, IsValid) {
   TestRenderer renderer;
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
   std::vector<RgbaImage> images;
-  std::string error;
   for (int i = 0; i < 9; ++i) {
     const Scene scene = moving_scene(0.02f * static_cast<float>(i % 3));
-    EXPECT_TRUE(renderer->draw(scene, eyes, {}, images, error)) << error;
+    EXPECT_TRUE(test::is_ok(renderer->draw(scene, eyes, {}, images)));
   }
 }
 
@@ -74,15 +73,15 @@ TEST(FrameLoop, TellsARefusalWhenMemoryForTheImagesIsMissing) {
   const std::vector<View> views = {TestRenderer::straight_ahead()};
   const Scene scene = moving_scene(0);
   std::vector<RgbaImage> images;
-  std::string error;
-  ASSERT_TRUE(renderer->draw(scene, views, {}, images, error)) << error;
+  ASSERT_TRUE(test::is_ok(renderer->draw(scene, views, {}, images)));
   images.clear();
+  Status drawn;
   {
     const test::AllocationLimit limit(50000);  // an image has 96000 bytes
-    EXPECT_FALSE(renderer->draw(scene, views, {}, images, error));
+    drawn = renderer->draw(scene, views, {}, images);
   }
-  EXPECT_EQ(error, "renderer: out of host memory");
-  EXPECT_TRUE(renderer->draw(scene, views, {}, images, error)) << error;
+  EXPECT_EQ(test::error_of(drawn), "renderer: out of host memory");
+  EXPECT_TRUE(test::is_ok(renderer->draw(scene, views, {}, images)));
 }
 
 TEST(FrameLoop, LetsGoOfMeshesThoughEveryFrameIsRefused) {
@@ -115,7 +114,7 @@ class MeshCacheTest : public ::testing::Test {
  protected:
   SilentValidation validation_;
   Instance instance_{true, validation_.sink()};
-  Device device_{choose_device(instance_, "llvmpipe")};
+  Device device_{choose_device(instance_, "llvmpipe").value()};
   Commands commands_{device_};
   MeshCache cache_;
 };
@@ -123,7 +122,7 @@ class MeshCacheTest : public ::testing::Test {
 TEST_F(MeshCacheTest, KeepsOneCopyAMeshAndDropsItWithItsLastOwner) {
   auto mesh = std::make_shared<const MeshData>(make_sphere(0.05f));
   EXPECT_FALSE(cache_.touch(mesh));
-  EXPECT_EQ(cache_.add(device_, commands_, mesh), "");
+  EXPECT_TRUE(test::is_ok(cache_.add(device_, commands_, mesh)));
   EXPECT_TRUE(cache_.touch(mesh));
   cache_.end_frame();
   EXPECT_EQ(cache_.size(), 1u);
@@ -137,8 +136,8 @@ TEST_F(MeshCacheTest, KeepsOneCopyAMeshAndDropsItWithItsLastOwner) {
 TEST_F(MeshCacheTest, DropsWhatIsNotDrawnForLong) {
   const auto drawn = std::make_shared<const MeshData>(make_sphere(0.05f));
   const auto idle = std::make_shared<const MeshData>(make_sphere(0.06f));
-  EXPECT_EQ(cache_.add(device_, commands_, drawn), "");
-  EXPECT_EQ(cache_.add(device_, commands_, idle), "");
+  EXPECT_TRUE(test::is_ok(cache_.add(device_, commands_, drawn)));
+  EXPECT_TRUE(test::is_ok(cache_.add(device_, commands_, idle)));
   for (int frame = 0; frame < 400; ++frame) {
     cache_.touch(drawn);
     cache_.end_frame();

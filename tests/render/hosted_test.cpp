@@ -24,9 +24,9 @@ struct Hosted {
     options.messages = validation.sink();
     options.eyes_a_pass = eyes;
     options.cache_folder = "";
-    std::string error;
-    renderer = HostedRenderer::create(options, host, error);
-    EXPECT_NE(renderer, nullptr) << error;
+    auto made = HostedRenderer::create(options, host);
+    EXPECT_TRUE(test::is_ok(made));
+    renderer = std::move(*made);
   }
   SilentValidation validation;
   TestHost host;
@@ -37,17 +37,15 @@ std::vector<View> eyes() { return stereo_pair(TestRenderer::straight_ahead()); }
 
 void draw(HostedRenderer& renderer, const Scene& scene, const std::vector<View>& views,
           const std::vector<std::uint32_t>& images) {
-  std::string error;
-  ASSERT_TRUE(renderer.prepare(scene, error)) << error;
-  ASSERT_TRUE(renderer.draw(scene, views, images, error)) << error;
+  ASSERT_TRUE(test::is_ok(renderer.prepare(scene)));
+  ASSERT_TRUE(test::is_ok(renderer.draw(scene, views, images)));
 }
 
 std::vector<RgbaImage> as_drawn_into_images(const Scene& scene, const std::vector<View>& views,
                                             Blend blend, int samples) {
   TestRenderer plain(kWidth_px, kHeight_px, blend, samples);
   std::vector<RgbaImage> images;
-  std::string error;
-  EXPECT_TRUE(plain->draw(scene, views, {}, images, error)) << error;
+  EXPECT_TRUE(test::is_ok(plain->draw(scene, views, {}, images)));
   return images;
 }
 
@@ -72,13 +70,12 @@ TEST_P(HostedRendererInEveryWay, DrawsTheSameBitsAsIntoImages) {
   Hosted hosted(Blend::kAdditive, way.samples, way.eyes);
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px,
                     way.layers);
-  std::string error;
-  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
   draw(*hosted.renderer, scene, eyes(), std::vector<std::uint32_t>(2 / way.layers, 1));
   const auto drawn = both(images, 1);
   EXPECT_TRUE(drawn[0] == expected[0].pixels);
   EXPECT_TRUE(drawn[1] == expected[1].pixels);
-  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+  EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Hosts, HostedRendererInEveryWay,
@@ -94,21 +91,19 @@ TEST(HostedRenderer, DrawsBothLayersInOnePass) {
   const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, 1);
   Hosted hosted(Blend::kAdditive, 1, EyesAPass::kTwo);
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 2);
-  std::string error;
-  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
   draw(*hosted.renderer, scene, eyes(), {1});
   const auto drawn = both(images, 1);
   EXPECT_TRUE(drawn[0] == expected[0].pixels);
   EXPECT_TRUE(drawn[1] == expected[1].pixels);
   EXPECT_FALSE(drawn[0] == drawn[1]);
-  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+  EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
 TEST(HostedRenderer, KeepsTwoFramesInFlightApart) {
   Hosted hosted;
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
-  std::string error;
-  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
   // The first frame's mesh is gone before the second is recorded: its copy must not be.
   Scene first = sphere_scene(MeshStyle::kSolid, {1, 0, 0, 1}, {-0.1f, 0, -1}, 301);
   const Scene copy_of_first = sphere_scene(MeshStyle::kSolid, {1, 0, 0, 1}, {-0.1f, 0, -1}, 301);
@@ -122,7 +117,7 @@ TEST(HostedRenderer, KeepsTwoFramesInFlightApart) {
   const auto expected_green = as_drawn_into_images(second, eyes(), Blend::kAdditive, 4);
   EXPECT_TRUE(red[0] == expected_red[0].pixels);
   EXPECT_TRUE(green[1] == expected_green[1].pixels);
-  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+  EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
 TEST(HostedRenderer, TakesSwappedAndLinearFormats) {
@@ -130,8 +125,7 @@ TEST(HostedRenderer, TakesSwappedAndLinearFormats) {
   const auto expected = as_drawn_into_images(scene, eyes(), Blend::kAdditive, 4);
   Hosted hosted;
   TestImages swapped(hosted.renderer->objects(), VK_FORMAT_B8G8R8A8_SRGB, kWidth_px, kHeight_px, 1);
-  std::string error;
-  ASSERT_TRUE(hosted.renderer->use(swapped.targets(), error)) << error;
+  ASSERT_TRUE(test::is_ok(hosted.renderer->use(swapped.targets())));
   draw(*hosted.renderer, scene, eyes(), {0, 0});
   auto bytes = both(swapped, 0)[0];
   for (std::size_t i = 0; i < bytes.size(); i += 4) {
@@ -143,7 +137,7 @@ TEST(HostedRenderer, TakesSwappedAndLinearFormats) {
   EXPECT_GT(hosted.renderer->format_score(VK_FORMAT_R16G16B16A16_SFLOAT),
             hosted.renderer->format_score(VK_FORMAT_R8G8B8A8_UNORM));
   EXPECT_EQ(hosted.renderer->format_score(VK_FORMAT_D32_SFLOAT), 0);
-  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+  EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
 TEST(HostedRenderer, WritesOpacityAsAlphaForACompositor) {
@@ -153,8 +147,7 @@ TEST(HostedRenderer, WritesOpacityAsAlphaForACompositor) {
   const auto over_black = as_drawn_into_images(scene, eyes(), Blend::kOver, 4);
   Hosted hosted(Blend::kPremultiplied);
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
-  std::string error;
-  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
+  ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
   draw(*hosted.renderer, scene, eyes(), {0, 0});
   const auto bytes = both(images, 0)[0];
   const auto at = [&](int x, int y) { return 4ul * (static_cast<std::size_t>(y) * kWidth_px + x); };
@@ -167,52 +160,47 @@ TEST(HostedRenderer, WritesOpacityAsAlphaForACompositor) {
   EXPECT_EQ(bytes[at(2, 2) + 3], 0);
   EXPECT_EQ(bytes[at(106, 60) + 3], 255);
   EXPECT_NEAR(bytes[at(66, 62) + 3], 128, 1);
-  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+  EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
 TEST(HostedRenderer, SaysWhatAHostAsksThatCannotBe) {
   RendererOptions options;
   options.cache_folder = "";
-  std::string error;
   TestHost old;
   old.allowed = {VulkanVersion{1, 0}, VulkanVersion{1, 0}};
-  EXPECT_EQ(HostedRenderer::create(options, old, error), nullptr);
-  EXPECT_THAT(error, HasSubstr("Vulkan 1.0"));
+  EXPECT_THAT(test::error_of(HostedRenderer::create(options, old)), HasSubstr("Vulkan 1.0"));
   TestHost refusing;
   refusing.refusal = "the runtime has no device";
-  EXPECT_EQ(HostedRenderer::create(options, refusing, error), nullptr);
-  EXPECT_EQ(error, "the runtime has no device");
+  const auto refused = HostedRenderer::create(options, refusing);
+  EXPECT_EQ(test::error_of(refused), "the runtime has no device");
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnavailable) << "as the host gave it";
   TestHost young;
   young.allowed = {VulkanVersion{1, 2}, VulkanVersion{1, 3}};
-  EXPECT_NE(HostedRenderer::create(options, young, error), nullptr) << error;
+  EXPECT_TRUE(test::is_ok(HostedRenderer::create(options, young)));
   EXPECT_EQ(young.asked_version, VK_API_VERSION_1_2);
 }
 
 TEST(HostedRenderer, RefusesImagesThatDoNotFit) {
   Hosted hosted;
   TestImages images(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 1);
-  std::string error;
-  EyeTargets targets = images.targets();
+  EyeImages targets = images.targets();
   targets.chains.pop_back();
-  EXPECT_FALSE(hosted.renderer->use(targets, error));
-  EXPECT_THAT(error, HasSubstr("1 layers in 1 chains"));
+  EXPECT_THAT(test::error_of(hosted.renderer->use(targets)), HasSubstr("1 layers in 1 chains"));
   targets = images.targets();
   targets.format = VK_FORMAT_R32_UINT;
-  EXPECT_FALSE(hosted.renderer->use(targets, error));
-  EXPECT_THAT(error, HasSubstr("VkFormat"));
+  EXPECT_THAT(test::error_of(hosted.renderer->use(targets)), HasSubstr("VkFormat"));
   targets = images.targets();
   targets.width_px = 1 << 20;
-  EXPECT_FALSE(hosted.renderer->use(targets, error));
-  EXPECT_THAT(error, HasSubstr("limit"));
+  EXPECT_THAT(test::error_of(hosted.renderer->use(targets)), HasSubstr("limit"));
   TestImages layered(hosted.renderer->objects(), VK_FORMAT_R8G8B8A8_SRGB, kWidth_px, kHeight_px, 2);
   EXPECT_FALSE(hosted.renderer->takes_layers());
-  EXPECT_FALSE(hosted.renderer->use(layered.targets(), error));
-  EXPECT_THAT(error, HasSubstr("does not draw whole"));
-  ASSERT_TRUE(hosted.renderer->use(images.targets(), error)) << error;
-  ASSERT_TRUE(hosted.renderer->prepare({}, error)) << error;
-  EXPECT_FALSE(hosted.renderer->draw({}, eyes(), std::vector<std::uint32_t>{0, 2}, error));
-  EXPECT_THAT(error, HasSubstr("no such images"));
-  EXPECT_TRUE(hosted.renderer->finish(error)) << error;
+  EXPECT_THAT(test::error_of(hosted.renderer->use(layered.targets())),
+              HasSubstr("does not draw whole"));
+  ASSERT_TRUE(test::is_ok(hosted.renderer->use(images.targets())));
+  ASSERT_TRUE(test::is_ok(hosted.renderer->prepare({})));
+  EXPECT_THAT(test::error_of(hosted.renderer->draw({}, eyes(), std::vector<std::uint32_t>{0, 2})),
+              HasSubstr("no such images"));
+  EXPECT_TRUE(test::is_ok(hosted.renderer->finish()));
 }
 
 }  // namespace

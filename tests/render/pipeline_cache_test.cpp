@@ -26,7 +26,7 @@ class PipelineCacheTest : public ::testing::Test {
 
   SilentValidation validation_;
   Instance instance_{true, validation_.sink()};
-  VkPhysicalDevice physical_ = choose_device(instance_, "llvmpipe");
+  VkPhysicalDevice physical_ = choose_device(instance_, "llvmpipe").value();
   Device device_{physical_};
   std::string folder_ = ::testing::TempDir() + "orthonav_pipeline_cache/deeper";
 };
@@ -66,11 +66,10 @@ TEST_F(PipelineCacheTest, LeavesTheRenderersPicturesAlone) {
   std::vector<RgbaImage> first;
   std::vector<RgbaImage> second;
   for (auto* images : {&first, &second}) {
-    std::string error;
-    const auto renderer = Renderer::create(options, error);
-    ASSERT_NE(renderer, nullptr) << error;
-    ASSERT_TRUE(
-        renderer->draw(crowded_scene(), {TestRenderer::straight_ahead()}, {}, *images, error));
+    const auto renderer = Renderer::create(options);
+    ASSERT_TRUE(test::is_ok(renderer));
+    ASSERT_TRUE(test::is_ok(
+        (*renderer)->draw(crowded_scene(), {TestRenderer::straight_ahead()}, {}, *images)));
   }
   EXPECT_FALSE(std::filesystem::is_empty(folder_));
   EXPECT_EQ(first, second);

@@ -4,17 +4,18 @@
 #include <cstring>
 
 namespace orthonav::render {
-void* TestHost::create_instance(VulkanFunction, const void* info, std::string& error) {
+
+Result<void*> TestHost::create_instance(VulkanFunction, const void* info) {
   const auto* asked = static_cast<const VkInstanceCreateInfo*>(info);
   asked_version = asked->pApplicationInfo->apiVersion;
   VkInstance instance = VK_NULL_HANDLE;
   if (vkCreateInstance(asked, nullptr, &instance) != VK_SUCCESS) {
-    error = "no instance";
+    return Error{"no instance"};
   }
-  return instance;
+  return static_cast<void*>(instance);
 }
 
-void* TestHost::physical_device(void* instance, std::string& error) {
+Result<void*> TestHost::physical_device(void* instance) {
   std::uint32_t count = 8;
   std::array<VkPhysicalDevice, 8> devices = {};
   vkEnumeratePhysicalDevices(static_cast<VkInstance>(instance), &count, devices.data());
@@ -22,26 +23,24 @@ void* TestHost::physical_device(void* instance, std::string& error) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(devices[i], &properties);
     if (std::strstr(properties.deviceName, "llvmpipe") != nullptr) {
-      return devices[i];
+      return static_cast<void*>(devices[i]);
     }
   }
-  error = "no llvmpipe";
-  return nullptr;
+  return Error{"no llvmpipe"};
 }
 
-void* TestHost::create_device(void* physical, VulkanFunction, const void* info,
-                              std::string& error) {
+Result<void*> TestHost::create_device(void* physical, VulkanFunction, const void* info) {
   if (!refusal.empty()) {
-    return error = refusal, nullptr;
+    return Error{refusal, ErrorCode::kUnavailable};
   }
   VkDevice device = VK_NULL_HANDLE;
   const VkResult made =
       vkCreateDevice(static_cast<VkPhysicalDevice>(physical),
                      static_cast<const VkDeviceCreateInfo*>(info), nullptr, &device);
   if (made != VK_SUCCESS) {
-    error = "no device";
+    return Error{"no device"};
   }
-  return device;
+  return static_cast<void*>(device);
 }
 
 TestImages::TestImages(const VulkanObjects& objects, VkFormat format, int width_px, int height_px,

@@ -17,10 +17,9 @@ class TestHost : public VulkanHost {
   std::string refusal;
 
   [[nodiscard]] std::array<VulkanVersion, 2> versions() const override { return allowed; }
-  void* create_instance(VulkanFunction get, const void* info, std::string& error) override;
-  void* physical_device(void* instance, std::string& error) override;
-  void* create_device(void* physical, VulkanFunction get, const void* info,
-                      std::string& error) override;
+  Result<void*> create_instance(VulkanFunction get, const void* info) override;
+  Result<void*> physical_device(void* instance) override;
+  Result<void*> create_device(void* physical, VulkanFunction get, const void* info) override;
   /// What the renderer asked the instance to be of.
   std::uint32_t asked_version = 0;
 };
@@ -30,12 +29,12 @@ class TestImages {
  public:
   TestImages(const VulkanObjects& objects, VkFormat format, int width_px, int height_px,
              std::uint32_t layers);
-  [[nodiscard]] const EyeTargets& targets() const { return targets_; }
+  [[nodiscard]] const EyeImages& targets() const { return targets_; }
   /// What an eye sees in image `image` of its chain.
   [[nodiscard]] std::vector<std::uint8_t> read(std::size_t eye, std::size_t image);
 
  private:
-  EyeTargets targets_;
+  EyeImages targets_;
   std::vector<std::unique_ptr<test::ImageChain>> chains_;
 };
 

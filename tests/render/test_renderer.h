@@ -10,6 +10,7 @@
 #include "render/projection.h"
 #include "render/renderer.h"
 #include "tests/render/silent_validation.h"
+#include "tests/support/is_ok.h"
 
 namespace orthonav::render {
 
@@ -28,9 +29,12 @@ class TestRenderer {
     options.messages = validation_.sink();
     options.eyes_a_pass = eyes_a_pass;
     options.cache_folder = "";
-    std::string error;
-    renderer_ = Renderer::create(options, error);
-    EXPECT_NE(renderer_, nullptr) << error;
+    auto renderer = Renderer::create(options);
+    if (!renderer) {
+      ADD_FAILURE() << renderer.error().message;
+      return;
+    }
+    renderer_ = std::move(*renderer);
   }
   TestRenderer(const TestRenderer&) = delete;
   TestRenderer& operator=(const TestRenderer&) = delete;
@@ -44,21 +48,19 @@ class TestRenderer {
       backgrounds.push_back(background);
     }
     std::vector<RgbaImage> images;
-    std::string error;
-    EXPECT_TRUE(renderer_->draw(scene, {view}, backgrounds, images, error)) << error;
+    EXPECT_TRUE(test::is_ok(renderer_->draw(scene, {view}, backgrounds, images)));
     return images.empty() ? RgbaImage{} : images.front();
   }
   LabelImage labels(const Scene& scene, const View& view) {
     std::vector<LabelImage> images;
-    std::string error;
-    EXPECT_TRUE(renderer_->draw_labels(scene, {view}, images, error)) << error;
+    EXPECT_TRUE(test::is_ok(renderer_->draw_labels(scene, {view}, images)));
     return images.empty() ? LabelImage{} : images.front();
   }
   std::string error_of(const Scene& scene, const View& view = straight_ahead()) {
     std::vector<RgbaImage> images;
-    std::string error;
-    EXPECT_FALSE(renderer_->draw(scene, {view}, {}, images, error));
-    return error;
+    const Status drawn = renderer_->draw(scene, {view}, {}, images);
+    EXPECT_FALSE(drawn.ok());
+    return test::error_of(drawn);
   }
 
   /// From the origin along -z; one metre away, a pixel of the default size is 5 mm.

@@ -17,8 +17,7 @@ TEST(Text, StandsAtOnePlaceInSpaceForBothEyes) {
   scene.texts.push_back(text);
   const std::vector<View> eyes = stereo_pair(TestRenderer::straight_ahead());
   std::vector<LabelImage> labels;
-  std::string error;
-  ASSERT_TRUE(renderer->draw_labels(scene, eyes, labels, error)) << error;
+  ASSERT_TRUE(test::is_ok(renderer->draw_labels(scene, eyes, labels)));
   for (std::size_t i = 0; i < 2; ++i) {
     const auto extent = extent_of(labels[i], 601);
     ASSERT_TRUE(extent);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "render/vulkan/commands.h"
+#include "render/vulkan/failure.h"
 #include "tests/render/silent_validation.h"
 #include "tests/render/test_renderer.h"
 
@@ -35,7 +36,7 @@ void leave_a_fence_behind(const Device& device) {
 TEST(Validation, HearsAnInvalidCall) {
   const auto messages = std::make_shared<std::vector<std::string>>();
   const Instance instance(true, messages);
-  const Device device(choose_device(instance, "llvmpipe"));
+  const Device device(choose_device(instance, "llvmpipe").value());
   EXPECT_THAT(*messages, IsEmpty());
   ask_for_what_was_not_enabled(device);
   EXPECT_THAT(*messages, Contains(HasSubstr("anisotropyEnable")));
@@ -45,7 +46,7 @@ TEST(Validation, HearsAnInvalidCall) {
 TEST(Validation, HearsABadPractice) {
   const auto messages = std::make_shared<std::vector<std::string>>();
   const Instance instance(true, messages);
-  const Device device(choose_device(instance, "llvmpipe"));
+  const Device device(choose_device(instance, "llvmpipe").value());
   // A pool that may be reset by halves costs more; nothing is wrong with it otherwise.
   VkCommandPoolCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -62,7 +63,7 @@ TEST(Validation, FailsATestForWhatIsLeftBehind) {
       {
         const SilentValidation validation;
         const Instance instance(true, validation.sink());
-        const Device device(choose_device(instance, "llvmpipe"));
+        const Device device(choose_device(instance, "llvmpipe").value());
         leave_a_fence_behind(device);
       },
       "has not been destroyed");
@@ -76,11 +77,10 @@ TEST(Validation, HearsTheRenderersOwnMessagesAfterItIsGone) {
   options.cache_folder = "";
   options.validation = true;
   options.messages = messages;
-  std::string error;
-  auto renderer = Renderer::create(options, error);
-  ASSERT_NE(renderer, nullptr) << error;
-  EXPECT_EQ(&renderer->validation_messages(), messages.get());
-  renderer.reset();
+  auto renderer = Renderer::create(options);
+  ASSERT_TRUE(test::is_ok(renderer));
+  EXPECT_EQ(&(*renderer)->validation_messages(), messages.get());
+  renderer->reset();
   EXPECT_THAT(*messages, IsEmpty());
 }
 
@@ -89,10 +89,10 @@ TEST(Size, BeyondTheDeviceIsOneLine) {
   limits.maxImageDimension2D = 4096;
   limits.maxFramebufferWidth = 2048;
   limits.maxFramebufferHeight = 8192;
-  EXPECT_FALSE(problem_of_size(limits, 2048, 4096));
-  EXPECT_EQ(problem_of_size(limits, 2049, 64),
+  EXPECT_TRUE(check_size(limits, 2048, 4096).ok());
+  EXPECT_EQ(test::error_of(check_size(limits, 2049, 64)),
             "renderer: image of 2049x64 px, limit of the device 2048x4096 px");
-  EXPECT_EQ(problem_of_size(limits, 64, 4097),
+  EXPECT_EQ(test::error_of(check_size(limits, 64, 4097)),
             "renderer: image of 64x4097 px, limit of the device 2048x4096 px");
 }
 
@@ -117,14 +117,19 @@ class LongBatch : public ::testing::Test {
   }
   SilentValidation validation_;
   Instance instance_{true, validation_.sink()};
-  Device device_{choose_device(instance_, "llvmpipe")};
+  Device device_{choose_device(instance_, "llvmpipe").value()};
 };
 
 TEST_F(LongBatch, IsLostWhenItOutlastsThePatienceAndOverWhenThatIsTold) {
   Commands commands(device_, std::chrono::nanoseconds(0));
   const Buffer buffer(device_, kBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::kReadback);
   record(commands, buffer);
-  EXPECT_THROW(commands.run(), VulkanFailure);
+  try {
+    commands.run();
+    ADD_FAILURE() << "not lost";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.error().code, ErrorCode::kLost);
+  }
   EXPECT_TRUE(commands.lost());
   EXPECT_EQ(reinterpret_cast<const std::uint32_t*>(buffer.mapped())[kBytes / 4 - 1], kValue + 7);
 }

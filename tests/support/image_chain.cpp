@@ -39,9 +39,8 @@ constexpr VkPipelineStageFlags kAttached =
 
 }  // namespace
 
-ImageChain::ImageChain(const render::VulkanObjects& objects, VkFormat format, int width_px,
-                       int height_px, std::uint32_t layers, std::size_t count,
-                       VkImageAspectFlags aspect)
+ImageChain::ImageChain(const VulkanObjects& objects, VkFormat format, int width_px, int height_px,
+                       std::uint32_t layers, std::size_t count, VkImageAspectFlags aspect)
     : objects_(objects),
       device_(static_cast<VkDevice>(objects.device)),
       width_px_(width_px),

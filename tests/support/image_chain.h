@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/hosted_renderer.h"
+#include "base/vulkan_handover.h"
 
 namespace orthonav::test {
 
@@ -13,7 +13,7 @@ namespace orthonav::test {
 /// are read back one by one. Aborts when Vulkan fails: there is no test to be failed everywhere.
 class ImageChain {
  public:
-  ImageChain(const render::VulkanObjects& objects, VkFormat format, int width_px, int height_px,
+  ImageChain(const VulkanObjects& objects, VkFormat format, int width_px, int height_px,
              std::uint32_t layers, std::size_t count = 2,
              VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT);
   ~ImageChain();
@@ -32,7 +32,7 @@ class ImageChain {
   void copy_layer(VkCommandBuffer commands, VkImage image, std::uint32_t layer);
   VkDeviceMemory memory_for(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags);
 
-  render::VulkanObjects objects_;
+  VulkanObjects objects_;
   VkDevice device_;
   VkQueue queue_ = VK_NULL_HANDLE;
   int width_px_;

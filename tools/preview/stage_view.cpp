@@ -23,12 +23,11 @@ Result<std::unique_ptr<StageView>> StageView::create(const StageOptions& options
   renderer_options.height_px = options.height_px;
   renderer_options.blend = render::Blend::kOver;
   renderer_options.device = options.device;
-  std::string error;
-  auto renderer = render::Renderer::create(renderer_options, error);
+  auto renderer = render::Renderer::create(renderer_options);
   if (!renderer) {
-    return Error{error};
+    return renderer.error();
   }
-  return std::unique_ptr<StageView>(new StageView(options, std::move(renderer)));
+  return std::unique_ptr<StageView>(new StageView(options, std::move(*renderer)));
 }
 
 StageView::StageView(const StageOptions& options, std::unique_ptr<render::Renderer> renderer)
@@ -115,11 +114,7 @@ Status StageView::draw(const Moment& moment, const Look& look) {
     const auto eye_from_world = stage_from_eye.inverse() * stage_from_world;
     views_[0].eye_from_world = engine::to_matrix(eye_from_world.row_major());
   }
-  std::string error;
-  if (!renderer_->draw(scene_, views_, backgrounds_, images_, error)) {
-    return Error{error};
-  }
-  return {};
+  return renderer_->draw(scene_, views_, backgrounds_, images_);
 }
 
 }  // namespace orthonav::preview

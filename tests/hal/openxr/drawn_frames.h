@@ -7,6 +7,7 @@
 
 #include "base/srgb.h"
 #include "tests/hal/openxr/runtime_test.h"
+#include "tests/support/is_ok.h"
 
 namespace orthonav::test {
 
@@ -21,9 +22,9 @@ class FrameComparison {
     options.blend = blend;
     options.device = "llvmpipe";
     options.cache_folder = "";
-    std::string error;
-    renderer_ = render::Renderer::create(options, error);
-    EXPECT_NE(renderer_, nullptr) << error;
+    auto renderer = render::Renderer::create(options);
+    EXPECT_TRUE(is_ok(renderer));
+    renderer_ = std::move(*renderer);
   }
 
   /// The largest difference of any colour of both eyes, of 255; and how many pixels are lit.
@@ -33,8 +34,7 @@ class FrameComparison {
   };
   Difference compare(const DrawnScene& drawn, const SubmittedFrame& frame) {
     std::vector<RgbaImage> images;
-    std::string error;
-    EXPECT_TRUE(renderer_->draw(drawn.scene, drawn.views, {}, images, error)) << error;
+    EXPECT_TRUE(is_ok(renderer_->draw(drawn.scene, drawn.views, {}, images)));
     Difference difference;
     for (std::size_t eye = 0; eye < 2; ++eye) {
       add(images[eye].pixels, frame.pixels[eye], frame.format, difference);

@@ -34,7 +34,7 @@ struct DoubleSession {
   bool begun = false;   ///< a frame was begun and not ended
   bool should_render = false;
   XrTime predicted = 0;
-  render::VulkanObjects objects;
+  VulkanObjects objects;
   std::set<DoubleSpace*> spaces;
   std::set<DoubleSwapchain*> swapchains;
   bool attached = false;
