@@ -90,14 +90,14 @@ void XrDisplay::take_space_change(const XrEventDataReferenceSpaceChangePending& 
       old_from_new = *pose;
     }
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   anchor_.move(change.changeTime, old_from_new);
 }
 
 std::optional<DisplayFrame> XrDisplay::take_events() {
   for (;;) {
     XrEventDataBuffer event = {XR_TYPE_EVENT_DATA_BUFFER};
-    const XrResult polled = xrPollEvent(runtime_->instance(), &event);
+    const XrResult polled = xrPollEvent(runtime()->instance(), &event);
     if (polled == XR_EVENT_UNAVAILABLE) {
       return std::nullopt;
     }
@@ -127,7 +127,7 @@ std::optional<DisplayFrame> XrDisplay::take_events() {
 }
 
 void XrDisplay::poll_button() {
-  const auto now = runtime_->now();
+  const auto now = runtime()->now();
   if (!now) {
     return;
   }
@@ -144,7 +144,7 @@ void XrDisplay::poll_button() {
     return;
   }
   const auto time = timestamp(change->time);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (time) {
     button_changes_.push_back({change->down, *time});
   }
@@ -198,7 +198,7 @@ Result<std::vector<std::uint32_t>> XrDisplay::acquire() {
 /// Where World is still open, it is laid as soon as both heads are known.
 void XrDisplay::lay_world(XrTime at) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (anchor_.world_from_space(at)) {
       return;
     }
@@ -207,7 +207,7 @@ void XrDisplay::lay_world(XrTime at) {
   if (world_from_rig.status == PoseStatus::kLost) {
     return;
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const Located viewer = locate_viewer(at);
   if (viewer.status == PoseStatus::kLost) {
     return;
@@ -242,7 +242,7 @@ bool XrDisplay::take_eyes(const Transform<World, Space>& world_from_space, EyeVi
 bool XrDisplay::locate_in_world(EyeViews& views) {
   constexpr XrViewStateFlags kTracked =
       XR_VIEW_STATE_ORIENTATION_TRACKED_BIT | XR_VIEW_STATE_POSITION_TRACKED_BIT;
-  const XrViewStateFlags flags = locate_eyes(space_);
+  const XrViewStateFlags flags = locate_eyes(space());
   const bool elsewhere = mount_.placement == Placement::kElsewhere;
   if (elsewhere && (flags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT) {
     stand_still(located_);
@@ -255,7 +255,7 @@ bool XrDisplay::locate_in_world(EyeViews& views) {
   }
   std::optional<Transform<World, Space>> world_from_space;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     world_from_space = anchor_.world_from_space(display_time_);
   }
   return world_from_space && take_eyes(*world_from_space, views);
@@ -270,7 +270,7 @@ EyeViews XrDisplay::views() {
   if (locate_in_world(views)) {
     views.status = PoseStatus::kPredicted;
   } else {
-    views.on_head = (locate_eyes(viewer_) & kKnown) == kKnown && take_eyes({}, views);
+    views.on_head = (locate_eyes(viewer()) & kKnown) == kKnown && take_eyes({}, views);
   }
   return views;
 }
