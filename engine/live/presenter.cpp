@@ -34,19 +34,19 @@ Presenter::~Presenter() { stop(); }
 
 PresentReport Presenter::stop() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
   if (thread_.joinable()) {
     thread_.join();
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return report_;
 }
 
 Status Presenter::draw(const Snapshot& snapshot) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   incoming_ = snapshot;
   fresh_ = true;
   if (untold_.empty()) {
@@ -56,7 +56,7 @@ Status Presenter::draw(const Snapshot& snapshot) {
 }
 
 void Presenter::note(const std::string& problem) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   untold_ = problem;
   if (report_.problems.size() < kMostProblems) {
     report_.problems.push_back(problem);
@@ -66,19 +66,21 @@ void Presenter::note(const std::string& problem) {
 void Presenter::lose(const std::string& why) {
   note(why);
   renderer_.reset();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   ++report_.losses;
 }
 
 void Presenter::pause(Duration wall_time) {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, wall_time, [this] { return stopping_; });
+  const auto until = std::chrono::steady_clock::now() + wall_time;
+  const MutexLock lock(mutex_);
+  while (!stopping_ && changed_.wait_until(mutex_, until)) {
+  }
 }
 
 void Presenter::run() {
   for (;;) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (stopping_) {
         break;
       }
@@ -125,7 +127,7 @@ void Presenter::present(const DisplayFrame& frame) {
     note(finished.error().message);
   }
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ++report_.frames;
     report_.drawn += drawn && finished ? 1 : 0;
     report_.failures += finished ? 0 : 1;
@@ -137,7 +139,7 @@ void Presenter::present(const DisplayFrame& frame) {
 
 bool Presenter::draw_scene(const DisplayFrame& frame) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (std::exchange(fresh_, false)) {
       std::swap(shown_, incoming_);
       has_snapshot_ = true;
@@ -150,13 +152,13 @@ bool Presenter::draw_scene(const DisplayFrame& frame) {
   if (shown_.expires && frame.display_time > *shown_.expires) {
     hide_tool_guidance(shown_.scene);
     shown_.expires.reset();
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ++report_.hidden;
   }
   const auto drawn = renderer_->draw(shown_.scene);
   if (!drawn) {
     note(drawn.error().message);
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ++report_.failures;
     return false;
   }
@@ -166,7 +168,7 @@ bool Presenter::draw_scene(const DisplayFrame& frame) {
   if (options_.on_drawn) {
     options_.on_drawn(renderer_->drawn(), renderer_->views());
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (report_.latch_ms.size() < kMostLatches) {
     report_.latch_ms.push_back(renderer_->renderer().last_timing().total_ms);
   }

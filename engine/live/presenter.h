@@ -1,13 +1,12 @@
 #pragma once
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "base/mutex.h"
 #include "engine/live/display_renderer.h"
 #include "engine/live/frame_loop.h"
 #include "hal/api/pixel_display.h"
@@ -72,14 +71,14 @@ class Presenter : public SnapshotSink {
   PresenterOptions options_;
   std::thread thread_;
 
-  // Under the mutex.
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  bool stopping_ = false;
-  Snapshot incoming_;
-  bool fresh_ = false;
-  PresentReport report_;
-  std::string untold_;  ///< the last problem, if `draw` has not told it yet
+  mutable Mutex mutex_;
+  ConditionVariable changed_;
+  bool stopping_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  Snapshot incoming_ ORTHONAV_GUARDED_BY(mutex_);
+  bool fresh_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  PresentReport report_ ORTHONAV_GUARDED_BY(mutex_);
+  /// The last problem, if `draw` has not told it yet.
+  std::string untold_ ORTHONAV_GUARDED_BY(mutex_);
 
   // Of the presenting thread.
   std::unique_ptr<DisplayRenderer> renderer_;

@@ -16,11 +16,13 @@ void SnapshotQueue::drop_oldest() {
 }
 
 Snapshot* SnapshotQueue::acquire() {
-  std::unique_lock lock(mutex_);
+  const MutexLock lock(mutex_);
   if (free_.empty() && when_full_ == WhenFull::kDropOldest && !ready_.empty()) {
     drop_oldest();
   }
-  changed_.wait(lock, [&] { return closed_ || !free_.empty(); });
+  while (!closed_ && free_.empty()) {
+    changed_.wait(mutex_);
+  }
   if (closed_) {
     return nullptr;
   }
@@ -31,15 +33,17 @@ Snapshot* SnapshotQueue::acquire() {
 
 void SnapshotQueue::publish(Snapshot* filled) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ready_.push_back(filled);
   }
   changed_.notify_all();
 }
 
 Snapshot* SnapshotQueue::take() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [&] { return closed_ || !ready_.empty(); });
+  const MutexLock lock(mutex_);
+  while (!closed_ && ready_.empty()) {
+    changed_.wait(mutex_);
+  }
   if (ready_.empty()) {
     return nullptr;
   }
@@ -53,7 +57,7 @@ Snapshot* SnapshotQueue::take() {
 
 void SnapshotQueue::release(Snapshot* drawn) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     free_.push_back(drawn);
   }
   changed_.notify_all();
@@ -61,14 +65,14 @@ void SnapshotQueue::release(Snapshot* drawn) {
 
 void SnapshotQueue::close() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     closed_ = true;
   }
   changed_.notify_all();
 }
 
 std::int64_t SnapshotQueue::dropped() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return dropped_;
 }
 

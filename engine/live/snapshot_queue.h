@@ -1,13 +1,12 @@
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/mutex.h"
 #include "base/time.h"
 #include "render/scene.h"
 
@@ -47,17 +46,17 @@ class SnapshotQueue {
   [[nodiscard]] std::int64_t dropped() const;
 
  private:
-  /// Of those that wait to be drawn; the mutex must be held.
-  void drop_oldest();
+  /// Of those that wait to be drawn.
+  void drop_oldest() ORTHONAV_REQUIRES(mutex_);
 
   WhenFull when_full_;
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Snapshot> slots_;
-  std::vector<Snapshot*> free_;
-  std::deque<Snapshot*> ready_;
-  bool closed_ = false;
-  std::int64_t dropped_ = 0;
+  std::vector<Snapshot> slots_;  ///< each belongs to whoever acquired or took it
+  mutable Mutex mutex_;
+  ConditionVariable changed_;
+  std::vector<Snapshot*> free_ ORTHONAV_GUARDED_BY(mutex_);
+  std::deque<Snapshot*> ready_ ORTHONAV_GUARDED_BY(mutex_);
+  bool closed_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::int64_t dropped_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace orthonav::engine

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <thread>
 #include <utility>
 
+#include "base/mutex.h"
 #include "engine/report/paper_table.h"
 #include "nav/evaluation/errors.h"
 
@@ -108,7 +108,7 @@ class Workers {
       operation.sim.seed = jobs_[i].seed;
       operation.tracker.parallel = options_.jobs < 2;
       const auto result = run_operation(*jobs_[i].source, operation);
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (result) {
         reports_[i] = report_json(*result);
       } else {
@@ -125,6 +125,7 @@ class Workers {
     Study out;
     Json runs = Json::array();
     Json failed = Json::array();
+    const MutexLock lock(mutex_);
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       if (reports_[i]) {
         runs.push_back(Json::parse(*reports_[i]));
@@ -148,10 +149,10 @@ class Workers {
   std::vector<Job> jobs_;
   const StudyOptions& options_;
   const std::function<void(int, int)>& progress_;
-  std::vector<Result<std::string>> reports_;
   std::atomic<std::size_t> next_ = 0;
-  std::mutex mutex_;
-  int done_ = 0;
+  mutable Mutex mutex_;
+  std::vector<Result<std::string>> reports_ ORTHONAV_GUARDED_BY(mutex_);
+  int done_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
 
 Status append_runs(const std::string& text, const std::string& name, std::string& method,

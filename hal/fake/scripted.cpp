@@ -94,12 +94,12 @@ Status ScriptedVoice::do_poll(Timestamp until, std::vector<Phrase>& phrases) {
 }
 
 std::vector<ShownFrame> RememberingDisplay::frames() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return frames_;
 }
 
 Status RememberingDisplay::do_shown(const ShownFrame& frame) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   frames_.push_back(frame);
   return {};
 }

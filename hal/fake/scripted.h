@@ -3,11 +3,11 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "base/mutex.h"
 #include "hal/api/depth_camera.h"
 #include "hal/api/devices.h"
 
@@ -120,8 +120,8 @@ class RememberingDisplay : public Display {
 
  private:
   Duration latency_;
-  mutable std::mutex mutex_;
-  std::vector<ShownFrame> frames_;
+  mutable Mutex mutex_;
+  std::vector<ShownFrame> frames_ ORTHONAV_GUARDED_BY(mutex_);
 
   [[nodiscard]] Duration do_latency() const override { return latency_; }
   Status do_shown(const ShownFrame& frame) override;

@@ -72,7 +72,7 @@ std::optional<std::int64_t> BootClock::best_offset_ns() const {
 }
 
 Timestamp BootClock::now() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto offset_ns = best_offset_ns();
   if (paced_) {
     last_ = std::max(last_, *paced_);
@@ -84,7 +84,7 @@ Timestamp BootClock::now() const {
 }
 
 void BootClock::heard(Timestamp stamp, HostTime at) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const std::int64_t offset_ns = stamp.time_since_epoch().count() - ns_of(at);
   const std::int64_t number = ns_of(at) / 1'000'000'000;
   Second& second = seconds_[static_cast<std::size_t>(number) % kSeconds];
@@ -96,12 +96,12 @@ void BootClock::heard(Timestamp stamp, HostTime at) {
 }
 
 void BootClock::round_trip(Duration took) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   shortest_trip_ = std::min(shortest_trip_.value_or(took), took);
 }
 
 void BootClock::paced(Timestamp now, HostTime at) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   paced_ = now;
   // Where it goes on from, should the pacing end.
   seconds_ = {};
@@ -111,17 +111,17 @@ void BootClock::paced(Timestamp now, HostTime at) {
 }
 
 void BootClock::unpaced() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   paced_.reset();
 }
 
 Duration BootClock::offset() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return Duration(best_offset_ns().value_or(0));
 }
 
 Duration BootClock::spread() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto best = best_offset_ns();
   std::int64_t worst = best.value_or(0);
   for (const Second& second : seconds_) {

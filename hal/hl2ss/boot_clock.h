@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 
+#include "base/mutex.h"
 #include "base/time.h"
 #include "hal/hl2ss/socket.h"
 
@@ -62,14 +62,14 @@ class BootClock : public Clock {
     std::int64_t number = -1;
     std::int64_t offset_ns = 0;
   };
-  [[nodiscard]] std::optional<std::int64_t> best_offset_ns() const;
+  [[nodiscard]] std::optional<std::int64_t> best_offset_ns() const ORTHONAV_REQUIRES(mutex_);
 
-  mutable std::mutex mutex_;
-  std::array<Second, kSeconds> seconds_{};
-  std::int64_t newest_second_ = 0;
-  std::optional<Duration> shortest_trip_;
-  std::optional<Timestamp> paced_;
-  mutable Timestamp last_{};
+  mutable Mutex mutex_;
+  std::array<Second, kSeconds> seconds_ ORTHONAV_GUARDED_BY(mutex_){};
+  std::int64_t newest_second_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::optional<Duration> shortest_trip_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<Timestamp> paced_ ORTHONAV_GUARDED_BY(mutex_);
+  mutable Timestamp last_ ORTHONAV_GUARDED_BY(mutex_){};
 };
 
 }  // namespace orthonav::hl2ss

@@ -37,7 +37,7 @@ Status SoundStream::take(const Packet& packet, const Stamped& stamped) {
     return {};
   }
   const std::size_t count = packet.payload.size() / kFrame;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (std::size_t i = 0; i < count; ++i) {
     const int sum = number_at<std::int16_t>(packet.payload, i * kFrame) +
                     number_at<std::int16_t>(packet.payload, i * kFrame + 2);
@@ -55,12 +55,12 @@ Status SoundStream::take(const Packet& packet, const Stamped& stamped) {
 
 void SoundStream::disconnected() {
   PacketStream::disconnected();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   trouble_ = Error{"microphone: disconnected"};
 }
 
 Result<std::size_t> SoundStream::do_read(std::span<std::int16_t> samples) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (trouble_) {
     Error trouble = std::move(*trouble_);
     trouble_.reset();
@@ -77,7 +77,7 @@ Result<std::size_t> SoundStream::do_read(std::span<std::int16_t> samples) {
 }
 
 std::optional<Timestamp> SoundStream::do_newest_sample_time() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return delivered_;
 }
 

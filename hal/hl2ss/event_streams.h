@@ -1,7 +1,6 @@
 #pragma once
 
-#include <mutex>
-
+#include "base/mutex.h"
 #include "hal/api/devices.h"
 #include "hal/api/microphone.h"
 #include "hal/hl2ss/inbox.h"
@@ -35,11 +34,11 @@ class SoundStream final : public PacketStream, public Microphone {
   Result<std::size_t> do_read(std::span<std::int16_t> samples) override;
   [[nodiscard]] std::optional<Timestamp> do_newest_sample_time() const override;
 
-  mutable std::mutex mutex_;
-  std::deque<std::int16_t> samples_;
-  Timestamp end_{};  ///< of the newest sample that came
-  std::optional<Timestamp> delivered_;
-  std::optional<Error> trouble_;
+  mutable Mutex mutex_;
+  std::deque<std::int16_t> samples_ ORTHONAV_GUARDED_BY(mutex_);
+  Timestamp end_ ORTHONAV_GUARDED_BY(mutex_){};  ///< of the newest sample that came
+  std::optional<Timestamp> delivered_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<Error> trouble_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 /// The headset's own speech recognition: told the phrases, then asked ten times a second.

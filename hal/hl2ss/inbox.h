@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <deque>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/mutex.h"
 #include "base/time.h"
 
 namespace orthonav::hl2ss {
@@ -16,7 +16,7 @@ template <class Event>
 class Inbox {
  public:
   void put(Event event) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     // What came late may be stamped before what came early; the contract wants an order.
     if (last_ && event.time < *last_) {
       event.time = *last_;
@@ -28,7 +28,7 @@ class Inbox {
     events_.push_back(std::move(event));
   }
   void take_until(Timestamp until, std::vector<Event>& to) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     while (!events_.empty() && events_.front().time <= until) {
       to.push_back(std::move(events_.front()));
       events_.pop_front();
@@ -37,9 +37,9 @@ class Inbox {
 
  private:
   static constexpr std::size_t kMost = 256;
-  std::mutex mutex_;
-  std::deque<Event> events_;
-  std::optional<Timestamp> last_;
+  Mutex mutex_;
+  std::deque<Event> events_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<Timestamp> last_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 }  // namespace orthonav::hl2ss

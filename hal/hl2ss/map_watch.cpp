@@ -65,7 +65,7 @@ bool MapWatch::moved(Timestamp time, const Transform<World, Rig>& world_from_rig
 
 void HeadTrack::add(Timestamp time, const Transform<World, Rig>& world_from_rig,
                     std::int64_t map_epoch) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (map_epoch != map_epoch_) {
     samples_.clear();
   }
@@ -80,12 +80,12 @@ void HeadTrack::add(Timestamp time, const Transform<World, Rig>& world_from_rig,
 }
 
 void HeadTrack::lose() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   samples_.clear();
 }
 
 std::optional<Timestamp> HeadTrack::do_newest_measurement() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (samples_.empty()) {
     return std::nullopt;
   }
@@ -93,7 +93,7 @@ std::optional<Timestamp> HeadTrack::do_newest_measurement() const {
 }
 
 Tracked<Transform<World, Rig>> HeadTrack::do_world_from_rig(Timestamp at) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return head_among(samples_.begin(), samples_.end(), at);
 }
 

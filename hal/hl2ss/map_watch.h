@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <deque>
-#include <mutex>
 #include <optional>
 
+#include "base/mutex.h"
 #include "hal/api/devices.h"
 
 namespace orthonav::hl2ss {
@@ -47,9 +47,9 @@ class HeadTrack final : public HeadTracker {
   [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override;
   [[nodiscard]] std::optional<Timestamp> do_newest_measurement() const override;
 
-  mutable std::mutex mutex_;
-  std::deque<Sample> samples_;  ///< all of one map
-  std::int64_t map_epoch_ = 0;
+  mutable Mutex mutex_;
+  std::deque<Sample> samples_ ORTHONAV_GUARDED_BY(mutex_);  ///< all of one map
+  std::int64_t map_epoch_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace orthonav::hl2ss

@@ -17,7 +17,7 @@ void copy(const GreyImage& from, GreyImage& to) {
 
 }  // namespace
 
-void PairMailbox::note(std::vector<double>& figures, std::size_t& next, HostTime since) const {
+void PairMailbox::note(std::vector<double>& figures, std::size_t& next, HostTime since) {
   const double ms = std::chrono::duration<double, std::milli>(HostClock::now() - since).count();
   if (figures.size() < kMostFigures) {
     figures.push_back(ms);
@@ -27,7 +27,7 @@ void PairMailbox::note(std::vector<double>& figures, std::size_t& next, HostTime
 }
 
 bool PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (last_time_ && pair.left.time <= *last_time_) {
     return false;
   }
@@ -47,12 +47,12 @@ bool PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
 }
 
 std::optional<Timestamp> PairMailbox::waiting() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return waits_ ? std::optional(newest_.time) : std::nullopt;
 }
 
 bool PairMailbox::take(StereoFrame& frame) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!waits_) {
     return false;
   }
@@ -68,22 +68,22 @@ bool PairMailbox::take(StereoFrame& frame) {
 }
 
 void PairMailbox::fail(Error trouble) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   trouble_ = std::move(trouble);
 }
 
 std::optional<Error> PairMailbox::trouble() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return std::exchange(trouble_, std::nullopt);
 }
 
 void PairMailbox::clear() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   waits_ = false;
 }
 
 PairMailbox::Figures PairMailbox::figures() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return figures_;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <mutex>
 #include <optional>
 #include <vector>
 
+#include "base/mutex.h"
 #include "hal/api/devices.h"
 #include "hal/hl2ss/pairer.h"
 
@@ -34,18 +34,18 @@ class PairMailbox {
   [[nodiscard]] Figures figures() const;
 
  private:
-  void note(std::vector<double>& figures, std::size_t& next, HostTime since) const;
+  static void note(std::vector<double>& figures, std::size_t& next, HostTime since);
 
-  mutable std::mutex mutex_;
-  StereoFrame newest_;
-  bool waits_ = false;
-  std::optional<Timestamp> last_time_;
-  std::int64_t next_sequence_ = 0;
-  HostTime arrived_{};
-  std::optional<Error> trouble_;
-  Figures figures_;
-  std::size_t next_publish_ = 0;
-  std::size_t next_take_ = 0;
+  mutable Mutex mutex_;
+  StereoFrame newest_ ORTHONAV_GUARDED_BY(mutex_);
+  bool waits_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::optional<Timestamp> last_time_ ORTHONAV_GUARDED_BY(mutex_);
+  std::int64_t next_sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  HostTime arrived_ ORTHONAV_GUARDED_BY(mutex_){};
+  std::optional<Error> trouble_ ORTHONAV_GUARDED_BY(mutex_);
+  Figures figures_ ORTHONAV_GUARDED_BY(mutex_);
+  std::size_t next_publish_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::size_t next_take_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace orthonav::hl2ss

@@ -20,10 +20,7 @@ constexpr int kTurnMs = 10;
 Result<std::unique_ptr<Receiver>> Receiver::start(const Endpoint& host, const Hl2ssOptions& options,
                                                   std::int64_t filetime_offset) {
   auto receiver = std::unique_ptr<Receiver>(new Receiver(host, options));
-  if (const Status added = receiver->add_cameras(); !added) {
-    return added.error();
-  }
-  if (const Status added = receiver->add_events(filetime_offset); !added) {
+  if (const Status added = receiver->add_all(filetime_offset); !added) {
     return added.error();
   }
   receiver->thread_ = std::thread([self = receiver.get()] { self->run(); });
@@ -50,6 +47,14 @@ auto& Receiver::add(const std::string& name, int port, Duration interval, Durati
       host_, Connection::Options{port, longest_silence}, *stream.meter, *stream.protocol);
   streams_.push_back(std::move(stream));
   return made;
+}
+
+Status Receiver::add_all(std::int64_t filetime_offset) {
+  const MutexLock lock(mutex_);
+  if (const Status added = add_cameras(); !added) {
+    return added;
+  }
+  return add_events(filetime_offset);
 }
 
 Status Receiver::add_cameras() {
@@ -99,7 +104,7 @@ Status Receiver::add_events(std::int64_t filetime_offset) {
 }
 
 Microphone& Receiver::microphone() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!sound_) {
     sound_ = &add("microphone", options_.first_port + offset_of(Service::kMicrophone),
                   std::chrono::milliseconds(21), kSilence, [this](ArrivalMeter& meter) {
@@ -114,7 +119,7 @@ void Receiver::run() {
   std::vector<pollfd> watched;
   while (!stop_) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       watched.assign(1, {wake_up_.fd(), POLLIN, 0});
       for (const Stream& stream : streams_) {
         watched.push_back({stream.connection->fd(), stream.connection->events(), 0});
@@ -126,7 +131,7 @@ void Receiver::run() {
     if (watched[0].revents != 0) {
       wake_up_.clear();
     }
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const HostTime now = HostClock::now();
     for (std::size_t i = 0; i + 1 < watched.size(); ++i) {
       Connection& connection = *streams_[i].connection;
@@ -175,12 +180,12 @@ void Receiver::lost(Side /*side*/) {
 }
 
 std::int64_t Receiver::base_ticks() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return time_.stamps.base_ticks();
 }
 
 ConnectionStatistics Receiver::statistics() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   ConnectionStatistics all;
   for (const Stream& stream : streams_) {
     all.streams.push_back(stream.meter->statistics());
@@ -199,7 +204,7 @@ ConnectionStatistics Receiver::statistics() const {
 }
 
 std::string Receiver::troubles() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::string all;
   for (const Stream& stream : streams_) {
     const StreamStatistics& each = stream.meter->statistics();

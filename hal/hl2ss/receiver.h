@@ -2,11 +2,11 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "base/mutex.h"
 #include "hal/hl2ss/connection.h"
 #include "hal/hl2ss/event_streams.h"
 #include "hal/hl2ss/map_watch.h"
@@ -51,15 +51,17 @@ class Receiver final : private ImageSink {
     std::unique_ptr<Connection> connection;
   };
   Receiver(const Endpoint& host, const Hl2ssOptions& options) : host_(host), options_(options) {}
-  Status add_cameras();
-  Status add_events(std::int64_t filetime_offset);
+  Status add_all(std::int64_t filetime_offset) ORTHONAV_EXCLUDES(mutex_);
+  Status add_cameras() ORTHONAV_REQUIRES(mutex_);
+  Status add_events(std::int64_t filetime_offset) ORTHONAV_REQUIRES(mutex_);
   template <class Make>
   auto& add(const std::string& name, int port, Duration interval, Duration longest_silence,
-            Make make);
-  void run();
-  void take(Side side, CameraImage& image) override;
-  void lost(Side side) override;
-  void publish(const Pairer::Pair& pair);
+            Make make) ORTHONAV_REQUIRES(mutex_);
+  void run() ORTHONAV_EXCLUDES(mutex_);
+  // Called by the streams, which `run` lets go on under the mutex.
+  void take(Side side, CameraImage& image) override ORTHONAV_REQUIRES(mutex_);
+  void lost(Side side) override ORTHONAV_REQUIRES(mutex_);
+  void publish(const Pairer::Pair& pair) ORTHONAV_REQUIRES(mutex_);
 
   Endpoint host_;
   Hl2ssOptions options_;
@@ -72,15 +74,15 @@ class Receiver final : private ImageSink {
   std::atomic<bool> heard_ = false;
   std::atomic<bool> stop_ = false;
 
-  mutable std::mutex mutex_;  ///< of everything below
-  std::vector<Stream> streams_;
-  StandinStream* standin_ = nullptr;
-  SoundStream* sound_ = nullptr;
-  Pairer pairer_;
-  MapWatch map_;
-  std::int64_t map_epoch_ = 0;
-  std::int64_t restarts_ = 0;
-  std::int64_t late_pairs_ = 0;
+  StandinStream* standin_ = nullptr;  ///< made before the thread starts, the same ever after
+  mutable Mutex mutex_;               ///< also of the stamps in `time_`, which the streams share
+  std::vector<Stream> streams_ ORTHONAV_GUARDED_BY(mutex_);
+  SoundStream* sound_ ORTHONAV_GUARDED_BY(mutex_) = nullptr;
+  Pairer pairer_ ORTHONAV_GUARDED_BY(mutex_);
+  MapWatch map_ ORTHONAV_GUARDED_BY(mutex_);
+  std::int64_t map_epoch_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t restarts_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t late_pairs_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::thread thread_;
 };
 

@@ -36,7 +36,7 @@ Status StandinStream::received(std::size_t count, HostTime /*at*/) {
 }
 
 Status StandinStream::take(const StandinMessage& message) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (const auto* hello = std::get_if<StandinHello>(&message)) {
     hello_ = *hello;
     if (hello->paced) {
@@ -66,7 +66,7 @@ Status StandinStream::take(const StandinMessage& message) {
 
 void StandinStream::send(const StandinMessage& message) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     // Nobody listens, or too slowly: the newest of it is not worth waiting for either.
     if (!hello_ || unsent_.size() > kMaxStandinBytes) {
       return;
@@ -77,13 +77,13 @@ void StandinStream::send(const StandinMessage& message) {
 }
 
 std::vector<std::uint8_t> StandinStream::more(HostTime /*now*/) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return std::exchange(unsent_, {});
 }
 
 void StandinStream::disconnected() {
-  const std::lock_guard lock(mutex_);
   have_ = 0;
+  const MutexLock lock(mutex_);
   hello_.reset();
   up_to_.clear();
   unsent_.clear();
@@ -91,7 +91,7 @@ void StandinStream::disconnected() {
 }
 
 bool StandinStream::admits(Timestamp pair_time) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!hello_) {
     return true;
   }
@@ -108,12 +108,12 @@ bool StandinStream::admits(Timestamp pair_time) {
 }
 
 bool StandinStream::has_ended() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return ended_;
 }
 
 std::optional<Duration> StandinStream::display_latency() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return hello_ ? std::optional(hello_->display_latency) : std::nullopt;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <deque>
-#include <mutex>
 #include <optional>
 
+#include "base/mutex.h"
 #include "hal/hl2ss/inbox.h"
 #include "hal/hl2ss/packet_stream.h"
 #include "hal/hl2ss/standin_message.h"
@@ -35,13 +35,17 @@ class StandinStream final : public Protocol {
   HeadsetTime& time_;
   Inbox<ClickerEvent>& inbox_;
   const WakeUp& wake_up_;
-  mutable std::mutex mutex_;
+  // Of the conversation:
   std::vector<std::uint8_t> buffer_;
   std::size_t have_ = 0;
-  std::vector<std::uint8_t> unsent_;
-  std::optional<StandinHello> hello_;  ///< present while connected
-  std::deque<StandinUpTo> up_to_;      ///< of pairs not handed out yet
-  bool ended_ = false;
+
+  mutable Mutex mutex_;
+  std::vector<std::uint8_t> unsent_ ORTHONAV_GUARDED_BY(mutex_);
+  /// Present while connected.
+  std::optional<StandinHello> hello_ ORTHONAV_GUARDED_BY(mutex_);
+  /// Of pairs not handed out yet.
+  std::deque<StandinUpTo> up_to_ ORTHONAV_GUARDED_BY(mutex_);
+  bool ended_ ORTHONAV_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace orthonav::hl2ss

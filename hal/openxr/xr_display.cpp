@@ -27,39 +27,39 @@ Result<EyeImages> XrDisplay::start(const VulkanObjects& objects,
 }
 
 Result<GraphicsNeeds> XrDisplay::connect() {
-  if (!runtime_ || instance_lost_) {
+  if (!runtime() || instance_lost_) {
     button_.destroy();
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       runtime_.reset();
     }
-    auto runtime = Runtime::connect();
-    if (!runtime) {
-      return runtime.error();
+    auto connected = Runtime::connect();
+    if (!connected) {
+      return connected.error();
     }
-    if (const Status made = button_.create(**runtime); !made) {
+    if (const Status made = button_.create(**connected); !made) {
       return made.error();
     }
-    const std::lock_guard lock(mutex_);
-    runtime_ = std::move(*runtime);
+    const MutexLock lock(mutex_);
+    runtime_ = std::move(*connected);
   }
-  if (const Status found = runtime_->find_headset(); !found) {
+  if (const Status found = runtime()->find_headset(); !found) {
     return found.error();
   }
-  const auto name = runtime_->headset_name();
+  const auto name = runtime()->headset_name();
   if (!name) {
     return name.error();
   }
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     headset_name_ = *name;
   }
-  const auto setup = view_setup_of(*runtime_);
+  const auto setup = view_setup_of(*runtime());
   if (!setup) {
     return setup.error();
   }
   setup_ = *setup;
-  const auto versions = runtime_->vulkan_versions();
+  const auto versions = runtime()->vulkan_versions();
   if (!versions) {
     return versions.error();
   }
@@ -67,15 +67,15 @@ Result<GraphicsNeeds> XrDisplay::connect() {
 }
 
 Result<void*> XrDisplay::create_instance(VulkanFunction get_proc, const void* info) {
-  return runtime_->create_vulkan_instance(get_proc, info);
+  return runtime()->create_vulkan_instance(get_proc, info);
 }
 
 Result<void*> XrDisplay::physical_device(void* instance) {
-  return runtime_->vulkan_device(instance);
+  return runtime()->vulkan_device(instance);
 }
 
 Result<void*> XrDisplay::create_device(void* physical, VulkanFunction get_proc, const void* info) {
-  return runtime_->create_vulkan_device(physical, get_proc, info);
+  return runtime()->create_vulkan_device(physical, get_proc, info);
 }
 
 Result<EyeImages> XrDisplay::make_all(const VulkanObjects& objects,
@@ -90,7 +90,7 @@ Result<EyeImages> XrDisplay::make_all(const VulkanObjects& objects,
     return made.error();
   }
   near_m_ = preference.near_m();
-  const bool depth = runtime_->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
+  const bool depth = runtime()->has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   if (const Status made = swapchains_.create(session_, setup_, preference, depth); !made) {
     return made.error();
   }
@@ -106,10 +106,10 @@ Status XrDisplay::make_session(const VulkanObjects& objects) {
   binding.queueIndex = objects.queue_index;
   XrSessionCreateInfo info = {XR_TYPE_SESSION_CREATE_INFO};
   info.next = &binding;
-  info.systemId = runtime_->system();
+  info.systemId = runtime()->system();
   state_ = {};
   end_asked_ = false;
-  return status_of("create a session", xrCreateSession(runtime_->instance(), &info, &session_));
+  return status_of("create a session", xrCreateSession(runtime()->instance(), &info, &session_));
 }
 
 Status XrDisplay::make_spaces() {
@@ -129,7 +129,7 @@ Status XrDisplay::make_spaces() {
     info.poseInReferenceSpace.orientation.w = 1.0f;
     return xrCreateReferenceSpace(session_, &info, &space);
   };
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   result = make(space_type_, space_);
   if (XR_SUCCEEDED(result)) {
     result = make(XR_REFERENCE_SPACE_TYPE_VIEW, viewer_);
@@ -158,7 +158,7 @@ void XrDisplay::ask_to_end() {
 void XrDisplay::close() {
   swapchains_.destroy();
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (viewer_ != XR_NULL_HANDLE) {
       xrDestroySpace(viewer_);
     }
@@ -178,7 +178,7 @@ void XrDisplay::close() {
 }
 
 std::string XrDisplay::name() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return runtime_ ? runtime_->name() + ", " + headset_name_ : "";
 }
 
@@ -194,7 +194,7 @@ std::optional<XrTime> XrDisplay::xr_time(Timestamp at) const {
 }
 
 std::optional<Timestamp> XrDisplay::timestamp(XrTime at) const {
-  const auto now = runtime_->now();
+  const auto now = runtime()->now();
   if (!now) {
     return std::nullopt;
   }
@@ -229,7 +229,7 @@ XrDisplay::Located XrDisplay::locate_viewer(XrTime at) const {
 Tracked<Transform<World, Rig>> XrDisplay::world_from_rig(Timestamp at) const {
   Tracked<Transform<World, Rig>> answer;
   answer.time = at;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto time = xr_time(at);
   if (!time) {
     return answer;
@@ -246,13 +246,13 @@ Tracked<Transform<World, Rig>> XrDisplay::world_from_rig(Timestamp at) const {
 }
 
 std::int64_t XrDisplay::map_epoch(Timestamp at) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   // Without a runtime nothing moves: the newest map still holds.
   return anchor_.epoch(xr_time(at).value_or(std::numeric_limits<XrTime>::max()));
 }
 
 void XrDisplay::take_button(Timestamp until, std::vector<ButtonChange>& changes) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   while (!button_changes_.empty() && button_changes_.front().time <= until) {
     changes.push_back(button_changes_.front());
     button_changes_.pop_front();

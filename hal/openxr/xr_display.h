@@ -3,11 +3,11 @@
 #include <atomic>
 #include <deque>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/mutex.h"
 #include "hal/api/devices.h"
 #include "hal/openxr/placement.h"
 #include "hal/openxr/runtime.h"
@@ -75,6 +75,13 @@ class XrDisplay : public PixelDisplay {
     PoseStatus status = PoseStatus::kLost;
   };
 
+  // For the presenting thread: since no other changes these, it reads them without the mutex.
+  [[nodiscard]] Runtime* runtime() const ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
+    return runtime_.get();
+  }
+  [[nodiscard]] XrSpace space() const ORTHONAV_NO_THREAD_SAFETY_ANALYSIS { return space_; }
+  [[nodiscard]] XrSpace viewer() const ORTHONAV_NO_THREAD_SAFETY_ANALYSIS { return viewer_; }
+
   Result<GraphicsNeeds> connect();
   Result<EyeImages> make_all(const VulkanObjects& objects, const FormatPreference& preference);
   Status make_session(const VulkanObjects& objects);
@@ -93,9 +100,9 @@ class XrDisplay : public PixelDisplay {
   /// Converts `located_`; false if a pose or a field of view can't be used.
   bool take_eyes(const Transform<World, Space>& world_from_space, EyeViews& views) const;
   bool locate_in_world(EyeViews& views);
-  [[nodiscard]] Located locate_viewer(XrTime at) const;
+  [[nodiscard]] Located locate_viewer(XrTime at) const ORTHONAV_REQUIRES(mutex_);
   // Between the runtime's clock and ours, both read now.
-  [[nodiscard]] std::optional<XrTime> xr_time(Timestamp at) const;
+  [[nodiscard]] std::optional<XrTime> xr_time(Timestamp at) const ORTHONAV_REQUIRES(mutex_);
   [[nodiscard]] std::optional<Timestamp> timestamp(XrTime at) const;
 
   Mount mount_;
@@ -104,13 +111,13 @@ class XrDisplay : public PixelDisplay {
   std::atomic<Duration> latency_{std::chrono::milliseconds(20)};
 
   // Changed by the presenting thread under the mutex; read by other threads under it.
-  mutable std::mutex mutex_;
-  std::unique_ptr<Runtime> runtime_;
-  std::string headset_name_;
-  XrSpace space_ = XR_NULL_HANDLE;
-  XrSpace viewer_ = XR_NULL_HANDLE;
-  WorldAnchor anchor_;
-  std::deque<ButtonChange> button_changes_;
+  mutable Mutex mutex_;
+  std::unique_ptr<Runtime> runtime_ ORTHONAV_GUARDED_BY(mutex_);
+  std::string headset_name_ ORTHONAV_GUARDED_BY(mutex_);
+  XrSpace space_ ORTHONAV_GUARDED_BY(mutex_) = XR_NULL_HANDLE;
+  XrSpace viewer_ ORTHONAV_GUARDED_BY(mutex_) = XR_NULL_HANDLE;
+  WorldAnchor anchor_ ORTHONAV_GUARDED_BY(mutex_);
+  std::deque<ButtonChange> button_changes_ ORTHONAV_GUARDED_BY(mutex_);
 
   // For the presenting thread alone.
   ViewSetup setup_;

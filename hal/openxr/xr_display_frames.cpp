@@ -72,14 +72,14 @@ void XrDisplay::take_space_change(const XrEventDataReferenceSpaceChangePending& 
       old_from_new = *pose;
     }
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   anchor_.move(change.changeTime, old_from_new);
 }
 
 std::optional<DisplayFrame> XrDisplay::take_events() {
   for (;;) {
     XrEventDataBuffer event = {XR_TYPE_EVENT_DATA_BUFFER};
-    const XrResult polled = xrPollEvent(runtime_->instance(), &event);
+    const XrResult polled = xrPollEvent(runtime()->instance(), &event);
     if (polled == XR_EVENT_UNAVAILABLE) {
       return std::nullopt;
     }
@@ -109,7 +109,7 @@ std::optional<DisplayFrame> XrDisplay::take_events() {
 }
 
 void XrDisplay::poll_button() {
-  const auto now = runtime_->now();
+  const auto now = runtime()->now();
   if (!now) {
     return;
   }
@@ -126,7 +126,7 @@ void XrDisplay::poll_button() {
     return;
   }
   const auto time = timestamp(change->time);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (time) {
     button_changes_.push_back({change->down, *time});
   }

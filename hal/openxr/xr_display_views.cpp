@@ -28,7 +28,7 @@ void stand_still(std::array<XrView, 2>& views) {
 /// A World that is still to be laid is laid as soon as the poses of both heads are known.
 void XrDisplay::lay_world(XrTime at) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (anchor_.world_from_space(at)) {
       return;
     }
@@ -37,7 +37,7 @@ void XrDisplay::lay_world(XrTime at) {
   if (world_from_rig.status == PoseStatus::kLost) {
     return;
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const Located viewer = locate_viewer(at);
   if (viewer.status == PoseStatus::kLost) {
     return;
@@ -72,7 +72,7 @@ bool XrDisplay::take_eyes(const Transform<World, Space>& world_from_space, EyeVi
 bool XrDisplay::locate_in_world(EyeViews& views) {
   constexpr XrViewStateFlags kTracked =
       XR_VIEW_STATE_ORIENTATION_TRACKED_BIT | XR_VIEW_STATE_POSITION_TRACKED_BIT;
-  const XrViewStateFlags flags = locate_eyes(space_);
+  const XrViewStateFlags flags = locate_eyes(space());
   const bool elsewhere = mount_.placement == Placement::kElsewhere;
   if (elsewhere && (flags & kKnown) == XR_VIEW_STATE_ORIENTATION_VALID_BIT) {
     stand_still(located_);
@@ -85,7 +85,7 @@ bool XrDisplay::locate_in_world(EyeViews& views) {
   }
   std::optional<Transform<World, Space>> world_from_space;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     world_from_space = anchor_.world_from_space(display_time_);
   }
   return world_from_space && take_eyes(*world_from_space, views);
@@ -100,7 +100,7 @@ EyeViews XrDisplay::views() {
   if (locate_in_world(views)) {
     views.status = PoseStatus::kPredicted;
   } else {
-    views.on_head = (locate_eyes(viewer_) & kKnown) == kKnown && take_eyes({}, views);
+    views.on_head = (locate_eyes(viewer()) & kKnown) == kKnown && take_eyes({}, views);
   }
   return views;
 }

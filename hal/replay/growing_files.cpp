@@ -23,16 +23,19 @@ std::string pgm_header(int width_px, int height_px, int maximum) {
 }  // namespace
 
 Status LineFile::open(const std::filesystem::path& path, const char* header) {
-  path_ = path;
-  file_.reset(std::fopen(path.c_str(), "wbe"));
-  if (!file_) {
-    return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
+  {
+    const MutexLock lock(mutex_);
+    path_ = path;
+    file_.reset(std::fopen(path.c_str(), "wbe"));
+    if (!file_) {
+      return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
+    }
   }
   return header ? write(header) : Status{};
 }
 
 Status LineFile::write(const std::string& line) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!file_) {
     return file_error(path_, "is closed already");
   }
@@ -45,11 +48,16 @@ Status LineFile::write(const std::string& line) {
 }
 
 Status LineFile::close() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (file_ && std::fclose(file_.release()) != 0) {
     return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
   }
   return {};
+}
+
+bool LineFile::is_open() const {
+  const MutexLock lock(mutex_);
+  return file_ != nullptr;
 }
 
 void ImageTarWriter::FreeArchive::operator()(archive* a) const { archive_write_free(a); }

@@ -5,12 +5,12 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/image.h"
+#include "base/mutex.h"
 #include "base/result.h"
 #include "base/transform.h"
 #include "hal/replay/frame_files.h"
@@ -27,15 +27,15 @@ class LineFile {
   Status open(const std::filesystem::path& path, const char* header);
   Status write(const std::string& line);
   Status close();
-  [[nodiscard]] bool is_open() const { return file_ != nullptr; }
+  [[nodiscard]] bool is_open() const;
 
  private:
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
-  std::filesystem::path path_;
-  std::unique_ptr<std::FILE, Close> file_;
-  std::mutex mutex_;
+  mutable Mutex mutex_;
+  std::filesystem::path path_ ORTHONAV_GUARDED_BY(mutex_);
+  std::unique_ptr<std::FILE, Close> file_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 /// A ustar archive of `<ticks>.pgm` that grows image by image.

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/mutex.h"
 #include "hal/replay/layout.h"
 #include "hal/replay/recording_writer.h"
 
@@ -31,7 +31,7 @@ class Tape {
     }
   }
   [[nodiscard]] Status status() const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return failure_;
   }
   Status close() {
@@ -48,11 +48,11 @@ class Tape {
  private:
   std::unique_ptr<RecordingWriter> writer_;
   std::atomic<bool> running_{true};
-  mutable std::mutex mutex_;
-  Status failure_;
+  mutable Mutex mutex_;
+  Status failure_ ORTHONAV_GUARDED_BY(mutex_);
 
   void fail(const Status& status) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     running_ = false;
     if (failure_.ok()) {
       failure_ = status;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <mutex>
 #include <utility>
 
+#include "base/mutex.h"
 #include "hal/sim/head_track.h"
 #include "hal/sim/hololens2.h"
 #include "hal/sim/imperfect.h"
@@ -41,13 +41,13 @@ class SimClock final : public Clock {
   std::atomic<std::int64_t> now_ns_{kStart.time_since_epoch().count()};
 };
 
-/// What every part of the headset shares; the mutex guards all but the clock.
+/// What every part of the headset shares.
 struct Shared {
-  std::mutex mutex;
+  Mutex mutex;
   SimClock clock;
-  RoomSimulation simulation;
-  HeadTrack head;
-  Timestamp last_frame = kStart;
+  RoomSimulation simulation ORTHONAV_GUARDED_BY(mutex);
+  HeadTrack head ORTHONAV_GUARDED_BY(mutex);
+  Timestamp last_frame ORTHONAV_GUARDED_BY(mutex) = kStart;
 
   Shared(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig)
       : clock(options.pace),
@@ -96,7 +96,7 @@ class SimCameras final : public StereoCamera {
     }
     const Timestamp time = time_of(number_);
     {
-      const std::lock_guard lock(shared_.mutex);
+      const MutexLock lock(shared_.mutex);
       const auto finished = shared_.simulation.finished_at();
       if (seconds(time - kStart) > options_.limit_s ||
           (finished && time > *finished + kAfterDone)) {
@@ -110,7 +110,7 @@ class SimCameras final : public StereoCamera {
     return Next::kFrame;
   }
 
-  void expose(Timestamp time, StereoFrame& frame) {
+  void expose(Timestamp time, StereoFrame& frame) ORTHONAV_REQUIRES(shared_.mutex) {
     RoomSimulation& simulation = shared_.simulation;
     simulation.advance(time + half_exposure_);
     const auto middle = static_cast<std::int64_t>(states_.size() / 2);
@@ -157,11 +157,11 @@ class SimHeadTracker final : public HeadTracker {
 
  private:
   [[nodiscard]] Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const override {
-    const std::lock_guard lock(shared_.mutex);
+    const MutexLock lock(shared_.mutex);
     return shared_.head.at(at);
   }
   [[nodiscard]] std::optional<Timestamp> do_newest_measurement() const override {
-    const std::lock_guard lock(shared_.mutex);
+    const MutexLock lock(shared_.mutex);
     return shared_.head.newest();
   }
   Shared& shared_;
@@ -182,7 +182,7 @@ class SimClicker final : public Clicker {
 
  private:
   Status do_poll(Timestamp until, std::vector<ClickerEvent>& events) override {
-    const std::lock_guard lock(shared_.mutex);
+    const MutexLock lock(shared_.mutex);
     hand_over(shared_.simulation.clicks(), until, events);
     return {};
   }
@@ -195,7 +195,7 @@ class SimVoice final : public Voice {
 
  private:
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
-    const std::lock_guard lock(shared_.mutex);
+    const MutexLock lock(shared_.mutex);
     hand_over(shared_.simulation.phrases(), until, phrases);
     return {};
   }
@@ -209,7 +209,7 @@ class SimDisplay final : public Display {
  private:
   [[nodiscard]] Duration do_latency() const override { return kDisplayLatency; }
   Status do_shown(const ShownFrame& frame) override {
-    const std::lock_guard lock(shared_.mutex);
+    const MutexLock lock(shared_.mutex);
     // The display draws for the pose that it predicted when the frame was submitted.
     const auto believed = shared_.head.at(frame.display_time, frame.display_time - kDisplayLatency);
     if (believed.status == PoseStatus::kLost) {
@@ -241,22 +241,28 @@ class SimulatedHeadset final : public SimHeadset {
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
 
-  [[nodiscard]] const Truth& truth() const override { return shared_.simulation.truth(); }
+  // Only the thread that takes the pairs lets the truth grow, and only that one asks for it.
+  [[nodiscard]] const Truth& truth() const override ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
+    return shared_.simulation.truth();
+  }
   [[nodiscard]] RoomState state() const override {
-    const std::lock_guard lock(shared_.mutex);
+    const MutexLock lock(shared_.mutex);
     RoomState state;
     shared_.simulation.state_at(shared_.last_frame, state);
     return state;
   }
   [[nodiscard]] Transform<World, Room> world_from_room() const override {
-    const std::lock_guard lock(shared_.mutex);
+    const MutexLock lock(shared_.mutex);
     return shared_.simulation.world_from_room(shared_.last_frame);
   }
   [[nodiscard]] DescribedTools described_tools() const override {
-    return described(shared_.simulation.room().tools, options_.error_model,
+    return described(room().tools, options_.error_model,
                      Random(options_.seed).fork("tool descriptions"));
   }
-  [[nodiscard]] const RoomDescription& room() const override { return shared_.simulation.room(); }
+  // The same from the first moment on.
+  [[nodiscard]] const RoomDescription& room() const override ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
+    return shared_.simulation.room();
+  }
   [[nodiscard]] const SimOptions& options() const override { return options_; }
 
  private:

@@ -40,7 +40,7 @@ class SimHeadset : public Headset {
   /// Refuses magnitudes, options and rooms that make no sense, and a surgeon without pointer or
   /// guide. Without levels there is nothing to operate: the tools hover, as without a surgeon.
   static Result<std::unique_ptr<SimHeadset>> open(RoomDescription room, const SimOptions& options);
-  /// The truth so far.
+  /// The truth so far. For the thread that takes the pairs: it grows with them.
   [[nodiscard]] virtual const Truth& truth() const = 0;
   [[nodiscard]] virtual RoomState state() const = 0;
   /// World (as the headset believes) from Room now.

@@ -14,7 +14,7 @@ StereoRenderer::StereoRenderer(const RoomDescription& room, const ErrorModel& er
 
 StereoRenderer::~StereoRenderer() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stop_ = true;
   }
   changed_.notify_all();
@@ -25,30 +25,36 @@ void StereoRenderer::render(std::span<const RoomState> states, std::int64_t numb
                             StereoFrame& frame) {
   const Random noise = Random(seed_).fork("image").fork(static_cast<std::uint64_t>(number));
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     job_ = {states, noise.fork("right").next(), &frame.right};
   }
   changed_.notify_all();
   left_->render(states, cameras_.left, cameras_.left_from_rig, noise.fork("left").next(),
                 frame.left);
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return job_.image == nullptr; });
+  const MutexLock lock(mutex_);
+  while (job_.image != nullptr) {
+    changed_.wait(mutex_);
+  }
 }
 
 void StereoRenderer::work() {
   // The renderer takes any camera's place under the left one's name.
   const Transform<LeftCamera, Rig> right_from_rig{cameras_.right_from_rig.rotation(),
                                                   cameras_.right_from_rig.translation()};
-  std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return stop_ || job_.image != nullptr; });
-    if (stop_) {
-      return;
+    Job job;
+    {
+      const MutexLock lock(mutex_);
+      while (!stop_ && job_.image == nullptr) {
+        changed_.wait(mutex_);
+      }
+      if (stop_) {
+        return;
+      }
+      job = job_;
     }
-    const Job job = job_;
-    lock.unlock();
     right_->render(job.states, cameras_.right, right_from_rig, job.noise_seed, *job.image);
-    lock.lock();
+    const MutexLock lock(mutex_);
     job_.image = nullptr;
     changed_.notify_all();
   }

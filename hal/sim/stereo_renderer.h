@@ -1,11 +1,10 @@
 #pragma once
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <thread>
 
+#include "base/mutex.h"
 #include "hal/api/devices.h"
 #include "hal/sim/room_renderer.h"
 
@@ -36,10 +35,10 @@ class StereoRenderer {
   std::uint64_t seed_;
   std::unique_ptr<RoomRenderer> left_;
   std::unique_ptr<RoomRenderer> right_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  Job job_;
-  bool stop_ = false;
+  Mutex mutex_;
+  ConditionVariable changed_;
+  Job job_ ORTHONAV_GUARDED_BY(mutex_);
+  bool stop_ ORTHONAV_GUARDED_BY(mutex_) = false;
   std::thread worker_;
 };
 

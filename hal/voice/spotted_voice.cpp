@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <condition_variable>
-#include <mutex>
+#include <chrono>
 #include <thread>
 #include <utility>
 
+#include "base/mutex.h"
 #include "hal/voice/resampler.h"
 
 namespace orthonav::voice {
@@ -98,7 +98,7 @@ class VoiceOnItsOwnThread : public Voice {
   }
   ~VoiceOnItsOwnThread() override {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       stop_ = true;
     }
     wake_.notify_one();
@@ -109,11 +109,11 @@ class VoiceOnItsOwnThread : public Voice {
 
  private:
   Listener listener_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool stop_ = false;
-  std::vector<Phrase> heard_;
-  Status trouble_;
+  Mutex mutex_;
+  ConditionVariable wake_;
+  bool stop_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::vector<Phrase> heard_ ORTHONAV_GUARDED_BY(mutex_);
+  Status trouble_ ORTHONAV_GUARDED_BY(mutex_);
   std::thread thread_;  // last: it uses all of the above
 
   void run() {
@@ -122,18 +122,21 @@ class VoiceOnItsOwnThread : public Voice {
     for (;;) {
       phrases.clear();
       const Status listened = listener_.listen(phrases);
-      std::unique_lock lock(mutex_);
+      const MutexLock lock(mutex_);
       heard_.insert(heard_.end(), phrases.begin(), phrases.end());
       if (!listened) {
         trouble_ = listened;
       }
-      if (wake_.wait_for(lock, kBetweenReads, [this] { return stop_; })) {
+      const auto next_read = std::chrono::steady_clock::now() + kBetweenReads;
+      while (!stop_ && wake_.wait_until(mutex_, next_read)) {
+      }
+      if (stop_) {
         return;
       }
     }
   }
   Status do_poll(Timestamp until, std::vector<Phrase>& phrases) override {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (const Status trouble = std::exchange(trouble_, Status()); !trouble) {
       return trouble;
     }

@@ -8,7 +8,7 @@ Worker::Worker() : thread_([this] { loop(); }) {}
 
 Worker::~Worker() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ending_ = true;
   }
   changed_.notify_all();
@@ -17,7 +17,7 @@ Worker::~Worker() {
 
 void Worker::start(void (*task)(void*), void* argument) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ORTHONAV_CHECK(!task_);
     task_ = task;
     argument_ = argument;
@@ -26,20 +26,29 @@ void Worker::start(void (*task)(void*), void* argument) {
 }
 
 void Worker::wait() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return !task_; });
+  const MutexLock lock(mutex_);
+  while (task_) {
+    changed_.wait(mutex_);
+  }
 }
 
 void Worker::loop() {
-  std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return task_ || ending_; });
-    if (!task_) {
-      return;
+    void (*task)(void*) = nullptr;
+    void* argument = nullptr;
+    {
+      const MutexLock lock(mutex_);
+      while (!task_ && !ending_) {
+        changed_.wait(mutex_);
+      }
+      if (!task_) {
+        return;
+      }
+      task = task_;
+      argument = argument_;
     }
-    lock.unlock();
-    task_(argument_);
-    lock.lock();
+    task(argument);
+    const MutexLock lock(mutex_);
     task_ = nullptr;
     changed_.notify_all();
   }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
 #include <thread>
+
+#include "base/mutex.h"
 
 namespace orthonav::nav {
 
@@ -24,11 +24,11 @@ class Worker {
  private:
   void loop();
 
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  void (*task_)(void*) = nullptr;
-  void* argument_ = nullptr;
-  bool ending_ = false;
+  Mutex mutex_;
+  ConditionVariable changed_;
+  void (*task_)(void*) ORTHONAV_GUARDED_BY(mutex_) = nullptr;
+  void* argument_ ORTHONAV_GUARDED_BY(mutex_) = nullptr;
+  bool ending_ ORTHONAV_GUARDED_BY(mutex_) = false;
   std::thread thread_;
 };
 

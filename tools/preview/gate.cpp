@@ -17,7 +17,7 @@ Timestamp WallClock::now() const {
 }
 
 void Gate::pause(bool paused) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   paused_ = paused;
   steps_ = 0;
   run_to_ = 0;
@@ -25,40 +25,40 @@ void Gate::pause(bool paused) {
 }
 
 bool Gate::paused() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return paused_;
 }
 
 void Gate::step(int pairs) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (paused_) {
     steps_ += pairs;
   }
 }
 
 void Gate::set_speed(double speed) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   speed_ = std::max(speed, 0.0);
   anchor_.reset();
 }
 
 double Gate::speed() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return speed_;
 }
 
 void Gate::run_to(std::int64_t pairs) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   run_to_ = pairs;
 }
 
 std::int64_t Gate::passed() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return passed_;
 }
 
 void Gate::restart() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   on_its_way_ = false;
   passed_ = 0;
   run_to_ = 0;
@@ -68,12 +68,12 @@ void Gate::restart() {
 }
 
 bool Gate::at_rest() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return !on_its_way_;
 }
 
 bool Gate::may_pass() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return on_its_way_ = is_open();
 }
 
@@ -103,7 +103,7 @@ bool Gate::is_open() {
 }
 
 void Gate::pass(Timestamp time) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   on_its_way_ = false;
   ++passed_;
   steps_ = std::max(0, steps_ - 1);
@@ -111,7 +111,7 @@ void Gate::pass(Timestamp time) {
 }
 
 void Gate::none_came() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   on_its_way_ = false;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
 #include <optional>
 
+#include "base/mutex.h"
 #include "base/time.h"
 
 namespace orthonav::preview {
@@ -47,19 +47,18 @@ class Gate {
     Timestamp wall;
   };
 
-  /// The mutex must be held.
-  [[nodiscard]] bool is_open();
+  [[nodiscard]] bool is_open() ORTHONAV_REQUIRES(mutex_);
 
   const Clock& wall_;
-  mutable std::mutex mutex_;
-  bool paused_ = false;
-  double speed_ = 1.0;
-  int steps_ = 0;
-  bool on_its_way_ = false;
-  std::int64_t passed_ = 0;
-  std::int64_t run_to_ = 0;
-  std::optional<Timestamp> last_;
-  std::optional<Anchor> anchor_;
+  mutable Mutex mutex_;
+  bool paused_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  double speed_ ORTHONAV_GUARDED_BY(mutex_) = 1.0;
+  int steps_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  bool on_its_way_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::int64_t passed_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::int64_t run_to_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::optional<Timestamp> last_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<Anchor> anchor_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 /// The wall's clock, for pacing what people watch.

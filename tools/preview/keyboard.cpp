@@ -5,33 +5,33 @@
 namespace orthonav::preview {
 
 void Keyboard::button(bool down) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   downs_.push_back(down);
 }
 
 void Keyboard::say(std::string phrase) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   phrases_.push_back(std::move(phrase));
 }
 
 void Keyboard::mute(bool muted) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   muted_ = muted;
 }
 
 bool Keyboard::muted() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return muted_;
 }
 
 void Keyboard::take_button(std::vector<bool>& downs) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   downs.insert(downs.end(), downs_.begin(), downs_.end());
   downs_.clear();
 }
 
 void Keyboard::take_phrases(std::vector<std::string>& phrases) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (std::string& phrase : phrases_) {
     phrases.push_back(std::move(phrase));
   }

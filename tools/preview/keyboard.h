@@ -1,9 +1,9 @@
 #pragma once
 
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "base/mutex.h"
 #include "hal/api/devices.h"
 #include "hal/api/shared_button.h"
 
@@ -25,10 +25,10 @@ class Keyboard {
   void take_phrases(std::vector<std::string>& phrases);
 
  private:
-  mutable std::mutex mutex_;
-  bool muted_ = false;
-  std::vector<bool> downs_;
-  std::vector<std::string> phrases_;
+  mutable Mutex mutex_;
+  bool muted_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::vector<bool> downs_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<std::string> phrases_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 /// The headset's clicker and the keyboard's as one button.

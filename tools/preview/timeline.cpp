@@ -6,33 +6,34 @@
 namespace orthonav::preview {
 
 void Timeline::push(std::shared_ptr<const Moment> moment) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!moments_.empty()) {
     const std::int64_t last = moments_.back()->pair;
-    if (last >= moment->pair || !keeps(last)) {
+    if (last >= moment->pair || !keeps(last, stride_)) {
       moments_.pop_back();
     }
   }
   while (moments_.size() >= most_) {
     stride_ *= 2;
-    std::erase_if(moments_, [this](const auto& kept) { return !keeps(kept->pair); });
+    std::erase_if(moments_,
+                  [stride = stride_](const auto& kept) { return !keeps(kept->pair, stride); });
   }
   moments_.push_back(std::move(moment));
 }
 
 void Timeline::clear() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   moments_.clear();
   stride_ = 1;
 }
 
 std::size_t Timeline::size() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return moments_.size();
 }
 
 std::shared_ptr<const Moment> Timeline::newest() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return moments_.empty() ? nullptr : moments_.back();
 }
 
@@ -44,12 +45,12 @@ std::size_t Timeline::index_of(std::int64_t pair) const {
 }
 
 std::shared_ptr<const Moment> Timeline::at(std::int64_t pair) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return moments_.empty() ? nullptr : moments_[index_of(pair)];
 }
 
 std::shared_ptr<const Moment> Timeline::first_of(std::string_view step) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = std::find_if(moments_.begin(), moments_.end(), [step](const auto& moment) {
     return moment->step_text.starts_with(step);
   });
@@ -57,7 +58,7 @@ std::shared_ptr<const Moment> Timeline::first_of(std::string_view step) const {
 }
 
 std::shared_ptr<const Moment> Timeline::before(std::int64_t pair) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (moments_.empty()) {
     return nullptr;
   }
@@ -66,7 +67,7 @@ std::shared_ptr<const Moment> Timeline::before(std::int64_t pair) const {
 }
 
 std::shared_ptr<const Moment> Timeline::after(std::int64_t pair) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (moments_.empty()) {
     return nullptr;
   }

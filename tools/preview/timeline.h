@@ -3,12 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/mutex.h"
 #include "base/tracked.h"
 #include "base/transform.h"
 #include "engine/session/workflow.h"
@@ -63,16 +63,17 @@ class Timeline {
   [[nodiscard]] std::shared_ptr<const Moment> after(std::int64_t pair) const;
 
  private:
-  /// The mutex must be held.
-  [[nodiscard]] std::size_t index_of(std::int64_t pair) const;
+  [[nodiscard]] std::size_t index_of(std::int64_t pair) const ORTHONAV_REQUIRES(mutex_);
 
   /// Whether a moment stays once it is no longer the newest; the first always does.
-  [[nodiscard]] bool keeps(std::int64_t pair) const { return (pair - 1) % stride_ == 0; }
+  [[nodiscard]] static bool keeps(std::int64_t pair, std::int64_t stride) {
+    return (pair - 1) % stride == 0;
+  }
 
   std::size_t most_;
-  std::int64_t stride_ = 1;
-  mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<const Moment>> moments_;
+  mutable Mutex mutex_;
+  std::int64_t stride_ ORTHONAV_GUARDED_BY(mutex_) = 1;
+  std::vector<std::shared_ptr<const Moment>> moments_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 }  // namespace orthonav::preview

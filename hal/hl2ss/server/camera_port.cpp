@@ -20,7 +20,7 @@ void overwrite(std::vector<std::uint8_t>& bytes, std::size_t at, Number auto val
 }  // namespace
 
 bool CameraPort::is_streaming() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return request_.has_value();
 }
 
@@ -35,7 +35,7 @@ Result<std::size_t> CameraPort::understand(Bytes said) {
   if ((*read)->request.mode == Mode::kCalibration) {
     port_.send({Chunk{calibration_}});
   } else {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     request_ = (*read)->request;
     ++stream_;
   }
@@ -49,7 +49,7 @@ Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& reque
   }
   std::int64_t stream = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     stream = stream_;
   }
   // A new client must get a key frame first.
@@ -67,7 +67,7 @@ Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& reque
 Result<bool> CameraPort::send(const Image& image) {
   std::optional<VideoRequest> request;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     request = request_;
   }
   if (!request || images_++ % request->divisor != 0) {

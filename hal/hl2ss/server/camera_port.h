@@ -1,9 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <optional>
 
+#include "base/mutex.h"
 #include "base/random.h"
 #include "hal/hl2ss/server/faults.h"
 #include "hal/hl2ss/server/h264_encoder.h"
@@ -46,9 +46,9 @@ class CameraPort {
   std::vector<std::uint8_t> calibration_;
   Faults faults_;
   Random random_;
-  mutable std::mutex mutex_;  ///< of the next two
-  std::optional<VideoRequest> request_;
-  std::int64_t stream_ = 0;  ///< counts the requests
+  mutable Mutex mutex_;
+  std::optional<VideoRequest> request_ ORTHONAV_GUARDED_BY(mutex_);
+  std::int64_t stream_ ORTHONAV_GUARDED_BY(mutex_) = 0;  ///< counts the requests
   std::int64_t encoded_stream_ = -1;
   std::int64_t images_ = 0;
   std::unique_ptr<H264Encoder> encoder_;
@@ -56,7 +56,7 @@ class CameraPort {
   std::int64_t faults_done_ = 0;
   Port port_{{[this](Bytes said) { return understand(said); }, [] {},
               [this] {
-                const std::lock_guard lock(mutex_);
+                const MutexLock lock(mutex_);
                 request_.reset();
               }}};
 };

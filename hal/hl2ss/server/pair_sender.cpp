@@ -20,14 +20,18 @@ constexpr std::int64_t kUntouchedPairs = 3;
 }  // namespace
 
 void PairSender::restart() {
-  const std::lock_guard lock(mutex_);
-  jumped_from_world_ = {};
   pairs_ = 0;
+  const MutexLock lock(mutex_);
+  jumped_from_world_ = {};
+}
+
+Transform<World, World> PairSender::jumped_from_world() const {
+  const MutexLock lock(mutex_);
+  return jumped_from_world_;
 }
 
 Transform<World, World> PairSender::world_from_jumped() const {
-  const std::lock_guard lock(mutex_);
-  return jumped_from_world_.inverse();
+  return jumped_from_world().inverse();
 }
 
 std::int64_t PairSender::faults_done() const {
@@ -51,7 +55,7 @@ Result<bool> PairSender::send(Headset& headset, const StereoFrame& frame) {
   image.picture = &frame.left;
   image.spoil = number >= kUntouchedPairs;
   if (frame.world_from_rig && !unlocated) {
-    image.world_from_rig = jumped_from_world_ * *frame.world_from_rig;
+    image.world_from_rig = jumped_from_world() * *frame.world_from_rig;
   }
   const auto left = left_.send(image);
   image.ticks += kRightLaterTicks;
@@ -76,7 +80,7 @@ void PairSender::send_events(Headset& headset, const StereoFrame& frame) {
   // Two packets a pair, as on the headset. The head is the rig here: nobody navigates by it.
   std::optional<Transform<World, Eye>> head;
   if (frame.world_from_rig) {
-    const auto pose = jumped_from_world_ * *frame.world_from_rig;
+    const auto pose = jumped_from_world() * *frame.world_from_rig;
     head = Transform<World, Eye>(pose.rotation(), pose.translation());
   }
   for (const std::int64_t earlier : {kHalfPairTicks, std::int64_t{0}}) {
@@ -89,11 +93,11 @@ void PairSender::send_events(Headset& headset, const StereoFrame& frame) {
 }
 
 void PairSender::jump() {
-  const std::lock_guard lock(mutex_);
+  ++struck_;
+  const MutexLock lock(mutex_);
   jumped_from_world_ =
       Transform<World, World>(rotation_from_vector({0, faults_.jump_rad, 0}), faults_.jump_m) *
       jumped_from_world_;
-  ++struck_;
 }
 
 bool PairSender::strikes(double probability) {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <string>
 
+#include "base/mutex.h"
 #include "base/random.h"
 #include "hal/api/devices.h"
 #include "hal/hl2ss/server/camera_port.h"
@@ -33,6 +33,7 @@ class PairSender {
   [[nodiscard]] std::int64_t faults_done() const;
 
  private:
+  [[nodiscard]] Transform<World, World> jumped_from_world() const;
   void send_events(Headset& headset, const StereoFrame& frame);
   void jump();
   bool strikes(double probability);
@@ -44,8 +45,8 @@ class PairSender {
   SidePorts& sides_;
   std::int64_t pairs_ = 0;
   std::int64_t struck_ = 0;
-  mutable std::mutex mutex_;  ///< of the world
-  Transform<World, World> jumped_from_world_;
+  mutable Mutex mutex_;
+  Transform<World, World> jumped_from_world_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
 }  // namespace orthonav::hl2ss

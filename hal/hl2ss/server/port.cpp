@@ -28,7 +28,7 @@ short Port::events() const {
   if (!client_.is_open()) {
     return POLLIN;
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const bool speaks = !queue_.empty() && HostClock::now() >= silent_until_;
   return static_cast<short>(speaks ? POLLIN | POLLOUT : POLLIN);
 }
@@ -75,7 +75,7 @@ void Port::read() {
 void Port::write(HostTime now) {
   bool closes = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     while (!queue_.empty() && now >= silent_until_ && !closes) {
       Chunk& chunk = queue_.front();
       const auto count = send_some(client_, Bytes(chunk.bytes).subspan(sent_of_first_));
@@ -100,7 +100,7 @@ void Port::close() {
   has_client_ = false;
   heard_.clear();
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     queue_.clear();
     queued_bytes_ = 0;
     sent_of_first_ = 0;
@@ -117,7 +117,7 @@ void Port::send(std::vector<Chunk> chunks) {
   for (const Chunk& chunk : chunks) {
     bytes += chunk.bytes.size();
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (queued_bytes_ + bytes > kMaxQueued) {
     return;
   }

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <vector>
 
+#include "base/mutex.h"
 #include "base/time.h"
 #include "hal/hl2ss/socket.h"
 
@@ -43,19 +43,19 @@ class Port {
 
  private:
   void read();
-  void write(HostTime now);
-  void close();
+  void write(HostTime now) ORTHONAV_EXCLUDES(mutex_);
+  void close() ORTHONAV_EXCLUDES(mutex_);
 
   Talk talk_;
   Socket listener_;
   Socket client_;
   std::atomic<bool> has_client_ = false;
   std::vector<std::uint8_t> heard_;
-  mutable std::mutex mutex_;  ///< of what follows
-  std::deque<Chunk> queue_;
-  std::size_t queued_bytes_ = 0;
-  std::size_t sent_of_first_ = 0;
-  HostTime silent_until_{};
+  mutable Mutex mutex_;
+  std::deque<Chunk> queue_ ORTHONAV_GUARDED_BY(mutex_);
+  std::size_t queued_bytes_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::size_t sent_of_first_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  HostTime silent_until_ ORTHONAV_GUARDED_BY(mutex_){};
 };
 
 }  // namespace orthonav::hl2ss

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "base/joined.h"
+#include "base/mutex.h"
 #include "hal/hl2ss/calibration.h"
 #include "hal/hl2ss/server/camera_port.h"
 #include "hal/hl2ss/server/pair_sender.h"
@@ -33,8 +33,10 @@ class RunningServer final : public Server {
       : options_(options),
         open_(std::move(open)),
         headset_(std::move(first)),
-        left_(calibration_of(Side::kLeft), options.faults, Random(options.seed).fork("left")),
-        right_(calibration_of(Side::kRight), options.faults, Random(options.seed).fork("right")),
+        left_(calibration_of(*headset_, Side::kLeft), options.faults,
+              Random(options.seed).fork("left")),
+        right_(calibration_of(*headset_, Side::kRight), options.faults,
+               Random(options.seed).fork("right")),
         sides_(options.utc_offset_ticks),
         sender_(options.faults, options.seed, left_, right_, sides_) {}
   ~RunningServer() override {
@@ -76,14 +78,14 @@ class RunningServer final : public Server {
     return options;
   }
   [[nodiscard]] ServerReport report() const override {
-    const std::lock_guard lock(report_mutex_);
+    const MutexLock lock(report_mutex_);
     return report_;
   }
 
  private:
   enum class Side { kLeft, kRight };
-  [[nodiscard]] std::vector<std::uint8_t> calibration_of(Side side) const {
-    const StereoCalibration& c = headset_->cameras().calibration();
+  [[nodiscard]] static std::vector<std::uint8_t> calibration_of(Headset& headset, Side side) {
+    const StereoCalibration& c = headset.cameras().calibration();
     return side == Side::kLeft ? calibration_bytes(c.left, c.left_from_rig.row_major())
                                : calibration_bytes(c.right, c.right_from_rig.row_major());
   }
@@ -132,7 +134,7 @@ class RunningServer final : public Server {
   void show() {
     const Transform<World, World> back = sender_.world_from_jumped();
     for (ShownFrame& frame : sides_.take_shown()) {
-      const std::lock_guard lock(headset_mutex_);
+      const MutexLock lock(headset_mutex_);
       for (ShownHologram& hologram : frame.holograms) {
         for (Point<World>& point : hologram.points_in_world) {
           point = back * point;
@@ -157,19 +159,20 @@ class RunningServer final : public Server {
         std::this_thread::sleep_for(kIdle);
         continue;
       }
-      if (begin_session()) {
-        run_session();
+      if (Headset* const headset = begin_session()) {
+        run_session(*headset);
       }
       end_session();
     }
   }
-  bool begin_session() {
-    const std::lock_guard lock(headset_mutex_);
+  /// The headset, which stays until this thread ends the session; null where none opens.
+  Headset* begin_session() {
+    const MutexLock lock(headset_mutex_);
     if (!headset_) {
       auto opened = open_();
       if (!opened) {
         note([&](ServerReport& report) { report.last_trouble = opened.error().message; });
-        return false;
+        return nullptr;
       }
       headset_ = std::move(*opened);
     }
@@ -182,11 +185,11 @@ class RunningServer final : public Server {
     const Timestamp now = headset_->clock().now();
     const Duration latency = headset_->display().predicted_display_time(now) - now;
     sides_.greet({options_.paced, latency, now});
-    return true;
+    return headset_.get();
   }
   void end_session() {
     {
-      const std::lock_guard lock(headset_mutex_);
+      const MutexLock lock(headset_mutex_);
       in_session_ = false;
       headset_.reset();
     }
@@ -196,7 +199,7 @@ class RunningServer final : public Server {
       std::this_thread::sleep_for(kIdle);
     }
   }
-  void run_session() {
+  void run_session(Headset& headset) {
     StereoFrame frame;
     auto gone_since = HostClock::now();
     while (!stop_) {
@@ -207,7 +210,7 @@ class RunningServer final : public Server {
       if (HostClock::now() - gone_since > kPatience) {
         return;
       }
-      const auto next = headset_->cameras().next(frame);
+      const auto next = headset.cameras().next(frame);
       if (next && *next == Next::kEnd) {
         return;
       }
@@ -215,7 +218,7 @@ class RunningServer final : public Server {
         std::this_thread::sleep_for(kIdle);
         continue;
       }
-      const bool whole = send_pair(frame);
+      const bool whole = send_pair(headset, frame);
       if (!options_.paced) {
         continue;
       }
@@ -238,8 +241,8 @@ class RunningServer final : public Server {
   }
 
   /// Whether the client can be done with it.
-  bool send_pair(const StereoFrame& frame) {
-    const auto whole = sender_.send(*headset_, frame);
+  bool send_pair(Headset& headset, const StereoFrame& frame) {
+    const auto whole = sender_.send(headset, frame);
     note([&](ServerReport& report) {
       ++report.pairs;
       report.faults = sender_.faults_done();
@@ -250,15 +253,15 @@ class RunningServer final : public Server {
     return whole && *whole;
   }
   void note(auto what) {
-    const std::lock_guard lock(report_mutex_);
+    const MutexLock lock(report_mutex_);
     what(report_);
   }
 
   ServerOptions options_;
   OpenHeadset open_;
-  std::mutex headset_mutex_;  ///< of its coming and going; its parts may be used from two threads
-  std::unique_ptr<Headset> headset_;
-  bool in_session_ = false;
+  Mutex headset_mutex_;  ///< of its coming and going; its parts may be used from two threads
+  std::unique_ptr<Headset> headset_ ORTHONAV_GUARDED_BY(headset_mutex_);
+  bool in_session_ ORTHONAV_GUARDED_BY(headset_mutex_) = false;
   CameraPort left_;
   CameraPort right_;
   SidePorts sides_;
@@ -268,8 +271,8 @@ class RunningServer final : public Server {
 
   bool follows_ = true;  ///< the client took the last pair; of the headset's thread
 
-  mutable std::mutex report_mutex_;
-  ServerReport report_;
+  mutable Mutex report_mutex_;
+  ServerReport report_ ORTHONAV_GUARDED_BY(report_mutex_);
   std::thread network_;
   std::thread producer_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 #include "hal/hl2ss/protocol.h"
@@ -53,7 +54,7 @@ Result<std::size_t> SidePorts::listen(Bytes said) {
 Result<std::size_t> SidePorts::recognize(Bytes said) {
   bool polled = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (!vocabulary_) {
       auto words = read_vocabulary(said);
       if (!words) {
@@ -77,7 +78,7 @@ Result<std::size_t> SidePorts::recognize(Bytes said) {
 }
 
 std::vector<VoiceResult> SidePorts::results() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::vector<VoiceResult> all;
   for (const Phrase& phrase : phrases_) {
     const auto word = std::find(vocabulary_->begin(), vocabulary_->end(), phrase.text);
@@ -99,7 +100,7 @@ Result<std::size_t> SidePorts::hear_client(Bytes said) {
   if (!*read) {
     return std::size_t{0};
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (const auto* shown = std::get_if<StandinShown>(&(*read)->message)) {
     if (shown_.size() < kMostWaiting) {
       shown_.push_back(shown->frame);
@@ -120,7 +121,7 @@ void SidePorts::send_to_client(const StandinMessage& message) {
 
 void SidePorts::greet(const StandinHello& hello) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     hello_ = hello;
     heard_took_ = took_ = Timestamp::min();
     phrases_.clear();
@@ -131,7 +132,7 @@ void SidePorts::greet(const StandinHello& hello) {
 
 void SidePorts::end() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     hello_.reset();
   }
   send_to_client(StandinEnd{});
@@ -143,7 +144,7 @@ void SidePorts::tell(const std::vector<ClickerEvent>& clicks, const std::vector<
     send_to_client(StandinClicks{clicks});
   }
   send_to_client(up_to);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (phrases_.size() < kMostWaiting) {
     phrases_.insert(phrases_.end(), phrases.begin(), phrases.end());
   }
@@ -153,23 +154,23 @@ void SidePorts::tell(const std::vector<ClickerEvent>& clicks, const std::vector<
 }
 
 std::vector<ShownFrame> SidePorts::take_shown() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return std::exchange(shown_, {});
 }
 
 bool SidePorts::took(Timestamp pair_time) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return took_ >= pair_time;
 }
 
 void SidePorts::wait_for_took() {
-  std::unique_lock lock(mutex_);
-  took_changed_.wait_for(lock, std::chrono::milliseconds(2));
+  const MutexLock lock(mutex_);
+  took_changed_.wait_until(mutex_, std::chrono::steady_clock::now() + std::chrono::milliseconds(2));
 }
 
 void SidePorts::publish_took() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (took_ == heard_took_) {
       return;
     }

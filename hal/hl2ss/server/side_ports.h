@@ -1,11 +1,10 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <optional>
 #include <vector>
 
+#include "base/mutex.h"
 #include "hal/hl2ss/server/port.h"
 #include "hal/hl2ss/standin_message.h"
 #include "hal/hl2ss/voice.h"
@@ -40,17 +39,17 @@ class SidePorts {
   Result<std::size_t> recognize(Bytes said);
   Result<std::size_t> hear_client(Bytes said);
   void send_to_client(const StandinMessage& message);
-  [[nodiscard]] std::vector<VoiceResult> results();
+  [[nodiscard]] std::vector<VoiceResult> results() ORTHONAV_EXCLUDES(mutex_);
 
   std::int64_t utc_offset_ticks_;
-  mutable std::mutex mutex_;
-  std::condition_variable took_changed_;
-  std::optional<std::vector<std::string>> vocabulary_;
-  std::vector<Phrase> phrases_;
-  std::vector<ShownFrame> shown_;
-  std::optional<StandinHello> hello_;
-  Timestamp heard_took_ = Timestamp::min();
-  Timestamp took_ = Timestamp::min();
+  mutable Mutex mutex_;
+  ConditionVariable took_changed_;
+  std::optional<std::vector<std::string>> vocabulary_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<Phrase> phrases_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<ShownFrame> shown_ ORTHONAV_GUARDED_BY(mutex_);
+  std::optional<StandinHello> hello_ ORTHONAV_GUARDED_BY(mutex_);
+  Timestamp heard_took_ ORTHONAV_GUARDED_BY(mutex_) = Timestamp::min();
+  Timestamp took_ ORTHONAV_GUARDED_BY(mutex_) = Timestamp::min();
 
  public:
   Port configuration{{[this](Bytes said) { return configure(said); }}};
@@ -58,7 +57,7 @@ class SidePorts {
   Port spatial{{[](Bytes said) -> Result<std::size_t> { return said.size(); }}};
   Port voice{{[this](Bytes said) { return recognize(said); }, [] {},
               [this] {
-                const std::lock_guard lock(mutex_);
+                const MutexLock lock(mutex_);
                 vocabulary_.reset();
               }}};
   Port standin{{[this](Bytes said) { return hear_client(said); },
@@ -70,7 +69,7 @@ class SidePorts {
 
  private:
   [[nodiscard]] std::optional<StandinHello> hello_now() const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return hello_;
   }
 };
