@@ -244,7 +244,7 @@ TEST_F(RuntimeTest, HidesGuidanceThatGrewOldWhileTrackingStalls) {
   ASSERT_FALSE(scene.scene.triangles.empty());
   engine::Snapshot snapshot;
   snapshot.scene = scene.scene;
-  // The clock of the cameras stands; frames light up three periods ahead of it.
+  // The clock of the cameras stands; frames are shown three periods ahead of it.
   snapshot.expires = kStart + std::chrono::milliseconds(60);
   ASSERT_TRUE(presenter_->draw(snapshot).ok());
   ASSERT_TRUE(eventually([&] { return count_drawn() >= 3; }));
