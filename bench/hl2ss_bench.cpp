@@ -68,7 +68,7 @@ int measure(double limit_s, hl2ss::VideoProfile profile) {
       most_mib = std::max(most_mib, resident_mib());
     }
   }
-  const hl2ss::Statistics figures = (*headset)->statistics();
+  const ConnectionStatistics figures = (*headset)->statistics();
   std::printf(
       "%lld pairs; resident after 1000 pairs %.1f MiB, most %.1f MiB, at the end %.1f MiB\n",
       static_cast<long long>(pairs), warm_mib, most_mib, resident_mib());

@@ -26,9 +26,9 @@ std::string latency_line(const char* what, const std::vector<double>& ms) {
 
 }  // namespace
 
-std::string connection_report(const hl2ss::Statistics& s) {
+std::string connection_report(const ConnectionStatistics& s) {
   std::string text;
-  for (const hl2ss::StreamStatistics& stream : s.streams) {
+  for (const StreamStatistics& stream : s.streams) {
     text += line(
         "%-14s %8lld packets, %4lld connections, jitter %6.2f ms, %lld gaps (longest %.0f ms), "
         "%lld "

@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "hal/hl2ss/statistics.h"
+#include "hal/api/connection_statistics.h"
 
 namespace orthonav::tools {
 
 /// How a connection did, in lines.
-[[nodiscard]] std::string connection_report(const hl2ss::Statistics& statistics);
+[[nodiscard]] std::string connection_report(const ConnectionStatistics& statistics);
 
 }  // namespace orthonav::tools

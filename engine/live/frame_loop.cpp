@@ -54,7 +54,7 @@ Result<LoopReport> FrameLoop::run() {
   LoopReport report;
   Status tracked;
   Status drawn;
-  heard_at_ = headset_.clock().now();
+  heard_at_ = headset_->clock().now();
   if (!sink_ || options_.draw_every == 0) {
     tracked = loop(nullptr, report);
   } else {
@@ -142,14 +142,14 @@ Status FrameLoop::tolerate(const Status& status, int& in_a_row, LoopReport& repo
   if (++in_a_row <= options_.max_errors_in_a_row) {
     return {};
   }
-  return Error{headset_.name() + ": " + std::to_string(in_a_row) + " failures in a row (limit " +
+  return Error{headset_->name() + ": " + std::to_string(in_a_row) + " failures in a row (limit " +
                std::to_string(options_.max_errors_in_a_row) + "): " + report.last_failure};
 }
 
 /// False at the end of the stream. While no pair comes, guidance on the last one is taken back.
 Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
   while (!stop_) {
-    const auto next = headset_.cameras().next(frame_);
+    const auto next = headset_->cameras().next(frame_);
     if (next && *next == Next::kFrame) {
       camera_errors_ = 0;
       return true;
@@ -176,9 +176,9 @@ Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
     ++report.blanked;
     guiding_since_.reset();
   }
-  const Duration silent = headset_.clock().now() - heard_at_;
+  const Duration silent = headset_->clock().now() - heard_at_;
   if (silent > options_.longest_silence) {
-    return Error{headset_.name() + ": no camera pair for " + std::to_string(seconds(silent)) +
+    return Error{headset_->name() + ": no camera pair for " + std::to_string(seconds(silent)) +
                  " s (limit " + std::to_string(seconds(options_.longest_silence)) + " s)"};
   }
   std::this_thread::sleep_for(kNoPairPause);
@@ -187,7 +187,7 @@ Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
 
 /// When a frame submitted now lights up.
 Timestamp FrameLoop::next_light() const {
-  return headset_.display().predicted_display_time(headset_.clock().now());
+  return headset_->display().predicted_display_time(headset_->clock().now());
 }
 
 /// Shows guidance that guides no more, by the road of every frame. A display that fails here may
@@ -197,7 +197,7 @@ void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopRe
   builder_.write_shown(guidance, shown_);
   shown_.display_time = std::max(guidance.display_time, last_light_ + Duration(1));
   last_light_ = shown_.display_time;
-  if (const Status shown = headset_.display().shown(shown_); !shown) {
+  if (const Status shown = headset_->display().shown(shown_); !shown) {
     ++report.failures;
     report.last_failure = shown.error().message;
   }
@@ -208,14 +208,14 @@ void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopRe
 
 Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   const Stopwatch watch;
-  heard_at_ = headset_.clock().now();
+  heard_at_ = headset_->clock().now();
   clicks_.clear();
   phrases_.clear();
-  const Status clicked = headset_.clicker().poll(frame_.time, clicks_);
+  const Status clicked = headset_->clicker().poll(frame_.time, clicks_);
   if (const Status over = tolerate(clicked, clicker_errors_, report); !over) {
     return over;
   }
-  const Status spoken = headset_.voice().poll(frame_.time, phrases_);
+  const Status spoken = headset_->voice().poll(frame_.time, phrases_);
   if (const Status over = tolerate(spoken, voice_errors_, report); !over) {
     return over;
   }
@@ -223,7 +223,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
   // What is made of this pair is submitted from here on: the images were underway for a while.
-  inputs.display_time = headset_.display().predicted_display_time(heard_at_);
+  inputs.display_time = headset_->display().predicted_display_time(heard_at_);
   const Guidance& guidance = session_.step(frame_, inputs);
   report.last_frame = frame_.time;
   if (observer_) {
@@ -232,7 +232,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   // Tracking took its time: what has grown too old meanwhile is not shown.
   builder_.update(guidance, std::max(guidance.display_time, next_light()));
   builder_.write_shown(guidance, shown_);
-  const Status shown = headset_.display().shown(shown_);
+  const Status shown = headset_->display().shown(shown_);
   report.step_wall_ms.push_back(watch.elapsed_ms());
   if (const Status over = tolerate(shown, display_errors_, report); !over) {
     return over;

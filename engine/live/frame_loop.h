@@ -70,8 +70,10 @@ struct LoopReport {
 class FrameLoop {
  public:
   FrameLoop(Headset& headset, Session& session, SceneBuilder& builder, const LoopOptions& options)
-      : headset_(headset), session_(session), builder_(builder), options_(options) {}
+      : headset_(&headset), session_(session), builder_(builder), options_(options) {}
 
+  /// Another headset in place of the one given first; not while it runs.
+  void use(Headset& headset) { headset_ = &headset; }
   void observe(LoopObserver* observer) { observer_ = observer; }
   void draw_into(SnapshotSink* sink) { sink_ = sink; }
   /// Ends early, from any thread.
@@ -95,7 +97,7 @@ class FrameLoop {
   void capture(SnapshotQueue& queue, const Guidance& guidance, std::int64_t frame);
   [[nodiscard]] bool finished(const LoopReport& report);
 
-  Headset& headset_;
+  Headset* headset_;
   Session& session_;
   SceneBuilder& builder_;
   LoopOptions options_;

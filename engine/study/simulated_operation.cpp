@@ -3,30 +3,88 @@
 #include "base/joined.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
-#include "engine/session/observer_list.h"
+#include "engine/live/known_tools.h"
 #include "engine/study/evaluation.h"
 #include "engine/study/sim_scenario.h"
 #include "hal/replay/recorder.h"
 
 namespace orthonav::engine {
 
+namespace {
+
+/// Null where nothing is to be recorded.
+Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
+    Headset& room, const std::string& folder, const std::vector<nav::ToolGeometry>& tools) {
+  if (folder.empty()) {
+    return std::unique_ptr<replay::RecordingHeadset>();
+  }
+  return replay::RecordingHeadset::around(room, folder, {tools_text(tools)});
+}
+
+Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Operation operation,
+                                const OperationOptions& options, const OperationHooks& hooks) {
+  // The engine gets the tools as a planning file describes them, not as they are.
+  const auto tools = tools_known_to(room);
+  if (!tools) {
+    return tools.error();
+  }
+  auto assembled = assemble_operation(room, std::move(operation), method, *tools, options);
+  if (!assembled) {
+    return assembled.error();
+  }
+  AssembledOperation& live = **assembled;
+  GroundTruthRecorder ground_truth(room);
+  EndNote end_note;
+  live.observe(&ground_truth);
+  live.observe(&end_note);
+  for (SessionObserver* hook : hooks.session) {
+    live.observe(hook);
+  }
+  live.observe(hooks.loop);
+  live.draw_into(hooks.sink);
+  auto recorder = recorder_of(room, options.record_folder, *tools);
+  if (!recorder) {
+    return recorder.error();
+  }
+  if (*recorder) {
+    live.go_through(**recorder);
+  }
+  if (hooks.opened) {
+    if (const Status opened = hooks.opened(room, method, live.session()); !opened) {
+      return opened.error();
+    }
+  }
+  auto report = live.run();
+  if (!report) {
+    return report.error();
+  }
+  OperationResult result =
+      outcome_of(live.session().levels(), live.session().rods(), std::move(*report));
+  // A recording that came to nothing takes nothing from what was measured.
+  if (*recorder) {
+    result.recording = (*recorder)->close();
+  }
+  ground_truth.evaluate(live.session().levels(), result);
+  end_note.explain(result);
+  return result;
+}
+
+}  // namespace
+
 std::vector<std::string> OperationOptions::check() const {
   std::vector<std::string> problems;
-  const auto add = [&](const char* where, const std::vector<std::string>& found) {
-    for (const std::string& problem : found) {
-      problems.push_back(where + problem);
-    }
-  };
   if (const auto known = method_named(method); !known) {
     problems.push_back(known.error().message);
   }
-  add("tools: ", nav::problems_of(tools));
+  for (const std::string& problem : nav::problems_of(tools)) {
+    problems.push_back("tools: " + problem);
+  }
   if (const Status room = sim.check(); !room) {
     problems.push_back(room.error().message);
   }
-  add("session: ", session.check());
-  add("loop: ", loop.check());
-  add("visibility: ", visibility.check());
+  for (std::string& problem : AssemblyOptions::check()) {
+    problems.push_back(std::move(problem));
+  }
   return problems;
 }
 
@@ -44,62 +102,17 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   if (!operation) {
     return operation.error();
   }
-  auto headset = sim::SimHeadset::open(room_of(source, *operation, options.tools), options.sim);
-  if (!headset) {
-    return headset.error();
+  auto room = sim::SimHeadset::open(room_of(source, *operation, options.tools), options.sim);
+  if (!room) {
+    return room.error();
   }
-  sim::SimHeadset& room = **headset;
-  // The engine gets the tools as a planning file describes them, not as they are.
-  const std::vector<nav::ToolGeometry> tools = described_tools(room);
-  auto tracker = method->create_tracker(room.cameras().calibration(), tools, options.tracker);
-  if (!tracker) {
-    return tracker.error();
+  auto result = operate(**room, *method, std::move(*operation), options, hooks);
+  if (!result) {
+    return result.error();
   }
-  auto session =
-      Session::create(std::move(*operation), std::move(*tracker), *method, options.session);
-  if (!session) {
-    return session.error();
-  }
-  GroundTruthRecorder ground_truth(room);
-  EndNote end_note;
-  ObserverList observers({&ground_truth, &end_note});
-  for (SessionObserver* hook : hooks.session) {
-    observers.add(hook);
-  }
-  (*session)->observe(&observers);
-
-  std::unique_ptr<replay::RecordingHeadset> recorder;
-  if (!options.record_folder.empty()) {
-    auto made = replay::RecordingHeadset::around(room, options.record_folder, {tools_text(tools)});
-    if (!made) {
-      return made.error();
-    }
-    recorder = std::move(*made);
-  }
-  if (hooks.opened) {
-    if (const Status opened = hooks.opened(room, *method, **session); !opened) {
-      return opened.error();
-    }
-  }
-  SceneBuilder builder(options.visibility);
-  FrameLoop loop(recorder ? static_cast<Headset&>(*recorder) : room, **session, builder,
-                 options.loop);
-  loop.observe(hooks.loop);
-  loop.draw_into(hooks.sink);
-  auto report = loop.run();
-  if (!report) {
-    return report.error();
-  }
-  OperationResult result = outcome_of((*session)->levels(), (*session)->rods(), std::move(*report));
-  result.method = method->name;
-  result.seed = options.sim.seed;
-  result.case_name = source.name;
-  // A recording that came to nothing takes nothing from what was measured.
-  if (recorder) {
-    result.recording = recorder->close();
-  }
-  ground_truth.evaluate((*session)->levels(), result);
-  end_note.explain(result);
+  result->method = method->name;
+  result->seed = options.sim.seed;
+  result->case_name = source.name;
   return result;
 }
 

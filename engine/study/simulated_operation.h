@@ -8,23 +8,17 @@
 
 #include "engine/case/case.h"
 #include "engine/case/model_cache.h"
-#include "engine/live/frame_loop.h"
+#include "engine/live/assembled_operation.h"
 #include "engine/report/operation_result.h"
-#include "engine/session/method.h"
 #include "hal/sim/sim_headset.h"
 
 namespace orthonav::engine {
 
-struct OperationOptions {
+struct OperationOptions : AssemblyOptions {
   std::string method = "best";
   std::vector<std::string> levels;  ///< empty: the two lowest of the case
   std::vector<nav::ToolGeometry> tools;
   sim::SimOptions sim;
-  /// Tools in sight are searched around their predictions; the whole image only every tenth pair.
-  nav::TrackerOptions tracker{.full_search_interval = 10};
-  SessionOptions session;
-  LoopOptions loop;
-  VisibilityRules visibility;
   std::string record_folder;  ///< empty: nothing is recorded
 
   /// Every problem at once; empty when all is well.

@@ -12,6 +12,8 @@
 #include "base/tracked.h"
 #include "base/transform.h"
 #include "hal/api/camera_model.h"
+#include "hal/api/connection_statistics.h"
+#include "hal/api/described_tools.h"
 #include "hal/api/display.h"
 #include "hal/api/frame_order.h"
 
@@ -188,8 +190,12 @@ class Headset {
   [[nodiscard]] virtual Microphone* microphone() { return nullptr; }
   /// The display where it takes pixels; null otherwise.
   [[nodiscard]] virtual PixelDisplay* pixels() { return nullptr; }
-  /// The headset whose cameras these are, where this one borrowed them; else this one.
-  [[nodiscard]] virtual Headset& owner_of_cameras() { return *this; }
+  /// What the source of the pairs tells of the tools in them.
+  [[nodiscard]] virtual DescribedTools described_tools() const { return {}; }
+  /// What the connection that the pairs come through did so far; absent where there is none.
+  [[nodiscard]] virtual std::optional<ConnectionStatistics> connection() const {
+    return std::nullopt;
+  }
 };
 
 }  // namespace orthonav

@@ -23,7 +23,10 @@ class ForwardingHeadset : public Headset {
   }
   [[nodiscard]] Microphone* microphone() override { return inner_.microphone(); }
   [[nodiscard]] PixelDisplay* pixels() override { return inner_.pixels(); }
-  [[nodiscard]] Headset& owner_of_cameras() override { return inner_.owner_of_cameras(); }
+  [[nodiscard]] DescribedTools described_tools() const override { return inner_.described_tools(); }
+  [[nodiscard]] std::optional<ConnectionStatistics> connection() const override {
+    return inner_.connection();
+  }
 
  private:
   Headset& inner_;

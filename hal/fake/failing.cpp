@@ -178,7 +178,7 @@ Status FailingDisplay::do_shown(const ShownFrame& frame) {
 }
 
 FailingHeadset::FailingHeadset(Headset& inner, Faults faults)
-    : inner_(inner),
+    : ForwardingHeadset(inner),
       cameras_(inner.cameras(), std::move(faults.camera)),
       head_(inner.head(), std::move(faults.head)),
       clicker_(inner.clicker(), std::move(faults.clicker)),

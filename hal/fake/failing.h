@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/api/devices.h"
+#include "hal/api/forwarding_headset.h"
 
 namespace orthonav::fake {
 
@@ -120,25 +120,17 @@ struct Faults {
 };
 
 /// A headset with faults. The inner one is borrowed.
-class FailingHeadset : public Headset {
+class FailingHeadset : public ForwardingHeadset {
  public:
   FailingHeadset(Headset& inner, Faults faults);
-  [[nodiscard]] std::string name() const override { return "failing " + inner_.name(); }
-  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
-  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
-    return inner_.epoch_ticks_100ns();
-  }
+  [[nodiscard]] std::string name() const override { return "failing " + ForwardingHeadset::name(); }
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
-  [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override {
-    return inner_.depth_cameras();
-  }
 
  private:
-  Headset& inner_;
   FailingCamera cameras_;
   FailingHead head_;
   FailingClicker clicker_;

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "hal/api/connection_statistics.h"
 #include "hal/hl2ss/socket.h"
-#include "hal/hl2ss/statistics.h"
 
 namespace orthonav::hl2ss {
 

@@ -4,7 +4,6 @@
 
 #include "hal/api/devices.h"
 #include "hal/hl2ss/options.h"
-#include "hal/hl2ss/statistics.h"
 
 namespace orthonav::hl2ss {
 
@@ -19,7 +18,10 @@ class Hl2ssHeadset : public Headset {
   /// the port that failed and why.
   static Result<std::unique_ptr<Hl2ssHeadset>> open(const Hl2ssOptions& options);
   /// How the connection does.
-  [[nodiscard]] virtual Statistics statistics() const = 0;
+  [[nodiscard]] virtual ConnectionStatistics statistics() const = 0;
+  [[nodiscard]] std::optional<ConnectionStatistics> connection() const final {
+    return statistics();
+  }
 };
 
 }  // namespace orthonav::hl2ss

@@ -179,9 +179,9 @@ std::int64_t Receiver::base_ticks() const {
   return time_.stamps.base_ticks();
 }
 
-Statistics Receiver::statistics() const {
+ConnectionStatistics Receiver::statistics() const {
   const std::lock_guard lock(mutex_);
-  Statistics all;
+  ConnectionStatistics all;
   for (const Stream& stream : streams_) {
     all.streams.push_back(stream.meter->statistics());
   }

@@ -13,7 +13,6 @@
 #include "hal/hl2ss/options.h"
 #include "hal/hl2ss/pair_mailbox.h"
 #include "hal/hl2ss/standin_stream.h"
-#include "hal/hl2ss/statistics.h"
 #include "hal/hl2ss/video_stream.h"
 
 namespace orthonav::hl2ss {
@@ -41,7 +40,7 @@ class Receiver final : private ImageSink {
   /// Whether a front camera has sent anything; the base of its stamps is known then.
   [[nodiscard]] bool has_heard() const { return heard_.load(); }
   [[nodiscard]] std::int64_t base_ticks() const;
-  [[nodiscard]] Statistics statistics() const;
+  [[nodiscard]] ConnectionStatistics statistics() const;
   /// What the streams that are not connected last suffered.
   [[nodiscard]] std::string troubles() const;
 

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <utility>
 
-#include "hal/api/as_headset.h"
 #include "hal/hl2ss/hl2ss_headset.h"
 #include "hal/open/bad_uri.h"
 #include "hal/open/open_openxr.h"
@@ -106,9 +105,45 @@ Result<std::pair<std::string, replay::ReplayOptions>> replay_options(const std::
   return std::pair(folder, options);
 }
 
+/// The simulated operating room.
+Result<OpenedHeadset> open_sim(const std::string& uri, const std::string& rest,
+                               const OpenOptions& options) {
+  auto chosen = sim_options(uri, rest, options.sim);
+  if (!chosen) {
+    return chosen.error();
+  }
+  sim::RoomDescription room = options.room;
+  if (room.tools.empty()) {
+    room.tools.push_back(default_pointer());
+  }
+  auto opened = sim::SimHeadset::open(std::move(room), *chosen);
+  if (!opened) {
+    return opened.error();
+  }
+  sim::SimHeadset* const seen = opened->get();
+  return OpenedHeadset{std::move(*opened), seen};
+}
+
+/// A headset whose cameras see no simulated room.
+template <class T>
+Result<OpenedHeadset> without_room(Result<std::unique_ptr<T>> opened) {
+  if (!opened) {
+    return opened.error();
+  }
+  return OpenedHeadset{std::move(*opened), nullptr};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const OpenOptions& options) {
+  auto opened = open_with_room(uri, options);
+  if (!opened) {
+    return opened.error();
+  }
+  return std::move(opened->headset);
+}
+
+Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options) {
   const std::size_t colon = uri.find(':');
   if (colon == std::string::npos) {
     return bad_uri(uri, std::string("has no scheme; ") + kKnownSchemes);
@@ -116,29 +151,21 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const Open
   const std::string scheme = uri.substr(0, colon);
   const std::string rest = uri.substr(colon + 1);
   if (scheme == "sim") {
-    auto chosen = sim_options(uri, rest, options.sim);
-    if (!chosen) {
-      return chosen.error();
-    }
-    sim::RoomDescription room = options.room;
-    if (room.tools.empty()) {
-      room.tools.push_back(default_pointer());
-    }
-    return as_headset(sim::SimHeadset::open(std::move(room), *chosen));
+    return open_sim(uri, rest, options);
   }
   if (scheme == "replay") {
     const auto chosen = replay_options(uri, rest);
     if (!chosen) {
       return chosen.error();
     }
-    return as_headset(replay::ReplayHeadset::open(chosen->first, chosen->second));
+    return without_room(replay::ReplayHeadset::open(chosen->first, chosen->second));
   }
   if (scheme == "hl2ss") {
     auto chosen = hl2ss::options_of(rest);
     if (!chosen) {
       return bad_uri(uri, chosen.error().message);
     }
-    return as_headset(hl2ss::Hl2ssHeadset::open(*chosen));
+    return without_room(hl2ss::Hl2ssHeadset::open(*chosen));
   }
   if (scheme == "openxr") {
     return open_openxr(uri, rest, options);

@@ -14,6 +14,14 @@ struct OpenOptions {
   sim::SimOptions sim;
 };
 
+/// What was opened.
+struct OpenedHeadset {
+  std::unique_ptr<Headset> headset;
+  /// The room that its cameras see, where it is simulated; null otherwise. Lives as long as the
+  /// headset. For whoever judges by the truth, which no headset tells.
+  sim::SimHeadset* room = nullptr;
+};
+
 /// Opens a headset by URI: `sim:` (the simulated operating room; `sim:?seed=3&perfect&realtime`),
 /// `replay:PATH` (a recording; `replay:PATH?pace=fast`, `realtime` or `step`), `hl2ss://HOST` (a
 /// HoloLens 2 over the network; `hl2ss://HOST?profile=h264`, docs/hl2ss.md), `openxr:+URI` (an
@@ -21,5 +29,8 @@ struct OpenOptions {
 /// the known ones named.
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
                                               const OpenOptions& options = {});
+
+/// The same, with the simulated room beside it.
+Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options = {});
 
 }  // namespace orthonav

@@ -71,8 +71,8 @@ bool is_mounted(std::string_view cameras) {
 
 }  // namespace
 
-Result<std::unique_ptr<Headset>> open_openxr(const std::string& uri, std::string_view rest,
-                                             const OpenOptions& options) {
+Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
+                                  const OpenOptions& options) {
   std::optional<std::string> rig_file;
   if (rest.starts_with('?')) {
     const std::size_t end = rest.find('+');
@@ -108,11 +108,12 @@ Result<std::unique_ptr<Headset>> open_openxr(const std::string& uri, std::string
     }
     rig.view_from_rig = *pose;
   }
-  auto cameras = open_headset(cameras_uri, options);
+  auto cameras = open_with_room(cameras_uri, options);
   if (!cameras) {
     return cameras.error();
   }
-  return std::unique_ptr<Headset>(openxr::OpenxrHeadset::around(std::move(*cameras), rig));
+  return OpenedHeadset{openxr::OpenxrHeadset::around(std::move(cameras->headset), rig),
+                       cameras->room};
 }
 
 }  // namespace orthonav

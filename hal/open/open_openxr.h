@@ -10,7 +10,7 @@ namespace orthonav {
 
 /// `openxr:` with what follows it: `[?rig=FILE][+URI]`, where URI is the headset whose cameras it
 /// takes; without one the simulated room's. One line names what is wrong.
-Result<std::unique_ptr<Headset>> open_openxr(const std::string& uri, std::string_view rest,
-                                             const OpenOptions& options);
+Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
+                                  const OpenOptions& options);
 
 }  // namespace orthonav

@@ -183,7 +183,8 @@ class Recorder : public RecordingHeadset {
  public:
   Recorder(Headset& inner, std::unique_ptr<Headset> owned, std::unique_ptr<RecordingWriter> writer,
            bool takes_depth)
-      : owned_(std::move(owned)),
+      : RecordingHeadset(inner),
+        owned_(std::move(owned)),
         inner_(inner),
         tape_(std::move(writer)),
         clicker_(inner_.clicker(), tape_),
@@ -197,11 +198,6 @@ class Recorder : public RecordingHeadset {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  [[nodiscard]] std::string name() const override { return inner_.name(); }
-  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
-  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
-    return inner_.epoch_ticks_100ns();
-  }
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
   [[nodiscard]] HeadTracker& head() override { return head_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }

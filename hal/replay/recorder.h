@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "hal/api/devices.h"
+#include "hal/api/forwarding_headset.h"
 
 namespace orthonav::replay {
 
@@ -25,7 +25,7 @@ struct RecorderOptions {
 /// A recording that fails (a full disk) never disturbs the session: everything is passed on
 /// unchanged, recording stops, and recording_status() and close() say why. Each call writes on the
 /// thread that makes it; cameras, depth cameras and close() belong to one.
-class RecordingHeadset : public Headset {
+class RecordingHeadset : public ForwardingHeadset {
  public:
   /// Refuses a folder that exists and is not empty, one left over under the temporary name, and
   /// cameras that are not 640×480.
@@ -42,6 +42,9 @@ class RecordingHeadset : public Headset {
   /// devices go on. A recording without a single pair is no recording: an error. The destructor
   /// closes too, but cannot say whether that went well.
   virtual Status close() = 0;
+
+ protected:
+  explicit RecordingHeadset(Headset& inner) : ForwardingHeadset(inner) {}
 };
 
 }  // namespace orthonav::replay

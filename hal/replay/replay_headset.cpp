@@ -171,7 +171,12 @@ class Replay : public ReplayHeadset {
   [[nodiscard]] std::vector<DepthCamera*> depth_cameras() override { return borrowed(depth_); }
   void step() override { cameras_.step(); }
   [[nodiscard]] const RecordingSummary& summary() const override { return recording_.summary; }
-  [[nodiscard]] const std::string& tools_json() const override { return recording_.tools_json; }
+  [[nodiscard]] DescribedTools described_tools() const override {
+    if (recording_.tools_json.empty()) {
+      return {};
+    }
+    return ToolsFile{"tools.json of the recording", recording_.tools_json};
+  }
 
  private:
   std::string name_;

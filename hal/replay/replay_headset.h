@@ -61,7 +61,8 @@ struct ReplayOptions {
 /// Depth streams are its depth cameras. One that is damaged is left out, and the summary says why:
 /// pairs alone make a session. The time of a pair is its left image's. The head is known up to the
 /// last frame, predicted beyond it, lost where two recorded poses lie more than
-/// HeadTracker::kMaxHeadPrediction apart. The display shows nothing; its latency is the recorded
+/// HeadTracker::kMaxHeadPrediction apart. The tools are described by the text of its tools.json,
+/// where it has one. The display shows nothing; its latency is the recorded
 /// one.
 class ReplayHeadset : public Headset {
  public:
@@ -72,8 +73,6 @@ class ReplayHeadset : public Headset {
   /// Lets one more pair through, where the pace is kStepped. Thread-safe.
   virtual void step() = 0;
   [[nodiscard]] virtual const RecordingSummary& summary() const = 0;
-  /// Text of the recording's tools.json; empty when it has none.
-  [[nodiscard]] virtual const std::string& tools_json() const = 0;
 };
 
 }  // namespace orthonav::replay

@@ -9,6 +9,7 @@
 
 #include "base/time.h"
 #include "base/transform.h"
+#include "hal/api/described_tools.h"
 
 namespace orthonav::sim {
 
@@ -20,18 +21,10 @@ struct RoomLevel {
   Transform<Spine, Vertebra> spine_from_vertebra;
 };
 
-enum class ToolKind { kPointer, kGuide, kReference };
+using orthonav::ToolKind;
 
 /// A tool as it was manufactured. What the planning file says of it may be slightly off.
-struct RoomTool {
-  std::string name;
-  ToolKind kind = ToolKind::kPointer;
-  std::string family = "tag36h11";
-  int id = 0;
-  double size_m = 0.04;  ///< outer edge of the tag's black border
-  Point<Marker> tip_in_marker;
-  Vec3 axis_in_marker{0, 1, 0};  ///< from the tip back along the shaft
-};
+using RoomTool = DescribedTool;
 
 /// What stands in the operating room; fixed for a session.
 struct RoomDescription {

@@ -252,7 +252,7 @@ class SimulatedHeadset final : public SimHeadset {
     const std::lock_guard lock(shared_.mutex);
     return shared_.simulation.world_from_room(shared_.last_frame);
   }
-  [[nodiscard]] std::vector<RoomTool> described_tools() const override {
+  [[nodiscard]] DescribedTools described_tools() const override {
     return described(shared_.simulation.room().tools, options_.error_model,
                      Random(options_.seed).fork("tool descriptions"));
   }

@@ -32,8 +32,9 @@ struct SimOptions {
 
 /// The simulated operating room as a headset. The same seed gives the same bits, as long as what is
 /// shown comes at the same moments. Parts may be used from different threads; `truth` is read when
-/// nobody calls `cameras().next`. Half a second after the surgeon has seen the last step (`done`)
-/// the stream ends.
+/// nobody calls `cameras().next`. Tools are described as a planning file would do it: slightly off
+/// by the magnitudes. Half a second after the surgeon has seen the last step (`done`) the stream
+/// ends.
 class SimHeadset : public Headset {
  public:
   /// Refuses magnitudes, options and rooms that make no sense, and a surgeon without pointer or
@@ -44,8 +45,6 @@ class SimHeadset : public Headset {
   [[nodiscard]] virtual RoomState state() const = 0;
   /// World (as the headset believes) from Room now.
   [[nodiscard]] virtual Transform<World, Room> world_from_room() const = 0;
-  /// The tools as a planning file would describe them: slightly off by the magnitudes.
-  [[nodiscard]] virtual std::vector<RoomTool> described_tools() const = 0;
   [[nodiscard]] virtual const RoomDescription& room() const = 0;
   /// What it was opened with.
   [[nodiscard]] virtual const SimOptions& options() const = 0;

@@ -60,7 +60,7 @@ struct Operated {
   OperationResult result;
   std::vector<Wire> wires;
   std::vector<Step> map_moves;
-  hl2ss::Statistics statistics;
+  ConnectionStatistics statistics;
 };
 
 /// One level from pixels over TCP, by a brisk surgeon in a perfect world.
@@ -94,22 +94,19 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
   if (!headset) {
     return done;
   }
-  const Method method = *method_named("best");
-  auto tracker = method.create_tracker((*headset)->cameras().calibration(), built_in_tools(),
-                                       OperationOptions().tracker);
-  auto session = Session::create(std::move(operation), std::move(*tracker), method);
+  AssemblyOptions assembly;
+  assembly.loop.draw_every = 0;
+  auto assembled = *assemble_operation(**headset, std::move(operation), *method_named("best"),
+                                       built_in_tools(), assembly);
   MapLog map_log;
-  (*session)->observe(&map_log);
-  SceneBuilder builder;
-  LoopOptions loop;
-  loop.draw_every = 0;
-  FrameLoop frames(**headset, **session, builder, loop);
-  auto report = frames.run();
+  assembled->observe(&map_log);
+  auto report = assembled->run();
   EXPECT_TRUE(report.ok()) << report.error().message;
   if (!report) {
     return done;
   }
-  done.result = outcome_of((*session)->levels(), (*session)->rods(), std::move(*report));
+  done.result =
+      outcome_of(assembled->session().levels(), assembled->session().rods(), std::move(*report));
   done.statistics = (*headset)->statistics();
   done.map_moves = map_log.moved;
   headset->reset();

@@ -6,6 +6,8 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
+#include "engine/live/assembled_operation.h"
+#include "engine/live/known_tools.h"
 #include "engine/phantom/phantom.h"
 #include "engine/study/simulated_operation.h"
 #include "hal/replay/replay_headset.h"
@@ -145,20 +147,14 @@ TEST(Operation, ARecordingReplaysToIdenticalPosesAndSteps) {
   auto recording = replay::ReplayHeadset::open(folder);
   ASSERT_TRUE(recording.ok()) << recording.error().message;
   const auto method = method_named(options.method);
-  auto tracker = method->create_tracker((*recording)->cameras().calibration(),
-                                        parse_tools((*recording)->tools_json(), "tools").value(),
-                                        options.tracker);
-  ASSERT_TRUE(tracker.ok());
-  auto session = Session::create(plan_operation(lumbar_spine(), options.levels).value(),
-                                 std::move(*tracker), *method);
-  ASSERT_TRUE(session.ok());
+  auto operation =
+      assemble_operation(**recording, plan_operation(lumbar_spine(), options.levels).value(),
+                         *method, tools_known_to(**recording).value());
+  ASSERT_TRUE(operation.ok()) << operation.error().message;
   PoseLog again;
-  again.session = session->get();
-  SceneBuilder builder;
-  LoopOptions loop_options;
-  FrameLoop loop(**recording, **session, builder, loop_options);
-  loop.observe(&again);
-  ASSERT_TRUE(loop.run().ok());
+  again.session = &(*operation)->session();
+  (*operation)->observe(&again);
+  ASSERT_TRUE((*operation)->run().ok());
   fs::remove_all(folder);
 
   ASSERT_EQ(again.lines.size(), live.poses.size());

@@ -5,9 +5,8 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
-#include "engine/live/frame_loop.h"
+#include "engine/live/assembled_operation.h"
 #include "engine/phantom/phantom.h"
-#include "engine/session/method.h"
 #include "engine/study/sim_scenario.h"
 #include "hal/open/open.h"
 
@@ -44,13 +43,11 @@ int main(int argc, char** argv) {
   Operation operation = must(plan_operation(spine, {"L4"}));
   auto headset =
       must(open_headset("sim:?seed=3", {room_of(spine, operation, built_in_tools()), {}}));
-  const Method method = must(method_named("best"));
-  auto tracker = must(method.create_tracker(headset->cameras().calibration(), built_in_tools(),
-                                            {.full_search_interval = 10}));
-  auto session = must(Session::create(std::move(operation), std::move(tracker), method));
-  SceneBuilder builder;
-  FrameLoop loop(*headset, *session, builder, {.max_frames = argc > 1 ? std::atoi(argv[1]) : 0});
+  AssemblyOptions options;
+  options.loop.max_frames = argc > 1 ? std::atoi(argv[1]) : 0;
+  auto assembled = must(assemble_operation(*headset, std::move(operation),
+                                           must(method_named("best")), built_in_tools(), options));
   Printer printer;
-  loop.observe(&printer);
-  must(loop.run());
+  assembled->observe(&printer);
+  must(assembled->run());
 }

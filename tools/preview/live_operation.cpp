@@ -4,8 +4,8 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
+#include "engine/live/known_tools.h"
 #include "engine/study/sim_scenario.h"
-#include "hal/open/open.h"
 
 namespace orthonav::preview {
 namespace {
@@ -42,35 +42,35 @@ Result<std::unique_ptr<LiveOperation>> LiveOperation::open(const OperationSource
   OpenOptions options;
   options.room = engine::room_of(source.source, source.operation, engine::built_in_tools());
   options.sim = room;
-  auto headset = open_headset(source.headset, options);
-  if (!headset) {
-    return headset.error();
+  auto opened = open_with_room(source.headset, options);
+  if (!opened) {
+    return opened.error();
   }
-  if ((*headset)->pixels() != nullptr) {
+  if (opened->headset->pixels() != nullptr) {
     return Error{
         "headset URI \"" + source.headset +
         "\": it has a display of its own, for which there is orthonav run; a preview takes "
         "the headset of its cameras, the URI after the plus"};
   }
   std::unique_ptr<LiveOperation> live(
-      new LiveOperation(std::move(*headset), gate, keyboard, timeline));
+      new LiveOperation(std::move(*opened), gate, keyboard, timeline));
   if (const Status ready = live->prepare(source); !ready) {
     return ready.error();
   }
   return live;
 }
 
-LiveOperation::LiveOperation(std::unique_ptr<Headset> headset, Gate& gate, Keyboard& keyboard,
+LiveOperation::LiveOperation(OpenedHeadset opened, Gate& gate, Keyboard& keyboard,
                              Timeline& timeline)
-    : headset_(std::move(headset)),
-      room_(dynamic_cast<sim::SimHeadset*>(headset_.get())),
+    : headset_(std::move(opened.headset)),
+      room_(opened.room),
       gate_(gate),
       gated_(*headset_, gate, keyboard),
       timeline_(timeline) {}
 
 LiveOperation::~LiveOperation() {
-  if (loop_) {
-    loop_->stop();
+  if (operation_) {
+    operation_->stop();
   }
   if (thread_.joinable()) {
     thread_.join();
@@ -83,19 +83,14 @@ Status LiveOperation::prepare(const OperationSource& source) {
   if (!tools) {
     return tools.error();
   }
-  auto tracker = source.method.create_tracker(headset_->cameras().calibration(), *tools,
-                                              {.full_search_interval = 10});
-  if (!tracker) {
-    return tracker.error();
+  auto assembled = engine::assemble_operation(gated_, source.operation, source.method, *tools,
+                                              {.loop = loop_options()});
+  if (!assembled) {
+    return assembled.error();
   }
-  auto session = engine::Session::create(source.operation, std::move(*tracker), source.method);
-  if (!session) {
-    return session.error();
-  }
-  session_ = std::move(*session);
-  loop_ = std::make_unique<engine::FrameLoop>(gated_, *session_, builder_, loop_options());
-  loop_->observe(this);
-  loop_->draw_into(this);
+  operation_ = std::move(*assembled);
+  operation_->observe(this);
+  operation_->draw_into(this);
   return {};
 }
 
@@ -104,7 +99,7 @@ void LiveOperation::start() {
 }
 
 void LiveOperation::run() {
-  if (const auto report = loop_->run(); !report) {
+  if (const auto report = operation_->run(); !report) {
     outcome_ = report.error();
   }
   ended_ = true;
@@ -123,8 +118,8 @@ void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*in
     moment_.room = room_->state();
   }
   moment_.tools.clear();
-  const auto tools = session_->tracker().tools();
-  const auto states = session_->tool_states();
+  const auto tools = operation_->session().tracker().tools();
+  const auto states = operation_->session().tool_states();
   for (std::size_t i = 0; i < tools.size() && i < states.size(); ++i) {
     moment_.tools.push_back(seen(tools[i], states[i].world_from_marker));
   }

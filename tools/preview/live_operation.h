@@ -6,9 +6,8 @@
 #include <thread>
 
 #include "engine/case/case.h"
-#include "engine/live/frame_loop.h"
-#include "engine/session/method.h"
-#include "hal/sim/sim_headset.h"
+#include "engine/live/assembled_operation.h"
+#include "hal/open/open.h"
 #include "tools/preview/preview_headset.h"
 #include "tools/preview/timeline.h"
 
@@ -45,8 +44,7 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   [[nodiscard]] const sim::SimHeadset* room() const { return room_; }
 
  private:
-  LiveOperation(std::unique_ptr<Headset> headset, Gate& gate, Keyboard& keyboard,
-                Timeline& timeline);
+  LiveOperation(OpenedHeadset opened, Gate& gate, Keyboard& keyboard, Timeline& timeline);
   Status prepare(const OperationSource& source);
   void run();
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
@@ -55,13 +53,11 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   Status draw(const engine::Snapshot& /*snapshot*/) override { return {}; }
 
   std::unique_ptr<Headset> headset_;
-  sim::SimHeadset* room_ = nullptr;  ///< the headset, where it is the simulated one
+  const sim::SimHeadset* room_ = nullptr;  ///< the headset, where it is the simulated one
   Gate& gate_;
   PreviewHeadset gated_;
   Timeline& timeline_;
-  std::unique_ptr<engine::Session> session_;
-  engine::SceneBuilder builder_;
-  std::unique_ptr<engine::FrameLoop> loop_;
+  std::unique_ptr<engine::AssembledOperation> operation_;
   Moment moment_;  ///< of the pair being worked on
   std::atomic<bool> ended_ = false;
   Status outcome_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/api/devices.h"
+#include "hal/api/forwarding_headset.h"
 #include "tools/preview/gate.h"
 #include "tools/preview/keyboard.h"
 
@@ -8,25 +8,18 @@ namespace orthonav::preview {
 
 /// A headset whose pairs come through a gate and whose button and voice are shared with the
 /// keyboard; everything else is the headset's own.
-class PreviewHeadset : public Headset {
+class PreviewHeadset : public ForwardingHeadset {
  public:
   /// All three must outlive it.
   PreviewHeadset(Headset& inner, Gate& gate, Keyboard& keyboard)
-      : inner_(inner),
+      : ForwardingHeadset(inner),
         cameras_(inner.cameras(), gate),
         clicker_(inner.clicker(), keyboard),
         voice_(inner.voice(), keyboard) {}
 
-  [[nodiscard]] std::string name() const override { return inner_.name(); }
-  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
-  [[nodiscard]] std::int64_t epoch_ticks_100ns() const override {
-    return inner_.epoch_ticks_100ns();
-  }
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
-  [[nodiscard]] HeadTracker& head() override { return inner_.head(); }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  [[nodiscard]] Display& display() override { return inner_.display(); }
   /// Wall time that the newest pair took to be there: rendered, or read from a recording.
   [[nodiscard]] double camera_ms() const { return cameras_.camera_ms(); }
   /// Wall time since it was there.
@@ -51,7 +44,6 @@ class PreviewHeadset : public Headset {
     Timestamp there_{};  ///< by the wall
   };
 
-  Headset& inner_;
   GatedCameras cameras_;
   SharedClicker clicker_;
   SharedVoice voice_;

@@ -46,19 +46,13 @@ class WaitingCamera : public StereoCamera {
   }
 };
 
-class WaitingHeadset : public Headset {
+class WaitingHeadset : public ForwardingHeadset {
  public:
-  explicit WaitingHeadset(fake::FakeHeadset& inner) : inner_(inner), cameras_(inner) {}
+  explicit WaitingHeadset(fake::FakeHeadset& inner) : ForwardingHeadset(inner), cameras_(inner) {}
   [[nodiscard]] std::string name() const override { return "waiting"; }
-  [[nodiscard]] const Clock& clock() const override { return inner_.clock(); }
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
-  [[nodiscard]] HeadTracker& head() override { return inner_.head(); }
-  [[nodiscard]] Clicker& clicker() override { return inner_.clicker(); }
-  [[nodiscard]] Voice& voice() override { return inner_.voice(); }
-  [[nodiscard]] Display& display() override { return inner_.display(); }
 
  private:
-  fake::FakeHeadset& inner_;
   WaitingCamera cameras_;
 };
 

@@ -128,7 +128,8 @@ class HostileServer {
 };
 
 /// Looks on until there was enough to see, or far too long; how many pairs came.
-int pairs_until(Hl2ssHeadset& headset, const std::function<bool(int, const Statistics&)>& enough) {
+int pairs_until(Hl2ssHeadset& headset,
+                const std::function<bool(int, const ConnectionStatistics&)>& enough) {
   StereoFrame frame;
   std::vector<Phrase> phrases;
   int pairs = 0;
@@ -149,7 +150,7 @@ TEST(HostileServer, ThatBehavesIsFollowed) {
   server.start();
   const auto headset = Hl2ssHeadset::open(server.client());
   ASSERT_TRUE(headset.ok()) << headset.error().message;
-  pairs_until(**headset, [](int pairs, const Statistics&) { return pairs > 20; });
+  pairs_until(**headset, [](int pairs, const ConnectionStatistics&) { return pairs > 20; });
 }
 
 TEST(HostileServer, GarbageOnAnyPortHurtsThatPortAlone) {
@@ -166,7 +167,7 @@ TEST(HostileServer, GarbageOnAnyPortHurtsThatPortAlone) {
   server.start();
   const auto headset = Hl2ssHeadset::open(server.client());
   ASSERT_TRUE(headset.ok()) << headset.error().message;
-  pairs_until(**headset, [](int pairs, const Statistics& statistics) {
+  pairs_until(**headset, [](int pairs, const ConnectionStatistics& statistics) {
     return pairs > 20 && statistics.streams[2].damaged > 0;
   });
   EXPECT_EQ((*headset)->statistics().streams[0].damaged, 0);
@@ -180,7 +181,7 @@ TEST(HostileServer, StampsThatRunBackwardsMakeNoPairs) {
   server.start();
   const auto headset = Hl2ssHeadset::open(server.client());
   ASSERT_TRUE(headset.ok()) << headset.error().message;
-  const int pairs = pairs_until(**headset, [](int, const Statistics& statistics) {
+  const int pairs = pairs_until(**headset, [](int, const ConnectionStatistics& statistics) {
     return statistics.streams[0].out_of_order > 20;
   });
   EXPECT_LE(pairs, 1);
@@ -202,7 +203,7 @@ TEST(HostileServer, ImagesOfNoSizeAndNanPosesAreCounted) {
   server.start();
   const auto headset = Hl2ssHeadset::open(server.client());
   ASSERT_TRUE(headset.ok()) << headset.error().message;
-  pairs_until(**headset, [](int pairs, const Statistics& statistics) {
+  pairs_until(**headset, [](int pairs, const ConnectionStatistics& statistics) {
     return pairs > 10 && statistics.streams[0].damaged > 20;
   });
 }

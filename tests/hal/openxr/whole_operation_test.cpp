@@ -5,6 +5,8 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
+#include "engine/live/assembled_operation.h"
+#include "engine/live/known_tools.h"
 #include "engine/phantom/phantom.h"
 #include "engine/study/sim_scenario.h"
 #include "engine/study/simulated_operation.h"
@@ -41,32 +43,28 @@ class OperationOnOpenxr : public RuntimeTest {
     auto room = sim::SimHeadset::open(engine::room_of(spine, *operation, engine::built_in_tools()),
                                       options);
     ASSERT_TRUE(room.ok()) << room.error().message;
-    const auto tools = engine::described_tools(**room);
+    headset_ = openxr::OpenxrHeadset::around(std::move(*room), {});
     auto method = engine::method_named("best");
     ASSERT_TRUE(method.ok());
-    auto tracker = method->create_tracker((*room)->cameras().calibration(), tools,
-                                          {.full_search_interval = 10});
-    ASSERT_TRUE(tracker.ok());
-    headset_ = openxr::OpenxrHeadset::around(std::move(*room), {});
-    auto session = engine::Session::create(std::move(*operation), std::move(*tracker), *method);
-    ASSERT_TRUE(session.ok());
-    session_ = std::move(*session);
+    engine::AssemblyOptions assembly;
+    assembly.loop.drop_late_snapshots = true;
+    auto assembled =
+        engine::assemble_operation(*headset_, std::move(*operation), *method,
+                                   engine::tools_known_to(*headset_).value(), assembly);
+    ASSERT_TRUE(assembled.ok()) << assembled.error().message;
+    operation_ = std::move(*assembled);
   }
 
   engine::LoopReport run(engine::LoopObserver* observer = nullptr) {
     EXPECT_TRUE(present().ok());
-    engine::LoopOptions options;
-    options.drop_late_snapshots = true;
-    engine::SceneBuilder builder;
-    engine::FrameLoop loop(*headset_, *session_, builder, options);
-    loop.draw_into(presenter_.get());
-    loop.observe(observer);
-    auto report = loop.run();
+    operation_->draw_into(presenter_.get());
+    operation_->observe(observer);
+    auto report = operation_->run();
     EXPECT_TRUE(report.ok()) << report.error().message;
     return report ? *report : engine::LoopReport{};
   }
 
-  std::unique_ptr<engine::Session> session_;
+  std::unique_ptr<engine::AssembledOperation> operation_;
 };
 
 /// Some way into each step: what was submitted last.

@@ -58,7 +58,7 @@ TEST(Recorder, RecordsAReplayAsTheSameFiles) {
   record(headset(), folder / "first", {"{\"tools\": []}"});
   auto replayed = ReplayHeadset::open(folder / "first");
   ASSERT_TRUE(replayed.ok()) << replayed.error().message;
-  const std::string tools = (*replayed)->tools_json();
+  const auto tools = std::get<ToolsFile>((*replayed)->described_tools()).text;
   EXPECT_EQ(tools, "{\"tools\": []}");
   record(std::move(*replayed), folder / "second", {tools});
   int files = 0;

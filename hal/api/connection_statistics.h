@@ -6,9 +6,9 @@
 
 #include "base/time.h"
 
-namespace orthonav::hl2ss {
+namespace orthonav {
 
-/// What one stream did so far.
+/// What one stream of a connection did so far.
 struct StreamStatistics {
   std::string name;
   std::int64_t connections = 0;
@@ -24,7 +24,7 @@ struct StreamStatistics {
 };
 
 /// What a headset's connection did so far.
-struct Statistics {
+struct ConnectionStatistics {
   std::vector<StreamStatistics> streams;
   std::int64_t pairs = 0;
   std::int64_t unpaired = 0;  ///< images whose partner never came
@@ -39,4 +39,4 @@ struct Statistics {
   std::vector<double> take_ms;
 };
 
-}  // namespace orthonav::hl2ss
+}  // namespace orthonav

@@ -1,0 +1,48 @@
+#include "engine/live/assembled_operation.h"
+
+#include <utility>
+
+#include "base/joined.h"
+
+namespace orthonav::engine {
+
+std::vector<std::string> AssemblyOptions::check() const {
+  std::vector<std::string> problems;
+  const auto add = [&](const char* where, const std::vector<std::string>& found) {
+    for (const std::string& problem : found) {
+      problems.push_back(where + problem);
+    }
+  };
+  add("session: ", session.check());
+  add("loop: ", loop.check());
+  add("visibility: ", visibility.check());
+  return problems;
+}
+
+AssembledOperation::AssembledOperation(Headset& headset, std::unique_ptr<Session> session,
+                                       const AssemblyOptions& options)
+    : session_(std::move(session)),
+      builder_(options.visibility),
+      loop_(headset, *session_, builder_, options.loop) {
+  session_->observe(&observers_);
+}
+
+Result<std::unique_ptr<AssembledOperation>> assemble_operation(
+    Headset& headset, Operation operation, const Method& method,
+    const std::vector<nav::ToolGeometry>& tools, const AssemblyOptions& options) {
+  if (const auto problems = options.check(); !problems.empty()) {
+    return Error{joined(problems)};
+  }
+  auto tracker = method.create_tracker(headset.cameras().calibration(), tools, options.tracker);
+  if (!tracker) {
+    return tracker.error();
+  }
+  auto session =
+      Session::create(std::move(operation), std::move(*tracker), method, options.session);
+  if (!session) {
+    return session.error();
+  }
+  return std::make_unique<AssembledOperation>(headset, std::move(*session), options);
+}
+
+}  // namespace orthonav::engine

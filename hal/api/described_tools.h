@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/transform.h"
+
+namespace orthonav {
+
+enum class ToolKind { kPointer, kGuide, kReference };
+
+/// A tool with one tag, in plain values.
+struct DescribedTool {
+  std::string name;
+  ToolKind kind = ToolKind::kPointer;
+  std::string family = "tag36h11";
+  int id = 0;
+  double size_m = 0.04;  ///< outer edge of the tag's black border
+  Point<Marker> tip_in_marker;
+  Vec3 axis_in_marker{0, 1, 0};  ///< from the tip back along the shaft
+};
+
+/// The text of a file of tools. A device does not read it: that is the engine's business.
+struct ToolsFile {
+  std::string name;  ///< stands for the file in messages
+  std::string text;
+};
+
+/// What a device can tell of the tools before its cameras: nothing, values, or a file's text.
+using DescribedTools = std::variant<std::monostate, std::vector<DescribedTool>, ToolsFile>;
+
+}  // namespace orthonav

@@ -1,0 +1,293 @@
+#include "tools/live_run.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "engine/case/model_cache.h"
+#include "engine/case/operation_plan.h"
+#include "engine/case/tool_file.h"
+#include "engine/io/atomic_file.h"
+#include "engine/live/assembled_operation.h"
+#include "engine/live/known_tools.h"
+#include "engine/live/presenter.h"
+#include "engine/report/operation_result.h"
+#include "engine/session/journal.h"
+#include "engine/session/spoken_commands.h"
+#include "engine/study/evaluation.h"
+#include "engine/study/sim_scenario.h"
+#include "hal/open/joined_headset.h"
+#include "hal/open/open.h"
+#include "hal/open/open_parts.h"
+#include "hal/replay/recorder.h"
+#include "tools/case_source.h"
+#include "tools/command.h"
+#include "tools/connection_report.h"
+#include "tools/demo_report.h"
+#include "tools/model_notes.h"
+#include "tools/operation_summary.h"
+#include "tools/out_folder.h"
+#include "tools/progress.h"
+#include "tools/run_stats.h"
+
+namespace orthonav::tools {
+namespace {
+
+/// Opens everything, then runs; members in the order in which they borrow from one another.
+class LiveRun {
+ public:
+  explicit LiveRun(RunArguments arguments) : arguments_(std::move(arguments)) {}
+
+  int run() {
+    if (const Status opened = open(); !opened) {
+      return bad_input(opened.error().message);
+    }
+    OperationProgress progress(nullptr);
+    operation_->observe(&progress);
+    if (const Status presenting = present(); !presenting) {
+      return ended(presenting.error().message);
+    }
+    auto report = operation_->run();
+    end_presenting();
+    if (!report) {
+      return ended(report.error().message);
+    }
+    const engine::Session& session = operation_->session();
+    engine::OperationResult result =
+        engine::outcome_of(session.levels(), session.rods(), std::move(*report));
+    result.method = method_.name;
+    result.case_name = case_name_;
+    if (room_) {
+      result.seed = room_->options().seed;
+    }
+    if (ground_truth_) {
+      ground_truth_->evaluate(session.levels(), result);
+    }
+    end_note_.explain(result);
+    if (const Status finished = finish(result); !finished) {
+      return bad_input(finished.error().message);
+    }
+    const bool limited = arguments_.frames > 0 && result.loop.displayed >= arguments_.frames;
+    return result.completed || limited ? kDone : kNo;
+  }
+
+ private:
+  /// What was written until then stays: the journal says how it ended.
+  int ended(std::string reason) {
+    if (journal_) {
+      if (const Status done = journal_->finish(reason); !done) {
+        reason += "; " + done.error().message;
+      }
+    }
+    if (recorder_) {
+      if (const Status done = recorder_->close(); !done) {
+        reason += "; " + done.error().message;
+      }
+    }
+    return bad_input(reason);
+  }
+
+  /// Where the headset takes pixels.
+  Status present() {
+    if (!headset_->pixels()) {
+      return {};
+    }
+    engine::PresenterOptions options;
+    options.on_over = [this] { operation_->stop(); };
+    auto presenter = engine::Presenter::start(*headset_->pixels(), options);
+    if (!presenter) {
+      return presenter.error();
+    }
+    presenter_ = std::move(*presenter);
+    operation_->draw_into(presenter_.get());
+    return {};
+  }
+
+  void end_presenting() {
+    if (!presenter_) {
+      return;
+    }
+    const engine::PresentReport report = presenter_->stop();
+    for (const std::string& problem : report.problems) {
+      std::fprintf(stderr, "%s\n", problem.c_str());
+    }
+    if (arguments_.stats) {
+      print_stats(report);
+    }
+  }
+
+  Status open() {
+    auto method = engine::method_named(arguments_.method);
+    if (!method) {
+      return method.error();
+    }
+    method_ = std::move(*method);
+    const auto source = load_checked_case(arguments_.case_folder);
+    if (!source) {
+      return source.error();
+    }
+    case_name_ = source->name;
+    if (!arguments_.out.empty()) {
+      models_ = engine::ModelCache((std::filesystem::path(arguments_.out) / "models").string());
+    }
+    auto operation = engine::plan_operation(*source, arguments_.levels, models_);
+    if (!operation) {
+      return operation.error();
+    }
+    OpenOptions open_options;
+    open_options.room = engine::room_of(*source, *operation, engine::built_in_tools());
+    auto opened = open_with_room(arguments_.headset, open_options);
+    if (!opened) {
+      return opened.error();
+    }
+    headset_ = std::move(opened->headset);
+    room_ = opened->room;
+    if (arguments_.headset == "openxr:") {
+      std::fprintf(stderr, "openxr: no cameras are named, so the simulated room's: openxr:+sim:\n");
+    }
+    if (arguments_.headset.ends_with("?pace=step")) {
+      return Error{"headset URI \"" + arguments_.headset +
+                   "\": nobody steps here; known paces are fast and realtime"};
+    }
+    if (const Status joined = join_parts(); !joined) {
+      return joined;
+    }
+    return start(std::move(*operation));
+  }
+
+  Status join_parts() {
+    OtherParts parts;
+    auto clicker = open_clicker(arguments_.clicker, headset_->clock());
+    if (!clicker) {
+      return clicker.error();
+    }
+    parts.clicker = std::move(*clicker);
+    auto voice =
+        open_voice(arguments_.voice, engine::spoken_commands(), headset_->clock(), headset_.get());
+    if (!voice) {
+      return voice.error();
+    }
+    parts.voice = std::move(*voice);
+    joined_ = std::make_unique<JoinedHeadset>(*headset_, std::move(parts));
+    return {};
+  }
+
+  Status start(engine::Operation operation) {
+    const auto tools = arguments_.tools_file.empty() ? engine::tools_known_to(*headset_)
+                                                     : engine::load_tools(arguments_.tools_file);
+    if (!tools) {
+      return tools.error();
+    }
+    engine::AssemblyOptions options;
+    options.loop.max_frames = arguments_.frames;
+    options.loop.draw_every = headset_->pixels() ? 1 : 0;
+    options.loop.drop_late_snapshots = headset_->pixels() != nullptr;
+    auto assembled =
+        engine::assemble_operation(*joined_, std::move(operation), method_, *tools, options);
+    if (!assembled) {
+      return assembled.error();
+    }
+    operation_ = std::move(*assembled);
+    operation_->observe(&end_note_);
+    if (room_) {
+      operation_->observe(&ground_truth_.emplace(*room_));
+    }
+    if (const Status opened = open_journal(); !opened) {
+      return opened;
+    }
+    return start_recording(*tools);
+  }
+
+  Status open_journal() {
+    if (arguments_.out.empty()) {
+      return {};
+    }
+    auto out = OutFolder::create("--out", arguments_.out);
+    if (!out) {
+      return out.error();
+    }
+    out_.emplace(std::move(*out));
+    auto journal =
+        engine::Journal::create(out_->file("session.orthonav"),
+                                {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_,
+                                 room_ ? room_->options().seed : 0, headset_->epoch_ticks_100ns()});
+    if (!journal) {
+      return journal.error();
+    }
+    journal_ = std::move(*journal);
+    operation_->observe(journal_.get());
+    models_.keep();
+    print_notes(models_);
+    return {};
+  }
+
+  /// Last of all, for a recording that was begun stays.
+  Status start_recording(const std::vector<nav::ToolGeometry>& tools) {
+    if (arguments_.record.empty()) {
+      return {};
+    }
+    replay::RecorderOptions options;
+    options.tools_json = engine::tools_text(tools);
+    options.takes_depth = true;
+    auto recorder = replay::RecordingHeadset::around(*joined_, arguments_.record, options);
+    if (!recorder) {
+      return recorder.error();
+    }
+    recorder_ = std::move(*recorder);
+    operation_->go_through(*recorder_);
+    return {};
+  }
+
+  /// What was measured first: nothing that fails after it may take it away. The first failure.
+  Status finish(const engine::OperationResult& result) {
+    const std::string report = engine::report_json(result);
+    std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
+    if (arguments_.stats) {
+      print_stats(result.loop);
+    }
+    if (const auto connection = headset_->connection(); connection && arguments_.stats) {
+      std::fputs(connection_report(*connection).c_str(), stderr);
+    }
+    Status first;
+    const auto note = [&first](const Status& status) {
+      if (first.ok()) {
+        first = status;
+      }
+    };
+    if (out_) {
+      note(engine::write_file(out_->file("report.json"), report));
+    }
+    if (out_) {
+      note(write_demo_report(out_->path(), result, {.simulated = room_ != nullptr}));
+    }
+    if (journal_) {
+      note(journal_->finish());
+    }
+    if (recorder_) {
+      note(recorder_->close());
+    }
+    return first;
+  }
+
+  RunArguments arguments_;
+  engine::Method method_;
+  engine::ModelCache models_;
+  std::string case_name_;
+  std::unique_ptr<Headset> headset_;
+  std::unique_ptr<JoinedHeadset> joined_;  ///< with the clicker and the voice asked for
+  std::unique_ptr<replay::RecordingHeadset> recorder_;
+  const sim::SimHeadset* room_ = nullptr;  ///< that the cameras see, where it is simulated
+  std::optional<engine::GroundTruthRecorder> ground_truth_;
+  engine::EndNote end_note_;
+  std::optional<OutFolder> out_;
+  std::unique_ptr<engine::Journal> journal_;
+  std::unique_ptr<engine::AssembledOperation> operation_;
+  std::unique_ptr<engine::Presenter> presenter_;
+};
+
+}  // namespace
+
+int run_live(const RunArguments& arguments) { return LiveRun(arguments).run(); }
+
+}  // namespace orthonav::tools
