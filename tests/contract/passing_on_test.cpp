@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include "hal/fake/failing.h"
+#include "hal/open/joined_headset.h"
+#include "hal/open/open.h"
+#include "hal/openxr/openxr_headset.h"
+#include "hal/replay/recorder.h"
+#include "tests/support/scripted_session.h"
+#include "tests/support/session_log.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::test {
+namespace {
+
+/// A headset that tells all that can be asked of one.
+class TellingHeadset : public fake::FakeHeadset {
+ public:
+  TellingHeadset() : FakeHeadset(scripted_session()) {}
+  [[nodiscard]] DescribedTools described_tools() const override {
+    return ToolsFile{"a file", "its text"};
+  }
+  [[nodiscard]] std::optional<ConnectionStatistics> connection() const override {
+    ConnectionStatistics told;
+    told.pairs = 42;
+    return told;
+  }
+};
+
+void expect_passed_on(const Headset& wrapper) {
+  const DescribedTools tools = wrapper.described_tools();
+  ASSERT_TRUE(std::holds_alternative<ToolsFile>(tools)) << wrapper.name();
+  EXPECT_EQ(std::get<ToolsFile>(tools).text, "its text");
+  ASSERT_TRUE(wrapper.connection()) << wrapper.name();
+  EXPECT_EQ(wrapper.connection()->pairs, 42);
+}
+
+TEST(HeadsetsThatWrap, PassOnWhatTheOtherOneTells) {
+  const TemporaryFolder folder;
+  TellingHeadset inner;
+  expect_passed_on(fake::FailingHeadset(inner, {}));
+  expect_passed_on(JoinedHeadset(inner, {}));
+  expect_passed_on(*openxr::OpenxrHeadset::around(std::make_unique<TellingHeadset>(), {}));
+  const auto recorder = replay::RecordingHeadset::around(inner, folder / "session");
+  ASSERT_TRUE(recorder.ok()) << recorder.error().message;
+  expect_passed_on(**recorder);
+}
+
+TEST(Headset, TellsNothingUnlessItsDeviceDoes) {
+  const fake::FakeHeadset headset(scripted_session());
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(headset.described_tools()));
+  EXPECT_FALSE(headset.connection());
+}
+
+TEST(ReplayedTools, AreTheTextThatWasRecorded) {
+  const TemporaryFolder folder;
+  for (const std::string& text : {std::string(), std::string("{}")}) {
+    const auto path = folder / ("session" + text);
+    auto recorder = replay::RecordingHeadset::create(
+        std::make_unique<fake::FakeHeadset>(scripted_session()), path, {text});
+    ASSERT_TRUE(recorder.ok()) << recorder.error().message;
+    play(**recorder);
+    ASSERT_TRUE((*recorder)->close().ok());
+    const auto replayed = open_headset("replay:" + path.string());
+    ASSERT_TRUE(replayed.ok()) << replayed.error().message;
+    const DescribedTools tools = (*replayed)->described_tools();
+    ASSERT_EQ(std::holds_alternative<ToolsFile>(tools), !text.empty());
+    if (!text.empty()) {
+      EXPECT_EQ(std::get<ToolsFile>(tools).text, text);
+      EXPECT_EQ(std::get<ToolsFile>(tools).name, "tools.json of the recording");
+    }
+  }
+}
+
+TEST(OpenWithRoom, NamesTheRoomThatTheCamerasSee) {
+  for (const char* uri : {"sim:?seed=7", "openxr:", "openxr:+sim:?seed=7"}) {
+    const auto opened = open_with_room(uri);
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    ASSERT_TRUE(opened->room) << uri;
+    EXPECT_EQ(opened->room->options().seed, std::string(uri) == "openxr:" ? 1u : 7u) << uri;
+    // The tools of a planning file, through whatever is around the room.
+    const DescribedTools tools = opened->headset->described_tools();
+    ASSERT_TRUE(std::holds_alternative<std::vector<DescribedTool>>(tools)) << uri;
+    EXPECT_EQ(std::get<std::vector<DescribedTool>>(tools).size(), 1u) << uri;
+  }
+}
+
+}  // namespace
+}  // namespace orthonav::test

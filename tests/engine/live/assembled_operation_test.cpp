@@ -1,0 +1,162 @@
+#include "engine/live/assembled_operation.h"
+
+#include <gmock/gmock.h>
+
+#include "engine/case/tool_file.h"
+#include "engine/live/known_tools.h"
+#include "hal/fake/failing.h"
+#include "tests/support/scripted_operation.h"
+#include "tests/support/scripted_pairs.h"
+
+namespace orthonav::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Whose tracker sees nothing and keeps what it was asked for.
+Method blind(nav::TrackerOptions& asked) {
+  Method method;
+  method.name = "blind";
+  method.create_tracker =
+      [&asked](const StereoCalibration&, std::vector<nav::ToolGeometry> tools,
+               const nav::TrackerOptions& options) -> Result<std::unique_ptr<nav::ToolTracker>> {
+    asked = options;
+    if (tools.empty()) {
+      return Error{"no tools"};
+    }
+    return std::unique_ptr<nav::ToolTracker>(std::make_unique<test::ScriptedTracker>());
+  };
+  method.registrar = [](const RegistrationRequest&) -> Result<nav::Registration> {
+    return Error{"none"};
+  };
+  return method;
+}
+
+class CountingObserver : public LoopObserver {
+ public:
+  void stepped(const StereoFrame&, const Inputs&, const Guidance&) override { ++pairs; }
+  int pairs = 0;
+};
+
+class HearingObserver : public SessionObserver {
+ public:
+  void not_understood(const Phrase& phrase) override { heard.push_back(phrase.text); }
+  std::vector<std::string> heard;
+};
+
+class AssembledOperationTest : public ::testing::Test {
+ protected:
+  Result<std::unique_ptr<AssembledOperation>> assembled(Headset& headset) {
+    return assemble_operation(headset, test::operation_of({"L5"}), blind(asked_), tools_, options_);
+  }
+  nav::TrackerOptions asked_;
+  std::vector<nav::ToolGeometry> tools_ = built_in_tools();
+  AssemblyOptions options_;
+};
+
+TEST_F(AssembledOperationTest, RunsFromPairsToWhatIsShown) {
+  fake::Script script = test::pairs(5);
+  script.voice = {{"abracadabra", 1.0, test::kStart + 2 * test::kPair}};
+  fake::FakeHeadset headset(script);
+  const auto operation = assembled(headset);
+  ASSERT_TRUE(operation.ok()) << operation.error().message;
+  CountingObserver counting;
+  HearingObserver first;
+  HearingObserver second;
+  (*operation)->observe(&counting);
+  (*operation)->observe(&first);
+  (*operation)->observe(&second);
+  const auto report = (*operation)->run();
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->displayed, 5);
+  EXPECT_EQ(counting.pairs, 5);
+  EXPECT_THAT(first.heard, ::testing::ElementsAre("abracadabra"));
+  EXPECT_EQ(second.heard, first.heard);
+  EXPECT_EQ(headset.display().frames().size(), 6u) << "and one that takes all back";
+  EXPECT_EQ(asked_.full_search_interval, 10);
+}
+
+TEST_F(AssembledOperationTest, GoesThroughAWrapperPutAroundTheHeadsetLater) {
+  fake::FakeHeadset headset(test::pairs(5));
+  const auto operation = assembled(headset);
+  ASSERT_TRUE(operation.ok()) << operation.error().message;
+  fake::FailingHeadset losing(headset, {.camera = {{1, fake::CameraFault::kDrop}}});
+  (*operation)->go_through(losing);
+  const auto report = (*operation)->run();
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->displayed, 4);
+}
+
+TEST_F(AssembledOperationTest, AStopBeforeItRunsIsNotForgotten) {
+  fake::FakeHeadset headset(test::pairs(5));
+  const auto operation = assembled(headset);
+  ASSERT_TRUE(operation.ok()) << operation.error().message;
+  (*operation)->stop();
+  const auto report = (*operation)->run();
+  ASSERT_TRUE(report.ok()) << report.error().message;
+  EXPECT_EQ(report->displayed, 0);
+}
+
+TEST_F(AssembledOperationTest, NamesEveryProblemOfItsOptions) {
+  fake::FakeHeadset headset(test::pairs(1));
+  options_.session.stale_after = Duration::zero();
+  options_.loop.draw_every = -1;
+  options_.visibility.grades = {0.2, 0.1};
+  EXPECT_EQ(options_.check().size(), 3u);
+  const auto refused = assembled(headset);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, HasSubstr("loop: draw_every must not be negative"));
+}
+
+TEST_F(AssembledOperationTest, SaysWhyThereIsNoTracker) {
+  fake::FakeHeadset headset(test::pairs(1));
+  tools_.clear();
+  const auto refused = assembled(headset);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message, "no tools");
+}
+
+/// Tells of its tools what it was given.
+class TalkativeHeadset : public fake::FakeHeadset {
+ public:
+  explicit TalkativeHeadset(DescribedTools tools)
+      : FakeHeadset(test::pairs(1)), tools_(std::move(tools)) {}
+  [[nodiscard]] DescribedTools described_tools() const override { return tools_; }
+
+ private:
+  DescribedTools tools_;
+};
+
+TEST(ToolsKnownTo, AHeadsetThatTellsNothingAreTheBuiltInOnes) {
+  const auto tools = tools_known_to(TalkativeHeadset(DescribedTools()));
+  ASSERT_TRUE(tools.ok());
+  EXPECT_EQ(tools_text(*tools), tools_text(built_in_tools()));
+}
+
+TEST(ToolsKnownTo, AHeadsetAreTheValuesThatItTells) {
+  DescribedTool guide{"sleeve", ToolKind::kGuide, "tag36h11", 8, 0.06, {{0.0, -0.1, 0.0}}, {}};
+  guide.axis_in_marker = {0.0, 0.0, 1.0};
+  const auto tools = tools_known_to(TalkativeHeadset(std::vector{guide}));
+  ASSERT_TRUE(tools.ok());
+  ASSERT_EQ(tools->size(), 1u);
+  const nav::ToolGeometry& tool = tools->front();
+  EXPECT_EQ(tool.name, "sleeve");
+  EXPECT_EQ(tool.role, nav::ToolRole::kGuide);
+  EXPECT_EQ(tool.marker.id, 8);
+  EXPECT_EQ(tool.marker.size_m, 0.06);
+  EXPECT_EQ(tool.tip_in_marker.v, (Vec3{0.0, -0.1, 0.0}));
+  EXPECT_EQ(tool.axis_in_marker.v, (Vec3{0.0, 0.0, 1.0}));
+}
+
+TEST(ToolsKnownTo, AHeadsetWithAFileAreReadAndRefusedByItsName) {
+  const auto text = tools_text(built_in_tools());
+  const auto tools = tools_known_to(TalkativeHeadset(ToolsFile{"its file", text}));
+  ASSERT_TRUE(tools.ok()) << tools.error().message;
+  EXPECT_EQ(tools_text(*tools), text);
+  const auto refused = tools_known_to(TalkativeHeadset(ToolsFile{"its file", "{"}));
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().message, HasSubstr("its file"));
+}
+
+}  // namespace
+}  // namespace orthonav::engine
