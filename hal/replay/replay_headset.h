@@ -62,8 +62,7 @@ struct ReplayOptions {
 /// pairs alone make a session. The time of a pair is its left image's. The head is known up to the
 /// last frame, predicted beyond it, lost where two recorded poses lie more than
 /// HeadTracker::kMaxHeadPrediction apart. The tools are described by the text of its tools.json,
-/// where it has one. The display shows nothing; its latency is the recorded
-/// one.
+/// where it has one. The display shows nothing; its latency is the recorded one.
 class ReplayHeadset : public Headset {
  public:
   /// Refuses, in one line that names file, field, value and limit, whatever is missing, truncated,
