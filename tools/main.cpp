@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <iostream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "tools/command.h"
@@ -44,7 +44,7 @@ int with_output_written(int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) {
     return code;
   }
-  const char* why = errno != 0 ? std::strerror(errno) : "write error";
+  const std::string why = errno != 0 ? std::generic_category().message(errno) : "write error";
   return bad_input(std::string("standard output: cannot be written: ") + why);
 }
 

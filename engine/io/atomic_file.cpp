@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <utility>
 
 namespace orthonav::engine {
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 Error failed(const std::string& path, const std::string& doing, int error_number) {
-  return Error{path + ": " + doing + ": " + std::strerror(error_number)};
+  return Error{path + ": " + doing + ": " + std::generic_category().message(error_number)};
 }
 
 /// The file behind a chain of symbolic links; the name itself where there is no link.

@@ -88,6 +88,7 @@ template <class Camera>
 [[nodiscard]] std::vector<DepthCamera*> borrowed(
     const std::vector<std::unique_ptr<Camera>>& cameras) {
   std::vector<DepthCamera*> all;
+  all.reserve(cameras.size());
   for (const auto& camera : cameras) {
     all.push_back(camera.get());
   }

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <ctime>
+#include <system_error>
 
 #include "hal/desktop/key_events.h"
 
@@ -58,16 +58,19 @@ class EvdevKeys : public KeyEvents {
 
   Status start() {
     if (file_.number() < 0) {
-      return device_error(path_, std::string("cannot be opened: ") + std::strerror(errno) +
+      return device_error(path_, std::string("cannot be opened: ") +
+                                     std::generic_category().message(errno) +
                                      (errno == EACCES ? " (usermod -aG input $USER)" : ""));
     }
     libevdev* device = nullptr;
     if (const int code = libevdev_new_from_fd(file_.number(), &device); code < 0) {
-      return device_error(path_, std::string("is no event device: ") + std::strerror(-code));
+      return device_error(
+          path_, std::string("is no event device: ") + std::generic_category().message(-code));
     }
     device_.reset(device);
     if (const int code = libevdev_set_clock_id(device, CLOCK_MONOTONIC); code < 0) {
-      return device_error(path_, std::string("keeps no monotonic time: ") + std::strerror(-code));
+      return device_error(
+          path_, std::string("keeps no monotonic time: ") + std::generic_category().message(-code));
     }
     return {};
   }
@@ -79,7 +82,8 @@ class EvdevKeys : public KeyEvents {
       return {};
     }
     if (const int code = libevdev_grab(device_.get(), LIBEVDEV_GRAB); code < 0) {
-      return device_error(path_, std::string("cannot be grabbed: ") + std::strerror(-code));
+      return device_error(
+          path_, std::string("cannot be grabbed: ") + std::generic_category().message(-code));
     }
     return {};
   }
@@ -103,7 +107,8 @@ class EvdevKeys : public KeyEvents {
         continue;
       }
       if (code < 0) {
-        return device_error(path_, std::string("is gone: ") + std::strerror(-code));
+        return device_error(path_,
+                            std::string("is gone: ") + std::generic_category().message(-code));
       }
       syncing_ = code == LIBEVDEV_READ_STATUS_SYNC;
       if (event.type == EV_KEY && event.value != kRepeat) {

@@ -120,6 +120,7 @@ Status Swapchains::add_chain(XrSession session, Content content) {
     return error_of("ask for the images of a swapchain", told);
   }
   std::vector<std::uint64_t> handles;
+  handles.reserve(images.size());
   for (const XrSwapchainImageVulkan2KHR& image : images) {
     handles.push_back(reinterpret_cast<std::uint64_t>(image.image));
   }

@@ -5,7 +5,7 @@
 
 #include <bit>
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "hal/replay/frame_files.h"
@@ -28,7 +28,8 @@ Status LineFile::open(const std::filesystem::path& path, const char* header) {
     path_ = path;
     file_.reset(std::fopen(path.c_str(), "wbe"));
     if (!file_) {
-      return file_error(path, std::string("cannot be written: ") + std::strerror(errno));
+      return file_error(
+          path, std::string("cannot be written: ") + std::generic_category().message(errno));
     }
   }
   return header ? write(header) : Status{};
@@ -42,7 +43,8 @@ Status LineFile::write(const std::string& line) {
   const bool written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size() &&
                        std::fputc('\n', file_.get()) != EOF && std::fflush(file_.get()) == 0;
   if (!written) {
-    return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
+    return file_error(path_,
+                      std::string("cannot be written: ") + std::generic_category().message(errno));
   }
   return {};
 }
@@ -50,7 +52,8 @@ Status LineFile::write(const std::string& line) {
 Status LineFile::close() {
   const MutexLock lock(mutex_);
   if (file_ && std::fclose(file_.release()) != 0) {
-    return file_error(path_, std::string("cannot be written: ") + std::strerror(errno));
+    return file_error(path_,
+                      std::string("cannot be written: ") + std::generic_category().message(errno));
   }
   return {};
 }

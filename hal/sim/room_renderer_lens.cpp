@@ -25,9 +25,15 @@ CameraLens::CameraLens(const CameraModel& camera) : camera_(camera) {
   focal_px_ = 0.5 * (std::abs(scale_px_.x) + std::abs(scale_px_.y));
 }
 
+/// The centre of the pixel that lies in the middle, or just behind it.
+static double middle_of(int length_px) {
+  const int half_px = length_px / 2;
+  return half_px + 0.5;
+}
+
 Vec2 CameraLens::linear(Vec2 u) const {
-  return {camera_.width_px() / 2 + 0.5 + scale_px_.x * (u.x - centre_ray_.x),
-          camera_.height_px() / 2 + 0.5 + scale_px_.y * (u.y - centre_ray_.y)};
+  return {middle_of(camera_.width_px()) + scale_px_.x * (u.x - centre_ray_.x),
+          middle_of(camera_.height_px()) + scale_px_.y * (u.y - centre_ray_.y)};
 }
 
 Vec2 CameraLens::pixel(Vec3 p) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "base/mutex.h"
@@ -76,8 +77,8 @@ class SimCameras final : public StereoCamera {
   /// Frames are due at whole ticks of 100 ns, so that files keep their times.
   [[nodiscard]] Timestamp time_of(std::int64_t number) const {
     return kStart +
-           Duration(100 * static_cast<std::int64_t>(
-                              static_cast<double>(number) * 1e7 / options_.frame_rate_hz + 0.5));
+           Duration(100 * static_cast<std::int64_t>(std::floor(
+                              static_cast<double>(number) * 1e7 / options_.frame_rate_hz + 0.5)));
   }
   [[nodiscard]] Timestamp delivery_of(std::int64_t number) const {
     return time_of(number) + half_exposure_ + kReadout;

@@ -163,6 +163,7 @@ std::vector<PhraseRecognizer::Part> PhraseRecognizer::decode(const char* search,
                                                              std::vector<Cepstrum>& cepstra) {
   ps_decoder_t* decoder = decoder_.get();
   std::vector<mfcc_t*> rows;
+  rows.reserve(cepstra.size());
   for (Cepstrum& cepstrum : cepstra) {
     rows.push_back(cepstrum.data());
   }
