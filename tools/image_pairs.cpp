@@ -50,6 +50,7 @@ Result<std::vector<std::string>> expanded(const std::vector<std::string>& names)
       continue;
     }
     glob_t found{};
+    // The command has one thread. NOLINTNEXTLINE(concurrency-mt-unsafe)
     const int status = glob(name.c_str(), 0, nullptr, &found);
     if (status == 0) {
       files.insert(files.end(), found.gl_pathv, found.gl_pathv + found.gl_pathc);
