@@ -6,8 +6,8 @@
 namespace orthonav::sim {
 namespace {
 
-/// A stereo pair at default magnitudes: five levels of 8 · rings² triangles, three tools, a hand,
-/// three moments of exposure, everything moving from pair to pair.
+/// A stereo pair with the default error model: five levels of 8 · rings² triangles, three tools, a
+/// hand, three moments of exposure, everything moving from pair to pair.
 void stereo_pair(benchmark::State& bench) {
   const RoomDescription room = scene::operating_room(static_cast<int>(bench.range(0)));
   const auto renderer = RoomRenderer::create(room, ErrorModel{});

@@ -158,7 +158,7 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
   const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
   add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v), label_of(4, 1));
   if (visible_.triangle) {
-    // The overlay is where the tool will be when the frame lights up; the number and its colour
+    // The overlay is where the tool will be at the display time; the number and its colour
     // come from one stereo pair. What is only predicted has no number and is never called good.
     const nav::ScrewGuidance& shown = guidance.tool->shown;
     std::optional<double> angle_rad;

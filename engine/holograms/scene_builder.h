@@ -20,7 +20,7 @@ class SceneBuilder {
  public:
   explicit SceneBuilder(const VisibilityRules& rules = {}) : rules_(rules) {}
 
-  /// Decides what this guidance shows in a frame that lights up when it expects, or later; the two
+  /// Decides what this guidance shows in a frame shown when it expects, or later; the two
   /// below then show exactly that.
   void update(const Guidance& guidance) { update(guidance, guidance.display_time); }
   void update(const Guidance& guidance, Timestamp display_time);

@@ -48,7 +48,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   // H4: of the selected screw; it depends on the registration alone, so a lost tool leaves it.
   out.trajectory =
       g.step == Step::kGuide && level && level->usable() && g.screw < level->plan.screws.size();
-  // H5, H6: on a pose younger than the limit at the moment when the frame lights up. A frozen
+  // H5, H6: on a pose younger than the limit at the display time. A frozen
   // triangle is worse than none.
   const bool fresh =
       out.trajectory && g.tool.has_value() && display_time - g.tool->pose_time <= g.stale_after;

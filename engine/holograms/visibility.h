@@ -39,7 +39,7 @@ struct Visibility {
   bool check_points = false;                ///< H12 of the current level
 };
 
-/// For a frame that lights up at `display_time`, which may be later than the guidance expected.
+/// For a frame shown at `display_time`, which may be later than the guidance expected.
 void decide_visibility(const Guidance& guidance, const VisibilityRules& rules,
                        Timestamp display_time, Visibility& out);
 

@@ -90,7 +90,8 @@ void FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& stat
   int in_a_row = 0;
   while (Snapshot* snapshot = queue.take()) {
     // Where every snapshot is drawn, the pictures are for later: the device's clock runs ahead.
-    if (options_.drop_late_snapshots && snapshot->expires && next_light() > *snapshot->expires) {
+    if (options_.drop_late_snapshots && snapshot->expires &&
+        next_display_time() > *snapshot->expires) {
       hide_tool_guidance(snapshot->scene);
     }
     if (status.ok()) {
@@ -125,8 +126,8 @@ Status FrameLoop::loop(SnapshotQueue* queue, LoopReport& report) {
   };
   const Status ended = run_all();
   // However it ended: a display that goes on showing its last frame must not go on guiding.
-  if (last_light_ > Timestamp::min()) {
-    take_back(session_.end(next_light()), queue, report);
+  if (last_display_time_ > Timestamp::min()) {
+    take_back(session_.end(next_display_time()), queue, report);
   }
   return ended;
 }
@@ -170,9 +171,9 @@ Result<bool> FrameLoop::next_frame(SnapshotQueue* queue, LoopReport& report) {
 }
 
 Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
-  const Timestamp light = next_light();
-  if (guiding_since_ && light - *guiding_since_ > session_.options().stale_after) {
-    take_back(session_.expire(light), queue, report);
+  const Timestamp display_time = next_display_time();
+  if (guiding_since_ && display_time - *guiding_since_ > session_.options().stale_after) {
+    take_back(session_.expire(display_time), queue, report);
     ++report.blanked;
     guiding_since_.reset();
   }
@@ -185,8 +186,8 @@ Status FrameLoop::wait_for_pair(SnapshotQueue* queue, LoopReport& report) {
   return {};
 }
 
-/// When a frame submitted now lights up.
-Timestamp FrameLoop::next_light() const {
+/// The display time of a frame submitted now.
+Timestamp FrameLoop::next_display_time() const {
   return headset_->display().predicted_display_time(headset_->clock().now());
 }
 
@@ -195,8 +196,8 @@ Timestamp FrameLoop::next_light() const {
 void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report) {
   builder_.update(guidance);
   builder_.write_shown(guidance, shown_);
-  shown_.display_time = std::max(guidance.display_time, last_light_ + Duration(1));
-  last_light_ = shown_.display_time;
+  shown_.display_time = std::max(guidance.display_time, last_display_time_ + Duration(1));
+  last_display_time_ = shown_.display_time;
   if (const Status shown = headset_->display().shown(shown_); !shown) {
     ++report.failures;
     report.last_failure = shown.error().message;
@@ -230,7 +231,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
     observer_->stepped(frame_, inputs, guidance);
   }
   // Tracking took its time: what has grown too old meanwhile is not shown.
-  builder_.update(guidance, std::max(guidance.display_time, next_light()));
+  builder_.update(guidance, std::max(guidance.display_time, next_display_time()));
   builder_.write_shown(guidance, shown_);
   const Status shown = headset_->display().shown(shown_);
   report.step_wall_ms.push_back(watch.elapsed_ms());
@@ -238,7 +239,7 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
     return over;
   }
   guiding_since_ = frame_.time;
-  last_light_ = std::max(last_light_, shown_.display_time);
+  last_display_time_ = std::max(last_display_time_, shown_.display_time);
   if (shown) {
     count_displayed(guidance, queue, report);
   }

@@ -57,7 +57,7 @@ struct LoopReport {
   bool done = false;  ///< the workflow reached its end
   Timestamp last_frame{};
   std::vector<double> intervals_ms;  ///< device clock, between displayed frames
-  /// Device clock, from the middle of a pair's exposure until its frame lights up: capture to
+  /// Device clock, from the middle of a pair's exposure until its display time: capture to
   /// photon.
   std::vector<double> photon_ages_ms;
   /// Tracking and everything after it, for each pair; without waiting for the drawing.
@@ -89,7 +89,7 @@ class FrameLoop {
   Result<bool> next_frame(SnapshotQueue* queue, LoopReport& report);
   Status wait_for_pair(SnapshotQueue* queue, LoopReport& report);
   void take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
-  [[nodiscard]] Timestamp next_light() const;
+  [[nodiscard]] Timestamp next_display_time() const;
   void draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status);
   Status step(SnapshotQueue* queue, LoopReport& report);
   Status tolerate(const Status& status, int& in_a_row, LoopReport& report);
@@ -110,10 +110,10 @@ class FrameLoop {
   std::vector<ClickerEvent> clicks_;
   std::vector<Phrase> phrases_;
   ShownFrame shown_;
-  std::optional<Timestamp> last_display_;    ///< of a pair's frame, for the intervals
-  Timestamp last_light_ = Timestamp::min();  ///< of any frame
-  Timestamp heard_at_{};                     ///< when the last pair came, or the loop began
-  std::optional<Timestamp> guiding_since_;   ///< mid-exposure of the pair that is being shown
+  std::optional<Timestamp> last_display_;           ///< of a pair's frame, for the intervals
+  Timestamp last_display_time_ = Timestamp::min();  ///< of any frame
+  Timestamp heard_at_{};                            ///< when the last pair came, or the loop began
+  std::optional<Timestamp> guiding_since_;  ///< mid-exposure of the pair that is being shown
   std::optional<Timestamp> done_since_;
   int camera_errors_ = 0;  ///< in a row, each
   int clicker_errors_ = 0;

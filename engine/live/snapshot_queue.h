@@ -18,7 +18,7 @@ struct Snapshot {
   std::size_t slot = 0;    ///< index of this buffer: a caller keeps its own data beside it
   Timestamp display_time{};
   std::string step_text;
-  /// Lit up after this, what guides a tool is too old to be seen; absent when nothing does.
+  /// Shown after this, what guides a tool is too old to be seen; absent when nothing does.
   std::optional<Timestamp> expires;
   bool blank = false;  ///< the loop has ended: nothing but the status line
   render::Scene scene;

@@ -102,7 +102,7 @@ struct DroppedRegion {
 /// valid until its next step.
 struct Guidance {
   Timestamp frame_time{};    ///< mid-exposure of the pair
-  Timestamp display_time{};  ///< when the frame made of this lights up
+  Timestamp display_time{};  ///< of the frame made of this
   Timestamp pose_time{};     ///< of the pair in which the step's tool was last measured
   Step step = Step::kSetup;
   std::string step_text;  ///< "guide L4 left"
@@ -113,7 +113,7 @@ struct Guidance {
   std::size_t screw = 0;  ///< selected, an index into the level's screws (while guiding)
   std::span<const nav::Region> regions;
   const DroppedRegion* dropped = nullptr;
-  /// Guidance on a pose older than this, when the frame lights up, is hidden.
+  /// Guidance on a pose older than this, at the display time, is hidden.
   Duration stale_after{};
   Duration fade{};     ///< a deleted path fades for so long
   bool blank = false;  ///< no more pairs will come: nothing may be shown that could go stale

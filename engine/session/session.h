@@ -28,7 +28,7 @@ namespace orthonav::engine {
 struct Inputs {
   std::span<const ClickerEvent> clicks;  ///< in order of time
   std::span<const Phrase> phrases;       ///< in order of time
-  Timestamp display_time{};              ///< when a frame made of this step lights up
+  Timestamp display_time{};              ///< of a frame made of this step
 };
 
 /// One operation from setup to done: values in, guidance out. Reads no clock and no device, so the

@@ -19,9 +19,9 @@ class Verifying {
   /// Of the level's registration and the points that it was made of; both are there.
   Verifying(const LevelState& level, Verification verification, const nav::CheckPointRules& rules);
 
-  /// The registration lights up then, if it has not done so before.
+  /// The registration is shown then, if it was not before.
   void show(Timestamp display_time);
-  /// What was said before the registration first lit up can't be a judgement of it.
+  /// What was said before the registration was first shown can't be a judgement of it.
   [[nodiscard]] bool shown_before(Timestamp spoken) const;
 
   [[nodiscard]] Touch& touch() { return touch_; }

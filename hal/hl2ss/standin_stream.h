@@ -35,7 +35,7 @@ class StandinStream final : public Protocol {
   HeadsetTime& time_;
   Inbox<ClickerEvent>& inbox_;
   const WakeUp& wake_up_;
-  // Of the conversation:
+  // Of the protocol alone:
   std::vector<std::uint8_t> buffer_;
   std::size_t have_ = 0;
 

@@ -9,12 +9,12 @@
 
 namespace orthonav::sim {
 
-/// The cameras as they are, when the device's own calibration is slightly wrong by the magnitudes:
+/// The cameras as they are, when the device's own calibration is slightly wrong by the error model:
 /// focal length and principal point of each, and the right camera's place against the left one.
 Result<StereoCalibration> perturbed(const StereoCalibration& reported,
                                     const ErrorModel& error_model, const Random& random);
 
-/// The tools as a planning file describes them: tip and axis slightly off by the magnitudes.
+/// The tools as a planning file describes them: tip and axis slightly off by the error model.
 [[nodiscard]] std::vector<RoomTool> described(const std::vector<RoomTool>& tools,
                                               const ErrorModel& error_model, const Random& random);
 

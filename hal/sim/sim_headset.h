@@ -26,18 +26,18 @@ struct SimOptions {
   /// False leaves the images black and costs nothing: for whoever is not after the pixels.
   bool render = true;
 
-  /// Refuses values that make no sense; names all that is wrong with the magnitudes.
+  /// Refuses values that make no sense; names all that is wrong with the error model.
   [[nodiscard]] Status check() const;
 };
 
 /// The simulated operating room as a headset. The same seed gives the same bits, as long as what is
 /// shown comes at the same moments. Parts may be used from different threads; `truth` is read when
 /// nobody calls `cameras().next`. Tools are described as a planning file would do it: slightly off
-/// by the magnitudes. Half a second after the surgeon has seen the last step (`done`) the stream
+/// by the error model. Half a second after the surgeon has seen the last step (`done`) the stream
 /// ends.
 class SimHeadset : public Headset {
  public:
-  /// Refuses magnitudes, options and rooms that make no sense, and a surgeon without pointer or
+  /// Refuses error models, options and rooms that make no sense, and a surgeon without pointer or
   /// guide. Without levels there is nothing to operate: the tools hover, as without a surgeon.
   static Result<std::unique_ptr<SimHeadset>> open(RoomDescription room, const SimOptions& options);
   /// The truth so far. For the thread that takes the pairs: it grows with them.

@@ -25,7 +25,7 @@ struct Posture {
 /// of a surgeon of median pace; `slowness` stretches them.
 class SurgeonBody {
  public:
-  /// The magnitudes must outlive it.
+  /// The error model must outlive it.
   SurgeonBody(Random random, const ErrorModel& error_model, double slowness, const Posture& start);
 
   /// A tick of the simulation: the script awaiting it goes on.

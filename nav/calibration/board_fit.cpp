@@ -120,14 +120,14 @@ int flags_for(bool with_k3) { return with_k3 ? 0 : cv::CALIB_FIX_K3; }
 
 Result<Transform<RightCamera, LeftCamera>> transform_from(const cv::Mat& rotation,
                                                           const cv::Mat& translation) {
-  Mat3 rotation_step;
+  Mat3 rotation_matrix;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
-      rotation_step[r][static_cast<std::size_t>(c)] = rotation.at<double>(r, c);
+      rotation_matrix[r][static_cast<std::size_t>(c)] = rotation.at<double>(r, c);
     }
   }
   return Transform<RightCamera, LeftCamera>::checked(
-      rotation_step,
+      rotation_matrix,
       {translation.at<double>(0), translation.at<double>(1), translation.at<double>(2)});
 }
 

@@ -86,15 +86,15 @@ struct Sigma {
 /// From leaving out each tenth of the pairs in turn.
 Sigma jackknife(const BodyProblem& problem, const BodyState& whole) {
   const std::vector<double> all_px = across_px(problem, whole.right_from_rig);
-  double rotation_step = 0.0;
-  double shift = 0.0;
+  double rotation_squares = 0.0;
+  double translation_squares = 0.0;
   double off = 0.0;
   double blocks = 0.0;
   for (const BodyState& state : adjusted_without_blocks(problem, whole)) {
     const auto& a = whole.right_from_rig;
     const auto& b = state.right_from_rig;
-    rotation_step += std::pow(rotation_angle_rad(a.rotation(), b.rotation()), 2);
-    shift += (b.translation() - a.translation()).squared_norm();
+    rotation_squares += std::pow(rotation_angle_rad(a.rotation(), b.rotation()), 2);
+    translation_squares += (b.translation() - a.translation()).squared_norm();
     off += std::pow(rms_between(across_px(problem, b), all_px), 2);
     blocks += 1.0;
   }
@@ -102,7 +102,8 @@ Sigma jackknife(const BodyProblem& problem, const BodyState& whole) {
     return {};
   }
   const double factor = (blocks - 1.0) / blocks;
-  return {std::sqrt(factor * rotation_step), std::sqrt(factor * shift), std::sqrt(factor * off)};
+  return {std::sqrt(factor * rotation_squares), std::sqrt(factor * translation_squares),
+          std::sqrt(factor * off)};
 }
 
 double covered_fraction(const BodyProblem& problem) {

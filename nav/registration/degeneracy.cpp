@@ -105,9 +105,9 @@ Degeneracy degeneracy_of(const VertebraModel& model, const PoseUncertainty& unce
     const Vec3 at = middle(mesh, t);
     const Vec3 normal =
         triangle_normal({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
-    const Vec3 rotation_step = (at - centre).cross(normal);
+    const Vec3 by_rotation = (at - centre).cross(normal);
     Vector6 j;
-    j << normal.x, normal.y, normal.z, rotation_step.x, rotation_step.y, rotation_step.z;
+    j << normal.x, normal.y, normal.z, by_rotation.x, by_rotation.y, by_rotation.z;
     const Vector6 gain = covariance * j;
     const Matrix6 after =
         covariance - gain * gain.transpose() / (j.dot(gain) + kPinned_m * kPinned_m);

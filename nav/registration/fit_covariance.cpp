@@ -34,9 +34,9 @@ constexpr double kLever_m = 0.03;
 constexpr double kWeakest = 1e-6;
 
 Vector7 derivative(const FittedPoint& p, bool with_standoff) {
-  const Vec3 rotation_step = p.lever_arm_m.cross(p.gradient);
+  const Vec3 by_rotation = p.lever_arm_m.cross(p.gradient);
   Vector7 j;
-  j << p.gradient.x, p.gradient.y, p.gradient.z, rotation_step.x, rotation_step.y, rotation_step.z,
+  j << p.gradient.x, p.gradient.y, p.gradient.z, by_rotation.x, by_rotation.y, by_rotation.z,
       with_standoff ? -1.0 : 0.0;
   return j;
 }

@@ -137,7 +137,7 @@ struct Registration {
   double standoff_m = 0.0;        ///< mean height of the tip above the bone; 0 where not certain
   double inlier_fraction = 0.0;   ///< of the points
   double effective_points = 0.0;  ///< independent ones that would tell as much
-  double log_likelihood_ratio = 0.0;  ///< of the runner-up, log-likelihood ratio
+  double log_likelihood_ratio = 0.0;  ///< against the runner-up
   double coverage_fraction = 0.0;     ///< of the reachable surface
   double shaft_collision_fraction =
       0.0;  ///< of the points whose pointer would have gone through bone

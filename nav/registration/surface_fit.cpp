@@ -82,17 +82,17 @@ std::optional<double> step(SurfaceFit& fit) {
     if (!(p.weight > 0.0)) {
       continue;
     }
-    const Vec3 rotation_step = p.lever_arm_m.cross(p.gradient);
+    const Vec3 by_rotation = p.lever_arm_m.cross(p.gradient);
     Vector7 j;
-    j << p.gradient.x, p.gradient.y, p.gradient.z, rotation_step.x, rotation_step.y,
-        rotation_step.z, -1.0;
+    j << p.gradient.x, p.gradient.y, p.gradient.z, by_rotation.x, by_rotation.y, by_rotation.z,
+        -1.0;
     normal.selfadjointView<Eigen::Lower>().rankUpdate(j, p.weight);
     right -= p.weight * p.residual_m * j;
   }
-  const double shift = kRelativeDamping * normal.topLeftCorner<3, 3>().trace();
-  const double rotation_step = kRelativeDamping * normal.block<3, 3>(3, 3).trace();
+  const double translation_damping = kRelativeDamping * normal.topLeftCorner<3, 3>().trace();
+  const double rotation_damping = kRelativeDamping * normal.block<3, 3>(3, 3).trace();
   for (int k = 0; k < 6; ++k) {
-    normal(k, k) += k < 3 ? shift : rotation_step;
+    normal(k, k) += k < 3 ? translation_damping : rotation_damping;
   }
   if (!fit.with_standoff) {
     normal.row(6).setZero();

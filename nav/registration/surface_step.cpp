@@ -47,9 +47,8 @@ bool FieldStep::improve(std::span<const Vec3> centred_m, double width_m, Centred
       continue;
     }
     const Vec3 g = value.gradient;
-    const Vec3 rotation_step = lever_arm.cross(g);
-    const std::array<double, 6> j = {
-        g.x, g.y, g.z, rotation_step.x, rotation_step.y, rotation_step.z};
+    const Vec3 by_rotation = lever_arm.cross(g);
+    const std::array<double, 6> j = {g.x, g.y, g.z, by_rotation.x, by_rotation.y, by_rotation.z};
     const double weight = t * t;
     std::size_t k = 0;
     for (std::size_t row = 0; row < 6; ++row) {
@@ -73,10 +72,10 @@ bool FieldStep::improve(std::span<const Vec3> centred_m, double width_m, Centred
     }
     right(row) = sums[21 + static_cast<std::size_t>(row)];
   }
-  const double shift = kDamping * normal.topLeftCorner<3, 3>().trace();
-  const double rotation_step = kDamping * normal.bottomRightCorner<3, 3>().trace();
+  const double translation_damping = kDamping * normal.topLeftCorner<3, 3>().trace();
+  const double rotation_damping = kDamping * normal.bottomRightCorner<3, 3>().trace();
   for (int i = 0; i < 6; ++i) {
-    normal(i, i) += i < 3 ? shift : rotation_step;
+    normal(i, i) += i < 3 ? translation_damping : rotation_damping;
   }
   const Vector6 step = normal.ldlt().solve(right);
   if (!step.allFinite()) {

@@ -47,10 +47,9 @@ std::vector<Touch> touches(const VertebraModel& model, const Transform<World, Ve
 
 /// What one touch tells of (shift, turn · lever): its residual's derivative.
 Vector6 derivative(const Touch& touch, Vec3 centre_m) {
-  const Vec3 rotation_step = (touch.at_m - centre_m).cross(touch.normal) / kLever_m;
+  const Vec3 by_rotation = (touch.at_m - centre_m).cross(touch.normal) / kLever_m;
   Vector6 j;
-  j << touch.normal.x, touch.normal.y, touch.normal.z, rotation_step.x, rotation_step.y,
-      rotation_step.z;
+  j << touch.normal.x, touch.normal.y, touch.normal.z, by_rotation.x, by_rotation.y, by_rotation.z;
   return j;
 }
 

@@ -26,12 +26,12 @@ constexpr double kSettledPx = 0.05;
 /// frame, in metres.
 Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m) {
   Matrix6 out = Matrix6::Zero();
-  const Mat3 rotation_step = marker_from_tag.rotation().transposed();
+  const Mat3 tag_from_marker = marker_from_tag.rotation().transposed();
   const Vec3 lever_arm = marker_from_tag.translation();
   Eigen::Matrix3d r;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
-      r(i, j) = rotation_step[i][static_cast<std::size_t>(j)];
+      r(i, j) = tag_from_marker[i][static_cast<std::size_t>(j)];
     }
   }
   Eigen::Matrix3d cross;
@@ -42,8 +42,8 @@ Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m
   return out;
 }
 
-Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 rotation_step) {
-  return {orthonormalized(pose.rotation() * rotation_from_vector(rotation_step)),
+Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 rotation_vector) {
+  return {orthonormalized(pose.rotation() * rotation_from_vector(rotation_vector)),
           pose.translation() + pose.rotation() * shift};
 }
 
@@ -52,10 +52,10 @@ Eigen::Matrix<double, 6, 3> tag_by_camera_turn(const CameraFromTag& pose, double
   Eigen::Matrix<double, 6, 3> out;
   const Mat3 back = pose.rotation.transposed();
   for (int axis = 0; axis < 3; ++axis) {
-    Vec3 rotation_step{};
-    rotation_step[axis] = 1.0;
-    const Vec3 shift = back * rotation_step.cross(pose.translation_m) / cell_m;
-    const Vec3 rotation = back * rotation_step;
+    Vec3 unit_rotation{};
+    unit_rotation[axis] = 1.0;
+    const Vec3 shift = back * unit_rotation.cross(pose.translation_m) / cell_m;
+    const Vec3 rotation = back * unit_rotation;
     out.col(axis) << shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z;
   }
   return out;
@@ -230,7 +230,7 @@ std::optional<AlignmentEquations> PhotometricSolver::alignment(
   }
   Matrix6 pose = Matrix6::Zero();
   Eigen::Matrix<double, 6, 3> cross = Eigen::Matrix<double, 6, 3>::Zero();
-  Eigen::Matrix3d rotation_step = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d rotation_normal = Eigen::Matrix3d::Zero();
   Vector6 pose_right = Vector6::Zero();
   Eigen::Vector3d turn_right = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -251,21 +251,21 @@ std::optional<AlignmentEquations> PhotometricSolver::alignment(
     const Eigen::Matrix<double, 6, 3> by_rotation =
         tag_by_camera_turn(camera_from_tag(view, fit.rig_from_marker), cell_m);
     cross += motion.transpose() * own_normal * by_rotation;
-    rotation_step += by_rotation.transpose() * own_normal * by_rotation;
+    rotation_normal += by_rotation.transpose() * own_normal * by_rotation;
     turn_right += by_rotation.transpose() * own_right;
   }
   const Eigen::LDLT<Matrix6> solver(pose);
   AlignmentEquations out;
   Eigen::Map<Eigen::Matrix3d>(out.information.data()) =
-      rotation_step - cross.transpose() * solver.solve(cross);
+      rotation_normal - cross.transpose() * solver.solve(cross);
   Eigen::Map<Eigen::Vector3d>(out.right.data()) =
       turn_right - cross.transpose() * solver.solve(pose_right);
   return out;
 }
 
 void PhotometricSolver::turn_right_camera(Vec3 rotation_rad) {
-  const Transform<RightCamera, RightCamera> rotation_step(rotation_from_vector(rotation_rad), {});
-  calibration_.right_from_rig = rotation_step * calibration_.right_from_rig;
+  const Transform<RightCamera, RightCamera> correction(rotation_from_vector(rotation_rad), {});
+  calibration_.right_from_rig = correction * calibration_.right_from_rig;
 }
 
 }  // namespace orthonav::nav

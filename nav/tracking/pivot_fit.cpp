@@ -57,9 +57,9 @@ std::optional<PivotFit> fit_pivot(Poses poses, Chosen chosen) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const std::size_t i : chosen) {
-    const Eigen::Matrix3d rotation_step = as_eigen(poses[i].rotation()) - mean.rotation;
-    normal += rotation_step.transpose() * rotation_step;
-    right -= rotation_step.transpose() * (as_eigen(poses[i].translation()) - mean.translation);
+    const Eigen::Matrix3d deviation = as_eigen(poses[i].rotation()) - mean.rotation;
+    normal += deviation.transpose() * deviation;
+    right -= deviation.transpose() * (as_eigen(poses[i].translation()) - mean.translation);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal);
   PivotFit fit;

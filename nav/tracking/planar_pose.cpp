@@ -55,12 +55,12 @@ std::optional<std::array<CameraFromTag, 2>> planar_poses(const std::array<Vec2, 
   if (!z.is_finite() || !(place.z > 0.0) || !(z.dot(place) < 0.0)) {
     return std::nullopt;
   }
-  const Mat3 rotation_step = Mat3::from_columns(x, y, z);
+  const Mat3 first = Mat3::from_columns(x, y, z);
   // Depth mirrored along the line of sight, and the tag's back turned to its front again.
   const Vec3 sight = place.normalized();
   const auto mirrored = [&](Vec3 v) { return v - 2.0 * v.dot(sight) * sight; };
   const Mat3 other = Mat3::from_columns(mirrored(x), mirrored(y), -mirrored(z));
-  return std::array<CameraFromTag, 2>{{{rotation_step, place}, {other, place}}};
+  return std::array<CameraFromTag, 2>{{{first, place}, {other, place}}};
 }
 
 std::optional<std::array<Transform<Rig, Tag>, 2>> poses_by_one(const StereoCalibration& calibration,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <Eigen/Dense>
 
+#include "nav/tracking/symmetric_covariance.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -20,27 +22,17 @@ Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> as_eigen(const Po
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(a.data());
 }
 
-PoseCovariance as_array(const Matrix6& m) {
-  PoseCovariance out;
-  for (int r = 0; r < 6; ++r) {
-    for (int c = 0; c < 6; ++c) {
-      out[static_cast<std::size_t>(6 * r + c)] = 0.5 * (m(r, c) + m(c, r));
-    }
-  }
-  return out;
-}
-
 /// What a pose lacks to another: shift, and the rotation vector that is multiplied from the left.
 Vector6 difference(const PoseFilter::Pose& to, const PoseFilter::Pose& from) {
   const Vec3 shift = to.translation() - from.translation();
-  const Vec3 rotation_step = vector_from_rotation(to.rotation() * from.rotation().transposed());
+  const Vec3 rotation_vector = vector_from_rotation(to.rotation() * from.rotation().transposed());
   Vector6 out;
-  out << shift.x, shift.y, shift.z, rotation_step.x, rotation_step.y, rotation_step.z;
+  out << shift.x, shift.y, shift.z, rotation_vector.x, rotation_vector.y, rotation_vector.z;
   return out;
 }
 
-PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 rotation_step) {
-  return {orthonormalized(rotation_from_vector(rotation_step) * pose.rotation()),
+PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 rotation_vector) {
+  return {orthonormalized(rotation_from_vector(rotation_vector) * pose.rotation()),
           pose.translation() + shift};
 }
 
@@ -85,7 +77,7 @@ Tracked<PoseFilter::Pose> PoseFilter::predicted(Timestamp time) const {
   // A tool at rest may be taken up at any moment.
   const Covariance p = grown(dt, options_.hand_m, options_.hand_rad);
   return {moved(pose_, dt * velocity_m_, dt * velocity_rad_), time, PoseStatus::kPredicted,
-          as_array(as_eigen(p).topLeftCorner<6, 6>())};
+          symmetrized(Matrix6(as_eigen(p).topLeftCorner<6, 6>()))};
 }
 
 void PoseFilter::start(const Tracked<Pose>& measured) {
@@ -140,7 +132,8 @@ Tracked<PoseFilter::Pose> PoseFilter::state() const {
   const Matrix6 r = as_eigen(lasting_);
   const double lasting = options_.lasting_fraction;
   const double averaged = std::clamp(p.trace() / r.trace(), 0.0, 1.0);
-  return {pose_, time_, PoseStatus::kMeasured, as_array(p + lasting * (1.0 - averaged) * r)};
+  return {pose_, time_, PoseStatus::kMeasured,
+          symmetrized(Matrix6(p + lasting * (1.0 - averaged) * r))};
 }
 
 }  // namespace orthonav::nav

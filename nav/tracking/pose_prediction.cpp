@@ -7,8 +7,8 @@ namespace {
 
 // What a hand does between two pairs, as white acceleration: about 1 m/s² and 10 rad/s² held for
 // 0.1 s (density = acceleration² · duration).
-constexpr double kAccelerationSpectrum_m2_per_s3 = 0.1;     // m²/s³
-constexpr double kAccelerationSpectrum_rad2_per_s3 = 10.0;  // rad²/s³
+constexpr double kAccelerationSpectrum_m2_per_s3 = 0.1;
+constexpr double kAccelerationSpectrum_rad2_per_s3 = 10.0;
 // Without a usable older pose the velocity is unknown: a fast reach and a fast turn of the wrist.
 constexpr double kUnknownSpeedM = 0.3;    // m/s
 constexpr double kUnknownSpeedRad = 1.5;  // rad/s

@@ -1,5 +1,7 @@
 #include <Eigen/Dense>
 
+#include "nav/tracking/symmetric_covariance.h"
+
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
@@ -17,16 +19,6 @@ Eigen::Matrix3d as_eigen(const Mat3& m) {
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
       out(r, c) = m[r][static_cast<std::size_t>(c)];
-    }
-  }
-  return out;
-}
-
-PoseCovariance symmetrized(const Matrix6& m) {
-  PoseCovariance out;
-  for (int r = 0; r < 6; ++r) {
-    for (int c = 0; c < 6; ++c) {
-      out[static_cast<std::size_t>(6 * r + c)] = 0.5 * (m(r, c) + m(c, r));
     }
   }
   return out;
@@ -73,14 +65,14 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
     spread += j.transpose() * noise * j;
   }
   const Matrix6 inverse = normal.inverse();
-  return symmetrized(inverse * spread * inverse);
+  return symmetrized(Matrix6(inverse * spread * inverse));
 }
 
 PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a) {
   Matrix6 both = Matrix6::Zero();
   both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = as_eigen(b_from_a);
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> in_a(covariance.data());
-  return symmetrized(both * in_a * both.transpose());
+  return symmetrized(Matrix6(both * in_a * both.transpose()));
 }
 
 }  // namespace orthonav::nav

@@ -135,9 +135,9 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
       continue;
     }
     shifted = shifted || match.shift_px.norm() > 0.0;
-    const Mat3& rotation_step = view.right ? solver.calibration().right_from_rig.rotation()
-                                           : solver.calibration().left_from_rig.rotation();
-    shift.add(camera, rotation_step, seen.translation_m, match.shift_px);
+    const Mat3& camera_from_rig = view.right ? solver.calibration().right_from_rig.rotation()
+                                             : solver.calibration().left_from_rig.rotation();
+    shift.add(camera, camera_from_rig, seen.translation_m, match.shift_px);
     view.used = any = true;
   }
   if (!any) {

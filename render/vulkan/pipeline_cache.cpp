@@ -87,7 +87,7 @@ void write_file(const std::string& path, const std::vector<char>& bytes) {
 
 std::string user_cache_folder() {
   const auto value = [](const char* name) {
-    const char* found = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets
+    const char* found = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it
     return std::string(found != nullptr ? found : "");
   };
   // A relative folder is to be ignored, says the XDG specification.

@@ -25,7 +25,7 @@ struct PanelFacts {
   const sim::ErrorModel* running = nullptr;  ///< of a simulated room
 };
 
-/// The panel and the help, made of Dear ImGui within a window's frame. `magnitudes` are those of
+/// The panel and the help, made of Dear ImGui within a window's frame. `error_model` are those of
 /// the next start.
 void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& error_model);
 
