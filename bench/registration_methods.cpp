@@ -3,6 +3,7 @@
 #include <array>
 
 #include "bench/registration_peers.h"
+#include "engine/session/findings_wording.h"
 
 namespace orthonav::bench {
 namespace {
@@ -21,8 +22,8 @@ Fitted told_by(const Result<nav::Registration>& r) {
   fitted.found = true;
   fitted.world_from_vertebra = r->world_from_vertebra;
   fitted.accepted = r->accepted;
-  for (const std::string& reason : r->reasons) {
-    fitted.reason += (fitted.reason.empty() ? "" : "; ") + reason;
+  for (const nav::RefusalReason& reason : r->reasons) {
+    fitted.reason += (fitted.reason.empty() ? "" : "; ") + engine::text_of(reason);
   }
   fitted.rmse_m = r->rmse_m;
   fitted.fits_better = r->fits_better;

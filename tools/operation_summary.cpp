@@ -36,15 +36,14 @@ std::string operation_summary(const engine::OperationResult& result) {
            (level.points ? std::to_string(*level.points) : "-") + " points in " +
            number(level.digitization_s, 1.0, "s") + "\n";
     for (const engine::ScrewOutcome& screw : level.screws) {
-      out += "  " + std::string(engine::name_of(screw.side)) + ": angle error " +
+      out += "  " + std::string(name_of(screw.side)) + ": angle error " +
              number(screw.angle_error_rad, kDegreesPerRadian, "deg") + ", entry error " +
              number(screw.entry_error_m, 1e3, "mm") + "\n";
     }
   }
   for (const engine::RodOutcome& rod : result.rods) {
-    out += "rod " + std::string(engine::name_of(rod.side)) + ": length " +
-           number(rod.length_m, 1e3, "mm") + ", length error " +
-           number(rod.length_error_m, 1e3, "mm") + ", head error " +
+    out += "rod " + std::string(name_of(rod.side)) + ": length " + number(rod.length_m, 1e3, "mm") +
+           ", length error " + number(rod.length_error_m, 1e3, "mm") + ", head error " +
            number(rod.head_error_m, 1e3, "mm") + "\n";
   }
   out += std::to_string(result.loop.displayed) + " frames displayed\n";

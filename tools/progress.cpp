@@ -1,4 +1,5 @@
 #include "tools/progress.h"
+#include "engine/session/wording.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -36,19 +37,19 @@ void OperationProgress::stepped(const StereoFrame& frame, const engine::Inputs& 
   if (next_) {
     next_->stepped(frame, inputs, guidance);
   }
-  if (step_.empty()) {
+  if (!step_) {
     first_ = frame.time;
   }
-  const bool another = guidance.step_text != step_;
+  const bool another = step_ != guidance.status.at;
   if (another) {
-    step_ = guidance.step_text;
+    step_ = guidance.status.at;
   }
   const double fraction = fraction_done(guidance);
   if (bar_.on_terminal()) {
-    bar_.draw(fraction, step_, another);
+    bar_.draw(fraction, engine::step_text(*step_), another);
   } else if (another) {
     std::fprintf(stderr, "%3.0f %%  %-18s  operation %6.1f s, elapsed %5.1f s\n", 100.0 * fraction,
-                 step_.c_str(), seconds(frame.time - first_), bar_.elapsed_s());
+                 engine::step_text(*step_).c_str(), seconds(frame.time - first_), bar_.elapsed_s());
   }
 }
 

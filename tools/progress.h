@@ -20,7 +20,7 @@ class OperationProgress : public engine::LoopObserver {
  private:
   engine::LoopObserver* next_;
   ProgressBar bar_;
-  std::string step_;
+  std::optional<StepOnDisplay> step_;
   Timestamp first_{};
 };
 

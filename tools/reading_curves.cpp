@@ -12,8 +12,9 @@ void ReadingCurves::stepped(const StereoFrame& frame, const engine::Inputs& inpu
   if (guidance.step != engine::Step::kGuide || !guidance.tool || !guidance.tool->measured) {
     return;
   }
-  if (screws_.empty() || screws_.back().name != guidance.step_text) {
-    screws_.push_back({guidance.step_text, frame.time, {}, {}, {}});
+  const std::string name = engine::name_of(guidance.status.at);
+  if (screws_.empty() || screws_.back().name != name) {
+    screws_.push_back({name, frame.time, {}, {}, {}});
   }
   Screw& screw = screws_.back();
   screw.time_s.push_back(seconds(frame.time - screw.begin));

@@ -6,6 +6,7 @@
 
 #include "engine/io/atomic_file.h"
 #include "engine/report/registration_page.h"
+#include "engine/session/findings_wording.h"
 #include "engine/session/method.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
@@ -52,7 +53,7 @@ void print_screws(const engine::RegisteredLevel& level) {
     return std::string(text);
   };
   for (const engine::ScrewErrors& s : engine::errors_at_screws(level)) {
-    std::printf("error to expect at the %s screw: entry %s, target %s\n", engine::name_of(s.side),
+    std::printf("error to expect at the %s screw: entry %s, target %s\n", name_of(s.side),
                 place(s.entry).c_str(), place(s.target).c_str());
   }
 }
@@ -84,11 +85,12 @@ void print(const engine::RegisteredLevel& level, const engine::FigureFrame& fram
 
 /// Why not, and what to do about it.
 void print_refusal(const nav::Registration& r) {
-  for (const std::string& reason : r.reasons) {
-    std::fprintf(stderr, "orthonav: refused: %s\n", reason.c_str());
+  for (const nav::RefusalReason& reason : r.reasons) {
+    std::fprintf(stderr, "orthonav: refused: %s\n", engine::text_of(reason).c_str());
   }
-  if (!r.accepted && !r.advice.empty()) {
-    std::fprintf(stderr, "orthonav: to know the pose better: %s\n", r.advice.c_str());
+  if (!r.accepted && r.stroke_next) {
+    std::fprintf(stderr, "orthonav: to know the pose better: %s\n",
+                 engine::text_of(*r.stroke_next).c_str());
   }
 }
 

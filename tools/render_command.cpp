@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/golden/golden_scenes.h"
+#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/optical_model.h"
 #include "engine/holograms/scene_file.h"
 #include "engine/io/image_file.h"
@@ -76,7 +77,8 @@ void print_contrasts(const RgbaImage& light, const LabelImage& labels, const Rgb
   std::printf("hologram  pixels  contrast  faintest tenth\n");
   for (const engine::HologramContrast& c : engine::contrasts(light, labels, background, model)) {
     const bool legible = c.median >= engine::kLegibleContrast;
-    std::printf("H%-3u #%-3u %6d  %7.1f:1  %7.1f:1%s\n", c.label / 100, c.label % 100, c.pixels,
+    std::printf("H%-3d #%-3zu %6d  %7.1f:1  %7.1f:1%s\n",
+                static_cast<int>(engine::kind_of(c.label)), engine::instance_of(c.label), c.pixels,
                 c.median, c.faint, legible ? "" : "  hard to make out (below 3:1)");
   }
 }

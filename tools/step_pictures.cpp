@@ -10,11 +10,11 @@ Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& sna
   if (snapshot.blank) {
     return {};
   }
-  if (snapshot.step_text != held_step_) {
+  if (held_step_ != snapshot.step) {
     if (const Status finished = finish(); !finished) {
       return finished;
     }
-    held_step_ = snapshot.step_text;
+    held_step_ = snapshot.step;
     held_guides_ = false;
   }
   const bool guides = !snapshot.scene.triangles.empty();
@@ -27,10 +27,11 @@ Status StepPictures::picture(const RgbaImage& image, const engine::Snapshot& sna
 }
 
 Status StepPictures::finish() {
-  if (held_step_.empty()) {
+  if (!held_step_) {
     return {};
   }
-  std::string name = held_step_;
+  const std::string step = engine::name_of(*held_step_);
+  std::string name = step;
   for (char& c : name) {
     if (c == ' ' || c == '/') {
       c = '-';
@@ -42,8 +43,8 @@ Status StepPictures::finish() {
   if (const Status saved = engine::write_png(path, held_); !saved) {
     return saved;
   }
-  written_.push_back({held_step_, path});
-  held_step_.clear();
+  written_.push_back({step, path});
+  held_step_.reset();
   return {};
 }
 

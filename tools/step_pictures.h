@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,7 @@ class StepPictures : public PictureSink {
   std::filesystem::path folder_;
   std::vector<StepPicture> written_;
   RgbaImage held_;
-  std::string held_step_;
+  std::optional<StepOnDisplay> held_step_;
   bool held_guides_ = false;
 };
 

@@ -28,6 +28,4 @@ std::vector<std::string> Operation::check() const {
   return problems;
 }
 
-const char* name_of(nav::Side side) { return side == nav::Side::kLeft ? "left" : "right"; }
-
 }  // namespace orthonav::engine

@@ -35,7 +35,4 @@ struct Operation {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// "left" or "right".
-[[nodiscard]] const char* name_of(nav::Side side);
-
 }  // namespace orthonav::engine

@@ -46,9 +46,9 @@ GoldenScene rod(const std::string& name, const std::string& what, Float3 shift) 
   hologram.bends = bends;
   hologram.length_m = 0.0820;
   hologram.shift = shift;
-  add_rod(golden.scene, hologram, 1001);
+  add_rod(golden.scene, hologram, kRodLabel);
   for (const Float3 head : kHeads) {
-    golden.covered.push_back({1001, head + shift});
+    golden.covered.push_back({kRodLabel, head + shift});
   }
   return golden;
 }
@@ -58,9 +58,9 @@ GoldenScene heads(const std::string& name, const std::string& what, std::size_t 
   GoldenScene golden = start_rod(name, what);
   RodHologram hologram;
   hologram.heads = std::span(kHeads).first(count);
-  add_rod(golden.scene, hologram, 1001);
+  add_rod(golden.scene, hologram, kRodLabel);
   for (std::size_t i = 0; i < count; ++i) {
-    golden.covered.push_back({1001, kHeads[i]});
+    golden.covered.push_back({kRodLabel, kHeads[i]});
   }
   return golden;
 }
@@ -70,7 +70,7 @@ GoldenScene status(const std::string& name, const std::string& what, const std::
   GoldenScene golden = start_wide(name, what, surgeon_views());
   golden.views.resize(1);
   const std::array<ToolDot, 2> tools = {{{"pointer", pointer}, {"guide", guide}}};
-  add_status_line(golden.scene, text, tools, 1101);
+  add_status_line(golden.scene, text, tools, kStatusLabel);
   return golden;
 }
 
@@ -80,7 +80,8 @@ GoldenScene head_lost() {
       status("h11_head_lost", "status line, an amber line above it, nothing else",
              "guide L4 left | RMSE 0.62 mm", ToolState::kMeasured, ToolState::kMeasured);
   render::Scene whole = golden.scene;
-  whole.lines.push_back({601, {kPlacesToCheck[0], kPlacesToCheck[1]}, 0.002f, look::kGreen});
+  whole.lines.push_back(
+      {kAngleLabel, {kPlacesToCheck[0], kPlacesToCheck[1]}, 0.002f, look::kGreen});
   write_head_lost(whole, golden.scene);
   return golden;
 }
@@ -89,17 +90,18 @@ GoldenScene check(const std::string& name, const std::string& what, double dista
                   bool within) {
   GoldenScene golden = start(name, what, close_view({0.006f, 0.052f, -0.006f}));
   const Float3 place{0, 0.052f, -0.006f};
-  add_check_point(golden.scene, place, distance_text(distance_m), within, 1201);
-  golden.covered = golden.centred = {{1201, place}};
+  add_check_point(golden.scene, place, distance_text(distance_m), within, kCheckPointLabel);
+  golden.covered = golden.centred = {{kCheckPointLabel, place}};
   return golden;
 }
 
 GoldenScene to_check() {
   GoldenScene golden =
       start("h12_to_check", "three cyan diamonds", close_view({0, 0.042f, 0.002f}));
-  render::Label label = 1200;
+  std::size_t k = 0;
   for (const Float3 place : kPlacesToCheck) {
-    add_place_to_check(golden.scene, place, ++label);
+    const render::Label label = label_of(HologramKind::kCheckPoint, ++k);
+    add_place_to_check(golden.scene, place, label);
     golden.covered.push_back({label, place});
     golden.centred.push_back({label, place});
   }

@@ -38,10 +38,10 @@ GoldenScene cross_seen(const std::string& name, const std::string& what, const T
   const Float3 middle = places_of(cross).middle;
   GoldenScene golden = start(
       name, what, {render::look_at(cross.viewer.eye, middle, cross.viewer.up, 0.100f, 0.065f)});
-  add_target_cross(golden.scene, cross, 701);
-  golden.centred = {{701, middle}};
+  add_target_cross(golden.scene, cross, kCrossLabel);
+  golden.centred = {{kCrossLabel, middle}};
   if (cross.reading) {
-    golden.covered = {{702, places_of(cross).dots[0]}};
+    golden.covered = {{kCrossDotLabel, places_of(cross).dots[0]}};
   }
   return golden;
 }
@@ -67,19 +67,19 @@ GoldenScene twin(const std::string& name, const std::string& what, bool with_too
   GoldenScene golden =
       start_wide(name, what, {render::look_at(eye, looked, surgeon().up, 0.50f, 0.325f)});
   render::Scene parts;
-  add_vertebra(parts, make_golden_vertebra(), render::kIdentity, 801);
-  add_planned_trajectory(parts, kEntry, kTarget, 801);
-  add_twin(golden.scene, twin, parts, 801);
-  golden.covered = {{801, in_twin(twin, kEntry)}};
+  add_vertebra(parts, make_golden_vertebra(), render::kIdentity, kTwinLabel);
+  add_planned_trajectory(parts, kEntry, kTarget, kTwinLabel);
+  add_twin(golden.scene, twin, parts, kTwinLabel);
+  golden.covered = {{kTwinLabel, in_twin(twin, kEntry)}};
   if (!with_tool) {
     return golden;
   }
   parts = {};
   const Float3 b = tool_point(6.0);
-  add_deviation_triangle(parts, kEntry, b, planned_point(), Grade::kPoor, 802);
-  add_tool(parts, kEntry, b - kEntry, 802);
-  add_twin(golden.scene, twin, parts, 802);
-  golden.covered.push_back({802, in_twin(twin, b)});
+  add_deviation_triangle(parts, kEntry, b, planned_point(), Grade::kPoor, kTwinToolLabel);
+  add_tool(parts, kEntry, b - kEntry, kTwinToolLabel);
+  add_twin(golden.scene, twin, parts, kTwinToolLabel);
+  golden.covered.push_back({kTwinToolLabel, in_twin(twin, b)});
   return golden;
 }
 
@@ -88,9 +88,9 @@ GoldenScene depth(const std::string& name, const std::string& what, double depth
   GoldenScene golden = start(name, what, close_view({0.012f, 0.110f, 0.020f}));
   const Float3 b = tool_point(1.4);
   add_angle_readout(golden.scene, kEntry, b, angle_text(1.4 * kRadiansPerDegree), Grade::kGood,
-                    601);
+                    kAngleLabel);
   add_depth(golden.scene, kEntry, b, depth_text(depth_m, to_target_m).value_or(""),
-            to_target_m < 0.0, 901);
+            to_target_m < 0.0, kDepthLabel);
   return golden;
 }
 

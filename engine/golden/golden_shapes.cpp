@@ -21,8 +21,9 @@ using render::Float3;
 GoldenScene path(const std::string& name, const std::string& what, PathState state) {
   GoldenScene golden = start(name, what, close_view({-0.012f, 0.04f, -0.001f}));
   const std::vector<Float3> samples = stroke();
-  add_sampled_path(golden.scene, samples, state, 101);
-  golden.covered = {{101, samples.front()}, {101, samples[60]}, {101, samples.back()}};
+  add_sampled_path(golden.scene, samples, state, kPathLabel);
+  golden.covered = {
+      {kPathLabel, samples.front()}, {kPathLabel, samples[60]}, {kPathLabel, samples.back()}};
   return golden;
 }
 
@@ -30,8 +31,8 @@ GoldenScene fading(float opacity) {
   GoldenScene golden = start("h1_fading", "orange ribbon, half gone: a deleted region",
                              close_view({-0.012f, 0.04f, -0.001f}));
   const std::vector<Float3> samples = stroke();
-  add_sampled_path(golden.scene, samples, PathState::kSaved, 101, opacity);
-  golden.covered = {{101, samples[60]}};
+  add_sampled_path(golden.scene, samples, PathState::kSaved, kPathLabel, opacity);
+  golden.covered = {{kPathLabel, samples[60]}};
   return golden;
 }
 
@@ -43,19 +44,19 @@ GoldenScene residuals() {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     distances_m.push_back(0.0015f + 0.0014f * std::sin(0.13f * static_cast<float>(i)));
   }
-  add_residual_path(golden.scene, samples, distances_m, 101);
-  golden.covered = {{101, samples.front()}, {101, samples[60]}};
+  add_residual_path(golden.scene, samples, distances_m, kPathLabel);
+  golden.covered = {{kPathLabel, samples.front()}, {kPathLabel, samples[60]}};
   return golden;
 }
 
 GoldenScene vertebra() {
   GoldenScene golden = start("h2_vertebra", "a vertebra: bright rim, dark see-through inside",
                              close_view({0, 0.02f, 0}));
-  add_vertebra(golden.scene, make_golden_vertebra(), render::kIdentity, 201);
-  golden.covered = {{201, {0, 0.0655f, -0.0185f}},
-                    {201, {0.0445f, 0.030f, 0.009f}},
-                    {201, {-0.0445f, 0.030f, 0.009f}},
-                    {201, {0.0185f, 0.033f, 0.014f}}};
+  add_vertebra(golden.scene, make_golden_vertebra(), render::kIdentity, kVertebraLabel);
+  golden.covered = {{kVertebraLabel, {0, 0.0655f, -0.0185f}},
+                    {kVertebraLabel, {0.0445f, 0.030f, 0.009f}},
+                    {kVertebraLabel, {-0.0445f, 0.030f, 0.009f}},
+                    {kVertebraLabel, {0.0185f, 0.033f, 0.014f}}};
   return golden;
 }
 
@@ -66,7 +67,7 @@ GoldenScene bare_vertebra() {
   for (const Float3 place : partly->positions) {
     partly->tints.push_back(std::clamp(500.0f * (-0.004f - place.x), 0.0f, 1.0f));
   }
-  add_vertebra(golden.scene, std::move(partly), render::kIdentity, 201);
+  add_vertebra(golden.scene, std::move(partly), render::kIdentity, kVertebraLabel);
   return golden;
 }
 
@@ -78,7 +79,7 @@ GoldenScene turned_vertebra() {
   turn[0] = turn[10] = std::cos(0.4f);
   turn[8] = std::sin(0.4f);
   turn[2] = -turn[8];
-  add_vertebra(golden.scene, make_golden_vertebra(), turn, 201);
+  add_vertebra(golden.scene, make_golden_vertebra(), turn, kVertebraLabel);
   return golden;
 }
 
@@ -88,17 +89,19 @@ GoldenScene entry(const std::string& name, const std::string& what, const std::s
   const Float3 place = left ? kEntry : kOtherEntry;
   GoldenScene golden =
       start(name, what, close_view(place + Float3{left ? 0.0095f : -0.0095f, 0, 0}));
-  add_entry(golden.scene, {place, left ? kNormal : kOtherNormal, text, done, side}, 301);
-  golden.covered = {{301, place}};
-  golden.centred = {{301, place}};
+  add_entry(golden.scene, {place, left ? kNormal : kOtherNormal, text, done, side}, kEntryLabel);
+  golden.covered = {{kEntryLabel, place}};
+  golden.centred = {{kEntryLabel, place}};
   return golden;
 }
 
 GoldenScene trajectory(const std::string& name, const std::string& what, Float3 target) {
   GoldenScene golden = start(name, what, close_view({0.014f, 0.042f, 0.007f}));
-  add_planned_trajectory(golden.scene, kEntry, target, 401);
+  add_planned_trajectory(golden.scene, kEntry, target, kTrajectoryLabel);
   const Float3 outer = trajectory_outer_end(kEntry, target);
-  golden.covered = {{401, outer}, {401, kEntry}, {401, 0.5f * (outer + kEntry)}};
+  golden.covered = {{kTrajectoryLabel, outer},
+                    {kTrajectoryLabel, kEntry},
+                    {kTrajectoryLabel, 0.5f * (outer + kEntry)}};
   return golden;
 }
 
@@ -106,8 +109,9 @@ GoldenScene triangle(const std::string& name, const std::string& what, double an
   GoldenScene golden = start(name, what, close_view({0.022f, 0.072f, 0.010f}));
   const Float3 b = tool_point(angle_deg);
   const Float3 c = planned_point();
-  add_deviation_triangle(golden.scene, kEntry, b, c, grade_of(angle_deg * kRadiansPerDegree), 501);
-  golden.covered = {{501, kEntry}, {501, b}, {501, c}};
+  add_deviation_triangle(golden.scene, kEntry, b, c, grade_of(angle_deg * kRadiansPerDegree),
+                         kTriangleLabel);
+  golden.covered = {{kTriangleLabel, kEntry}, {kTriangleLabel, b}, {kTriangleLabel, c}};
   return golden;
 }
 
@@ -120,7 +124,7 @@ GoldenScene readout(const std::string& name, const std::string& what,
   }
   const Float3 b = tool_point(angle_deg.value_or(4.0));
   add_angle_readout(golden.scene, kEntry, b, angle_text(angle_rad),
-                    grade_of(angle_rad.value_or(1.0)), 601);
+                    grade_of(angle_rad.value_or(1.0)), kAngleLabel);
   return golden;
 }
 

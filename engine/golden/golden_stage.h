@@ -6,6 +6,7 @@
 
 #include "engine/golden/golden_scenes.h"
 #include "engine/holograms/hologram_cross.h"
+#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
 
 namespace orthonav::engine::golden {
@@ -17,6 +18,24 @@ inline constexpr render::Float3 kOtherEntry = {-0.0165f, 0.0320f, 0.0070f};
 inline constexpr render::Float3 kOtherTarget = {-0.0080f, -0.0110f, 0.0040f};
 inline constexpr render::Float3 kNormal = {0.25f, 0.95f, 0.15f};
 inline constexpr render::Float3 kOtherNormal = {-0.25f, 0.95f, 0.15f};
+
+// The labels of what the scenes show.
+inline constexpr render::Label kPathLabel = label_of(HologramKind::kPath, 1);
+inline constexpr render::Label kOtherPathLabel = label_of(HologramKind::kPath, 2);
+inline constexpr render::Label kVertebraLabel = label_of(HologramKind::kVertebra, 1);
+inline constexpr render::Label kEntryLabel = label_of(HologramKind::kEntry, 1);
+inline constexpr render::Label kOtherEntryLabel = label_of(HologramKind::kEntry, 2);
+inline constexpr render::Label kTrajectoryLabel = label_of(HologramKind::kTrajectory, 1);
+inline constexpr render::Label kTriangleLabel = label_of(HologramKind::kTriangle, 1);
+inline constexpr render::Label kAngleLabel = label_of(HologramKind::kAngle, 1);
+inline constexpr render::Label kCrossLabel = label_of(HologramKind::kCross, 1);
+inline constexpr render::Label kCrossDotLabel = label_of(HologramKind::kCross, 2);
+inline constexpr render::Label kTwinLabel = label_of(HologramKind::kTwin, 1);
+inline constexpr render::Label kTwinToolLabel = label_of(HologramKind::kTwin, 2);
+inline constexpr render::Label kDepthLabel = label_of(HologramKind::kDepth, 1);
+inline constexpr render::Label kRodLabel = label_of(HologramKind::kRod, 1);
+inline constexpr render::Label kStatusLabel = label_of(HologramKind::kStatus, 1);
+inline constexpr render::Label kCheckPointLabel = label_of(HologramKind::kCheckPoint, 1);
 
 /// Spread over the bone, to be touched for verification.
 inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {

@@ -5,6 +5,7 @@
 #include "base/angle.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/golden/golden_vertebra.h"
+#include "engine/session/wording.h"
 #include "render/float3.h"
 
 namespace orthonav::engine::golden {
@@ -12,20 +13,30 @@ namespace {
 
 using render::Float3;
 
-GoldenScene step(const std::string& name, const std::string& what, const std::string& status,
-                 ToolState tool = ToolState::kMeasured) {
+// The steps that the scenes show.
+const StepOnDisplay kSetup{Step::kSetup, {}, {}};
+const StepOnDisplay kDigitize{Step::kDigitize, "L4", {}};
+const StepOnDisplay kVerify{Step::kVerify, "L4", {}};
+const StepOnDisplay kAccepted{Step::kAccepted, "L4", {}};
+const StepOnDisplay kGuide{Step::kGuide, "L4", Side::kLeft};
+const StepOnDisplay kGuideNext{Step::kGuide, "L5", Side::kLeft};
+
+/// `detail` is what the status line says after the step; empty: nothing.
+GoldenScene step(const std::string& name, const std::string& what, const StepOnDisplay& at,
+                 const std::string& detail, ToolState tool = ToolState::kMeasured) {
   GoldenScene golden = start_wide(name, what + ", both eyes", surgeon_views());
-  const bool pointer = status.starts_with("digitize") || status.starts_with("verify");
+  const bool pointer = at.step == Step::kDigitize || at.step == Step::kVerify;
+  const std::string status = step_text(at) + (detail.empty() ? "" : " | " + detail);
   const std::array<ToolDot, 2> tools = {
       {{pointer ? "pointer" : "guide", tool}, {"reference", ToolState::kPredicted}}};
-  add_status_line(golden.scene, status, tools, 1101);
+  add_status_line(golden.scene, status, tools, kStatusLabel);
   return golden;
 }
 
 void add_paths(GoldenScene& golden, bool recording) {
   const std::vector<Float3> saved = stroke();
-  add_sampled_path(golden.scene, saved, PathState::kSaved, 101);
-  golden.covered.push_back({101, saved.front()});
+  add_sampled_path(golden.scene, saved, PathState::kSaved, kPathLabel);
+  golden.covered.push_back({kPathLabel, saved.front()});
   if (!recording) {
     return;
   }
@@ -34,27 +45,27 @@ void add_paths(GoldenScene& golden, bool recording) {
     p = {-p.x, p.y, p.z};
   }
   mirrored.resize(70);
-  add_sampled_path(golden.scene, mirrored, PathState::kRecording, 102);
-  golden.covered.push_back({102, mirrored.back()});
+  add_sampled_path(golden.scene, mirrored, PathState::kRecording, kOtherPathLabel);
+  golden.covered.push_back({kOtherPathLabel, mirrored.back()});
 }
 
 void add_bone(GoldenScene& golden) {
-  add_vertebra(golden.scene, make_golden_vertebra(), render::kIdentity, 201);
+  add_vertebra(golden.scene, make_golden_vertebra(), render::kIdentity, kVertebraLabel);
 }
 
 void add_entries(GoldenScene& golden, bool left_done, bool right_done) {
-  add_entry(golden.scene, {kEntry, kNormal, "L4 left", left_done, LabelSide::kLeft}, 301);
+  add_entry(golden.scene, {kEntry, kNormal, "L4 left", left_done, LabelSide::kLeft}, kEntryLabel);
   add_entry(golden.scene, {kOtherEntry, kOtherNormal, "L4 right", right_done, LabelSide::kRight},
-            302);
-  golden.covered.push_back({302, kOtherEntry});
+            kOtherEntryLabel);
+  golden.covered.push_back({kOtherEntryLabel, kOtherEntry});
 }
 
 /// What does not depend on the tool.
-GoldenScene guiding(const std::string& name, const std::string& what, const std::string& status,
+GoldenScene guiding(const std::string& name, const std::string& what, const std::string& detail,
                     ToolState tool = ToolState::kMeasured) {
-  GoldenScene golden = step(name, what, status, tool);
+  GoldenScene golden = step(name, what, kGuide, detail, tool);
   add_entries(golden, false, true);
-  add_planned_trajectory(golden.scene, kEntry, kTarget, 401);
+  add_planned_trajectory(golden.scene, kEntry, kTarget, kTrajectoryLabel);
   return golden;
 }
 
@@ -66,7 +77,7 @@ void add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool
   cross.viewer = viewer;
   cross.reading = reading;
   cross.lost = lost;
-  add_target_cross(golden.scene, cross, 701);
+  add_target_cross(golden.scene, cross, kCrossLabel);
 }
 
 /// The guide at an angle, its tip beside the entry.
@@ -74,12 +85,12 @@ void add_tool_to(GoldenScene& golden, double angle_deg, bool measured, double de
   const Float3 b = tool_point(angle_deg);
   const double angle_rad = angle_deg * kRadiansPerDegree;
   const Grade grade = measured ? grade_of(angle_rad) : Grade::kFair;
-  add_deviation_triangle(golden.scene, kEntry, b, planned_point(), grade, 501);
+  add_deviation_triangle(golden.scene, kEntry, b, planned_point(), grade, kTriangleLabel);
   add_angle_readout(golden.scene, kEntry, b,
                     angle_text(measured ? std::optional(angle_rad) : std::nullopt),
-                    measured ? grade : Grade::kPoor, 601);
-  golden.covered.push_back({501, b});
-  golden.covered.push_back({501, planned_point()});
+                    measured ? grade : Grade::kPoor, kAngleLabel);
+  golden.covered.push_back({kTriangleLabel, b});
+  golden.covered.push_back({kTriangleLabel, planned_point()});
   if (!measured) {
     return add_cross_to(golden, std::nullopt, false);
   }
@@ -87,56 +98,56 @@ void add_tool_to(GoldenScene& golden, double angle_deg, bool measured, double de
                      -1.0f * dot(b - planned_point(), planned_direction()) * planned_direction();
   add_cross_to(golden, CrossReading{0.12f * top, top, grade}, false);
   add_depth(golden.scene, kEntry, b, depth_text(depth_m, 0.045 - depth_m).value_or(""),
-            depth_m > 0.045, 901);
+            depth_m > 0.045, kDepthLabel);
 }
 
 GoldenScene digitizing() {
-  GoldenScene golden = step("digitizing", "orange saved path, yellow one being recorded",
-                            "digitize L4 | 812 points");
+  GoldenScene golden =
+      step("digitizing", "orange saved path, yellow one being recorded", kDigitize, "812 points");
   add_paths(golden, true);
   return golden;
 }
 
 GoldenScene refused() {
   GoldenScene golden = step("digitize_refused", "orange path, the reason in the status line",
-                            "digitize L4 | refused: error expected 2.3 mm; stroke the left facet");
+                            kDigitize, "refused: error expected 2.3 mm; stroke the left facet");
   add_paths(golden, false);
   return golden;
 }
 
 GoldenScene verifying() {
   GoldenScene golden = step("verify", "the vertebra, its path by distance, three cyan diamonds",
-                            "verify L4 | RMSE 0.62 mm | touch 3 places, 15 mm apart");
+                            kVerify, "RMSE 0.62 mm | touch 3 places, 15 mm apart");
   add_bone(golden);
   const std::vector<Float3> samples = stroke();
   std::vector<float> distances_m(samples.size(), 0.0004f);
   for (std::size_t i = 50; i < 70; ++i) {
     distances_m[i] = 0.0016f;
   }
-  add_residual_path(golden.scene, samples, distances_m, 101);
-  render::Label label = 1200;
+  add_residual_path(golden.scene, samples, distances_m, kPathLabel);
+  std::size_t k = 0;
   for (const Float3 place : kPlacesToCheck) {
-    add_place_to_check(golden.scene, place, ++label);
+    add_place_to_check(golden.scene, place, label_of(HologramKind::kCheckPoint, ++k));
   }
   return golden;
 }
 
 GoldenScene checked() {
-  GoldenScene golden = step("verify_checked", "the vertebra, two green places, a red one",
-                            "verify L4 | check point 3 is 3.1 mm off, limit 2.0 mm");
+  GoldenScene golden = step("verify_checked", "the vertebra, two green places, a red one", kVerify,
+                            "check point 3 is 3.1 mm off, limit 2.0 mm");
   add_bone(golden);
   constexpr std::array<double, 3> kDistances_m = {0.0004, 0.0011, 0.0031};
-  render::Label label = 1200;
+  std::size_t k = 0;
   for (std::size_t i = 0; i < kPlacesToCheck.size(); ++i) {
     add_check_point(golden.scene, kPlacesToCheck[i], distance_text(kDistances_m[i]),
-                    kDistances_m[i] <= 0.002, ++label);
+                    kDistances_m[i] <= 0.002, label_of(HologramKind::kCheckPoint, ++k));
   }
   return golden;
 }
 
 GoldenScene accepted() {
   GoldenScene golden =
-      step("accepted", "two blue entries, nothing else", "accepted L4 | RMSE 0.62 mm");
+      step("accepted", "two blue entries, nothing else", kAccepted, "RMSE 0.62 mm");
   add_entries(golden, false, false);
   return golden;
 }
@@ -144,7 +155,7 @@ GoldenScene accepted() {
 GoldenScene guidance() {
   GoldenScene golden =
       guiding("guidance", "guiding the left screw of L4 with everything, the right one done",
-              "guide L4 left | RMSE 0.62 mm | predicted 1.1 mm");
+              "RMSE 0.62 mm | predicted 1.1 mm");
   add_bone(golden);
   add_tool_to(golden, 3.4, true, -0.0062);
   return golden;
@@ -152,37 +163,36 @@ GoldenScene guidance() {
 
 GoldenScene guide_far() {
   GoldenScene golden = guiding("guide_far", "plan and cross with arrows: the tool is far away",
-                               "guide L4 left | RMSE 0.62 mm | predicted 1.1 mm");
+                               "RMSE 0.62 mm | predicted 1.1 mm");
   add_cross_to(golden, CrossReading{{0.03f, 0, 0.02f}, {0.04f, 0, 0.02f}, Grade::kPoor}, false);
   return golden;
 }
 
 GoldenScene guide_drilling() {
   GoldenScene golden = guiding("guide_drilling", "green triangle and dots, depth to the target",
-                               "guide L4 left | RMSE 0.62 mm | predicted 1.1 mm");
+                               "RMSE 0.62 mm | predicted 1.1 mm");
   add_tool_to(golden, 0.8, true, 0.0140);
   return golden;
 }
 
 GoldenScene guide_predicted() {
-  GoldenScene golden =
-      guiding("guide_predicted", "amber triangle, dashes, rings without dots",
-              "guide L4 left | RMSE 0.62 mm | predicted 1.1 mm", ToolState::kPredicted);
+  GoldenScene golden = guiding("guide_predicted", "amber triangle, dashes, rings without dots",
+                               "RMSE 0.62 mm | predicted 1.1 mm", ToolState::kPredicted);
   add_tool_to(golden, 1.0, false, 0.0);
   return golden;
 }
 
 GoldenScene guide_lost() {
   GoldenScene golden = guiding("guide_lost", "plan, dashes, tool lost across the rings",
-                               "guide L4 left | guide not seen", ToolState::kLost);
+                               "guide not seen", ToolState::kLost);
   add_angle_readout(golden.scene, kEntry, trajectory_outer_end(kEntry, kTarget),
-                    angle_text(std::nullopt), Grade::kPoor, 601);
+                    angle_text(std::nullopt), Grade::kPoor, kAngleLabel);
   add_cross_to(golden, std::nullopt, true);
   return golden;
 }
 
 GoldenScene screws_done() {
-  GoldenScene golden = step("guide_done", "two entries with ticks", "guide L5 left | say start");
+  GoldenScene golden = step("guide_done", "two entries with ticks", kGuideNext, "say start");
   add_entries(golden, true, true);
   return golden;
 }
@@ -190,7 +200,7 @@ GoldenScene screws_done() {
 }  // namespace
 
 void add_step_scenes(std::vector<GoldenScene>& scenes) {
-  scenes.push_back(step("setup", "the status line alone", "setup", ToolState::kLost));
+  scenes.push_back(step("setup", "the status line alone", kSetup, "", ToolState::kLost));
   scenes.push_back(digitizing());
   scenes.push_back(refused());
   scenes.push_back(verifying());
@@ -217,7 +227,9 @@ void add_view_scenes(std::vector<GoldenScene>& scenes) {
                     ": texts upright to the head, both eyes";
       golden.views = surgeon_views(distance_m, kRolls_deg[i]);
       // The cross faces the eyes from wherever they are.
-      const auto of_cross = [](const auto& item) { return item.label / 100 == 7; };
+      const auto of_cross = [](const auto& item) {
+        return kind_of(item.label) == HologramKind::kCross;
+      };
       golden.scene.meshes.erase_if(of_cross);
       golden.scene.lines.erase_if(of_cross);
       golden.scene.texts.erase_if(of_cross);

@@ -7,6 +7,7 @@
 
 #include "base/length_text.h"
 #include "engine/holograms/hologram_parts.h"
+#include "engine/session/wording.h"
 #include "render/float3.h"
 
 namespace orthonav::engine {
@@ -86,7 +87,7 @@ void add_lost_text(Scene& scene, Float3 middle, Label label) {
   text.offset_up = -0.5f;
   text.height_m = 0.0045f;
   text.min_height_deg = 0.5f;
-  add_run(text, "tool lost", look::kRed);
+  add_run(text, words::kToolLost, look::kRed);
 }
 
 }  // namespace
@@ -180,7 +181,8 @@ bool write_depth_text(double depth_m, double to_target_m, std::string& text) {
     return false;
   }
   text = in_mm(std::abs(left_m));
-  text += before ? " to entry" : (left_m < 0.0 ? " past target" : " to target");
+  text += ' ';
+  text += before ? words::kToEntry : (left_m < 0.0 ? words::kPastTarget : words::kToTarget);
   return true;
 }
 

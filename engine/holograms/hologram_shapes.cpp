@@ -1,14 +1,17 @@
 #include "engine/holograms/hologram_shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 #include <utility>
 
 #include "base/angle.h"
 #include "base/length_text.h"
 #include "engine/holograms/hologram_parts.h"
+#include "engine/session/wording.h"
 #include "render/float3.h"
 #include "render/shapes.h"
 
@@ -59,8 +62,19 @@ void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, La
   add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::kAmber, label);
   render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
   add_run(text, angle_text(bend.angle_rad), look::kAmber);
-  add_run(text, " at ", look::kDimWhite);
+  add_run(text, words::kAt, look::kDimWhite);
   add_run(text, in_mm(bend.arc_length_m), look::kDimWhite);
+}
+
+/// In degrees; absent where there is nothing to read.
+std::optional<std::array<char, 16>> angle_digits(std::optional<double> angle_rad) {
+  const double angle_deg = angle_rad ? *angle_rad * kDegreesPerRadian : std::nan("");
+  if (!(angle_deg >= 0.0 && angle_deg < 99.95)) {
+    return std::nullopt;
+  }
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%.1f", angle_deg);
+  return text;
 }
 
 }  // namespace
@@ -96,13 +110,14 @@ Colour colour_of(Grade grade) {
 }
 
 std::string angle_text(std::optional<double> angle_rad) {
-  const double angle_deg = angle_rad ? *angle_rad * kDegreesPerRadian : std::nan("");
-  if (!(angle_deg >= 0.0 && angle_deg < 99.95)) {
-    return "--.-°";
-  }
-  char text[16];
-  std::snprintf(text, sizeof(text), "%.1f°", angle_deg);
-  return text;
+  const auto digits = angle_digits(angle_rad);
+  return digits ? std::string(digits->data()) + "°" : "--.-°";
+}
+
+std::optional<double> read_angle_rad(std::optional<double> angle_rad) {
+  const auto digits = angle_digits(angle_rad);
+  return digits ? std::optional(std::strtod(digits->data(), nullptr) * kRadiansPerDegree)
+                : std::nullopt;
 }
 
 void add_sampled_path(Scene& scene, std::span<const Float3> samples, PathState state, Label label,

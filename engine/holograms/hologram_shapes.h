@@ -50,6 +50,9 @@ struct GradeLimits {
 /// `12.4°`, one decimal; `--.-°` for a value that is absent, not finite, negative or over 99.9°.
 [[nodiscard]] std::string angle_text(std::optional<double> angle_rad);
 
+/// What is read off that text (rad); absent where it shows dashes.
+[[nodiscard]] std::optional<double> read_angle_rad(std::optional<double> angle_rad);
+
 enum class PathState { kRecording, kSaved };
 
 /// H1: ribbon through consecutive samples. `opacity` in [0, 1] fades a deleted region out.

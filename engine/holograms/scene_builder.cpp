@@ -3,37 +3,35 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
+#include "engine/session/wording.h"
 #include "render/shapes.h"
 
 namespace orthonav::engine {
 namespace {
 
-// Labels as scene.h has them: 100·n + k for the k-th instance of hologram Hn.
-constexpr render::Label label_of(std::uint32_t hologram, std::size_t instance) {
-  return 100 * hologram + static_cast<render::Label>(instance);
-}
-constexpr std::size_t kMostInstances = 99;
-constexpr render::Label kCross = label_of(7, 1);  // its dots: the next
-constexpr render::Label kTwin = label_of(8, 1);
-constexpr render::Label kTwinTool = label_of(8, 2);
+constexpr render::Label kCross = label_of(HologramKind::kCross, 1);  // its dots: the next
+constexpr render::Label kTwin = label_of(HologramKind::kTwin, 1);
+constexpr render::Label kTwinTool = label_of(HologramKind::kTwin, 2);
 
 }  // namespace
 
 void hide_tool_guidance(render::Scene& scene) {
   const auto of_tool = [](const auto& item) {
-    return item.label / 100 == 5 || item.label / 100 == 9 || item.label == kTwinTool;
+    const HologramKind kind = kind_of(item.label);
+    return kind == HologramKind::kTriangle || kind == HologramKind::kDepth ||
+           item.label == kTwinTool;
   };
   scene.triangles.erase_if(of_tool);
   scene.lines.erase_if(of_tool);
   scene.texts.erase_if(of_tool);
   take_dots_off(scene, kCross);
   for (render::TextItem& text : scene.texts) {
-    if (text.label / 100 != 6) {
-      continue;
+    if (kind_of(text.label) == HologramKind::kAngle) {
+      take_angle_off(text);
     }
-    take_angle_off(text);
   }
 }
 
@@ -44,7 +42,7 @@ void write_head_lost(const render::Scene& scene, render::Scene& left) {
       left.texts.push_back(text);
     }
   }
-  add_notice(left, "Head not located: nothing is shown in the world", label_of(11, 2));
+  add_notice(left, words::kHeadNotLocated, label_of(HologramKind::kStatus, 2));
 }
 
 void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {
@@ -88,10 +86,10 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
     }
     if (region.saved && measured <= guidance.residuals_m.size()) {
       return add_residual_path(scene, points_, guidance.residuals_m.subspan(first, points_.size()),
-                               label_of(1, std::min(k, kMostInstances)));
+                               label_of(HologramKind::kPath, k));
     }
     add_sampled_path(scene, points_, region.saved ? PathState::kSaved : PathState::kRecording,
-                     label_of(1, std::min(k, kMostInstances)), opacity);
+                     label_of(HologramKind::kPath, k), opacity);
   };
   if (visible_.paths) {
     for (std::size_t k = 0; k < guidance.regions.size(); ++k) {
@@ -111,17 +109,18 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
 void SceneBuilder::add_bone(const Guidance& guidance, render::Scene& scene) {
   const LevelState& level = guidance.levels[guidance.level];
   add_vertebra(scene, tinted_surface_of(level, guidance.unstroked),
-               to_matrix(level.registration->world_from_vertebra.row_major()), label_of(2, 1));
+               to_matrix(level.registration->world_from_vertebra.row_major()),
+               label_of(HologramKind::kVertebra, 1));
 }
 
 void SceneBuilder::add_check_points(const Guidance& guidance, render::Scene& scene) {
   std::size_t k = 0;
   for (const Point<World>& place : guidance.to_check) {
-    add_place_to_check(scene, to_float3(place.v), label_of(12, std::min(++k, kMostInstances)));
+    add_place_to_check(scene, to_float3(place.v), label_of(HologramKind::kCheckPoint, ++k));
   }
   for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points) {
     add_check_point(scene, to_float3(point.place.v), distance_text(point.distance_m), point.within,
-                    label_of(12, std::min(++k, kMostInstances)));
+                    label_of(HologramKind::kCheckPoint, ++k));
   }
 }
 
@@ -140,13 +139,13 @@ void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
           to_float3((world_from_vertebra * Direction<Vertebra>{outward.normalized()}).v);
       text_.clear();
       if (visible_.entry_labels) {
-        text_.append(level.plan.label).append(" ").append(name_of(screw.side));
+        text_.append(level.plan.label).append(" ").append(word_of(screw.side));
       }
       entry.text = text_;
       entry.done = level.screw_done[s];
       // From behind, where the surgeon looks from, the patient's left is on the left.
       entry.side = screw.side == nav::Side::kLeft ? LabelSide::kLeft : LabelSide::kRight;
-      add_entry(scene, entry, label_of(3, std::min(++k, kMostInstances)));
+      add_entry(scene, entry, label_of(HologramKind::kEntry, ++k));
     }
   }
 }
@@ -156,7 +155,8 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
     return;
   }
   const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
-  add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v), label_of(4, 1));
+  add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v),
+                         label_of(HologramKind::kTrajectory, 1));
   if (visible_.triangle) {
     // The overlay is where the tool will be at the display time; the number and its colour
     // come from one stereo pair. What is only predicted has no number and is never called good.
@@ -168,8 +168,9 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
     const Grade grade = grade_of_tool(guidance, visible_, rules_);
     const render::Float3 a = to_float3(shown.a.v);
     const render::Float3 b = to_float3(shown.b.v);
-    add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade, label_of(5, 1));
-    add_angle_readout(scene, a, b, angle_text(angle_rad), grade, label_of(6, 1));
+    add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade,
+                           label_of(HologramKind::kTriangle, 1));
+    add_angle_readout(scene, a, b, angle_text(angle_rad), grade, label_of(HologramKind::kAngle, 1));
   }
   if (visible_.depth) {
     add_depth_to_go(guidance, scene);
@@ -183,7 +184,7 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
   if (visible_.angle_lost && !visible_.triangle) {
     // Where the number would be with the tool on the plan.
     add_angle_readout(scene, to_float3(line.entry.v), to_float3(line.outside.v),
-                      angle_text(std::nullopt), Grade::kPoor, label_of(6, 1));
+                      angle_text(std::nullopt), Grade::kPoor, label_of(HologramKind::kAngle, 1));
   }
 }
 
@@ -192,7 +193,7 @@ void SceneBuilder::add_depth_to_go(const Guidance& guidance, render::Scene& scen
   const nav::ScrewGuidance& shown = guidance.tool->shown;
   if (write_depth_text(measured.depth_m, measured.to_target_m, text_)) {
     add_depth(scene, to_float3(shown.a.v), to_float3(shown.b.v), text_, measured.to_target_m < 0.0,
-              label_of(9, 1));
+              label_of(HologramKind::kDepth, 1));
   }
 }
 
@@ -240,7 +241,7 @@ void SceneBuilder::add_rods(const Guidance& guidance, render::Scene& scene) {
     }
     hologram.bends = bends_;
     hologram.shift = to_float3(rod_shift_m(guidance, rod, rules_));
-    add_rod(scene, hologram, label_of(10, i + 1));
+    add_rod(scene, hologram, label_of(HologramKind::kRod, i + 1));
   }
 }
 
@@ -252,13 +253,9 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
                                                                     : ToolState::kLost;
     dots_.push_back({tool.name, state});
   }
-  text_ = guidance.step_text;
-  for (const std::string* part : {&guidance.detail, &guidance.heard}) {
-    if (!part->empty()) {
-      text_.append(" | ").append(*part);
-    }
-  }
-  add_status_line(scene, text_, dots_, label_of(11, 1));
+  text_.clear();
+  append_status(text_, guidance.status);
+  add_status_line(scene, text_, dots_, label_of(HologramKind::kStatus, 1));
 }
 
 const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const LevelState& level) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -38,13 +38,16 @@ TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw) {
           world_from_vertebra * plan.entry, world_from_vertebra * plan.target};
 }
 
-ShownHologram& ShownFrameWriter::add(ShownFrame& frame, const char* name) {
+ShownHologram& ShownFrameWriter::add(ShownFrame& frame, HologramKind kind) {
   if (used_ == frame.holograms.size()) {
     frame.holograms.emplace_back();
   }
   ShownHologram& hologram = frame.holograms[used_++];
-  hologram.name = name;
+  hologram.kind = kind;
+  hologram.level.clear();
+  hologram.side.reset();
   hologram.text.clear();
+  hologram.reading.reset();
   hologram.points_in_world.clear();
   return hologram;
 }
@@ -54,7 +57,7 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   used_ = 0;
   frame.display_time = guidance.display_time;
   frame.pose_time = guidance.pose_time;
-  write_status(guidance, frame);
+  write_status(guidance.status, frame);
   write_digitizing(guidance, visible, frame);
   write_entries(guidance, visible, frame);
   write_screw(guidance, visible, rules, frame);
@@ -68,7 +71,7 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
                                         ShownFrame& frame) {
   if (visible.paths && !guidance.regions.empty()) {
     const auto& samples = guidance.regions.back().samples;
-    ShownHologram& path = add(frame, "H1 path");
+    ShownHologram& path = add(frame, HologramKind::kPath);
     const std::size_t first = samples.size() - std::min(samples.size(), kLatestSamples);
     for (std::size_t i = first; i < samples.size(); ++i) {
       path.points_in_world.push_back(samples[i].tip_in_world);
@@ -76,7 +79,7 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
   }
   if (visible.vertebra) {
     const LevelState& level = guidance.levels[guidance.level];
-    ShownHologram& vertebra = add(frame, "H2 vertebra");
+    ShownHologram& vertebra = add(frame, HologramKind::kVertebra);
     const nav::VertebraModel& model = *level.plan.model;
     const auto [known, is_new] = landmarks_m_.try_emplace(&model);
     if (is_new) {
@@ -89,31 +92,29 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
   }
   if (visible.check_points) {
     for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points) {
-      ShownHologram& check = add(frame, "H12 check point");
+      ShownHologram& check = add(frame, HologramKind::kCheckPoint);
       check.text = distance_text(point.distance_m);
+      check.reading = point.distance_m;
       check.points_in_world.push_back(point.place);
     }
   }
   if (visible.check_points) {
     for (const Point<World>& place : guidance.to_check) {
-      add(frame, "H12 to check").points_in_world.push_back(place);
+      add(frame, HologramKind::kCheckPoint).points_in_world.push_back(place);
     }
   }
 }
 
 void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility& visible,
                                      ShownFrame& frame) {
-  std::array<char, 64> text{};
   for (const std::size_t i : visible.entries_of) {
     const LevelState& level = guidance.levels[i];
     for (const nav::ScrewPlan& screw : level.plan.screws) {
-      std::snprintf(text.data(), text.size(), "H3 entry %s %s", level.plan.label.c_str(),
-                    name_of(screw.side));
-      ShownHologram& entry = add(frame, text.data());
-      std::snprintf(text.data(), text.size(), "%s %s", level.plan.label.c_str(),
-                    name_of(screw.side));
+      ShownHologram& entry = add(frame, HologramKind::kEntry);
+      entry.level = level.plan.label;
+      entry.side = screw.side;
       if (visible.entry_labels) {
-        entry.text = text.data();
+        entry.text.append(level.plan.label).append(" ").append(word_of(screw.side));
       }
       entry.points_in_world.push_back(level.registration->world_from_vertebra * screw.entry);
     }
@@ -124,9 +125,9 @@ void ShownFrameWriter::write_cross(const Guidance& guidance, const Visibility& v
                                    const VisibilityRules& rules, ShownFrame& frame) {
   const TargetCross cross = cross_of(guidance, visible, rules);
   const CrossPlaces places = places_of(cross);
-  ShownHologram& shown = add(frame, "H7 cross");
+  ShownHologram& shown = add(frame, HologramKind::kCross);
   if (cross.lost) {
-    shown.text = "tool lost";
+    shown.text = words::kToolLost;
   }
   shown.points_in_world.push_back(to_point(places.middle));
   if (!cross.reading) {
@@ -137,19 +138,25 @@ void ShownFrameWriter::write_cross(const Guidance& guidance, const Visibility& v
   }
 }
 
+void ShownFrameWriter::write_angle(std::optional<double> angle_rad, ShownFrame& frame) {
+  ShownHologram& angle = add(frame, HologramKind::kAngle);
+  angle.text = angle_text(angle_rad);
+  angle.reading = read_angle_rad(angle_rad);
+}
+
 void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& visible,
                                    const VisibilityRules& rules, ShownFrame& frame) {
   if (visible.trajectory) {
     const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
-    ShownHologram& trajectory = add(frame, "H4 trajectory");
+    ShownHologram& trajectory = add(frame, HologramKind::kTrajectory);
     trajectory.points_in_world = {line.outside, line.entry, line.target};
   }
   if (visible.triangle) {
     const nav::ScrewGuidance& shown = guidance.tool->shown;
-    add(frame, "H5 triangle").points_in_world = {shown.a, shown.b, shown.c};
+    add(frame, HologramKind::kTriangle).points_in_world = {shown.a, shown.b, shown.c};
   }
   if (visible.angle) {
-    add(frame, "H6 angle").text = angle_text(guidance.tool->measured->angle_rad);
+    write_angle(guidance.tool->measured->angle_rad, frame);
   }
   if (visible.cross) {
     write_cross(guidance, visible, rules, frame);
@@ -157,7 +164,7 @@ void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& v
   if (visible.twin) {
     const VirtualTwin twin = twin_of(guidance.levels[guidance.level], guidance.screw);
     const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
-    ShownHologram& shown = add(frame, "H8 twin");
+    ShownHologram& shown = add(frame, HologramKind::kTwin);
     for (const Point<World>& place : {line.entry, line.target}) {
       shown.points_in_world.push_back(to_point(in_twin(twin, to_float3(place.v))));
     }
@@ -165,11 +172,11 @@ void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& v
   if (visible.depth) {
     const nav::ScrewGuidance& measured = *guidance.tool->measured;
     if (write_depth_text(measured.depth_m, measured.to_target_m, text_)) {
-      add(frame, "H9 depth").text = text_;
+      add(frame, HologramKind::kDepth).text = text_;
     }
   }
   if (visible.angle_lost) {
-    add(frame, "H6 angle").text = angle_text(std::nullopt);
+    write_angle(std::nullopt, frame);
   }
 }
 
@@ -180,22 +187,26 @@ void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRule
       continue;
     }
     const Vec3 shift = rod_shift_m(guidance, rod, rules);
-    ShownHologram& hologram = add(frame, "H10 rod");
+    ShownHologram& hologram = add(frame, HologramKind::kRod);
     for (const Point<World>& head : rod.heads) {
       hologram.points_in_world.push_back(head + shift);
     }
   }
 }
 
-void ShownFrameWriter::write_status(const Guidance& guidance, ShownFrame& frame) {
-  ShownHologram& status = add(frame, "H11 status");
-  status.text = guidance.step_text;
-  if (!guidance.detail.empty()) {
-    status.text += " | ";
-    status.text += guidance.detail;
+void ShownFrameWriter::write_status(const StatusLine& line, ShownFrame& frame) {
+  if (!frame.status) {
+    frame.status.emplace();
   }
-  if (!guidance.heard.empty()) {
-    add(frame, "H11 heard").text = guidance.heard;
+  ShownStatus& status = *frame.status;
+  status.at = line.at;
+  status.notice = line.message ? notice_of(*line.message) : Notice::kNone;
+  status.checks = checks_asked(line);
+  status.text.clear();
+  append_without_heard(status.text, line);
+  status.heard.clear();
+  if (line.heard) {
+    append_heard(status.heard, *line.heard);
   }
 }
 

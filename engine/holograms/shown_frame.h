@@ -18,7 +18,7 @@ class ShownFrameWriter {
              ShownFrame& frame);
 
  private:
-  ShownHologram& add(ShownFrame& frame, const char* name);
+  ShownHologram& add(ShownFrame& frame, HologramKind kind);
   void write_digitizing(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
   void write_entries(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
   void write_screw(const Guidance& guidance, const Visibility& visible,
@@ -26,7 +26,8 @@ class ShownFrameWriter {
   void write_cross(const Guidance& guidance, const Visibility& visible,
                    const VisibilityRules& rules, ShownFrame& frame);
   void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
-  void write_status(const Guidance& guidance, ShownFrame& frame);
+  void write_angle(std::optional<double> angle_rad, ShownFrame& frame);
+  void write_status(const StatusLine& line, ShownFrame& frame);
 
   std::size_t used_ = 0;
   std::string text_;

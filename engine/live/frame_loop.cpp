@@ -266,7 +266,7 @@ void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int
   }
   snapshot->frame = frame;
   snapshot->display_time = guidance.display_time;
-  snapshot->step_text = guidance.step_text;
+  snapshot->step = guidance.status.at;
   snapshot->blank = guidance.blank;
   snapshot->expires.reset();
   if (builder_.visible().triangle || builder_.visible().cross_dots) {

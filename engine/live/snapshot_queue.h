@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/mutex.h"
 #include "base/time.h"
+#include "hal/api/shown_status.h"
 #include "render/scene.h"
 
 namespace orthonav::engine {
@@ -17,7 +17,7 @@ struct Snapshot {
   std::int64_t frame = 0;  ///< counts displayed frames from 0
   std::size_t slot = 0;    ///< index of this buffer: a caller keeps its own data beside it
   Timestamp display_time{};
-  std::string step_text;
+  StepOnDisplay step;
   /// Shown after this, what guides a tool is too old to be seen; absent when nothing does.
   std::optional<Timestamp> expires;
   bool blank = false;  ///< the loop has ended: nothing but the status line

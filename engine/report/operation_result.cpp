@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/session/wording.h"
+
 namespace orthonav::engine {
 
 OperationResult outcome_of(std::span<const LevelState> levels, std::span<const RodState> rods,
@@ -56,9 +58,10 @@ void EndNote::happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell 
 }
 
 void EndNote::registered(Timestamp /*time*/, const LevelState& level,
-                         const nav::Registration* /*result*/, const std::string& reason) {
-  refused_ =
-      reason.empty() ? "" : "; last registration (" + level.plan.label + ") refused: " + reason;
+                         const RegistrationOutcome& outcome) {
+  refused_ = outcome.passed() ? ""
+                              : "; last registration (" + level.plan.label +
+                                    ") refused: " + refusal_text(outcome);
 }
 
 void EndNote::explain(OperationResult& result) const {

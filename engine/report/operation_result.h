@@ -68,8 +68,8 @@ struct OperationResult {
 class EndNote : public SessionObserver {
  public:
   void happened(Timestamp time, Step from, Event event, Cell answer) override;
-  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
-                  const std::string& reason) override;
+  void registered(Timestamp time, const LevelState& level,
+                  const RegistrationOutcome& outcome) override;
   /// Notes in the result why it did not complete, if it did not.
   void explain(OperationResult& result) const;
 

@@ -8,6 +8,7 @@
 
 #include "base/angle.h"
 #include "engine/case/operation.h"
+#include "engine/session/findings_wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -139,11 +140,11 @@ std::string certainty_of(const RegisteredLevel& level) {
   } else {
     out = std::string("How large the errors ") + where + " are is not known.";
   }
-  if (!r.weakest.empty()) {
-    out += " Least sure: " + r.weakest + ".";
+  if (r.weakest) {
+    out += " Least sure: " + text_of(*r.weakest) + ".";
   }
-  if (!r.advice.empty()) {
-    out += " To know it better: " + r.advice + ".";
+  if (r.stroke_next) {
+    out += " To know it better: " + text_of(*r.stroke_next) + ".";
   }
   return out;
 }

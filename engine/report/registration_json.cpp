@@ -4,6 +4,7 @@
 #include "base/angle.h"
 #include "engine/case/operation.h"
 #include "engine/report/registration_figures.h"
+#include "engine/session/findings_wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -85,12 +86,15 @@ void put_fit(Json& out, const nav::Registration& r) {
 
 nlohmann::ordered_json registration_json(const RegisteredLevel& level, const FigureFrame& frame) {
   const nav::Registration& r = level.registration;
-  Json out{{"accepted", r.accepted}, {"reasons", r.reasons}};
-  if (!r.advice.empty()) {
-    out["advice"] = r.advice;
+  Json out{{"accepted", r.accepted}, {"reasons", Json::array()}};
+  for (const nav::RefusalReason& reason : r.reasons) {
+    out["reasons"].push_back(text_of(reason));
   }
-  if (!r.weakest.empty()) {
-    out["weakest"] = r.weakest;
+  if (r.stroke_next) {
+    out["advice"] = text_of(*r.stroke_next);
+  }
+  if (r.weakest) {
+    out["weakest"] = text_of(*r.weakest);
   }
   if (!r.fits_better.empty()) {
     out["fits_better"] = r.fits_better;

@@ -6,6 +6,7 @@
 #include "engine/case/operation.h"
 #include "engine/report/html_text.h"
 #include "engine/report/registration_drawing.h"
+#include "engine/session/findings_wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -31,8 +32,8 @@ std::string in_words(const RegisteredLevel& level) {
   if (!r.reasons.empty()) {
     out += "<ul class=reasons>";
   }
-  for (const std::string& reason : r.reasons) {
-    out += "<li>" + sentence(reason) + "</li>";
+  for (const nav::RefusalReason& reason : r.reasons) {
+    out += "<li>" + sentence(text_of(reason)) + "</li>";
   }
   if (!r.reasons.empty()) {
     out += "</ul>";

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "engine/session/status_text.h"
-
 namespace orthonav::engine {
 namespace {
 
@@ -23,35 +21,13 @@ Coaching coaching_from(const nav::Registration& registration) {
   coaching.unique = registration.log_likelihood_ratio >= limits.min_log_likelihood_ratio;
   coaching.enough = registration.accepted;
   coaching.expected_m = registration.predicted_tre_m;
-  coaching.advice = registration.advice;
+  coaching.stroke_next = registration.stroke_next;
   // A small error to expect is no comfort where something else stands against it.
   if (coaching.unique && !coaching.enough && coaching.expected_m <= limits.max_predicted_tre_m &&
       !registration.reasons.empty()) {
-    coaching.advice = registration.reasons.front();
+    coaching.against = registration.reasons.front();
   }
   return coaching;
-}
-
-std::string text_of(const Coaching& coaching) {
-  std::string out;
-  append_text_of(out, coaching);
-  return out;
-}
-
-void append_text_of(std::string& out, const Coaching& coaching) {
-  if (!coaching.unique) {
-    // An error about a pose that may be the wrong one says nothing.
-    out += "could be more than one pose";
-  } else {
-    append_mm(out, coaching.expected_m, 1);
-    out += " expected";
-  }
-  if (coaching.enough) {
-    out += ", enough to register";
-  } else if (!coaching.advice.empty()) {
-    out += ", ";
-    out += coaching.advice;
-  }
 }
 
 void Coach::step(const OperatedLevel& level, std::span<const nav::Region> regions) {

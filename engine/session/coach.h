@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/session/method.h"
@@ -16,12 +15,11 @@ struct Coaching {
   bool unique = false;      ///< no other pose explains the strokes nearly as well
   bool enough = false;      ///< it would be accepted
   double expected_m = 0.0;  ///< root mean square error at the worst of the screws; may be infinite
-  std::string advice;       ///< what stands against it, or where to stroke next; may be empty
+  /// What stands against it, where that is more to the point than where to stroke next.
+  std::optional<nav::RefusalReason> against;
+  std::optional<nav::BonePlace> stroke_next;
 };
 [[nodiscard]] Coaching coaching_from(const nav::Registration& registration);
-/// `0.6 mm expected, stroke the left lamina`.
-[[nodiscard]] std::string text_of(const Coaching& coaching);
-void append_text_of(std::string& out, const Coaching& coaching);
 
 /// Registers while the surgeon strokes, beside the frame loop, to tell what the strokes are worth;
 /// nothing of it registers anything. A trial starts after so many new samples and is answered

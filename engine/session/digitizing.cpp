@@ -1,12 +1,7 @@
 #include "engine/session/digitizing.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
-
-#include "base/joined.h"
-#include "engine/session/status_text.h"
 
 namespace orthonav::engine {
 namespace {
@@ -14,26 +9,17 @@ namespace {
 /// A saved region goes when "delete" is said twice within this time.
 constexpr Duration kSaidTwiceWithin = std::chrono::seconds(5);
 
-/// Why a registration does not count; empty when it does.
-std::string refusal_of(const Result<nav::Registration>& result) {
-  if (!result) {
-    return result.error().message;
-  }
-  if (result->accepted) {
-    return {};
-  }
-  const std::string reasons = joined(result->reasons);
-  return reasons.empty() ? "registration not accepted" : reasons;
-}
-
 }  // namespace
 
-std::string RegistrationOutcome::told() const {
-  std::string advice;
-  if (result) {
-    advice = result->fits_better.empty() ? result->advice : "make sure of the level";
+Message message_about(const RegistrationOutcome& outcome) {
+  RegistrationRefused refused;
+  refused.error = outcome.error;
+  if (outcome.result) {
+    refused.reasons = outcome.result->reasons;
+    refused.stroke_next = outcome.result->stroke_next;
+    refused.another_level_fits = !outcome.result->fits_better.empty();
   }
-  return "refused: " + refusal + (advice.empty() ? "" : "; " + advice);
+  return refused;
 }
 
 Digitizing::Digitizing(const Method& method) {
@@ -61,7 +47,7 @@ void Digitizing::coach(const OperatedLevel& plan) {
   }
 }
 
-std::string Digitizing::drop_region(Timestamp time) {
+Message Digitizing::drop_region(Timestamp time) {
   std::optional<nav::Region> gone = strokes_.digitizer.drop();
   const bool asked =
       std::exchange(strokes_.asked_to_drop_saved, std::nullopt) >= time - kSaidTwiceWithin;
@@ -78,13 +64,10 @@ std::string Digitizing::drop_region(Timestamp time) {
   const auto last =
       std::find_if(drawn.rbegin(), drawn.rend(), [](const nav::Region& r) { return r.saved; });
   if (last == drawn.rend()) {
-    return "nothing to delete";
+    return NothingToDelete{NothingToDelete::What::kRegion};
   }
   strokes_.asked_to_drop_saved = time;
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "say delete again to drop the last saved %zu points",
-                last->samples.size());
-  return text.data();
+  return ConfirmDelete{last->samples.size()};
 }
 
 RegistrationOutcome Digitizing::register_level(LevelState& level, const Registrar& registrar,
@@ -102,13 +85,14 @@ RegistrationOutcome Digitizing::register_level(LevelState& level, const Registra
   const auto result = registrar(
       {*level.plan.model, points, level.plan.screws, level.plan.neighbours, sds_m, shafts});
   RegistrationOutcome outcome;
-  outcome.refusal = refusal_of(result);
   level.newest.reset();
-  if (result) {
+  if (!result) {
+    outcome.error = result.error();
+  } else {
     outcome.result = *result;
     level.newest = RegistrationAttempt{points, *result};
   }
-  if (outcome.refusal.empty()) {
+  if (outcome.passed()) {
     level.registration = *result;
     level.predicted = nav::predicted_errors(*result, level.plan.screws);
     level.digitization_s = level.first_press ? seconds(time - *level.first_press) : 0.0;
@@ -141,17 +125,13 @@ const DroppedRegion* Digitizing::dropped(Timestamp display_time, Duration fade) 
   return fading ? &dropped : nullptr;
 }
 
-void Digitizing::append_state(std::string& out) const {
-  std::size_t points = 0;
+StrokesSoFar Digitizing::state() const {
+  StrokesSoFar strokes;
   for (const nav::Region& region : regions()) {
-    points += region.samples.size();
+    strokes.points += region.samples.size();
   }
-  append_count(out, points);
-  out += " points";
-  if (coach_ && coach_->newest()) {
-    out += " | ";
-    append_text_of(out, *coach_->newest());
-  }
+  strokes.coaching = coach_ && coach_->newest() ? &*coach_->newest() : nullptr;
+  return strokes;
 }
 
 }  // namespace orthonav::engine

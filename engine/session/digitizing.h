@@ -3,21 +3,16 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 
 #include "engine/session/coach.h"
 #include "engine/session/guidance.h"
 #include "engine/session/method.h"
+#include "engine/session/registration_outcome.h"
 
 namespace orthonav::engine {
 
-/// How the registration of a level went.
-struct RegistrationOutcome {
-  std::optional<nav::Registration> result;  ///< absent: none was found at all
-  std::string refusal;                      ///< why it does not count; empty: it passed
-  /// With what to do about it, if that is known.
-  [[nodiscard]] std::string told() const;
-};
+/// Of a registration that does not count: why, with what to do about it, if that is known.
+[[nodiscard]] Message message_about(const RegistrationOutcome& outcome);
 
 /// The step in which the bone is stroked: the strokes, what they are worth so far, and their
 /// registration. The strokes outlive the step: they stay visible while they are verified.
@@ -31,9 +26,9 @@ class Digitizing {
   /// Once for each pair of the step.
   void coach(const OperatedLevel& plan);
   void save() { strokes_.digitizer.save(); }
-  /// A saved region goes when "delete" is said twice. Returns what the surgeon must be told; empty:
-  /// nothing.
-  [[nodiscard]] std::string drop_region(Timestamp time);
+  /// A saved region goes when "delete" is said twice. Returns what the surgeon must be
+  /// told, which may be nothing.
+  [[nodiscard]] Message drop_region(Timestamp time);
   /// Of what is saved; the rest is dropped. What passes is the level's from now on.
   [[nodiscard]] RegistrationOutcome register_level(LevelState& level, const Registrar& registrar,
                                                    Timestamp time);
@@ -47,7 +42,7 @@ class Digitizing {
   }
   /// The region that was deleted less than `fade` ago, or null.
   [[nodiscard]] const DroppedRegion* dropped(Timestamp display_time, Duration fade) const;
-  void append_state(std::string& out) const;
+  [[nodiscard]] StrokesSoFar state() const;
 
  private:
   /// What was measured in one map.

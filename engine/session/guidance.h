@@ -8,6 +8,7 @@
 
 #include "base/tracked.h"
 #include "engine/case/operation.h"
+#include "engine/session/status_line.h"
 #include "engine/session/workflow.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/rod.h"
@@ -25,6 +26,12 @@ struct RegistrationAttempt {
   nav::Registration registration;
 };
 
+/// A tag that is not as large as its tool's definition says: larger by `fraction`.
+struct TagSizeWarning {
+  std::string tool;
+  double fraction = 0.0;
+};
+
 /// Where one level of the operation stands.
 struct LevelState {
   OperatedLevel plan;
@@ -35,8 +42,7 @@ struct LevelState {
   std::vector<nav::PredictedScrewError> predicted;
   /// What was touched on that registration to verify it, in order.
   std::vector<nav::CheckPoint> check_points;
-  /// What the newest registration was warned of: a pointer whose tag is not as large as stated.
-  std::string warning;
+  std::optional<TagSizeWarning> tag_size;  ///< with which the newest registration was made
   /// The newest one that found a pose, whatever became of it: reports tell of it.
   std::optional<RegistrationAttempt> newest;
   bool accepted = false;                 ///< by the surgeon; only then anything is guided on it
@@ -105,9 +111,7 @@ struct Guidance {
   Timestamp display_time{};  ///< of the frame made of this
   Timestamp pose_time{};     ///< of the pair in which the step's tool was last measured
   Step step = Step::kSetup;
-  std::string step_text;  ///< "guide L4 left"
-  std::string heard;      ///< the newest phrase: "heard: save"; empty: none
-  std::string detail;     ///< "refused: registration RMSE 3.4 mm, limit 3.0 mm"; empty: nothing
+  StatusLine status;
   std::span<const LevelState> levels;
   std::size_t level = 0;  ///< being operated, an index into `levels`
   std::size_t screw = 0;  ///< selected, an index into the level's screws (while guiding)

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/session/status_text.h"
-
 namespace orthonav::engine {
 
 void Guiding::select_open_screw(const LevelState& level) {
@@ -45,15 +43,11 @@ std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWa
   return guidance;
 }
 
-void Guiding::append_state(std::string& out, const LevelState& level) const {
+StepState Guiding::state(const LevelState& level) const {
   if (!level.registration) {
-    return;
+    return {};
   }
-  out += "RMSE ";
-  append_mm(out, level.registration->rmse_m, 2);
-  out += ", ";
-  append_mm(out, level.predicted[screw_].worst_m(), 1);
-  out += " expected";
+  return RegistrationFigures{level.registration->rmse_m, level.predicted[screw_].worst_m(), true};
 }
 
 }  // namespace orthonav::engine

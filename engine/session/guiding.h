@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 
 #include "engine/session/guidance.h"
 #include "engine/session/tool_watch.h"
@@ -29,7 +28,7 @@ class Guiding {
   [[nodiscard]] bool twin() const { return twin_; }
   /// The newest measured guidance on the selected screw, or null.
   [[nodiscard]] const ToolGuidance* last() const { return last_ ? &*last_ : nullptr; }
-  void append_state(std::string& out, const LevelState& level) const;
+  [[nodiscard]] StepState state(const LevelState& level) const;
 
  private:
   std::size_t screw_ = 0;

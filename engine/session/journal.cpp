@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/session/wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -36,8 +37,8 @@ void put_judgement(Json& line, const nav::Registration& result) {
   line["margin"] = result.log_likelihood_ratio;
   line["expected_tre_mm"] = result.predicted_tre_m * 1e3;
   line["tre_95_mm"] = result.tre_95_m * 1e3;
-  line["weakest"] = result.weakest;
-  line["advice"] = result.advice;
+  line["weakest"] = result.weakest ? text_of(*result.weakest) : "";
+  line["advice"] = result.stroke_next ? text_of(*result.stroke_next) : "";
   if (!result.fits_better.empty()) {
     line["fits_better"] = result.fits_better;
   }
@@ -102,16 +103,16 @@ void Journal::not_understood(const Phrase& phrase) {
   write_line(out_, line);
 }
 
-void Journal::registered(Timestamp time, const LevelState& level, const nav::Registration* result,
-                         const std::string& reason) {
+void Journal::registered(Timestamp time, const LevelState& level,
+                         const RegistrationOutcome& outcome) {
   Json line = entry(file_ticks(time), time, "registration");
   line["level"] = level.plan.label;
   line["attempt"] = level.attempts;
-  line["accepted"] = reason.empty();
-  if (!reason.empty()) {
-    line["reason"] = reason;
+  line["accepted"] = outcome.passed();
+  if (!outcome.passed()) {
+    line["reason"] = refusal_text(outcome);
   }
-  if (result) {
+  if (const auto& result = outcome.result) {
     line["points"] = result->points;
     line["rmse_mm"] = result->rmse_m * 1e3;
     line["runner_up_rmse_mm"] = result->runner_up_rmse_m * 1e3;
@@ -120,11 +121,13 @@ void Journal::registered(Timestamp time, const LevelState& level, const nav::Reg
       put_judgement(line, *result);
     }
   }
-  if (!level.warning.empty()) {
-    line["warning"] = level.warning;
+  if (level.tag_size) {
+    std::string warning;
+    append_tag_size_off(warning, level.tag_size->tool, level.tag_size->fraction);
+    line["warning"] = warning;
   }
   // Infinite, that is without a bound, becomes null.
-  if (reason.empty()) {
+  if (outcome.passed()) {
     line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
   }
   write_line(out_, line);

@@ -33,8 +33,8 @@ class Journal : public SessionObserver {
 
   void happened(Timestamp time, Step from, Event event, Cell answer) override;
   void not_understood(const Phrase& phrase) override;
-  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
-                  const std::string& reason) override;
+  void registered(Timestamp time, const LevelState& level,
+                  const RegistrationOutcome& outcome) override;
   void check_point_recorded(Timestamp time, const LevelState& level) override;
   void check_point_dropped(Timestamp time, const LevelState& level) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,

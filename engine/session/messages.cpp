@@ -4,22 +4,22 @@
 
 namespace orthonav::engine {
 
-void Messages::say(std::string message, Timestamp time) {
+void Messages::say(Message message, Timestamp time) {
   message_ = std::move(message);
   message_until_ = time + message_for_;
 }
 
 void Messages::echo(const Phrase& phrase, bool sure) {
-  heard_ = "heard: " + phrase.text + (sure ? "" : "? not sure");
+  heard_ = HeardCommand{phrase.text, sure};
   heard_until_ = phrase.time + heard_for_;
 }
 
 void Messages::expire(Timestamp now) {
   if (now >= message_until_) {
-    message_.clear();
+    clear();
   }
   if (now >= heard_until_) {
-    heard_.clear();
+    heard_.reset();
   }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include "base/time.h"
+#include "engine/session/message.h"
+#include "engine/session/status_line.h"
 #include "hal/api/devices.h"
 
 namespace orthonav::engine {
@@ -14,21 +14,24 @@ class Messages {
   Messages(Duration message_for, Duration heard_for)
       : message_for_(message_for), heard_for_(heard_for) {}
 
-  void say(std::string message, Timestamp time);
+  void say(Message message, Timestamp time);
   /// A surgeon who was misheard must see it at once, and one who was heard need not ask.
   void echo(const Phrase& phrase, bool sure);
   /// Something was taken: what was said before is answered.
-  void clear() { message_.clear(); }
+  void clear() { message_ = {}; }
   void expire(Timestamp now);
-  [[nodiscard]] const std::string& message() const { return message_; }
-  [[nodiscard]] const std::string& heard() const { return heard_; }
+  /// Null: none.
+  [[nodiscard]] const Message* message() const {
+    return std::holds_alternative<std::monostate>(message_) ? nullptr : &message_;
+  }
+  [[nodiscard]] const HeardCommand* heard() const { return heard_ ? &*heard_ : nullptr; }
 
  private:
   Duration message_for_;
   Duration heard_for_;
-  std::string message_;
+  Message message_;
   Timestamp message_until_{};
-  std::string heard_;
+  std::optional<HeardCommand> heard_;
   Timestamp heard_until_{};
 };
 

@@ -29,10 +29,10 @@ class ObserverList : public SessionObserver {
       o->not_understood(phrase);
     }
   }
-  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
-                  const std::string& reason) override {
+  void registered(Timestamp time, const LevelState& level,
+                  const RegistrationOutcome& outcome) override {
     for (auto* o : observers_) {
-      o->registered(time, level, result, reason);
+      o->registered(time, level, outcome);
     }
   }
   void check_point_recorded(Timestamp time, const LevelState& level) override {

@@ -3,8 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/session/status_text.h"
-
 namespace orthonav::engine {
 
 RodTemplating::RodTemplating() {
@@ -31,7 +29,7 @@ Status RodTemplating::bend(double rod_diameter_m) {
   }
   auto made = nav::rod_template(heads, rod_diameter_m);
   if (!made) {
-    return Error{"no rod: " + made.error().message};
+    return made.error();
   }
   rod().rod = std::move(*made);
   return {};
@@ -55,11 +53,6 @@ void RodTemplating::forget_map() {
     }
   }
   touch_.drop();
-}
-
-void RodTemplating::append_state(std::string& out) const {
-  append_count(out, current().heads.size());
-  out += " heads";
 }
 
 }  // namespace orthonav::engine

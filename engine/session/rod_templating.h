@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <string>
 
 #include "engine/session/guidance.h"
 #include "engine/session/touch.h"
@@ -33,7 +32,7 @@ class RodTemplating {
   [[nodiscard]] const RodState& current() const { return rods_[current_]; }
   [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
   [[nodiscard]] bool moved_away() const { return moved_away_; }
-  void append_state(std::string& out) const;
+  [[nodiscard]] HeadsSoFar state() const { return {current().heads.size()}; }
 
  private:
   [[nodiscard]] RodState& rod() { return rods_[current_]; }

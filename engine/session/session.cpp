@@ -83,16 +83,17 @@ const Guidance& Session::expire(Timestamp display_time) {
   guidance_.display_time = display_time;
   guidance_.tool.reset();
   tools_.lose_sight();
-  write_step_text();
-  guidance_.heard.clear();
-  guidance_.detail = "no camera images";
+  guidance_.status = {};
+  guidance_.status.at = step_on_display();
+  why_no_guidance_ = NoImages{};
+  guidance_.status.message = &why_no_guidance_;
   return guidance_;
 }
 
 const Guidance& Session::end(Timestamp display_time) {
   expire(display_time);
   guidance_.blank = true;
-  guidance_.detail = "ended";
+  why_no_guidance_ = Ended{};
   return guidance_;
 }
 
@@ -121,7 +122,7 @@ void Session::hear(const Phrase& phrase) {
   }
   if (!event || !sure) {
     if (!sure) {
-      messages_.say("not understood", phrase.time);
+      messages_.say(NotUnderstood{}, phrase.time);
     }
     if (observer_) {
       observer_->not_understood(phrase);
@@ -131,7 +132,7 @@ void Session::hear(const Phrase& phrase) {
     if (observer_) {
       observer_->happened(phrase.time, step_, *event, Cell{step_, Action::kRefuse});
     }
-    messages_.say("not accepted: said before the hologram was shown", phrase.time);
+    messages_.say(SaidBeforeShown{}, phrase.time);
   } else {
     handle(*event, phrase.time);
   }

@@ -76,9 +76,9 @@ class Session {
   // session_publication.cpp: what the surgeon is shown after it.
   void publish(const StereoFrame& frame, Timestamp display_time);
   void publish_steps(Timestamp now, Timestamp display_time);
-  void write_step_text();
-  void write_detail();
-  void append_state_of_step(std::string& out) const;
+  void publish_status();
+  [[nodiscard]] StepOnDisplay step_on_display() const;
+  [[nodiscard]] StepState state_of_step() const;
 
   // session_actions.cpp: what the table asks for.
   void act(Action action, Event event, Timestamp time);
@@ -98,7 +98,7 @@ class Session {
   void bend_rod(Timestamp time);
   void finish_rod(Timestamp time);
   void forget_map(Timestamp time);
-  [[nodiscard]] Result<Point<World>> touched_place(Timestamp time);
+  [[nodiscard]] TouchedPlace touched_place(Timestamp time);
   [[nodiscard]] Touch& touch_of_step();
   [[nodiscard]] LevelState& level() { return levels_[level_]; }
   [[nodiscard]] const LevelState& level() const { return levels_[level_]; }
@@ -119,6 +119,7 @@ class Session {
   RodTemplating rod_templating_;
 
   Messages messages_;
+  Message why_no_guidance_;  ///< stands in place of any other message once no pair comes
   Guidance guidance_;
 };
 

@@ -13,7 +13,7 @@ namespace orthonav::engine {
 void Session::act(Action action, Event event, Timestamp time) {
   using enum Action;
   switch (action) {
-    case kRefuse: return messages_.say("not possible now: " + std::string(name_of(event)), time);
+    case kRefuse: return messages_.say(NotPossibleNow{event}, time);
     case kIgnore: return;
     case kBeginLevel: return begin_level();
     case kStartSampling: return digitizing_.press(level(), time);
@@ -24,7 +24,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kShowRegistration: return show_registration();
     case kCountRefusal: return;  // the reason was said where it arose
     case kJudgeChecks: return judge_checks(time);
-    case kAskForChecks: return messages_.say("not accepted: " + verifying_.verdict().advice, time);
+    case kAskForChecks: return messages_.say(ChecksMissing{verifying_.verdict().advice}, time);
     case kRecordCheck: return record_check(time);
     case kDropCheck: return drop_check(time);
     case kAccept: level().accepted = true; return;
@@ -59,25 +59,26 @@ void Session::begin_level() {
 }
 
 void Session::drop_region(Timestamp time) {
-  std::string answer = digitizing_.drop_region(time);
-  if (!answer.empty()) {
+  Message answer = digitizing_.drop_region(time);
+  if (!std::holds_alternative<std::monostate>(answer)) {
     messages_.say(std::move(answer), time);
   }
 }
 
 void Session::register_level(Timestamp time) {
   LevelState& now = level();
-  now.warning.clear();
-  tools_.append_tag_size_warning(now.warning, tools_.pointer());
+  now.tag_size.reset();
+  if (const auto fraction = tools_.tag_size_off(tools_.pointer())) {
+    now.tag_size = TagSizeWarning{tools_.geometry(tools_.pointer()).name, *fraction};
+  }
   const RegistrationOutcome outcome = digitizing_.register_level(now, method_.registrar, time);
-  const bool passed = outcome.refusal.empty();
-  if (!passed) {
-    messages_.say(outcome.told(), time);
+  if (!outcome.passed()) {
+    messages_.say(message_about(outcome), time);
   }
   if (observer_) {
-    observer_->registered(time, now, outcome.result ? &*outcome.result : nullptr, outcome.refusal);
+    observer_->registered(time, now, outcome);
   }
-  handle(passed ? Event::kRegistered : Event::kRegistrationRefused, time);
+  handle(outcome.passed() ? Event::kRegistered : Event::kRegistrationRefused, time);
 }
 
 void Session::show_registration() {
@@ -97,18 +98,16 @@ void Session::judge_checks(Timestamp time) {
 }
 
 void Session::record_check(Timestamp time) {
-  const Status recorded = verifying_.record(level(), touched_place(time));
-  if (!recorded) {
-    messages_.say(recorded.error().message, time);
+  if (const auto refusal = verifying_.record(level(), touched_place(time))) {
+    messages_.say(TouchNotRecorded{TouchNotRecorded::What::kCheckPoint, *refusal}, time);
   } else if (observer_) {
     observer_->check_point_recorded(time, level());
   }
 }
 
 void Session::drop_check(Timestamp time) {
-  const Status dropped = verifying_.drop(level());
-  if (!dropped) {
-    messages_.say(dropped.error().message, time);
+  if (!verifying_.drop(level())) {
+    messages_.say(NothingToDelete{NothingToDelete::What::kCheckPoint}, time);
   } else if (observer_) {
     observer_->check_point_dropped(time, level());
   }
@@ -141,21 +140,24 @@ Touch& Session::touch_of_step() {
   return step_ == Step::kRod ? rod_templating_.touch() : verifying_.touch();
 }
 
-Result<Point<World>> Session::touched_place(Timestamp time) {
+TouchedPlace Session::touched_place(Timestamp time) {
   return touch_of_step().take_place(tools_.pointer_tip(time, options_.stale_after),
                                     options_.max_touch_spread_m);
 }
 
 void Session::drop_touch(Timestamp time) {
   touch_of_step().drop();
-  const char* what = step_ == Step::kRod ? "head" : "check point";
-  messages_.say(std::string(what) + " not recorded: hold too long", time);
+  const auto what =
+      step_ == Step::kRod ? TouchNotRecorded::What::kHead : TouchNotRecorded::What::kCheckPoint;
+  messages_.say(TouchNotRecorded{what, {TouchRefusal::Kind::kHeldTooLong}}, time);
 }
 
 void Session::record_head(Timestamp time) {
-  const auto head = touched_place(time);
+  const TouchedPlace place = touched_place(time);
+  const auto* head = std::get_if<Point<World>>(&place);
   if (!head) {
-    messages_.say("head not recorded: " + head.error().message, time);
+    messages_.say(TouchNotRecorded{TouchNotRecorded::What::kHead, std::get<TouchRefusal>(place)},
+                  time);
     return;
   }
   rod_templating_.add_head(*head);
@@ -167,7 +169,7 @@ void Session::record_head(Timestamp time) {
 
 void Session::drop_head(Timestamp time) {
   if (!rod_templating_.drop_head()) {
-    messages_.say("no head to delete", time);
+    messages_.say(NothingToDelete{NothingToDelete::What::kHead}, time);
     return;
   }
   bend_rod(time);
@@ -179,7 +181,7 @@ void Session::drop_head(Timestamp time) {
 void Session::bend_rod(Timestamp time) {
   const Status bent = rod_templating_.bend(options_.rod_diameter_m);
   if (!bent) {
-    messages_.say(bent.error().message, time);
+    messages_.say(NoRod{bent.error()}, time);
   }
 }
 
@@ -205,14 +207,8 @@ void Session::forget_map(Timestamp time) {
   rod_templating_.forget_map();
   tools_.forget_poses();
   guidance_.head.reset();
-  if (step_ == Step::kDigitize) {
-    messages_.say("the headset's map moved: digitize again", time);
-  }
-  if (step_ == Step::kRod) {
-    messages_.say("the headset's map moved: touch this rod's heads again", time);
-  }
-  if (step_ == Step::kDone) {
-    messages_.say("the headset's map moved", time);
+  if (step_ == Step::kDigitize || step_ == Step::kRod || step_ == Step::kDone) {
+    messages_.say(MapMoved{step_}, time);
   }
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <string>
-
 #include "engine/session/guidance.h"
+#include "engine/session/registration_outcome.h"
 #include "hal/api/devices.h"
 
 namespace orthonav::engine {
@@ -16,10 +15,9 @@ class SessionObserver {
   virtual void happened(Timestamp /*time*/, Step /*from*/, Event /*event*/, Cell /*answer*/) {}
   /// A phrase that is no command here, or was not understood well enough.
   virtual void not_understood(const Phrase& /*phrase*/) {}
-  /// A registration was asked for; `reason` is empty when it passed, `result` null when there is
-  /// none at all.
+  /// A registration was asked for.
   virtual void registered(Timestamp /*time*/, const LevelState& /*level*/,
-                          const nav::Registration* /*result*/, const std::string& /*reason*/) {}
+                          const RegistrationOutcome& /*outcome*/) {}
   /// A place was touched to verify the level's registration: the last of its check points.
   virtual void check_point_recorded(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The last of them was taken back; `level` is without it.

@@ -1,6 +1,3 @@
-#include <array>
-#include <cstdio>
-
 #include "engine/session/session.h"
 
 namespace orthonav::engine {
@@ -22,8 +19,7 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
     out.head = frame.world_from_rig;
   }
   publish_steps(frame.time, display_time);
-  write_step_text();
-  write_detail();
+  publish_status();
 }
 
 void Session::publish_steps(Timestamp now, Timestamp display_time) {
@@ -51,86 +47,62 @@ void Session::publish_steps(Timestamp now, Timestamp display_time) {
   out.rods_moved_away = rod_templating_.moved_away();
 }
 
-void Session::write_step_text() {
-  std::array<char, 160> text{};
-  const std::string& label = level().plan.label;
-  const char* name = name_of(step_).data();
+StepOnDisplay Session::step_on_display() const {
   switch (step_) {
     case Step::kSetup:
     case Step::kDone:
-      guidance_.step_text = name;
-      break;
+      return {step_, {}, {}};
     case Step::kDigitize:
     case Step::kVerify:
     case Step::kAccepted:
-      std::snprintf(text.data(), text.size(), "%s %s", name, label.c_str());
-      guidance_.step_text = text.data();
-      break;
+      return {step_, level().plan.label, {}};
     case Step::kGuide:
-      std::snprintf(text.data(), text.size(), "%s %s %s", name, label.c_str(),
-                    name_of(level().plan.screws[guiding_.screw()].side));
-      guidance_.step_text = text.data();
-      break;
+      return {step_, level().plan.label, level().plan.screws[guiding_.screw()].side};
     case Step::kRod:
-      std::snprintf(text.data(), text.size(), "%s %s", name,
-                    name_of(rod_templating_.current().side));
-      guidance_.step_text = text.data();
-      break;
+      return {step_, {}, rod_templating_.current().side};
   }
+  return {};
 }
 
-/// The loss of the tool comes first: no message may cover it.
-void Session::write_detail() {
+void Session::publish_status() {
   messages_.expire(guidance_.frame_time);
-  guidance_.heard = messages_.heard();
-  std::string& out = guidance_.detail;
-  out.clear();
-  const auto tool = tool_of_step();
-  if (tool && in_use_.lost()) {
-    out += tools_.geometry(*tool).name;
-    out += " lost";
-  } else if (tool) {
-    tools_.append_tag_size_warning(out, *tool);
+  StatusLine& line = guidance_.status;
+  line.at = step_on_display();
+  line.tool = {};
+  line.tool_lost = false;
+  line.tag_size_off.reset();
+  if (const auto tool = tool_of_step()) {
+    line.tool = tools_.geometry(*tool).name;
+    line.tool_lost = in_use_.lost();
+    line.tag_size_off = tools_.tag_size_off(*tool);
   }
-  const bool taken = !out.empty();
-  if (!messages_.message().empty()) {
-    out += taken ? "; " : "";
-    out += messages_.message();
-  } else if (!taken) {
-    append_state_of_step(out);
-  } else if (checks_by_touch()) {
-    // What is to be touched counts on beside a warning that stays.
-    out += "; ";
-    verifying_.append_checks(out, level());
-  }
+  line.message = messages_.message();
+  line.heard = messages_.heard();
+  line.state = state_of_step();
 }
 
-void Session::append_state_of_step(std::string& out) const {
+StepState Session::state_of_step() const {
   switch (step_) {
     case Step::kDigitize:
-      digitizing_.append_state(out);
-      break;
+      return digitizing_.state();
     case Step::kVerify:
     case Step::kAccepted:
       if (!level().registration) {
-        break;
+        return {};
       }
       if (checks_by_touch()) {
-        verifying_.append_state(out, level());
-      } else {
-        append_registration(out, level());
+        return verifying_.state(level());
       }
-      break;
+      return RegistrationFigures{level().registration->rmse_m, nav::worst_m(level().predicted)};
     case Step::kGuide:
-      guiding_.append_state(out, level());
-      break;
+      return guiding_.state(level());
     case Step::kRod:
-      rod_templating_.append_state(out);
-      break;
+      return rod_templating_.state();
     case Step::kSetup:
     case Step::kDone:
-      break;
+      return {};
   }
+  return {};
 }
 
 }  // namespace orthonav::engine

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "base/length_text.h"
-
 namespace orthonav::engine {
 
 Touch::Touch() { tips_.reserve(64); }
@@ -20,21 +18,20 @@ void Touch::drop() {
   down_ = false;
 }
 
-Result<Point<World>> Touch::take_place(const std::optional<Point<World>>& last_tip,
-                                       double max_spread_m) {
-  Result<Point<World>> place = Error{"press again"};
+TouchedPlace Touch::take_place(const std::optional<Point<World>>& last_tip, double max_spread_m) {
+  TouchedPlace place = TouchRefusal{TouchRefusal::Kind::kPressAgain};
   if (begun_ && !tips_.empty()) {
     place = mean_tip(max_spread_m);
   } else if (begun_ && last_tip) {
     place = *last_tip;
   } else if (begun_) {
-    place = Error{"pointer not seen"};
+    place = TouchRefusal{TouchRefusal::Kind::kPointerNotSeen};
   }
   drop();
   return place;
 }
 
-Result<Point<World>> Touch::mean_tip(double max_spread_m) const {
+TouchedPlace Touch::mean_tip(double max_spread_m) const {
   const auto count = static_cast<double>(tips_.size());
   Vec3 sum{};
   for (const Point<World>& tip : tips_) {
@@ -49,7 +46,7 @@ Result<Point<World>> Touch::mean_tip(double max_spread_m) const {
   if (spread_m <= max_spread_m) {
     return Point<World>{mean};
   }
-  return Error{"tip moved " + in_mm(spread_m) + ", limit " + in_mm(max_spread_m)};
+  return TouchRefusal{TouchRefusal::Kind::kTipMoved, spread_m, max_spread_m};
 }
 
 }  // namespace orthonav::engine

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 #include <vector>
 
-#include "base/result.h"
 #include "base/transform.h"
+#include "engine/session/message.h"
 
 namespace orthonav::engine {
+
+/// The place, or why it does not count.
+using TouchedPlace = std::variant<Point<World>, TouchRefusal>;
 
 /// One place that the pointer's tip rests on, from a press to the click that follows. Both belong
 /// to one step: whoever owns the touch lets go of it where the step begins.
@@ -24,14 +28,14 @@ class Touch {
   void add(Point<World> tip) { tips_.push_back(tip); }
 
   /// Where the tip rested; ends the touch, whatever the answer. `last_tip` answers a click shorter
-  /// than a frame: the tip of the pair just before it, if that is fresh. An Error when the press
+  /// than a frame: the tip of the pair just before it, if that is fresh. Refused when the press
   /// fell into another step, nothing was seen, or the tips scatter more than `max_spread_m` (root
   /// mean square about their mean).
-  [[nodiscard]] Result<Point<World>> take_place(const std::optional<Point<World>>& last_tip,
-                                                double max_spread_m);
+  [[nodiscard]] TouchedPlace take_place(const std::optional<Point<World>>& last_tip,
+                                        double max_spread_m);
 
  private:
-  [[nodiscard]] Result<Point<World>> mean_tip(double max_spread_m) const;
+  [[nodiscard]] TouchedPlace mean_tip(double max_spread_m) const;
 
   std::vector<Point<World>> tips_;
   bool begun_ = false;  ///< by a press that no click has used yet

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/session/status_text.h"
 #include "nav/registration/unstroked_surface.h"
 
 namespace orthonav::engine {
@@ -67,58 +66,38 @@ bool Verifying::shown_before(Timestamp spoken) const {
   return visible_at_ && *visible_at_ <= spoken;
 }
 
-Status Verifying::record(LevelState& level, const Result<Point<World>>& place) {
-  if (!place) {
-    return Error{"check point not recorded: " + place.error().message};
+std::optional<TouchRefusal> Verifying::record(LevelState& level, const TouchedPlace& place) {
+  const auto* touched = std::get_if<Point<World>>(&place);
+  if (!touched) {
+    return std::get<TouchRefusal>(place);
   }
   if (level.check_points.size() >= nav::kMostCheckPoints) {
-    return Error{"check point not recorded: there are " + std::to_string(nav::kMostCheckPoints) +
-                 " already"};
+    return TouchRefusal{TouchRefusal::Kind::kTooMany};
   }
-  level.check_points.push_back(
-      nav::check_point(*level.plan.model, level.registration->world_from_vertebra, *place, rules_));
+  level.check_points.push_back(nav::check_point(
+      *level.plan.model, level.registration->world_from_vertebra, *touched, rules_));
   judge(level);
-  return {};
+  return std::nullopt;
 }
 
-Status Verifying::drop(LevelState& level) {
+bool Verifying::drop(LevelState& level) {
   if (level.check_points.empty()) {
-    return Error{"no check point to delete"};
+    return false;
   }
   level.check_points.pop_back();
   judge(level);
-  return {};
+  return true;
 }
 
-void Verifying::append_state(std::string& out, const LevelState& level) const {
-  append_mm(out, nav::worst_m(level.predicted), 1);
-  out += " expected; ";
-  append_checks(out, level);
-}
-
-void Verifying::append_checks(std::string& out, const LevelState& level) const {
-  const auto& points = level.check_points;
-  if (!points.empty() && points.back().within) {
-    out += "check point ";
-    append_count(out, points.size());
-    out += ": ";
-    append_mm(out, points.back().distance_m, 1);
-    out += " off; ";
+ChecksSoFar Verifying::state(const LevelState& level) const {
+  ChecksSoFar checks;
+  checks.expected_m = nav::worst_m(level.predicted);
+  checks.count = level.check_points.size();
+  if (checks.count > 0 && level.check_points.back().within) {
+    checks.last_m = level.check_points.back().distance_m;
   }
-  if (verdict_.passed) {
-    out += "checked, worst ";
-    append_mm(out, verdict_.worst_m, 1);
-  } else {
-    out += verdict_.advice;
-  }
-}
-
-void append_registration(std::string& out, const LevelState& level) {
-  out += "RMSE ";
-  append_mm(out, level.registration->rmse_m, 2);
-  out += ", ";
-  append_mm(out, nav::worst_m(level.predicted), 1);
-  out += " expected at the screws";
+  checks.verdict = &verdict_;
+  return checks;
 }
 
 }  // namespace orthonav::engine

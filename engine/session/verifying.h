@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/session/guidance.h"
@@ -26,9 +25,9 @@ class Verifying {
 
   [[nodiscard]] Touch& touch() { return touch_; }
   /// Adds a check point, or says why there is none.
-  Status record(LevelState& level, const Result<Point<World>>& place);
-  /// Takes the last one back, or says that there is none.
-  Status drop(LevelState& level);
+  [[nodiscard]] std::optional<TouchRefusal> record(LevelState& level, const TouchedPlace& place);
+  /// Takes the last one back; false when there is none.
+  [[nodiscard]] bool drop(LevelState& level);
   [[nodiscard]] const nav::CheckVerdict& verdict() const { return verdict_; }
 
   /// How far the points of the registration lie from its surface, in their order.
@@ -36,9 +35,7 @@ class Verifying {
   [[nodiscard]] std::span<const float> unstroked() const { return unstroked_; }
   [[nodiscard]] std::span<const Point<World>> to_check() const { return to_check_; }
   /// Of a registration that is verified by touch.
-  void append_state(std::string& out, const LevelState& level) const;
-  /// What is to be touched, and how the last touch was.
-  void append_checks(std::string& out, const LevelState& level) const;
+  [[nodiscard]] ChecksSoFar state(const LevelState& level) const;
 
  private:
   void judge(const LevelState& level);
@@ -48,14 +45,9 @@ class Verifying {
   std::vector<float> unstroked_;
   std::vector<Point<World>> places_;    ///< proposed to be touched
   std::vector<Point<World>> to_check_;  ///< of them those that were not touched yet
-  /// Made when a check point comes or goes: its advice is text, and the status line is written with
-  /// every pair.
-  nav::CheckVerdict verdict_;
+  nav::CheckVerdict verdict_;           ///< on the check points so far
   std::optional<Timestamp> visible_at_;
   Touch touch_;
 };
-
-/// What the level's registration says of itself.
-void append_registration(std::string& out, const LevelState& level);
 
 }  // namespace orthonav::engine

@@ -1,8 +1,5 @@
 #include "engine/session/watched_tools.h"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace orthonav::engine {
@@ -77,16 +74,9 @@ std::optional<Point<World>> WatchedTools::pointer_tip(Timestamp now, Duration wi
   return watch.last_measured_pose().value * geometry(pointer_).tip_in_marker;
 }
 
-void WatchedTools::append_tag_size_warning(std::string& out, std::size_t tool) const {
+std::optional<double> WatchedTools::tag_size_off(std::size_t tool) const {
   const auto size = tracker_->tag_size(tool);
-  if (!size || !size->disagrees) {
-    return;
-  }
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), "%s: tag %.1f %% %s than stated, check print and unit",
-                geometry(tool).name.c_str(), 100.0 * std::abs(size->fraction),
-                size->fraction > 0.0 ? "larger" : "smaller");
-  out += text.data();
+  return size && size->disagrees ? std::optional(size->fraction) : std::nullopt;
 }
 
 }  // namespace orthonav::engine

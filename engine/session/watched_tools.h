@@ -35,9 +35,9 @@ class WatchedTools {
   }
   /// The pointer's tip where it was last measured, no longer than `within` before `now`.
   [[nodiscard]] std::optional<Point<World>> pointer_tip(Timestamp now, Duration within) const;
-  /// A tag that is not as large as its tool's definition says gives wrong poses: appends what to
-  /// check; nothing when all is well.
-  void append_tag_size_warning(std::string& out, std::size_t tool) const;
+  /// A tag that is not as large as its tool's definition says gives wrong poses: larger by this
+  /// fraction. Absent when all is well.
+  [[nodiscard]] std::optional<double> tag_size_off(std::size_t tool) const;
 
   [[nodiscard]] std::span<const nav::ToolState> states() const { return states_; }
   [[nodiscard]] std::span<const ToolSight> sights() const { return sights_; }

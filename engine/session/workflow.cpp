@@ -121,6 +121,17 @@ std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>
 std::string_view name_of(Event event) { return kEventNames[static_cast<std::size_t>(event)]; }
 std::string_view name_of(Action action) { return kActionNames[static_cast<std::size_t>(action)]; }
 
+std::string name_of(const StepOnDisplay& at) {
+  std::string name(name_of(at.step));
+  if (!at.level.empty()) {
+    name += " " + at.level;
+  }
+  if (at.side) {
+    name += std::string(" ") + name_of(*at.side);
+  }
+  return name;
+}
+
 std::string workflow_diagram() {
   std::string out;
   append_state_diagram(out);

@@ -6,11 +6,12 @@
 #include <string>
 #include <string_view>
 
+#include "hal/api/shown_status.h"
+
 namespace orthonav::engine {
 
-/// Where the operation stands. One step at a time; the table below decides every change.
-enum class Step : std::uint8_t { kSetup, kDigitize, kVerify, kAccepted, kGuide, kRod, kDone };
-inline constexpr std::size_t kStepCount = 7;
+using orthonav::kStepCount;
+using orthonav::Step;
 
 /// Everything that can happen: what the surgeon does, and what the engine itself finds out.
 enum class Event : std::uint8_t {
@@ -280,6 +281,8 @@ inline constexpr workflow_detail::Table kWorkflowByEye = workflow_detail::make_t
 [[nodiscard]] std::string_view name_of(Step step);
 [[nodiscard]] std::string_view name_of(Event event);
 [[nodiscard]] std::string_view name_of(Action action);
+/// "guide L4 left": in files, scripts and file names, whatever the display says.
+[[nodiscard]] std::string name_of(const StepOnDisplay& at);
 
 /// The workflow as docs/safety.md holds it: a mermaid diagram of the changes of step, the whole
 /// table, and what `verify` answers instead where the eye alone verifies.

@@ -7,8 +7,8 @@
 namespace orthonav::engine {
 
 void GroundTruthRecorder::registered(Timestamp /*time*/, const LevelState& level,
-                                     const nav::Registration* result, const std::string& reason) {
-  if (!reason.empty() || !result) {
+                                     const RegistrationOutcome& outcome) {
+  if (!outcome.passed()) {
     return;
   }
   const auto& levels = headset_.room().levels;
@@ -21,7 +21,8 @@ void GroundTruthRecorder::registered(Timestamp /*time*/, const LevelState& level
   const auto world_from_vertebra =
       headset_.world_from_room() * headset_.state().room_from_spine * here->spine_from_vertebra;
   std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
-  registrations_.push_back({level.plan.label, result->world_from_vertebra, world_from_vertebra});
+  registrations_.push_back(
+      {level.plan.label, outcome.result->world_from_vertebra, world_from_vertebra});
 }
 
 void GroundTruthRecorder::head_recorded(Timestamp /*time*/, nav::Side side, Point<World> head) {
@@ -63,7 +64,7 @@ void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& 
     ScrewOutcome& screw = level.screws[s];
     // The last wire counts: an earlier one at the same place was taken out again.
     for (const sim::DrivenWire& wire : headset_.truth().wires) {
-      if (wire.level != level.label || wire.side != name_of(screw.side)) {
+      if (wire.level != level.label || wire.side != screw.side) {
         continue;
       }
       const nav::ScrewError error = nav::screw_error(
@@ -83,7 +84,7 @@ void GroundTruthRecorder::evaluate_rod(RodOutcome& rod) const {
     }
     const sim::PlacedHead* nearest = nullptr;
     for (const sim::PlacedHead& head : headset_.truth().heads) {
-      if (head.side != name_of(rod.side)) {
+      if (head.side != rod.side) {
         continue;
       }
       if (!nearest || (head.position - touched.position).norm() <

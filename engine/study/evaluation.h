@@ -17,8 +17,8 @@ class GroundTruthRecorder : public SessionObserver {
  public:
   explicit GroundTruthRecorder(const sim::SimHeadset& headset) : headset_(headset) {}
 
-  void registered(Timestamp time, const LevelState& level, const nav::Registration* result,
-                  const std::string& reason) override;
+  void registered(Timestamp time, const LevelState& level,
+                  const RegistrationOutcome& outcome) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;
 

@@ -1,25 +1,51 @@
 #pragma once
 
-#include <span>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/side.h"
 #include "base/time.h"
 #include "base/transform.h"
+#include "hal/api/shown_status.h"
 
 namespace orthonav {
 
+/// The holograms by their numbers in docs/holograms.md: H1 to H12.
+enum class HologramKind : std::uint8_t {
+  kPath = 1,
+  kVertebra,
+  kEntry,
+  kTrajectory,
+  kTriangle,
+  kAngle,
+  kCross,
+  kTwin,
+  kDepth,
+  kRod,
+  kStatus,
+  kCheckPoint,
+};
+
 /// What a person wearing the display can read off one hologram: text and a few world positions.
 struct ShownHologram {
-  std::string name;  ///< as in docs: "H4 planned trajectory", "H5 triangle", "H6 angle", ...
-  std::string text;  ///< what is written there, if anything
+  HologramKind kind = HologramKind::kPath;
+  std::string level;         ///< of an entry point: the vertebra's label
+  std::optional<Side> side;  ///< of an entry point
+  std::string text;          ///< what is written there, if anything
+  /// The number that is written there, as far as its digits go, in SI units: the angle (rad), the
+  /// distance of a check point (m). Absent where there is none, as on a place still to be touched,
+  /// or where dashes stand in its place.
+  std::optional<double> reading;
   std::vector<Point<World>> points_in_world;
 };
 
 /// One displayed frame as its wearer perceives it.
 struct ShownFrame {
   Timestamp display_time{};
-  Timestamp pose_time{};  ///< mid-exposure of the images that the newest pose came from
+  Timestamp pose_time{};              ///< mid-exposure of the images that the newest pose came from
+  std::optional<ShownStatus> status;  ///< absent: no status line
   std::vector<ShownHologram> holograms;
 };
 

@@ -2,25 +2,14 @@
 
 #include <string>
 
+#include "hal/hl2ss/standin_shown.h"
+#include "hal/hl2ss/standin_values.h"
+
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x314e534f;  // "OSN1"
+constexpr std::uint32_t kMagic = 0x324e534f;  // "OSN2"
 constexpr std::size_t kHeadBytes = 5;
-
-void append_time(std::vector<std::uint8_t>& bytes, Timestamp time) {
-  append(bytes, std::int64_t{time.time_since_epoch().count()});
-}
-Timestamp take_time(ByteReader& reader) { return Timestamp(Duration(reader.take<std::int64_t>())); }
-
-void append_text(std::vector<std::uint8_t>& bytes, const std::string& text) {
-  append(bytes, static_cast<std::uint32_t>(text.size()));
-  bytes.insert(bytes.end(), text.begin(), text.end());
-}
-std::string take_text(ByteReader& reader) {
-  const Bytes letters = reader.take_bytes(reader.take<std::uint32_t>());
-  return {letters.begin(), letters.end()};
-}
 
 void write(std::vector<std::uint8_t>& bytes, const StandinHello& hello) {
   append(bytes, kMagic);
@@ -41,19 +30,7 @@ void write(std::vector<std::uint8_t>& bytes, const StandinUpTo& up_to) {
 }
 void write(std::vector<std::uint8_t>& /*bytes*/, const StandinEnd& /*end*/) {}
 void write(std::vector<std::uint8_t>& bytes, const StandinShown& shown) {
-  append_time(bytes, shown.frame.display_time);
-  append_time(bytes, shown.frame.pose_time);
-  append(bytes, static_cast<std::uint32_t>(shown.frame.holograms.size()));
-  for (const ShownHologram& hologram : shown.frame.holograms) {
-    append_text(bytes, hologram.name);
-    append_text(bytes, hologram.text);
-    append(bytes, static_cast<std::uint32_t>(hologram.points_in_world.size()));
-    for (const Point<World>& point : hologram.points_in_world) {
-      for (int i = 0; i < 3; ++i) {
-        append(bytes, point.v[i]);
-      }
-    }
-  }
+  append_frame(bytes, shown.frame);
 }
 void write(std::vector<std::uint8_t>& bytes, const StandinTook& took) {
   append_time(bytes, took.pair_time);
@@ -92,28 +69,7 @@ Status read(ByteReader& reader, StandinUpTo& up_to) {
 
 Status read(ByteReader& /*reader*/, StandinEnd& /*end*/) { return {}; }
 
-Status read(ByteReader& reader, StandinShown& shown) {
-  shown.frame.display_time = take_time(reader);
-  shown.frame.pose_time = take_time(reader);
-  const auto count = reader.take<std::uint32_t>();
-  for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
-    ShownHologram& hologram = shown.frame.holograms.emplace_back();
-    hologram.name = take_text(reader);
-    hologram.text = take_text(reader);
-    const auto points = reader.take<std::uint32_t>();
-    for (std::uint32_t k = 0; k < points && reader.ok(); ++k) {
-      Point<World> point;
-      for (int axis = 0; axis < 3; ++axis) {
-        point.v[axis] = reader.take<double>();
-      }
-      if (!point.v.is_finite()) {
-        return Error{"stand-in: a point that is not finite"};
-      }
-      hologram.points_in_world.push_back(point);
-    }
-  }
-  return {};
-}
+Status read(ByteReader& reader, StandinShown& shown) { return take_frame(reader, shown.frame); }
 
 Status read(ByteReader& reader, StandinTook& took) {
   took.pair_time = take_time(reader);

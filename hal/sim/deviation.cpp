@@ -1,8 +1,6 @@
 #include "hal/sim/deviation.h"
 
 #include <cmath>
-#include <cstdlib>
-#include <string>
 
 #include "base/angle.h"
 
@@ -12,25 +10,15 @@ namespace {
 constexpr double kDisagreement_rad = 1.0 * kRadiansPerDegree;
 constexpr double kShortest_m = 1e-3;
 
-/// The number on the readout; nothing when it shows dashes.
-std::optional<double> readout_rad(const std::string& text) {
-  char* end = nullptr;
-  const double degrees = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || !std::isfinite(degrees) || degrees < 0.0) {
-    return std::nullopt;
-  }
-  return degrees * kRadiansPerDegree;
-}
-
 }  // namespace
 
 std::optional<Deviation> read_deviation(const Eyes& eyes) {
-  const ShownHologram* triangle = eyes.find("H5");
-  const ShownHologram* number = eyes.find("H6");
+  const ShownHologram* triangle = eyes.find(HologramKind::kTriangle);
+  const ShownHologram* number = eyes.find(HologramKind::kAngle);
   if (!triangle || triangle->points_in_world.size() != 3 || !number) {
     return std::nullopt;
   }
-  const auto reading_rad = readout_rad(number->text);
+  const std::optional<double> reading_rad = number->reading;
   if (!reading_rad) {
     return std::nullopt;
   }

@@ -3,13 +3,6 @@
 #include <utility>
 
 namespace orthonav::sim {
-namespace {
-
-constexpr std::string_view kBar = " | ";
-
-std::string_view first_word(std::string_view text) { return text.substr(0, text.find(' ')); }
-
-}  // namespace
 
 void Eyes::show(const ShownFrame& frame, const Transform<World, Rig>& believed) {
   if (count_ == kMaxWaiting) {
@@ -36,8 +29,8 @@ void Eyes::light_up(const Transform<Room, Rig>& true_room_from_rig) {
   first_ = (first_ + 1) % kMaxWaiting;
   --count_;
   seen_ = true;
-  if (const ShownHologram* line = find("H11")) {
-    status_ = line->text;
+  if (view_.status) {
+    status_ = view_.status;
   }
 }
 
@@ -48,25 +41,22 @@ std::optional<Timestamp> Eyes::seen_at() const {
   return view_.display_time;
 }
 
-const ShownHologram* Eyes::find(std::string_view id, std::string_view label) const {
+const ShownHologram* Eyes::find(HologramKind kind) const {
   for (const ShownHologram& hologram : view_.holograms) {
-    if (first_word(hologram.name) == id &&
-        (label.empty() || hologram.text == label || hologram.name.ends_with(label))) {
+    if (hologram.kind == kind) {
       return &hologram;
     }
   }
   return nullptr;
 }
 
-std::string_view Eyes::step() const {
-  const std::string_view status = status_;
-  return status.substr(0, status.find(kBar));
-}
-
-std::string_view Eyes::detail() const {
-  const std::string_view status = status_;
-  const std::size_t bar = status.find(kBar);
-  return bar == std::string_view::npos ? std::string_view{} : status.substr(bar + kBar.size());
+const ShownHologram* Eyes::find_entry(std::string_view level, Side side) const {
+  for (const ShownHologram& hologram : view_.holograms) {
+    if (hologram.kind == HologramKind::kEntry && hologram.level == level && hologram.side == side) {
+      return &hologram;
+    }
+  }
+  return nullptr;
 }
 
 }  // namespace orthonav::sim

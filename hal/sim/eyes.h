@@ -22,15 +22,16 @@ class Eyes {
 
   /// Display time of the frame in view; nothing before the first.
   [[nodiscard]] std::optional<Timestamp> seen_at() const;
-  /// A hologram of the frame in view by its number ("H5"); `label` narrows it ("L4 left").
-  [[nodiscard]] const ShownHologram* find(std::string_view id, std::string_view label = {}) const;
+  /// The first hologram of that kind in the frame in view, or null.
+  [[nodiscard]] const ShownHologram* find(HologramKind kind) const;
+  /// The entry point of that screw, or null.
+  [[nodiscard]] const ShownHologram* find_entry(std::string_view level, Side side) const;
   /// Where a hologram's point hangs in the room.
   [[nodiscard]] Point<Room> place(Point<World> in_world) const {
     return room_from_world_ * in_world;
   }
-  /// The workflow step on the status line ("guide L4 left"), and what follows the bar.
-  [[nodiscard]] std::string_view step() const;
-  [[nodiscard]] std::string_view detail() const;
+  /// The status line as it was last seen; absent before the first.
+  [[nodiscard]] const std::optional<ShownStatus>& status() const { return status_; }
 
  private:
   struct Waiting {
@@ -43,7 +44,7 @@ class Eyes {
   std::size_t count_ = 0;
   ShownFrame view_;
   Transform<Room, World> room_from_world_;
-  std::string status_;
+  std::optional<ShownStatus> status_;
   bool seen_ = false;
 };
 

@@ -39,11 +39,6 @@ std::array<Vec3, 4> landmarks(const RoomLevel& level) {
   return found;
 }
 
-std::string without_first_word(const std::string& text) {
-  const std::size_t space = text.find(' ');
-  return space == std::string::npos ? std::string{} : text.substr(space + 1);
-}
-
 }  // namespace
 
 Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
@@ -79,10 +74,10 @@ void Surgeon::give_up() {
 Script Surgeon::operate() {
   co_await body_.next_tick();
   while (!finished_) {
-    if (eyes_->step().empty()) {
-      co_await await_change("", "");
+    if (eyes_->status()) {
+      co_await perform(step_now());
     } else {
-      co_await perform(std::string(eyes_->step()));
+      co_await await_change(std::nullopt, "");
     }
   }
   for (;;) {
@@ -90,41 +85,52 @@ Script Surgeon::operate() {
   }
 }
 
-Script Surgeon::perform(std::string step) {
-  const std::string verb = step.substr(0, step.find(' '));
-  std::string rest = without_first_word(step);
-  std::string side;
-  if (verb == "guide") {
-    const std::size_t space = rest.rfind(' ');
-    side = space == std::string::npos ? std::string{} : rest.substr(space + 1);
-    rest = rest.substr(0, space);
-  }
-  const auto level = layout_->find(rest);
-  if (verb == "setup") {
-    co_await set_up();
-    co_await await_change(step, "start");
-  } else if (verb == "digitize" && level) {
-    co_await digitize(*level);
-    co_await await_verdict(*level, step);
-  } else if (verb == "verify" && level) {
-    co_await verify(*level);
-  } else if (verb == "accepted") {
-    co_await body_.rest(1.0);
-    body_.say("next");
-    co_await await_change(step, "next");
-  } else if (verb == "guide" && level) {
-    co_await guide(*level, side);
-    if (driven_.contains(step)) {
+Script Surgeon::perform(StepOnDisplay step) {
+  const auto level = layout_->find(step.level);
+  switch (step.step) {
+    case Step::kSetup:
+      co_await set_up();
+      co_await await_change(step, "start");
+      co_return;
+    case Step::kDigitize:
+      if (level) {
+        co_await digitize(*level);
+        co_await await_verdict(*level, step);
+        co_return;
+      }
+      break;
+    case Step::kVerify:
+      if (level) {
+        co_await verify(*level);
+        co_return;
+      }
+      break;
+    case Step::kAccepted:
+      co_await body_.rest(1.0);
+      body_.say("next");
       co_await await_change(step, "next");
-    }
-  } else if (verb == "rod") {
-    co_await touch_heads(rest);
-    co_await await_change(step, "done");
-  } else if (verb == "done") {
-    finished_ = true;
-  } else {
-    co_await await_change(step, "");
+      co_return;
+    case Step::kGuide:
+      if (level && step.side) {
+        co_await guide(*level, *step.side);
+        if (driven_.contains(step)) {
+          co_await await_change(step, "next");
+        }
+        co_return;
+      }
+      break;
+    case Step::kRod:
+      if (step.side) {
+        co_await touch_heads(*step.side);
+        co_await await_change(step, "done");
+        co_return;
+      }
+      break;
+    case Step::kDone:
+      finished_ = true;
+      co_return;
   }
+  co_await await_change(step, "");
 }
 
 Script Surgeon::set_up() {
@@ -135,11 +141,11 @@ Script Surgeon::set_up() {
   body_.say("start");
 }
 
-Script Surgeon::await_change(std::string step, std::string phrase) {
+Script Surgeon::await_change(std::optional<StepOnDisplay> step, std::string phrase) {
   for (int repeat = 0; repeat <= kRepeats; ++repeat) {
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
     while (body_.now() < end) {
-      if (!in_step(step)) {
+      if (step ? !in_step(*step) : eyes_->status().has_value()) {
         co_return;
       }
       co_await body_.next_tick();
@@ -152,7 +158,7 @@ Script Surgeon::await_change(std::string step, std::string phrase) {
 }
 
 Script Surgeon::verify(std::size_t level) {
-  const std::string step(eyes_->step());
+  const StepOnDisplay step = step_now();
   body_.posture().contact_normal.reset();
   const auto real = landmarks(layout_->room().levels[level]);
   std::array<Vec3, 4> apart{};
@@ -161,7 +167,7 @@ Script Surgeon::verify(std::size_t level) {
   co_await body_.rest(1.0);
   for (double looked_s = 0.0; looked_s < kComparing_s; looked_s += kGlance_s) {
     co_await body_.rest(kGlance_s / body_.slowness());
-    const ShownHologram* model = eyes_->find("H2");
+    const ShownHologram* model = eyes_->find(HologramKind::kVertebra);
     while (!(model && sees_now() && model->points_in_world.size() == real.size())) {
       if (body_.now() > patience) {
         give_up();
@@ -170,9 +176,9 @@ Script Surgeon::verify(std::size_t level) {
         co_return;
       }
       co_await body_.next_tick();
-      model = eyes_->find("H2");
+      model = eyes_->find(HologramKind::kVertebra);
     }
-    asked_to_touch = asked_to_touch || told("touch ");
+    asked_to_touch = asked_to_touch || asked(ChecksAsked::kTouchMore);
     for (std::size_t i = 0; i < real.size(); ++i) {
       const Point<Room> bone = layout_->room_from_vertebra(level) * Point<Vertebra>{real[i]};
       apart[i] += (kGlance_s / kComparing_s) * (eyes_->place(model->points_in_world[i]) - bone);

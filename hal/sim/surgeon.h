@@ -17,7 +17,7 @@ namespace orthonav::sim {
 /// A wire that pierces the bone, for the room to carry out and to remember.
 struct WireInsertion {
   std::size_t level = 0;
-  std::string side;
+  Side side = Side::kLeft;
 };
 
 /// The scripted surgeon. Knows the bones as they lie there (strokes them, compares holograms with
@@ -52,21 +52,25 @@ class Surgeon {
     Vec3 outwards;     ///< the planned axis, out of the bone
   };
   Script operate();
-  Script perform(std::string step);
+  Script perform(StepOnDisplay step);
   Script set_up();
   Script verify(std::size_t level);
-  /// Waits until the status line leaves `step`; repeats the phrase each minute, then gives up.
-  Script await_change(std::string step, std::string phrase);
+  /// Waits until the status line leaves `step`, or, where none is given, until there is one;
+  /// repeats the phrase each minute, then gives up.
+  Script await_change(std::optional<StepOnDisplay> step, std::string phrase);
 
   // surgeon_checking.cpp
   /// Touches spread places of the bone until the status line asks for no more; `fits` becomes false
   /// when it says that the registration must go.
   Script check_by_touch(std::size_t level, bool& fits);
-  Script touch_place(const std::string& step, const BoneSpot& place);
+  Script touch_place(const StepOnDisplay& step, const BoneSpot& place);
   /// Spread over what can be stroked, each well away from those before it.
   [[nodiscard]] std::vector<BoneSpot> places_to_check(std::size_t level);
-  [[nodiscard]] bool told(std::string_view words) const {
-    return eyes_->detail().find(words) != std::string_view::npos;
+  [[nodiscard]] bool told(Notice notice) const {
+    return eyes_->status() && eyes_->status()->notice == notice;
+  }
+  [[nodiscard]] bool asked(ChecksAsked checks) const {
+    return eyes_->status() && eyes_->status()->checks == checks;
   }
 
   // surgeon_digitizing.cpp
@@ -79,21 +83,21 @@ class Surgeon {
     double around_region_s = 0.0;
   };
   [[nodiscard]] Tempo tempo(std::size_t level) const;
-  Script await_verdict(std::size_t level, std::string step);
+  Script await_verdict(std::size_t level, StepOnDisplay step);
 
   // surgeon_guiding.cpp
-  Script guide(std::size_t level, std::string side);
-  Script find_entry(const std::string& step, std::size_t level, const std::string& label, Aim& aim);
+  Script guide(std::size_t level, Side side);
+  Script find_entry(const StepOnDisplay& step, std::size_t level, Side side, Aim& aim);
   /// Averages what is seen of entry and axis for a while; `found` stays false when the step ends.
-  Script look_at_entry(const std::string& step, const std::string& label, double look_s,
+  Script look_at_entry(const StepOnDisplay& step, std::size_t level, Side side, double look_s,
                        bool& found, Vec3& entry, Vec3& outwards);
   Script set_on(const Aim& aim);
-  Script drive_wire(std::size_t level, const std::string& side, const Aim& aim);
+  Script drive_wire(std::size_t level, Side side, const Aim& aim);
   [[nodiscard]] BoneSpot put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) const;
 
   // surgeon_turning.cpp
   /// Turns the tool about its tip until the readings are small and steady.
-  Script turn_tool(const std::string& step, const Aim& aim);
+  Script turn_tool(const StepOnDisplay& step, const Aim& aim);
   /// Holds still, reads the average and takes out what is left of it, if that is little.
   Script settle(double content_rad, bool& settled);
   void turn_by(Vec3 turn);
@@ -101,10 +105,14 @@ class Surgeon {
   void show_tag(const Aim& aim, double since_s, double tick_s);
 
   // surgeon_rod.cpp
-  Script touch_heads(const std::string& side);
+  Script touch_heads(Side side);
 
   [[nodiscard]] bool sees_now() const;
-  [[nodiscard]] bool in_step(std::string_view step) const { return eyes_->step() == step; }
+  /// The step that the status line names; there is one.
+  [[nodiscard]] const StepOnDisplay& step_now() const { return eyes_->status()->at; }
+  [[nodiscard]] bool in_step(const StepOnDisplay& step) const {
+    return eyes_->status() && step_now() == step;
+  }
   void give_up();
 
   const RoomLayout* layout_;
@@ -115,7 +123,7 @@ class Surgeon {
   Random checking_;  ///< of its own: who need not touch draws the same from the others
   std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
   std::vector<int> failures_;                       ///< refusals and rejections, for each level
-  std::set<std::string> driven_;                    ///< guide steps whose wire is in
+  std::set<StepOnDisplay> driven_;                  ///< guide steps whose wire is in
   std::vector<WireInsertion> wire_insertions_;
   bool finished_ = false;
   bool gave_up_ = false;

@@ -53,7 +53,7 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
   return places;
 }
 
-Script Surgeon::touch_place(const std::string& step, const BoneSpot& place) {
+Script Surgeon::touch_place(const StepOnDisplay& step, const BoneSpot& place) {
   // The bone stops the tip, so soft tissue can only hold it off.
   const double lift_m = std::abs(checking_.normal(0.0, error_model_->touch_lift_m));
   const Point<Room> tip{place.point + lift_m * place.normal};
@@ -66,7 +66,7 @@ Script Surgeon::touch_place(const std::string& step, const BoneSpot& place) {
     co_await body_.rest(kSettle_s);
     co_await body_.click();
     co_await body_.rest(kReadLine_s / body_.slowness());
-    if (!told("not recorded")) {
+    if (!told(Notice::kTouchNotRecorded)) {
       break;
     }
   }
@@ -74,9 +74,9 @@ Script Surgeon::touch_place(const std::string& step, const BoneSpot& place) {
 }
 
 Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
-  const std::string step(eyes_->step());
+  const StepOnDisplay step = step_now();
   for (const BoneSpot& place : places_to_check(level)) {
-    if (!in_step(step) || !told("touch ")) {
+    if (!in_step(step) || !asked(ChecksAsked::kTouchMore)) {
       break;
     }
     const auto& room_from_vertebra = layout_->room_from_vertebra(level);
@@ -84,11 +84,11 @@ Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
                                 (room_from_vertebra * Direction<Vertebra>{place.normal}).v});
     // A message goes after a while, and the line asks again or is content.
     const Timestamp end = body_.now() + from_seconds(kPatience_s);
-    while (in_step(step) && told("not recorded") && body_.now() < end) {
+    while (in_step(step) && told(Notice::kTouchNotRecorded) && body_.now() < end) {
       co_await body_.next_tick();
     }
   }
-  if (told("reject")) {
+  if (asked(ChecksAsked::kReject)) {
     fits = false;
   }
 }

@@ -56,7 +56,7 @@ Surgeon::Tempo Surgeon::tempo(std::size_t level) const {
 }
 
 Script Surgeon::digitize(std::size_t level) {
-  const std::string step(eyes_->step());
+  const StepOnDisplay step = step_now();
   co_await body_.take(ToolKind::kPointer, layout_->site(level));
   for (const StrokeRegion& region : regions_[level]) {
     bool slips = true;
@@ -116,7 +116,7 @@ Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s
   }
 }
 
-Script Surgeon::await_verdict(std::size_t level, std::string step) {
+Script Surgeon::await_verdict(std::size_t level, StepOnDisplay step) {
   // The line may still say why the last attempt was refused.
   co_await body_.rest(kVerdict_s / body_.slowness());
   for (int repeat = 0; repeat <= kRepeats; ++repeat) {
@@ -125,7 +125,7 @@ Script Surgeon::await_verdict(std::size_t level, std::string step) {
       if (!in_step(step)) {
         co_return;
       }
-      if (eyes_->detail().find("refused") != std::string_view::npos) {
+      if (told(Notice::kRegistrationRefused)) {
         if (++failures_[level] >= kMaxFailures) {
           give_up();
         }

@@ -16,13 +16,12 @@ constexpr double kAdvance_m = 0.010;
 
 }  // namespace
 
-Script Surgeon::guide(std::size_t level, std::string side) {
-  const std::string step(eyes_->step());
+Script Surgeon::guide(std::size_t level, Side side) {
+  const StepOnDisplay step = step_now();
   if (!driven_.contains(step)) {
-    const std::string label = layout_->room().levels[level].label + " " + side;
     co_await body_.take(ToolKind::kGuide, layout_->site(level));
     Aim aim;
-    co_await find_entry(step, level, label, aim);
+    co_await find_entry(step, level, side, aim);
     if (!in_step(step) || finished_) {
       co_return;
     }
@@ -61,15 +60,14 @@ BoneSpot Surgeon::put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) cons
           (room_from_vertebra * Direction<Vertebra>{spot.normal}).v};
 }
 
-Script Surgeon::find_entry(const std::string& step, std::size_t level, const std::string& label,
-                           Aim& aim) {
+Script Surgeon::find_entry(const StepOnDisplay& step, std::size_t level, Side side, Aim& aim) {
   const Vec3 perceived_shift = normal_vector(body_.random(), error_model_->overlay_perception_m) +
                                normal_vector(body_.random(), error_model_->entry_pick_m);
   // First a glance for the direction, to stand right; then a look for the place.
   for (const double look_s : {kQuickLook_s, kLook_s}) {
     bool found = false;
     Vec3 entry;
-    co_await look_at_entry(step, label, look_s, found, entry, aim.outwards);
+    co_await look_at_entry(step, level, side, look_s, found, entry, aim.outwards);
     if (!found) {
       co_return;
     }
@@ -81,8 +79,9 @@ Script Surgeon::find_entry(const std::string& step, std::size_t level, const std
   }
 }
 
-Script Surgeon::look_at_entry(const std::string& step, const std::string& label, double look_s,
-                              bool& found, Vec3& entry, Vec3& outwards) {
+Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side side,
+                              double look_s, bool& found, Vec3& entry, Vec3& outwards) {
+  const std::string& label = layout_->room().levels[level].label;
   const Timestamp patience = body_.now() + from_seconds(kLongPatience_s);
   Vec3 entries;
   Vec3 axes;
@@ -96,8 +95,8 @@ Script Surgeon::look_at_entry(const std::string& step, const std::string& label,
     if (!in_step(step) || finished_) {
       co_return;
     }
-    const ShownHologram* spot = eyes_->find("H3", label);
-    const ShownHologram* path = eyes_->find("H4");
+    const ShownHologram* spot = eyes_->find_entry(label, side);
+    const ShownHologram* path = eyes_->find(HologramKind::kTrajectory);
     if (!sees_now() || !spot || spot->points_in_world.empty() || !path ||
         path->points_in_world.size() < 3) {
       continue;
@@ -118,7 +117,7 @@ Script Surgeon::look_at_entry(const std::string& step, const std::string& label,
   found = true;
 }
 
-Script Surgeon::drive_wire(std::size_t level, const std::string& side, const Aim& aim) {
+Script Surgeon::drive_wire(std::size_t level, Side side, const Aim& aim) {
   wire_insertions_.push_back({level, side});
   body_.posture().contact_normal.reset();
   const Grip pierced = body_.posture().grip;

@@ -4,8 +4,8 @@
 
 namespace orthonav::sim {
 
-Script Surgeon::touch_heads(const std::string& side) {
-  const std::string step(eyes_->step());
+Script Surgeon::touch_heads(Side side) {
+  const StepOnDisplay step = step_now();
   std::vector<Point<Room>> heads;
   for (const PlacedHead& head : *heads_) {
     if (head.side == side) {
@@ -32,7 +32,7 @@ Script Surgeon::touch_heads(const std::string& side) {
       co_await body_.rest(1.0);
       co_await body_.click();
       co_await body_.rest(0.5);
-      if (eyes_->detail().find("not recorded") == std::string_view::npos) {
+      if (!told(Notice::kTouchNotRecorded)) {
         break;
       }
     }

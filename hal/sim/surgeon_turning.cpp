@@ -34,7 +34,7 @@ constexpr double kLost_s = 1.0;
 
 }  // namespace
 
-Script Surgeon::turn_tool(const std::string& step, const Aim& aim) {
+Script Surgeon::turn_tool(const StepOnDisplay& step, const Aim& aim) {
   DeviationMemory memory;
   const double strict_rad = std::max(error_model_->angle_reading_rad, kReadoutFloor_rad);
   Timestamp last_seen = body_.now();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/side.h"
 #include "hal/sim/room.h"
 
 namespace orthonav::sim {
@@ -10,7 +11,7 @@ namespace orthonav::sim {
 /// A wire as it was really driven, in its vertebra's frame.
 struct DrivenWire {
   std::string level;
-  std::string side;  ///< "left" or "right", as the surgeon read it off the display
+  Side side = Side::kLeft;  ///< as the surgeon read it off the display
   Point<Vertebra> entry;
   Vec3 direction;  ///< unit, into the bone
   Timestamp time{};
@@ -19,7 +20,7 @@ struct DrivenWire {
 /// A screw head as it really stands.
 struct PlacedHead {
   std::string level;
-  std::string side;
+  Side side = Side::kLeft;
   Point<Room> position;
 };
 

@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "base/side.h"
 #include "base/transform.h"
 
 namespace orthonav::nav {
 
-enum class Side { kLeft, kRight };
+using orthonav::Side;
 
 /// A planned pedicle screw: from the entry point on the bone to the target inside.
 struct ScrewPlan {

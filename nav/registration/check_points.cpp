@@ -1,9 +1,7 @@
 #include "nav/registration/check_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace orthonav::nav {
@@ -11,13 +9,8 @@ namespace {
 
 /// A touch so near to a proposed place was meant for it.
 constexpr double kTouchedWithin_m = 0.008;
-
-template <class... Values>
-std::string worded(const char* format, Values... values) {
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
+/// So many places see every motion of a rigid body but those along the surface.
+constexpr std::size_t kPlacesApart = 3;
 
 double height_m(Vec3 a, Vec3 b, Vec3 c) {
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
@@ -57,17 +50,11 @@ Spread spread_of(std::span<const CheckPoint> points, const CheckPointRules& rule
   return spread;
 }
 
-std::string advice_on(const Spread& spread, const CheckPointRules& rules) {
-  if (spread.apart == 0) {
-    return worded("touch 3 places, %.0f mm apart", rules.apart_m * 1e3);
+CheckAdvice advice_on(const Spread& spread, const CheckPointRules& rules) {
+  if (spread.apart < kPlacesApart) {
+    return {CheckAdvice::Kind::kTouchApart, kPlacesApart - spread.apart, rules.apart_m, 0.0};
   }
-  if (spread.apart == 1) {
-    return worded("touch 2 more places, %.0f mm from the others", rules.apart_m * 1e3);
-  }
-  if (spread.apart == 2) {
-    return worded("touch 1 more place, %.0f mm from the others", rules.apart_m * 1e3);
-  }
-  return worded("touch 1 more place, %.0f mm off the line of the others", rules.off_line_m * 1e3);
+  return {CheckAdvice::Kind::kTouchOffLine, 1, rules.off_line_m, 0.0};
 }
 
 }  // namespace
@@ -175,9 +162,8 @@ CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRule
     if (points[i].within) {
       continue;
     }
-    verdict.advice =
-        worded("check point %zu is %.1f mm off, limit %.1f mm: reject and stroke again", i + 1,
-               std::abs(points[i].distance_m) * 1e3, rules.within_m * 1e3);
+    verdict.advice = {CheckAdvice::Kind::kReject, i + 1, std::abs(points[i].distance_m),
+                      rules.within_m};
     return verdict;
   }
   const Spread spread = spread_of(points, rules);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,10 +49,24 @@ struct CheckPoint {
 [[nodiscard]] std::vector<Point<World>> still_to_check(std::span<const Point<World>> places,
                                                        std::span<const CheckPoint> touched);
 
+/// What is still to be done about check points.
+struct CheckAdvice {
+  enum class Kind : std::uint8_t {
+    kNone,          ///< nothing: they confirm the registration
+    kTouchApart,    ///< so many places, `value_m` apart from each other
+    kTouchOffLine,  ///< one more place, `value_m` off the line of the others
+    kReject,        ///< check point `number` lies `value_m` off the surface, above `limit_m`
+  };
+  Kind kind = Kind::kNone;
+  std::size_t number = 0;  ///< places to touch, or the check point, counted from 1
+  double value_m = 0.0;
+  double limit_m = 0.0;
+};
+
 struct CheckVerdict {
   bool passed = false;
   double worst_m = 0.0;  ///< the largest distance in size
-  std::string advice;    ///< what is wrong and what to do; empty when passed
+  CheckAdvice advice;
 };
 
 /// One check point too far off, wherever it lies, and none of the others helps.

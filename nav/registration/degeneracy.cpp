@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <Eigen/Dense>
 #include <set>
 
@@ -21,6 +20,8 @@ constexpr double kPinned_m = 0.0003;
 /// The spinous process lies so near to the midline.
 constexpr double kMidline_m = 0.007;
 constexpr double kLateral_m = 0.028;
+/// Neither upper nor lower so near to the middle.
+constexpr double kMiddle_m = 0.006;
 
 Eigen::Matrix<double, 3, 6> moves_at(Vec3 lever_arm) {
   Eigen::Matrix<double, 3, 6> m = Eigen::Matrix<double, 3, 6>::Zero();
@@ -43,23 +44,27 @@ Vec3 middle(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& t) {
   return (mesh.vertices_m[t[0]] + mesh.vertices_m[t[1]] + mesh.vertices_m[t[2]]) / 3.0;
 }
 
-std::string place_name(const VertebraModel& model, Vec3 p) {
+BonePlace place_of(const VertebraModel& model, Vec3 p) {
+  using Height = BonePlace::Height;
+  using Part = BonePlace::Part;
   const Vec3 centre = model.reachable_axes().centre_m;
   const double x = p.x - centre.x;
-  const char* height = p.z - centre.z > 0.006 ? "upper " : p.z - centre.z < -0.006 ? "lower " : "";
+  const double z = p.z - centre.z;
+  const Height height = z > kMiddle_m    ? Height::kUpper
+                        : z < -kMiddle_m ? Height::kLower
+                                         : Height::kMiddle;
   if (std::abs(x) < kMidline_m) {
-    return std::string("the ") + height + "spinous process";
+    return {Part::kSpinousProcess, std::nullopt, height};
   }
-  const std::string side = x > 0.0 ? "left " : "right ";
-  return "the " + side + height +
-         (std::abs(x) > kLateral_m ? "facet and root of the transverse process" : "lamina");
+  return {std::abs(x) > kLateral_m ? Part::kFacet : Part::kLamina,
+          x > 0.0 ? Side::kLeft : Side::kRight, height};
 }
 
-/// The motion at the targets in words; (shift, turn) in the vertebra's axes.
-std::string motion_name(const Vector6& motion, double lever_m) {
-  constexpr std::array<const char*, 6> kNames = {
-      "slides sideways",  "moves in and out",   "slides along the spine",
-      "nods up and down", "rolls to the sides", "twists about the spine's axis"};
+/// The largest part of a motion at the targets; (translation, rotation) in the vertebra's axes.
+UncertainMotion::Kind kind_of(const Vector6& motion, double lever_m) {
+  using enum UncertainMotion::Kind;
+  constexpr std::array<UncertainMotion::Kind, 6> kKinds = {
+      kLateral, kAnteroposterior, kCraniocaudal, kFlexion, kLateralBending, kAxialRotation};
   std::size_t most = 0;
   double length = 0.0;
   for (std::size_t k = 0; k < 6; ++k) {
@@ -68,7 +73,7 @@ std::string motion_name(const Vector6& motion, double lever_m) {
       length = m, most = k;
     }
   }
-  return kNames[most];
+  return kKinds[most];
 }
 
 }  // namespace
@@ -91,10 +96,8 @@ Degeneracy degeneracy_of(const VertebraModel& model, const PoseUncertainty& unce
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(l.transpose() * at_targets * l);
   const Vector6 motion = l * solver.eigenvectors().col(5);
   Degeneracy out;
-  std::array<char, 48> text{};
   const double before = tre2_m2(covariance, centre, targets);
-  std::snprintf(text.data(), text.size(), " (%.1f mm at the screws)", std::sqrt(before) * 1e3);
-  out.motion = motion_name(motion, lever) + text.data();
+  out.motion = {kind_of(motion, lever), std::sqrt(before)};
 
   // One more touch there, with the covariance of Kalman's update.
   const TriangleMesh& mesh = model.reachable();
@@ -114,7 +117,7 @@ Degeneracy degeneracy_of(const VertebraModel& model, const PoseUncertainty& unce
     const double now = tre2_m2(after, centre, targets);
     if (now < least) {
       least = now;
-      out.advice = "stroke " + place_name(model, at);
+      out.stroke_next = place_of(model, at);
     }
   }
   return out;

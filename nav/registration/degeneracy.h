@@ -1,17 +1,17 @@
 #pragma once
 
+#include <optional>
 #include <span>
-#include <string>
 
 #include "nav/registration/registration.h"
 #include "nav/registration/surface_fit.h"
 
 namespace orthonav::nav {
 
-/// What the strokes tell least of, in words.
+/// What the strokes tell least of.
 struct Degeneracy {
-  std::string motion;  ///< "slides along the spine (0.4 mm)"
-  std::string advice;  ///< "stroke the left facet and lamina, upper part"
+  UncertainMotion motion;
+  std::optional<BonePlace> stroke_next;  ///< absent where no place would tell more
 };
 
 /// The motion that adds most to the error at the worst of the targets, and the part of the

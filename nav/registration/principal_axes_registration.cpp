@@ -3,7 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "base/findings.h"
 #include "nav/registration/coarse.h"
 #include "nav/registration/icp.h"
 #include "nav/registration/registration.h"
@@ -13,22 +12,19 @@ namespace orthonav::nav {
 namespace {
 
 void judge(const VertebraModel& model, const RegistrationOptions& options, Registration& r) {
+  using Kind = RefusalReason::Kind;
   if (!(r.rmse_m <= options.max_rmse_m)) {
-    r.reasons.push_back(with_numbers("registration RMSE %.1f mm, limit %.1f mm", r.rmse_m * 1e3,
-                                     options.max_rmse_m * 1e3));
+    r.reasons.push_back({Kind::kRmse, r.rmse_m, options.max_rmse_m, {}, {}});
   }
   // Two starts that end in the same pose agree; only another pose is a rival.
   const bool rival = differ_clearly(model, r.world_from_vertebra, r.runner_up);
   if (rival && !(r.runner_up_rmse_m >= options.min_runner_up_ratio * r.rmse_m)) {
     r.reasons.push_back(
-        with_numbers("another pose fits nearly as well (%.2f times the RMSE, at least %.2f)",
-                     r.runner_up_rmse_m / r.rmse_m, options.min_runner_up_ratio));
+        {Kind::kRunnerUpRmse, r.runner_up_rmse_m / r.rmse_m, options.min_runner_up_ratio, {}, {}});
   }
   if (!(r.predicted_tre_m <= options.max_predicted_tre_m)) {
     r.reasons.push_back(
-        with_numbers("the points leave the bone loose: %.1f mm error expected at its centre, "
-                     "limit %.1f mm",
-                     r.predicted_tre_m * 1e3, options.max_predicted_tre_m * 1e3));
+        {Kind::kTreAtCentre, r.predicted_tre_m, options.max_predicted_tre_m, {}, {}});
   }
   r.accepted = r.reasons.empty();
 }

@@ -12,6 +12,7 @@
 #include "base/transform.h"
 #include "nav/geometry/closest_grid.h"
 #include "nav/geometry/mesh.h"
+#include "nav/registration/findings.h"
 #include "nav/registration/pose_search.h"
 #include "nav/registration/principal_axes.h"
 #include "nav/registration/tre.h"
@@ -119,7 +120,7 @@ struct PoseSearchRegistrationOptions {
 /// What registration says. `accepted` false: `reasons` tells why, nothing may be guided on it.
 struct Registration {
   bool accepted = false;
-  std::vector<std::string> reasons;
+  std::vector<RefusalReason> reasons;
   Transform<World, Vertebra> world_from_vertebra;
   double rmse_m = 0.0;
   double runner_up_rmse_m = 0.0;
@@ -141,9 +142,9 @@ struct Registration {
   double coverage_fraction = 0.0;     ///< of the reachable surface
   double shaft_collision_fraction =
       0.0;  ///< of the points whose pointer would have gone through bone
-  /// The motion known worst, in words, and the part of the bone whose strokes would tell most.
-  std::string weakest;
-  std::string advice;
+  /// The motion known worst, and the part of the bone whose strokes would tell most.
+  std::optional<UncertainMotion> weakest;
+  std::optional<BonePlace> stroke_next;
   std::string fits_better;  ///< label of a neighbouring level that the points fit as well or better
 };
 

@@ -178,7 +178,7 @@ void estimate_errors(const VertebraModel& model, const std::optional<FitCovarian
                      std::span<const Point<Vertebra>> targets, Registration& r) {
   r.predicted_tre_m = r.tre_95_m = std::numeric_limits<double>::infinity();
   if (!covariance) {
-    r.weakest = "a motion of the bone is left wholly open";
+    r.weakest = UncertainMotion{};
     return;
   }
   r.uncertainty = covariance->uncertainty;
@@ -190,7 +190,7 @@ void estimate_errors(const VertebraModel& model, const std::optional<FitCovarian
   }
   const Degeneracy degeneracy = degeneracy_of(model, *r.uncertainty, targets);
   r.weakest = degeneracy.motion;
-  r.advice = degeneracy.advice;
+  r.stroke_next = degeneracy.stroke_next;
 }
 
 /// Poses at which the pointer would have gone through bone are none, as long as another is left.

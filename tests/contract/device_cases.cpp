@@ -47,7 +47,7 @@ std::unique_ptr<Headset> keeping(Kept kept, std::unique_ptr<Headset> headset) {
 /// Shows a step of the workflow to the wearer with each pair, whatever it is asked to show itself.
 class Prompting : public ForwardingHeadset {
  public:
-  Prompting(std::unique_ptr<Headset> inner, std::string step)
+  Prompting(std::unique_ptr<Headset> inner, StepOnDisplay step)
       : ForwardingHeadset(*inner),
         inner_(std::move(inner)),
         cameras_(*inner_, std::move(step)),
@@ -58,7 +58,7 @@ class Prompting : public ForwardingHeadset {
  private:
   class Cameras : public StereoCamera {
    public:
-    Cameras(Headset& inner, std::string step) : inner_(inner), step_(std::move(step)) {}
+    Cameras(Headset& inner, StepOnDisplay step) : inner_(inner), step_(std::move(step)) {}
 
    private:
     [[nodiscard]] const StereoCalibration& do_calibration() const override {
@@ -71,12 +71,12 @@ class Prompting : public ForwardingHeadset {
       }
       ShownFrame shown;
       shown.display_time = inner_.display().predicted_display_time(inner_.clock().now());
-      shown.holograms.push_back({"H11 status", step_, {}});
+      shown.status = ShownStatus{.at = step_};
       EXPECT_TRUE(inner_.display().shown(shown).ok());
       return answer;
     }
     Headset& inner_;
-    std::string step_;
+    StepOnDisplay step_;
   };
   class Unseen : public Display {
    public:
@@ -218,7 +218,8 @@ std::unique_ptr<Headset> open_surgeon() {
   options.sim.frame_rate_hz = 10.0;
   options.sim.limit_s = 9.0;
   options.sim.error_model.pace = 4.0;
-  return std::make_unique<Prompting>(checked(open_headset("sim:?seed=11", options)), "digitize L3");
+  return std::make_unique<Prompting>(checked(open_headset("sim:?seed=11", options)),
+                                     StepOnDisplay{Step::kDigitize, "L3", {}});
 }
 
 /// The scripted headset with a clicker from elsewhere: recorded events that begin with its clock.

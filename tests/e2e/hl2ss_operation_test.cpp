@@ -113,13 +113,13 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
   server.reset();
   for (const sim::DrivenWire& wire : truth.wires) {
     for (const nav::ScrewPlan& plan : plans) {
-      if (wire.side != name_of(plan.side)) {
+      if (wire.side != plan.side) {
         continue;
       }
       const nav::ScrewError error =
           nav::screw_error(plan, {wire.entry, wire.direction}, model->surface());
-      done.wires.push_back(
-          {wire.side, error.angle_rad * 180.0 / std::numbers::pi, error.entry_m.value_or(1.0)});
+      done.wires.push_back({name_of(wire.side), error.angle_rad * 180.0 / std::numbers::pi,
+                            error.entry_m.value_or(1.0)});
     }
   }
   return done;

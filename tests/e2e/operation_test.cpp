@@ -77,8 +77,8 @@ class PoseLog : public LoopObserver {
   const Session* session = nullptr;
   void stepped(const StereoFrame& frame, const Inputs&, const Guidance& guidance) override {
     for (const nav::ToolState& tool : session->tool_states()) {
-      lines.push_back({frame.time, guidance.step_text, tool.world_from_marker.status,
-                       tool.world_from_marker.value.row_major()});
+      lines.push_back({frame.time, engine::name_of(guidance.status.at),
+                       tool.world_from_marker.status, tool.world_from_marker.value.row_major()});
     }
   }
   struct Line {

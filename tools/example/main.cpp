@@ -7,6 +7,7 @@
 #include "engine/case/tool_file.h"
 #include "engine/live/assembled_operation.h"
 #include "engine/phantom/phantom.h"
+#include "engine/session/wording.h"
 #include "engine/study/sim_scenario.h"
 #include "hal/open/open.h"
 
@@ -18,7 +19,8 @@ struct Printer : LoopObserver {
     if (frame.sequence % 30 != 0) {
       return;
     }
-    std::printf("%s  %s", guidance.step_text.c_str(), guidance.detail.c_str());
+    std::printf("%s  %s", step_text(guidance.status.at).c_str(),
+                detail_text(guidance.status).c_str());
     if (guidance.tool && guidance.tool->measured) {
       std::printf("  %.1f deg off the plan, tip %.1f mm from the entry",
                   guidance.tool->measured->angle_rad * 57.2958,

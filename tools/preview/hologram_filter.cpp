@@ -1,4 +1,5 @@
 #include "tools/preview/hologram_filter.h"
+#include "engine/holograms/hologram_label.h"
 
 #include <algorithm>
 #include <iterator>
@@ -22,8 +23,9 @@ void HologramFilter::toggle_all() {
 void HologramFilter::apply(const render::Scene& scene, render::Scene& seen) const {
   const auto copy = [this](const auto& from, auto& to) {
     to.clear();
-    std::copy_if(from.begin(), from.end(), std::back_inserter(to),
-                 [this](const auto& item) { return shows(item.label / 100); });
+    std::copy_if(from.begin(), from.end(), std::back_inserter(to), [this](const auto& item) {
+      return shows(static_cast<unsigned>(engine::kind_of(item.label)));
+    });
   };
   copy(scene.meshes, seen.meshes);
   copy(scene.lines, seen.lines);

@@ -5,6 +5,7 @@
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/live/known_tools.h"
+#include "engine/session/wording.h"
 #include "engine/study/sim_scenario.h"
 
 namespace orthonav::preview {
@@ -112,7 +113,6 @@ void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*in
   moment_.pair = gate_.passed();
   moment_.sequence = frame.sequence;
   moment_.time = frame.time;
-  moment_.step = guidance.step;
   moment_.world_from_rig = headset_->head().world_from_rig(frame.time);
   if (room_) {
     moment_.room = room_->state();
@@ -123,14 +123,14 @@ void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*in
   for (std::size_t i = 0; i < tools.size() && i < states.size(); ++i) {
     moment_.tools.push_back(seen(tools[i], states[i].world_from_marker));
   }
-  moment_.detail = guidance.detail;
+  moment_.detail = engine::detail_text(guidance.status);
 }
 
 /// Follows `stepped` for the same pair; or comes without one, when guidance is taken back.
 void LiveOperation::captured(const engine::Snapshot& snapshot) {
-  moment_.step_text = snapshot.step_text;
+  moment_.at = snapshot.step;
   if (snapshot.blank) {
-    moment_.detail = "ended";
+    moment_.detail = engine::text_of(engine::Message(engine::Ended{}));
   }
   moment_.scene = snapshot.scene;
   timeline_.push(std::make_shared<const Moment>(moment_));

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "engine/session/wording.h"
 #include "tools/preview/error_sources.h"
 
 namespace orthonav::preview {
@@ -21,7 +22,7 @@ void text(const std::string& line) { ImGui::TextUnformatted(line.c_str()); }
 void draw_step(const Moment& moment) {
   for (std::size_t i = 0; i < engine::kStepCount; ++i) {
     const auto step = static_cast<engine::Step>(i);
-    const bool now = step == moment.step;
+    const bool now = step == moment.at.step;
     // Two rows: seven names are too long for one.
     if (i != 0 && i != 4) {
       ImGui::SameLine(0.0f, 6.0f);
@@ -29,7 +30,7 @@ void draw_step(const Moment& moment) {
     ImGui::TextColored(now ? kGood : kDim, "%s%s", now ? "\u25b6 " : "",
                        std::string(engine::name_of(step)).c_str());
   }
-  text(moment.step_text);
+  text(engine::step_text(moment.at));
   ImGui::PushTextWrapPos(0.0f);
   ImGui::TextColored(kDim, "%s", moment.detail.empty() ? "-" : moment.detail.c_str());
   ImGui::PopTextWrapPos();

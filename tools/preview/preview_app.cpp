@@ -155,10 +155,10 @@ Status PreviewApp::run_script() {
 
 /// The title names the step, so that it is read off a bar of windows, and by who drives the window.
 void PreviewApp::set_title(const Moment& moment) {
-  if (facts_.moment && facts_.moment->step_text == moment.step_text) {
+  if (facts_.moment && facts_.moment->at == moment.at) {
     return;
   }
-  window_->set_title("orthonav preview: " + moment.step_text);
+  window_->set_title("orthonav preview: " + engine::name_of(moment.at));
 }
 
 Status PreviewApp::show_moment() {

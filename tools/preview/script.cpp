@@ -172,7 +172,7 @@ Script::Did Script::perform(const ScriptLine& line, PreviewModel& model, const S
       model.key(*key_named(line.rest), false);
     }
   } else if (line.word == "until") {
-    if (!shown || shown->step_text.rfind(line.rest, 0) != 0) {
+    if (!shown || !engine::name_of(shown->at).starts_with(line.rest)) {
       return Did::kWait;
     }
   } else if (line.word == "first") {

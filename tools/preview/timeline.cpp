@@ -52,7 +52,7 @@ std::shared_ptr<const Moment> Timeline::at(std::int64_t pair) const {
 std::shared_ptr<const Moment> Timeline::first_of(std::string_view step) const {
   const MutexLock lock(mutex_);
   const auto found = std::find_if(moments_.begin(), moments_.end(), [step](const auto& moment) {
-    return moment->step_text.starts_with(step);
+    return engine::name_of(moment->at).starts_with(step);
   });
   return found == moments_.end() ? nullptr : *found;
 }

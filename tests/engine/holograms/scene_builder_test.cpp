@@ -1,4 +1,5 @@
 #include "engine/holograms/scene_builder.h"
+#include "engine/holograms/hologram_label.h"
 
 #include <gmock/gmock.h>
 
@@ -18,6 +19,8 @@ using test::ScriptedOperation;
 using enum ClickerAction;
 using ::testing::StartsWith;
 
+using enum HologramKind;
+
 constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 constexpr double kExact = 1e-9;
 
@@ -33,20 +36,39 @@ ShownFrame shown(const Guidance& guidance) {
   return shown(guidance, builder);
 }
 
-const ShownHologram* find(const ShownFrame& frame, const std::string& name) {
+const ShownHologram* find(const ShownFrame& frame, HologramKind kind) {
   const auto it = std::find_if(frame.holograms.begin(), frame.holograms.end(),
-                               [&](const ShownHologram& h) { return h.name == name; });
+                               [&](const ShownHologram& h) { return h.kind == kind; });
   return it == frame.holograms.end() ? nullptr : &*it;
 }
 
+const ShownHologram* find_entry(const ShownFrame& frame, const std::string& level, Side side) {
+  const auto it =
+      std::find_if(frame.holograms.begin(), frame.holograms.end(), [&](const ShownHologram& h) {
+        return h.kind == HologramKind::kEntry && h.level == level && h.side == side;
+      });
+  return it == frame.holograms.end() ? nullptr : &*it;
+}
+
+/// Check points with a distance, not those still to be touched.
+std::vector<ShownHologram> touched(const ShownFrame& frame) {
+  std::vector<ShownHologram> found;
+  for (const ShownHologram& hologram : frame.holograms) {
+    if (hologram.kind == HologramKind::kCheckPoint && hologram.reading) {
+      found.push_back(hologram);
+    }
+  }
+  return found;
+}
+
 /// The holograms (Hn) that a scene of this guidance draws something of.
-std::vector<int> drawn(const Guidance& guidance) {
+std::vector<HologramKind> drawn(const Guidance& guidance) {
   SceneBuilder builder;
   render::Scene scene;
   builder.update(guidance);
   builder.write_scene(guidance, scene);
-  std::vector<int> ids;
-  const auto note = [&](render::Label label) { ids.push_back(static_cast<int>(label / 100)); };
+  std::vector<HologramKind> ids;
+  const auto note = [&](render::Label label) { ids.push_back(kind_of(label)); };
   for (const auto& item : scene.meshes) {
     note(item.label);
   }
@@ -65,10 +87,10 @@ std::vector<int> drawn(const Guidance& guidance) {
 }
 
 /// The same of what the display is told.
-std::vector<int> told(const Guidance& guidance) {
-  std::vector<int> ids;
+std::vector<HologramKind> told(const Guidance& guidance) {
+  std::vector<HologramKind> ids{kStatus};
   for (const ShownHologram& h : shown(guidance).holograms) {
-    ids.push_back(std::stoi(h.name.substr(1)));
+    ids.push_back(h.kind);
   }
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -89,9 +111,10 @@ class Guiding : public ::testing::Test {
 TEST(SceneBuilder, AlwaysShowsTheStatusLine) {
   ScriptedOperation s;
   const ShownFrame frame = shown(s.pair());
-  ASSERT_EQ(frame.holograms.size(), 1u);
-  EXPECT_EQ(frame.holograms[0].name, "H11 status");
-  EXPECT_EQ(frame.holograms[0].text, "setup");
+  EXPECT_TRUE(frame.holograms.empty());
+  ASSERT_TRUE(frame.status.has_value());
+  EXPECT_EQ(frame.status->at, (StepOnDisplay{Step::kSetup, {}, {}}));
+  EXPECT_EQ(frame.status->text, "setup");
 }
 
 TEST(SceneBuilder, ShowsPathsWhileDigitizingAndNothingThatGuides) {
@@ -99,29 +122,26 @@ TEST(SceneBuilder, ShowsPathsWhileDigitizingAndNothingThatGuides) {
   s.tracker().pointer = pointer_at({0, 0.02, 0});
   s.says("start");
   const Guidance& g = s.strokes(5);
-  EXPECT_THAT(drawn(g), ::testing::ElementsAre(1, 11));
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(kPath, kStatus));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame frame = shown(g);
-  ASSERT_NE(find(frame, "H1 path"), nullptr);
-  EXPECT_EQ(find(frame, "H1 path")->points_in_world.size(), 5u);
-  EXPECT_EQ(find(frame, "H11 status")->text, "digitize L4 | 5 points");
+  ASSERT_NE(find(frame, kPath), nullptr);
+  EXPECT_EQ(find(frame, kPath)->points_in_world.size(), 5u);
+  EXPECT_EQ(frame.status->text, "digitize L4 | 5 points");
 }
 
 TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
   s.registers_first_level();
   // What was stroked there says where the bone is bare.
-  EXPECT_EQ(find(shown(s.pair()), "H12 check point"), nullptr) << "none yet";
+  EXPECT_EQ(touched(shown(s.pair())).size(), 0u) << "none yet";
   s.touches({0.0, 0.0204, 0.0});
   const Guidance& g = s.touches({0.02, 0.0231, 0.0});
-  EXPECT_THAT(drawn(g), ::testing::ElementsAre(1, 2, 11, 12));
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(kPath, kVertebra, kStatus, kCheckPoint));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame frame = shown(g);
   std::vector<std::string> texts;
-  for (const ShownHologram& hologram : frame.holograms) {
-    if (hologram.name != "H12 check point") {
-      continue;
-    }
+  for (const ShownHologram& hologram : touched(frame)) {
     texts.push_back(hologram.text);
     ASSERT_EQ(hologram.points_in_world.size(), 1u);
   }
@@ -142,7 +162,7 @@ TEST(SceneBuilder, DrawsCheckPointsWhereTheyWereTouchedGreenOrRed) {
   EXPECT_EQ(colour(1201 + open), look::kGreen);
   EXPECT_EQ(colour(1202 + open), look::kRed);
   // They go with the surface that they checked.
-  EXPECT_THAT(drawn(s.says("reject")), ::testing::Not(::testing::Contains(12)));
+  EXPECT_THAT(drawn(s.says("reject")), ::testing::Not(::testing::Contains(kCheckPoint)));
 }
 
 TEST(SceneBuilder, FadesADeletedRegionAndThenForgetsIt) {
@@ -156,7 +176,7 @@ TEST(SceneBuilder, FadesADeletedRegionAndThenForgetsIt) {
     builder.update(g);
     builder.write_scene(g, scene);
     for (const auto& line : scene.lines) {
-      if (line.label / 100 == 1) {
+      if (kind_of(line.label) == kPath) {
         return line.colour.a;
       }
     }
@@ -177,11 +197,11 @@ TEST(SceneBuilder, ShowsTheBoneToVerifyButNoEntryPointsYet) {
   s.strokes(5);
   s.says("save");
   const Guidance& g = s.does({kDoubleClick});
-  EXPECT_THAT(drawn(g), ::testing::ElementsAre(1, 2, 11));
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(kPath, kVertebra, kStatus));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame frame = shown(g);
-  ASSERT_NE(find(frame, "H2 vertebra"), nullptr);
-  const auto& landmarks = find(frame, "H2 vertebra")->points_in_world;
+  ASSERT_NE(find(frame, kVertebra), nullptr);
+  const auto& landmarks = find(frame, kVertebra)->points_in_world;
   ASSERT_EQ(landmarks.size(), 4u);
   // The box reaches 20 mm back, 30 mm to either side, 25 mm up.
   EXPECT_NEAR(landmarks[0].v.y, 0.020, kExact);
@@ -219,25 +239,26 @@ TEST(SceneBuilder, PutsHologramsWhereTheRegistrationSays) {
   s.registration.world_from_vertebra = pose;
   const Guidance& g = s.accepts_first_level();
   const ShownFrame frame = shown(g);
-  const ShownHologram* entry = find(frame, "H3 entry L4 left");
+  const ShownHologram* entry = find_entry(frame, "L4", Side::kLeft);
   ASSERT_NE(entry, nullptr);
   EXPECT_EQ(entry->text, "L4 left");
   const Point<World> expected = pose * Point<Vertebra>{kLeftEntry};
   EXPECT_NEAR((entry->points_in_world[0] - expected).norm(), 0.0, kExact);
-  EXPECT_NE(find(frame, "H3 entry L4 right"), nullptr);
+  EXPECT_NE(find_entry(frame, "L4", Side::kRight), nullptr);
 }
 
 TEST_F(Guiding, ShowsPlanTriangleAndAngle) {
   const Guidance& g = s.pair();
-  EXPECT_THAT(drawn(g), ::testing::ElementsAre(3, 4, 5, 6, 7, 9, 11));
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(kEntry, kTrajectory, kTriangle, kAngle, kCross,
+                                               kDepth, kStatus));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame frame = shown(g);
-  EXPECT_EQ(find(frame, "H6 angle")->text, "5.7°");  // 0.1 rad
-  const auto& line = find(frame, "H4 trajectory")->points_in_world;
+  EXPECT_EQ(find(frame, kAngle)->text, "5.7°");  // 0.1 rad
+  const auto& line = find(frame, kTrajectory)->points_in_world;
   ASSERT_EQ(line.size(), 3u);
   EXPECT_NEAR((line[0].v - Vec3{0.015, 0.080, 0}).norm(), 0.0, 1e-8) << "60 mm outside";
   EXPECT_NEAR((line[1].v - kLeftEntry).norm(), 0.0, kExact);
-  const auto& triangle = find(frame, "H5 triangle")->points_in_world;
+  const auto& triangle = find(frame, kTriangle)->points_in_world;
   ASSERT_EQ(triangle.size(), 3u);
   EXPECT_NEAR((triangle[0].v - kLeftEntry).norm(), 0.0, kExact);
   EXPECT_NEAR((triangle[1] - triangle[0]).norm(), nav::kTriangleReach_m, kExact);
@@ -249,16 +270,16 @@ TEST_F(Guiding, TheCrossHasADotForTheTipAndOneForTheToolFartherUp) {
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.0);
   const Guidance& g = s.pairs(2);
   const ShownFrame frame = shown(g);
-  const auto& points = find(frame, "H7 cross")->points_in_world;
+  const auto& points = find(frame, kCross)->points_in_world;
   ASSERT_EQ(points.size(), 3u);
   const double drawn_m = static_cast<double>(kCrossScale) * 0.002;
   EXPECT_NEAR((points[1] - points[0]).norm(), drawn_m, 1e-6);
   EXPECT_NEAR((points[2] - points[1]).norm(), 0.0, 1e-6) << "parallel";
-  EXPECT_EQ(find(frame, "H7 cross")->text, "");
+  EXPECT_EQ(find(frame, kCross)->text, "");
   // Turned about its tip: the tip's dot stays, the other goes.
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.02);
   const ShownFrame turned = shown(s.pairs(2));
-  const auto& after = find(turned, "H7 cross")->points_in_world;
+  const auto& after = find(turned, kCross)->points_in_world;
   EXPECT_NEAR((after[1] - points[1]).norm(), 0.0, 1e-6);
   EXPECT_GT((after[2] - points[2]).norm(), 0.003);
 }
@@ -266,69 +287,69 @@ TEST_F(Guiding, TheCrossHasADotForTheTipAndOneForTheToolFartherUp) {
 TEST_F(Guiding, TheCrossShowsNoDotOfAPredictionAndSaysWhenTheToolIsLost) {
   s.tracker().guide_origin = PoseStatus::kPredicted;
   const ShownFrame predicted = shown(s.pair());
-  EXPECT_EQ(find(predicted, "H7 cross")->points_in_world.size(), 1u);
-  EXPECT_EQ(find(predicted, "H7 cross")->text, "");
-  EXPECT_EQ(find(predicted, "H9 depth"), nullptr);
+  EXPECT_EQ(find(predicted, kCross)->points_in_world.size(), 1u);
+  EXPECT_EQ(find(predicted, kCross)->text, "");
+  EXPECT_EQ(find(predicted, kDepth), nullptr);
   const ShownFrame lost = shown(s.pairs(4));
-  EXPECT_EQ(find(lost, "H7 cross")->points_in_world.size(), 1u);
-  EXPECT_EQ(find(lost, "H7 cross")->text, "tool lost");
+  EXPECT_EQ(find(lost, kCross)->points_in_world.size(), 1u);
+  EXPECT_EQ(find(lost, kCross)->text, "tool lost");
 }
 
 TEST_F(Guiding, SaysHowFarItIsToTheEntryAndThenToTheTarget) {
-  EXPECT_EQ(find(shown(s.pair()), "H9 depth")->text, "10.0 mm to entry");
+  EXPECT_EQ(find(shown(s.pair()), kDepth)->text, "10.0 mm to entry");
   s.tracker().guide = guide_at(kLeftEntry - Vec3{0, 0.004, 0}, 0.0);
-  const std::string inside = find(shown(s.pairs(2)), "H9 depth")->text;
+  const std::string inside = find(shown(s.pairs(2)), kDepth)->text;
   EXPECT_THAT(inside, ::testing::EndsWith(" mm to target"));
   s.tracker().guide = guide_at(kLeftEntry - Vec3{0, 0.039, 0}, 0.0);
-  EXPECT_THAT(find(shown(s.pairs(2)), "H9 depth")->text, ::testing::EndsWith(" mm past target"));
+  EXPECT_THAT(find(shown(s.pairs(2)), kDepth)->text, ::testing::EndsWith(" mm past target"));
 }
 
 TEST_F(Guiding, TheTwinComesAndGoesOnRequest) {
-  EXPECT_EQ(find(shown(s.pair()), "H8 twin"), nullptr);
+  EXPECT_EQ(find(shown(s.pair()), kTwin), nullptr);
   const Guidance& g = s.says("twin");
-  EXPECT_THAT(drawn(g), ::testing::Contains(8));
+  EXPECT_THAT(drawn(g), ::testing::Contains(kTwin));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame frame = shown(g);
-  const auto& twin = find(frame, "H8 twin")->points_in_world;
-  const auto& line = find(frame, "H4 trajectory")->points_in_world;
+  const auto& twin = find(frame, kTwin)->points_in_world;
+  const auto& line = find(frame, kTrajectory)->points_in_world;
   ASSERT_EQ(twin.size(), 2u);
   EXPECT_NEAR((twin[1] - twin[0]).norm(), 2.0 * (line[2] - line[1]).norm(), 1e-6);
-  EXPECT_EQ(find(shown(s.says("twin")), "H8 twin"), nullptr);
+  EXPECT_EQ(find(shown(s.says("twin")), kTwin), nullptr);
 }
 
 TEST_F(Guiding, HidesTheTriangleBeyond40mmAndShowsItWithin) {
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.0399, 0}, 0.0);
   s.pair();
-  EXPECT_NE(find(shown(s.pair()), "H5 triangle"), nullptr);
+  EXPECT_NE(find(shown(s.pair()), kTriangle), nullptr);
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0, 0.0401, 0}, 0.0);
   s.pair();
   const ShownFrame far = shown(s.pair());
-  EXPECT_EQ(find(far, "H5 triangle"), nullptr);
-  EXPECT_EQ(find(far, "H6 angle"), nullptr);
-  EXPECT_NE(find(far, "H4 trajectory"), nullptr);
+  EXPECT_EQ(find(far, kTriangle), nullptr);
+  EXPECT_EQ(find(far, kAngle), nullptr);
+  EXPECT_NE(find(far, kTrajectory), nullptr);
 }
 
 TEST_F(Guiding, ALostToolHidesTheTriangleAndTheNumberSaysSo) {
   // The tracker goes on predicting; the overlay stands for a moment, without a number.
   s.tracker().guide_origin = PoseStatus::kPredicted;
   const Guidance& fresh = s.pair();
-  EXPECT_NE(find(shown(fresh), "H5 triangle"), nullptr);
-  EXPECT_EQ(find(shown(fresh), "H6 angle")->text, "--.-°");
+  EXPECT_NE(find(shown(fresh), kTriangle), nullptr);
+  EXPECT_EQ(find(shown(fresh), kAngle)->text, "--.-°");
   EXPECT_EQ(drawn(fresh), told(fresh));
   const Guidance& g = s.pairs(4);
   const ShownFrame frame = shown(g);
-  EXPECT_EQ(find(frame, "H5 triangle"), nullptr);
-  ASSERT_NE(find(frame, "H6 angle"), nullptr);
-  EXPECT_EQ(find(frame, "H6 angle")->text, "--.-°");
-  EXPECT_EQ(find(frame, "H11 status")->text, "guide L4 left | guide lost");
+  EXPECT_EQ(find(frame, kTriangle), nullptr);
+  ASSERT_NE(find(frame, kAngle), nullptr);
+  EXPECT_EQ(find(frame, kAngle)->text, "--.-°");
+  EXPECT_EQ(frame.status->text, "guide L4 left | guide lost");
 }
 
 TEST_F(Guiding, AFrameThatLightsUpTooLateShowsNoTriangle) {
   // Fresh when it was computed; the display is what makes it old.
   s.latency = std::chrono::milliseconds(101);
-  EXPECT_EQ(find(shown(s.pair()), "H5 triangle"), nullptr);
+  EXPECT_EQ(find(shown(s.pair()), kTriangle), nullptr);
   s.latency = std::chrono::milliseconds(99);
-  EXPECT_NE(find(shown(s.pair()), "H5 triangle"), nullptr);
+  EXPECT_NE(find(shown(s.pair()), kTriangle), nullptr);
 }
 
 TEST_F(Guiding, TicksAScrewThatIsDone) {
@@ -358,7 +379,7 @@ TEST_F(Guiding, TicksAScrewThatIsDone) {
 
 TEST_F(Guiding, ARejectedRegistrationTakesItsHologramsAlong) {
   const Guidance& g = s.says("reject");
-  EXPECT_THAT(drawn(g), ::testing::ElementsAre(11));
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(kStatus));
   EXPECT_EQ(drawn(g), told(g));
 }
 
@@ -370,14 +391,15 @@ TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
   s.says("next");
   s.touches({0.02, 0.03, 0.00});
   const Guidance& g = s.touches({0.02, 0.03, 0.04});
-  EXPECT_THAT(drawn(g), ::testing::ElementsAre(3, 10, 11));
+  EXPECT_THAT(drawn(g), ::testing::ElementsAre(kEntry, kRod, kStatus));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame in_place = shown(g);
-  ASSERT_NE(find(in_place, "H3 entry L5 left"), nullptr);
-  EXPECT_EQ(find(in_place, "H3 entry L5 left")->text, "") << "names would cover the rod's length";
-  const auto before = find(in_place, "H10 rod")->points_in_world;
+  ASSERT_NE(find_entry(in_place, "L5", Side::kLeft), nullptr);
+  EXPECT_EQ(find_entry(in_place, "L5", Side::kLeft)->text, "")
+      << "names would cover the rod's length";
+  const auto before = find(in_place, kRod)->points_in_world;
   const ShownFrame moved = shown(s.says("move rod"));
-  const auto after = find(moved, "H10 rod")->points_in_world;
+  const auto after = find(moved, kRod)->points_in_world;
   ASSERT_EQ(before.size(), 2u);
   ASSERT_EQ(after.size(), 2u);
   EXPECT_NEAR((after[0] - before[0]).norm(), 0.150, kExact);
@@ -399,7 +421,7 @@ TEST(SceneBuilder, ARodThatCantBeMadeHasNoLength) {
   builder.update(g);
   builder.write_scene(g, scene);
   for (const render::TextItem& text : scene.texts) {
-    EXPECT_NE(text.label / 100, 10u);
+    EXPECT_NE(kind_of(text.label), kRod);
   }
 }
 
@@ -428,14 +450,14 @@ TEST_F(Guiding, WhatIsDrawnTooLateLosesTriangleAndNumber) {
   hide_tool_guidance(scene);
   EXPECT_TRUE(scene.triangles.empty());
   for (const render::LineItem& line : scene.lines) {
-    EXPECT_NE(line.label / 100, 5u);
+    EXPECT_NE(kind_of(line.label), kTriangle);
   }
   render::Scene late;
   builder.update(g, g.tool->pose_time + g.stale_after + Duration(1));
   builder.write_scene(g, late);
   const auto readout = [](const render::Scene& of) {
     for (const render::TextItem& text : of.texts) {
-      if (text.label / 100 == 6) {
+      if (kind_of(text.label) == kAngle) {
         return text.runs.at(0).text;
       }
     }
@@ -445,17 +467,17 @@ TEST_F(Guiding, WhatIsDrawnTooLateLosesTriangleAndNumber) {
   const auto cross = [](const render::Scene& of) {
     std::vector<std::pair<render::Label, std::string>> items;
     for (const render::MeshItem& mesh : of.meshes) {
-      if (mesh.label / 100 == 7) {
+      if (kind_of(mesh.label) == kCross) {
         items.emplace_back(mesh.label, "surface");
       }
     }
     for (const render::LineItem& line : of.lines) {
-      if (line.label / 100 == 7) {
+      if (kind_of(line.label) == kCross) {
         items.emplace_back(line.label, "line");
       }
     }
     for (const render::TextItem& text : of.texts) {
-      if (text.label / 100 == 7) {
+      if (kind_of(text.label) == kCross) {
         items.emplace_back(text.label, text.runs.at(0).text);
       }
     }
@@ -489,7 +511,7 @@ TEST(SceneBuilder, MakesATubeOnceForARod) {
     std::size_t most = 0;
     std::shared_ptr<const render::MeshData> found;
     for (const auto& item : scene.meshes) {
-      if (item.label / 100 == 10 && item.mesh->positions.size() > most &&
+      if (kind_of(item.label) == kRod && item.mesh->positions.size() > most &&
           item.colour == look::kTitanium) {
         found = item.mesh, most = item.mesh->positions.size();
       }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/scene_builder.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/scripted_operation.h"
@@ -27,8 +28,8 @@ class Frames {
     make(guidance);
     hide_tool_guidance(scene_);
   }
-  [[nodiscard]] bool shows(std::uint32_t hologram) const {
-    const auto is = [&](const auto& item) { return item.label / 100 == hologram; };
+  [[nodiscard]] bool shows(HologramKind hologram) const {
+    const auto is = [&](const auto& item) { return kind_of(item.label) == hologram; };
     return std::any_of(scene_.meshes.begin(), scene_.meshes.end(), is) ||
            std::any_of(scene_.lines.begin(), scene_.lines.end(), is) ||
            std::any_of(scene_.texts.begin(), scene_.texts.end(), is);
@@ -69,7 +70,7 @@ TEST_F(FrameAllocations, AreNoneWhileDigitizing) {
   s.says("start");
   const Guidance& g = s.strokes(40);
   EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
-  EXPECT_TRUE(frames.shows(1));
+  EXPECT_TRUE(frames.shows(HologramKind::kPath));
 }
 
 TEST_F(FrameAllocations, AreNoneWhileVerifying) {
@@ -77,8 +78,8 @@ TEST_F(FrameAllocations, AreNoneWhileVerifying) {
   touched.registers_first_level();
   const Guidance& g = touched.touches({0.0, 0.0204, 0.0});
   EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
-  EXPECT_TRUE(frames.shows(2));
-  EXPECT_TRUE(frames.shows(12));
+  EXPECT_TRUE(frames.shows(HologramKind::kVertebra));
+  EXPECT_TRUE(frames.shows(HologramKind::kCheckPoint));
 }
 
 TEST_F(FrameAllocations, AreNoneWhileAToolIsGuided) {
@@ -92,8 +93,10 @@ TEST_F(FrameAllocations, AreNoneWhileAToolIsGuided) {
     frames.make(far);
   };
   EXPECT_EQ(allocations_of(both), 0u);
-  for (const std::uint32_t hologram : {3, 4, 5, 6, 7, 8, 9, 11}) {
-    EXPECT_TRUE(frames.shows(hologram)) << "H" << hologram;
+  using enum HologramKind;
+  for (const HologramKind kind :
+       {kEntry, kTrajectory, kTriangle, kAngle, kCross, kTwin, kDepth, kStatus}) {
+    EXPECT_TRUE(frames.shows(kind)) << "H" << static_cast<int>(kind);
   }
 }
 
@@ -101,7 +104,7 @@ TEST_F(FrameAllocations, AreNoneWhereGuidanceIsTakenBack) {
   guide();
   const Guidance& g = s.pair();
   EXPECT_EQ(allocations_of([&] { frames.make_too_late(g); }), 0u);
-  EXPECT_FALSE(frames.shows(5));
+  EXPECT_FALSE(frames.shows(HologramKind::kTriangle));
 }
 
 TEST_F(FrameAllocations, AreNoneWhileARodIsShown) {
@@ -114,7 +117,7 @@ TEST_F(FrameAllocations, AreNoneWhileARodIsShown) {
   const Guidance& g = one.touches({0.02, 0.03, 0.04});
   ASSERT_TRUE(g.rods[0].rod.has_value());
   EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
-  EXPECT_TRUE(frames.shows(10));
+  EXPECT_TRUE(frames.shows(HologramKind::kRod));
 }
 
 TEST_F(FrameAllocations, OfAnotherSceneAreCounted) {

@@ -143,9 +143,9 @@ TEST(RegistrationPage, EscapesWhatItIsTold) {
   RegisteredLevel level = exact();
   level.label = "<b>L4";
   level.registration.accepted = false;
-  level.registration.reasons = {"a < b"};
+  level.registration.reasons = {{nav::RefusalReason::Kind::kFitsOtherLevel, 0.0, 0.0, {}, "a < b"}};
   const std::string page = registration_page(level, "\"<i>.csv").value();
-  EXPECT_THAT(page, AllOf(HasSubstr("&lt;b&gt;L4"), HasSubstr("A &lt; b"),
+  EXPECT_THAT(page, AllOf(HasSubstr("&lt;b&gt;L4"), HasSubstr("level a &lt; b"),
                           HasSubstr("&quot;&lt;i&gt;.csv"), HasSubstr(">refused</span>")));
   EXPECT_THAT(page, AllOf(Not(HasSubstr("<b>L4<")), Not(HasSubstr("<i>.csv"))));
 }
@@ -212,8 +212,9 @@ TEST(RegistrationFigures, MeasureTheRunnerUpAtTheWorstScrew) {
 
 TEST(RegistrationFigures, SayHowSureInPlainWords) {
   RegisteredLevel level = exact();
-  level.registration.weakest = "slides along the spine (0.4 mm at the screws)";
-  level.registration.advice = "stroke the left lamina";
+  level.registration.weakest = {nav::UncertainMotion::Kind::kCraniocaudal, 0.0004};
+  level.registration.stroke_next = {nav::BonePlace::Part::kLamina, Side::kLeft,
+                                    nav::BonePlace::Height::kMiddle};
   EXPECT_THAT(certainty_of(level),
               AllOf(StartsWith("95 of 100 errors at the screws are expected to be below 0.6"),
                     HasSubstr("Least sure: slides along the spine (0.4 mm at the screws). To know "

@@ -1,4 +1,5 @@
 #include "engine/session/coach.h"
+#include "engine/session/wording.h"
 
 #include <gmock/gmock.h>
 
@@ -12,22 +13,28 @@
 #include "base/random.h"
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
+#include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::coach_test {
 namespace {
 
 using test::pointer_at;
+using test::said;
 using test::ScriptedOperation;
+using test::state;
 using enum ClickerAction;
 using ::testing::HasSubstr;
+
+const nav::BonePlace kLeftLamina{nav::BonePlace::Part::kLamina, Side::kLeft,
+                                 nav::BonePlace::Height::kMiddle};
 
 nav::Registration promising() {
   nav::Registration r;
   r.log_likelihood_ratio = 30.0;
   r.predicted_tre_m = 0.0024;
-  r.advice = "stroke the left lamina";
-  r.reasons = {"error expected at the screws 2.4 mm, limit 1.5 mm"};
+  r.stroke_next = kLeftLamina;
+  r.reasons = {{nav::RefusalReason::Kind::kTreAtScrews, 0.0024, 0.0015, {}, {}}};
   return r;
 }
 
@@ -56,7 +63,7 @@ TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
 TEST(Coaching, SaysWhatElseStandsAgainstASmallError) {
   nav::Registration r = promising();
   r.predicted_tre_m = 0.0006;
-  r.reasons = {"the points scatter 1.9 mm about the surface, limit 1.6 mm"};
+  r.reasons = {{nav::RefusalReason::Kind::kNoise, 0.0019, 0.0016, {}, {}}};
   EXPECT_EQ(text_of(coaching_from(r)),
             "0.6 mm expected, the points scatter 1.9 mm about the surface, limit 1.6 mm");
 }
@@ -232,7 +239,10 @@ TEST(CoachedSession, ShowsItBesideThePointsAndRegistersNothingByIt) {
   s.says("start");
   s.strokes(120);
   const Guidance& g = s.pairs(20);
-  EXPECT_EQ(g.detail, "120 points | 2.4 mm expected, stroke the left lamina");
+  ASSERT_NE(state<StrokesSoFar>(g), nullptr);
+  EXPECT_EQ(state<StrokesSoFar>(g)->points, 120u);
+  ASSERT_NE(state<StrokesSoFar>(g)->coaching, nullptr);
+  EXPECT_EQ(state<StrokesSoFar>(g)->coaching->stroke_next, kLeftLamina);
   EXPECT_EQ(g.levels[0].attempts, 0);
   EXPECT_FALSE(g.levels[0].registration.has_value());
   EXPECT_EQ(g.step, Step::kDigitize);
@@ -242,12 +252,15 @@ TEST(CoachedSession, ARefusalSaysWhatToStrokeNextAndKeepsSayingIt) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch, true);
   s.registration = promising();
   s.registers_first_level();
-  EXPECT_EQ(s.pair().detail,
-            "refused: error expected at the screws 2.4 mm, limit 1.5 mm; stroke the left lamina");
+  const auto* refused = said<RegistrationRefused>(s.pair());
+  ASSERT_NE(refused, nullptr);
+  EXPECT_EQ(refused->stroke_next, kLeftLamina);
+  EXPECT_FALSE(refused->another_level_fits);
   s.registration.fits_better = "L3";
-  s.registration.reasons = {"the points fit level L3 as well"};
-  EXPECT_EQ(s.does({kDoubleClick}).detail,
-            "refused: the points fit level L3 as well; make sure of the level");
+  s.registration.reasons = {{nav::RefusalReason::Kind::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}};
+  refused = said<RegistrationRefused>(s.does({kDoubleClick}));
+  ASSERT_NE(refused, nullptr);
+  EXPECT_TRUE(refused->another_level_fits);
 }
 
 TEST(CoachedSession, WithoutCoachingThereIsOnlyTheCount) {
@@ -256,7 +269,10 @@ TEST(CoachedSession, WithoutCoachingThereIsOnlyTheCount) {
   s.tracker().pointer = pointer_at({0, 0.02, 0});
   s.says("start");
   s.strokes(120);
-  EXPECT_EQ(s.pairs(20).detail, "120 points");
+  const auto* strokes = state<StrokesSoFar>(s.pairs(20));
+  ASSERT_NE(strokes, nullptr);
+  EXPECT_EQ(strokes->points, 120u);
+  EXPECT_EQ(strokes->coaching, nullptr);
   EXPECT_TRUE(s.registered_points.empty());
 }
 

@@ -158,8 +158,9 @@ TEST_F(JournalTest, TellsWhatBestSaysOfARegistrationAndThePlacesTouchedToCheckIt
   s.registration.coverage_fraction = 0.6;
   s.registration.predicted_tre_m = 0.0008;
   s.registration.tre_95_m = 0.0014;
-  s.registration.weakest = "nods up and down";
-  s.registration.advice = "stroke the left upper lamina";
+  s.registration.weakest = {nav::UncertainMotion::Kind::kFlexion, 0.0012};
+  s.registration.stroke_next = {nav::BonePlace::Part::kLamina, Side::kLeft,
+                                nav::BonePlace::Height::kUpper};
   s.registration.fits_better = "L4";
   s.registers_first_level();
   s.touches({0.0, 0.0213, 0.0});
@@ -181,7 +182,7 @@ TEST_F(JournalTest, TellsWhatBestSaysOfARegistrationAndThePlacesTouchedToCheckIt
   EXPECT_DOUBLE_EQ(line["coverage_share"], 0.6);
   EXPECT_DOUBLE_EQ(line["expected_tre_mm"], 0.8);
   EXPECT_DOUBLE_EQ(line["tre_95_mm"], 1.4);
-  EXPECT_EQ(line["weakest"], "nods up and down");
+  EXPECT_EQ(line["weakest"], "nods up and down (1.2 mm at the screws)");
   EXPECT_EQ(line["advice"], "stroke the left upper lamina");
   EXPECT_EQ(line["fits_better"], "L4");
   EXPECT_EQ(line["warning"], "pointer: tag 3.2 % smaller than stated, check print and unit");

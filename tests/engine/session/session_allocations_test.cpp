@@ -2,6 +2,7 @@
 
 #include "engine/session/session.h"
 #include "tests/support/allocation_count.h"
+#include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::session_allocations_test {
@@ -9,7 +10,10 @@ namespace {
 
 using test::guide_at;
 using test::pointer_at;
+using test::said;
 using test::ScriptedOperation;
+using test::state;
+using test::step_of;
 using enum ClickerAction;
 
 constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
@@ -64,7 +68,7 @@ TEST(SessionAllocations, AreNoneWhileDigitizing) {
   s.strokes(40);
   s.says("save");
   s.strokes(40);
-  EXPECT_EQ(s.pair().detail, "80 points");
+  EXPECT_EQ(state<StrokesSoFar>(s.pair())->points, 80u);
   EXPECT_EQ(allocations_once_warm(s), 0u);
   EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
 }
@@ -80,12 +84,12 @@ TEST(SessionAllocations, AreNoneWhileSamplesAreRecorded) {
 TEST(SessionAllocations, AreNoneWhileCoachingTellsWhatToStroke) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch, true);
   s.registration.accepted = false;
-  s.registration.advice = "stroke the left lamina, from its base to the spinous process";
+  s.registration.stroke_next = nav::BonePlace{nav::BonePlace::Part::kLamina, Side::kLeft, {}};
   s.tracker().pointer = pointer_at(kFirst);
   s.says("start");
   s.strokes(static_cast<int>(Coach::kFewestSamples));
   s.pairs(Coach::kPairsToAnswer);
-  EXPECT_TRUE(s.pair().detail.ends_with("spinous process")) << s.pair().detail;
+  ASSERT_NE(state<StrokesSoFar>(s.pair())->coaching, nullptr);
   EXPECT_EQ(allocations_once_warm(s), 0u);
 }
 
@@ -97,7 +101,7 @@ TEST(SessionAllocations, AreNoneWhileVerifyingByTouch) {
     s.touches(place);
     EXPECT_EQ(allocations_once_warm(s), 0u);
   }
-  EXPECT_TRUE(s.pair().detail.ends_with("checked, worst 0.0 mm")) << s.pair().detail;
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kPassed);
   EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
 }
 
@@ -105,7 +109,7 @@ TEST(SessionAllocations, AreNoneWhileACheckPointIsTooFarOff) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
   s.registers_first_level();
   s.touches(kFirst + Vec3{0, 0.004, 0});
-  EXPECT_TRUE(s.pair().detail.ends_with("reject and stroke again")) << s.pair().detail;
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kReject);
   EXPECT_EQ(allocations_once_warm(s), 0u);
 }
 
@@ -145,7 +149,7 @@ TEST(SessionAllocations, AreNoneWhileATagOfTheWrongSizeIsWarnedOf) {
   ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
   s.tracker().size = nav::TagSize{.fraction = 0.03, .disagrees = true};
   s.registers_first_level();
-  EXPECT_TRUE(s.pairs(kWarm).detail.starts_with("pointer: tag 3.0 % larger than stated"));
+  EXPECT_EQ(s.pairs(kWarm).status.tag_size_off, 0.03);
   EXPECT_EQ(allocations_once_warm(s), 0u);
 }
 
@@ -155,11 +159,11 @@ TEST(SessionAllocations, AreNoneWhileHeadsAreTouchedAndOnceAllIsDone) {
   for (int i = 0; i < 3; ++i) {
     s.says("next");
   }
-  EXPECT_EQ(s.pair().step_text, "rod left");
+  EXPECT_EQ(step_of(s.pair()), "rod left");
   EXPECT_EQ(allocations_once_warm(s), 0u) << "with no head touched";
   s.touches({0, 0.02, 0});
   s.touches({0, 0.02, 0.03});
-  EXPECT_EQ(s.pair().detail, "2 heads");
+  EXPECT_EQ(state<HeadsSoFar>(s.pair())->count, 2u);
   EXPECT_EQ(allocations_once_warm(s), 0u);
   EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
   s.says("done");

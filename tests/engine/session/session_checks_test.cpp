@@ -1,13 +1,20 @@
 #include <gmock/gmock.h>
 
 #include "engine/session/session.h"
+#include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::session_checks_test {
 namespace {
 
+using test::advice;
+using test::notice_of;
 using test::pointer_at;
+using test::said;
 using test::ScriptedOperation;
+using test::state;
+using test::step_of;
+using test::touch_refusal;
 using enum ClickerAction;
 using ::testing::HasSubstr;
 
@@ -18,6 +25,11 @@ constexpr Vec3 kFirst{-0.015, 0.020, -0.010};
 constexpr Vec3 kSecond{0.015, 0.020, -0.010};
 constexpr Vec3 kThird{0.000, 0.020, 0.012};
 
+/// Asks for so many places, apart from each other.
+bool asks_for(const nav::CheckAdvice& advice, std::size_t places) {
+  return advice.kind == nav::CheckAdvice::Kind::kTouchApart && advice.number == places;
+}
+
 /// In `verify`, with a registration that puts the box where it is: World is Vertebra.
 class CheckedSession : public ::testing::Test {
  protected:
@@ -27,16 +39,18 @@ class CheckedSession : public ::testing::Test {
 };
 
 TEST_F(CheckedSession, AcceptsOnceThreeSpreadPlacesLieOnTheSurface) {
-  EXPECT_THAT(s.pair().detail, HasSubstr("expected; touch 3 places, 15 mm apart"));
-  EXPECT_EQ(s.says("accept").step_text, "verify L4");
-  EXPECT_EQ(s.pair().detail, "not accepted: touch 3 places, 15 mm apart");
-  EXPECT_THAT(s.touches(kFirst).detail, HasSubstr("touch 2 more places, 15 mm from the others"));
+  EXPECT_TRUE(asks_for(advice(s.pair()), 3));
+  EXPECT_EQ(step_of(s.says("accept")), "verify L4");
+  ASSERT_NE(said<ChecksMissing>(s.pair()), nullptr);
+  EXPECT_TRUE(asks_for(said<ChecksMissing>(s.pair())->advice, 3));
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore);
+  EXPECT_TRUE(asks_for(advice(s.touches(kFirst)), 2));
   EXPECT_EQ(s.says("accept").step, Step::kVerify);
-  EXPECT_THAT(s.touches(kSecond).detail, HasSubstr("touch 1 more place, 15 mm from the others"));
+  EXPECT_TRUE(asks_for(advice(s.touches(kSecond)), 1));
   EXPECT_EQ(s.says("accept").step, Step::kVerify);
-  EXPECT_THAT(s.touches(kThird).detail, HasSubstr("checked, worst 0.0 mm"));
-  EXPECT_FALSE(s.pair().levels[0].accepted) << "the word is still his";
-  EXPECT_EQ(s.says("accept").step_text, "accepted L4");
+  EXPECT_EQ(checks_asked(s.touches(kThird).status), ChecksAsked::kPassed);
+  EXPECT_FALSE(s.pair().levels[0].accepted) << "the word is still theirs";
+  EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
   EXPECT_TRUE(s.pair().levels[0].accepted);
 }
 
@@ -47,17 +61,24 @@ TEST_F(CheckedSession, RecordsTheSignedDistanceFromTheSurface) {
   EXPECT_NEAR(points()[0].distance_m, 0.0012, kExact);
   EXPECT_NEAR(points()[1].distance_m, -0.0007, kExact);
   EXPECT_NEAR((points()[0].place.v - kFirst).norm(), 0.0012, kExact);
-  EXPECT_THAT(s.pair().detail, HasSubstr("check point 2: -0.7 mm off"));
+  ASSERT_NE(state<ChecksSoFar>(s.pair()), nullptr);
+  EXPECT_EQ(state<ChecksSoFar>(s.pair())->count, 2u);
+  EXPECT_NEAR(state<ChecksSoFar>(s.pair())->last_m.value_or(1.0), -0.0007, kExact);
 }
 
 TEST_F(CheckedSession, AcceptsNothingWithAPlaceTooFarOff) {
   s.touches(kFirst);
   s.touches(kSecond + Vec3{0, 0.0031, 0});
   s.touches(kThird);
-  const char* why = "check point 2 is 3.1 mm off, limit 2.0 mm: reject and stroke again";
-  EXPECT_THAT(s.pair().detail, HasSubstr(why));
+  const nav::CheckAdvice why = advice(s.pair());
+  EXPECT_EQ(why.kind, nav::CheckAdvice::Kind::kReject);
+  EXPECT_EQ(why.number, 2u);
+  EXPECT_NEAR(why.value_m, 0.0031, kExact);
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kReject);
   EXPECT_EQ(s.says("accept").step, Step::kVerify);
-  EXPECT_EQ(s.pair().detail, std::string("not accepted: ") + why);
+  ASSERT_NE(said<ChecksMissing>(s.pair()), nullptr);
+  EXPECT_EQ(said<ChecksMissing>(s.pair())->advice.kind, nav::CheckAdvice::Kind::kReject);
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kReject) << "in a message as well";
   // The twin: as far as the limit lets it.
   ScriptedOperation near({"L4"}, {}, Verification::kByTouch);
   near.registers_first_level();
@@ -71,12 +92,12 @@ TEST_F(CheckedSession, TheSamePlaceThreeTimesIsOnePlace) {
   for (int i = 0; i < 3; ++i) {
     s.touches(kFirst + Vec3{0.001 * i, 0, 0});
   }
-  EXPECT_THAT(s.pair().detail, HasSubstr("touch 2 more places"));
+  EXPECT_TRUE(asks_for(advice(s.pair()), 2));
   EXPECT_EQ(s.says("accept").step, Step::kVerify);
 }
 
 TEST_F(CheckedSession, DeleteDropsTheLastCheckPoint) {
-  EXPECT_EQ(s.says("delete").detail, "no check point to delete");
+  EXPECT_EQ(notice_of(s.says("delete")), Notice::kNothingToDelete);
   s.touches(kFirst);
   s.touches(kSecond + Vec3{0, 0.0031, 0});
   s.says("delete");
@@ -97,14 +118,13 @@ TEST_F(CheckedSession, RejectForgetsThemAndTheNextRegistrationStartsWithNone) {
 TEST_F(CheckedSession, AButtonHeldTooLongOrATipThatMovesRecordsNothing) {
   s.tracker().pointer = pointer_at(kFirst);
   s.does({kPress});
-  EXPECT_EQ(s.does({kHold}).detail, "check point not recorded: hold too long");
+  EXPECT_EQ(touch_refusal(s.does({kHold})).kind, TouchRefusal::Kind::kHeldTooLong);
   s.does({kRelease});
   EXPECT_TRUE(points().empty());
   s.does({kPress});
   s.tracker().pointer = pointer_at(kFirst + Vec3{0.0064, 0, 0});
   s.pair();
-  EXPECT_EQ(s.does({kRelease, kClick}).detail,
-            "check point not recorded: tip moved 3.2 mm, limit 3.0 mm");
+  EXPECT_EQ(touch_refusal(s.does({kRelease, kClick})).kind, TouchRefusal::Kind::kTipMoved);
   EXPECT_TRUE(points().empty());
   EXPECT_EQ(s.touches(kFirst).levels[0].check_points.size(), 1u) << "the next starts anew";
 }
@@ -114,12 +134,15 @@ TEST_F(CheckedSession, RecordsNothingOfAPointerThatIsNotSeen) {
   s.pairs(5);
   const Guidance& g = s.does({kPress, kRelease, kClick});
   EXPECT_TRUE(points().empty());
-  EXPECT_EQ(g.detail, "pointer lost; check point not recorded: pointer not seen");
-  EXPECT_EQ(s.pairs(100).detail, "pointer lost; touch 3 places, 15 mm apart");
+  EXPECT_TRUE(g.status.tool_lost);
+  EXPECT_EQ(touch_refusal(g).kind, TouchRefusal::Kind::kPointerNotSeen);
+  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kNone) << "while the message stands";
+  EXPECT_TRUE(s.pairs(100).status.tool_lost);
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore);
 }
 
 TEST_F(CheckedSession, APressFromTheStrokesIsNoTouch) {
-  EXPECT_EQ(s.does({kClick}).detail, "check point not recorded: press again");
+  EXPECT_EQ(touch_refusal(s.does({kClick})).kind, TouchRefusal::Kind::kPressAgain);
   EXPECT_TRUE(points().empty());
 }
 
@@ -127,7 +150,7 @@ TEST_F(CheckedSession, StopsCountingAtTwenty) {
   for (std::size_t i = 0; i < nav::kMostCheckPoints; ++i) {
     s.touches(kFirst);
   }
-  EXPECT_EQ(s.touches(kFirst).detail, "check point not recorded: there are 20 already");
+  EXPECT_EQ(touch_refusal(s.touches(kFirst)).kind, TouchRefusal::Kind::kTooMany);
   EXPECT_EQ(points().size(), nav::kMostCheckPoints);
 }
 
@@ -142,11 +165,11 @@ TEST_F(CheckedSession, ShowsThemWhileVerifyingOnly) {
 TEST(VerifiedByEye, ClicksSayNothingAndTheWordAccepts) {
   ScriptedOperation s({"L4"}, {}, Verification::kByEye);
   s.registers_first_level();
-  EXPECT_THAT(s.touches(kFirst).detail, ::testing::StartsWith("RMSE"));
+  EXPECT_NE(state<RegistrationFigures>(s.touches(kFirst)), nullptr);
   EXPECT_TRUE(s.session().levels()[0].check_points.empty());
-  EXPECT_EQ(s.says("delete").detail, "not possible now: \"delete\"");
+  EXPECT_EQ(notice_of(s.says("delete")), Notice::kNotPossibleNow);
   s.tracker().pointer.reset();
-  EXPECT_THAT(s.pairs(100).detail, ::testing::StartsWith("RMSE")) << "no tool is in use";
+  EXPECT_FALSE(s.pairs(100).status.tool_lost) << "no tool is in use";
   EXPECT_EQ(s.says("accept").step, Step::kAccepted);
 }
 

@@ -2,31 +2,32 @@
 
 #include "engine/holograms/scene_builder.h"
 #include "engine/session/session.h"
+#include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::session_map_test {
 namespace {
 
 using test::guide_at;
+using test::notice_of;
 using test::pointer_at;
 using test::ScriptedOperation;
+using test::step_of;
 using enum ClickerAction;
 
 constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
 
-/// Names of what a wearer sees, but for the status line.
-std::vector<std::string> holograms(const Guidance& guidance) {
+/// What a wearer sees beside the status line.
+std::vector<HologramKind> holograms(const Guidance& guidance) {
   SceneBuilder builder;
   builder.update(guidance);
   ShownFrame shown;
   builder.write_shown(guidance, shown);
-  std::vector<std::string> names;
+  std::vector<HologramKind> kinds;
   for (const ShownHologram& hologram : shown.holograms) {
-    if (!hologram.name.starts_with("H11")) {
-      names.push_back(hologram.name);
-    }
+    kinds.push_back(hologram.kind);
   }
-  return names;
+  return kinds;
 }
 
 TEST(MapMoved, TheFirstEpochIsNoMove) {
@@ -46,8 +47,8 @@ TEST(MapMoved, DropsWhatWasStroked) {
   ASSERT_EQ(s.pair().regions.size(), 1u);
   ++s.map_epoch;
   const Guidance& g = s.pair();
-  EXPECT_EQ(g.step_text, "digitize L4");
-  EXPECT_EQ(g.detail, "the headset's map moved: digitize again");
+  EXPECT_EQ(step_of(g), "digitize L4");
+  EXPECT_EQ(notice_of(g), Notice::kMapMoved);
   EXPECT_TRUE(g.regions.empty());
   EXPECT_EQ(g.dropped, nullptr);
   EXPECT_THAT(holograms(g), ::testing::IsEmpty());
@@ -109,7 +110,7 @@ TEST(MapMoved, KeepsTheScrewsThatAreInAndGuidesTheOthersAfterANewRegistration) {
   s.says("save");
   s.does({kDoubleClick});
   s.accepts();
-  EXPECT_EQ(s.says("next").step_text, "guide L4 right");
+  EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
 }
 
 /// Both levels guided, and two heads of the left rod touched.
@@ -132,7 +133,7 @@ void comes_to_the_rod(ScriptedOperation& s) {
 TEST(MapMoved, AFinishedLevelStaysInTheReportAndIsShownNoMore) {
   ScriptedOperation s;
   comes_to_the_rod(s);
-  ASSERT_EQ(s.pair().step_text, "rod left");
+  ASSERT_EQ(step_of(s.pair()), "rod left");
   ++s.map_epoch;
   const Guidance& g = s.pair();
   EXPECT_TRUE(g.levels[0].accepted);
@@ -146,8 +147,8 @@ TEST(MapMoved, TheRodUnderWayBeginsAnew) {
   comes_to_the_rod(s);
   ++s.map_epoch;
   const Guidance& g = s.pair();
-  EXPECT_EQ(g.step_text, "rod left");
-  EXPECT_EQ(g.detail, "the headset's map moved: touch this rod's heads again");
+  EXPECT_EQ(step_of(g), "rod left");
+  EXPECT_EQ(notice_of(g), Notice::kMapMoved);
   EXPECT_TRUE(g.rods[0].heads.empty());
   s.touches({0, 0.02, 0});
   EXPECT_EQ(s.touches({0, 0.02, 0.03}).rods[0].heads.size(), 2u);
@@ -163,7 +164,7 @@ TEST(MapMoved, AFinishedRodIsShownNoMore) {
   EXPECT_TRUE(g.rods[0].rod.has_value());
   EXPECT_THAT(holograms(g), ::testing::IsEmpty());
   s.touches({0.02, 0.02, 0});
-  EXPECT_THAT(holograms(s.touches({0.02, 0.02, 0.03})), ::testing::ElementsAre("H10 rod"))
+  EXPECT_THAT(holograms(s.touches({0.02, 0.02, 0.03})), ::testing::ElementsAre(HologramKind::kRod))
       << "only the new one";
 }
 

@@ -1,13 +1,20 @@
 #include <gmock/gmock.h>
 
 #include "engine/session/session.h"
+#include "engine/session/wording.h"
+#include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::session_rod_test {
 namespace {
 
+using test::notice_of;
 using test::pointer_at;
+using test::said;
 using test::ScriptedOperation;
+using test::state;
+using test::step_of;
+using test::touch_refusal;
 using enum ClickerAction;
 
 // Arithmetic on values of the order of 1: far below what any device resolves.
@@ -25,7 +32,7 @@ class RodSession : public ::testing::Test {
 };
 
 TEST_F(RodSession, RecordsHeadsAtTheTipAndJoinsThem) {
-  ASSERT_EQ(s.pair().step_text, "rod left");
+  ASSERT_EQ(step_of(s.pair()), "rod left");
   s.touches({0.02, 0.03, 0.00});
   EXPECT_FALSE(s.session().rods()[0].rod.has_value());
   const Guidance& g = s.touches({0.02, 0.03, 0.04});
@@ -33,7 +40,8 @@ TEST_F(RodSession, RecordsHeadsAtTheTipAndJoinsThem) {
   EXPECT_NEAR((g.rods[0].heads[1].v - Vec3{0.02, 0.03, 0.04}).norm(), 0.0, kExact);
   ASSERT_TRUE(g.rods[0].rod.has_value());
   EXPECT_NEAR(g.rods[0].rod->length_m, 0.04, 1e-6);
-  EXPECT_EQ(g.detail, "2 heads");
+  ASSERT_NE(state<HeadsSoFar>(g), nullptr);
+  EXPECT_EQ(state<HeadsSoFar>(g)->count, 2u);
 }
 
 TEST_F(RodSession, DropsTheLastHead) {
@@ -43,7 +51,7 @@ TEST_F(RodSession, DropsTheLastHead) {
   EXPECT_EQ(g.rods[0].heads.size(), 1u);
   EXPECT_FALSE(g.rods[0].rod.has_value());
   s.says("delete");
-  EXPECT_EQ(s.says("delete").detail, "no head to delete");
+  EXPECT_EQ(notice_of(s.says("delete")), Notice::kNothingToDelete);
 }
 
 TEST_F(RodSession, DoesNotRecordAHeadWithAnUnseenPointer) {
@@ -51,7 +59,8 @@ TEST_F(RodSession, DoesNotRecordAHeadWithAnUnseenPointer) {
   s.pairs(5);
   const Guidance& g = s.does({kPress, kRelease, kClick});
   EXPECT_TRUE(g.rods[0].heads.empty());
-  EXPECT_EQ(g.detail, "pointer lost; head not recorded: pointer not seen");
+  EXPECT_TRUE(g.status.tool_lost);
+  EXPECT_EQ(touch_refusal(g).kind, TouchRefusal::Kind::kPointerNotSeen);
 }
 
 TEST_F(RodSession, MovesTheRodsAwayAndBack) {
@@ -63,9 +72,11 @@ TEST_F(RodSession, MovesTheRodsAwayAndBack) {
 TEST_F(RodSession, AButtonHeldTooLongRecordsNothingAndSaysSo) {
   s.tracker().pointer = pointer_at({0.02, 0.03, 0.00});
   s.does({kPress});
-  EXPECT_EQ(s.does({kHold}).detail, "head not recorded: hold too long");
+  EXPECT_EQ(touch_refusal(s.does({kHold})).kind, TouchRefusal::Kind::kHeldTooLong);
   const Guidance& g = s.does({kRelease});
-  EXPECT_EQ(g.detail, "head not recorded: hold too long") << "letting go does not wipe it";
+  EXPECT_EQ(touch_refusal(g).kind, TouchRefusal::Kind::kHeldTooLong)
+      << "letting go does not wipe it";
+  EXPECT_EQ(said<TouchNotRecorded>(g)->what, TouchNotRecorded::What::kHead);
   EXPECT_TRUE(g.rods[0].heads.empty());
   // The next touch starts anew.
   EXPECT_EQ(s.touches({0.02, 0.03, 0.01}).rods[0].heads.size(), 1u);
@@ -96,7 +107,9 @@ TEST_F(RodSession, RefusesATipThatMoved) {
   EXPECT_EQ(touches_moving(s, 0.0059).rods[0].heads.size(), 1u);
   const Guidance& g = touches_moving(s, 0.0064);
   EXPECT_EQ(g.rods[0].heads.size(), 1u);
-  EXPECT_EQ(g.detail, "head not recorded: tip moved 3.2 mm, limit 3.0 mm");
+  EXPECT_EQ(touch_refusal(g).kind, TouchRefusal::Kind::kTipMoved);
+  EXPECT_NEAR(touch_refusal(g).value_m, 0.0032, kExact);
+  EXPECT_DOUBLE_EQ(touch_refusal(g).limit_m, 0.003);
 }
 
 TEST_F(RodSession, ADoubleClickLeavesNoTouchBehind) {
@@ -109,18 +122,18 @@ TEST_F(RodSession, ADoubleClickLeavesNoTouchBehind) {
   EXPECT_EQ(s.pair().rods[0].heads.size(), 1u);
   // Had the second press gone on touching, the far tips would spoil this one.
   const Guidance& g = s.touches(head + Vec3{0, 0, 0.04});
-  ASSERT_EQ(g.rods[0].heads.size(), 2u) << g.detail;
+  ASSERT_EQ(g.rods[0].heads.size(), 2u) << detail_text(g.status);
   EXPECT_NEAR((g.rods[0].heads[1].v - (head + Vec3{0, 0, 0.04})).norm(), 0.0, kExact);
 }
 
 TEST_F(RodSession, APressForOneRodRecordsNothingOnTheOther) {
   s.tracker().pointer = pointer_at({0.02, 0.03, 0.00});
   s.does({kPress});
-  EXPECT_EQ(s.says("done").step_text, "rod right");
+  EXPECT_EQ(step_of(s.says("done")), "rod right");
   const Guidance& g = s.does({kRelease, kClick});
   EXPECT_TRUE(g.rods[0].heads.empty());
   EXPECT_TRUE(g.rods[1].heads.empty());
-  EXPECT_EQ(g.detail, "head not recorded: press again");
+  EXPECT_EQ(touch_refusal(g).kind, TouchRefusal::Kind::kPressAgain);
 }
 
 }  // namespace

@@ -4,14 +4,19 @@
 
 #include <numbers>
 
+#include "tests/support/said.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine::session_test {
 namespace {
 
 using test::guide_at;
+using test::notice_of;
 using test::pointer_at;
+using test::said;
 using test::ScriptedOperation;
+using test::state;
+using test::step_of;
 using enum ClickerAction;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -24,33 +29,39 @@ double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
 TEST(Session, BeginsWithTheFirstLevelWhenTold) {
   ScriptedOperation s;
-  EXPECT_EQ(s.pair().step_text, "setup");
-  EXPECT_EQ(s.says("start").step_text, "digitize L4");
+  EXPECT_EQ(step_of(s.pair()), "setup");
+  EXPECT_EQ(step_of(s.says("start")), "digitize L4");
 }
 
 TEST(Session, RefusesWhatHasNoMeaningAndSaysSo) {
   ScriptedOperation s;
   const Guidance& g = s.says("accept");
   EXPECT_EQ(g.step, Step::kSetup);
-  EXPECT_THAT(g.detail, HasSubstr("not possible now"));
-  EXPECT_THAT(g.detail, HasSubstr("accept"));
+  ASSERT_NE(said<NotPossibleNow>(g), nullptr);
+  EXPECT_EQ(said<NotPossibleNow>(g)->event, Event::kSayAccept);
 }
 
 TEST(Session, DoesNotActOnWhatItHardlyUnderstood) {
   ScriptedOperation s;
   const Guidance& g = s.says("start", 0.49);
   EXPECT_EQ(g.step, Step::kSetup);
-  EXPECT_EQ(g.detail, "not understood");
+  EXPECT_EQ(notice_of(g), Notice::kNotUnderstood);
   EXPECT_EQ(s.says("start", 0.5).step, Step::kDigitize);
 }
 
 TEST(Session, ShowsForAWhileWhatItHeard) {
   ScriptedOperation s;
-  EXPECT_EQ(s.says("start").heard, "heard: start");
-  EXPECT_EQ(s.says("delete", 0.4).heard, "heard: delete? not sure");
-  EXPECT_EQ(s.pairs(50).heard, "heard: delete? not sure");
-  EXPECT_EQ(s.pairs(15).heard, "") << "two seconds later";
-  EXPECT_EQ(s.says("no command").heard, "");
+  const HeardCommand* heard = s.says("start").status.heard;
+  ASSERT_NE(heard, nullptr);
+  EXPECT_EQ(heard->phrase, "start");
+  EXPECT_TRUE(heard->sure);
+  s.says("delete", 0.4);
+  heard = s.pairs(50).status.heard;
+  ASSERT_NE(heard, nullptr);
+  EXPECT_EQ(heard->phrase, "delete");
+  EXPECT_FALSE(heard->sure);
+  EXPECT_EQ(s.pairs(15).status.heard, nullptr) << "two seconds later";
+  EXPECT_EQ(s.says("no command").status.heard, nullptr);
 }
 
 TEST(Session, SamplesWhileTheButtonIsDownAndNotAfter) {
@@ -62,7 +73,8 @@ TEST(Session, SamplesWhileTheButtonIsDownAndNotAfter) {
   ASSERT_EQ(g.regions.size(), 1u);
   EXPECT_EQ(g.regions[0].samples.size(), 5u);
   EXPECT_FALSE(g.regions[0].saved);
-  EXPECT_EQ(g.detail, "5 points");
+  ASSERT_NE(state<StrokesSoFar>(g), nullptr);
+  EXPECT_EQ(state<StrokesSoFar>(g)->points, 5u);
 }
 
 TEST(Session, DoesNotSampleAToolThatIsNotMeasured) {
@@ -90,14 +102,16 @@ TEST(Session, RegistersWhatWasSavedAndOnlyThat) {
 TEST(Session, StaysInDigitizeWithTheReasonWhenTheNumbersRefuse) {
   ScriptedOperation s;
   s.registration.accepted = false;
-  s.registration.reasons = {"registration RMSE 3.4 mm, limit 3.0 mm"};
+  s.registration.reasons = {{nav::RefusalReason::Kind::kRmse, 0.0034, 0.003, {}, {}}};
   s.tracker().pointer = pointer_at({0, 0.02, 0});
   s.says("start");
   s.strokes(5);
   s.says("save");
   const Guidance& g = s.does({kDoubleClick});
   EXPECT_EQ(g.step, Step::kDigitize);
-  EXPECT_EQ(g.detail, "refused: registration RMSE 3.4 mm, limit 3.0 mm");
+  ASSERT_NE(said<RegistrationRefused>(g), nullptr);
+  ASSERT_EQ(said<RegistrationRefused>(g)->reasons.size(), 1u);
+  EXPECT_EQ(said<RegistrationRefused>(g)->reasons[0].kind, nav::RefusalReason::Kind::kRmse);
   EXPECT_EQ(g.levels[0].attempts, 1);
   EXPECT_FALSE(g.levels[0].registration.has_value());
   // The saved regions stay: more strokes may heal it.
@@ -110,7 +124,9 @@ TEST(Session, SaysWhyARegistrationWasUnusable) {
   s.says("start");
   const Guidance& g = s.does({kDoubleClick});
   EXPECT_EQ(g.step, Step::kDigitize);
-  EXPECT_EQ(g.detail, "refused: 0 points, at least 100 needed");
+  ASSERT_NE(said<RegistrationRefused>(g), nullptr);
+  ASSERT_TRUE(said<RegistrationRefused>(g)->error.has_value());
+  EXPECT_EQ(said<RegistrationRefused>(g)->error->message, s.unusable);
   EXPECT_EQ(g.levels[0].attempts, 1);
 }
 
@@ -121,13 +137,13 @@ TEST(Session, GuidesOnlyAfterTheSurgeonsWord) {
   s.says("start");
   s.strokes(5);
   s.says("save");
-  EXPECT_EQ(s.does({kDoubleClick}).step_text, "verify L4");
+  EXPECT_EQ(step_of(s.does({kDoubleClick})), "verify L4");
   EXPECT_FALSE(s.pair().levels[0].accepted);
   EXPECT_EQ(s.says("next").step, Step::kVerify);
-  EXPECT_EQ(s.says("accept").step_text, "accepted L4");
+  EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
   EXPECT_TRUE(s.pair().levels[0].accepted);
   EXPECT_FALSE(s.pair().tool.has_value());
-  EXPECT_EQ(s.says("next").step_text, "guide L4 left");
+  EXPECT_EQ(step_of(s.says("next")), "guide L4 left");
   EXPECT_TRUE(s.pair().tool.has_value());
 }
 
@@ -146,7 +162,7 @@ TEST(Session, RejectClearsTheLevelInVerifyAcceptedAndGuide) {
       s.says("next");
     }
     const Guidance& g = s.says("reject");
-    EXPECT_EQ(g.step_text, "digitize L4") << words;
+    EXPECT_EQ(step_of(g), "digitize L4") << words;
     EXPECT_FALSE(g.levels[0].registration.has_value()) << words;
     EXPECT_FALSE(g.levels[0].accepted) << words;
     EXPECT_TRUE(g.regions.empty()) << words;
@@ -190,29 +206,29 @@ TEST(Session, HidesGuidanceOnceThePoseIsOlderThanItsLimit) {
   // The tracker goes on predicting for ever; its measurement ages all the same.
   s.tracker().guide_origin = PoseStatus::kPredicted;
   EXPECT_TRUE(s.pair().tool.has_value());
-  EXPECT_EQ(s.pair().detail, "guide lost");
+  EXPECT_TRUE(s.pair().status.tool_lost);
   EXPECT_FALSE(s.pairs(2).tool.has_value());
   s.tracker().guide_origin = PoseStatus::kMeasured;
   const Guidance& g = s.pair();
   EXPECT_TRUE(g.tool.has_value());
-  EXPECT_THAT(g.detail, StartsWith("RMSE"));
+  EXPECT_FALSE(g.status.tool_lost);
 }
 
 TEST(Session, GoesThroughEveryScrewLevelAndRodToTheEnd) {
   ScriptedOperation s;
   s.accepts_first_level();
-  EXPECT_EQ(s.says("next").step_text, "guide L4 left");
-  EXPECT_EQ(s.says("next").step_text, "guide L4 right");
-  EXPECT_EQ(s.says("next").step_text, "digitize L5");
+  EXPECT_EQ(step_of(s.says("next")), "guide L4 left");
+  EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
+  EXPECT_EQ(step_of(s.says("next")), "digitize L5");
   s.strokes(5);
   s.says("save");
-  EXPECT_EQ(s.does({kDoubleClick}).step_text, "verify L5");
+  EXPECT_EQ(step_of(s.does({kDoubleClick})), "verify L5");
   s.accepts();
-  EXPECT_EQ(s.says("next").step_text, "guide L5 left");
-  EXPECT_EQ(s.says("next").step_text, "guide L5 right");
-  EXPECT_EQ(s.says("next").step_text, "rod left");
-  EXPECT_EQ(s.says("done").step_text, "rod right");
-  EXPECT_EQ(s.says("done").step_text, "done");
+  EXPECT_EQ(step_of(s.says("next")), "guide L5 left");
+  EXPECT_EQ(step_of(s.says("next")), "guide L5 right");
+  EXPECT_EQ(step_of(s.says("next")), "rod left");
+  EXPECT_EQ(step_of(s.says("done")), "rod right");
+  EXPECT_EQ(step_of(s.says("done")), "done");
   for (const LevelState& level : s.session().levels()) {
     EXPECT_TRUE(level.accepted) << level.plan.label << ": stays registered";
     EXPECT_THAT(level.screw_done, ::testing::Each(true));

@@ -1,8 +1,8 @@
 #include "tests/hal/sim/fake_engine.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace orthonav::sim {
@@ -15,6 +15,16 @@ std::size_t tool_of(const RoomDescription& room, ToolKind kind) {
     }
   }
   return 0;
+}
+
+/// "guide L4 left".
+std::string name_of(const StepOnDisplay& at) {
+  constexpr std::array<const char*, kStepCount> kNames = {"setup", "digitize", "verify", "accepted",
+                                                          "guide", "rod",      "done"};
+  std::string name = kNames[static_cast<std::size_t>(at.step)];
+  name += at.level.empty() ? "" : " " + at.level;
+  name += at.side ? std::string(" ") + orthonav::name_of(*at.side) : "";
+  return name;
 }
 
 std::string time_text(Timestamp time) { return std::to_string(time.time_since_epoch().count()); }
@@ -66,21 +76,22 @@ int FakeEngine::run() {
     }
     draw(frame);
     if (on_frame) {
-      on_frame(frame, step_);
+      on_frame(frame, name_of(step_));
     }
   }
 }
 
-void FakeEngine::enter(const std::string& step) {
+void FakeEngine::enter(const StepOnDisplay& step) {
   step_ = step;
-  reason_.clear();
-  history_.push_back(step);
+  notice_ = Notice::kNone;
+  checks_ = ChecksAsked::kNone;
+  history_.push_back(name_of(step));
 }
 
 void FakeEngine::take(const ClickerEvent& event) {
   events_.push_back(time_text(event.time) + " click " +
                     std::to_string(static_cast<int>(event.action)));
-  const bool digitizing = step_.starts_with("digitize");
+  const bool digitizing = (step_.step == Step::kDigitize);
   if (event.action == ClickerAction::kPress) {
     pressed_ = true;
     if (digitizing && !first_press_) {
@@ -93,8 +104,8 @@ void FakeEngine::take(const ClickerEvent& event) {
   if (event.action == ClickerAction::kDoubleClick && digitizing) {
     double_clicked(event.time);
   }
-  const bool checking = options_.check_points > 0 && step_.starts_with("verify");
-  if (event.action == ClickerAction::kClick && (checking || step_.starts_with("rod"))) {
+  const bool checking = options_.check_points > 0 && (step_.step == Step::kVerify);
+  if (event.action == ClickerAction::kClick && (checking || (step_.step == Step::kRod))) {
     touched();
   }
 }
@@ -106,11 +117,11 @@ Point<World> FakeEngine::tip() const {
 }
 
 void FakeEngine::touched() {
-  const bool head = step_.starts_with("rod");
-  reason_.clear();
+  const bool head = (step_.step == Step::kRod);
+  notice_ = Notice::kNone;
+  checks_ = ChecksAsked::kNone;
   if (options_.lost_touches-- > 0) {
-    reason_ = std::string(" | ") + (head ? "head" : "check point") +
-              " not recorded: tip moved 3.2 mm, limit 3.0 mm";
+    notice_ = Notice::kTouchNotRecorded;
     return;
   }
   if (head) {
@@ -122,16 +133,12 @@ void FakeEngine::touched() {
   ask_for_checks();
 }
 
-/// As the engine words it.
 void FakeEngine::ask_for_checks() {
   const int done = static_cast<int>(levels_[level_label()].checks_in_vertebra.size());
-  const int missing = options_.check_points - done;
   if (options_.off && done > 1) {
-    reason_ = " | check point 2 is 3.1 mm off, limit 2.0 mm: reject and stroke again";
-  } else if (missing > 0) {
-    reason_ = " | 0.5 mm expected; touch " + std::to_string(missing) + " more places";
+    checks_ = ChecksAsked::kReject;
   } else {
-    reason_ = " | 0.5 mm expected; checked, worst 0.4 mm";
+    checks_ = done < options_.check_points ? ChecksAsked::kTouchMore : ChecksAsked::kPassed;
   }
 }
 
@@ -140,10 +147,10 @@ void FakeEngine::double_clicked(Timestamp time) {
   DigitizedLevel& level = levels_[level_label()];
   level.duration_s = seconds(time - *first_press_);
   if (attempts_++ < options_.refusals) {
-    reason_ = " | refused: registration RMSE 3.4 mm, limit 3.0 mm";
+    notice_ = Notice::kRegistrationRefused;
     return;
   }
-  enter("verify " + level_label());
+  enter({Step::kVerify, level_label(), {}});
   level.checks_in_vertebra.clear();
   if (options_.check_points > 0) {
     ask_for_checks();
@@ -157,47 +164,47 @@ void FakeEngine::take(const Phrase& phrase) {
     return;
   }
   DigitizedLevel& level = levels_[level_label()];
-  if (step_ == "setup" && phrase.text == "start") {
-    enter("digitize " + level_label());
-  } else if (step_.starts_with("digitize") && phrase.text == "save") {
+  if (step_.step == Step::kSetup && phrase.text == "start") {
+    enter({Step::kDigitize, level_label(), {}});
+  } else if ((step_.step == Step::kDigitize) && phrase.text == "save") {
     level.saved_samples += static_cast<int>(region_.size());
     level.samples_in_vertebra.insert(level.samples_in_vertebra.end(), region_.begin(),
                                      region_.end());
     region_.clear();
-  } else if (step_.starts_with("digitize") && phrase.text == "delete") {
+  } else if ((step_.step == Step::kDigitize) && phrase.text == "delete") {
     ++level.deleted_regions;
     region_.clear();
-  } else if (step_.starts_with("verify") && phrase.text == "accept") {
-    enter("accepted " + level_label());
-  } else if (step_.starts_with("verify") && phrase.text == "reject") {
+  } else if ((step_.step == Step::kVerify) && phrase.text == "accept") {
+    enter({Step::kAccepted, level_label(), {}});
+  } else if ((step_.step == Step::kVerify) && phrase.text == "reject") {
     level = {};
     first_press_.reset();
-    enter("digitize " + level_label());
-  } else if ((step_.starts_with("accepted") || step_.starts_with("guide")) &&
+    enter({Step::kDigitize, level_label(), {}});
+  } else if (((step_.step == Step::kAccepted) || (step_.step == Step::kGuide)) &&
              phrase.text == "next") {
     next_screw();
-  } else if (step_ == "rod left" && phrase.text == "done") {
-    enter("rod right");
-  } else if (step_ == "rod right" && phrase.text == "done") {
-    enter("done");
+  } else if (step_ == StepOnDisplay{Step::kRod, {}, Side::kLeft} && phrase.text == "done") {
+    enter({Step::kRod, {}, Side::kRight});
+  } else if (step_ == StepOnDisplay{Step::kRod, {}, Side::kRight} && phrase.text == "done") {
+    enter({Step::kDone, {}, {}});
   }
 }
 
 void FakeEngine::next_screw() {
-  const bool fresh = step_.starts_with("accepted");
+  const bool fresh = (step_.step == Step::kAccepted);
   for (std::size_t i = fresh ? 0 : screw_ + 1; i < case_.screws.size(); ++i) {
     if (case_.screws[i].level == level_label()) {
       screw_ = i;
-      return enter("guide " + level_label() + " " + case_.screws[i].side);
+      return enter({Step::kGuide, level_label(), case_.screws[i].side});
     }
   }
   first_press_.reset();
   attempts_ = 0;
   if (++level_ < order_.size()) {
-    return enter("digitize " + level_label());
+    return enter({Step::kDigitize, level_label(), {}});
   }
   --level_;
-  enter("rod left");
+  enter({Step::kRod, {}, Side::kLeft});
 }
 
 const RoomLevel& FakeEngine::level_named(const std::string& label) const {
@@ -217,7 +224,7 @@ void FakeEngine::draw(const StereoFrame& frame) {
   const RoomState state = headset_.state();
   const double time_s = seconds(frame.time.time_since_epoch()) - 100.0;
   const bool blind = time_s >= options_.blind_from_s && time_s < options_.blind_to_s;
-  if (pressed_ && step_.starts_with("digitize")) {
+  if (pressed_ && (step_.step == Step::kDigitize)) {
     const std::size_t pointer = tool_of(case_.room, ToolKind::kPointer);
     const auto tip = world_from_vertebra(level_label()).inverse() * headset_.world_from_room() *
                      state.room_from_marker[pointer] * case_.room.tools[pointer].tip_in_marker;
@@ -228,9 +235,9 @@ void FakeEngine::draw(const StereoFrame& frame) {
   ShownFrame shown;
   shown.pose_time = frame.time;
   shown.display_time = headset_.display().predicted_display_time(headset_.clock().now());
-  shown.holograms.push_back({"H11 status", step_ + reason_, {}});
-  if (step_.starts_with("verify")) {
-    ShownHologram model{"H2 vertebra", "", {}};
+  shown.status = ShownStatus{step_, notice_, checks_, {}, {}};
+  if ((step_.step == Step::kVerify)) {
+    ShownHologram model{.kind = HologramKind::kVertebra};
     const auto& vertices = level_named(level_label()).vertices_m;
     for (const Vec3 d : {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 0, 1}}) {
       const Vec3 extreme = *std::max_element(vertices.begin(), vertices.end(),
@@ -240,7 +247,7 @@ void FakeEngine::draw(const StereoFrame& frame) {
     }
     shown.holograms.push_back(model);
   }
-  if (step_.starts_with("guide")) {
+  if ((step_.step == Step::kGuide)) {
     draw_screw(shown, state, blind);
   }
   static_cast<void>(headset_.display().shown(shown));
@@ -253,9 +260,12 @@ void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blin
   const Point<World> entry = from_vertebra * screw.entry;
   const Point<World> target = from_vertebra * screw.target;
   const Vec3 outwards = (entry - target).normalized();
-  const std::string label = screw.level + " " + screw.side;
-  shown.holograms.push_back({"H3 entry " + label, label, {entry}});
-  shown.holograms.push_back({"H4 trajectory", "", {entry + 0.060 * outwards, entry, target}});
+  shown.holograms.push_back({.kind = HologramKind::kEntry,
+                             .level = screw.level,
+                             .side = screw.side,
+                             .points_in_world = {entry}});
+  shown.holograms.push_back({.kind = HologramKind::kTrajectory,
+                             .points_in_world = {entry + 0.060 * outwards, entry, target}});
   const std::size_t guide = tool_of(case_.room, ToolKind::kGuide);
   if (blind || !state.tool_present[guide]) {
     return;
@@ -266,12 +276,13 @@ void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blin
   if ((world_from_marker * tool.tip_in_marker - entry).norm() > 0.040) {
     return;
   }
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1f°",
-                angle_between_rad(axis, outwards) * 180.0 / std::numbers::pi);
+  // To a tenth of a degree, as the readout has it.
+  const double angle_deg = angle_between_rad(axis, outwards) * 180.0 / std::numbers::pi;
+  const double reading_rad = std::round(10.0 * angle_deg) / 10.0 * std::numbers::pi / 180.0;
   shown.holograms.push_back(
-      {"H5 triangle", "", {entry, entry + kReach_m * axis, entry + kReach_m * outwards}});
-  shown.holograms.push_back({"H6 angle", text.data(), {}});
+      {.kind = HologramKind::kTriangle,
+       .points_in_world = {entry, entry + kReach_m * axis, entry + kReach_m * outwards}});
+  shown.holograms.push_back({.kind = HologramKind::kAngle, .reading = reading_rad});
 }
 
 }  // namespace orthonav::sim

@@ -52,7 +52,7 @@ class FakeEngine {
  private:
   void take(const ClickerEvent& event);
   void take(const Phrase& phrase);
-  void enter(const std::string& step);
+  void enter(const StepOnDisplay& step);
   void double_clicked(Timestamp time);
   void touched();
   void ask_for_checks();
@@ -70,8 +70,9 @@ class FakeEngine {
   std::vector<std::string> order_;
   std::size_t level_ = 0;
   std::size_t screw_ = 0;
-  std::string step_ = "setup";
-  std::string reason_;
+  StepOnDisplay step_;
+  Notice notice_ = Notice::kNone;
+  ChecksAsked checks_ = ChecksAsked::kNone;
   bool pressed_ = false;
   int attempts_ = 0;
   std::optional<Timestamp> first_press_;

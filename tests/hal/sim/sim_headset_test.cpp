@@ -284,7 +284,7 @@ TEST(SimHeadset, PartsMayBeUsedFromDifferentThreads) {
       static_cast<void>(headset->head().world_from_rig(now));
       ShownFrame shown;
       shown.display_time = headset->display().predicted_display_time(now);
-      shown.holograms.push_back({"H11 status", "digitize L4", {}});
+      shown.status = ShownStatus{.at = {Step::kDigitize, "L4", {}}};
       // Refused while no new frame has moved the clock.
       static_cast<void>(headset->display().shown(shown));
       static_cast<void>(headset->state());

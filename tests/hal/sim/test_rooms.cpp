@@ -130,7 +130,8 @@ TestCase synthetic_case() {
       const Vec3 target{side * 0.006, -0.005, 0.002};
       const Vec3 outwards = Vec3{side * 0.45, 0.88, -0.1}.normalized();
       const auto entry = BoneSurface(level).first_hit(target + 0.2 * outwards, -outwards, 0.2);
-      made.screws.push_back({level.label, side > 0 ? "left" : "right", {entry->point}, {target}});
+      made.screws.push_back(
+          {level.label, side > 0 ? Side::kLeft : Side::kRight, {entry->point}, {target}});
     }
   }
   return made;
@@ -154,7 +155,7 @@ std::optional<TestCase> visible_human_case(const std::vector<std::string>& opera
     const auto plan = nlohmann::json::parse(plan_file);
     for (const auto& screw : plan["screws"]) {
       made.screws.push_back({level.label,
-                             screw["side"],
+                             screw["side"] == "left" ? Side::kLeft : Side::kRight,
                              {vector_from(screw["entry"])},
                              {vector_from(screw["target"])}});
     }

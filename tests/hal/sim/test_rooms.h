@@ -11,7 +11,7 @@ namespace orthonav::sim {
 /// A screw of a test's plan.
 struct TestScrew {
   std::string level;
-  std::string side;
+  Side side = Side::kLeft;
   Point<Vertebra> entry;
   Point<Vertebra> target;
 };

@@ -17,28 +17,34 @@ CheckPoint at(double x_mm, double y_mm, double distance_mm = 0.0) {
           std::abs(distance_mm) <= 2.0};
 }
 
+/// Asks for so many places, 15 mm apart.
+bool asks_for(const CheckAdvice& advice, std::size_t places) {
+  return advice.kind == CheckAdvice::Kind::kTouchApart && advice.number == places &&
+         advice.value_m == 0.015;
+}
+
 TEST(CheckPoints, ThreeApartAndOffALinePass) {
   const CheckPoint points[] = {at(0, 0, 0.4), at(20, 0, -1.3), at(10, 14, 0.2)};
   const CheckVerdict verdict = verdict_on(points);
   EXPECT_TRUE(verdict.passed);
-  EXPECT_TRUE(verdict.advice.empty());
+  EXPECT_EQ(verdict.advice.kind, CheckAdvice::Kind::kNone);
   EXPECT_NEAR(verdict.worst_m, 0.0013, 1e-12);
 }
 
 TEST(CheckPoints, SayHowManyAreMissing) {
-  EXPECT_EQ(verdict_on({}).advice, "touch 3 places, 15 mm apart");
+  EXPECT_TRUE(asks_for(verdict_on({}).advice, 3));
   const CheckPoint one[] = {at(0, 0)};
-  EXPECT_EQ(verdict_on(one).advice, "touch 2 more places, 15 mm from the others");
+  EXPECT_TRUE(asks_for(verdict_on(one).advice, 2));
   const CheckPoint close[] = {at(0, 0), at(14.9, 0)};
-  EXPECT_EQ(verdict_on(close).advice, "touch 2 more places, 15 mm from the others");
+  EXPECT_TRUE(asks_for(verdict_on(close).advice, 2));
   const CheckPoint two[] = {at(0, 0), at(15.1, 0)};
-  EXPECT_EQ(verdict_on(two).advice, "touch 1 more place, 15 mm from the others");
+  EXPECT_TRUE(asks_for(verdict_on(two).advice, 1));
 }
 
 TEST(CheckPoints, EachOfThreeLiesApartFromBothOthers) {
   // A chain: each is 15 mm from its neighbour only.
   const CheckPoint folded[] = {at(0, 0), at(16, 0), at(2, 8)};
-  EXPECT_EQ(verdict_on(folded).advice, "touch 1 more place, 15 mm from the others");
+  EXPECT_TRUE(asks_for(verdict_on(folded).advice, 1));
   // A fourth makes three with two of them, in whatever order they came.
   const CheckPoint four[] = {at(0, 0), at(2, 8), at(16, 0), at(8, 16)};
   EXPECT_TRUE(verdict_on(four).passed);
@@ -46,7 +52,8 @@ TEST(CheckPoints, EachOfThreeLiesApartFromBothOthers) {
 
 TEST(CheckPoints, ThreeOnALineAskForOneBesideIt) {
   const CheckPoint line[] = {at(0, 0), at(16, 4.9), at(32, 0)};
-  EXPECT_EQ(verdict_on(line).advice, "touch 1 more place, 5 mm off the line of the others");
+  EXPECT_EQ(verdict_on(line).advice.kind, CheckAdvice::Kind::kTouchOffLine);
+  EXPECT_DOUBLE_EQ(verdict_on(line).advice.value_m, 0.005);
   const CheckPoint bent[] = {at(0, 0), at(16, 5.1), at(32, 0)};
   EXPECT_TRUE(verdict_on(bent).passed) << "the twin";
 }
@@ -55,7 +62,10 @@ TEST(CheckPoints, OneTooFarOffSpoilsAll) {
   const CheckPoint points[] = {at(0, 0), at(20, 0), at(10, 14), at(30, 30, -3.1)};
   const CheckVerdict verdict = verdict_on(points);
   EXPECT_FALSE(verdict.passed);
-  EXPECT_EQ(verdict.advice, "check point 4 is 3.1 mm off, limit 2.0 mm: reject and stroke again");
+  EXPECT_EQ(verdict.advice.kind, CheckAdvice::Kind::kReject);
+  EXPECT_EQ(verdict.advice.number, 4u);
+  EXPECT_DOUBLE_EQ(verdict.advice.value_m, 0.0031);
+  EXPECT_DOUBLE_EQ(verdict.advice.limit_m, 0.002);
 }
 
 class OnABall : public ::testing::Test {
@@ -93,7 +103,8 @@ TEST_F(OnABall, APlaceThatIsNoPlaceIsFarOff) {
   const CheckPoint nowhere =
       check_point(*model, pose, Point<World>{{std::numeric_limits<double>::quiet_NaN(), 0, 0}});
   EXPECT_FALSE(nowhere.within);
-  EXPECT_THAT(verdict_on({&nowhere, 1}).advice, HasSubstr("check point 1"));
+  EXPECT_EQ(verdict_on({&nowhere, 1}).advice.kind, CheckAdvice::Kind::kReject);
+  EXPECT_EQ(verdict_on({&nowhere, 1}).advice.number, 1u);
 }
 
 TEST(CheckPoints, AreProposedOnTheSurfaceWhereItWasStrokedFarApart) {
@@ -114,7 +125,7 @@ TEST(CheckPoints, AreProposedOnTheSurfaceWhereItWasStrokedFarApart) {
     touched.push_back(check_point(**model, pose, place));
     EXPECT_NEAR(touched.back().distance_m, 0.0, 1e-9);
   }
-  EXPECT_TRUE(verdict_on(touched).passed) << verdict_on(touched).advice;
+  EXPECT_TRUE(verdict_on(touched).passed) << static_cast<int>(verdict_on(touched).advice.kind);
   touched.pop_back();
   const auto open = still_to_check(places, touched);
   ASSERT_EQ(open.size(), 1u);

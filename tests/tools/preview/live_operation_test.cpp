@@ -78,7 +78,7 @@ TEST(LiveOperation, IsTheSameWhenStartedAgain) {
   live = stage.open();
   const auto again = stage.run_to(40);
   EXPECT_NE(once, again);
-  EXPECT_EQ(once->step_text, again->step_text);
+  EXPECT_EQ(once->at, again->at);
   EXPECT_EQ(once->time, again->time);
   EXPECT_EQ(once->room->room_from_rig, again->room->room_from_rig);
   ASSERT_EQ(once->scene.texts.size(), again->scene.texts.size());
@@ -92,10 +92,10 @@ TEST(LiveOperation, HearsTheKeyboardAtTheNextPair) {
   Stage stage;
   stage.keyboard.mute(true);
   const auto live = stage.open();
-  EXPECT_EQ(stage.run_to(2)->step, engine::Step::kSetup);
+  EXPECT_EQ(stage.run_to(2)->at.step, engine::Step::kSetup);
   stage.keyboard.say("start");
-  EXPECT_EQ(stage.timeline.newest()->step, engine::Step::kSetup);
-  EXPECT_EQ(stage.run_to(3)->step, engine::Step::kDigitize);
+  EXPECT_EQ(stage.timeline.newest()->at.step, engine::Step::kSetup);
+  EXPECT_EQ(stage.run_to(3)->at.step, engine::Step::kDigitize);
 }
 
 TEST(LiveOperation, RefusesAHeadsetThatHasADisplay) {

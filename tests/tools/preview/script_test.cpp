@@ -18,11 +18,11 @@ struct Bench : ModelBench {
   Status go_on(Script& script, bool ended = false) {
     return script.go_on(model, stage, wall.now(), ended);
   }
-  void show(int pair, const std::string& step) {
+  void show(int pair, const StepOnDisplay& at) {
     gate.pass(Timestamp(Duration(pair)));
     auto moment = std::make_shared<Moment>();
     moment->pair = pair;
-    moment->step_text = step;
+    moment->at = at;
     timeline.push(moment);
   }
 };
@@ -33,10 +33,10 @@ TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
       Script::parse("until digitize # a remark\nscreenshot a.png\nresize 64 48\nkey s\n", "t")
           .value();
   ASSERT_TRUE(bench.go_on(script).ok());
-  bench.show(1, "setup");
+  bench.show(1, {Step::kSetup, {}, {}});
   ASSERT_TRUE(bench.go_on(script).ok());
   EXPECT_TRUE(bench.taken.empty());
-  bench.show(2, "digitize L4");
+  bench.show(2, {Step::kDigitize, "L4", {}});
   ASSERT_TRUE(bench.go_on(script).ok());
   EXPECT_THAT(bench.taken, ElementsAre("a.png"));
   ASSERT_TRUE(bench.go_on(script).ok());
@@ -51,20 +51,20 @@ TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
 
 TEST(Script, CountsPairsFromWhereItWaits) {
   Bench bench;
-  bench.show(1, "setup");
+  bench.show(1, {Step::kSetup, {}, {}});
   Script script = Script::parse("pairs 2\n", "t").value();
   ASSERT_TRUE(bench.go_on(script).ok());
-  bench.show(2, "setup");
+  bench.show(2, {Step::kSetup, {}, {}});
   ASSERT_TRUE(bench.go_on(script).ok());
   EXPECT_FALSE(script.done());
-  bench.show(3, "setup");
+  bench.show(3, {Step::kSetup, {}, {}});
   ASSERT_TRUE(bench.go_on(script).ok());
   EXPECT_TRUE(script.done());
 }
 
 TEST(Script, PausesUntilNothingMovesAnyMore) {
   Bench bench;
-  bench.show(1, "setup");
+  bench.show(1, {Step::kSetup, {}, {}});
   bench.gate.set_speed(0.0);
   ASSERT_TRUE(bench.gate.may_pass());  // A pair is on its way.
   Script script = Script::parse("pause\n", "t").value();

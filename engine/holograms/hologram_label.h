@@ -1,0 +1,30 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "hal/api/display.h"
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+// Which hologram an item of a scene belongs to is its label: 100·n + k for the k-th instance of Hn,
+// as render/scene.h has it.
+
+inline constexpr render::Label kInstancesOfAKind = 100;
+/// Further instances share this one's label.
+inline constexpr std::size_t kMostInstances = kInstancesOfAKind - 1;
+
+[[nodiscard]] constexpr render::Label label_of(HologramKind kind, std::size_t instance) {
+  return kInstancesOfAKind * static_cast<render::Label>(kind) +
+         static_cast<render::Label>(std::min(instance, kMostInstances));
+}
+/// Of a label that is a hologram's.
+[[nodiscard]] constexpr HologramKind kind_of(render::Label label) {
+  return static_cast<HologramKind>(label / kInstancesOfAKind);
+}
+[[nodiscard]] constexpr std::size_t instance_of(render::Label label) {
+  return label % kInstancesOfAKind;
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,129 @@
+#include "engine/session/findings_wording.h"
+
+#include <array>
+#include <string_view>
+
+#include "engine/session/printed.h"
+
+namespace orthonav::engine {
+namespace {
+
+/// The words about a number and its limit, and what the number is shown in.
+struct NumberWords {
+  const char* format;
+  double unit;
+};
+
+NumberWords words_about(nav::RefusalReason::Kind kind) {
+  using enum nav::RefusalReason::Kind;
+  switch (kind) {
+    case kRmse:
+      return {"registration RMSE %.1f mm, limit %.1f mm", 1e3};
+    case kRunnerUpRmse:
+      return {"another pose fits nearly as well (%.2f times the RMSE, at least %.2f)", 1.0};
+    case kTreAtCentre:
+      return {
+          "the points leave the bone loose: %.1f mm error expected at its centre, limit %.1f mm",
+          1e3};
+    case kNoise:
+      return {"the points scatter %.1f mm about the surface, limit %.1f mm", 1e3};
+    case kInliers:
+      return {"only %.0f %% of the points lie on the model, at least %.0f %%", 100.0};
+    case kCoverage:
+      return {"only %.0f %% of the surface was stroked, at least %.0f %%", 100.0};
+    case kShaftCollision:
+      return {"the pointer would have gone through bone at %.0f %% of the points, limit %.0f %%",
+              100.0};
+    case kLogLikelihoodRatio:
+      return {"another pose fits nearly as well (margin %.1f, at least %.0f)", 1.0};
+    case kTreAtScrews:
+      return {"error expected at the screws %.1f mm, limit %.1f mm", 1e3};
+    case kTre95AtScrews:
+      return {"1 of 20 errors at the screws would exceed %.1f mm, limit %.1f mm", 1e3};
+    case kFitsOtherLevel:
+      break;
+  }
+  return {"", 1.0};
+}
+
+}  // namespace
+
+std::string_view word_of(Side side) { return side == Side::kLeft ? "left" : "right"; }
+
+void append(std::string& out, const nav::BonePlace& place) {
+  using Part = nav::BonePlace::Part;
+  constexpr std::array<std::string_view, 3> kHeights = {"upper ", "", "lower "};
+  constexpr std::array<std::string_view, 3> kParts = {"spinous process", "lamina",
+                                                      "facet and root of the transverse process"};
+  static_assert(static_cast<int>(Part::kFacet) == 2);
+  out += "stroke the ";
+  if (place.side) {
+    out += word_of(*place.side);
+    out += ' ';
+  }
+  out += kHeights[static_cast<std::size_t>(place.height)];
+  out += kParts[static_cast<std::size_t>(place.part)];
+}
+
+void append(std::string& out, const nav::UncertainMotion& motion) {
+  using Kind = nav::UncertainMotion::Kind;
+  constexpr std::array<std::string_view, 6> kMotions = {
+      "slides sideways",  "moves in and out",   "slides along the spine",
+      "nods up and down", "rolls to the sides", "twists about the spine's axis"};
+  static_assert(static_cast<std::size_t>(Kind::kWhollyOpen) == kMotions.size());
+  if (motion.kind == Kind::kWhollyOpen) {
+    out += "a motion of the bone is left wholly open";
+    return;
+  }
+  out += kMotions[static_cast<std::size_t>(motion.kind)];
+  append_printed(out, " (%.1f mm at the screws)", motion.error_m * 1e3);
+}
+
+void append(std::string& out, const nav::RefusalReason& reason) {
+  if (reason.kind == nav::RefusalReason::Kind::kFitsOtherLevel) {
+    out.append("the points fit level ").append(reason.level).append(" as well");
+    return;
+  }
+  const auto [format, unit] = words_about(reason.kind);
+  append_printed(out, format, reason.value * unit, reason.limit * unit);
+  if (reason.motion) {
+    out += ": ";
+    append(out, *reason.motion);
+  }
+}
+
+void append(std::string& out, std::span<const nav::RefusalReason> reasons) {
+  if (reasons.empty()) {
+    out += "registration not accepted";
+    return;
+  }
+  for (std::size_t i = 0; i < reasons.size(); ++i) {
+    out += i > 0 ? "; " : "";
+    append(out, reasons[i]);
+  }
+}
+
+void append(std::string& out, const nav::CheckAdvice& advice) {
+  switch (advice.kind) {
+    case nav::CheckAdvice::Kind::kNone:
+      break;
+    case nav::CheckAdvice::Kind::kTouchApart:
+      if (advice.number == 3) {
+        append_printed(out, "touch 3 places, %.0f mm apart", advice.value_m * 1e3);
+      } else {
+        append_printed(out, "touch %zu more place%s, %.0f mm from the others", advice.number,
+                       advice.number == 1 ? "" : "s", advice.value_m * 1e3);
+      }
+      break;
+    case nav::CheckAdvice::Kind::kTouchOffLine:
+      append_printed(out, "touch 1 more place, %.0f mm off the line of the others",
+                     advice.value_m * 1e3);
+      break;
+    case nav::CheckAdvice::Kind::kReject:
+      append_printed(out, "check point %zu is %.1f mm off, limit %.1f mm: reject and stroke again",
+                     advice.number, advice.value_m * 1e3, advice.limit_m * 1e3);
+      break;
+  }
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "nav/registration/check_points.h"
+#include "nav/registration/findings.h"
+
+namespace orthonav::engine {
+
+// What a registration finds out about itself, in words: a part of engine/session/wording.h. Each is
+// appended as one clause, and allocates nothing where the string has the room.
+
+/// "left" or "right".
+[[nodiscard]] std::string_view word_of(Side side);
+/// "stroke the left lamina".
+void append(std::string& out, const nav::BonePlace& place);
+/// "slides along the spine (0.4 mm at the screws)".
+void append(std::string& out, const nav::UncertainMotion& motion);
+/// "registration RMSE 3.4 mm, limit 3.0 mm".
+void append(std::string& out, const nav::RefusalReason& reason);
+/// Every reason, or that there is none to name.
+void append(std::string& out, std::span<const nav::RefusalReason> reasons);
+/// What is wrong with the check points, and what to do; nothing when nothing is.
+void append(std::string& out, const nav::CheckAdvice& advice);
+
+/// One of them alone.
+template <class Finding>
+[[nodiscard]] std::string text_of(const Finding& finding) {
+  std::string out;
+  append(out, finding);
+  return out;
+}
+
+}  // namespace orthonav::engine

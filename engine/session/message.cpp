@@ -1,0 +1,26 @@
+#include "engine/session/message.h"
+
+namespace orthonav::engine {
+namespace {
+
+struct ToNotice {
+  Notice operator()(std::monostate /*none*/) const { return Notice::kNone; }
+  Notice operator()(const NotPossibleNow& /*m*/) const { return Notice::kNotPossibleNow; }
+  Notice operator()(const NotUnderstood& /*m*/) const { return Notice::kNotUnderstood; }
+  Notice operator()(const SaidBeforeShown& /*m*/) const { return Notice::kSaidTooEarly; }
+  Notice operator()(const NothingToDelete& /*m*/) const { return Notice::kNothingToDelete; }
+  Notice operator()(const ConfirmDelete& /*m*/) const { return Notice::kConfirmDelete; }
+  Notice operator()(const RegistrationRefused& /*m*/) const { return Notice::kRegistrationRefused; }
+  Notice operator()(const ChecksMissing& /*m*/) const { return Notice::kChecksMissing; }
+  Notice operator()(const TouchNotRecorded& /*m*/) const { return Notice::kTouchNotRecorded; }
+  Notice operator()(const NoRod& /*m*/) const { return Notice::kNoRod; }
+  Notice operator()(const MapMoved& /*m*/) const { return Notice::kMapMoved; }
+  Notice operator()(const NoImages& /*m*/) const { return Notice::kNoImages; }
+  Notice operator()(const Ended& /*m*/) const { return Notice::kEnded; }
+};
+
+}  // namespace
+
+Notice notice_of(const Message& message) { return std::visit(ToNotice{}, message); }
+
+}  // namespace orthonav::engine

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/result.h"
+#include "engine/session/workflow.h"
+#include "hal/api/shown_status.h"
+#include "nav/registration/check_points.h"
+#include "nav/registration/findings.h"
+
+namespace orthonav::engine {
+
+/// Why a place that was touched does not count.
+struct TouchRefusal {
+  enum class Kind : std::uint8_t {
+    kPressAgain,  ///< the press fell into another step
+    kPointerNotSeen,
+    kTipMoved,  ///< by `value_m` (root mean square), above `limit_m`
+    kHeldTooLong,
+    kTooMany,  ///< there are nav::kMostCheckPoints already
+  };
+  Kind kind = Kind::kPressAgain;
+  double value_m = 0.0;
+  double limit_m = 0.0;
+};
+
+// What the surgeon must be told, as data; engine/session/wording.h makes the text of it.
+
+struct NotPossibleNow {
+  Event event;
+};
+struct NotUnderstood {};
+/// "accept" was said before the registration was shown.
+struct SaidBeforeShown {};
+struct NothingToDelete {
+  enum class What : std::uint8_t { kRegion, kCheckPoint, kHead };
+  What what;
+};
+/// The last saved region goes when "delete" is said again.
+struct ConfirmDelete {
+  std::size_t points;
+};
+struct RegistrationRefused {
+  std::vector<nav::RefusalReason> reasons;
+  std::optional<Error> error;  ///< in place of reasons: no registration was found at all
+  std::optional<nav::BonePlace> stroke_next;
+  bool another_level_fits = false;
+};
+/// "accept" was said while the check points do not bear it out.
+struct ChecksMissing {
+  nav::CheckAdvice advice;
+};
+struct TouchNotRecorded {
+  enum class What : std::uint8_t { kCheckPoint, kHead };
+  What what;
+  TouchRefusal why;
+};
+struct NoRod {
+  Error why;
+};
+struct MapMoved {
+  Step step;
+};
+struct NoImages {};
+struct Ended {};
+
+/// Nothing, or one of these.
+using Message = std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown,
+                             NothingToDelete, ConfirmDelete, RegistrationRefused, ChecksMissing,
+                             TouchNotRecorded, NoRod, MapMoved, NoImages, Ended>;
+
+/// What it is about, for the display.
+[[nodiscard]] Notice notice_of(const Message& message);
+
+}  // namespace orthonav::engine

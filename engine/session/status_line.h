@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "engine/session/message.h"
+#include "hal/api/shown_status.h"
+#include "nav/registration/check_points.h"
+
+namespace orthonav::engine {
+
+struct Coaching;
+
+// How a step stands, as the status line says it while there is nothing more urgent.
+
+/// While the bone is stroked.
+struct StrokesSoFar {
+  std::size_t points = 0;
+  const Coaching* coaching = nullptr;  ///< null: nothing is known of them yet
+};
+/// A registration, verified by eye or accepted; or guided on, at the selected screw.
+struct RegistrationFigures {
+  double rmse_m = 0.0;
+  double expected_m = 0.0;  ///< error at the worst of the screws, or at the selected one
+  bool of_one_screw = false;
+};
+/// While a registration is verified by touch.
+struct ChecksSoFar {
+  double expected_m = 0.0;  ///< error at the worst of the screws
+  std::size_t count = 0;
+  /// Of the last check point, when it lies near enough; the verdict tells of one that does not.
+  std::optional<double> last_m;
+  const nav::CheckVerdict* verdict = nullptr;
+};
+struct HeadsSoFar {
+  std::size_t count = 0;
+};
+using StepState =
+    std::variant<std::monostate, StrokesSoFar, RegistrationFigures, ChecksSoFar, HeadsSoFar>;
+
+/// A command as it was heard. A surgeon who was misheard must see it at once, and one who was
+/// heard need not ask.
+struct HeardCommand {
+  std::string phrase;
+  bool sure = false;  ///< confident enough to be acted on
+};
+
+/// Everything that the status line says, as data; engine/session/wording.h makes the text. The
+/// pointers and views look into the session: valid until its next step.
+struct StatusLine {
+  StepOnDisplay at;
+  std::string_view tool;               ///< of the step, where it has one
+  bool tool_lost = false;              ///< and it was seen before
+  std::optional<double> tag_size_off;  ///< its tag is larger than stated by this fraction
+  const Message* message = nullptr;    ///< null: none
+  StepState state;
+  const HeardCommand* heard = nullptr;  ///< null: nothing lately
+};
+
+/// What is asked of a surgeon who verifies by touch: as far as the line says it.
+[[nodiscard]] ChecksAsked checks_asked(const StatusLine& line);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/session/coach.h"
+#include "engine/session/findings_wording.h"
+#include "engine/session/message.h"
+#include "engine/session/registration_outcome.h"
+#include "engine/session/status_line.h"
+#include "nav/registration/check_points.h"
+#include "nav/registration/findings.h"
+
+namespace orthonav::engine {
+
+// Everything that a surgeon reads in words, made of data, in this one place: who translates
+// orthonav translates wording.cpp and findings_wording.cpp. No decision ever reads these texts.
+//
+// The status line is written anew for every frame, into strings that keep their room: the `append`
+// functions allocate nothing once the frame loop is warm.
+
+/// "guide L4 left".
+void append_step(std::string& out, const StepOnDisplay& at);
+/// What follows the step: the loss of the tool first, which no message may cover, then the message
+/// or how the step stands. Empty: nothing.
+void append_detail(std::string& out, const StatusLine& line);
+/// "heard: save".
+void append_heard(std::string& out, const HeardCommand& heard);
+/// Step and detail: "guide L4 left | guide lost".
+void append_without_heard(std::string& out, const StatusLine& line);
+/// The whole line: "guide L4 left | guide lost | heard: next".
+void append_status(std::string& out, const StatusLine& line);
+[[nodiscard]] std::string step_text(const StepOnDisplay& at);
+[[nodiscard]] std::string detail_text(const StatusLine& line);
+
+/// Why a registration does not count, every reason in one line; empty when it does.
+[[nodiscard]] std::string refusal_text(const RegistrationOutcome& outcome);
+/// "0.6 mm expected, stroke the left lamina".
+void append(std::string& out, const Coaching& coaching);
+void append(std::string& out, const Message& message);
+/// "pointer: tag 2.0 % larger than stated, check print and unit".
+void append_tag_size_off(std::string& out, std::string_view tool, double fraction);
+
+namespace words {
+inline constexpr std::string_view kToolLost = "tool lost";
+inline constexpr std::string_view kHeadNotLocated =
+    "Head not located: nothing is shown in the world";
+inline constexpr std::string_view kToEntry = "to entry";
+inline constexpr std::string_view kToTarget = "to target";
+inline constexpr std::string_view kPastTarget = "past target";
+/// Between the angle of a bend and its place along the rod.
+inline constexpr std::string_view kAt = " at ";
+}  // namespace words
+
+}  // namespace orthonav::engine

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/side.h"
+
+namespace orthonav {
+
+/// Where the operation stands. One step at a time; the workflow's table decides every change
+/// (engine/session/workflow.h).
+enum class Step : std::uint8_t { kSetup, kDigitize, kVerify, kAccepted, kGuide, kRod, kDone };
+inline constexpr std::size_t kStepCount = 7;
+
+/// A step with what it is about, as its wearer tells one from the other.
+struct StepOnDisplay {
+  Step step = Step::kSetup;
+  std::string level;         ///< "L4"; empty in steps of no level
+  std::optional<Side> side;  ///< of the screw that is guided, or the rod
+
+  friend auto operator<=>(const StepOnDisplay&, const StepOnDisplay&) = default;
+};
+
+/// What the message on the status line is about. Its data and its words are the engine's.
+enum class Notice : std::uint8_t {
+  kNone,
+  kNotPossibleNow,   ///< what was done means nothing in this step
+  kNotUnderstood,    ///< a phrase
+  kSaidTooEarly,     ///< "accept", before what is to be accepted was shown
+  kNothingToDelete,  ///< no region, check point or head
+  kConfirmDelete,    ///< a saved region goes when "delete" is said again
+  kRegistrationRefused,
+  kChecksMissing,     ///< "accept", while the check points do not bear it out
+  kTouchNotRecorded,  ///< of a check point or a head
+  kNoRod,             ///< the heads give none
+  kMapMoved,          ///< the headset's map: what was measured in it is gone
+  kNoImages,          ///< the cameras deliver none
+  kEnded,
+};
+
+/// What the status line asks of a surgeon who verifies by touch.
+enum class ChecksAsked : std::uint8_t {
+  kNone,       ///< it says nothing of check points
+  kTouchMore,  ///< further places
+  kReject,     ///< a check point lies too far off the surface
+  kPassed,
+};
+
+/// The status line of one displayed frame.
+struct ShownStatus {
+  StepOnDisplay at;
+  Notice notice = Notice::kNone;
+  ChecksAsked checks = ChecksAsked::kNone;
+  std::string text;   ///< as it is written
+  std::string heard;  ///< the newest command that was heard, as it is written; empty: none
+};
+
+}  // namespace orthonav

@@ -1,0 +1,141 @@
+#include "hal/hl2ss/standin_shown.h"
+
+#include <string>
+
+#include "hal/hl2ss/standin_values.h"
+
+namespace orthonav::hl2ss {
+namespace {
+
+constexpr std::uint8_t kNoSide = 255;
+
+void append_side(std::vector<std::uint8_t>& bytes, const std::optional<Side>& side) {
+  append(bytes, side ? static_cast<std::uint8_t>(*side) : kNoSide);
+}
+
+/// One of the values from `first` to `last`; what it is not ends up in `problem`.
+template <class Enum>
+Enum take_one(ByteReader& reader, Enum first, Enum last, const char* what, Status& problem) {
+  const auto value = reader.take<std::uint8_t>();
+  if (!reader.ok()) {
+    return first;
+  }
+  if (value < static_cast<std::uint8_t>(first) || value > static_cast<std::uint8_t>(last)) {
+    problem = Error{std::string("stand-in: unknown ") + what + ", " + std::to_string(value)};
+    return first;
+  }
+  return static_cast<Enum>(value);
+}
+
+std::optional<Side> take_side(ByteReader& reader, Status& problem) {
+  const auto value = reader.take<std::uint8_t>();
+  if (!reader.ok() || value == kNoSide) {
+    return std::nullopt;
+  }
+  if (value > static_cast<std::uint8_t>(Side::kRight)) {
+    problem = Error{"stand-in: unknown side, " + std::to_string(value)};
+  }
+  return static_cast<Side>(value);
+}
+
+void append_status(std::vector<std::uint8_t>& bytes, const ShownStatus& status) {
+  append(bytes, static_cast<std::uint8_t>(status.at.step));
+  append_text(bytes, status.at.level);
+  append_side(bytes, status.at.side);
+  append(bytes, static_cast<std::uint8_t>(status.notice));
+  append(bytes, static_cast<std::uint8_t>(status.checks));
+  append_text(bytes, status.text);
+  append_text(bytes, status.heard);
+}
+
+Status take_status(ByteReader& reader, ShownStatus& status) {
+  Status problem;
+  status.at.step = take_one(reader, Step::kSetup, Step::kDone, "step", problem);
+  status.at.level = take_text(reader);
+  status.at.side = take_side(reader, problem);
+  status.notice = take_one(reader, Notice::kNone, Notice::kEnded, "notice", problem);
+  status.checks = take_one(reader, ChecksAsked::kNone, ChecksAsked::kPassed, "checks", problem);
+  status.text = take_text(reader);
+  status.heard = take_text(reader);
+  return problem;
+}
+
+void append_hologram(std::vector<std::uint8_t>& bytes, const ShownHologram& hologram) {
+  append(bytes, static_cast<std::uint8_t>(hologram.kind));
+  append_text(bytes, hologram.level);
+  append_side(bytes, hologram.side);
+  append_text(bytes, hologram.text);
+  append(bytes, static_cast<std::uint8_t>(hologram.reading.has_value()));
+  append(bytes, hologram.reading.value_or(0.0));
+  append(bytes, static_cast<std::uint32_t>(hologram.points_in_world.size()));
+  for (const Point<World>& point : hologram.points_in_world) {
+    for (int i = 0; i < 3; ++i) {
+      append(bytes, point.v[i]);
+    }
+  }
+}
+
+Status take_points(ByteReader& reader, std::vector<Point<World>>& points) {
+  const auto count = reader.take<std::uint32_t>();
+  for (std::uint32_t k = 0; k < count && reader.ok(); ++k) {
+    Point<World> point;
+    for (int axis = 0; axis < 3; ++axis) {
+      point.v[axis] = reader.take<double>();
+    }
+    if (!point.v.is_finite()) {
+      return Error{"stand-in: a point that is not finite"};
+    }
+    points.push_back(point);
+  }
+  return {};
+}
+
+Status take_hologram(ByteReader& reader, ShownHologram& hologram) {
+  Status problem;
+  hologram.kind =
+      take_one(reader, HologramKind::kPath, HologramKind::kCheckPoint, "hologram", problem);
+  hologram.level = take_text(reader);
+  hologram.side = take_side(reader, problem);
+  hologram.text = take_text(reader);
+  const bool has_reading = reader.take<std::uint8_t>() != 0;
+  const auto reading = reader.take<double>();
+  if (has_reading) {
+    hologram.reading = reading;
+  }
+  const Status points = take_points(reader, hologram.points_in_world);
+  return problem ? points : problem;
+}
+
+}  // namespace
+
+void append_frame(std::vector<std::uint8_t>& bytes, const ShownFrame& frame) {
+  append_time(bytes, frame.display_time);
+  append_time(bytes, frame.pose_time);
+  append(bytes, static_cast<std::uint8_t>(frame.status.has_value()));
+  if (frame.status) {
+    append_status(bytes, *frame.status);
+  }
+  append(bytes, static_cast<std::uint32_t>(frame.holograms.size()));
+  for (const ShownHologram& hologram : frame.holograms) {
+    append_hologram(bytes, hologram);
+  }
+}
+
+Status take_frame(ByteReader& reader, ShownFrame& frame) {
+  frame.display_time = take_time(reader);
+  frame.pose_time = take_time(reader);
+  if (reader.take<std::uint8_t>() != 0) {
+    if (const Status taken = take_status(reader, frame.status.emplace()); !taken) {
+      return taken;
+    }
+  }
+  const auto count = reader.take<std::uint32_t>();
+  for (std::uint32_t i = 0; i < count && reader.ok(); ++i) {
+    if (const Status taken = take_hologram(reader, frame.holograms.emplace_back()); !taken) {
+      return taken;
+    }
+  }
+  return {};
+}
+
+}  // namespace orthonav::hl2ss

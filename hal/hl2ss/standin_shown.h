@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/result.h"
+#include "hal/api/display.h"
+#include "hal/hl2ss/bytes.h"
+
+namespace orthonav::hl2ss {
+
+// A displayed frame on the stand-in's side channel (hal/hl2ss/standin_message.h).
+
+void append_frame(std::vector<std::uint8_t>& bytes, const ShownFrame& frame);
+/// An Error for values that no frame has; missing bytes are the reader's to tell.
+Status take_frame(ByteReader& reader, ShownFrame& frame);
+
+}  // namespace orthonav::hl2ss

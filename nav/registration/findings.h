@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/side.h"
+
+namespace orthonav::nav {
+
+// What a registration finds out about itself, as data. Whoever tells a person makes the words
+// (engine/session/wording.h).
+
+/// A part of the vertebra's reachable surface, as surgeons name it.
+struct BonePlace {
+  enum class Part : std::uint8_t { kSpinousProcess, kLamina, kFacet };
+  enum class Height : std::uint8_t { kUpper, kMiddle, kLower };
+
+  Part part = Part::kSpinousProcess;
+  std::optional<Side> side;  ///< absent for the spinous process
+  Height height = Height::kMiddle;
+
+  friend bool operator==(const BonePlace&, const BonePlace&) = default;
+};
+
+/// The motion of the bone that its strokes tell least of.
+struct UncertainMotion {
+  enum class Kind : std::uint8_t {
+    kLateral,
+    kAnteroposterior,
+    kCraniocaudal,
+    kFlexion,  ///< and extension
+    kLateralBending,
+    kAxialRotation,
+    kWhollyOpen,  ///< some motion, which the strokes leave wholly open
+  };
+
+  Kind kind = Kind::kWhollyOpen;
+  double error_m = 0.0;  ///< root mean square, at the worst target; meaningless when wholly open
+
+  friend bool operator==(const UncertainMotion&, const UncertainMotion&) = default;
+};
+
+/// One reason why nothing may be guided on a registration: what was found, and the limit.
+struct RefusalReason {
+  enum class Kind : std::uint8_t {
+    kRmse,                ///< m
+    kRunnerUpRmse,        ///< the runner-up's RMSE, in that of the best
+    kTreAtCentre,         ///< m, expected at the centre of the bone
+    kNoise,               ///< m, SD of the points about the surface
+    kInliers,             ///< fraction of the points
+    kCoverage,            ///< fraction of the reachable surface
+    kShaftCollision,      ///< fraction of the points
+    kLogLikelihoodRatio,  ///< against the runner-up
+    kTreAtScrews,         ///< m, expected at the worst of the screws
+    kTre95AtScrews,       ///< m, below which 95 of 100 errors lie at the worst of the screws
+    kFitsOtherLevel,      ///< no number: the label tells which
+  };
+
+  Kind kind = Kind::kRmse;
+  double value = 0.0;
+  double limit = 0.0;
+  std::optional<UncertainMotion> motion;  ///< behind an error at the screws, where it is known
+  std::string level;                      ///< of kFitsOtherLevel
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,234 @@
+#include "engine/session/wording.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace orthonav::engine {
+namespace {
+
+using Reason = nav::RefusalReason::Kind;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+const nav::BonePlace kLeftLamina{nav::BonePlace::Part::kLamina, Side::kLeft,
+                                 nav::BonePlace::Height::kMiddle};
+
+std::string text_of_reason(Reason kind, double value, double limit) {
+  return text_of(nav::RefusalReason{kind, value, limit, {}, {}});
+}
+
+std::string line_with(const Message& message) {
+  StatusLine line;
+  line.message = &message;
+  return detail_text(line);
+}
+
+std::string line_with(const StepState& state) {
+  StatusLine line;
+  line.state = state;
+  return detail_text(line);
+}
+
+TEST(Wording, NamesStepsWithWhatTheyAreAbout) {
+  EXPECT_EQ(step_text({Step::kSetup, {}, {}}), "setup");
+  EXPECT_EQ(step_text({Step::kVerify, "L4", {}}), "verify L4");
+  EXPECT_EQ(step_text({Step::kGuide, "L4", Side::kLeft}), "guide L4 left");
+  EXPECT_EQ(step_text({Step::kRod, {}, Side::kRight}), "rod right");
+}
+
+TEST(Wording, GivesEveryReasonItsNumberAndLimit) {
+  EXPECT_EQ(text_of_reason(Reason::kRmse, 0.0034, 0.003), "registration RMSE 3.4 mm, limit 3.0 mm");
+  EXPECT_EQ(text_of_reason(Reason::kRunnerUpRmse, 1.02, 1.2),
+            "another pose fits nearly as well (1.02 times the RMSE, at least 1.20)");
+  EXPECT_EQ(text_of_reason(Reason::kTreAtCentre, 0.0041, 0.002),
+            "the points leave the bone loose: 4.1 mm error expected at its centre, limit 2.0 mm");
+  EXPECT_EQ(text_of_reason(Reason::kNoise, 0.0019, 0.0016),
+            "the points scatter 1.9 mm about the surface, limit 1.6 mm");
+  EXPECT_EQ(text_of_reason(Reason::kInliers, 0.5, 0.7),
+            "only 50 % of the points lie on the model, at least 70 %");
+  EXPECT_EQ(text_of_reason(Reason::kCoverage, 0.05, 0.1),
+            "only 5 % of the surface was stroked, at least 10 %");
+  EXPECT_EQ(text_of_reason(Reason::kShaftCollision, 0.4, 0.15),
+            "the pointer would have gone through bone at 40 % of the points, limit 15 %");
+  EXPECT_EQ(text_of_reason(Reason::kLogLikelihoodRatio, 3.25, 12.0),
+            "another pose fits nearly as well (margin 3.2, at least 12)");
+  EXPECT_EQ(text_of_reason(Reason::kTreAtScrews, 0.0024, 0.0015),
+            "error expected at the screws 2.4 mm, limit 1.5 mm");
+  EXPECT_EQ(text_of_reason(Reason::kTre95AtScrews, 0.0031, 0.002),
+            "1 of 20 errors at the screws would exceed 3.1 mm, limit 2.0 mm");
+  EXPECT_EQ(text_of(nav::RefusalReason{Reason::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}),
+            "the points fit level L3 as well");
+}
+
+TEST(Wording, NamesTheMotionBehindAnError) {
+  const nav::UncertainMotion motion{nav::UncertainMotion::Kind::kCraniocaudal, 0.0012};
+  EXPECT_EQ(text_of(motion), "slides along the spine (1.2 mm at the screws)");
+  EXPECT_EQ(text_of(nav::RefusalReason{Reason::kTreAtScrews, 0.0024, 0.0015, motion, {}}),
+            "error expected at the screws 2.4 mm, limit 1.5 mm: slides along the spine (1.2 mm at "
+            "the screws)");
+  EXPECT_EQ(text_of(nav::UncertainMotion{}), "a motion of the bone is left wholly open");
+}
+
+TEST(Wording, SaysWhereToStroke) {
+  using Part = nav::BonePlace::Part;
+  using Height = nav::BonePlace::Height;
+  EXPECT_EQ(text_of(kLeftLamina), "stroke the left lamina");
+  EXPECT_EQ(text_of(nav::BonePlace{Part::kFacet, Side::kRight, Height::kUpper}),
+            "stroke the right upper facet and root of the transverse process");
+  EXPECT_EQ(text_of(nav::BonePlace{Part::kSpinousProcess, {}, Height::kLower}),
+            "stroke the lower spinous process");
+}
+
+TEST(Wording, AsksForCheckPoints) {
+  using Kind = nav::CheckAdvice::Kind;
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchApart, 3, 0.015, 0.0}),
+            "touch 3 places, 15 mm apart");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchApart, 2, 0.015, 0.0}),
+            "touch 2 more places, 15 mm from the others");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchApart, 1, 0.015, 0.0}),
+            "touch 1 more place, 15 mm from the others");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchOffLine, 1, 0.005, 0.0}),
+            "touch 1 more place, 5 mm off the line of the others");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kReject, 4, 0.0031, 0.002}),
+            "check point 4 is 3.1 mm off, limit 2.0 mm: reject and stroke again");
+}
+
+TEST(Wording, SaysWhatStrokesAreWorth) {
+  Coaching coaching;
+  coaching.unique = true;
+  coaching.expected_m = 0.0024;
+  coaching.stroke_next = kLeftLamina;
+  EXPECT_EQ(text_of(coaching), "2.4 mm expected, stroke the left lamina");
+  EXPECT_EQ(line_with(StrokesSoFar{120, &coaching}),
+            "120 points | 2.4 mm expected, stroke the left lamina");
+  coaching.against = nav::RefusalReason{Reason::kNoise, 0.0019, 0.0016, {}, {}};
+  EXPECT_EQ(text_of(coaching),
+            "2.4 mm expected, the points scatter 1.9 mm about the surface, limit 1.6 mm");
+  coaching.enough = true;
+  EXPECT_EQ(text_of(coaching), "2.4 mm expected, enough to register");
+  coaching.expected_m = kInfinite;
+  EXPECT_EQ(text_of(coaching), "-- mm expected, enough to register");
+  coaching.unique = coaching.enough = false;
+  coaching.against.reset();
+  EXPECT_EQ(text_of(coaching), "could be more than one pose, stroke the left lamina")
+      << "no error is promised of a pose that may be the wrong one";
+}
+
+TEST(Wording, SaysHowAStepStands) {
+  EXPECT_EQ(line_with(StepState{}), "");
+  EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false}),
+            "RMSE 0.60 mm, 1.2 mm expected at the screws");
+  EXPECT_EQ(line_with(RegistrationFigures{kInfinite, 0.0012, true}), "RMSE -- mm, 1.2 mm expected");
+  EXPECT_EQ(line_with(HeadsSoFar{2}), "2 heads");
+  nav::CheckVerdict verdict;
+  verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
+  EXPECT_EQ(line_with(ChecksSoFar{0.0008, 1, -0.0007, &verdict}),
+            "0.8 mm expected; check point 1: -0.7 mm off; touch 2 more places, 15 mm from the "
+            "others");
+  verdict = {true, 0.0013, {}};
+  EXPECT_EQ(line_with(ChecksSoFar{0.0008, 3, std::nullopt, &verdict}),
+            "0.8 mm expected; checked, worst 1.3 mm");
+}
+
+TEST(Wording, SaysEveryMessage) {
+  using What = TouchNotRecorded::What;
+  using Touch = TouchRefusal::Kind;
+  EXPECT_EQ(line_with(Message(NotPossibleNow{Event::kSayAccept})), "not possible now: \"accept\"");
+  EXPECT_EQ(line_with(Message(NotUnderstood{})), "not understood");
+  EXPECT_EQ(line_with(Message(SaidBeforeShown{})),
+            "not accepted: said before the hologram was shown");
+  EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kRegion})),
+            "nothing to delete");
+  EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kCheckPoint})),
+            "no check point to delete");
+  EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kHead})), "no head to delete");
+  EXPECT_EQ(line_with(Message(ConfirmDelete{5})),
+            "say delete again to drop the last saved 5 points");
+  EXPECT_EQ(line_with(Message(ChecksMissing{{nav::CheckAdvice::Kind::kTouchApart, 3, 0.015}})),
+            "not accepted: touch 3 places, 15 mm apart");
+  EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kHead, {Touch::kTipMoved, 0.0032, 0.003}})),
+            "head not recorded: tip moved 3.2 mm, limit 3.0 mm");
+  EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kCheckPoint, {Touch::kPointerNotSeen}})),
+            "check point not recorded: pointer not seen");
+  EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kHead, {Touch::kPressAgain}})),
+            "head not recorded: press again");
+  EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kHead, {Touch::kHeldTooLong}})),
+            "head not recorded: hold too long");
+  EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kCheckPoint, {Touch::kTooMany}})),
+            "check point not recorded: there are 20 already");
+  EXPECT_EQ(line_with(Message(NoRod{{"2 heads lie 0.4 mm apart, at least 1.0 mm"}})),
+            "no rod: 2 heads lie 0.4 mm apart, at least 1.0 mm");
+  EXPECT_EQ(line_with(Message(MapMoved{Step::kDigitize})),
+            "the headset's map moved: digitize again");
+  EXPECT_EQ(line_with(Message(MapMoved{Step::kRod})),
+            "the headset's map moved: touch this rod's heads again");
+  EXPECT_EQ(line_with(Message(MapMoved{Step::kDone})), "the headset's map moved");
+  EXPECT_EQ(line_with(Message(NoImages{})), "no camera images");
+  EXPECT_EQ(line_with(Message(Ended{})), "ended");
+}
+
+TEST(Wording, SaysWhyARegistrationWasRefusedAndWhatToDo) {
+  RegistrationRefused refused;
+  refused.reasons = {{Reason::kNoise, 0.0019, 0.0016, {}, {}},
+                     {Reason::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}};
+  refused.stroke_next = kLeftLamina;
+  EXPECT_EQ(line_with(Message(refused)),
+            "refused: the points scatter 1.9 mm about the surface, limit 1.6 mm; the points fit "
+            "level L3 as well; stroke the left lamina");
+  refused.another_level_fits = true;
+  EXPECT_EQ(line_with(Message(refused)),
+            "refused: the points scatter 1.9 mm about the surface, limit 1.6 mm; the points fit "
+            "level L3 as well; make sure of the level");
+  RegistrationRefused none;
+  none.error = Error{"0 points, at least 100 needed"};
+  EXPECT_EQ(line_with(Message(none)), "refused: 0 points, at least 100 needed");
+}
+
+TEST(Wording, TheLossOfTheToolComesBeforeAnyMessage) {
+  const Message message = NotPossibleNow{Event::kSayAccept};
+  StatusLine line;
+  line.tool = "guide";
+  line.tool_lost = true;
+  line.state = HeadsSoFar{2};
+  EXPECT_EQ(detail_text(line), "guide lost") << "in place of how the step stands";
+  line.message = &message;
+  EXPECT_EQ(detail_text(line), "guide lost; not possible now: \"accept\"");
+  line.tool_lost = false;
+  line.tag_size_off = -0.032;
+  EXPECT_EQ(detail_text(line),
+            "guide: tag 3.2 % smaller than stated, check print and unit; not possible now: "
+            "\"accept\"");
+}
+
+TEST(Wording, WhatIsToBeTouchedCountsOnBesideAWarning) {
+  nav::CheckVerdict verdict;
+  verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 3, 0.015, 0.0};
+  StatusLine line;
+  line.tool = "pointer";
+  line.tool_lost = true;
+  line.state = ChecksSoFar{0.0008, 0, std::nullopt, &verdict};
+  EXPECT_EQ(detail_text(line), "pointer lost; touch 3 places, 15 mm apart");
+}
+
+TEST(Wording, PutsTheLineTogether) {
+  StatusLine line;
+  line.at = {Step::kGuide, "L4", Side::kLeft};
+  std::string text;
+  append_status(text, line);
+  EXPECT_EQ(text, "guide L4 left");
+  const HeardCommand heard{"next", false};
+  line.heard = &heard;
+  text.clear();
+  append_status(text, line);
+  EXPECT_EQ(text, "guide L4 left | heard: next? not sure");
+  line.state = HeadsSoFar{1};
+  text.clear();
+  append_status(text, line);
+  EXPECT_EQ(text, "guide L4 left | 1 heads | heard: next? not sure");
+  text.clear();
+  append_without_heard(text, line);
+  EXPECT_EQ(text, "guide L4 left | 1 heads");
+}
+
+}  // namespace
+}  // namespace orthonav::engine
