@@ -47,7 +47,10 @@ void draw(cairo_t* context, const SheetCut& cut) {
   cairo_set_source_rgb(context, kCutGrey, kCutGrey, kCutGrey);
   cairo_set_line_width(context, kCutWidthMm);
   cairo_set_dash(context, &kCutDashMm, 1, 0.0);
-  cairo_rectangle(context, cut.rect.x_mm, cut.rect.y_mm, cut.rect.width_mm, cut.rect.height_mm);
+  for (const Vec2& corner : cut.corners_mm) {
+    cairo_line_to(context, corner.x, corner.y);
+  }
+  cairo_close_path(context);
   cairo_stroke(context);
 }
 
