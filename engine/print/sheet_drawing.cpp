@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kPointsPerMm = 72.0 / 25.4;
 constexpr double kCutWidthMm = 0.1;
-constexpr double kCutDashMm = 1.0;
+// Short, so that a notch of 2 mm has several.
+constexpr double kCutDashMm = 0.5;
 constexpr double kCutGrey = 0.6;
 constexpr double kMostPixels = 200e6;
 // A file says when it was made; ours must not depend on that.

@@ -20,8 +20,9 @@ constexpr double kOneRowTextMm = 1.6;
 constexpr double kSmallestTextMm = 1.2;
 constexpr double kTextMarginMm = 0.4;
 
-// Of the strip above the quiet zone.
-constexpr double kNotchDepth = 0.8;
+// In heights of the font; the strip above the quiet zone is 1.5 high.
+constexpr double kNotchDepth = 1.2;
+constexpr double kNotchHalfWidth = 0.8;
 constexpr const char* kArrow = "\xE2\x96\xB2";
 
 /// The height at which the longest row fills the paper.
@@ -52,10 +53,10 @@ SheetCut cut_of(const TagPatch& patch, double left_mm, double top_mm) {
   const double right_mm = left_mm + patch.cut_width_mm;
   const double bottom_mm = top_mm + patch.cut_height_mm();
   const double middle_mm = (left_mm + right_mm) / 2;
-  const double notch_mm = kNotchDepth * patch.top_mm();
+  const double notch_mm = kNotchHalfWidth * patch.text_mm;
   return {{{left_mm, top_mm},
            {middle_mm - notch_mm, top_mm},
-           {middle_mm, top_mm + notch_mm},
+           {middle_mm, top_mm + kNotchDepth * patch.text_mm},
            {middle_mm + notch_mm, top_mm},
            {right_mm, top_mm},
            {right_mm, bottom_mm},
@@ -64,7 +65,7 @@ SheetCut cut_of(const TagPatch& patch, double left_mm, double top_mm) {
 
 /// The arrow and the word on either side of the notch.
 void add_up_mark(Sheet& sheet, const TagPatch& patch, double middle_mm, double top_mm) {
-  const double apart_mm = kNotchDepth * patch.top_mm() + 0.2 * patch.text_mm;
+  const double apart_mm = (kNotchHalfWidth + 0.2) * patch.text_mm;
   const double baseline_mm = top_mm + 1.1 * patch.text_mm;
   sheet.texts.push_back(
       {middle_mm - apart_mm, baseline_mm, patch.text_mm, kArrow, SheetAlign::kRight});
