@@ -136,12 +136,11 @@ TEST(CalibrateTool, RefusesATagThatIsMountedTurnedAndSaysWhichWay) {
       {{2, 1}, "tag tag36h11 id 5 is mounted turned by 90° counter-clockwise"},
       {{2, 2}, "tag tag36h11 id 5 is mounted turned by 180°"},
       {{2, 3}, "tag tag36h11 id 5 is mounted turned by 90° clockwise"},
-      {{0, 1}, "tag tag36h11 id 3 is mounted turned by 90° counter-clockwise"},
   };
   for (const Case& c : cases) {
     const std::string recording = folder.file("recording");
     std::filesystem::remove_all(recording);
-    record_prism(recording, kPairs, 99, c.turned);
+    record_prism(recording, 30, 99, c.turned);
     const Called called = calibrated_against(own, recording, out);
     EXPECT_EQ(called.code, 1) << c.expected;
     EXPECT_THAT(called.err, HasSubstr("refused: tool calibration: " + c.expected +

@@ -363,11 +363,8 @@ TEST_F(Guiding, ARejectedRegistrationTakesItsHologramsAlong) {
 }
 
 TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
-  ScriptedOperation s({"L5"});
-  s.accepts_first_level();
-  s.says("next");
-  s.says("next");
-  s.says("next");
+  ScriptedOperation s;
+  s.finishes_every_screw();
   s.touches({0.02, 0.03, 0.00});
   const Guidance& g = s.touches({0.02, 0.03, 0.04});
   EXPECT_THAT(drawn(g), ::testing::ElementsAre(3, 10, 11));
@@ -385,11 +382,8 @@ TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
 }
 
 TEST(SceneBuilder, ARodThatCantBeMadeHasNoLength) {
-  ScriptedOperation s({"L5"});
-  s.accepts_first_level();
-  for (int i = 0; i < 3; ++i) {
-    s.says("next");
-  }
+  ScriptedOperation s;
+  s.finishes_every_screw();
   s.touches({0.02, 0.03, 0.00});
   const Guidance& g = s.touches({0.02, 0.03, 0.00});
   ASSERT_EQ(g.rods[0].heads.size(), 2u);
@@ -475,11 +469,8 @@ TEST(VisibilityRules, NamesEveryProblem) {
 }
 
 TEST(SceneBuilder, MakesATubeOnceForARod) {
-  ScriptedOperation s({"L5"});
-  s.accepts_first_level();
-  for (int i = 0; i < 3; ++i) {
-    s.says("next");
-  }
+  ScriptedOperation s;
+  s.finishes_every_screw();
   s.touches({0.02, 0.03, 0.00});
   SceneBuilder builder;
   render::Scene scene;
