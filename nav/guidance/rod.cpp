@@ -21,7 +21,8 @@ constexpr double kFarthest_m = 0.15;
 constexpr double kLongest_m = 0.6;
 /// Surgeons bend 5.5 mm rods by up to 30-40° at a place, over a pedicle subtraction osteotomy; 60°
 /// are the sharpest contour of the fatigue tests, where such rods break early (Tang et al. 2013,
-/// Neurosurgery 72:276). Points that ask for more are not the heads of one rod.
+/// Neurosurgery 72:276). Entries of lumbar plans ask for up to 27°. Points that ask for more than
+/// 60° are not the heads of one rod.
 constexpr double kSharpest_rad = 60.0 * kRadiansPerDegree;
 constexpr double kBack_rad = 90.0 * kRadiansPerDegree;
 constexpr double kSampling_m = 0.001;
