@@ -1,12 +1,15 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "base/angle.h"
+#include "base/joined.h"
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
 #include "nav/calibration/tag_body.h"
+#include "nav/calibration/tag_mounting.h"
 #include "tools/arguments.h"
 #include "tools/calibrate.h"
 #include "tools/json_output.h"
@@ -69,10 +72,10 @@ Result<std::vector<nav::MarkerDefinition>> tags_from(const ToolArguments& argume
   return tags;
 }
 
-/// A tool of a tools file that is to get its tags must have the first one as its marker.
-Status check_marker(const ToolArguments& arguments, const nav::MarkerDefinition& first) {
+/// The tool of the tools file that is to get these tags; none without such a file.
+Result<std::optional<nav::ToolGeometry>> described_tool(const ToolArguments& arguments) {
   if (arguments.tools_file.empty()) {
-    return {};
+    return std::optional<nav::ToolGeometry>();
   }
   const auto tools = engine::load_tools(arguments.tools_file);
   if (!tools) {
@@ -82,6 +85,15 @@ Status check_marker(const ToolArguments& arguments, const nav::MarkerDefinition&
   if (!tool) {
     return Error{arguments.tools_file + ": " + tool.error().message};
   }
+  return std::optional<nav::ToolGeometry>(*tool);
+}
+
+/// A tool that is to get its tags must have the first one as its marker.
+Status check_marker(const ToolArguments& arguments, const std::optional<nav::ToolGeometry>& tool,
+                    const nav::MarkerDefinition& first) {
+  if (!tool) {
+    return {};
+  }
   const nav::MarkerDefinition& marker = tool->marker;
   if (marker.family != first.family || marker.id != first.id ||
       std::abs(marker.size_m - first.size_m) > 1e-9) {
@@ -90,6 +102,31 @@ Status check_marker(const ToolArguments& arguments, const nav::MarkerDefinition&
                  std::to_string(marker.size_m * 1e3) + " mm, the first of --ids must be the same"};
   }
   return {};
+}
+
+const char* turn_text(int quarter_turns) {
+  return quarter_turns == 1   ? "90° counter-clockwise"
+         : quarter_turns == 2 ? "180°"
+                              : "90° clockwise";
+}
+
+/// Poses of tags that were glued on the wrong way round would be right, but not what the file's
+/// owner believes: the tip and the axis are described by how the tags should sit.
+Status check_mounting(const ToolArguments& arguments, const std::optional<nav::ToolGeometry>& tool,
+                      const nav::TagBody& body) {
+  if (!tool) {
+    return {};
+  }
+  std::vector<std::string> problems;
+  for (const nav::TurnedTag& tag : nav::turned_tags(body.tags, tool->more_markers)) {
+    problems.push_back("tag " + tag.definition.family + " id " + std::to_string(tag.definition.id) +
+                       " is mounted turned by " + turn_text(tag.quarter_turns));
+  }
+  if (problems.empty()) {
+    return {};
+  }
+  return Error{"tool calibration: " + joined(problems) + ", seen from the front, against " +
+               arguments.tools_file + "; mount it as described, or correct its pose there"};
 }
 
 std::vector<nav::AttachedMarker> further_tags(const nav::TagBody& body) {
@@ -165,7 +202,11 @@ int run_tool(const ToolArguments& arguments) {
   if (!tags) {
     return bad_input(tags.error().message);
   }
-  if (const Status s = check_marker(arguments, tags->front()); !s) {
+  const auto tool = described_tool(arguments);
+  if (!tool) {
+    return bad_input(tool.error().message);
+  }
+  if (const Status s = check_marker(arguments, *tool, tags->front()); !s) {
     return bad_input(s.error().message);
   }
   if (const Status s = arguments.json.check(); !s) {
@@ -179,7 +220,12 @@ int run_tool(const ToolArguments& arguments) {
     return bad_input(seen.error().message);
   }
 
-  const auto body = nav::calibrate_tag_body(seen->calibration, *tags, seen->pairs);
+  auto body = nav::calibrate_tag_body(seen->calibration, *tags, seen->pairs);
+  if (body) {
+    if (const Status s = check_mounting(arguments, *tool, *body); !s) {
+      body = s.error();
+    }
+  }
   if (body) {
     const auto text = tools_with(arguments, *body);
     if (!text) {
@@ -205,7 +251,9 @@ constexpr const char* kToolFooter =
     "\nTurn the tool slowly before the cameras so that each tag is seen together with a "
     "neighbour,\n"
     "in fifty pairs and more. The first of --ids becomes the tool's marker; poses of the others\n"
-    "are relative to it. Without --tools a file with this one tool is written, its tip at the\n"
+    "are relative to it. A tag that sits turned by a quarter or half against the pose that "
+    "--tools\n"
+    "has for it is refused. Without --tools a file with this one tool is written, its tip at the\n"
     "marker until `calibrate pivot` finds it. Exit code 1: refused, nothing written.";
 
 }  // namespace

@@ -57,7 +57,6 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
     }
     plan = std::move(*file);
     inputs.level.label = plan->level;
-    inputs.level.screws = plan->screws;
   }
   const Axes axes = !arguments.frame.empty() ? *engine::axes_from(arguments.frame)
                     : plan                   ? plan->axes
@@ -65,6 +64,13 @@ Status load_single_level(const RegisterArguments& arguments, engine::ModelCache&
   auto mesh = load_model(arguments, plan, axes);
   if (!mesh) {
     return mesh.error();
+  }
+  if (plan) {
+    auto screws = engine::screws_on(*mesh, *plan);
+    if (!screws) {
+      return screws.error();
+    }
+    inputs.level.screws = std::move(*screws);
   }
   inputs.frame.model_axes = engine::declared_axes(arguments.model).value_or(axes);
   auto model = models.prepared(*mesh);

@@ -112,7 +112,10 @@ void add_rod_command(CLI::App& app, Action& action) {
   command->footer(
       "\nThe rod is a centripetal Catmull-Rom spline through the heads, ordered along their\n"
       "principal axis; its length is exact to 1 um. A bend's angle is that between the chords\n"
-      "before and after a head, its place the length along the rod from the first head.");
+      "before and after a head, its place the length along the rod from the first head. Refused "
+      "is\n"
+      "what no rod of a spine is: heads less than 5 mm or, along the rod, more than 150 mm apart,\n"
+      "bends of more than 60 degrees, points that double back, more than 600 mm of length.");
   command->callback([arguments, &action] { action = [arguments] { return run_rod(*arguments); }; });
 }
 

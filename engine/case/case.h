@@ -35,7 +35,7 @@ struct Case {
   /// Every problem at once, a line each: no levels, labels that are empty or repeat, levels without
   /// screws, levels that lie in one another, and screws that tell of a plan in another frame, of
   /// another level or with its sides swapped: an entry more than 10 mm off the bone, in front of
-  /// its target, or on the other side of the bone's middle than its name; a target outside the
+  /// its target, or on the other side than its own (`OffMidline::side`); a target outside the
   /// bone. Empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };

@@ -86,7 +86,11 @@ Result<CaseLevel> loaded(const Entry& entry, const std::string& folder, double m
   if (!mesh) {
     return mesh.error();
   }
-  CaseLevel level{entry.label, std::move(mesh).value(), plan->screws, {}};
+  auto screws = screws_on(*mesh, *plan);
+  if (!screws) {
+    return screws.error();
+  }
+  CaseLevel level{entry.label, std::move(mesh).value(), std::move(screws).value(), {}};
   if (entry.node.has("spine_from_model")) {
     level.spine_from_vertebra =
         spine_from_model(entry.node, metres_per_unit, declared_axes(model).value_or(plan->axes));

@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "base/length_text.h"
+#include "engine/case/line_name.h"
 #include "engine/case/operation.h"
+#include "engine/case/screw_place.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
 #include "engine/io/slicer_markups.h"
@@ -31,7 +33,7 @@ std::optional<nav::Side> side_from(const std::string& text) {
 }
 
 /// What is wrong with one screw; empty when nothing is. A radius of 0 means none was stated.
-std::string problem_of(const nav::ScrewPlan& screw) {
+std::string problem_of(const StatedScrew& screw) {
   const double length_m = (screw.target - screw.entry).norm();
   if (!(length_m >= kMinScrewLength_m && length_m <= kMaxScrewLength_m)) {
     return "is " + in_mm(length_m) + " from entry to target, must be " + in_mm(kMinScrewLength_m) +
@@ -45,20 +47,13 @@ std::string problem_of(const nav::ScrewPlan& screw) {
   return {};
 }
 
-Result<Plan> checked(Plan plan, const std::string& path) {
+Result<Plan> checked(Plan plan) {
   if (plan.screws.empty()) {
-    return Error{path + ": has no screws"};
+    return Error{plan.path + ": has no screws"};
   }
-  int count[2] = {0, 0};
-  for (std::size_t i = 0; i < plan.screws.size(); ++i) {
-    const nav::ScrewPlan& screw = plan.screws[i];
-    const std::string which =
-        path + ": screws[" + std::to_string(i) + "] (" + name_of(screw.side) + ") ";
+  for (const StatedScrew& screw : plan.screws) {
     if (const std::string problem = problem_of(screw); !problem.empty()) {
-      return Error{which + problem};
-    }
-    if (++count[static_cast<int>(screw.side)] > 1) {
-      return Error{which + "is the second one on that side, one is the limit"};
+      return Error{plan.path + ": " + screw.where + " " + problem};
     }
   }
   return plan;
@@ -86,6 +81,7 @@ Result<Plan> plan_from_json(const std::string& path) {
   }
   const JsonNode root = document->root();
   Plan plan;
+  plan.path = path;
   read_frame(root, plan);
   plan.level = root.text_or("level", "");
   const auto point = [&plan](const JsonNode& node, const char* key) {
@@ -101,68 +97,14 @@ Result<Plan> plan_from_json(const std::string& path) {
     if (!(radius > 0.0)) {
       node.refuse("radius", "must be greater than 0");
     }
-    plan.screws.push_back({side.value_or(nav::Side::kLeft), point(node, "entry"),
-                           point(node, "target"), radius * plan.metres_per_unit});
+    plan.screws.push_back({"screws[" + std::to_string(plan.screws.size()) + "]", side,
+                           point(node, "entry"), point(node, "target"),
+                           radius * plan.metres_per_unit});
   }
   if (Status status = document->status(); !status) {
     return status.error();
   }
-  return checked(std::move(plan), path);
-}
-
-/// Finds `left`/`right` (or a lone L/R) and a level such as `L4` in what a planner wrote.
-struct LineName {
-  std::optional<nav::Side> side;
-  std::string level;
-};
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-
-/// Letters and the digits after them, in lower case: "L4_Left-2" has l4 and left.
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t first = i;
-    while (i < text.size() && is_letter(text[i])) {
-      ++i;
-    }
-    const bool has_letters = i > first;
-    while (i < text.size() && is_digit(text[i])) {
-      ++i;
-    }
-    if (has_letters) {
-      words.push_back(lower_case(text.substr(first, i - first)));
-    }
-    if (i == first) {
-      ++i;
-    }
-  }
-  return words;
-}
-
-bool is_level(const std::string& word) {
-  return (word.size() == 2 || word.size() == 3) &&
-         std::string("ctls").find(word[0]) != std::string::npos && is_digit(word[1]) &&
-         is_digit(word.back());
-}
-
-LineName parsed_name(const std::string& name) {
-  LineName parsed;
-  for (const std::string& word : words_of(name)) {
-    if (word == "left" || word == "l") {
-      parsed.side = nav::Side::kLeft;
-    }
-    if (word == "right" || word == "r") {
-      parsed.side = nav::Side::kRight;
-    }
-    if (!is_level(word)) {
-      continue;
-    }
-    parsed.level = word;
-    parsed.level[0] = static_cast<char>(std::toupper(word[0]));
-  }
-  return parsed;
+  return checked(std::move(plan));
 }
 
 /// The radius that `diameter=5.5` states, in the file's unit; 0 where it does not.
@@ -186,15 +128,20 @@ double stated_radius(const Markup& markup) {
   return 0.0;
 }
 
-/// Lines without a named side: of two, the one that enters farther to the left is the left one.
-bool take_sides_from_positions(std::vector<nav::ScrewPlan>& screws) {
-  if (screws.size() != 2 || screws[0].entry.v.x == screws[1].entry.v.x) {
-    return false;
+/// A name may be of any length and hold anything; a message is one line.
+std::string quoted(const std::string& name) {
+  constexpr std::size_t kMost = 60;
+  std::string shown = name.size() <= kMost ? name : name.substr(0, kMost) + "...";
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return "\"" + shown + "\"";
+}
+
+std::optional<nav::Side> side_of(const LineName& name) {
+  if (name.left == name.right) {
+    return std::nullopt;
   }
-  const bool first_is_left = screws[0].entry.v.x > screws[1].entry.v.x;
-  screws[0].side = first_is_left ? nav::Side::kLeft : nav::Side::kRight;
-  screws[1].side = first_is_left ? nav::Side::kRight : nav::Side::kLeft;
-  return true;
+  return name.left ? nav::Side::kLeft : nav::Side::kRight;
 }
 
 Result<Plan> plan_from_markups(const std::string& path) {
@@ -203,18 +150,22 @@ Result<Plan> plan_from_markups(const std::string& path) {
     return file.error();
   }
   Plan plan;
+  plan.path = path;
   plan.axes = file->axes;
   plan.metres_per_unit = file->metres_per_unit;
-  bool every_side_named = true;
   for (const Markup& markup : file->markups) {
     if (markup.type != "Line") {
       continue;
     }
+    const std::string where = "line " + quoted(markup.name);
     if (markup.points.size() != 2) {
-      return Error{path + ": line \"" + markup.name + "\" has " +
-                   std::to_string(markup.points.size()) + " defined points, must be 2"};
+      return Error{path + ": " + where + " has " + std::to_string(markup.points.size()) +
+                   " defined points, must be 2"};
     }
-    const LineName name = parsed_name(markup.name);
+    const LineName name = parsed_line_name(markup.name);
+    if (name.left && name.right) {
+      return Error{path + ": " + where + " says both left and right"};
+    }
     if (!plan.level.empty() && !name.level.empty() && name.level != plan.level) {
       return Error{path + ": holds screws of " + plan.level + " and " + name.level +
                    ", must be one level a file"};
@@ -222,17 +173,34 @@ Result<Plan> plan_from_markups(const std::string& path) {
     if (!name.level.empty()) {
       plan.level = name.level;
     }
-    every_side_named = every_side_named && name.side.has_value();
     const auto point = [&](std::size_t i) {
       return Point<Vertebra>{to_lps(markup.points[i].position, plan.axes) * plan.metres_per_unit};
     };
-    plan.screws.push_back({name.side.value_or(nav::Side::kLeft), point(0), point(1),
-                           stated_radius(markup) * plan.metres_per_unit});
+    plan.screws.push_back(
+        {where, side_of(name), point(0), point(1), stated_radius(markup) * plan.metres_per_unit});
   }
-  if (!every_side_named && !take_sides_from_positions(plan.screws)) {
-    return Error{path + ": a line's name does not say left or right"};
+  return checked(std::move(plan));
+}
+
+/// The place tells the side; what the file says may only confirm it, unless the place leaves it
+/// open.
+Result<nav::Side> side_on(const nav::TriangleMesh& bone, const StatedScrew& screw) {
+  const OffMidline off = off_midline(bone, screw.entry, screw.target);
+  const auto measured = off.side();
+  if (measured && screw.side.value_or(*measured) != *measured) {
+    const std::string said = name_of(*screw.side);
+    return Error{"says " + said + ", but its entry lies " + to_the_side(off.entry_m) +
+                 " of the bone's midline, must lie to the " + said};
   }
-  return checked(std::move(plan), path);
+  if (measured || screw.side) {
+    return measured ? *measured : *screw.side;
+  }
+  if (off.crosses()) {
+    return Error{"must say left or right: it crosses the bone's midline, from " +
+                 to_the_side(off.entry_m) + " to " + to_the_side(off.target_m)};
+  }
+  return Error{"must say left or right: its entry lies only " + to_the_side(off.entry_m) +
+               " of the bone's midline, " + in_mm(kLeastOffMidline_m) + " would tell the side"};
 }
 
 nlohmann::json list_mm(Point<Vertebra> p) { return {p.v.x * 1e3, p.v.y * 1e3, p.v.z * 1e3}; }
@@ -247,13 +215,36 @@ Result<Plan> load_plan(const std::string& path) {
   return is_markups_name(path) ? plan_from_markups(path) : plan_from_json(path);
 }
 
-Status save_plan(const std::string& path, const Plan& plan) {
+Result<std::vector<nav::ScrewPlan>> screws_on(const nav::TriangleMesh& bone, const Plan& plan) {
+  const nav::SurfaceIndex surface(bone);
+  std::vector<nav::ScrewPlan> screws;
+  for (const StatedScrew& stated : plan.screws) {
+    const std::string which = plan.path + ": " + stated.where + " ";
+    if (const auto problem = misplaced(surface, stated.entry, stated.target, stated.radius_m)) {
+      return Error{which + *problem};
+    }
+    const auto side = side_on(bone, stated);
+    if (!side) {
+      return Error{which + side.error().message};
+    }
+    for (const nav::ScrewPlan& other : screws) {
+      if (other.side == *side) {
+        return Error{which + "is the second one on the " + name_of(*side) + ", one is the limit"};
+      }
+    }
+    screws.push_back({*side, stated.entry, stated.target, stated.radius_m});
+  }
+  return screws;
+}
+
+Status save_plan(const std::string& path, const std::string& level,
+                 std::span<const nav::ScrewPlan> screws) {
   nlohmann::ordered_json root = {{"units", "mm"}, {"frame", "LPS"}};
-  if (!plan.level.empty()) {
-    root["level"] = plan.level;
+  if (!level.empty()) {
+    root["level"] = level;
   }
   root["screws"] = nlohmann::ordered_json::array();
-  for (const nav::ScrewPlan& screw : plan.screws) {
+  for (const nav::ScrewPlan& screw : screws) {
     nlohmann::ordered_json entry;
     entry["side"] = name_of(screw.side);
     entry["entry"] = list_mm(screw.entry);

@@ -1,32 +1,52 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/result.h"
 #include "engine/io/patient_axes.h"
+#include "nav/geometry/mesh.h"
 #include "nav/guidance/screw.h"
 
 namespace orthonav::engine {
 
-/// The screws of one level, in metres and LPS; `axes` and `metres_per_unit` are what the file used,
-/// and what the model beside it uses.
+/// A screw as its file states it. On which side it lies is for the bone to say (`screws_on`).
+struct StatedScrew {
+  std::string where;              ///< in the file: `screws[1]`, `line "L4 left"`
+  std::optional<nav::Side> side;  ///< as the file or the line's name says; none: it says nothing
+  Point<Vertebra> entry;
+  Point<Vertebra> target;
+  double radius_m = 0.0;  ///< 0: none is stated
+};
+
+/// What a file plans for one level, in metres and LPS; `axes` and `metres_per_unit` are what the
+/// file used, and what the model beside it uses.
 struct Plan {
+  std::string path;
   std::string level;  ///< "L4" where the file says so, else empty
   Axes axes = Axes::kLps;
   double metres_per_unit = 1e-3;
-  std::vector<nav::ScrewPlan> screws;
+  std::vector<StatedScrew> screws;
 };
 
 /// Reads a plan: `{"units": "mm"|"m", "frame": "LPS"|"RAS", "level"?, "screws": [{"side": "left"|
 /// "right", "entry", "target", "radius"}]}`, or the lines of a 3D Slicer markups file (`.mrk.json`:
-/// point 0 entry, point 1 target, side from the name, `diameter=5.5` in name or description; radius
-/// 0 where none is given). Refuses plans without unit or frame, without screws, with two screws on
-/// one side, screws shorter than 10 mm or longer than 120 mm, radii outside 1-6 mm, and the
-/// legacy `.fcsv`, which knows no lines.
+/// point 0 entry, point 1 target, side and level from the name (`line_name.h`), `diameter=5.5` in
+/// name or description). Refuses plans without unit or frame, without screws, names that say both
+/// sides, screws shorter than 10 mm or longer than 120 mm, radii outside 1-6 mm, and the legacy
+/// `.fcsv`, which knows no lines.
 Result<Plan> load_plan(const std::string& path);
 
+/// The screws with the side on which each lies on its bone (`OffMidline::side`). What the file says
+/// only confirms it, and decides where the place leaves it open. Refuses, with file and screw, a
+/// screw that is not of this bone or written in other axes (`misplaced`), a side that contradicts
+/// the place, a side that neither tells, and two screws on one side.
+Result<std::vector<nav::ScrewPlan>> screws_on(const nav::TriangleMesh& bone, const Plan& plan);
+
 /// Writes a plan in millimetres and LPS.
-Status save_plan(const std::string& path, const Plan& plan);
+Status save_plan(const std::string& path, const std::string& level,
+                 std::span<const nav::ScrewPlan> screws);
 
 }  // namespace orthonav::engine

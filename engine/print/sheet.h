@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/vec.h"
+
 namespace orthonav::engine {
 
 // A page to print as plain values: millimetres from the page's top left corner, x right, y down.
@@ -21,7 +23,7 @@ struct SheetShape {
 
 /// Where to cut: thin, dashed, light enough to be no edge of a tag.
 struct SheetCut {
-  SheetRect rect;
+  std::vector<Vec2> corners_mm;  ///< of a closed outline
 };
 
 struct SheetLine {

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kPointsPerMm = 72.0 / 25.4;
 constexpr double kCutWidthMm = 0.1;
-constexpr double kCutDashMm = 1.0;
+// Short, so that a notch of 2 mm has several.
+constexpr double kCutDashMm = 0.5;
 constexpr double kCutGrey = 0.6;
 constexpr double kMostPixels = 200e6;
 // A file says when it was made; ours must not depend on that.
@@ -47,7 +48,10 @@ void draw(cairo_t* context, const SheetCut& cut) {
   cairo_set_source_rgb(context, kCutGrey, kCutGrey, kCutGrey);
   cairo_set_line_width(context, kCutWidthMm);
   cairo_set_dash(context, &kCutDashMm, 1, 0.0);
-  cairo_rectangle(context, cut.rect.x_mm, cut.rect.y_mm, cut.rect.width_mm, cut.rect.height_mm);
+  for (const Vec2& corner : cut.corners_mm) {
+    cairo_line_to(context, corner.x, corner.y);
+  }
+  cairo_close_path(context);
   cairo_stroke(context);
 }
 

@@ -16,7 +16,7 @@ struct PrintedTag {
 
 struct TagSheetOptions {
   Page page;
-  /// White around the tag in cells of the tag, 1-4.
+  /// White around the tag in cells of the tag, 1-4; text stays outside of it.
   double quiet_cells = 1.0;
 };
 
@@ -33,8 +33,8 @@ struct TagSheets {
   std::vector<PlacedTag> placed;  ///< in the order of the tags
 };
 
-/// The tags row by row on as many pages as they need, each with its cut line at the edge of the
-/// quiet zone and family, id, size and quiet zone under it. Refuses, with size and limit, a tag
+/// The tags row by row on as many pages as they need, each to be cut out with its id, size and the
+/// mark of its upper side (`tag_patch.h`). Refuses, with size and limit, a tag
 /// that does not fit the page, unknown families and ids, sizes outside 5-200 mm, and more than 1000
 /// tags.
 Result<TagSheets> tag_sheets(const std::vector<PrintedTag>& tags, const TagSheetOptions& options);

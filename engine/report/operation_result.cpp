@@ -41,6 +41,9 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
     result.levels.push_back(std::move(level));
   }
   for (const RodState& rod : rods) {
+    if (rod.heads.empty() && !rod_planned(levels, rod.side)) {
+      continue;
+    }
     RodOutcome outcome;
     outcome.side = rod.side;
     outcome.heads = rod.heads.size();

@@ -55,7 +55,7 @@ struct OperationResult {
   /// 3.4 mm, limit 3.0 mm". Empty when it completed.
   std::string why_not;
   std::vector<LevelOutcome> levels;
-  std::vector<RodOutcome> rods;
+  std::vector<RodOutcome> rods;  ///< none where no side has two screws
   LoopReport loop;
   Status recording;  ///< why the session's recording is not complete, where one was asked for
 };

@@ -64,8 +64,12 @@ Json one_rod_json(const RodOutcome& rod) {
 }
 
 /// Of both sides: the mean length, the length error that is largest in size, the mean head error.
+/// Empty where no rod was planned.
 Json rods_json(const std::vector<RodOutcome>& rods) {
   Json out = Json::object();
+  if (rods.empty()) {
+    return out;
+  }
   double length = 0.0;
   double head = 0.0;
   int lengths = 0;

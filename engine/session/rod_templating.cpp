@@ -5,6 +5,16 @@
 
 namespace orthonav::engine {
 
+bool rod_planned(std::span<const LevelState> levels, nav::Side side) {
+  std::size_t screws = 0;
+  for (const LevelState& level : levels) {
+    for (const nav::ScrewPlan& screw : level.plan.screws) {
+      screws += screw.side == side ? 1 : 0;
+    }
+  }
+  return screws >= 2;
+}
+
 RodTemplating::RodTemplating() {
   rods_[0].side = nav::Side::kLeft;
   rods_[1].side = nav::Side::kRight;

@@ -9,6 +9,9 @@
 
 namespace orthonav::engine {
 
+/// Whether the plan has a rod on that side: two screws or more.
+[[nodiscard]] bool rod_planned(std::span<const LevelState> levels, nav::Side side);
+
 /// The step in which the heads of the screws are touched, the left rod's, then the right one's, and
 /// a rod is bent through them.
 class RodTemplating {

@@ -40,7 +40,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kFinishRod: return finish_rod(time);
     case kMoveRod: return rod_templating_.move_away();
     case kToggleTwin: return guiding_.toggle_twin();
-    case kFinish: return;  // both rods were told of when they were done
+    case kFinish: return;  // rods were told of when they were done
     case kWarnLost: return;  // the status line shows it from the tool in use
     case kHideGuidance: return in_use_.hide_guidance(true);
     case kShowGuidance: return in_use_.hide_guidance(false);
@@ -130,8 +130,10 @@ void Session::finish_screw(Timestamp time) {
     handle(Event::kAnotherScrew, time);
   } else if (!std::all_of(levels_.begin(), levels_.end(), finished)) {
     handle(Event::kAnotherLevel, time);
-  } else {
+  } else if (rod_planned(levels_, nav::Side::kLeft) || rod_planned(levels_, nav::Side::kRight)) {
     handle(Event::kNoScrewLeft, time);
+  } else {
+    handle(Event::kNoRodPlanned, time);
   }
 }
 

@@ -36,6 +36,7 @@ enum class Event : std::uint8_t {
   kAnotherScrew,         ///< the level has a further screw
   kAnotherLevel,         ///< the level is finished, a further one is planned
   kNoScrewLeft,          ///< every screw of the plan is done
+  kNoRodPlanned,         ///< and no side has two, which a rod would join
   kAnotherSide,          ///< the rod of the other side is still to do
   kNoSideLeft,           ///< both rods are done
   kTrackingLost,         ///< the step's tool is no longer measured
@@ -43,7 +44,7 @@ enum class Event : std::uint8_t {
   kTrackingRegained,     ///< the step's tool is measured again
   kMapMoved,             ///< the headset's map is another one: positions in it mean nothing now
 };
-inline constexpr std::size_t kEventCount = 27;
+inline constexpr std::size_t kEventCount = 28;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -168,6 +169,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kAnotherScrew, kSelectScrew, kGuide},
     {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
     {kGuide, kNoScrewLeft, kBeginRod, kRod},
+    {kGuide, kNoRodPlanned, kFinish, kDone},
     {kGuide, kPress, kIgnore, kGuide},
     {kGuide, kRelease, kIgnore, kGuide},
     {kGuide, kClick, kIgnore, kGuide},

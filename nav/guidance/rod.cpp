@@ -2,23 +2,40 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <string>
 
+#include "base/angle.h"
 #include "nav/geometry/spline.h"
 #include "nav/registration/principal_axes.h"
 
 namespace orthonav::nav {
 namespace {
 
-constexpr double kClosest_m = 0.001;
+/// The head of a screw is 8 mm and more wide along the rod. Two that lie nearer than this, with
+/// errors of touch of 1-2 mm each, are one that was touched twice.
+constexpr double kClosest_m = 0.005;
+/// Heads lie 15-60 mm apart; over three levels without screws (37 mm each), as far as this.
+constexpr double kFarthest_m = 0.15;
 /// From T1 to the pelvis a rod is half a metre long; more is a slip of the unit.
-constexpr double kFarthest_m = 0.6;
+constexpr double kLongest_m = 0.6;
+/// Surgeons bend 5.5 mm rods by up to 30-40° at a place, over a pedicle subtraction osteotomy; 60°
+/// are the sharpest contour of the fatigue tests, where such rods break early (Tang et al. 2013,
+/// Neurosurgery 72:276). Entries of lumbar plans ask for up to 27°. Points that ask for more than
+/// 60° are not the heads of one rod.
+constexpr double kSharpest_rad = 60.0 * kRadiansPerDegree;
+constexpr double kBack_rad = 90.0 * kRadiansPerDegree;
 constexpr double kSampling_m = 0.001;
 
 std::string millimetres(double m) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", m * 1e3);
+  std::snprintf(text, sizeof text, "%.4g mm", m * 1e3);
   return text;
+}
+
+Error apart(std::size_t i, std::size_t j, double gap_m) {
+  return Error{"screw heads " + std::to_string(i + 1) + " and " + std::to_string(j + 1) + " are " +
+               millimetres(gap_m) + " apart, limit 5-150 mm"};
 }
 
 Status check(std::span<const Vec3> heads_m, double diameter_m) {
@@ -36,28 +53,52 @@ Status check(std::span<const Vec3> heads_m, double diameter_m) {
   for (std::size_t i = 0; i < heads_m.size(); ++i) {
     for (std::size_t j = i + 1; j < heads_m.size(); ++j) {
       const double gap_m = (heads_m[i] - heads_m[j]).norm();
-      if (gap_m >= kClosest_m && gap_m <= kFarthest_m) {
-        continue;
+      if (gap_m < kClosest_m) {
+        return apart(i, j, gap_m);
       }
-      return Error{"screw heads " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
-                   " are " + millimetres(gap_m) + " apart, limit 1-600 mm"};
     }
   }
   return {};
 }
 
 /// Along the principal axis, beginning at the end where the first of the given heads lies.
-std::vector<Vec3> in_order(std::span<const Vec3> heads_m) {
+std::vector<std::size_t> order_along_rod(std::span<const Vec3> heads_m) {
   const PrincipalAxes pca = principal_axes(heads_m);
-  const auto along = [&](Vec3 p) { return pca.axes[0].dot(p); };
-  std::vector<Vec3> sorted(heads_m.begin(), heads_m.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [&](Vec3 a, Vec3 b) { return along(a) < along(b); });
-  const double middle = 0.5 * (along(sorted.front()) + along(sorted.back()));
-  if (along(heads_m.front()) > middle) {
-    std::reverse(sorted.begin(), sorted.end());
+  const auto along = [&](std::size_t i) { return pca.axes[0].dot(heads_m[i]); };
+  std::vector<std::size_t> order(heads_m.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return along(a) < along(b); });
+  const double middle = 0.5 * (along(order.front()) + along(order.back()));
+  if (along(0) > middle) {
+    std::reverse(order.begin(), order.end());
   }
-  return sorted;
+  return order;
+}
+
+double bend_rad(std::span<const Vec3> heads_m, std::size_t i) {
+  return angle_between_rad(heads_m[i] - heads_m[i - 1], heads_m[i + 1] - heads_m[i]);
+}
+
+/// Whether a rod of a patient's spine runs so; `order` numbers the heads as they were given.
+Status check_run(std::span<const Vec3> heads_m, std::span<const std::size_t> order) {
+  for (std::size_t i = 1; i < heads_m.size(); ++i) {
+    const double gap_m = (heads_m[i] - heads_m[i - 1]).norm();
+    if (gap_m > kFarthest_m) {
+      return apart(std::min(order[i - 1], order[i]), std::max(order[i - 1], order[i]), gap_m);
+    }
+  }
+  for (std::size_t i = 1; i + 1 < heads_m.size(); ++i) {
+    const double angle_rad = bend_rad(heads_m, i);
+    if (angle_rad > kSharpest_rad) {
+      char text[80];
+      std::snprintf(text, sizeof text, "rod %s %.1f° at screw head %zu, limit 60°",
+                    angle_rad > kBack_rad ? "doubles back by" : "bends by",
+                    angle_rad * kDegreesPerRadian, order[i] + 1);
+      return Error{text};
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -68,7 +109,13 @@ Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_
   }
   RodTemplate rod;
   rod.diameter_m = diameter_m;
-  rod.heads_m = in_order(heads_m);
+  const std::vector<std::size_t> order = order_along_rod(heads_m);
+  for (const std::size_t i : order) {
+    rod.heads_m.push_back(heads_m[i]);
+  }
+  if (const Status s = check_run(rod.heads_m, order); !s) {
+    return s.error();
+  }
   const auto spline = CatmullRom::through(rod.heads_m);
   if (!spline) {
     return spline.error();
@@ -76,12 +123,12 @@ Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_
   rod.path_m = spline->sampled(kSampling_m);
   for (std::size_t i = 0; i + 1 < rod.heads_m.size(); ++i) {
     if (i > 0) {
-      rod.bends.push_back({rod.length_m,
-                           angle_between_rad(rod.heads_m[i] - rod.heads_m[i - 1],
-                                             rod.heads_m[i + 1] - rod.heads_m[i]),
-                           rod.heads_m[i]});
+      rod.bends.push_back({rod.length_m, bend_rad(rod.heads_m, i), rod.heads_m[i]});
     }
     rod.length_m += spline->segment_length_m(i);
+  }
+  if (rod.length_m > kLongest_m) {
+    return Error{"rod is " + millimetres(rod.length_m) + " long, limit 600 mm"};
   }
   return rod;
 }

@@ -11,7 +11,7 @@ void fuzz_plan(std::span<const std::uint8_t> input) {
     insist(plan.error().message.find('\n') == std::string::npos);
     return;
   }
-  for (const nav::ScrewPlan& screw : plan->screws) {
+  for (const engine::StatedScrew& screw : plan->screws) {
     insist(screw.entry.v.is_finite() && screw.target.v.is_finite() && screw.radius_m >= 0.0);
   }
 }

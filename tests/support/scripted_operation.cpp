@@ -182,12 +182,31 @@ const engine::Guidance& ScriptedOperation::accepts() {
   return says("accept");
 }
 
-const engine::Guidance& ScriptedOperation::registers_first_level() {
+const engine::Guidance& ScriptedOperation::registers_level() {
   tracker_->pointer = pointer_at({0, 0.02, 0});
-  says("start");
   strokes(5);
   says("save");
   return does({ClickerAction::kDoubleClick});
+}
+
+const engine::Guidance& ScriptedOperation::registers_first_level() {
+  tracker_->pointer = pointer_at({0, 0.02, 0});
+  says("start");
+  return registers_level();
+}
+
+const engine::Guidance& ScriptedOperation::finishes_every_screw() {
+  says("start");
+  const engine::Guidance* last = nullptr;
+  for (const engine::LevelState& level : session_->levels()) {
+    registers_level();
+    accepts();
+    last = &says("next");
+    for (std::size_t screw = 0; screw < level.plan.screws.size(); ++screw) {
+      last = &says("next");
+    }
+  }
+  return *last;
 }
 
 const engine::Guidance& ScriptedOperation::accepts_first_level() {

@@ -63,6 +63,8 @@ class ScriptedOperation {
   const engine::Guidance& accepts();
   /// From setup to `accepted` of the first level.
   const engine::Guidance& accepts_first_level();
+  /// From setup to the end of the last level's last screw: to `rod`, or `done` with one level.
+  const engine::Guidance& finishes_every_screw();
 
   [[nodiscard]] engine::Session& session() { return *session_; }
   [[nodiscard]] ScriptedTracker& tracker() { return *tracker_; }
@@ -75,6 +77,7 @@ class ScriptedOperation {
   std::int64_t map_epoch = 0;  ///< of the next pairs
 
  private:
+  const engine::Guidance& registers_level();
   Timestamp now_ = from_ticks_100ns(10'000'000);
   std::vector<ClickerEvent> clicks_;
   std::vector<Phrase> phrases_;

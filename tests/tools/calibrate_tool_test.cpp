@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "engine/case/tool_file.h"
 #include "tests/support/tag_body_scene.h"
@@ -22,8 +24,15 @@ constexpr double kPlaceM = 0.0001;
 constexpr double kTurnRad = 0.003;
 constexpr int kPairs = 40;
 
-/// The prism turning; without `tag` in it, if given.
-void record_prism(const std::string& folder, int count = kPairs, std::size_t without = 99) {
+/// A tag of the scene turned on its face, counter-clockwise.
+struct Turned {
+  std::size_t tag = 0;
+  int quarters = 0;
+};
+
+/// The prism turning; without a tag in it, if given, or with one that was glued on turned.
+void record_prism(const std::string& folder, int count = kPairs, std::size_t without = 99,
+                  Turned turned = {}) {
   const TagBodyScene scene = prism();
   std::vector<std::vector<PlacedTag>> pairs;
   for (const auto& rig_from_marker : turning(count)) {
@@ -32,7 +41,9 @@ void record_prism(const std::string& folder, int count = kPairs, std::size_t wit
       if (i == without) {
         continue;
       }
-      const auto rig_from_tag = rig_from_marker * scene.marker_from_tag[i];
+      const double turn_rad = i == turned.tag ? turned.quarters * std::numbers::pi / 2 : 0.0;
+      const auto rig_from_tag = rig_from_marker * scene.marker_from_tag[i] *
+                                Transform<Tag, Tag>{rotation_from_vector({0, 0, turn_rad}), {}};
       pairs.back().push_back({scene.tags[i].family,
                               scene.tags[i].id,
                               scene.tags[i].size_m,
@@ -92,6 +103,57 @@ TEST(CalibrateTool, FindsWhereTheTagsLieAndWritesATool) {
   expect_prism(changed->front());
   EXPECT_EQ(changed->front().tip_in_marker.v, (Vec3{0, -0.15, 0}));
   EXPECT_THAT(content_of(own), HasSubstr("\"serial\": 4"));
+}
+
+/// The prism as its designer describes it.
+std::string described_prism() {
+  const TagBodyScene scene = prism();
+  nav::ToolGeometry tool;
+  tool.name = "reference";
+  tool.role = nav::ToolRole::kReference;
+  tool.marker = scene.tags[0];
+  for (std::size_t i = 1; i < scene.tags.size(); ++i) {
+    tool.more_markers.push_back({scene.tags[i], scene.marker_from_tag[i]});
+  }
+  return engine::tools_text({tool});
+}
+
+Called calibrated_against(const std::string& own, const std::string& recording,
+                          const std::string& out) {
+  return orthonav({"calibrate", "tool", recording, "--ids", "3-5", "--size-mm", "40", "--tools",
+                   own, "--tool", "reference", "--out", out, "--json"});
+}
+
+TEST(CalibrateTool, RefusesATagThatIsMountedTurnedAndSaysWhichWay) {
+  const ScratchFolder folder;
+  const std::string own = folder.with("own.json", described_prism());
+  const std::string out = folder.file("out.json");
+  struct Case {
+    Turned turned;
+    std::string expected;
+  };
+  const std::vector<Case> cases = {
+      {{2, 1}, "tag tag36h11 id 5 is mounted turned by 90° counter-clockwise"},
+      {{2, 2}, "tag tag36h11 id 5 is mounted turned by 180°"},
+      {{2, 3}, "tag tag36h11 id 5 is mounted turned by 90° clockwise"},
+  };
+  for (const Case& c : cases) {
+    const std::string recording = folder.file("recording");
+    std::filesystem::remove_all(recording);
+    record_prism(recording, 30, 99, c.turned);
+    const Called called = calibrated_against(own, recording, out);
+    EXPECT_EQ(called.code, 1) << c.expected;
+    EXPECT_THAT(called.err, HasSubstr("refused: tool calibration: " + c.expected +
+                                      ", seen from the front, against " + own + "; mount it"));
+    EXPECT_EQ(nlohmann::json::parse(called.out)["verdict"], "fail");
+    EXPECT_THAT(folder.names(), ElementsAre("own.json", "recording"));
+  }
+  // As described: the poses are measured, and the file says so.
+  const std::string recording = folder.file("upright");
+  record_prism(recording);
+  const Called upright = calibrated_against(own, recording, out);
+  ASSERT_EQ(upright.code, 0) << upright.err;
+  expect_prism(engine::load_tools(out)->front());
 }
 
 TEST(CalibrateTool, RefusesInOneLineAndWritesNothing) {

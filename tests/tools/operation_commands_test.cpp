@@ -69,9 +69,10 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
       return name.size() == step.size() + 7 && name.ends_with("-" + step + ".png");
     });
   };
-  for (const char* step : {"digitize-L5", "guide-L5-left", "guide-L5-right", "rod-left"}) {
+  for (const char* step : {"digitize-L5", "guide-L5-left", "guide-L5-right", "done"}) {
     EXPECT_TRUE(shows(step)) << step;
   }
+  EXPECT_FALSE(shows("rod-left")) << "one level has no rod";
   EXPECT_EQ(names.count("12-done.png"), 0u) << "a picture of the run before";
   EXPECT_EQ(content_of(out + "/mine-01-setup.png"), "of an earlier run") << "not ours to remove";
   EXPECT_EQ(names.count("notes.txt"), 1u);
@@ -88,6 +89,7 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   const json registration = report["levels"][0]["registration"];
   EXPECT_EQ(registration["accepted"], true);
   EXPECT_EQ(registration["screws"].size(), 2u);
+  EXPECT_EQ(report["rod"], json::object());
   EXPECT_GT(registration["noise_mm"].get<double>(), 0.0);
   const std::string page = content_of(out + "/report.html");
   EXPECT_THAT(page, HasSubstr("Registration of L5"));

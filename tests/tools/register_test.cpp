@@ -22,6 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr double kNoise_m = 0.0005;
@@ -75,10 +76,7 @@ class RegisterCommand : public ::testing::TestWithParam<const char*> {
     model_ = folder_.file("model.stl");
     plan_file_ = folder_.file("model.plan.json");
     ASSERT_TRUE(engine::save_stl(model_, spine.levels[0].mesh).ok());
-    engine::Plan plan;
-    plan.level = "L4";
-    plan.screws = spine.levels[0].screws;
-    ASSERT_TRUE(engine::save_plan(plan_file_, plan).ok());
+    ASSERT_TRUE(engine::save_plan(plan_file_, "L4", spine.levels[0].screws).ok());
   }
   std::string points_file(double per_metre, const std::string& name = "points.csv") const {
     std::string csv = "x,y,z\n";
@@ -94,7 +92,7 @@ class RegisterCommand : public ::testing::TestWithParam<const char*> {
   double error_m(const json& report, double per_metre, double sign_xy = 1.0) const {
     double worst = 0.0;
     const json& m = report.at("model_to_points");
-    for (const nav::ScrewPlan& screw : plan_.screws) {
+    for (const engine::StatedScrew& screw : plan_.screws) {
       for (const Point<Vertebra>& p : {screw.entry, screw.target}) {
         const Vec3 file{sign_xy * p.v.x * per_metre, sign_xy * p.v.y * per_metre,
                         p.v.z * per_metre};
@@ -170,6 +168,48 @@ TEST_P(RegisterCommand, FindsThePoseAndWritesEveryFigure) {
   EXPECT_EQ(report["predicted_tre_mm"].get<double>(), worst_mm);
   EXPECT_GT(worst_mm, 0.02);
   EXPECT_LT(worst_mm, 2.0);
+}
+
+/// The screws of the plan as lines of 3D Slicer, in the plan's order and so named.
+std::string slicer_lines(const engine::Plan& plan, const std::vector<std::string>& names) {
+  json markups = json::array();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const engine::StatedScrew& screw = plan.screws[i];
+    json points = json::array();
+    for (const Point<Vertebra>& p : {screw.entry, screw.target}) {
+      points.push_back({{"position", {p.v.x * 1e3, p.v.y * 1e3, p.v.z * 1e3}}});
+    }
+    markups.push_back({{"type", "Line"},
+                       {"name", names[i]},
+                       {"coordinateSystem", "LPS"},
+                       {"coordinateUnits", "mm"},
+                       {"controlPoints", points}});
+  }
+  return json{{"markups", markups}}.dump();
+}
+
+TEST_P(RegisterCommand, TakesTheSideFromTheBoneNotFromSlicersNameForALine) {
+  ASSERT_EQ(plan_.screws[0].side, nav::Side::kLeft);
+  ASSERT_EQ(plan_.screws[1].side, nav::Side::kRight);
+  std::swap(plan_.screws[0], plan_.screws[1]);
+  const std::string points = points_file(1e3);
+  const auto called = [&](const std::vector<std::string>& names) {
+    return orthonav({"register", "--model", model_, "--points", points, "--plan",
+                     folder_.with("L4.mrk.json", slicer_lines(plan_, names))});
+  };
+  const Called right = called({"L"});
+  EXPECT_EQ(right.code, 0) << right.err;
+  EXPECT_THAT(right.out, HasSubstr("error to expect at the right screw: "));
+  EXPECT_THAT(right.out, Not(HasSubstr("left screw")));
+  const Called both = called({"L", "L_1"});
+  EXPECT_EQ(both.code, 0) << both.err;
+  EXPECT_LT(both.out.find("the right screw"), both.out.find("the left screw"));
+  const Called swapped = called({"L4 left", "L4 right"});
+  EXPECT_EQ(swapped.code, 2);
+  EXPECT_THAT(swapped.err, AllOf(HasSubstr("L4.mrk.json: line \"L4 left\" says left, but its entry "
+                                           "lies "),
+                                 HasSubstr(" mm to the right of the bone's midline")));
+  EXPECT_EQ(std::count(swapped.err.begin(), swapped.err.end(), '\n'), 1) << swapped.err;
 }
 
 TEST_P(RegisterCommand, GivesTheMatrixInThePointsUnit) {

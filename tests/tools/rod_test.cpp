@@ -15,8 +15,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// Heads at the corners of a 30-40 mm path with a right angle, out of order.
-constexpr const char* kCorner = "x,y,z\n30,0,0\n0,0,0\n30,40,0\n";
+/// Heads at the corners of a 30-50 mm path that turns by 53.13 degrees (3-4-5), out of order.
+constexpr const char* kCorner = "x,y,z\n30,0,0\n0,0,0\n60,40,0\n";
 
 TEST(RodCommand, GivesLengthAndBends) {
   const ScratchFolder folder;
@@ -28,10 +28,10 @@ TEST(RodCommand, GivesLengthAndBends) {
   EXPECT_EQ(rod["heads_mm"].size(), 3U);
   EXPECT_EQ(rod["heads_mm"][1], json({30.0, 0.0, 0.0}));
   ASSERT_EQ(rod["bends"].size(), 1U);
-  EXPECT_NEAR(rod["bends"][0]["angle_deg"].get<double>(), 90.0, 1e-9);
+  EXPECT_NEAR(rod["bends"][0]["angle_deg"].get<double>(), 53.13010235415598, 1e-9);
   const double length_mm = rod["length_mm"].get<double>();
-  EXPECT_GT(length_mm, 70.0);  // longer than its chords
-  EXPECT_LT(length_mm, 80.0);
+  EXPECT_GT(length_mm, 80.0);  // longer than its chords
+  EXPECT_LT(length_mm, 86.0);
   // The sampled path's chords add up to the length, a little less.
   double chords_mm = 0.0;
   for (std::size_t i = 1; i < rod["path_mm"].size(); ++i) {
@@ -63,7 +63,7 @@ TEST(RodCommand, TakesMetres) {
   EXPECT_THAT(called.out, HasSubstr("length 50.000 mm"));
   const Called wrong = orthonav({"rod", "--heads", heads});
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_THAT(wrong.err, HasSubstr("0.05 mm apart, limit 1-600 mm"));
+  EXPECT_THAT(wrong.err, HasSubstr("0.05 mm apart, limit 5-150 mm"));
 }
 
 TEST(RodCommand, RefusesBadInputInOneLine) {
@@ -75,6 +75,11 @@ TEST(RodCommand, RefusesBadInputInOneLine) {
       {"x,y,z\n1,2,3\n", "5.5", "at least 2 screw heads, got 1"},
       {"", "5.5", "heads.csv"},
       {"x,y,z\n1,2,3\n1,2,3.5\n", "5.5", "heads 1 and 2 are 0.5 mm apart"},
+      {"x,y,z\n0,0,0\n0,0,151\n", "5.5", "screw heads 1 and 2 are 151 mm apart, limit 5-150 mm"},
+      {"x,y,z\n30,0,0\n0,0,0\n30,40,0\n", "5.5",
+       "heads.csv: rod bends by 90.0° at screw head 1, limit 60°"},
+      {"x,y,z\n0,0,0\n0,40,1\n0,0,30\n0,40,31\n0,0,60\n0,40,61\n0,0,90\n0,40,91\n", "5.5",
+       "heads.csv: rod doubles back by "},
       {"x,y,z\n1,2,3\n1,2,inf\n", "5.5", "heads.csv"},
       {kCorner, "0", "--diameter-mm: \"0\" must be a number from 1 to 15"},
       {kCorner, "nan", "--diameter-mm: \"nan\""},

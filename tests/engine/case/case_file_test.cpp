@@ -25,10 +25,9 @@ class CaseFile : public ::testing::Test {
   void SetUp() override {
     for (const std::string label : {"L4", "L5"}) {
       ASSERT_TRUE(save_stl(folder_.file(label + ".stl"), box_mesh()).ok());
-      Plan plan;
-      plan.level = label;
-      plan.screws = {{nav::Side::kLeft, {{0.02, 0.03, 0}}, {{0.01, -0.01, 0}}, 0.003}};
-      ASSERT_TRUE(save_plan(folder_.file(label + ".plan.json"), plan).ok());
+      const std::vector<nav::ScrewPlan> screws = {
+          {nav::Side::kLeft, {{0.02, 0.03, 0}}, {{0.01, -0.01, 0}}, 0.003}};
+      ASSERT_TRUE(save_plan(folder_.file(label + ".plan.json"), label, screws).ok());
     }
   }
   static std::string level(const std::string& label, const std::string& more = "") {
@@ -83,9 +82,9 @@ TEST_F(CaseFile, LeavesModelsOfOneScanWhereTheyAre) {
     v.z -= 0.045;
   }
   ASSERT_TRUE(save_stl(folder_.file("L5.stl"), lower).ok());
-  Plan plan;
-  plan.screws = {{nav::Side::kLeft, {{0.02, 0.03, -0.045}}, {{0.01, -0.01, -0.045}}, 0.003}};
-  ASSERT_TRUE(save_plan(folder_.file("L5.plan.json"), plan).ok());
+  const std::vector<nav::ScrewPlan> screws = {
+      {nav::Side::kLeft, {{0.02, 0.03, -0.045}}, {{0.01, -0.01, -0.045}}, 0.003}};
+  ASSERT_TRUE(save_plan(folder_.file("L5.plan.json"), "", screws).ok());
   const auto loaded = load(level("L4") + "," + level("L5"));
   ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Transform<Spine, Vertebra> as_it_is;
@@ -159,7 +158,26 @@ TEST_F(CaseFile, RefusesAPlanOffTheBone) {
       folder_.with("L4.plan.json", R"({"units": "mm", "frame": "LPS", "screws": [{"side": "left",
       "entry": [20, 45, 0], "target": [10, 5, 0], "radius": 3}]})");
   EXPECT_THAT(refusal(level("L4")),
-              HasSubstr("L4 left entry lies 15.0 mm off the bone, limit 10.0 mm"));
+              HasSubstr("L4.plan.json: screws[0] entry lies 15.0 mm off the bone, limit 10.0 mm"));
+}
+
+TEST_F(CaseFile, RefusesAPlanThatNamesTheOtherSide) {
+  std::ignore =
+      folder_.with("L4.plan.json", R"({"units": "mm", "frame": "LPS", "screws": [{"side": "right",
+      "entry": [20, 30, 0], "target": [10, -10, 0], "radius": 3}]})");
+  EXPECT_THAT(refusal(level("L4")),
+              HasSubstr("L4.plan.json: screws[0] says right, but its entry lies 20.0 mm to the "
+                        "left of the bone's midline, must lie to the right"));
+}
+
+/// A laminar screw, or one beside the midline, has the side that it was given.
+TEST_F(CaseFile, LeavesTheSideToThePlanWhereThePlaceDoesNotTell) {
+  std::ignore =
+      folder_.with("L4.plan.json", R"({"units": "mm", "frame": "LPS", "screws": [{"side": "right",
+      "entry": [4, 30, 0], "target": [10, -10, 0], "radius": 3}]})");
+  const auto loaded = load(level("L4"));
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  EXPECT_EQ(loaded->levels[0].screws[0].side, nav::Side::kRight);
 }
 
 /// One screw on the box of 80 x 60 x 40 mm: what `check` says of it.

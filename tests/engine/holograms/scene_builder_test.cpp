@@ -384,11 +384,8 @@ TEST_F(Guiding, ARejectedRegistrationTakesItsHologramsAlong) {
 }
 
 TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
-  ScriptedOperation s({"L5"});
-  s.accepts_first_level();
-  s.says("next");
-  s.says("next");
-  s.says("next");
+  ScriptedOperation s;
+  s.finishes_every_screw();
   s.touches({0.02, 0.03, 0.00});
   const Guidance& g = s.touches({0.02, 0.03, 0.04});
   EXPECT_THAT(drawn(g), ::testing::ElementsAre(kEntry, kRod, kStatus));
@@ -407,11 +404,8 @@ TEST(SceneBuilder, ShowsTheRodAndShiftsItAsARigidBody) {
 }
 
 TEST(SceneBuilder, ARodThatCantBeMadeHasNoLength) {
-  ScriptedOperation s({"L5"});
-  s.accepts_first_level();
-  for (int i = 0; i < 3; ++i) {
-    s.says("next");
-  }
+  ScriptedOperation s;
+  s.finishes_every_screw();
   s.touches({0.02, 0.03, 0.00});
   const Guidance& g = s.touches({0.02, 0.03, 0.00});
   ASSERT_EQ(g.rods[0].heads.size(), 2u);
@@ -497,11 +491,8 @@ TEST(VisibilityRules, NamesEveryProblem) {
 }
 
 TEST(SceneBuilder, MakesATubeOnceForARod) {
-  ScriptedOperation s({"L5"});
-  s.accepts_first_level();
-  for (int i = 0; i < 3; ++i) {
-    s.says("next");
-  }
+  ScriptedOperation s;
+  s.finishes_every_screw();
   s.touches({0.02, 0.03, 0.00});
   SceneBuilder builder;
   render::Scene scene;

@@ -108,13 +108,9 @@ TEST_F(FrameAllocations, AreNoneWhereGuidanceIsTakenBack) {
 }
 
 TEST_F(FrameAllocations, AreNoneWhileARodIsShown) {
-  ScriptedOperation one({"L5"});
-  one.accepts_first_level();
-  for (int i = 0; i < 3; ++i) {
-    one.says("next");
-  }
-  one.touches({0.02, 0.03, 0.00});
-  const Guidance& g = one.touches({0.02, 0.03, 0.04});
+  s.finishes_every_screw();
+  s.touches({0.02, 0.03, 0.00});
+  const Guidance& g = s.touches({0.02, 0.03, 0.04});
   ASSERT_TRUE(g.rods[0].rod.has_value());
   EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
   EXPECT_TRUE(frames.shows(HologramKind::kRod));

@@ -89,6 +89,16 @@ TEST(ReportJson, LeavesErrorsOutWhereThereIsNoTruth) {
   EXPECT_FALSE(json["rod"].contains("length_error_mm"));
 }
 
+TEST(ReportJson, HasRodsOnlyWhereTheyWerePlanned) {
+  const auto rod = [](std::vector<std::string> labels) {
+    test::ScriptedOperation s(std::move(labels));
+    const auto result = outcome_of(s.session().levels(), s.session().rods(), {});
+    return nlohmann::json::parse(report_json(result))["rod"];
+  };
+  EXPECT_EQ(rod({"L5"}), nlohmann::json::object());
+  EXPECT_EQ(rod({"L4", "L5"})["sides"].size(), 2u) << "not reached, but planned";
+}
+
 TEST(ReportJson, LeavesFiguresOutWhereNothingWasMeasured) {
   OperationResult result;
   result.levels.emplace_back();

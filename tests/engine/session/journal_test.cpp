@@ -43,14 +43,10 @@ class JournalTest : public ::testing::Test {
 
 TEST_F(JournalTest, TellsTheWholeOperation) {
   auto journal = Journal::create(path_, {"0.1.0", "fake", "paper", "boxes", 7, kEpoch}).value();
-  test::ScriptedOperation s({"L5"});
+  test::ScriptedOperation s;
   s.session().observe(journal.get());
-  s.accepts_first_level();
   s.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.1);
-  s.says("next");
-  s.pair();
-  s.says("next");
-  s.says("next");
+  s.finishes_every_screw();
   s.touches({0.02, 0.03, 0.00});
   s.touches({0.02, 0.03, 0.04});
   s.says("mumble");
@@ -67,8 +63,8 @@ TEST_F(JournalTest, TellsTheWholeOperation) {
   for (std::size_t i = 1; i < all.size(); ++i) {
     ++count[all[i]["what"]];
   }
-  EXPECT_EQ(count["registration"], 1);
-  EXPECT_EQ(count["screw"], 2);
+  EXPECT_EQ(count["registration"], 2);
+  EXPECT_EQ(count["screw"], 4);
   EXPECT_EQ(count["head"], 2);
   EXPECT_EQ(count["rod"], 2);
   EXPECT_EQ(count["not understood"], 1);

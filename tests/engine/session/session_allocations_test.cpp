@@ -154,11 +154,8 @@ TEST(SessionAllocations, AreNoneWhileATagOfTheWrongSizeIsWarnedOf) {
 }
 
 TEST(SessionAllocations, AreNoneWhileHeadsAreTouchedAndOnceAllIsDone) {
-  ScriptedOperation s({"L4"});
-  s.accepts_first_level();
-  for (int i = 0; i < 3; ++i) {
-    s.says("next");
-  }
+  ScriptedOperation s;
+  s.finishes_every_screw();
   EXPECT_EQ(step_of(s.pair()), "rod left");
   EXPECT_EQ(allocations_once_warm(s), 0u) << "with no head touched";
   s.touches({0, 0.02, 0});

@@ -22,12 +22,7 @@ constexpr double kExact = 1e-9;
 
 class RodSession : public ::testing::Test {
  protected:
-  RodSession() : s({"L5"}) {
-    s.accepts_first_level();
-    s.says("next");
-    s.says("next");
-    s.says("next");
-  }
+  RodSession() { s.finishes_every_screw(); }
   ScriptedOperation s;
 };
 
@@ -134,6 +129,29 @@ TEST_F(RodSession, APressForOneRodRecordsNothingOnTheOther) {
   EXPECT_TRUE(g.rods[0].heads.empty());
   EXPECT_TRUE(g.rods[1].heads.empty());
   EXPECT_EQ(touch_refusal(g).kind, TouchRefusal::Kind::kPressAgain);
+}
+
+/// One level has one screw a side: there is nothing that a rod could join.
+TEST(OneLevel, IsDoneAfterItsLastScrew) {
+  ScriptedOperation s({"L5"});
+  const Guidance& g = s.finishes_every_screw();
+  EXPECT_EQ(g.step, Step::kDone);
+  EXPECT_EQ(step_of(g), "done");
+  EXPECT_EQ(detail_text(g.status), "") << "no head is asked for";
+}
+
+TEST(RodPlanned, WhereASideHasTwoScrews) {
+  Operation operation = test::operation_of({"L4", "L5"});
+  std::vector<LevelState> levels(2);
+  levels[0].plan = operation.levels[0];
+  levels[1].plan = operation.levels[1];
+  EXPECT_TRUE(rod_planned(levels, nav::Side::kLeft));
+  EXPECT_TRUE(rod_planned(levels, nav::Side::kRight));
+  levels[1].plan.screws.erase(levels[1].plan.screws.begin());
+  ASSERT_EQ(levels[1].plan.screws[0].side, nav::Side::kRight);
+  EXPECT_FALSE(rod_planned(levels, nav::Side::kLeft));
+  EXPECT_TRUE(rod_planned(levels, nav::Side::kRight));
+  EXPECT_FALSE(rod_planned(std::span(levels).first(1), nav::Side::kRight));
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
       {Step::kDigitize, Event::kRegistered}, {Step::kDigitize, Event::kRegistrationRefused},
       {Step::kVerify, Event::kChecked},      {Step::kVerify, Event::kNotChecked},
       {Step::kGuide, Event::kAnotherScrew},  {Step::kGuide, Event::kAnotherLevel},
-      {Step::kGuide, Event::kNoScrewLeft},   {Step::kRod, Event::kAnotherSide},
-      {Step::kRod, Event::kNoSideLeft}};
+      {Step::kGuide, Event::kNoScrewLeft},   {Step::kGuide, Event::kNoRodPlanned},
+      {Step::kRod, Event::kAnotherSide},     {Step::kRod, Event::kNoSideLeft}};
   for (const auto& [step, event] : kRaised) {
     EXPECT_NE(answer(step, event).action, Action::kRefuse) << name_of(step) << name_of(event);
   }

@@ -8,12 +8,14 @@
 #include <limits>
 #include <numbers>
 
+#include "base/random.h"
 #include "nav/geometry/spline.h"
 
 namespace orthonav::nav {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLengthTolerance_m = 1e-6;  // what the header promises
@@ -167,18 +169,65 @@ TEST(RodTemplate, GivesLengthAndBends) {
   EXPECT_EQ(rod->path_m.back(), heads.back());
 }
 
+/// Three heads, 40 mm apart, with a corner in the middle; given in the order 3, 1, 2.
+std::vector<Vec3> corner_of(double degrees) {
+  const double a = degrees * std::numbers::pi / 180.0;
+  return {{0.04 + 0.04 * std::cos(a), 0.04 * std::sin(a), 0}, {0, 0, 0}, {0.04, 0, 0}};
+}
+
+TEST(RodTemplate, RefusesABendThatNoRodTakes) {
+  EXPECT_TRUE(rod_template(corner_of(59.9)).ok());
+  EXPECT_EQ(rod_template(corner_of(60.1)).error().message,
+            "rod bends by 60.1° at screw head 3, limit 60°");
+}
+
+TEST(RodTemplate, RefusesHeadsOfBothSidesAsPointsThatDoubleBack) {
+  std::vector<Vec3> both;
+  for (int level = 0; level < 4; ++level) {
+    both.push_back({0.025, 0, 0.035 * level});
+    both.push_back({-0.025, 0, 0.035 * level + 0.001});
+  }
+  EXPECT_THAT(rod_template(both).error().message,
+              MatchesRegex("rod doubles back by 1[0-9.]+° at screw head [0-9], limit 60°"));
+}
+
+TEST(RodTemplate, RefusesTwentyRandomPoints) {
+  Random random(5);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 20; ++i) {
+    points.push_back({random.uniform(0, 0.2), random.uniform(0, 0.2), random.uniform(0, 0.2)});
+  }
+  EXPECT_FALSE(rod_template(points).ok());
+}
+
+TEST(RodTemplate, ReachesFromT1ToThePelvisAndNoFarther) {
+  const auto straight = [](int heads, double gap_m) {
+    std::vector<Vec3> out;
+    for (int i = 0; i < heads; ++i) {
+      out.push_back({0, 0, gap_m * i});
+    }
+    return out;
+  };
+  EXPECT_TRUE(rod_template(straight(20, 0.0315)).ok()) << "598.5 mm";
+  EXPECT_EQ(rod_template(straight(20, 0.032)).error().message, "rod is 608 mm long, limit 600 mm");
+  EXPECT_TRUE(rod_template(straight(3, 0.1499)).ok());
+  EXPECT_EQ(rod_template(straight(3, 0.1501)).error().message,
+            "screw heads 1 and 2 are 150.1 mm apart, limit 5-150 mm");
+}
+
 TEST(RodTemplate, RefusesWhatIsNoRod) {
   const std::vector<Vec3> good = lordosis();
   EXPECT_THAT(rod_template(std::span(good).first(1)).error().message,
               HasSubstr("at least 2 screw heads, got 1"));
   std::vector<Vec3> twice = good;
-  twice[3] = twice[0] + Vec3{0.0009, 0, 0};
-  EXPECT_THAT(rod_template(twice).error().message, HasSubstr("heads 1 and 4 are 0.9 mm apart"));
-  twice[3] = twice[0] + Vec3{0.0011, 0, 0};
+  twice[3] = twice[0] + Vec3{0, 0, 0.0049};
+  EXPECT_THAT(rod_template(twice).error().message,
+              HasSubstr("screw heads 1 and 4 are 4.9 mm apart, limit 5-150 mm"));
+  twice[3] = twice[0] + Vec3{0, 0, 0.0051};
   EXPECT_TRUE(rod_template(twice).ok());
   std::vector<Vec3> far = good;
   far[1].z = 40.0;
-  EXPECT_THAT(rod_template(far).error().message, HasSubstr("limit 1-600 mm"));
+  EXPECT_THAT(rod_template(far).error().message, HasSubstr("limit 5-150 mm"));
   std::vector<Vec3> broken = good;
   broken[2].x = kNaN;
   EXPECT_THAT(rod_template(broken).error().message, HasSubstr("head 3 is not finite"));

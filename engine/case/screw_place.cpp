@@ -1,0 +1,59 @@
+#include "engine/case/screw_place.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/length_text.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr double kMaxEntryOffBone_m = 0.010;
+/// A tip may stand out of the front by its radius, or by this where the plan states less.
+constexpr double kMinTargetOutside_m = 0.003;
+
+}  // namespace
+
+bool OffMidline::crosses() const {
+  return entry_m * target_m < 0.0 && std::abs(target_m) > std::abs(entry_m);
+}
+
+std::optional<nav::Side> OffMidline::side() const {
+  if (!(std::abs(entry_m) >= kLeastOffMidline_m) || crosses()) {
+    return std::nullopt;
+  }
+  return entry_m > 0.0 ? nav::Side::kLeft : nav::Side::kRight;
+}
+
+OffMidline off_midline(const nav::TriangleMesh& bone, Point<Vertebra> entry,
+                       Point<Vertebra> target) {
+  const double midline_x_m = nav::bounds_of(bone).centre().x;
+  return {entry.v.x - midline_x_m, target.v.x - midline_x_m};
+}
+
+std::string to_the_side(double left_m) {
+  return in_mm(std::abs(left_m)) + " to the " + (left_m > 0.0 ? "left" : "right");
+}
+
+std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Vertebra> entry,
+                                     Point<Vertebra> target, double radius_m) {
+  const auto at_entry = bone.nearest(entry.v);
+  const double off_m = at_entry ? at_entry->distance_m : 1e3;
+  if (off_m > kMaxEntryOffBone_m) {
+    return "entry lies " + in_mm(off_m) + " off the bone, limit " + in_mm(kMaxEntryOffBone_m);
+  }
+  const double behind_m = entry.v.y - target.v.y;
+  if (!(behind_m > 0.0)) {
+    return "entry lies " + in_mm(-behind_m) +
+           " in front of its target, must lie behind it (posterior)";
+  }
+  const auto at_target = bone.nearest(target.v);
+  const double outside_m = bone.contains(target.v) || !at_target ? 0.0 : at_target->distance_m;
+  const double limit_m = std::max(radius_m, kMinTargetOutside_m);
+  if (outside_m > limit_m) {
+    return "target lies " + in_mm(outside_m) + " outside the bone, limit " + in_mm(limit_m);
+  }
+  return std::nullopt;
+}
+
+}  // namespace orthonav::engine

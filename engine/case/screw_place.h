@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/transform.h"
+#include "nav/geometry/mesh.h"
+#include "nav/guidance/screw.h"
+
+namespace orthonav::engine {
+
+/// How far a screw lies to the patient's left (+x) of its bone's midline.
+struct OffMidline {
+  double entry_m = 0.0;
+  double target_m = 0.0;
+
+  /// The target lies on the other side than the entry, and farther off: a laminar screw, which the
+  /// lamina it ends in gives its name.
+  [[nodiscard]] bool crosses() const;
+  /// Where the entry lies. None where that is within 5 mm of the midline, or the screw crosses.
+  [[nodiscard]] std::optional<nav::Side> side() const;
+};
+
+/// The entry's distance from the midline that tells the side. The middle of the box, which stands
+/// for the midline, misses it by up to 3.5 mm where the transverse processes differ in length;
+/// entries into lumbar pedicles lie 16 mm and more off it.
+inline constexpr double kLeastOffMidline_m = 0.005;
+
+/// The midline is the middle of the box around the bone.
+[[nodiscard]] OffMidline off_midline(const nav::TriangleMesh& bone, Point<Vertebra> entry,
+                                     Point<Vertebra> target);
+
+/// "20.9 mm to the left".
+[[nodiscard]] std::string to_the_side(double left_m);
+
+/// What tells that a screw is not of this bone, or is written in other axes (+y is posterior), such
+/// as "entry lies 15.0 mm off the bone, limit 10.0 mm"; none when it may be.
+[[nodiscard]] std::optional<std::string> misplaced(const nav::SurfaceIndex& bone,
+                                                   Point<Vertebra> entry, Point<Vertebra> target,
+                                                   double radius_m);
+
+}  // namespace orthonav::engine
