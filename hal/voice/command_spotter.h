@@ -10,6 +10,7 @@
 
 #include "base/result.h"
 #include "hal/voice/command_evidence.h"
+#include "hal/voice/command_weights.h"
 #include "hal/voice/phrase_recognizer.h"
 #include "hal/voice/speech_cleaner.h"
 #include "hal/voice/speech_segments.h"
@@ -31,6 +32,9 @@ struct SpotterOptions {
   Waking waking = Waking::kAlways;
   /// A room is quiet where the loudest syllable stands out by so much.
   double quiet_above_db = 26.0;
+  /// What the evidence is weighed with. A command that it was not trained for still works, held to
+  /// the strictest of them.
+  EvidenceWeights weights = kTrainedWeights;
   /// Above this a command counts (`log_odds`).
   double least_log_odds = 0.0;
   /// "delete" takes away, and needs more.
