@@ -6,11 +6,11 @@
 namespace orthonav::bench {
 namespace {
 
-/// ArUco begins at the upright tag's bottom right and goes round the other way.
+/// ArUco starts at the upright tag's bottom right corner and goes round the other way.
 constexpr std::array<std::size_t, 4> kTheirs{1, 0, 3, 2};
 
-/// To our first pixel's centre at (0.5, 0.5). OpenCV has it at (0, 0), but for the quads that it
-/// took over from AprilTag, which are as that has them (OpenCV 4.6).
+/// What to add to OpenCV's corners: our first pixel's centre is at (0.5, 0.5), OpenCV's at (0, 0),
+/// except for quads that it takes over from AprilTag unchanged (OpenCV 4.6).
 double shift_px(cv::aruco::CornerRefineMethod refinement) {
   return refinement == cv::aruco::CORNER_REFINE_APRILTAG ? 0.0 : 0.5;
 }
@@ -45,7 +45,7 @@ bool detect(const cv::Ptr<cv::aruco::Dictionary>& dictionary,
   return true;
 }
 
-/// Their default; it takes in more than the corner where cells are small.
+/// OpenCV's default; where cells are small, the window holds more than the corner.
 constexpr int kWindowPx = 5;
 constexpr int kSmallWindowPx = 2;
 

@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
-/// The right image is the left one shifted, as near things are: what fits in one fits in the other.
+/// The right image is the left one shifted, as for near things, so that what fits in one fits in
+/// the other.
 constexpr int kShiftPx = 60;
 
 /// Smooth noise of one scale, added.
@@ -89,7 +90,7 @@ void make_pair(std::uint64_t seed, StereoFrame& frame) {
             std::clamp(120.0 + noisy + random.normal(0.0, 3.0), 0.0, 255.0));
       };
       frame.left.at(x, y) = at(x);
-      // The right camera lies turned by 180° against the left.
+      // The right camera is mounted turned by 180°.
       frame.right.at(kWidth - 1 - x, kHeight - 1 - y) = at(x + kShiftPx);
     }
   }

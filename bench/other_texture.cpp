@@ -58,7 +58,7 @@ void add_sheets(Random& random, std::vector<float>& texels, int count, double lo
   }
 }
 
-/// Takes the steps off, so that a pixel need not gather more than one point.
+/// Smooths out steps, so that a pixel need not gather more than one point.
 std::vector<float> smoothed(const std::vector<float>& texels) {
   std::vector<float> out(texels.size());
   for (int y = 0; y < kSide; ++y) {

@@ -27,7 +27,7 @@ engine::GoldenScene golden(const char* name) {
   return *std::find_if(scenes.begin(), scenes.end(), [&](const auto& s) { return s.name == name; });
 }
 
-/// Every triangle cut into four at the middles of its edges.
+/// Every triangle cut into four at the midpoints of its edges.
 render::MeshData refined(const render::MeshData& mesh) {
   render::MeshData out;
   out.positions = mesh.positions;
@@ -51,7 +51,7 @@ render::MeshData refined(const render::MeshData& mesh) {
   return out;
 }
 
-/// Strokes over the lamina, as a surgeon lays them.
+/// Strokes over the lamina, as a surgeon makes them.
 render::LineItem sampled_path() {
   render::LineItem line;
   line.label = 101;

@@ -22,7 +22,7 @@ constexpr double kExposureS = 0.004;
 constexpr int kMoments = 5;
 
 struct Kind {
-  double speed = 1.0;  ///< of the hand; 1: 0.15 m/s and 0.9 rad/s RMS or so
+  double speed = 1.0;  ///< of the hand; 1: about 0.15 m/s and 0.9 rad/s RMS
   double light = 1.0;
   double shot = 0.1;
   double read = 1.0;
@@ -45,7 +45,7 @@ Kind kind_of(const std::string& name) {
   return {};
 }
 
-/// A smooth motion without a period to speak of: three sines an axis.
+/// A smooth motion without a noticeable period: three sines per axis.
 struct Wander {
   std::array<std::array<double, 3>, 6> phase{};
   explicit Wander(Random random) {
@@ -219,7 +219,7 @@ std::array<double, 36> cramer_rao_bound(const Kind& kind, const StereoCalibratio
   sim::RoomState state;
   state.room_from_marker.assign(2, {});
   state.tool_present = {tool == 0, tool == 1};
-  // Half a pixel or so: greys are whole numbers.
+  // About half a pixel: greys are whole numbers.
   constexpr double kStep = 0.0006;
   const auto drawn = [&](std::size_t axis, double sign) {
     std::array<double, 6> step{};

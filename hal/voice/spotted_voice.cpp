@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/mutex.h"
+#include "base/stopwatch.h"
 #include "hal/voice/resampler.h"
 
 namespace orthonav::voice {
@@ -127,8 +128,8 @@ class VoiceOnItsOwnThread : public Voice {
       if (!listened) {
         trouble_ = listened;
       }
-      const auto next_read = std::chrono::steady_clock::now() + kBetweenReads;
-      while (!stop_ && wake_.wait_until(mutex_, next_read)) {
+      const Stopwatch since_read;
+      while (!stop_ && wake_.wait_until(mutex_, since_read.after(kBetweenReads))) {
       }
       if (stop_) {
         return;

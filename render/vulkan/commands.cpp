@@ -1,6 +1,6 @@
 #include "render/vulkan/commands.h"
 
-#include "render/vulkan/elapsed.h"
+#include "base/stopwatch.h"
 #include "render/vulkan/failure.h"
 
 namespace orthonav::render {
@@ -47,9 +47,9 @@ void Commands::submit() {
   info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   info.commandBufferCount = 1;
   info.pCommandBuffers = &buffer_;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   check(vkQueueSubmit(queue_, 1, &info, finished_.get()), "drawing");
-  submit_ms_ = milliseconds_since(start);
+  submit_ms_ = watch.elapsed_ms();
   underway_ = true;
 }
 

@@ -5,8 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "render/scene_check.h"
-#include "render/vulkan/elapsed.h"
 #include "render/vulkan/failure.h"
 #include "render/vulkan/gpu_types.h"
 
@@ -232,9 +232,9 @@ Status HostedVulkanRenderer::use(const EyeImages& images) {
 Status HostedVulkanRenderer::prepare(const Scene& scene) {
   timing_ = {};
   return attempt([&] {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     drawing_.next_slot();
-    timing_.gpu_ms = milliseconds_since(start);
+    timing_.gpu_ms = watch.elapsed_ms();
     return drawing_.take(scene);
   });
 }
@@ -264,7 +264,7 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
 Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
                                   std::span<const std::uint32_t> indices) {
   Status drawn = attempt([&]() -> Status {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     if (const Status checked = check_views(views); !checked) {
       return checked;
     }
@@ -273,10 +273,10 @@ Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& v
     }
     drawing_.build(scene, views, {images_.width_px, images_.height_px});
     record(views, indices);
-    timing_.record_ms = milliseconds_since(start);
+    timing_.record_ms = watch.elapsed_ms();
     drawing_.slot().commands.submit();
     timing_.submit_ms = drawing_.slot().commands.submit_ms();
-    timing_.total_ms = milliseconds_since(start);
+    timing_.total_ms = watch.elapsed_ms();
     return {};
   });
   drawing_.end_frame();

@@ -1,10 +1,10 @@
 #include "tools/preview/stage_view.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "base/stopwatch.h"
 #include "engine/holograms/render_values.h"
 #include "tools/eye_in_rig.h"
 #include "tools/preview/outlines.h"
@@ -73,7 +73,7 @@ void StageView::set_field_of_view(double magnification) {
 
 void StageView::draw_background(const Moment& moment, const Look& look,
                                 const Transform<sim::Room, Eye>& stage_from_eye) {
-  const auto begun = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const render::View& view = views_[0];
   if (room_ && moment.room) {
     const sim::PinholeView seen{
@@ -89,8 +89,7 @@ void StageView::draw_background(const Moment& moment, const Look& look,
       recording_->draw(moment.sequence, view, background_);
     }
   }
-  background_ms_ =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+  background_ms_ = watch.elapsed_ms();
 }
 
 Status StageView::draw(const Moment& moment, const Look& look) {
