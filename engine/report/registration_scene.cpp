@@ -8,10 +8,10 @@ namespace orthonav::engine {
 namespace {
 
 constexpr std::size_t kMostPoints = 4000;
-/// As the registration itself tells points on the bone from others.
+/// The same rule by which the registration tells points on the bone from others.
 constexpr double kOffBoneSd = 3.5;
 constexpr double kLeastFullColour_m = 0.0005;
-/// Predicted errors are drawn no larger than that, unless they are.
+/// Predicted errors are drawn on a scale up to this, unless they are larger.
 constexpr double kLargestDrawn_m = 0.006;
 
 std::vector<PlacedPoint> placed(const RegisteredLevel& level) {

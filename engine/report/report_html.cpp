@@ -233,14 +233,8 @@ std::string script_json(const json& value) {
   return text;
 }
 
-}  // namespace
-
-Result<std::string> report_html(const ReportContent& content) {
-  const json report = json::parse(content.report_json, nullptr, false);
-  if (report.is_discarded() || !report.is_object() || !report.contains("levels") ||
-      !report["levels"].is_array()) {
-    return Error{"report: the figures are no report of this program (\"levels\" is missing)"};
-  }
+/// The page up to its first section.
+std::string head(const json& report) {
   std::string html =
       "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
       "report</title><meta name=viewport content=\"width=device-width\"><style>";
@@ -250,15 +244,44 @@ Result<std::string> report_html(const ReportContent& content) {
       html_escaped(text_of(report, "case")) + "</b>, method <b>" +
       html_escaped(text_of(report, "method")) + "</b>, seed <b>" + figure(report, "seed", 0) +
       "</b></p></header><main>";
-  table_against_paper(report, html);
+  return html;
+}
+
+void add_notes(const json& report, const std::vector<std::string>& notes, std::string& html) {
   html += "<ul class=notes>";
   if (const std::string why = text_of(report, "why_not"); !why.empty()) {
     html += "<li><b>The operation did not come to its end</b>: " + html_escaped(why) + "</li>";
   }
-  for (const std::string& note : content.notes) {
+  for (const std::string& note : notes) {
     html += "<li>" + html_escaped(note) + "</li>";
   }
   html += "</ul>";
+}
+
+/// What is plotted, and the scripts that plot it.
+std::string scripts(const json& report, const ReportContent& content) {
+  std::string html = "<script type=\"application/json\" id=plot-data>" +
+                     script_json(plots_json(content)) +
+                     "</script><script type=\"application/json\" id=error-data>" +
+                     script_json(error_bars(report)) + "</script><script>";
+  html += embedded::chart_js();
+  html += "</script><script>";
+  html += embedded::report_js();
+  html += "</script>";
+  return html;
+}
+
+}  // namespace
+
+Result<std::string> report_html(const ReportContent& content) {
+  const json report = json::parse(content.report_json, nullptr, false);
+  if (report.is_discarded() || !report.is_object() || !report.contains("levels") ||
+      !report["levels"].is_array()) {
+    return Error{"report: the figures are no report of this program (\"levels\" is missing)"};
+  }
+  std::string html = head(report);
+  table_against_paper(report, html);
+  add_notes(report, content.notes, html);
   table_of_levels(report, html);
   for (const RegisteredLevel& level : content.registrations) {
     const auto section = registration_section(level);
@@ -273,14 +296,7 @@ Result<std::string> report_html(const ReportContent& content) {
   if (!content.timings.empty()) {
     timing_table(content.timings, html);
   }
-  html += "</main><script type=\"application/json\" id=plot-data>" +
-          script_json(plots_json(content)) +
-          "</script><script type=\"application/json\" id=error-data>" +
-          script_json(error_bars(report)) + "</script><script>";
-  html += embedded::chart_js();
-  html += "</script><script>";
-  html += embedded::report_js();
-  html += "</script></body></html>\n";
+  html += "</main>" + scripts(report, content) + "</body></html>\n";
   return html;
 }
 
