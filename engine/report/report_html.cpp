@@ -57,7 +57,7 @@ void table_against_paper(const json& report, std::string& html) {
   html += "</tbody></table></section>";
 }
 
-/// Accepted, not accepted after so many attempts, or never tried.
+/// Accepted, not accepted after a number of attempts, or never tried.
 std::string verdict_on(const json& level) {
   const json attempts = level.value("attempts", json());
   const bool tried = attempts.is_number() && attempts.get<double>() > 0.0;
@@ -145,8 +145,8 @@ json curve_json(const ReportCurve& curve) {
   return {{"name", curve.name}, {"points", std::move(points)}};
 }
 
-/// Wall time over the run: at most a thousand points a curve, each the slowest frame of its bin, so
-/// that no hitch is hidden.
+/// Wall time over the run: at most a thousand points per curve, each the slowest frame of its bin,
+/// so that no hitch is hidden.
 ReportPlot timing_plot(const std::vector<ReportTiming>& timings) {
   ReportPlot plot{"Cost of each frame on this machine", "frame", "ms of wall time", {}, 0.0};
   for (const ReportTiming& timing : timings) {

@@ -35,7 +35,7 @@ std::vector<Job> jobs_of(std::span<const Case> cases, const StudyOptions& option
   return jobs;
 }
 
-/// The five rows over every run that a value was measured in.
+/// The five rows of the table, each over every run that has a value for it.
 Json table_of(const Json& runs) {
   Json table = Json::array();
   for (const PaperRow& row : kPaperTable) {
@@ -74,7 +74,7 @@ std::string study_text(const std::string& method, const Json& runs, const Json& 
   return study.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Works through the jobs on several threads; results lie where their job lies.
+/// Works through the jobs on several threads; each result lies at the index of its job.
 class Workers {
  public:
   Workers(std::vector<Job> jobs, const StudyOptions& options,

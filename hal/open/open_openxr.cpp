@@ -64,7 +64,7 @@ Result<Transform<Eye, Rig>> load_rig(const std::string& path) {
   return pose_from(json, path);
 }
 
-/// A device whose cameras move with the wearer's head, as against a simulation or a recording.
+/// Whether the cameras move with the wearer's head, unlike those of a simulation or a recording.
 bool is_mounted(std::string_view cameras) {
   return !cameras.starts_with("sim:") && !cameras.starts_with("replay:");
 }

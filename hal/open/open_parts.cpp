@@ -81,7 +81,7 @@ std::optional<Duration> milliseconds_in(const std::optional<std::string>& value)
   return std::chrono::milliseconds(ms);
 }
 
-/// Refuses an unknown key with its name.
+/// Refuses an unknown key by name.
 Result<std::vector<int>> codes_of(const std::string& names) {
   std::vector<int> codes;
   for (std::size_t begin = 0; begin <= names.size();) {
@@ -126,7 +126,7 @@ Status apply(const std::string& key, const std::optional<std::string>& value,
   return {};
 }
 
-/// A headset's microphone, which the headset goes on owning.
+/// A headset's microphone, which the headset still owns.
 class BorrowedMicrophone final : public Microphone {
  public:
   explicit BorrowedMicrophone(Microphone& owned) : owned_(owned) {}

@@ -11,7 +11,7 @@ HeadTrack::HeadTrack(const Random& random, const ErrorModel& error_model)
 
 void HeadTrack::add(std::int64_t frame, Timestamp time, const Transform<World, Rig>& pose,
                     Timestamp before, const Transform<World, Rig>& pose_before) {
-  // One stream a frame, so that skipped frames don't change the others' noise.
+  // One random stream per frame, so that skipped frames don't change the others' noise.
   Random noise = random_.fork(static_cast<std::uint64_t>(frame));
   const Vec3 shift_m = normal_vector(noise, noise_m_);
   const Vec3 turn_rad = normal_vector(noise, noise_rad_);

@@ -12,7 +12,7 @@ namespace {
 /// Thins the bones to about a pixel of the background at arm's length.
 constexpr double kBoneCellM = 0.0025;
 
-/// Doubles the resolution: value i of the source stands at 2i+1 of the target.
+/// Doubles the resolution: value i of the source belongs to value 2i+1 of the target.
 void doubled(const HalfImage& from, HalfImage& to) {
   for (int y = 0; y < to.height; ++y) {
     const int j = std::min((y + 1) / 2, from.height - 1);
@@ -76,7 +76,7 @@ void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
     quarter_.grey[at] = ground_.grey(hit);
     kinds_[at] = hit.kind;
   };
-  // Every second point first; the ones between only where something else than plain cloth is near.
+  // Every second point first; those in between only where something other than plain cloth is near.
   const int last_i = quarter_.width - 1;
   const int last_j = quarter_.height - 1;
   for (int j = 0; j <= last_j; j += 2) {

@@ -10,7 +10,7 @@ namespace {
 /// Physiological tremor of a hand holding a tool: 8-12 Hz (Elble and Koller 1990).
 constexpr double kSlowestTremor_hz = 8.0;
 constexpr double kFastestTremor_hz = 12.0;
-/// The map's origin is where the headset was switched on: somewhere, turned anyhow, but level.
+/// The map's origin is where the headset was switched on: anywhere, in any heading, but level.
 const Transform<World, Room> kMapAtStart{rotation_from_vector({0.0, 0.7, 0.0}), {0.4, -1.1, 0.6}};
 
 }  // namespace
@@ -98,7 +98,7 @@ void RoomSimulation::let_surgeon_act(RoomState& now) {
   truth_.surgeon_gave_up = surgeon_->gave_up();
 }
 
-/// The reference is clamped to the patient, facing where the head is at the start, and stays so.
+/// The reference is clamped to the patient, facing the head's initial position, and stays there.
 void RoomSimulation::leave_reference(RoomState& now) {
   constexpr Vec3 kBesideTheSite_m{-0.02, 0.0, 0.13};
   const auto reference = layout_.tool(ToolKind::kReference);
@@ -113,7 +113,7 @@ void RoomSimulation::leave_reference(RoomState& now) {
   now.tool_present[*reference] = true;
 }
 
-/// Without a surgeon the tools float side by side over the table, slowly going round.
+/// Without a surgeon the tools hover side by side over the table, slowly rotating.
 void RoomSimulation::let_tools_hover(RoomState& now) const {
   constexpr double kApart_m = 0.14;
   constexpr double kRound_m = 0.02;
@@ -136,7 +136,7 @@ void RoomSimulation::put(RoomState& state, std::size_t tool, const Grip& grip,
   if (made.kind != ToolKind::kReference) {
     const double t = seconds_in(state.time);
     Vec3 shake = tremor_m_.at(t);
-    // The bone does not give way: what would push the tip in slides it along instead.
+    // The bone does not yield: a motion into it becomes one along it.
     if (contact) {
       shake = shake - std::min(0.0, shake.dot(*contact)) * *contact;
     }

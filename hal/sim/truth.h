@@ -7,7 +7,7 @@
 
 namespace orthonav::sim {
 
-/// A wire as it was really driven, in its vertebra's frame.
+/// A wire as it was actually driven, in its vertebra's frame.
 struct DrivenWire {
   std::string level;
   std::string side;  ///< "left" or "right", as the surgeon read it off the display
@@ -16,14 +16,14 @@ struct DrivenWire {
   Timestamp time{};
 };
 
-/// A screw head as it really stands.
+/// A screw head where it actually stands.
 struct PlacedHead {
   std::string level;
   std::string side;
   Point<Room> position;
 };
 
-/// What really happened; filled while the session runs, read afterwards by the evaluation alone
+/// What actually happened; filled while the session runs, read afterwards by the evaluation alone
 /// (engine/study/evaluation.h). Nothing that navigates may know it.
 struct Truth {
   std::vector<DrivenWire> wires;

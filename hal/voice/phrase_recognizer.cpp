@@ -214,7 +214,7 @@ Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
   std::vector<Cepstrum> cepstra = cepstra_of(ps_get_fe(decoder_.get()), samples);
   const auto frames = static_cast<int>(cepstra.size());
   const std::vector<Part> phrase = decode(kCommands, cepstra);
-  // Where no phrase can be followed to the end, the decoder tells of one that ended before.
+  // Where no phrase fits to the end, the decoder returns one that ended earlier.
   if (phrase.empty() || phrase.back().last < frames - 1) {
     return {};
   }

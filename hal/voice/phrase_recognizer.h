@@ -35,12 +35,12 @@ struct Recognition {
 };
 
 /// Decides which of a few phrases a segment of speech is: PocketSphinx with a grammar of the
-/// phrases, against a second one in which any sounds and words that resemble a phrase may follow
-/// one another. The acoustic model's means are moved to where words in noise lie once they are
-/// cleaned (data/voice, tools/voice/train). One thread at a time.
+/// phrases, compared with a second grammar in which any sounds, and words that resemble a phrase,
+/// may follow one another. The acoustic model's means are moved to where words in noise lie after
+/// cleaning (data/voice_means.bin, tools/voice/train). One thread at a time.
 class PhraseRecognizer {
  public:
-  /// Refuses a model that is not there, and phrases with a word whose pronunciation is not known.
+  /// Refuses a missing model, and phrases with a word whose pronunciation is not known.
   static Result<std::unique_ptr<PhraseRecognizer>> create(const std::vector<std::string>& phrases,
                                                           const std::filesystem::path& model);
   /// Of samples at `kSpeechRateHz`.

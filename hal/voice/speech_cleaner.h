@@ -6,12 +6,12 @@
 
 namespace orthonav::voice {
 
-/// How a segment is brought to what the acoustic model was trained on.
+/// How a segment is made to sound like what the acoustic model was trained on.
 struct CleanerOptions {
-  double over_subtraction = 1.5;  ///< of the background's power
-  double least_gain = 0.1;        ///< of a frequency, so that no holes ring
+  double over_subtraction = 1.5;  ///< times the background's power
+  double least_gain = 0.1;        ///< of any frequency, so that gaps do not ring
   double speech_rms = 3000.0;     ///< of the loudest frames
-  double masking_db = -30.0;      ///< of white noise that is added, against the speech
+  double masking_db = -30.0;  ///< level of the white noise that is added, relative to the speech
 };
 
 /// Takes the background out of a segment (Wiener filter, its spectrum from the segment's first
