@@ -9,11 +9,11 @@ namespace {
 using Pose = Transform<Tag, Tag>;
 
 constexpr double kRadianM = 0.05;
-// Nearer than this, weights no longer grow.
+// At distances below this, weights no longer grow.
 constexpr double kNearM = 1e-6;
 constexpr int kSteps = 50;
 constexpr double kConvergedM = 1e-9;
-// The start is the best of so many, which is enough for more than half of them to be good.
+// The start is the best of this many candidates: enough when more than half of them are good.
 constexpr std::size_t kMostCandidates = 40;
 
 struct Difference {
@@ -37,7 +37,7 @@ double total_m(const Pose& centre, std::span<const Pose> poses) {
   return sum;
 }
 
-/// The one of them that is nearest to all.
+/// The pose nearest to all the others.
 Pose middle_one(std::span<const Pose> poses) {
   const std::size_t stride = (poses.size() + kMostCandidates - 1) / kMostCandidates;
   Pose best;

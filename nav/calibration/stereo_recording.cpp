@@ -38,8 +38,8 @@ double median_size_ratio(std::span<const PairSightings> pairs) {
   return ratios.empty() ? 1.0 : median(std::move(ratios));
 }
 
-/// Distance of every right corner from its epipolar line, signed; NaN where a pixel has no
-/// direction, so that lists of two calibrations stay side by side.
+/// Signed distance of every right corner from its epipolar line; NaN where a pixel has no
+/// direction, so that the lists of two calibrations correspond.
 std::vector<double> across_px(const BodyProblem& problem,
                               const Transform<RightCamera, Rig>& right_from_rig) {
   const StereoCalibration& cameras = problem.calibration;
@@ -69,7 +69,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(squared / std::max(count, 1.0));
 }
 
-/// RMS of what one calibration puts elsewhere across the lines than another.
+/// RMS of the differences across the lines between two calibrations.
 double rms_between(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     a[i] -= b[i];
@@ -83,7 +83,7 @@ struct Sigma {
   double off_px = 0.0;
 };
 
-/// From leaving out each tenth of the pairs in turn.
+/// By leaving out each tenth of the pairs in turn.
 Sigma jackknife(const BodyProblem& problem, const BodyState& whole) {
   const std::vector<double> all_px = across_px(problem, whole.right_from_rig);
   double rotation_squares = 0.0;

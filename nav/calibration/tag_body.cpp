@@ -66,7 +66,7 @@ std::size_t pairs_with(std::span<const PairSightings> pairs, std::size_t tag) {
       }));
 }
 
-/// Tags that no chain of tags seen together connects with the first one.
+/// Refuses tags that no chain of tags seen together connects with the first one.
 Status check_connected(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,
                        const TagLayout& layout, std::size_t min_pairs) {
   std::string names;

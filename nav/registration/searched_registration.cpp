@@ -72,7 +72,7 @@ void estimate_errors(const VertebraModel& model, const std::optional<FitCovarian
   r.advice = degeneracy.advice;
 }
 
-/// Poses at which the pointer would have gone through bone are none, as long as another is left.
+/// Drops poses at which the pointer would have gone through bone, as long as another is left.
 void drop_impossible(const VertebraModel& model, const Cloud& cloud,
                      std::span<const Point<World>> points,
                      const PoseSearchRegistrationOptions& options, std::vector<Candidate>& found) {
@@ -91,7 +91,7 @@ struct CertainFit {
   std::optional<FitCovariance> covariance;
 };
 
-/// All points, from the best candidate's pose on.
+/// Fits all points, starting from the best candidate's pose.
 std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& cloud,
                                     const SurfaceFit& start,
                                     const PoseSearchRegistrationOptions& options) {
@@ -144,7 +144,7 @@ class RivalSearch {
     fine_.with_standoff = best.fit.with_standoff;
   }
 
-  /// Nothing where it is the best pose, or becomes it.
+  /// Nothing where it is the best pose, or is led to it.
   [[nodiscard]] std::optional<Rival> judged(const Candidate& candidate,
                                             const Candidate& first) const {
     Rival rival{candidate.fit.pose, rmse_m(candidate.fit),
@@ -196,7 +196,8 @@ void compare_poses(const RivalSearch& search, std::span<const Candidate> found, 
   }
 }
 
-/// The neighbouring level that explains the points best, if it does so nearly as well.
+/// Notes the neighbouring level that explains the points best, if it does so nearly as well as this
+/// one.
 void compare_levels(const Cloud& cloud, double own_cost_m2, double width_m,
                     const PoseSearchRegistrationOptions& options, Registration& r) {
   const double points = r.effective_points > 0.0 ? r.effective_points : 10.0;

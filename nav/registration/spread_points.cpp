@@ -50,7 +50,7 @@ struct Cell {
   std::size_t count = 0;
 };
 
-/// One of each cell within `reach_m` of the middle, in the order of the cells' places.
+/// One point per cell within `reach_m` of the middle, in the order of the cells' places.
 std::vector<Cell> cells_around(Vec3 middle, std::span<const Vec3> points_m, double reach_m) {
   std::map<std::array<long, 3>, Cell> by_place;
   for (const Vec3& p : points_m) {
