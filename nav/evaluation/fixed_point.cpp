@@ -78,13 +78,13 @@ Fit fit_of(const Sums& sums, double min_spread_rad) {
 }
 
 /// Sums over all poses before each block, and where each block begins.
-struct Blocks {
+struct PoseBlocks {
   std::vector<Sums> before;
   std::vector<std::size_t> first;
 };
 
-Blocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
-  Blocks blocks;
+PoseBlocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
+  PoseBlocks blocks;
   // Near the origin, since otherwise the squares lose the digits that matter.
   const Vec3 origin_m = (poses[0].value * tip).v;
   Sums sums;
@@ -110,7 +110,7 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
   if (world_from_marker.empty()) {
     return std::nullopt;
   }
-  const Blocks blocks = blocks_of(world_from_marker, tip);
+  const PoseBlocks blocks = blocks_of(world_from_marker, tip);
   std::optional<FixedPoint> best;
   double best_score = 0.0;
   for (std::size_t from = 0; from + 1 < blocks.first.size(); ++from) {

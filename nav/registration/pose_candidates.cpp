@@ -15,7 +15,7 @@ constexpr std::size_t kPointsToCompare = 300;
 constexpr double kFieldNoise_m = 0.0005;
 /// The field is right to tenths of a millimetre: a pose whose cost in the field is this many times
 /// the best one's is no rival.
-constexpr double kFarFromBest = 3.0;
+constexpr double kFarFromBestInField = 3.0;
 /// Squared distances are truncated at this many SDs of the noise, but not below that distance.
 constexpr double kTruncateSd = 3.0;
 constexpr double kTruncateLeast_m = 0.0009;
@@ -64,7 +64,7 @@ std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& clo
   bool rivals = false;
   for (const FoundPose& pose : poses) {
     const double least_cost_m2 = std::max(poses[0].cost_m2, kFieldNoise_m * kFieldNoise_m);
-    if (rivals && pose.cost_m2 > kFarFromBest * least_cost_m2) {
+    if (rivals && pose.cost_m2 > kFarFromBestInField * least_cost_m2) {
       break;
     }
     rivals =

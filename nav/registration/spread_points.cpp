@@ -8,7 +8,7 @@
 namespace orthonav::nav {
 namespace {
 
-constexpr double kCell_m = 0.004;
+constexpr double kSpreadCell_m = 0.004;
 /// At most this fraction of the points is left out for lying in sparse cells.
 constexpr double kLonelyFraction = 0.15;
 
@@ -58,7 +58,7 @@ std::vector<Cell> cells_around(Vec3 middle, std::span<const Vec3> points_m, doub
     if (!(q.norm() < reach_m)) {
       continue;
     }
-    const auto place = [](double v) { return std::lround(v / kCell_m); };
+    const auto place = [](double v) { return std::lround(v / kSpreadCell_m); };
     ++by_place.try_emplace({place(q.x), place(q.y), place(q.z)}, Cell{q}).first->second.count;
   }
   std::vector<Cell> cells;

@@ -12,7 +12,7 @@ struct SurfaceFitOptions {
   int max_iterations = 12;
   double last_step_m = 1e-5;  ///< a shorter step ends the fit
   double farthest_m = 0.005;  ///< points farther off are ignored on the way
-  double counted_m = 0.012;   ///< and at the end points up to this distance count
+  double counted_m = 0.012;   ///< and at the end points farther off count as this far
   double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; the points are its centre
   /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
   /// unknowns: surfaces that face different ways distinguish it from a translation.

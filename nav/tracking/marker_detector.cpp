@@ -225,12 +225,12 @@ void MarkerDetector::look_for_wide_borders(const GreyImage& image, const PixelBo
       return;
     }
     for (MarkerCorners& marker : more) {
-      // Twice, since the thinned outline begins nearly as far off as edges are looked for.
+      // Twice, since the thinned outline starts nearly as far off as edges are searched for.
       marker.corners_px = refined_corners(image, refined_corners(image, marker.corners_px));
       if (!has_wide_border(image, marker.corners_px)) {
         continue;
       }
-      // Where squares touch the tag, its outline in the image itself is the worse one.
+      // Where squares touch the tag, the outline found in the image itself is the worse one.
       std::erase_if(found, [&](const MarkerCorners& other) { return same_tag(marker, other); });
       found.push_back(marker);
     }
