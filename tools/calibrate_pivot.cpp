@@ -55,8 +55,8 @@ void print(const PivotArguments& arguments, const nav::PivotCalibration& found) 
   print_judgement(found.judgement);
 }
 
-/// The tool's description, once it is certain that the results can be written: an unwritable place
-/// is to be known before the work.
+/// The tool's description, after making sure that the results can be written: that must be known
+/// before the work.
 Result<nav::ToolGeometry> checked_tool(const PivotArguments& arguments) {
   const auto tools = engine::load_tools(arguments.tools_file);
   if (!tools) {

@@ -13,7 +13,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// The family as it is detected: a border two cells wide makes another one.
+/// The family as the detector knows it: with a border two cells wide it is another one.
 Result<std::string> detected_family(const std::string& path, const engine::Board& board) {
   if (board.kind == engine::BoardKind::kChessboard) {
     return Error{path + ": is a chessboard, must be a board of tags"};

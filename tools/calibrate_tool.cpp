@@ -69,7 +69,7 @@ Result<std::vector<nav::MarkerDefinition>> tags_from(const ToolArguments& argume
   return tags;
 }
 
-/// A tool of a tools file that is to get its tags must have the first one as its marker.
+/// Refuses a tool of the tools file whose marker is not the first of the tags it is to get.
 Status check_marker(const ToolArguments& arguments, const nav::MarkerDefinition& first) {
   if (arguments.tools_file.empty()) {
     return {};

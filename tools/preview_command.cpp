@@ -24,7 +24,7 @@ struct PreviewArguments {
   preview::PreviewOptions options;
 };
 
-/// What is to be previewed, but for the prepared models.
+/// What is to be previewed, still without the prepared models.
 Result<preview::OperationSource> source_of(const PreviewArguments& arguments) {
   preview::OperationSource source;
   source.headset = arguments.headset;
@@ -85,7 +85,7 @@ int preview_window(PreviewArguments arguments) {
   return done ? kDone : bad_input(done.error().message);
 }
 
-/// `WIDTHxHEIGHT` in pixels, each even, for a video's sake.
+/// `WIDTHxHEIGHT` in pixels, both even, since videos need that.
 std::string check_size(const std::string& text) {
   const auto size = size_from(text);
   if (!size) {
@@ -155,7 +155,7 @@ void add_preview_command(CLI::App& app, Action& action) {
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());
   add_window_options(*preview, arguments);
-  // For tests: a hasty surgeon is through in a fraction of the frames.
+  // For tests: a hasty surgeon finishes in a fraction of the frames.
   preview->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
       ->check(finite_number(0.5, 4))
       ->group("");

@@ -82,7 +82,7 @@ void print(const engine::RegisteredLevel& level, const engine::FigureFrame& fram
   }
 }
 
-/// Why not, and what to do about it.
+/// Prints why it was refused, and what to do about it.
 void print_refusal(const nav::Registration& r) {
   for (const std::string& reason : r.reasons) {
     std::fprintf(stderr, "orthonav: refused: %s\n", reason.c_str());

@@ -22,7 +22,7 @@ struct CleanerOptions {
 [[nodiscard]] std::vector<std::int16_t> cleaned(std::span<const std::int16_t> samples,
                                                 std::size_t background_samples,
                                                 const CleanerOptions& options = {});
-/// Of a segment's margin, what is background.
+/// The length of a segment's margin that holds background only.
 inline constexpr std::size_t kBackgroundSamples = 16000 * 3 / 10;
 
 }  // namespace orthonav::voice

@@ -23,7 +23,7 @@ class Listener {
         spotter_(std::move(spotter)),
         resampler_(std::move(resampler)) {}
 
-  /// Reads all there is and appends what it says.
+  /// Reads all there is and appends the phrases in it.
   Status listen(std::vector<Phrase>& phrases) {
     std::array<std::int16_t, 4096> block;
     for (;;) {
@@ -56,7 +56,8 @@ class Listener {
   std::int64_t taken_ = 0;
   Timestamp last_ = Timestamp::min();
 
-  /// By the newest sample: a microphone's crystal drifts against the headset's clock.
+  /// Counted back from the newest sample, since a microphone's crystal drifts against the headset's
+  /// clock.
   Timestamp time_of(std::int64_t sample) {
     const Timestamp newest = microphone_->newest_sample_time().value_or(Timestamp{});
     const Timestamp time =

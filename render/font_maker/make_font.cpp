@@ -152,8 +152,8 @@ std::vector<std::uint8_t> packed(std::vector<Cell>& cells, int& height_px) {
   return atlas;
 }
 
-/// A dash that fills a digit's whole width would join its neighbours to one stroke. The dash of
-/// numbers is a hyphen, in the middle of that width.
+/// A dash as wide as a digit would join its neighbours to one stroke. The figure dash is therefore
+/// a hyphen, centred in that width.
 void set_apart(std::vector<Cell>& cells) {
   const auto find = [&](char32_t code) {
     return std::find_if(cells.begin(), cells.end(),

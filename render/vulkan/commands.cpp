@@ -63,8 +63,8 @@ void Commands::wait() {
   if (result == VK_SUCCESS) {
     return;
   }
-  // The batch can't be taken back. Nothing that it reads may go before it ends or the driver gives
-  // the device up, however long that takes; waiting again tells nothing new.
+  // The batch can't be cancelled. Nothing that it reads may be destroyed before it ends or the
+  // driver gives the device up, however long that takes; waiting again would bring nothing new.
   lost_ = true;
   vkDeviceWaitIdle(device_);
   if (result == VK_TIMEOUT) {

@@ -45,7 +45,8 @@ VulkanRenderer::VulkanRenderer(const RendererOptions& options)
 }
 
 VulkanRenderer::~VulkanRenderer() {
-  // Members go one by one; none of them may be in use any more, whatever the last frame came to.
+  // Members are destroyed one by one; none of them may be in use any more, however the last frame
+  // ended.
   vkDeviceWaitIdle(device_.get());
 }
 
@@ -116,7 +117,7 @@ void VulkanRenderer::read_back(std::size_t views, std::vector<Picture>& pictures
   timing_.read_ms = watch.elapsed_ms();
 }
 
-/// Nothing thrown leaves it, and a frame ends for the meshes however it ended.
+/// No exception leaves it, and the meshes see the frame end however it ended.
 template <class Work>
 Status VulkanRenderer::attempt(const Work& work) {
   const Stopwatch watch;

@@ -6,7 +6,7 @@
 
 namespace orthonav::render {
 
-/// The parts of them that shaders will look at, for the pass whose first view is `first`.
+/// Uploads the parts of them that shaders will read, for the pass whose first view is `first`.
 void VulkanRenderer::upload_backgrounds(VkCommandBuffer batch,
                                         std::span<const RgbaImage* const> backgrounds,
                                         std::size_t first) {

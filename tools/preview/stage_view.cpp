@@ -12,7 +12,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// Where nothing is known of what is behind: a dark grey on which every hologram is read.
+/// Behind the holograms where nothing is known: a dark grey on which every hologram is legible.
 constexpr std::array<std::uint8_t, 4> kEmpty = {34, 37, 42, 255};
 
 }  // namespace
@@ -100,12 +100,12 @@ Status StageView::draw(const Moment& moment, const Look& look) {
   scene_ = {};
   if (moment.world_from_rig.status != PoseStatus::kLost) {
     look.holograms.apply(moment.scene, scene_);
-    // Nothing else shows where things are, where there is no picture.
+    // Without a picture, nothing else shows where things are.
     const bool no_picture = !moment.room && look.camera.orbits();
     if (look.tools || no_picture) {
       add_outlines(moment, look.camera.orbits(), scene_);
     }
-    // Holograms hang where the headset draws them against the true head.
+    // Holograms are where the headset draws them relative to the true head.
     Transform<sim::Room, World> stage_from_world;
     if (moment.room) {
       stage_from_world = moment.room->room_from_rig * moment.world_from_rig.value.inverse();

@@ -17,7 +17,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// Keys with a character of their own are named by it.
+/// Keys that have a character are named by it.
 std::optional<Key> key_of_glfw(int key) {
   switch (key) {
     case GLFW_KEY_TAB:
@@ -60,7 +60,7 @@ std::string newest_glfw_error(const char* otherwise) {
 
 }  // namespace
 
-/// GLFW itself and its one window; goes last.
+/// GLFW itself and its one window; destroyed last.
 struct Window::Glfw {
   GLFWwindow* window = nullptr;
   bool imgui = false;
@@ -101,11 +101,11 @@ Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
     : glfw_(std::move(glfw)), input_(std::move(input)) {
   GLFWwindow* window = glfw_->window;
   glfwSetWindowUserPointer(window, this);
-  // Before Dear ImGui, which passes on to these.
+  // Set before Dear ImGui's callbacks, which forward to these.
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
     const auto known = key_of_glfw(key);
-    // What goes up was let go of, wherever the focus is now.
+    // A key that goes up was released, wherever the focus is now.
     const bool ours = action == GLFW_RELEASE || !ImGui::GetIO().WantTextInput;
     if (known && ours && action != GLFW_REPEAT) {
       self->input_.key(*known, action == GLFW_PRESS);

@@ -120,7 +120,7 @@ void add_commands(Listener& listener, const Options& options, Examples& examples
   }
 }
 
-/// Every run of up to five words of the sentences, and these whole.
+/// Every sentence, and every run of up to five of its words.
 std::vector<std::string> fragments() {
   std::set<std::string> found;
   for (const std::string_view sentence : kTuningTalk) {
@@ -191,7 +191,7 @@ void add_others(Listener& listener, const Options& options, Examples& examples) 
   for (std::string& text : random_words(random)) {
     texts.emplace_back(std::move(text), 1.0);
   }
-  // What nobody would tell from a command weighs little.
+  // What nobody could tell from a command weighs little.
   for (std::string& text : near_phrases()) {
     texts.emplace_back(std::move(text), 0.3);
   }
