@@ -33,12 +33,12 @@ bool detect(const cv::Ptr<cv::aruco::Dictionary>& dictionary,
     nav::MarkerCorners tag;
     tag.family = "tag36h11";
     tag.id = ids[i];
-    const double shift =
+    const double offset_px =
         shift_px(static_cast<cv::aruco::CornerRefineMethod>(parameters->cornerRefinementMethod));
     for (std::size_t k = 0; k < 4; ++k) {
       const cv::Point2f theirs = corners[i][kTheirs[k]];
-      tag.corners_px[k] = {static_cast<double>(theirs.x) + shift,
-                           static_cast<double>(theirs.y) + shift};
+      tag.corners_px[k] = {static_cast<double>(theirs.x) + offset_px,
+                           static_cast<double>(theirs.y) + offset_px};
     }
     found.push_back(tag);
   }

@@ -25,10 +25,10 @@ Lens lens(bool large, bool right) {
 /// The rig's x points right, y up, z back, its origin lies between the cameras.
 Transform<LeftCamera, Rig> placed(bool right) {
   const Mat3 axes{{{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}};
-  const Mat3 turn =
+  const Mat3 rotation =
       rotation_from_vector(right ? Vec3{-0.012, -0.035, 0.021} : Vec3{0.008, 0.028, -0.013}) * axes;
   const Vec3 place{right ? 0.5 * kBaselineM : -0.5 * kBaselineM, right ? 0.0012 : 0.0, 0.0};
-  return {turn, -(turn * place)};
+  return {rotation, -(rotation * place)};
 }
 
 std::vector<OtherKind> kinds() {

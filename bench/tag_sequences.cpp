@@ -100,11 +100,11 @@ class Stage {
     state.time = Timestamp(from_seconds(t + 1.0));
     // The rig looks down at 45°; its z axis points backwards.
     const double down = -0.8 + 0.03 * head_.at(3, 0.4 * t);
-    const Mat3 turn = rotation_from_vector({0.0, 0.03 * head_.at(4, 0.4 * t), 0.0}) *
-                      rotation_from_vector({down, 0.0, 0.0});
+    const Mat3 rotation = rotation_from_vector({0.0, 0.03 * head_.at(4, 0.4 * t), 0.0}) *
+                          rotation_from_vector({down, 0.0, 0.0});
     state.room_from_rig = {
-        turn, Vec3{0.0, 0.60, 0.33} +
-                  0.012 * Vec3{head_.at(0, 0.4 * t), head_.at(1, 0.4 * t), head_.at(2, 0.4 * t)}};
+        rotation, Vec3{0.0, 0.60, 0.33} + 0.012 * Vec3{head_.at(0, 0.4 * t), head_.at(1, 0.4 * t),
+                                                       head_.at(2, 0.4 * t)}};
     const Transform<sim::Room, Rig> middle(rotation_from_vector({-0.8, 0.0, 0.0}),
                                            {0.0, 0.60, 0.33});
     for (std::size_t i = 0; i < 2; ++i) {

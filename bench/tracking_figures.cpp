@@ -26,11 +26,11 @@ constexpr std::size_t kFewestAtRest = 10;
 constexpr double kRestM = 1e-6;
 
 double nees_of(const Transform<Rig, Marker>& truth, const Seen& seen) {
-  const Vec3 shift = seen.rig_from_marker.translation() - truth.translation();
-  const Vec3 turn =
+  const Vec3 translation = seen.rig_from_marker.translation() - truth.translation();
+  const Vec3 rotation =
       vector_from_rotation(seen.rig_from_marker.rotation() * truth.rotation().transposed());
   Eigen::Matrix<double, 6, 1> e;
-  e << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z;
+  e << translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z;
   const Eigen::Map<const Eigen::Matrix<double, 6, 6>> c(seen.covariance_in_rig.data());
   return e.dot(c.ldlt().solve(e));
 }

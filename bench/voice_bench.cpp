@@ -164,7 +164,7 @@ void measure_recall(const Options& options) {
   const Waking waking = options.single ? Waking::kNever : Waking::kAlways;
   Random random(10 + set.seed);
   Figures figures;
-  std::size_t turn = 0;
+  std::size_t count = 0;
   const std::vector<int> speeds =
       options.quick ? std::vector<int>{150} : std::vector<int>{120, 160, 200};
   for (const std::string_view voice : set.voices) {
@@ -173,13 +173,13 @@ void measure_recall(const Options& options) {
     for (const double snr_db : {kClean, 20.0, 15.0, 10.0}) {
       for (const int speed : speeds) {
         for (const std::string& command : engine::spoken_commands()) {
-          const auto noise = static_cast<Noise>(turn++ % 3);
+          const auto noise = static_cast<Noise>(count++ % 3);
           say_one(*spotter, command, options, {std::string(voice), speed}, noise, snr_db, random,
                   figures);
         }
       }
     }
-    turn += 1;  // every command meets every noise
+    count += 1;  // every command meets every noise
   }
   std::printf("\n%s, %zu voices\n", options.single ? "single words" : "with the wake word",
               set.voices.size());

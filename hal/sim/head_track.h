@@ -30,8 +30,8 @@ class HeadTrack {
     Timestamp before{};
     Transform<World, Rig> pose;  ///< true
     Transform<World, Rig> pose_before;
-    Vec3 shift_m;
-    Vec3 turn_rad;
+    Vec3 translation_m;
+    Vec3 rotation_rad;
   };
   static constexpr std::size_t kKept = 256;
   [[nodiscard]] const Node& back(std::size_t steps) const {

@@ -45,8 +45,8 @@ class MapDrift {
  public:
   MapDrift(Random random, double m_per_sqrt_s, double rad_per_sqrt_s, double length_s);
   struct Offset {
-    Vec3 shift_m;
-    Vec3 turn_rad;
+    Vec3 translation_m;
+    Vec3 rotation_rad;
   };
   [[nodiscard]] Offset at(double time_s) const;
 

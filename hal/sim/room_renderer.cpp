@@ -60,11 +60,12 @@ void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
   const Vec3 eye = spine_from_camera.translation();
   const std::array<float, 3> origin{static_cast<float>(eye.x), static_cast<float>(eye.y),
                                     static_cast<float>(eye.z)};
-  const Mat3& turn = spine_from_camera.rotation();
+  const Mat3& spine_from_camera_rotation = spine_from_camera.rotation();
   kinds_.resize(quarter_.grey.size());
   const auto sample = [&](int i, int j) {
-    const Vec3 ray = turn * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
-                                     std::min(4 * j + 2, lens.height_px() - 1));
+    const Vec3 ray =
+        spine_from_camera_rotation * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
+                                              std::min(4 * j + 2, lens.height_px() - 1));
     const std::size_t at = static_cast<std::size_t>(j * quarter_.width + i);
     quarter_.grey[at] = 0.0F;
     kinds_[at] = Ground::Kind::kNothing;

@@ -120,11 +120,12 @@ void RoomSimulation::let_tools_hover(RoomState& now) const {
   constexpr double kRound_hz = 0.05;
   const double middle = 0.5 * (static_cast<double>(room_.tools.size()) - 1.0);
   for (std::size_t i = 0; i < room_.tools.size(); ++i) {
-    const double turn =
+    const double angle_rad =
         2.0 * std::numbers::pi * kRound_hz * seconds_in(now.time) + static_cast<double>(i);
-    const Vec3 place{kRound_m * std::cos(turn), 0.03 + kRound_m * std::sin(turn),
+    const Vec3 place{kRound_m * std::cos(angle_rad), 0.03 + kRound_m * std::sin(angle_rad),
                      kApart_m * (static_cast<double>(i) - middle)};
-    const Vec3 axis = Vec3{-0.4 + 0.1 * std::sin(turn), 0.9, 0.1 * std::cos(turn)}.normalized();
+    const Vec3 axis =
+        Vec3{-0.4 + 0.1 * std::sin(angle_rad), 0.9, 0.1 * std::cos(angle_rad)}.normalized();
     put(now, i, {layout_.middle() + place, axis, 0.0}, std::nullopt);
   }
 }
@@ -211,9 +212,9 @@ Transform<Room, Rig> RoomSimulation::room_from_rig(Timestamp time) const {
 }
 
 Transform<World, Room> RoomSimulation::world_from_room(Timestamp time) const {
-  const auto [shift, turn] = drift_.at(seconds_in(time));
+  const auto [translation_m, rotation_rad] = drift_.at(seconds_in(time));
   const Transform<World, Room> start = kMapAtStart;
-  return start * Transform<Room, Room>{rotation_from_vector(turn), shift};
+  return start * Transform<Room, Room>{rotation_from_vector(rotation_rad), translation_m};
 }
 
 }  // namespace orthonav::sim

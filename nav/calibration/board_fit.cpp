@@ -165,13 +165,13 @@ Result<CameraFit> fit_camera(const Chessboard& board, ImageSize size,
     cv::Mat matrix;
     cv::Mat distortion = cv::Mat::zeros(1, 5, CV_64F);
     cv::Mat sigmas;
-    std::vector<cv::Mat> turns;
-    std::vector<cv::Mat> shifts;
+    std::vector<cv::Mat> rotations;
+    std::vector<cv::Mat> translations;
     CameraFit fit;
     fit.rms_px = cv::calibrateCamera(
         object_points(board, views.size()), image_points(views), {size.width_px, size.height_px},
-        matrix, distortion, turns, shifts, sigmas, cv::noArray(), cv::noArray(), flags_for(with_k3),
-        {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
+        matrix, distortion, rotations, translations, sigmas, cv::noArray(), cv::noArray(),
+        flags_for(with_k3), {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
     fit.camera = camera_from(size, matrix, distortion);
     constexpr int kK3 = 8;  // fx fy cx cy k1 k2 p1 p2 k3
     fit.k3_sigma = sigmas.at<double>(kK3);

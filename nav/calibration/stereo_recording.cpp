@@ -78,8 +78,8 @@ double rms_between(std::vector<double> a, const std::vector<double>& b) {
 }
 
 struct CameraSigma {
-  double turn_rad = 0.0;
-  double shift_m = 0.0;
+  double rotation_rad = 0.0;
+  double translation_m = 0.0;
   double off_px = 0.0;
 };
 
@@ -128,8 +128,8 @@ StereoRecording result_of(const BodyProblem& problem, const BodyState& state, co
   result.right_from_rig = state.right_from_rig;
   result.right_from_left = state.right_from_rig * device.left_from_rig.inverse();
   const auto measured_from_device = state.right_from_rig * device.right_from_rig.inverse();
-  result.turn_rad = vector_from_rotation(measured_from_device.rotation());
-  result.shift_m = measured_from_device.translation();
+  result.rotation_rad = vector_from_rotation(measured_from_device.rotation());
+  result.translation_m = measured_from_device.translation();
   const std::vector<double> before_px = across_px(problem, device.right_from_rig);
   const std::vector<double> after_px = across_px(problem, state.right_from_rig);
   result.epipolar_before_px = rms(before_px);
@@ -141,8 +141,8 @@ StereoRecording result_of(const BodyProblem& problem, const BodyState& state, co
   result.pairs = problem.pairs.size();
   const CameraSigma sigma = camera_sigma(problem, state);
   const PoseCovariance& c = fit.covariances.front();
-  result.rotation_sigma_rad = std::max(rotation_sigma_rad(c), sigma.turn_rad);
-  result.translation_sigma_m = std::max(translation_sigma_m(c), sigma.shift_m);
+  result.rotation_sigma_rad = std::max(rotation_sigma_rad(c), sigma.rotation_rad);
+  result.translation_sigma_m = std::max(translation_sigma_m(c), sigma.translation_m);
   result.off_sigma_px = sigma.off_px;
   return result;
 }

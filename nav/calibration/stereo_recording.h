@@ -37,8 +37,8 @@ struct StereoRecording {
   Transform<RightCamera, Rig> right_from_rig;
   Transform<RightCamera, LeftCamera> right_from_left;
   /// From the device's right camera to the measured one, in its own frame.
-  Vec3 turn_rad;
-  Vec3 shift_m;
+  Vec3 rotation_rad;
+  Vec3 translation_m;
   double rotation_sigma_rad = 0.0;  ///< 3-D, the larger of predicted and jackknife
   double translation_sigma_m = 0.0;
   /// RMS over the corners of how far rotation and translation move them across the epipolar lines,

@@ -120,14 +120,14 @@ std::vector<TagSigma> tag_sigmas(const BodyProblem& problem, const BodyState& wh
   if (problem.pairs.size() < 2 * kJackknifeBlocks) {
     return sigma;
   }
-  std::vector<std::vector<Vec3>> shifts(tags);
-  std::vector<std::vector<Vec3>> turns(tags);
+  std::vector<std::vector<Vec3>> translations(tags);
+  std::vector<std::vector<Vec3>> rotations(tags);
   for (const BodyState& state : adjusted_without_blocks(problem, whole)) {
     for (std::size_t i = 0; i < tags; ++i) {
       const auto& a = whole.marker_from_tag[i];
       const auto& b = state.marker_from_tag[i];
-      shifts[i].push_back(b.translation() - a.translation());
-      turns[i].push_back(vector_from_rotation(b.rotation() * a.rotation().transposed()));
+      translations[i].push_back(b.translation() - a.translation());
+      rotations[i].push_back(vector_from_rotation(b.rotation() * a.rotation().transposed()));
     }
   }
   const auto sd = [](const std::vector<Vec3>& values) {
@@ -143,7 +143,7 @@ std::vector<TagSigma> tag_sigmas(const BodyProblem& problem, const BodyState& wh
     return values.size() < 2 ? 0.0 : std::sqrt((count - 1.0) / count * squared);
   };
   for (std::size_t i = 0; i < tags; ++i) {
-    sigma[i] = {sd(shifts[i]), sd(turns[i])};
+    sigma[i] = {sd(translations[i]), sd(rotations[i])};
   }
   return sigma;
 }

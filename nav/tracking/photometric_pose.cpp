@@ -42,9 +42,10 @@ Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m
   return out;
 }
 
-Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 rotation_vector) {
+Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 translation,
+                             Vec3 rotation_vector) {
   return {orthonormalized(pose.rotation() * rotation_from_vector(rotation_vector)),
-          pose.translation() + pose.rotation() * shift};
+          pose.translation() + pose.rotation() * translation};
 }
 
 /// The derivative of a small motion of the tag (in its frame, in cells) by a small rotation of the
@@ -55,9 +56,10 @@ Eigen::Matrix<double, 6, 3> tag_by_camera_turn(const CameraFromTag& pose, double
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 unit_rotation{};
     unit_rotation[axis] = 1.0;
-    const Vec3 shift = back * unit_rotation.cross(pose.translation_m) / cell_m;
+    const Vec3 translation = back * unit_rotation.cross(pose.translation_m) / cell_m;
     const Vec3 rotation = back * unit_rotation;
-    out.col(axis) << shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z;
+    out.col(axis) << translation.x, translation.y, translation.z, rotation.x, rotation.y,
+        rotation.z;
   }
   return out;
 }

@@ -25,16 +25,17 @@ Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> as_eigen(const Po
 /// The difference between two poses: translation, and the rotation vector that is multiplied from
 /// the left.
 Vector6 difference(const PoseFilter::Pose& to, const PoseFilter::Pose& from) {
-  const Vec3 shift = to.translation() - from.translation();
+  const Vec3 translation = to.translation() - from.translation();
   const Vec3 rotation_vector = vector_from_rotation(to.rotation() * from.rotation().transposed());
   Vector6 out;
-  out << shift.x, shift.y, shift.z, rotation_vector.x, rotation_vector.y, rotation_vector.z;
+  out << translation.x, translation.y, translation.z, rotation_vector.x, rotation_vector.y,
+      rotation_vector.z;
   return out;
 }
 
-PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 rotation_vector) {
+PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 translation, Vec3 rotation_vector) {
   return {orthonormalized(rotation_from_vector(rotation_vector) * pose.rotation()),
-          pose.translation() + shift};
+          pose.translation() + translation};
 }
 
 /// A constant acceleration a moves the prediction by a dt² and the mean over an exposure T by a T²

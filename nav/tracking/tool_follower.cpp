@@ -108,7 +108,7 @@ void ToolFollower::forget() { light_.assign(views_.size(), {}); }
 bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>& pose,
                                 double doubt_m, const PhotometricSolver& solver,
                                 TagSearch& search) {
-  TranslationInSpace shift;
+  TranslationInSpace translation;
   bool shifted = false;
   bool any = false;
   for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -139,14 +139,14 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     shifted = shifted || match.shift_px.norm() > 0.0;
     const Mat3& camera_from_rig = view.right ? solver.calibration().right_from_rig.rotation()
                                              : solver.calibration().left_from_rig.rotation();
-    shift.add(camera, camera_from_rig, seen.translation_m, match.shift_px);
+    translation.add(camera, camera_from_rig, seen.translation_m, match.shift_px);
     view.used = any = true;
   }
   if (!any) {
     return false;
   }
   if (shifted) {
-    pose = {pose.rotation(), pose.translation() + shift.solved()};
+    pose = {pose.rotation(), pose.translation() + translation.solved()};
   }
   return true;
 }

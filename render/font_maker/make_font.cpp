@@ -165,12 +165,12 @@ void set_apart(std::vector<Cell>& cells) {
     return;
   }
   const float advance = dash->glyph.advance;
-  const float shift = 0.5f * (advance - hyphen->glyph.advance);
+  const float offset = 0.5f * (advance - hyphen->glyph.advance);
   *dash = *hyphen;
   dash->glyph.code = static_cast<std::uint32_t>(kFigureDash);
   dash->glyph.advance = advance;
-  dash->glyph.left += shift;
-  dash->glyph.right += shift;
+  dash->glyph.left += offset;
+  dash->glyph.right += offset;
 }
 
 /// Header, glyphs and atlas. `reach`: how far distances reach beyond a glyph, in heights of an H.
