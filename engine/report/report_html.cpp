@@ -235,16 +235,13 @@ std::string script_json(const json& value) {
 
 /// The page up to its first section.
 std::string head(const json& report) {
-  std::string html =
-      "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
-      "report</title><meta name=viewport content=\"width=device-width\"><style>";
-  html += embedded::report_css();
-  html +=
-      "</style></head><body><header><h1>orthonav <span>operation report</span></h1><p>Case <b>" +
-      html_escaped(text_of(report, "case")) + "</b>, method <b>" +
-      html_escaped(text_of(report, "method")) + "</b>, seed <b>" + figure(report, "seed", 0) +
-      "</b></p></header><main>";
-  return html;
+  return "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
+         "report</title><meta name=viewport content=\"width=device-width\"><style>" +
+         std::string(embedded::report_css()) +
+         "</style></head><body><header><h1>orthonav <span>operation report</span></h1><p>Case <b>" +
+         html_escaped(text_of(report, "case")) + "</b>, method <b>" +
+         html_escaped(text_of(report, "method")) + "</b>, seed <b>" + figure(report, "seed", 0) +
+         "</b></p></header><main>";
 }
 
 void add_notes(const json& report, const std::vector<std::string>& notes, std::string& html) {
@@ -264,11 +261,10 @@ std::string scripts(const json& report, const ReportContent& content) {
                      script_json(plots_json(content)) +
                      "</script><script type=\"application/json\" id=error-data>" +
                      script_json(error_bars(report)) + "</script><script>";
-  html += embedded::chart_js();
-  html += "</script><script>";
-  html += embedded::report_js();
-  html += "</script>";
-  return html;
+  return html.append(embedded::chart_js())
+      .append("</script><script>")
+      .append(embedded::report_js())
+      .append("</script>");
 }
 
 }  // namespace
