@@ -6,11 +6,11 @@
 namespace orthonav::bench {
 namespace {
 
-/// ArUco begins at the upright tag's bottom right and goes round the other way.
+/// ArUco starts at the upright tag's bottom right corner and goes round the other way.
 constexpr std::array<std::size_t, 4> kTheirs{1, 0, 3, 2};
 
-/// To our first pixel's centre at (0.5, 0.5). OpenCV has it at (0, 0), but for the quads that it
-/// took over from AprilTag, which are as that has them (OpenCV 4.6).
+/// What to add to OpenCV's corners: our first pixel's centre is at (0.5, 0.5), OpenCV's at (0, 0),
+/// except for quads that it takes over from AprilTag unchanged (OpenCV 4.6).
 double shift_px(cv::aruco::CornerRefineMethod refinement) {
   return refinement == cv::aruco::CORNER_REFINE_APRILTAG ? 0.0 : 0.5;
 }
@@ -33,19 +33,19 @@ bool detect(const cv::Ptr<cv::aruco::Dictionary>& dictionary,
     nav::MarkerCorners tag;
     tag.family = "tag36h11";
     tag.id = ids[i];
-    const double shift =
+    const double offset_px =
         shift_px(static_cast<cv::aruco::CornerRefineMethod>(parameters->cornerRefinementMethod));
     for (std::size_t k = 0; k < 4; ++k) {
       const cv::Point2f theirs = corners[i][kTheirs[k]];
-      tag.corners_px[k] = {static_cast<double>(theirs.x) + shift,
-                           static_cast<double>(theirs.y) + shift};
+      tag.corners_px[k] = {static_cast<double>(theirs.x) + offset_px,
+                           static_cast<double>(theirs.y) + offset_px};
     }
     found.push_back(tag);
   }
   return true;
 }
 
-/// Their default; it takes in more than the corner where cells are small.
+/// OpenCV's default; where cells are small, the window holds more than the corner.
 constexpr int kWindowPx = 5;
 constexpr int kSmallWindowPx = 2;
 

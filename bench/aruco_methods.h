@@ -6,8 +6,8 @@
 
 namespace orthonav::bench {
 
-/// OpenCV's ArUco detector with the dictionary of tag36h11 and each of its corner refinements; none
-/// where the bench was built without it.
+/// Adds OpenCV's ArUco detector with the dictionary of tag36h11, once per corner refinement;
+/// nothing if the benchmark was built without it.
 void add_aruco_methods(std::vector<Method>& methods);
 
 }  // namespace orthonav::bench

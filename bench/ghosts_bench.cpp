@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
-/// The right image is the left one shifted, as near things are: what fits in one fits in the other.
+/// The right image is the left one shifted, as for near things, so that what fits in one fits in
+/// the other.
 constexpr int kShiftPx = 60;
 
 /// Smooth noise of one scale, added.
@@ -46,7 +47,7 @@ void add_clouds(Random& random, int cell_px, double strength, std::vector<float>
 void add_boards(Random& random, std::vector<float>& grey, int width) {
   for (int board = 0; board < 6; ++board) {
     const double cell = random.uniform(3.0, 8.0);
-    const double turn = random.uniform(0.0, 6.3);
+    const double angle_rad = random.uniform(0.0, 6.3);
     const double cx = random.uniform(40.0, width - 40.0);
     const double cy = random.uniform(40.0, kHeight - 40.0);
     std::vector<bool> white(100);
@@ -56,8 +57,10 @@ void add_boards(Random& random, std::vector<float>& grey, int width) {
     }
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < width; ++x) {
-        const double u = (std::cos(turn) * (x - cx) + std::sin(turn) * (y - cy)) / cell + 5.0;
-        const double v = (-std::sin(turn) * (x - cx) + std::cos(turn) * (y - cy)) / cell + 5.0;
+        const double u =
+            (std::cos(angle_rad) * (x - cx) + std::sin(angle_rad) * (y - cy)) / cell + 5.0;
+        const double v =
+            (-std::sin(angle_rad) * (x - cx) + std::cos(angle_rad) * (y - cy)) / cell + 5.0;
         if (!(u >= 0.0 && v >= 0.0 && u < 10.0 && v < 10.0)) {
           continue;
         }
@@ -89,7 +92,7 @@ void make_pair(std::uint64_t seed, StereoFrame& frame) {
             std::clamp(120.0 + noisy + random.normal(0.0, 3.0), 0.0, 255.0));
       };
       frame.left.at(x, y) = at(x);
-      // The right camera lies turned by 180° against the left.
+      // The right camera is mounted turned by 180°.
       frame.right.at(kWidth - 1 - x, kHeight - 1 - y) = at(x + kShiftPx);
     }
   }

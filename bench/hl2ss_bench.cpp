@@ -1,4 +1,4 @@
-// Half an hour of a headset over TCP, as fast as it goes: what a pair costs from its last byte on,
+// Half an hour of a headset over TCP, as fast as it goes: the cost of a pair from its last byte on,
 // and whether memory grows. Usage: bench_hl2ss [SECONDS of headset time, default 1800] [raw|h264]
 
 #include <unistd.h>

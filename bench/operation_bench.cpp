@@ -1,12 +1,13 @@
-// What a simulated operation on the built-in phantom costs for each stereo pair, until the first
-// vertebra is registered: the simulated room, and tracking with everything after it.
-// Nothing is drawn: drawing has its own thread and its own bench.
+// What a simulated operation on the built-in phantom costs per stereo pair until the first vertebra
+// is registered: the simulated room, tracking and everything after it. Nothing is drawn: drawing
+// has its own thread and its own benchmark.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
+#include <optional>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "bench/quantile.h"
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
@@ -15,23 +16,20 @@
 namespace orthonav {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-
 /// Wall time from the end of one pair's step to the end of the next one's.
 class PairTimes : public engine::LoopObserver {
  public:
   void stepped(const StereoFrame& /*frame*/, const engine::Inputs& /*inputs*/,
                const engine::Guidance& /*guidance*/) override {
-    const WallClock::time_point now = WallClock::now();
-    if (last_ != WallClock::time_point{}) {
-      ms_.push_back(std::chrono::duration<double, std::milli>(now - last_).count());
+    if (since_last_) {
+      ms_.push_back(since_last_->elapsed_ms());
     }
-    last_ = now;
+    since_last_.emplace();
   }
   [[nodiscard]] const std::vector<double>& ms() const { return ms_; }
 
  private:
-  WallClock::time_point last_{};
+  std::optional<Stopwatch> since_last_;
   std::vector<double> ms_;
 };
 

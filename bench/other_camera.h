@@ -6,12 +6,12 @@
 
 namespace orthonav::bench {
 
-/// A pinhole with radial and tangential distortion, written apart from the one of hal/api.
+/// A pinhole camera with radial and tangential distortion, written independently of hal/api.
 struct Lens {
   int width_px = 0;
   int height_px = 0;
   double f_px = 0.0;
-  Vec2 centre_px;  ///< the top-left pixel's centre is at (0.5, 0.5)
+  Vec2 centre_px;  ///< the top left pixel's centre is at (0.5, 0.5)
   double k1 = 0.0, k2 = 0.0;
   double p1 = 0.0, p2 = 0.0;
 
@@ -25,11 +25,11 @@ class RayGrid {
  public:
   explicit RayGrid(const Lens& lens);
   [[nodiscard]] const Lens& lens() const { return lens_; }
-  /// Of the grid's node at a pixel's top left corner.
+  /// The grid's node at a pixel's top left corner.
   [[nodiscard]] Vec2 node(int x, int y) const {
     return nodes_[static_cast<std::size_t>(y * (lens_.width_px + 1) + x)];
   }
-  /// Of a pixel's middle.
+  /// The ray of a pixel's middle.
   [[nodiscard]] Vec2 middle(int x, int y) const {
     return 0.25 * (node(x, y) + node(x + 1, y) + node(x, y + 1) + node(x + 1, y + 1));
   }
@@ -39,7 +39,7 @@ class RayGrid {
   std::vector<Vec2> nodes_;
 };
 
-/// The look-up table that a device would report of the lens.
+/// The look-up table that a device with this lens would report.
 [[nodiscard]] CameraModel reported(const Lens& lens);
 
 }  // namespace orthonav::bench

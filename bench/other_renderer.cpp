@@ -11,7 +11,7 @@ namespace orthonav::bench {
 namespace {
 
 constexpr int kFine = 8;  ///< rays along a pixel's side
-/// Beyond so many SD a Gaussian blur ends.
+/// A Gaussian blur ends this many SDs from its middle.
 constexpr double kGaussianReach = 4.5;
 
 std::vector<DrawnTag> drawn(std::span<const PrintedTag> tags) {
@@ -19,7 +19,7 @@ std::vector<DrawnTag> drawn(std::span<const PrintedTag> tags) {
   std::vector<DrawnTag> out;
   for (const PrintedTag& print : tags) {
     DrawnTag tag{print, {}};
-    // The first bit is the highest; places count from the border's outer edge.
+    // The highest bit comes first; cells are counted from the border's outer edge.
     const std::uint64_t code = family->codes[print.id];
     for (std::uint32_t bit = 0; bit < family->nbits; ++bit) {
       tag.white[8 * family->bit_y[bit] + family->bit_x[bit]] =
@@ -31,8 +31,8 @@ std::vector<DrawnTag> drawn(std::span<const PrintedTag> tags) {
   return out;
 }
 
-/// Of a blur's footprint, what falls on the square of an eighth of a pixel that lies `x`, `y`
-/// eighths away.
+/// The part of a blur's footprint that falls on the square, an eighth of a pixel wide, that lies
+/// `x`, `y` eighths away.
 double footprint(const Optics& optics, int x, int y) {
   constexpr int kParts = 9;
   double sum = 0.0;
@@ -139,7 +139,8 @@ void OtherRenderer::draw_box(std::span<const Moment> moments, const RayGrid& ray
         const Vec2 d = rays.node(x0 + x + 1, y0 + y + 1);
         for (int j = 0; j < kFine; ++j) {
           for (int i = 0; i < kFine; ++i) {
-            // Rows and columns are sheared, so that an edge along them is met 64 times, not 8.
+            // Rows and columns are sheared, so that an edge along them meets 64 rays in turn and
+            // not 8 at once.
             const double s = (i + (j + 0.5) / kFine) / kFine;
             const double t = (j + (i + 0.5) / kFine) / kFine;
             const Vec2 ray = (1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d);

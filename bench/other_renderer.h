@@ -9,18 +9,18 @@
 #include "bench/other_camera.h"
 #include "bench/other_texture.h"
 
-// A renderer that shares nothing with hal/sim, to see whether a method is tuned to that: light is
-// gathered ray by ray, 8×8 rays a pixel where tags are, and blurred by a kernel that is summed up
-// numerically.
+// A renderer that shares nothing with hal/sim, to show whether a method is tuned to that one. It
+// gathers light ray by ray, 8×8 rays per pixel where tags are, and blurs it by a kernel that is
+// summed numerically.
 namespace orthonav::bench {
 
 struct PrintedTag {
   int id = 0;  ///< of tag36h11
   double size_m = 0.0;
-  double margin_cells = 1.25;  ///< white paper around
+  double margin_cells = 1.25;  ///< of white paper around it
 };
 
-/// With the cells within the outer edge of its border, row 0 on top, from the library's code.
+/// A tag with the cells within the outer edge of its border, row 0 on top, from the library's code.
 struct DrawnTag {
   PrintedTag print;
   std::array<bool, 64> white{};
@@ -41,26 +41,26 @@ struct Moment {
 };
 
 enum class Blur {
-  kNone,  ///< the pixel's own square alone, which every picture has
+  kNone,  ///< only the pixel's own square, which every picture has
   kDisk,  ///< defocus
   kGaussian
 };
 
 struct Optics {
   Blur blur = Blur::kNone;
-  double blur_px = 0.0;     ///< the disk's radius or the SD
-  double vignetting = 0.0;  ///< share of light lost in the corner
+  double blur_px = 0.0;     ///< the disk's radius, or the Gaussian's SD
+  double vignetting = 0.0;  ///< fraction of light lost in the corner
 };
 
 struct Lighting {
   Point<World> lamp{{0.25, 0.5, 0.3}};
-  double exposure = 0.8;    ///< what white would be at 0.5 m if it faced the lamp; 1 saturates
-  double ambient = 0.35;    ///< share of that without a direction
-  double highlight = 0.0;   ///< what glossy paper mirrors at most, by the same measure
+  double exposure = 0.8;    ///< of white at 0.5 m that faces the lamp; 1 saturates
+  double ambient = 0.35;    ///< fraction of the light that has no direction
+  double highlight = 0.0;   ///< the most that glossy paper mirrors, in the unit of `exposure`
   double gloss_rad = 0.12;  ///< SD of the highlight's lobe
 };
 
-/// Linear light, 1 is what saturates a pixel; before noise.
+/// Linear light before noise; 1 saturates a pixel.
 struct LightImage {
   int width_px = 0;
   int height_px = 0;
@@ -72,15 +72,16 @@ class OtherRenderer {
   OtherRenderer(std::span<const PrintedTag> tags, const Optics& optics, const Lighting& lighting,
                 std::uint64_t seed);
 
-  /// The mean over the moments, which spread evenly over the exposure. Away from the tags the
-  /// background and the finger are those of the middle moment, one ray a pixel.
+  /// The mean over moments spread evenly over the exposure. Away from the tags, the background and
+  /// the finger are drawn once, at the middle moment, with one ray per pixel.
   void render(std::span<const Moment> moments, const RayGrid& rays,
               const Transform<LeftCamera, Rig>& camera_from_rig, LightImage& image);
-  /// Only what lies around one tag, on a sheet of paper without end; black elsewhere.
+  /// Draws only the surroundings of one tag, on an endless sheet of paper; black elsewhere.
   void render_tag(std::span<const Moment> moments, const RayGrid& rays,
                   const Transform<LeftCamera, Rig>& camera_from_rig, std::size_t tag,
                   LightImage& image);
-  /// Share of a tag that a camera sees: in the image, from its face, not hidden by the finger.
+  /// Fraction of a tag that a camera sees: inside the image, from its face, not hidden by the
+  /// finger.
   [[nodiscard]] double visible_fraction(const Moment& moment, const Lens& lens,
                                         const Transform<LeftCamera, Rig>& camera_from_rig,
                                         std::size_t tag) const;
@@ -101,8 +102,8 @@ class OtherRenderer {
   Optics optics_;
   Lighting lighting_;
   Clutter clutter_;
-  int reach_ = 0;              ///< of the kernel beyond the pixel, in eighths of a pixel
-  std::vector<float> kernel_;  ///< (8 + 2 reach)² eighths, sums to 1
+  int reach_ = 0;  ///< by which the kernel extends beyond the pixel, in eighths of a pixel
+  std::vector<float> kernel_;  ///< (8 + 2 reach)² eighths; sums to 1
   std::vector<float> fine_;
 };
 

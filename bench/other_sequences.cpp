@@ -13,7 +13,7 @@ constexpr double kPairS = 1.0 / 30.0;
 constexpr double kTipM = 0.150;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Stage and renderer of a sequence, kept to render it again for the bound.
+/// Stage and renderer of a sequence, kept so that it can be rendered again for the bound.
 struct Shoot {
   OtherStage stage;
   OtherRenderer renderer;
@@ -22,13 +22,13 @@ struct Shoot {
       : stage(kind, seed), renderer(stage.tags(), kind.optics, kind.lighting, seed) {}
 };
 
-/// Adds what the pixels of one camera tell of a tool's pose at a time.
+/// Adds the information that one camera's pixels hold about a tool's pose at a time.
 void add_information(Shoot& shoot, double t, std::size_t camera, std::size_t tool,
                      Matrix6& information) {
   const OtherStage& stage = shoot.stage;
   const std::vector<Moment> moments = stage.exposure(t);
   const RayGrid& rays = stage.rays()[camera];
-  // A quarter of a pixel.
+  // Moves the image by a quarter of a pixel.
   const double step_m = 0.25 * stage.kind().distance_m / rays.lens().f_px;
   const double step_rad = step_m / (0.5 * stage.kind().tag_m);
   const auto rendered = [&](std::size_t axis, double sign) {
@@ -53,7 +53,7 @@ void add_information(Shoot& shoot, double t, std::size_t camera, std::size_t too
     light.resize(ahead.size());
     const auto across = static_cast<float>(2.0 * (axis < 3 ? step_m : step_rad));
     for (std::size_t i = 0; i < ahead.size(); ++i) {
-      // A pixel at the rim of what was rendered lacks one of the two.
+      // A pixel at the rim of what was rendered is missing in one of the two.
       const bool both = ahead[i] > 0.0F && behind[i] > 0.0F;
       slopes[i][axis] = both ? (ahead[i] - behind[i]) / across : 0.0F;
       light[i] += (ahead[i] + behind[i]) / 12.0F;

@@ -25,10 +25,10 @@ Lens lens(bool large, bool right) {
 /// The rig's x points right, y up, z back, its origin lies between the cameras.
 Transform<LeftCamera, Rig> placed(bool right) {
   const Mat3 axes{{{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}};
-  const Mat3 turn =
+  const Mat3 rotation =
       rotation_from_vector(right ? Vec3{-0.012, -0.035, 0.021} : Vec3{0.008, 0.028, -0.013}) * axes;
   const Vec3 place{right ? 0.5 * kBaselineM : -0.5 * kBaselineM, right ? 0.0012 : 0.0, 0.0};
-  return {turn, -(turn * place)};
+  return {rotation, -(rotation * place)};
 }
 
 std::vector<OtherKind> kinds() {
@@ -127,7 +127,8 @@ Transform<World, Marker> OtherStage::tool_at(std::size_t tool, double t) const {
   const double side = tool == 0 ? -1.0 : 1.0;
   const double apart = std::max(0.06, 1.1 * kind_.tag_m);
   const Vec3 place{apart * side + 0.025 * w(0), 0.03 * w(1), -kind_.distance_m + 0.04 * w(2)};
-  // Upright and facing the rig, then leaning about an axis in its own plane, then turned in it.
+  // Upright and facing the rig, then tilted about an axis in its own plane, then rotated in that
+  // plane.
   const Vec3 z = (-place).normalized();
   const Vec3 x = Vec3{0, 1, 0}.cross(z).normalized();
   const Mat3 facing = Mat3::from_columns(x, z.cross(x), z);
@@ -149,7 +150,7 @@ Moment OtherStage::at(double t) const {
     moment.world_from_marker.push_back(tool_at(tool, t));
   }
   if (kind_.finger_m > 0.0) {
-    // Comes from the side, to the tag's far edge and back, a finger's thickness in front.
+    // Moves in from the side to the tag's far edge and back, a finger's thickness in front of it.
     const double reach = 0.9 * (kind_.tag_m + kind_.finger_m) * std::sin(kTurn * 0.7 * t);
     const auto& tag = moment.world_from_marker[0];
     const Vec3 tip{-0.2 * kind_.tag_m + reach, 0.1 * kind_.tag_m, 1.5 * kind_.finger_m};

@@ -9,35 +9,35 @@
 
 namespace orthonav::bench {
 
-/// What a sequence is like.
+/// The conditions of a sequence.
 struct OtherKind {
   std::string name;
-  bool large = true;  ///< 1280×960, else 640×480
+  bool large = true;  ///< true: 1280×960; false: 640×480
   double tag_m = 0.040;
   double distance_m = 0.45;
   Optics optics{Blur::kDisk, 0.8, 0.25};
   Sensor sensor;
   Lighting lighting;
   double exposure_s = 0.004;
-  double speed = 1.0;           ///< of the hands; 1: 0.1 m/s and 0.6 rad/s RMS or so
-  double least_tilt_rad = 0.0;  ///< away from facing the cameras
+  double speed = 1.0;           ///< of the hands; 1: about 0.1 m/s and 0.6 rad/s RMS
+  double least_tilt_rad = 0.0;  ///< from facing the cameras
   double largest_tilt_rad = 0.45;
-  double finger_m = 0.0;  ///< radius of what wipes over the first tool's tag
+  double finger_m = 0.0;  ///< radius of the finger that wipes over the first tool's tag
 };
 
 [[nodiscard]] const std::vector<OtherKind>& other_kinds();
 
-/// Two tools that wander in front of two cameras that sway, at any time.
+/// Two tools that wander in front of two swaying cameras, at any time.
 class OtherStage {
  public:
   OtherStage(const OtherKind& kind, std::uint64_t seed);
 
   [[nodiscard]] Moment at(double t) const;
-  /// Moments spread evenly over the exposure, an odd number.
+  /// An odd number of moments spread evenly over the exposure.
   [[nodiscard]] std::vector<Moment> exposure(double t) const;
   [[nodiscard]] const OtherKind& kind() const { return kind_; }
   [[nodiscard]] const std::array<RayGrid, 2>& rays() const { return rays_; }
-  /// Left and right; the renderer knows one kind of camera.
+  /// Left and right; to the renderer both are of one kind.
   [[nodiscard]] const std::array<Transform<LeftCamera, Rig>, 2>& camera_from_rig() const {
     return camera_from_rig_;
   }

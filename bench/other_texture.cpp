@@ -44,13 +44,13 @@ void add_sheets(Random& random, std::vector<float>& texels, int count, double lo
     const double cy = random.uniform(0.0, kSide);
     const double half_x = random.uniform(low, high);
     const double half_y = half_x * random.uniform(0.1, 1.0);
-    const double turn = random.uniform(0.0, 3.2);
+    const double angle_rad = random.uniform(0.0, 3.2);
     const auto grey = static_cast<float>(random.uniform(0.03, 0.9));
     const int reach = static_cast<int>(half_x + half_y) + 1;
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
-        if (std::abs(std::cos(turn) * dx + std::sin(turn) * dy) < half_x &&
-            std::abs(-std::sin(turn) * dx + std::cos(turn) * dy) < half_y) {
+        if (std::abs(std::cos(angle_rad) * dx + std::sin(angle_rad) * dy) < half_x &&
+            std::abs(-std::sin(angle_rad) * dx + std::cos(angle_rad) * dy) < half_y) {
           texels[at(static_cast<int>(cx) + dx, static_cast<int>(cy) + dy)] = grey;
         }
       }
@@ -58,7 +58,7 @@ void add_sheets(Random& random, std::vector<float>& texels, int count, double lo
   }
 }
 
-/// Takes the steps off, so that a pixel need not gather more than one point.
+/// Smooths out steps, so that a pixel need not gather more than one point.
 std::vector<float> smoothed(const std::vector<float>& texels) {
   std::vector<float> out(texels.size());
   for (int y = 0; y < kSide; ++y) {

@@ -5,8 +5,8 @@
 
 namespace orthonav::bench {
 
-/// A cluttered surface of side 1: cloth, sheets, strips and lettering, reflectance 0.03 to 0.9. It
-/// goes on beyond its edges as in a mirror.
+/// A cluttered surface of side 1: cloth, sheets, strips and lettering, reflectance 0.03 to 0.9.
+/// Beyond its edges it continues mirrored.
 class Clutter {
  public:
   explicit Clutter(std::uint64_t seed);

@@ -5,9 +5,9 @@
 namespace orthonav::bench {
 namespace {
 
-/// Light and distances are as they are here.
+/// Light and distances are specified for this place.
 constexpr Vec3 kMiddle{0.0, 0.0, -0.5};
-/// What lies behind the tools: a slanting board.
+/// A slanting board behind the tools.
 constexpr Vec3 kBoardPoint{0.0, 0.0, -1.05};
 constexpr Vec3 kBoardNormal{0.12, 0.2, 0.97};
 constexpr double kBoardSideM = 1.2;
@@ -62,7 +62,7 @@ std::optional<double> OtherView::finger_depth(Vec2 ray) const {
   if (!finger_) {
     return std::nullopt;
   }
-  // The points of ray and axis that are nearest to each other.
+  // The points of ray and axis nearest to each other.
   const Vec3 d = world_from_camera_ * Vec3{ray.x, ray.y, 1.0};
   const Vec3 axis = finger_->to - finger_->from;
   const Vec3 w = eye_ - finger_->from.v;

@@ -9,7 +9,7 @@
 namespace orthonav::bench {
 namespace {
 
-/// Standard normal vectors, always the same.
+/// Standard normal vectors, the same in every run.
 const std::vector<Vec3>& draws() {
   static const std::vector<Vec3> kDraws = [] {
     constexpr int kCount = 4000;

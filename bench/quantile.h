@@ -6,7 +6,7 @@
 
 namespace orthonav {
 
-/// The value that `share` of them lie below or at, without interpolation; 0 without any.
+/// The value that `fraction` of the values lie at or below, without interpolation; 0 for none.
 inline double quantile(std::vector<double> values, double fraction) {
   if (values.empty()) {
     return 0.0;

@@ -22,7 +22,7 @@ std::optional<Sequence> recorded_sequence() {
       visible.push_back({fraction, fraction});
     }
   }
-  // The sample knows no tip of the reference; an angle is no shorter for that.
+  // The sample gives no tip for the reference; angles need none.
   for (nav::ToolGeometry& tool : sample->tools) {
     tool.tip_in_marker = {{0.0, -0.15, 0.0}};
   }

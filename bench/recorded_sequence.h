@@ -6,8 +6,8 @@
 
 namespace orthonav::bench {
 
-/// The recorded sample of two tools, 40 mm tags, rendered by others with a real unit's stereo
-/// geometry; "recorded". It has no bound. Nothing where the sample is absent.
+/// The sequence "recorded": a sample of two tools with 40 mm tags, rendered by others with a real
+/// unit's stereo geometry. It has no bound. Nothing where the sample is absent.
 [[nodiscard]] std::optional<Sequence> recorded_sequence();
 
 }  // namespace orthonav::bench

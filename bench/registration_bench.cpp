@@ -4,11 +4,11 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <chrono>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
+#include "base/stopwatch.h"
 #include "bench/registration_methods.h"
 #include "bench/registration_runs.h"
 #include "bench/registration_tables.h"
@@ -53,14 +53,14 @@ Result<std::vector<BenchLevel>> load_levels(const Arguments& arguments) {
       if (!chosen(arguments.levels, level.name())) {
         continue;
       }
-      const auto begin = std::chrono::steady_clock::now();
+      const Stopwatch watch;
       auto model = nav::VertebraModel::prepare(from.mesh);
-      const auto end = std::chrono::steady_clock::now();
+      const double prepare_ms = watch.elapsed_ms();
       if (!model) {
         return model.error();
       }
       level.model = *model;
-      level.prepare_ms = std::chrono::duration<double, std::milli>(end - begin).count();
+      level.prepare_ms = prepare_ms;
       levels.push_back(std::move(level));
     }
   }

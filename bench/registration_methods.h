@@ -25,31 +25,31 @@ struct BenchLevel {
   [[nodiscard]] std::string name() const { return case_name + "/" + label; }
 };
 
-/// What a method makes of some strokes.
+/// What a method makes of one set of strokes.
 struct Fitted {
   bool found = false;
   Transform<World, Vertebra> world_from_vertebra;
   bool accepted = false;
-  std::string reason;  ///< why not
+  std::string reason;  ///< why it was not accepted
   double rmse_m = 0.0;
   std::string fits_better;  ///< label of another level that the points fit as well or better
   /// For methods that say how sure they are: covariance of the error at a place, by rows, m².
   std::function<Mat3(Point<Vertebra>)> covariance;
 };
 
-/// Fits one level; not thread-safe, but several may run beside each other.
+/// Fits one level. Not thread-safe, but several may run at the same time.
 using Fit = std::function<Fitted(std::span<const Point<World>>)>;
 
 struct RegistrationMethod {
   std::string name;
-  /// Everything that has not to wait for the strokes.
+  /// Does all the work that need not wait for the strokes.
   std::function<Fit(const BenchLevel&)> prepare;
-  /// A peer says nothing of acceptance: it counts as accepted like the published method was, by the
-  /// RMSE alone.
+  /// Peers do not judge their own result: theirs count as accepted by the published method's rule,
+  /// the RMSE alone.
   bool judges = false;
 };
 
-/// Ours, then those peers that were found when the build was configured.
+/// Ours, then the peers found when the build was configured.
 [[nodiscard]] std::vector<RegistrationMethod> registration_methods();
 
 }  // namespace orthonav::bench

@@ -33,8 +33,8 @@ struct Described {
   std::shared_ptr<o3d::Feature> features;
 };
 
-/// Thinned out, with normals and features. The strokes' frame is unknown: normals point away from
-/// the cloud's centre, those of the model likewise, so that both follow one rule.
+/// Downsampled, with normals and features. The strokes' frame is unknown: normals point away from
+/// the cloud's centre, those of the model too, so that both follow one rule.
 Described described(const PointCloud& dense) {
   Described d;
   d.cloud = dense.VoxelDownSample(kVoxel_mm);
@@ -78,11 +78,11 @@ Fit prepared(const BenchLevel& level) {
     whole->normals_.emplace_back(s.normal.x, s.normal.y, s.normal.z);
   }
   return [whole, model = described(*whole)](std::span<const Point<World>> points) {
-    // Its random numbers are the process's: one at a time, each from the same seed.
+    // Open3D's random generator belongs to the process: one fit at a time, each from the same seed.
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
     open3d::utility::random::Seed(1);
-    omp_set_num_threads(1);  // one core as the others, and the same draws every time
+    omp_set_num_threads(1);  // one core, as for the others, and the same draws every time
     PointCloud strokes;
     for (const Point<World>& point : points) {
       strokes.points_.push_back(eigen_mm(point.v));

@@ -10,7 +10,7 @@ namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-/// PCL counts in single precision and its thresholds suit numbers near one: millimetres, about the
+/// PCL computes in single precision and its thresholds suit numbers near one: millimetres about the
 /// cloud's own centre.
 constexpr double kMillimetres = 1e3;
 /// Farther pairs are left out. The starts are several millimetres off.
@@ -88,7 +88,7 @@ Fit prepared(const BenchLevel& level) {
   icp->setMaxCorrespondenceDistance(kFarthestPair_mm);
   icp->setMaximumIterations(kMostIterations);
   icp->setTransformationEpsilon(1e-8);
-  // What it works out of the target alone (its tree, GICP's covariances) is no part of a run.
+  // What PCL computes from the target alone (its tree, GICP's covariances) is no part of a run.
   icp->setInputSource(target);
   Cloud aligned;
   icp->align(aligned);

@@ -7,11 +7,11 @@
 
 namespace orthonav::bench {
 
-/// PCL's ICP and GICP, each from both published starts, the smaller RMSE taken. Where PCL was found
-/// (ORTHONAV_BENCH_PCL).
+/// PCL's ICP and GICP, each from both published starts; the smaller RMSE counts. Only where PCL was
+/// found (ORTHONAV_BENCH_PCL).
 [[nodiscard]] std::vector<RegistrationMethod> pcl_methods();
 
-/// Open3D's FPFH, RANSAC over matched features, ICP. Where Open3D was found
+/// Open3D's FPFH, RANSAC over matched features, then ICP. Only where Open3D was found
 /// (ORTHONAV_BENCH_OPEN3D).
 [[nodiscard]] std::vector<RegistrationMethod> open3d_methods();
 
@@ -19,22 +19,22 @@ struct SurfaceSample {
   Vec3 point_m;
   Vec3 normal;
 };
-/// Places of a surface with the same density everywhere: what peers that know points alone get to
-/// see of the model. The same at every call.
+/// Points on a surface with the same density everywhere: all that peers which take points see of
+/// the model. The same in every call.
 [[nodiscard]] std::vector<SurfaceSample> surface_samples(const nav::TriangleMesh& mesh,
                                                          std::size_t count);
-/// The part of them that is exposed in such an operation, out to a little beyond the entry points:
-/// the published method trims its model to it by hand.
+/// The part of them that such an operation exposes, out to a little beyond the entry points: the
+/// published method trims its model to it by hand.
 [[nodiscard]] std::vector<SurfaceSample> exposed(const std::vector<SurfaceSample>& samples,
                                                  const std::vector<nav::ScrewPlan>& screws);
 
-/// A published start: the six extreme points along the principal axes of strokes and model are
+/// The published start: the six extreme points along the principal axes of strokes and model are
 /// paired and fitted (Liebmann et al. 2019, eq. 1). Axes have no sign: of the four proper ways to
-/// pair them the two that fit best, the better first. None for strokes on a line.
+/// pair them, the two that fit best, the better one first. Empty for strokes on a line.
 [[nodiscard]] std::vector<Transform<Vertebra, World>> published_starts(
     std::span<const SurfaceSample> model, std::span<const Point<World>> points);
 
-/// So many of them for a model: one a square millimetre or so.
+/// How many of them a model gets: about one per square millimetre.
 inline constexpr std::size_t kPeerModelPoints = 8000;
 
 }  // namespace orthonav::bench

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
 
 #include "base/random.h"
+#include "base/stopwatch.h"
 #include "bench/predicted_coverage.h"
 
 namespace orthonav::bench {
@@ -18,7 +18,7 @@ constexpr double kRight_m = 0.002;
 /// The published method's limit, by which peers count as accepted.
 constexpr double kPeerMaxRmse_m = 0.003;
 
-/// Each level has strokes of its own from a seed.
+/// Each level gets strokes of its own from a seed.
 test::DigitizedStrokes strokes_of(const BenchLevel& level, test::StrokeVariant variant,
                                   std::uint64_t seed, const RunOptions& options) {
   test::StrokeErrorModel error_model = test::error_model_of(variant);
@@ -43,13 +43,12 @@ double rmse_m(const nav::VertebraModel& model, const Transform<World, Vertebra>&
   return std::sqrt(sum_m2 / static_cast<double>(points.size()));
 }
 
-/// Fits, and judges in the place of peers that don't.
+/// Fits, and judges on behalf of peers that don't.
 Fitted fitted_by(const RegistrationMethod& method, const Fit& fit, const BenchLevel& level,
                  std::span<const Point<World>> points, double& ms) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Fitted fitted = fit(points);
-  const auto end = std::chrono::steady_clock::now();
-  ms = std::chrono::duration<double, std::milli>(end - begin).count();
+  ms = watch.elapsed_ms();
   if (method.judges || !fitted.found) {
     return fitted;
   }
@@ -60,7 +59,7 @@ Fitted fitted_by(const RegistrationMethod& method, const Fit& fit, const BenchLe
 
 void compare(const BenchLevel& level, const Transform<World, Vertebra>& truth, const Fitted& fitted,
              Run& run) {
-  // In the model's frame: that is where the covariance is.
+  // In the model's frame, to which the covariance refers.
   const auto moved = truth.inverse() * fitted.world_from_vertebra;
   for (const nav::ScrewPlan& screw : level.screws) {
     for (const Point<Vertebra> at : {screw.entry, screw.target}) {
@@ -104,7 +103,7 @@ void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod
   }
 }
 
-/// Calls `work` for 0 to count - 1, some beside each other.
+/// Calls `work` for 0 to count - 1, some of them concurrently.
 template <class Work>
 void in_parallel(std::size_t count, unsigned jobs, const Work& work) {
   std::atomic<std::size_t> next{0};

@@ -11,18 +11,18 @@ namespace orthonav::bench {
 /// One method on one set of strokes.
 struct Run {
   test::StrokeVariant variant{};
-  std::string level;     ///< that was stroked
-  std::string coverage;  ///< what of it, in words
+  std::string level;     ///< the level that was stroked
+  std::string coverage;  ///< the part of it that was stroked, in words
   std::uint64_t seed = 0;
   std::size_t method = 0;
   bool found = false;
   bool accepted = false;
   std::string reason;
   double rmse_m = 0.0;
-  double error_m = 0.0;  ///< the largest at an entry or a target
+  double error_m = 0.0;  ///< the largest at any entry or target
   double ms = 0.0;
-  /// For each entry and target, where an error was predicted: whether the error is in the ellipsoid
-  /// that holds 68 (95) % of them, and whether it is no longer than 68 (95) % are to be.
+  /// For each entry and target with a predicted error: whether the error lies in the ellipsoid that
+  /// is to hold 68 (95) % of all errors, and whether it is no longer than 68 (95) % are to be.
   struct Honest {
     bool in_68 = false, in_95 = false, within_68 = false, within_95 = false;
   };
@@ -36,15 +36,15 @@ struct RunOptions {
   std::vector<test::StrokeVariant> variants;
   std::uint64_t seeds = 2;
   double deepest_aside = test::StrokeErrorModel{}.deepest_aside;
-  unsigned jobs = 1;  ///< levels beside each other; the results don't depend on it, the times do
+  unsigned jobs = 1;  ///< levels at the same time; changes the times, not the results
 };
 
-/// Every level stroked and fitted by every method. Sorted by level, variant, seed, method.
+/// Every level stroked, and fitted by every method. Sorted by level, variant, seed, method.
 [[nodiscard]] std::vector<Run> measure(const std::vector<BenchLevel>& levels,
                                        const std::vector<RegistrationMethod>& methods,
                                        const RunOptions& options);
 
-/// The strokes of one level fitted to another.
+/// The strokes of one level, fitted to another.
 struct WrongLevelRun {
   std::string stroked;
   std::string fitted;
@@ -52,10 +52,10 @@ struct WrongLevelRun {
   std::size_t method = 0;
   bool accepted = false;
   bool right_named = false;        ///< the method says which level it is
-  bool right_fits_better = false;  ///< the same strokes on their own level have a smaller RMSE
+  bool right_fits_better = false;  ///< on their own level the same strokes have a smaller RMSE
 };
 
-/// Every level's strokes on each neighbour in its case.
+/// Every level's strokes, fitted to each neighbour in its case.
 [[nodiscard]] std::vector<WrongLevelRun> measure_wrong_levels(
     const std::vector<BenchLevel>& levels, const std::vector<RegistrationMethod>& methods,
     const RunOptions& options);

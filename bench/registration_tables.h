@@ -9,7 +9,7 @@ namespace orthonav::bench {
 /// Markdown, to standard output: how often each method is right, what it accepts, errors, times.
 void print_success(const std::vector<Run>& runs, const std::vector<RegistrationMethod>& methods,
                    const std::vector<test::StrokeVariant>& variants);
-/// Errors of each method against the first one's, over the runs that both get right.
+/// Errors of each method minus those of the first, over the runs that both get right.
 void print_against_first(const std::vector<Run>& runs,
                          const std::vector<RegistrationMethod>& methods,
                          const std::vector<test::StrokeVariant>& variants);
@@ -19,7 +19,7 @@ void print_honesty(const std::vector<Run>& runs, const std::vector<RegistrationM
 void print_wrong_levels(const std::vector<WrongLevelRun>& runs,
                         const std::vector<RegistrationMethod>& methods,
                         const std::vector<test::StrokeVariant>& variants);
-/// A line a run.
+/// One line per run.
 void print_each(const std::vector<Run>& runs, const std::vector<RegistrationMethod>& methods);
 
 }  // namespace orthonav::bench

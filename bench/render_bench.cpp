@@ -1,5 +1,5 @@
-// A full frame of guidance in both eyes, beside VTK drawing the same in the same run, frame by
-// frame in turn, so that whatever else the machine does falls on both. Prints a table in Markdown.
+// A full frame of guidance in both eyes, compared with VTK drawing the same in the same run, frames
+// alternating so that other load affects both alike. Prints a table in Markdown.
 //   xvfb-run -a build/bench/bench/bench_render [--frames N] [--width PX] [--height PX] [--save]
 #include <unistd.h>
 
@@ -129,7 +129,7 @@ void draw_peer(VtkWindow& window, const FullScene& full, int frame, Row* row) {
   row->total.add(timing.total_ms);
 }
 
-/// Memory is what each one adds to the process with its first frames.
+/// Memory is what each renderer adds to the process with its first frames.
 void compare(const Options& options, int samples, const FullScene& full) {
   constexpr int kWarmUp = 5;
   Row ours, all_triangles, peers;

@@ -27,7 +27,7 @@ engine::GoldenScene golden(const char* name) {
   return *std::find_if(scenes.begin(), scenes.end(), [&](const auto& s) { return s.name == name; });
 }
 
-/// Every triangle cut into four at the middles of its edges.
+/// Every triangle cut into four at the midpoints of its edges.
 render::MeshData refined(const render::MeshData& mesh) {
   render::MeshData out;
   out.positions = mesh.positions;
@@ -51,16 +51,17 @@ render::MeshData refined(const render::MeshData& mesh) {
   return out;
 }
 
-/// Strokes over the lamina, as a surgeon lays them.
+/// Strokes over the lamina, as a surgeon makes them.
 render::LineItem sampled_path() {
   render::LineItem line;
   line.label = 101;
   line.colour = {1.0f, 0.30f, 0.02f, 1};
   for (int i = 0; i < kSamples; ++i) {
     const float t = static_cast<float>(i) / (kSamples - 1);
-    const float turn = 24 * t * 2 * std::numbers::pi_v<float>;
-    line.points.push_back({-0.020f + 0.016f * t + 0.0035f * std::cos(turn), 0.038f + 0.004f * t,
-                           0.004f - 0.010f * t + 0.005f * std::sin(turn)});
+    const float angle_rad = 24 * t * 2 * std::numbers::pi_v<float>;
+    line.points.push_back({-0.020f + 0.016f * t + 0.0035f * std::cos(angle_rad),
+                           0.038f + 0.004f * t,
+                           0.004f - 0.010f * t + 0.005f * std::sin(angle_rad)});
   }
   return line;
 }
@@ -79,11 +80,11 @@ void add_cross(render::Scene& scene, const std::vector<render::View>& views) {
     scene.lines.push_back(ring);
   }
   const auto dot = std::make_shared<render::MeshData>(render::make_sphere(0.0006f));
-  for (const float shift_m : {0.001f, -0.002f}) {
+  for (const float offset_m : {0.001f, -0.002f}) {
     render::MeshItem item;
     item.label = 701;
     item.mesh = dot;
-    item.world_from_model = render::placed_at(centre + Float3{shift_m, 0, 0});
+    item.world_from_model = render::placed_at(centre + Float3{offset_m, 0, 0});
     item.colour = {1.0f, 0.42f, 0.0f, 1};
     scene.meshes.push_back(item);
   }
@@ -115,10 +116,10 @@ FullScene full_scene() {
 
 std::vector<render::View> swayed(const std::vector<render::View>& views, int frame) {
   std::vector<render::View> out = views;
-  const float turn = 0.1f * static_cast<float>(frame);
+  const float angle_rad = 0.1f * static_cast<float>(frame);
   for (render::View& view : out) {
-    view.eye_from_world[12] += 0.004f * std::cos(turn);
-    view.eye_from_world[13] += 0.003f * std::sin(turn);
+    view.eye_from_world[12] += 0.004f * std::cos(angle_rad);
+    view.eye_from_world[13] += 0.003f * std::sin(angle_rad);
   }
   return out;
 }

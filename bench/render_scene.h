@@ -14,7 +14,7 @@ struct FullScene {
 };
 [[nodiscard]] FullScene full_scene();
 
-/// The same views with the head swayed a little, another way in every frame.
+/// The same views with the head swayed a little, differently in every frame.
 [[nodiscard]] std::vector<render::View> swayed(const std::vector<render::View>& views, int frame);
 
 }  // namespace orthonav::bench

@@ -22,7 +22,7 @@ constexpr double kExposureS = 0.004;
 constexpr int kMoments = 5;
 
 struct Kind {
-  double speed = 1.0;  ///< of the hand; 1: 0.15 m/s and 0.9 rad/s RMS or so
+  double speed = 1.0;  ///< of the hand; 1: about 0.15 m/s and 0.9 rad/s RMS
   double light = 1.0;
   double shot = 0.1;
   double read = 1.0;
@@ -45,7 +45,7 @@ Kind kind_of(const std::string& name) {
   return {};
 }
 
-/// A smooth motion without a period to speak of: three sines an axis.
+/// A smooth motion without a noticeable period: three sines per axis.
 struct Wander {
   std::array<std::array<double, 3>, 6> phase{};
   explicit Wander(Random random) {
@@ -100,11 +100,11 @@ class Stage {
     state.time = Timestamp(from_seconds(t + 1.0));
     // The rig looks down at 45°; its z axis points backwards.
     const double down = -0.8 + 0.03 * head_.at(3, 0.4 * t);
-    const Mat3 turn = rotation_from_vector({0.0, 0.03 * head_.at(4, 0.4 * t), 0.0}) *
-                      rotation_from_vector({down, 0.0, 0.0});
+    const Mat3 rotation = rotation_from_vector({0.0, 0.03 * head_.at(4, 0.4 * t), 0.0}) *
+                          rotation_from_vector({down, 0.0, 0.0});
     state.room_from_rig = {
-        turn, Vec3{0.0, 0.60, 0.33} +
-                  0.012 * Vec3{head_.at(0, 0.4 * t), head_.at(1, 0.4 * t), head_.at(2, 0.4 * t)}};
+        rotation, Vec3{0.0, 0.60, 0.33} + 0.012 * Vec3{head_.at(0, 0.4 * t), head_.at(1, 0.4 * t),
+                                                       head_.at(2, 0.4 * t)}};
     const Transform<sim::Room, Rig> middle(rotation_from_vector({-0.8, 0.0, 0.0}),
                                            {0.0, 0.60, 0.33});
     for (std::size_t i = 0; i < 2; ++i) {
@@ -219,7 +219,7 @@ std::array<double, 36> cramer_rao_bound(const Kind& kind, const StereoCalibratio
   sim::RoomState state;
   state.room_from_marker.assign(2, {});
   state.tool_present = {tool == 0, tool == 1};
-  // Half a pixel or so: greys are whole numbers.
+  // About half a pixel: greys are whole numbers.
   constexpr double kStep = 0.0006;
   const auto drawn = [&](std::size_t axis, double sign) {
     std::array<double, 6> step{};

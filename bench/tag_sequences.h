@@ -18,12 +18,12 @@ struct Sequence {
   std::vector<StereoFrame> frames;
   /// By pair and tool.
   std::vector<std::vector<Transform<Rig, Marker>>> rig_from_marker;
-  /// Share of each tag's area that is not hidden, in the left and the right image.
+  /// Fraction of each tag's area that is not hidden, in the left and the right image.
   std::vector<std::vector<std::array<double, 2>>> visible;
-  /// Variance of a tool's pose (m and rad, in the frame of the marker) that no unbiased estimator
-  /// undercuts, from the images of pair and tool alone: the inverse of the Fisher information, its
-  /// derivatives from rendering the tool displaced. Row-major 6×6. Empty where nothing can be
-  /// rendered again.
+  /// The smallest variance that an unbiased estimator of a tool's pose can have (m and rad, in the
+  /// marker's frame), from the images of this pair and tool alone: the inverse of the Fisher
+  /// information, with derivatives from rendering the tool displaced. Row-major 6×6. Empty where
+  /// nothing can be rendered again.
   std::function<std::array<double, 36>(std::size_t pair, std::size_t tool)> bound;
 };
 

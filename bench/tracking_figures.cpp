@@ -1,37 +1,36 @@
 #include "bench/tracking_figures.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <Eigen/Dense>
 
+#include "base/stopwatch.h"
 #include "bench/quantile.h"
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::bench {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-/// A tag counts as visible when so much of it is free in both images.
+/// A tag counts as visible when at least this fraction of it is free in both images.
 constexpr double kVisible = 0.9;
-/// And as one that may be seen, so that seeing it is no ghost, from here on.
+/// From this fraction on it may be seen: seeing it is no ghost.
 constexpr double kGlimpsed = 0.02;
 /// Acquisition is not part of the accuracy.
 constexpr std::size_t kWarmUp = 5;
-/// A tool at rest has been averaged by then.
+/// By then a tool at rest has been averaged.
 constexpr std::size_t kSettled = 60;
-/// Fewer poses tell no jitter.
+/// Fewer poses say nothing about jitter.
 constexpr std::size_t kFewestAtRest = 10;
 /// A tip that stays within this of one place in World is at rest.
 constexpr double kRestM = 1e-6;
 
 double nees_of(const Transform<Rig, Marker>& truth, const Seen& seen) {
-  const Vec3 shift = seen.rig_from_marker.translation() - truth.translation();
-  const Vec3 turn =
+  const Vec3 translation = seen.rig_from_marker.translation() - truth.translation();
+  const Vec3 rotation =
       vector_from_rotation(seen.rig_from_marker.rotation() * truth.rotation().transposed());
   Eigen::Matrix<double, 6, 1> e;
-  e << shift.x, shift.y, shift.z, turn.x, turn.y, turn.z;
+  e << translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z;
   const Eigen::Map<const Eigen::Matrix<double, 6, 6>> c(seen.covariance_in_rig.data());
   return e.dot(c.ldlt().solve(e));
 }
@@ -95,7 +94,7 @@ void add_errors(const Transform<Rig, Marker>& truth, const Seen& seen, Point<Mar
   f.nees_count += 1;
 }
 
-/// Where a tool's tip was in World, and where it was said to be.
+/// Where a tool's tip was in World, and where the method put it.
 struct TipPath {
   std::vector<Vec3> truth;
   std::vector<Vec3> found;
@@ -133,11 +132,11 @@ Figures measure(const Sequence& sequence, const Track& track) {
   for (std::size_t k = 0; k < sequence.frames.size(); ++k) {
     claims.tools.assign(tools, {});
     claims.sightings.clear();
-    const auto begin = WallClock::now();
+    const Stopwatch watch;
     track(sequence.frames[k], claims);
-    const std::chrono::duration<double, std::milli> took = WallClock::now() - begin;
+    const double took_ms = watch.elapsed_ms();
     if (k >= kWarmUp) {
-      f.ms.push_back(took.count());
+      f.ms.push_back(took_ms);
     }
     for (const Sighting& sighting : claims.sightings) {
       f.ghosts += is_ghost(sequence, k, sighting);

@@ -13,9 +13,10 @@ struct Figures {
   std::vector<double> ms;
   double visible = 0;  ///< tags that both cameras see nearly whole
   double seen = 0;     ///< of these
-  int gap = 0;         ///< longest run of pairs in which such a tag was not seen
-  /// Poses of a tool that neither camera sees or with a corner farther than half the tag's size
-  /// from its place, and sightings in one image of an id or at a place that is not there.
+  int gap = 0;         ///< longest run of pairs in which a visible tag was not seen
+  /// Poses of a tool that neither camera sees, or with a corner farther than half the tag's size
+  /// from its place; and sightings in one image of an absent id, or at a place where the tag is
+  /// not.
   int ghosts = 0;
   double count = 0;  ///< poses that are no ghosts
   double position = 0, rotation = 0, tip = 0, nees = 0, nees_count = 0;

@@ -24,7 +24,7 @@ struct Sighting {
   Vec2 centre_px;
 };
 
-/// What a method says of a pair: an entry a tool, and what it saw in each image, if it says.
+/// What a method finds in a pair: one entry per tool, and what it saw in each image, if it says so.
 struct Claims {
   std::vector<Seen> tools;
   std::vector<Sighting> sightings;
@@ -40,10 +40,10 @@ struct Method {
 
 /// Fills the tags of one image.
 using Detect = std::function<bool(const GreyImage&, std::vector<nav::MarkerCorners>&)>;
-/// A detector's corners, triangulated, absolute orientation, no filter.
+/// A detector's corners, triangulated; absolute orientation; no filter.
 [[nodiscard]] Track tracked_by_corners(const Sequence& sequence, Detect detect);
 
-/// best, paper, AprilTag alone, and OpenCV's ArUco where it was there to build with.
+/// best, paper, AprilTag alone, and OpenCV's ArUco where the build found it.
 [[nodiscard]] std::vector<Method> tracking_methods();
 
 }  // namespace orthonav::bench

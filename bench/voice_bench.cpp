@@ -1,6 +1,6 @@
-// Commands and other speech, spoken by espeak-ng, against noise: how many are heard, how many are
-// heard that nobody said, and how long it takes. --tuning runs the voices and texts on which the
-// thresholds were chosen; without it those that had no part in that. Nothing is stored.
+// Commands and other speech, spoken by espeak-ng, against noise: how many commands are heard, how
+// many are heard that nobody said, and how long it takes. With --tuning, uses the voices and texts
+// on which the thresholds were chosen; otherwise those that had no part in that. Nothing is stored.
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -54,8 +54,8 @@ VoiceSet set_of(const Options& options) {
 
 struct Tally {
   int said = 0;
-  int heard = 0;     ///< as what was said, surely
-  int mistaken = 0;  ///< surely, as another command
+  int heard = 0;     ///< with certainty, as what was said
+  int mistaken = 0;  ///< with certainty, as another command
 };
 
 struct Figures {
@@ -65,7 +65,7 @@ struct Figures {
   Tally all;
 };
 
-/// What this thread has worked: the time on a free core, however busy the machine is.
+/// CPU time of this thread: what the work takes on a free core, however busy the machine is.
 double worked_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -87,8 +87,8 @@ std::unique_ptr<CommandSpotter> new_spotter(const Options& bench, Waking waking)
   std::exit(2);
 }
 
-/// Feeds 10 ms at a time, as a microphone does; calls `heard(command, ms)` with the time since the
-/// sound began when a free core has done the work that the command took, and all before it.
+/// Feeds 10 ms at a time, as a microphone does. Calls `heard(command, ms)` with the time since the
+/// sound began at which a free core would have done the command's work and all before it.
 template <class Heard>
 void listen(CommandSpotter& spotter, std::span<const std::int16_t> sound, Heard heard) {
   constexpr std::size_t kStep = 160;
@@ -160,11 +160,11 @@ double quantile(std::vector<double> values, double fraction) {
 
 void measure_recall(const Options& options) {
   const VoiceSet set = set_of(options);
-  // Recall tells what the recogniser hears; whether a single word counts in noise is a rule.
+  // Recall measures what the recogniser hears; whether a single word counts in noise is a policy.
   const Waking waking = options.single ? Waking::kNever : Waking::kAlways;
   Random random(10 + set.seed);
   Figures figures;
-  std::size_t turn = 0;
+  std::size_t count = 0;
   const std::vector<int> speeds =
       options.quick ? std::vector<int>{150} : std::vector<int>{120, 160, 200};
   for (const std::string_view voice : set.voices) {
@@ -173,13 +173,13 @@ void measure_recall(const Options& options) {
     for (const double snr_db : {kClean, 20.0, 15.0, 10.0}) {
       for (const int speed : speeds) {
         for (const std::string& command : engine::spoken_commands()) {
-          const auto noise = static_cast<Noise>(turn++ % 3);
+          const auto noise = static_cast<Noise>(count++ % 3);
           say_one(*spotter, command, options, {std::string(voice), speed}, noise, snr_db, random,
                   figures);
         }
       }
     }
-    turn += 1;  // every command meets every noise
+    count += 1;  // every command meets every noise
   }
   std::printf("\n%s, %zu voices\n", options.single ? "single words" : "with the wake word",
               set.voices.size());

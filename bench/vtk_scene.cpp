@@ -75,7 +75,7 @@ void add_mesh(const render::MeshItem& item, vtkRenderer& renderer) {
   add_actor(*data, item.colour, renderer, item.world_from_model);
 }
 
-/// As a tube of six sides, made once: VTK's own lines have a width in pixels alone.
+/// As a six-sided tube, made once: VTK's own lines have a width in pixels only.
 void add_line(const render::LineItem& item, vtkRenderer& renderer) {
   std::vector<Float3> places = item.points;
   if (item.closed) {

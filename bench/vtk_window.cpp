@@ -1,5 +1,5 @@
-// VTK as Debian builds it wants an X display; Xvfb serves it with Mesa's llvmpipe. What is drawn
-// goes into VTK's own framebuffer with the wanted samples, not into the window.
+// VTK as Debian builds it needs an X display; Xvfb provides one, with Mesa's llvmpipe. VTK draws
+// into its own framebuffer, with the samples asked for, not into the window.
 #include "bench/vtk_window.h"
 
 #include <vtkAutoInit.h>

@@ -8,16 +8,16 @@
 
 namespace orthonav::bench {
 
-/// Where the time of one of VTK's frames went, milliseconds of wall time.
+/// How the time of one of VTK's frames splits up, in milliseconds of wall time.
 struct VtkTiming {
-  double render_ms = 0;  ///< vtkRenderWindow::Render: recording and handing over
+  double render_ms = 0;  ///< vtkRenderWindow::Render: recording and submitting
   double wait_ms = 0;    ///< until the driver has finished
   double read_ms = 0;    ///< pixels into memory
   double total_ms = 0;
 };
 
-/// VTK drawing a scene: the same surfaces, tubes where we have wide lines, one renderer an eye side
-/// by side in one window, nothing shown on a screen. The scene never changes, only the cameras do.
+/// VTK drawing a scene: the same surfaces, tubes where we have wide lines, one renderer per eye,
+/// side by side in one window that no screen shows. The scene never changes, only the cameras do.
 class VtkWindow {
  public:
   static std::unique_ptr<VtkWindow> create(const render::Scene& scene, std::size_t eyes,

@@ -11,7 +11,8 @@ namespace orthonav::render {
 // Comparing frames. There is no budget of pixels that may differ: a whole-frame budget is blind to
 // thin holograms and single digits.
 
-/// What 8-bit colour may differ by on the pinned software rasterizer: rounding of the last blend.
+/// The allowed difference of 8-bit colours on the pinned software rasterizer: rounding of the last
+/// blend.
 inline constexpr int kColourTolerance = 2;
 
 struct ColourDifference {
@@ -37,10 +38,10 @@ struct LabelDifference {
   [[nodiscard]] bool alike() const { return same_size && outside == 0; }
   [[nodiscard]] std::string text() const;
 };
-/// Labels are integers: any difference is one.
+/// Labels are integers: any difference counts.
 [[nodiscard]] LabelDifference compare_labels(const LabelImage& expected, const LabelImage& actual);
 
-/// Differences of the channels times `gain`, for the eye. Empty when the sizes differ.
+/// Differences of the channels times `gain`, to be looked at. Empty when the sizes differ.
 [[nodiscard]] RgbaImage difference_image(const RgbaImage& expected, const RgbaImage& actual,
                                          int gain = 16);
 

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 constexpr float kAnyError = std::numeric_limits<float>::max();
 
-/// Of the vertices, those that `indices` use, in the order of their first use.
+/// Only the vertices that `indices` use, in the order of their first use.
 MeshData compacted(const MeshData& mesh, const std::vector<std::uint32_t>& indices) {
   MeshData out;
   std::vector<std::uint32_t> places(mesh.positions.size(), kUnused);
@@ -29,7 +29,8 @@ MeshData compacted(const MeshData& mesh, const std::vector<std::uint32_t>& indic
   return out;
 }
 
-/// Vertices at one place made one: a surface of loose triangles (STL) could not be collapsed.
+/// Merges vertices at one place: a surface of loose triangles (STL) could not be collapsed
+/// otherwise.
 std::vector<std::uint32_t> joined_indices(const MeshData& mesh) {
   std::vector<std::uint32_t> joined(mesh.indices.size());
   meshopt_generateShadowIndexBuffer(joined.data(), mesh.indices.data(), mesh.indices.size(),
@@ -38,7 +39,7 @@ std::vector<std::uint32_t> joined_indices(const MeshData& mesh) {
   return joined;
 }
 
-/// Edges collapsed until `wanted` indices are left or the error, relative to the extent, is
+/// Collapses edges until `wanted` indices are left or the error, relative to the extent, is
 /// reached.
 std::vector<std::uint32_t> collapsed(const MeshData& mesh, const std::vector<std::uint32_t>& joined,
                                      std::size_t wanted, float error) {

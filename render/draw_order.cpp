@@ -26,7 +26,7 @@ Float3 middle(const TriangleItem& item) {
   return (1.0f / 3.0f) * (item.corners[0] + item.corners[1] + item.corners[2]);
 }
 
-/// Squared, from the point between the eyes.
+/// Squared distance from the point between the eyes.
 template <class Item>
 float distance2(const Item& item, const Head& head) {
   const Float3 from_head = middle(item) - head.position;

@@ -10,10 +10,10 @@
 
 namespace orthonav::render {
 
-/// Orders the items of one kind by what they are, never by when they were submitted: the farther
-/// first (by the middle of the item), then by label, then by content. Equal items are alike, so
-/// that any order of them gives the same frame. Fills `order` with indices; allocates only while
-/// `order` grows.
+/// Orders the items of one kind by what they are, never by when they were submitted: farther ones
+/// first (by the middle of the item), then by label, then by content. Equal items are
+/// interchangeable, so any order of them gives the same frame. Fills `order` with indices;
+/// allocates only while `order` grows.
 void sort_for_drawing(std::span<const MeshItem> items, const Head& head,
                       std::vector<std::uint32_t>& order);
 void sort_for_drawing(std::span<const LineItem> items, const Head& head,

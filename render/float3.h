@@ -28,7 +28,7 @@ namespace orthonav::render {
   return norm > 1e-12f && std::isfinite(norm) ? (1.0f / norm) * a : fallback;
 }
 
-/// Some unit vector at right angles to the unit vector `a`, the same for the same `a`.
+/// A unit vector perpendicular to the unit vector `a`, always the same for the same `a`.
 [[nodiscard]] inline Float3 any_perpendicular(Float3 a) {
   const Float3 helper = std::abs(a.x) < 0.7f ? Float3{1, 0, 0} : Float3{0, 1, 0};
   return unit_or(cross(a, helper), {0, 0, 1});

@@ -11,7 +11,7 @@
 namespace orthonav::render {
 namespace {
 
-constexpr std::size_t kFewPoints = 256;  // a line of so few is cheap as it is
+constexpr std::size_t kFewPoints = 256;  // a line with no more points is cheap as it is
 
 }  // namespace
 
@@ -20,7 +20,7 @@ Matrix4 world_from_caps(const TextItem& item, const Head& head) {
   const Float3 at = item.place == TextPlace::kWorld
                         ? p
                         : head.position + p.x * head.right + p.y * head.up + p.z * head.back;
-  // Facing the point between the eyes, so that both eyes see the one same thing in space.
+  // Facing the point between the eyes, so that both eyes see the same thing in space.
   const Float3 towards = unit_or(head.position - at, head.back);
   const Float3 right = unit_or(cross(head.up, towards), head.right);
   const Float3 up = cross(towards, right);
@@ -110,7 +110,7 @@ void FrameItems::end_line(const LineItem& item, std::uint32_t first, bool rounde
   most_segments_ = std::max(most_segments_, count);
 }
 
-/// Two spans of a line of many points: segments at its ends and at its corners, and the others.
+/// A line of many points as two spans: the segments at its ends and corners, and all others.
 void FrameItems::add_many(const LineItem& item, float least_rad) {
   thin(item.points, eyes_, least_rad, thinned_);
   if (item.closed) {
@@ -142,7 +142,8 @@ void FrameItems::add_many(const LineItem& item, float least_rad) {
 }
 
 void FrameItems::add_dashes(const LineItem& item) {
-  // The round ends reach half a width beyond a segment; taken off, dash and gap measure alike.
+  // Round ends extend half a width beyond a segment; they are taken off, so that dash and gap have
+  // equal length.
   const float inset_m = std::min(0.5f * item.width_m, 0.499f * item.dash_m);
   const std::size_t count = item.points.size();
   const std::size_t spans = item.closed && count > 2 ? count : count - 1;
@@ -155,7 +156,7 @@ void FrameItems::add_dashes(const LineItem& item) {
       continue;
     }
     const float period_m = 2 * item.dash_m;
-    // Whole periods counted, not summed: no error adds up along a long line.
+    // Whole periods are counted, not summed, so that no error accumulates along a long line.
     const auto periods = static_cast<int>((phase_m + span_m) / period_m);
     for (int k = 0; k <= periods; ++k) {
       const float begin_m = static_cast<float>(k) * period_m - phase_m + inset_m;

@@ -23,10 +23,11 @@ struct Float4 {
 
 struct MeshDraw {
   const MeshItem* item = nullptr;
-  PixelRect bounds;  ///< of FrameItems::place, as in all that follow
+  PixelRect bounds;  ///< set by FrameItems::place, as in all structs that follow
 };
 
-/// A line as pairs of points (dashes are cut already) or a triangle as three corners, in the data.
+/// A line as pairs of points (already cut into dashes), or a triangle as three corners, in the
+/// data.
 struct SpanDraw {
   Label label = 0;
   Colour colour;
@@ -34,8 +35,8 @@ struct SpanDraw {
   std::uint32_t first = 0;  ///< in FrameItems::data
   std::uint32_t count = 0;  ///< segments of a line; corners of a triangle
   PixelRect bounds{};
-  std::uint32_t item = 0;  ///< spans of one line have the same
-  bool rounded = true;     ///< its segments end in discs; otherwise they follow on one another
+  std::uint32_t item = 0;  ///< the same for all spans of one line
+  bool rounded = true;     ///< true: its segments end in discs; false: they continue one another
 };
 
 /// A line of text: glyphs as three Float4 each (rectangle in cap heights, texture, ink).
@@ -54,16 +55,16 @@ struct PixelSize {
   int height_px = 0;
 };
 
-/// A scene made ready for the shaders, in drawing order. Reused between frames: it allocates only
+/// A scene prepared for the shaders, in drawing order. Reused between frames: it allocates only
 /// when a frame is larger than all before it.
 class FrameItems {
  public:
-  /// Of lines with many points, those are left out whose absence shows under less than `least_rad`.
+  /// Points of long lines are left out where their absence shows by less than `least_rad`.
   void build(const Scene& scene, const std::vector<View>& views, const Font& font,
              float least_rad = 0);
 
-  /// Finds where in the views of one pass each item may show, and the regions that hold them all:
-  /// no two share a pixel, and each item lies in one. `box_of` tells a mesh's box.
+  /// Finds where each item may show in the views of one pass, and the regions that hold all of
+  /// them: no two regions share a pixel, and each item lies in one. `box_of` gives a mesh's box.
   void place(std::span<const View> views, PixelSize size,
              const std::function<Box(const MeshItem&)>& box_of);
   [[nodiscard]] const std::vector<PixelRect>& regions() const { return regions_; }
@@ -76,7 +77,7 @@ class FrameItems {
   [[nodiscard]] const std::vector<SpanDraw>& lines() const { return lines_; }
   [[nodiscard]] const std::vector<TextDraw>& texts() const { return texts_; }
   [[nodiscard]] const std::vector<Float4>& data() const { return data_; }
-  /// Segments of the longest line.
+  /// Number of segments of the longest line.
   [[nodiscard]] std::uint32_t most_segments() const { return most_segments_; }
 
  private:
@@ -107,13 +108,14 @@ class FrameItems {
   std::uint32_t most_segments_ = 0;
 };
 
-/// A mesh that hides what is behind it; every other mesh is a veil: only its nearest surface shows,
+/// A mesh that hides what is behind it. Every other mesh is a veil: only its nearest surface shows,
 /// and lines, triangles and text shine through it.
 [[nodiscard]] inline bool is_opaque(const MeshItem& item) {
   return item.style == MeshStyle::kSolid && item.colour.a >= 1;
 }
 
-/// Where a line of text stands: columns right and up, one cap height long each, and its anchor.
+/// The placement of a line of text: its axes to the right and up, each one cap height long, and its
+/// anchor.
 [[nodiscard]] Matrix4 world_from_caps(const TextItem& item, const Head& head);
 
 }  // namespace orthonav::render

@@ -13,7 +13,7 @@
 
 namespace orthonav::render {
 
-// Drawing into images that somebody else owns, on a Vulkan device that somebody else makes: the
+// Drawing into images that someone else owns, on a Vulkan device that someone else makes: the
 // swapchains of a headset's runtime.
 
 /// Makes instance and device. A handle in an answer is never null.
@@ -33,42 +33,43 @@ class VulkanHost {
 };
 
 /// Draws scenes into such images, two frames at a time: while the device draws one, the next is
-/// recorded. One thread at a time, the one that the host lets use the queue. Errors as in Renderer.
+/// recorded. One thread at a time, the one that the host allows to use the queue. Errors as in
+/// Renderer.
 class HostedRenderer {
  public:
-  /// Only blend, samples, validation, messages, eyes_a_pass, surface_error_m and cache_folder of
-  /// the options count. The host is asked during this call only, and its errors come back as they
-  /// are.
+  /// Of the options, only blend, samples, validation, messages, eyes_a_pass, surface_error_m and
+  /// cache_folder are used. The host is asked during this call only; its errors are passed on
+  /// unchanged.
   static Result<std::unique_ptr<HostedRenderer>> create(const RendererOptions& options,
                                                         VulkanHost& host);
   virtual ~HostedRenderer() = default;
 
   [[nodiscard]] virtual VulkanObjects objects() const = 0;
-  /// Whether images of this VkFormat can be drawn into, and how well they suit: the higher the
-  /// better, 0 not at all. sRGB formats are encoded, all others hold linear light.
+  /// How well images of this VkFormat suit: the higher the better; 0 if they can't be drawn into.
+  /// sRGB formats are encoded, all others hold linear light.
   [[nodiscard]] virtual int format_score(std::int64_t format) const = 0;
-  /// The same of depth images.
+  /// The same for depth images.
   [[nodiscard]] virtual int depth_format_score(std::int64_t format) const = 0;
   /// Whether the device draws both eyes in one pass, into an image of two layers. If not, each eye
   /// gets a chain of its own: llvmpipe of Mesa 22.3 loses parts of the second layer.
   [[nodiscard]] virtual bool takes_layers() const = 0;
   /// The images to draw into from now on, which stay until the next call or `finish`.
   virtual Status use(const EyeImages& images) = 0;
-  /// What takes time before the views need to be known: waits for the oldest frame in flight,
-  /// checks the scene, uploads new meshes. Then `draw` of the same scene follows.
+  /// Does what takes time before the views need to be known: waits for the oldest frame in flight,
+  /// checks the scene, uploads new meshes. `draw` of the same scene follows.
   virtual Status prepare(const Scene& scene) = 0;
   /// Draws `scene` for both eyes into image `indices[i]` of chain i, the chains of depth after the
-  /// others, and returns once the device has its orders. The images are left as colour attachments,
+  /// others, and returns once the frame is submitted. The images are left as colour attachments,
   /// and as depth and stencil attachments.
   virtual Status draw(const Scene& scene, const std::vector<View>& views,
                       std::span<const std::uint32_t> indices) = 0;
-  /// Waits for every frame in flight and lets go of the images: the host may destroy them.
+  /// Waits for every frame in flight and releases the images: the host may destroy them.
   virtual Status finish() = 0;
 
-  /// The device is lost: every call fails from here on, with ErrorCode::kLost.
+  /// The device is lost: every call fails from now on, with ErrorCode::kLost.
   [[nodiscard]] virtual bool lost() const = 0;
   [[nodiscard]] virtual const DeviceInfo& device() const = 0;
-  /// Of the last frame; its device time is not known.
+  /// Of the last frame; its time on the device is not known.
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;
   [[nodiscard]] virtual const std::vector<std::string>& validation_messages() const = 0;
   [[nodiscard]] virtual const std::vector<std::string>& notes() const = 0;

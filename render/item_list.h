@@ -9,10 +9,10 @@
 
 namespace orthonav::render {
 
-/// A list whose items, when it is cleared, keep the memory they hold for those that come next: a
-/// scene is filled anew with every frame, and the frame loop allocates nothing. A `T` has a
-/// `renew(T&)` that makes it as it was made, but for what it has reserved. Copies and comparisons
-/// know the items alone.
+/// A list whose items, when it is cleared, keep the memory they hold for the items that come next:
+/// a scene is refilled with every frame, and the frame loop must not allocate. `T` has a
+/// `renew(T&)` that makes it as new except for reserved memory. Copies and comparisons concern the
+/// items only.
 template <class T>
 class ItemList {
  public:
@@ -41,7 +41,7 @@ class ItemList {
   }
   ~ItemList() = default;
 
-  /// A new last item. References to others stay good only until the list grows.
+  /// Adds an item at the end. References to others stay valid only until the list grows.
   T& emplace_back() {
     if (size_ == items_.size()) {
       items_.emplace_back();
@@ -76,7 +76,7 @@ class ItemList {
   [[nodiscard]] T& back() { return items_[size_ - 1]; }
   [[nodiscard]] const T& back() const { return items_[size_ - 1]; }
 
-  /// Takes out what `leaves` says; the others keep their order.
+  /// Removes the items for which `leaves` is true; the others keep their order.
   template <class Leaves>
   void erase_if(const Leaves& leaves) {
     std::size_t kept = 0;
@@ -110,7 +110,7 @@ class ItemList {
     return i;
   }
 
-  std::vector<T> items_;  ///< past `size_` renewed ones wait
+  std::vector<T> items_;  ///< beyond `size_`, renewed items wait
   std::size_t size_ = 0;
 };
 

@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::size_t kMostRegions = 6;
 constexpr long kPassCost_px =
-    128L * 128;  // what another pass costs, as pixels to clear and resolve
+    128L * 128;  // the cost of one more pass, in pixels to clear and resolve
 
-/// The pixels drawn in vain when two regions become one.
+/// The number of pixels drawn in vain when two regions are joined.
 long waste(const PixelRect& a, const PixelRect& b) {
   return joined(a, b).area() - a.area() - b.area();
 }
@@ -21,7 +21,7 @@ void add_region(std::vector<PixelRect>& regions, PixelRect rect) {
   if (rect.empty()) {
     return;
   }
-  // Each turn takes a region away, so this ends.
+  // Each round removes a region, so this ends.
   while (!regions.empty()) {
     std::size_t best = 0;
     long least = std::numeric_limits<long>::max();

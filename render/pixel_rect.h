@@ -36,8 +36,8 @@ struct PixelRect {
          b.top < a.bottom;
 }
 
-/// Adds a rectangle to regions that share no pixel, so that they still share none and hold it. What
-/// is cheaper to draw as one becomes one, and there are never more than a few.
+/// Adds a rectangle to regions that share no pixel, so that they still share none and contain it.
+/// Regions that are cheaper to draw as one are joined, and there are never more than a few.
 void add_region(std::vector<PixelRect>& regions, PixelRect rect);
 
 }  // namespace orthonav::render

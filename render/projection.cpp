@@ -32,7 +32,7 @@ Float3 transformed(const Matrix4& m, Float3 p) {
 }
 
 Matrix4 rigid_inverse(const Matrix4& m) {
-  const Float3 shift = {m[12], m[13], m[14]};
+  const Float3 translation = {m[12], m[13], m[14]};
   const Float3 x = {m[0], m[1], m[2]};
   const Float3 y = {m[4], m[5], m[6]};
   const Float3 z = {m[8], m[9], m[10]};
@@ -48,9 +48,9 @@ Matrix4 rigid_inverse(const Matrix4& m) {
           y.z,
           z.z,
           0,
-          -dot(x, shift),
-          -dot(y, shift),
-          -dot(z, shift),
+          -dot(x, translation),
+          -dot(y, translation),
+          -dot(z, translation),
           1};
 }
 

@@ -7,7 +7,7 @@
 
 namespace orthonav::render {
 
-/// Nothing nearer to an eye is drawn, metres.
+/// Nothing closer to an eye than this is drawn, metres.
 inline constexpr float kNearPlane_m = 0.02f;
 
 /// Continuous pixel coordinates, the top-left pixel's centre is (0.5, 0.5).
@@ -17,7 +17,8 @@ struct PixelPoint {
   float depth_m = 0;  ///< along the view's axis
 };
 
-/// Where the eyes together are and how the head is turned; axes are unit vectors in the world.
+/// The position between the eyes and the orientation of the head; axes are unit vectors in the
+/// world.
 struct Head {
   Float3 position;
   Float3 right{1, 0, 0};
@@ -28,23 +29,23 @@ struct Head {
 [[nodiscard]] Matrix4 multiplied(const Matrix4& a, const Matrix4& b);
 /// The product with (p, 1); the last row is taken as (0, 0, 0, 1).
 [[nodiscard]] Float3 transformed(const Matrix4& m, Float3 p);
-/// Inverse of a rotation and a shift.
+/// The inverse of a rotation and a translation.
 [[nodiscard]] Matrix4 rigid_inverse(const Matrix4& m);
 
 /// The matrix that the shaders use: x right, y down, depth 0 at the near plane, 1 at infinity.
 [[nodiscard]] Matrix4 clip_from_world(const View& view);
 
-/// Where a point appears in an image of this size; nothing when it is behind the near plane.
+/// Where a point appears in an image of this size; nothing when it lies before the near plane.
 [[nodiscard]] std::optional<PixelPoint> project(const View& view, Float3 in_world, int width_px,
                                                 int height_px);
 
 /// The head of one or two views; two eyes share the point between them and the mean direction.
 [[nodiscard]] Head head_of(const std::vector<View>& views);
 
-/// A view from `eye` towards `target`, `up` as far up as can be. Tangents as in View.
+/// A view from `eye` towards `target`, with `up` as far up as possible. Tangents as in View.
 [[nodiscard]] View look_at(Float3 eye, Float3 target, Float3 up, float tan_across, float tan_up);
 
-/// Left and right eye of a view that lies between them, apart by `eyes_apart_m`.
+/// Left and right eye around the view in the middle, `eyes_apart_m` apart.
 [[nodiscard]] std::vector<View> stereo_pair(const View& between, float eyes_apart_m = 0.063f);
 
 }  // namespace orthonav::render

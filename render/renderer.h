@@ -12,13 +12,13 @@
 
 namespace orthonav::render {
 
-/// Takes the validation layer's lines. Held by its readers too, so that it outlives the renderer:
-/// what is left undestroyed is told only while the device goes.
+/// Collects the validation layer's lines. Shared with its readers, so that it outlives the
+/// renderer: objects left undestroyed are reported only while the device is destroyed.
 using MessageSink = std::shared_ptr<std::vector<std::string>>;
 
 /// Both eyes in one pass, or one after the other; see docs/decisions/0022-both-eyes-in-one-pass.md.
 enum class EyesAPass {
-  kProbe,  ///< two where the device is seen to draw them whole
+  kProbe,  ///< two, if a test frame shows that the device draws them completely
   kOne,
   kTwo  ///< without asking: a driver that fails loses parts of the right eye, and nothing tells
 };
@@ -28,13 +28,14 @@ struct RendererOptions {
   int height_px = 720;
   int samples = 4;  ///< 1 or 4
   Blend blend = Blend::kAdditive;
-  std::string device;  ///< part of a device's name ("llvmpipe"); empty: best GPU, else lavapipe
+  std::string
+      device;  ///< part of a device's name ("llvmpipe"); empty: the best GPU, or else lavapipe
   bool validation = false;
-  MessageSink messages;  ///< empty: one of the renderer's own
+  MessageSink messages;  ///< empty: the renderer has its own
   EyesAPass eyes_a_pass = EyesAPass::kProbe;
-  /// Surfaces of many triangles are drawn with fewer where that costs no more than this error, a
-  /// mean over triangles (single points may lie four times as far off); 0: every triangle. What is
-  /// too much to be drawn at all is made coarser all the same, with a note.
+  /// Surfaces of many triangles are drawn with fewer where the error is no larger than this mean
+  /// over triangles (single points may be four times as far off); 0: every triangle. Surfaces too
+  /// large to be drawn at all are simplified even then, with a note.
   float surface_error_m = 2e-5f;
   /// Where compiled pipelines are kept for the next start. Absent: the user's cache folder
   /// (XDG_CACHE_HOME or ~/.cache); empty: nowhere.
@@ -46,24 +47,24 @@ struct DeviceInfo {
   std::string driver;
   std::string type;  ///< "discrete GPU", "integrated GPU", "CPU", ...
   bool usable = false;
-  std::string reason;  ///< why not usable
+  std::string reason;  ///< why it is not usable
 };
 
-/// Where the time of one frame went, milliseconds of wall time.
+/// How the time of one frame splits up, in milliseconds of wall time.
 struct FrameTiming {
   double record_ms = 0;  ///< checks, layout, commands
-  double submit_ms = 0;  ///< handing over to the driver
-  double gpu_ms = 0;     ///< from there to the fence
+  double submit_ms = 0;  ///< submission to the driver
+  double gpu_ms = 0;     ///< from submission to the fence
   double read_ms = 0;    ///< into the images
   double total_ms = 0;
 };
 
-/// Draws scenes into images. Owns a Vulkan device; one thread at a time. Nothing is thrown, an
+/// Draws scenes into images. Owns a Vulkan device; one thread at a time. Nothing is thrown; an
 /// Error is one line, and the renderer stays usable after it unless its code is kLost: then the
-/// device is lost, and every call fails from here on.
+/// device is lost, and every call fails from then on.
 class Renderer {
  public:
-  /// An Error when the options can't be met or there is no Vulkan device that serves.
+  /// An Error when the options can't be met or no Vulkan device is suitable.
   static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options);
   virtual ~Renderer() = default;
 
@@ -78,10 +79,10 @@ class Renderer {
                              std::vector<LabelImage>& images) = 0;
   [[nodiscard]] virtual const DeviceInfo& device() const = 0;
   [[nodiscard]] virtual FrameTiming last_timing() const = 0;
-  /// What the validation layer said so far; empty when silent or off.
+  /// What the validation layer has reported so far; empty when there was nothing or it is off.
   [[nodiscard]] virtual const std::vector<std::string>& validation_messages() const = 0;
-  /// What was drawn otherwise than asked for, one line each, such as a surface with fewer
-  /// triangles.
+  /// What was drawn differently from what was asked for, one line each, such as a surface with
+  /// fewer triangles.
   [[nodiscard]] virtual const std::vector<std::string>& notes() const = 0;
 };
 

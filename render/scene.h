@@ -36,13 +36,13 @@ inline constexpr Matrix4 kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 
 /// By convention 100·n + k for the k-th instance of hologram Hn (H3 of screw 2: 302).
 using Label = std::uint32_t;
 
-/// A surface, shared between frames: the renderer keys its GPU copy on the pointer. Its inside is
-/// never drawn.
+/// A surface, shared between frames: the renderer identifies its GPU copy by the pointer. Its
+/// inside is never drawn.
 struct MeshData {
   std::vector<Float3> positions;
-  std::vector<Float3> normals;         ///< one a vertex, unit length
-  std::vector<std::uint32_t> indices;  ///< three a triangle, counter-clockwise from outside
-  /// From 0, the item's colour, to 1, its tint: one a vertex, or none for the colour alone.
+  std::vector<Float3> normals;         ///< one per vertex, unit length
+  std::vector<std::uint32_t> indices;  ///< three per triangle, counter-clockwise from outside
+  /// From 0 (the item's colour) to 1 (its tint): one per vertex, or none for the colour alone.
   std::vector<float> tints;
 };
 
@@ -54,14 +54,15 @@ enum class MeshStyle {
 struct MeshItem {
   Label label = 0;
   std::shared_ptr<const MeshData> mesh;
-  Matrix4 world_from_model = kIdentity;  ///< rotation, shift and uniform scale; never a mirror
+  Matrix4 world_from_model =
+      kIdentity;  ///< rotation, translation and uniform scale; never a reflection
   Colour colour;
-  Colour tint;  ///< where the mesh says so; as opaque as `colour`
+  Colour tint;  ///< where the mesh has tints; as opaque as `colour`
   MeshStyle style = MeshStyle::kSolid;
 };
 inline void renew(MeshItem& item) { item = {}; }
 
-/// A line through world points, `width_m` wide towards the eye, never thinner than 1.5 px.
+/// A line through world points, `width_m` wide as seen from the eye, never thinner than 1.5 px.
 struct LineItem {
   Label label = 0;
   std::vector<Float3> points;
@@ -110,8 +111,8 @@ struct TextItem {
   TextAlign align = TextAlign::kCentre;
   float height_m = 0.006f;
   float min_height_deg = 0;
-  Colour rim{0, 0, 0, 0};  ///< outline around the glyphs; a = 0: none
-  /// Shift in units of the cap height: right and up as seen by the eyes.
+  Colour rim{0, 0, 0, 0};  ///< outline of the glyphs; a = 0: none
+  /// Offset in units of the cap height: right and up as seen by the eyes.
   float offset_right = 0;
   float offset_up = 0;
 };
@@ -129,7 +130,7 @@ struct Scene {
   ItemList<TriangleItem> triangles;
   ItemList<TextItem> texts;
 
-  /// Empties it; what its items hold is there for the next frame's.
+  /// Empties it; its items keep their memory for the next frame's.
   void clear() {
     meshes.clear();
     lines.clear();

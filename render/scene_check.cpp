@@ -38,7 +38,7 @@ bool is_affine(const Matrix4& m) {
   return m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1;
 }
 
-/// Positive for a turned and scaled place, negative for a mirrored one.
+/// Positive for a rotation with a scale, negative with a reflection.
 float volume(const Matrix4& m) {
   return dot(cross({m[0], m[1], m[2]}, {m[4], m[5], m[6]}), {m[8], m[9], m[10]});
 }
@@ -55,7 +55,7 @@ bool is_rigid(const Matrix4& m) {
          length(cross(x, y) - z) <= kRigidSlack;
 }
 
-/// Rotation times one scale: the columns are as long as one another and at right angles.
+/// Whether it is a rotation times one scale: columns of equal length, at right angles.
 bool is_uniform(const Matrix4& m) {
   const Float3 x = {m[0], m[1], m[2]};
   const Float3 y = {m[4], m[5], m[6]};
@@ -217,7 +217,7 @@ Status check_mesh(const MeshData& mesh) {
     if (!is_place(mesh.positions[i])) {
       return Error{"vertex " + std::to_string(i) + " is not finite"};
     }
-    // One of no length has no direction, and its light would be no number.
+    // A normal without length has no direction, and its light would be NaN.
     if (!is_between(length(mesh.normals[i]), 1 - kUnitSlack, 1 + kUnitSlack)) {
       return Error{"normal " + std::to_string(i) + " is not of unit length"};
     }

@@ -15,16 +15,15 @@ struct Box {
 };
 [[nodiscard]] Box box_of(const MeshData& mesh);
 
-/// Gathers the pixels that the convex hull of points may touch in any of one or two views, never
-/// too few: what reaches through the near plane may be anywhere. Rectangles end at the image's
-/// borders.
+/// Collects the pixels that the convex hull of points may touch in any of one or two views, never
+/// too few: what crosses the near plane may be anywhere. Rectangles are clipped to the image.
 class ScreenBounds {
  public:
   ScreenBounds(std::span<const View> views, int width_px, int height_px);
   /// Starts anew.
   void clear();
   void add(Float3 in_world);
-  /// A disc towards the eye, never smaller than a line's end.
+  /// A disc that faces the eye, never smaller than a line's end.
   void add_disc(Float3 in_world, float radius_m);
   void add_box(const Matrix4& world_from_box, const Box& box);
   [[nodiscard]] PixelRect rect() const;

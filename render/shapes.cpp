@@ -97,10 +97,10 @@ MeshData make_sphere(float radius_m, int slices, int stacks) {
   for (std::size_t r = 0; r <= rows; ++r) {
     const float polar = 0.5f * kTau * static_cast<float>(r) / static_cast<float>(rows);
     for (std::size_t c = 0; c < columns; ++c) {
-      const float turn = kTau * static_cast<float>(c) / static_cast<float>(columns);
+      const float angle_rad = kTau * static_cast<float>(c) / static_cast<float>(columns);
       // The poles exactly, so that the surface closes.
       const float ring = r == 0 || r == rows ? 0.0f : std::sin(polar);
-      const Float3 n = {ring * std::cos(turn), std::cos(polar), ring * std::sin(turn)};
+      const Float3 n = {ring * std::cos(angle_rad), std::cos(polar), ring * std::sin(angle_rad)};
       mesh.normals.push_back(n);
       mesh.positions.push_back(radius_m * n);
     }
@@ -164,8 +164,8 @@ MeshData make_tube(std::span<const Float3> path, float radius_m, int slices) {
     side = unit_or(side - dot(side, along) * along, any_perpendicular(along));
     const Float3 up = cross(along, side);
     for (std::size_t k = 0; k < columns; ++k) {
-      const float turn = kTau * static_cast<float>(k) / static_cast<float>(columns);
-      const Float3 normal = std::cos(turn) * side + std::sin(turn) * up;
+      const float angle_rad = kTau * static_cast<float>(k) / static_cast<float>(columns);
+      const Float3 normal = std::cos(angle_rad) * side + std::sin(angle_rad) * up;
       mesh.normals.push_back(normal);
       mesh.positions.push_back(points[i] + radius_m * normal);
     }
@@ -194,8 +194,9 @@ void set_ring(std::vector<Float3>& ring, Float3 centre, Float3 normal, float rad
   const Float3 up = cross(axis, side);
   const int count = std::clamp(points, 3, kMostSlices);
   for (int k = 0; k < count; ++k) {
-    const float turn = kTau * static_cast<float>(k) / static_cast<float>(count);
-    ring.push_back(centre + (radius_m * std::cos(turn)) * side + (radius_m * std::sin(turn)) * up);
+    const float angle_rad = kTau * static_cast<float>(k) / static_cast<float>(count);
+    ring.push_back(centre + (radius_m * std::cos(angle_rad)) * side +
+                   (radius_m * std::sin(angle_rad)) * up);
   }
 }
 

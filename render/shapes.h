@@ -8,10 +8,10 @@
 namespace orthonav::render {
 
 // Makers of plain geometry, metres. Surfaces are closed, triangles counter-clockwise as seen from
-// outside, normals outward. What has no extent (radius not positive, a path without two distinct
-// points, a number that is not finite) gives an empty result, never a broken one.
+// outside, normals outward. Without extent (a radius that is not positive, a path without two
+// distinct points, a number that is not finite) the result is empty, never a broken one.
 
-/// Unit normals of a surface, one a vertex: the triangles' normals weighted by their angle there.
+/// Unit normals of a surface, one per vertex: the triangles' normals weighted by their angle there.
 /// A vertex without a usable triangle gets +z. An index out of range is ignored.
 [[nodiscard]] std::vector<Float3> smooth_normals(std::span<const Float3> positions,
                                                  std::span<const std::uint32_t> indices);
@@ -25,7 +25,7 @@ namespace orthonav::render {
 /// From one end's centre to the other's, with flat caps.
 [[nodiscard]] MeshData make_cylinder(Float3 from, Float3 to, float radius_m, int slices = 24);
 
-/// A round tube along a path, with flat caps; the section is carried along without twist.
+/// A round tube along a path, with flat caps; the cross-section is carried along without twist.
 [[nodiscard]] MeshData make_tube(std::span<const Float3> path, float radius_m, int slices = 16);
 
 /// The points of a circle, to be drawn as a closed line; what the list held is replaced.

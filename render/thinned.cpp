@@ -8,9 +8,9 @@
 namespace orthonav::render {
 namespace {
 
-constexpr float kGentleCosine = 0.97f;  // 14 degrees; line.vert closes the gap of so much
-constexpr float kLeastSeen = 0.5f;      // of a length, foreshortened
-constexpr std::size_t kLongestRun = 8;  // points left out in a row: a bound for the work
+constexpr float kGentleCosine = 0.97f;  // 14 degrees; line.vert closes a gap of that size
+constexpr float kLeastSeen = 0.5f;      // of a length, when foreshortened
+constexpr std::size_t kLongestRun = 8;  // points left out in a row: bounds the work
 
 float squared_distance(Float3 p, Float3 a, Float3 b) {
   const Float3 along = b - a;
@@ -21,7 +21,7 @@ float squared_distance(Float3 p, Float3 a, Float3 b) {
   return dot(off, off);
 }
 
-/// How far the line may pass by a point, squared.
+/// How far the line may miss a point, squared.
 float squared_slack(Float3 p, std::span<const Float3> eyes, float angle_rad) {
   float nearest = std::numeric_limits<float>::max();
   for (const Float3 eye : eyes) {

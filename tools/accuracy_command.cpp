@@ -18,7 +18,8 @@ namespace {
 // Whole images are searched in every other pair, and only while the pointer is not seen.
 constexpr int kFullSearchEvery = 2;
 
-/// Limits of one figure as they stand on the command line: Pass to, Note to, millimetres.
+/// Limits of one figure on the command line: up to which it passes, up to which it is noted;
+/// millimetres.
 struct LimitArgument {
   const char* option;
   const char* what;
@@ -119,7 +120,7 @@ int run_accuracy(const AccuracyArguments& arguments) {
     return bad_input(points_m.error().message);
   }
   nav::TrackerOptions tracking;
-  // Where a tag is predicted it is found as well as in the whole image, in a tenth of the time.
+  // Where a tag is predicted it is found as reliably as in the whole image, in a tenth of the time.
   tracking.full_search_interval = kFullSearchEvery;
   const auto seen = measured_poses(arguments.recording, arguments.method, *pointer, tracking);
   if (!seen) {

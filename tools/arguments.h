@@ -9,8 +9,8 @@
 
 namespace orthonav::tools {
 
-// Checks of what stands on the command line; the library alone takes hexadecimal digits, a minus
-// sign before an unsigned number, infinities and nothing at all for numbers.
+// Checks of the command line. The library on its own would take hexadecimal digits, a minus sign
+// before an unsigned number, infinities, and empty text as a number.
 
 /// A whole number in decimal digits and nothing else, from `low` to `high`.
 [[nodiscard]] CLI::Validator whole_number(
@@ -19,7 +19,7 @@ namespace orthonav::tools {
 [[nodiscard]] CLI::Validator seed_number();
 /// A finite number with a decimal point and nothing else, from `low` to `high`.
 [[nodiscard]] CLI::Validator finite_number(double low, double high);
-/// Any text but none: an unset variable of a script must not mean a default.
+/// Any text but an empty one: an unset variable in a script must not mean a default.
 [[nodiscard]] CLI::Validator some_text();
 
 /// `WIDTHxHEIGHT` in whole pixels and nothing else.

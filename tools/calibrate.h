@@ -14,11 +14,11 @@ void add_calibrate_pivot(CLI::App& calibrate, Action& action);
 void add_calibrate_stereo(CLI::App& calibrate, Action& action);
 void add_calibrate_tool(CLI::App& calibrate, Action& action);
 
-/// Adds the verdict and why to what goes out as JSON.
+/// Adds the verdict and its reasons to JSON output.
 void add_judgement(const nav::Judgement& judgement, nlohmann::ordered_json& out);
 /// "pass: every figure is within its limit", a line.
 void print_judgement(const nav::Judgement& judgement);
-/// Says on standard error why nothing came of it; the exit code for "no".
+/// Says on standard error why there is no result; returns the exit code for "no".
 int refused(const std::string& reason);
 
 }  // namespace orthonav::tools

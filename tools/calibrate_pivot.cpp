@@ -55,23 +55,41 @@ void print(const PivotArguments& arguments, const nav::PivotCalibration& found) 
   print_judgement(found.judgement);
 }
 
-int run_pivot(const PivotArguments& arguments) {
+/// The tool's description, after making sure that the results can be written: that must be known
+/// before the work.
+Result<nav::ToolGeometry> checked_tool(const PivotArguments& arguments) {
   const auto tools = engine::load_tools(arguments.tools_file);
   if (!tools) {
-    return bad_input(tools.error().message);
+    return tools.error();
   }
   const auto tool = engine::tool_named(*tools, arguments.tool);
   if (!tool) {
-    return bad_input(arguments.tools_file + ": " + tool.error().message);
+    return Error{arguments.tools_file + ": " + tool.error().message};
   }
   if (const Status s = arguments.json.check(); !s) {
-    return bad_input(s.error().message);
+    return s.error();
   }
-  // Before the work, so that an unwritable place is known at once.
   if (!arguments.out.empty()) {
     if (auto place = engine::AtomicFile::create(arguments.out); !place) {
-      return bad_input(place.error().message);
+      return place.error();
     }
+  }
+  return *tool;
+}
+
+Status write_tip(const PivotArguments& arguments, Point<Marker> tip_in_marker) {
+  const auto changed =
+      engine::changed_tools(arguments.tools_file, arguments.tool, {.tip_in_marker = tip_in_marker});
+  if (!changed) {
+    return changed.error();
+  }
+  return engine::write_file(arguments.out, *changed);
+}
+
+int run_pivot(const PivotArguments& arguments) {
+  const auto tool = checked_tool(arguments);
+  if (!tool) {
+    return bad_input(tool.error().message);
   }
   const auto seen = measured_poses(arguments.recording, arguments.method, *tool);
   if (!seen) {
@@ -86,12 +104,7 @@ int run_pivot(const PivotArguments& arguments) {
   options.inlier_m = arguments.inlier_mm * 1e-3;
   const auto found = nav::pivot_calibration(poses, options);
   if (found && !arguments.out.empty()) {
-    const auto changed = engine::changed_tools(arguments.tools_file, arguments.tool,
-                                               {.tip_in_marker = found->tip_in_marker});
-    if (!changed) {
-      return bad_input(changed.error().message);
-    }
-    if (const Status s = engine::write_file(arguments.out, *changed); !s) {
+    if (const Status s = write_tip(arguments, found->tip_in_marker); !s) {
       return bad_input(s.error().message);
     }
   }

@@ -15,7 +15,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// What the images gave: the views of the board, and what else there was.
+/// What the images gave: the views of the board, and the images left over.
 struct Views {
   nav::ImageSize size;
   std::vector<nav::BoardView> views;

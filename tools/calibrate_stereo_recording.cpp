@@ -13,7 +13,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// The family as it is detected: a border two cells wide makes another one.
+/// The family as the detector knows it: with a border two cells wide it is another one.
 Result<std::string> detected_family(const std::string& path, const engine::Board& board) {
   if (board.kind == engine::BoardKind::kChessboard) {
     return Error{path + ": is a chessboard, must be a board of tags"};
@@ -60,11 +60,11 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments, const RecordedS
   out["right_from_left_mm"] = rows_mm(found->right_from_left.row_major());
   out["device_right_from_left_mm"] = rows_mm(seen.calibration.right_from_left().row_major());
   out["baseline_mm"] = found->right_from_left.translation().norm() * 1e3;
-  const Vec3 turn = found->turn_rad * kDegreesPerRadian;
-  const Vec3 shift = found->shift_m * 1e3;
-  out["turn_deg"] = {turn.x, turn.y, turn.z};
+  const Vec3 rotation_deg = found->rotation_rad * kDegreesPerRadian;
+  const Vec3 translation_mm = found->translation_m * 1e3;
+  out["turn_deg"] = {rotation_deg.x, rotation_deg.y, rotation_deg.z};
   out["turn_sigma_deg"] = found->rotation_sigma_rad * kDegreesPerRadian;
-  out["shift_mm"] = {shift.x, shift.y, shift.z};
+  out["shift_mm"] = {translation_mm.x, translation_mm.y, translation_mm.z};
   out["shift_sigma_mm"] = found->translation_sigma_m * 1e3;
   out["off_px"] = found->off_px;
   out["off_sigma_px"] = found->off_sigma_px;
@@ -79,8 +79,8 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments, const RecordedS
 }
 
 void print(const nav::StereoRecording& found) {
-  const Vec3 turn = found.turn_rad * kDegreesPerRadian;
-  const Vec3 shift = found.shift_m * 1e3;
+  const Vec3 rotation_deg = found.rotation_rad * kDegreesPerRadian;
+  const Vec3 translation_mm = found.translation_m * 1e3;
   std::printf(
       "%zu pairs, residual %.3f px RMS; across epipolar lines %.3f px RMS as the device has "
       "them, %.3f px as found\n",
@@ -88,8 +88,8 @@ void print(const nav::StereoRecording& found) {
   std::printf(
       "right camera turned by %.4f %.4f %.4f°, known to %.4f°; shifted by %.3f %.3f %.3f mm, "
       "known to %.3f mm\n",
-      turn.x, turn.y, turn.z, found.rotation_sigma_rad * kDegreesPerRadian, shift.x, shift.y,
-      shift.z, found.translation_sigma_m * 1e3);
+      rotation_deg.x, rotation_deg.y, rotation_deg.z, found.rotation_sigma_rad * kDegreesPerRadian,
+      translation_mm.x, translation_mm.y, translation_mm.z, found.translation_sigma_m * 1e3);
   std::printf("baseline %.3f mm; the tags' edges measure %.4f of their size\n",
               found.right_from_left.translation().norm() * 1e3, found.size_ratio);
   print_judgement(found.judgement);

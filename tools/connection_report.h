@@ -6,7 +6,7 @@
 
 namespace orthonav::tools {
 
-/// How a connection did, in lines.
+/// How well a connection worked, in lines of text.
 [[nodiscard]] std::string connection_report(const ConnectionStatistics& statistics);
 
 }  // namespace orthonav::tools

@@ -44,8 +44,8 @@ struct DemoArguments {
   std::optional<double> pace;
 };
 
-/// Every how many-th displayed frame becomes a picture: an operation of ten minutes then makes a
-/// video of under a minute at 20 pictures a second.
+/// Every n-th displayed frame becomes a picture: an operation of ten minutes then makes a video of
+/// under a minute at 20 pictures per second.
 constexpr int kDrawEvery = 15;
 constexpr int kVideoRate = 20;
 
@@ -69,8 +69,8 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
   return options;
 }
 
-/// Takes away what an earlier demo left here: a picture of its steps or its film would pass for one
-/// of this run. Only files with the names that a demo gives.
+/// Removes what an earlier demo left here: its pictures of steps or its film would pass for this
+/// run's. Only files with the names that a demo gives.
 Status remove_earlier_results(const fs::path& folder) {
   static const std::regex kOurs(
       "report\\.html|report\\.json|timing\\.json|session\\.orthonav|operation\\.mp4|"
@@ -93,7 +93,7 @@ Status remove_earlier_results(const fs::path& folder) {
   return {};
 }
 
-/// Everything a demo needs beside the operation itself; made before anything is written.
+/// Everything that a demo needs besides the operation itself; made before anything is written.
 class Demo {
  public:
   explicit Demo(DemoArguments arguments)
@@ -210,7 +210,8 @@ class Demo {
     return engine::run_operation(source, options, hooks);
   }
 
-  /// What was measured first: nothing that fails after it may take it away. The first failure.
+  /// Writes the measurements first, so that nothing that fails later can lose them. Returns the
+  /// first failure.
   Status write(const engine::OperationResult& result) {
     Status first;
     const auto note = [&first](const Status& status) {
@@ -235,7 +236,7 @@ class Demo {
 
   DemoArguments arguments_;
   bool began_ = false;            ///< the room is open, the first pair is next
-  std::optional<OutFolder> out_;  ///< goes last: the files in it are dropped first
+  std::optional<OutFolder> out_;  ///< destroyed last: the files in it are dropped first
   std::unique_ptr<SurgeonView> view_;
   StepPictures pictures_;
   std::unique_ptr<ReadingCurves> readings_;
@@ -274,7 +275,7 @@ void add_demo_command(CLI::App& app, Action& action) {
       ->capture_default_str();
   demo->add_flag("--no-video", arguments->no_video, "write no operation.mp4");
   demo->add_flag("--perfect", arguments->perfect, "every source of error at zero");
-  // For tests: a hasty surgeon is through in a fraction of the frames.
+  // For tests: a hasty surgeon finishes in a fraction of the frames.
   demo->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
       ->check(finite_number(0.5, 4))
       ->group("");

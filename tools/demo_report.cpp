@@ -17,7 +17,7 @@ Result<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& path) {
   return std::vector<std::uint8_t>(std::istreambuf_iterator<char>(file), {});
 }
 
-/// What there is to see at a step; the key is the step's first word.
+/// What to look at in a step; the key is the step's first word.
 std::string caption_of(const std::string& step) {
   static const std::map<std::string, std::string> kCaptions = {
       {"setup", "The tools are found in both cameras; nothing is registered yet."},

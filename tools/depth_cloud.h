@@ -7,11 +7,11 @@
 
 namespace orthonav::tools {
 
-/// What of a depth stream became points, and what did not.
+/// How much of a depth stream became points, and how much did not.
 struct CloudReport {
   std::int64_t frames_used = 0;
   std::int64_t frames_without_pose = 0;
-  std::int64_t frames_in_other_maps = 0;  ///< no place in one map means anything in another
+  std::int64_t frames_in_other_maps = 0;  ///< positions in one map mean nothing in another
 };
 
 /// Appends what a frame measured, in the world; the frame must have a pose.

@@ -210,7 +210,7 @@ int run_depth(const DepthArguments& arguments) {
   if (arguments.out.empty()) {
     return list(arguments, depths);
   }
-  // Before the work, so that an unwritable place is known at once.
+  // Checked before the work, so that an unwritable place is known at once.
   if (const auto place = engine::AtomicFile::create(arguments.out); !place) {
     return bad_input(place.error().message);
   }

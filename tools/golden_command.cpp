@@ -115,7 +115,7 @@ int review(const GoldenOptions& options) {
   return alike ? kDone : kNo;
 }
 
-/// The reasons so far with that of this scene added or replaced; one line a scene, sorted.
+/// The recorded reasons with this scene's added or replaced; one line per scene, sorted.
 std::string reasons_with(const fs::path& file, const std::string& scene, const std::string& why) {
   std::vector<std::string> lines;
   std::ifstream in(file);

@@ -21,7 +21,7 @@ class JsonOutput {
   /// Refuses a place that can't be written, before the work is done.
   [[nodiscard]] Status check() const;
   [[nodiscard]] Status write(const nlohmann::ordered_json& content) const;
-  /// The same for what is JSON text already.
+  /// The same for text that is JSON already.
   [[nodiscard]] Status write_text(const std::string& text) const;
 
  private:

@@ -34,7 +34,7 @@
 namespace orthonav::tools {
 namespace {
 
-/// Opens everything, then runs; members in the order in which they borrow from one another.
+/// Opens everything, then runs; members stand in the order in which they borrow from one another.
 class LiveRun {
  public:
   explicit LiveRun(RunArguments arguments) : arguments_(std::move(arguments)) {}
@@ -88,7 +88,7 @@ class LiveRun {
     return bad_input(reason);
   }
 
-  /// Where the headset takes pixels.
+  /// For a headset that takes pixels.
   Status present() {
     if (!headset_->pixels()) {
       return {};
@@ -222,7 +222,7 @@ class LiveRun {
     return {};
   }
 
-  /// Last of all, for a recording that was begun stays.
+  /// Last of all, since the files of a recording that was begun stay.
   Status start_recording(const std::vector<nav::ToolGeometry>& tools) {
     if (arguments_.record.empty()) {
       return {};
@@ -239,7 +239,8 @@ class LiveRun {
     return {};
   }
 
-  /// What was measured first: nothing that fails after it may take it away. The first failure.
+  /// Writes the measurements first, so that nothing that fails later can lose them. Returns the
+  /// first failure.
   Status finish(const engine::OperationResult& result) {
     const std::string report = engine::report_json(result);
     std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);

@@ -6,7 +6,7 @@
 
 namespace orthonav::tools {
 
-/// As `orthonav run` takes them.
+/// The arguments of `orthonav run`.
 struct RunArguments {
   std::string headset = "sim:";
   std::string case_folder;
@@ -22,8 +22,8 @@ struct RunArguments {
   bool stats = false;
 };
 
-/// An operation on the headset asked for, from opening it to what is left in files. Returns the
-/// exit code.
+/// Runs an operation on the headset asked for, from opening it to the files left at the end.
+/// Returns the exit code.
 int run_live(const RunArguments& arguments);
 
 }  // namespace orthonav::tools

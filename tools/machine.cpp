@@ -23,7 +23,7 @@ std::string environment(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-/// The first of these files that is there; empty when none is.
+/// The first of these files that exists; empty when none does.
 std::string first_existing(const std::vector<fs::path>& candidates) {
   std::error_code ignored;
   for (const fs::path& path : candidates) {
@@ -75,7 +75,7 @@ Offer openxr_runtime(const fs::path& root) {
             "install the headset's (or Monado) and name its manifest in XR_RUNTIME_JSON or "
             "~/.config/openxr/1/active_runtime.json"};
   }
-  // Only this machine's own can be asked.
+  // Only the machine we run on can be asked.
   if (root != "/") {
     return {"OpenXR runtime", Finding::kFound, found, ""};
   }

@@ -8,15 +8,15 @@ namespace orthonav::tools {
 enum class Finding {
   kFound,
   kMissing,   ///< needed by the demo
-  kOptional,  ///< not there, and only something else needs it
+  kOptional,  ///< absent, and needed only by something else than the demo
 };
 
-/// One thing that a machine may offer.
+/// Something that a machine may provide.
 struct Offer {
   std::string name;  ///< "Vulkan device"
   Finding finding = Finding::kMissing;
   std::string what;  ///< "llvmpipe (LLVM 15.0.6, 256 bits), CPU", or why it is missing
-  std::string how;   ///< how to get it; empty when it is there
+  std::string how;   ///< how to get it; empty when it is present
 };
 
 /// Looks at the machine, under `root` ("/"; another folder in tests) where it looks at files.

@@ -20,7 +20,7 @@ int bad_input(const std::string& message) {
 
 namespace {
 
-/// Whatever the library says of the command line, in one line.
+/// Prints the library's message about the command line in one line.
 int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* asked = &app;
   while (!asked->get_subcommands().empty()) {
@@ -30,14 +30,14 @@ int bad_command_line(const CLI::App& app, const CLI::ParseError& error) {
   for (const CLI::App* part = asked; part != nullptr; part = part->get_parent()) {
     way = part->get_name() + (way.empty() ? "" : " " + way);
   }
-  // Without a known command the library misses one; what was written instead says more.
+  // Without a known command the library reports a missing one; what was written instead says more.
   const std::vector<std::string> unknown = app.remaining(true);
   const bool no_command = asked->get_require_subcommand_min() > 0 && !unknown.empty();
   return bad_input((no_command ? "unknown command: " + unknown.front() : error.what()) + " (see " +
                    way + " --help)");
 }
 
-/// A full disk under standard output shows only when it is flushed.
+/// A full disk behind standard output shows only when it is flushed.
 int with_output_written(int code) {
   errno = 0;
   std::cout.flush();

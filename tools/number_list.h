@@ -8,8 +8,8 @@
 
 namespace orthonav::tools {
 
-/// Whole numbers and ranges of them, "3" or "0-5,17", in the order given. Refuses whatever else,
-/// ranges that go down, a number that is there twice, and more than `most` of them.
+/// Whole numbers and ranges of them, "3" or "0-5,17", in the order given. Refuses anything else,
+/// descending ranges, a number that occurs twice, and more than `most` numbers.
 Result<std::vector<int>> number_list(const std::string& text, std::size_t most);
 
 }  // namespace orthonav::tools

@@ -8,7 +8,7 @@
 
 namespace orthonav::tools {
 
-/// A folder for results. What was made for it and is still empty at the end goes away again, so
+/// A folder for results. Folders that it made and that are still empty at the end are removed, so
 /// that a command that is refused leaves nothing.
 class OutFolder {
  public:

@@ -24,23 +24,32 @@ struct PreviewArguments {
   preview::PreviewOptions options;
 };
 
-int preview_window(PreviewArguments arguments) {
+/// What is to be previewed, still without the prepared models.
+Result<preview::OperationSource> source_of(const PreviewArguments& arguments) {
   preview::OperationSource source;
   source.headset = arguments.headset;
   source.tools_file = arguments.tools_file;
   auto method = engine::method_named(arguments.method);
   if (!method) {
-    return bad_input(method.error().message);
+    return method.error();
   }
   source.method = std::move(*method);
   auto loaded = load_checked_case(arguments.case_folder);
   if (!loaded) {
-    return bad_input(loaded.error().message);
+    return loaded.error();
   }
   source.source = std::move(*loaded);
   const auto levels = engine::levels_to_operate(source.source, arguments.levels);
   if (!levels) {
-    return bad_input("--levels: " + levels.error().message);
+    return Error{"--levels: " + levels.error().message};
+  }
+  return source;
+}
+
+int preview_window(PreviewArguments arguments) {
+  auto source = source_of(arguments);
+  if (!source) {
+    return bad_input(source.error().message);
   }
   std::optional<preview::Script> script;
   if (!arguments.script.empty()) {
@@ -62,21 +71,21 @@ int preview_window(PreviewArguments arguments) {
     return bad_input(opened.error().message);
   }
   engine::ModelCache models(arguments.models);
-  auto operation = engine::plan_operation(source.source, arguments.levels, models);
+  auto operation = engine::plan_operation(source->source, arguments.levels, models);
   if (!operation) {
     return bad_input(operation.error().message);
   }
-  source.operation = std::move(*operation);
+  source->operation = std::move(*operation);
   models.keep();
   print_notes(models);
-  if (const Status opened = app.open_operation(std::move(source)); !opened) {
+  if (const Status opened = app.open_operation(std::move(*source)); !opened) {
     return bad_input(opened.error().message);
   }
   const Status done = app.run();
   return done ? kDone : bad_input(done.error().message);
 }
 
-/// `WIDTHxHEIGHT` in pixels, each even, for a video's sake.
+/// `WIDTHxHEIGHT` in pixels, both even, since videos need that.
 std::string check_size(const std::string& text) {
   const auto size = size_from(text);
   if (!size) {
@@ -146,7 +155,7 @@ void add_preview_command(CLI::App& app, Action& action) {
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());
   add_window_options(*preview, arguments);
-  // For tests: a hasty surgeon is through in a fraction of the frames.
+  // For tests: a hasty surgeon finishes in a fraction of the frames.
   preview->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
       ->check(finite_number(0.5, 4))
       ->group("");

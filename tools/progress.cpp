@@ -7,7 +7,7 @@
 namespace orthonav::tools {
 namespace {
 
-// About the simulated time that each takes, in units of a screw.
+// Approximate simulated time of each part, in units of a screw.
 constexpr double kDigitize = 3.0;
 constexpr double kScrew = 1.0;
 constexpr double kRod = 1.0;

@@ -11,7 +11,7 @@ namespace orthonav::tools {
 /// terminal, otherwise a plain line at each step of the workflow.
 class OperationProgress : public engine::LoopObserver {
  public:
-  /// Also passes what it hears on. Borrowed, may be null.
+  /// Also passes on what it hears. `next` is borrowed and may be null.
   explicit OperationProgress(engine::LoopObserver* next) : next_(next) {}
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
@@ -24,7 +24,7 @@ class OperationProgress : public engine::LoopObserver {
   Timestamp first_{};
 };
 
-/// How far an operation is, in [0, 1]: digitizing counts for much of a level, a screw for some.
+/// Progress of an operation, in [0, 1]: digitizing makes up much of a level, a screw a part.
 [[nodiscard]] double fraction_done(const engine::Guidance& guidance);
 
 }  // namespace orthonav::tools

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -11,7 +12,7 @@ namespace {
 
 constexpr auto kRedrawEvery = std::chrono::milliseconds(200);
 constexpr int kColumns = 30;
-/// Before so much is done, an estimate of the rest says nothing.
+/// Before this much is done, an estimate of the rest means nothing.
 constexpr double kLeastFractionForEstimate = 0.05;
 
 }  // namespace
@@ -19,25 +20,21 @@ constexpr double kLeastFractionForEstimate = 0.05;
 ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {
-  if (drawn_once_) {
+  if (since_drawn_) {
     std::fputs("\r\033[K", stderr);
   }
 }
 
-double ProgressBar::elapsed_s() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
+double ProgressBar::elapsed_s() const { return since_start_.elapsed_ms() / 1e3; }
 
 void ProgressBar::draw(double fraction, const std::string& what, bool now) {
   if (!terminal_) {
     return;
   }
-  const auto time = std::chrono::steady_clock::now();
-  if (!now && drawn_once_ && time - drawn_ < kRedrawEvery) {
+  if (!now && since_drawn_ && since_drawn_->elapsed() < kRedrawEvery) {
     return;
   }
-  drawn_ = time;
-  drawn_once_ = true;
+  since_drawn_.emplace();
   fraction = std::clamp(fraction, 0.0, 1.0);
   std::string cells(static_cast<std::size_t>(std::lround(fraction * kColumns)), '#');
   cells.resize(kColumns, '.');

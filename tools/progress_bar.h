@@ -1,12 +1,14 @@
 #pragma once
 
-#include <chrono>
+#include <optional>
 #include <string>
+
+#include "base/stopwatch.h"
 
 namespace orthonav::tools {
 
-/// One line on standard error that is drawn over and over, with an estimate of the time left; only
-/// on a terminal. Elsewhere it draws nothing, and its owner writes plain lines.
+/// One line on standard error, redrawn in place, with an estimate of the time left. It draws on a
+/// terminal only; elsewhere its owner writes plain lines.
 class ProgressBar {
  public:
   ProgressBar();
@@ -15,15 +17,14 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   [[nodiscard]] bool on_terminal() const { return terminal_; }
-  /// Draws, unless it did a moment ago; `now` draws all the same. `share` in [0, 1].
+  /// Draws, unless it did so a moment ago; `now` draws regardless. `fraction` is in [0, 1].
   void draw(double fraction, const std::string& what, bool now = false);
   [[nodiscard]] double elapsed_s() const;
 
  private:
   bool terminal_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point drawn_{};
-  bool drawn_once_ = false;
+  Stopwatch since_start_;
+  std::optional<Stopwatch> since_drawn_;  ///< absent until the first time
 };
 
 }  // namespace orthonav::tools

@@ -8,8 +8,8 @@
 
 namespace orthonav::tools {
 
-/// Notes what the surgeon could read while every screw was guided: the angle, and how far the tip
-/// was from the entry. Passes what it hears on.
+/// Records what the surgeon could read while each screw was guided: the angle, and how far the tip
+/// was from the entry. Passes on what it hears.
 class ReadingCurves : public engine::LoopObserver {
  public:
   /// Borrowed, may be null.

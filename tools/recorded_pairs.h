@@ -11,7 +11,7 @@
 
 namespace orthonav::tools {
 
-/// Calls with every pair of a recording, with progress on standard error; returns the first
+/// Calls `take` with every pair of a recording, with progress on standard error; returns the first
 /// failure.
 Status for_each_pair(replay::ReplayHeadset& recording,
                      const std::function<void(const StereoFrame&)>& use);
@@ -26,7 +26,7 @@ Result<MeasuredPoses> measured_poses(const std::string& recording, const std::st
                                      const nav::ToolGeometry& tool,
                                      const nav::TrackerOptions& options = {});
 
-/// What a recording's cameras saw of tags.
+/// The tags that a recording's cameras saw.
 struct RecordedSightings {
   StereoCalibration calibration;
   std::vector<nav::PairSightings> pairs;
@@ -34,7 +34,7 @@ struct RecordedSightings {
 Result<RecordedSightings> recorded_sightings(const std::string& recording,
                                              std::vector<nav::MarkerDefinition> tags);
 
-/// The best method of tracking that this version has.
+/// The best tracking method of this version.
 [[nodiscard]] std::string default_method();
 
 }  // namespace orthonav::tools

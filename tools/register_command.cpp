@@ -83,7 +83,7 @@ void print(const engine::RegisteredLevel& level, const engine::FigureFrame& fram
   }
 }
 
-/// Why not, and what to do about it.
+/// Prints why it was refused, and what to do about it.
 void print_refusal(const nav::Registration& r) {
   for (const nav::RefusalReason& reason : r.reasons) {
     std::fprintf(stderr, "orthonav: refused: %s\n", engine::text_of(reason).c_str());

@@ -15,9 +15,8 @@ namespace {
 
 using engine::Axes;
 
-/// The unit of a model is its plan's. Without a plan it is the unit given, or millimetres where
-/// only they make a vertebra of it: digitized points in metres beside a model in millimetres are
-/// common.
+/// A model's unit is that of its plan. Without a plan it is the unit given, or millimetres where
+/// only they make it a vertebra: digitized points in metres with a model in millimetres are common.
 Result<nav::TriangleMesh> load_model(const RegisterArguments& arguments,
                                      const std::optional<engine::Plan>& plan, Axes axes) {
   if (plan) {

@@ -31,7 +31,7 @@ struct RegisterInputs {
 };
 
 /// Reads and checks every file that the arguments name. Prepared models are kept once all is well;
-/// what went otherwise with them is told on standard error.
+/// problems with them are reported on standard error.
 Result<RegisterInputs> load_register_inputs(const RegisterArguments& arguments);
 
 }  // namespace orthonav::tools

@@ -41,7 +41,7 @@ Status read_size(const std::string& text, engine::SceneFile& file) {
     return Error{"--size: is \"" + text + "\", must be WIDTHxHEIGHT in px, as 1268x720"};
   }
   const auto [width, height] = *size;
-  // The same field of view across; another shape shows more or less above and below.
+  // The horizontal field of view stays; another shape shows more or less above and below.
   for (render::View& view : file.eyes) {
     const float shape = static_cast<float>(height) / static_cast<float>(std::max(width, 1));
     view.tan_up = view.tan_down = 0.5f * (view.tan_left + view.tan_right) * shape;
@@ -71,7 +71,7 @@ Result<std::optional<RgbaImage>> background_of(const std::string& name, int widt
   return std::optional(std::move(*image));
 }
 
-/// One line a hologram: how it stands out in the light that was stated.
+/// One line per hologram: its contrast in the light that was given.
 void print_contrasts(const RgbaImage& light, const LabelImage& labels, const RgbaImage& background,
                      const engine::OpticalModel& model) {
   std::printf("hologram  pixels  contrast  faintest tenth\n");
@@ -83,7 +83,7 @@ void print_contrasts(const RgbaImage& light, const LabelImage& labels, const Rgb
   }
 }
 
-/// The holograms before a background as an optical see-through display shows them.
+/// The holograms in front of a background, as an optical see-through display shows them.
 Status see_through(const RenderArguments& arguments, const engine::SceneFile& file,
                    const RgbaImage& background, render::Renderer& renderer,
                    std::vector<RgbaImage>& images) {

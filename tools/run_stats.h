@@ -5,7 +5,7 @@
 
 namespace orthonav::tools {
 
-// Medians and p99 of what a frame takes, on standard error beside the other messages.
+// Medians and 99th percentiles of what a frame takes, on standard error with the other messages.
 
 void print_stats(const engine::LoopReport& loop);
 void print_stats(const engine::PresentReport& report);

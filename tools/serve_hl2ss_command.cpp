@@ -28,7 +28,7 @@ struct ServeArguments {
 
 constexpr auto kLookEvery = std::chrono::milliseconds(20);
 
-/// The headset that each session gets: the same simulated operation from its beginning.
+/// Opens the headset for each session: the same simulated operation from its beginning.
 Result<hl2ss::Server::OpenHeadset> sessions_of(const ServeArguments& arguments) {
   const auto source = load_checked_case(arguments.case_folder);
   if (!source) {
@@ -61,7 +61,7 @@ void say_where(const hl2ss::Server& server, const hl2ss::ServerOptions& options)
                side.c_str());
 }
 
-/// Tells of each session as it begins and ends, until there were enough.
+/// Reports the beginning and end of each session, until there were enough.
 int watch(const hl2ss::Server& server, std::int64_t sessions) {
   bool was_streaming = false;
   std::int64_t pairs_before = 0;
@@ -85,7 +85,7 @@ int watch(const hl2ss::Server& server, std::int64_t sessions) {
     }
     was_streaming = report.is_streaming;
     if (sessions > 0 && report.sessions >= sessions && !report.is_streaming) {
-      // The last words are still underway.
+      // The last packets are still on their way.
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
       return kDone;
     }

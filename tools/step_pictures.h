@@ -16,13 +16,13 @@ struct StepPicture {
   std::filesystem::path path;
 };
 
-/// Keeps one picture of every step: the last one before the step ends; while guiding, the last one
-/// with the deviation triangle, for afterwards the tool is gone.
+/// Keeps one picture of every step: the last one before the step ends; for guiding, the last one
+/// with the deviation triangle, since afterwards the tool is gone.
 class StepPictures : public PictureSink {
  public:
   explicit StepPictures(std::filesystem::path folder) : folder_(std::move(folder)) {}
   Status picture(const RgbaImage& image, const engine::Snapshot& snapshot) override;
-  /// Writes what is still held.
+  /// Writes what is still kept.
   Status finish();
   [[nodiscard]] const std::vector<StepPicture>& written() const { return written_; }
 

@@ -126,7 +126,7 @@ int run_study(const StudyArguments& arguments) {
   if (const Status written = arguments.json.write_text(study->text); !written) {
     return bad_input(written.error().message);
   }
-  // The runs that finished are kept; that one could not be made is bad input all the same.
+  // The runs that finished are kept; a run that could not be made still counts as bad input.
   return study->failure ? bad_input(study->failure->message) : kDone;
 }
 

@@ -27,12 +27,12 @@ struct SurgeonViewOptions {
 };
 
 /// What the surgeon's right eye sees of a simulated room: the site with the holograms added to it,
-/// as an optical see-through display does. The room is drawn from where the head truly is, the
-/// holograms from where the headset believes it is: tracking error and map drift show as they
-/// would. It only looks; nothing of it reaches the engine.
+/// as in an optical see-through display. The room is drawn from where the head truly is, the
+/// holograms from where the headset believes it is: tracking error and map drift appear as they
+/// would in reality. It only observes; nothing from it reaches the engine.
 class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
  public:
-  /// An Error when no Vulkan device serves.
+  /// An Error when no Vulkan device is suitable.
   static Result<std::unique_ptr<SurgeonView>> create(const SurgeonViewOptions& options);
 
   /// Before the loop starts. Borrowed.
@@ -57,7 +57,7 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
   sim::SimHeadset* headset_ = nullptr;
   std::unique_ptr<sim::RoomRenderer> room_;
   std::vector<PictureSink*> sinks_;
-  /// Beside the loop's snapshots, slot by slot: written before a snapshot is handed over, read
+  /// Parallel to the loop's snapshots, slot by slot: written before a snapshot is handed over, read
   /// before it is given back.
   std::array<Moment, engine::SnapshotQueue::kSlots> moments_;
 
@@ -67,7 +67,7 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
   std::vector<render::View> views_;
   std::vector<const RgbaImage*> backgrounds_;
   std::vector<RgbaImage> images_;
-  render::Scene head_lost_;  ///< what is left then
+  render::Scene head_lost_;  ///< what is left to draw then
 };
 
 }  // namespace orthonav::tools

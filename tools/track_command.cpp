@@ -36,7 +36,7 @@ void append_row(const Headset& headset, const nav::ToolGeometry& tool, const nav
                 std::string& csv) {
   const auto& pose = state.world_from_marker;
   const Vec3 p = pose.value.translation();
-  // A recorded head pose is rigid to its nine digits only; the file promises a unit quaternion.
+  // A recorded head pose is rigid only to its nine digits; the file promises a unit quaternion.
   Quaternion q = quaternion_from_rotation(pose.value.rotation());
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   q = {q.x / norm, q.y / norm, q.z / norm, q.w / norm};
@@ -55,7 +55,7 @@ Result<TrackSummary> track_all(replay::ReplayHeadset& headset, nav::ToolTracker&
   summary.measured.resize(tracker.tools().size());
   const Status read = for_each_pair(headset, [&](const StereoFrame& frame) {
     for (const nav::ToolState& state : tracker.track(frame)) {
-      // A predicted pose is not a measured one and has no row.
+      // A predicted pose is no measurement and gets no row.
       if (state.world_from_marker.status != PoseStatus::kMeasured) {
         continue;
       }

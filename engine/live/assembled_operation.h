@@ -12,17 +12,19 @@ namespace orthonav::engine {
 
 /// How the parts of an operation work together.
 struct AssemblyOptions {
-  /// Tools in sight are searched around their predictions; the whole image only every tenth pair.
+  /// Tools in sight are searched for around their predictions, and the whole image only every tenth
+  /// pair.
   nav::TrackerOptions tracker{.full_search_interval = 10};
   SessionOptions session;
   LoopOptions loop;
   VisibilityRules visibility;
 
-  /// Every problem at once; empty when all is well. The tracker's own are found by its method.
+  /// Every problem at once; empty when all is well. The tracker's own problems are found by its
+  /// method.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// An operation on a headset, ready to run: the session, what its guidance looks like, and the loop
+/// An operation on a headset, ready to run: the session, the look of its guidance, and the loop
 /// that feeds it pairs. All that it is given is borrowed and must outlive it.
 class AssembledOperation {
  public:
@@ -31,13 +33,14 @@ class AssembledOperation {
   AssembledOperation(const AssembledOperation&) = delete;
   AssembledOperation& operator=(const AssembledOperation&) = delete;
 
-  /// Hears the session from now on, after those who were there before; null: nobody.
+  /// Observes the session from now on, after those added before; null: nobody.
   void observe(SessionObserver* observer) { observers_.add(observer); }
-  /// Sees what comes in with each pair and what is made of it, in place of whoever did so far.
+  /// Observes each pair and what is made of it, in place of any earlier observer.
   void observe(LoopObserver* observer) { loop_.observe(observer); }
   void draw_into(SnapshotSink* sink) { loop_.draw_into(sink); }
-  /// From here on everything goes through `wrapper`, which passes on the headset given first: a
-  /// recorder, begun only once nothing else can fail, for what it has begun stays. Before `run`.
+  /// From now on everything goes through `wrapper`, which forwards to the headset given first. For
+  /// a recorder, which must start only once nothing else can fail, since the files it starts stay.
+  /// Call it before `run`.
   void go_through(Headset& wrapper) { loop_.use(wrapper); }
 
   /// As `FrameLoop::run`. Once.
@@ -54,9 +57,9 @@ class AssembledOperation {
   FrameLoop loop_;
 };
 
-/// The one way to put an operation together: the method's tracker for the headset's cameras, a
-/// session with it, and a loop between both. `tools` are as described, which is not quite as they
-/// are. An Error names what is wrong with the options, the tools or the operation.
+/// The only way to put an operation together: the method's tracker for the headset's cameras, a
+/// session with it, and a loop between the two. `tools` are as described, which differs a little
+/// from the real ones. An Error names what is wrong with the options, the tools or the operation.
 Result<std::unique_ptr<AssembledOperation>> assemble_operation(
     Headset& headset, Operation operation, const Method& method,
     const std::vector<nav::ToolGeometry>& tools, const AssemblyOptions& options = {});

@@ -9,7 +9,7 @@
 namespace orthonav::engine {
 namespace {
 
-/// Passes on what the renderer asks of its host.
+/// Forwards what the renderer asks of its host.
 class Host : public render::VulkanHost {
  public:
   Host(PixelDisplay& display, const GraphicsNeeds& needs) : display_(display), needs_(needs) {}

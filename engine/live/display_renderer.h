@@ -9,7 +9,7 @@
 namespace orthonav::engine {
 
 /// A renderer on the device that the display's runtime makes, drawing into the display's images.
-/// The one place where the two meet: neither knows the other.
+/// The only place where the two meet: neither knows the other.
 class DisplayRenderer {
  public:
   /// Opens the display and starts it. `options` as for HostedRenderer, except that the display
@@ -21,13 +21,14 @@ class DisplayRenderer {
   DisplayRenderer(const DisplayRenderer&) = delete;
   DisplayRenderer& operator=(const DisplayRenderer&) = delete;
 
-  /// Draws a scene into a frame that was begun. While the head is not located, only what hangs on
-  /// it is drawn; if it is not known either where the eyes are on the head, nothing is drawn and
-  /// the answer is false. The eyes are located as late as possible: only laying out, recording and
-  /// submitting come after that.
+  /// Draws a scene into a frame that was begun. While the head is not located, only what is fixed
+  /// to the head is drawn; if it is also unknown where the eyes are on the head, nothing is drawn
+  /// and the answer is false. The eyes are located as late as possible: only layout, recording and
+  /// submission come after that.
   Result<bool> draw(const render::Scene& scene);
   [[nodiscard]] const render::HostedRenderer& renderer() const { return *renderer_; }
-  /// What was drawn last, the scene given or what of it hangs on the head, and its views.
+  /// What was drawn last (the scene given, or the part of it that is fixed to the head) and its
+  /// views.
   [[nodiscard]] const render::Scene& drawn() const { return *drawn_; }
   [[nodiscard]] const std::vector<render::View>& views() const { return views_; }
 

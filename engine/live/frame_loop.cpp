@@ -5,23 +5,12 @@
 #include <thread>
 
 #include "base/joined.h"
+#include "base/stopwatch.h"
 
 namespace orthonav::engine {
 namespace {
 
-/// Wall time, for the timing plot only; no decision reads it.
-class Stopwatch {
- public:
-  [[nodiscard]] double elapsed_ms() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
-        .count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// A device without a frame is asked again after this.
+/// How long to wait before asking a device again that had no frame.
 constexpr auto kNoPairPause = std::chrono::milliseconds(1);
 
 }  // namespace
@@ -83,13 +72,14 @@ Result<LoopReport> FrameLoop::run() {
   return report;
 }
 
-/// Draws until the queue is closed and empty. Fails for good after too many failures in a row: then
-/// the loop stops, for a surgeon who sees nothing must be told, and the rest is only taken, so that
-/// tracking never waits for a drawer that gave up.
+/// Draws until the queue is closed and empty. After too many failures in a row it fails for good
+/// and stops the loop, since a surgeon who sees nothing must be told. The remaining snapshots are
+/// taken without being drawn, so that tracking never waits for a drawer that gave up.
 void FrameLoop::draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status) {
   int in_a_row = 0;
   while (Snapshot* snapshot = queue.take()) {
-    // Where every snapshot is drawn, the pictures are for later: the device's clock runs ahead.
+    // Only in real time: where every snapshot is drawn, the pictures are for later, and the
+    // device's clock runs ahead of them.
     if (options_.drop_late_snapshots && snapshot->expires &&
         next_display_time() > *snapshot->expires) {
       hide_tool_guidance(snapshot->scene);
@@ -191,8 +181,8 @@ Timestamp FrameLoop::next_display_time() const {
   return headset_->display().predicted_display_time(headset_->clock().now());
 }
 
-/// Shows guidance that guides no more, by the road of every frame. A display that fails here may
-/// hold the old frame: nothing better can be done than to say so.
+/// Shows, by the usual way of every frame, guidance that no longer guides. If the display fails
+/// here it may keep showing the old frame; all that can be done then is to report it.
 void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report) {
   builder_.update(guidance);
   builder_.write_shown(guidance, shown_);
@@ -223,14 +213,14 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   Inputs inputs;
   inputs.clicks = clicks_;
   inputs.phrases = phrases_;
-  // What is made of this pair is submitted from here on: the images were underway for a while.
+  // Submitted from now on; the images were under way for a while.
   inputs.display_time = headset_->display().predicted_display_time(heard_at_);
   const Guidance& guidance = session_.step(frame_, inputs);
   report.last_frame = frame_.time;
   if (observer_) {
     observer_->stepped(frame_, inputs, guidance);
   }
-  // Tracking took its time: what has grown too old meanwhile is not shown.
+  // Tracking took time: guidance that has become too old meanwhile is not shown.
   builder_.update(guidance, std::max(guidance.display_time, next_display_time()));
   builder_.write_shown(guidance, shown_);
   const Status shown = headset_->display().shown(shown_);

@@ -11,7 +11,7 @@
 
 namespace orthonav::engine {
 
-/// What came in and what was made of it, on the tracking thread, once for every stereo pair.
+/// Sees, on the tracking thread, what came in with every stereo pair and what was made of it.
 class LoopObserver {
  public:
   virtual ~LoopObserver() = default;
@@ -32,12 +32,13 @@ struct LoopOptions {
   /// Every n-th displayed frame goes to the sink; 0: none. Counted, not timed, so that the same
   /// frames are drawn however fast the machine is.
   int draw_every = 1;
-  /// Real time: the newest snapshot counts and tracking never waits. Else every one is drawn.
+  /// Real time: only the newest snapshot is drawn and tracking never waits. Otherwise every one is
+  /// drawn.
   bool drop_late_snapshots = false;
-  std::int64_t max_frames = 0;  ///< ends after so many displayed frames; 0: no limit
-  Duration after_done = std::chrono::seconds(1);  ///< goes on for so long once the rod is done
+  std::int64_t max_frames = 0;  ///< ends after this many displayed frames; 0: no limit
+  Duration after_done = std::chrono::seconds(1);  ///< how long it goes on once the rod is done
   int max_errors_in_a_row = 30;  ///< of one device or the sink; beyond it the run ends
-  /// A camera pair that delivers nothing for so long, by the device's clock, is gone for good.
+  /// A camera pair that delivers nothing for this long, by the device's clock, is gone for good.
   Duration longest_silence = std::chrono::seconds(60);
 
   /// Every problem at once; empty when all is well.
@@ -60,28 +61,28 @@ struct LoopReport {
   /// Device clock, from the middle of a pair's exposure until its display time: capture to
   /// photon.
   std::vector<double> photon_ages_ms;
-  /// Tracking and everything after it, for each pair; without waiting for the drawing.
+  /// Wall time of tracking and everything after it, per pair, without waiting for the drawing.
   std::vector<double> step_wall_ms;
-  std::vector<double> draw_wall_ms;  ///< the sink, for each snapshot
+  std::vector<double> draw_wall_ms;  ///< wall time of the sink, per snapshot
 };
 
-/// The road from stereo pairs to what is shown: tracking on the calling thread, drawing on its own.
-/// Drawing takes snapshots and gives nothing back, so that it can't influence a result.
+/// From stereo pairs to what is shown: tracking on the calling thread, drawing on a thread of its
+/// own. Drawing takes snapshots and gives nothing back, so it can't influence a result.
 class FrameLoop {
  public:
   FrameLoop(Headset& headset, Session& session, SceneBuilder& builder, const LoopOptions& options)
       : headset_(&headset), session_(session), builder_(builder), options_(options) {}
 
-  /// Another headset in place of the one given first; not while it runs.
+  /// Replaces the headset; not while it runs.
   void use(Headset& headset) { headset_ = &headset; }
   void observe(LoopObserver* observer) { observer_ = observer; }
   void draw_into(SnapshotSink* sink) { sink_ = sink; }
-  /// Ends early, from any thread.
+  /// Ends the run early, from any thread.
   void stop() { stop_ = true; }
 
-  /// Until the stream ends, the operation is done, or the limit is reached. An Error when a device
-  /// or the sink fails for good, or an option has a problem. However it ends, the last frame shown
-  /// guides nobody.
+  /// Runs until the stream ends, the operation is done, or the limit is reached. An Error when a
+  /// device or the sink fails for good, or an option has a problem. However it ends, the last frame
+  /// shown guides nobody.
   Result<LoopReport> run();
 
  private:

@@ -7,8 +7,8 @@
 
 namespace orthonav::engine {
 
-/// What a headset itself knows of the tools in use: a room's planning file, a recording's
-/// tools.json; the built-in ones where it tells nothing.
+/// The tools in use, as far as the headset knows them: from a room's planning file or a recording's
+/// tools.json; otherwise the built-in ones.
 Result<std::vector<nav::ToolGeometry>> tools_known_to(const Headset& headset);
 
 }  // namespace orthonav::engine

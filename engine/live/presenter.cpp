@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "engine/holograms/scene_builder.h"
 
 namespace orthonav::engine {
@@ -10,9 +11,9 @@ namespace {
 
 /// How long to wait before asking again while nobody is looking at the display.
 constexpr auto kIdlePause = std::chrono::milliseconds(5);
-/// A runtime that takes longer to end a session is no longer waited for.
+/// How long a runtime may take to end a session before it is no longer waited for.
 constexpr auto kLongestGoodbye = std::chrono::seconds(2);
-// More than this tell nothing new.
+// More of them would tell nothing new.
 constexpr std::size_t kMostProblems = 20;
 constexpr std::size_t kMostLatches = 100'000;
 
@@ -71,9 +72,9 @@ void Presenter::lose(const std::string& why) {
 }
 
 void Presenter::pause(Duration wall_time) {
-  const auto until = std::chrono::steady_clock::now() + wall_time;
+  const Stopwatch paused;
   const MutexLock lock(mutex_);
-  while (!stopping_ && changed_.wait_until(mutex_, until)) {
+  while (!stopping_ && changed_.wait_until(mutex_, paused.after(wall_time))) {
   }
 }
 
@@ -191,8 +192,8 @@ void Presenter::leave() {
     return;
   }
   display_.ask_to_end();
-  const auto until = std::chrono::steady_clock::now() + kLongestGoodbye;
-  while (std::chrono::steady_clock::now() < until) {
+  const Stopwatch asked;
+  while (asked.elapsed() < kLongestGoodbye) {
     const DisplayFrame frame = display_.begin_frame();
     if (frame.kind == DisplayFrame::Kind::kLost || frame.kind == DisplayFrame::Kind::kOver) {
       break;

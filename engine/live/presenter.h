@@ -21,7 +21,7 @@ struct PresentReport {
   std::int64_t losses = 0;  ///< of session, runtime or device; each with its line in `problems`
   std::int64_t failures = 0;
   std::vector<std::string> problems;  ///< the first few, one line each
-  /// Wall time from asking for the head's pose until the device has its orders.
+  /// Wall time from asking for the head's pose until the frame is submitted to the device.
   std::vector<double> latch_ms;
 };
 
@@ -64,7 +64,7 @@ class Presenter : public SnapshotSink {
   void leave();
   void lose(const std::string& why);
   void note(const std::string& problem);
-  /// Returns early when stopped.
+  /// Returns early once `stop` was called.
   void pause(Duration wall_time);
 
   PixelDisplay& display_;

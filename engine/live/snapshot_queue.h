@@ -12,23 +12,23 @@
 
 namespace orthonav::engine {
 
-/// What the rendering thread gets of one displayed frame.
+/// What the rendering thread receives of one displayed frame.
 struct Snapshot {
   std::int64_t frame = 0;  ///< counts displayed frames from 0
-  std::size_t slot = 0;    ///< index of this buffer: a caller keeps its own data beside it
+  std::size_t slot = 0;  ///< index of this buffer, so that a caller can keep its own data for each
   Timestamp display_time{};
   StepOnDisplay step;
-  /// Shown after this, what guides a tool is too old to be seen; absent when nothing does.
+  /// When shown later than this, tool guidance is too old to be seen; absent when there is none.
   std::optional<Timestamp> expires;
-  bool blank = false;  ///< the loop has ended: nothing but the status line
+  bool blank = false;  ///< the loop has ended: only the status line is shown
   render::Scene scene;
 };
 
-/// A few snapshots going round between two threads. The buffers are made once and reused.
+/// A few snapshots that go round between two threads. The buffers are made once and reused.
 class SnapshotQueue {
  public:
   enum class WhenFull {
-    kWait,       ///< every snapshot is drawn: what is drawn does not depend on speed
+    kWait,       ///< every snapshot is drawn, so what is drawn does not depend on speed
     kDropOldest  ///< the newest counts: tracking never waits for rendering
   };
   static constexpr std::size_t kSlots = 4;
@@ -37,16 +37,16 @@ class SnapshotQueue {
   /// A buffer to fill; give it back by `publish`. Null once closed.
   Snapshot* acquire();
   void publish(Snapshot* filled);
-  /// The next to draw: under kWait the oldest that waits; under kDropOldest the newest, while those
+  /// The next to draw. Under kWait the oldest one waiting; under kDropOldest the newest, and those
   /// before it are dropped. Blocks until there is one. Null once closed and empty.
   Snapshot* take();
   void release(Snapshot* drawn);
-  /// No more is published; the taker gets what is left.
+  /// No more will be published; the taker still gets what is left.
   void close();
   [[nodiscard]] std::int64_t dropped() const;
 
  private:
-  /// Of those that wait to be drawn.
+  /// Drops the oldest of those waiting to be drawn.
   void drop_oldest() ORTHONAV_REQUIRES(mutex_);
 
   WhenFull when_full_;

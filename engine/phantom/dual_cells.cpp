@@ -25,8 +25,8 @@ class Face {
   [[nodiscard]] const std::array<int, 3>& node() const { return node_; }
   [[nodiscard]] std::size_t along_u(std::size_t v) const { return edge_id(u_, v, side_); }
   [[nodiscard]] std::size_t along_v(std::size_t u) const { return edge_id(v_, side_, u); }
-  /// Of an ambiguous face: the edges along v that belong to the edges along u at v = 0 and 1, when
-  /// the inside corners are kept apart, or else joined.
+  /// For an ambiguous face: the edges along v that belong to the edges along u at v = 0 and 1, with
+  /// the inside corners kept apart, or joined.
   [[nodiscard]] std::array<std::size_t, 2> partners(bool joined) const {
     const std::size_t first = near_inside_ != joined ? 0 : 1;
     return {along_v(first), along_v(1 - first)};
@@ -54,7 +54,7 @@ void mark_crossed_edges(const SampleGrid& grid, GridCell& cell) {
   }
 }
 
-/// Groups the crossed edges of a cell into sheets of the surface; gives how many.
+/// Groups the crossed edges of a cell into sheets of the surface; returns how many.
 std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, GridCell& cell) {
   for (std::uint8_t edge = 0; edge < 12; ++edge) {
     cell.sheet[edge] = edge;
@@ -127,8 +127,8 @@ CellMap marked_cells(const SampleGrid& grid) {
 }
 
 /// Two sheets that touch twice across one face would share an edge of four quads. Where both pairs
-/// of an ambiguous face belong to one sheet on either side, pairing them the other way parts them
-/// (Wenger 2013, "Isosurfaces", manifold dual contouring).
+/// of an ambiguous face belong to one sheet on either side, pairing them the other way separates
+/// them (Wenger 2013, "Isosurfaces", manifold dual contouring).
 bool part_double_edges(const SampleGrid& grid, const CellMap& map, JoinedFaces& joined) {
   bool changed = false;
   for (const GridCell& cell : map.cells) {

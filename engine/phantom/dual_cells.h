@@ -10,13 +10,13 @@
 namespace orthonav::engine {
 
 /// The twelve edges of a cell: along `axis`, from the corner that lies `first` steps along the next
-/// axis and `second` along the one after.
+/// axis and `second` steps along the one after.
 constexpr std::size_t edge_id(std::size_t axis, std::size_t first, std::size_t second) {
   return axis * 4 + first + 2 * second;
 }
 
-/// A cell that the surface passes: its sheets, each with one vertex, and which edge belongs to
-/// which.
+/// A cell that the surface passes through: its sheets, each with one vertex, and which edge belongs
+/// to which sheet.
 struct GridCell {
   std::array<int, 3> at{};
   std::uint32_t first_vertex = 0;
@@ -39,8 +39,8 @@ struct CellMap {
   }
 };
 
-/// Finds every cell that the zero surface passes and puts one vertex a sheet into `mesh`: the mean
-/// of the places where the sheet crosses the cell's edges.
+/// Finds every cell that the zero surface passes through, and adds one vertex per sheet to `mesh`:
+/// the mean of the places where the sheet crosses the cell's edges.
 [[nodiscard]] CellMap passed_cells(const SampleGrid& grid, nav::TriangleMesh& mesh);
 
 }  // namespace orthonav::engine

@@ -13,7 +13,7 @@ using ImplicitFunction = std::function<double(Vec3)>;
 
 /// The zero surface inside a box as a closed manifold mesh, outward-oriented: dual contouring on a
 /// grid of `step_m` with a vertex for each sheet in a cell (Nielson 2004, "Dual marching cubes"),
-/// then a few rounds of evening out and stepping back onto the surface, so that triangles are well
+/// then a few rounds of smoothing and stepping back onto the surface, so that triangles are well
 /// shaped and vertices lie on it within a micron. The box must hold the whole surface.
 [[nodiscard]] nav::TriangleMesh surface_of(const ImplicitFunction& inside_negative, Vec3 low_m,
                                            Vec3 high_m, double step_m);

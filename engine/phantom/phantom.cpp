@@ -16,7 +16,7 @@ namespace {
 constexpr double kGridStep_m = 0.0014;
 constexpr const char* kReferenceLevel = "L3";
 
-/// The screw down the middle of a pedicle, entering where its axis meets the bone from behind.
+/// The screw along the axis of a pedicle, entering where that axis meets the bone from behind.
 nav::ScrewPlan screw_along(const nav::Axis<Vertebra>& axis, nav::Side side,
                            const nav::SurfaceIndex& bone, const PhantomParameters& parameters) {
   constexpr double kOutside_m = 0.080;
@@ -44,21 +44,21 @@ CaseLevel made(const VertebraMorphometry& morphometry, const PhantomParameters& 
 
 Mat3 tilted(double angle_rad) { return rotation_from_vector({angle_rad, 0, 0}); }
 
-/// From a body's middle down over half of it, the disc, and half of the next one. Wedges open to
-/// the front, so each step turns the next body's front downwards.
+/// From a body's middle down over half of the body, the disc, and half of the next body. Wedges
+/// open to the front, so each step tilts the front of the next body downwards.
 Transform<Spine, Vertebra> below(const Transform<Spine, Vertebra>& spine_from_upper,
                                  const VertebraMorphometry& upper,
                                  const VertebraMorphometry& lower) {
   const double half_turn =
       0.5 * (0.5 * upper.wedge_rad() + upper.disc_wedge_rad + 0.5 * lower.wedge_rad());
   const double drop = 0.5 * upper.height_m() + upper.disc_height_m + 0.5 * lower.height_m();
-  // On an arc both halves of the turn meet in the disc's middle: go down along the mean direction.
+  // On an arc, both halves of the tilt meet in the disc's middle: go down along the mean direction.
   const Transform<Spine, Vertebra> middle(spine_from_upper.rotation() * tilted(half_turn),
                                           spine_from_upper.translation());
   return {middle.rotation() * tilted(half_turn), (middle * Point<Vertebra>{{0, 0, -drop}}).v};
 }
 
-/// Where each level lies, the reference level at the origin.
+/// Where each level lies, with the reference level at the origin.
 std::vector<Transform<Spine, Vertebra>> places(const std::vector<VertebraMorphometry>& levels) {
   std::vector<Transform<Spine, Vertebra>> spine_from_vertebra(levels.size());
   std::size_t reference = 0;

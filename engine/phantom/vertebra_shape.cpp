@@ -6,7 +6,7 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr double kBlend_m = 0.0045;  ///< radius over which processes run into each other
+constexpr double kBlend_m = 0.0045;  ///< radius over which processes blend into each other
 constexpr double kBodyBlend_m = 0.0065;
 constexpr double kCanalBlend_m = 0.0020;
 constexpr double kRim_m = 0.0030;    ///< rounding of the endplates' rims

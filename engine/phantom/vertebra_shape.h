@@ -17,17 +17,18 @@ struct VertebraMorphometry {
   double anterior_height_m = 0, posterior_height_m = 0;
   double canal_width_m = 0, canal_depth_m = 0;
   double pedicle_width_m = 0, pedicle_height_m = 0;
-  double pedicle_transverse_rad = 0;  ///< its axis runs this much towards the middle, forwards
-  double pedicle_sagittal_rad = 0;    ///< and this much upwards
-  double transverse_span_m = 0;       ///< tip to tip
+  double pedicle_transverse_rad =
+      0;                            ///< the axis turns this much towards the middle, going forwards
+  double pedicle_sagittal_rad = 0;  ///< and this much upwards
+  double transverse_span_m = 0;     ///< tip to tip
   double transverse_height_m = 0, transverse_thickness_m = 0;
   double transverse_back_m = 0, transverse_rise_m = 0;  ///< of the tip from the root
   double spinous_length_m = 0;                          ///< from the back of the canal to the tip
   double spinous_height_m = 0, spinous_thickness_m = 0;
   double spinous_drop_m = 0;       ///< of the tip below the root
   double spinous_deviation_m = 0;  ///< of the tip to the left
-  /// Distance between the middles of the left and right facet, their size, and how far they are
-  /// turned from facing straight back (0) to facing the middle (90°).
+  /// Distance between the middles of the left and right facet, their size, and the angle by which
+  /// they are turned from facing straight back (0) to facing the middle (π/2).
   double superior_distance_m = 0, superior_height_m = 0, superior_width_m = 0;
   double superior_turn_rad = 0;
   double inferior_distance_m = 0, inferior_height_m = 0, inferior_width_m = 0;
@@ -51,7 +52,7 @@ class VertebraShape {
   [[nodiscard]] double value(Vec3 p) const;
   /// A point on a pedicle's axis (at its waist) and the unit direction forwards.
   [[nodiscard]] nav::Axis<Vertebra> pedicle_axis(nav::Side side) const;
-  /// A box that holds it with 4 mm to spare.
+  /// A box that holds the shape with 4 mm to spare.
   [[nodiscard]] Vec3 low_m() const;
   [[nodiscard]] Vec3 high_m() const;
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kSamplesASide = 2;
 constexpr double kMostPixels = 1200.0;
-/// Two surfaces this near to each other are the same one, drawn twice.
+/// Two surfaces this close together are the same one, drawn twice.
 constexpr double kSame_m = 1e-6;
 
 /// Mean of the triangles' normals about each vertex, by area, so that the bone looks smooth.
@@ -28,7 +28,7 @@ std::vector<Vec3> vertex_normals(const nav::TriangleMesh& mesh) {
   return normals;
 }
 
-/// 0 to 1: a lamp above the viewer's left shoulder, and what comes from everywhere.
+/// 0 to 1: a lamp above the viewer's left shoulder, plus ambient light.
 double light_on(Vec3 normal, const Viewpoint& view) {
   const Vec3 lamp = (view.toward + 0.45 * view.up - 0.35 * view.right).normalized();
   const double from_lamp = std::max(0.0, normal.dot(lamp));
@@ -143,7 +143,7 @@ RgbaImage DepthPicture::image() const {
           const auto row = static_cast<std::size_t>(kSamplesASide * y + dy);
           const auto at = 4 * (row * static_cast<std::size_t>(width_) +
                                static_cast<std::size_t>(kSamplesASide * x + dx));
-          // Empty samples are black: only the alpha may count them.
+          // Empty samples are black; only alpha may count them.
           for (std::size_t k = 0; k < 4; ++k) {
             sum[k] += rgba_[at + k];
           }

@@ -11,14 +11,14 @@
 
 namespace orthonav::engine {
 
-/// From where a model is looked at, in parallel projection: unit vectors in the model's frame,
-/// right x up = towards the viewer.
+/// A view of a model in parallel projection: unit vectors in the model's frame, right x up =
+/// towards the viewer.
 struct Viewpoint {
   Vec3 right;
   Vec3 up;
   Vec3 toward;
 
-  /// Millimetres to the right and down of the model's origin, as drawings count.
+  /// Millimetres to the right of and below the model's origin, as drawings count.
   [[nodiscard]] Vec2 on_page_mm(Vec3 place_m) const {
     return {place_m.dot(right) * 1e3, -place_m.dot(up) * 1e3};
   }
@@ -37,23 +37,23 @@ struct Rgb {
   std::uint8_t blue = 0;
 };
 
-/// What colour a surface has: `near` where a value given at its vertices is below the limit.
+/// The colour of a surface: `near` where a value given at its vertices is below the limit.
 struct SurfacePaint {
-  std::span<const double> values;  ///< one a vertex; empty: `far` everywhere
+  std::span<const double> values;  ///< one per vertex; empty: `far` everywhere
   double limit = 0.0;
   Rgb near;
   Rgb far;
 };
 
-/// A shaded picture of surfaces by a depth buffer, four samples a pixel. Plain arithmetic on one
-/// thread: the same surfaces give the same bytes, with or without a graphics device.
+/// A shaded picture of surfaces with a depth buffer, four samples per pixel. Plain arithmetic on
+/// one thread: the same surfaces give the same bytes, with or without a graphics device.
 class DepthPicture {
  public:
-  /// As sharp as asked for, unless a side would exceed 1,200 pixels.
+  /// At the resolution asked for, unless a side would exceed 1,200 pixels.
   DepthPicture(const Viewpoint& view, const PageArea& area, double pixels_per_mm);
-  /// What lies as near as what was drawn before covers it.
+  /// Where depths are equal, it covers what was drawn before.
   void draw(const nav::TriangleMesh& mesh, const SurfacePaint& paint);
-  /// Whether a surface lies in front of the place by more than that.
+  /// Whether a surface lies in front of the place by more than `by_m`.
   [[nodiscard]] bool hides(Vec3 place_m, double by_m) const;
   /// Transparent where nothing is.
   [[nodiscard]] RgbaImage image() const;

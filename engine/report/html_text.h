@@ -4,7 +4,7 @@
 
 namespace orthonav::engine {
 
-/// Any text as the text of an HTML element or of an attribute in double quotes.
+/// Escapes any text for use inside an HTML element or an attribute in double quotes.
 [[nodiscard]] std::string html_escaped(const std::string& text);
 /// printf with up to four numbers, cut at 240 characters.
 [[nodiscard]] std::string formatted(const char* format, double a, double b = 0.0, double c = 0.0,

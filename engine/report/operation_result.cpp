@@ -6,33 +6,42 @@
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
+namespace {
+
+/// Without its screws.
+LevelOutcome outcome_of(const LevelState& state) {
+  LevelOutcome level;
+  level.label = state.plan.label;
+  level.accepted = state.accepted;
+  level.attempts = state.attempts;
+  if (state.registration) {
+    level.rmse_m = state.registration->rmse_m;
+    level.predicted_tre_m = nav::worst_m(state.predicted);
+    level.points = state.registration->points;
+    level.digitization_s = state.digitization_s;
+    for (const nav::CheckPoint& point : state.check_points) {
+      level.check_points_m.push_back(point.distance_m);
+    }
+  }
+  if (state.newest) {
+    level.registered = RegisteredLevel{level.label,          {},
+                                       state.plan.model,     state.plan.screws,
+                                       state.newest->points, state.newest->registration};
+  }
+  if (level.registered && state.registration) {
+    level.registered->check_points = state.check_points;
+  }
+  return level;
+}
+
+}  // namespace
 
 OperationResult outcome_of(std::span<const LevelState> levels, std::span<const RodState> rods,
                            LoopReport loop) {
   OperationResult result;
   result.completed = loop.done;
   for (const LevelState& state : levels) {
-    LevelOutcome level;
-    level.label = state.plan.label;
-    level.accepted = state.accepted;
-    level.attempts = state.attempts;
-    if (state.registration) {
-      level.rmse_m = state.registration->rmse_m;
-      level.predicted_tre_m = nav::worst_m(state.predicted);
-      level.points = state.registration->points;
-      level.digitization_s = state.digitization_s;
-      for (const nav::CheckPoint& point : state.check_points) {
-        level.check_points_m.push_back(point.distance_m);
-      }
-    }
-    if (state.newest) {
-      level.registered = RegisteredLevel{level.label,          {},
-                                         state.plan.model,     state.plan.screws,
-                                         state.newest->points, state.newest->registration};
-    }
-    if (level.registered && state.registration) {
-      level.registered->check_points = state.check_points;
-    }
+    LevelOutcome level = outcome_of(state);
     for (std::size_t s = 0; s < state.plan.screws.size(); ++s) {
       level.screws.push_back({state.plan.screws[s].side, state.screw_done[s], {}, {}});
       result.completed = result.completed && state.screw_done[s];

@@ -31,7 +31,7 @@ struct LevelOutcome {
   /// Used by that registration; absent without one, as the time is.
   std::optional<std::size_t> points;
   std::optional<double> digitization_s;
-  std::vector<double> check_points_m;  ///< signed distances of the check points, in order
+  std::vector<double> check_points_m;  ///< signed distances, in the order of touching
   /// The newest registration that found a pose, passed or not.
   std::optional<RegisteredLevel> registered;
   std::vector<ScrewOutcome> screws;
@@ -51,16 +51,16 @@ struct OperationResult {
   std::optional<std::uint64_t> seed;  ///< absent where nothing was drawn by lot: a real headset
   std::string case_name;
   bool completed = false;  ///< every level accepted, every screw done, the rods too
-  /// Where it ended instead and what it was told last: "ended at digitize L4: registration RMSE
-  /// 3.4 mm, limit 3.0 mm". Empty when it completed.
+  /// Where it ended instead, and the last refusal: "ended at digitize L4: registration RMSE 3.4 mm,
+  /// limit 3.0 mm". Empty when it completed.
   std::string why_not;
   std::vector<LevelOutcome> levels;
   std::vector<RodOutcome> rods;  ///< none where no side has two screws
   LoopReport loop;
-  Status recording;  ///< why the session's recording is not complete, where one was asked for
+  Status recording;  ///< why the session's recording is incomplete, where one was asked for
 };
 
-/// What the session itself knows, without any truth.
+/// What the session itself knows, without the truth.
 [[nodiscard]] OperationResult outcome_of(std::span<const LevelState> levels,
                                          std::span<const RodState> rods, LoopReport loop);
 
@@ -70,7 +70,7 @@ class EndNote : public SessionObserver {
   void happened(Timestamp time, Step from, Event event, Cell answer) override;
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;
-  /// Notes in the result why it did not complete, if it did not.
+  /// If the operation did not complete, writes into the result why.
   void explain(OperationResult& result) const;
 
  private:
@@ -78,7 +78,7 @@ class EndNote : public SessionObserver {
   std::string refused_;  ///< "L4 refused: ..."; empty when the last registration passed
 };
 
-/// The value below which `share` of the values lie (nearest rank); nothing without values.
+/// The value that `fraction` of the values lie at or below (nearest rank); nothing without values.
 [[nodiscard]] std::optional<double> quantile(std::vector<double> values, double fraction);
 
 /// report.json as docs/file-formats.md describes it: deterministic bytes for equal results.

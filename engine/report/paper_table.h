@@ -8,7 +8,7 @@
 namespace orthonav::engine {
 
 /// One row of the published results (Liebmann et al. 2019, Table 1) and where report.json holds the
-/// like of it.
+/// corresponding values.
 struct PaperRow {
   std::string_view name;
   std::string_view unit;
@@ -27,7 +27,7 @@ inline constexpr std::array<PaperRow, 5> kPaperTable = {{
     {"Digitized points", "", "points", false, 1983.0, 404.0, 0},
 }};
 
-/// Every value of that row in a report; those absent are left out.
+/// Every value of that row in a report; absent ones are left out.
 [[nodiscard]] std::vector<double> values_of(const nlohmann::json& report, const PaperRow& row);
 
 }  // namespace orthonav::engine

@@ -19,7 +19,7 @@ constexpr double kMargin_mm = 5.0;
 constexpr double kShaftOutside_mm = 14.0;
 /// Points farther off the bone are left outside the picture.
 constexpr double kShownOff_m = 0.012;
-/// Points this far behind the surface are seen through it.
+/// Points no farther than this behind the surface are seen through it.
 constexpr double kHidden_m = 0.002;
 constexpr Rgb kUntouchable{214, 208, 197};
 constexpr Rgb kStrokedBone{170, 205, 178};
@@ -31,7 +31,7 @@ std::string hex(Rgb c) {
   return out;
 }
 
-/// A place outside the bone on the screw's axis, where its shaft is drawn to.
+/// The place outside the bone on the screw's axis to which its shaft is drawn.
 Vec3 shaft_end_m(const nav::ScrewPlan& screw) {
   const Vec3 out = screw.entry - screw.target;
   return screw.entry.v + out * (kShaftOutside_mm * 1e-3 / out.norm());
@@ -61,7 +61,7 @@ PageArea area_of(const RegisteredLevel& level, const RegistrationScene& scene,
   return {area.low_mm - log_likelihood_ratio, area.high_mm + log_likelihood_ratio};
 }
 
-/// Points of one kind as paths, one for each colour: a dot is a line of no length with round caps.
+/// Points of one kind as paths, one per colour: a dot is a line of no length with round caps.
 class PointPaths {
  public:
   PointPaths(const RegistrationScene& scene, const Viewpoint& view) : scene_(scene), view_(view) {}
@@ -72,7 +72,7 @@ class PointPaths {
         point.off_bone ? "M%.2f %.2fm-.55-.55l1.1 1.1m0-1.1l-1.1 1.1" : "M%.2f %.2fh0";
     paths_[residual_colour(point.residual_m, scene_.full_colour_m)] += formatted(shape, at.x, at.y);
   }
-  /// Dark below, so that white ones show on the bone.
+  /// With a dark outline, so that white points show on the bone.
   [[nodiscard]] std::string svg(const char* kind, double width_mm) const {
     std::string all;
     for (const std::string& path : paths_) {

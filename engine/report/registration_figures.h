@@ -14,7 +14,7 @@
 
 namespace orthonav::engine {
 
-/// A registration with all that it was made of: what reports tell of it and draw.
+/// A registration with everything that it was made of, for reports and drawings.
 struct RegisteredLevel {
   std::string label;   ///< empty where none is known
   std::string method;  ///< empty where that is told elsewhere
@@ -42,26 +42,26 @@ struct ScrewErrors {
 
 /// One for each screw, in their order.
 [[nodiscard]] std::vector<ScrewErrors> errors_at_screws(const RegisteredLevel& level);
-/// The worst of all entries and targets; what the registration itself says where no screw is known.
+/// The worst at any entry or target; the registration's own value where no screw is known.
 [[nodiscard]] double worst_rms_m(const RegisteredLevel& level);
 /// Absent where it is not known: `paper` without screws.
 [[nodiscard]] std::optional<double> worst_within_95_m(const RegisteredLevel& level);
 
-/// How far the next best pose is from the one that was taken.
+/// How far the next best pose is from the accepted one.
 struct RunnerUpDistance {
-  double apart_m = 0.0;     ///< at the worst of the entries and targets, else of the surface
-  double turned_rad = 0.0;  ///< by which one is turned against the other
+  double apart_m = 0.0;     ///< at the worst of the entries and targets, or else of the surface
+  double turned_rad = 0.0;  ///< the angle between the two
 };
 /// Nothing when no other pose was left to compare with.
 [[nodiscard]] std::optional<RunnerUpDistance> runner_up_distance(const RegisteredLevel& level);
 
 /// Whether another pose could be meant, in words.
 [[nodiscard]] std::string ambiguity_of(const RegisteredLevel& level);
-/// How sure the registration is, in plain sentences: what 95 of 100 errors are below, the motion
-/// known worst, and what to stroke to know it better.
+/// How certain the registration is, in plain sentences: what 95 of 100 errors are below, the motion
+/// known worst, and where to stroke to know it better.
 [[nodiscard]] std::string certainty_of(const RegisteredLevel& level);
 
-/// How the numbers of a JSON are to be read.
+/// How the numbers of a JSON file are to be read.
 struct FigureFrame {
   Axes model_axes = Axes::kLps;  ///< of the model's file
   double points_unit_m = 1e-3;   ///< of the points, and of the matrices

@@ -23,7 +23,7 @@ Json matrix_json(const Transform<World, Vertebra>& pose, const FigureFrame& fram
   return rows;
 }
 
-/// In the axes of the model's file: where they are RAS, x and y turn their sign.
+/// In the axes of the model's file: in RAS, x and y change sign.
 Json covariance_json(const PlaceError& error, const FigureFrame& frame) {
   if (!error.covariance_m2) {
     return {};

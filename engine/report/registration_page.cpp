@@ -42,7 +42,7 @@ std::string in_words(const RegisteredLevel& level) {
          sentence(ambiguity_of(level)) + ".</p>";
 }
 
-/// A figure, whether it keeps its limit, the limit (empty: none) and what it means.
+/// A figure, whether it keeps its limit, the limit (empty: none) and its meaning.
 struct Figure {
   const char* name;
   std::string value;
@@ -88,7 +88,7 @@ std::string rows_of_best(const RegisteredLevel& level) {
               "how much worse it explains the points (log-likelihood ratio)"});
 }
 
-/// `paper` judges by the residuals and by what is to be expected at the model's centre.
+/// `paper` judges by the residuals and by the error to expect at the model's centre.
 std::string rows_of_paper(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   const nav::RegistrationOptions limits;
@@ -190,8 +190,8 @@ std::string caption(const RegisteredLevel& level, const RegistrationScene& scene
          "points alike and shows in none of these figures.</p>";
 }
 
-/// As on a technical drawing: from behind, beside it from the left, below it from above, all in one
-/// scale; the legend and the screws take the corner that is left.
+/// As in a technical drawing: from behind; beside it from the left; below it from above; all to one
+/// scale. The legend and the screws take the remaining corner.
 Result<std::string> views(const RegisteredLevel& level, const RegistrationScene& scene) {
   std::string figures;
   std::string columns;

@@ -6,9 +6,9 @@
 
 namespace orthonav::engine {
 
-/// One registration as a section of an HTML page: the drawing from three sides, what it says of its
-/// own certainty in plain words, every figure with its limit and its meaning, and every screw. The
-/// style is data/report.css. The same registration gives the same bytes.
+/// One registration as a section of an HTML page: the drawing from three sides, its certainty in
+/// plain words, every figure with its limit and meaning, and every screw. The style is
+/// data/report.css. The same registration gives the same bytes.
 Result<std::string> registration_section(const RegisteredLevel& level);
 
 /// That section as a page of its own; loads nothing from outside. `source` says what was

@@ -8,10 +8,10 @@ namespace orthonav::engine {
 namespace {
 
 constexpr std::size_t kMostPoints = 4000;
-/// As the registration itself tells points on the bone from others.
+/// The same rule by which the registration tells points on the bone from others.
 constexpr double kOffBoneSd = 3.5;
 constexpr double kLeastFullColour_m = 0.0005;
-/// Predicted errors are drawn no larger than that, unless they are.
+/// Predicted errors are drawn on a scale up to this, unless they are larger.
 constexpr double kLargestDrawn_m = 0.006;
 
 std::vector<PlacedPoint> placed(const RegisteredLevel& level) {
@@ -31,7 +31,8 @@ std::vector<PlacedPoint> placed(const RegisteredLevel& level) {
   return points;
 }
 
-/// Of the points about the surface: as registered, else by the median, which outliers don't move.
+/// Scatter of the points about the surface: as registered, or else by the median, which outliers
+/// don't move.
 double scatter_m(const std::vector<PlacedPoint>& points, const nav::Registration& r) {
   if (r.noise_m > 0.0 || points.empty()) {
     return r.noise_m;
@@ -56,7 +57,7 @@ std::vector<double> distances_from_strokes_m(const nav::TriangleMesh& mesh,
         least = std::min(least, (p.place_m - vertex).squared_norm());
       }
     }
-    // Beyond what is drawn all is alike, and infinity can't be interpolated.
+    // Beyond what is drawn all distances look alike, and infinity can't be interpolated.
     out.push_back(std::min(std::sqrt(least), 4.0 * kStroked_m));
   }
   return out;
@@ -98,7 +99,7 @@ RegistrationScene registration_scene(const RegisteredLevel& level) {
     scene.checks.push_back({(level.registration.world_from_vertebra.inverse() * check.place).v,
                             check.distance_m, !check.within});
   }
-  // Two digits after the point are none: to the next half of a millimetre.
+  // A scale of readable numbers: rounded up to the next half millimetre.
   scene.full_colour_m = std::max(kLeastFullColour_m, std::ceil(3.0 * scatter / 0.0005) * 0.0005);
   scene.magnified = magnification(level);
   return scene;

@@ -10,25 +10,25 @@ namespace orthonav::engine {
 struct PlacedPoint {
   Vec3 place_m;  ///< in the model's frame
   /// Distance to the surface that can be touched, less the mean height of the tip above it where
-  /// the registration is certain of one; inside < 0.
+  /// the registration is certain of one; negative inside.
   double residual_m = 0.0;
   bool off_bone = false;  ///< farther than the scatter of the others explains
 };
 
 /// What a drawing of a registration needs besides the model, worked out once for all views.
 struct RegistrationScene {
-  /// At most some thousands, evenly taken: a drawing of a million is no clearer.
+  /// At most a few thousand, evenly chosen: a drawing of a million is no clearer.
   std::vector<PlacedPoint> points;
   std::size_t off_bone = 0;         ///< of those
-  std::vector<PlacedPoint> checks;  ///< touched to verify it
+  std::vector<PlacedPoint> checks;  ///< touched to verify the registration
   /// How far each vertex of the touchable surface is from the nearest stroke on the bone.
   std::vector<double> from_strokes_m;
-  double full_colour_m = 0.0;  ///< residual that has the last colour
-  /// How many times as large as they are the predicted errors are drawn.
+  double full_colour_m = 0.0;  ///< the residual that gets the last colour
+  /// By how much the predicted errors are magnified when drawn.
   double magnified = 1.0;
 };
 
-/// What is nearer to a stroke counts as stroked.
+/// What is no farther from a stroke counts as stroked.
 inline constexpr double kStroked_m = 0.005;
 
 [[nodiscard]] RegistrationScene registration_scene(const RegisteredLevel& level);

@@ -57,7 +57,7 @@ void table_against_paper(const json& report, std::string& html) {
   html += "</tbody></table></section>";
 }
 
-/// Accepted, not accepted after so many attempts, or never tried.
+/// Accepted, not accepted after a number of attempts, or never tried.
 std::string verdict_on(const json& level) {
   const json attempts = level.value("attempts", json());
   const bool tried = attempts.is_number() && attempts.get<double>() > 0.0;
@@ -145,8 +145,8 @@ json curve_json(const ReportCurve& curve) {
   return {{"name", curve.name}, {"points", std::move(points)}};
 }
 
-/// Wall time over the run: at most a thousand points a curve, each the slowest frame of its bin, so
-/// that no hitch is hidden.
+/// Wall time over the run: at most a thousand points per curve, each the slowest frame of its bin,
+/// so that no hitch is hidden.
 ReportPlot timing_plot(const std::vector<ReportTiming>& timings) {
   ReportPlot plot{"Cost of each frame on this machine", "frame", "ms of wall time", {}, 0.0};
   for (const ReportTiming& timing : timings) {
@@ -233,6 +233,40 @@ std::string script_json(const json& value) {
   return text;
 }
 
+/// The page up to its first section.
+std::string head(const json& report) {
+  return "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
+         "report</title><meta name=viewport content=\"width=device-width\"><style>" +
+         std::string(embedded::report_css()) +
+         "</style></head><body><header><h1>orthonav <span>operation report</span></h1><p>Case <b>" +
+         html_escaped(text_of(report, "case")) + "</b>, method <b>" +
+         html_escaped(text_of(report, "method")) + "</b>, seed <b>" + figure(report, "seed", 0) +
+         "</b></p></header><main>";
+}
+
+void add_notes(const json& report, const std::vector<std::string>& notes, std::string& html) {
+  html += "<ul class=notes>";
+  if (const std::string why = text_of(report, "why_not"); !why.empty()) {
+    html += "<li><b>The operation did not come to its end</b>: " + html_escaped(why) + "</li>";
+  }
+  for (const std::string& note : notes) {
+    html += "<li>" + html_escaped(note) + "</li>";
+  }
+  html += "</ul>";
+}
+
+/// What is plotted, and the scripts that plot it.
+std::string scripts(const json& report, const ReportContent& content) {
+  std::string html = "<script type=\"application/json\" id=plot-data>" +
+                     script_json(plots_json(content)) +
+                     "</script><script type=\"application/json\" id=error-data>" +
+                     script_json(error_bars(report)) + "</script><script>";
+  return html.append(embedded::chart_js())
+      .append("</script><script>")
+      .append(embedded::report_js())
+      .append("</script>");
+}
+
 }  // namespace
 
 Result<std::string> report_html(const ReportContent& content) {
@@ -241,24 +275,9 @@ Result<std::string> report_html(const ReportContent& content) {
       !report["levels"].is_array()) {
     return Error{"report: the figures are no report of this program (\"levels\" is missing)"};
   }
-  std::string html =
-      "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
-      "report</title><meta name=viewport content=\"width=device-width\"><style>";
-  html += embedded::report_css();
-  html +=
-      "</style></head><body><header><h1>orthonav <span>operation report</span></h1><p>Case <b>" +
-      html_escaped(text_of(report, "case")) + "</b>, method <b>" +
-      html_escaped(text_of(report, "method")) + "</b>, seed <b>" + figure(report, "seed", 0) +
-      "</b></p></header><main>";
+  std::string html = head(report);
   table_against_paper(report, html);
-  html += "<ul class=notes>";
-  if (const std::string why = text_of(report, "why_not"); !why.empty()) {
-    html += "<li><b>The operation did not come to its end</b>: " + html_escaped(why) + "</li>";
-  }
-  for (const std::string& note : content.notes) {
-    html += "<li>" + html_escaped(note) + "</li>";
-  }
-  html += "</ul>";
+  add_notes(report, content.notes, html);
   table_of_levels(report, html);
   for (const RegisteredLevel& level : content.registrations) {
     const auto section = registration_section(level);
@@ -273,14 +292,7 @@ Result<std::string> report_html(const ReportContent& content) {
   if (!content.timings.empty()) {
     timing_table(content.timings, html);
   }
-  html += "</main><script type=\"application/json\" id=plot-data>" +
-          script_json(plots_json(content)) +
-          "</script><script type=\"application/json\" id=error-data>" +
-          script_json(error_bars(report)) + "</script><script>";
-  html += embedded::chart_js();
-  html += "</script><script>";
-  html += embedded::report_js();
-  html += "</script></body></html>\n";
+  html += "</main>" + scripts(report, content) + "</body></html>\n";
   return html;
 }
 

@@ -12,7 +12,7 @@ namespace orthonav::engine {
 /// One picture of the report: the surgeon's view at one step.
 struct ReportPicture {
   std::string title;    ///< "L4: verify the registration"
-  std::string caption;  ///< what is to be seen, one sentence
+  std::string caption;  ///< what to look at, in one sentence
   std::vector<std::uint8_t> png;
 };
 
@@ -32,14 +32,14 @@ struct ReportPlot {
   double limit = 0.0;
 };
 
-/// Wall-clock cost of one kind of work, in milliseconds a frame.
+/// Wall-clock cost of one kind of work, in milliseconds per frame.
 struct ReportTiming {
   std::string name;  ///< "track a stereo pair"
   std::vector<double> ms;
 };
 
 struct ReportContent {
-  std::string report_json;  ///< the text of report.json: the page shows just those figures
+  std::string report_json;  ///< the text of report.json: the page shows exactly those figures
   std::string video;        ///< file name beside the page; empty: none
   std::vector<RegisteredLevel> registrations;  ///< drawn, one section each
   std::vector<ReportPicture> pictures;

@@ -63,7 +63,7 @@ Json one_rod_json(const RodOutcome& rod) {
   return out;
 }
 
-/// Of both sides: the mean length, the length error that is largest in size, the mean head error.
+/// Over both sides: the mean length, the length error largest in magnitude, the mean head error.
 /// Empty where no rod was planned.
 Json rods_json(const std::vector<RodOutcome>& rods) {
   Json out = Json::object();

@@ -10,9 +10,9 @@
 
 namespace orthonav::engine {
 
-/// Looks at a session from outside, through its observer alone, and notes what was true in the
-/// simulated room at the moments that count. Nothing flows back: the session only calls it. The map
-/// drifts, so a truth in World holds at its moment only.
+/// Observes a session from outside and notes what was true in the simulated room at the moments
+/// that count. Nothing flows back: the session only calls it. The map drifts, so a truth in World
+/// holds only at its moment.
 class GroundTruthRecorder : public SessionObserver {
  public:
   explicit GroundTruthRecorder(const sim::SimHeadset& headset) : headset_(headset) {}
@@ -22,8 +22,8 @@ class GroundTruthRecorder : public SessionObserver {
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;
 
-  /// Adds the errors to what the session knows: TRE of each accepted registration at its screws'
-  /// entries and targets; angle and entry error of each driven wire; rods.
+  /// Adds the errors to what the session knows: the TRE of each accepted registration at its
+  /// screws' entries and targets; the angle and entry error of each driven wire; the rods'.
   void evaluate(std::span<const LevelState> levels, OperationResult& result) const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace orthonav::engine {
 
-/// The simulated operating room of a case: every level lies there, those of the operation are
+/// The simulated operating room of a case: every level lies in it, and those of the operation are
 /// operated, in its order. The tools are made exactly as `tools` says.
 [[nodiscard]] sim::RoomDescription room_of(const Case& source, const Operation& operation,
                                            const std::vector<nav::ToolGeometry>& tools);

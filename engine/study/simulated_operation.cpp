@@ -23,7 +23,7 @@ Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
 
 Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Operation operation,
                                 const OperationOptions& options, const OperationHooks& hooks) {
-  // The engine gets the tools as a planning file describes them, not as they are.
+  // The engine gets the tools as a planning file describes them, not as they really are.
   const auto tools = tools_known_to(room);
   if (!tools) {
     return tools.error();
@@ -60,7 +60,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   }
   OperationResult result =
       outcome_of(live.session().levels(), live.session().rods(), std::move(*report));
-  // A recording that came to nothing takes nothing from what was measured.
+  // A recording that failed must not cost the operation its result.
   if (*recorder) {
     result.recording = (*recorder)->close();
   }

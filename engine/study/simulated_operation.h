@@ -25,7 +25,7 @@ struct OperationOptions : AssemblyOptions {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// What else takes part; all borrowed, all optional.
+/// Who else takes part; all borrowed, all optional.
 struct OperationHooks {
   std::vector<SessionObserver*> session;
   LoopObserver* loop = nullptr;
@@ -36,8 +36,8 @@ struct OperationHooks {
 };
 
 /// A whole operation in the simulated room, from camera frames to rods, and its evaluation. The
-/// same case, options and seed give the same result, whatever takes part. An Error means bad input;
-/// an operation that did not come to its end is a result with `completed` false.
+/// same case, options and seed give the same result, whoever takes part. An Error means bad input;
+/// an operation that did not reach its end is a result with `completed` false.
 Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
                                       const OperationHooks& hooks = {});
 

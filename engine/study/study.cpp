@@ -35,7 +35,7 @@ std::vector<Job> jobs_of(std::span<const Case> cases, const StudyOptions& option
   return jobs;
 }
 
-/// The five rows over every run that a value was measured in.
+/// The five rows of the table, each over every run that has a value for it.
 Json table_of(const Json& runs) {
   Json table = Json::array();
   for (const PaperRow& row : kPaperTable) {
@@ -74,7 +74,7 @@ std::string study_text(const std::string& method, const Json& runs, const Json& 
   return study.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Works through the jobs on several threads; results lie where their job lies.
+/// Works through the jobs on several threads; each result lies at the index of its job.
 class Workers {
  public:
   Workers(std::vector<Job> jobs, const StudyOptions& options,
@@ -155,6 +155,25 @@ class Workers {
   int done_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
 
+Status check_run(const Json& run, const std::string& name) {
+  const bool whole = run.is_object() && run.contains("case") && run["case"].is_string() &&
+                     run.contains("seed") && run["seed"].is_number_unsigned() &&
+                     run.contains("levels") && run["levels"].is_array();
+  if (!whole) {
+    return Error{name + ": a run lacks case, seed or levels"};
+  }
+  if (run.contains("completed") && !run["completed"].is_boolean()) {
+    return Error{name + ": completed of a run is " + run["completed"].dump() +
+                 ", must be true or false"};
+  }
+  for (const Json& level : run["levels"]) {
+    if (!level.is_object()) {
+      return Error{name + ": a level of a run is no object"};
+    }
+  }
+  return {};
+}
+
 Status append_runs(const std::string& text, const std::string& name, std::string& method,
                    std::set<std::pair<std::string, std::uint64_t>>& seen, Json& runs,
                    Json& failed) {
@@ -169,20 +188,8 @@ Status append_runs(const std::string& text, const std::string& name, std::string
   }
   method = here;
   for (const Json& run : study["runs"]) {
-    const bool whole = run.is_object() && run.contains("case") && run["case"].is_string() &&
-                       run.contains("seed") && run["seed"].is_number_unsigned() &&
-                       run.contains("levels") && run["levels"].is_array();
-    if (!whole) {
-      return Error{name + ": a run lacks case, seed or levels"};
-    }
-    if (run.contains("completed") && !run["completed"].is_boolean()) {
-      return Error{name + ": completed of a run is " + run["completed"].dump() +
-                   ", must be true or false"};
-    }
-    for (const Json& level : run["levels"]) {
-      if (!level.is_object()) {
-        return Error{name + ": a level of a run is no object"};
-      }
+    if (const Status good = check_run(run, name); !good) {
+      return good;
     }
     const std::pair key(run["case"].get<std::string>(), run["seed"].get<std::uint64_t>());
     if (!seen.insert(key).second) {

@@ -48,6 +48,26 @@ Status check_time(const std::string& what, Timestamp time, Timestamp until,
   return {};
 }
 
+/// Why an event can't come now; null where it can.
+const char* problem_of(ClickerAction action, const ButtonState& button) {
+  switch (action) {
+    case ClickerAction::kPress:
+      return button.pressed ? "while the button is already pressed" : nullptr;
+    case ClickerAction::kRelease:
+      return button.pressed ? nullptr : "without a press";
+    case ClickerAction::kClick:
+      return button.clickable ? nullptr : "does not follow its release";
+    case ClickerAction::kDoubleClick:
+      if (!button.after_click) {
+        return "does not follow a click";
+      }
+      return button.clickable ? nullptr : "does not follow its release";
+    case ClickerAction::kHold:
+      return button.pressed ? nullptr : "while the button is not pressed";
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 void StereoFrame::clear() {
@@ -87,39 +107,8 @@ Tracked<Transform<World, Rig>> HeadTracker::world_from_rig(Timestamp at) const {
 }
 
 Status ButtonState::take(ClickerAction action) {
-  const char* refused = nullptr;
-  switch (action) {
-    case ClickerAction::kPress:
-      if (pressed) {
-        refused = "while the button is already pressed";
-      }
-      break;
-    case ClickerAction::kRelease:
-      if (!pressed) {
-        refused = "without a press";
-      }
-      break;
-    case ClickerAction::kClick:
-      if (!clickable) {
-        refused = "does not follow its release";
-      }
-      break;
-    case ClickerAction::kDoubleClick:
-      if (!clickable) {
-        refused = "does not follow its release";
-      }
-      if (!after_click) {
-        refused = "does not follow a click";
-      }
-      break;
-    case ClickerAction::kHold:
-      if (!pressed) {
-        refused = "while the button is not pressed";
-      }
-      break;
-  }
-  if (refused) {
-    return Error{std::string("clicker: ") + name_of(action) + " " + refused};
+  if (const char* problem = problem_of(action, *this); problem) {
+    return Error{std::string("clicker: ") + name_of(action) + " " + problem};
   }
   if (action == ClickerAction::kPress) {
     *this = {true, false, false, clicked};

@@ -11,7 +11,7 @@ namespace orthonav::desktop {
 
 namespace {
 
-/// A hundred changes of a button that nobody asked for are no hand's.
+/// More changes of a button than this, untold, are no hand's.
 constexpr std::size_t kMaxChanges = 1024;
 
 /// CLOCK_MONOTONIC, by which the kernel stamps events.
@@ -90,7 +90,7 @@ Status EvdevClicker::take_up(const std::string& path) {
 }
 
 /// The first device that suits. One that can't be opened yet (udev sets its permissions a moment
-/// after it appears) is looked at again with the next change of the folder.
+/// after it appears) is tried again at the next change of the folder.
 Status EvdevClicker::find() {
   if (options_.device.find('/') != std::string::npos) {
     if (is_there(options_.device)) {
@@ -162,7 +162,7 @@ void EvdevClicker::press_or_release(int code, bool down, Timestamp time) {
   if (!changes_.empty()) {
     time = std::max(time, changes_.back().time);
   }
-  // Pressed again within the debounce: the release before it was the contact's.
+  // Pressed again within the debounce time: the release before it was a bounce of the contact.
   if (down && !changes_.empty() && !changes_.back().down &&
       time - changes_.back().time < options_.debounce) {
     changes_.pop_back();
@@ -191,7 +191,7 @@ void EvdevClicker::tell(Timestamp until, std::vector<ClickerEvent>& events) {
   const Timestamp quiet_until =
       changes_.empty() || changes_.front().time > until ? until : changes_.front().time;
   timer_.advance(quiet_until, events);
-  // A hold is told at its own time; nothing may come before it any more.
+  // A hold carries its own time; nothing earlier may follow it.
   if (!events.empty()) {
     told_until_ = std::max(told_until_, events.back().time);
   }
@@ -200,7 +200,8 @@ void EvdevClicker::tell(Timestamp until, std::vector<ClickerEvent>& events) {
 Status EvdevClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events) {
   const Status read = read_keys();
   tell(until, events);
-  // What was pressed before a device went must be told; the frame loop hears of it as an absence.
+  // Events from before the device went away are delivered first; its absence is reported by the
+  // next call.
   return events.empty() ? read : Status();
 }
 

@@ -12,11 +12,11 @@
 namespace orthonav::desktop {
 
 struct ClickerOptions {
-  std::string device;  ///< path of a device node, file or FIFO; or a part of a device's name
+  std::string device;  ///< path of a device node, file or FIFO; or part of a device's name
   KeyChoice keys = {clicker_keys(), true};
-  bool full_keyboard = false;         ///< may be found by itself; such a one is never grabbed
-  std::string folder = "/dev/input";  ///< where devices come and go
-  /// A contact bounces for a few milliseconds; a release counts once it has lasted for so long.
+  bool full_keyboard = false;  ///< whether a full keyboard may be chosen; one is never grabbed
+  std::string folder = "/dev/input";  ///< where devices appear and disappear
+  /// A contact bounces for a few milliseconds; a release counts once it has lasted this long.
   Duration debounce = std::chrono::milliseconds(15);
   Duration double_within = std::chrono::milliseconds(300);
   Duration hold_after = std::chrono::milliseconds(500);
@@ -25,12 +25,12 @@ struct ClickerOptions {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// Keys of a Bluetooth clicker, a keyboard or a foot pedal as one button: down while any of the
-/// chosen keys is. A device that goes away releases the button; when it comes back it is taken up
-/// again. `poll` does all the work and never waits.
+/// Keys of a Bluetooth clicker, a keyboard or a foot pedal as one button, which is down while any
+/// of the chosen keys is. A device that goes away releases the button; when it comes back it is
+/// used again. `poll` does all the work and never waits.
 class EvdevClicker : public Clicker {
  public:
-  /// Borrows the headset's clock. Refuses options with problems, and a path that is there but no
+  /// Borrows the headset's clock. Refuses options with problems, and a path that exists but is no
   /// device; a device that is not there yet is waited for.
   static Result<std::unique_ptr<EvdevClicker>> open(const ClickerOptions& options,
                                                     const Clock& clock);
@@ -51,7 +51,7 @@ class EvdevClicker : public Clicker {
   bool finished_ = false;        ///< a file that failed is not read again
   std::vector<KeyEvent> read_;   // reused
   std::vector<int> down_;        ///< codes of the keys that are down
-  std::vector<Change> changes_;  ///< of the button, not told yet
+  std::vector<Change> changes_;  ///< of the button, not delivered yet
   ClickTimer timer_;
   Timestamp told_until_ = Timestamp::min();
 

@@ -96,7 +96,7 @@ class EvdevKeys : public KeyEvents {
   Status read(std::vector<KeyEvent>& events) override {
     for (int i = 0; i < kMaxEventsPerPoll; ++i) {
       input_event event{};
-      // After a flood the kernel drops events; libevdev then tells how the keys stand.
+      // After a flood the kernel drops events; libevdev then reports the state of every key.
       const int code = libevdev_next_event(
           device_.get(), syncing_ ? LIBEVDEV_READ_FLAG_SYNC : LIBEVDEV_READ_FLAG_NORMAL, &event);
       if (code == -EAGAIN && !syncing_) {

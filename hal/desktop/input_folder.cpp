@@ -32,7 +32,7 @@ InputFolder::~InputFolder() {
 }
 
 bool InputFolder::changed() {
-  // Which one it was does not matter: the folder is read again.
+  // Which device it was does not matter: the whole folder is read again.
   alignas(inotify_event) std::array<char, 4096> bytes;
   bool any = false;
   constexpr int kMaxReads = 16;

@@ -8,7 +8,7 @@
 
 namespace orthonav::desktop {
 
-/// The folder in which the kernel lists input devices, watched for what comes and goes (inotify).
+/// The folder in which the kernel lists input devices, watched for changes (inotify).
 class InputFolder {
  public:
   static Result<InputFolder> watch(const std::string& folder);
@@ -16,7 +16,8 @@ class InputFolder {
       : folder_(std::move(other.folder_)), watch_(std::exchange(other.watch_, -1)) {}
   InputFolder& operator=(InputFolder&&) = delete;
   ~InputFolder();
-  /// Whether anything came, went or changed its permissions since the last call. Does not block.
+  /// Whether a device appeared, disappeared or changed its permissions since the last call. Does
+  /// not block.
   bool changed();
   /// Paths of the event devices, in order of their numbers.
   [[nodiscard]] std::vector<std::string> devices() const;

@@ -21,15 +21,15 @@ struct KeyEvent {
 class KeyEvents {
  public:
   virtual ~KeyEvents() = default;
-  /// Appends what has come since the last call, at most a bounded number; does not block. An Error:
-  /// the source is gone for good.
+  /// Appends what has come since the last call, up to a limit; does not block. An Error: the source
+  /// is gone for good.
   virtual Status read(std::vector<KeyEvent>& events) = 0;
   /// Its times are those of CLOCK_MONOTONIC; otherwise they count from the source's start.
   [[nodiscard]] virtual bool live() const = 0;
   [[nodiscard]] virtual std::string name() const = 0;
 };
 
-/// Which keys make a button, and whether the device is kept from everybody else.
+/// Which keys make up a button, and whether other programs are kept from the device.
 struct KeyChoice {
   std::vector<int> codes;
   bool grab = true;
@@ -42,13 +42,14 @@ struct KeyChoice {
 [[nodiscard]] int key_code(const std::string& name);
 
 /// A device node through libevdev. Refuses what is no event device, can't be read, or has none of
-/// the chosen keys; a full keyboard is never grabbed, for one could not stop the program any more.
+/// the chosen keys. A full keyboard is never grabbed: the program could no longer be stopped with
+/// it.
 [[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_evdev_keys(const std::string& path,
                                                                  const KeyChoice& choice);
-/// Recorded `struct input_event`s, from a file or a FIFO into which somebody writes them.
+/// Recorded `struct input_event`s, from a file or from a FIFO that another program writes to.
 [[nodiscard]] Result<std::unique_ptr<KeyEvents>> open_recorded_keys(const std::string& path);
 
-/// What a device node is, without keeping it: for choosing one, and for the doctor.
+/// The properties of a device node, without keeping it open: for choosing one, and for the doctor.
 struct KeyDevice {
   std::string path;
   std::string name;

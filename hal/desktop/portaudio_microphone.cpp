@@ -13,8 +13,8 @@ namespace orthonav::desktop {
 
 namespace {
 
-/// Standard error goes nowhere for a while. PortAudio asks ALSA and JACK for everything they might
-/// have, and both print what is not there; neither can be told through PortAudio to be still.
+/// Silences standard error for a while. PortAudio asks ALSA and JACK for everything they might
+/// have, both print what is not there, and PortAudio offers no way to stop them.
 class QuietStandardError {
  public:
   QuietStandardError() : kept_(::dup(STDERR_FILENO)) {
@@ -40,7 +40,7 @@ class QuietStandardError {
   int kept_;
 };
 
-/// PortAudio counts its starts and ends.
+/// Starts PortAudio and ends it; PortAudio counts the calls.
 class PortAudio {
  public:
   PortAudio() {
@@ -60,7 +60,7 @@ class PortAudio {
   PaError code_ = paNotInitialized;
 };
 
-/// One writer (PortAudio's thread), one reader; neither waits for the other. What is not read in
+/// One writer (PortAudio's thread) and one reader; neither waits for the other. What is not read in
 /// time is overwritten.
 class SoundRing {
  public:
@@ -74,10 +74,10 @@ class SoundRing {
     newest_ = newest;
     written_.store(begin + count, std::memory_order_release);
   }
-  /// How many were read, and whether some had been overwritten before.
+  /// How many were read, and whether others had been overwritten before.
   std::pair<std::size_t, bool> read(std::span<std::int16_t> samples) {
     const std::uint64_t written = written_.load(std::memory_order_acquire);
-    // A margin that the writer can't reach while the reader copies.
+    // A margin that the writer can't cross while the reader copies.
     const bool lost = written - read_ > kSize - kMargin;
     if (lost) {
       read_ = written - kSize / 2;

@@ -52,7 +52,7 @@ class RecordedKeys : public KeyEvents {
   std::string path_;
   int file_;
   bool live_;
-  std::array<char, sizeof(input_event)> rest_{};  ///< of an event that is not complete yet
+  std::array<char, sizeof(input_event)> rest_{};  ///< of an event that is still incomplete
   std::size_t rest_size_ = 0;
   std::optional<Duration> first_;
 

@@ -17,13 +17,13 @@ struct Fault {
 };
 
 enum class CameraFault {
-  kDrop,          ///< this pair is lost, the one after it comes instead
+  kDrop,          ///< this pair is lost, and the next one comes instead
   kDelay,         ///< kNone now; the pair comes with the next call
   kError,         ///< an Error, and the pair is lost
   kWrongSize,     ///< the left image is one line short
   kShortBuffer,   ///< the right image says its size but holds fewer bytes
-  kTimeBack,      ///< stamped as the pair before it
-  kSequenceBack,  ///< numbered as the pair before it
+  kTimeBack,      ///< stamped like the pair before it
+  kSequenceBack,  ///< numbered like the pair before it
   kMirroredPose,
   kNanPose,
   kNoPose,  ///< the head is not located: allowed
@@ -41,7 +41,7 @@ enum class EventFault {
 };
 enum class DisplayFault { kError };
 
-/// Passes a camera pair on, but for its faults; `at` counts the calls of next().
+/// Passes on a camera pair except for its faults; `at` counts the calls of next().
 class FailingCamera : public StereoCamera {
  public:
   FailingCamera(StereoCamera& inner, std::vector<Fault<CameraFault>> faults)
@@ -61,7 +61,7 @@ class FailingCamera : public StereoCamera {
   Result<Next> spoiled(CameraFault fault, StereoFrame& frame);
 };
 
-/// `at` counts the questions.
+/// `at` counts the calls.
 class FailingHead : public HeadTracker {
  public:
   FailingHead(const HeadTracker& inner, std::vector<Fault<HeadFault>> faults)
@@ -87,7 +87,7 @@ class FailingEvents : public Device {
   std::vector<Fault<EventFault>> faults_;
   std::vector<Event> waiting_;
   std::int64_t delivered_ = 0;
-  std::int64_t spent_ = -1;  // the last event that a delay or an error has held back already
+  std::int64_t spent_ = -1;  // the last event that a delay or an error has already held back
 
   Status do_poll(Timestamp until, std::vector<Event>& events) override;
 };

@@ -55,7 +55,7 @@ std::vector<HeadPose>::const_iterator ScriptedHead::known_end() const {
 
 std::optional<Timestamp> ScriptedHead::do_newest_measurement() const {
   const auto end = known_end();
-  // Before the first pose every time is too far ahead.
+  // Before the first pose, every time is too far ahead.
   return end == poses_.begin() ? Timestamp::min() : (end - 1)->time;
 }
 

@@ -28,7 +28,7 @@ class ManualClock : public Clock {
 /// What one call of next() does: deliver a pair, have nothing, or fail.
 using CameraStep = std::variant<StereoFrame, Next, Error>;
 
-/// Plays its steps, one a call, then ends. A delivered pair sets the clock to its time.
+/// Plays its steps, one per call, then ends. A delivered pair sets the clock to its time.
 class ScriptedCamera : public StereoCamera {
  public:
   ScriptedCamera(StereoCalibration calibration, std::vector<CameraStep> steps, ManualClock& clock);
@@ -51,7 +51,7 @@ struct DepthScript {
   std::vector<DepthStep> steps;
 };
 
-/// Plays its steps, one a call, then ends.
+/// Plays its steps, one per call, then ends.
 class ScriptedDepth : public DepthCamera {
  public:
   ScriptedDepth(DepthScript script, const ManualClock& clock)
@@ -73,8 +73,8 @@ struct HeadPose {
   Transform<World, Rig> world_from_rig;
 };
 
-/// Knows the poses up to the clock's time: measured where there is one and between two, predicted
-/// standing still beyond the newest.
+/// Knows the poses up to the clock's time: measured at and between them, and beyond the newest
+/// predicted as standing still.
 class ScriptedHead : public HeadTracker {
  public:
   /// `poses` strictly increase in time.

@@ -13,8 +13,8 @@ struct OtherParts {
   std::unique_ptr<Voice> voice;
 };
 
-/// A headset with a clicker or a voice from elsewhere. Borrows the headset; everything else is
-/// passed through, the name too, which tells a journal which cameras were used.
+/// A headset with a clicker or a voice from elsewhere. Borrows the headset. Everything else is
+/// passed through, including the name, which tells a journal which cameras were used.
 class JoinedHeadset : public ForwardingHeadset {
  public:
   JoinedHeadset(Headset& headset, OtherParts parts)

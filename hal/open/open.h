@@ -17,8 +17,8 @@ struct OpenOptions {
 /// What was opened.
 struct OpenedHeadset {
   std::unique_ptr<Headset> headset;
-  /// The room that its cameras see, where it is simulated; null otherwise. Lives as long as the
-  /// headset. For whoever judges by the truth, which no headset tells.
+  /// The room that its cameras see, if it is simulated; null otherwise. Lives as long as the
+  /// headset. Gives access to the truth, which no headset reveals.
   sim::SimHeadset* room = nullptr;
 };
 

@@ -64,16 +64,19 @@ Result<Transform<Eye, Rig>> load_rig(const std::string& path) {
   return pose_from(json, path);
 }
 
-/// A device whose cameras move with the wearer's head, as against a simulation or a recording.
+/// Whether the cameras move with the wearer's head, unlike those of a simulation or a recording.
 bool is_mounted(std::string_view cameras) {
   return !cameras.starts_with("sim:") && !cameras.starts_with("replay:");
 }
 
-}  // namespace
-
-Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
-                                  const OpenOptions& options) {
+/// What follows "openxr:", taken apart.
+struct OpenxrUri {
   std::optional<std::string> rig_file;
+  std::string cameras;  ///< the URI of the headset that lends its cameras
+};
+
+Result<OpenxrUri> parse(const std::string& uri, std::string_view rest) {
+  OpenxrUri parts;
   if (rest.starts_with('?')) {
     const std::size_t end = rest.find('+');
     const std::string_view query = rest.substr(1, end == rest.npos ? rest.npos : end - 1);
@@ -82,7 +85,7 @@ Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
       return bad_uri(uri, "unknown key \"" + std::string(query.substr(0, query.find('='))) +
                               "\"; known is rig=FILE");
     }
-    rig_file = std::string(query.substr(kRig.size()));
+    parts.rig_file = std::string(query.substr(kRig.size()));
     rest = end == rest.npos ? std::string_view() : rest.substr(end);
   }
   if (rest.empty()) {
@@ -91,24 +94,35 @@ Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
   if (!rest.starts_with('+') || rest.size() == 1) {
     return bad_uri(uri, kForm);
   }
-  const std::string cameras_uri(rest.substr(1));
-  if (cameras_uri.starts_with("openxr:")) {
+  parts.cameras = rest.substr(1);
+  if (parts.cameras.starts_with("openxr:")) {
     return bad_uri(uri, "the cameras of one openxr: can't be another one's");
   }
+  return parts;
+}
+
+}  // namespace
+
+Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
+                                  const OpenOptions& options) {
+  const auto parts = parse(uri, rest);
+  if (!parts) {
+    return parts.error();
+  }
   openxr::RigOnHead rig;
-  rig.mounted = is_mounted(cameras_uri);
-  if (rig.mounted && !rig_file) {
+  rig.mounted = is_mounted(parts->cameras);
+  if (rig.mounted && !parts->rig_file) {
     return bad_uri(uri,
                    "cameras on the head need rig=FILE: where they are mounted can't be guessed");
   }
-  if (rig_file) {
-    auto pose = load_rig(*rig_file);
+  if (parts->rig_file) {
+    auto pose = load_rig(*parts->rig_file);
     if (!pose) {
       return bad_uri(uri, pose.error().message);
     }
     rig.view_from_rig = *pose;
   }
-  auto cameras = open_with_room(cameras_uri, options);
+  auto cameras = open_with_room(parts->cameras, options);
   if (!cameras) {
     return cameras.error();
   }

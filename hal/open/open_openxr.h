@@ -8,8 +8,8 @@
 
 namespace orthonav {
 
-/// `openxr:` with what follows it: `[?rig=FILE][+URI]`, where URI is the headset whose cameras it
-/// takes; without one the simulated room's. One line names what is wrong.
+/// `openxr:` and what follows it: `[?rig=FILE][+URI]`, where URI is the headset whose cameras it
+/// uses; without one, the simulated room's. An Error names in one line what is wrong.
 Result<OpenedHeadset> open_openxr(const std::string& uri, std::string_view rest,
                                   const OpenOptions& options);
 

@@ -81,7 +81,7 @@ std::optional<Duration> milliseconds_in(const std::optional<std::string>& value)
   return std::chrono::milliseconds(ms);
 }
 
-/// Refuses an unknown key with its name.
+/// Refuses an unknown key by name.
 Result<std::vector<int>> codes_of(const std::string& names) {
   std::vector<int> codes;
   for (std::size_t begin = 0; begin <= names.size();) {
@@ -126,7 +126,7 @@ Status apply(const std::string& key, const std::optional<std::string>& value,
   return {};
 }
 
-/// A headset's microphone, which the headset goes on owning.
+/// A headset's microphone, which the headset still owns.
 class BorrowedMicrophone final : public Microphone {
  public:
   explicit BorrowedMicrophone(Microphone& owned) : owned_(owned) {}
@@ -181,6 +181,29 @@ Result<std::unique_ptr<Clicker>> open_clicker(const std::string& uri, const Cloc
   return std::unique_ptr<Clicker>(std::move(*clicker));
 }
 
+namespace {
+
+Result<voice::Waking> waking_of(const PartUri& cut, const std::string& uri) {
+  voice::Waking waking = voice::SpotterOptions{}.waking;
+  for (const auto& [key, value] : cut.items) {
+    if (key != "wake") {
+      return bad_part("voice", uri, "unknown key \"" + key + "\"; " + kVoiceKeys);
+    }
+    if (value == "always") {
+      waking = voice::Waking::kAlways;
+    } else if (value == "noise") {
+      waking = voice::Waking::kInNoise;
+    } else if (value == "never") {
+      waking = voice::Waking::kNever;
+    } else {
+      return bad_part("voice", uri, kVoiceKeys);
+    }
+  }
+  return waking;
+}
+
+}  // namespace
+
 Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
                                           const std::vector<std::string>& commands,
                                           const Clock& clock, Headset* headset) {
@@ -197,22 +220,13 @@ Result<std::unique_ptr<Voice>> open_voice(const std::string& uri,
   if (cut->scheme != "mic" && cut->scheme != "wav" && cut->scheme != "headset-mic") {
     return bad_part("voice", uri, std::string("is unknown; ") + kVoices);
   }
+  const auto waking = waking_of(*cut, uri);
+  if (!waking) {
+    return waking.error();
+  }
   voice::SpotterOptions options;
   options.commands = commands;
-  for (const auto& [key, value] : cut->items) {
-    if (key != "wake") {
-      return bad_part("voice", uri, "unknown key \"" + key + "\"; " + kVoiceKeys);
-    }
-    if (value == "always") {
-      options.waking = voice::Waking::kAlways;
-    } else if (value == "noise") {
-      options.waking = voice::Waking::kInNoise;
-    } else if (value == "never") {
-      options.waking = voice::Waking::kNever;
-    } else {
-      return bad_part("voice", uri, kVoiceKeys);
-    }
-  }
+  options.waking = *waking;
   const bool file = cut->scheme == "wav";
   auto microphone = file ? desktop::open_wav_microphone(cut->rest, clock)
                     : cut->scheme == "headset-mic"

@@ -25,7 +25,7 @@ class Cameras : public StereoCamera {
     return inner_.calibration();
   }
   Result<Next> do_next(StereoFrame& frame) override {
-    // The frame is reused, and a device whose map never moves does not write this.
+    // The frame is reused, and a device whose map never moves does not write this field.
     frame.map_epoch = 0;
     auto answer = inner_.next(frame);
     if (!answer || *answer != Next::kFrame) {
@@ -62,7 +62,7 @@ class Head : public HeadTracker {
   bool mounted_;
 };
 
-/// Frames in words go to the other headset too, where a simulated wearer reads them.
+/// Frames in words also go to the other headset, where a simulated wearer reads them.
 class Words : public Display {
  public:
   Words(Display& inner, const Clock& clock, const XrDisplay& display, bool mounted)

@@ -6,7 +6,7 @@
 namespace orthonav::openxr {
 namespace {
 
-// More moves than these are not announced at a time.
+// No more than these moves are ever announced at the same time.
 constexpr std::size_t kKept = 8;
 
 }  // namespace
@@ -50,7 +50,7 @@ void WorldAnchor::move(XrTime from, const std::optional<Transform<Space, Space>>
   next.from = std::max(from, before.from);
   next.epoch = before.epoch + 1;
   if (placement_ == Placement::kMounted) {
-    // World is the new space, and what was measured in the old one is gone.
+    // World becomes the new space; what was measured in the old one is lost.
     next.world_from_space = Transform<World, Space>();
   } else if (before.world_from_space && old_from_new) {
     // The wearer stays where they stood.

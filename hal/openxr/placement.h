@@ -19,17 +19,17 @@ enum class Placement {
   kElsewhere
 };
 
-/// Where World is in the runtime's space, and which of its maps this is. A move is announced ahead
-/// of its time; for a time before it the answer is still the old one. One thread at a time.
+/// Where World is in the runtime's space, and which of its maps this is. A move is announced before
+/// it takes effect; for times before it the old answer still holds. One thread at a time.
 class WorldAnchor {
  public:
   explicit WorldAnchor(Placement placement);
 
-  /// Nothing until World is laid.
+  /// Nothing until World has been placed.
   [[nodiscard]] std::optional<Transform<World, Space>> world_from_space(XrTime at) const;
   /// Counts moves.
   [[nodiscard]] std::int64_t epoch(XrTime at) const;
-  /// Lays World so that the viewer is at `world_from_viewer`, unless it is laid already.
+  /// Places World so that the viewer is at `world_from_viewer`, unless it has been placed already.
   void lay(XrTime at, const Transform<World, Viewer>& world_from_viewer,
            const Transform<Space, Viewer>& space_from_viewer);
   /// From then on the runtime's space is a new one. `old_from_new`: where it is in the old one, if

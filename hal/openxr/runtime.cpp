@@ -93,8 +93,8 @@ VulkanVersion version_of(XrVersion version) {
 }  // namespace
 
 Result<std::unique_ptr<Runtime>> Runtime::connect() {
-  // The loader prints what goes wrong on standard error; here it comes back as an Error instead. A
-  // user who set the variable still gets the output.
+  // The loader prints what goes wrong on standard error; here it becomes an Error instead. A user
+  // who has set the variable still gets the output.
   ::setenv("XR_LOADER_DEBUG", "none", 0);  // NOLINT(concurrency-mt-unsafe): the only one of ours
   auto extensions = wanted_extensions();
   if (!extensions) {

@@ -10,8 +10,8 @@
 namespace orthonav::openxr {
 namespace {
 
-/// The button's path on one kind of controller, which comes from an extension, or from OpenXR
-/// itself (null).
+/// The path of the button on one kind of controller, which an extension defines, or OpenXR itself
+/// (null).
 struct Profile {
   const char* extension;
   const char* path;
@@ -70,8 +70,7 @@ Status SelectButton::create(const Runtime& runtime) {
   if (XR_FAILED(result)) {
     return error_of("create an action", result);
   }
-  // Every runtime knows the simple controller; those of the others that it does not know are left
-  // out.
+  // Every runtime knows the simple controller; others that it does not know are left out.
   for (const Profile& profile : kProfiles) {
     if (profile.extension != nullptr && !runtime.has(profile.extension)) {
       continue;

@@ -8,7 +8,7 @@
 namespace orthonav::openxr {
 
 /// The "select" of whatever controller the surgeon holds, or the pinch of a hand, as one button.
-/// Without any controller it is never pressed.
+/// Without a controller it is never pressed.
 class SelectButton {
  public:
   ~SelectButton() { destroy(); }
@@ -27,7 +27,7 @@ class SelectButton {
     XrTime time = 0;
   };
   /// The change since the last call, if there was one. A controller that goes away releases the
-  /// button, now.
+  /// button at once.
   Result<std::optional<Change>> poll(XrSession session, XrTime now);
   /// Releases the button: the session is gone or has lost the focus.
   std::optional<Change> let_go(XrTime now);

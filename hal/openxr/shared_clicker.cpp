@@ -13,7 +13,7 @@ Status SharedClicker::do_poll(Timestamp until, std::vector<ClickerEvent>& events
   selected_.clear();
   display_.take_button(until, changes_);
   for (const ButtonChange& change : changes_) {
-    // The runtime reports a press one frame late: it may lie before what was passed on already.
+    // The runtime reports a press one frame late: its time may precede what was already passed on.
     const Timestamp time = std::max(change.time, told_);
     timer_.advance(time, selected_);
     timer_.button(change.down, time, selected_);

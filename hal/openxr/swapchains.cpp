@@ -23,8 +23,8 @@ Result<std::vector<std::int64_t>> formats_of(XrSession session) {
 
 using Scores = int (FormatPreference::*)(std::int64_t) const;
 
-/// The format with the highest score, the runtime's preferred one (which comes first) among equals;
-/// 0 if none suits.
+/// The format with the highest score; among equals the one that the runtime prefers, which comes
+/// first; 0 if none suits.
 std::int64_t best_format(const std::vector<std::int64_t>& formats,
                          const FormatPreference& preference, Scores format_score) {
   std::int64_t best = 0;

@@ -12,7 +12,7 @@ XrDisplay::~XrDisplay() {
   button_.destroy();
 }
 
-/// After any failure the next attempt starts from scratch.
+/// After any failure, the next attempt starts from scratch.
 Result<GraphicsNeeds> XrDisplay::open() {
   auto needs = connect();
   instance_lost_ = !needs.ok();
@@ -137,7 +137,7 @@ Status XrDisplay::make_spaces() {
   if (XR_FAILED(result)) {
     return error_of("create a space", result);
   }
-  // A new session's space is a new one; where it is in the old one is not known.
+  // A new session has a new space; where it is in the old one is not known.
   const auto now = runtime_->now();
   if (!now) {
     return now.error();
@@ -211,7 +211,7 @@ XrDisplay::Located XrDisplay::locate_viewer(XrTime at) const {
   constexpr XrSpaceLocationFlags kTracked =
       XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
   // With cameras elsewhere the position in the room is not needed: a headset that tracks rotation
-  // alone stands still.
+  // only is taken to stand still.
   if (mount_.placement == Placement::kElsewhere &&
       (location.locationFlags & kKnown) == XR_SPACE_LOCATION_ORIENTATION_VALID_BIT) {
     location.pose.position = {};

@@ -8,7 +8,7 @@ namespace {
 constexpr XrViewStateFlags kKnown =
     XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
 
-/// The eyes of a head whose position is not known: at the origin, as far apart as eyes are.
+/// The eyes of a head whose position is unknown: at the origin, as far apart as eyes are.
 void stand_still(std::array<XrView, 2>& views) {
   constexpr double kHalfApart_m = 0.0315;
   for (std::size_t eye = 0; eye < 2; ++eye) {
@@ -25,7 +25,7 @@ void stand_still(std::array<XrView, 2>& views) {
 
 }  // namespace
 
-/// A World that is still to be laid is laid as soon as the poses of both heads are known.
+/// Places World, if it is not placed yet, as soon as the poses of both heads are known.
 void XrDisplay::lay_world(XrTime at) {
   {
     const MutexLock lock(mutex_);
@@ -79,7 +79,8 @@ bool XrDisplay::locate_in_world(EyeViews& views) {
   } else if ((flags & kKnown) != kKnown) {
     return false;
   }
-  // A guessed position puts holograms beside the bone. With cameras elsewhere there is no bone.
+  // A guessed position would put holograms beside the bone. With cameras elsewhere there is no
+  // bone.
   if (!elsewhere && (flags & kTracked) != kTracked) {
     return false;
   }

@@ -12,13 +12,15 @@ struct BoneSpot {
   Vec3 normal;  ///< unit
 };
 
-/// Queries by looking at every triangle: a few a minute are asked. The level must outlive it.
+/// Answers queries by looking at every triangle, which is enough for a few per minute. The level
+/// must outlive it.
 class BoneSurface {
  public:
   explicit BoneSurface(const RoomLevel& level) : level_(&level) {}
   /// The nearest place of the surface.
   [[nodiscard]] BoneSpot closest(Vec3 point) const;
-  /// Where a ray first meets the surface from outside, within `reach_m` along unit `direction`.
+  /// Where a ray first meets the surface from outside, within `reach_m` along the unit vector
+  /// `direction`.
   [[nodiscard]] std::optional<BoneSpot> first_hit(Vec3 origin, Vec3 direction,
                                                   double reach_m) const;
 

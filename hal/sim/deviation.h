@@ -7,25 +7,25 @@
 
 namespace orthonav::sim {
 
-/// What H5 and H6 say at a moment: the turn (Room, rad) that takes the tool's axis onto the planned
-/// one.
+/// What H5 and H6 show at a moment: the rotation vector (Room, rad) that takes the tool's axis onto
+/// the planned one.
 struct Deviation {
   Timestamp seen_at{};
   Vec3 turn;
 };
 
 /// Reads it off the display: the direction from the triangle, checked against the number. Nothing
-/// when either is missing, shows dashes, or when they disagree by more than a degree.
+/// when either is missing or shows dashes, or when they disagree by more than a degree.
 [[nodiscard]] std::optional<Deviation> read_deviation(const Eyes& eyes);
 
-/// The last seconds of readings, one for each displayed frame.
+/// The readings of the last seconds, one per displayed frame.
 class DeviationMemory {
  public:
   void add(const Deviation& reading);
   void clear() { count_ = 0; }
   /// The newest seen at or before `until`.
   [[nodiscard]] std::optional<Deviation> newest(Timestamp until) const;
-  /// The mean turn of those seen since; nothing when they don't reach back that far.
+  /// The mean rotation of those seen since; nothing when they don't reach back that far.
   [[nodiscard]] std::optional<Vec3> mean_since(Timestamp since) const;
 
  private:

@@ -16,9 +16,9 @@ struct ErrorModel {
   /// Gaussian SD of lens and pixel cross-talk, besides the pixel's own square. Estimate: edges in
   /// published frames of these cameras rise over about two pixels.
   double blur_sigma_px = 0.7;
-  /// Motion blur lasts so long. Estimate for a lit operating field.
+  /// Duration of the exposure, which decides motion blur. Estimate for a lit operating field.
   double exposure_s = 0.004;
-  /// Share of light lost in the corner of the image. Estimate; wide lenses lose up to cos⁴.
+  /// Fraction of light lost in the corner of the image. Estimate; wide lenses lose up to cos⁴.
   double vignetting = 0.3;
   /// Variance of a grey value per grey value: photon statistics of a full well of about 2,500
   /// electrons, small pixels at some gain. Estimate.
@@ -26,19 +26,20 @@ struct ErrorModel {
   /// SD of a grey value in the dark. Estimate.
   double read_noise_grey = 1.0;
 
-  // The calibration that the device reports, against the true one. One real unit's factory
-  // calibration was off by 0.6 px across the epipolar lines; these four give 0.36 px SD there, and
-  // 2 mm SD of depth at arm's length, as much as a surgeon still accepts as an overlay's error.
+  // The calibration that the device reports, compared with the true one. One real unit's factory
+  // calibration was off by 0.6 px across the epipolar lines; these four give an SD of 0.36 px
+  // there, and an SD of depth of 2 mm at arm's length, the most that a surgeon still accepts as an
+  // overlay's error.
 
-  double calibration_focal_ratio = 0.001;    ///< SD, each camera
-  double calibration_centre_px = 0.2;        ///< SD, each camera and axis
-  double calibration_rotation_rad = 0.0006;  ///< SD an axis, right against left camera
-  double calibration_baseline_m = 0.0002;    ///< SD an axis of the right camera's place
+  double calibration_focal_ratio = 0.001;    ///< SD, per camera
+  double calibration_centre_px = 0.2;        ///< SD, per camera and axis
+  double calibration_rotation_rad = 0.0006;  ///< SD per axis, right relative to left camera
+  double calibration_baseline_m = 0.0002;    ///< SD per axis of the right camera's position
 
   // The head and the map.
 
-  /// SD of the head's position below 0.5 Hz. Estimate for a surgeon bending over the table, more
-  /// than the quiet standing of posturography (Winter 1995), as hands and eyes are at work.
+  /// SD of the head's position below 0.5 Hz. Estimate for a surgeon bending over the table; more
+  /// than the quiet standing of posturography (Winter 1995), since hands and eyes are at work.
   double head_sway_m = 0.012;
   double head_sway_rad = 0.03;  ///< SD of its rotation, likewise
   /// SD of the reported head pose from frame to frame. Estimate: static jitter of inside-out
@@ -49,9 +50,9 @@ struct ErrorModel {
   double map_drift_m_per_sqrt_s = 0.0001;
   double map_drift_rad_per_sqrt_s = 0.00005;
 
-  // The tools as the planning file describes them, against how they are.
+  // The tools as the planning file describes them, compared with how they are.
 
-  /// SD of the tip. What a pivot calibration with such cameras leaves. Estimate.
+  /// SD of the tip: what a pivot calibration with such cameras leaves. Estimate.
   double tip_calibration_m = 0.0005;
   /// SD of the axis about the two directions across it: 0.17°, 0.4 mm over the 130 mm
   /// between tag and tip.
@@ -63,56 +64,59 @@ struct ErrorModel {
   /// amplitude of a hand at rest on the patient is our estimate.
   double tremor_m = 0.0003;
   double tremor_rad = 0.003;  ///< SD of the tool's rotation, likewise
-  /// RMS of the tip above the bone while stroking: soft tissue and lift-off, correlated over
-  /// 7-30 mm of way; never below the bone. Uncertain, and the one that the published registration
-  /// RMSE was matched with (docs/accuracy.md).
+  /// RMS height of the tip above the bone while stroking: soft tissue and lift-off, correlated over
+  /// 7-30 mm of path; never below the bone. Uncertain; the published registration RMSE was matched
+  /// with it (docs/accuracy.md).
   double stroke_lift_m = 0.0019;
-  /// SD of the tip above the bone when a single place is touched: pressed through soft tissue at
-  /// leisure, a fraction of what stroking leaves; never below the bone. Estimate.
+  /// SD of the tip's height above the bone when a single place is touched: pressed through soft
+  /// tissue without hurry, it is a fraction of what stroking leaves; never below the bone.
+  /// Estimate.
   double touch_lift_m = 0.0003;
   /// Relative SD of the stroking speed from region to region. Estimate.
   double stroke_pace_sd = 0.05;
-  /// Share of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.
+  /// Fraction of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.
   double bad_stroke_probability = 0.1;
-  /// Such a stroke leaves the bone by half to all of this at its worst: so far that it is noticed
-  /// beside the lift of every stroke. Estimate. It is always deleted, so it costs time only.
+  /// At its worst, such a stroke leaves the bone by half to all of this: far enough to be noticed
+  /// beside the height of every stroke. Estimate. It is always deleted, so it costs time only.
   double bad_stroke_lift_m = 0.008;
-  /// What the recognizer's mean confidence in a command lacks to 1, and its SD. Estimate for an
-  /// offline recognizer with a small vocabulary.
+  /// By how much the recognizer's mean confidence in a command falls short of 1, and its SD.
+  /// Estimate for an offline recognizer with a small vocabulary.
   double voice_doubt = 0.10;
   double voice_doubt_sd = 0.03;
-  /// SD of putting the tip where the entry is perceived. Estimate.
+  /// SD of placing the tip on the perceived entry. Estimate.
   double entry_pick_m = 0.0008;
-  /// The guide's first direction is off by half to all of this, before any reading: by eye a hand
-  /// aligns a tool with a line in space to several degrees. Estimate. It is turned out afterwards.
+  /// The guide's first direction is off by half to all of this, before any reading: by eye, a hand
+  /// aligns a tool with a line in space to several degrees. Estimate. The surgeon corrects it
+  /// afterwards.
   double first_guess_rad = 0.14;
-  /// SD of the pointer's tip against the middle of a screw head's top, which is a few millimetres
-  /// wide. Estimate, that of picking an entry.
+  /// SD of the pointer's tip relative to the middle of a screw head's top, which is a few
+  /// millimetres wide. Estimate, the same as for picking an entry.
   double head_pick_m = 0.0008;
-  /// The surgeon pierces when the deviation seen stays within this, and misreads what is left with
-  /// this SD about each direction across the axis: 0.3°, three of the readout's last digits.
+  /// The surgeon pierces when the deviation seen stays within this, and misreads the rest with this
+  /// SD about each direction across the axis: 0.3°, three of the readout's last digits.
   double angle_reading_rad = 0.005;
-  /// SD of where a hologram is perceived, the same during one placement: vergence, focus and eye
+  /// SD of where a hologram is perceived, constant during one placement: vergence, focus and eye
   /// calibration. Estimate; published overlays on this kind of display are off by 1-5 mm.
   double overlay_perception_m = 0.0013;
-  /// SD of judging model against bone when verifying: glances from more than one side see half of
+  /// SD of comparing model and bone when verifying: looking from more than one side reveals half of
   /// what one view gets wrong. Estimate.
   double overlay_comparison_m = 0.00065;
-  /// SD of the wire's slip along the cortex at piercing. The least certain of all: estimate.
+  /// SD of the wire's slip along the cortex at piercing. Estimate, the least certain of all.
   double wire_skiving_m = 0.0012;
-  /// SD of the wire's bending about each direction across it while driven. As uncertain: estimate.
+  /// SD of the wire's bending about each direction across it while it is driven. Estimate, just as
+  /// uncertain.
   double wire_bending_rad = 0.03;
   /// Speed of the median surgeon; 1 is that of the publication (Liebmann et al. 2019: 125 s and
-  /// 1,983 points for a level), which is thus an input here and no finding.
+  /// 1,983 points per level), so it is an input here and not a finding.
   double pace = 1.0;
   /// Relative SD of the duration over surgeons; 0.2 gives the published 27 s and 404 points.
   double pace_sd = 0.2;
 
   static ErrorModel perfect();
   /// As documented up to what the headset shows; then the eye, the aiming hand and the wire do as
-  /// they are told. What is left of an operation's errors is navigation's.
+  /// they are told. The errors of an operation that remain are navigation's.
   static ErrorModel navigation_alone();
-  /// Everything wrong with the numbers, a line each: name, value, limit. Empty: fine.
+  /// Everything wrong with the numbers, one line each: name, value, limit. Empty: fine.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 

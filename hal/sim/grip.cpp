@@ -5,10 +5,10 @@
 namespace orthonav::sim {
 namespace {
 
-/// How far up the way from tip to tag the shaft is held.
+/// Where the shaft is held, as a fraction of the way from tip to tag.
 constexpr double kHandOnShaft = 0.38;
 
-/// The part of `v` across `unit`, as a unit vector; any such vector where there is none.
+/// The component of `v` perpendicular to `unit`, as a unit vector; any such vector if it is zero.
 Vec3 across(Vec3 v, Vec3 unit) {
   const Vec3 rest = v - v.dot(unit) * unit;
   return rest.norm() > 1e-6 ? rest.normalized() : perpendicular_to(unit);

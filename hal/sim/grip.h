@@ -4,8 +4,8 @@
 
 namespace orthonav::sim {
 
-/// How a tool is held: by its tip and axis, turned about the axis so that its tag faces the
-/// viewer as far as the axis allows, and by `roll_rad` further.
+/// How a tool is held: by its tip and axis, turned about the axis so that its tag faces the viewer
+/// as far as the axis allows, and further by `roll_rad`.
 struct Grip {
   Point<Room> tip;
   Vec3 axis{0, 1, 0};  ///< unit, from the tip back along the shaft
@@ -16,9 +16,9 @@ struct Grip {
                                            Vec3 towards_viewer);
 /// Where the hand is: on the shaft between tip and tag, so that it leaves the tag free.
 [[nodiscard]] Point<Room> hand_on(const RoomTool& tool, const Grip& grip);
-/// Any unit vector perpendicular to a unit vector.
+/// Any unit vector perpendicular to a given one.
 [[nodiscard]] Vec3 perpendicular_to(Vec3 unit);
-/// `from` turned towards `to` by `fraction` of the angle between them; unit vectors.
+/// `from` turned towards `to` by this fraction of the angle between them; unit vectors.
 [[nodiscard]] Vec3 turned_towards(Vec3 from, Vec3 to, double fraction);
 
 }  // namespace orthonav::sim

@@ -3,7 +3,7 @@
 namespace orthonav::sim {
 namespace {
 
-/// A head is where it wants to be after about two seconds.
+/// A head reaches its goal after about two seconds.
 constexpr double kStiffness_rad_s = 3.0;
 /// Postural sway of a standing person lies below half a hertz (Winter 1995).
 constexpr double kSlowestSway_hz = 0.05;

@@ -6,7 +6,7 @@
 
 namespace orthonav::sim {
 
-/// Where a surgeon wants the head to be: looking at `gaze` from the unit direction `from_gaze`.
+/// Where a surgeon wants the head: looking at `gaze` from the unit direction `from_gaze`.
 struct HeadGoal {
   Point<Room> gaze;
   Vec3 from_gaze{0.64, 0.77, 0.0};

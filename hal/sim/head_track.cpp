@@ -11,11 +11,11 @@ HeadTrack::HeadTrack(const Random& random, const ErrorModel& error_model)
 
 void HeadTrack::add(std::int64_t frame, Timestamp time, const Transform<World, Rig>& pose,
                     Timestamp before, const Transform<World, Rig>& pose_before) {
-  // One stream a frame, so that skipped frames don't change the others' noise.
+  // One random stream per frame, so that skipped frames don't change the others' noise.
   Random noise = random_.fork(static_cast<std::uint64_t>(frame));
-  const Vec3 shift_m = normal_vector(noise, noise_m_);
-  const Vec3 turn_rad = normal_vector(noise, noise_rad_);
-  nodes_[count_++ % kKept] = {time, before, pose, pose_before, shift_m, turn_rad};
+  const Vec3 translation_m = normal_vector(noise, noise_m_);
+  const Vec3 rotation_rad = normal_vector(noise, noise_rad_);
+  nodes_[count_++ % kKept] = {time, before, pose, pose_before, translation_m, rotation_rad};
 }
 
 std::optional<Timestamp> HeadTrack::newest() const {
@@ -26,7 +26,8 @@ std::optional<Timestamp> HeadTrack::newest() const {
 }
 
 Transform<World, Rig> HeadTrack::noisy(const Node& node, const Transform<World, Rig>& pose) {
-  return {pose.rotation() * rotation_from_vector(node.turn_rad), pose.translation() + node.shift_m};
+  return {pose.rotation() * rotation_from_vector(node.rotation_rad),
+          pose.translation() + node.translation_m};
 }
 
 Tracked<Transform<World, Rig>> HeadTrack::at(Timestamp time) const {

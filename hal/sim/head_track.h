@@ -10,8 +10,8 @@
 
 namespace orthonav::sim {
 
-/// What the headset says of its own pose: a noisy measurement at every frame, in between on the
-/// line from one to the next, ahead of the newest with its velocity (an inertial sensor knows that
+/// What the headset reports of its own pose: a noisy measurement at every frame, interpolated in
+/// between, and extrapolated from the newest with its velocity (an inertial sensor knows that
 /// well). Remembers 256 frames. Not thread-safe.
 class HeadTrack {
  public:
@@ -21,7 +21,7 @@ class HeadTrack {
            const Transform<World, Rig>& pose_before);
   [[nodiscard]] std::optional<Timestamp> newest() const;
   [[nodiscard]] Tracked<Transform<World, Rig>> at(Timestamp time) const;
-  /// As it would have been answered when `known` was the newest measurement allowed.
+  /// The answer that would have been given when `known` was the newest measurement.
   [[nodiscard]] Tracked<Transform<World, Rig>> at(Timestamp time, Timestamp known) const;
 
  private:
@@ -30,8 +30,8 @@ class HeadTrack {
     Timestamp before{};
     Transform<World, Rig> pose;  ///< true
     Transform<World, Rig> pose_before;
-    Vec3 shift_m;
-    Vec3 turn_rad;
+    Vec3 translation_m;
+    Vec3 rotation_rad;
   };
   static constexpr std::size_t kKept = 256;
   [[nodiscard]] const Node& back(std::size_t steps) const {

@@ -6,9 +6,10 @@ namespace {
 constexpr int kWidthPx = 640;
 constexpr int kHeightPx = 480;
 constexpr double kBaselineM = 0.099;
-/// The right camera stands a few millimetres deeper in the visor.
+/// The right camera sits a few millimetres deeper in the visor.
 constexpr double kRightForwardM = 0.003;
-/// Real units show about a degree or two between the cameras about each axis.
+/// In real units the cameras are turned by one or two degrees relative to each other about each
+/// axis.
 constexpr Vec3 kRightTurnRad{0.010, -0.008, 0.020};
 
 }  // namespace

@@ -53,15 +53,15 @@ Result<StereoCalibration> perturbed(const StereoCalibration& reported,
   actual.left = std::move(left).value();
   actual.right = std::move(right).value();
   Random rig = random.fork("rig");
-  const Vec3 turn = normal_vector(rig, error_model.calibration_rotation_rad);
-  const Vec3 shift = normal_vector(rig, error_model.calibration_baseline_m);
+  const Vec3 rotation_rad = normal_vector(rig, error_model.calibration_rotation_rad);
+  const Vec3 offset_m = normal_vector(rig, error_model.calibration_baseline_m);
   const auto& nominal = reported.right_from_rig;
-  if (turn == Vec3{} && shift == Vec3{}) {
+  if (rotation_rad == Vec3{} && offset_m == Vec3{}) {
     return actual;
   }
-  // About the right camera's own centre: its place moves by `shift` alone.
-  const Mat3 rotation = rotation_from_vector(turn) * nominal.rotation();
-  const Vec3 centre = nominal.inverse().translation() + shift;
+  // About the right camera's own centre: its place moves by the offset alone.
+  const Mat3 rotation = rotation_from_vector(rotation_rad) * nominal.rotation();
+  const Vec3 centre = nominal.inverse().translation() + offset_m;
   actual.right_from_rig = {rotation, -(rotation * centre)};
   return actual;
 }

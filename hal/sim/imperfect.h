@@ -9,8 +9,9 @@
 
 namespace orthonav::sim {
 
-/// The cameras as they are, when the device's own calibration is slightly wrong by the error model:
-/// focal length and principal point of each, and the right camera's place against the left one.
+/// The cameras as they really are, when the device's own calibration is slightly wrong by the error
+/// model: focal length and principal point of each, and the right camera's pose relative to the
+/// left one.
 Result<StereoCalibration> perturbed(const StereoCalibration& reported,
                                     const ErrorModel& error_model, const Random& random);
 

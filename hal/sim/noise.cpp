@@ -44,8 +44,8 @@ Vec3 normal_vector(Random& random, double sd) {
 MapDrift::MapDrift(Random random, double m_per_sqrt_s, double rad_per_sqrt_s, double length_s) {
   nodes_.resize(static_cast<std::size_t>(std::max(length_s, 0.0)) + 3);
   for (std::size_t i = 1; i < nodes_.size(); ++i) {
-    nodes_[i].shift_m = nodes_[i - 1].shift_m + normal_vector(random, m_per_sqrt_s);
-    nodes_[i].turn_rad = nodes_[i - 1].turn_rad + normal_vector(random, rad_per_sqrt_s);
+    nodes_[i].translation_m = nodes_[i - 1].translation_m + normal_vector(random, m_per_sqrt_s);
+    nodes_[i].rotation_rad = nodes_[i - 1].rotation_rad + normal_vector(random, rad_per_sqrt_s);
   }
 }
 
@@ -56,8 +56,8 @@ MapDrift::Offset MapDrift::at(double time_s) const {
   const double fraction = clamped - static_cast<double>(i);
   const Offset& a = nodes_[i];
   const Offset& b = nodes_[i + 1];
-  return {a.shift_m + fraction * (b.shift_m - a.shift_m),
-          a.turn_rad + fraction * (b.turn_rad - a.turn_rad)};
+  return {a.translation_m + fraction * (b.translation_m - a.translation_m),
+          a.rotation_rad + fraction * (b.rotation_rad - a.rotation_rad)};
 }
 
 }  // namespace orthonav::sim

@@ -40,13 +40,13 @@ class SmoothNoise3 {
 [[nodiscard]] Vec3 normal_vector(Random& random, double sd);
 
 /// How a headset's map creeps: a random walk in position and rotation with a node every second,
-/// straight in between. Starts at nothing.
+/// linear in between. Starts at zero.
 class MapDrift {
  public:
   MapDrift(Random random, double m_per_sqrt_s, double rad_per_sqrt_s, double length_s);
   struct Offset {
-    Vec3 shift_m;
-    Vec3 turn_rad;
+    Vec3 translation_m;
+    Vec3 rotation_rad;
   };
   [[nodiscard]] Offset at(double time_s) const;
 

@@ -13,7 +13,7 @@
 
 namespace orthonav::sim {
 
-/// A bone lying in the room: what its surface is, in its own frame (LPS axes, metres, closed).
+/// A bone lying in the room: its surface in its own frame (LPS axes, metres, closed).
 struct RoomLevel {
   std::string label;
   std::vector<Vec3> vertices_m;
@@ -23,7 +23,7 @@ struct RoomLevel {
 
 using orthonav::ToolKind;
 
-/// A tool as it was manufactured. What the planning file says of it may be slightly off.
+/// A tool as it was manufactured. What the planning file says about it may be slightly off.
 using RoomTool = DescribedTool;
 
 /// What stands in the operating room; fixed for a session.

@@ -6,7 +6,7 @@
 namespace orthonav::sim {
 namespace {
 
-/// The lowest point of the spine over the table's top.
+/// Height of the spine's lowest point above the table's top.
 constexpr double kSpineOverTable_m = 0.02;
 /// Where the eyes rest when there is no patient.
 constexpr Vec3 kBareTable{0.0, 0.06, 0.0};

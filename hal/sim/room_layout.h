@@ -9,12 +9,12 @@
 
 namespace orthonav::sim {
 
-/// Refuses a room that can't stand: broken meshes, labels or tools, in one line each.
+/// Refuses a room with broken meshes, labels or tools, in one line each.
 Status check_room(const RoomDescription& room);
-/// Refuses a sound room that a surgeon can't operate in: no pointer, no guide, nothing to stroke.
+/// Refuses a sound room in which a surgeon can't operate: no pointer, no guide, nothing to stroke.
 Status check_surgery(const RoomDescription& room);
 
-/// How the patient lies: prone, posterior up, the middle of the operated levels over the room's
+/// How the patient lies: prone, posterior up, the middle of the operated levels above the room's
 /// origin. Keeps a view of the description, which must outlive it.
 class RoomLayout {
  public:
@@ -29,7 +29,7 @@ class RoomLayout {
   [[nodiscard]] std::size_t levels() const { return bones_.size(); }
   /// Index of a level by its label.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view label) const;
-  /// Where one works on a level: the middle of its posterior half.
+  /// Where a surgeon works on a level: the middle of its posterior half.
   [[nodiscard]] Point<Room> site(std::size_t level) const { return sites_[level]; }
   /// The middle of the whole operation; over the bare table when there is no level.
   [[nodiscard]] Point<Room> middle() const { return middle_; }

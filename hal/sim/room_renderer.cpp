@@ -12,7 +12,7 @@ namespace {
 /// Thins the bones to about a pixel of the background at arm's length.
 constexpr double kBoneCellM = 0.0025;
 
-/// Doubles the resolution: value i of the source stands at 2i+1 of the target.
+/// Doubles the resolution: value i of the source belongs to value 2i+1 of the target.
 void doubled(const HalfImage& from, HalfImage& to) {
   for (int y = 0; y < to.height; ++y) {
     const int j = std::min((y + 1) / 2, from.height - 1);
@@ -60,11 +60,12 @@ void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
   const Vec3 eye = spine_from_camera.translation();
   const std::array<float, 3> origin{static_cast<float>(eye.x), static_cast<float>(eye.y),
                                     static_cast<float>(eye.z)};
-  const Mat3& turn = spine_from_camera.rotation();
+  const Mat3& spine_from_camera_rotation = spine_from_camera.rotation();
   kinds_.resize(quarter_.grey.size());
   const auto sample = [&](int i, int j) {
-    const Vec3 ray = turn * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
-                                     std::min(4 * j + 2, lens.height_px() - 1));
+    const Vec3 ray =
+        spine_from_camera_rotation * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
+                                              std::min(4 * j + 2, lens.height_px() - 1));
     const std::size_t at = static_cast<std::size_t>(j * quarter_.width + i);
     quarter_.grey[at] = 0.0F;
     kinds_[at] = Ground::Kind::kNothing;
@@ -76,7 +77,7 @@ void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
     quarter_.grey[at] = ground_.grey(hit);
     kinds_[at] = hit.kind;
   };
-  // Every second point first; the ones between only where something else than plain cloth is near.
+  // Every second point first; those in between only where something other than plain cloth is near.
   const int last_i = quarter_.width - 1;
   const int last_j = quarter_.height - 1;
   for (int j = 0; j <= last_j; j += 2) {

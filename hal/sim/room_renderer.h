@@ -27,7 +27,7 @@ class RoomRenderer {
   static std::unique_ptr<RoomRenderer> create(RoomDescription room, const ErrorModel& error_model);
   virtual ~RoomRenderer() = default;
   /// One camera's image. `states` are moments spread evenly over the exposure (at least one; the
-  /// middle one is mid-exposure), `camera_from_rig` and `camera` the true ones, `noise_seed` makes
+  /// middle one is mid-exposure), `camera_from_rig` and `camera` the true ones, `noise_seed` seeds
   /// this image's noise.
   virtual void render(std::span<const RoomState> states, const CameraModel& camera,
                       const Transform<LeftCamera, Rig>& camera_from_rig, std::uint64_t noise_seed,

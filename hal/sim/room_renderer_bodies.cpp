@@ -10,7 +10,7 @@ namespace {
 
 using Span = CoverageWindow::Span;
 
-/// The plate's rim in so many straight pieces a side; nobody measures it.
+/// The plate's rim is drawn in this many straight pieces per side; nobody measures it.
 constexpr int kRimPieces = 4;
 constexpr int kArcPieces = 14;
 constexpr float kBackAlbedo = 0.35F;
@@ -107,7 +107,7 @@ void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, doubl
   const auto vertex = [&](int row, int column) {
     return static_cast<std::size_t>(row * (n + 1) + column);
   };
-  // Only corners of black cells are needed; the projection is what costs.
+  // Only corners of black cells are needed; projecting them is the expensive part.
   corners_px_.assign(static_cast<std::size_t>((n + 1) * (n + 1)), {});
   for (int row = 0; row <= n; ++row) {
     for (int column = 0; column <= n; ++column) {

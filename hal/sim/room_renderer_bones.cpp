@@ -7,7 +7,7 @@
 namespace orthonav::sim {
 namespace {
 
-/// Bone so far under the tissue never shows.
+/// Bone this far under the tissue never shows.
 constexpr double kBuriedM = 0.004;
 constexpr Vec3 kLampInSpine{0.30, 0.90, 0.30};
 
@@ -70,7 +70,7 @@ float light_on(Vec3 normal, double height_m) {
   const Vec3 n = length > 0.0 ? normal / length : Vec3{0, 1, 0};
   const double lamp = std::max(0.0, n.dot(kLampInSpine.normalized()));
   const double sky = 0.5 + 0.5 * n.y;
-  // Deep in the wound less of the sky is seen.
+  // Deep in the wound, less of the sky is visible.
   const double open = std::clamp(0.55 + height_m / 0.06, 0.45, 1.0);
   return static_cast<float>((0.72 * lamp + 0.28 * sky) * open);
 }
@@ -172,7 +172,7 @@ void BoneImage::draw(const Vertex& a, const Vertex& b, const Vertex& c) {
   if (a.nearness == 0.0F || b.nearness == 0.0F || c.nearness == 0.0F) {
     return;
   }
-  // Seen from outside a triangle turns clockwise on the image, y being down.
+  // Seen from outside, a triangle runs clockwise in the image, since y points down.
   const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (!(area < 0.0F) || (a.seen < 0.0F && b.seen < 0.0F && c.seen < 0.0F)) {
     return;

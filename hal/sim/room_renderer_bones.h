@@ -8,8 +8,8 @@
 
 namespace orthonav::sim {
 
-/// What of the bones may show: the triangles above the tissue, of every level, in Spine. With
-/// `cell_m` > 0 the surface is thinned by clustering vertices in cells of that size.
+/// The part of the bones that may show: the triangles above the tissue, of every level, in Spine.
+/// With `cell_m` > 0 the surface is thinned by clustering vertices in cells of that size.
 struct ShownBones {
   std::vector<float> x, y, z;
   std::vector<float> lit;     ///< light received, lamp and sky, 0 to about 1
@@ -24,7 +24,7 @@ struct ShownBones {
 class BoneImage {
  public:
   void reset(int width_px, int height_px);
-  /// `scale` shrinks the lens's pixels to those of this image.
+  /// `scale` reduces the lens's pixels to those of this image.
   template <class AnyLens>
   void draw(const ShownBones& bones, const Ground& ground,
             const Transform<LeftCamera, Spine>& camera_from_spine, const AnyLens& lens,

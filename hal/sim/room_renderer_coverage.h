@@ -24,7 +24,8 @@ class CoverageWindow {
       : cells_(cells), spans_(spans), width_(width_px), height_(height_px) {}
 
   [[nodiscard]] static int stride(int width_px) { return width_px + 2; }
-  /// A directed segment in pixels of the window; `weight` scales the area, its sign turns it.
+  /// A directed segment in pixels of the window; `weight` scales the area, and its sign the
+  /// direction.
   void add_segment(Vec2 from, Vec2 to, double weight);
 
  private:

@@ -9,7 +9,7 @@ namespace orthonav::sim {
 namespace {
 
 constexpr float kSkinAboveTip = 0.003F;
-// Retracted past the facets, so that from where a surgeon stands no entry point hides under skin.
+// Retracted past the facets, so that skin hides no entry point from a standing surgeon.
 constexpr float kWoundHalfWidth = 0.056F;
 constexpr float kWoundPastTips = 0.034F;
 constexpr float kFloorBelow = 0.95F;
@@ -21,7 +21,7 @@ float smooth_step(float from, float to, float v) {
   return s * s * (3.0F - 2.0F * s);
 }
 
-/// Least squares of y = a + b t + c t² (as many terms as points allow).
+/// Least squares of y = a + b t + c t², with as many terms as the points allow.
 std::array<double, 3> parabola(const std::vector<Vec2>& points) {
   std::array<std::array<double, 4>, 3> m{};
   const std::size_t terms = std::min<std::size_t>(points.size(), 3);

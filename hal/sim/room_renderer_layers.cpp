@@ -28,7 +28,7 @@ void Foreground::reset(int width, int height, int channel_count) {
   width_px = width;
   height_px = height;
   channels = channel_count;
-  // A vector more, for the last row's end.
+  // One vector more, for the end of the last row.
   opacity.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + 16, 0.0F);
   light.assign(opacity.size() * static_cast<std::size_t>(channels), 0.0F);
   spans.assign(static_cast<std::size_t>(height), {});

@@ -8,7 +8,7 @@
 
 namespace orthonav::sim {
 
-/// The foreground of a frame: light that the bodies send, and how much of the background they hide,
+/// The foreground of a frame: the light that bodies send and how much of the background they hide,
 /// averaged over the exposure. Only the part of each row named in `spans` is not zero.
 struct Foreground {
   int width_px = 0;
@@ -30,8 +30,8 @@ struct Foreground {
 class Layers {
  public:
   Layers();
-  /// Draws and adds one moment with its weight. `hidden_by`, if given, is the inverse depth of the
-  /// background in each pixel: what lies behind it is not drawn.
+  /// Draws one moment and adds it with its weight. `hidden_by`, if given, is the inverse depth of
+  /// the background in each pixel: what lies behind it is not drawn.
   void add_moment(const Solids& solids, const Lens& lens, float weight, Foreground& sum,
                   const float* hidden_by = nullptr);
 
@@ -44,7 +44,7 @@ class Layers {
     std::size_t alpha = 0;  ///< offset of the window in the arena
     std::size_t light = 0;
     std::size_t spans = 0;
-    // Inverse depth as a linear function of the pixel: exact for planes but for distortion.
+    // Inverse depth as a linear function of the pixel: exact for planes, apart from distortion.
     float nearness0 = 0.0F;
     float nearness_x = 0.0F;
     float nearness_y = 0.0F;
@@ -80,7 +80,7 @@ class Layers {
   void merge_block(int y, int from, int to, float weight, Foreground& sum, const float* hidden_by);
   void merge_pixel(int x, int y, float weight, Foreground& sum, const float* hidden_by);
   /// Adds columns [from, to) of a layer behind what is there; `left`, from column `block` on, is
-  /// the weight that still gets through.
+  /// the fraction of light that still gets through.
   static void lay_under(const RowLayer& row, int y, int block, int from, int to, float* left,
                         Foreground& sum, const float* hidden_by);
   static void lay_block_under(const RowLayer& row, int y, int block, int from, int to, float* left,

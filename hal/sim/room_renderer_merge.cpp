@@ -11,7 +11,7 @@ using Span = CoverageWindow::Span;
 
 /// Coverage below this is rounding.
 constexpr float kNothing = 1e-4F;
-/// A body may reach so far into the background before it is hidden: 1 mm at 0.5 m.
+/// A body may reach this far into the background before it is hidden: 1 mm at 0.5 m.
 constexpr float kDepthSlack = 0.004F;
 
 }  // namespace
@@ -77,8 +77,9 @@ void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
     }
     active_[place] = &row;
   }
-  // The same at the right end: then everywhere, depths being linear. Within the hand it does not
-  // matter: where its parts run into each other they look alike.
+  // Checks the order at the right end too: if it is the same, it holds everywhere, depths being
+  // linear. Within the hand it does not matter: where its parts run into each other they look
+  // alike.
   bool same_order = true;
   for (std::size_t i = 1; i < active_.size(); ++i) {
     const bool alike = active_[i]->layer->tool < 0 && active_[i - 1]->layer->tool < 0;
@@ -132,8 +133,8 @@ void Layers::merge_pixel(int x, int y, float weight, Foreground& sum, const floa
   }
 }
 
-// Layers begin at multiples of four and are zero beside their spans, blocks begin at multiples of
-// sixteen: whole vectors can be added without a look at the ends.
+// Layers begin at multiples of four and are zero outside their spans, blocks begin at multiples of
+// sixteen: whole vectors can be added without checking the ends.
 void Layers::lay_block_under(const RowLayer& row, int y, int block, int from, int to, float* left,
                              Foreground& sum) {
   const int first = from - from % 4;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kDefaultWidthPx = 960;
 constexpr int kDefaultHeightPx = 540;
-/// People's pictures are brighter than the cameras': paper is nearly white.
+/// Pictures for people are brighter than the cameras' images: paper is nearly white.
 constexpr float kPrintLight = 1.2F;
 constexpr std::size_t kEncodeSteps = 4096;
 

@@ -7,8 +7,8 @@
 
 namespace orthonav::sim {
 
-/// Paints the room in colour for people. The image's size is the one it comes with; an empty image
-/// becomes 960×540.
+/// Paints the room in colour for people. The image keeps the size that it comes with; an empty
+/// image becomes 960×540.
 class PicturePainter {
  public:
   PicturePainter(const RoomDescription& room, const Ground& ground);

@@ -174,7 +174,8 @@ Span Sensor::widened(const Foreground& foreground, int low_row, int high_row) co
 }
 
 void Sensor::draw_noise(int y, std::uint64_t noise_seed) {
-  // Counter-based (splitmix64's mix of a counter), so that no number waits for the one before.
+  // Counter-based (splitmix64's mix of a counter), so that no number has to wait for the one
+  // before.
   std::uint64_t counter = noise_seed;
   counter = splitmix64(counter) + static_cast<std::uint64_t>(y) * 0xD1342543DE82EF95ULL;
   const float* const normal = normal_.data();
@@ -221,7 +222,7 @@ void Sensor::expose(const HalfImage& background, const Foreground& foreground,
   image.width_px = width_;
   image.height_px = height_;
   image.pixels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  int ready = 0;  // rows composed and blurred along so far
+  int ready = 0;  // rows composed and blurred horizontally so far
   for (int y = 0; y < height_; ++y) {
     for (; ready <= std::min(y + radius_, height_ - 1); ++ready) {
       compose_row(background, foreground, ready);

@@ -6,14 +6,14 @@
 namespace orthonav::sim {
 namespace {
 
-/// The white margin goes on past the quiet zone by this part of a cell.
+/// The white margin extends beyond the quiet zone by this fraction of a cell.
 constexpr double kMarginCells = 0.25;
 constexpr Vec3 kLampInRoom{0.24, 0.94, 0.24};
 constexpr Tint kSteel{0.93F, 0.97F, 1.0F};
 constexpr Tint kHandleTint{0.75F, 0.85F, 1.0F};
 constexpr Tint kGlove{0.93F, 0.96F, 1.0F};
 constexpr Tint kGown{0.42F, 0.78F, 0.80F};
-/// Nearer to the camera than this nothing is drawn.
+/// Nothing nearer to the camera than this is drawn.
 constexpr double kNearM = 0.06;
 
 Capsule rod(Vec3 a, Vec3 b, double radius_a, double radius_b, float albedo, float gloss,
@@ -61,7 +61,7 @@ float lit(Vec3 normal_in_room) {
   return static_cast<float>(0.90 + 0.12 * cosine);
 }
 
-/// Cuts what lies nearer than kNearM; false when nothing is left.
+/// Cuts off what lies nearer than kNearM; false when nothing is left.
 bool clip_near(Capsule& c) {
   if (!c.a.is_finite() || !c.b.is_finite()) {
     return false;

@@ -12,8 +12,8 @@ namespace orthonav::sim {
 
 using Tint = std::array<float, 3>;
 
-/// What a surface returns of the light, 0 to 1. The printed black and white give about 30 and 200
-/// grey under the lamp.
+/// Fraction of the light that a surface returns, 0 to 1. The printed black and white give greys of
+/// about 30 and 200 under the lamp.
 inline constexpr float kWhiteAlbedo = 0.80F;
 inline constexpr float kBlackAlbedo = 0.12F;
 /// Grey of a white surface that faces the lamp.
@@ -47,7 +47,7 @@ struct Solids {
   std::vector<Capsule> capsules;
 };
 
-/// Tools and hand as bodies. Built once for a room; `gather` reuses the vectors given.
+/// Tools and hand as bodies. Built once per room; `gather` reuses the vectors given.
 class ToolBodies {
  public:
   explicit ToolBodies(const std::vector<RoomTool>& tools);

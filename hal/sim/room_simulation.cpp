@@ -10,7 +10,7 @@ namespace {
 /// Physiological tremor of a hand holding a tool: 8-12 Hz (Elble and Koller 1990).
 constexpr double kSlowestTremor_hz = 8.0;
 constexpr double kFastestTremor_hz = 12.0;
-/// The map's origin is where the headset was switched on: somewhere, turned anyhow, but level.
+/// The map's origin is where the headset was switched on: anywhere, in any heading, but level.
 const Transform<World, Room> kMapAtStart{rotation_from_vector({0.0, 0.7, 0.0}), {0.4, -1.1, 0.6}};
 
 }  // namespace
@@ -98,7 +98,7 @@ void RoomSimulation::let_surgeon_act(RoomState& now) {
   truth_.surgeon_gave_up = surgeon_->gave_up();
 }
 
-/// The reference is clamped to the patient, facing where the head is at the start, and stays so.
+/// The reference is clamped to the patient, facing the head's initial position, and stays there.
 void RoomSimulation::leave_reference(RoomState& now) {
   constexpr Vec3 kBesideTheSite_m{-0.02, 0.0, 0.13};
   const auto reference = layout_.tool(ToolKind::kReference);
@@ -113,18 +113,19 @@ void RoomSimulation::leave_reference(RoomState& now) {
   now.tool_present[*reference] = true;
 }
 
-/// Without a surgeon the tools float side by side over the table, slowly going round.
+/// Without a surgeon the tools hover side by side over the table, slowly rotating.
 void RoomSimulation::let_tools_hover(RoomState& now) const {
   constexpr double kApart_m = 0.14;
   constexpr double kRound_m = 0.02;
   constexpr double kRound_hz = 0.05;
   const double middle = 0.5 * (static_cast<double>(room_.tools.size()) - 1.0);
   for (std::size_t i = 0; i < room_.tools.size(); ++i) {
-    const double turn =
+    const double angle_rad =
         2.0 * std::numbers::pi * kRound_hz * seconds_in(now.time) + static_cast<double>(i);
-    const Vec3 place{kRound_m * std::cos(turn), 0.03 + kRound_m * std::sin(turn),
+    const Vec3 place{kRound_m * std::cos(angle_rad), 0.03 + kRound_m * std::sin(angle_rad),
                      kApart_m * (static_cast<double>(i) - middle)};
-    const Vec3 axis = Vec3{-0.4 + 0.1 * std::sin(turn), 0.9, 0.1 * std::cos(turn)}.normalized();
+    const Vec3 axis =
+        Vec3{-0.4 + 0.1 * std::sin(angle_rad), 0.9, 0.1 * std::cos(angle_rad)}.normalized();
     put(now, i, {layout_.middle() + place, axis, 0.0}, std::nullopt);
   }
 }
@@ -136,7 +137,7 @@ void RoomSimulation::put(RoomState& state, std::size_t tool, const Grip& grip,
   if (made.kind != ToolKind::kReference) {
     const double t = seconds_in(state.time);
     Vec3 shake = tremor_m_.at(t);
-    // The bone does not give way: what would push the tip in slides it along instead.
+    // The bone does not yield: a motion into it becomes one along it.
     if (contact) {
       shake = shake - std::min(0.0, shake.dot(*contact)) * *contact;
     }
@@ -211,9 +212,9 @@ Transform<Room, Rig> RoomSimulation::room_from_rig(Timestamp time) const {
 }
 
 Transform<World, Room> RoomSimulation::world_from_room(Timestamp time) const {
-  const auto [shift, turn] = drift_.at(seconds_in(time));
+  const auto [translation_m, rotation_rad] = drift_.at(seconds_in(time));
   const Transform<World, Room> start = kMapAtStart;
-  return start * Transform<Room, Room>{rotation_from_vector(turn), shift};
+  return start * Transform<Room, Room>{rotation_from_vector(rotation_rad), translation_m};
 }
 
 }  // namespace orthonav::sim

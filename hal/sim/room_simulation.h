@@ -24,7 +24,7 @@ class RoomSimulation {
   RoomSimulation(const RoomSimulation&) = delete;
   RoomSimulation& operator=(const RoomSimulation&) = delete;
 
-  /// Goes on until at least `until`.
+  /// Simulates until at least `until`.
   void advance(Timestamp until);
   /// Everything at a moment of the last second; `state`'s buffers are reused.
   void state_at(Timestamp time, RoomState& state) const;
@@ -37,10 +37,10 @@ class RoomSimulation {
   [[nodiscard]] const RoomDescription& room() const { return room_; }
   [[nodiscard]] const Truth& truth() const { return truth_; }
   [[nodiscard]] Eyes& eyes() { return eyes_; }
-  /// Clicks and words not fetched yet, in order.
+  /// Clicks and words not yet fetched, in order.
   [[nodiscard]] std::vector<ClickerEvent>& clicks() { return clicks_; }
   [[nodiscard]] std::vector<Phrase>& phrases() { return phrases_; }
-  /// When the surgeon had done, or had given up.
+  /// When the surgeon had finished, or had given up.
   [[nodiscard]] std::optional<Timestamp> finished_at() const { return finished_at_; }
 
   static constexpr Duration kStep{8'333'333};

@@ -6,9 +6,9 @@
 
 namespace orthonav::sim {
 
-/// A piece of behaviour written from top to bottom, as a coroutine: it runs until it awaits the
-/// next tick, and goes on there. Scripts await scripts. Single-threaded.
-/// Trap: a script keeps its arguments by reference when they are references; pass what outlives it.
+/// Behaviour written from top to bottom, as a coroutine: it runs until it awaits the next tick, and
+/// continues there. Scripts can await scripts. Single-threaded. Trap: a script keeps arguments
+/// passed by reference as references; pass only what outlives it.
 class [[nodiscard]] Script {
  public:
   struct promise_type;
@@ -75,7 +75,7 @@ class Metronome {
     void await_resume() const noexcept {}
   };
   [[nodiscard]] NextTick next_tick() { return {*this}; }
-  /// Lets the waiting script run on to its next wait; nothing when none waits.
+  /// Resumes the waiting script until its next wait; does nothing when none waits.
   void tick() {
     if (const auto waiting = std::exchange(waiting_, nullptr)) {
       waiting.resume();

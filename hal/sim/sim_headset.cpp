@@ -16,7 +16,7 @@
 namespace orthonav::sim {
 namespace {
 
-/// From mid-exposure to the images in memory, beside half the exposure.
+/// From mid-exposure to the images in memory, in addition to half the exposure.
 constexpr Duration kReadout = std::chrono::milliseconds(5);
 /// From submitting a frame to its light: one refresh at 60 Hz.
 constexpr Duration kDisplayLatency = std::chrono::milliseconds(16);
@@ -90,7 +90,7 @@ class SimCameras final : public StereoCamera {
       if (delivery_of(number_) > now) {
         return Next::kNone;
       }
-      // Who comes late misses frames, as with a real camera.
+      // A caller who comes late misses frames, as with a real camera.
       while (delivery_of(number_ + 1) <= now) {
         ++number_;
       }
@@ -242,7 +242,7 @@ class SimulatedHeadset final : public SimHeadset {
   [[nodiscard]] Voice& voice() override { return voice_; }
   [[nodiscard]] Display& display() override { return display_; }
 
-  // Only the thread that takes the pairs lets the truth grow, and only that one asks for it.
+  // Only the thread that takes the pairs adds to the truth, and only that thread asks for it.
   [[nodiscard]] const Truth& truth() const override ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
     return shared_.simulation.truth();
   }

@@ -11,7 +11,7 @@
 namespace orthonav::sim {
 
 enum class Pace {
-  kFast,     ///< the clock advances one frame at each call of cameras().next(); as fast as possible
+  kFast,  ///< the clock advances by one frame at each call of cameras().next(); as fast as possible
   kRealtime  ///< the clock follows the wall; next() answers kNone until the next frame is due
 };
 
@@ -20,27 +20,27 @@ struct SimOptions {
   ErrorModel error_model;
   Pace pace = Pace::kFast;
   double frame_rate_hz = 30.0;
-  /// The scripted surgeon plays; without one the tools hover over the table in slow motion.
+  /// The scripted surgeon operates; without one the tools hover over the table in slow motion.
   bool surgeon = true;
-  double limit_s = 3600.0;  ///< the stream ends then at the latest (simulated time)
-  /// False leaves the images black and costs nothing: for whoever is not after the pixels.
+  double limit_s = 3600.0;  ///< the stream ends at the latest then (simulated time)
+  /// False leaves the images black and costs nothing: for callers that need no pixels.
   bool render = true;
 
-  /// Refuses values that make no sense; names all that is wrong with the error model.
+  /// Refuses values that make no sense; names every problem of the error model.
   [[nodiscard]] Status check() const;
 };
 
 /// The simulated operating room as a headset. The same seed gives the same bits, as long as what is
-/// shown comes at the same moments. Parts may be used from different threads; `truth` is read when
-/// nobody calls `cameras().next`. Tools are described as a planning file would do it: slightly off
-/// by the error model. Half a second after the surgeon has seen the last step (`done`) the stream
-/// ends.
+/// shown comes at the same moments. Parts may be used from different threads; `truth` may be read
+/// only while nobody calls `cameras().next`. Tools are described as a planning file would describe
+/// them: slightly off by the error model. The stream ends half a second after the surgeon has seen
+/// the last step (`done`).
 class SimHeadset : public Headset {
  public:
   /// Refuses error models, options and rooms that make no sense, and a surgeon without pointer or
   /// guide. Without levels there is nothing to operate: the tools hover, as without a surgeon.
   static Result<std::unique_ptr<SimHeadset>> open(RoomDescription room, const SimOptions& options);
-  /// The truth so far. For the thread that takes the pairs: it grows with them.
+  /// The truth so far. For the thread that takes the pairs, since it grows with them.
   [[nodiscard]] virtual const Truth& truth() const = 0;
   [[nodiscard]] virtual RoomState state() const = 0;
   /// World (as the headset believes) from Room now.

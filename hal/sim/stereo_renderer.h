@@ -10,8 +10,8 @@
 
 namespace orthonav::sim {
 
-/// Renders both cameras' images at once, the right one on a thread of its own. The images depend
-/// on the arguments alone.
+/// Renders both cameras' images at the same time, the right one on a thread of its own. The images
+/// depend on the arguments alone.
 class StereoRenderer {
  public:
   StereoRenderer(const RoomDescription& room, const ErrorModel& error_model,

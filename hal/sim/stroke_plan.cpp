@@ -68,7 +68,7 @@ class Sweep {
 
   std::vector<Run> over(double first_u_m, double last_u_m) {
     std::vector<Run> strokes;
-    // A whole number of pitches away from zero may round to just below it.
+    // A whole number of pitches from zero may be rounded to just below it.
     const double pitches = std::abs(last_u_m - first_u_m) / kLinePitch_m + 1e-6;
     const int lines = static_cast<int>(pitches) + 1;
     const double step = lines > 1 ? (last_u_m - first_u_m) / (lines - 1) : 0.0;
@@ -116,7 +116,7 @@ class Sweep {
     return runs;
   }
 
-  /// The way over the bone from one place to another; nothing when it leaves the bone.
+  /// The path over the bone from one place to another; nothing when it would leave the bone.
   [[nodiscard]] std::optional<Run> bridge(Vec3 from, Vec3 to) const {
     const Vec2 start = map_.uv(from);
     const Vec2 way = map_.uv(to) - start;
@@ -151,7 +151,7 @@ class Sweep {
   Accept accept_;
 };
 
-/// A hand does not follow the facets of a mesh: normals averaged over ±2 mm of the way.
+/// A hand does not follow the facets of a mesh: normals are averaged over ±2 mm of the path.
 Stroke finished(const Run& run) {
   constexpr std::size_t kHalfWindow = 4;
   Stroke stroke;
@@ -173,7 +173,7 @@ Stroke finished(const Run& run) {
   return stroke;
 }
 
-/// A sweep's strokes in regions of about the same length; crumbs at the edges are left out.
+/// A sweep's strokes in regions of about the same length; short remnants at the edges are left out.
 void append(std::vector<StrokeRegion>& regions, const std::vector<Run>& runs) {
   StrokeRegion region;
   for (const Run& run : runs) {

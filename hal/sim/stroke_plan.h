@@ -12,11 +12,11 @@ struct Stroke {
   std::vector<double> arc_m;    ///< length from the start to each spot
 
   [[nodiscard]] double length_m() const { return arc_m.empty() ? 0.0 : arc_m.back(); }
-  /// The place after `along_m` of it; clamped to its ends.
+  /// The place at `along_m` from the start, clamped to the ends.
   [[nodiscard]] BoneSpot at(double along_m) const;
 };
 
-/// What is recorded before one says "save": strokes close together, the button released between
+/// What is recorded before one "save": strokes close together, with the button released between
 /// them.
 struct StrokeRegion {
   std::vector<Stroke> strokes;
@@ -25,8 +25,8 @@ struct StrokeRegion {
 };
 
 /// The strokes by which a surgeon covers what a pointer reaches of a vertebra from behind: laminae,
-/// facets and the roots of the transverse processes in lines along the spine, the spinous
-/// process's two sides and its crest. Empty when the mesh has no such surface.
+/// facets and the roots of the transverse processes in lines along the spine, and the two sides and
+/// the crest of the spinous process. Empty when the mesh has no such surface.
 [[nodiscard]] std::vector<StrokeRegion> plan_strokes(const RoomLevel& level);
 
 }  // namespace orthonav::sim

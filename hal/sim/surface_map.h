@@ -8,14 +8,14 @@
 
 namespace orthonav::sim {
 
-/// What of a bone is seen from one side: for each cell of a grid across the line of sight the
-/// nearest surface. Coordinates: `u` across, `v` along z (superior), `height` towards the eye.
+/// What is seen of a bone from one side: the nearest surface for each cell of a grid across the
+/// line of sight. Coordinates: `u` across, `v` along z (superior), `height` towards the eye.
 class SurfaceMap {
  public:
   /// Seen from `from`, a unit vector in the x-y plane of the vertebra.
   SurfaceMap(const RoomLevel& level, Vec3 from);
 
-  /// The surface under a place of the grid; nothing beside the bone and across steps in depth.
+  /// The surface under a place of the grid; nothing off the bone and across steps in depth.
   [[nodiscard]] std::optional<BoneSpot> at(Vec2 uv_m) const;
   [[nodiscard]] Vec2 uv(Vec3 point) const { return {u_axis_.dot(point), point.z}; }
   [[nodiscard]] Vec2 low() const { return low_; }

@@ -31,7 +31,7 @@ constexpr std::array<Family, 6> kFamilies = {{
 
 using OpenFamily = std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)>;
 
-/// The library's tables of a family; null for one that is not known.
+/// The library's tables of a family; null for an unknown one.
 OpenFamily opened(const std::string& name) {
   for (const Family& known : kFamilies) {
     if (name == known.name) {
@@ -41,8 +41,8 @@ OpenFamily opened(const std::string& name) {
   return {nullptr, [](apriltag_family_t*) {}};
 }
 
-/// Everything is black but a ring of white one cell wide, outside the border (or, where the border
-/// is reversed, the border itself), and the bits that are set.
+/// Everything is black except a white ring one cell wide outside the border (or, where the border
+/// is reversed, the border itself) and the bits that are set.
 TagPattern pattern_of(const apriltag_family_t& family, int id) {
   TagPattern pattern;
   pattern.cells = family.total_width;

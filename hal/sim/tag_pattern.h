@@ -21,7 +21,7 @@ struct TagPattern {
   }
 };
 
-/// How many ids a family has: 0 for one that is not known.
+/// How many ids a family has; 0 for an unknown one.
 [[nodiscard]] int tag_count(const std::string& family);
 /// The families that can be drawn, for messages: "tag36h11, ...".
 [[nodiscard]] std::string tag_families();

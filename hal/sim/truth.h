@@ -8,7 +8,7 @@
 
 namespace orthonav::sim {
 
-/// A wire as it was really driven, in its vertebra's frame.
+/// A wire as it was actually driven, in its vertebra's frame.
 struct DrivenWire {
   std::string level;
   Side side = Side::kLeft;  ///< as the surgeon read it off the display
@@ -17,14 +17,14 @@ struct DrivenWire {
   Timestamp time{};
 };
 
-/// A screw head as it really stands.
+/// A screw head where it actually stands.
 struct PlacedHead {
   std::string level;
   Side side = Side::kLeft;
   Point<Room> position;
 };
 
-/// What really happened; filled while the session runs, read afterwards by the evaluation alone
+/// What actually happened; filled while the session runs, read afterwards by the evaluation alone
 /// (engine/study/evaluation.h). Nothing that navigates may know it.
 struct Truth {
   std::vector<DrivenWire> wires;

@@ -11,7 +11,8 @@
 
 namespace orthonav::voice {
 
-/// Means of an acoustic model: what PocketSphinx calls "means" (Sphinx-3 format), less its header.
+/// Means of an acoustic model: what PocketSphinx calls "means" (Sphinx-3 format), without its
+/// header.
 struct AcousticMeans {
   int codebooks = 0;               ///< one for each sound
   std::vector<int> stream_widths;  ///< cepstra, their differences, and the differences of those
@@ -20,13 +21,13 @@ struct AcousticMeans {
   std::vector<float> values;
 };
 
-/// Refuses what is no such file.
+/// Refuses a file of another format.
 Result<AcousticMeans> read_means(const std::filesystem::path& path);
-/// As PocketSphinx reads it.
+/// The content of such a file, as PocketSphinx reads it.
 [[nodiscard]] std::string means_file(const AcousticMeans& means);
 
-/// What moves the means of one model to those of another, small enough to be kept beside the code:
-/// 8 bits each, in steps of `kStepOfSpread` of the spread that the component has over all means.
+/// The change from the means of one model to those of another, small enough to be kept with the
+/// code: 8 bits each, in steps of `kStepOfSpread` of the component's spread over all means.
 inline constexpr float kStepOfSpread = 1.0F / 32.0F;
 [[nodiscard]] std::string means_change(const AcousticMeans& from, const AcousticMeans& to);
 /// Refuses a change that was made for other means.

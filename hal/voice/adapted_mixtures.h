@@ -9,14 +9,14 @@
 
 namespace orthonav::voice {
 
-/// How much of each Gaussian there is in each senone (a third of a sound among its neighbours) of
-/// an acoustic model: what PocketSphinx calls "sendump".
+/// The weight of each Gaussian in each senone (a third of a sound, given its neighbours) of an
+/// acoustic model: what PocketSphinx calls "sendump".
 struct MixtureWeights {
   int streams = 0;
   int densities = 0;  ///< Gaussians of each stream
   int senones = 0;
   std::string header;  ///< of the file, as it was read
-  /// [stream][density][senone], each as `quantised_weight` has it.
+  /// [stream][density][senone], each as `quantised_weight` gives it.
   std::string values;
 
   [[nodiscard]] std::size_t at(int stream, int density, int senone) const {
@@ -27,21 +27,21 @@ struct MixtureWeights {
   }
 };
 
-/// Shares are kept as 8 bits of their logarithm, to the base 1.0001 and in units of 1024; of less
-/// than 1e-7 there are none.
+/// A weight as 8 bits of its logarithm, to the base 1.0001 and in units of 1024. Weights below 1e-7
+/// become the smallest one.
 [[nodiscard]] std::uint8_t quantised_weight(double fraction);
 [[nodiscard]] double fraction_of(std::uint8_t quantised);
 
-/// Refuses what is no such file, or one with clusters (which Debian's en-us has not).
+/// Refuses a file of another format, or one with clusters (which Debian's en-us does not have).
 Result<MixtureWeights> read_mixture_weights(const std::filesystem::path& path);
-/// As PocketSphinx reads it.
+/// The content of such a file, as PocketSphinx reads it.
 [[nodiscard]] std::string mixture_weights_file(const MixtureWeights& weights);
 
-/// What leads from the weights of one model to those of another of the same shape: the senones that
+/// The change from the weights of one model to those of another of the same shape: the senones that
 /// differ.
 [[nodiscard]] std::string mixture_weights_change(const MixtureWeights& from,
                                                  const MixtureWeights& to);
-/// Refuses a change that was made for other weights; these stay as they are then.
+/// Refuses a change that was made for other weights, and then leaves these as they are.
 Status apply_change(std::string_view change, MixtureWeights& weights);
 
 }  // namespace orthonav::voice

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <numeric>
 
-#include "hal/voice/command_weights.h"
 #include "hal/voice/speech_segments.h"
 
 namespace orthonav::voice {
 
 namespace {
 
-// A wake word or a command shorter than this, in frames, is hurried, or is none.
+// In frames of 10 ms: what is shorter was hurried, or was another word; a wake word that is longer
+// was drawn out.
 constexpr double kHurried = 35.0;
 constexpr double kDrawn = 60.0;
-// Less evidence around the words than this, and they were not all that was said. Where it is noisy,
-// the noise lies around them too.
+// With less evidence for silence around the words than this, more was said than a command. In a
+// noisy room the noise counts against silence too.
 constexpr double kLeastAroundInQuiet = -90.0;
 constexpr double kLeastAroundInNoise = -300.0;
 
@@ -44,16 +44,12 @@ std::optional<CommandEvidence> evidence_of(const Recognition& heard, const std::
   return found;
 }
 
-FeatureVector features_of(const CommandEvidence& evidence) {
-  FeatureVector features{};
-  for (std::size_t i = 0; i < kWeighedCommands.size(); ++i) {
-    features[i] = evidence.command == kWeighedCommands[i] ? 1.0 : 0.0;
-  }
+EvidenceFeatures features_of(const CommandEvidence& evidence) {
   const double noisy = noisiness(evidence.above_background_db);
   const double frames = evidence.frames;
   const double wake_evidence = evidence.wake ? evidence.wake->evidence : 0.0;
   const double wake_frames = evidence.wake ? evidence.wake->frames : kHurried;
-  const std::array<double, kCommandFeatures> others = {
+  return {
       1.0,
       evidence.evidence,
       wake_evidence,
@@ -68,19 +64,21 @@ FeatureVector features_of(const CommandEvidence& evidence) {
       std::max(0.0, kHurried - wake_frames) / 20.0,
       std::max(0.0, wake_frames - kDrawn) / 20.0,
   };
-  std::copy(others.begin(), others.end(), features.begin() + kWeighedCommands.size());
-  return features;
 }
 
-double log_odds(const CommandEvidence& evidence) {
-  const FeatureVector& weights = evidence.wake ? kWeightsAfterWakeWord : kWeightsAlone;
-  const FeatureVector features = features_of(evidence);
-  const double sum = std::inner_product(features.begin(), features.end(), weights.begin(), 0.0);
-  const auto* own = features.begin() + kWeighedCommands.size();
-  if (std::find(features.begin(), own, 1.0) != own) {
-    return sum;
+double log_odds(const CommandEvidence& evidence, const EvidenceWeights& weights) {
+  const auto weight = evidence.wake ? &CommandWeight::after_wake_word : &CommandWeight::alone;
+  const EvidenceFeatures& shared = evidence.wake ? weights.after_wake_word : weights.alone;
+  const EvidenceFeatures features = features_of(evidence);
+  const auto sum_from = [&](double own) {
+    return std::inner_product(features.begin(), features.end(), shared.begin(), own);
+  };
+  const auto row = std::ranges::find(weights.commands, evidence.command, &CommandWeight::command);
+  if (row != weights.commands.end()) {
+    return sum_from((*row).*weight);
   }
-  return sum + *std::min_element(weights.begin(), weights.begin() + kWeighedCommands.size());
+  const auto lowest = std::ranges::min_element(weights.commands, {}, weight);
+  return sum_from(0.0) + (lowest == weights.commands.end() ? 0.0 : (*lowest).*weight);
 }
 
 }  // namespace orthonav::voice

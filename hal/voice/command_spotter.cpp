@@ -96,11 +96,11 @@ std::optional<SpokenCommand> CommandSpotter::judge(const SpeechSegment& segment)
 double CommandSpotter::confidence_of(const CommandEvidence& evidence) const {
   const double least = options_.least_log_odds +
                        (evidence.command == "delete" ? options_.more_log_odds_to_delete : 0.0);
-  const double confidence = 1.0 / (1.0 + std::exp(least - log_odds(evidence)));
+  const double confidence = 1.0 / (1.0 + std::exp(least - log_odds(evidence, options_.weights)));
   const bool quiet = evidence.above_background_db >= options_.quiet_above_db;
   const bool counts = evidence.wake || options_.waking == Waking::kNever ||
                       (options_.waking == Waking::kInNoise && quiet);
-  // It was heard, and is not acted upon: the status line says so.
+  // It was heard but is not acted upon; the status line says so.
   return counts ? confidence : std::min(confidence, 0.49);
 }
 

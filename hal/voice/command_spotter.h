@@ -10,43 +10,47 @@
 
 #include "base/result.h"
 #include "hal/voice/command_evidence.h"
+#include "hal/voice/command_weights.h"
 #include "hal/voice/phrase_recognizer.h"
 #include "hal/voice/speech_cleaner.h"
 #include "hal/voice/speech_segments.h"
 
 namespace orthonav::voice {
 
-/// When a command counts without the wake word before it.
+/// When a command needs the wake word before it.
 enum class Waking {
-  kAlways,   ///< never: every command needs the wake word
-  kInNoise,  ///< where the voice stands out clearly from the background
-  kNever     ///< always
+  kAlways,   ///< every command needs it
+  kInNoise,  ///< not needed where the voice stands out clearly from the background
+  kNever     ///< no command needs it
 };
 
 struct SpotterOptions {
   std::vector<std::string> commands;  ///< lower case: "save", "move rod"
   std::string wake_word = "ortho";
-  /// Single words do not reach one false accept in ten minutes of talk, even in a silent room
-  /// (docs/voice.md).
+  /// Single words still cause more than one false accept in ten minutes of talk, even in a silent
+  /// room (docs/voice.md).
   Waking waking = Waking::kAlways;
-  /// A room is quiet where the loudest syllable stands out by so much.
+  /// A room is quiet where the loudest syllable is this much above the background.
   double quiet_above_db = 26.0;
+  /// The trained weights. A command that they were not trained for still works, with the strictest
+  /// of the others' weights.
+  EvidenceWeights weights = kTrainedWeights;
   /// Above this a command counts (`log_odds`).
   double least_log_odds = 0.0;
-  /// "delete" takes away, and needs more.
+  /// "delete" destroys data and needs more.
   double more_log_odds_to_delete = 1.0;
   SegmentOptions segments;
   CleanerOptions cleaner;
   std::filesystem::path acoustic_model = default_acoustic_model();
 
-  /// What the grammar of the commands holds: each with the wake word and alone, whatever counts,
-  /// for a grammar without single words takes "save" for "ortho save".
+  /// The phrases of the commands' grammar: each with the wake word and alone, whichever counts,
+  /// since a grammar without single words takes "save" for "ortho save".
   [[nodiscard]] std::vector<std::string> phrases() const;
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// What a segment holds once it is cleaned; nothing where that is no command.
+/// Cleans a segment and recognises it; nothing where it holds no command.
 [[nodiscard]] std::optional<CommandEvidence> evidence_in(const SpeechSegment& segment,
                                                          const SpotterOptions& options,
                                                          PhraseRecognizer& recognizer);
@@ -54,21 +58,21 @@ struct SpotterOptions {
 /// A command as it was spoken.
 struct SpokenCommand {
   std::string text;         ///< one of the commands, without the wake word
-  double confidence = 0.0;  ///< in [0, 1]; below 0.5 it rather was something else
+  double confidence = 0.0;  ///< in [0, 1]; below 0.5 it was more likely something else
   std::int64_t begin = 0;   ///< samples at `kSpeechRateHz` since the stream began
   std::int64_t end = 0;
 };
 
 /// Finds commands in a stream of sound: stretches of speech between two silences, short enough for
-/// a command, cleaned and recognised. The same samples give the same commands, however they are cut
-/// into calls. One thread at a time.
+/// a command, cleaned and recognised. The same samples give the same commands, however they are
+/// split into calls. One thread at a time.
 class CommandSpotter {
  public:
   /// Refuses options with problems, a model that is not there, and words without a pronunciation.
   static Result<std::unique_ptr<CommandSpotter>> create(const SpotterOptions& options);
-  /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them; those that are
-  /// hardly likely are left out. Takes up to 0.1 s of work a tenth of a second before a segment
-  /// ends, so that next to none is left where it ends.
+  /// Takes samples at `kSpeechRateHz` and appends the commands that ended in them; very unlikely
+  /// ones are left out. Does up to 0.1 s of work a tenth of a second before a segment ends, so that
+  /// almost none is left at its end.
   void push(std::span<const std::int16_t> samples, std::vector<SpokenCommand>& commands);
 
  private:

@@ -11,13 +11,13 @@
 
 namespace orthonav::voice {
 
-/// Numbers in the files of an acoustic model, little endian as this machine.
+/// Numbers in the files of an acoustic model, little-endian like this machine.
 template <class T>
 void put(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
 }
 
-/// Takes a value off the front; zero where there is none left.
+/// Takes a value off the front; zero when nothing is left.
 template <class T>
 T take(std::string_view& bytes) {
   T value{};
@@ -32,9 +32,9 @@ T take(std::string_view& bytes) {
 /// Empty where there is no such file.
 [[nodiscard]] std::string model_file(const std::filesystem::path& path);
 
-/// What a file of sphinxtrain's begins with: a header in lines, and a number for the byte order.
+/// The beginning of a file of sphinxtrain's: a header in lines, and a number for the byte order.
 [[nodiscard]] std::string sphinx_file_start();
-/// What follows that; nothing where a file begins with something else.
+/// What follows that beginning; nothing where a file begins differently.
 [[nodiscard]] std::optional<std::string_view> after_sphinx_file_start(std::string_view file);
 
 /// FNV-1a, to tell one model from another.

@@ -63,6 +63,28 @@ std::string anything_grammar() {
   return grammar + ";";
 }
 
+Result<MemoryFile> adapted_means(const std::filesystem::path& model) {
+  auto means = read_means(model / "means");
+  if (!means) {
+    return means.error();
+  }
+  if (Status moved = apply_change(embedded::voice_means(), *means); !moved) {
+    return moved.error();
+  }
+  return MemoryFile::create(means_file(*means));
+}
+
+Result<MemoryFile> adapted_mixtures(const std::filesystem::path& model) {
+  auto mixtures = read_mixture_weights(model / "sendump");
+  if (!mixtures) {
+    return mixtures.error();
+  }
+  if (Status moved = apply_change(embedded::voice_mixtures(), *mixtures); !moved) {
+    return moved.error();
+  }
+  return MemoryFile::create(mixture_weights_file(*mixtures));
+}
+
 }  // namespace
 
 void PhraseRecognizer::Free::operator()(ps_decoder_s* decoder) const { ps_free(decoder); }
@@ -78,65 +100,64 @@ Result<std::unique_ptr<PhraseRecognizer>> PhraseRecognizer::create(
     return Error{"voice: no acoustic model in " + model.string() + " (Debian: pocketsphinx-en-us)"};
   }
   err_set_logfp(nullptr);
-  const std::string hmm = model.string();
-  auto means = read_means(model / "means");
+  std::unique_ptr<PhraseRecognizer> recognizer(new PhraseRecognizer);
+  if (Status opened = recognizer->open(model); !opened) {
+    return opened.error();
+  }
+  if (Status added = recognizer->add_words(); !added) {
+    return added.error();
+  }
+  if (Status listening = recognizer->add_grammars(phrases); !listening) {
+    return listening.error();
+  }
+  return recognizer;
+}
+
+Status PhraseRecognizer::open(const std::filesystem::path& model) {
+  const auto means = adapted_means(model);
   if (!means) {
     return means.error();
   }
-  if (Status moved = apply_change(embedded::voice_means(), *means); !moved) {
-    return moved.error();
-  }
-  auto mixtures = read_mixture_weights(model / "sendump");
+  const auto mixtures = adapted_mixtures(model);
   if (!mixtures) {
     return mixtures.error();
-  }
-  if (Status moved = apply_change(embedded::voice_mixtures(), *mixtures); !moved) {
-    return moved.error();
-  }
-  const auto means_in_memory = MemoryFile::create(means_file(*means));
-  if (!means_in_memory) {
-    return means_in_memory.error();
-  }
-  const auto mixtures_in_memory = MemoryFile::create(mixture_weights_file(*mixtures));
-  if (!mixtures_in_memory) {
-    return mixtures_in_memory.error();
   }
   // Noises that the model knows would explain what follows a word in a sentence; silence does not.
   const auto silences = MemoryFile::create("<s> SIL\n</s> SIL\n<sil> SIL\n");
   if (!silences) {
     return silences.error();
   }
+  const std::string hmm = model.string();
   const std::unique_ptr<cmd_ln_t, FreeConfig> config(
-      cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-mean",
-                  means_in_memory->path().c_str(), "-sendump", mixtures_in_memory->path().c_str(),
-                  "-fdict", silences->path().c_str(), "-cmn", "none", "-remove_silence", "no",
-                  "-remove_noise", "no", "-bestpath", "no", "-logfn", "/dev/null", nullptr));
+      cmd_ln_init(nullptr, ps_args(), TRUE, "-hmm", hmm.c_str(), "-mean", means->path().c_str(),
+                  "-sendump", mixtures->path().c_str(), "-fdict", silences->path().c_str(), "-cmn",
+                  "none", "-remove_silence", "no", "-remove_noise", "no", "-bestpath", "no",
+                  "-logfn", "/dev/null", nullptr));
   if (!config) {
     return Error{"voice: PocketSphinx refuses its options"};
   }
-  std::unique_ptr<PhraseRecognizer> recognizer(new PhraseRecognizer);
-  recognizer->decoder_.reset(ps_init(config.get()));
-  if (!recognizer->decoder_) {
+  decoder_.reset(ps_init(config.get()));
+  if (!decoder_) {
     return Error{"voice: PocketSphinx can't read the acoustic model in " + hmm};
   }
-  if (Status added = recognizer->add_words(); !added) {
-    return added.error();
-  }
-  ps_decoder_t* decoder = recognizer->decoder_.get();
+  return {};
+}
+
+Status PhraseRecognizer::add_grammars(const std::vector<std::string>& phrases) {
   for (const std::string& word : words_of(phrases)) {
-    if (char* sounds = ps_lookup_word(decoder, word.c_str()); sounds) {
+    if (char* sounds = ps_lookup_word(decoder_.get(), word.c_str()); sounds) {
       ckd_free(sounds);
     } else {
       return Error{"voice: nobody knows how \"" + word + "\" is pronounced"};
     }
   }
-  if (ps_set_jsgf_string(decoder, kCommands, phrases_grammar(phrases).c_str()) != 0) {
+  if (ps_set_jsgf_string(decoder_.get(), kCommands, phrases_grammar(phrases).c_str()) != 0) {
     return Error{"voice: PocketSphinx refuses the grammar of the phrases"};
   }
-  if (ps_set_jsgf_string(decoder, kAnything, anything_grammar().c_str()) != 0) {
+  if (ps_set_jsgf_string(decoder_.get(), kAnything, anything_grammar().c_str()) != 0) {
     return Error{"voice: PocketSphinx refuses its grammar of other sounds"};
   }
-  return recognizer;
+  return {};
 }
 
 Status PhraseRecognizer::add_words() {
@@ -193,7 +214,7 @@ Recognition PhraseRecognizer::recognize(std::span<const std::int16_t> samples) {
   std::vector<Cepstrum> cepstra = cepstra_of(ps_get_fe(decoder_.get()), samples);
   const auto frames = static_cast<int>(cepstra.size());
   const std::vector<Part> phrase = decode(kCommands, cepstra);
-  // Where no phrase can be followed to the end, the decoder tells of one that ended before.
+  // Where no phrase fits to the end, the decoder returns one that ended earlier.
   if (phrase.empty() || phrase.back().last < frames - 1) {
     return {};
   }

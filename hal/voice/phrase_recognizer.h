@@ -21,26 +21,26 @@ namespace orthonav::voice {
 struct RecognizedWord {
   std::string word;
   int frames = 0;  ///< of 10 ms
-  /// By how much the word explains its stretch of sound better than any other sounds do, in natural
-  /// logarithms of likelihood for each 10 ms. Well below zero: something else was said.
+  /// How much better the word explains its stretch of sound than any other sounds do: the natural
+  /// logarithm of the likelihood ratio per 10 ms. Well below zero: something else was said.
   double evidence = 0.0;
 };
 
-/// What a segment of speech sounds like most: a phrase between silences.
+/// The phrase that a segment of speech, from one silence to the next, sounds most like.
 struct Recognition {
   std::vector<RecognizedWord> words;  ///< in their order; none where no phrase fits at all
-  /// By how much silence explains the rest of the segment better than other sounds do, in natural
-  /// logarithms of likelihood. Far below zero: the phrase was not all that was said.
+  /// How much better silence explains the rest of the segment than other sounds do: the natural
+  /// logarithm of the likelihood ratio. Far below zero: more was said than the phrase.
   double evidence_around = 0.0;
 };
 
 /// Decides which of a few phrases a segment of speech is: PocketSphinx with a grammar of the
-/// phrases, against a second one in which any sounds and words that resemble a phrase may follow
-/// one another. The acoustic model's means are moved to where words in noise lie once they are
-/// cleaned (data/voice, tools/voice/train). One thread at a time.
+/// phrases, compared with a second grammar in which any sounds, and words that resemble a phrase,
+/// may follow one another. The acoustic model's means are moved to where words in noise lie after
+/// cleaning (data/voice_means.bin, tools/voice/train). One thread at a time.
 class PhraseRecognizer {
  public:
-  /// Refuses a model that is not there, and phrases with a word whose pronunciation is not known.
+  /// Refuses a missing model, and phrases with a word whose pronunciation is not known.
   static Result<std::unique_ptr<PhraseRecognizer>> create(const std::vector<std::string>& phrases,
                                                           const std::filesystem::path& model);
   /// Of samples at `kSpeechRateHz`.
@@ -50,7 +50,7 @@ class PhraseRecognizer {
   struct Free {
     void operator()(ps_decoder_s* decoder) const;
   };
-  /// A word, or a sound, and where it lies.
+  /// A word or a single sound, and its frames.
   struct Part {
     std::string word;
     int first = 0;  ///< frame
@@ -59,7 +59,9 @@ class PhraseRecognizer {
   };
   std::unique_ptr<ps_decoder_s, Free> decoder_;
 
+  Status open(const std::filesystem::path& model);
   Status add_words();
+  Status add_grammars(const std::vector<std::string>& phrases);
   std::vector<Part> decode(const char* search, std::vector<Cepstrum>& cepstra);
 };
 

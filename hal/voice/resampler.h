@@ -11,12 +11,12 @@ struct SRC_STATE_tag;
 
 namespace orthonav::voice {
 
-/// A stream of sound at another rate (libsamplerate). Delays it by a few milliseconds.
+/// Converts a stream of sound to another rate (libsamplerate), with a delay of a few milliseconds.
 class Resampler {
  public:
   /// Refuses rates outside [8000, 192000] Hz.
   static Result<Resampler> create(int from_hz, int to_hz);
-  /// Appends what the samples become.
+  /// Appends the converted samples.
   Status push(std::span<const std::int16_t> samples, std::vector<std::int16_t>& out);
 
  private:

@@ -18,7 +18,7 @@ constexpr std::size_t kHop = kWindow / 2;
 constexpr std::size_t kBins = kWindow / 2 + 1;
 using Spectrum = std::vector<std::complex<float>>;
 
-/// Square root of Hann: applied before and after, halves that overlap add to one.
+/// Square root of a Hann window: applied before and after, halves that overlap add up to one.
 const std::vector<float>& window() {
   static const std::vector<float> values = [] {
     std::vector<float> made(kWindow);
@@ -63,7 +63,7 @@ std::vector<float> mean_power(Stft& stft, std::span<const float> samples) {
       power[b] += std::norm(spectrum[b]);
     }
   }
-  // Few frames: neighbours in frequency make the estimate steady.
+  // There are few frames: averaging over neighbouring frequencies steadies the estimate.
   std::vector<float> smooth(kBins, 0.0F);
   for (std::size_t b = 0; b < kBins; ++b) {
     const std::size_t first = b < 2 ? 0 : b - 2;
@@ -102,7 +102,7 @@ void filter(Stft& stft, std::vector<float>& samples, const std::vector<float>& b
   samples.assign(out.begin(), out.end() - static_cast<std::ptrdiff_t>(kWindow));
 }
 
-/// Of the frames within 20 dB of the loudest.
+/// RMS of the frames within 20 dB of the loudest.
 double loudness(std::span<const float> samples) {
   constexpr std::size_t kFrame = kSpeechRateHz / 100;
   std::vector<double> powers;

@@ -6,12 +6,12 @@
 
 namespace orthonav::voice {
 
-/// How a segment is brought to what the acoustic model was trained on.
+/// How a segment is made to sound like what the acoustic model was trained on.
 struct CleanerOptions {
-  double over_subtraction = 1.5;  ///< of the background's power
-  double least_gain = 0.1;        ///< of a frequency, so that no holes ring
+  double over_subtraction = 1.5;  ///< times the background's power
+  double least_gain = 0.1;        ///< of any frequency, so that gaps do not ring
   double speech_rms = 3000.0;     ///< of the loudest frames
-  double masking_db = -30.0;      ///< of white noise that is added, against the speech
+  double masking_db = -30.0;  ///< level of the white noise that is added, relative to the speech
 };
 
 /// Takes the background out of a segment (Wiener filter, its spectrum from the segment's first
@@ -22,7 +22,7 @@ struct CleanerOptions {
 [[nodiscard]] std::vector<std::int16_t> cleaned(std::span<const std::int16_t> samples,
                                                 std::size_t background_samples,
                                                 const CleanerOptions& options = {});
-/// Of a segment's margin, what is background.
+/// The length of a segment's margin that holds background only.
 inline constexpr std::size_t kBackgroundSamples = 16000 * 3 / 10;
 
 }  // namespace orthonav::voice

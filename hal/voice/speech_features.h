@@ -9,12 +9,12 @@ struct fe_s;
 
 namespace orthonav::voice {
 
-/// What PocketSphinx hears of 10 ms of sound.
+/// What PocketSphinx derives from 10 ms of sound.
 using Cepstrum = std::array<float, 13>;
 
-/// Of cleaned samples at `kSpeechRateHz`, by PocketSphinx's front end; empty where they are too
-/// few. Their zero is fixed: the mean of one word says more about the word than about the
-/// microphone, and the means were adapted to microphones that differ.
+/// From cleaned samples at `kSpeechRateHz`, by PocketSphinx's front end; empty where there are too
+/// few. Their zero point is fixed: the mean over one word says more about the word than about the
+/// microphone, and the acoustic model was adapted to different microphones.
 [[nodiscard]] std::vector<Cepstrum> cepstra_of(fe_s* front_end,
                                                std::span<const std::int16_t> samples);
 

@@ -12,31 +12,31 @@ namespace {
 constexpr int kFrameMs = 10;
 constexpr std::size_t kFrameSamples = kSpeechRateHz / 1000 * kFrameMs;
 constexpr double kSilenceDb = -80.0;
-// Over 50 ms: the pitch and the babble of a room are evened out, a syllable is not.
+// Averages over 50 ms: this evens out the pitch and the babble of a room, but not a syllable.
 constexpr double kSmoothing = 0.3;
-// The background is the median level of so many frames.
+// The background is the median level of this many frames.
 constexpr std::int64_t kHistoryFrames = 600;
-// Whoever speaks all the time makes pauses, though: the background is no more than so far above
-// what a tenth of these frames stay below, or of the newest where a noise began.
+// Even someone who speaks all the time pauses, though: the background is at most this far above the
+// level that a tenth of these frames stay below (or of the newest frames, where a noise began).
 constexpr std::int64_t kShortFrames = 150;
 constexpr double kPauses = 0.1;
 constexpr double kAbovePausesDb = 3.0;
 constexpr double kThresholdStepDb = 1.0;
-// For each step above the least threshold, a stretch has to be followed by more quiet, for a word's
-// weaker sounds may lie below; by little more where even what is so much below the loudest does
-// not.
+// For each step above the least threshold, more quiet must follow a stretch, since a word's weaker
+// sounds may lie below it; little more where even what is this much below the loudest sound lies
+// above it.
 constexpr int kMoreQuietFrames = 9;
 constexpr int kLittleMoreQuietFrames = 5;
 constexpr double kFaintDb = 14.0;
-// What is less loud than the next segment by so much does not count as speech before it.
+// Sound that is this much quieter than the next segment does not count as speech before it.
 constexpr double kBesideDb = 8.0;
 
-// How far the loudest syllable stands out of a quiet and of a noisy room.
+// How far the loudest syllable stands out in a quiet and in a noisy room.
 constexpr double kQuietDb = 35.0;
 constexpr double kNoisyDb = 20.0;
-// How long before its end a segment is told of.
+// How long before its end a segment is announced.
 constexpr int kForewarningFrames = 10;
-// What the quiet after a segment may last beyond that which ends one in noise.
+// How long the quiet after a segment may last beyond the quiet that ends one in noise.
 constexpr int kRecentFrames = kMoreQuietFrames * 10;
 
 std::size_t samples_of(int ms) { return static_cast<std::size_t>(kSpeechRateHz / 1000 * ms); }
@@ -128,7 +128,7 @@ void SpeechSegmenter::keep_level(double level_db) {
     short_.remove(this->level_db(frames_ - kShortFrames));
   }
   levels_db_[static_cast<std::size_t>(frames_ % kHistoryFrames)] = static_cast<float>(level_db);
-  // As it is kept, to be found again.
+  // As it is stored, so that it can be found again.
   long_.add(this->level_db(frames_));
   short_.add(this->level_db(frames_));
   ++frames_;
@@ -170,14 +170,14 @@ std::optional<SpeechSegmenter::Stretch> SpeechSegmenter::stretch_above(double th
       return std::nullopt;
     }
   }
-  // Where the stream itself began, nobody spoke before.
+  // Before the stream began, nobody spoke.
   if (at < oldest && oldest > 0) {
     return std::nullopt;
   }
   return stretch;
 }
 
-/// Speech that is no part of the stretch, and so near before it that the stretch is none by itself.
+/// Whether speech outside the stretch precedes it so closely that the stretch does not stand alone.
 bool SpeechSegmenter::follows_speech(const Stretch& stretch) const {
   if (stretch.begin < over_.end) {
     return true;

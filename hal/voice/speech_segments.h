@@ -7,7 +7,7 @@
 
 namespace orthonav::voice {
 
-/// What speech is recognised from: one channel at this rate, as the acoustic model was trained.
+/// The rate that speech is recognised at, one channel: that of the acoustic model's training.
 inline constexpr int kSpeechRateHz = 16000;
 
 /// When sound counts as speech. Levels are those of 50 ms of sound between 200 and 3500 Hz.
@@ -16,30 +16,30 @@ struct SegmentOptions {
   /// nothing else is, for a while before it and after it.
   double least_above_background_db = 6.0;
   double most_above_background_db = 14.0;
-  double above_threshold_db = 6.0;  ///< the loudest of it, at least
-  double below_loudest_db = 30.0;   ///< the threshold, at most: a word's last sound dies away
+  double above_threshold_db = 6.0;  ///< the loudest part of it, at least
+  double below_loudest_db = 30.0;   ///< the threshold, at most: a word's last sound fades away
   int least_ms = 200;
-  /// Quiet for so long ends it. In noise the last sounds of a word can't be told from the
-  /// background, and what is left of it seems to end sooner than it does.
+  /// Quiet of this length ends it. In noise the last sounds of a word can't be told from the
+  /// background, so the word seems to end earlier than it does.
   int end_ms = 240;
   int end_in_noise_ms = 300;
-  int quiet_before_ms = 500;  ///< a command follows such a pause; a sentence's word does not
-  int margin_ms = 400;        ///< kept before what was loud
-  int max_ms = 1900;          ///< speech that goes on for longer is no command
+  int quiet_before_ms = 500;  ///< a command follows such a pause; a word within a sentence does not
+  int margin_ms = 400;        ///< kept before the loud part
+  int max_ms = 1900;          ///< longer speech is no command
 };
 
 /// A stretch of sound between two silences.
 struct SpeechSegment {
-  std::vector<std::int16_t> samples;  ///< with the margins
+  std::vector<std::int16_t> samples;  ///< including the margins
   std::int64_t begin = 0;             ///< the first loud sample, counted since the stream began
   std::int64_t end = 0;               ///< one past the last loud sample
-  double above_background_db = 0.0;   ///< the loudest 50 ms
-  /// Whether it is over. A segment that may be over soon is told of before, with all its samples,
-  /// so that it can be recognised while one waits; it then ends as it was, or goes on.
+  double above_background_db = 0.0;   ///< of the loudest 50 ms
+  /// Whether it is over. A segment that may be over soon is announced in advance, with all its
+  /// samples, so that it can be recognised meanwhile; it then ends unchanged, or goes on.
   bool ended = false;
 };
 
-/// How noisy a room is in which a voice stands out by so much: 0 from 35 dB on, 1 below 20 dB.
+/// How noisy a room is in which a voice stands out by this much: 0 from 35 dB on, 1 below 20 dB.
 [[nodiscard]] double noisiness(double above_background_db);
 
 /// A filter of second order; its coefficients are those of R. Bristow-Johnson's "Audio EQ
@@ -55,13 +55,13 @@ class Biquad {
   double x1_ = 0.0, x2_ = 0.0, y1_ = 0.0, y2_ = 0.0;
 };
 
-/// How often which level was met among some frames, by decibels.
+/// How often each level, in whole decibels, occurred among some frames.
 class LevelHistogram {
  public:
   LevelHistogram();
   void add(double level_db);
   void remove(double level_db);
-  /// The level that a share of the frames stays below.
+  /// The level that this fraction of the frames stays below.
   [[nodiscard]] double level_above(double fraction) const;
 
  private:
@@ -69,9 +69,9 @@ class LevelHistogram {
   int frames_ = 0;
 };
 
-/// Cuts a stream of sound into stretches of speech: what stands out from the half second before it
-/// and the quarter second or more after it. How far these may lie above the background, which is
-/// the median of the last seconds, leaves room for the voices of others. Bounded memory.
+/// Cuts a stream of sound into stretches of speech: sound that stands out from the half second
+/// before it and the quarter second or more after it. These may lie somewhat above the background
+/// (the median of the last seconds), which leaves room for other people's voices. Bounded memory.
 class SpeechSegmenter {
  public:
   explicit SpeechSegmenter(const SegmentOptions& options = {});
@@ -85,18 +85,18 @@ class SpeechSegmenter {
     std::int64_t end = 0;  ///< one past the last loud one
     double threshold_db = 0.0;
     double loudest_db = 0.0;
-    double above_background_db = 0.0;  ///< the loudest
+    double above_background_db = 0.0;  ///< of the loudest
     int quiet_frames = 0;              ///< after which it is over
   };
   SegmentOptions options_;
   std::vector<std::int16_t> kept_;  ///< the newest sound
-  std::size_t in_frame_ = 0;        ///< samples of the frame that is not complete yet
+  std::size_t in_frame_ = 0;        ///< samples of the frame that is still incomplete
   double frame_energy_ = 0.0;
   Biquad low_pass_;
   Biquad high_pass_;
   double smooth_energy_ = 0.0;
   std::int64_t frames_ = 0;       ///< since the stream began
-  std::vector<float> levels_db_;  ///< of the last frames, round and round
+  std::vector<float> levels_db_;  ///< of the last frames, as a ring
   LevelHistogram long_;           ///< of these
   LevelHistogram short_;          ///< of the newest of these
   std::optional<Stretch> waiting_;
@@ -105,7 +105,7 @@ class SpeechSegmenter {
   void end_frame(std::vector<SpeechSegment>& segments);
   void forget();
   void keep_level(double level_db);
-  /// With what was kept of its sound, where it is yet to end.
+  /// With what was kept of its sound, where it has not ended yet.
   [[nodiscard]] SpeechSegment segment_of(const Stretch& stretch, bool ended) const;
   [[nodiscard]] double level_db(std::int64_t frame) const;
   [[nodiscard]] double background_db() const;

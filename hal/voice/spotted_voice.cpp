@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/mutex.h"
+#include "base/stopwatch.h"
 #include "hal/voice/resampler.h"
 
 namespace orthonav::voice {
@@ -22,7 +23,7 @@ class Listener {
         spotter_(std::move(spotter)),
         resampler_(std::move(resampler)) {}
 
-  /// Reads all there is and appends what it says.
+  /// Reads all there is and appends the phrases in it.
   Status listen(std::vector<Phrase>& phrases) {
     std::array<std::int16_t, 4096> block;
     for (;;) {
@@ -55,7 +56,8 @@ class Listener {
   std::int64_t taken_ = 0;
   Timestamp last_ = Timestamp::min();
 
-  /// By the newest sample: a microphone's crystal drifts against the headset's clock.
+  /// Counted back from the newest sample, since a microphone's crystal drifts against the headset's
+  /// clock.
   Timestamp time_of(std::int64_t sample) {
     const Timestamp newest = microphone_->newest_sample_time().value_or(Timestamp{});
     const Timestamp time =
@@ -127,8 +129,8 @@ class VoiceOnItsOwnThread : public Voice {
       if (!listened) {
         trouble_ = listened;
       }
-      const auto next_read = std::chrono::steady_clock::now() + kBetweenReads;
-      while (!stop_ && wake_.wait_until(mutex_, next_read)) {
+      const Stopwatch since_read;
+      while (!stop_ && wake_.wait_until(mutex_, since_read.after(kBetweenReads))) {
       }
       if (stop_) {
         return;

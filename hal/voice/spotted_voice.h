@@ -14,8 +14,8 @@ enum class Listening {
   kInPoll           ///< for a recorded sound: the same commands at the same times in every run
 };
 
-/// Commands that a microphone hears. A phrase's time is when it began to be spoken; it comes some
-/// 0.3 s after its end.
+/// Commands that a microphone hears. A phrase's time is when it began to be spoken; it arrives
+/// about 0.3 s after its end.
 [[nodiscard]] Result<std::unique_ptr<Voice>> open_spotted_voice(
     std::unique_ptr<Microphone> microphone, const SpotterOptions& options, Listening listening);
 

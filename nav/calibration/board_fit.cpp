@@ -13,15 +13,16 @@ using ImagePoints = std::vector<std::vector<cv::Point2f>>;
 using ObjectPoints = std::vector<std::vector<cv::Point3f>>;
 
 constexpr float kCentre = 0.5F;
-// Half the window in which a corner is refined, by the distance to the next corner: farther out
-// the next corner's edges come into sight.
+// Half the window in which a corner is refined, as a fraction of the distance to the next corner: a
+// larger window would show the next corner's edges.
 constexpr double kWindowFraction = 0.3;
-// Softened by so much first: gradients of sharp edges lie between pixels and err with their place.
+// The image is softened by this much first: gradients of sharp edges fall between pixels, and their
+// errors depend on where.
 constexpr double kSofteningPx = 1.0;
 constexpr int kSmallestWindowPx = 2;
 constexpr int kLargestWindowPx = 11;
 
-/// OpenCV prints what it throws; here it only throws.
+/// OpenCV prints whatever it throws; while this lives it only throws.
 class QuietOpenCv {
  public:
   QuietOpenCv() {
@@ -36,7 +37,7 @@ Error opencv_error(const cv::Exception& error) {
   return Error{"camera calibration: OpenCV refused: " + error.err};
 }
 
-/// Half the window for refinement around corners that lie so close.
+/// Half the refinement window for corners as close together as these.
 int window_px(const Chessboard& board, const std::vector<cv::Point2f>& corners) {
   double nearest = std::numeric_limits<double>::infinity();
   const auto a_row = static_cast<std::size_t>(board.columns);
@@ -164,13 +165,13 @@ Result<CameraFit> fit_camera(const Chessboard& board, ImageSize size,
     cv::Mat matrix;
     cv::Mat distortion = cv::Mat::zeros(1, 5, CV_64F);
     cv::Mat sigmas;
-    std::vector<cv::Mat> turns;
-    std::vector<cv::Mat> shifts;
+    std::vector<cv::Mat> rotations;
+    std::vector<cv::Mat> translations;
     CameraFit fit;
     fit.rms_px = cv::calibrateCamera(
         object_points(board, views.size()), image_points(views), {size.width_px, size.height_px},
-        matrix, distortion, turns, shifts, sigmas, cv::noArray(), cv::noArray(), flags_for(with_k3),
-        {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
+        matrix, distortion, rotations, translations, sigmas, cv::noArray(), cv::noArray(),
+        flags_for(with_k3), {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-10});
     fit.camera = camera_from(size, matrix, distortion);
     constexpr int kK3 = 8;  // fx fy cx cy k1 k2 p1 p2 k3
     fit.k3_sigma = sigmas.at<double>(kK3);

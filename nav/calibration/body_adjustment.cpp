@@ -16,33 +16,33 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix2x6 = Eigen::Matrix<double, 2, 6, Eigen::RowMajor>;
 
 constexpr int kMostSteps = 100;
-// Steps in which the scale of the weights still follows the residuals.
+// Number of steps in which the scale of the weights still follows the residuals.
 constexpr int kScaleSteps = 8;
-// Twice as far off as where the weight is a half.
+// The weight at twice the residual at which it is one half.
 constexpr double kOutlierWeight = 0.2;
 constexpr double kFirstDamping = 1e-4;
 constexpr double kLeastDamping = 1e-12;
-// A step that must be damped more than this to be any good is none.
+// A step that still fails with more damping than this will not succeed.
 constexpr double kMostDamping = 1e4;
 constexpr double kConverged = 1e-8;
 
 Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// The pose after a small shift and turn, both in the frame A.
+/// The pose after a small translation and rotation, both in frame A.
 template <class A, class B>
 Transform<A, B> moved(const Transform<A, B>& pose, const Vector6& step) {
   return {rotation_from_vector(from_eigen(step.tail<3>())) * pose.rotation(),
           pose.translation() + from_eigen(step.head<3>())};
 }
 
-/// A corner's residual and what it changes with besides the body's pose.
+/// A corner's residual, and the blocks of unknowns it depends on besides the body's pose.
 struct Row {
   CornerResidual corner;
   int tag_block = -1;
   int camera_block = -1;
 };
 
-/// Where the things to be found stand in the vector of unknowns; -1 for what is known.
+/// Where each block of unknowns begins in the vector of unknowns; -1 for what is known.
 struct Blocks {
   int camera = -1;
   std::vector<int> tags;
@@ -159,7 +159,7 @@ class System {
   [[nodiscard]] int blocks() const { return blocks_.count; }
 
  private:
-  /// Positive definite, by a margin that rounding does not eat.
+  /// Positive definite, by a margin above rounding.
   template <class Solver>
   static bool is_sound(const Solver& solver) {
     constexpr double kLeast = 1e-13;
@@ -323,7 +323,7 @@ Result<BodyFit> adjust(const BodyProblem& problem, BodyState& state) {
   }
   const double numbers = 2.0 * static_cast<double>(fit.corners);
   const double unknowns = 6.0 * static_cast<double>(problem.pairs.size() + fit_blocks);
-  // What is fitted takes its share of the noise.
+  // The unknowns fitted have absorbed part of the noise.
   fit.covariances =
       blocks_of(*covariance, scale_px * scale_px * numbers / std::max(1.0, numbers - unknowns));
   return fit;

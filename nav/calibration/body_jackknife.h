@@ -6,9 +6,9 @@
 
 namespace orthonav::nav {
 
-/// The adjustments without each tenth of the pairs in turn, begun where the one with all of them
-/// ended. Without a tenth on which something depends that was to be found (a tag seen in it alone)
-/// there is none: fewer than ten states come back.
+/// The adjustment repeated without each tenth of the pairs in turn, starting from the result with
+/// all of them. Where a result depends on one tenth alone (a tag seen in it only), there is none
+/// without that tenth: fewer than ten states are returned.
 [[nodiscard]] std::vector<BodyState> adjusted_without_blocks(const BodyProblem& problem,
                                                              const BodyState& whole);
 

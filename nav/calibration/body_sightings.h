@@ -15,15 +15,15 @@ struct TagSighting {
   std::size_t tag = 0;  ///< which of the tags
   std::optional<TagCorners> left_px;
   std::optional<TagCorners> right_px;
-  /// From both images, by the calibration as the device gives it.
+  /// From both images, with the calibration as the device reports it.
   std::optional<TagPose> pose;
 };
 
 /// The tags seen in one pair, in the order of the tags.
 using PairSightings = std::vector<TagSighting>;
 
-/// Which of these tags a pair shows. What both cameras see but does not fit together is left out,
-/// with limits wide enough for a wrong size to be noticed afterwards.
+/// Which of these tags a pair shows. Sightings by both cameras that contradict each other are left
+/// out, with limits wide enough for a wrong size to be noticed afterwards.
 [[nodiscard]] PairSightings sightings(std::span<const MarkerDefinition> tags,
                                       std::span<const MarkerCorners> left,
                                       std::span<const MarkerCorners> right,

@@ -13,7 +13,7 @@ namespace {
 using Edge = std::pair<std::size_t, std::size_t>;
 using RelativePoses = std::map<Edge, std::vector<Transform<Tag, Tag>>>;
 
-/// The pose of a tag, in letters that let one tag's frame stand beside another's.
+/// The pose of a tag, typed so that one tag's frame can be related to another's.
 Transform<Rig, Tag> rig_from_tag(const TagPose& pose) {
   return {pose.rig_from_marker.rotation(), pose.rig_from_marker.translation()};
 }
@@ -65,7 +65,7 @@ TagLayout first_layout(std::span<const PairSightings> pairs, std::size_t tags,
   TagLayout layout{std::vector<Transform<Marker, Tag>>(tags), std::vector<bool>(tags, false)};
   layout.reached.at(0) = true;
   for (;;) {
-    // Of all ways on from what is reached, the one seen most often (Prim 1957).
+    // Of all connections from what is reached, the one seen most often (Prim 1957).
     auto best = poses.end();
     for (auto edge = poses.begin(); edge != poses.end(); ++edge) {
       if (layout.reached[edge->first.first] != layout.reached[edge->first.second] &&

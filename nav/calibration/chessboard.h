@@ -14,22 +14,22 @@ struct Chessboard {
   int rows = 6;
   double square_m = 0.025;
 
-  /// Every problem at once: counts outside 3-50, as many columns as rows (a quarter turn would not
-  /// show), squares outside 1-500 mm.
+  /// Every problem at once: counts outside 3-50, as many columns as rows (a quarter turn would go
+  /// unnoticed), squares outside 1-500 mm.
   [[nodiscard]] std::vector<std::string> check() const;
   [[nodiscard]] std::size_t corners() const {
     return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   }
-  /// Half a turn swaps the colours of most boards; where both counts are odd, or both even, it
-  /// does not show.
+  /// Half a turn swaps the colours of most boards; where both counts are odd, or both even, it goes
+  /// unnoticed.
   [[nodiscard]] bool looks_the_same_turned() const { return (columns + rows) % 2 == 0; }
   /// Place of a corner on the board, counted by rows: x along the columns, y down the rows.
   [[nodiscard]] Vec2 corner_m(std::size_t index) const;
 };
 
-/// Puts corners found by rows of `columns` into the one order that every picture of the board
-/// gives: as seen on its face, and beginning where the first inner square is dark. A board that
-/// looks the same turned may begin at either end.
+/// Puts corners that were found row by row into the one order that every picture of the board
+/// gives: as seen on its face, beginning where the first inner square is dark. A board that looks
+/// the same turned may begin at either end.
 void put_in_order(const GreyImage& image, const Chessboard& board, std::vector<Vec2>& corners_px);
 
 }  // namespace orthonav::nav

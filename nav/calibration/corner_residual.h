@@ -8,10 +8,12 @@
 
 namespace orthonav::nav {
 
-/// Derivative of a pixel by a small (shift m, turn rad) of a pose a_from_b, both in A: two rows.
+/// Derivative of a pixel by a small (translation m, rotation rad) of a pose a_from_b, both in A:
+/// two rows.
 using PixelByPose = std::array<double, 12>;
 
-/// A corner in one image: where the poses put it less where it is seen, and what that changes with.
+/// A corner in one image: where the poses put it minus where it is seen, and the derivatives of
+/// that.
 struct CornerResidual {
   Vec2 off_px;
   PixelByPose by_body{};    ///< by rig_from_marker
@@ -47,7 +49,7 @@ template <class Camera>
     const Vec3 by_point = (*slope)[2 * row] * x_by_point + (*slope)[2 * row + 1] * y_by_point;
     const Vec3 in_rig_axes = camera_from_rig.rotation().transposed() * by_point;
     const Vec3 in_marker_axes = rig_from_marker.rotation().transposed() * in_rig_axes;
-    // A turn w moves a point on the arm a by w x a; its gradient is a x g.
+    // A rotation w moves a point at lever arm a by w × a; the gradient by w is a × g.
     const auto fill = [row](PixelByPose& out, Vec3 gradient, Vec3 lever_arm) {
       const Vec3 by_rotation = lever_arm.cross(gradient);
       for (int i = 0; i < 3; ++i) {

@@ -9,18 +9,19 @@ namespace {
 using Pose = Transform<Tag, Tag>;
 
 constexpr double kRadianM = 0.05;
-// Nearer than this, weights no longer grow.
+// At distances below this, weights no longer grow.
 constexpr double kNearM = 1e-6;
 constexpr int kSteps = 50;
 constexpr double kConvergedM = 1e-9;
-// The start is the best of so many, which is enough for more than half of them to be good.
+// The start is the best of this many candidates: enough when more than half of them are good.
 constexpr std::size_t kMostCandidates = 40;
 
 struct Difference {
-  Vec3 shift_m;
-  Vec3 turn_rad;
+  Vec3 translation_m;
+  Vec3 rotation_rad;
   [[nodiscard]] double length_m() const {
-    return std::sqrt(shift_m.squared_norm() + kRadianM * kRadianM * turn_rad.squared_norm());
+    return std::sqrt(translation_m.squared_norm() +
+                     kRadianM * kRadianM * rotation_rad.squared_norm());
   }
 };
 
@@ -37,7 +38,7 @@ double total_m(const Pose& centre, std::span<const Pose> poses) {
   return sum;
 }
 
-/// The one of them that is nearest to all.
+/// The pose nearest to all the others.
 Pose middle_one(std::span<const Pose> poses) {
   const std::size_t stride = (poses.size() + kMostCandidates - 1) / kMostCandidates;
   Pose best;
@@ -63,13 +64,13 @@ Pose median_pose(std::span<const Pose> poses) {
     for (const Pose& pose : poses) {
       const Difference off = difference(centre, pose);
       const double weight = 1.0 / std::max(off.length_m(), kNearM);
-      mean.shift_m += weight * off.shift_m;
-      mean.turn_rad += weight * off.turn_rad;
+      mean.translation_m += weight * off.translation_m;
+      mean.rotation_rad += weight * off.rotation_rad;
       total += weight;
     }
-    mean = {mean.shift_m / total, mean.turn_rad / total};
-    centre = {rotation_from_vector(mean.turn_rad) * centre.rotation(),
-              centre.translation() + mean.shift_m};
+    mean = {mean.translation_m / total, mean.rotation_rad / total};
+    centre = {rotation_from_vector(mean.rotation_rad) * centre.rotation(),
+              centre.translation() + mean.translation_m};
     if (mean.length_m() < kConvergedM) {
       break;
     }

@@ -6,10 +6,10 @@
 
 namespace orthonav::nav {
 
-/// The geometric median of relative poses: the sum of distances to it is least (Weiszfeld's
-/// algorithm on rotations and shifts: Hartley, Trumpf, Dai & Li 2013, "Rotation averaging"), so
-/// that wrong ones, fewer than half, hardly move it. A turn of 1 rad counts as a shift of 50 mm,
-/// which is what it moves a tag's corners by. There must be one at least.
+/// The geometric median of relative poses, which minimizes the sum of distances to them
+/// (Weiszfeld's algorithm on rotations and translations: Hartley, Trumpf, Dai & Li 2013, "Rotation
+/// averaging"), so that wrong ones, if fewer than half, hardly move it. A rotation of 1 rad counts
+/// as a translation of 50 mm, by which it moves a tag's corners. There must be at least one pose.
 [[nodiscard]] Transform<Tag, Tag> median_pose(std::span<const Transform<Tag, Tag>> poses);
 
 }  // namespace orthonav::nav

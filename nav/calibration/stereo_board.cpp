@@ -14,7 +14,7 @@ namespace orthonav::nav {
 namespace {
 
 constexpr double kSignificant = 3.0;
-// Better than this, nothing is a mistake.
+// A view with a smaller residual than this holds no mistake.
 constexpr double kNoMistakePx = 0.3;
 
 Status check_views(const Chessboard& board, ImageSize size, std::span<const BoardView> views,
@@ -42,7 +42,8 @@ Status check_views(const Chessboard& board, ImageSize size, std::span<const Boar
   return Error{"stereo calibration: " + joined(problems)};
 }
 
-/// Where half a turn of the board does not show, both cameras are taken to be upright alike.
+/// Where half a turn of the board goes unnoticed, both cameras are assumed to be upright in the
+/// same sense.
 BoardViews aligned(const Chessboard& board, std::span<const BoardView> views) {
   BoardViews split;
   for (const BoardView& view : views) {

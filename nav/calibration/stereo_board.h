@@ -18,13 +18,13 @@ struct BoardView {
 
 struct StereoBoardOptions {
   std::size_t min_views = 3;
-  /// A view whose residual is so many times the middle one's holds a mistake and is left out.
+  /// A view whose residual is this many times the median one holds a mistake and is left out.
   double outlier_factor = 3.0;
-  /// But at most this share of the views.
+  /// At most this fraction of the views is left out.
   double max_outlier_fraction = 0.25;
   double max_rms_px = 1.0;
   double max_focal_sigma_fraction = 0.02;
-  /// What deserves a note.
+  /// What is worth a note.
   std::size_t note_views = 10;
   double note_rms_px = 0.45;
   double note_focal_sigma_fraction = 0.005;
@@ -47,7 +47,7 @@ struct BoardViewResidual {
 struct StereoSigma {
   double baseline_m = 0.0;
   double rotation_rad = 0.0;        ///< 3-D, of the right camera to the left one
-  double focal_fraction = 0.0;      ///< the larger of both cameras, by the focal length
+  double focal_fraction = 0.0;      ///< the larger of both cameras, relative to the focal length
   double principal_point_px = 0.0;  ///< the larger of both cameras, 2-D
 };
 
@@ -63,7 +63,8 @@ struct StereoBoardCalibration {
       0.0;  ///< of the image that the corners reach, the smaller of both cameras
   std::optional<StereoSigma> sigma;  ///< with four views at least
   std::size_t used = 0;
-  std::vector<BoardViewResidual> views;  ///< as given; of a view left out, what it had then
+  std::vector<BoardViewResidual>
+      views;  ///< in the order given; for a view left out, its residual at that time
   Judgement judgement;
 
   [[nodiscard]] double baseline_m() const { return right_from_left.translation().norm(); }

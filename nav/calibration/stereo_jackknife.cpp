@@ -67,7 +67,7 @@ std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
   }
   const std::size_t groups = std::min(kJackknifeBlocks, count);
   std::vector<StereoFit> fits;
-  std::vector<Vec3> turns;
+  std::vector<Vec3> rotations;
   for (std::size_t group = 0; group < groups; ++group) {
     BoardViews rest;
     for (std::size_t i = 0; i < count; ++i) {
@@ -80,14 +80,14 @@ std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
     if (!again) {
       return std::nullopt;
     }
-    turns.push_back(vector_from_rotation(again->right_from_left.rotation() *
-                                         fit.right_from_left.rotation().transposed()));
+    rotations.push_back(vector_from_rotation(again->right_from_left.rotation() *
+                                             fit.right_from_left.rotation().transposed()));
     fits.push_back(*again);
   }
   StereoSigma sigma;
   sigma.baseline_m =
       jackknife_of(fits, [](const StereoFit& f) { return f.right_from_left.translation().norm(); });
-  sigma.rotation_rad = jackknife(turns);
+  sigma.rotation_rad = jackknife(rotations);
   sigma.focal_fraction =
       std::max(focal_fraction(fits, &StereoFit::left), focal_fraction(fits, &StereoFit::right));
   sigma.principal_point_px = std::max(principal_point_px(fits, &StereoFit::left),

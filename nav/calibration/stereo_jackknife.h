@@ -4,7 +4,7 @@
 
 namespace orthonav::nav {
 
-/// Views of the board, the left and the right ones apart.
+/// Views of the board, left and right separately.
 struct BoardViews {
   std::vector<BoardCorners> left;
   std::vector<BoardCorners> right;
@@ -16,8 +16,8 @@ struct BoardViews {
 };
 
 /// How exact a stereo fit is, by leaving out each tenth of the views in turn (each view, where
-/// there are fewer than ten). Unlike what residuals predict, it sees a board that is not flat and
-/// corners that err together. Nothing with fewer than four views.
+/// there are fewer than ten). Unlike predictions from residuals, it notices a board that is not
+/// flat and corners that err together. Nothing with fewer than four views.
 [[nodiscard]] std::optional<StereoSigma> stereo_sigma(const Chessboard& board, ImageSize size,
                                                       const BoardViews& views, const StereoFit& fit,
                                                       bool with_k3);

@@ -15,7 +15,7 @@
 namespace orthonav::nav {
 namespace {
 
-Error refused(const std::string& why) { return Error{"stereo calibration: " + why}; }
+Error stereo_refused(const std::string& why) { return Error{"stereo calibration: " + why}; }
 
 /// What both cameras saw of the tags.
 std::vector<PairSightings> seen_by_both(std::span<const PairSightings> pairs) {
@@ -38,8 +38,8 @@ double median_size_ratio(std::span<const PairSightings> pairs) {
   return ratios.empty() ? 1.0 : median(std::move(ratios));
 }
 
-/// Distance of every right corner from its epipolar line, signed; NaN where a pixel has no
-/// direction, so that lists of two calibrations stay side by side.
+/// Signed distance of every right corner from its epipolar line; NaN where a pixel has no
+/// direction, so that the lists of two calibrations correspond.
 std::vector<double> across_px(const BodyProblem& problem,
                               const Transform<RightCamera, Rig>& right_from_rig) {
   const StereoCalibration& cameras = problem.calibration;
@@ -69,7 +69,7 @@ double rms(const std::vector<double>& values) {
   return std::sqrt(squared / std::max(count, 1.0));
 }
 
-/// RMS of what one calibration puts elsewhere across the lines than another.
+/// RMS of the differences across the lines between two calibrations.
 double rms_between(std::vector<double> a, const std::vector<double>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     a[i] -= b[i];
@@ -77,14 +77,14 @@ double rms_between(std::vector<double> a, const std::vector<double>& b) {
   return rms(a);
 }
 
-struct Sigma {
-  double turn_rad = 0.0;
-  double shift_m = 0.0;
+struct CameraSigma {
+  double rotation_rad = 0.0;
+  double translation_m = 0.0;
   double off_px = 0.0;
 };
 
-/// From leaving out each tenth of the pairs in turn.
-Sigma jackknife(const BodyProblem& problem, const BodyState& whole) {
+/// By leaving out each tenth of the pairs in turn.
+CameraSigma camera_sigma(const BodyProblem& problem, const BodyState& whole) {
   const std::vector<double> all_px = across_px(problem, whole.right_from_rig);
   double rotation_squares = 0.0;
   double translation_squares = 0.0;
@@ -128,8 +128,8 @@ StereoRecording result_of(const BodyProblem& problem, const BodyState& state, co
   result.right_from_rig = state.right_from_rig;
   result.right_from_left = state.right_from_rig * device.left_from_rig.inverse();
   const auto measured_from_device = state.right_from_rig * device.right_from_rig.inverse();
-  result.turn_rad = vector_from_rotation(measured_from_device.rotation());
-  result.shift_m = measured_from_device.translation();
+  result.rotation_rad = vector_from_rotation(measured_from_device.rotation());
+  result.translation_m = measured_from_device.translation();
   const std::vector<double> before_px = across_px(problem, device.right_from_rig);
   const std::vector<double> after_px = across_px(problem, state.right_from_rig);
   result.epipolar_before_px = rms(before_px);
@@ -139,10 +139,10 @@ StereoRecording result_of(const BodyProblem& problem, const BodyState& state, co
   result.covered_fraction = covered_fraction(problem);
   result.size_ratio = median_size_ratio(problem.pairs);
   result.pairs = problem.pairs.size();
-  const Sigma sigma = jackknife(problem, state);
+  const CameraSigma sigma = camera_sigma(problem, state);
   const PoseCovariance& c = fit.covariances.front();
-  result.rotation_sigma_rad = std::max(rotation_sigma_rad(c), sigma.turn_rad);
-  result.translation_sigma_m = std::max(translation_sigma_m(c), sigma.shift_m);
+  result.rotation_sigma_rad = std::max(rotation_sigma_rad(c), sigma.rotation_rad);
+  result.translation_sigma_m = std::max(translation_sigma_m(c), sigma.translation_m);
   result.off_sigma_px = sigma.off_px;
   return result;
 }
@@ -177,13 +177,13 @@ void judge(const StereoRecordingOptions& options, StereoRecording& result) {
 
 Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& options) {
   if (problem.pairs.size() < options.min_pairs) {
-    return refused("both cameras see two tags of the board or more in " +
-                   std::to_string(problem.pairs.size()) + " pairs, at least " +
-                   std::to_string(options.min_pairs) + " are needed");
+    return stereo_refused("both cameras see two tags of the board or more in " +
+                          std::to_string(problem.pairs.size()) + " pairs, at least " +
+                          std::to_string(options.min_pairs) + " are needed");
   }
   const double ratio = median_size_ratio(problem.pairs);
   if (!(std::abs(ratio - 1.0) <= options.max_size_deviation)) {
-    return refused(
+    return stereo_refused(
         with_numbers("the tags' edges measure %.3f of the size given, must be within "
                      "%.2f of it (was the board printed at 100 %%?)",
                      ratio, options.max_size_deviation));
@@ -217,7 +217,7 @@ Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
                                          std::span<const PairSightings> pairs,
                                          const StereoRecordingOptions& options) {
   if (const auto problems = options.check(); !problems.empty()) {
-    return refused(problems.front());
+    return stereo_refused(problems.front());
   }
   BodyProblem problem;
   BodyState state;
@@ -235,7 +235,7 @@ Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
   }
   const auto fit = adjust(problem, state);
   if (!fit) {
-    return refused(fit.error().message);
+    return stereo_refused(fit.error().message);
   }
   StereoRecording result = result_of(problem, state, *fit);
   judge(options, result);

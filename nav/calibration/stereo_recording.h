@@ -17,14 +17,14 @@ struct BoardTag {
 
 struct StereoRecordingOptions {
   std::size_t min_pairs = 20;
-  /// Pairs are thinned evenly to so many.
+  /// Pairs are thinned evenly to this many.
   std::size_t max_pairs = 400;
   double max_rms_px = 1.0;
   double max_size_deviation = 0.05;
-  /// The calibration is off when it is by so many SDs, and by so much at least.
+  /// The calibration is off when it differs by at least this many SDs, and by at least this much.
   double significance = 3.0;
   double min_off_px = 0.1;
-  /// What deserves a note.
+  /// What is worth a note.
   double note_sigma_px = 0.05;
   double note_covered_fraction = 0.3;
 
@@ -32,17 +32,17 @@ struct StereoRecordingOptions {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// How the cameras of a recording lie to each other, against what the device says.
+/// The cameras' relative pose in a recording, compared with what the device reports.
 struct StereoRecording {
   Transform<RightCamera, Rig> right_from_rig;
   Transform<RightCamera, LeftCamera> right_from_left;
   /// From the device's right camera to the measured one, in its own frame.
-  Vec3 turn_rad;
-  Vec3 shift_m;
+  Vec3 rotation_rad;
+  Vec3 translation_m;
   double rotation_sigma_rad = 0.0;  ///< 3-D, the larger of predicted and jackknife
   double translation_sigma_m = 0.0;
-  /// RMS over the corners of what turn and shift move them across the epipolar lines, and the SD
-  /// of that: a jackknife over tenths of the recording.
+  /// RMS over the corners of how far rotation and translation move them across the epipolar lines,
+  /// and its SD: a jackknife over tenths of the recording.
   double off_px = 0.0;
   double off_sigma_px = 0.0;
   bool is_off = false;  ///< significantly
@@ -51,15 +51,15 @@ struct StereoRecording {
   double epipolar_after_px = 0.0;
   double rms_px = 0.0;  ///< of the corners, 2-D
   double covered_fraction = 0.0;
-  double size_ratio = 0.0;  ///< middle triangulated edge by the size given
+  double size_ratio = 0.0;  ///< median triangulated edge, relative to the size given
   std::size_t pairs = 0;
   Judgement judgement;
 };
 
-/// Pose of the right camera from a board of tags seen in many pairs: non-linear least squares over
-/// all corners (`adjust`), the board's pose in each pair found along; the lenses stay as the device
-/// has them. Pairs in the order of time. Refuses bad options, too few pairs, sizes that the images
-/// contradict, and what the corners do not determine.
+/// The right camera's pose from a board of tags seen in many pairs: non-linear least squares over
+/// all corners (`adjust`), which finds the board's pose in each pair as well; the lenses stay as
+/// the device reports them. Pairs in the order of time. Refuses bad options, too few pairs, sizes
+/// that the images contradict, and what the corners do not determine.
 Result<StereoRecording> calibrate_stereo(const StereoCalibration& calibration,
                                          std::span<const BoardTag> board,
                                          std::span<const PairSightings> pairs,

@@ -19,7 +19,7 @@ std::string name_of(const MarkerDefinition& tag) {
   return "tag " + tag.family + " id " + std::to_string(tag.id);
 }
 
-Error refused(const std::string& why) { return Error{"tool calibration: " + why}; }
+Error body_refused(const std::string& why) { return Error{"tool calibration: " + why}; }
 
 Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions& options) {
   std::vector<std::string> problems = options.check();
@@ -42,7 +42,7 @@ Status check_input(std::span<const MarkerDefinition> tags, const TagBodyOptions&
   if (problems.empty()) {
     return {};
   }
-  return refused(joined(problems));
+  return body_refused(joined(problems));
 }
 
 /// 0 where both cameras never saw it together.
@@ -66,7 +66,7 @@ std::size_t pairs_with(std::span<const PairSightings> pairs, std::size_t tag) {
       }));
 }
 
-/// Tags that no chain of tags seen together connects with the first one.
+/// Refuses tags that no chain of tags seen together connects with the first one.
 Status check_connected(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,
                        const TagLayout& layout, std::size_t min_pairs) {
   std::string names;
@@ -80,8 +80,8 @@ Status check_connected(std::span<const MarkerDefinition> tags, std::span<const P
   if (names.empty()) {
     return {};
   }
-  return refused(names + ": not seen in " + std::to_string(min_pairs) +
-                 " pairs together with tags that connect it with " + name_of(tags.front()));
+  return body_refused(names + ": not seen in " + std::to_string(min_pairs) +
+                      " pairs together with tags that connect it with " + name_of(tags.front()));
 }
 
 Status check_sizes(std::span<const MarkerDefinition> tags, std::span<const PairSightings> pairs,
@@ -89,9 +89,9 @@ Status check_sizes(std::span<const MarkerDefinition> tags, std::span<const PairS
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const double ratio = median_size_ratio(pairs, i);
     if (ratio > 0.0 && !(std::abs(ratio - 1.0) <= limit)) {
-      return refused(name_of(tags[i]) +
-                     with_numbers(": its edges measure %.2f mm, given are %.2f mm",
-                                  ratio * tags[i].size_m * 1e3, tags[i].size_m * 1e3));
+      return body_refused(name_of(tags[i]) +
+                          with_numbers(": its edges measure %.2f mm, given are %.2f mm",
+                                       ratio * tags[i].size_m * 1e3, tags[i].size_m * 1e3));
     }
   }
   return {};
@@ -108,26 +108,26 @@ BodyProblem problem_of(const StereoCalibration& calibration,
   return problem;
 }
 
-struct Sigma {
+struct TagSigma {
   double m = 0.0;
   double rad = 0.0;
 };
 
 /// Of each tag, from leaving out each tenth of the pairs in turn.
-std::vector<Sigma> jackknife(const BodyProblem& problem, const BodyState& whole) {
+std::vector<TagSigma> tag_sigmas(const BodyProblem& problem, const BodyState& whole) {
   const std::size_t tags = problem.size_m.size();
-  std::vector<Sigma> sigma(tags);
+  std::vector<TagSigma> sigma(tags);
   if (problem.pairs.size() < 2 * kJackknifeBlocks) {
     return sigma;
   }
-  std::vector<std::vector<Vec3>> shifts(tags);
-  std::vector<std::vector<Vec3>> turns(tags);
+  std::vector<std::vector<Vec3>> translations(tags);
+  std::vector<std::vector<Vec3>> rotations(tags);
   for (const BodyState& state : adjusted_without_blocks(problem, whole)) {
     for (std::size_t i = 0; i < tags; ++i) {
       const auto& a = whole.marker_from_tag[i];
       const auto& b = state.marker_from_tag[i];
-      shifts[i].push_back(b.translation() - a.translation());
-      turns[i].push_back(vector_from_rotation(b.rotation() * a.rotation().transposed()));
+      translations[i].push_back(b.translation() - a.translation());
+      rotations[i].push_back(vector_from_rotation(b.rotation() * a.rotation().transposed()));
     }
   }
   const auto sd = [](const std::vector<Vec3>& values) {
@@ -143,7 +143,7 @@ std::vector<Sigma> jackknife(const BodyProblem& problem, const BodyState& whole)
     return values.size() < 2 ? 0.0 : std::sqrt((count - 1.0) / count * squared);
   };
   for (std::size_t i = 0; i < tags; ++i) {
-    sigma[i] = {sd(shifts[i]), sd(turns[i])};
+    sigma[i] = {sd(translations[i]), sd(rotations[i])};
   }
   return sigma;
 }
@@ -169,13 +169,13 @@ TagBody body_of(std::span<const MarkerDefinition> tags, std::span<const PairSigh
 
 Status check_rigid(const TagBody& body, const TagBodyOptions& options) {
   if (!(body.rms_px <= options.max_rms_px)) {
-    return refused(
+    return body_refused(
         with_numbers("residual %.2f px RMS, limit %.2f px (do the tags move against "
                      "each other?)",
                      body.rms_px, options.max_rms_px));
   }
   if (!(body.outlier_fraction <= options.max_outlier_fraction)) {
-    return refused(
+    return body_refused(
         with_numbers("%.0f %% of the corners do not fit, limit %.0f %% (do the tags "
                      "move against each other?)",
                      100 * body.outlier_fraction, 100 * options.max_outlier_fraction));
@@ -186,9 +186,9 @@ Status check_rigid(const TagBody& body, const TagBodyOptions& options) {
 Status check_sigma(const TagBody& body, const TagBodyOptions& options) {
   for (const BodyTag& tag : body.tags) {
     if (!(tag.sigma_m <= options.max_sigma_m)) {
-      return refused(name_of(tag.definition) +
-                     with_numbers(": its place is known to %.2f mm, limit %.2f mm",
-                                  tag.sigma_m * 1e3, options.max_sigma_m * 1e3));
+      return body_refused(name_of(tag.definition) +
+                          with_numbers(": its place is known to %.2f mm, limit %.2f mm",
+                                       tag.sigma_m * 1e3, options.max_sigma_m * 1e3));
     }
   }
   return {};
@@ -272,13 +272,13 @@ Result<TagBody> calibrate_tag_body(const StereoCalibration& calibration,
   take_pairs(pairs, options.max_pairs, problem, state);
   const auto fit = adjust(problem, state);
   if (!fit) {
-    return refused(fit.error().message);
+    return body_refused(fit.error().message);
   }
   TagBody body = body_of(tags, pairs, problem, state, *fit);
   if (Status status = check_rigid(body, options); !status) {
     return status.error();
   }
-  const std::vector<Sigma> left_out = jackknife(problem, state);
+  const std::vector<TagSigma> left_out = tag_sigmas(problem, state);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     body.tags[i].sigma_m = std::max(body.tags[i].sigma_m, left_out[i].m);
     body.tags[i].sigma_rad = std::max(body.tags[i].sigma_rad, left_out[i].rad);

@@ -10,17 +10,18 @@
 namespace orthonav::nav {
 
 struct TagBodyOptions {
-  /// Two tags must be seen together by both cameras in so many pairs to count as connected.
+  /// Two tags count as connected when both cameras saw them together in at least this many pairs.
   std::size_t min_pairs_together = 10;
-  /// Pairs are thinned evenly to so many.
+  /// Pairs are thinned evenly to this many.
   std::size_t max_pairs = 600;
-  /// Tags that move against each other leave more corners that do not fit (a quarter, from a
+  /// Tags that move relative to each other leave more corners that do not fit (a quarter, from a
   /// millimetre on), or a larger residual.
   double max_rms_px = 0.5;
   double max_outlier_fraction = 0.15;
   double max_sigma_m = 0.001;
-  double max_size_deviation = 0.05;  ///< triangulated edge by the one given, less 1
-  /// What deserves a note.
+  double max_size_deviation =
+      0.05;  ///< of the triangulated edge from the size given, relative to it
+  /// What is worth a note.
   double note_sigma_m = 0.0002;
   double note_sigma_rad = 0.005;
   double note_size_deviation = 0.02;
@@ -39,7 +40,7 @@ struct BodyTag {
   /// recording; 0 for the first tag.
   double sigma_m = 0.0;
   double sigma_rad = 0.0;
-  double size_ratio = 0.0;  ///< middle triangulated edge by the size given
+  double size_ratio = 0.0;  ///< median triangulated edge, relative to the size given
 };
 
 /// A rigid body of tags, the first of which is its marker.
@@ -51,10 +52,10 @@ struct TagBody {
   Judgement judgement;  ///< pass or note; what fails is refused
 };
 
-/// Where the tags lie to each other: relative poses averaged pair by pair (`first_layout`), then
-/// all corners of all pairs adjusted at once (`adjust`). Pairs in the order of time. Refuses bad
-/// options, fewer than two tags, tags that nothing connects with the first one (by name), sizes
-/// that the images contradict, and bodies that are not rigid, each with value and limit.
+/// The tags' relative poses: averaged pair by pair (`first_layout`), then all corners of all pairs
+/// adjusted at once (`adjust`). Pairs in the order of time. Refuses bad options, fewer than two
+/// tags, tags that nothing connects with the first one (by name), sizes that the images contradict,
+/// and bodies that are not rigid, each with value and limit.
 Result<TagBody> calibrate_tag_body(const StereoCalibration& calibration,
                                    std::span<const MarkerDefinition> tags,
                                    std::span<const PairSightings> pairs,

@@ -9,7 +9,8 @@
 namespace orthonav::nav {
 namespace {
 
-/// The next choice of as many of `count` in rising order; false after the last.
+/// The next choice of the same number of the first `count` indices, ascending; false after the
+/// last.
 bool next_choice(std::vector<std::size_t>& chosen, std::size_t count) {
   const std::size_t n = chosen.size();
   for (std::size_t i = n; i-- > 0;) {

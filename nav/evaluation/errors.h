@@ -30,7 +30,8 @@ struct Summary {
 };
 [[nodiscard]] Summary summarize(std::span<const double> values);
 
-/// Target registration error: how far the estimated pose puts a point from where it is.
+/// Target registration error: the distance from where the estimated pose puts a point to where it
+/// is.
 [[nodiscard]] double target_registration_error_m(const Transform<World, Vertebra>& estimated,
                                                  const Transform<World, Vertebra>& truth,
                                                  Point<Vertebra> target);

@@ -8,9 +8,9 @@
 namespace orthonav::nav {
 namespace {
 
-// Stretches begin and end at such blocks.
+// Stretches begin and end at boundaries of blocks this long.
 constexpr double kBlock_s = 0.25;
-// A stretch that has not fitted for so many blocks more won't fit again.
+// A stretch that has not fitted for this many more blocks won't fit again.
 constexpr int kFarFromBest = 8;
 
 Eigen::Matrix3d as_eigen(const Mat3& m) {
@@ -25,8 +25,8 @@ Eigen::Matrix3d as_eigen(const Mat3& m) {
 
 Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 
-/// Sums over poses from which the fit of any stretch follows. With q the tip where the tool says it
-/// is and d its offset, the tips R d + q shall be one point p.
+/// Sums over poses from which the fit of any stretch follows. With q the tip as the tool file has
+/// it and d its offset, the tips R d + q should all be one point p.
 struct Sums {
   double n = 0.0;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();       ///< R
@@ -64,7 +64,8 @@ Fit fit_of(const Sums& sums, double min_spread_rad) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(normal);
   fit.spread_rad = std::sqrt(std::max(0.0, solver.eigenvalues()(0)) / sums.n);
-  // Without turning the offset is open; the tip where it should be is then as good as any.
+  // Without rotation the offset is undetermined; the tip as the tool file has it is then as good as
+  // any.
   if (fit.spread_rad >= min_spread_rad) {
     fit.offset =
         normal.ldlt().solve(sums.rotation.transpose() * sums.tip / sums.n - sums.tip_in_marker);
@@ -77,14 +78,14 @@ Fit fit_of(const Sums& sums, double min_spread_rad) {
 }
 
 /// Sums over all poses before each block, and where each block begins.
-struct Blocks {
+struct PoseBlocks {
   std::vector<Sums> before;
   std::vector<std::size_t> first;
 };
 
-Blocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
-  Blocks blocks;
-  // Near the origin, or the squares lose the digits that matter.
+PoseBlocks blocks_of(std::span<const TrackedPose> poses, Point<Marker> tip) {
+  PoseBlocks blocks;
+  // Near the origin, since otherwise the squares lose the digits that matter.
   const Vec3 origin_m = (poses[0].value * tip).v;
   Sums sums;
   double begins_s = 0.0;
@@ -109,7 +110,7 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
   if (world_from_marker.empty()) {
     return std::nullopt;
   }
-  const Blocks blocks = blocks_of(world_from_marker, tip);
+  const PoseBlocks blocks = blocks_of(world_from_marker, tip);
   std::optional<FixedPoint> best;
   double best_score = 0.0;
   for (std::size_t from = 0; from + 1 < blocks.first.size(); ++from) {
@@ -119,8 +120,8 @@ std::optional<FixedPoint> longest_fixed_point(std::span<const TrackedPose> world
       const std::size_t end = blocks.first[to];
       const Fit fit = fit_of(blocks.before[to] - blocks.before[from], options.min_spread_rad);
       if (fit.rmse_m > options.max_rmse_m || fit.offset.norm() > options.max_offset_m) {
-        // While the tool has turned too little for the offset, a wrong tip looks like a motion, but
-        // no larger one than its offset makes.
+        // While the tool has turned too little to determine the offset, a wrong tip looks like a
+        // motion, but like no larger one than its offset can cause.
         if (fit.spread_rad >= options.min_spread_rad ||
             fit.rmse_m > 2.0 * options.max_offset_m + options.max_rmse_m) {
           ++unfit;

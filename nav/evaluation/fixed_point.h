@@ -12,10 +12,10 @@ struct FixedPointOptions {
   double min_duration_s = 3.0;
   double min_spread_rad = 0.15;  ///< as `PivotOptions` has it
   double max_rmse_m = 0.005;
-  double max_offset_m = 0.03;  ///< of the point from where the tip should be
+  double max_offset_m = 0.03;  ///< largest distance of the point from the given tip
 };
 
-/// A point of the tool that stayed where it was while the tool turned about it.
+/// A point of the tool that stayed in place while the tool turned about it.
 struct FixedPoint {
   std::size_t first = 0;  ///< poses [first, end)
   std::size_t end = 0;
@@ -23,10 +23,9 @@ struct FixedPoint {
   double rmse_m = 0.0;
 };
 
-/// The longest stretch of poses that turned about a fixed point near the tip, found with that point
-/// free (least squares as in `pivot_calibration`). A longer stretch that fits worse counts for
-/// less, so that arriving and leaving stay out of it: length × (1 - (RMSE / limit)²). Times must
-/// increase.
+/// The longest stretch of poses that turned about a fixed point near the tip, with that point free
+/// (least squares as in `pivot_calibration`). A longer stretch that fits worse counts for less, so
+/// that approach and departure are left out: length × (1 - (RMSE / limit)²). Times must increase.
 [[nodiscard]] std::optional<FixedPoint> longest_fixed_point(
     std::span<const TrackedPose> world_from_marker, Point<Marker> tip,
     const FixedPointOptions& options);

@@ -19,7 +19,7 @@ Status check_input(std::span<const Vec3> board_points_m, const AccuracyOptions& 
     return refused("board: %.0f points to touch, at least %.0f are needed",
                    static_cast<double>(board_points_m.size()), 3);
   }
-  // Rests must tell the points apart.
+  // The board's points must be far enough apart for rests to tell them apart.
   for (std::size_t i = 0; i < board_points_m.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!((board_points_m[i] - board_points_m[k]).norm() >= 3.0 * options.rests.radius_m)) {
@@ -61,7 +61,7 @@ FixedPointOptions fixed_point_options(const AccuracyOptions& options) {
   return out;
 }
 
-/// Where the tool's point stays in the stretch that was found.
+/// Where the tool's fixed point is during the stretch found.
 Vec3 fixed_place(const PointerTrack& track, const FixedPoint& found) {
   Vec3 sum_m{};
   for (std::size_t i = found.first; i < found.end; ++i) {
@@ -77,8 +77,8 @@ void add_fixed_points(Vec3 tip_m, PointerTrack& track) {
   }
 }
 
-/// The rests sorted: in the dimple, away from it (the touches), and beside it for so long that the
-/// pointer must have slipped out of it.
+/// The rests, sorted: in the dimple; away from it (touches); and beside it for so long that the
+/// pointer must have slipped out.
 struct SortedRests {
   Dimple dimple;
   std::vector<TipRest> touches;

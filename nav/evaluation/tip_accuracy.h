@@ -13,36 +13,38 @@
 
 namespace orthonav::nav {
 
-/// A figure up to `pass_m` passes, up to `note_m` it is worth a note, beyond it fails.
+/// A figure up to `pass_m` passes, one up to `note_m` is noted, a larger one fails.
 struct AccuracyLimits {
   double pass_m;
   double note_m;
 };
 
-/// The defaults of the limits go with pedicle screws, where a wall breached by 2 mm is the step
-/// between acceptable and not (Gertzbein and Robbins 1990): every part alone must stay within that
-/// to pass or be noted, point-to-point errors within twice that at their worst.
+/// The default limits suit pedicle screws, where breaching the wall by 2 mm separates acceptable
+/// from not (Gertzbein and Robbins 1990): to pass or be noted, every part must stay within that on
+/// its own, and the largest point-to-point error within twice that.
 struct AccuracyOptions {
   TipRestOptions rests;
-  /// A pointer turned by less is held still, in a stretch of at least so long and so many samples.
+  /// A pointer that turns by less than this is held still, if for at least this long and this many
+  /// samples.
   double still_angle_rad = 0.087;
   double min_still_s = 2.0;
   std::size_t min_still_samples = 15;
-  /// Turning about the tip: at least so long, and so far as `PivotOptions::min_spread_rad` means
-  /// it.
+  /// Turning about the tip: at least this long, and with at least this spread, as in
+  /// `PivotOptions::min_spread_rad`.
   double min_turning_s = 3.0;
   double min_turning_spread_rad = 0.15;
-  /// Tips that fit a fixed point worse rest in no dimple.
+  /// Tips that fit a fixed point worse than this do not rest in a dimple.
   double max_turning_rmse_m = 0.005;
-  /// Farther from where the tool file says, the resting point is not this pointer's tip.
+  /// A resting point farther than this from the tip of the tool file is not this pointer's tip.
   double max_tip_bias_m = 0.03;
-  /// Whatever rests nearer to the dimple is the dimple, or has slipped out of it.
+  /// A rest nearer than this to the dimple is in the dimple, or has slipped out of it.
   double dimple_m = 0.025;
-  /// The mean tip moved by more between before and after some moment: it slipped.
+  /// If the mean tip before and after some moment differs by more than this, it slipped.
   double max_slip_m = 0.0015;
-  /// Rests away from the dimple that touch no point of the board, such as a tool laid aside.
+  /// The largest number of rests away from the dimple that touch no point of the board, such as a
+  /// tool laid aside.
   std::size_t max_stray_rests = 4;
-  /// Touches that fit the board worse are not of this board, or in another order.
+  /// Touches that fit the board worse than this belong to another board, or are in another order.
   double max_board_rmse_m = 0.01;
 
   AccuracyLimits single_point_p95{0.001, 0.002};
@@ -51,11 +53,11 @@ struct AccuracyOptions {
   AccuracyLimits distance_mean{0.0005, 0.001};
   AccuracyLimits distance_max{0.002, 0.004};
 
-  /// Everything wrong with the numbers, a line each: name, value, limit. Empty: fine.
+  /// Everything wrong with the numbers, one line each: name, value, limit. Empty: fine.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// A figure against its limits.
+/// A figure and its limits.
 struct Judged {
   std::string what;
   double value_m = 0.0;
@@ -68,7 +70,8 @@ struct AccuracyPart {
   double start_s = 0.0;  ///< from the first measured pose
   double end_s = 0.0;
   std::vector<Judged> judged;
-  /// Why the part fails whatever its figures are, such as a tip that slipped; empty: it does not.
+  /// Why the part fails whatever its figures are, such as a tip that slipped; empty if nothing of
+  /// the kind happened.
   std::string failure;
   [[nodiscard]] Verdict verdict() const;
 };
@@ -79,7 +82,7 @@ struct SinglePointPart : AccuracyPart {
   std::optional<double> predicted_rms_m;  ///< from the poses' covariance, where there is one
 };
 
-/// Tips at one tilt of the pointer against its mean direction.
+/// Tips at one tilt of the pointer from its mean direction.
 struct TiltBin {
   double from_rad = 0.0;
   double to_rad = 0.0;
@@ -93,10 +96,10 @@ struct TurningPart : AccuracyPart {
   TipSpread spread;  ///< of the tips as the tool file has them
   double largest_tilt_rad = 0.0;
   std::vector<TiltBin> bins;
-  /// The systematic part: where the tip turned about is, less where the tool file says it is.
+  /// The systematic part: the tip that the tool turned about, minus the tip of the tool file.
   Vec3 tip_bias_m{};              ///< in the marker's axes
   double tip_bias_sigma_m = 0.0;  ///< predicted 3-D SD of it
-  double residual_rms_m = 0.0;    ///< what is left of the spread without the bias
+  double residual_rms_m = 0.0;    ///< what remains of the spread without the bias
 };
 
 struct TouchedPoint {
@@ -111,10 +114,10 @@ struct DistancePart : AccuracyPart {
   std::vector<TouchedPoint> points;
   std::size_t stray_rests = 0;
   std::size_t distances = 0;
-  double mean_error_m = 0.0;  ///< measured less known
+  double mean_error_m = 0.0;  ///< measured minus known
   double sd_m = 0.0;
   double rms_m = 0.0;
-  double max_error_m = 0.0;  ///< largest by amount
+  double max_error_m = 0.0;  ///< largest in magnitude
   double fit_rmse_m = 0.0;
 };
 
@@ -124,16 +127,16 @@ struct AccuracyReport {
   SinglePointPart single_point;
   TurningPart turning;
   std::optional<DistancePart> distances;
-  [[nodiscard]] Verdict verdict() const;  ///< the worst part's
+  [[nodiscard]] Verdict verdict() const;  ///< the worst of all parts
 };
 
 /// The three tests of ASTM F2554 for the accuracy of a tracked pointer, as far as a dimple and a
-/// printed board go: the dimple is found as the point that the pointer turned about longest (fitted
-/// with a free tip, so that a wrong tip does not hide it), single-point repeatability is taken from
-/// the longest stretch there without turning, and the rests elsewhere are the touches of the board,
-/// in the order of `board_points_m` (at least three; none: no such test). Only measured poses
-/// count. Refuses, in one line with value and limit, options that do not hold, times that do not
-/// increase, and data too few for a part.
+/// printed board allow. The dimple is the point about which the pointer turned longest (fitted with
+/// a free tip, so that a wrong tip does not hide it). Single-point repeatability comes from the
+/// longest stretch there without turning. The rests elsewhere are the touches of the board, in the
+/// order of `board_points_m` (at least three; none: no such test). Only measured poses count.
+/// Refuses, in one line with value and limit, bad options, times that do not increase, and too few
+/// data for a part.
 Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from_marker,
                                          const ToolGeometry& pointer,
                                          std::span<const Vec3> board_points_m,

@@ -61,7 +61,7 @@ std::vector<std::string> AccuracyOptions::check() const {
   for (const Number& number : numbers) {
     check_number(number, problems);
   }
-  // More would be choices without end.
+  // With more, the number of choices would explode.
   if (max_stray_rests > 6) {
     problems.push_back("accuracy test: max_stray_rests " + std::to_string(max_stray_rests) +
                        ", limit 6");

@@ -26,7 +26,7 @@ double length_s(const PointerTrack& track, const std::vector<std::size_t>& sampl
   return track.tips[samples.back()].time_s - track.tips[samples.front()].time_s;
 }
 
-/// Variance of the tip, summed over the axes: a small turn w (parent's axes) moves it by w × r.
+/// Variance of the tip, summed over the axes: a small rotation w (parent's axes) moves it by w × r.
 double tip_variance_m2(const TrackedPose& pose, Point<Marker> tip) {
   const Vec3 r = pose.value.rotation() * tip.v;
   // Rows of the derivative of the tip by (translation, rotation vector).
@@ -55,7 +55,7 @@ std::optional<double> predicted_rms_m(const PointerTrack& track, Point<Marker> t
   return std::sqrt(sum_m2 / static_cast<double>(samples.size()));
 }
 
-/// Without what was dropped as settling before the pointer was quite still.
+/// Without the ends, during which the pointer was settling.
 std::vector<std::size_t> without_ends(const PointerTrack& track,
                                       const std::vector<std::size_t>& samples, double ends_s) {
   std::vector<std::size_t> inner;
@@ -68,7 +68,7 @@ std::vector<std::size_t> without_ends(const PointerTrack& track,
   return inner;
 }
 
-/// Tilt of the tool's axis against its mean direction, one for each sample.
+/// Tilt of the tool's axis from its mean direction, for each sample.
 std::vector<double> tilts_rad(const PointerTrack& track, Direction<Marker> axis,
                               const std::vector<std::size_t>& samples) {
   Vec3 mean{};
@@ -114,7 +114,7 @@ Result<PivotFit> fit_in(const PointerTrack& track, const Dimple& dimple,
   }
   const auto fit = fit_pivot(poses, dimple.samples);
   const double spread_rad = fit ? fit->spread_rad : 0.0;
-  if (spread_rad < options.min_turning_spread_rad) {
+  if (!fit || spread_rad < options.min_turning_spread_rad) {
     return refused(
         "accuracy test: the pointer turned by %.2f rad RMS about its resting tip, at "
         "least %.2f are needed",
@@ -171,7 +171,7 @@ Result<std::vector<std::size_t>> still_stretch(const PointerTrack& track, const 
       stretch.clear();
     }
     stretch.push_back(i);
-    // The oldest leave until the newest is within the angle of all that stay.
+    // The oldest samples leave until the newest is within the angle of all that remain.
     std::size_t drop = 0;
     for (std::size_t k = 0; k + 1 < stretch.size(); ++k) {
       if (rotation_angle_rad(rotation_at(track, stretch[k]), rotation_at(track, i)) >
@@ -220,7 +220,7 @@ Result<TurningPart> turning_part(const PointerTrack& track, const ToolGeometry& 
   if (!pivot) {
     return pivot.error();
   }
-  // Held still, the tips are all at one tilt and would only dilute the spread.
+  // While the pointer is held still all tips have one tilt and would only dilute the spread.
   std::vector<std::size_t> turning;
   std::set_difference(dimple.samples.begin(), dimple.samples.end(), still.begin(), still.end(),
                       std::back_inserter(turning));

@@ -7,18 +7,18 @@
 namespace orthonav::nav {
 namespace {
 
-constexpr double kBlock_s = 0.25;
-// A second on either mean.
+constexpr double kSpreadBlock_s = 0.25;
+// A second for either mean.
 constexpr std::size_t kLeastBlocks = 4;
 constexpr double kSignificance = 4.0;
 
-/// Noise of neighbouring samples goes together; that of quarters of a second hardly does.
+/// Noise of neighbouring samples is correlated; that of quarters of a second hardly is.
 std::vector<TipSample> block_means(std::span<const TipSample> samples) {
   std::vector<TipSample> blocks;
   for (std::size_t first = 0; first < samples.size();) {
     TipSample block;
     std::size_t i = first;
-    for (; i < samples.size() && samples[i].time_s < samples[first].time_s + kBlock_s; ++i) {
+    for (; i < samples.size() && samples[i].time_s < samples[first].time_s + kSpreadBlock_s; ++i) {
       block.tip_m += samples[i].tip_m;
       block.time_s += samples[i].time_s;
     }

@@ -24,9 +24,9 @@ struct TipSlip {
   double step_m = 0.0;
 };
 
-/// The largest difference between the mean tips before and after a moment, at least a second of
-/// samples on either side, if it is larger than `max_step_m` and than four times what the scatter
-/// of quarters of a second lets expect. The samples' times must increase.
+/// The largest difference between the mean tips before and after a moment, with at least a second
+/// of samples on either side, if it exceeds `max_step_m` and four times what the scatter of
+/// quarters of a second would explain. The samples' times must increase.
 [[nodiscard]] std::optional<TipSlip> tip_slip(std::span<const TipSample> samples,
                                               double max_step_m);
 

@@ -7,7 +7,7 @@
 namespace orthonav::nav {
 namespace {
 
-// Points this close to a line, relative to their length along it, leave the turn about the line
+// Points this close to a line, relative to their length along it, leave the rotation about the line
 // to rounding and noise.
 constexpr double kCollinear = 1e-4;
 

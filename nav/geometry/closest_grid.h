@@ -9,20 +9,20 @@
 
 namespace orthonav::nav {
 
-/// Closest points of a surface, looked up instead of searched for: what is closest to the centre of
-/// a cell stands for the whole cell. Tens of times faster than SurfaceIndex and wrong by up to
-/// about a cell: for a first look at many poses. Immutable, thread-safe, no allocation in queries.
+/// Closest points of a surface by look-up: the point closest to a cell's centre stands for the
+/// whole cell. Tens of times faster than SurfaceIndex, and wrong by up to about a cell: for a first
+/// look at many poses. Immutable, thread-safe, no allocation in queries.
 class ClosestGrid {
  public:
   /// Covers the mesh and `margin_m` around it; points outside take the border's cell.
   ClosestGrid(const TriangleMesh& mesh, const SurfaceIndex& surface, double cell_m,
               double margin_m);
-  /// The same from what `closest_m` gave, without the time that it takes to make. Refuses what is
-  /// not of this mesh: another number of cells, or places that are not the closest ones wherever
-  /// they are looked at (some hundred cells are).
+  /// The same from what `closest_m` returned, without computing it again. Refuses data of another
+  /// mesh: another number of cells, or a point that is not the closest one in any of some hundred
+  /// cells that are checked.
   static Result<ClosestGrid> restored(const TriangleMesh& mesh, const SurfaceIndex& surface,
                                       double cell_m, double margin_m, std::vector<Vec3> closest_m);
-  /// Of every cell's centre, x running fastest.
+  /// For every cell's centre, x running fastest.
   [[nodiscard]] std::span<const Vec3> closest_m() const { return closest_m_; }
   [[nodiscard]] Vec3 nearest(Vec3 query_m) const {
     return closest_m_[cell(0, query_m) + cell(1, query_m) + cell(2, query_m)];
@@ -32,7 +32,7 @@ class ClosestGrid {
   ClosestGrid(const TriangleMesh& mesh, double cell_m, double margin_m);
   [[nodiscard]] std::size_t cells() const;
   [[nodiscard]] Vec3 centre_m(std::size_t cell) const;
-  /// The axis' share of the index; NaN falls into the first cell.
+  /// Its part of the cell's index along this axis; NaN falls into the first cell.
   [[nodiscard]] std::size_t cell(int axis, Vec3 query_m) const {
     const auto k = static_cast<std::size_t>(axis);
     const double at = (query_m[axis] - low_m_[axis]) / cell_m_;

@@ -8,7 +8,7 @@
 namespace orthonav::nav {
 namespace {
 
-/// Farther from the surface nobody asks on which side a point lies.
+/// Farther than this from the surface, nobody asks on which side a point lies.
 constexpr double kSigned_m = 0.008;
 
 float signed_distance_m(double distance_m, const SurfaceIndex& bone, Vec3 place_m) {
@@ -89,7 +89,7 @@ Result<DistanceField> DistanceField::restored(const TriangleMesh& mesh, const Su
 
 bool DistanceField::at(Vec3 query_m, Value& value) const {
   const Vec3 p = (query_m - bounds_.low) / cell_m_;
-  // Negated, so that what is no number is outside as well.
+  // Negated, so that NaN counts as outside.
   if (!(p.x >= 0.0 && p.y >= 0.0 && p.z >= 0.0 && p.x < size_[0] - 1 && p.y < size_[1] - 1 &&
         p.z < size_[2] - 1)) {
     return false;

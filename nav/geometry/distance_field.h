@@ -10,19 +10,19 @@
 
 namespace orthonav::nav {
 
-/// Distance to a surface, looked up: sampled on a grid, in between trilinear. Negative inside the
-/// bone to 8 mm from the surface, positive elsewhere. Off by a few tenths of a cell where the
-/// surface bends within one: for finding poses, not for the last step. Immutable, thread-safe, no
-/// allocation in queries.
+/// Distance to a surface by look-up: sampled on a grid, trilinear in between. Negative inside the
+/// bone down to 8 mm from the surface, positive elsewhere. Off by a few tenths of a cell where the
+/// surface bends within one: good for finding poses, not for the last step. Immutable, thread-safe,
+/// no allocation in queries.
 class DistanceField {
  public:
-  /// To the surface of `near`; the sign by the closed surface `bone`. Covers `mesh`, of which
-  /// `near` is the index, and `margin_m` around it.
+  /// Distance to the surface of `near`, with the sign from the closed surface `bone`. Covers
+  /// `mesh`, of which `near` is the index, and `margin_m` around it.
   DistanceField(const TriangleMesh& mesh, const SurfaceIndex& near, const SurfaceIndex& bone,
                 double cell_m, double margin_m);
-  /// The same from what `samples_m` gave, without the time that it takes to make. Refuses what is
-  /// not of these surfaces: another number of samples, or distances that are wrong wherever they
-  /// are looked at (some hundred places are).
+  /// The same from what `samples_m` returned, without computing it again. Refuses data of other
+  /// surfaces: another number of samples, or a wrong distance at any of some hundred places that
+  /// are checked.
   static Result<DistanceField> restored(const TriangleMesh& mesh, const SurfaceIndex& near,
                                         const SurfaceIndex& bone, double cell_m, double margin_m,
                                         std::vector<float> samples_m);
@@ -31,7 +31,7 @@ class DistanceField {
 
   struct Value {
     double distance_m = 0.0;
-    Vec3 gradient;  ///< about a unit vector
+    Vec3 gradient;  ///< approximately of unit length
   };
   /// False outside the grid, which is farther than the margin from the surface.
   [[nodiscard]] bool at(Vec3 query_m, Value& value) const;

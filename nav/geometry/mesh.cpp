@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSmallest_m = 0.030;
 constexpr double kLargest_m = 0.250;
-/// Less than this much of its bounding cube: folded flat, there is no inside.
+/// A volume below this fraction of the bounding cube's: folded flat, without an inside.
 constexpr double kMinVolumeFraction = 1e-4;
 
 struct DirectedEdge {
@@ -54,7 +54,7 @@ Status check_numbers(const TriangleMesh& mesh) {
   return {};
 }
 
-/// The largest extent along an axis.
+/// The largest extent along any axis.
 double extent_m(const TriangleMesh& mesh) {
   const auto [low, high] = bounds_of(mesh);
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
@@ -127,7 +127,7 @@ Status check_closed(const TriangleMesh& mesh) {
 }
 
 double signed_volume_m3(const TriangleMesh& mesh) {
-  // About a vertex, so that a model far from its origin keeps its digits.
+  // About a vertex, so that a model far from its origin keeps its precision.
   const Vec3 o = mesh.vertices_m[mesh.triangles[0][0]];
   double six_volumes = 0.0;
   for (const auto& t : mesh.triangles) {
@@ -184,7 +184,7 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> renamed;
   renamed.reserve(mesh.vertices_m.size());
   for (const Vec3& v : mesh.vertices_m) {
-    // By their bits, so that even numbers that are not finite have an order; adding zero turns -0
+    // Compared by their bits, so that non-finite numbers too have an order; adding zero turns -0
     // into +0.
     const std::array<std::uint64_t, 3> key = {std::bit_cast<std::uint64_t>(v.x + 0.0),
                                               std::bit_cast<std::uint64_t>(v.y + 0.0),
@@ -199,7 +199,7 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   for (std::array<std::uint32_t, 3> t : mesh.triangles) {
     bool valid = true;
     for (std::uint32_t& v : t) {
-      // An index out of range stays one, for the check to name.
+      // An index out of range stays out of range, for the check to name.
       valid = valid && v < renamed.size();
       v = v < renamed.size() ? renamed[v] : std::numeric_limits<std::uint32_t>::max();
     }

@@ -24,17 +24,17 @@ struct Bounds {
   Vec3 high;
   [[nodiscard]] Vec3 centre() const { return 0.5 * (low + high); }
 };
-/// Of the vertices that faces name; a stray vertex counts for nothing. Zero without faces.
+/// Of the vertices that faces refer to; stray vertices are ignored. Zero without faces.
 [[nodiscard]] Bounds bounds_of(const TriangleMesh& mesh);
 
-/// Refuses what can't be navigated on, with the reason: no faces, non-finite vertices, an index out
-/// of range, edges not shared by exactly two triangles (non-manifold or open), a size outside
-/// 30-250 mm (a vertebra is 60-130 mm across; the message names metres taken for millimetres).
-/// A mesh that is closed but oriented inward is turned.
+/// Refuses a mesh that can't be navigated on, with the reason: no faces, non-finite vertices, an
+/// index out of range, edges not shared by exactly two triangles (non-manifold or open), a size
+/// outside 30-250 mm (a vertebra is 60-130 mm across; the message says so when metres were taken
+/// for millimetres). A mesh that is closed but oriented inward is turned inside out.
 Result<TriangleMesh> checked_vertebra(TriangleMesh mesh);
 
-/// The same surface with vertices at exactly equal places made one, and the faces that collapse
-/// thereby left out: what a format without shared vertices (STL) needs before the check above.
+/// The same surface with vertices at exactly the same place merged, and without the faces that this
+/// makes collapse: needed before the check above for a format without shared vertices (STL).
 TriangleMesh welded(const TriangleMesh& mesh);
 
 struct SurfacePoint {

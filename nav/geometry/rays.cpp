@@ -14,7 +14,7 @@ std::optional<RayMeeting> closest_point(const Ray& a, const Ray& b) {
   const Vec3 v = b.direction.normalized();
   const Vec3 across = u.cross(v);
   const double sine_squared = across.squared_norm();
-  // The negated comparison also turns away whatever is not finite.
+  // Negated, so that NaN is refused too.
   if (!(sine_squared > kParallelRad * kParallelRad)) {
     return std::nullopt;
   }

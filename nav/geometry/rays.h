@@ -6,7 +6,7 @@
 
 namespace orthonav::nav {
 
-/// From `origin_m` on along `direction`, which may have any length but zero.
+/// From `origin_m` along `direction`, which may have any length but zero.
 struct Ray {
   Vec3 origin_m;
   Vec3 direction;

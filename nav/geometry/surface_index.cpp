@@ -35,7 +35,7 @@ double entry_into_box(const BoxRay& ray, Vec3 low, Vec3 high, double limit) {
   double near = 0.0;
   double far = limit;
   for (int axis = 0; axis < 3; ++axis) {
-    if (ray.direction[axis] == 0.0) {  // 0 · infinity would be no number
+    if (ray.direction[axis] == 0.0) {  // 0 · infinity would be NaN
       if (ray.origin[axis] < low[axis] || ray.origin[axis] > high[axis]) {
         return kFar;
       }

@@ -65,7 +65,7 @@ inline Vec3 nearest_on_triangle(Vec3 p, const Triangle& triangle) {
 }
 
 /// Where a ray meets a triangle, as a multiple of `direction` >= 0 (Möller & Trumbore 1997). The
-/// edges are taken a hair wider so that no ray slips between neighbours.
+/// edges are widened a little, so that no ray slips between neighbours.
 inline std::optional<double> ray_meets_triangle(Vec3 origin, Vec3 direction,
                                                 const Triangle& triangle) {
   constexpr double kWider = 1e-10;

@@ -26,7 +26,7 @@ struct Axis {
   Vec3 direction;
 };
 
-/// What guides the surgeon to one screw; the paper's triangle A-B-C and 3D angle, and depth.
+/// What guides the surgeon to one screw: the paper's triangle A-B-C and 3-D angle, and depth.
 struct ScrewGuidance {
   double angle_rad = 0.0;       ///< between tool axis and planned trajectory, in [0, pi]
   Point<World> tip;             ///< of the tool
@@ -37,16 +37,17 @@ struct ScrewGuidance {
   double tip_off_axis_m = 0.0;  ///< distance of the tip from the planned axis
   double depth_m = 0.0;         ///< of the tip past the entry along the planned axis; < 0: before
   double to_target_m = 0.0;     ///< of the tip from the target along the planned axis; < 0: past it
-  /// At right angles to the planned axis, from it: of the tip, and of the tool's axis `reach` up.
+  /// Perpendicular to the planned axis, from that axis: of the tip, and of the point `reach` up the
+  /// tool's axis.
   Vec3 tip_offset_m;
   Vec3 top_offset_m;
 };
 
 inline constexpr double kTriangleReach_m = 0.080;
 
-/// `tool_axis_in_world` points from the tip back along the shaft, `tip_in_world` is its tip; the
-/// axis is of any length but zero, and the plan's entry and target differ (plan files are checked
-/// for it).
+/// `tool_axis_in_world` points from the tip back along the shaft and may have any length but zero;
+/// `tip_in_world` is its tip. The plan's entry and target must differ (plan files are checked for
+/// that).
 [[nodiscard]] ScrewGuidance guide(const Transform<World, Vertebra>& world_from_vertebra,
                                   const ScrewPlan& plan, Point<World> tip_in_world,
                                   Vec3 tool_axis_in_world);

@@ -17,11 +17,12 @@ constexpr double kSameRotation_rad = 0.1;
 constexpr double kTranslation_m = 0.009;
 constexpr double kRotation_rad = 0.35;
 constexpr int kShakes = 8;
-/// Proper pairings of three axes and their signs: all are worth shaking once doubles are gone.
+/// The proper pairings of three axes and their signs: with duplicates dropped, all of them can be
+/// perturbed.
 constexpr std::size_t kPairings = 24;
 /// Enough points to tell a good pose from a bad one, few enough to try hundreds.
 constexpr std::size_t kThinned = 80;
-/// A shaken pose is better only when its RMSE falls by more than ICP's own slack.
+/// A perturbed pose is better only when its RMSE falls by more than ICP's own tolerance.
 constexpr double kBetter_m = 1e-5;
 constexpr IcpOptions kFirstLook{30, 1e-5};
 constexpr IcpOptions kShakeLook{25, 2e-5};
@@ -35,8 +36,8 @@ std::vector<Point<World>> thinned(std::span<const Point<World>> points, std::siz
   return few;
 }
 
-/// The 24 ways to lay one right-handed set of axes onto another, as order and direction of the
-/// digitized extreme points for every one of the model's.
+/// The 24 ways to lay one right-handed set of axes onto another: the order and direction of the
+/// digitized extreme points for the model's.
 std::vector<std::array<Vec3, 6>> proper_pairings(const std::array<Vec3, 6>& extremes) {
   constexpr std::array<std::array<std::size_t, 3>, 6> kOrders = {
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};  // 3 even, 3 odd
@@ -87,8 +88,8 @@ class Search {
     return found;
   }
 
-  /// Leaves local minima: the best of twelve shaken and refined poses, again and again while it
-  /// gets better.
+  /// Escapes local minima: takes the best of twelve perturbed and refined poses, repeatedly, as
+  /// long as it improves.
   [[nodiscard]] CoarsePose shaken(CoarsePose pose) const {
     for (int i = 0; i < kShakes; ++i) {
       CoarsePose best = pose;
@@ -107,7 +108,7 @@ class Search {
     return pose;
   }
 
-  /// Sorted, without what lies close to a better one.
+  /// Sorted, without poses close to a better one.
   [[nodiscard]] std::vector<CoarsePose> distinct(std::vector<CoarsePose> poses,
                                                  std::size_t most) const {
     sort_by_fit(poses);
@@ -123,7 +124,7 @@ class Search {
   }
 
  private:
-  /// ICP on the grid's rough closest points.
+  /// ICP on the approximate closest points of the grid.
   [[nodiscard]] std::optional<CoarsePose> look(const Pose& start, const IcpOptions& options) const {
     std::vector<Vec3> digitized(few_.size());
     for (std::size_t i = 0; i < few_.size(); ++i) {

@@ -7,7 +7,7 @@
 
 namespace orthonav::nav {
 
-/// A start for ICP and how well it fits a thinned-out set of the points.
+/// A start for ICP, and how well it fits a reduced set of the points.
 struct CoarsePose {
   Transform<World, Vertebra> world_from_vertebra;
   double rmse_m = 0.0;

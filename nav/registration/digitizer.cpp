@@ -11,7 +11,7 @@ namespace {
 /// Two minutes at 30 Hz: recording does not allocate.
 constexpr std::size_t kReservedSamples = 3600;
 
-/// The tip moves by the shift and by the turn times the arm.
+/// The tip moves by the translation, and by the rotation times the lever arm.
 double tip_sd_m(const TrackedPose& pose, Point<Marker> tip_in_marker) {
   const Vec3 lever_arm = pose.value.rotation() * tip_in_marker.v;
   double variance = 0.0;
@@ -30,7 +30,7 @@ double tip_sd_m(const TrackedPose& pose, Point<Marker> tip_in_marker) {
   return variance > 0.0 && std::isfinite(variance) ? std::sqrt(variance / 3.0) : 0.0;
 }
 
-/// One thing of every saved sample, in order.
+/// One field of every saved sample, in order.
 template <class T>
 std::vector<T> of_saved(std::span<const Region> regions, T Sample::*thing) {
   std::vector<T> out;

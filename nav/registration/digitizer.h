@@ -10,13 +10,13 @@
 
 namespace orthonav::nav {
 
-/// One digitized point. World, or the patient reference's frame where one is used; the caller keeps
-/// that apart.
+/// One digitized point. In World, or in the patient reference's frame where one is used; the caller
+/// keeps track of which.
 struct Sample {
   Point<World> tip_in_world;
   Timestamp time{};
   Vec3 shaft_in_world{};  ///< unit vector from the tip back along the pointer's shaft
-  double tip_sd_m = 0.0;  ///< how exactly it was tracked: RMS of an axis; 0 where nothing tells
+  double tip_sd_m = 0.0;  ///< how exactly it was tracked: RMS per axis; 0 where unknown
 };
 
 /// Consecutive samples between two saves: one region (lamina, spinous process, a facet).
@@ -25,9 +25,9 @@ struct Region {
   bool saved = false;
 };
 
-/// Collects pointer tips while the button is held, only from measured poses (Liebmann et al. 2019,
-/// section 3.2). "save" closes the current region, "delete" drops it; what was saved goes by an
-/// explicit second word only. One thread at a time.
+/// Collects pointer tips while the button is held, from measured poses only (Liebmann et al. 2019,
+/// section 3.2). "save" closes the current region, "delete" drops it; a saved region is removed
+/// only by an explicit second command. One thread at a time.
 class Digitizer {
  public:
   /// Starts recording into the current region, or into a new one after a save.
@@ -41,7 +41,7 @@ class Digitizer {
   /// Keeps the current region; without samples there is nothing to keep.
   void save();
   /// Drops the region that is not saved yet and returns it; nothing when it has no samples. Never
-  /// touches a saved one. Recording goes on while the button is held.
+  /// touches a saved one. Recording continues while the button is held.
   std::optional<Region> drop();
   /// Drops the last saved region and returns it; nothing when there is none.
   std::optional<Region> drop_saved();
@@ -50,13 +50,13 @@ class Digitizer {
   [[nodiscard]] bool recording() const { return recording_; }
   [[nodiscard]] std::span<const Region> regions() const { return regions_; }
   [[nodiscard]] std::vector<Point<World>> saved_points() const;
-  /// Of these points, in their order.
+  /// For these points, in their order.
   [[nodiscard]] std::vector<double> saved_point_sds_m() const;
   [[nodiscard]] std::vector<Vec3> saved_shafts() const;
   [[nodiscard]] std::size_t saved_count() const;
 
  private:
-  /// The region that samples go to: the last one, while it is not saved.
+  /// The region that samples go to: the last one, as long as it is not saved.
   Region& current();
 
   std::vector<Region> regions_;

@@ -11,26 +11,26 @@ namespace orthonav::nav {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-/// Pose and lift.
+/// Pose and standoff.
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 /// A larger step between two points begins another stroke.
 constexpr double kLeap_m = 0.008;
-/// Noise of a hand and a tracker is forgotten after so many points: 2 s at 30 Hz.
+/// Noise of a hand and a tracker is uncorrelated after this many points: 2 s at 30 Hz.
 constexpr std::size_t kLongestLag = 60;
-/// The autocorrelation is followed until it falls below that; what is smaller drowns in chance,
-/// and a fit that took part of it away. From there it is taken to fall as it did so far.
+/// The autocorrelation is followed until it falls below this; smaller values drown in chance, and
+/// the fit has absorbed part of them. Beyond, it is extrapolated at the rate at which it fell.
 constexpr double kNoiseCorrelation = 0.12;
 constexpr double kNegligibleCorrelation = 0.01;
-/// From one point to the next the rest of the noise falls at least so far.
+/// From one point to the next, the extrapolated correlation falls at least by this factor.
 constexpr double kSlowest = 0.97;
-/// Variance beyond what the residuals tell of: measured (docs/registration.md).
+/// Variance in addition to what the residuals show: measured (docs/registration.md).
 constexpr double kUnseen = 1.15;
 constexpr double kCell_m = 0.005;
-/// Turns are compared with shifts at this lever.
+/// Rotations are compared with translations at this lever arm.
 constexpr double kLever_m = 0.03;
-/// The motion least seen may be this much less visible than the best seen one.
+/// The least visible motion may be this much less visible than the most visible one.
 constexpr double kWeakest = 1e-6;
 
 Vector7 derivative(const FittedPoint& p, bool with_standoff) {
@@ -43,7 +43,7 @@ Vector7 derivative(const FittedPoint& p, bool with_standoff) {
 
 double influence(const FittedPoint& p) { return p.weight * p.residual_m; }
 
-/// Number of the stroke of each point; `ordered` false when steps are mostly leaps.
+/// The number of each point's stroke; `ordered` is false when most steps are leaps.
 struct Strokes {
   std::vector<int> of;
   bool ordered = true;
@@ -64,7 +64,7 @@ Strokes strokes_of(const SurfaceFit& fit) {
   return out;
 }
 
-/// Of the influences along strokes, from lag 0 on, as far as they are correlated.
+/// Autocovariance of the influences along strokes, from lag 0 on, as far as they are correlated.
 std::vector<double> autocovariance(const SurfaceFit& fit, const std::vector<int>& stroke) {
   std::vector<double> out;
   const std::size_t n = fit.points.size();
@@ -113,7 +113,7 @@ Matrix7 middle_along_strokes(const SurfaceFit& fit, const std::vector<Vector7>& 
   return out;
 }
 
-/// Every cell's points err alike.
+/// For points without order: all points of a cell err alike.
 Matrix7 middle_by_cells(const SurfaceFit& fit, const std::vector<Vector7>& j, double gamma) {
   std::map<std::array<long, 3>, Vector7> cells;
   for (std::size_t i = 0; i < j.size(); ++i) {
@@ -131,7 +131,7 @@ Matrix7 middle_by_cells(const SurfaceFit& fit, const std::vector<Vector7>& j, do
   return out;
 }
 
-/// Nothing when a motion is left open.
+/// Nothing when a motion is undetermined.
 std::optional<Matrix7> inverse_of(const Matrix7& information) {
   Vector7 lever;
   lever << 1, 1, 1, kLever_m, kLever_m, kLever_m, 1;
@@ -193,8 +193,8 @@ std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
   FitCovariance out;
   const double repeated = std::max(1.0, (covariance * independent.inverse()).trace() / 6.0);
   out.effective_points = used / repeated;
-  // Six numbers were fitted to them, and some correlation (between strokes, of outliers that pass)
-  // shows in no residual.
+  // Six numbers were fitted to the points, and some correlation (between strokes, of outliers that
+  // pass) shows in no residual.
   const double more = kUnseen * out.effective_points / std::max(out.effective_points - 6.0, 1.0);
   covariance *= more;
   out.standoff_sd_m = std::sqrt(more * whole(6, 6));

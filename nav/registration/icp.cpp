@@ -22,7 +22,7 @@ class Correspondences {
     double sum_m2 = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Vec3 query_m = (inverse * points_[i]).v;
-      // The last closest point lies on the surface: no closer one is farther than it.
+      // The last closest point lies on the surface, so the closest one is no farther.
       const double within_m = first_ ? 1e9 : (closest_[i] - query_m).norm() * (1 + 1e-12) + 1e-15;
       if (const auto found = surface_.nearest(query_m, within_m)) {
         closest_[i] = found->point_m;

@@ -10,7 +10,7 @@ namespace orthonav::nav {
 
 struct IcpOptions {
   int max_iterations = 100;
-  double converged_m = 1e-6;  ///< change of the RMSE that ends it
+  double converged_m = 1e-6;  ///< a smaller change of the RMSE ends it
 };
 
 struct IcpResult {
@@ -19,8 +19,8 @@ struct IcpResult {
   int iterations = 0;
 };
 
-/// Iterative closest points (Besl & McKay 1992), point to point, every point weighted alike. Each
-/// step lowers the RMSE, so it ends in the nearest minimum, not in the best one: where it starts
+/// Iterative closest points (Besl & McKay 1992), point to point, every point with equal weight.
+/// Each step lowers the RMSE, so it ends in the nearest minimum and not in the best one: the start
 /// decides. An Error when the closest points are collinear.
 Result<IcpResult> refine_icp(const SurfaceIndex& surface,
                              std::span<const Point<World>> points_in_world,

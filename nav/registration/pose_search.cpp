@@ -17,16 +17,16 @@ constexpr double kFieldCell_m = 0.002;
 constexpr double kFieldMargin_m = 0.014;
 
 constexpr double kSearchCell_m = 0.002;
-/// Points of a vertebra's back lie within so much of their centre; farther ones are outliers.
+/// Points of a vertebra's back lie within this distance of their centre; farther ones are outliers.
 constexpr double kReach_m = 0.075;
-/// Costs of single points, truncated: an outlier is none the worse for being farther off.
+/// Costs of single points are truncated here: an outlier costs no more for being farther off.
 constexpr double kFarthest_m = 0.010;
 constexpr double kInsideFactor = 1.5;
 constexpr double kCostPerM = 250.0 / (kInsideFactor * kFarthest_m);
 
 constexpr int kRotations = 1000;
 constexpr int kPlaceStep = 4;  ///< cells
-/// Centres of strokes lie within the box of the reachable surface, not on its rim.
+/// Centres of strokes lie inside the box of the reachable surface, at least this far from its rim.
 constexpr double kInset_m = 0.006;
 constexpr std::size_t kPointsAdded = 32;
 constexpr std::size_t kPointsFirst = 48;
@@ -36,7 +36,7 @@ constexpr std::size_t kKeptFirst = 500;
 constexpr std::size_t kKeptThen = 100;
 constexpr std::size_t kKeptLast = 20;
 
-/// Rotations spread evenly over all there are.
+/// Rotations spread evenly over all orientations.
 std::vector<Mat3> all_rotations() {
   constexpr double kPsi = 1.533751168755204288118041;
   std::vector<Mat3> rotations;
@@ -74,7 +74,7 @@ class PlaceScan {
     }
   }
 
-  /// The two best places that are not neighbours.
+  /// Finds the two best places that are not neighbours.
   void scan(const Mat3& rotation, std::vector<Scored>& out) {
     const std::ptrdiff_t row = cells_.size[0];
     const std::ptrdiff_t slice = row * cells_.size[1];
@@ -158,7 +158,7 @@ void keep_best(std::vector<Scored>& poses, std::size_t count) {
   std::stable_sort(poses.begin(), poses.end(), is_better);
 }
 
-/// Leaves out what lies next to a better pose; `poses` sorted.
+/// Drops poses next to a better one; `poses` is sorted.
 void drop_neighbours(std::vector<Scored>& poses, double same_m, double same_rad,
                      std::size_t count) {
   std::vector<Scored> kept;

@@ -10,19 +10,19 @@
 
 namespace orthonav::nav {
 
-/// A vertebra prepared for the search of every pose: what lies how far from its reachable surface,
-/// once finely to descend in, once coarsely to add up in. Immutable.
+/// A vertebra prepared for the search over all poses: distances to its reachable surface, on a fine
+/// grid for descending and on a coarse one for adding up. Immutable.
 class SearchField {
  public:
   SearchField(const TriangleMesh& reachable, const SurfaceIndex& reachable_surface,
               const SurfaceIndex& bone);
-  /// The same from the samples of `field()`; refuses what is not of these surfaces.
+  /// The same from the samples of `field()`; refuses samples of other surfaces.
   static Result<SearchField> restored(const TriangleMesh& reachable,
                                       const SurfaceIndex& reachable_surface,
                                       const SurfaceIndex& bone, std::vector<float> samples_m);
 
   [[nodiscard]] const DistanceField& field() const { return field_; }
-  /// What digitized points' centres are tried at.
+  /// The box within which the centre of the digitized points is tried.
   [[nodiscard]] const Bounds& reachable_bounds() const { return reachable_bounds_; }
 
   /// The coarse grid: the cost of a point in each cell, and how far apart neighbours are stored.
@@ -48,17 +48,17 @@ struct FoundPose {
 };
 
 struct PoseSearchOptions {
-  std::size_t most = 8;  ///< poses that are returned
-  /// Poses nearer to each other than both are one.
+  std::size_t most = 8;  ///< poses to return
+  /// Poses closer to each other than both of these are one.
   double same_m = 0.003;
   double same_rad = 0.1;
   double tip_radius_m = 0.0;
 };
 
-/// The poses at which the points could lie on the surface, the best first: every orientation
-/// (a low-discrepancy set, 12° apart on average; Alexa 2022, "Super-Fibonacci spirals") and every
-/// place is looked at coarsely, thousands are then refined in the field by robust Gauss-Newton
-/// steps. No start, no prior, no axis of the strokes is relied on.
+/// The poses at which the points could lie on the surface, the best first. Every orientation (a
+/// low-discrepancy set, 12° apart on average; Alexa 2022, "Super-Fibonacci spirals") and every
+/// place is examined coarsely; thousands are then refined in the field by robust Gauss-Newton
+/// steps. Relies on no start, no prior and no axis of the strokes.
 [[nodiscard]] std::vector<FoundPose> search_poses(const SearchField& vertebra,
                                                   std::span<const Vec3> points_in_world_m,
                                                   const PoseSearchOptions& options = {});

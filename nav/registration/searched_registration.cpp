@@ -5,144 +5,23 @@
 
 #include "nav/registration/degeneracy.h"
 #include "nav/registration/fit_covariance.h"
-#include "nav/registration/pose_search.h"
+#include "nav/registration/pose_candidates.h"
 #include "nav/registration/registration.h"
 #include "nav/registration/shaft_collision.h"
-#include "nav/registration/spread_points.h"
 #include "nav/registration/surface_fit.h"
 #include "nav/registration/verdict.h"
 
 namespace orthonav::nav {
 namespace {
 
-/// Enough points to tell candidates apart.
-constexpr std::size_t kPointsToCompare = 300;
-constexpr double kFieldNoise_m = 0.0005;
-constexpr double kFarFromBest = 3.0;
-/// Poses are compared by squared distances truncated at so many SDs of the noise, or there.
-constexpr double kTruncateSd = 3.0;
-constexpr double kTruncateLeast_m = 0.0009;
-/// A pose that moves no target farther is not another one.
-constexpr double kSameAtTargets_m = 0.002;
-/// Points that scatter more than a tracker's were stroked by a light hand, or over soft tissue:
-/// their mean height above the bone is asked for then, and used when it is as certain as that.
-constexpr double kLooseHand_m = 0.0005;
+/// A standoff is used where it is this many times its SD.
 constexpr double kCertainSd = 3.5;
-constexpr double kHighest_m = 0.004;
-/// Of the least margin: a rival within it is looked at closer.
+/// A rival whose margin is below this many times the least one is looked at more closely.
 constexpr double kDoubtful = 3.0;
 /// Points within this many SDs lie on the surface.
 constexpr double kInlierSd = 3.5;
 /// A level that explains the points nearly as well as this one does.
 constexpr double kLevelLogLikelihoodRatio = 6.0;
-
-struct Cloud {
-  std::vector<Vec3> all_m;  ///< about the centre, in the order of time
-  std::vector<Vec3> few_m;
-  Vec3 centre_m;
-};
-
-Cloud cloud_of(std::span<const Point<World>> points) {
-  constexpr double kReach_m = 0.075;
-  Cloud cloud;
-  for (const Point<World>& p : points) {
-    cloud.all_m.push_back(p.v);
-  }
-  const SpreadPoints spread(cloud.all_m, kReach_m);
-  cloud.centre_m = spread.centre_m();
-  for (Vec3& p : cloud.all_m) {
-    p -= cloud.centre_m;
-  }
-  const std::size_t step = std::max<std::size_t>(1, cloud.all_m.size() / kPointsToCompare);
-  for (std::size_t i = 0; i < cloud.all_m.size(); i += step) {
-    cloud.few_m.push_back(cloud.all_m[i]);
-  }
-  return cloud;
-}
-
-/// How far apart two poses put the farthest of the targets.
-double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Vertebra>& b,
-               std::span<const Point<Vertebra>> targets) {
-  double most = 0.0;
-  for (const Point<Vertebra>& target : targets) {
-    most = std::max(most, (a * target - b * target).norm());
-  }
-  return most;
-}
-
-/// The tip does not dive into bone.
-bool is_credible_standoff(double standoff_m) { return standoff_m > 0.0 && standoff_m < kHighest_m; }
-
-struct Candidate {
-  SurfaceFit fit;
-  double cost_m2 = 0.0;
-};
-
-/// The points again, their mean height above the bone being unknown; returns the least noise.
-double refit_with_standoff(const VertebraModel& model, const Cloud& cloud, SurfaceFitOptions fine,
-                           std::vector<Candidate>& candidates) {
-  fine.with_standoff = true;
-  double least_m = std::numeric_limits<double>::infinity();
-  for (Candidate& c : candidates) {
-    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m, c.fit.pose, fine);
-        fit && is_credible_standoff(fit->standoff_m)) {
-      c.fit = std::move(*fit);
-    }
-    least_m = std::min(least_m, c.fit.noise_m);
-  }
-  return least_m;
-}
-
-/// Every pose that could be meant, fitted exactly, the best first.
-/// Goes on until one is another pose at the targets, where any are given.
-std::vector<Candidate> candidates(const VertebraModel& model, const Cloud& cloud,
-                                  std::span<const Point<Vertebra>> targets, double tip_radius_m,
-                                  double& width_m) {
-  PoseSearchOptions search;
-  search.tip_radius_m = tip_radius_m;
-  SurfaceFitOptions fine;
-  fine.tip_radius_m = tip_radius_m;
-  fine.max_iterations = 6;
-  fine.last_step_m = 2e-5;
-  std::vector<Candidate> found;
-  double least_m = std::numeric_limits<double>::infinity();
-  std::optional<double> least_cost_m2;
-  std::optional<Transform<World, Vertebra>> first;
-  bool rivals = false;
-  std::vector<Vec3> in_world;
-  for (const Vec3& p : cloud.all_m) {
-    in_world.push_back(p + cloud.centre_m);
-  }
-  for (const FoundPose& pose : search_poses(model.search_field(), in_world, search)) {
-    // The field is right to tenths of a millimetre: what it finds far worse is no rival.
-    if (rivals && pose.cost_m2 > kFarFromBest * (*least_cost_m2)) {
-      break;
-    }
-    if (!first) {
-      first = pose.world_from_vertebra;
-    }
-    rivals = rivals || targets.empty() ||
-             apart_m(pose.world_from_vertebra, *first, targets) > kSameAtTargets_m;
-    if (!least_cost_m2) {
-      least_cost_m2 = std::max(pose.cost_m2, kFieldNoise_m * kFieldNoise_m);
-    }
-    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m,
-                                  centred(pose.world_from_vertebra, cloud.centre_m), fine)) {
-      least_m = std::min(least_m, fit->noise_m);
-      found.push_back({std::move(*fit), 0.0});
-    }
-  }
-  if (least_m > kLooseHand_m) {
-    least_m = refit_with_standoff(model, cloud, fine, found);
-  }
-  width_m = std::max(kTruncateSd * least_m, kTruncateLeast_m);
-  for (Candidate& c : found) {
-    c.cost_m2 = truncated_cost_m2(c.fit, width_m);
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.cost_m2 < b.cost_m2; });
-  return found;
-}
 
 std::vector<Point<Vertebra>> targets_of(const VertebraModel& model,
                                         const PoseSearchRegistrationOptions& options) {
@@ -193,7 +72,7 @@ void estimate_errors(const VertebraModel& model, const std::optional<FitCovarian
   r.stroke_next = degeneracy.stroke_next;
 }
 
-/// Poses at which the pointer would have gone through bone are none, as long as another is left.
+/// Drops poses at which the pointer would have gone through bone, as long as another is left.
 void drop_impossible(const VertebraModel& model, const Cloud& cloud,
                      std::span<const Point<World>> points,
                      const PoseSearchRegistrationOptions& options, std::vector<Candidate>& found) {
@@ -212,7 +91,7 @@ struct CertainFit {
   std::optional<FitCovariance> covariance;
 };
 
-/// All points, from the best candidate's pose on.
+/// Fits all points, starting from the best candidate's pose.
 std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& cloud,
                                     const SurfaceFit& start,
                                     const PoseSearchRegistrationOptions& options) {
@@ -237,66 +116,99 @@ std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& clo
   return std::nullopt;
 }
 
-/// How much worse the best other pose explains the points.
-/// One that does so hardly is fitted to all points first, which may lead it to the same place.
-void compare_poses(const VertebraModel& model, const std::vector<Candidate>& found,
-                   const CertainFit& best, const Cloud& cloud, double width_m,
-                   std::span<const Point<Vertebra>> targets,
-                   const PoseSearchRegistrationOptions& options, Registration& r) {
+/// A pose that competes with the best one.
+struct Rival {
+  CentredPose pose;
+  double rmse_m = 0.0;
+  double log_likelihood_ratio = 0.0;
+};
+
+/// How much worse the best other pose explains the points. A rival that explains them nearly as
+/// well is first fitted to all points, which may lead it to the best pose.
+class RivalSearch {
+ public:
+  RivalSearch(const VertebraModel& model, const Cloud& cloud, const CertainFit& best,
+              double width_m, std::span<const Point<Vertebra>> targets,
+              const PoseSearchRegistrationOptions& options, const Registration& r)
+      : model_(model),
+        cloud_(cloud),
+        width_m_(width_m),
+        targets_(targets),
+        world_from_vertebra_(r.world_from_vertebra),
+        doubtful_(kDoubtful * options.min_log_likelihood_ratio),
+        best_cost_m2_(truncated_cost_m2(best.fit, width_m)) {
+    const double points = r.effective_points > 0.0 ? r.effective_points : 10.0;
+    unit_m2_ = 2.0 * r.noise_m * r.noise_m / points;
+    fine_.tip_radius_m = options.tip_radius_m;
+    fine_.point_sd_m = options.point_sd_m;
+    fine_.with_standoff = best.fit.with_standoff;
+  }
+
+  /// Nothing where it is the best pose, or is led to it.
+  [[nodiscard]] std::optional<Rival> judged(const Candidate& candidate,
+                                            const Candidate& first) const {
+    Rival rival{candidate.fit.pose, rmse_m(candidate.fit),
+                (candidate.cost_m2 - first.cost_m2) / unit_m2_};
+    if (!is_another(rival.pose)) {
+      return std::nullopt;
+    }
+    if (!(rival.log_likelihood_ratio < doubtful_)) {
+      return rival;
+    }
+    const auto whole = fit_to_surface(model_.reachable_surface(), cloud_.all_m, rival.pose, fine_);
+    if (!whole || !is_another(whole->pose)) {
+      return std::nullopt;
+    }
+    return Rival{whole->pose, rmse_m(*whole),
+                 (truncated_cost_m2(*whole, width_m_) - best_cost_m2_) / unit_m2_};
+  }
+
+ private:
+  [[nodiscard]] bool is_another(const CentredPose& pose) const {
+    return apart_m(world_from(pose, cloud_.centre_m), world_from_vertebra_, targets_) >=
+           kSameAtTargets_m;
+  }
+
+  const VertebraModel& model_;
+  const Cloud& cloud_;
+  double width_m_;
+  std::span<const Point<Vertebra>> targets_;
+  Transform<World, Vertebra> world_from_vertebra_;
+  double doubtful_;
+  double best_cost_m2_;
+  double unit_m2_ = 0.0;
+  SurfaceFitOptions fine_;
+};
+
+void compare_poses(const RivalSearch& search, std::span<const Candidate> found, Vec3 centre_m,
+                   Registration& r) {
   r.log_likelihood_ratio = std::numeric_limits<double>::infinity();
   r.runner_up = r.world_from_vertebra;
   r.runner_up_rmse_m = r.rmse_m;
-  const double points = r.effective_points > 0.0 ? r.effective_points : 10.0;
-  const double unit_m2 = 2.0 * r.noise_m * r.noise_m / points;
-  SurfaceFitOptions fine;
-  fine.tip_radius_m = options.tip_radius_m;
-  fine.point_sd_m = options.point_sd_m;
-  fine.with_standoff = best.fit.with_standoff;
-  const double best_cost_m2 = truncated_cost_m2(best.fit, width_m);
   for (std::size_t i = 1; i < found.size(); ++i) {
-    CentredPose pose = found[i].fit.pose;
-    double rmse = rmse_m(found[i].fit);
-    double log_likelihood_ratio = (found[i].cost_m2 - found[0].cost_m2) / unit_m2;
-    const auto is_another = [&] {
-      return apart_m(world_from(pose, cloud.centre_m), r.world_from_vertebra, targets) >=
-             kSameAtTargets_m;
-    };
-    if (!is_another()) {
+    const auto rival = search.judged(found[i], found[0]);
+    if (!rival || rival->log_likelihood_ratio >= r.log_likelihood_ratio) {
       continue;
     }
-    if (log_likelihood_ratio < kDoubtful * options.min_log_likelihood_ratio) {
-      const auto whole = fit_to_surface(model.reachable_surface(), cloud.all_m, pose, fine);
-      if (!whole) {
-        continue;
-      }
-      pose = whole->pose;
-      rmse = rmse_m(*whole);
-      log_likelihood_ratio = (truncated_cost_m2(*whole, width_m) - best_cost_m2) / unit_m2;
-      if (!is_another()) {
-        continue;
-      }
-    }
-    if (log_likelihood_ratio >= r.log_likelihood_ratio) {
-      continue;
-    }
-    r.runner_up = world_from(pose, cloud.centre_m);
-    r.runner_up_rmse_m = rmse;
-    r.log_likelihood_ratio = log_likelihood_ratio;
+    r.runner_up = world_from(rival->pose, centre_m);
+    r.runner_up_rmse_m = rival->rmse_m;
+    r.log_likelihood_ratio = rival->log_likelihood_ratio;
   }
 }
 
-/// The neighbouring level that explains the points best, if it does so nearly as well.
+/// Notes the neighbouring level that explains the points best, if it does so nearly as well as this
+/// one.
 void compare_levels(const Cloud& cloud, double own_cost_m2, double width_m,
                     const PoseSearchRegistrationOptions& options, Registration& r) {
   const double points = r.effective_points > 0.0 ? r.effective_points : 10.0;
   double least = own_cost_m2 + 2.0 * kLevelLogLikelihoodRatio * r.noise_m * r.noise_m / points;
   for (const NeighbourLevel& level : options.neighbours) {
-    double own_width = 0.0;
-    const auto found = candidates(*level.model, cloud, {}, options.tip_radius_m, own_width);
-    if (found.empty()) {
+    const auto found = find_candidates(*level.model, cloud, {}, options.tip_radius_m);
+    if (found.best_first.empty()) {
       continue;
     }
-    const double cost = truncated_cost_m2(found[0].fit, std::min(width_m, own_width));
+    const double cost =
+        truncated_cost_m2(found.best_first[0].fit, std::min(width_m, found.width_m));
     if (cost >= least) {
       continue;
     }
@@ -318,8 +230,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   }
   const Cloud cloud = cloud_of(points_in_world);
   const std::vector<Point<Vertebra>> targets = targets_of(model, options);
-  double width_m = 0.0;
-  std::vector<Candidate> found = candidates(model, cloud, targets, options.tip_radius_m, width_m);
+  auto [found, width_m] = find_candidates(model, cloud, targets, options.tip_radius_m);
   drop_impossible(model, cloud, points_in_world, options, found);
   const auto certain =
       found.empty() ? std::nullopt : final_fit(model, cloud, found[0].fit, options);
@@ -339,7 +250,8 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
   r.coverage_fraction = coverage_fraction(model, fit);
   r.shaft_collision_fraction =
       shaft_collision_fraction(model, r.world_from_vertebra, points_in_world, options.shafts);
-  compare_poses(model, found, *certain, cloud, width_m, targets, options, r);
+  compare_poses(RivalSearch(model, cloud, *certain, width_m, targets, options, r), found,
+                cloud.centre_m, r);
   compare_levels(cloud, truncated_cost_m2(found[0].fit, width_m), width_m, options, r);
   r.reasons = reasons_against(r, options);
   r.accepted = r.reasons.empty();

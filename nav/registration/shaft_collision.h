@@ -6,9 +6,10 @@
 
 namespace orthonav::nav {
 
-/// Share of the points whose pointer's shaft would have gone through bone at a pose: where the
-/// pointer was is free space. `shafts_in_world` are unit vectors from the tip back, one a point;
-/// a point without one (zero) does not count. 0 without any. Looks at some hundred points.
+/// Fraction of the points at which, in this pose, the pointer's shaft would have gone through bone:
+/// where the pointer was is free space. `shafts_in_world` are unit vectors from the tip back, one
+/// per point; a point without one (zero) does not count. 0 without any. Looks at some hundred
+/// points.
 [[nodiscard]] double shaft_collision_fraction(const VertebraModel& model,
                                               const Transform<World, Vertebra>& world_from_vertebra,
                                               std::span<const Point<World>> points,

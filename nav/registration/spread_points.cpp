@@ -8,11 +8,11 @@
 namespace orthonav::nav {
 namespace {
 
-constexpr double kCell_m = 0.004;
-/// So many of the points may be left out for lying in lonely cells.
+constexpr double kSpreadCell_m = 0.004;
+/// At most this fraction of the points is left out for lying in sparse cells.
 constexpr double kLonelyFraction = 0.15;
 
-/// The middle that outliers do not move: medians by coordinate.
+/// The median of each coordinate, which outliers hardly move.
 Vec3 middle_of(std::span<const Vec3> points_m) {
   Vec3 middle;
   std::vector<double> values(points_m.size());
@@ -27,7 +27,7 @@ Vec3 middle_of(std::span<const Vec3> points_m) {
   return middle;
 }
 
-/// The farthest of what is left from all before, again and again.
+/// Next comes, each time, the point farthest from all before it.
 void order_by_distance(std::vector<Vec3>& points_m, std::size_t count) {
   std::vector<double> distance2(points_m.size(), 1e9);
   for (std::size_t i = 0; i < std::min(count, points_m.size()); ++i) {
@@ -45,6 +45,45 @@ void order_by_distance(std::vector<Vec3>& points_m, std::size_t count) {
   }
 }
 
+struct Cell {
+  Vec3 point;  ///< the first that came
+  std::size_t count = 0;
+};
+
+/// One point per cell within `reach_m` of the middle, in the order of the cells' places.
+std::vector<Cell> cells_around(Vec3 middle, std::span<const Vec3> points_m, double reach_m) {
+  std::map<std::array<long, 3>, Cell> by_place;
+  for (const Vec3& p : points_m) {
+    const Vec3 q = p - middle;
+    if (!(q.norm() < reach_m)) {
+      continue;
+    }
+    const auto place = [](double v) { return std::lround(v / kSpreadCell_m); };
+    ++by_place.try_emplace({place(q.x), place(q.y), place(q.z)}, Cell{q}).first->second.count;
+  }
+  std::vector<Cell> cells;
+  for (const auto& [place, cell] : by_place) {
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+/// Outliers are few but lie apart, where each would have a cell of its own.
+void drop_lonely(std::vector<Cell>& cells) {
+  std::size_t all = 0;
+  for (const Cell& cell : cells) {
+    all += cell.count;
+  }
+  std::stable_sort(cells.begin(), cells.end(),
+                   [](const Cell& a, const Cell& b) { return a.count > b.count; });
+  auto droppable = static_cast<std::size_t>(kLonelyFraction * static_cast<double>(all));
+  while (cells.size() > 6 && cells.back().count <= droppable &&
+         2 * cells.back().count < cells[cells.size() / 2].count) {
+    droppable -= cells.back().count;
+    cells.pop_back();
+  }
+}
+
 }  // namespace
 
 SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
@@ -52,36 +91,8 @@ SpreadPoints::SpreadPoints(std::span<const Vec3> points_m, double reach_m) {
     return;
   }
   const Vec3 middle = middle_of(points_m);
-  // One of each cell: the first that came.
-  struct Cell {
-    Vec3 point;
-    std::size_t count = 0;
-  };
-  std::map<std::array<long, 3>, Cell> by_place;
-  std::size_t all = 0;
-  for (const Vec3& p : points_m) {
-    const Vec3 q = p - middle;
-    if (!(q.norm() < reach_m)) {
-      continue;
-    }
-    const auto place = [](double v) { return std::lround(v / kCell_m); };
-    Cell& cell = by_place.try_emplace({place(q.x), place(q.y), place(q.z)}, Cell{q}).first->second;
-    ++cell.count;
-    ++all;
-  }
-  // Outliers are few but lie apart, where each would have a cell of its own.
-  std::vector<Cell> cells;
-  for (const auto& [place, cell] : by_place) {
-    cells.push_back(cell);
-  }
-  std::stable_sort(cells.begin(), cells.end(),
-                   [](const Cell& a, const Cell& b) { return a.count > b.count; });
-  auto room = static_cast<std::size_t>(kLonelyFraction * static_cast<double>(all));
-  while (cells.size() > 6 && cells.back().count <= room &&
-         2 * cells.back().count < cells[cells.size() / 2].count) {
-    room -= cells.back().count;
-    cells.pop_back();
-  }
+  std::vector<Cell> cells = cells_around(middle, points_m, reach_m);
+  drop_lonely(cells);
   Vec3 mean;
   for (const Cell& cell : cells) {
     mean += cell.point / static_cast<double>(cells.size());

@@ -8,11 +8,11 @@
 
 namespace orthonav::nav {
 
-/// Points of a cloud in such an order that any first few are spread evenly over it, however often
-/// a place was stroked, about their centre.
+/// The points of a cloud about their centre, in such an order that the first few, however many, are
+/// spread evenly over it, no matter how often a place was stroked.
 class SpreadPoints {
  public:
-  /// Leaves out what lies farther than `reach_m` from the middle.
+  /// Leaves out points farther than `reach_m` from the middle.
   SpreadPoints(std::span<const Vec3> points_m, double reach_m);
 
   [[nodiscard]] Vec3 centre_m() const { return centre_m_; }

@@ -10,16 +10,16 @@ namespace orthonav::nav {
 
 struct SurfaceFitOptions {
   int max_iterations = 12;
-  double last_step_m = 1e-5;  ///< ends it
-  double farthest_m = 0.005;  ///< farther points do not matter on the way
-  double counted_m = 0.012;   ///< and at the end count as so far
-  double tip_radius_m = 0.0;  ///< of a ball at the pointer's end, whose centre the points are
+  double last_step_m = 1e-5;  ///< a shorter step ends the fit
+  double farthest_m = 0.005;  ///< points farther off are ignored on the way
+  double counted_m = 0.012;   ///< and at the end points farther off count as this far
+  double tip_radius_m = 0.0;  ///< of a ball at the pointer's end; the points are its centre
   /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
-  /// unknowns: surfaces that face different ways tell it from a shift.
+  /// unknowns: surfaces that face different ways distinguish it from a translation.
   bool with_standoff = false;
-  /// SD of each point, as far as it is known; empty: all alike.
+  /// SD of each point, as far as it is known; empty: all equal.
   std::span<const double> point_sd_m{};
-  /// What residuals are never taken to be smaller or larger than (SD).
+  /// Limits of the SD that residuals are taken to have.
   double least_noise_m = 0.00015;
   double most_noise_m = 0.002;
 };
@@ -27,30 +27,31 @@ struct SurfaceFitOptions {
 /// One point at the fitted pose.
 struct FittedPoint {
   Vec3 lever_arm_m;         ///< from the points' centre, in the vertebra's frame
-  Vec3 gradient;            ///< of the residual by the point's place
+  Vec3 gradient;            ///< of the residual by the point's position
   Vec3 nearest_m;           ///< on the surface
   double residual_m = 0.0;  ///< outside the surface positive
-  double weight = 0.0;      ///< robust, 0 to 1, and by what is known of the point
+  double weight = 0.0;      ///< in [0, 1]: robust weight, and what is known of the point
 };
 
 struct SurfaceFit {
   CentredPose pose;
   bool with_standoff = false;
-  double standoff_m = 0.0;  ///< residuals are about it
-  double noise_m = 0.0;     ///< SD of the residuals, outliers left aside
+  double standoff_m = 0.0;  ///< residuals are measured from it
+  double noise_m = 0.0;     ///< SD of the residuals without outliers
   int iterations = 0;
   std::vector<FittedPoint> points;  ///< in the order given
 };
 
-/// The pose at which the points lie on the surface itself, nearest points searched for exactly;
-/// weights by Tukey's biweight of a width that the residuals' own spread decides. Starts within a
-/// few millimetres of it. `points_m` are about their centre. Nothing when the pose is left open.
+/// The pose at which the points lie on the surface itself, with nearest points searched for exactly
+/// and weights by Tukey's biweight, whose width follows the residuals' own spread. The start must
+/// be within a few millimetres. `points_m` are about their centre. Nothing when the pose is
+/// undetermined.
 [[nodiscard]] std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
                                                        std::span<const Vec3> points_m,
                                                        const CentredPose& start,
                                                        const SurfaceFitOptions& options);
 
-/// Mean squared residual, truncated at `width_m`, outliers counting as that.
+/// Mean squared residual, truncated at `width_m`; outliers count as that.
 [[nodiscard]] double truncated_cost_m2(const SurfaceFit& fit, double width_m);
 
 }  // namespace orthonav::nav

@@ -11,10 +11,10 @@ namespace {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// A step goes no farther than that.
+/// The longest step.
 constexpr double kLongest_m = 0.008;
 constexpr double kWidest_rad = 0.3;
-/// Keeps directions in which nothing holds the bone from running away: by the trace.
+/// Damping relative to the trace: keeps directions that nothing constrains from running away.
 constexpr double kDamping = 1e-4;
 
 }  // namespace
@@ -30,8 +30,8 @@ CentredPose centred(const Transform<World, Vertebra>& pose, Vec3 points_centre_m
 }
 
 bool FieldStep::improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const {
-  // Sums of the lower triangle by rows, then of the right side: plain arrays, for this is where
-  // the time goes.
+  // Sums of the lower triangle by rows, then of the right-hand side: plain arrays, since most of
+  // the search's time is spent here.
   std::array<double, 27> sums{};
   int used = 0;
   const double inverse_width2 = 1.0 / (width_m * width_m);

@@ -8,7 +8,7 @@
 
 namespace orthonav::nav {
 
-/// Vertebra from points about their centre: where the centre lies, and how they are turned.
+/// Vertebra from points about their centre: the position of the centre, and the rotation.
 struct CentredPose {
   Mat3 rotation = Mat3::identity();
   Vec3 centre_m;
@@ -23,7 +23,7 @@ class FieldStep {
  public:
   FieldStep(const DistanceField& field, double tip_radius_m)
       : field_(&field), tip_radius_m_(tip_radius_m) {}
-  /// False when the points within `width_m` leave the pose open.
+  /// False when the points within `width_m` leave the pose undetermined.
   bool improve(std::span<const Vec3> centred_m, double width_m, CentredPose& pose) const;
   /// Mean of the squared distances, truncated at `width_m`.
   [[nodiscard]] double cost_m2(std::span<const Vec3> centred_m, double width_m,

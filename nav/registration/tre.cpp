@@ -15,9 +15,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kCorrelation_m = 0.005;
-/// The motion least seen may be this much less visible than the best seen one.
+/// The least visible motion may be this much less visible than the most visible one.
 constexpr double kWeakest = 1e-6;
-/// Turns are compared with shifts at this lever.
+/// Rotations are compared with translations at this lever arm.
 constexpr double kLever_m = 0.03;
 
 struct Touch {
@@ -45,7 +45,7 @@ std::vector<Touch> touches(const VertebraModel& model, const Transform<World, Ve
   return found;
 }
 
-/// What one touch tells of (shift, turn · lever): its residual's derivative.
+/// What one touch says about (translation, rotation · lever arm): its residual's derivative.
 Vector6 derivative(const Touch& touch, Vec3 centre_m) {
   const Vec3 by_rotation = (touch.at_m - centre_m).cross(touch.normal) / kLever_m;
   Vector6 j;
@@ -53,7 +53,7 @@ Vector6 derivative(const Touch& touch, Vec3 centre_m) {
   return j;
 }
 
-/// All touches of a cell together weigh as one.
+/// All touches of a cell together count as one.
 Matrix6 information(const std::vector<Touch>& sorted, Vec3 centre_m) {
   Matrix6 sum = Matrix6::Zero();
   for (std::size_t i = 0; i < sorted.size();) {
@@ -69,7 +69,7 @@ Matrix6 information(const std::vector<Touch>& sorted, Vec3 centre_m) {
   return sum;
 }
 
-/// Of the standard normal distribution, by bisection: it is asked seldom.
+/// Of the standard normal distribution, by bisection: it is needed seldom.
 double normal_quantile(double probability) {
   double low = -8.0;
   double high = 8.0;
@@ -102,7 +102,7 @@ Result<PoseUncertainty> PoseUncertainty::estimate(
     return Error{
         "the digitized points leave a motion of the bone open: digitize another side of it"};
   }
-  Vector6 scale;  // back from turn · lever to turn
+  Vector6 scale;  // back from rotation · lever arm to rotation
   scale << 1, 1, 1, 1 / kLever_m, 1 / kLever_m, 1 / kLever_m;
   const Matrix6 inverse = solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
                           solver.eigenvectors().transpose();
@@ -120,7 +120,8 @@ std::array<double, 9> PoseUncertainty::covariance_at(Point<Vertebra> target) con
   const Matrix6 covariance =
       Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(covariance_.data());
   const Vec3 d = target.v - centre_m_;
-  Eigen::Matrix<double, 3, 6> moves = Eigen::Matrix<double, 3, 6>::Zero();  // shift + turn × d
+  Eigen::Matrix<double, 3, 6> moves =
+      Eigen::Matrix<double, 3, 6>::Zero();  // translation + rotation × d
   moves.leftCols<3>().setIdentity();
   moves.rightCols<3>() << 0, d.z, -d.y, -d.z, 0, d.x, d.y, -d.x, 0;
   std::array<double, 9> out{};

@@ -12,28 +12,26 @@ class VertebraModel;
 
 /// How far a surface registration leaves the bone free to move, and so the error to expect at a
 /// target (the surface counterpart of Fitzpatrick & West 2001, "The distribution of target
-/// registration error in rigid-body point-based registration"): a residual along the surface's
-/// normal tells of the six motions what a plane can tell; the inverse of that information, times
+/// registration error in rigid-body point-based registration"). A residual along the surface's
+/// normal says about the six motions what a plane can say; the inverse of that information, times
 /// the squared residual, is the covariance of the pose (Simon 1996, "Fast and accurate shape-based
-/// registration", section 4).
-///
-/// Points of a stroke share the tracker's error, so all points within 5 mm count as one. It says
-/// nothing of errors common to all points, such as a wrong tip.
+/// registration", section 4). Points of a stroke share the tracker's error, so all points within 5
+/// mm count as one. Errors common to all points, such as a wrong tip, are not included.
 class PoseUncertainty {
  public:
-  /// An Error when the points leave a motion wholly open (a plane, a ball, a cylinder).
+  /// An Error when the points leave a motion wholly undetermined (a plane, a ball, a cylinder).
   static Result<PoseUncertainty> estimate(const VertebraModel& model,
                                           const Transform<World, Vertebra>& world_from_vertebra,
                                           std::span<const Point<World>> points_in_world);
   PoseUncertainty() = default;
-  /// The covariance of (shift m, rotation vector rad) of the bone about a centre, row-major, in the
-  /// model's frame.
+  /// The covariance of the bone's (translation m, rotation vector rad) about a centre, row-major,
+  /// in the model's frame.
   PoseUncertainty(Vec3 centre_m, const std::array<double, 36>& covariance)
       : centre_m_(centre_m), covariance_(covariance) {}
 
   /// Root mean square of the error to expect at a target, metres.
   [[nodiscard]] double predicted_tre_m(Point<Vertebra> target) const;
-  /// Of the error at a target, 3x3 by rows, m², in the model's frame.
+  /// Covariance of the error at a target, 3x3 by rows, m², in the model's frame.
   [[nodiscard]] std::array<double, 9> covariance_at(Point<Vertebra> target) const;
   /// The error at a target is smaller with this probability (the distribution of a weighted sum of
   /// squares by Satterthwaite 1946, its quantile by Wilson & Hilferty 1931).
@@ -42,8 +40,9 @@ class PoseUncertainty {
   [[nodiscard]] const std::array<double, 36>& covariance() const { return covariance_; }
 
  private:
-  Vec3 centre_m_;                        ///< of the points, in the model's frame
-  std::array<double, 36> covariance_{};  ///< row-major, of (shift m, turn rad) about the centre
+  Vec3 centre_m_;  ///< of the points, in the model's frame
+  std::array<double, 36>
+      covariance_{};  ///< row-major, of (translation m, rotation rad) about the centre
 };
 
 }  // namespace orthonav::nav

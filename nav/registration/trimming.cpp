@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kGrid_m = 0.001;
-/// A pointer doesn't come flatter than this onto a face.
+/// A pointer doesn't approach a face at a flatter angle than this.
 const double kFlattest = std::sin(10.0 * kDegree);
-/// Islands smaller than this share of the visible area are slivers seen through gaps.
+/// Islands smaller than this fraction of the visible area are slivers seen through gaps.
 constexpr double kIslandFraction = 0.02;
 constexpr double kSmallestCanal_m2 = 40e-6;
 
@@ -46,8 +46,8 @@ bool is_visible(const SurfaceIndex& surface, const Triangle& triangle,
   });
 }
 
-/// The vertebra seen along its axis, one cell a square millimetre: what is bone and what lies
-/// outside; the largest remainder is the canal.
+/// The vertebra seen along its axis, one cell per square millimetre: what is bone and what is
+/// outside; the largest remaining region is the canal.
 class AxialView {
  public:
   AxialView(const SurfaceIndex& surface, const Bounds& b)
@@ -67,7 +67,7 @@ class AxialView {
     flood(0, 0);  // the outside; the border is one free cell wide
   }
 
-  /// The y of the front of the largest hole, or none when there is no canal to be seen.
+  /// The y of the front of the largest hole, or nothing when no canal is visible.
   std::optional<double> canal_front_m() {
     std::size_t largest = 0;
     std::optional<double> front_m;
@@ -77,7 +77,7 @@ class AxialView {
           continue;
         }
         const std::size_t size = flood(column, row);
-        // Rows run from front to back: the first cell met of a hole is its front.
+        // Rows run from front to back: the first cell of a hole that is met is its front.
         if (size > largest) {
           largest = size, front_m = y_of(row);
         }
@@ -121,7 +121,8 @@ class AxialView {
   std::vector<std::pair<int, int>> pending_;
 };
 
-/// Which connected part every face belongs to (faces that share a vertex are connected).
+/// The number of the connected part that each face belongs to (faces that share a vertex are
+/// connected).
 std::vector<std::uint32_t> parts_of(const TriangleMesh& mesh, const std::vector<bool>& kept) {
   std::vector<std::uint32_t> parent(mesh.vertices_m.size());
   std::iota(parent.begin(), parent.end(), 0U);

@@ -10,19 +10,19 @@ namespace orthonav::nav {
 
 /// The faces of a vertebra (axes LPS, closed, outward-oriented, metres) that a pointer coming from
 /// behind can touch: faces with a free line of sight to the back, within 75 degrees to either side
-/// and 40 degrees up and down, and behind the front wall of the canal. So the body's wall goes even
-/// where it can be seen between the laminae, which soft tissue covers. Small islands are dropped.
-/// Ascending.
+/// and 40 degrees up and down, and behind the front wall of the canal. So the body's wall is
+/// excluded even where it can be seen between the laminae, which soft tissue covers. Small islands
+/// are dropped. Ascending.
 std::vector<std::uint32_t> faces_reachable_from_behind(const TriangleMesh& mesh,
                                                        const SurfaceIndex& surface);
 
-/// Those faces, which must be the mesh's own, with the vertices that they name.
+/// The mesh of these faces, which must be the given mesh's own, with the vertices that they use.
 TriangleMesh part_of(const TriangleMesh& mesh, std::span<const std::uint32_t> faces);
 
 /// Both at once.
 TriangleMesh reachable_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface);
 
-/// Whether a pointer from behind sees the face, be it in front of the canal or on an island.
+/// Whether the face can be seen from behind, even if it lies in front of the canal or on an island.
 bool is_visible_from_behind(const TriangleMesh& mesh, const SurfaceIndex& surface,
                             std::uint32_t face);
 

@@ -9,11 +9,11 @@
 namespace orthonav::nav {
 namespace {
 
-// Fine enough to tell crests apart, coarse enough to be made in a fraction of a second.
+// Fine enough to separate crests, coarse enough to be computed in a fraction of a second.
 constexpr double kGridCell_m = 0.003;
 constexpr double kGridMargin_m = 0.02;
 
-/// By area, so that a finely meshed corner counts no more than it is large.
+/// Weighted by area, so that a finely meshed corner counts only for its size.
 PrincipalAxes axes_by_area(const TriangleMesh& mesh) {
   std::vector<Vec3> centres_m;
   std::vector<double> areas_m2;
@@ -44,7 +44,7 @@ Status check_faces(const TriangleMesh& mesh, const SurfaceIndex& surface,
 
 }  // namespace
 
-/// What both ways of making a model begin with.
+/// What both ways of making a model start with.
 struct VertebraModel::Surfaces {
   Surfaces(TriangleMesh whole, SurfaceIndex index, std::vector<std::uint32_t> faces)
       : mesh(std::move(whole)),

@@ -6,7 +6,7 @@
 
 namespace orthonav::nav {
 
-/// What a check of calibration or accuracy comes to: good; usable, but something should be known;
+/// The outcome of a check of calibration or accuracy: good; usable, but something should be known;
 /// not to be used.
 enum class Verdict { kPass, kNote, kFail };
 
@@ -27,12 +27,12 @@ struct Judgement {
   Verdict verdict = Verdict::kPass;
   std::string reason;
 
-  /// Takes a finding in; the worst verdict stays.
+  /// Adds a finding; the worst verdict stays.
   void add(Verdict found, const std::string& why) {
     verdict = std::max(verdict, found);
     reason += (reason.empty() ? "" : "; ") + why;
   }
-  /// Says so where there was no finding.
+  /// Says so if there was no finding.
   void conclude() {
     if (reason.empty()) {
       reason = "every figure is within its limit";

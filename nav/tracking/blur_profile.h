@@ -5,12 +5,13 @@
 
 namespace orthonav::nav {
 
-/// Beyond so many SD the blur ends, so that a cell's grey depends on its neighbours alone: 3e-5 of
-/// it would lie there.
+/// The blur ends at this many SDs, so that a cell's grey depends on its neighbours only: 3e-5 of it
+/// would lie beyond.
 inline constexpr float kReachSd = 4.0F;
 
-/// e to the x for x in [-8, 0], to 3e-6 of it: a polynomial of 2 to the fraction, the whole part
-/// put into the exponent. The library's would not become vector instructions.
+/// e to the x for x in [-8, 0], with a relative error of 3e-6: a polynomial of 2 to the fractional
+/// part, the whole part put into the exponent. The library's function would not become vector
+/// instructions.
 inline float exponential(float x) {
   const float y = x * 1.44269504F;
   const int whole = static_cast<int>(y - 0.5F);
@@ -22,9 +23,9 @@ inline float exponential(float x) {
   return power * std::bit_cast<float>((whole + 127) << 23);
 }
 
-/// How much of a blur's footprint lies beyond an edge at distance `f`, and its derivatives. The
-/// profile is a Gaussian with an excess of kurtosis (Gram-Charlier's series to the fourth moment),
-/// its tail after Abramowitz & Stegun 1964, 7.1.26.
+/// The fraction of a blur's footprint that lies beyond an edge at distance `f`, and its
+/// derivatives. The profile is a Gaussian with excess kurtosis (the Gram-Charlier series to the
+/// fourth moment), its tail after Abramowitz & Stegun 1964, 7.1.26.
 struct Beyond {
   float fraction;
   float slope;

@@ -8,7 +8,8 @@
 namespace orthonav::nav {
 namespace {
 
-/// By the two neighbours in a row that are nearest to the middle of the image and have directions.
+/// From the two neighbours in a row that are nearest to the middle of the image and have
+/// directions.
 double focal_px_of(const CameraModel& camera) {
   const std::span<const Vec2> rays = camera.lookup();
   const int w = camera.width_px();

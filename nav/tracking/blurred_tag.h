@@ -9,23 +9,24 @@
 namespace orthonav::nav {
 
 /// The rays of a camera as the model of a view reads them: the unit-plane point of every pixel's
-/// centre, one array a coordinate, NaN where the camera sees nothing.
+/// centre, one array per coordinate, NaN where the camera sees nothing.
 struct RayTable {
   int width_px = 0;
   int height_px = 0;
   std::vector<float> x;
   std::vector<float> y;
-  /// Pixels by the unit plane, near the middle of the image.
+  /// Pixels per unit of the unit plane, near the middle of the image.
   double focal_px = 1.0;
 
   explicit RayTable(const CameraModel& camera);
 };
 
-/// A tag's template with what interpolating in it needs: grey near the edges between a cell and its
-/// neighbours is a polynomial in how much of the blur's footprint lies over each of them.
+/// A tag's template with what interpolation in it needs: near the edges between a cell and its
+/// neighbours, grey is a polynomial in the fractions of the blur's footprint that lie over each of
+/// them.
 class BlurredTag {
  public:
-  /// Of a template, `size_m` from outer edge to outer edge of the border.
+  /// `size_m` is measured from outer edge to outer edge of the border.
   BlurredTag(TagTemplate tag, double size_m);
 
   [[nodiscard]] const TagTemplate& cells() const { return tag_; }

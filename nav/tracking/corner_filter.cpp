@@ -6,11 +6,11 @@
 namespace orthonav::nav {
 namespace {
 
-// 95 % of the squared innovations of eight coordinates lie below it when the model holds
+// When the model holds, 95 % of the squared innovations of eight coordinates lie below this
 // (chi-square, 8 degrees of freedom).
 constexpr double kInnovationLimit = 15.5;
 constexpr double kCoordinates = 8.0;
-// A tag that moved farther than its own extent since the prediction is a new sighting.
+// A tag that has moved farther than its own extent from the prediction is a new sighting.
 constexpr double kJumpOfExtent = 1.0;
 
 double extent_px(const CornerFilter::Corners& corners) {

@@ -19,8 +19,8 @@ struct CornerFilterOptions {
 /// Constant-velocity Kalman filters for the four corners of one tag in one camera. Corners are
 /// filtered independently; with equal noise and equal history all eight coordinates share their
 /// covariance, so it is kept once. Where the innovations of the whole tag exceed what the model
-/// allows, the prediction is inflated to fit them (a strong tracking filter: Zhou & Frank 1996), so
-/// that a start or a turn of the hand isn't smoothed away.
+/// allows, the prediction's covariance is inflated to fit them (a strong tracking filter: Zhou &
+/// Frank 1996), so that a sudden start or turn of the hand isn't smoothed away.
 class CornerFilter {
  public:
   using Corners = std::array<Vec2, 4>;
@@ -36,8 +36,8 @@ class CornerFilter {
 
   /// Forgets everything.
   void stop() { alive_ = false; }
-  /// Takes a measurement in; starts afresh when there is no past, when time does not move forward
-  /// or when the tag has jumped by more than it could.
+  /// Adds a measurement; starts afresh when there is no past, when time does not move forward, or
+  /// when the tag has jumped farther than it could move.
   void update(const Corners& measured_px, Timestamp time);
 
   struct Prediction {

@@ -11,24 +11,24 @@
 namespace orthonav::nav {
 namespace {
 
-// About a ray for each pixel of an edge, within these.
+// About one ray per pixel of an edge, within these limits.
 constexpr int kFewestRays = 8;
 constexpr int kMostRays = 200;
-// Shorter edges have no inside that the corners leave alone.
+// A shorter edge has no middle part that its corners leave undisturbed.
 constexpr double kShortestEdgePx = 6.0;
 constexpr double kStepPx = 0.25;
 constexpr double kHalfBasePx = 0.5;
-// So much of each end of an edge is left out: the neighbouring edge's blur reaches there.
+// How much of each end of an edge is left out: the neighbouring edge's blur reaches there.
 constexpr double kEndPx = 1.0;
 constexpr double kEndFraction = 0.08;
-// A summed squared slope below is noise, in squared grey levels.
+// A sum of squared slopes below this is noise, in squared grey levels.
 constexpr double kFaintest = 1.0;
 // Tukey's constant: 95 % efficient for normal errors.
 constexpr double kTukey = 4.685;
 constexpr double kMadToSd = 1.4826;
 constexpr double kLeastScalePx = 0.05;
 constexpr int kReweightings = 5;
-// Edges that nearly point the same way meet anywhere.
+// Edges that are nearly parallel meet anywhere.
 constexpr double kLeastSine = 0.05;
 
 struct Line {
@@ -44,7 +44,7 @@ struct Crossing {
 
 double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// +1 when it gets brighter along the normal, else -1.
+/// +1 when the image gets brighter along the normal, else -1.
 double sense_of(const GreyImage& image, Vec2 a, Vec2 b, Vec2 normal) {
   constexpr int kLooks = 9;
   double brighter = 0.0;
@@ -75,7 +75,7 @@ std::optional<Crossing> crossing(const GreyImage& image, Vec2 base, Vec2 rising,
   return Crossing{base + (sum / total) * rising, std::sqrt(total)};
 }
 
-/// Total least squares with these weights; nothing when all are zero.
+/// Total least squares with these weights; nothing when all of them are zero.
 std::optional<Line> line_through(const std::vector<Crossing>& seen,
                                  const std::vector<double>& weights) {
   double total = 0.0;
@@ -122,7 +122,7 @@ std::optional<Line> robust_line(const std::vector<Crossing>& seen) {
   return line;
 }
 
-/// The edge from a to b as the image shows it, or as it was.
+/// The edge from a to b as the image shows it, or as it was given.
 Line edge(const GreyImage& image, Vec2 a, Vec2 b, double reach_px) {
   const double length_px = (b - a).norm();
   const Vec2 along = (1 / length_px) * (b - a);
@@ -170,7 +170,7 @@ std::array<Vec2, 4> refined_corners(const GreyImage& image, const std::array<Vec
     }
     const double along = cross(after.point - before.point, after.direction) / sine;
     const Vec2 meeting = before.point + along * before.direction;
-    // Farther than the edges were looked for, a corner has slid along a misjudged one.
+    // Farther than edges were searched for, the corner has slid along a misjudged one.
     if ((meeting - corners_px[i]).norm() <= 2 * options.reach_px) {
       refined[i] = meeting;
     }

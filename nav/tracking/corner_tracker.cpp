@@ -9,8 +9,8 @@
 namespace orthonav::nav {
 namespace {
 
-// A box around a prediction: room for the quiet zone and for turning, for what the filter doubts,
-// and for the odd pixel.
+// A box around a prediction: margin for the quiet zone and for rotation, for the filter's
+// uncertainty, and for the odd pixel.
 constexpr double kBoxOfExtent = 0.35;
 constexpr double kBoxOfSd = 4.0;
 constexpr double kBoxPx = 6.0;
@@ -59,7 +59,7 @@ class PaperTracker final : public ToolTracker {
     TrackedPose newer;
   };
 
-  /// Poses of another map predict nothing; corners are the images' own.
+  /// Poses in another map predict nothing; corners belong to the images and stay.
   void forget_map() {
     for (Trail& trail : trails_) {
       trail.older = trail.newer = {};
@@ -70,7 +70,7 @@ class PaperTracker final : public ToolTracker {
     return filter.alive() && time > filter.time() && time - filter.time() <= options_.coast;
   }
 
-  // After a gap in the stream what was just measured may be anywhere.
+  // After a gap in the stream, what was measured before it may be anywhere.
   [[nodiscard]] bool follows_a_gap(Timestamp time) const {
     for (std::size_t i = 0; i < tools_.size(); ++i) {
       if (states_[i].world_from_marker.status == PoseStatus::kMeasured &&
@@ -163,8 +163,7 @@ class PaperTracker final : public ToolTracker {
     if (!frame.world_from_rig) {
       return;
     }
-    // At the time of the newest measurement itself there is nothing to predict: this pair is not
-    // it.
+    // Nothing to predict at the time of the newest measurement itself, which is not of this pair.
     if (frame.time <= trails_[i].newer.time) {
       return;
     }
@@ -197,7 +196,7 @@ Result<std::unique_ptr<ToolTracker>> create_corner_tracker(const StereoCalibrati
   }
   DetectorOptions detection;
   detection.decimate = options.decimate;
-  // Each tool by its one marker, as published.
+  // Each tool by its first marker only, as published.
   std::vector<MarkerDefinition> markers;
   for (const ToolGeometry& tool : tools) {
     markers.push_back(tool.marker);

@@ -8,11 +8,11 @@ namespace {
 
 constexpr double kUsual_s = 0.005;
 constexpr double kLongest_s = 0.030;
-/// Some seconds of pairs are remembered.
+/// Pairs of the last few seconds are remembered.
 constexpr double kForgetting = 0.99;
-/// What the belief in the usual exposure weighs: as one fast sighting (v² / 12 in px⁴/s⁴).
+/// The weight of the belief in the usual exposure: that of one fast sighting (v² / 12 in px⁴/s⁴).
 constexpr double kBelief = 2e6;
-/// Pairs farther apart tell no speed.
+/// Pairs farther apart than this say nothing about speed.
 constexpr Duration kLongestGap = std::chrono::milliseconds(120);
 
 }  // namespace
@@ -20,7 +20,7 @@ constexpr Duration kLongestGap = std::chrono::milliseconds(120);
 void ExposureEstimator::add(const BlurSighting& sighting) {
   if (before_ && middle_ && before_->view == sighting.view && middle_->view == sighting.view &&
       sighting.time > before_->time && sighting.time - before_->time <= kLongestGap) {
-    // The speed at the middle one, without the delay of a difference to one side.
+    // The speed at the middle sighting, without the delay of a one-sided difference.
     const double dt = seconds(sighting.time - before_->time);
     const Vec2 speed = (1.0 / dt) * (sighting.centre_px - before_->centre_px);
     const Vec2 c = middle_->column_px;

@@ -8,7 +8,7 @@
 
 namespace orthonav::nav {
 
-/// How a tag's blur and place looked in one image: across the edges between its columns and between
+/// The blur and position of a tag in one image: across the edges between its columns and between
 /// its rows.
 struct BlurSighting {
   std::size_t view = 0;  ///< which tag in which camera
@@ -19,14 +19,14 @@ struct BlurSighting {
   Vec2 blur_cells{};  ///< SD across columns, across rows
 };
 
-/// How long cameras expose, from how far tags are blurred that move: the variance of the blur is
-/// that of the lens and v² T² / 12 of the motion, a straight line over v² whose slope is sought by
+/// How long the cameras expose, estimated from the blur of moving tags: the variance of the blur is
+/// that of the lens plus v² T² / 12 of the motion, a straight line over v² whose slope is found by
 /// least squares with forgetting. Cameras report no exposure, and it follows the light.
 class ExposureEstimator {
  public:
-  /// In the order of time. Three in a row of the same view count.
+  /// In the order of time. Three consecutive sightings of the same view count.
   void add(const BlurSighting& sighting);
-  /// 5 ms until motion has told more.
+  /// 5 ms until motion has shown more.
   [[nodiscard]] double exposure_s() const;
 
  private:

@@ -12,7 +12,7 @@ FullImageSearch::FullImageSearch(std::unique_ptr<PairDetector> detector, bool pa
 
 Result<std::unique_ptr<FullImageSearch>> FullImageSearch::create(const DetectorOptions& options,
                                                                  bool parallel) {
-  // One thread in the background: it has the time until the next pair.
+  // One thread, since it runs in the background and has time until the next pair.
   Result<std::unique_ptr<PairDetector>> detector = PairDetector::create(options, false);
   if (!detector) {
     return detector.error();

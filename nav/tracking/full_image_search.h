@@ -9,8 +9,8 @@
 
 namespace orthonav::nav {
 
-/// Searches the whole of a pair of images for tags while the next pair is awaited: begun at the end
-/// of one pair's tracking, its finds are there at the beginning of the next, so that they are the
+/// Searches a whole pair of images for tags while the next pair is awaited: started at the end of
+/// one pair's tracking, it delivers its results at the beginning of the next, so that they are the
 /// same however many threads there are.
 class FullImageSearch {
  public:
@@ -18,9 +18,10 @@ class FullImageSearch {
                                                          bool parallel);
   FullImageSearch(std::unique_ptr<PairDetector> detector, bool parallel);
 
-  /// Copies the images and begins; with one thread, searches at once.
+  /// Copies the images and starts; with one thread, searches at once.
   void start(const StereoFrame& frame);
-  /// Waits for what was begun; its finds hold until the next call. Without, there are none.
+  /// Waits for a search that was started; its results stay until the next call. Without a search
+  /// there are none.
   void finish();
   [[nodiscard]] std::span<const MarkerCorners> left() const;
   [[nodiscard]] std::span<const MarkerCorners> right() const;

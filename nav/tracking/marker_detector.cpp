@@ -1,15 +1,6 @@
 #include "nav/tracking/marker_detector.h"
 
 #include <apriltag/apriltag.h>
-#include <apriltag/tag16h5.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h10.h>
-#include <apriltag/tag36h11.h>
-#include <apriltag/tagCircle21h7.h>
-#include <apriltag/tagCircle49h12.h>
-#include <apriltag/tagCustom48h12.h>
-#include <apriltag/tagStandard41h12.h>
-#include <apriltag/tagStandard52h13.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,64 +8,22 @@
 
 #include "nav/tracking/corner_refinement.h"
 #include "nav/tracking/detector_check.h"
-#include "nav/tracking/tool.h"
+#include "nav/tracking/tag_families.h"
 #include "nav/tracking/wide_border.h"
 
 namespace orthonav::nav {
 namespace {
 
-struct Family {
-  apriltag_family_t* (*create)();
-  void (*destroy)(apriltag_family_t*);
-  int codes;
-};
-
-/// The library samples bits and grey levels by the cells that the family tells, counted from the
-/// outer edge of the border, and finds quads at that edge.
-apriltag_family_t* tag36h11b2_create() {
-  apriltag_family_t* family = tag36h11_create();
-  if (!family) {
-    return nullptr;
-  }
-  family->width_at_border += 2;
-  family->total_width += 2;
-  for (std::uint32_t i = 0; i < family->nbits; ++i) {
-    ++family->bit_x[i];
-    ++family->bit_y[i];
-  }
-  return family;
-}
-
-constexpr std::string_view kWideFamily = "tag36h11b2";
-constexpr std::array<std::string_view, 10> kNames = {
-    "tag36h11",      "tag25h9",        "tag16h5",        "tagStandard41h12", "tagStandard52h13",
-    "tagCircle21h7", "tagCircle49h12", "tagCustom48h12", "tag36h10",         kWideFamily};
-constexpr std::array<Family, kNames.size()> kFamilies = {{
-    {tag36h11_create, tag36h11_destroy, 587},
-    {tag25h9_create, tag25h9_destroy, 35},
-    {tag16h5_create, tag16h5_destroy, 30},
-    {tagStandard41h12_create, tagStandard41h12_destroy, 2115},
-    {tagStandard52h13_create, tagStandard52h13_destroy, 48714},
-    {tagCircle21h7_create, tagCircle21h7_destroy, 38},
-    {tagCircle49h12_create, tagCircle49h12_destroy, 65535},
-    {tagCustom48h12_create, tagCustom48h12_destroy, 42211},
-    {tag36h10_create, tag36h10_destroy, 2320},
-    {tag36h11b2_create, tag36h11_destroy, 587},
-}};
-
-// The library thresholds in tiles of so many (decimated) pixels.
+// Side of the library's threshold tiles, in (decimated) pixels.
 constexpr int kTilePx = 4;
-// Below, the library reads before the start of its tiles; no tag is that small.
+// In a smaller image the library reads before the start of its tiles; no tag is that small.
 constexpr int kSmallestPx = 4 * kTilePx;
-// The wider one parts what is more blurred, the narrower one leaves smaller cells readable; what
-// both find, the narrower one tells.
+// The wider window separates tags that are more blurred, the narrower one keeps smaller cells
+// readable and runs last, so that its corners replace those of a tag that both find.
 constexpr std::array<int, 2> kThinningWindowsPx = {3, 2};
-// The look-up table of corrected codes grows with the square of the bits: gigabytes beyond.
+// With two corrected bits the look-up table grows with the square of the code's length: with more
+// codes than this it would take gigabytes.
 constexpr std::uint32_t kMostCodesWithTwoBits = 10000;
-
-std::size_t family_index(std::string_view name) {
-  return static_cast<std::size_t>(std::find(kNames.begin(), kNames.end(), name) - kNames.begin());
-}
 
 /// The same id in the same place.
 bool same_tag(const MarkerCorners& a, const MarkerCorners& b) {
@@ -94,52 +43,14 @@ bool comes_before(const MarkerCorners& a, const MarkerCorners& b) {
 
 }  // namespace
 
-std::span<const std::string_view> known_families() { return kNames; }
-
-std::string known_families_text() {
-  std::string text;
-  for (const std::string_view name : kNames) {
-    if (!text.empty()) {
-      text += ", ";
-    }
-    text += name;
-  }
-  return text;
-}
-
-int family_size(std::string_view family) {
-  const std::size_t index = family_index(family);
-  return index < kFamilies.size() ? kFamilies[index].codes : 0;
-}
-
-std::optional<TagCode> tag_code(std::string_view family, int id) {
-  const std::size_t index = family_index(family);
-  if (index >= kFamilies.size() || id < 0 || id >= kFamilies[index].codes) {
-    return std::nullopt;
-  }
-  const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> table(
-      kFamilies[index].create(), kFamilies[index].destroy);
-  if (!table) {
-    return std::nullopt;
-  }
-  TagCode code{table->total_width, table->width_at_border, table->reversed_border, {}};
-  for (std::uint32_t bit = 0; bit < table->nbits; ++bit) {
-    code.bits.push_back({static_cast<int>(table->bit_y[bit]), static_cast<int>(table->bit_x[bit]),
-                         ((table->codes[id] >> (table->nbits - bit - 1)) & 1U) != 0});
-  }
-  return code;
-}
-
-bool is_known_family(const std::string& family) { return family_index(family) < kNames.size(); }
-
 struct MarkerDetector::Library {
   apriltag_detector_t* detector = nullptr;
-  std::vector<std::pair<std::size_t, apriltag_family_t*>> families;
+  std::vector<TagFamily> families;  ///< the detector refers to them
   int max_hamming = 0;
   double min_decision_margin = 0.0;
   int step_px = kTilePx;
   bool refine_edges = false;
-  /// Looks for wide borders in the thinned image.
+  /// Looks for tags with wide borders, in the thinned image; absent when none are asked for.
   std::unique_ptr<Library> wide;
   GreyImage thinned;
 
@@ -150,15 +61,12 @@ struct MarkerDetector::Library {
     if (detector) {
       apriltag_detector_destroy(detector);
     }
-    for (const auto& [index, family] : families) {
-      kFamilies[index].destroy(family);
-    }
   }
 
   Status set_up(const DetectorOptions& options) {
     detector = apriltag_detector_create();
     if (!detector) {
-      return Error{"marker detector: the AprilTag library gave none"};
+      return Error{"marker detector: the AprilTag library could not create one (out of memory)"};
     }
     detector->nthreads = options.threads;
     detector->quad_decimate = static_cast<float>(options.decimate);
@@ -177,12 +85,11 @@ struct MarkerDetector::Library {
   }
 
   Status add(const std::string& name) {
-    const std::size_t index = family_index(name);
-    apriltag_family_t* family = kFamilies[index].create();
+    families.push_back(create_family(name));
+    apriltag_family_t* family = families.back().get();
     if (!family) {
       return Error{"tag family '" + name + "' could not be made"};
     }
-    families.emplace_back(index, family);
     if (max_hamming > 1 && family->ncodes > kMostCodesWithTwoBits) {
       return Error{"tag family '" + name + "' has " + std::to_string(family->ncodes) +
                    " codes; with so many max_hamming must be at most 1"};
@@ -200,9 +107,9 @@ struct MarkerDetector::Library {
       return;
     }
     MarkerCorners marker;
-    for (const auto& [index, family] : families) {
-      if (family == seen.family) {
-        marker.family = kNames[index];
+    for (const TagFamily& family : families) {
+      if (family.get() == seen.family) {
+        marker.family = known_families()[family.get_deleter().index];
       }
     }
     marker.id = seen.id;
@@ -219,7 +126,7 @@ struct MarkerDetector::Library {
     found.push_back(marker);
   }
 
-  /// Appends what the crop shows; `offset_px` is added to its corners.
+  /// Appends the crop's tags; `offset_px` is added to their corners.
   Status detect(const GreyImage& image, const PixelBox& crop, Vec2 offset_px,
                 std::vector<MarkerCorners>& found) {
     const auto start =
@@ -318,12 +225,12 @@ void MarkerDetector::look_for_wide_borders(const GreyImage& image, const PixelBo
       return;
     }
     for (MarkerCorners& marker : more) {
-      // Twice, since the thinned outline begins nearly as far off as edges are looked for.
+      // Twice, since the thinned outline starts nearly as far off as edges are searched for.
       marker.corners_px = refined_corners(image, refined_corners(image, marker.corners_px));
       if (!has_wide_border(image, marker.corners_px)) {
         continue;
       }
-      // Where squares touch the tag, its outline in the image itself is the worse one.
+      // Where squares touch the tag, the outline found in the image itself is the worse one.
       std::erase_if(found, [&](const MarkerCorners& other) { return same_tag(marker, other); });
       found.push_back(marker);
     }

@@ -26,7 +26,7 @@ struct MarkerCorners {
   int hamming = 0;
 };
 
-/// How the corners are found more exactly than the quad's outline gives them.
+/// How the corners are made more exact than the quad's outline.
 enum class Refinement {
   kNone,     ///< they are left as they are
   kLibrary,  ///< the library's own
@@ -49,7 +49,7 @@ struct DetectorOptions {
 [[nodiscard]] std::span<const std::string_view> known_families();
 /// How many ids a family has; 0 for an unknown one.
 [[nodiscard]] int family_size(std::string_view family);
-/// One tag's code as the AprilTag library keeps it.
+/// One tag's code as the AprilTag library stores it.
 struct TagCode {
   struct Bit {
     int row =
@@ -57,8 +57,8 @@ struct TagCode {
     int column = 0;
     bool white = false;
   };
-  int cells = 0;              ///< a side of all that the family defines
-  int border_cells = 0;       ///< a side of the outer edge of the border
+  int cells = 0;              ///< per side of all that the family defines
+  int border_cells = 0;       ///< per side of the outer edge of the border
   bool white_border = false;  ///< or black
   std::vector<Bit> bits;
 };

@@ -20,7 +20,7 @@ void SearchPlan::add(const TagCorners& corners_px, const BoxRoom& room, std::str
   }
   const double extent_px = std::max(high.x - low.x, high.y - low.y);
   const double room_px = room.px + room.of_extent * extent_px;
-  // Negated, so that what is not finite stays out as well.
+  // Negated, so that non-finite corners stay out as well.
   if (!(std::abs(low.x) + std::abs(low.y) + extent_px + room_px < kFarPx)) {
     return;
   }

@@ -13,7 +13,7 @@
 
 namespace orthonav::nav {
 
-/// Room around a tag's expected corners on every side: by their extent, and in pixels.
+/// Margin around a tag's expected corners on every side: a fraction of their extent, and pixels.
 struct BoxRoom {
   double of_extent = 0.0;
   double px = 0.0;
@@ -33,8 +33,8 @@ struct SearchPlan {
   void add(const TagCorners& corners_px, const BoxRoom& room, std::string_view family, int id);
 };
 
-/// Detects tags in both images of a pair, at once when a second thread is given; the result is the
-/// same.
+/// Detects tags in both images of a pair, concurrently when a second thread is given; the result is
+/// the same.
 class PairDetector {
  public:
   static Result<std::unique_ptr<PairDetector>> create(const DetectorOptions& options,

@@ -4,16 +4,17 @@
 
 #include "nav/tracking/photometric_view.h"
 
-// What a block of pixels adds to a view's equations. Loops of a fixed length over arrays of their
-// own, so that they become vector instructions.
+// What a block of pixels adds to a view's equations. Loops of a fixed length over separate arrays,
+// so that they become vector instructions.
 namespace orthonav::nav {
 namespace {
 
 /// Tukey's biweight at 4.7 SD: 95 % efficient on clean noise.
 constexpr float kOutlierSd = 4.7F;
-/// A slope (per cell, of the blurred template) from which on a pixel tells something of the pose.
+/// The least slope (per cell, of the blurred template) at which a pixel says something about the
+/// pose.
 constexpr float kEdgeSlope = 0.1F;
-/// The square of one below which a pixel pulls at nothing.
+/// Below this squared slope a pixel has no influence.
 constexpr float kLeastSlope2 = 1e-4F;
 
 float dot(const float* __restrict a, const float* __restrict b) {
@@ -88,7 +89,7 @@ void ViewModel::compare(const Photometry& light) {
   }
 }
 
-/// Robust weights by what noise and doubt explain.
+/// Robust weights, given what noise and doubt explain.
 void ViewModel::weigh(const Photometry& light, double doubt_cells) {
   const auto column = [this](int c) { return block_.data() + c * kBlock; };
   const float* __restrict white = column(kT);
@@ -161,7 +162,7 @@ void ViewModel::count(int pixels, ViewEquations& out) {
   }
 }
 
-/// Pieces lie about the corners of the cells, so that the two sides of an edge are in one.
+/// Pieces are centred on the corners of the cells, so that both sides of an edge are in one piece.
 void ViewModel::score(int pixels) {
   const auto column = [this](int c) { return block_.data() + c * kBlock; };
   const float* residual = column(kFirst + static_cast<int>(kColumns));
@@ -189,7 +190,7 @@ void ViewModel::finish(const Photometry& light, double doubt_cells, ViewEquation
   }
   compare(light);
   weigh(light, doubt_cells);
-  // What an earlier block left behind weighs nothing.
+  // Leftovers of an earlier block get no weight.
   float* weight = block_.data() + kWeight * kBlock;
   std::fill(weight + n, weight + kBlock, 0.0F);
   sum_up(out);

@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kBlurFloorPx = 0.25;
 constexpr double kBlurCeilingCells = 0.6;
-/// A logarithm of blur, or a share of grey, may change so much at once.
+/// Largest change at once of a logarithm of blur, or of a fraction of grey.
 constexpr double kLargestLightStep = 0.5;
 constexpr double kVarianceFloor = 0.3;
-/// Pixels of black and of white below which nothing is learnt of their noise.
+/// With fewer pixels of black and of white, nothing is learnt of their noise.
 constexpr double kFewestFractions = 20.0;
-/// Neither black nor white is quieter than this share of all.
+/// Neither black nor white gets less than this fraction of the mean noise.
 constexpr double kLeastOfMean = 0.25;
 
 double bounded(double v, double limit) { return std::clamp(v, -limit, limit); }
@@ -53,14 +53,14 @@ void apply(const LightStep& step, double px_a_cell, Photometry& light) {
     light.tails[i] = std::clamp(light.tails[i] + bounded(step[6 + i], 1.0), -1.2, 3.0);
   }
   light.skew = std::clamp(light.skew + bounded(step[8], 0.5), -0.8, 0.8);
-  // Not far from where it would no longer rise everywhere.
+  // Stays well away from where the response would no longer rise everywhere.
   for (std::size_t i = 0; i < light.response.size(); ++i) {
     light.response[i] = std::clamp(light.response[i] + bounded(step[9 + i], 0.3), -0.9, 0.9);
   }
 }
 
 void learn_noise(const ViewEquations& e, double fraction, Photometry& light) {
-  // Inverses are averaged: that of one pair now and then is large.
+  // Inverses are averaged, since an occasional pair has a large value.
   if (e.scatter > 0.0) {
     light.scatter = 1.0 / ((1.0 - fraction) / light.scatter + fraction / e.scatter);
   }

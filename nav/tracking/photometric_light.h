@@ -6,7 +6,7 @@
 
 namespace orthonav::nav {
 
-/// By the light's columns of `ViewEquations`.
+/// One entry per light column of `ViewEquations`.
 using LightStep = std::array<double, kLightColumns>;
 
 /// Weak beliefs about the light, so that a view without white cells, or without edges, stays
@@ -17,11 +17,11 @@ struct LightPrior {
 };
 [[nodiscard]] LightPrior light_prior(const Photometry& light);
 
-/// Changes the light by a step, within what light and lenses do.
+/// Changes the light by a step, within physical limits of light and lenses.
 void apply(const LightStep& step, double px_a_cell, Photometry& light);
 
-/// Takes in the noise and the scatter about the model: `share` of what is remembered is that of
-/// these residuals.
+/// Updates noise and scatter about the model: `fraction` of the remembered value comes from these
+/// residuals.
 void learn_noise(const ViewEquations& equations, double fraction, Photometry& light);
 
 }  // namespace orthonav::nav

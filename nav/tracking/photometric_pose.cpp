@@ -17,13 +17,13 @@ constexpr double kLargestStepCells = 0.5;
 constexpr double kNoiseFraction = 0.3;  ///< of the newest pair in the noise that is remembered
 constexpr int kNewLightIterations = 5;
 constexpr double kFewestPixels = 30.0;
-/// A step leaves so much of itself to the next ones.
+/// The fraction of its length that a step leaves to those after it.
 constexpr double kLeftOfStep = 0.3;
-/// Once it has converged: what noise leaves.
+/// Once it has converged, what noise leaves.
 constexpr double kSettledPx = 0.05;
 
-/// A small motion of the tag, in its frame and in cells, by a small motion of the tool in its own
-/// frame, in metres.
+/// The derivative of a small motion of the tag (in its frame, in cells) by a small motion of the
+/// tool (in its own frame, in metres).
 Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m) {
   Matrix6 out = Matrix6::Zero();
   const Mat3 tag_from_marker = marker_from_tag.rotation().transposed();
@@ -42,21 +42,24 @@ Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m
   return out;
 }
 
-Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 shift, Vec3 rotation_vector) {
+Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 translation,
+                             Vec3 rotation_vector) {
   return {orthonormalized(pose.rotation() * rotation_from_vector(rotation_vector)),
-          pose.translation() + pose.rotation() * shift};
+          pose.translation() + pose.rotation() * translation};
 }
 
-/// A small motion of the tag, in its frame and in cells, by a small turn of the camera in its own.
+/// The derivative of a small motion of the tag (in its frame, in cells) by a small rotation of the
+/// camera in its own frame.
 Eigen::Matrix<double, 6, 3> tag_by_camera_turn(const CameraFromTag& pose, double cell_m) {
   Eigen::Matrix<double, 6, 3> out;
   const Mat3 back = pose.rotation.transposed();
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 unit_rotation{};
     unit_rotation[axis] = 1.0;
-    const Vec3 shift = back * unit_rotation.cross(pose.translation_m) / cell_m;
+    const Vec3 translation = back * unit_rotation.cross(pose.translation_m) / cell_m;
     const Vec3 rotation = back * unit_rotation;
-    out.col(axis) << shift.x, shift.y, shift.z, rotation.x, rotation.y, rotation.z;
+    out.col(axis) << translation.x, translation.y, translation.z, rotation.x, rotation.y,
+        rotation.z;
   }
   return out;
 }
@@ -95,7 +98,7 @@ double PhotometricSolver::pixels_a_metre(const TagView& view,
   return focal_px(view.right) / std::max(camera_from_tag(view, pose).translation_m.z, 1e-3);
 }
 
-/// Back to the light of each view, with the pose's step taken into account.
+/// Computes the light of each view, given the pose's step.
 void PhotometricSolver::update_light(const std::array<double, 6>& step,
                                      const Transform<Rig, Marker>& pose,
                                      std::span<TagView> views) const {
@@ -113,7 +116,7 @@ void PhotometricSolver::update_light(const std::array<double, 6>& step,
   }
 }
 
-/// The pose's own equations: those of every view, its light eliminated.
+/// The equations of the pose alone: those of every view, its light eliminated.
 std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame& frame,
                                                                double doubt_m,
                                                                const PhotometricOptions& options,
@@ -161,7 +164,7 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
     }
   }
   update_light(out.motion, fit.rig_from_marker, views);
-  // Of the farthest cells, by shift and by turn.
+  // Displacement of the farthest cells, by translation and by rotation.
   out.size_m = std::max(motion.head<3>().norm(), motion.tail<3>().norm() * 4.0 * out.cell_m);
   const double limit_m = kLargestStepCells * out.cell_m;
   if (out.size_m > limit_m) {

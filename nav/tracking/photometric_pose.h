@@ -12,7 +12,7 @@
 
 namespace orthonav::nav {
 
-/// One tag of a tool in one image, with the light that is remembered of it.
+/// One tag of a tool in one image, with the light remembered for it.
 struct TagView {
   const BlurredTag* tag = nullptr;
   Transform<Marker, Tag> marker_from_tag;  ///< poses of a tool are those of its first tag
@@ -27,9 +27,9 @@ struct TagView {
 
 struct PhotometricOptions {
   int max_iterations = 10;
-  /// Corrections below end the search: a small part of the noise of the pose.
+  /// A smaller correction ends the search: a small part of the pose's noise.
   double last_step_px = 0.02;
-  /// A view in which less of the tag agrees with its template is not used.
+  /// A view is not used where less of the tag than this agrees with its template.
   double min_kept_fraction = 0.45;
   double min_contrast_grey = 12.0;
 };
@@ -50,17 +50,18 @@ class PhotometricSolver {
  public:
   explicit PhotometricSolver(const StereoCalibration& calibration);
 
-  /// Improves a pose that is right to about half a cell; `doubt_m` says how far it may be off.
-  /// Only sightings with `used` set count; their light is updated, also by a fit that comes to
-  /// nothing. Nothing when too little of the tags is to be seen.
+  /// Improves a pose that is right to about half a cell; `doubt_m` says how far off it may be. Only
+  /// sightings with `used` set count; their light is updated, even if the fit fails. Nothing when
+  /// too little of the tags is visible.
   [[nodiscard]] std::optional<PhotometricFit> solve(const StereoFrame& frame,
                                                     const Transform<Rig, Marker>& start,
                                                     double doubt_m, std::span<TagView> views,
                                                     const PhotometricOptions& options = {});
-  /// What the last fit says of the right camera's rotation; nothing when one camera was used.
+  /// What the last fit says about the right camera's rotation; nothing when only one camera was
+  /// used.
   [[nodiscard]] std::optional<AlignmentEquations> alignment(const PhotometricFit& fit,
                                                             std::span<const TagView> views) const;
-  /// Pixels by the unit plane, near the middle of the left or the right image.
+  /// Pixels per unit of the unit plane, near the middle of the left or the right image.
   [[nodiscard]] double focal_px(bool right) const {
     return right ? right_rays_.focal_px : left_rays_.focal_px;
   }
@@ -74,9 +75,9 @@ class PhotometricSolver {
  private:
   struct Step {
     std::array<double, 6> motion{};  ///< of the tool in its own frame: m, rad
-    double size_m = 0.0;             ///< what it moves the farthest cells by
+    double size_m = 0.0;             ///< how far it moves the farthest cells
     double pixels_a_metre = 0.0;     ///< in the view nearest to the tag
-    double cell_m = 1.0;             ///< the smallest
+    double cell_m = 1.0;             ///< of the smallest tag
   };
   std::optional<Step> step(const StereoFrame& frame, double doubt_m,
                            const PhotometricOptions& options, std::span<TagView> views,

@@ -13,8 +13,9 @@ using LightMatrix = Eigen::Matrix<double, kLight, kLight>;
 using LightVector = Eigen::Matrix<double, kLight, 1>;
 using CrossMatrix = Eigen::Matrix<double, 6, kLight>;
 
-/// What the robust weights make of the scatter of clean noise, which is 1: 0.72 by the biweight's
-/// moments (E[psi^2] E[w] / E[psi']^2), the rest as measured (docs/tracking.md).
+/// The scatter of clean noise after robust weighting, where without weights it would be 1: 0.72
+/// from the biweight's moments (E[psi^2] E[w] / E[psi']^2), the rest as measured
+/// (docs/tracking.md).
 constexpr double kCleanScatter = 0.82;
 
 struct Split {
@@ -63,7 +64,8 @@ void add_prior(Split& s, const Photometry& light) {
   }
 }
 
-/// The pose's equations without the light, and how the light follows a small motion of the tag.
+/// The pose's equations without the light, and how the light changes with a small motion of the
+/// tag.
 struct Eliminated {
   Split split;
   Eigen::LLT<LightMatrix> light;

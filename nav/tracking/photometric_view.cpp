@@ -9,10 +9,11 @@ namespace orthonav::nav {
 namespace {
 
 constexpr std::uint8_t kSaturated = 254;
-/// Of its pixels so many agree with a cell that is hidden in part, and with one that is free.
+/// The fractions of its pixels that agree with a cell: below the first it is hidden in part, above
+/// the second it is free.
 constexpr float kHiddenFraction = 0.45F;
 constexpr float kFreeFraction = 0.8F;
-/// Of areas without edges every so many columns and rows suffice: they tell the light only.
+/// In areas without edges every second column and row is enough: they only tell the light.
 constexpr int kFlatStep = 2;
 /// Where a corner lies outside the image, its place is known roughly.
 constexpr double kRoughPx = 24.0;
@@ -108,7 +109,7 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
   const Vec3 t = pose.translation_m / cell;
   const Vec3 eye = -(pose.rotation.transposed() * t);
   if (!(eye.z > 0.5) || !(t.z > 0.5)) {
-    return false;  // from behind, or behind the camera
+    return false;  // seen from behind, or behind the camera
   }
   eye_cells_ = eye;
   const Mat3 inverse =
@@ -232,7 +233,7 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
     const float right = across[kHighDensity * stride];
     const float above = down[kLowDensity * stride];
     const float below = down[kHighDensity * stride];
-    // What lies outside the template is not known.
+    // What lies outside the template is unknown.
     if ((column == 0.0F && left > 0.0F) || (column == last && right > 0.0F) ||
         (row == 0.0F && above > 0.0F) || (row == last && below > 0.0F)) {
       continue;

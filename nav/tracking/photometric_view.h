@@ -12,7 +12,7 @@
 
 namespace orthonav::nav {
 
-/// Where a camera sees a tag: camera from marker. Left or right does not matter here.
+/// The pose of a tag in a camera: camera from marker. Left or right does not matter here.
 struct CameraFromTag {
   Mat3 rotation = Mat3::identity();
   Vec3 translation_m{};
@@ -37,13 +37,13 @@ struct Photometry {
   /// Departure of the sensor's response from a line: as of a gamma, which makes white areas grow,
   /// and as of more contrast in the middle, in the last three places.
   std::array<double, 3> response{};
-  /// Variance of a grey value in black and in white areas; at first so much that nothing is an
+  /// Variance of a grey value in black and in white areas; initially so large that nothing is an
   /// outlier.
   std::array<double, 2> variance{2500.0, 2500.0};
   /// What is added to it along edges, by the square of the slope of the blurred template (per
   /// cell): there the model is off by more than noise.
   double edge_variance = 0.0;
-  /// How much more the edges pull at the pose than noise makes them (`scatter`).
+  /// How much more strongly the edges pull at the pose than noise would make them (`scatter`).
   double scatter = 1.0;
   bool known = false;  ///< from an earlier fit
 };
@@ -55,11 +55,11 @@ inline constexpr std::size_t kPoseColumns = 6;
 inline constexpr std::size_t kLightColumns = 12;
 inline constexpr std::size_t kColumns = kPoseColumns + kLightColumns;
 
-/// What the robust weights leave of the variance of clean noise: E[w r²] / (E[w] σ²) of Tukey's
-/// biweight at 4.7 SD.
+/// The fraction of clean noise's variance that remains under the robust weights: E[w r²] / (E[w]
+/// σ²) of Tukey's biweight at 4.7 SD.
 inline constexpr double kRobustVariance = 0.829;
 
-/// The sums of weighted least squares over the pixels of one view, and what they say of the fit.
+/// The sums of weighted least squares over the pixels of one view, and what they say about the fit.
 struct ViewEquations {
   /// Upper triangle by rows of JᵀWJ over the columns and the residual as the last column.
   std::array<double, (kColumns + 1) * (kColumns + 2) / 2> sums{};
@@ -79,14 +79,14 @@ struct ViewEquations {
   }
 };
 
-/// Compares the image with the model at a pose. `doubt_cells` is how far the pose may still be off:
-/// a pixel is only called an outlier when that does not explain it. Reuses its memory; one thread
+/// Compares the image with the model at a pose. `doubt_cells` is how far off the pose may still be:
+/// a pixel counts as an outlier only when that does not explain it. Reuses its memory; one thread
 /// at a time.
 class ViewModel {
  public:
   ViewModel();
-  /// `cell_weights` (one a cell; empty: not known) are how far each cell was found to be the tag's
-  /// the last time; they come back as found this time.
+  /// `cell_weights` (one per cell; empty: unknown) says how far each cell was found to show the tag
+  /// last time; it returns the values found this time.
   void linearize(const GreyImage& image, const CameraModel& camera, const RayTable& rays,
                  const BlurredTag& tag, const CameraFromTag& pose, const Photometry& light,
                  double doubt_cells, std::vector<float>& cell_weights, ViewEquations& out);
@@ -96,7 +96,7 @@ class ViewModel {
  private:
   static constexpr int kBlock = 64;
   static constexpr float kPieceCells = 2.0F;
-  /// What is kept of each pixel of a block, and what is made of it.
+  /// What is kept for each pixel of a block.
   enum BlockColumn {
     kGrey,
     kBx,

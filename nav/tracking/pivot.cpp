@@ -22,11 +22,11 @@ using Poses = std::span<const Transform<World, Marker>>;
 using Indices = std::vector<std::size_t>;
 
 constexpr std::size_t kSampleSize = 3;
-// Tips that scatter normally by s in each direction lie within 1.538 s half of the time, and
-// within 4.5 s all but once in 3000 times.
+// For tips that scatter normally with SD s in each direction, half lie within 1.538 s, and all but
+// one in 3000 within 4.5 s.
 constexpr double kMedianOfMaxwell = 1.538;
 constexpr double kInlierSds = 4.5;
-// Below, numbers end rather than tips.
+// Below this, differences are rounding.
 constexpr double kLeastInlierM = 1e-4;
 constexpr int kMostRefits = 20;
 
@@ -60,7 +60,7 @@ double cost(const PivotFit& fit, Poses poses, double limit_m) {
   return sum;
 }
 
-/// Three different poses of which the tip follows: neighbours in time hardly turn.
+/// Three different poses that determine the tip: neighbours in time hardly turn.
 std::optional<PivotFit> sampled(Poses poses, double least_spread_rad, Random& random) {
   std::array<std::size_t, kSampleSize> sample{};
   for (std::size_t& index : sample) {
@@ -83,7 +83,7 @@ std::optional<PivotFit> best_fit(Poses poses, const PivotOptions& options) {
     if (!fit) {
       continue;
     }
-    // A sample of three amplifies noise: what agrees with it says better where the pivot is.
+    // A sample of three amplifies noise: the poses that agree with it locate the pivot better.
     if (const auto again = fit_pivot(poses, within(*fit, poses, 2.0 * options.inlier_m))) {
       fit = again;
     }
@@ -97,7 +97,7 @@ std::optional<PivotFit> best_fit(Poses poses, const PivotOptions& options) {
   return best;
 }
 
-/// The limit for inliers that the scatter of the nearer poses calls for.
+/// The limit for inliers, from the scatter of the poses nearest to the pivot.
 double inlier_limit_m(const PivotFit& fit, Poses poses, double most_m) {
   std::vector<double> misses;
   for (const std::size_t i : within(fit, poses, most_m)) {
@@ -110,7 +110,7 @@ double inlier_limit_m(const PivotFit& fit, Poses poses, double most_m) {
                     most_m);
 }
 
-/// Fits again to the inliers until they stay the same.
+/// Repeats the fit to the inliers until they no longer change.
 Indices settled(Poses poses, double most_m, PivotFit& fit) {
   Indices inliers;
   for (int round = 0; round < kMostRefits; ++round) {

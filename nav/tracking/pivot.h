@@ -18,13 +18,13 @@ struct PivotOptions {
   double min_spread_rad = 0.15;
   /// A larger residual means that the tip slipped.
   double max_rmse_m = 0.002;
-  /// A pose whose tip misses the pivot by more is no inlier. Three times what the published method
-  /// scatters 150 mm below a 40 mm tag; where poses scatter less, the limit follows them.
+  /// A pose whose tip misses the pivot by more is no inlier. Three times the scatter of the
+  /// published method 150 mm below a 40 mm tag; where poses scatter less, the limit follows them.
   double inlier_m = 0.005;
-  /// Fewer inliers mean that no single pivot can be told: the tip moved, or did something else.
+  /// With fewer inliers no single pivot can be named: the tip moved, or did something else.
   double min_inlier_fraction = 0.6;
   double max_tip_sigma_m = 0.001;
-  /// What deserves a note.
+  /// What is worth a note.
   double note_spread_rad = 0.25;
   double note_tip_sigma_m = 0.0003;
   double note_inlier_fraction = 0.9;
@@ -40,13 +40,13 @@ struct PivotCalibration {
   Point<Marker> tip_in_marker;
   Point<World> pivot_in_world;
   double rmse_m = 0.0;  ///< of the inliers' tips about the pivot, 3-D
-  /// RMS of the turning that fixes the tip where it is known worst; turning about one axis only
-  /// gives 0, since the tip may then lie anywhere along it.
+  /// RMS of the rotation in the direction that determines the tip worst; turning about one axis
+  /// only gives 0, since the tip may then lie anywhere along it.
   double spread_rad = 0.0;
   /// 3-D SD of the tip: the larger of what residual and geometry predict and of `leave_out_m`.
   double tip_sigma_m = 0.0;
-  /// Jackknife SD from leaving out each tenth of the inliers in turn: it shows what drifts, which
-  /// the residual alone takes for noise.
+  /// Jackknife SD from leaving out each tenth of the inliers in turn: it shows drift, which the
+  /// residual alone takes for noise.
   double leave_out_m = 0.0;
   std::size_t poses = 0;
   std::vector<bool> inlier;  ///< of each pose

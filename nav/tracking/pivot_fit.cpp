@@ -10,7 +10,7 @@ namespace {
 using Poses = std::span<const Transform<World, Marker>>;
 using Chosen = std::span<const std::size_t>;
 
-// A tip that turning so small determines is not one.
+// A rotation so small determines no tip.
 constexpr double kLeastSpreadRad = 1e-6;
 
 Eigen::Matrix3d as_eigen(const Mat3& m) {

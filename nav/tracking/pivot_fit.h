@@ -13,7 +13,7 @@ namespace orthonav::nav {
 struct PivotFit {
   Point<Marker> tip_in_marker;
   Point<World> pivot_in_world;
-  /// RMS of the turning that fixes the tip where it is known worst; 0 when it may lie anywhere
+  /// RMS of the rotation in the direction that determines the tip worst; 0 when it may lie anywhere
   /// along a line.
   double spread_rad = 0.0;
   double rmse_m = 0.0;       ///< of the tips about the pivot, 3-D
@@ -25,7 +25,7 @@ struct PivotFit {
   }
 };
 
-/// Over the poses of these indices, three at least; nothing when the tip is not determined.
+/// Over the poses with these indices, at least three; nothing when the tip is not determined.
 [[nodiscard]] std::optional<PivotFit> fit_pivot(std::span<const Transform<World, Marker>> poses,
                                                 std::span<const std::size_t> chosen);
 

@@ -13,7 +13,7 @@ struct PixelBox {
 };
 
 /// The part of the box inside the image, widened to whole steps from the image's first pixel and by
-/// one step more to all sides, where the image goes on. Empty boxes may come back with negative
+/// one more step on every side as far as the image goes. Empty boxes may be returned with negative
 /// sides.
 [[nodiscard]] PixelBox in_whole_steps(const PixelBox& box, const GreyImage& image, int step_px);
 

@@ -6,7 +6,7 @@
 namespace orthonav::nav {
 namespace {
 
-/// Unit plane from tag, tag coordinates in half sizes; scaled so that the last entry is 1.
+/// Unit plane from tag, with tag coordinates in half sizes; scaled so that the last entry is 1.
 std::optional<Eigen::Matrix3d> homography(const std::array<Vec2, 4>& seen) {
   constexpr std::array<Vec2, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   Eigen::Matrix<double, 8, 8> a = Eigen::Matrix<double, 8, 8>::Zero();
@@ -43,7 +43,7 @@ std::optional<std::array<CameraFromTag, 2>> planar_poses(const std::array<Vec2, 
   const auto vec = [&](int column) {
     return Vec3{(*h)(0, column), (*h)(1, column), (*h)(2, column)};
   };
-  // Both axes share what they lack to a right angle.
+  // Both axes are corrected equally to make them perpendicular.
   const Vec3 a = vec(0).normalized();
   const Vec3 b = vec(1).normalized();
   const Vec3 sum = (a + b).normalized();
@@ -56,7 +56,8 @@ std::optional<std::array<CameraFromTag, 2>> planar_poses(const std::array<Vec2, 
     return std::nullopt;
   }
   const Mat3 first = Mat3::from_columns(x, y, z);
-  // Depth mirrored along the line of sight, and the tag's back turned to its front again.
+  // Depth mirrored along the line of sight, and the tag turned so that its front faces the camera
+  // again.
   const Vec3 sight = place.normalized();
   const auto mirrored = [&](Vec3 v) { return v - 2.0 * v.dot(sight) * sight; };
   const Mat3 other = Mat3::from_columns(mirrored(x), mirrored(y), -mirrored(z));

@@ -22,25 +22,28 @@ Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> as_eigen(const Po
   return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(a.data());
 }
 
-/// What a pose lacks to another: shift, and the rotation vector that is multiplied from the left.
+/// The difference between two poses: translation, and the rotation vector that is multiplied from
+/// the left.
 Vector6 difference(const PoseFilter::Pose& to, const PoseFilter::Pose& from) {
-  const Vec3 shift = to.translation() - from.translation();
+  const Vec3 translation = to.translation() - from.translation();
   const Vec3 rotation_vector = vector_from_rotation(to.rotation() * from.rotation().transposed());
   Vector6 out;
-  out << shift.x, shift.y, shift.z, rotation_vector.x, rotation_vector.y, rotation_vector.z;
+  out << translation.x, translation.y, translation.z, rotation_vector.x, rotation_vector.y,
+      rotation_vector.z;
   return out;
 }
 
-PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 shift, Vec3 rotation_vector) {
+PoseFilter::Pose moved(const PoseFilter::Pose& pose, Vec3 translation, Vec3 rotation_vector) {
   return {orthonormalized(rotation_from_vector(rotation_vector) * pose.rotation()),
-          pose.translation() + shift};
+          pose.translation() + translation};
 }
 
-/// A constant acceleration a moves the prediction by a dt² and the mean over an exposure T by
-/// a T² / 24: so much of the innovation is none of the pose at the middle.
+/// A constant acceleration a moves the prediction by a dt² and the mean over an exposure T by a T²
+/// / 24: this part of the innovation is not motion of the pose at mid-exposure.
 double of_exposure(double exposure_s, double dt_s) { return std::pow(exposure_s / dt_s, 2) / 24.0; }
 
-/// Taking it off helps little, since the prediction errs as well: it stays in the covariance.
+/// Subtracting it would help little, since the prediction errs as well: it goes into the
+/// covariance.
 PoseCovariance blurred(const PoseCovariance& noise, const Vector6& innovation, double fraction) {
   PoseCovariance out = noise;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -74,7 +77,7 @@ PoseFilter::Covariance PoseFilter::grown(double dt, double density_m, double den
 
 Tracked<PoseFilter::Pose> PoseFilter::predicted(Timestamp time) const {
   const double dt = seconds(time - time_);
-  // A tool at rest may be taken up at any moment.
+  // A tool at rest may be picked up at any moment.
   const Covariance p = grown(dt, options_.hand_m, options_.hand_rad);
   return {moved(pose_, dt * velocity_m_, dt * velocity_rad_), time, PoseStatus::kPredicted,
           symmetrized(Matrix6(as_eigen(p).topLeftCorner<6, 6>()))};
@@ -127,7 +130,7 @@ void PoseFilter::update(const Tracked<Pose>& measured, double exposure_s) {
 }
 
 Tracked<PoseFilter::Pose> PoseFilter::state() const {
-  // The filter takes errors for independent from pair to pair; this share of them is not.
+  // The filter treats errors as independent from pair to pair; this fraction of them is not.
   const Matrix6 p = as_eigen(covariance_).topLeftCorner<6, 6>();
   const Matrix6 r = as_eigen(lasting_);
   const double lasting = options_.lasting_fraction;

@@ -12,14 +12,14 @@ struct PoseFilterOptions {
   /// of pairs is averaged.
   double rest_m = 2e-8;
   double rest_rad = 2e-7;
-  /// Of one in a hand: 5 m/s² and 60 rad/s² held for 0.05 s.
+  /// Those of a tool in a hand: 5 m/s² and 60 rad/s² held for 0.05 s.
   double hand_m = 1.25;
   double hand_rad = 180.0;
-  /// A pair whose innovation exceeds this (squared, normalised, 6 degrees of freedom: 1 in 2,000
-  /// at rest) shows that the tool is in a hand.
+  /// A pair whose innovation exceeds this (squared, normalised, 6 degrees of freedom: 1 in 2,000 at
+  /// rest) shows that the tool is in a hand.
   double rest_limit = 24.0;
-  /// Part of a measurement's variance that the next one repeats: what the model does not know
-  /// averages out as little as it pleases.
+  /// The part of a measurement's variance that repeats in the next one: errors that the model does
+  /// not know may not average out.
   double lasting_fraction = 0.05;
   /// SD of an unknown velocity.
   double first_speed_m = 0.5;
@@ -27,8 +27,8 @@ struct PoseFilterOptions {
 };
 
 /// A Kalman filter on SE(3) with constant velocity (Bar-Shalom, Li & Kirubarajan 2001, 6.2.2; the
-/// error is a shift and a left-multiplied rotation vector, Sola et al. 2018), in World. It knows
-/// two motions, rest and hand, and takes rest for as long as the measurements allow.
+/// error is a translation and a left-multiplied rotation vector, Sola et al. 2018), in World. It
+/// knows two motions, rest and hand, and assumes rest for as long as the measurements allow.
 class PoseFilter {
  public:
   using Pose = Transform<World, Marker>;
@@ -42,8 +42,9 @@ class PoseFilter {
 
   /// Where the tool is at a later time; `alive` must hold.
   [[nodiscard]] Tracked<Pose> predicted(Timestamp time) const;
-  /// Takes a measurement in, with its covariance in World: a mean over an exposure, which under
-  /// acceleration is not the pose at its middle. Starts when it is not alive.
+  /// Adds a measurement with its covariance in World. A measurement is a mean over an exposure,
+  /// which under acceleration is not the pose at its middle. Starts the filter when it is not
+  /// alive.
   void update(const Tracked<Pose>& measured, double exposure_s);
   /// The pose at the newest measurement, with the lasting part of its error in the covariance.
   [[nodiscard]] Tracked<Pose> state() const;

@@ -5,14 +5,15 @@
 namespace orthonav::nav {
 namespace {
 
-// What a hand does between two pairs, as white acceleration: about 1 m/s² and 10 rad/s² held for
-// 0.1 s (density = acceleration² · duration).
+// A hand's motion between two pairs as white acceleration: about 1 m/s² and 10 rad/s² held for 0.1
+// s (density = acceleration² · duration).
 constexpr double kAccelerationSpectrum_m2_per_s3 = 0.1;
 constexpr double kAccelerationSpectrum_rad2_per_s3 = 10.0;
-// Without a usable older pose the velocity is unknown: a fast reach and a fast turn of the wrist.
+// Without a usable older pose the velocity is unknown: up to a fast reach and a fast turn of the
+// wrist.
 constexpr double kUnknownSpeedM = 0.3;    // m/s
 constexpr double kUnknownSpeedRad = 1.5;  // rad/s
-// Older pairs say nothing of the velocity now.
+// Older pairs say nothing about the velocity now.
 constexpr double kLongestBaselineS = 0.2;
 
 void add_motion(PoseCovariance& covariance, double translation, double rotation) {

@@ -6,8 +6,8 @@
 
 namespace orthonav::nav {
 
-/// The covariance that a 6×6 matrix is up to rounding: the mean of it and its transpose. `m(r, c)`
-/// is an entry, so that the matrix's type stays out of this header.
+/// Symmetrizes a 6×6 covariance that is symmetric up to rounding: the mean of it and its transpose.
+/// `m(r, c)` is an entry, so that the matrix's type stays out of this header.
 template <class Matrix6>
 [[nodiscard]] PoseCovariance symmetrized(const Matrix6& m) {
   PoseCovariance out;

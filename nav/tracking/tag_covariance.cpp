@@ -24,7 +24,7 @@ Eigen::Matrix3d as_eigen(const Mat3& m) {
   return out;
 }
 
-// How a point of the body moves with a small shift and turn: [I, -[arm]x].
+// How a point of the body moves with a small translation and rotation: [I, -[lever arm]x].
 Matrix36 point_by_pose(Vec3 lever_arm) {
   Matrix36 j;
   j.leftCols<3>().setIdentity();

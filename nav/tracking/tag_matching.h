@@ -9,12 +9,14 @@
 
 namespace orthonav::nav {
 
-/// What a pair must satisfy to be one tag seen by two cameras.
+/// What two sightings must satisfy to be one tag seen by two cameras.
 struct MatchLimits {
-  /// Corners from the images of the triangulated ones: a unit's factory calibration was found to be
-  /// off by 0.6 px across the epipolar lines; a chance match is off by tens.
+  /// Distance of the corners from the images of the triangulated ones: one unit's factory
+  /// calibration was found to be off by 0.6 px across the epipolar lines; a chance match is off by
+  /// tens.
   double gap_px = 2.0;
-  /// Triangulated size by the tool's, and what the four corners depart from a square, by the size.
+  /// Deviation of the triangulated size from the tool's, and of the four corners from a square,
+  /// both relative to the size.
   double size_fraction = 0.15;
 };
 
@@ -26,18 +28,18 @@ struct TagMatch {
   [[nodiscard]] bool both() const { return left && right; }
 };
 
-/// The same id may be seen twice in an image (a copy, a misread): of the consistent pairs the one
+/// The same id may be seen twice in an image (a copy, a misread): of the consistent pairs, the one
 /// nearest to where the tag is expected is taken, or without expectation the one decoded best.
 /// Where only one camera sees the id, that sighting is returned alone, unpaired; where both do but
-/// nothing fits together, nothing is.
+/// nothing fits together, nothing is returned.
 [[nodiscard]] TagMatch matched(std::span<const MarkerCorners> left,
                                std::span<const MarkerCorners> right, std::string_view family,
                                int id, double size_m, const TagGeometry& geometry,
                                const std::optional<TagPair>& expected,
                                const MatchLimits& limits = {});
 
-/// The triangulated size of a tag that both cameras see, by the size given; nothing where they do
-/// not see one and the same square.
+/// The triangulated size of a tag that both cameras see, relative to the size given; nothing where
+/// they do not see one and the same square.
 [[nodiscard]] std::optional<double> size_ratio(std::span<const MarkerCorners> left,
                                                std::span<const MarkerCorners> right,
                                                std::string_view family, int id, double size_m,

@@ -19,7 +19,7 @@ struct TagPair {
 /// A tag's pose from its corners in two images.
 struct TagPose {
   Transform<Rig, Marker> rig_from_marker;
-  double size_ratio = 0.0;  ///< mean length of the triangulated edges by the size given
+  double size_ratio = 0.0;  ///< mean length of the triangulated edges, relative to the size given
   double fit_rmse_m = 0.0;  ///< of the absolute orientation
   double gap_px = 0.0;  ///< RMS distance of the corners from the images of the triangulated ones
 };
@@ -30,15 +30,15 @@ class TagGeometry {
  public:
   explicit TagGeometry(const StereoCalibration& calibration);
 
-  /// Nothing when a corner has no direction, rays do not meet in front of both cameras or the
-  /// corners make no plane.
+  /// Nothing when a corner has no direction, rays do not meet in front of both cameras, or the
+  /// corners do not form a plane.
   [[nodiscard]] std::optional<TagPose> pose(const TagPair& corners, double size_m) const;
   /// RMS over the eight corners of the distance between corner and reprojected pose; nothing when
   /// one does not project.
   [[nodiscard]] std::optional<double> residual_px(const Transform<Rig, Marker>& rig_from_marker,
                                                   const TagPair& corners, double size_m) const;
   /// First-order covariance of the pose, in the rig, from independent corner noise of the given
-  /// variances (px², one coordinate). Errors of the calibration are not in it.
+  /// variances (px², per coordinate). Errors of the calibration are not included.
   [[nodiscard]] std::optional<PoseCovariance> covariance(
       const Transform<Rig, Marker>& rig_from_marker, const TagPair& corners, double size_m,
       double left_variance_px2, double right_variance_px2) const;
@@ -72,7 +72,7 @@ template <class CameraFrame>
   return corners;
 }
 
-/// A covariance in frame A seen from frame B, given B's view of A's axes.
+/// A covariance in frame A expressed in frame B, given A's axes in B.
 [[nodiscard]] PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a);
 
 }  // namespace orthonav::nav

@@ -11,7 +11,7 @@ constexpr int kLargestRadiusPx = 40;
 constexpr int kFineRadiusPx = 6;
 constexpr double kFewestCells = 8.0;
 
-/// Of the grey of single pixels and a template of zeros and ones.
+/// Of single pixels' grey with a template of zeros and ones.
 struct Correlation {
   double n = 0.0;
   double grey = 0.0;
@@ -32,7 +32,7 @@ struct Correlation {
     both += w * g;
   }
   [[nodiscard]] double value() const {
-    // The template's squares are itself.
+    // The template's squares equal its values.
     const double spread = (n * grey2 - grey * grey) * (n * white - white * white);
     return n < kFewestCells || !(spread > 0.0) ? 0.0
                                                : (n * both - grey * white) / std::sqrt(spread);

@@ -9,19 +9,19 @@
 
 namespace orthonav::nav {
 
-/// How far an image agrees with a tag at a place, judged in the middle of its cells.
+/// How well an image agrees with a tag at a place, judged at the middles of its cells.
 struct CellMatch {
   Vec2 shift_px{};           ///< from where the pose puts the tag
   double correlation = 0.0;  ///< of grey and template, over the cells in the image
-  double code = 0.0;         ///< the same over the cells that tell one id from another
+  double code = 0.0;         ///< the same over the cells that distinguish ids
   double fraction = 0.0;     ///< of the cells that lie in the image
 };
 
-/// Looks for a tag around where a pose puts it, by its bits: a correlation over the middles of its
-/// cells, which no light changes. Reuses its memory.
+/// Searches for a tag around where a pose puts it, by its bits: a correlation over the middles of
+/// its cells, which no change of light affects. Reuses its memory.
 class TagSearch {
  public:
-  /// At the pose itself.
+  /// The agreement at the pose itself.
   [[nodiscard]] CellMatch match(const GreyImage& image, const CameraModel& camera,
                                 const BlurredTag& tag, const CameraFromTag& pose);
   /// The best whole-pixel shift within `radius_px` (at most 40) of the pose last matched.

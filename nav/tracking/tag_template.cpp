@@ -4,8 +4,8 @@
 
 namespace orthonav::nav {
 
-// Everything is black but a ring of white one cell wide, outside the border (or, where the border
-// is white, the border itself), and the bits that are set.
+// Everything is black except a white ring one cell wide outside the border (or, where the border is
+// white, the border itself) and the bits that are set.
 std::optional<TagTemplate> tag_template(std::string_view family, int id) {
   const auto code = tag_code(family, id);
   if (!code) {

@@ -6,13 +6,13 @@
 
 namespace orthonav::nav {
 
-/// What a printed tag looks like: a square of cells, seen upright, row 0 on top, from one edge of
-/// the part that the family defines to the other (its white ring included, if it has one).
+/// A printed tag's pattern: a square of cells, seen upright, row 0 on top, from one edge of the
+/// part that the family defines to the other (including its white ring, if it has one).
 struct TagTemplate {
-  int cells = 0;             ///< a side
-  int border_cells = 0;      ///< a side of the square whose outer edge is the tag's size
+  int cells = 0;             ///< per side
+  int border_cells = 0;      ///< per side of the square whose outer edge is the tag's size
   std::vector<float> white;  ///< row-major, 1: white, 0: black
-  std::vector<bool> code;    ///< row-major, whether the cell tells one id from another
+  std::vector<bool> code;    ///< row-major, whether the cell distinguishes ids
 
   [[nodiscard]] float at(int row, int column) const {
     return white[static_cast<std::size_t>(row * cells + column)];

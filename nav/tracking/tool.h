@@ -15,7 +15,7 @@ struct MarkerDefinition {
   double size_m = 0.0;  ///< outer edge of the black border
 };
 
-/// A further tag of a rigid tool and where it sits.
+/// A further tag of a rigid tool, and its pose.
 struct AttachedMarker {
   MarkerDefinition definition;
   Transform<Marker, Tag> marker_from_tag;
@@ -29,8 +29,8 @@ struct ToolGeometry {
   Point<Marker> tip_in_marker;
   /// Unit vector from the tip back along the shaft, away from the patient.
   Direction<Marker> axis_in_marker{{0, 1, 0}};
-  /// Other tags of the same rigid body. A tracker may see by them or by `marker` alone; poses are
-  /// always those of `marker`.
+  /// Other tags of the same rigid body. A tracker may use them or `marker` alone; poses are always
+  /// those of `marker`.
   std::vector<AttachedMarker> more_markers;
 };
 

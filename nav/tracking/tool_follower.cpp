@@ -10,21 +10,23 @@
 namespace orthonav::nav {
 namespace {
 
-/// Correlation of a tag's cells with its template: found where it is expected, found somewhere
-/// near, and still believed once measured. Texture reaches 0.4; a tag half hidden 0.6.
+/// Correlations of a tag's cells with its template that are needed: where it is expected, somewhere
+/// near, and after the measurement. Texture reaches 0.4; a half-hidden tag 0.6.
 constexpr double kFoundHere = 0.75;
 constexpr double kFoundNear = 0.6;
 constexpr double kBelieved = 0.55;
-/// Of the cells that tell one id from another. Another id reaches 0.39 at most (11 of 36 differ).
+/// Correlation over the cells that distinguish ids. Another id reaches 0.39 at most (11 of 36
+/// differ).
 constexpr double kSameId = 0.5;
-/// A single camera must see so much of a tag: with less a wrong pose may explain the rest.
+/// The fraction of a tag that a single camera must see: with less, a wrong pose may explain the
+/// rest.
 constexpr double kKeptByOne = 0.7;
-/// Less of a tag in an image is not worth the risk.
+/// With less of a tag in an image, using it is not worth the risk.
 constexpr double kLeastFraction = 0.5;
-/// Steeper than 80° a tag is a line.
+/// Tilted by more than 80°, a tag is a line.
 constexpr double kLeastCosine = 0.17;
 constexpr double kFarthestDoubtPx = 24.0;
-/// Where the search found nothing to shift, the pose is off by less than this part of a cell.
+/// Where the search found nothing to shift, the pose is off by less than this fraction of a cell.
 constexpr double kUnshiftedCells = 0.3;
 
 const GreyImage& image_of(const StereoFrame& frame, const TagView& view) {
@@ -41,7 +43,7 @@ bool faces(const CameraFromTag& pose) {
          -pose.rotation.column(2).dot(pose.translation_m) > kLeastCosine * distance;
 }
 
-/// Shifts in the images become a shift in space, by least squares.
+/// Shifts in the images become a translation in space, by least squares.
 struct TranslationInSpace {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -62,7 +64,7 @@ struct TranslationInSpace {
       right += j * (k == 0 ? to->x - u.x : to->y - u.y);
     }
   }
-  /// With one camera alone depth stays as it was.
+  /// With one camera only, depth stays as it was.
   [[nodiscard]] Vec3 solved() const {
     const double weak = 1e-4 * std::max(normal.trace(), 1e-12);
     const Eigen::Vector3d v = (normal + weak * Eigen::Matrix3d::Identity()).ldlt().solve(right);
@@ -106,7 +108,7 @@ void ToolFollower::forget() { light_.assign(views_.size(), {}); }
 bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>& pose,
                                 double doubt_m, const PhotometricSolver& solver,
                                 TagSearch& search) {
-  TranslationInSpace shift;
+  TranslationInSpace translation;
   bool shifted = false;
   bool any = false;
   for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -137,14 +139,14 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     shifted = shifted || match.shift_px.norm() > 0.0;
     const Mat3& camera_from_rig = view.right ? solver.calibration().right_from_rig.rotation()
                                              : solver.calibration().left_from_rig.rotation();
-    shift.add(camera, camera_from_rig, seen.translation_m, match.shift_px);
+    translation.add(camera, camera_from_rig, seen.translation_m, match.shift_px);
     view.used = any = true;
   }
   if (!any) {
     return false;
   }
   if (shifted) {
-    pose = {pose.rotation(), pose.translation() + shift.solved()};
+    pose = {pose.rotation(), pose.translation() + translation.solved()};
   }
   return true;
 }
@@ -230,7 +232,7 @@ std::optional<SizeEvidence> ToolFollower::measured_size(const StereoFrame& frame
   const StereoCalibration& c = solver.calibration();
   const std::array<Vec3, 2> eyes = {c.left_from_rig.inverse().translation(),
                                     c.right_from_rig.inverse().translation()};
-  std::array<Vec3, 2> alone;  // the tag's middle by either camera
+  std::array<Vec3, 2> alone;  // the tag's middle by each camera on its own
   double variance = 0.0;
   for (std::size_t k = 0; k < 2; ++k) {
     alone_ = views_[2 * tag + k];

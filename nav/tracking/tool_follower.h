@@ -14,7 +14,7 @@
 
 namespace orthonav::nav {
 
-/// What a pair of images says of a tool.
+/// What a pair of images says about a tool.
 struct ToolFit {
   Transform<Rig, Marker> rig_from_marker;
   PoseCovariance covariance_in_rig{};
@@ -24,8 +24,8 @@ struct ToolFit {
 };
 
 /// Finds a tool again near where it is expected and measures it photometrically, in whichever
-/// cameras see it. Holds what it learned of light and blur. The solver and the search are borrowed
-/// scratch.
+/// cameras see it. Keeps what it learnt about light and blur. The solver and the search are
+/// borrowed scratch.
 class ToolFollower {
  public:
   static Result<ToolFollower> create(const ToolGeometry& tool);
@@ -36,13 +36,13 @@ class ToolFollower {
                                               const Transform<Rig, Marker>& expected,
                                               double doubt_m, PhotometricSolver& solver,
                                               TagSearch& search);
-  /// By which share a tag that both cameras saw in the last fit is larger than stated: each camera
-  /// alone tells how far away a tag of the stated size is, both together how far it is. Nothing
-  /// when no tag was seen by both.
+  /// The fraction by which a tag that both cameras saw in the last fit is larger than stated: each
+  /// camera alone tells how far away a tag of the stated size would be, both together tell how far
+  /// it is. Nothing when no tag was seen by both.
   [[nodiscard]] std::optional<SizeEvidence> measured_size(const StereoFrame& frame,
                                                           const Transform<Rig, Marker>& pose,
                                                           PhotometricSolver& solver);
-  /// How long the cameras expose, as far as the tool's motion has told.
+  /// How long the cameras expose, as far as the tool's motion has shown.
   [[nodiscard]] double exposure_s() const { return exposure_.exposure_s(); }
   /// Forgets the light.
   void forget();

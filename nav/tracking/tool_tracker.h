@@ -22,7 +22,8 @@ struct ToolState {
   /// The same relative to the headset, for quantities in which head pose and map drift cancel.
   Transform<Rig, Marker> rig_from_marker;
   double residual_px = 0.0;  ///< RMS reprojection residual of the corners; 0 with `best`
-  /// That a measured pose comes from: 1 means less sure, along the line of sight above all.
+  /// How many cameras a measured pose comes from; with 1 it is less certain, above all along the
+  /// line of sight.
   int cameras = 0;
 };
 
@@ -31,12 +32,12 @@ struct TrackerOptions {
   /// image every n-th pair while something is missing.
   int full_search_interval = 1;
   double decimate = 1.0;
-  /// Two threads detect left and right at once; the result is the same.
+  /// Two threads detect left and right concurrently; the result is the same.
   bool parallel = true;
-  /// A lost tool is predicted for so long, then lost.
+  /// How long a tool that is not seen is predicted before it is lost.
   Duration coast = std::chrono::milliseconds(100);
   /// Spectral density of the corner filter's white acceleration, px²/s³, and its measurement SD.
-  /// Small, since the filter opens by itself when a hand accelerates more than that.
+  /// Small, since the filter adapts by itself when a hand accelerates more than that.
   double corner_acceleration_px2_per_s3 = 400.0;
   double corner_noise_px = 0.1;
 };
@@ -48,11 +49,11 @@ class ToolTracker {
   /// One state for each tool, in the order of the tools.
   virtual std::span<const ToolState> track(const StereoFrame& frame) = 0;
   [[nodiscard]] virtual std::span<const ToolGeometry> tools() const = 0;
-  /// How the two cameras seem to be turned against their reported calibration; nothing from a
-  /// method that does not ask, or before it knows.
+  /// How the two cameras appear to be rotated relative to their reported calibration; nothing from
+  /// a method that does not estimate it, or before it is known.
   [[nodiscard]] virtual std::optional<StereoAlignment> alignment() const { return std::nullopt; }
-  /// How large the tags of a tool seem, against what its definition says; nothing from a method
-  /// that does not ask, or before it knows.
+  /// How large the tags of a tool appear, relative to its definition; nothing from a method that
+  /// does not estimate it, or before it is known.
   [[nodiscard]] virtual std::optional<TagSize> tag_size(std::size_t /*tool*/) const {
     return std::nullopt;
   }
@@ -65,8 +66,8 @@ Result<std::unique_ptr<ToolTracker>> create_corner_tracker(const StereoCalibrati
                                                            std::vector<ToolGeometry> tools,
                                                            const TrackerOptions& options = {});
 
-/// The pose that makes the tool's tags, as they are printed, explain both images at once, started
-/// by a prediction (docs/tracking.md). Whole images are searched only for tools that are lost.
+/// The pose at which the tool's tags, as they are printed, explain both images at once, starting
+/// from a prediction (docs/tracking.md). Whole images are searched only for tools that are lost.
 Result<std::unique_ptr<ToolTracker>> create_photometric_tracker(
     const StereoCalibration& calibration, std::vector<ToolGeometry> tools,
     const TrackerOptions& options = {});

@@ -38,7 +38,8 @@ class SquareToQuad {
   double h_ = 0.0;
 };
 
-/// Calls with the grey of every cell on the ring so many cells inside the outer edge.
+/// Calls `visit` with the grey of every cell on the ring that lies `ring` cells inside the outer
+/// edge.
 template <class Visit>
 void along_ring(const GreyImage& image, const SquareToQuad& place, int ring, Visit visit) {
   const int last = kCells - 1 - ring;
@@ -86,7 +87,7 @@ void thin(const GreyImage& image, const PixelBox& box, int window_px, GreyImage&
 
 bool has_wide_border(const GreyImage& image, const std::array<Vec2, 4>& corners_px) {
   const SquareToQuad place(corners_px);
-  // The white around is not there everywhere (an AprilGrid's squares): three quarters of it are.
+  // The surroundings are not white everywhere (an AprilGrid's squares): three quarters of them are.
   const double black = ring_mean(image, place, 0);
   const double white = ring_mean(image, place, -1);
   if (!(white > black)) {

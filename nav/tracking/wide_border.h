@@ -9,17 +9,18 @@
 namespace orthonav::nav {
 
 /// Part of an image in which dark things are smaller: every pixel is the brightest of a window of
-/// so many pixels a side that begins with it and goes right and down. The black squares between the
-/// tags of an AprilGrid touch their corners; here they part, so that the tags' outlines show. A
-/// place in `thinned` lies in `image` at the box's corner plus `thinned_offset(window_px)`.
+/// `window_px` pixels per side that begins with it and extends to the right and down. The black
+/// squares between the tags of an AprilGrid touch their corners; this separates them, so that the
+/// tags' outlines show. A place in `thinned` lies in `image` at the box's corner plus
+/// `thinned_offset(window_px)`.
 void thin(const GreyImage& image, const PixelBox& box, int window_px, GreyImage& thinned);
 [[nodiscard]] inline Vec2 thinned_offset(int window_px) {
   return {0.5 * (window_px - 1), 0.5 * (window_px - 1)};
 }
 
-/// Whether the second ring of cells in a tag of ten by ten is black all round, as a border two
-/// cells wide has it. A plain border's tag carries code there and can decode as the other's.
-/// Corners in the order of `MarkerCorners`, or in any other that goes round.
+/// Whether the second ring of cells in a tag of ten by ten is black all round, as in a border two
+/// cells wide. A tag with a plain border carries code there and can decode as the other family's.
+/// Corners in the order of `MarkerCorners`, or in any other cyclic order.
 [[nodiscard]] bool has_wide_border(const GreyImage& image, const std::array<Vec2, 4>& corners_px);
 
 }  // namespace orthonav::nav

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kFar = 1e12f;
 
-/// Lower envelope of the parabolas f[q] + (p - q)^2 along one line; in and out with a stride.
+/// Lower envelope of the parabolas f[q] + (p - q)^2 along one line, in place, with a stride.
 void transform_line(float* cells, int count, int stride) {
   std::vector<float> f(count);
   std::vector<int> apex(count);
@@ -68,7 +68,7 @@ std::vector<float> signed_distance(const Mask& mask) {
   std::vector<float> to_outside = distance_to(mask, 0);
   const std::vector<float> to_inside = distance_to(mask, 1);
   for (std::size_t i = 0; i < to_outside.size(); ++i) {
-    // The outline lies half a cell from the last centre on either side.
+    // The outline lies half a cell from the nearest centres on either side.
     to_outside[i] = mask.inside[i] ? to_outside[i] - 0.5f : 0.5f - to_inside[i];
   }
   return to_outside;

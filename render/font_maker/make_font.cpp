@@ -152,8 +152,8 @@ std::vector<std::uint8_t> packed(std::vector<Cell>& cells, int& height_px) {
   return atlas;
 }
 
-/// A dash that fills a digit's whole width would join its neighbours to one stroke. The dash of
-/// numbers is a hyphen, in the middle of that width.
+/// A dash as wide as a digit would join its neighbours to one stroke. The figure dash is therefore
+/// a hyphen, centred in that width.
 void set_apart(std::vector<Cell>& cells) {
   const auto find = [&](char32_t code) {
     return std::find_if(cells.begin(), cells.end(),
@@ -165,12 +165,32 @@ void set_apart(std::vector<Cell>& cells) {
     return;
   }
   const float advance = dash->glyph.advance;
-  const float shift = 0.5f * (advance - hyphen->glyph.advance);
+  const float offset = 0.5f * (advance - hyphen->glyph.advance);
   *dash = *hyphen;
   dash->glyph.code = static_cast<std::uint32_t>(kFigureDash);
   dash->glyph.advance = advance;
-  dash->glyph.left += shift;
-  dash->glyph.right += shift;
+  dash->glyph.left += offset;
+  dash->glyph.right += offset;
+}
+
+/// Header, glyphs and atlas. `reach`: how far distances reach beyond a glyph, in heights of an H.
+bool write_font(const char* path, std::vector<Cell>& cells, float reach) {
+  int height_px = 0;
+  const std::vector<std::uint8_t> atlas = packed(cells, height_px);
+  FontFileHeader header;
+  header.glyphs = static_cast<std::uint32_t>(cells.size());
+  header.width_px = kAtlasWidth_px;
+  header.height_px = static_cast<std::uint32_t>(height_px);
+  header.reach = reach;
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(&header), sizeof(header));
+  for (const Cell& cell : cells) {
+    out.write(reinterpret_cast<const char*>(&cell.glyph), sizeof(cell.glyph));
+  }
+  out.write(reinterpret_cast<const char*>(atlas.data()),
+            static_cast<std::streamsize>(atlas.size()));
+  out.close();
+  return static_cast<bool>(out);
 }
 
 int fail(const char* what) {
@@ -202,24 +222,10 @@ int make(const char* font_path, const char* out_path) {
     cells.push_back(cell_of(face, code, cap_px));
   }
   set_apart(cells);
-  int height_px = 0;
-  const std::vector<std::uint8_t> atlas = packed(cells, height_px);
-  FontFileHeader header;
-  header.glyphs = static_cast<std::uint32_t>(cells.size());
-  header.width_px = kAtlasWidth_px;
-  header.height_px = static_cast<std::uint32_t>(height_px);
-  header.reach = kPadding_px / cap_px;
-  std::ofstream out(out_path, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(&header), sizeof(header));
-  for (const Cell& cell : cells) {
-    out.write(reinterpret_cast<const char*>(&cell.glyph), sizeof(cell.glyph));
-  }
-  out.write(reinterpret_cast<const char*>(atlas.data()),
-            static_cast<std::streamsize>(atlas.size()));
+  const bool written = write_font(out_path, cells, kPadding_px / cap_px);
   FT_Done_Face(face);
   FT_Done_FreeType(library);
-  out.close();
-  return out ? 0 : fail("the output can't be written");
+  return written ? 0 : fail("the output can't be written");
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace orthonav::render {
 namespace {
 
-/// Glyphs with a rim stand a little further apart, so that rims do not add up between them.
+/// Glyphs with a rim are set a little farther apart, so that rims do not overlap between them.
 float extra_advance(const TextItem& item) { return item.rim.a > 0 ? kRimWidth : 0.0f; }
 
 float anchor(const TextItem& item, float width) {

@@ -30,7 +30,7 @@ struct PlacedGlyph {
 /// Appends the visible glyphs of the line, anchored by `align` and `offset_*`, baseline at 0.
 void lay_out(const Font& font, const TextItem& item, std::vector<PlacedGlyph>& glyphs);
 
-/// Appends the code points of the line that the font lacks and that are not among `missing` yet.
+/// Appends the code points of the line that the font lacks, unless `missing` holds them already.
 void find_missing(const Font& font, const TextItem& item, std::vector<char32_t>& missing);
 
 /// Width of the outline that `TextItem::rim` asks for, cap heights.

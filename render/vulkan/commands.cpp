@@ -1,6 +1,6 @@
 #include "render/vulkan/commands.h"
 
-#include "render/vulkan/elapsed.h"
+#include "base/stopwatch.h"
 #include "render/vulkan/failure.h"
 
 namespace orthonav::render {
@@ -47,9 +47,9 @@ void Commands::submit() {
   info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   info.commandBufferCount = 1;
   info.pCommandBuffers = &buffer_;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   check(vkQueueSubmit(queue_, 1, &info, finished_.get()), "drawing");
-  submit_ms_ = milliseconds_since(start);
+  submit_ms_ = watch.elapsed_ms();
   underway_ = true;
 }
 
@@ -63,8 +63,8 @@ void Commands::wait() {
   if (result == VK_SUCCESS) {
     return;
   }
-  // The batch can't be taken back. Nothing that it reads may go before it ends or the driver gives
-  // the device up, however long that takes; waiting again tells nothing new.
+  // The batch can't be cancelled. Nothing that it reads may be destroyed before it ends or the
+  // driver gives the device up, however long that takes; waiting again would bring nothing new.
   lost_ = true;
   vkDeviceWaitIdle(device_);
   if (result == VK_TIMEOUT) {

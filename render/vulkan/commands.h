@@ -15,19 +15,19 @@ class Commands {
  public:
   explicit Commands(const Device& device,
                     std::chrono::nanoseconds patience = std::chrono::seconds(10));
-  /// Starts a new batch; what was recorded before is forgotten.
+  /// Starts a new batch; what was recorded before is dropped.
   VkCommandBuffer begin();
-  /// Hands the batch over and waits for its end.
+  /// Submits the batch and waits for its end.
   void run();
-  /// Hands the batch over; `wait` before the next `begin`.
+  /// Submits the batch; `wait` before the next `begin`.
   void submit();
-  /// Until what was handed over has ended; at once when nothing was. Throws on a lost device or one
-  /// that takes longer than the patience; not before the device is idle, so that the caller may
-  /// destroy what the batch used.
+  /// Waits until what was submitted has ended; returns at once when nothing was. Throws on a lost
+  /// device or one that takes longer than `patience`, but not before the device is idle, so that
+  /// the caller may destroy what the batch used.
   void wait();
-  /// Of the last batch: what handing it over took, in milliseconds.
+  /// Milliseconds that submitting the last batch took.
   [[nodiscard]] double submit_ms() const { return submit_ms_; }
-  /// Whether a batch that was handed over did not come back in order: draw no more with the device.
+  /// Whether a submitted batch failed: the device must not draw any more.
   [[nodiscard]] bool lost() const { return lost_; }
 
  private:
@@ -61,7 +61,7 @@ struct ImageFill {
   std::uint32_t layers = 1;
   VkDeviceSize offset = 0;  ///< where the first layer begins in the buffer
 };
-/// Fills some regions, the rest is undefined, and readies the image for shaders.
+/// Fills some regions, leaves the rest undefined, and readies the image for shaders.
 void fill_image(VkCommandBuffer commands, const ImageFill& fill,
                 std::span<const PixelRect> regions);
 

@@ -29,7 +29,7 @@ bool offers(VkPhysicalDevice physical, VkFormat format, VkFormatFeatureFlags fea
 }
 
 VkFormat depth_format_of(VkPhysicalDevice physical) {
-  // 24 bits resolve a micrometre at arm's length and cost half of what 32 + 8 do.
+  // 24 bits resolve a micrometre at arm's length and cost half as much as 32 + 8.
   for (const VkFormat format : {VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT}) {
     if (offers(physical, format, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT)) {
       return format;
@@ -73,7 +73,7 @@ std::string version_text(std::uint32_t version) {
   return text;
 }
 
-/// Why the device won't do; empty when it does.
+/// Why the device is not suitable; empty when it is.
 std::string shortcoming(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties) {
   if (properties.apiVersion < VK_API_VERSION_1_1) {
     return "Vulkan " + version_text(properties.apiVersion) + ", needs 1.1";
@@ -121,7 +121,7 @@ DeviceInfo describe(VkPhysicalDevice physical) {
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   VkPhysicalDeviceProperties basic;
   vkGetPhysicalDeviceProperties(physical, &basic);
-  // The driver's own name came with 1.2; before it there is only a number.
+  // The driver's own name came with Vulkan 1.2; before that there is only a number.
   if (basic.apiVersion >= VK_API_VERSION_1_2) {
     properties.pNext = &driver;
   }

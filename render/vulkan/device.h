@@ -14,7 +14,7 @@ namespace orthonav::render {
 inline constexpr VkFormat kColourFormat = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat kLabelFormat = VK_FORMAT_R32_UINT;
 
-/// What a physical device offers and, where it won't do, why.
+/// What a physical device offers and, if it is not suitable, why.
 [[nodiscard]] DeviceInfo describe(VkPhysicalDevice physical);
 
 /// The device to draw with: the best usable one whose name contains `wanted` (case ignored);
@@ -22,7 +22,7 @@ inline constexpr VkFormat kLabelFormat = VK_FORMAT_R32_UINT;
 [[nodiscard]] Result<VkPhysicalDevice> choose_device(const Instance& instance,
                                                      const std::string& wanted);
 
-/// The device that the host wants to be used.
+/// The device that the host wants.
 [[nodiscard]] Result<VkPhysicalDevice> device_of(VulkanHost& host, const Instance& instance);
 
 /// Whether the device can hold one eye's image.
@@ -41,7 +41,8 @@ class Device {
   [[nodiscard]] VkQueue queue() const { return queue_; }
   [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
   [[nodiscard]] VkFormat depth_format() const { return depth_format_; }
-  /// A type among `allowed` with all `required` flags, with `preferred` ones too if there is any.
+  /// A memory type among `allowed` with all `required` flags, and with the `preferred` ones if
+  /// possible.
   [[nodiscard]] std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags required,
                                           VkMemoryPropertyFlags preferred) const;
 

@@ -10,7 +10,7 @@
 namespace orthonav::render {
 namespace {
 
-constexpr std::uint32_t kSide_px = 128;  // some tiles of any rasterizer
+constexpr std::uint32_t kSide_px = 128;  // covers several tiles of any rasterizer
 constexpr std::uint32_t kViews = 2;
 constexpr Label kLabel = 1;
 

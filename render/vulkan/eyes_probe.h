@@ -7,10 +7,10 @@
 
 namespace orthonav::render {
 
-/// Whether the device draws both eyes of one pass whole. llvmpipe of Mesa 22.3 puts lines and
+/// Whether the device draws both eyes of one pass completely. llvmpipe of Mesa 22.3 puts lines and
 /// triangles into the first layer, whatever the view: the right eye misses them. A hologram that
-/// one eye lacks is worse than a slower frame, so the device is asked instead of its name. Draws
-/// one small frame that is thrown away. Images must be bound before, buffers anew afterwards.
+/// one eye lacks is worse than a slower frame, so the device is tested and not its name. Draws one
+/// small frame that is thrown away. Images must be bound before, buffers anew afterwards.
 [[nodiscard]] bool draws_both_eyes_whole(const Device& device, Commands& commands,
                                          const Bindings& bindings, const Font& font);
 

@@ -11,7 +11,7 @@
 namespace orthonav::render {
 
 /// An Error on its way out of a constructor or of code deep in a frame. Never leaves render/: the
-/// renderers' public calls turn it back into the Error.
+/// renderers' public calls turn it back into an Error.
 class Failure : public std::runtime_error {
  public:
   explicit Failure(const Error& error);
@@ -35,7 +35,7 @@ template <class T>
   return std::move(*result);
 }
 
-/// What is being caught, as an Error; for the inside of a catch clause alone.
+/// The exception being caught, as an Error; only inside a catch clause.
 [[nodiscard]] Error error_in_flight();
 
 }  // namespace orthonav::render

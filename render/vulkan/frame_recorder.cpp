@@ -15,7 +15,7 @@ VkRect2D rect_of(const PixelRect& region) {
       {static_cast<std::uint32_t>(region.width()), static_cast<std::uint32_t>(region.height())}};
 }
 
-/// Orders what was copied into the buffer before what follows.
+/// Makes what follows wait for what was copied into the buffer.
 void wait_for_copies(VkCommandBuffer commands, const Buffer& readback, VkPipelineStageFlags stage,
                      VkAccessFlags access) {
   VkBufferMemoryBarrier barrier = {};
@@ -30,7 +30,7 @@ void wait_for_copies(VkCommandBuffer commands, const Buffer& readback, VkPipelin
                        0, nullptr);
 }
 
-/// One region of a frame being written down.
+/// One region of a frame while it is recorded.
 class Recording {
  public:
   Recording(VkCommandBuffer commands, const FrameSources& sources, const PixelRect& region)
@@ -38,7 +38,7 @@ class Recording {
 
   void begin() const {
     std::array<VkClearValue, 3> clear = {};
-    // Colour to black, opaque or not there at all; a label to 0 everywhere.
+    // Colour is cleared to black, opaque or fully transparent; a label to 0 everywhere.
     if (sources_.pass.targets.spec().kind == PassKind::kColour) {
       clear[0].color.float32[3] = sources_.pass.clear_alpha;
     }
@@ -70,7 +70,7 @@ class Recording {
   void meshes() const {
     const FrameItems& items = sources_.items;
     // Solids hide veils; veils hide one another, but nothing else: once they are drawn, the depth
-    // is made anew from the solids alone.
+    // is redrawn from the solids alone.
     mesh_stage(Stage::kDepth, items.solids());
     if (draws_depth()) {
       mesh_stage(Stage::kTranslucent, items.translucent_meshes());
@@ -106,7 +106,7 @@ class Recording {
       if (first) {
         vkCmdBindIndexBuffer(commands_, sources_.line_indices.get(), 0, VK_INDEX_TYPE_UINT32);
       }
-      // Depth may be written as often as one likes: it needs no stencil.
+      // Depth may be written any number of times: it needs no stencil.
       if (!draws_depth() && (first || draw.item != item)) {
         next_stencil(stencil);
       }
@@ -147,10 +147,10 @@ class Recording {
 
   void copy() const {
     const TargetSpec& spec = sources_.pass.targets.spec();
-    // Rows of regions side by side take turns in the buffer: one copy after the other.
+    // Rows of adjacent regions alternate in the buffer: one copy after the other.
     wait_for_copies(commands_, sources_.readback, VK_PIPELINE_STAGE_TRANSFER_BIT,
                     VK_ACCESS_TRANSFER_WRITE_BIT);
-    // Into its place in the whole image, so that reading needs to know regions alone.
+    // Into its place in the whole image, so that a reader needs to know the regions only.
     const auto pixel = std::size_t{spec.width} * region_.top + region_.left;
     VkBufferImageCopy copy = {};
     copy.bufferOffset = sources_.readback_offset + 4 * pixel;
@@ -168,7 +168,7 @@ class Recording {
   [[nodiscard]] bool draws_depth() const {
     return sources_.pass.targets.spec().kind == PassKind::kDepth;
   }
-  /// Whether it shows in this region; binds the stage's pipeline before the first that does.
+  /// Whether it shows in this region; binds the stage's pipeline before the first item that does.
   bool shows(const PixelRect& bounds, Stage stage, bool& bound) const {
     if (!touch(bounds, region_)) {
       return false;
@@ -194,7 +194,7 @@ class Recording {
                        &item);
   }
 
-  /// Depth or stencil of every view, as at the frame's beginning.
+  /// Clears depth or stencil of every view, as at the frame's beginning.
   void clear(VkImageAspectFlags aspect) const {
     VkClearAttachment attachment = {};
     attachment.aspectMask = aspect;
@@ -203,7 +203,7 @@ class Recording {
     vkCmdClearAttachments(commands_, 1, &attachment, 1, &everywhere);
   }
 
-  /// Whether there was anything to draw.
+  /// Draws the meshes of a stage; whether there were any.
   bool mesh_stage(Stage stage, const std::vector<MeshDraw>& meshes) const {
     bool bound = false;
     for (const auto& [item, bounds] : meshes) {

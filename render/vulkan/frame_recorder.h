@@ -23,21 +23,22 @@ struct FramePass {
 /// Corners and indices of one segment of a line, as line.vert expects them.
 inline constexpr std::uint32_t kCornersPerSegment = 14;
 inline constexpr std::uint32_t kIndicesPerSegment = 36;
-/// Of one without discs at its ends. In the buffer of indices these come after all the others.
+/// Indices of a segment without discs at its ends. In the buffer of indices these come after all
+/// the others.
 inline constexpr std::uint32_t kIndicesPerQuad = 6;
 /// How many segments a buffer of indices serves.
 [[nodiscard]] inline std::uint32_t line_capacity(const Buffer& indices) {
   return static_cast<std::uint32_t>(indices.size() / (4 * (kIndicesPerSegment + kIndicesPerQuad)));
 }
 
-/// What the commands of one frame are made of; nothing here is owned.
+/// What the commands of one frame are made from; nothing here is owned.
 struct FrameSources {
   const FramePass& pass;
   const Bindings& bindings;
   const MeshCache& meshes;
   const FrameItems& items;
   const Buffer& line_indices;
-  const Buffer& readback;  ///< empty where the target is somebody else's image
+  const Buffer& readback;  ///< empty where the target is someone else's image
   VkDeviceSize readback_offset = 0;
   std::uint32_t frame_offset = 0;  ///< of the pass's GpuFrame in the bound buffer
   bool has_background = false;

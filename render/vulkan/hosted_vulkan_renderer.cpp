@@ -5,17 +5,17 @@
 #include <exception>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "render/scene_check.h"
-#include "render/vulkan/elapsed.h"
 #include "render/vulkan/failure.h"
 #include "render/vulkan/gpu_types.h"
 
 namespace orthonav::render {
 namespace {
 
-/// Formats that hold what the shaders write, the better the higher. sRGB is what the images of
-/// Renderer have: the same bits. Half floats hold linear light without steps; 8 bits of linear
-/// light show steps in the dark, and are better than nothing.
+/// Rank of the formats that can hold what the shaders write; higher is better. sRGB is what
+/// Renderer's images have: the same bits. Half floats hold linear light without visible steps; 8
+/// bits of linear light show steps in the dark, and are better than nothing.
 int rank_of(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R8G8B8A8_SRGB:
@@ -33,7 +33,7 @@ int rank_of(VkFormat format) {
   }
 }
 
-/// 16 bits of a depth that reaches infinity tell too little at arm's length.
+/// 16 bits of a depth that reaches infinity resolve too little at arm's length.
 int depth_rank_of(VkFormat format) {
   switch (format) {
     case VK_FORMAT_D32_SFLOAT:
@@ -90,7 +90,7 @@ Status check_shape(const EyeImages& images, std::uint32_t most_px, bool takes_la
   return {};
 }
 
-/// Whether there is an image of that index in each chain, the chains of depth after the others.
+/// Whether each chain has an image with its index, the chains of depth after the others.
 bool holds(const EyeImages& images, std::span<const std::uint32_t> indices) {
   const std::size_t chains = images.chains.size();
   if (indices.size() != chains + images.depth_chains.size()) {
@@ -119,7 +119,8 @@ HostedVulkanRenderer::HostedVulkanRenderer(const RendererOptions& options, Vulka
 }
 
 HostedVulkanRenderer::~HostedVulkanRenderer() {
-  // Members go one by one; none of them may be in use any more, whatever the last frame came to.
+  // Members are destroyed one by one; none of them may be in use any more, however the last frame
+  // ended.
   vkDeviceWaitIdle(device_.get());
 }
 
@@ -161,7 +162,7 @@ void HostedVulkanRenderer::upload_blank_background() {
   drawing_.bind_background(background_);
 }
 
-/// Nothing thrown leaves it.
+/// No exception leaves it.
 template <class Work>
 Status HostedVulkanRenderer::attempt(const Work& work) {
   if (lost_) {
@@ -232,9 +233,9 @@ Status HostedVulkanRenderer::use(const EyeImages& images) {
 Status HostedVulkanRenderer::prepare(const Scene& scene) {
   timing_ = {};
   return attempt([&] {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     drawing_.next_slot();
-    timing_.gpu_ms = milliseconds_since(start);
+    timing_.gpu_ms = watch.elapsed_ms();
     return drawing_.take(scene);
   });
 }
@@ -264,7 +265,7 @@ void HostedVulkanRenderer::record(const std::vector<View>& views,
 Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& views,
                                   std::span<const std::uint32_t> indices) {
   Status drawn = attempt([&]() -> Status {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     if (const Status checked = check_views(views); !checked) {
       return checked;
     }
@@ -273,10 +274,10 @@ Status HostedVulkanRenderer::draw(const Scene& scene, const std::vector<View>& v
     }
     drawing_.build(scene, views, {images_.width_px, images_.height_px});
     record(views, indices);
-    timing_.record_ms = milliseconds_since(start);
+    timing_.record_ms = watch.elapsed_ms();
     drawing_.slot().commands.submit();
     timing_.submit_ms = drawing_.slot().commands.submit_ms();
-    timing_.total_ms = milliseconds_since(start);
+    timing_.total_ms = watch.elapsed_ms();
     return {};
   });
   drawing_.end_frame();

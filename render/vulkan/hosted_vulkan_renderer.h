@@ -11,8 +11,8 @@
 
 namespace orthonav::render {
 
-/// Two frames in flight on a host's device: each has a command buffer, a fence and buffers of its
-/// own; what they draw through (samples, depth) they share, one after the other in the queue.
+/// Two frames in flight on a host's device: each has its own command buffer, fence and buffers;
+/// what they draw through (samples, depth) they share, one after the other in the queue.
 class HostedVulkanRenderer final : public HostedRenderer {
  public:
   static constexpr std::size_t kFramesInFlight = 2;

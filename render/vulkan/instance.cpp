@@ -14,19 +14,19 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-// After so many lines nothing new is to be learned, and a frame loop would fill the memory.
+// More lines tell nothing new, and a frame loop would fill the memory.
 constexpr std::size_t kMostMessages = 200;
 
-// Advice that does not fit here; everything else that the layer says is passed on.
+// Advice that does not apply here; everything else that the layer reports is passed on.
 constexpr std::array<std::string_view, 4> kUseless = {
-    // The extension is the one through which it speaks.
+    // The extension through which the layer reports.
     "UNASSIGNED-BestPractices-vkCreateInstance-specialuse-extension-debugging",
-    // Of memory for each small buffer there are a few dozen pieces, all kept; a device has room for
-    // 4096 at the least.
+    // There are a few dozen small buffers, all kept; a device has room for at least 4096
+    // allocations.
     "UNASSIGNED-BestPractices-vkAllocateMemory-small-allocation",
     "UNASSIGNED-BestPractices-vkBindMemory-small-dedicated-allocation",
     // One vertex shader serves depth, colour and labels, so that they agree to the bit; a driver
-    // leaves out what a fragment shader does not read.
+    // drops outputs that a fragment shader does not read.
     "UNASSIGNED-CoreValidation-Shader-OutputNotConsumed"};
 
 bool is_useless(const char* id) {
@@ -86,7 +86,7 @@ bool has_validation_layer() {
   });
 }
 
-/// What the renderer needs, or more where the host does.
+/// The version that the renderer needs, or a higher one that the host needs.
 std::uint32_t api_version_for(const VulkanHost* host) {
   if (host == nullptr) {
     return VK_API_VERSION_1_1;

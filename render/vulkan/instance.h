@@ -14,7 +14,7 @@ namespace orthonav::render {
 /// A host's answer, in which a null handle is an Error too.
 [[nodiscard]] Result<void*> handle_of(Result<void*> answer);
 
-/// The door to Vulkan: an instance, with the validation layer listening where it is asked for.
+/// The entry to Vulkan: an instance, with the validation layer where it is asked for.
 class Instance {
  public:
   /// Throws Failure when there is no Vulkan here, or no validation layer where asked for. Messages

@@ -38,7 +38,7 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
   if (place == BufferPlace::kDevice) {
     memory_ = allocated(device, needs, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
   } else {
-    // Reading memory that is not cached crawls.
+    // Reading uncached memory is very slow.
     const VkMemoryPropertyFlags preferred =
         place == BufferPlace::kReadback ? VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT}
                                         : 0;

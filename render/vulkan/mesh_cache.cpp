@@ -19,7 +19,7 @@ std::vector<GpuVertex> vertices_of(const MeshData& mesh) {
   return vertices;
 }
 
-/// Through a staging buffer into memory of the device.
+/// Through a staging buffer into the device's memory.
 Buffer uploaded(const Device& device, Commands& commands, const void* bytes, std::size_t count,
                 VkBufferUsageFlags usage) {
   const Buffer staging(device, count, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::kUpload);

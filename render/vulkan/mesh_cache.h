@@ -11,10 +11,10 @@
 
 namespace orthonav::render {
 
-/// How finely a mesh is drawn. What is given in lengths is so in the mesh's own.
+/// How finely a mesh is drawn. Lengths are in the mesh's own unit.
 struct MeshDetail {
-  float error = 0;                        ///< that leaving triangles out may cost; 0: all stay
-  std::size_t enough_triangles = 14'000;  ///< fewer are not worth the trouble
+  float error = 0;                        ///< allowed for leaving triangles out; 0: all stay
+  std::size_t enough_triangles = 14'000;  ///< with fewer, simplifying does not pay
   std::size_t most_triangles = 250'000;   ///< whatever the error
 };
 
@@ -26,12 +26,13 @@ struct GpuMesh {
   Box box;
 };
 
-/// Device copies of meshes, keyed by pointer. A copy goes when nobody else holds the mesh any more,
-/// or when it was not drawn for a while. The cache keeps the mesh alive meanwhile, so that a
+/// Device copies of meshes, keyed by pointer. A copy is dropped when nobody else holds the mesh any
+/// more, or when it was not drawn for a while. The cache keeps the mesh alive meanwhile, so that a
 /// pointer never means two meshes.
 class MeshCache {
  public:
-  /// `frames_in_flight`: that may still be drawing when a frame ends; no copy goes under them.
+  /// `frames_in_flight`: how many may still be drawing when a frame ends; their copies are not
+  /// dropped.
   explicit MeshCache(int frames_in_flight = 0) : frames_in_flight_(frames_in_flight) {}
   /// The copy of a mesh, or nullptr.
   [[nodiscard]] const GpuMesh* find(const std::shared_ptr<const MeshData>& mesh) const;

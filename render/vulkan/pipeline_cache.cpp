@@ -17,7 +17,7 @@
 namespace orthonav::render {
 namespace {
 
-/// What stands before the driver's own bytes. Drivers trust what they are given, so it is checked
+/// The header before the driver's own bytes. Drivers trust what they are given, so it is checked
 /// here.
 struct FileHead {
   std::array<char, 8> magic = {'o', 'n', 'p', 'i', 'p', 'e', '0', '1'};
@@ -34,7 +34,8 @@ std::uint64_t checksum_of(const std::vector<char>& bytes) {
   return sum;
 }
 
-/// By device and driver, so that several lie side by side and a new driver begins anew.
+/// Named after device and driver, so that several can lie side by side and a new driver starts
+/// afresh.
 std::string file_name(VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical, &properties);
@@ -64,7 +65,7 @@ std::vector<char> read_file(const std::string& path) {
   return bytes;
 }
 
-/// Under another name first, so that nobody ever reads half a file.
+/// Writes under another name first, so that nobody ever reads half a file.
 void write_file(const std::string& path, const std::vector<char>& bytes) {
   std::error_code ignored;
   const std::filesystem::path target(path);
@@ -90,7 +91,7 @@ std::string user_cache_folder() {
     const char* found = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it
     return std::string(found != nullptr ? found : "");
   };
-  // A relative folder is to be ignored, says the XDG specification.
+  // The XDG specification says that a relative folder is to be ignored.
   const std::string folder = value("XDG_CACHE_HOME");
   if (folder.starts_with('/')) {
     return folder + "/orthonav";

@@ -13,21 +13,21 @@ namespace orthonav::render {
 [[nodiscard]] std::string user_cache_folder();
 
 /// Compiled pipelines, kept in a file of the folder from one start to the next. A file that is
-/// missing, cut off, changed, or of another device or driver counts for nothing, and one that can't
-/// be written is not written: a cache is never a reason to fail.
+/// missing, truncated, changed, or of another device or driver is ignored, and one that can't be
+/// written is not written: a cache is never a reason to fail.
 class PipelineCache {
  public:
   /// An empty folder: nothing is read or written.
   PipelineCache(const Device& device, VkPhysicalDevice physical, const std::string& folder);
-  /// Writes what has become known since.
+  /// Writes what has been added since.
   ~PipelineCache();
   PipelineCache(const PipelineCache&) = delete;
   PipelineCache& operator=(const PipelineCache&) = delete;
 
   [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
-  /// Of this device and driver; empty without a folder.
+  /// For this device and driver; empty without a folder.
   [[nodiscard]] const std::string& path() const { return path_; }
-  /// Whether a file was found and taken.
+  /// Whether a file was found and used.
   [[nodiscard]] bool was_read() const { return read_bytes_ > 0; }
 
  private:

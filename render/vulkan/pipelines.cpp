@@ -35,7 +35,7 @@ struct Recipe {
   bool stencil = false;
 };
 
-/// Of the three stages that draw meshes.
+/// For the three stages that draw meshes.
 Recipe mesh_recipe(std::string_view fragment, bool blends, bool depth_write,
                    VkCompareOp depth_compare) {
   Recipe recipe;
@@ -48,7 +48,7 @@ Recipe mesh_recipe(std::string_view fragment, bool blends, bool depth_write,
   return recipe;
 }
 
-/// Of what is drawn over the meshes without hiding anything.
+/// For what is drawn over the meshes without hiding anything.
 Recipe overlay_recipe(std::string_view vertex, std::string_view fragment, bool depth_test) {
   Recipe recipe;
   recipe.vertex = vertex;
@@ -91,7 +91,7 @@ Recipe recipe_of(Stage stage, PassKind kind) {
                         labels ? embedded::text_label_frag() : embedded::text_frag(), false);
 }
 
-/// As it is drawn, but for its depth alone; text stands in front of everything.
+/// The stage as it is drawn, but for its depth alone; text stands in front of everything.
 Recipe depth_recipe_of(Stage stage) {
   Recipe recipe = recipe_of(stage, PassKind::kLabels);
   recipe.fragment = stage == Stage::kText ? embedded::text_depth_frag() : std::string_view{};
@@ -102,7 +102,7 @@ Recipe depth_recipe_of(Stage stage) {
 }
 
 ShaderModule make_module(VkDevice device, std::string_view spirv) {
-  // Embedded bytes have no alignment; SPIR-V is words.
+  // Embedded bytes have no alignment; SPIR-V consists of words.
   std::vector<std::uint32_t> words(spirv.size() / sizeof(std::uint32_t));
   std::memcpy(words.data(), spirv.data(), words.size() * sizeof(std::uint32_t));
   VkShaderModuleCreateInfo info = {};
@@ -116,8 +116,8 @@ ShaderModule make_module(VkDevice device, std::string_view spirv) {
 
 VkPipelineColorBlendAttachmentState blend_state(const Recipe& recipe, PassKind kind, Blend blend) {
   VkPipelineColorBlendAttachmentState state = {};
-  // Images come out opaque: the clear writes alpha 1 and nothing touches it. Only where somebody
-  // else puts them over the world, alpha says how much of it is hidden.
+  // Images come out opaque: the clear writes alpha 1 and nothing changes it. Only where someone
+  // else puts them over the world does alpha say how much of the world is hidden.
   state.colorWriteMask =
       VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT;
   if (blend == Blend::kPremultiplied) {
@@ -154,7 +154,7 @@ VkPipelineDepthStencilStateCreateInfo depth_state(const Recipe& recipe) {
   return state;
 }
 
-/// The fixed-function states, kept together because they point at one another.
+/// The fixed-function states, kept together because they point to one another.
 struct States {
   VkVertexInputBindingDescription binding = {0, sizeof(GpuVertex), VK_VERTEX_INPUT_RATE_VERTEX};
   std::array<VkVertexInputAttributeDescription, 3> attributes = {
@@ -192,7 +192,7 @@ struct States {
     viewports.scissorCount = 1;
     raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
     raster.polygonMode = VK_POLYGON_MODE_FILL;
-    // Half of a closed surface turns away and never shows.
+    // Half of a closed surface faces away and never shows.
     raster.cullMode = recipe.mesh ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;

@@ -18,7 +18,7 @@ enum class Stage {
   kCount
 };
 
-/// One pipeline a stage, for one kind of target.
+/// One pipeline per stage, for one kind of target.
 class Pipelines {
  public:
   /// `cache` may be null.

@@ -5,7 +5,7 @@
 namespace orthonav::render {
 namespace {
 
-/// Four bytes a pixel, as all images have.
+/// Four bytes per pixel, as in all images.
 void take_regions(const std::byte* drawn, std::span<const PixelRect> regions, int width_px,
                   void* pixels) {
   auto* out = static_cast<std::byte*>(pixels);

@@ -8,7 +8,7 @@
 
 namespace orthonav::render {
 
-// Fills an image of a set size from what was read back: the regions that were drawn, and around
+// Fills an image of a given size from what was read back: the regions that were drawn, and around
 // them what is seen where there is no hologram. `drawn` holds a whole image.
 
 /// Around the regions: the background, or opaque black without one.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kUnseen_px = 0.1f;  // less than half the distance between samples
 
-/// Twice what is needed, so that a growing scene settles soon.
+/// Twice what is needed, so that a growing scene soon stops reallocating.
 VkDeviceSize grown(std::size_t bytes) { return std::max<std::size_t>(2 * bytes, 4096); }
 
 void write_line_indices(const Buffer& buffer) {
@@ -39,13 +39,13 @@ void write_line_indices(const Buffer& buffer) {
   }
 }
 
-/// What a line may be off by without a trace: kUnseen_px where pixels are smallest.
+/// How far a line may be off unnoticed: kUnseen_px where pixels are smallest.
 float unseen_rad(const std::vector<View>& views, PixelSize size) {
   float least = std::numeric_limits<float>::max();
   for (const View& view : views) {
     const float across = (view.tan_left + view.tan_right) / static_cast<float>(size.width_px);
     const float down = (view.tan_up + view.tan_down) / static_cast<float>(size.height_px);
-    // Aside of the axis, a pixel is seen under a smaller angle.
+    // Away from the axis, a pixel subtends a smaller angle.
     const float aside = std::max({view.tan_left, view.tan_right, view.tan_up, view.tan_down});
     least = std::min(least, std::min(across, down) / (1 + 2 * aside * aside));
   }
@@ -147,7 +147,7 @@ Status SceneDrawing::add_mesh(const MeshItem& item, const std::string& name) {
   return {};
 }
 
-/// After so many there is nothing new to learn, and a frame loop would fill the memory.
+/// More notes tell nothing new, and a frame loop would fill the memory.
 void SceneDrawing::note(std::string line) {
   constexpr std::size_t kMostNotes = 200;
   if (notes_.size() < kMostNotes) {
@@ -155,7 +155,7 @@ void SceneDrawing::note(std::string line) {
   }
 }
 
-/// Of each character that the font lacks, once: a box stands in its place.
+/// Notes each character that the font lacks, once: a box stands in its place.
 void SceneDrawing::note_missing_glyphs(const Scene& scene) {
   for (const TextItem& item : scene.texts) {
     std::size_t noted = missing_glyphs_.size();

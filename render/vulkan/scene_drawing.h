@@ -20,19 +20,19 @@ namespace orthonav::render {
 
 inline constexpr std::uint32_t kMostViews = 2;
 
-/// What a frame keeps to itself until the device has drawn it.
+/// What belongs to a frame until the device has drawn it.
 struct FrameSlot {
   explicit FrameSlot(const Device& device);
   Commands commands;
   Bindings bindings;
-  Buffer frames;        ///< a GpuFrame a pass
+  Buffer frames;        ///< one GpuFrame per pass
   Buffer data;          ///< FrameItems::data
   Buffer line_indices;  ///< of as many segments as were ever needed
 };
 
-/// What drawing into images of one's own and of somebody else's have in common: a scene is checked,
-/// its meshes are uploaded, it is laid out and written where the shaders find it. Frames take turns
-/// in the slots. After the first frames it allocates nothing.
+/// What drawing into own images and into someone else's have in common: a scene is checked, its
+/// meshes are uploaded, it is laid out and written where the shaders find it. Frames alternate
+/// between the slots. After the first frames it allocates nothing.
 class SceneDrawing {
  public:
   /// Throws Failure, as its other calls do where the device fails. `device` must outlive it.
@@ -41,11 +41,12 @@ class SceneDrawing {
 
   /// What is behind the holograms, for all slots; before the first frame.
   void bind_background(const DeviceImage& background);
-  /// How many views a pass draws, as the options say or the device shows; needs a background.
+  /// How many views a pass draws, according to the options or to a test of the device; needs a
+  /// background.
   void choose_views_a_pass();
   [[nodiscard]] std::size_t views_a_pass() const { return views_a_pass_; }
 
-  /// Turns to the next slot and waits until the device is done with it.
+  /// Goes to the next slot and waits until the device has finished with it.
   FrameSlot& next_slot();
   [[nodiscard]] FrameSlot& slot() { return *slots_[now_]; }
   void wait_for_all();
@@ -55,7 +56,8 @@ class SceneDrawing {
   [[nodiscard]] Status take(const Scene& scene);
   /// Lays the scene out for these views in images of this size, into the current slot.
   void build(const Scene& scene, const std::vector<View>& views, PixelSize size);
-  /// Of the pass whose first view is `first`: places its items and tells the shaders of its views.
+  /// For the pass whose first view is `first`: places its items and passes its views to the
+  /// shaders.
   void place(std::span<const View> views, std::size_t first, PixelSize size, bool has_background);
   /// Marks the frame's end, however it ended.
   void end_frame() { meshes_.end_frame(); }

@@ -55,7 +55,7 @@ VkSubpassDependency before_reading(bool outer) {
   return dependency;
 }
 
-/// The views of a mask drawn together; the info points to the mask.
+/// The views of a mask, drawn together; the info points to the mask.
 VkRenderPassMultiviewCreateInfo all_at_once(const std::uint32_t& view_mask) {
   VkRenderPassMultiviewCreateInfo multiview = {};
   multiview.sType = VK_STRUCTURE_TYPE_RENDER_PASS_MULTIVIEW_CREATE_INFO;

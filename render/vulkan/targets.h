@@ -21,8 +21,8 @@ struct TargetSpec {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  ///< one but for colour, whatever is asked
   VkFormat colour = kColourFormat;
   VkFormat depth = VK_FORMAT_UNDEFINED;  ///< of the outer images, where depth alone is drawn
-  /// Somebody else's images of as many layers as there are views, where the result goes, one of
-  /// them at a time; empty: into an image of the targets' own.
+  /// Someone else's images with as many layers as there are views, one of which receives the result
+  /// at a time; empty: the targets have an image of their own.
   std::vector<VkImage> outer;
 };
 

@@ -1,12 +1,11 @@
 #include "render/vulkan/vulkan_renderer.h"
 
-#include <chrono>
 #include <cstring>
 #include <exception>
 #include <span>
 
+#include "base/stopwatch.h"
 #include "render/scene_check.h"
-#include "render/vulkan/elapsed.h"
 #include "render/vulkan/failure.h"
 #include "render/vulkan/readback.h"
 
@@ -46,7 +45,8 @@ VulkanRenderer::VulkanRenderer(const RendererOptions& options)
 }
 
 VulkanRenderer::~VulkanRenderer() {
-  // Members go one by one; none of them may be in use any more, whatever the last frame came to.
+  // Members are destroyed one by one; none of them may be in use any more, however the last frame
+  // ended.
   vkDeviceWaitIdle(device_.get());
 }
 
@@ -107,20 +107,20 @@ Status VulkanRenderer::take_input(const Scene& scene, const std::vector<View>& v
 template <class Picture, class Take>
 void VulkanRenderer::read_back(std::size_t views, std::vector<Picture>& pictures,
                                const Take& take_picture) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   pictures.resize(views);
   for (std::size_t i = 0; i < views; ++i) {
     pictures[i].width_px = options_.width_px;
     pictures[i].height_px = options_.height_px;
     take_picture(i, readback_.mapped() + i * image_bytes(), pictures[i]);
   }
-  timing_.read_ms = milliseconds_since(start);
+  timing_.read_ms = watch.elapsed_ms();
 }
 
-/// Nothing thrown leaves it, and a frame ends for the meshes however it ended.
+/// No exception leaves it, and the meshes see the frame end however it ended.
 template <class Work>
 Status VulkanRenderer::attempt(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   timing_ = {};
   Status drawn;
   try {
@@ -134,7 +134,7 @@ Status VulkanRenderer::attempt(const Work& work) {
     drawn = error;
   }
   drawing_.end_frame();
-  timing_.total_ms = milliseconds_since(start);
+  timing_.total_ms = watch.elapsed_ms();
   return drawn;
 }
 

@@ -11,7 +11,7 @@
 
 namespace orthonav::render {
 
-/// Draws one frame after the other, each to its end, out of buffers that are kept.
+/// Draws one frame after the other, each to its end, with buffers that are kept.
 class VulkanRenderer final : public Renderer {
  public:
   /// Of checked options. Throws Failure.

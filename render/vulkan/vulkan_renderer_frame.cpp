@@ -1,13 +1,12 @@
 #include <algorithm>
-#include <chrono>
 
-#include "render/vulkan/elapsed.h"
+#include "base/stopwatch.h"
 #include "render/vulkan/gpu_types.h"
 #include "render/vulkan/vulkan_renderer.h"
 
 namespace orthonav::render {
 
-/// The parts of them that shaders will look at, for the pass whose first view is `first`.
+/// Uploads the parts of them that shaders will read, for the pass whose first view is `first`.
 void VulkanRenderer::upload_backgrounds(VkCommandBuffer batch,
                                         std::span<const RgbaImage* const> backgrounds,
                                         std::size_t first) {
@@ -47,7 +46,7 @@ void VulkanRenderer::record_pass(VkCommandBuffer batch, PassKind kind, std::span
 
 Status VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::vector<View>& views,
                                  const std::vector<const RgbaImage*>& backgrounds) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   if (const Status taken = take_input(scene, views, backgrounds); !taken) {
     return taken;
   }
@@ -60,10 +59,10 @@ Status VulkanRenderer::draw_into(PassKind kind, const Scene& scene, const std::v
     record_pass(batch, kind, std::span(views).subspan(first, at_once),
                 behind.empty() ? behind : behind.subspan(first, at_once), first);
   }
-  timing_.record_ms = milliseconds_since(start);
+  timing_.record_ms = watch.elapsed_ms();
   commands.run();
   timing_.submit_ms = commands.submit_ms();
-  timing_.gpu_ms = milliseconds_since(start) - timing_.record_ms - timing_.submit_ms;
+  timing_.gpu_ms = watch.elapsed_ms() - timing_.record_ms - timing_.submit_ms;
   return {};
 }
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <set>
-#include <thread>
 
 #include "hal/api/forwarding_headset.h"
 #include "hal/fake/failing.h"
@@ -22,6 +21,7 @@
 #include "tests/support/session_log.h"
 #include "tests/support/stream_recorder_folder.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::test {
 
@@ -157,7 +157,7 @@ std::unique_ptr<Headset> open_sim() {
   return checked(open_headset("sim:?seed=11", options));
 }
 
-/// Answers once there is an answer: what comes over a network comes in its own time.
+/// Waits for the next frame: one that comes over a network comes in its own time.
 class Waiting : public ForwardingHeadset {
  public:
   explicit Waiting(std::unique_ptr<Headset> inner)
@@ -174,15 +174,12 @@ class Waiting : public ForwardingHeadset {
       return inner_.cameras().calibration();
     }
     Result<Next> do_next(StereoFrame& frame) override {
-      const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-      for (;;) {
-        auto answer = inner_.cameras().next(frame);
-        const bool late = std::chrono::steady_clock::now() > until;
-        if (!answer || *answer != Next::kNone || late) {
-          return answer;
-        }
-        std::this_thread::sleep_for(std::chrono::microseconds(200));
-      }
+      Result<Next> answer = Next::kNone;
+      static_cast<void>(wait_until([&] {
+        answer = inner_.cameras().next(frame);
+        return !answer || *answer != Next::kNone;
+      }));
+      return answer;
     }
     Headset& inner_;
   };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <thread>
 
 #include "engine/case/tool_file.h"
 #include "hal/api/as_headset.h"
@@ -10,6 +9,7 @@
 #include "hal/hl2ss/server/server.h"
 #include "hal/sim/sim_headset.h"
 #include "nav/tracking/tool_tracker.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::engine::hl2ss_poses_test {
 namespace {
@@ -63,15 +63,15 @@ Apart compare(hl2ss::VideoProfile profile) {
   StereoFrame frame;
   StereoFrame expected;
   Apart apart;
-  for (;;) {
-    const auto next = (*headset)->cameras().next(frame);
-    if (next && *next == Next::kEnd) {
-      return apart;
-    }
-    if (!next || *next == Next::kNone) {
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
-      continue;
-    }
+  const auto next_pair = [&] {
+    Result<Next> next = Next::kNone;
+    EXPECT_TRUE(test::wait_until([&] {
+      next = (*headset)->cameras().next(frame);
+      return next && *next != Next::kNone;
+    }));
+    return next && *next == Next::kFrame;
+  };
+  while (next_pair()) {
     EXPECT_TRUE((*direct)->cameras().next(expected).ok());
     EXPECT_EQ(frame.time, expected.time);
     const auto a = (*there)->track(frame);
@@ -90,6 +90,7 @@ Apart compare(hl2ss::VideoProfile profile) {
                                         180.0 / std::numbers::pi);
     }
   }
+  return apart;
 }
 
 TEST(PosesOverTcp, RawAreThoseOfTheDirectRun) {

@@ -30,7 +30,7 @@ struct Printer : LoopObserver {
   }
 };
 
-/// The value, or the reason and the end of the program.
+/// Returns the value, or prints the reason and ends the program.
 template <class T>
 T must(Result<T> result) {
   if (!result) {

@@ -7,15 +7,15 @@
 namespace orthonav::preview {
 namespace {
 
-/// A wound lies this far before the eyes.
+/// A wound lies this far in front of the eyes.
 constexpr double kArm_m = 0.45;
 constexpr double kNearest_m = 0.05;
 constexpr double kFarthest_m = 5.0;
 constexpr double kMostMagnification = 6.0;
 constexpr double kZoomStep = 1.1;
-/// The picture's height dragged turns by this.
+/// Dragging by the picture's height turns by this angle.
 constexpr double kTurnPerHeight_rad = std::numbers::pi;
-/// Straight from above has no upright.
+/// Looking straight down there is no upright.
 constexpr double kSteepest_rad = 1.55;
 
 }  // namespace

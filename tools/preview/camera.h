@@ -5,25 +5,26 @@
 
 namespace orthonav::preview {
 
-/// From where the stage is looked at: with the surgeon's eye, or from a point that the mouse takes
-/// round the site. The stage's +y is up; lengths in metres.
+/// Where the stage is looked at from: the surgeon's eye, or a point that the mouse moves around the
+/// site. The stage's +y is up; lengths in metres.
 class Camera {
  public:
   [[nodiscard]] bool orbits() const { return orbits_; }
-  /// Leaves the head where it is; looks round what lies before this eye, starting from there.
+  /// Leaves the surgeon's head and orbits what lies in front of this eye, starting from there.
   void start_orbit(const Transform<sim::Room, Eye>& stage_from_eye);
   void end_orbit() { orbits_ = false; }
 
-  /// Round the site by so much of the picture's height, to the right and down. Only while orbiting.
+  /// Turns around the site for a drag by this fraction of the picture's height, to the right and
+  /// down. Only while orbiting.
   void turn(Vec2 by);
-  /// Moves what is looked at along with the mouse.
+  /// Moves the point looked at with the mouse.
   void pan(Vec2 by);
-  /// Orbiting: nearer; with the eye: larger.
+  /// Orbiting: moves closer; with the eye: magnifies.
   void zoom(double steps);
 
   /// Where the orbiting camera is.
   [[nodiscard]] Transform<sim::Room, Eye> stage_from_eye() const;
-  /// How much narrower the view with the eye is.
+  /// How much narrower the view through the eye is.
   [[nodiscard]] double magnification() const { return orbits_ ? 1.0 : magnification_; }
   friend bool operator==(const Camera&, const Camera&) = default;
 

@@ -13,11 +13,11 @@ struct ErrorSource {
   const char* unit;
   double sim::ErrorModel::*value;
   double scale;  ///< shown = scale * value
-  double most;   ///< of what is shown; the least is `least`
+  double most;   ///< the largest value shown; the smallest is `least`
   double least = 0.0;
 };
 
-/// Those that a person would turn, in groups.
+/// The ones that a person would change, in groups.
 [[nodiscard]] std::span<const ErrorSource> error_sources();
 
 }  // namespace orthonav::preview

@@ -6,7 +6,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// Who lags by more does not catch up in a rush.
+/// A larger lag is not made up for in a rush.
 constexpr Duration kMostLag = std::chrono::milliseconds(200);
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace orthonav::preview {
 
-/// Decides when the next camera pair may come: paused, step by step, at some pace against the
-/// wall's clock, or as fast as it goes. Where the headset's clock follows its pairs, as in the
-/// simulated room and in a recording, a closed gate stops that clock. Thread-safe.
+/// Decides when the next camera pair may come: paused, step by step, at some speed relative to wall
+/// time, or as fast as possible. Where the headset's clock follows its pairs, as in the simulated
+/// room and in a recording, a closed gate stops that clock. Thread-safe.
 class Gate {
  public:
   /// `wall` must outlive it.
@@ -18,18 +18,18 @@ class Gate {
 
   void pause(bool paused);
   [[nodiscard]] bool paused() const;
-  /// While paused: lets so many pairs more through.
+  /// While paused: lets this many more pairs through.
   void step(int pairs = 1);
-  /// Seconds of the headset's clock in one of the wall's; 0: as fast as it goes.
+  /// Seconds of the headset's clock per second of wall time; 0: as fast as possible.
   void set_speed(double speed);
   [[nodiscard]] double speed() const;
-  /// As fast as it goes until so many pairs have passed, then as before.
+  /// As fast as possible until this many pairs have passed, then as before.
   void run_to(std::int64_t pairs);
   /// Pairs that passed since the start.
   [[nodiscard]] std::int64_t passed() const;
-  /// None is on its way either.
+  /// Paused, and no pair is on its way either.
   [[nodiscard]] bool at_rest() const;
-  /// Another stream begins: counts from 0, wants to run nowhere.
+  /// Another stream begins: counts from 0 and forgets any goal.
   void restart();
 
   // For the camera.
@@ -41,7 +41,7 @@ class Gate {
   void none_came();
 
  private:
-  /// Of headset and wall at the same moment.
+  /// The times of headset and wall at one moment.
   struct Anchor {
     Timestamp pair;
     Timestamp wall;
@@ -61,7 +61,7 @@ class Gate {
   std::optional<Anchor> anchor_ ORTHONAV_GUARDED_BY(mutex_);
 };
 
-/// The wall's clock, for pacing what people watch.
+/// Wall time, for pacing what people watch.
 class WallClock : public Clock {
  public:
   [[nodiscard]] Timestamp now() const override;

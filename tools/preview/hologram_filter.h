@@ -28,7 +28,7 @@ inline constexpr std::array<HologramName, kLastHologram> kHolograms = {{
     {12, "check points"},
 }};
 
-/// Which holograms are to be seen; all at first.
+/// Which holograms are shown; all at first.
 class HologramFilter {
  public:
   HologramFilter() { shown_.set(); }
@@ -39,7 +39,7 @@ class HologramFilter {
   void toggle(unsigned number) { show(number, !shows(number)); }
   /// All of them; or none, when all are shown.
   void toggle_all();
-  /// The scene with what is to be seen of it; an item without a known number stays.
+  /// The scene without the hidden holograms; an item without a known number stays.
   void apply(const render::Scene& scene, render::Scene& seen) const;
   friend bool operator==(const HologramFilter&, const HologramFilter&) = default;
 

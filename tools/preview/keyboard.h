@@ -16,7 +16,7 @@ class Keyboard {
  public:
   void button(bool down);
   void say(std::string phrase);
-  /// Nobody hears the headset's own clicker and voice any more, or again.
+  /// Whether the headset's own clicker and voice are ignored.
   void mute(bool muted);
   [[nodiscard]] bool muted() const;
 
@@ -47,7 +47,7 @@ class SharedClicker : public Clicker {
   std::vector<ClickerEvent> offered_;
 };
 
-/// Both voices, what is typed after what was heard.
+/// Both voices; what is typed comes after what was heard.
 class SharedVoice : public Voice {
  public:
   SharedVoice(Voice& inner, Keyboard& keyboard) : inner_(inner), keyboard_(keyboard) {}

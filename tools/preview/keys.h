@@ -43,7 +43,7 @@ enum class Command : std::uint8_t {
   kQuit,
 };
 
-/// One key and what it does. The help lists this table, and nothing else knows it.
+/// A key and what it does. The help is made from this table, and nothing else knows it.
 struct KeyBinding {
   Key key;
   std::string_view name;  ///< as written on the key, and in scripts

@@ -13,7 +13,7 @@ namespace {
 
 engine::LoopOptions loop_options() {
   engine::LoopOptions options;
-  // Whoever pauses a headset whose clock goes on has not lost it.
+  // A headset that is paused while its clock goes on is not lost.
   options.longest_silence = std::chrono::hours(24);
   // Nothing is drawn in the loop: the newest moment counts.
   options.drop_late_snapshots = true;
@@ -126,7 +126,7 @@ void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*in
   moment_.detail = engine::detail_text(guidance.status);
 }
 
-/// Follows `stepped` for the same pair; or comes without one, when guidance is taken back.
+/// Comes after `stepped` for the same pair, or without one when guidance is taken back.
 void LiveOperation::captured(const engine::Snapshot& snapshot) {
   moment_.at = snapshot.step;
   if (snapshot.blank) {

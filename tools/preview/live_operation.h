@@ -22,11 +22,11 @@ struct OperationSource {
   std::string tools_file;       ///< empty: what the headset itself knows of its tools
 };
 
-/// An operation that goes on in a thread of its own: pairs through the gate, moments into the
-/// timeline. Nothing but that and the keyboard reaches it.
+/// An operation that runs in a thread of its own: pairs come through the gate, moments go into the
+/// timeline. Only these and the keyboard connect to it.
 class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink {
  public:
-  /// `room`: of a simulated one. Gate, keyboard and timeline must outlive it.
+  /// `room`: the options of a simulated one. Gate, keyboard and timeline must outlive it.
   static Result<std::unique_ptr<LiveOperation>> open(const OperationSource& source,
                                                      const sim::SimOptions& room, Gate& gate,
                                                      Keyboard& keyboard, Timeline& timeline);

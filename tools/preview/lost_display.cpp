@@ -2,13 +2,13 @@
 
 #include <X11/Xlib.h>
 
-// As glfw3native.h declares it, which wants the headers of Xlib's extensions besides.
+// Declared as in glfw3native.h, which would also need the headers of Xlib's extensions.
 extern "C" Display* glfwGetX11Display(void);  // NOLINT(readability-identifier-naming)
 
 namespace orthonav::preview {
 namespace {
 
-// The handlers of Xlib belong to the process, and so does what they say.
+// Xlib's handlers belong to the process, and so does this flag.
 bool lost = false;
 
 }  // namespace

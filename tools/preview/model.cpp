@@ -7,7 +7,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// In the order of "faster"; the last is as fast as it goes.
+/// From slow to fast; the last means as fast as possible.
 constexpr std::array<double, 6> kSpeeds = {0.1, 0.25, 0.5, 1.0, 4.0, 0.0};
 
 }  // namespace

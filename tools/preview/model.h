@@ -12,7 +12,7 @@
 
 namespace orthonav::preview {
 
-/// How the moment is looked at; when neither changes, neither does the picture.
+/// How a moment is looked at. While neither moment nor look changes, the picture doesn't either.
 struct Look {
   Camera camera;
   HologramFilter holograms;
@@ -20,7 +20,7 @@ struct Look {
   friend bool operator==(const Look&, const Look&) = default;
 };
 
-/// What only the program around can do.
+/// What only the surrounding program can do.
 struct Wishes {
   bool screenshot = false;
   bool video = false;  ///< begin, or end
@@ -28,37 +28,37 @@ struct Wishes {
   bool quit = false;
 };
 
-/// What keys, mouse and panel do, without a window: the same calls come from all of them and from
-/// a script. Time goes on through the gate, clicks and words go to the keyboard, looking back goes
-/// to the timeline. One thread.
+/// What keys, mouse and panel do, without a window: all of them and scripts make the same calls.
+/// Time advances through the gate, clicks and words go to the keyboard, and the timeline shows the
+/// past. One thread.
 class PreviewModel {
  public:
   /// All three must outlive it.
   PreviewModel(Gate& gate, Keyboard& keyboard, Timeline& timeline)
       : gate_(gate), keyboard_(keyboard), timeline_(timeline) {}
 
-  /// A key goes down or up; its repetitions are no business of ours.
+  /// A key goes down or up; automatic repeats are ignored.
   void key(Key key, bool down);
   void pause(bool paused);
   void step_on();
   void step_back();
-  /// Shows that pair, paused: one that has passed at once, one that is to come as soon as it has.
+  /// Shows that pair, paused: at once if it has passed, otherwise as soon as it has.
   void scrub_to(std::int64_t pair);
-  /// What comes is shown again.
+  /// Shows the newest pair again.
   void live() { looked_at_.reset(); }
   void set_speed(double speed) { gate_.set_speed(speed); }
   void orbit(bool orbits);
   void mute(bool muted) { keyboard_.mute(muted); }
-  /// From where the newest picture was seen; an orbit begins there.
+  /// Where the newest picture was seen from; an orbit begins there.
   void seen_from(const Transform<sim::Room, Eye>& stage_from_eye) { eye_ = stage_from_eye; }
   /// Another operation begins.
   void restarted() { live(); }
 
-  /// The moment to be looked at; null before the first.
+  /// The moment to be shown; null before the first.
   [[nodiscard]] std::shared_ptr<const Moment> shown() const;
-  /// Paused, and nothing more comes of what had passed: two pictures of it are the same.
+  /// Paused, and nothing that has passed is still being worked on: two pictures of it are the same.
   [[nodiscard]] bool at_rest() const;
-  /// At something else than the newest.
+  /// Whether another moment than the newest is shown.
   [[nodiscard]] bool looks_back() const;
   [[nodiscard]] Look& look() { return look_; }
   [[nodiscard]] bool panel() const { return panel_; }

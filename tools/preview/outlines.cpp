@@ -10,11 +10,11 @@ namespace orthonav::preview {
 namespace {
 
 constexpr render::Label kNoHologram = 9000;
-/// That of no hologram.
+/// A colour that no hologram has.
 constexpr render::Colour kToolColour{0.85f, 0.20f, 0.75f, 1.0f};
 constexpr render::Colour kHeadColour{0.45f, 0.45f, 0.50f, 1.0f};
 constexpr float kWidth_m = 0.0012f;
-/// How far before the eyes the frame of what they see is drawn.
+/// How far in front of the eyes the frame of their view is drawn.
 constexpr double kBefore_m = 0.08;
 
 void add_line(render::Scene& scene, const std::vector<render::Float3>& points,

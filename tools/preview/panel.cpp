@@ -187,7 +187,7 @@ void draw_buttons(PreviewModel& model, const PanelFacts& facts) {
     model.wishes().video = true;
   }
   ImGui::PushTextWrapPos(0.0f);
-  // An empty line too, so that nothing jumps when there is something to say.
+  // An empty line as well, so that nothing jumps when there is something to say.
   ImGui::TextColored(kFair, "%s", facts.note.c_str());
   ImGui::PopTextWrapPos();
 }
@@ -199,7 +199,7 @@ void draw_help() {
                           ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
   ImGui::Begin("help", nullptr, kFlags);
   for (const KeyBinding& binding : key_bindings()) {
-    // The digits show and hide what the panel lists; one line for them all.
+    // Digits show and hide what the panel lists; one line for all of them.
     if (binding.command == Command::kHologram && binding.hologram != 1) {
       continue;
     }
@@ -231,7 +231,7 @@ void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& e
   constexpr auto kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav;
   ImGui::Begin("panel", nullptr, kFlags);
-  // Tab is a key of ours; it would go from slider to slider.
+  // Tab is one of our keys; Dear ImGui would use it to go from slider to slider.
   ImGui::PushAllowKeyboardFocus(false);
   text(facts.headset);
   ImGui::SameLine(230.0f);

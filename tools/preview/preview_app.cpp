@@ -55,7 +55,7 @@ Status PreviewApp::open_operation(OperationSource source) {
     return started;
   }
   if (operation_->room()) {
-    // What the URI asks for is kept for every further start.
+    // What the URI asks for is kept for every later start.
     options_.room = operation_->room()->options();
     source_.headset = "sim:";
     error_model_ = running_ = options_.room.error_model;
@@ -153,7 +153,8 @@ Status PreviewApp::run_script() {
   return script_->go_on(model_, stage, wall_.now(), operation_->ended());
 }
 
-/// The title names the step, so that it is read off a bar of windows, and by who drives the window.
+/// The title names the step, so that it can be read from a list of windows, and by programs that
+/// drive the window.
 void PreviewApp::set_title(const Moment& moment) {
   if (facts_.moment && facts_.moment->at == moment.at) {
     return;
@@ -192,7 +193,7 @@ Status PreviewApp::show_moment() {
   return video_->write(frame_);
 }
 
-/// What goes wrong with a screenshot or a video is said in the panel; the preview goes on.
+/// Problems with a screenshot or a video are reported in the panel; the preview continues.
 Status PreviewApp::grant(const Wishes& wishes) {
   if (wishes.screenshot) {
     wanted_screenshot_ = next_name(".png");
@@ -205,7 +206,7 @@ Status PreviewApp::grant(const Wishes& wishes) {
   return wishes.restart ? start_again() : Status{};
 }
 
-/// With the error sources as set; where no room can be made of them, as before.
+/// With the error sources as set; if no room can be made with them, with the previous ones.
 Status PreviewApp::start_again() {
   options_.room.error_model = error_model_;
   if (const Status started = start_operation(); !started) {
@@ -252,7 +253,7 @@ Status PreviewApp::take_screenshot(const std::string& name) {
     taken = engine::write_png(path, image);
   }
   facts_.note = taken ? "wrote " + path.string() : taken.error().message;
-  // A script that gets no picture has failed; a person reads why.
+  // A script that gets no picture has failed; a person reads the reason.
   return script_ ? taken : Status{};
 }
 

@@ -16,21 +16,21 @@
 namespace orthonav::preview {
 
 struct PreviewOptions {
-  sim::SimOptions room;  ///< of the simulated one
+  sim::SimOptions room;  ///< of a simulated room
   StageOptions stage;
   std::string out = "orthonav-preview";  ///< folder of screenshots and videos
   bool paused = false;                   ///< from the first pair on
   double speed = 1.0;                    ///< 0: as fast as it goes
 };
 
-/// The window, the operation in it, and everything between. Main thread.
+/// The window, the operation in it, and everything in between. Main thread.
 class PreviewApp {
  public:
   PreviewApp(PreviewOptions options, std::optional<Script> script);
-  /// Before the operation is prepared, which takes a while: without a display there is no use.
+  /// Called before the operation is prepared, which takes a while and is useless without a display.
   Status open_window();
   Status open_operation(OperationSource source);
-  /// Until it is quit, or the script has come to its end.
+  /// Runs until the user quits or the script has come to its end.
   Status run();
 
  private:

@@ -20,9 +20,9 @@ class PreviewHeadset : public ForwardingHeadset {
   [[nodiscard]] StereoCamera& cameras() override { return cameras_; }
   [[nodiscard]] Clicker& clicker() override { return clicker_; }
   [[nodiscard]] Voice& voice() override { return voice_; }
-  /// Wall time that the newest pair took to be there: rendered, or read from a recording.
+  /// Wall time that the newest pair took to be rendered, or read from a recording.
   [[nodiscard]] double camera_ms() const { return cameras_.camera_ms(); }
-  /// Wall time since it was there.
+  /// Wall time since that pair was delivered.
   [[nodiscard]] double since_pair_ms() const { return cameras_.since_pair_ms(); }
 
  private:
@@ -41,7 +41,7 @@ class PreviewHeadset : public ForwardingHeadset {
     StereoCamera& inner_;
     Gate& gate_;
     double camera_ms_ = 0.0;
-    Timestamp there_{};  ///< by the wall
+    Timestamp there_{};  ///< of the delivery, in wall time
   };
 
   GatedCameras cameras_;

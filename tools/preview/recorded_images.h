@@ -12,8 +12,8 @@
 
 namespace orthonav::preview {
 
-/// The left camera's images of a recording, straightened: as an eye in the camera's place with the
-/// headset's axes sees them. Reads each when it is asked for, in any order. One thread.
+/// The left camera's images of a recording, rectified: as seen by an eye at the camera's place with
+/// the headset's axes. Each is read when it is asked for, in any order. One thread.
 class RecordedImages {
  public:
   static Result<RecordedImages> open(const std::filesystem::path& folder);
@@ -25,8 +25,8 @@ class RecordedImages {
   [[nodiscard]] std::int64_t pairs() const;
   /// Where the left camera is in the headset.
   [[nodiscard]] Vec3 eye_in_rig() const;
-  /// Draws the image with this sequence number into the picture; what the camera does not see, or
-  /// an image that cannot be read, leaves the picture as it is.
+  /// Draws the image with this sequence number into the picture; where the camera sees nothing, or
+  /// when the image cannot be read, the picture stays as it is.
   void draw(std::int64_t sequence, const render::View& view, RgbaImage& picture);
 
  private:

@@ -10,7 +10,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// Longer than any step of an operation takes on a slow machine.
+/// Longer than any step of an operation takes, even on a slow machine.
 constexpr Duration kPatience = std::chrono::seconds(300);
 
 /// A word and what follows it.
@@ -26,9 +26,9 @@ constexpr auto kWords = std::to_array<Word>({
     {"until", Follows::kText},       // waits until the step begins with this
     {"first", Follows::kText},       // the same, then pauses and shows its first pair
     {"pause", Follows::kNothing},    // waits until nothing moves any more
-    {"pairs", Follows::kNumber},     // waits until so many more have passed
+    {"pairs", Follows::kNumber},     // waits until that many more have passed
     {"scrub", Follows::kNumber},     // pauses, and waits until that pair is shown
-    {"wait", Follows::kNumber},      // lets so many pictures of the window go by
+    {"wait", Follows::kNumber},      // lets that many pictures of the window go by
     {"drag", Follows::kTwoNumbers},  // orbits by hundredths of the picture's height
     {"zoom", Follows::kNumber},
     {"hide", Follows::kNumber},
@@ -50,6 +50,23 @@ std::optional<std::array<double, 2>> numbers(const std::string& text, int count)
     return std::nullopt;
   }
   return values;
+}
+
+/// The words that change what is seen and wait for nothing.
+void change_view(const ScriptLine& line, Look& look, const ScriptStage& stage) {
+  const auto two = numbers(line.rest, 2).value_or(std::array<double, 2>{});
+  const double one = numbers(line.rest, 1).value_or(std::array<double, 2>{})[0];
+  if (line.word == "drag") {
+    look.camera.turn(0.01 * Vec2{two[0], two[1]});
+  } else if (line.word == "zoom") {
+    look.camera.zoom(one);
+  } else if (line.word == "hide" || line.word == "show") {
+    look.holograms.show(static_cast<unsigned>(one), line.word == "show");
+  } else if (line.word == "resize") {
+    stage.resize(static_cast<int>(two[0]), static_cast<int>(two[1]));
+  } else if (line.word == "screenshot") {
+    stage.screenshot(line.rest);
+  }
 }
 
 }  // namespace
@@ -135,7 +152,7 @@ Status Script::check(const ScriptLine& line) const {
 Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended) {
   while (!done()) {
     const ScriptLine& line = lines_[next_];
-    if (perform(line, model, stage) == Did::kWait) {
+    if (!perform(line, model, stage)) {
       if (!waits_since_) {
         waits_since_ = now;
       }
@@ -152,7 +169,7 @@ Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp no
     wait_for_pair_.reset();
     waited_ = 0;
     ++next_;
-    // A picture is of what was done before it: one a call.
+    // A picture shows what was done before it, so a call takes no more than one.
     if (line.word == "screenshot" || line.word == "resize") {
       return {};
     }
@@ -160,62 +177,54 @@ Status Script::go_on(PreviewModel& model, const ScriptStage& stage, Timestamp no
   return {};
 }
 
-Script::Did Script::perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage) {
-  const auto two = numbers(line.rest, 2).value_or(std::array<double, 2>{});
+bool Script::perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage) {
   const double one = numbers(line.rest, 1).value_or(std::array<double, 2>{})[0];
-  const auto shown = model.shown();
-  if (line.word == "key" || line.word == "press" || line.word == "release") {
-    if (line.word != "release") {
-      model.key(*key_named(line.rest), true);
-    }
-    if (line.word != "press") {
-      model.key(*key_named(line.rest), false);
-    }
-  } else if (line.word == "until") {
-    if (!shown || !engine::name_of(shown->at).starts_with(line.rest)) {
-      return Did::kWait;
-    }
-  } else if (line.word == "first") {
+  if (line.word == "until") {
+    const auto shown = model.shown();
+    return shown && engine::name_of(shown->at).starts_with(line.rest);
+  }
+  if (line.word == "first") {
     const auto first = model.timeline().first_of(line.rest);
-    if (!first) {
-      return Did::kWait;
+    if (first) {
+      model.scrub_to(first->pair);
     }
-    model.scrub_to(first->pair);
-  } else if (line.word == "pause") {
+    return first != nullptr;
+  }
+  if (line.word == "pause") {
     if (!model.gate().paused()) {
       model.pause(true);
     }
-    if (!model.at_rest()) {
-      return Did::kWait;
-    }
-  } else if (line.word == "pairs" || line.word == "scrub") {
-    const auto more = static_cast<std::int64_t>(one);
-    const bool absolute = line.word == "scrub";
-    if (!wait_for_pair_) {
-      wait_for_pair_ = absolute ? more : model.gate().passed() + more;
-      if (absolute) {
-        model.scrub_to(more);
-      }
-    }
-    if (!shown || shown->pair < *wait_for_pair_) {
-      return Did::kWait;
-    }
-  } else if (line.word == "wait") {
-    if (waited_++ < static_cast<int>(one)) {
-      return Did::kWait;
-    }
-  } else if (line.word == "drag") {
-    model.look().camera.turn(0.01 * Vec2{two[0], two[1]});
-  } else if (line.word == "zoom") {
-    model.look().camera.zoom(one);
-  } else if (line.word == "hide" || line.word == "show") {
-    model.look().holograms.show(static_cast<unsigned>(one), line.word == "show");
-  } else if (line.word == "resize") {
-    stage.resize(static_cast<int>(two[0]), static_cast<int>(two[1]));
-  } else if (line.word == "screenshot") {
-    stage.screenshot(line.rest);
+    return model.at_rest();
   }
-  return Did::kDone;
+  if (line.word == "pairs" || line.word == "scrub") {
+    return reaches_pair(static_cast<std::int64_t>(one), line.word == "scrub", model);
+  }
+  if (line.word == "wait") {
+    return waited_++ >= static_cast<int>(one);
+  }
+  if (const auto key = key_named(line.rest);
+      key && (line.word == "key" || line.word == "press" || line.word == "release")) {
+    if (line.word != "release") {
+      model.key(*key, true);
+    }
+    if (line.word != "press") {
+      model.key(*key, false);
+    }
+  }
+  change_view(line, model.look(), stage);
+  return true;
+}
+
+/// Asks for the pair once; true when it is shown.
+bool Script::reaches_pair(std::int64_t pair, bool absolute, PreviewModel& model) {
+  const auto shown = model.shown();
+  if (!wait_for_pair_) {
+    wait_for_pair_ = absolute ? pair : model.gate().passed() + pair;
+    if (absolute) {
+      model.scrub_to(pair);
+    }
+  }
+  return shown && shown->pair >= *wait_for_pair_;
 }
 
 }  // namespace orthonav::preview

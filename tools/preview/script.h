@@ -14,13 +14,13 @@
 
 namespace orthonav::preview {
 
-/// What a script asks of the program around.
+/// What a script asks of the program that runs it.
 struct ScriptStage {
   std::function<void(int width_px, int height_px)> resize;
   std::function<void(const std::string& name)> screenshot;
 };
 
-/// A line of a script: a word and what belongs to it.
+/// A line of a script: a word and what follows it.
 struct ScriptLine {
   int number = 0;
   std::string word;
@@ -30,7 +30,7 @@ struct ScriptLine {
 /// Every word that a line can begin with.
 [[nodiscard]] std::vector<std::string_view> script_words();
 
-/// Synthetic input from a file, a line at a time; docs/preview.md lists the words. It acts through
+/// Synthetic input from a file, line by line; docs/preview.md lists the words. It acts through
 /// the same calls as keys and mouse.
 class Script {
  public:
@@ -38,18 +38,19 @@ class Script {
   static Result<Script> load(const std::filesystem::path& path);
   static Result<Script> parse(const std::string& text, const std::string& name);
 
-  /// Does what is due; lines that wait are left for the next call. `now` is the wall's time: what
-  /// waits too long is an Error. `ended`: nothing more will come.
+  /// Performs the lines that are due, up to the first that must wait; the next call goes on there.
+  /// `now` is wall time: a line that waits too long is an Error. `ended`: nothing more will come.
   Status go_on(PreviewModel& model, const ScriptStage& stage, Timestamp now, bool ended);
   [[nodiscard]] bool done() const { return next_ == lines_.size(); }
 
  private:
-  enum class Did { kDone, kWait };
   Script(std::string name, std::vector<ScriptLine> lines)
       : name_(std::move(name)), lines_(std::move(lines)) {}
   [[nodiscard]] Status check(const ScriptLine& line) const;
   [[nodiscard]] Error error(const ScriptLine& line, const std::string& why) const;
-  Did perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage);
+  /// False: it waits, and is to be asked again.
+  bool perform(const ScriptLine& line, PreviewModel& model, const ScriptStage& stage);
+  bool reaches_pair(std::int64_t pair, bool absolute, PreviewModel& model);
 
   std::string name_;
   std::vector<ScriptLine> lines_;

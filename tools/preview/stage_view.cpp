@@ -1,10 +1,10 @@
 #include "tools/preview/stage_view.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "base/stopwatch.h"
 #include "engine/holograms/render_values.h"
 #include "tools/eye_in_rig.h"
 #include "tools/preview/outlines.h"
@@ -12,7 +12,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// Where nothing is known of what is behind: a dark grey on which every hologram is read.
+/// Behind the holograms where nothing is known: a dark grey on which every hologram is legible.
 constexpr std::array<std::uint8_t, 4> kEmpty = {34, 37, 42, 255};
 
 }  // namespace
@@ -73,7 +73,7 @@ void StageView::set_field_of_view(double magnification) {
 
 void StageView::draw_background(const Moment& moment, const Look& look,
                                 const Transform<sim::Room, Eye>& stage_from_eye) {
-  const auto begun = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const render::View& view = views_[0];
   if (room_ && moment.room) {
     const sim::PinholeView seen{
@@ -89,8 +89,7 @@ void StageView::draw_background(const Moment& moment, const Look& look,
       recording_->draw(moment.sequence, view, background_);
     }
   }
-  background_ms_ =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count();
+  background_ms_ = watch.elapsed_ms();
 }
 
 Status StageView::draw(const Moment& moment, const Look& look) {
@@ -101,12 +100,12 @@ Status StageView::draw(const Moment& moment, const Look& look) {
   scene_ = {};
   if (moment.world_from_rig.status != PoseStatus::kLost) {
     look.holograms.apply(moment.scene, scene_);
-    // Nothing else shows where things are, where there is no picture.
+    // Without a picture, nothing else shows where things are.
     const bool no_picture = !moment.room && look.camera.orbits();
     if (look.tools || no_picture) {
       add_outlines(moment, look.camera.orbits(), scene_);
     }
-    // Holograms hang where the headset draws them against the true head.
+    // Holograms are where the headset draws them relative to the true head.
     Transform<sim::Room, World> stage_from_world;
     if (moment.room) {
       stage_from_world = moment.room->room_from_rig * moment.world_from_rig.value.inverse();

@@ -21,13 +21,13 @@ struct StageOptions {
   std::string device;            ///< part of a Vulkan device's name; empty: the best
 };
 
-/// Draws a moment as it is looked at: the simulated room, or the left camera's image of a
-/// recording, with the holograms over it. The room is seen from where the head truly is, the
-/// holograms where the headset believed them to be: tracking error and map drift show as they
-/// would. One thread.
+/// Draws a moment: the simulated room, or the left camera's image of a recording, with the
+/// holograms over it. The room is seen from where the head truly is, the holograms where the
+/// headset believed them to be: tracking error and map drift appear as they would in reality. One
+/// thread.
 class StageView {
  public:
-  /// An Error when no Vulkan device serves.
+  /// An Error when no Vulkan device is suitable.
   static Result<std::unique_ptr<StageView>> create(const StageOptions& options);
 
   /// What is behind the holograms from now on.
@@ -36,7 +36,7 @@ class StageView {
 
   Status draw(const Moment& moment, const Look& look);
   [[nodiscard]] const RgbaImage& picture() const { return images_.front(); }
-  /// From where the moment is seen with the surgeon's eye.
+  /// Where the surgeon's eye is at that moment.
   [[nodiscard]] Transform<sim::Room, Eye> eye_of(const Moment& moment) const;
   [[nodiscard]] const render::DeviceInfo& device() const { return renderer_->device(); }
   /// Wall time of the newest picture: what is behind, and the holograms.

@@ -17,7 +17,7 @@
 
 namespace orthonav::preview {
 
-/// How a tool was seen.
+/// What was measured of a tool.
 struct ToolSeen {
   std::string name;
   PoseStatus status = PoseStatus::kLost;
@@ -27,7 +27,7 @@ struct ToolSeen {
   Point<World> tip_in_world;
 };
 
-/// All that can be looked at of one camera pair; a plain value.
+/// Everything that can be shown of one camera pair; a plain value.
 struct Moment {
   std::int64_t pair = 0;      ///< counts from 1: how many pairs had passed
   std::int64_t sequence = 0;  ///< the headset's own number of it
@@ -36,19 +36,19 @@ struct Moment {
   std::string detail;
   std::vector<ToolSeen> tools;
   double camera_ms = 0.0;    ///< wall time: the pair itself
-  double tracking_ms = 0.0;  ///< and what was made of it
+  double tracking_ms = 0.0;  ///< and what was computed from it
   Tracked<Transform<World, Rig>> world_from_rig;
   std::optional<sim::RoomState> room;  ///< where it is a simulated one
   render::Scene scene;
 };
 
-/// The moments so far, to look back at: the newest, and those before it evenly spread. When there
-/// are too many every other one goes, so that a bounded space covers the whole time. Thread-safe.
+/// The moments so far, to look back at: the newest, and earlier ones evenly spread. When there are
+/// too many, every other one is dropped, so that bounded memory covers the whole time. Thread-safe.
 class Timeline {
  public:
   explicit Timeline(std::size_t most = 4096) : most_(most < 2 ? 2 : most) {}
 
-  /// A further one; of the same pair as the last: instead of that.
+  /// Adds a moment; replaces the last one if it is of the same pair.
   void push(std::shared_ptr<const Moment> moment);
   void clear();
   [[nodiscard]] std::size_t size() const;

@@ -17,7 +17,7 @@
 namespace orthonav::preview {
 namespace {
 
-/// Keys with a character of their own are named by it.
+/// Keys that have a character are named by it.
 std::optional<Key> key_of_glfw(int key) {
   switch (key) {
     case GLFW_KEY_TAB:
@@ -60,7 +60,7 @@ std::string newest_glfw_error(const char* otherwise) {
 
 }  // namespace
 
-/// GLFW itself and its one window; goes last.
+/// GLFW itself and its one window; destroyed last.
 struct Window::Glfw {
   GLFWwindow* window = nullptr;
   bool imgui = false;
@@ -101,11 +101,11 @@ Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
     : glfw_(std::move(glfw)), input_(std::move(input)) {
   GLFWwindow* window = glfw_->window;
   glfwSetWindowUserPointer(window, this);
-  // Before Dear ImGui, which passes on to these.
+  // Set before Dear ImGui's callbacks, which forward to these.
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
     const auto known = key_of_glfw(key);
-    // What goes up was let go of, wherever the focus is now.
+    // A key that goes up was released, wherever the focus is now.
     const bool ours = action == GLFW_RELEASE || !ImGui::GetIO().WantTextInput;
     if (known && ours && action != GLFW_REPEAT) {
       self->input_.key(*known, action == GLFW_PRESS);
@@ -175,7 +175,7 @@ void Window::upload(const RgbaImage& picture) {
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  // Else the upper edge shines through at the lower one.
+  // Otherwise the upper edge shows through at the lower one.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -185,7 +185,7 @@ void Window::upload(const RgbaImage& picture) {
   picture_height_px_ = picture.height_px;
 }
 
-/// As large as it fits, in the middle.
+/// As large as fits, centred.
 void Window::place_picture(int panel_px) {
   const ImVec2 room = ImGui::GetIO().DisplaySize;
   const float across = std::max(room.x - static_cast<float>(panel_px), 1.0f);
@@ -209,6 +209,10 @@ void Window::draw(int panel_px, const std::function<void()>& panels) {
   }
   ImGui_ImplOpenGL2_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  // A display that goes away in this call leaves a size that Dear ImGui would end the program for.
+  if (lost()) {
+    return;
+  }
   ImGui::NewFrame();
   place_picture(panel_px);
   panels();

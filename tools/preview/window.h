@@ -12,17 +12,18 @@
 
 namespace orthonav::preview {
 
-/// What came in of keys and mouse over the picture; what the panel takes is not told.
+/// Input of keys and mouse over the picture; what the panel handles is not reported.
 struct WindowInput {
   std::function<void(Key key, bool down)> key;
-  /// By so much of the picture's height, to the right and down; `pan` with shift or another button.
+  /// By this fraction of the picture's height, to the right and down; `pan` with shift or another
+  /// button.
   std::function<void(Vec2 by, bool pan)> drag;
   std::function<void(double steps)> scroll;
 };
 
-/// A desktop window with one picture and Dear ImGui on top, by GLFW and OpenGL. Bears any size, no
-/// size, and any number of changes of it: what can't be seen is not drawn. Main thread only; one at
-/// a time.
+/// A desktop window with one picture and Dear ImGui on top, by GLFW and OpenGL. Handles any size,
+/// including none, and any number of resizes: what can't be seen is not drawn. Main thread only;
+/// one window at a time.
 class Window {
  public:
   /// An Error when there is no display or no OpenGL.
@@ -32,16 +33,17 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Takes what came in, waiting for it no longer than so many seconds.
+  /// Handles pending input, waiting for it no longer than this many seconds.
   void poll(double wait_s);
   [[nodiscard]] bool closed() const;
-  /// The display has gone, and does not come back.
+  /// The display has gone for good.
   [[nodiscard]] bool lost() const;
   void resize(int width_px, int height_px);
   void set_title(const std::string& title);
-  /// The picture from now on.
+  /// Shows this picture from now on.
   void upload(const RgbaImage& picture);
-  /// Draws the picture to the left of `panel_px` and the panels that `panels` makes of Dear ImGui.
+  /// Draws the picture to the left of `panel_px`, and the panels that `panels` makes with Dear
+  /// ImGui.
   void draw(int panel_px, const std::function<void()>& panels);
   /// What was drawn, until it is presented; empty when nothing can be seen.
   [[nodiscard]] RgbaImage screenshot() const;
@@ -56,7 +58,7 @@ class Window {
 
   std::unique_ptr<Glfw> glfw_;
   WindowInput input_;
-  int width_px_ = 0;  ///< of what is drawn into; 0: nothing can be seen
+  int width_px_ = 0;  ///< of the framebuffer; 0: nothing can be seen
   int height_px_ = 0;
   int picture_width_px_ = 0;
   int picture_height_px_ = 0;

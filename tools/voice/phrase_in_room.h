@@ -15,7 +15,7 @@ struct PhraseInRoom {
   std::int64_t end = 0;  ///< of the phrase, in samples
 };
 
-/// A phrase with noise under it, after a second and a half of the noise alone.
+/// A phrase with background noise, after a second and a half of the noise alone.
 inline PhraseInRoom phrase_in_room(std::span<const std::int16_t> said, test::Noise noise,
                                    double snr_db, Random& random, test::Babble babble) {
   test::Soundtrack track;
@@ -25,7 +25,7 @@ inline PhraseInRoom phrase_in_room(std::span<const std::int16_t> said, test::Noi
   return {track.with_noise(noise, snr_db, random, babble), end};
 }
 
-/// What a segmenter that hears nothing else cuts out, each with its sound.
+/// The segments that a fresh segmenter cuts out, each with its sound.
 inline std::vector<voice::SpeechSegment> cut_out(std::span<const std::int16_t> sound) {
   voice::SpeechSegmenter segmenter;
   std::vector<voice::SpeechSegment> told;
@@ -35,7 +35,7 @@ inline std::vector<voice::SpeechSegment> cut_out(std::span<const std::int16_t> s
     if (!told[i].ended) {
       continue;
     }
-    // The one before it told of it.
+    // The announcement before its end held the sound.
     ended.push_back(std::move(told[i]));
     ended.back().samples = std::move(told[i - 1].samples);
   }

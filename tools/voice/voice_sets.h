@@ -4,8 +4,8 @@
 
 namespace orthonav::bench {
 
-/// Voices of espeak-ng: an accent and a variant. The sets share accents; no variant that is
-/// measured is in another of them.
+/// Voices of espeak-ng: an accent and a variant. The sets share accents; a variant that is measured
+/// is in no other set.
 inline constexpr std::string_view kTestVoices[] = {
     "en-us",     "en-us+f2", "gmw/en+m3", "en-gb-x-rp+f1", "en-gb-scotland+m1",
     "en-029+f3", "en-us+m7"};

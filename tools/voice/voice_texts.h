@@ -39,8 +39,8 @@ inline constexpr std::string_view kTuningTalk[] = {
     "That one is mine.",
 };
 
-/// What is nearly the wake word and nearly a command: weights were found with these beside the
-/// first.
+/// Phrases that resemble the wake word and a command: the weights were trained with these as well
+/// as with the first set.
 inline constexpr std::string_view kNearWakeWord[] = {
     "author",   "authors",     "often", "also",       "order",  "auto",      "although",
     "or so",    "or the",      "other", "ought to",   "others", "off the",   "Arthur",

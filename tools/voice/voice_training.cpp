@@ -1,7 +1,7 @@
-// What adapts the acoustic model to commands in noise (tools/voice/train): says the commands in
-// voices that are measured nowhere, in noises of all sorts, and writes what the recogniser hears of
-// them as sphinxtrain reads it; afterwards makes data/voice_means.bin and
-// data/voice_mixtures.bin of what sphinxtrain found.
+// Adapts the acoustic model to commands in noise (tools/voice/train): speaks the commands in voices
+// that are used in no measurement, in noises of all sorts, and writes what the recogniser derives
+// from them in sphinxtrain's format; afterwards turns sphinxtrain's results into
+// data/voice_means.bin and data/voice_mixtures.bin.
 #include <pocketsphinx.h>
 #include <sphinxbase/err.h>
 
@@ -54,7 +54,7 @@ void write_file(const std::string& path, const std::string& content) {
   }
 }
 
-/// Which way a phrase was said, by the model itself.
+/// Finds, with the model itself, which pronunciation of a phrase was used.
 class Aligner {
  public:
   explicit Aligner(const Options& options) {
@@ -119,7 +119,7 @@ class Aligner {
   std::unique_ptr<ps_decoder_t, Free> decoder_;
 };
 
-/// Microphones brighten and dull a voice.
+/// Microphones make a voice brighter or duller.
 void tilt(std::vector<std::int16_t>& samples, double fraction) {
   double before = 0.0;
   for (std::int16_t& sample : samples) {
@@ -129,8 +129,8 @@ void tilt(std::vector<std::int16_t>& samples, double fraction) {
   }
 }
 
-/// A phrase in a noise, as the recogniser gets it; nothing where the segmenter finds another number
-/// of phrases than one.
+/// A phrase in noise, as the recogniser receives it; nothing unless the segmenter finds exactly one
+/// phrase.
 std::vector<std::int16_t> heard(const std::string& phrase, const std::string& voice,
                                 Random& random) {
   const int words_a_minute = static_cast<int>(random.uniform(115.0, 210.0));
@@ -204,7 +204,7 @@ MixtureWeights own_mixture_weights() {
   return std::move(*own);
 }
 
-/// One stream of a senone.
+/// The weights of one stream of a senone.
 std::vector<double> fractions_of(const MixtureWeights& weights, int stream, int senone) {
   std::vector<double> fractions;
   for (int density = 0; density < weights.densities; ++density) {
@@ -218,13 +218,13 @@ std::vector<double> fractions_of(const MixtureWeights& weights, int stream, int 
   return fractions;
 }
 
-/// The numbers before the shares in a file of sphinxtrain's.
+/// The numbers that precede the weights in a file of sphinxtrain's.
 std::array<std::int32_t, 4> sphinx_shape_of(const MixtureWeights& weights) {
   return {weights.senones, weights.streams, weights.densities,
           static_cast<std::int32_t>(weights.values.size())};
 }
 
-/// As sphinxtrain has them: shares instead of 8 bits of their logarithms, senones first.
+/// In sphinxtrain's format: fractions instead of 8 bits of their logarithms, senones first.
 void write_mixture_weights(const std::string& path) {
   const MixtureWeights own = own_mixture_weights();
   std::string out = sphinx_file_start();
@@ -241,10 +241,10 @@ void write_mixture_weights(const std::string& path) {
   write_file(path, out);
 }
 
-/// sphinxtrain moves the shares of a senone that nothing was said in by half of this.
+/// sphinxtrain moves the weights of a senone that nothing was said in by half of this.
 constexpr double kUntouched = 1e-3;
 
-/// Of what sphinxtrain found: the shares, or counts of them, in the same order.
+/// From sphinxtrain's results: the weights, or counts of them, in the same order.
 void write_mixture_change(const Options& options) {
   const MixtureWeights own = own_mixture_weights();
   const std::string content = model_file(options.adapted_mixture);

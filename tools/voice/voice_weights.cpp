@@ -1,11 +1,9 @@
-// What the odds of a command are weighed with (hal/voice/command_weights.h): says commands and
-// other things in noise, in the voices and texts that thresholds are chosen on, and separates what
-// the recogniser tells of them by logistic regression. A quarter of an hour of one core.
+// Trains the weights of a command's evidence (hal/voice/command_weights.h): speaks commands and
+// other sentences in noise, in the voices and texts kept for tuning, and fits a logistic regression
+// to what the recogniser makes of them. Takes one core a quarter of an hour.
 #include <algorithm>
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <cstdio>
-#include <Eigen/Dense>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -14,6 +12,7 @@
 #include "hal/voice/command_evidence.h"
 #include "hal/voice/command_spotter.h"
 #include "tests/support/noisy_speech.h"
+#include "tools/voice/evidence_regression.h"
 #include "tools/voice/phrase_in_room.h"
 #include "tools/voice/voice_sets.h"
 #include "tools/voice/voice_texts.h"
@@ -24,10 +23,10 @@ namespace {
 using namespace orthonav::voice;
 using namespace orthonav::test;
 
-/// What was said once, and what was made of it.
+/// Something said once, and the evidence that the recogniser found in it.
 struct Example {
   CommandEvidence evidence;
-  bool command = false;  ///< it was said, and heard as what it is
+  bool command = false;  ///< a command was said, and that command was heard
   double weight = 1.0;
 };
 
@@ -40,9 +39,9 @@ struct Examples {
 struct Options {
   std::string out;
   int every = 1;
-  /// Of what is said beside and decoded as a command, so much may pass.
+  /// Of the sayings that are no command, the fraction that may pass for one.
   double false_fraction = 0.0045;
-  /// Single words can't be told from others that well; what passes of these is reported.
+  /// The same for single words, which are harder to tell from commands.
   double false_fraction_alone = 0.02;
 };
 
@@ -91,7 +90,7 @@ class Listener {
 };
 
 void add_commands(Listener& listener, const Options& options, Examples& examples) {
-  int turn = 0;
+  int count = 0;
   for (const std::string_view voice : kTuningVoices) {
     for (const int speed : {120, 160, 200}) {
       for (const std::string& command : engine::spoken_commands()) {
@@ -101,7 +100,7 @@ void add_commands(Listener& listener, const Options& options, Examples& examples
               if (snr_db == 60.0 && noise != Noise::kWhite) {
                 continue;
               }
-              if (turn++ % options.every != 0) {
+              if (count++ % options.every != 0) {
                 continue;
               }
               ++examples.commands_said;
@@ -121,7 +120,7 @@ void add_commands(Listener& listener, const Options& options, Examples& examples
   }
 }
 
-/// Every run of up to five words of the sentences, and these whole.
+/// Every sentence, and every run of up to five of its words.
 std::vector<std::string> fragments() {
   std::set<std::string> found;
   for (const std::string_view sentence : kTuningTalk) {
@@ -192,14 +191,14 @@ void add_others(Listener& listener, const Options& options, Examples& examples) 
   for (std::string& text : random_words(random)) {
     texts.emplace_back(std::move(text), 1.0);
   }
-  // What nobody would tell from a command weighs little.
+  // What nobody could tell from a command weighs little.
   for (std::string& text : near_phrases()) {
     texts.emplace_back(std::move(text), 0.3);
   }
-  std::size_t turn = 0;
+  std::size_t count = 0;
   for (const auto& [text, weight] : texts) {
     for (int again = 0; again < 2; ++again) {
-      const std::size_t at = turn++;
+      const std::size_t at = count++;
       const std::string_view variant = kTrainingVariants[at % std::size(kTrainingVariants)];
       const std::string_view accent = kTrainingAccents[at % std::size(kTrainingAccents)];
       const double snr_db = random.uniform() < 0.2 ? 60.0 : random.uniform(8.0, 24.0);
@@ -221,75 +220,35 @@ void add_others(Listener& listener, const Options& options, Examples& examples) 
   }
 }
 
-using Weights = Eigen::Matrix<double, std::tuple_size_v<FeatureVector>, 1>;
-
-/// Logistic regression by Newton's method, with a normal prior of variance 2 on each weight but the
-/// constant.
-Weights fit(const std::vector<Example>& examples) {
-  constexpr double kPrior = 0.5;
-  Weights weights = Weights::Zero();
-  for (int step = 0; step < 50; ++step) {
-    Weights gradient = kPrior * weights;
-    Eigen::Matrix<double, Weights::RowsAtCompileTime, Weights::RowsAtCompileTime> hessian =
-        kPrior * decltype(hessian)::Identity();
-    gradient[kWeighedCommands.size()] = 0.0;
-    hessian(kWeighedCommands.size(), kWeighedCommands.size()) = 1e-9;
-    for (const Example& example : examples) {
-      const FeatureVector features = features_of(example.evidence);
-      const Eigen::Map<const Weights> x(features.data());
-      const double p = 1.0 / (1.0 + std::exp(-weights.dot(x)));
-      gradient += example.weight * (p - (example.command ? 1.0 : 0.0)) * x;
-      hessian += example.weight * p * (1.0 - p) * x * x.transpose();
-    }
-    const Weights change = hessian.ldlt().solve(gradient);
-    weights -= change;
-    if (change.norm() < 1e-9) {
-      break;
-    }
-  }
-  return weights;
+std::string text_of(double weight) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3f", weight);
+  return text;
 }
 
-/// Moves the constant to where the line is drawn, and says what passes there.
-void draw_line(const std::vector<Example>& examples, int commands_said, int others_said,
-               double fraction, const char* name, Weights& weights) {
-  std::vector<double> others;
-  const auto odds = [&](const Example& example) {
-    const FeatureVector features = features_of(example.evidence);
-    return weights.dot(Eigen::Map<const Weights>(features.data()));
-  };
-  for (const Example& example : examples) {
-    if (!example.command && example.weight == 1.0) {
-      others.push_back(odds(example));
-    }
+std::string shared_row(const Weights& weights) {
+  std::string text = "    {";
+  for (std::size_t i = weights.size() - kEvidenceFeatures; i < weights.size(); ++i) {
+    text += text_of(weights[i]) + ",";
   }
-  std::sort(others.begin(), others.end(), std::greater<>());
-  const auto pass = static_cast<std::size_t>(fraction * others_said);
-  const double line = others.size() > pass ? std::max(others[pass], 0.0) : 0.0;
-  int heard = 0, near = 0, nears = 0;
-  for (const Example& example : examples) {
-    heard += example.command && odds(example) > line ? 1 : 0;
-    if (example.weight == 1.0) {
-      continue;
-    }
-    ++nears;
-    near += odds(example) > line ? 1 : 0;
-  }
-  weights[kWeighedCommands.size()] -= line;
-  std::printf(
-      "%s: line at %.2f, %zu of %d other sayings pass, %d of %d near ones, %.1f %% of the "
-      "commands\n",
-      name, line, pass, others_said, near, nears, 100.0 * heard / commands_said);
+  return text + "},\n";
 }
 
-std::string table(const char* name, const Weights& weights) {
-  std::string text = "inline constexpr FeatureVector " + std::string(name) + " = {\n    ";
-  for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    char number[32];
-    std::snprintf(number, sizeof(number), "%.3f", weights[i]);
-    text += (i == 0 ? "" : i == 11 ? ",\n    " : ", ") + std::string(number);
+/// The file hal/voice/command_weights.h, which clang-format still has to lay out.
+std::string header(const std::vector<std::string>& commands, const Weights& after_wake_word,
+                   const Weights& alone) {
+  std::string text =
+      "#pragma once\n\n#include \"hal/voice/command_evidence.h\"\n\nnamespace orthonav::voice {\n\n"
+      "// Made by tools/voice/voice_weights.cpp, the shared weights in the order of "
+      "features_of().\n"
+      "inline constexpr CommandWeight kCommandWeights[] = {\n";
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    text += "    {\"" + commands[i] + "\", " + text_of(after_wake_word[i]) + ", " +
+            text_of(alone[i]) + "},\n";
   }
-  return text + "};\n";
+  return text + "};\ninline constexpr EvidenceWeights kTrainedWeights = {\n    kCommandWeights,\n" +
+         shared_row(after_wake_word) + shared_row(alone) +
+         "};\n\n}  // namespace orthonav::voice\n";
 }
 
 int run(const Options& options) {
@@ -297,25 +256,25 @@ int run(const Options& options) {
   Examples examples;
   add_commands(listener, options, examples);
   add_others(listener, options, examples);
-  std::string header =
-      "#pragma once\n\n#include \"hal/voice/command_evidence.h\"\n\nnamespace "
-      "orthonav::voice {\n\n// Made by tools/voice/voice_weights.cpp, in the order of "
-      "features_of().\n";
-  for (const bool wake : {true, false}) {
-    std::vector<Example> of_kind;
+  const std::vector<std::string> commands = engine::spoken_commands();
+  const auto train = [&](bool wake, double false_fraction) {
+    std::vector<Row> rows;
     for (const Example& example : examples.all) {
       if (example.evidence.wake.has_value() == wake) {
-        of_kind.push_back(example);
+        rows.push_back({inputs_of(example.evidence, commands), example.command, example.weight});
       }
     }
-    Weights weights = fit(of_kind);
-    draw_line(of_kind, examples.commands_said / 2, examples.others_said,
-              wake ? options.false_fraction : options.false_fraction_alone,
-              wake ? "after the wake word" : "alone", weights);
-    header += table(wake ? "kWeightsAfterWakeWord" : "kWeightsAlone", weights);
-  }
-  header += "\n}  // namespace orthonav::voice\n";
-  if (!(std::ofstream(options.out) << header)) {
+    Weights weights = fit(rows, commands.size());
+    std::printf("%s, of %d commands and %d other sayings:\n",
+                wake ? "after the wake word" : "alone", examples.commands_said / 2,
+                examples.others_said);
+    draw_line(rows, static_cast<std::size_t>(false_fraction * examples.others_said),
+              commands.size(), weights);
+    return weights;
+  };
+  const Weights after_wake_word = train(true, options.false_fraction);
+  const Weights alone = train(false, options.false_fraction_alone);
+  if (!(std::ofstream(options.out) << header(commands, after_wake_word, alone))) {
     give_up("can't write " + options.out);
   }
   return 0;
@@ -326,10 +285,11 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   orthonav::bench::Options options;
-  CLI::App app("Finds the weights that the odds of a command are made of");
-  app.add_option("--out", options.out, "hal/voice/command_weights.h")->required();
-  app.add_option("--every", options.every, "takes one saying of so many")->capture_default_str();
-  app.add_option("--false-share", options.false_fraction, "of other sayings that pass")
+  CLI::App app("Trains the weights of the evidence for a spoken command");
+  app.add_option("--out", options.out, "the header to write: hal/voice/command_weights.h")
+      ->required();
+  app.add_option("--every", options.every, "uses every n-th saying only")->capture_default_str();
+  app.add_option("--false-share", options.false_fraction, "fraction of other sayings that may pass")
       ->capture_default_str();
   app.add_option("--false-share-alone", options.false_fraction_alone, "the same, of single words")
       ->capture_default_str();

@@ -9,11 +9,11 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <thread>
 
 #include "hal/fake/scripted.h"
 #include "tests/support/event_file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::desktop {
 namespace {
@@ -186,23 +186,20 @@ TEST(EvdevClicker, TakesUpADeviceThatIsPluggedIn) {
   ASSERT_EQ(libevdev_uinput_create_from_device(description, LIBEVDEV_UINPUT_OPEN_MANAGED, &device),
             0);
   std::vector<ClickerEvent> events;
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-  const Timestamp until(std::chrono::hours(1));
-  while ((*clicker)->device_name().empty() && std::chrono::steady_clock::now() < deadline) {
-    (void)(*clicker)->poll(until, events);
-  }
+  const auto polled_until = [&](const auto& done) {
+    return orthonav::test::wait_until([&] {
+      (void)(*clicker)->poll(Timestamp(std::chrono::hours(1)), events);
+      return done();
+    });
+  };
+  EXPECT_TRUE(polled_until([&] { return !(*clicker)->device_name().empty(); }));
   EXPECT_EQ((*clicker)->device_name(), options.device);
   libevdev_uinput_write_event(device, EV_KEY, KEY_VOLUMEUP, 1);
   libevdev_uinput_write_event(device, EV_SYN, SYN_REPORT, 0);
-  while (events.empty() && std::chrono::steady_clock::now() < deadline) {
-    (void)(*clicker)->poll(until, events);
-  }
+  EXPECT_TRUE(polled_until([&] { return !events.empty(); }));
   libevdev_uinput_destroy(device);
   libevdev_free(description);
-  while (events.size() < 2 && std::chrono::steady_clock::now() < deadline) {
-    (void)(*clicker)->poll(until, events);
-  }
-  ASSERT_GE(events.size(), 2u);
+  ASSERT_TRUE(polled_until([&] { return events.size() >= 2; }));
   EXPECT_EQ(events[0].action, kPress);
   EXPECT_EQ(events[1].action, kRelease);
 }

@@ -133,15 +133,17 @@ int pairs_until(Hl2ssHeadset& headset,
   StereoFrame frame;
   std::vector<Phrase> phrases;
   int pairs = 0;
-  const auto end = std::chrono::steady_clock::now() + orthonav::test::kLongest;
-  while (!enough(pairs, headset.statistics()) && std::chrono::steady_clock::now() < end) {
+  const bool came = orthonav::test::wait_until([&] {
+    if (enough(pairs, headset.statistics())) {
+      return true;
+    }
     const auto next = headset.cameras().next(frame);
     pairs += next && *next == Next::kFrame ? 1 : 0;
     EXPECT_TRUE(headset.voice().poll(headset.clock().now(), phrases).ok());
     (void)headset.head().world_from_rig(headset.clock().now());
-    std::this_thread::sleep_for(std::chrono::microseconds(500));
-  }
-  EXPECT_LT(std::chrono::steady_clock::now(), end) << "too little came";
+    return false;
+  });
+  EXPECT_TRUE(came) << "too little came";
   return pairs;
 }
 

@@ -1,7 +1,5 @@
 #include "tests/hal/hl2ss/served_room.h"
 
-#include <thread>
-
 #include "hal/api/as_headset.h"
 
 namespace orthonav::test {
@@ -28,18 +26,16 @@ std::unique_ptr<hl2ss::Hl2ssHeadset> ServedRoom::connect(hl2ss::VideoProfile pro
 }
 
 Next next_pair(Headset& headset, StereoFrame& frame, int* errors) {
-  const auto deadline = std::chrono::steady_clock::now() + kLongest;
-  while (std::chrono::steady_clock::now() < deadline) {
+  Next came = Next::kNone;
+  static_cast<void>(wait_until([&] {
     const auto next = headset.cameras().next(frame);
     if (!next && errors) {
       ++*errors;
     }
-    if (next && *next != Next::kNone) {
-      return *next;
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
-  }
-  return Next::kNone;
+    came = next ? *next : Next::kNone;
+    return came != Next::kNone;
+  }));
+  return came;
 }
 
 }  // namespace orthonav::test

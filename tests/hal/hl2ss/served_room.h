@@ -9,11 +9,9 @@
 #include "hal/hl2ss/server/server.h"
 #include "hal/sim/sim_headset.h"
 #include "tests/support/bare_room.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::test {
-
-/// How long a test waits for what must come, before it fails.
-inline constexpr auto kLongest = std::chrono::seconds(20);
 
 /// The server over a simulated room on free ports.
 class ServedRoom {
@@ -30,8 +28,8 @@ class ServedRoom {
   std::unique_ptr<hl2ss::Server> server_;
 };
 
-/// Asks until a pair or the end comes; kNone only after `kLongest`. Errors are counted and passed
-/// over.
+/// Asks until a pair or the end comes; kNone only after `kLongestWait`. Errors are counted and
+/// passed over.
 Next next_pair(Headset& headset, StereoFrame& frame, int* errors = nullptr);
 
 }  // namespace orthonav::test

@@ -11,7 +11,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -21,6 +20,7 @@
 #include "tests/render/silent_validation.h"
 #include "tests/support/openxr_runtime/runtime_double.h"
 #include "tests/support/scripted_session.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::test {
 
@@ -108,18 +108,9 @@ class RuntimeTest : public ::testing::Test {
     return drawn_.size();
   }
 
-  /// Polls until it is so; false after half a minute.
-  static bool eventually(const std::function<bool()>& so) {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (!so()) {
-      if (std::chrono::steady_clock::now() > until) {
-        return false;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
-  }
-  /// So many frames more were ended.
+  /// True once it is so; false when it takes too long.
+  static bool eventually(const std::function<bool()>& so) { return wait_until(so); }
+  /// True once that many more frames were ended.
   static bool frames_pass(std::int64_t count) {
     const std::int64_t until = runtime().ended_frames() + count;
     return eventually([&] { return runtime().ended_frames() >= until; });

@@ -34,9 +34,9 @@ TEST(MapDrift, GrowsWithTheRootOfTime) {
   constexpr int kSeeds = 2000;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const MapDrift drift(Random(seed), 0.001, 0.0, 100.0);
-    EXPECT_EQ(drift.at(0.0).shift_m, Vec3{});
-    early += drift.at(25.0).shift_m.squared_norm();
-    late += drift.at(100.0).shift_m.squared_norm();
+    EXPECT_EQ(drift.at(0.0).translation_m, Vec3{});
+    early += drift.at(25.0).translation_m.squared_norm();
+    late += drift.at(100.0).translation_m.squared_norm();
   }
   // Five standard errors of a variance of 6,000 draws: 9 %.
   EXPECT_NEAR(early / kSeeds / 3, 25e-6, 2.3e-6);
@@ -45,8 +45,8 @@ TEST(MapDrift, GrowsWithTheRootOfTime) {
 
 TEST(MapDrift, StaysReadablePastItsEnd) {
   const MapDrift drift(Random(1), 0.001, 0.001, 2.0);
-  EXPECT_TRUE(drift.at(1e9).shift_m.is_finite());
-  EXPECT_EQ(drift.at(-5.0).shift_m, Vec3{});
+  EXPECT_TRUE(drift.at(1e9).translation_m.is_finite());
+  EXPECT_EQ(drift.at(-5.0).translation_m, Vec3{});
 }
 
 }  // namespace

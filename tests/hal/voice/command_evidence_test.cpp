@@ -1,8 +1,13 @@
 #include "hal/voice/command_evidence.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "engine/session/spoken_commands.h"
+#include "hal/voice/command_weights.h"
 
 namespace orthonav::voice {
 namespace {
@@ -11,6 +16,8 @@ namespace {
 CommandEvidence likely(const std::string& command = "save") {
   return {command, 0.6, 50, RecognizedWord{"ortho", 50, 0.4}, -10.0, 40.0};
 }
+
+double log_odds(const CommandEvidence& evidence) { return log_odds(evidence, kTrainedWeights); }
 
 TEST(CommandEvidence, TakesTheWakeWordAndTheCommandApart) {
   const Recognition heard{{{"ortho", 40, 0.5}, {"move", 20, 1.0}, {"rod", 30, -0.5}}, -7.0};
@@ -39,7 +46,7 @@ TEST(CommandEvidence, IsNoneWhereMoreWasSaid) {
 }
 
 TEST(CommandEvidence, CountsWhereItIsGoodAndNotWhereItIsBad) {
-  for (const char* command : kWeighedCommands) {
+  for (const std::string& command : engine::spoken_commands()) {
     EXPECT_GT(log_odds(likely(command)), 0.0) << command;
     CommandEvidence poor = likely(command);
     poor.evidence = -2.5;
@@ -79,12 +86,35 @@ TEST(CommandEvidence, OfAHurriedWakeWordSaysLess) {
   EXPECT_LT(log_odds(hurried), log_odds(likely()));
 }
 
+TEST(CommandEvidence, WasTrainedForEveryCommandOfTheWorkflow) {
+  std::vector<std::string> trained;
+  for (const CommandWeight& row : kTrainedWeights.commands) {
+    trained.emplace_back(row.command);
+  }
+  EXPECT_THAT(trained, ::testing::UnorderedElementsAreArray(engine::spoken_commands()))
+      << "run tools/voice/train";
+}
+
 TEST(CommandEvidence, OfAnUnweighedCommandIsTakenForTheWorst) {
   double worst = 1e9;
-  for (const char* command : kWeighedCommands) {
+  for (const std::string& command : engine::spoken_commands()) {
     worst = std::min(worst, log_odds(likely(command)));
   }
   EXPECT_NEAR(log_odds(likely("zoom")), worst, 1e-9);
+}
+
+TEST(CommandEvidence, IsWeighedByTheRowOfItsCommand) {
+  const std::array<CommandWeight, 2> rows = {{{"save", 2.0, -3.0}, {"zoom", 5.0, 7.0}}};
+  const EvidenceWeights weights = {rows, {1.0}, {-1.0}};
+  CommandEvidence evidence = likely("zoom");
+  EXPECT_EQ(log_odds(evidence, weights), 6.0);
+  EXPECT_EQ(log_odds(likely("start"), weights), 3.0) << "the lowest row's";
+  evidence.wake.reset();
+  EXPECT_EQ(log_odds(evidence, weights), 6.0);
+}
+
+TEST(CommandEvidence, WithoutAnyRowIsWeighedByWhatIsShared) {
+  EXPECT_EQ(log_odds(likely(), EvidenceWeights{{}, {1.5}, {}}), 1.5);
 }
 
 }  // namespace

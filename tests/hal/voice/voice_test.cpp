@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 
@@ -12,6 +11,7 @@
 #include "hal/voice/spotted_voice.h"
 #include "tests/support/noisy_speech.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::voice {
 namespace {
@@ -270,7 +270,7 @@ TEST(WavMicrophone, RefusesWhatIsNoSoundFile) {
   EXPECT_FALSE(desktop::open_wav_microphone(folder.file("absent.wav"), clock).ok());
 }
 
-/// What a voice says of a sound file while a clock goes on in steps.
+/// The phrases that a voice hears in a sound file while a clock advances in steps.
 std::vector<Phrase> phrases_of(const std::string& uri, double length_s, bool on_thread = false) {
   fake::ManualClock clock;
   std::unique_ptr<Voice> voice;
@@ -290,10 +290,11 @@ std::vector<Phrase> phrases_of(const std::string& uri, double length_s, bool on_
     clock.advance(std::chrono::milliseconds(33));
     EXPECT_TRUE(voice->poll(clock.now(), phrases).ok());
   }
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (on_thread && phrases.size() < 2 && std::chrono::steady_clock::now() < deadline) {
-    EXPECT_TRUE(voice->poll(clock.now(), phrases).ok());
-    ::usleep(1000);
+  if (on_thread) {
+    EXPECT_TRUE(orthonav::test::wait_until([&] {
+      EXPECT_TRUE(voice->poll(clock.now(), phrases).ok());
+      return phrases.size() >= 2;
+    }));
   }
   return phrases;
 }

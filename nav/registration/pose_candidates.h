@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nav/registration/registration.h"
+#include "nav/registration/surface_fit.h"
+
+namespace orthonav::nav {
+
+/// A pose that moves no target farther than this is the same pose.
+inline constexpr double kSameAtTargets_m = 0.002;
+/// Points that scatter more than a tracker's were stroked by a light hand, or over soft tissue.
+/// Then their mean height above the bone is fitted as well.
+inline constexpr double kLooseHand_m = 0.0005;
+
+/// Digitized points for the search.
+struct Cloud {
+  std::vector<Vec3> all_m;  ///< about the centre, in the order of time
+  std::vector<Vec3> few_m;  ///< of these, enough to tell candidates apart
+  Vec3 centre_m;            ///< in World
+};
+[[nodiscard]] Cloud cloud_of(std::span<const Point<World>> points);
+
+/// How far apart two poses put the farthest of the targets.
+[[nodiscard]] double apart_m(const Transform<World, Vertebra>& a,
+                             const Transform<World, Vertebra>& b,
+                             std::span<const Point<Vertebra>> targets);
+
+/// Whether a mean height of the tip above the bone can be true: a tip does not dive into bone.
+[[nodiscard]] bool is_credible_standoff(double standoff_m);
+
+struct Candidate {
+  SurfaceFit fit;
+  double cost_m2 = 0.0;  ///< mean squared distance, truncated at `PoseCandidates::width_m`
+};
+struct PoseCandidates {
+  std::vector<Candidate> best_first;
+  double width_m = 0.0;  ///< where squared distances are truncated, by the noise of the best fit
+};
+
+/// Every pose that the points may mean, each fitted to `few_m`. Where targets are given, the search
+/// goes on until one candidate is another pose at the targets than the first.
+[[nodiscard]] PoseCandidates find_candidates(const VertebraModel& model, const Cloud& cloud,
+                                             std::span<const Point<Vertebra>> targets,
+                                             double tip_radius_m);
+
+}  // namespace orthonav::nav

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nav/tracking/full_image_search.h"
+#include "nav/tracking/pair_detector.h"
+#include "nav/tracking/pose_filter.h"
+#include "nav/tracking/tag_matching.h"
+#include "nav/tracking/tool_follower.h"
+#include "nav/tracking/tool_tracker.h"
+
+namespace orthonav::nav {
+
+/// What `create_photometric_tracker` makes. A tool that was just seen is followed in the pixels of
+/// both images. A lost one is looked for where it was last seen, and in the whole image while the
+/// next pair is awaited.
+class PhotometricTracker final : public ToolTracker {
+ public:
+  PhotometricTracker(const StereoCalibration& calibration, std::vector<ToolGeometry> tools,
+                     std::vector<ToolFollower> followers, const TrackerOptions& options,
+                     std::unique_ptr<PairDetector> near, std::unique_ptr<FullImageSearch> whole);
+
+  std::span<const ToolState> track(const StereoFrame& frame) override;
+
+  [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
+  [[nodiscard]] std::optional<StereoAlignment> alignment() const override;
+  [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override;
+
+ private:
+  struct Trail {
+    ToolFollower follower;
+    PoseFilter filter;
+    Transform<World, Marker> last_seen;
+    std::optional<Timestamp> last_time;
+    TagSizeEstimator size;
+  };
+
+  /// Where the tools were in another map says nothing about where they are in this one.
+  void forget_map();
+  /// Once it is certain that the cameras are not aligned as reported, poses use their true
+  /// alignment.
+  void align();
+  /// A tag printed at the wrong size looks like cameras that are turned towards each other.
+  [[nodiscard]] bool may_be_of_wrong_size() const;
+  [[nodiscard]] bool is_measured(std::size_t i) const;
+  [[nodiscard]] bool is_turn() const { return pairs_ % options_.full_search_interval == 0; }
+  [[nodiscard]] bool any_recent(Timestamp time) const;
+  /// The length that `kFewestDoubtPx` covers at the tool's distance.
+  [[nodiscard]] double pixel_m(const Transform<Rig, Marker>& pose) const;
+
+  // Of tool `i`, in a frame whose `world_from_rig` is known. True: its pose was measured.
+  bool follow(std::size_t i, const StereoFrame& frame);
+  /// Fits the pose from `expected` on. `by_both`: it counts only when both cameras agree on it.
+  bool take(std::size_t i, const StereoFrame& frame, const Transform<Rig, Marker>& expected,
+            double doubt_m, bool by_both = false);
+  bool find(std::size_t i, const StereoFrame& frame);
+  bool find(std::size_t i, const MarkerDefinition& marker,
+            const Transform<Tag, Marker>& tag_from_marker, const StereoFrame& frame);
+  bool find_by_both(std::size_t i, const MarkerDefinition& marker,
+                    const Transform<Tag, Marker>& tag_from_marker, const TagMatch& match,
+                    const StereoFrame& frame);
+  /// Its corners were found in one image only. The other image may still show enough of the tag to
+  /// tell which of the two possible poses is right.
+  bool find_by_one(std::size_t i, const MarkerDefinition& marker,
+                   const Transform<Tag, Marker>& tag_from_marker, const TagMatch& match,
+                   const StereoFrame& frame);
+  void predict(std::size_t i, const StereoFrame& frame);
+
+  void look_for_lost(const StereoFrame& frame, bool others_tracked);
+  void add_boxes(std::size_t i, const StereoFrame& frame);
+  void add_boxes(std::size_t i, const MarkerDefinition& marker,
+                 const Transform<Marker, Tag>& marker_from_tag, const StereoFrame& frame);
+
+  TagGeometry geometry_;
+  PhotometricSolver solver_;
+  TagSearch search_;
+  std::vector<ToolGeometry> tools_;
+  TrackerOptions options_;
+  std::unique_ptr<PairDetector> near_;
+  std::unique_ptr<FullImageSearch> full_search_;
+  std::vector<Trail> trails_;
+  std::vector<ToolState> states_;
+  AlignmentEstimator aligning_;
+  std::optional<StereoAlignment> applied_;
+  std::int64_t pairs_ = -1;
+  std::int64_t map_epoch_ = 0;
+};
+
+}  // namespace orthonav::nav
