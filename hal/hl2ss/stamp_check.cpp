@@ -10,7 +10,8 @@ namespace {
 /// Stamps tremble by 2 ms or so; a head that turns by 30 degrees a second puts a pose of 10 ms
 /// earlier 2 mm off at a pointer's tip.
 constexpr double kMaxOffS = 0.010;
-/// So many images that agree with one another and not with the past: a clock was set.
+/// So many images more that agree with one another than that do not, and none with the past: a
+/// clock was set, or the image believed first was the wrong one.
 constexpr int kBelievedAfter = 20;
 constexpr std::array<double, 2> kTickS = {1e-9, 1e-7};
 
@@ -30,10 +31,8 @@ Status StampCheck::check(Timestamp stamp, std::uint64_t sensor_ticks) {
   const Moment next{stamp, sensor_ticks};
   const double off_s = trusted_ ? ahead_s(*trusted_, next) : 0.0;
   if (std::abs(off_s) > kMaxOffS) {
-    const bool agrees = doubted_ && std::abs(ahead_s(*doubted_, next)) <= kMaxOffS;
-    doubted_in_a_row_ = agrees ? doubted_in_a_row_ + 1 : 1;
-    doubted_ = next;
-    if (doubted_in_a_row_ < kBelievedAfter) {
+    doubt(next);
+    if (votes_ < kBelievedAfter) {
       std::array<char, 120> text{};
       std::snprintf(text.data(), text.size(),
                     "stamp %.1f ms %s where the sensor's clock puts it, limit %.1f ms",
@@ -43,8 +42,19 @@ Status StampCheck::check(Timestamp stamp, std::uint64_t sensor_ticks) {
   }
   trusted_ = next;
   doubted_.reset();
-  doubted_in_a_row_ = 0;
+  votes_ = 0;
   return {};
+}
+
+/// The majority vote of Boyer and Moore (1981), which single wrong stamps in between only delay.
+void StampCheck::doubt(const Moment& next) {
+  const bool agrees = doubted_ && std::abs(ahead_s(*doubted_, next)) <= kMaxOffS;
+  if (agrees || votes_ == 0) {
+    doubted_ = next;
+    ++votes_;
+  } else {
+    --votes_;
+  }
 }
 
 }  // namespace orthonav::hl2ss

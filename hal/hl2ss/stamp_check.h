@@ -16,8 +16,8 @@ namespace orthonav::hl2ss {
 /// either is taken.
 class StampCheck {
  public:
-  /// Of the next image of one camera. An Error says why its time can't be used; images that go on
-  /// contradicting the past and agree with one another are believed from the twentieth on.
+  /// Of the next image of one camera. An Error says why its time can't be used; where images go on
+  /// contradicting the past, most of them agreeing with one another, those are believed after 20.
   Status check(Timestamp stamp, std::uint64_t sensor_ticks);
   /// A connection is new, and so may be the clocks.
   void restart() { *this = {}; }
@@ -29,10 +29,11 @@ class StampCheck {
   };
   /// By how much the stamp went further than the sensor's own clock.
   [[nodiscard]] static double ahead_s(const Moment& from, const Moment& to);
+  void doubt(const Moment& next);
 
   std::optional<Moment> trusted_;
   std::optional<Moment> doubted_;
-  int doubted_in_a_row_ = 0;
+  int votes_ = 0;  ///< for the moment doubted
 };
 
 }  // namespace orthonav::hl2ss

@@ -59,6 +59,18 @@ TEST(StampCheck, BelievesAClockThatWasSet) {
   EXPECT_EQ(refused, 19);
 }
 
+/// Nothing tells that the first image of all is the wrong one; and wrong ones go on between.
+TEST(StampCheck, FindsItsWayFromAWrongBeginning) {
+  StampCheck stamps;
+  EXPECT_TRUE(check(stamps, 0, seconds(-3)));
+  int refused = 0;
+  for (int n = 1; n <= 100; ++n) {
+    refused += check(stamps, n, n % 3 == 0 ? milliseconds(100 + n) : milliseconds(0)) ? 0 : 1;
+  }
+  EXPECT_LT(refused, 60 + 40 / 3 + 2) << "two seconds of all, then every third";
+  EXPECT_TRUE(check(stamps, 101));
+}
+
 TEST(StampCheck, SurvivesTicksFromNowhere) {
   StampCheck stamps;
   ASSERT_TRUE(check(stamps, 0));
