@@ -88,6 +88,9 @@ Status ImageTar::index() {
   if (code) {
     return file_error(path_, "cannot be read: " + code.message());
   }
+  if (file_size < kTarBlockBytes) {
+    return no_whole_image(file_size);  // libarchive knows no archive in so few bytes
+  }
   const ArchiveReader reader(archive_read_new());
   archive_read_support_format_tar(reader.get());
   if (archive_read_open_filename(reader.get(), path_.c_str(), 64 * 1024) != ARCHIVE_OK) {
@@ -210,11 +213,13 @@ std::uint64_t ImageTar::end_of(const ImageMember& member) const {
   return in_blocks(member.pixels_offset + image_bytes());
 }
 
+Error ImageTar::no_whole_image(std::uint64_t file_size) const {
+  return file_error(path_, "holds no whole image: is cut off at byte " + std::to_string(file_size));
+}
+
 Status ImageTar::check_end(std::uint64_t file_size) {
   if (members_.empty()) {
-    return file_error(path_, cut_.empty() ? "holds no image"
-                                          : "holds no whole image: is cut off at byte " +
-                                                std::to_string(file_size));
+    return cut_.empty() ? file_error(path_, "holds no image") : no_whole_image(file_size);
   }
   if (!cut_.empty()) {
     return {};

@@ -85,6 +85,7 @@ class ImageTar {
   [[nodiscard]] std::size_t image_bytes() const;
   template <class Value>
   Status read_pixels(const ImageMember& member, PlainImage<Value>& image);
+  [[nodiscard]] Error no_whole_image(std::uint64_t file_size) const;
   Status check_end(std::uint64_t file_size);
   bool read_at(std::uint64_t offset, void* bytes, std::size_t count);
 };

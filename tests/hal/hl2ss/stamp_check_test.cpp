@@ -42,9 +42,13 @@ TEST(StampCheck, RefusesALeapAloneAndSaysWhere) {
   }
   StampCheck stamps;
   EXPECT_TRUE(check(stamps, 0));
-  EXPECT_EQ(check(stamps, 1, milliseconds(-100)).error().message,
+  const Status early = check(stamps, 1, milliseconds(-100));
+  ASSERT_FALSE(early);
+  EXPECT_EQ(early.error().message,
             "stamp 100.0 ms before where the sensor's clock puts it, limit 10.0 ms");
-  EXPECT_THAT(check(stamps, 2, milliseconds(1000)).error().message, HasSubstr("1000.0 ms after"));
+  const Status late = check(stamps, 2, milliseconds(1000));
+  ASSERT_FALSE(late);
+  EXPECT_THAT(late.error().message, HasSubstr("1000.0 ms after"));
   EXPECT_FALSE(check(stamps, 3, milliseconds(11)));
   EXPECT_TRUE(check(stamps, 3, milliseconds(9))) << "the twin";
 }

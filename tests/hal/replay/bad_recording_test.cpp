@@ -84,7 +84,7 @@ std::vector<Damage> damages() {
       all.end(),
       {tar_damage("cut within the first image", [] { return two_images().substr(0, 300'000); },
                   {"VLC LF.tar", "holds no whole image", "cut off at byte 300000"}),
-       tar_damage("empty file", [] { return std::string(); }, {"VLC LF.tar"}),
+       tar_damage("empty file", [] { return std::string(); }, {"VLC LF.tar", "cut off at byte 0"}),
        tar_damage("no member", [] { return HandmadeTar().finished(); },
                   {"VLC LF.tar", "holds no image"}),
        tar_damage("no archive", [] { return std::string(5000, 'x'); }, {"VLC LF.tar"}),
