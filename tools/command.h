@@ -28,6 +28,7 @@ void add_golden_command(CLI::App& app, Action& action);
 void add_preview_command(CLI::App& app, Action& action);
 void add_print_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
+void add_recording_command(CLI::App& app, Action& action);
 void add_register_command(CLI::App& app, Action& action);
 void add_rod_command(CLI::App& app, Action& action);
 void add_run_command(CLI::App& app, Action& action);

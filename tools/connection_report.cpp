@@ -37,6 +37,9 @@ std::string connection_report(const ConnectionStatistics& s) {
         static_cast<long long>(stream.connections), stream.jitter_ms,
         static_cast<long long>(stream.gaps), seconds(stream.longest_gap) * 1e3,
         static_cast<long long>(stream.out_of_order), static_cast<long long>(stream.damaged));
+    if (!stream.last_trouble.empty()) {
+      text += "  last trouble: " + stream.last_trouble + "\n";
+    }
   }
   text +=
       line("pairs          %8lld, %lld images without a partner, %lld pairs dropped for newer\n",

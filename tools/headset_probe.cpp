@@ -62,6 +62,10 @@ Result<std::vector<Offer>> offers_of_recording(const std::string& folder) {
        std::to_string(summary.pairs) + " pairs, " + std::to_string(summary.pairs_without_pose) +
            " without a pose, " + span_after(start, start, summary.last_ticks_100ns),
        ""}};
+  if (!summary.cut.empty()) {
+    offers.push_back({"Recording: cut off", Finding::kOptional, summary.cut,
+                      "orthonav recording repair closes it"});
+  }
   for (const replay::DepthSummary& depth : summary.depth) {
     const bool read = depth.trouble.empty();
     offers.push_back({std::string("Recording: depth ") + name_of(depth.stream),

@@ -146,7 +146,10 @@ class LiveRun {
     if (arguments_.headset == "openxr:") {
       std::fprintf(stderr, "openxr: no cameras are named, so the simulated room's: openxr:+sim:\n");
     }
-    if (arguments_.headset.ends_with("?pace=step")) {
+    if (!opened->warning.empty()) {
+      std::fprintf(stderr, "orthonav: warning: %s\n", opened->warning.c_str());
+    }
+    if (arguments_.headset.find("pace=step") != std::string::npos) {
       return Error{"headset URI \"" + arguments_.headset +
                    "\": nobody steps here; known paces are fast and realtime"};
     }

@@ -62,6 +62,7 @@ int run(int argc, char** argv) {
   add_golden_command(app, action);
   add_preview_command(app, action);
   add_print_command(app, action);
+  add_recording_command(app, action);
   add_register_command(app, action);
   add_render_command(app, action);
   add_rod_command(app, action);

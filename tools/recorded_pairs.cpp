@@ -1,5 +1,7 @@
 #include "tools/recorded_pairs.h"
 
+#include <cstdio>
+#include <string>
 #include <utility>
 
 #include "engine/session/method.h"
@@ -9,6 +11,9 @@ namespace orthonav::tools {
 
 Status for_each_pair(replay::ReplayHeadset& recording,
                      const std::function<void(const StereoFrame&)>& use) {
+  if (const std::string cut = replay::cut_warning(recording.summary()); !cut.empty()) {
+    std::fprintf(stderr, "orthonav: warning: %s\n", cut.c_str());
+  }
   CountProgress progress("stereo pairs", recording.summary().pairs);
   StereoFrame frame;
   for (;;) {

@@ -143,10 +143,19 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action) {
                         "the next pair comes when the client is done with the last one, as fast as "
                         "it can (default: 30 pairs a second)");
   serve_hl2ss
-      ->add_option("--faults", arguments->faults,
-                   "probabilities for each pair: gap=P, lose=P, unlocated=P, reorder=P, stall=P, "
-                   "half=P, cut=P, corrupt=P; jump=N: World jumps at pair N; all: 0.01 of each")
+      ->add_option(
+          "--faults", arguments->faults,
+          "probabilities for each pair: gap=P, lose=P, unlocated=P, reorder=P, stall=P, "
+          "half=P, cut=P, misstamp=P, corrupt=P; jump=N: World jumps at pair N; all: 0.01 of each")
       ->check(some_text());
+  serve_hl2ss->add_option("--slices", server.slices, "of each H.264 picture")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  serve_hl2ss
+      ->add_option("--unmapped-edge-px", server.unmapped_edge_px,
+                   "pixels along the edges without a direction in the calibration")
+      ->check(whole_number(0))
+      ->capture_default_str();
   serve_hl2ss
       ->add_option("--sessions", arguments->sessions, "end after so many sessions (0: no end)")
       ->check(whole_number(0))

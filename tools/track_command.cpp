@@ -21,6 +21,7 @@ struct TrackArguments {
   std::string method = "best";
   std::string csv;
   int full_search_every = 1;
+  bool exact_stamps = false;
   bool json = false;
 };
 
@@ -166,7 +167,11 @@ int run_track(const TrackArguments& arguments) {
   if (!tools) {
     return bad_input(tools.error().message);
   }
-  auto headset = replay::ReplayHeadset::open(arguments.recording);
+  replay::ReplayOptions replay;
+  if (arguments.exact_stamps) {
+    replay.stamps = replay::RecordedStamps::kExact;
+  }
+  auto headset = replay::ReplayHeadset::open(arguments.recording, replay);
   if (!headset) {
     return bad_input(headset.error().message);
   }
@@ -222,6 +227,9 @@ void add_track_command(CLI::App& app, Action& action) {
                    "N-th pair while a tool is missing")
       ->capture_default_str()
       ->check(whole_number(1, 1000));
+  command->add_flag("--exact-stamps", arguments->exact_stamps,
+                    "StreamRecorder's stamps were corrected already (default: they are 12.5 ms "
+                    "late)");
   command->add_flag("--json", arguments->json, "The summary as JSON");
   command->footer(kTrackFooter);
   command->callback(

@@ -26,6 +26,11 @@ class ArrivalMeter {
     ++statistics_.damaged;
     trouble(std::move(what));
   }
+  /// Damage too: a packet that is whole, but whose time is not to be believed.
+  void refused(const std::string& why) {
+    ++refused_;
+    damaged(std::to_string(refused_) + " packets refused, the last one: " + why);
+  }
   void received(std::size_t bytes) { statistics_.bytes += static_cast<std::int64_t>(bytes); }
   [[nodiscard]] const StreamStatistics& statistics() const { return statistics_; }
 
@@ -36,6 +41,7 @@ class ArrivalMeter {
   };
   Duration interval_;
   std::optional<Arrival> last_;
+  std::int64_t refused_ = 0;
   StreamStatistics statistics_;
 };
 

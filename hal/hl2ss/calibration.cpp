@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kTableBytes = kImageBytes * sizeof(float);
 constexpr double kHalfPixel = 0.5;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 using Table = std::vector<Vec2>;
 
@@ -49,6 +50,34 @@ Table shifted(const Table& table, double ahead) {
   return both;
 }
 
+/// A headset leaves (0, 0) where its mapping failed, mostly at the edges. The one pixel that looks
+/// straight ahead may say the same, but so do its neighbours nearly.
+void forget_unmapped(Table& table) {
+  constexpr double kFarther = 0.05;  // 18 pixels of the front cameras
+  const auto is_zero = [](Vec2 v) { return v.x == 0.0 && v.y == 0.0; };
+  constexpr std::array<std::array<int, 2>, 4> kBeside = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+  const Table as_told = table;
+  for (int row = 0; row < kImageHeightPx; ++row) {
+    for (int column = 0; column < kImageWidthPx; ++column) {
+      const auto at = static_cast<std::size_t>(row * kImageWidthPx + column);
+      if (!is_zero(as_told[at])) {
+        continue;
+      }
+      for (const auto& [across, down] : kBeside) {
+        const int x = column + across;
+        const int y = row + down;
+        if (x < 0 || y < 0 || x >= kImageWidthPx || y >= kImageHeightPx) {
+          continue;
+        }
+        const Vec2 beside = as_told[static_cast<std::size_t>(y * kImageWidthPx + x)];
+        if (is_zero(beside) || !(beside.norm() <= kFarther)) {
+          table[at] = {kNaN, kNaN};
+        }
+      }
+    }
+  }
+}
+
 template <class A>
 Result<Transform<A, Rig>> read_extrinsics(Bytes bytes) {
   std::array<double, 16> columns_first{};
@@ -80,6 +109,7 @@ Result<CameraCalibration<A>> read_calibration(Bytes answer) {
     unit_plane[i] = {number_at<float>(answer, 4 * i),
                      number_at<float>(answer, kTableBytes + 4 * i)};
   }
+  forget_unmapped(unit_plane);
   const auto extrinsics = read_extrinsics<A>(answer.subspan(2 * kTableBytes, kPoseBytes));
   if (!extrinsics) {
     return extrinsics.error();
@@ -107,11 +137,15 @@ std::vector<std::uint8_t> calibration_bytes(const CameraModel& camera,
   std::vector<std::uint8_t> bytes;
   bytes.reserve(kCalibrationBytes);
   const Table corners = shifted({camera.lookup().begin(), camera.lookup().end()}, -kHalfPixel);
+  // Where there is no direction a headset says (0, 0).
+  const auto told = [](Vec2 v, double entry) {
+    return std::isnan(v.x) || std::isnan(v.y) ? 0.0f : static_cast<float>(entry);
+  };
   for (const Vec2 direction : corners) {
-    append(bytes, static_cast<float>(direction.x));
+    append(bytes, told(direction, direction.x));
   }
   for (const Vec2 direction : corners) {
-    append(bytes, static_cast<float>(direction.y));
+    append(bytes, told(direction, direction.y));
   }
   for (std::size_t column = 0; column < 4; ++column) {
     for (std::size_t row = 0; row < 4; ++row) {
@@ -120,6 +154,22 @@ std::vector<std::uint8_t> calibration_bytes(const CameraModel& camera,
   }
   bytes.resize(kCalibrationBytes);
   return bytes;
+}
+
+void unmap_edges(std::vector<std::uint8_t>& answer, int edge_px) {
+  for (int row = 0; row < kImageHeightPx; ++row) {
+    for (int column = 0; column < kImageWidthPx; ++column) {
+      const bool inside = row >= edge_px && row < kImageHeightPx - edge_px && column >= edge_px &&
+                          column < kImageWidthPx - edge_px;
+      const std::size_t at = sizeof(float) * static_cast<std::size_t>(row * kImageWidthPx + column);
+      for (const std::size_t table : {std::size_t{0}, kTableBytes}) {
+        if (!inside) {
+          std::fill_n(answer.begin() + static_cast<std::ptrdiff_t>(table + at), sizeof(float),
+                      std::uint8_t{0});
+        }
+      }
+    }
+  }
 }
 
 }  // namespace orthonav::hl2ss

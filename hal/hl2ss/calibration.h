@@ -19,13 +19,19 @@ struct CameraCalibration {
 
 /// From the answer in mode 2: tables of unit-plane x and y at integer pixel coordinates, which are
 /// the pixels' top-left corners and are carried over to their centres here, and camera_from_rig for
-/// row vectors. The undistorted image's maps and focal lengths behind them are not needed. Refuses
-/// a wrong size, what is no camera (`CameraModel::from_lookup`) and what is no rigid motion.
+/// row vectors. The undistorted image's maps and focal lengths behind them are not needed. Entries
+/// (0, 0) are pixels without a direction, unless they look straight ahead as those beside them do.
+/// Refuses a wrong size, what is no camera (`CameraModel::from_lookup`) and what is no rigid
+/// motion.
 Result<CameraCalibration<LeftCamera>> read_left_calibration(Bytes answer);
 Result<CameraCalibration<RightCamera>> read_right_calibration(Bytes answer);
 
 /// The answer that a server gives for a camera of 640×480: maps and focal lengths are zero.
 [[nodiscard]] std::vector<std::uint8_t> calibration_bytes(const CameraModel& camera,
                                                           const std::array<double, 16>& row_major);
+
+/// Takes the directions along the edges out of such an answer, as a headset whose mapping failed
+/// there.
+void unmap_edges(std::vector<std::uint8_t>& answer, int edge_px);
 
 }  // namespace orthonav::hl2ss

@@ -58,7 +58,9 @@ Result<std::unique_ptr<H264Decoder>> H264Decoder::create() {
   codec->context->thread_count = 1;
   codec->context->flags |= AV_CODEC_FLAG_LOW_DELAY;
   codec->context->err_recognition = AV_EF_EXPLODE | AV_EF_BITSTREAM | AV_EF_BUFFER;
-  codec->context->error_concealment = 0;
+  // Concealment stays on and what it painted is refused by its flag (`take_picture`): libavcodec
+  // 5.1 keeps its table of whole macroblocks for it alone, and without it calls every picture of
+  // several slices damaged.
   // A library does not print; what matters comes back as a code.
   codec->context->log_level_offset = AV_LOG_MAX_OFFSET;
   if (const int code = avcodec_open2(codec->context, h264, nullptr); code < 0) {

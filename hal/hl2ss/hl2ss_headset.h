@@ -8,7 +8,8 @@
 namespace orthonav::hl2ss {
 
 /// A HoloLens 2 over the network (docs/hl2ss.md). A pair's time is its left image's stamp on the
-/// headset's boot clock, its pose the left packet's. When the connection is lost the head is lost,
+/// headset's boot clock, corrected for its lateness (`kResearchModeStampsLate`), its pose the left
+/// packet's, at that time. When the connection is lost the head is lost,
 /// no pairs come and `next` says so once; it is made again for as long as the headset lives.
 ///
 /// The clicker has no events and the display shows nothing, unless a stand-in is connected.

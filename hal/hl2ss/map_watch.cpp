@@ -52,6 +52,9 @@ bool MapWatch::is_possible(const Seen& next) const {
 }
 
 bool MapWatch::moved(Timestamp time, const Transform<World, Rig>& world_from_rig) {
+  if (last_ && time <= last_->time) {
+    return false;
+  }
   const Seen next{time, world_from_rig};
   const bool is_moved = last_ && (broken_off_ || !is_possible(next));
   broken_off_ = false;

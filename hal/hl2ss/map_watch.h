@@ -9,10 +9,12 @@
 
 namespace orthonav::hl2ss {
 
-/// Finds out that the map has moved: by two poses in a row that no head could have had.
+/// Finds out that the map has moved: by two poses in a row that no head could have had. A stamp
+/// alone never moves a map.
 class MapWatch {
  public:
-  /// Takes the next pose, in order of time; true when World is another one from this pose on.
+  /// Takes the next pose; true when World is another one from this pose on. One that is not later
+  /// than the pose before says nothing, and is passed over.
   bool moved(Timestamp time, const Transform<World, Rig>& world_from_rig);
   /// Whatever comes next lies in another map.
   void break_off() { broken_off_ = true; }

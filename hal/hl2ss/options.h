@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "base/time.h"
+#include "hal/api/research_mode.h"
 #include "hal/hl2ss/protocol.h"
 #include "hal/hl2ss/voice.h"
 
@@ -18,6 +19,9 @@ struct Hl2ssOptions {
   int standin_port = 0;  ///< of our own server's side channel; 0: none
   std::uint32_t bitrate = 12'000'000;
   std::vector<std::string> phrases = workflow_phrases();
+  /// The server is asked to stamp, and to take poses, earlier by this; zero for one that stamps as
+  /// the images were.
+  Duration stamps_late = kResearchModeStampsLate;
   /// Opening waits no longer for calibrations and the first image.
   Duration open_within = std::chrono::seconds(8);
 };

@@ -14,12 +14,19 @@ Status PacketStream::received(std::size_t count, HostTime at) {
     }
     const auto time = time_.stamps.time_of((*packet)->ticks, at);
     if (!time) {
-      meter_.damaged("stamp " + std::to_string((*packet)->ticks) + " lies outside its time");
+      meter_.refused("stamp " + std::to_string((*packet)->ticks) +
+                     " is none, or more than 10 s from the one before");
       continue;
     }
-    time_.clock.heard(*time, at);
-    const bool in_order = meter_.heard(*time, at);
-    if (const Status taken = take(**packet, {*time, at, in_order}); !taken) {
+    Stamped stamped{*time, at};
+    if (const Status right = check_stamp(**packet, *time); right) {
+      time_.clock.heard(*time, at);
+      stamped.in_order = meter_.heard(*time, at);
+    } else {
+      stamped.is_trusted = false;
+      meter_.refused(right.error().message);
+    }
+    if (const Status taken = take(**packet, stamped); !taken) {
       meter_.damaged(taken.error().message);
     }
   }

@@ -27,8 +27,11 @@ class PacketStream : public Protocol {
   struct Stamped {
     Timestamp time{};
     HostTime at{};
-    bool in_order = true;  ///< after all packets before it
+    bool in_order = true;    ///< after all packets before it
+    bool is_trusted = true;  ///< `check_stamp` found nothing wrong
   };
+  /// An Error says why the stamp must be wrong: the packet's time is then used for nothing.
+  virtual Status check_stamp(const Packet& /*packet*/, Timestamp /*stamp*/) { return {}; }
   /// An Error says what was wrong with this packet; the stream goes on.
   virtual Status take(const Packet& packet, const Stamped& stamped) = 0;
   ArrivalMeter& meter_;

@@ -26,11 +26,8 @@ void PairMailbox::note(std::vector<double>& figures, std::size_t& next, HostTime
   }
 }
 
-bool PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
+void PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
   const MutexLock lock(mutex_);
-  if (last_time_ && pair.left.time <= *last_time_) {
-    return false;
-  }
   figures_.dropped += waits_ ? 1 : 0;
   newest_.sequence = next_sequence_++;
   newest_.map_epoch = map_epoch;
@@ -39,11 +36,9 @@ bool PairMailbox::put(const Pairer::Pair& pair, std::int64_t map_epoch) {
   std::swap(newest_.left, pair.left.image);
   std::swap(newest_.right, pair.right.image);
   arrived_ = std::max(pair.left.arrived, pair.right.arrived);
-  last_time_ = newest_.time;
   waits_ = true;
   ++figures_.pairs;
   note(figures_.publish_ms, next_publish_, arrived_);
-  return true;
 }
 
 std::optional<Timestamp> PairMailbox::waiting() const {

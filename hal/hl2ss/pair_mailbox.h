@@ -13,8 +13,8 @@ namespace orthonav::hl2ss {
 /// never queued. Thread-safe; times increase.
 class PairMailbox {
  public:
-  /// False, and nothing is put, for a pair that is not later than the one before it.
-  bool put(const Pairer::Pair& pair, std::int64_t map_epoch);
+  /// The pair must be later than the one before it.
+  void put(const Pairer::Pair& pair, std::int64_t map_epoch);
   /// The time of the pair that waits.
   [[nodiscard]] std::optional<Timestamp> waiting() const;
   /// Copies it into `frame`; false when none waits.
@@ -39,7 +39,6 @@ class PairMailbox {
   mutable Mutex mutex_;
   StereoFrame newest_ ORTHONAV_GUARDED_BY(mutex_);
   bool waits_ ORTHONAV_GUARDED_BY(mutex_) = false;
-  std::optional<Timestamp> last_time_ ORTHONAV_GUARDED_BY(mutex_);
   std::int64_t next_sequence_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   HostTime arrived_ ORTHONAV_GUARDED_BY(mutex_){};
   std::optional<Error> trouble_ ORTHONAV_GUARDED_BY(mutex_);

@@ -3,13 +3,22 @@
 #include <algorithm>
 #include <utility>
 
+#include "hal/api/research_mode.h"
+
 namespace orthonav::hl2ss {
 namespace {
 
-/// 1 ms where sensor ticks are of 100 ns; both images of a pair say the same in fact.
-constexpr std::uint64_t kWithinTicks = 10'000;
+/// 1 ms in ticks of 1 ns; the cameras of one rig differ by some 10 ns in fact.
+constexpr std::uint64_t kWithinTicks = 1'000'000;
+/// A server whose ticks are not nanoseconds must not mix two moments either.
+constexpr Duration kStampsWithin = kGreyCameraInterval / 3;
 
 std::uint64_t apart(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : b - a; }
+
+bool are_of_one_moment(const CameraImage& a, const CameraImage& b) {
+  return apart(a.sensor_ticks, b.sensor_ticks) <= kWithinTicks &&
+         a.time - b.time <= kStampsWithin && b.time - a.time <= kStampsWithin;
+}
 
 }  // namespace
 
@@ -43,7 +52,7 @@ std::optional<Pairer::Pair> Pairer::add(Side side, CameraImage& image) {
         }
         return apart(a.image.sensor_ticks, ticks) < apart(b.image.sensor_ticks, ticks);
       });
-  if (!nearest->waits || apart(nearest->image.sensor_ticks, ticks) > kWithinTicks) {
+  if (!nearest->waits || !are_of_one_moment(nearest->image, slot.image)) {
     return std::nullopt;
   }
   const std::uint64_t newest = std::max(ticks, nearest->image.sensor_ticks);

@@ -21,8 +21,9 @@ struct CameraImage {
 enum class Side : std::uint8_t { kLeft, kRight };
 
 /// Brings left and right images of one moment together, by sensor ticks, in whatever order the two
-/// streams bring them. Holds the last few images of each side; who finds no partner among those of
-/// the other side is given up when its place is needed. Buffers go round.
+/// streams bring them; their times must agree too, to a third of a frame. Holds the last few images
+/// of each side; who finds no partner among those of the other side is given up when its place is
+/// needed. Buffers go round.
 class Pairer {
  public:
   struct Pair {

@@ -33,6 +33,12 @@ inline constexpr std::size_t kSpatialInputBytes = 1936;
 inline constexpr std::size_t kVoiceResultBytes = 32;
 inline constexpr int kMicrophoneHz = 48000;
 
+/// Keys of the options in a request for images. A server stamps an image, and takes its pose, at
+/// the host's stamp plus so many exposure times (float64) plus an offset (int64, 100 ns).
+inline constexpr std::uint64_t kGopSizeKey = 10;
+inline constexpr std::uint64_t kStampExposuresKey = 0xFFFF'FFFF'FFFF'FFFF;
+inline constexpr std::uint64_t kStampOffsetKey = 0xFFFF'FFFF'FFFF'FFFE;
+
 enum class Mode : std::uint8_t { kVideo = 0, kVideoAndPose = 1, kCalibration = 2 };
 enum class VideoProfile : std::uint8_t { kH264Base = 0, kH264Main = 1, kH264High = 2, kRaw = 255 };
 

@@ -3,12 +3,16 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <utility>
+
+#include "hal/api/research_mode.h"
 
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr Duration kFrameInterval = std::chrono::nanoseconds(33'333'333);
-constexpr Duration kSpatialInterval = kFrameInterval / 2;
+constexpr Duration kSpatialInterval = kGreyCameraInterval / 2;
+/// A picture may stand on at most a second of others.
+constexpr std::uint64_t kGopSize = 30;
 constexpr Duration kSilence = std::chrono::seconds(3);
 /// A stand-in that waits for its client is silent for as long as that thinks.
 constexpr Duration kPacedSilence = std::chrono::minutes(2);
@@ -69,10 +73,12 @@ Status Receiver::add_cameras() {
       }
       decoder = std::move(*made);
     }
-    const VideoRequest request{Mode::kVideoAndPose, 1, options_.profile, options_.bitrate};
+    const VideoRequest request{
+        Mode::kVideoAndPose, 1, options_.profile, options_.bitrate,
+        VideoOptions{kGopSize, 0.0, -(options_.stamps_late / Duration(100))}};
     const Service service = side == Side::kLeft ? Service::kLeftFront : Service::kRightFront;
     add(side == Side::kLeft ? "left camera" : "right camera",
-        options_.first_port + offset_of(service), kFrameInterval, silence,
+        options_.first_port + offset_of(service), kGreyCameraInterval, silence,
         [&](ArrivalMeter& meter) {
           return std::make_unique<VideoStream>(side, request, std::move(decoder), meter, time_,
                                                sink);
@@ -147,10 +153,13 @@ void Receiver::run() {
 void Receiver::take(Side side, CameraImage& image) {
   heard_ = true;
   if (time_.stamps.restarts() != restarts_) {
-    // The headset was started anew, and its map with it.
     restarts_ = time_.stamps.restarts();
     pairer_.forget();
-    map_.break_off();
+    // Behind a lost connection the headset was started anew, and its map with it; else its clock
+    // was set, which moves no map.
+    if (was_lost_) {
+      map_.break_off();
+    }
   }
   if (const auto pair = pairer_.add(side, image)) {
     publish(*pair);
@@ -160,6 +169,12 @@ void Receiver::take(Side side, CameraImage& image) {
 void Receiver::publish(const Pairer::Pair& pair) {
   // The right camera's pose is of a moment that may differ; the pair stands at the left one's.
   const auto& pose = pair.left.world_from_rig;
+  if (newest_pair_ && pair.left.time <= *newest_pair_) {
+    ++late_pairs_;
+    return;
+  }
+  newest_pair_ = pair.left.time;
+  was_lost_ = false;
   if (pose && map_.moved(pair.left.time, *pose)) {
     ++map_epoch_;
   }
@@ -167,12 +182,11 @@ void Receiver::publish(const Pairer::Pair& pair) {
   if (pose) {
     head_.add(pair.left.time, *pose, map_epoch_);
   }
-  if (!pairs_.put(pair, map_epoch_)) {
-    ++late_pairs_;
-  }
+  pairs_.put(pair, map_epoch_);
 }
 
 void Receiver::lost(Side /*side*/) {
+  was_lost_ = true;
   pairer_.forget();
   pairs_.clear();
   head_.lose();
@@ -208,7 +222,7 @@ std::string Receiver::troubles() const {
   std::string all;
   for (const Stream& stream : streams_) {
     const StreamStatistics& each = stream.meter->statistics();
-    if (stream.connection->is_connected() || each.last_trouble.empty()) {
+    if (each.last_trouble.empty() || (stream.connection->is_connected() && each.damaged == 0)) {
       continue;
     }
     all += (all.empty() ? "" : "; ") + each.name + ": " + each.last_trouble;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -41,7 +42,7 @@ class Receiver final : private ImageSink {
   [[nodiscard]] bool has_heard() const { return heard_.load(); }
   [[nodiscard]] std::int64_t base_ticks() const;
   [[nodiscard]] ConnectionStatistics statistics() const;
-  /// What the streams that are not connected last suffered.
+  /// What the streams that are not connected last suffered, and what was refused of the others.
   [[nodiscard]] std::string troubles() const;
 
  private:
@@ -82,6 +83,8 @@ class Receiver final : private ImageSink {
   MapWatch map_ ORTHONAV_GUARDED_BY(mutex_);
   std::int64_t map_epoch_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::int64_t restarts_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  bool was_lost_ ORTHONAV_GUARDED_BY(mutex_) = false;  ///< since the last pair
+  std::optional<Timestamp> newest_pair_ ORTHONAV_GUARDED_BY(mutex_);
   std::int64_t late_pairs_ ORTHONAV_GUARDED_BY(mutex_) = 0;
   std::thread thread_;
 };

@@ -1,6 +1,7 @@
 #include "hal/hl2ss/video.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -14,6 +15,27 @@ constexpr double kMaxWorldM = 1e4;
 /// Of the last column, after a device's own arithmetic in single precision.
 constexpr float kSlack = 1e-4f;
 
+/// Those that we know, where there are any.
+std::optional<VideoOptions> read_options(Bytes bytes) {
+  std::optional<VideoOptions> options;
+  for (std::size_t at = 0; at + kOptionBytes <= bytes.size(); at += kOptionBytes) {
+    const auto key = number_at<std::uint64_t>(bytes, at);
+    const auto value = number_at<std::uint64_t>(bytes, at + 8);
+    VideoOptions known = options.value_or(VideoOptions{});
+    if (key == kGopSizeKey) {
+      known.gop_size = value;
+    } else if (key == kStampExposuresKey) {
+      known.stamp_exposures = std::bit_cast<double>(value);
+    } else if (key == kStampOffsetKey) {
+      known.stamp_offset_ticks = static_cast<std::int64_t>(value);
+    } else {
+      continue;
+    }
+    options = known;
+  }
+  return options;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> request_bytes(const VideoRequest& request) {
@@ -23,7 +45,18 @@ std::vector<std::uint8_t> request_bytes(const VideoRequest& request) {
   std::vector<std::uint8_t> bytes = {static_cast<std::uint8_t>(request.mode), request.divisor,
                                      static_cast<std::uint8_t>(request.profile), 255};
   append(bytes, request.bitrate);
-  append(bytes, std::uint8_t{0});
+  if (!request.options) {
+    append(bytes, std::uint8_t{0});
+    return bytes;
+  }
+  const VideoOptions& options = *request.options;
+  append(bytes, std::uint8_t{3});
+  append(bytes, kGopSizeKey);
+  append(bytes, options.gop_size);
+  append(bytes, kStampExposuresKey);
+  append(bytes, options.stamp_exposures);
+  append(bytes, kStampOffsetKey);
+  append(bytes, options.stamp_offset_ticks);
   return bytes;
 }
 
@@ -61,6 +94,8 @@ Result<std::optional<ReadVideoRequest>> read_video_request(Bytes bytes) {
   if (bytes.size() < read.bytes) {
     return Answer{};
   }
+  read.request.options =
+      read_options(bytes.subspan(kFixedRequestBytes, read.bytes - kFixedRequestBytes));
   return Answer{read};
 }
 

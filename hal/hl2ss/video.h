@@ -9,18 +9,27 @@
 
 namespace orthonav::hl2ss {
 
+/// What is asked beside the picture's format.
+struct VideoOptions {
+  std::uint64_t gop_size = 30;  ///< pictures from one key frame to the next
+  double stamp_exposures = 0.0;
+  std::int64_t stamp_offset_ticks = 0;  ///< of 100 ns
+};
+
 /// What a front camera is asked for.
 struct VideoRequest {
   Mode mode = Mode::kVideoAndPose;
   std::uint8_t divisor = 1;  ///< every so-manieth frame
   VideoProfile profile = VideoProfile::kRaw;
   std::uint32_t bitrate = 1;  ///< bit/s; means nothing for raw images, but must not be 0
+  std::optional<VideoOptions> options{};  ///< all of them are sent, or none
 };
-/// As it goes over the wire, without encoder options.
+/// As it goes over the wire.
 [[nodiscard]] std::vector<std::uint8_t> request_bytes(const VideoRequest& request);
 
 /// What a server makes of the bytes it got: the request and how many bytes it took; nothing while
-/// bytes are missing. HEVC and unknown profiles or modes, a divisor or bitrate of 0 are errors.
+/// bytes are missing. HEVC and unknown profiles or modes, a divisor or bitrate of 0 are errors;
+/// options with keys that we do not know are passed over.
 struct ReadVideoRequest {
   VideoRequest request;
   std::size_t bytes = 0;

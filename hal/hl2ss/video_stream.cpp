@@ -20,7 +20,13 @@ std::vector<std::uint8_t> VideoStream::opening() {
 
 void VideoStream::disconnected() {
   PacketStream::disconnected();
+  stamps_.restart();
   sink_.lost(side_);
+}
+
+Status VideoStream::check_stamp(const Packet& packet, Timestamp stamp) {
+  const auto payload = split_image(packet.payload);
+  return payload ? stamps_.check(stamp, payload->trailer.sensor_ticks) : Status();
 }
 
 Status VideoStream::take(const Packet& packet, const Stamped& stamped) {
@@ -37,6 +43,9 @@ Status VideoStream::take(const Packet& packet, const Stamped& stamped) {
   const auto world_from_rig = pose ? *pose : std::nullopt;
   image_.arrived = stamped.at;
   if (!decoder_) {
+    if (!stamped.is_trusted) {
+      return {};
+    }
     if (const Status taken = take_raw(payload->image); !taken) {
       return taken;
     }
@@ -49,7 +58,8 @@ Status VideoStream::take(const Packet& packet, const Stamped& stamped) {
   if (underway_.size() == kMostUnderway) {
     underway_.pop_front();
   }
-  underway_.push_back({units_++, payload->trailer.sensor_ticks, stamped.time, world_from_rig});
+  underway_.push_back(
+      {units_++, payload->trailer.sensor_ticks, stamped.time, world_from_rig, stamped.is_trusted});
   const auto decoded = take_h264(payload->image, stamped.in_order);
   if (!decoded) {
     return decoded.error();
@@ -92,8 +102,10 @@ Result<bool> VideoStream::take_h264(Bytes access_unit, bool in_order) {
   image_.sensor_ticks = known->sensor_ticks;
   image_.time = known->time;
   image_.world_from_rig = known->world_from_rig;
+  // A picture with a wrong stamp is decoded, since those after it stand on it, and goes nowhere.
+  const bool is_trusted = known->is_trusted;
   underway_.erase(underway_.begin(), known + 1);
-  return true;
+  return is_trusted;
 }
 
 }  // namespace orthonav::hl2ss

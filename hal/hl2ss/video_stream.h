@@ -6,6 +6,7 @@
 #include "hal/hl2ss/h264_decoder.h"
 #include "hal/hl2ss/packet_stream.h"
 #include "hal/hl2ss/pairer.h"
+#include "hal/hl2ss/stamp_check.h"
 #include "hal/hl2ss/video.h"
 
 namespace orthonav::hl2ss {
@@ -41,7 +42,9 @@ class VideoStream final : public PacketStream {
     std::uint64_t sensor_ticks = 0;
     Timestamp time{};
     std::optional<Transform<World, Rig>> world_from_rig;
+    bool is_trusted = true;
   };
+  Status check_stamp(const Packet& packet, Timestamp stamp) override;
   Status take(const Packet& packet, const Stamped& stamped) override;
   Status take_raw(Bytes picture);
   Result<bool> take_h264(Bytes access_unit, bool in_order);
@@ -50,6 +53,7 @@ class VideoStream final : public PacketStream {
   VideoRequest request_;
   std::unique_ptr<H264Decoder> decoder_;
   ImageSink& sink_;
+  StampCheck stamps_;
   CameraImage image_;
   std::deque<Underway> underway_;
   std::int64_t units_ = 0;

@@ -81,11 +81,33 @@ Result<sim::SimOptions> sim_options(const std::string& uri, std::string_view res
   return options;
 }
 
-/// Folder and pace of "PATH?pace=...".
+constexpr const char* kReplayKeys = "known are pace=fast|realtime|step and stamps=recorder|exact";
+
+Status apply_replay_key(const std::string& uri, std::string_view item,
+                        replay::ReplayOptions& options) {
+  if (item == "pace=realtime") {
+    options.pace = replay::ReplayPace::kRealtime;
+  } else if (item == "pace=step") {
+    options.pace = replay::ReplayPace::kStepped;
+  } else if (item == "stamps=exact") {
+    options.stamps = replay::RecordedStamps::kExact;
+  } else if (item.starts_with("pace") && item != "pace=fast") {
+    return bad_uri(uri, "pace is unknown; known are fast, realtime and step");
+  } else if (item != "pace=fast" && item != "stamps=recorder") {
+    return bad_uri(uri, "\"" + std::string(item) + "\" is unknown; " + kReplayKeys);
+  }
+  return {};
+}
+
+/// Folder and options of "PATH?pace=...&stamps=...".
 Result<std::pair<std::string, replay::ReplayOptions>> replay_options(const std::string& uri,
                                                                      const std::string& rest) {
   // A folder's name may hold a question mark.
-  const std::size_t question = rest.rfind("?pace");
+  std::size_t question = rest.rfind('?');
+  if (question != std::string::npos && rest.compare(question, 5, "?pace") != 0 &&
+      rest.compare(question, 7, "?stamps") != 0) {
+    question = std::string::npos;
+  }
   const std::string folder = rest.substr(0, question);
   if (folder.empty()) {
     return bad_uri(uri, "names no folder after replay:");
@@ -94,13 +116,13 @@ Result<std::pair<std::string, replay::ReplayOptions>> replay_options(const std::
   if (question == std::string::npos) {
     return std::pair(folder, options);
   }
-  const std::string pace = rest.substr(question);
-  if (pace == "?pace=realtime") {
-    options.pace = replay::ReplayPace::kRealtime;
-  } else if (pace == "?pace=step") {
-    options.pace = replay::ReplayPace::kStepped;
-  } else if (pace != "?pace=fast") {
-    return bad_uri(uri, "pace is unknown; known are fast, realtime and step");
+  std::string_view items = std::string_view(rest).substr(question + 1);
+  while (!items.empty()) {
+    const std::size_t end = items.find('&');
+    if (Status status = apply_replay_key(uri, items.substr(0, end), options); !status) {
+      return status.error();
+    }
+    items = end == std::string_view::npos ? std::string_view{} : items.substr(end + 1);
   }
   return std::pair(folder, options);
 }
@@ -121,7 +143,7 @@ Result<OpenedHeadset> open_sim(const std::string& uri, const std::string& rest,
     return opened.error();
   }
   sim::SimHeadset* const seen = opened->get();
-  return OpenedHeadset{std::move(*opened), seen};
+  return OpenedHeadset{std::move(*opened), seen, {}};
 }
 
 /// A headset whose cameras see no simulated room.
@@ -130,7 +152,21 @@ Result<OpenedHeadset> without_room(Result<std::unique_ptr<T>> opened) {
   if (!opened) {
     return opened.error();
   }
-  return OpenedHeadset{std::move(*opened), nullptr};
+  return OpenedHeadset{std::move(*opened), nullptr, {}};
+}
+
+Result<OpenedHeadset> open_replay(const std::string& uri, const std::string& rest) {
+  const auto chosen = replay_options(uri, rest);
+  if (!chosen) {
+    return chosen.error();
+  }
+  auto opened = replay::ReplayHeadset::open(chosen->first, chosen->second);
+  std::string warning = opened ? replay::cut_warning((*opened)->summary()) : "";
+  auto headset = without_room(std::move(opened));
+  if (headset) {
+    headset->warning = std::move(warning);
+  }
+  return headset;
 }
 
 }  // namespace
@@ -154,11 +190,7 @@ Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& 
     return open_sim(uri, rest, options);
   }
   if (scheme == "replay") {
-    const auto chosen = replay_options(uri, rest);
-    if (!chosen) {
-      return chosen.error();
-    }
-    return without_room(replay::ReplayHeadset::open(chosen->first, chosen->second));
+    return open_replay(uri, rest);
   }
   if (scheme == "hl2ss") {
     auto chosen = hl2ss::options_of(rest);

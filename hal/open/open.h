@@ -20,13 +20,15 @@ struct OpenedHeadset {
   /// The room that its cameras see, if it is simulated; null otherwise. Lives as long as the
   /// headset. Gives access to the truth, which no headset reveals.
   sim::SimHeadset* room = nullptr;
+  /// In one line, what was amiss and did not keep it from opening; empty: nothing.
+  std::string warning;
 };
 
 /// Opens a headset by URI: `sim:` (the simulated operating room; `sim:?seed=3&perfect&realtime`),
-/// `replay:PATH` (a recording; `replay:PATH?pace=fast`, `realtime` or `step`), `hl2ss://HOST` (a
-/// HoloLens 2 over the network; `hl2ss://HOST?profile=h264`, docs/hl2ss.md), `openxr:+URI` (an
-/// OpenXR headset that takes the cameras of another one). An unknown scheme or key is refused with
-/// the known ones named.
+/// `replay:PATH` (a recording; `replay:PATH?pace=fast`, `realtime` or `step`; `?stamps=exact`),
+/// `hl2ss://HOST` (a HoloLens 2 over the network; `hl2ss://HOST?profile=h264`, docs/hl2ss.md),
+/// `openxr:+URI` (an OpenXR headset that takes the cameras of another one). An unknown scheme or
+/// key is refused with the known ones named.
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
                                               const OpenOptions& options = {});
 

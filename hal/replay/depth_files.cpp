@@ -1,5 +1,6 @@
 #include "hal/replay/depth_files.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -59,11 +60,16 @@ Status add_listed(const std::filesystem::path& path, std::int64_t epoch, Recorde
     return rows.error();
   }
   const auto& members = depth.images.members();
-  if (rows->size() != members.size()) {
+  const std::size_t whole = std::min(rows->size(), members.size());
+  const bool is_cut = !depth.images.cut().empty() || is_torn_file(path);
+  if (whole == 0) {
+    return file_error(path, "holds no whole frame: it was cut off before its first one");
+  }
+  if (rows->size() != members.size() && !is_cut) {
     return file_error(path, "lists " + std::to_string(rows->size()) +
                                 " frames, the archive holds " + std::to_string(members.size()));
   }
-  for (std::size_t i = 0; i < rows->size(); ++i) {
+  for (std::size_t i = 0; i < whole; ++i) {
     const FrameRow& row = (*rows)[i];
     if (row.ticks != members[i].ticks) {
       return file_error(path, "sequence " + std::to_string(row.sequence) + " has ticks " +
@@ -228,6 +234,7 @@ RecordedDepths read_depths(const std::filesystem::path& folder,
     depth.summary.width_px = depth.calibration.width_px;
     depth.summary.height_px = depth.calibration.height_px;
     depth.summary.frames = static_cast<std::int64_t>(depth.frames.size());
+    depth.summary.cut = depth.images.cut();
     depth.summary.repeated = depth.images.repeated();
     depth.summary.first_ticks_100ns = depth.frames.front().range.ticks;
     depth.summary.last_ticks_100ns = depth.frames.back().range.ticks;

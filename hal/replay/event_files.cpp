@@ -178,9 +178,9 @@ Status take_head_answer(std::string_view line, std::vector<std::string_view>& fi
 Result<RecordedEvents> read_events(const std::filesystem::path& path) {
   RecordedEvents events;
   std::vector<std::string_view> fields;
-  Status status = for_each_row(path, kMaxEventsBytes, kEventsHeader, [&](std::string_view line) {
-    return take_event(line, fields, events);
-  });
+  Status status =
+      for_each_grown_row(path, kMaxEventsBytes, kEventsHeader,
+                         [&](std::string_view line) { return take_event(line, fields, events); });
   if (!status) {
     return status.error();
   }
@@ -205,7 +205,7 @@ void append_event(std::string& line, const Delivered<Phrase>& event) {
 Result<HeadAnswers> read_head_answers(const std::filesystem::path& path) {
   HeadAnswers answers;
   std::vector<std::string_view> fields;
-  Status status = for_each_row(path, kMaxHeadBytes, kHeadHeader, [&](std::string_view line) {
+  Status status = for_each_grown_row(path, kMaxHeadBytes, kHeadHeader, [&](std::string_view line) {
     return take_head_answer(line, fields, answers);
   });
   if (!status) {

@@ -83,9 +83,16 @@ Status take_device(std::string_view line, RecordedDevice& device) {
     device.display_latency = Duration(*value);
   } else if (fields[0] == "clock_start_ns") {
     device.clock_start = Timestamp(Duration(*value));
+  } else if (fields[0] == "stamps_late_ns") {
+    constexpr std::int64_t kMaxLateNs = 100'000'000;
+    if (*value < 0 || *value > kMaxLateNs) {
+      return Error{"stamps_late_ns must lie in [0, 100000000]"};
+    }
+    device.stamps_late = Duration(*value);
   } else {
     return Error{
-        "key is unknown; known are epoch_ticks_100ns, display_latency_ns and clock_start_ns"};
+        "key is unknown; known are epoch_ticks_100ns, display_latency_ns, clock_start_ns and "
+        "stamps_late_ns"};
   }
   return {};
 }
@@ -99,12 +106,13 @@ Result<PosesByTicks> read_poses(const std::filesystem::path& path) {
   }
   PosesByTicks poses;
   std::vector<std::string_view> fields;
-  Status status = for_each_line(*text, [&](std::size_t number, std::string_view line) -> Status {
-    if (Status taken = take_pose(line, fields, poses); !taken) {
-      return line_error(path, number, taken.error().message);
-    }
-    return {};
-  });
+  Status status =
+      for_each_whole_line(*text, [&](std::size_t number, std::string_view line) -> Status {
+        if (Status taken = take_pose(line, fields, poses); !taken) {
+          return line_error(path, number, taken.error().message);
+        }
+        return {};
+      });
   if (!status) {
     return status.error();
   }
@@ -122,9 +130,9 @@ void append_pose(std::string& line, std::int64_t ticks, const Transform<World, R
 Result<std::vector<FrameRow>> read_frames(const std::filesystem::path& path) {
   std::vector<FrameRow> rows;
   std::vector<std::string_view> fields;
-  Status status = for_each_row(path, kMaxFramesBytes, kFramesHeader, [&](std::string_view line) {
-    return take_frame(line, fields, rows);
-  });
+  Status status =
+      for_each_grown_row(path, kMaxFramesBytes, kFramesHeader,
+                         [&](std::string_view line) { return take_frame(line, fields, rows); });
   if (!status) {
     return status.error();
   }
@@ -145,7 +153,7 @@ Result<std::vector<MapRow>> read_map_moves(const std::filesystem::path& path) {
   std::vector<MapRow> rows;
   std::vector<std::string_view> fields;
   Status status =
-      for_each_row(path, kMaxFramesBytes, kMapHeader, [&](std::string_view line) -> Status {
+      for_each_grown_row(path, kMaxFramesBytes, kMapHeader, [&](std::string_view line) -> Status {
         split(line, fields);
         const auto sequence = parse_integer(fields[0]);
         const auto epoch = fields.size() == 2 ? parse_integer(fields[1]) : std::nullopt;

@@ -115,16 +115,17 @@ Result<Hololens1Frames<Camera>> read_frames_of(const std::filesystem::path& fold
   Hololens1Frames<Camera> frames;
   std::vector<std::string_view> fields;
   bool header = true;
-  Status status = for_each_line(*text, [&](std::size_t number, std::string_view line) -> Status {
-    if (std::exchange(header, false)) {
-      if (line.starts_with("Timestamp")) {
-        return {};
-      }
-      return line_error(path, number, "must be the header, beginning with Timestamp");
-    }
-    const Status taken = take_row(line, fields, camera_from_rig, frames.world_from_rig);
-    return taken ? taken : Status(line_error(path, number, taken.error().message));
-  });
+  Status status =
+      for_each_whole_line(*text, [&](std::size_t number, std::string_view line) -> Status {
+        if (std::exchange(header, false)) {
+          if (line.starts_with("Timestamp")) {
+            return {};
+          }
+          return line_error(path, number, "must be the header, beginning with Timestamp");
+        }
+        const Status taken = take_row(line, fields, camera_from_rig, frames.world_from_rig);
+        return taken ? taken : Status(line_error(path, number, taken.error().message));
+      });
   if (!status) {
     return status.error();
   }

@@ -26,6 +26,10 @@ struct FreeArchive {
 };
 using ArchiveReader = std::unique_ptr<archive, FreeArchive>;
 
+std::uint64_t in_blocks(std::uint64_t bytes) {
+  return (bytes + kTarBlockBytes - 1) / kTarBlockBytes * kTarBlockBytes;
+}
+
 std::string error_of(archive* a) {
   const char* text = archive_error_string(a);
   return text ? text : "unknown error";
@@ -84,12 +88,14 @@ Status ImageTar::index() {
   if (code) {
     return file_error(path_, "cannot be read: " + code.message());
   }
+  if (file_size < kTarBlockBytes) {
+    return no_whole_image(file_size);  // libarchive knows no archive in so few bytes
+  }
   const ArchiveReader reader(archive_read_new());
   archive_read_support_format_tar(reader.get());
   if (archive_read_open_filename(reader.get(), path_.c_str(), 64 * 1024) != ARCHIVE_OK) {
     return file_error(path_, "is no tar archive: " + error_of(reader.get()));
   }
-  std::uint64_t end = 0;
   archive_entry* entry = nullptr;
   int answer = ARCHIVE_OK;
   while ((answer = archive_read_next_header(reader.get(), &entry)) == ARCHIVE_OK) {
@@ -99,16 +105,23 @@ Status ImageTar::index() {
     const bool plain = archive_entry_filetype(entry) == AE_IFREG &&
                        archive_entry_sparse_count(entry) == 0 &&
                        archive_entry_hardlink(entry) == nullptr;
-    if (Status status = index_member(name ? name : "", plain, offset, size, file_size); !status) {
+    if (offset > file_size || size > file_size - offset) {
+      break;
+    }
+    if (Status status = index_member(name ? name : "", plain, offset, size); !status) {
       return status;
     }
-    end = (offset + size + kTarBlockBytes - 1) / kTarBlockBytes * kTarBlockBytes;
+    whole_bytes_ = in_blocks(offset + size);
   }
-  if (answer != ARCHIVE_EOF) {
+  const bool is_cut = answer == ARCHIVE_OK || whole_bytes_ + kTarBlockBytes > file_size;
+  if (is_cut) {
+    cut_ = path_.filename().string() + " is cut off at byte " + std::to_string(file_size) +
+           ", after " + std::to_string(members_.size()) + " whole images";
+  } else if (answer != ARCHIVE_EOF) {
     return file_error(
         path_, "after " + std::to_string(members_.size()) + " images: " + error_of(reader.get()));
   }
-  if (Status status = check_end(end, file_size); !status) {
+  if (Status status = check_end(file_size); !status) {
     return status;
   }
   repeated_ = sort_unique(members_) + sort_unique(brightness_);
@@ -136,17 +149,13 @@ std::optional<ImageTar::Name> ImageTar::parsed(std::string_view name) const {
 }
 
 Status ImageTar::index_member(const char* name_text, bool plain, std::uint64_t offset,
-                              std::uint64_t size, std::uint64_t file_size) {
+                              std::uint64_t size) {
   const std::string name(name_text);
   const std::string member = "member \"" + printable(name) + "\" ";
   const auto known = parsed(name);
   if (!plain || !known) {
     return file_error(path_, member + "is no image named " + layout_.prefix + "<ticks>.pgm" +
                                  (layout_.with_brightness ? " or <ticks>_ab.pgm" : ""));
-  }
-  if (offset > file_size || size > file_size - offset) {
-    return file_error(path_, member + "is cut off: the archive is truncated at " +
-                                 std::to_string(file_size) + " bytes");
   }
   std::array<char, 256> bytes;
   const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(size, bytes.size()));
@@ -200,16 +209,23 @@ std::size_t ImageTar::image_bytes() const {
          static_cast<std::size_t>(layout_.height_px);
 }
 
-Status ImageTar::check_end(std::uint64_t end, std::uint64_t file_size) {
+std::uint64_t ImageTar::end_of(const ImageMember& member) const {
+  return in_blocks(member.pixels_offset + image_bytes());
+}
+
+Error ImageTar::no_whole_image(std::uint64_t file_size) const {
+  return file_error(path_, "holds no whole image: is cut off at byte " + std::to_string(file_size));
+}
+
+Status ImageTar::check_end(std::uint64_t file_size) {
   if (members_.empty()) {
-    return file_error(path_, "holds no image");
+    return cut_.empty() ? file_error(path_, "holds no image") : no_whole_image(file_size);
   }
-  if (end + kTarBlockBytes > file_size) {
-    return file_error(path_, "has no end mark after " + std::to_string(members_.size()) +
-                                 " images: the archive is truncated or was not finished");
+  if (!cut_.empty()) {
+    return {};
   }
   std::array<char, 4096> bytes;
-  for (std::uint64_t at = end; at < file_size;) {
+  for (std::uint64_t at = whole_bytes_; at < file_size;) {
     const auto count =
         static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), file_size - at));
     if (!read_at(at, bytes.data(), count)) {

@@ -37,16 +37,23 @@ struct ImageLayout {
 /// pixels are read where they lie.
 class ImageTar {
  public:
-  /// Reads every header. Refuses an archive that is truncated, holds anything else than such
-  /// images, or goes on after its end mark.
+  /// Reads every header. Refuses an archive that holds no whole image or anything else than such
+  /// images, or goes on after its end mark. Of one that was cut off the whole images are there.
   static Result<ImageTar> open(const std::filesystem::path& path, ImageLayout layout = {});
 
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// By time, each time once.
   [[nodiscard]] const std::vector<ImageMember>& members() const { return members_; }
   /// The same of the `_ab` images.
   [[nodiscard]] const std::vector<ImageMember>& brightness() const { return brightness_; }
   [[nodiscard]] int width_px() const { return layout_.width_px; }
   [[nodiscard]] int height_px() const { return layout_.height_px; }
+  /// In one line, where the archive was cut off; empty: it has its end mark.
+  [[nodiscard]] const std::string& cut() const { return cut_; }
+  /// Up to the end of its last whole image.
+  [[nodiscard]] std::uint64_t whole_bytes() const { return whole_bytes_; }
+  /// Up to the end of this one.
+  [[nodiscard]] std::uint64_t end_of(const ImageMember& member) const;
   /// Images left out because their time had come already.
   [[nodiscard]] std::int64_t repeated() const { return repeated_; }
   /// Reads a member of an archive of 8 or of 16 bits a pixel.
@@ -68,16 +75,18 @@ class ImageTar {
   std::vector<ImageMember> members_;
   std::vector<ImageMember> brightness_;
   std::int64_t repeated_ = 0;
+  std::string cut_;
+  std::uint64_t whole_bytes_ = 0;
 
   Status index();
   [[nodiscard]] std::optional<Name> parsed(std::string_view name) const;
-  Status index_member(const char* name, bool plain, std::uint64_t offset, std::uint64_t size,
-                      std::uint64_t file_size);
+  Status index_member(const char* name, bool plain, std::uint64_t offset, std::uint64_t size);
   Status check_image(const PgmHeader& header, std::uint64_t size);
   [[nodiscard]] std::size_t image_bytes() const;
   template <class Value>
   Status read_pixels(const ImageMember& member, PlainImage<Value>& image);
-  Status check_end(std::uint64_t end, std::uint64_t file_size);
+  [[nodiscard]] Error no_whole_image(std::uint64_t file_size) const;
+  Status check_end(std::uint64_t file_size);
   bool read_at(std::uint64_t offset, void* bytes, std::size_t count);
 };
 

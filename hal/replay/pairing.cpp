@@ -1,29 +1,36 @@
 #include "hal/replay/pairing.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 namespace orthonav::replay {
+namespace {
+
+/// The image nearest to a time; of two as near the earlier one. There is one at least.
+const ImageMember& nearest(const std::vector<ImageMember>& images, std::int64_t ticks) {
+  const auto after =
+      std::lower_bound(images.begin(), images.end(), ticks,
+                       [](const ImageMember& image, std::int64_t t) { return image.ticks < t; });
+  if (after == images.begin()) {
+    return *after;
+  }
+  const auto before = std::prev(after);
+  return after == images.end() || ticks - before->ticks <= after->ticks - ticks ? *before : *after;
+}
+
+}  // namespace
 
 std::vector<MemberPair> paired(const std::vector<ImageMember>& left,
                                const std::vector<ImageMember>& right, std::int64_t within_ticks) {
   std::vector<MemberPair> pairs;
-  std::size_t l = 0;
-  std::size_t r = 0;
-  while (l < left.size() && r < right.size()) {
-    const std::int64_t apart = right[r].ticks - left[l].ticks;
-    const auto closer = [&](const ImageMember& a, const ImageMember& b) {
-      return std::abs(a.ticks - b.ticks) < std::abs(apart);
-    };
-    if (apart > within_ticks) {
-      ++l;
-    } else if (apart < -within_ticks) {
-      ++r;
-    } else if (r + 1 < right.size() && closer(right[r + 1], left[l])) {
-      ++r;
-    } else if (l + 1 < left.size() && closer(left[l + 1], right[r])) {
-      ++l;
-    } else {
-      pairs.push_back({left[l++], right[r++]});
+  for (const ImageMember& l : left) {
+    if (right.empty()) {
+      break;
+    }
+    const ImageMember& r = nearest(right, l.ticks);
+    if (std::abs(r.ticks - l.ticks) <= within_ticks && nearest(left, r.ticks).ticks == l.ticks) {
+      pairs.push_back({l, r});
     }
   }
   return pairs;

@@ -12,8 +12,8 @@ struct MemberPair {
   ImageMember right;
 };
 
-/// Each left image with the right one nearest in time, at most `within_ticks` apart; both lists by
-/// time. An image that is nearer to another than to its neighbour's partner stays alone.
+/// Two images that are each other's nearest in time and at most `within_ticks` apart; both lists by
+/// time, each time once. No image is in two pairs.
 std::vector<MemberPair> paired(const std::vector<ImageMember>& left,
                                const std::vector<ImageMember>& right, std::int64_t within_ticks);
 

@@ -1,24 +1,19 @@
 #include "hal/replay/recording.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "hal/replay/calibration_files.h"
 #include "hal/replay/frame_files.h"
 #include "hal/replay/hololens1_files.h"
+#include "hal/replay/late_poses.h"
 #include "hal/replay/layout.h"
-#include "hal/replay/pairing.h"
+#include "hal/replay/recorded_pairs.h"
 #include "hal/replay/text.h"
 
 namespace orthonav::replay {
 
 namespace {
 
-/// What a recorder calls its two front cameras.
-struct Sensors {
-  const char* left;
-  const char* right;
-};
 constexpr Sensors kStreamRecorder{kLeftSensor, kRightSensor};
 constexpr Sensors kHololens1{kHololens1Left, kHololens1Right};
 
@@ -32,96 +27,6 @@ Status check_folder(const std::filesystem::path& folder) {
         folder,
         "is no folder; a recording is a folder with \"VLC LF.tar\" or \"vlc_lf.tar\" in it");
   }
-  return {};
-}
-
-/// The pairs of a StreamRecorder folder: found by time, numbered in order.
-Status add_paired(const std::filesystem::path& folder, const Sensors& sensors,
-                  Recording& recording) {
-  const auto& left = recording.left.members();
-  const auto& right = recording.right.members();
-  const auto path = tar_of(folder, sensors.left);
-  // The lists are sorted: their ends tell whether every difference fits.
-  for (const std::int64_t ticks :
-       {left.front().ticks, left.back().ticks, right.front().ticks, right.back().ticks}) {
-    if (auto time = named_time(path, ticks, recording.epoch_ticks_100ns); !time) {
-      return time.error();
-    }
-  }
-  constexpr std::int64_t kWithinTicks = kPairWithin / Duration(100);
-  for (const auto& [l, r] : paired(left, right, kWithinTicks)) {
-    const Timestamp time = *device_time(l.ticks, recording.epoch_ticks_100ns);
-    const auto sequence = static_cast<std::int64_t>(recording.pairs.size());
-    recording.pairs.push_back({sequence, time, time, l, r, std::nullopt});
-  }
-  if (recording.pairs.empty()) {
-    return file_error(folder, "holds no stereo pair: no two images of " +
-                                  std::string(sensors.left) + " and " + sensors.right +
-                                  " lie within 1 ms");
-  }
-  return {};
-}
-
-/// The pairs that our recorder listed.
-Status add_listed(const std::filesystem::path& folder, Recording& recording) {
-  const auto path = folder / kFramesFile;
-  const auto rows = read_frames(path);
-  if (!rows) {
-    return rows.error();
-  }
-  const auto& left = recording.left.members();
-  const auto& right = recording.right.members();
-  if (rows->size() != left.size() || rows->size() != right.size()) {
-    return file_error(path, "lists " + std::to_string(rows->size()) + " pairs, the archives hold " +
-                                std::to_string(left.size()) + " left and " +
-                                std::to_string(right.size()) + " right images");
-  }
-  for (std::size_t i = 0; i < rows->size(); ++i) {
-    const FrameRow& row = (*rows)[i];
-    if (row.ticks != left[i].ticks || row.ticks != right[i].ticks) {
-      return file_error(path, "pair " + std::to_string(row.sequence) + " has ticks " +
-                                  std::to_string(row.ticks) + ", its images " +
-                                  std::to_string(left[i].ticks) + " and " +
-                                  std::to_string(right[i].ticks));
-    }
-    if (Status s = check_row(path, row, recording.epoch_ticks_100ns); !s) {
-      return s;
-    }
-    recording.pairs.push_back({row.sequence, row.time, row.clock, left[i], right[i], std::nullopt});
-  }
-  return {};
-}
-
-Status add_poses(const std::filesystem::path& path, const PosesByTicks& poses,
-                 Recording& recording) {
-  std::map<std::int64_t, Timestamp> exact_times;
-  std::map<std::int64_t, std::int64_t> map_epochs;
-  for (RecordedPair& pair : recording.pairs) {
-    exact_times.emplace(pair.left.ticks, pair.time);
-    map_epochs.emplace(pair.left.ticks, pair.map_epoch);
-    const auto found = poses.find(pair.left.ticks);
-    if (found != poses.end()) {
-      pair.world_from_rig = found->second;
-    } else {
-      ++recording.summary.pairs_without_pose;
-    }
-  }
-  std::vector<HeadSample> samples;
-  samples.reserve(poses.size());
-  for (const auto& [ticks, pose] : poses) {
-    const auto exact = exact_times.find(ticks);
-    const auto time = exact != exact_times.end()
-                          ? Result<Timestamp>(exact->second)
-                          : named_time(path, ticks, recording.epoch_ticks_100ns);
-    if (!time) {
-      return time.error();
-    }
-    // A pose without a pair lies in the map of the pair after it, or of the last one.
-    const auto epoch = map_epochs.lower_bound(ticks);
-    samples.push_back(
-        {*time, pose, (epoch == map_epochs.end() ? std::prev(epoch) : epoch)->second});
-  }
-  recording.head = HeadHistory(std::move(samples));
   return {};
 }
 
@@ -157,17 +62,32 @@ Timestamp nominal_start(const Recording& recording) {
   return recording.pairs.front().clock - kNominalFrame;
 }
 
-Status add_device(const std::filesystem::path& folder, Recording& recording) {
+/// How late the front cameras' files are stamped.
+Duration lateness(const RecordedDevice& device, bool is_ours, RecordedStamps stamps) {
+  if (stamps == RecordedStamps::kExact) {
+    return Duration::zero();
+  }
+  return device.stamps_late.value_or(is_ours ? Duration::zero() : kResearchModeStampsLate);
+}
+
+Status add_device(const std::filesystem::path& folder, RecordedStamps stamps,
+                  Recording& recording) {
   RecordedDevice device;
+  bool is_ours = is_there(folder / kFramesFile);
   if (is_there(folder / kDeviceFile)) {
     const auto read = read_device(folder / kDeviceFile);
     if (!read) {
       return read.error();
     }
     device = *read;
+    is_ours = true;
   }
   const std::int64_t first_ticks = recording.left.members().front().ticks;
-  recording.epoch_ticks_100ns = device.epoch_ticks_100ns.value_or(epoch_of(first_ticks));
+  recording.stamps_late = lateness(device, is_ours, stamps);
+  // What the files call a moment is late: time zero is called later too, so that each pair has its
+  // right time and the files' name.
+  recording.epoch_ticks_100ns = device.epoch_ticks_100ns.value_or(epoch_of(first_ticks)) +
+                                recording.stamps_late / Duration(100);
   recording.display_latency = device.display_latency;
   const bool listed = is_there(folder / kFramesFile);
   if (Status s =
@@ -180,6 +100,19 @@ Status add_device(const std::filesystem::path& folder, Recording& recording) {
     return file_error(folder / kDeviceFile, "clock_start_ns lies after the first pair's clock_ns");
   }
   return {};
+}
+
+/// Files that our recorder lets grow line by line, and the poses.
+void note_torn_lines(const std::filesystem::path& folder, Recording& recording) {
+  const bool is_ours = is_there(folder / kFramesFile);
+  for (const std::filesystem::path& path :
+       {folder / kFramesFile, folder / kMapFile, folder / kEventsFile, folder / kHeadFile,
+        poses_of(folder, kLeftSensor), poses_of(folder, kRightSensor)}) {
+    // Other recorders may leave out the end of their last line.
+    if ((is_ours || !recording.summary.cut.empty()) && is_there(path) && is_torn_file(path)) {
+      note_cut(path.filename().string() + " ends within a line", recording.summary.cut);
+    }
+  }
 }
 
 Status open_archives(const std::filesystem::path& folder, const Sensors& sensors,
@@ -198,15 +131,20 @@ Status open_archives(const std::filesystem::path& folder, const Sensors& sensors
   }
   recording.left = std::move(*left);
   recording.right = std::move(*right);
+  for (const ImageTar* archive : {&recording.left, &recording.right}) {
+    note_cut(archive->cut(), recording.summary.cut);
+  }
   return {};
 }
 
 /// StreamRecorder's and our own.
-Status read_hololens2(const std::filesystem::path& folder, Recording& recording) {
+Status read_hololens2(const std::filesystem::path& folder, RecordedStamps stamps,
+                      Recording& recording) {
   if (Status s = open_archives(folder, kStreamRecorder, recording); !s) {
     return s;
   }
-  if (Status s = add_device(folder, recording); !s) {
+  note_torn_lines(folder, recording);
+  if (Status s = add_device(folder, stamps, recording); !s) {
     return s;
   }
   if (Status s = add_map_moves(folder / kMapFile, recording.pairs); !s) {
@@ -221,7 +159,18 @@ Status read_hololens2(const std::filesystem::path& folder, Recording& recording)
   if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) {
     return same.error();
   }
-  if (Status s = add_poses(path, *poses, recording); !s) {
+  // What is no time is damage, whether a correction would leave it out or not.
+  if (!poses->empty()) {
+    for (const std::int64_t ticks : {poses->begin()->first, poses->rbegin()->first}) {
+      if (auto time = named_time(path, ticks, recording.epoch_ticks_100ns); !time) {
+        return time.error();
+      }
+    }
+  }
+  const bool is_late = recording.stamps_late != Duration::zero();
+  if (Status s = add_poses(
+          path, is_late ? poses_at_exposure(*poses, recording.stamps_late) : *poses, recording);
+      !s) {
     return s;
   }
   if (Status s = add_own_files(folder, recording); !s) {
@@ -271,23 +220,27 @@ Status read_hololens1(const std::filesystem::path& folder, Recording& recording)
 }
 
 void add_depth(const std::filesystem::path& folder, Recording& recording) {
-  RecordedDepths depths = read_depths(folder, recording.epoch_ticks_100ns);
+  // Depth cameras are not late: their stamps count from time zero itself.
+  RecordedDepths depths =
+      read_depths(folder, recording.epoch_ticks_100ns - recording.stamps_late / Duration(100));
   recording.depth = std::move(depths.streams);
   recording.summary.depth = std::move(depths.unreadable);
   for (const RecordedDepth& depth : recording.depth) {
     recording.summary.depth.push_back(depth.summary);
+    note_cut(depth.summary.cut, recording.summary.cut);
   }
 }
 
 }  // namespace
 
-Result<Recording> read_recording(const std::filesystem::path& folder) {
+Result<Recording> read_recording(const std::filesystem::path& folder, RecordedStamps stamps) {
   if (Status s = check_folder(folder); !s) {
     return s.error();
   }
   Recording recording;
   const bool hololens1 = is_there(tar_of(folder, kHololens1Left));
-  if (Status s = hololens1 ? read_hololens1(folder, recording) : read_hololens2(folder, recording);
+  if (Status s =
+          hololens1 ? read_hololens1(folder, recording) : read_hololens2(folder, stamps, recording);
       !s) {
     return s.error();
   }

@@ -31,6 +31,7 @@ struct RecordedDevice {
   std::optional<std::int64_t> epoch_ticks_100ns;
   Duration display_latency{};
   std::optional<Timestamp> clock_start;
+  std::optional<Duration> stamps_late;  ///< of files that another recorder wrote
 };
 
 /// A whole folder but for the pixels, checked.
@@ -43,6 +44,7 @@ struct Recording {
   HeadAnswers head_answers;
   RecordedEvents events;
   std::int64_t epoch_ticks_100ns = 0;
+  Duration stamps_late{};  ///< of the front cameras' files, corrected in all the rest
   Timestamp clock_start{};
   Duration display_latency{};
   std::string tools_json;
@@ -50,6 +52,7 @@ struct Recording {
   RecordingSummary summary;
 };
 
-Result<Recording> read_recording(const std::filesystem::path& folder);
+Result<Recording> read_recording(const std::filesystem::path& folder,
+                                 RecordedStamps stamps = RecordedStamps::kByRecorder);
 
 }  // namespace orthonav::replay

@@ -14,7 +14,8 @@ namespace {
 Status check_free(const std::filesystem::path& folder, const std::filesystem::path& part) {
   std::error_code code;
   if (std::filesystem::exists(part, code)) {
-    return file_error(part, "was left by a recording that was cut off; move it away first");
+    return file_error(
+        part, "was left by a recording that was cut off; orthonav recording repair closes it");
   }
   if (!std::filesystem::exists(folder, code)) {
     return {};

@@ -193,9 +193,18 @@ class Replay : public ReplayHeadset {
 
 }  // namespace
 
+std::string cut_warning(const RecordingSummary& summary) {
+  if (summary.cut.empty()) {
+    return {};
+  }
+  return "the recording was cut off and is read to its last whole pair, " +
+         std::to_string(summary.pairs) + " in all (" + summary.cut +
+         "); orthonav recording repair closes it";
+}
+
 Result<std::unique_ptr<ReplayHeadset>> ReplayHeadset::open(const std::filesystem::path& folder,
                                                            const ReplayOptions& options) {
-  auto recording = read_recording(folder);
+  auto recording = read_recording(folder, options.stamps);
   if (!recording) {
     return recording.error();
   }

@@ -125,14 +125,32 @@ Status for_each_line(const std::string& text,
   return {};
 }
 
-Status for_each_row(const std::filesystem::path& path, std::uintmax_t max_bytes,
-                    std::string_view header, const std::function<Status(std::string_view)>& take) {
-  const auto text = read_text(path, max_bytes);
-  if (!text) {
-    return text.error();
-  }
+bool is_torn_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-1, std::ios::end);
+  return file.good() && file.get() != '\n';
+}
+
+void note_cut(const std::string& where, std::string& all) {
+  all += (all.empty() || where.empty() ? "" : "; ") + where;
+}
+
+Status for_each_whole_line(const std::string& text,
+                           const std::function<Status(std::size_t, std::string_view)>& take) {
+  return for_each_line(text, [&](std::size_t number, std::string_view line) -> Status {
+    Status taken = take(number, line);
+    const bool is_last = line.data() + line.size() == text.data() + text.size();
+    return is_last ? Status{} : taken;
+  });
+}
+
+namespace {
+
+Status for_each_row_of(const std::string& text, const std::filesystem::path& path,
+                       std::string_view header,
+                       const std::function<Status(std::string_view)>& take) {
   bool seen_header = false;
-  Status status = for_each_line(*text, [&](std::size_t number, std::string_view line) -> Status {
+  Status status = for_each_line(text, [&](std::size_t number, std::string_view line) -> Status {
     if (!seen_header) {
       seen_header = true;
       if (line == header) {
@@ -149,6 +167,25 @@ Status for_each_row(const std::filesystem::path& path, std::uintmax_t max_bytes,
     return file_error(path, "is empty");
   }
   return status;
+}
+
+}  // namespace
+
+Status for_each_row(const std::filesystem::path& path, std::uintmax_t max_bytes,
+                    std::string_view header, const std::function<Status(std::string_view)>& take) {
+  const auto text = read_text(path, max_bytes);
+  return text ? for_each_row_of(*text, path, header, take) : text.error();
+}
+
+Status for_each_grown_row(const std::filesystem::path& path, std::uintmax_t max_bytes,
+                          std::string_view header,
+                          const std::function<Status(std::string_view)>& take) {
+  auto text = read_text(path, max_bytes);
+  if (!text) {
+    return text.error();
+  }
+  text->resize(text->rfind('\n') + 1);  // npos + 1 is 0
+  return text->empty() ? Status{} : for_each_row_of(*text, path, header, take);
 }
 
 void append_number(std::string& text, double value) { append(text, value); }

@@ -35,9 +35,25 @@ Status write_bytes(const std::filesystem::path& path, std::span<const char> byte
 Status for_each_line(const std::string& text,
                      const std::function<Status(std::size_t, std::string_view)>& take);
 
+/// The same of a file that was written line by line: a last line that lacks its end and can't be
+/// understood was cut off, and is passed over.
+Status for_each_whole_line(const std::string& text,
+                           const std::function<Status(std::size_t, std::string_view)>& take);
+
+/// Whether a file ends within a line; only its end is read.
+[[nodiscard]] bool is_torn_file(const std::filesystem::path& path);
+/// Adds a place where a recording was cut off to those before it; nothing for an empty one.
+void note_cut(const std::string& where, std::string& all);
+
 /// Calls `take` for each line after the header line of a CSV file, which must be `header`.
 Status for_each_row(const std::filesystem::path& path, std::uintmax_t max_bytes,
                     std::string_view header, const std::function<Status(std::string_view)>& take);
+
+/// The same of a file that our recorder wrote line by line: a last line that lacks its end was cut
+/// off, and is passed over; so is a header.
+Status for_each_grown_row(const std::filesystem::path& path, std::uintmax_t max_bytes,
+                          std::string_view header,
+                          const std::function<Status(std::string_view)>& take);
 
 /// Shortest text that reads back to the same bits, whatever the locale.
 void append_number(std::string& text, double value);

@@ -101,6 +101,11 @@ TEST(OpenHeadset, PassesOnWhyARecordingCannotBeOpened) {
   EXPECT_THAT(refusal("replay:?pace=fast"), HasSubstr("names no folder"));
   EXPECT_THAT(refusal("replay:/x?pace=slow"), HasSubstr("known are fast, realtime and step"));
   EXPECT_THAT(refusal("replay:/nowhere?pace=step"), HasSubstr("/nowhere: no such recording"));
+  for (const char* keys : {"?stamps=exact", "?pace=fast&stamps=exact", "?stamps=recorder"}) {
+    EXPECT_THAT(refusal(std::string("replay:/nowhere") + keys),
+                HasSubstr("/nowhere: no such recording"));
+  }
+  EXPECT_THAT(refusal("replay:/x?stamps=late"), HasSubstr("known are pace=fast"));
 }
 
 TEST(OpenHeadset, SeedsTheSimulation) {

@@ -81,9 +81,12 @@ class TrackCommand : public ::testing::Test {
       GTEST_SKIP() << "the recorded sample is not here";
     }
   }
+  /// The sample was rendered at its stamps.
   Called track(std::vector<std::string> more) const {
-    std::vector<std::string> all = {
-        "track", sample_, "--tools", sample_ + "/tools.json", "--csv", folder_.file("poses.csv")};
+    std::vector<std::string> all = {"track",         sample_,
+                                    "--tools",       sample_ + "/tools.json",
+                                    "--csv",         folder_.file("poses.csv"),
+                                    "--exact-stamps"};
     all.insert(all.end(), more.begin(), more.end());
     return orthonav(all);
   }
@@ -256,17 +259,25 @@ TEST_F(TrackBadInput, RefusesBadInputInOneLineAndWritesNothing) {
   EXPECT_THAT(folder_.names(), ElementsAre("family.json", "recording", "twice.json"));
 }
 
-TEST_F(TrackBadInput, LeavesNoCsvOfARecordingThatIsCutShort) {
+TEST_F(TrackBadInput, IsReadToItsLastWholePairAndLeavesNoCsvWhereThereIsNone) {
   const std::string copy = folder_.file("copy");
   std::filesystem::copy(sample_, copy, std::filesystem::copy_options::recursive);
   const std::string tar = copy + "/VLC RF.tar";
   std::filesystem::permissions(copy, std::filesystem::perms::owner_all);
   std::filesystem::permissions(tar, std::filesystem::perms::owner_all);
-  std::filesystem::resize_file(tar, std::filesystem::file_size(tar) / 2 + 1000);
-  const Called called = orthonav(
-      {"track", copy, "--tools", copy + "/tools.json", "--csv", folder_.file("poses.csv")});
-  EXPECT_EQ(called.code, 2);
-  EXPECT_THAT(called.err, HasSubstr("VLC RF.tar"));
+  const auto track_cut_at = [&](std::uint64_t bytes) {
+    std::filesystem::resize_file(tar, bytes);
+    return orthonav(
+        {"track", copy, "--tools", copy + "/tools.json", "--csv", folder_.file("poses.csv")});
+  };
+  const Called cut = track_cut_at(std::filesystem::file_size(tar) / 2 + 1000);
+  EXPECT_EQ(cut.code, 0) << cut.err;
+  EXPECT_THAT(cut.err, HasSubstr("read to its last whole pair, 1 in all (VLC RF.tar is cut off"));
+  EXPECT_THAT(cut.out, HasSubstr("1 stereo pairs"));
+  std::filesystem::remove(folder_.file("poses.csv"));
+  const Called none = track_cut_at(1000);
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("VLC RF.tar: holds no whole image"));
   EXPECT_THAT(folder_.names(), ElementsAre("copy", "recording"));
 }
 

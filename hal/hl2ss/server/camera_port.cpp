@@ -1,17 +1,34 @@
 #include "hal/hl2ss/server/camera_port.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
 
+#include "hal/api/research_mode.h"
 #include "hal/hl2ss/server/packets.h"
 
 namespace orthonav::hl2ss {
 namespace {
 
+/// More than that from key frame to key frame, no encoder takes.
+constexpr std::uint64_t kMaxGopSize = 3000;
 constexpr Duration kStall = std::chrono::milliseconds(300);
 constexpr Duration kHalfPause = std::chrono::milliseconds(40);
+
+/// What is added to the time of an image, in ticks of 100 ns.
+std::int64_t stamp_off_ticks(const VideoOptions& options) {
+  const double exposures_s = options.stamp_exposures * 1e-9 * CameraPort::kExposureNs;
+  // What nobody can mean is not asked for.
+  const Duration exposures =
+      std::abs(exposures_s) <= 1.0 ? from_seconds(exposures_s) : Duration::zero();
+  constexpr std::int64_t kSecondTicks = 10'000'000;
+  const bool is_meant =
+      options.stamp_offset_ticks >= -kSecondTicks && options.stamp_offset_ticks <= kSecondTicks;
+  return (kResearchModeStampsLate + exposures) / Duration(100) +
+         (is_meant ? options.stamp_offset_ticks : 0);
+}
 
 void overwrite(std::vector<std::uint8_t>& bytes, std::size_t at, Number auto value) {
   std::memcpy(bytes.data() + at, &value, sizeof(value));
@@ -54,7 +71,11 @@ Result<std::vector<std::uint8_t>> CameraPort::pictured(const VideoRequest& reque
   }
   // A new client must get a key frame first.
   if (!encoder_ || encoded_stream_ != stream) {
-    auto encoder = H264Encoder::create(request.bitrate);
+    auto encoder = H264Encoder::create(
+        {request.bitrate,
+         static_cast<int>(std::clamp(request.options.value_or(VideoOptions{}).gop_size,
+                                     std::uint64_t{1}, kMaxGopSize)),
+         slices_});
     if (!encoder) {
       return encoder.error();
     }
@@ -77,9 +98,11 @@ Result<bool> CameraPort::send(const Image& image) {
   if (!picture) {
     return picture.error();
   }
-  auto packet = image_packet(image.ticks, *picture, {image.sensor_ticks, kExposureNs, 100});
+  const std::int64_t off_ticks = stamp_off_ticks(request->options.value_or(VideoOptions{}));
+  auto packet =
+      image_packet(image.ticks + off_ticks, *picture, {image.sensor_ticks, kExposureNs, 100});
   if (request->mode == Mode::kVideoAndPose) {
-    append_pose(packet, image.world_from_rig);
+    append_pose(packet, image.world_from_rig_after(off_ticks * Duration(100)));
   }
   std::vector<Chunk> chunks;
   const Fate fate = image.spoil ? spoil(packet, chunks) : Fate::kUntouched;
@@ -121,6 +144,13 @@ CameraPort::Fate CameraPort::spoil(std::vector<std::uint8_t>& packet, std::vecto
   }
   if (strikes(faults_.cut)) {
     chunks.push_back({{packet.begin(), half}, {}, true});
+    return Fate::kBroken;
+  }
+  if (strikes(faults_.misstamp)) {
+    constexpr std::uint64_t kTenthTicks = 1'000'000;
+    const auto stamp = number_at<std::uint64_t>(packet, 0);
+    overwrite(packet, 0, random_.next() % 2 == 0 ? stamp - kTenthTicks : stamp + 10 * kTenthTicks);
+    chunks.push_back({std::move(packet)});
     return Fate::kBroken;
   }
   if (!strikes(faults_.corrupt)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -12,21 +13,32 @@
 
 namespace orthonav::hl2ss {
 
+/// What one front camera's port is made of.
+struct CameraPortOptions {
+  std::vector<std::uint8_t> calibration;  ///< the whole answer in mode 2
+  Faults faults;
+  Random random;
+  int slices = 1;  ///< of an H.264 picture
+};
+
 /// A front camera's port: answers with the calibration, or streams what it is given, spoiled as the
-/// faults say.
+/// faults say. It stamps late, as research mode does, and corrects that as its client asks.
 class CameraPort {
  public:
-  /// `calibration` is the whole answer in mode 2.
-  CameraPort(std::vector<std::uint8_t> calibration, const Faults& faults, Random random)
-      : calibration_(std::move(calibration)), faults_(faults), random_(random) {}
+  explicit CameraPort(CameraPortOptions options)
+      : calibration_(std::move(options.calibration)),
+        faults_(options.faults),
+        random_(options.random),
+        slices_(options.slices) {}
   [[nodiscard]] Port& port() { return port_; }
   [[nodiscard]] bool is_streaming() const;
 
   struct Image {
-    std::int64_t ticks = 0;
-    std::uint64_t sensor_ticks = 0;
+    std::int64_t ticks = 0;          ///< when it was taken
+    std::uint64_t sensor_ticks = 0;  ///< of 1 ns
     const GreyImage* picture = nullptr;
-    std::optional<Transform<World, Rig>> world_from_rig;
+    /// Where the headset was so long after the image.
+    std::function<std::optional<Transform<World, Rig>>(Duration)> world_from_rig_after;
     bool spoil = true;  ///< faults may strike it
   };
   /// Sends it; answers whether it will arrive whole and in its turn.
@@ -46,6 +58,7 @@ class CameraPort {
   std::vector<std::uint8_t> calibration_;
   Faults faults_;
   Random random_;
+  int slices_;
   mutable Mutex mutex_;
   std::optional<VideoRequest> request_ ORTHONAV_GUARDED_BY(mutex_);
   std::int64_t stream_ ORTHONAV_GUARDED_BY(mutex_) = 0;  ///< counts the requests

@@ -10,7 +10,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, double Faults::*>, 8> kProbabilities = {{
+constexpr std::array<std::pair<std::string_view, double Faults::*>, 9> kProbabilities = {{
     {"gap", &Faults::gap},
     {"lose", &Faults::lose},
     {"unlocated", &Faults::unlocated},
@@ -18,10 +18,11 @@ constexpr std::array<std::pair<std::string_view, double Faults::*>, 8> kProbabil
     {"stall", &Faults::stall},
     {"half", &Faults::half},
     {"cut", &Faults::cut},
+    {"misstamp", &Faults::misstamp},
     {"corrupt", &Faults::corrupt},
 }};
 constexpr const char* kKnown =
-    "known are gap, lose, unlocated, reorder, stall, half, cut, corrupt (probabilities), "
+    "known are gap, lose, unlocated, reorder, stall, half, cut, misstamp, corrupt (probabilities), "
     "jump=PAIR and all";
 /// Of each fault where all are asked for.
 constexpr double kALittle = 0.01;

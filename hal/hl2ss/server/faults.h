@@ -19,6 +19,7 @@ struct Faults {
   double stall = 0.0;      ///< nothing comes for 0.3 s after it
   double half = 0.0;       ///< half a packet, a pause, the other half
   double cut = 0.0;        ///< half a packet, then the connection is closed
+  double misstamp = 0.0;   ///< one of its images is stamped 0.1 s early or 1 s late
   double corrupt = 0.0;    ///< one of: NaN pose, size of 4 GiB, short image, stamp far off, noise
   /// World jumps by this much with the pairs of these numbers.
   std::vector<std::int64_t> jump_at;

@@ -36,10 +36,10 @@ struct H264Encoder::Codec {
     av_frame_free(&frame);
     avcodec_free_context(&context);
   }
-  Status open(std::uint32_t bitrate);
+  Status open(const Options& options);
 };
 
-Status H264Encoder::Codec::open(std::uint32_t bitrate) {
+Status H264Encoder::Codec::open(const Options& options) {
   const AVCodec* h264 = avcodec_find_encoder_by_name("libx264");
   if (h264 == nullptr) {
     return Error{"libavcodec has no H.264 encoder (libx264)"};
@@ -56,10 +56,11 @@ Status H264Encoder::Codec::open(std::uint32_t bitrate) {
   context->framerate = {kFramesPerSecond, 1};
   context->pix_fmt = AV_PIX_FMT_YUV420P;
   context->color_range = AVCOL_RANGE_JPEG;
-  context->gop_size = kFramesPerSecond;
+  context->gop_size = options.gop_size;
+  context->slices = options.slices;
   context->max_b_frames = 0;
   context->thread_count = 1;
-  context->bit_rate = std::int64_t{bitrate};
+  context->bit_rate = std::int64_t{options.bitrate};
   const std::pair<const char*, const char*> settings[] = {
       {"preset", "ultrafast"}, {"tune", "zerolatency"}, {"profile", "baseline"}};
   for (const auto& [key, value] : settings) {
@@ -84,9 +85,9 @@ Status H264Encoder::Codec::open(std::uint32_t bitrate) {
 H264Encoder::H264Encoder(std::unique_ptr<Codec> codec) : codec_(std::move(codec)) {}
 H264Encoder::~H264Encoder() = default;
 
-Result<std::unique_ptr<H264Encoder>> H264Encoder::create(std::uint32_t bitrate) {
+Result<std::unique_ptr<H264Encoder>> H264Encoder::create(const Options& options) {
   auto codec = std::make_unique<Codec>();
-  if (const Status opened = codec->open(bitrate); !opened) {
+  if (const Status opened = codec->open(options); !opened) {
     return opened.error();
   }
   return std::unique_ptr<H264Encoder>(new H264Encoder(std::move(codec)));

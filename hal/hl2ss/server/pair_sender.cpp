@@ -9,8 +9,9 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// Sensor ticks are another clock than the stamps, and the cameras' stamps differ a little.
-constexpr std::int64_t kSensorTicksAhead = 7'654'321;
+/// Sensor ticks are another clock than the stamps, and the cameras differ a little in both.
+constexpr Duration kSensorAhead(765'432'100);
+constexpr Duration kRightSensorAhead(10);
 constexpr std::int64_t kRightLaterTicks = 1'500;
 constexpr std::int64_t kHalfPairTicks = 166'667;
 constexpr int kSamplesAPair = kMicrophoneHz / 30;
@@ -51,14 +52,16 @@ Result<bool> PairSender::send(Headset& headset, const StereoFrame& frame) {
   }
   CameraPort::Image image;
   image.ticks = ticks_100ns(frame.time);
-  image.sensor_ticks = static_cast<std::uint64_t>(image.ticks + kSensorTicksAhead);
+  const Duration sensor_time = frame.time.time_since_epoch() + kSensorAhead;
+  image.sensor_ticks = static_cast<std::uint64_t>(sensor_time.count());
   image.picture = &frame.left;
   image.spoil = number >= kUntouchedPairs;
-  if (frame.world_from_rig && !unlocated) {
-    image.world_from_rig = jumped_from_world() * *frame.world_from_rig;
-  }
+  image.world_from_rig_after = [&](Duration after) {
+    return unlocated ? std::nullopt : world_from_rig(headset, frame, after);
+  };
   const auto left = left_.send(image);
   image.ticks += kRightLaterTicks;
+  image.sensor_ticks += static_cast<std::uint64_t>(kRightSensorAhead.count());
   image.picture = &frame.right;
   const auto right = right_.send(image);
   if (!left) {
@@ -68,6 +71,24 @@ Result<bool> PairSender::send(Headset& headset, const StereoFrame& frame) {
     return right;
   }
   return *left && *right;
+}
+
+/// As the client sees it: in its own world.
+std::optional<Transform<World, Rig>> PairSender::world_from_rig(Headset& headset,
+                                                                const StereoFrame& frame,
+                                                                Duration after) const {
+  if (!frame.world_from_rig) {
+    return std::nullopt;
+  }
+  // To the bit what the pair itself says, where that is asked for.
+  if (after == Duration::zero()) {
+    return jumped_from_world() * *frame.world_from_rig;
+  }
+  const auto then = headset.head().world_from_rig(frame.time + after);
+  if (then.status == PoseStatus::kLost) {
+    return std::nullopt;
+  }
+  return jumped_from_world() * then.value;
 }
 
 void PairSender::send_events(Headset& headset, const StereoFrame& frame) {

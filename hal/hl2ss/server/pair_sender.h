@@ -34,6 +34,9 @@ class PairSender {
 
  private:
   [[nodiscard]] Transform<World, World> jumped_from_world() const;
+  [[nodiscard]] std::optional<Transform<World, Rig>> world_from_rig(Headset& headset,
+                                                                    const StereoFrame& frame,
+                                                                    Duration after) const;
   void send_events(Headset& headset, const StereoFrame& frame);
   void jump();
   bool strikes(double probability);

@@ -33,10 +33,10 @@ class RunningServer final : public Server {
       : options_(options),
         open_(std::move(open)),
         headset_(std::move(first)),
-        left_(calibration_of(*headset_, Side::kLeft), options.faults,
-              Random(options.seed).fork("left")),
-        right_(calibration_of(*headset_, Side::kRight), options.faults,
-               Random(options.seed).fork("right")),
+        left_({calibration_of(*headset_, Side::kLeft, options.unmapped_edge_px), options.faults,
+               Random(options.seed).fork("left"), options.slices}),
+        right_({calibration_of(*headset_, Side::kRight, options.unmapped_edge_px), options.faults,
+                Random(options.seed).fork("right"), options.slices}),
         sides_(options.utc_offset_ticks),
         sender_(options.faults, options.seed, left_, right_, sides_) {}
   ~RunningServer() override {
@@ -84,10 +84,13 @@ class RunningServer final : public Server {
 
  private:
   enum class Side { kLeft, kRight };
-  [[nodiscard]] static std::vector<std::uint8_t> calibration_of(Headset& headset, Side side) {
+  [[nodiscard]] static std::vector<std::uint8_t> calibration_of(Headset& headset, Side side,
+                                                                int unmapped_edge_px) {
     const StereoCalibration& c = headset.cameras().calibration();
-    return side == Side::kLeft ? calibration_bytes(c.left, c.left_from_rig.row_major())
-                               : calibration_bytes(c.right, c.right_from_rig.row_major());
+    auto bytes = side == Side::kLeft ? calibration_bytes(c.left, c.left_from_rig.row_major())
+                                     : calibration_bytes(c.right, c.right_from_rig.row_major());
+    unmap_edges(bytes, unmapped_edge_px);
+    return bytes;
   }
 
   std::vector<std::pair<Port*, int>> ports() {
@@ -278,21 +281,6 @@ class RunningServer final : public Server {
 };
 
 }  // namespace
-
-std::vector<std::string> ServerOptions::check() const {
-  std::vector<std::string> problems = faults.check();
-  if (first_port < 0 || first_port > 65535 - kStandinOffset) {
-    problems.push_back("first_port must lie in [0, " + std::to_string(65535 - kStandinOffset) +
-                       "]");
-  }
-  if (paced && !standin) {
-    problems.push_back("paced needs standin");
-  }
-  if (utc_offset_ticks < 0) {
-    problems.push_back("utc_offset_ticks must not be negative");
-  }
-  return problems;
-}
 
 Result<std::unique_ptr<Server>> Server::start(const ServerOptions& options, OpenHeadset open) {
   const auto problems = options.check();

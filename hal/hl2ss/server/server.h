@@ -24,6 +24,9 @@ struct ServerOptions {
   std::int64_t utc_offset_ticks = 133'000'000'000'000'000;
   Faults faults;
   std::uint64_t seed = 1;  ///< of the faults
+  int slices = 1;          ///< of each H.264 picture
+  /// Pixels along the edges of the images whose direction the calibration does not tell: (0, 0).
+  int unmapped_edge_px = 0;
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;

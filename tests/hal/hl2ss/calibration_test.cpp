@@ -81,6 +81,38 @@ TEST(Calibration, OfARealDeviceIsTaken) {
   EXPECT_NEAR(read->camera.unproject({320.0, 240.0})->x, static_cast<double>(x), 1e-5);
 }
 
+/// A device leaves (0, 0) at the edges where its mapping failed; that is no fold.
+TEST(Calibration, WithZerosAtItsEdgesHasNoDirectionThere) {
+  auto answer = left_answer();
+  constexpr int kEdgePx = 6;
+  unmap_edges(answer, kEdgePx);
+  const auto read = read_left_calibration(answer);
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  const auto whole = read_left_calibration(left_answer());
+  ASSERT_TRUE(whole.ok());
+  EXPECT_FALSE(read->camera.unproject({3.0, 240.0}).has_value());
+  EXPECT_FALSE(read->camera.unproject({320.0, 477.0}).has_value());
+  // Resampling between corners needs four in a row.
+  for (const Vec2 pixel : {Vec2{320.3, 240.7}, Vec2{10.0, 240.0}, Vec2{320.0, 469.0}}) {
+    ASSERT_TRUE(read->camera.unproject(pixel).has_value()) << pixel.x << " " << pixel.y;
+    EXPECT_EQ(read->camera.unproject(pixel), whole->camera.unproject(pixel));
+  }
+}
+
+TEST(Calibration, MayLookStraightAhead) {
+  const auto camera =
+      CameraModel::from_brown_conrady({640, 480, 360.0, 360.0, 320.0, 240.0, 0, 0, 0, 0, 0});
+  ASSERT_TRUE(camera.ok());
+  auto answer = calibration_bytes(*camera, Transform<LeftCamera, Rig>{}.row_major());
+  // The corner of pixel (320, 240): zero to the bit.
+  for (const std::size_t table : {std::size_t{0}, 4 * kImageBytes}) {
+    std::memset(answer.data() + table + 4 * (240 * 640 + 320), 0, 4);
+  }
+  const auto read = read_left_calibration(answer);
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_TRUE(read->camera.unproject({320.0, 240.0}).has_value());
+}
+
 TEST(Calibration, OfTheWrongSizeIsRefused) {
   auto answer = left_answer();
   answer.pop_back();

@@ -99,6 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Every, UnderFault,
                                            FaultCase{"Lost", {.lose = 0.05}, 110},
                                            FaultCase{"Reordered", {.reorder = 0.05}, 110},
                                            FaultCase{"Cut", {.cut = 0.03}, 100},
+                                           FaultCase{"Misstamped", {.misstamp = 0.1}, 100},
                                            FaultCase{"Corrupt", {.corrupt = 0.05}, 90}),
                          [](const auto& each) { return std::string(each.param.name); });
 
@@ -116,6 +117,38 @@ TEST(UnderFault, AnUnlocatedHeadIsNoFault) {
   EXPECT_TRUE(seen.ended && seen.ordered && seen.sound);
   EXPECT_EQ(seen.pairs, 60);
   EXPECT_EQ(seen.map_epoch, 0);
+}
+
+/// Ten seconds in which every seventh image or so is stamped wrongly: the map stays, and each is
+/// refused alone.
+TEST(UnderFault, AWrongStampMovesNoMapAndIsRefusedAlone) {
+  const sim::SimOptions sim = black_session(10.0);
+  ServedRoom room(sim, paced({.misstamp = 0.15}));
+  const auto headset = room.connect();
+  ASSERT_NE(headset, nullptr);
+  StereoFrame frame;
+  int pairs = 0;
+  for (; next_pair(*headset, frame) == Next::kFrame; ++pairs) {
+    ASSERT_EQ(frame.map_epoch, 0) << pairs;
+  }
+  const ConnectionStatistics statistics = headset->statistics();
+  EXPECT_EQ(statistics.map_moves, 0);
+  EXPECT_GE(pairs, 180) << "of 300, each of two images: 0.85² of them";
+  EXPECT_LT(pairs, 260) << "the fault never struck";
+  EXPECT_GE(statistics.streams[0].damaged, 20);
+  EXPECT_THAT(statistics.streams[0].last_trouble,
+              ::testing::AllOf(::testing::HasSubstr("packets refused, the last one: stamp "),
+                               ::testing::HasSubstr("limit 10.0 ms")));
+}
+
+/// What real encoders and real calibrations are like: several slices, edges without a direction.
+TEST(AUnit, WithSlicesAndUnmappedEdgesIsFollowed) {
+  ServerOptions options = paced({});
+  options.slices = 4;
+  options.unmapped_edge_px = 8;
+  const Seen seen = go_through(black_session(5.0), options, VideoProfile::kH264Base);
+  EXPECT_TRUE(seen.ended && seen.ordered && seen.sound);
+  EXPECT_EQ(seen.pairs, 150);
 }
 
 TEST(UnderFault, AJumpOfTheWorldIsCountedOnce) {

@@ -39,8 +39,8 @@ double rms(const GreyImage& a, const GreyImage& b) {
 // What the encoder itself leaves at this rate; the picture beside the right one is 15 off.
 constexpr double kCodecNoise = 4.0;
 
-std::vector<std::vector<std::uint8_t>> encoded(int count) {
-  auto encoder = H264Encoder::create(kBitrate);
+std::vector<std::vector<std::uint8_t>> encoded(int count, int slices) {
+  auto encoder = H264Encoder::create({kBitrate, 30, slices});
   EXPECT_TRUE(encoder.ok());
   std::vector<std::vector<std::uint8_t>> units;
   for (int i = 0; i < count; ++i) {
@@ -75,8 +75,8 @@ Decoded decode(const std::vector<std::pair<int, std::vector<std::uint8_t>>>& uni
   return decoded;
 }
 
-std::vector<std::pair<int, std::vector<std::uint8_t>>> numbered(int count) {
-  auto units = encoded(count);
+std::vector<std::pair<int, std::vector<std::uint8_t>>> numbered(int count, int slices = 1) {
+  auto units = encoded(count, slices);
   std::vector<std::pair<int, std::vector<std::uint8_t>>> all;
   for (int i = 0; i < count; ++i) {
     all.emplace_back(i, std::move(units[static_cast<std::size_t>(i)]));
@@ -136,6 +136,58 @@ TEST(H264, JoinsAStreamAtItsNextKeyFrame) {
   EXPECT_LT(decoded.worst_rms, kCodecNoise);
   ASSERT_FALSE(decoded.units.empty());
   EXPECT_EQ(decoded.units.front(), 30);
+}
+
+/// Where each unit of a stream begins, by its start code of three bytes.
+std::vector<std::size_t> starts_of(const std::vector<std::uint8_t>& stream) {
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i + 3 < stream.size(); ++i) {
+    if (stream[i] == 0 && stream[i + 1] == 0 && stream[i + 2] == 1) {
+      starts.push_back(i);
+    }
+  }
+  return starts;
+}
+
+TEST(H264, PicturesOfSeveralSlicesComeOutWhole) {
+  const auto units = numbered(40, 4);
+  EXPECT_EQ(starts_of(units[12].second).size(), 4u) << "the encoder makes slices";
+  const Decoded decoded = decode(units);
+  EXPECT_EQ(decoded.units.size(), 40u);
+  EXPECT_EQ(decoded.errors, 0);
+  EXPECT_LT(decoded.worst_rms, kCodecNoise);
+}
+
+TEST(H264, APictureWithoutOneOfItsSlicesIsNotPassedOn) {
+  for (const std::size_t lost : {0u, 1u, 2u, 3u}) {
+    auto units = numbered(40, 4);
+    auto& bytes = units[12].second;
+    const auto starts = starts_of(bytes);
+    ASSERT_EQ(starts.size(), 4u);
+    const auto at = [&](std::size_t i) {
+      return bytes.begin() + static_cast<std::ptrdiff_t>(i < 4 ? starts[i] : bytes.size());
+    };
+    bytes.erase(at(lost), at(lost + 1));
+    const Decoded decoded = decode(units);
+    EXPECT_LT(decoded.worst_rms, kCodecNoise) << lost;
+    EXPECT_GE(decoded.errors, 1) << lost;
+    EXPECT_EQ(std::count(decoded.units.begin(), decoded.units.end(), 12), 0) << lost;
+    EXPECT_EQ(decoded.units.back(), 39) << lost;
+  }
+}
+
+TEST(H264, ADamagedSliceIsNotPassedOn) {
+  for (const std::size_t into : {10u, 100u, 400u}) {
+    auto units = numbered(40, 4);
+    auto& bytes = units[12].second;
+    const std::size_t at = starts_of(bytes)[2] + into;
+    for (std::size_t i = at; i < std::min(at + 40, bytes.size()); ++i) {
+      bytes[i] ^= 0x5a;
+    }
+    const Decoded decoded = decode(units);
+    EXPECT_LT(decoded.worst_rms, kCodecNoise) << into;
+    EXPECT_EQ(decoded.units.back(), 39) << into;
+  }
 }
 
 TEST(H264, RefusesGarbage) {

@@ -33,7 +33,7 @@ class HostileServer {
   static std::vector<std::uint8_t> good_image(std::int64_t turn, std::int64_t later) {
     const GreyImage picture(640, 480, static_cast<std::uint8_t>(turn));
     auto packet = image_packet(ticks_of(turn) + later, picture.pixels,
-                               {static_cast<std::uint64_t>(ticks_of(turn)), 1, 1});
+                               {static_cast<std::uint64_t>(100 * ticks_of(turn)), 1, 1});
     append_pose(packet, Transform<World, Rig>{});
     return packet;
   }
@@ -208,6 +208,24 @@ TEST(HostileServer, ImagesOfNoSizeAndNanPosesAreCounted) {
   pairs_until(**headset, [](int pairs, const ConnectionStatistics& statistics) {
     return pairs > 10 && statistics.streams[0].damaged > 20;
   });
+}
+
+TEST(HostileServer, SaysHowManyImagesWereRefusedForTheirStamps) {
+  HostileServer server;
+  server.left = server.right = [](std::int64_t turn) {
+    auto packet = HostileServer::good_image(turn, 0);
+    std::fill_n(packet.begin(), 8, std::uint8_t{0xff});
+    return packet;
+  };
+  server.spatial = [](std::int64_t) { return std::vector<std::uint8_t>(); };
+  server.start();
+  Hl2ssOptions options = server.client();
+  options.open_within = std::chrono::milliseconds(600);
+  const auto headset = Hl2ssHeadset::open(options);
+  ASSERT_FALSE(headset.ok());
+  EXPECT_THAT(headset.error().message,
+              ::testing::ContainsRegex("no image within 0.6.* s; left camera: [0-9]+ packets "
+                                       "refused, the last one: stamp 18446744073709551615"));
 }
 
 TEST(HostileServer, ACalibrationThatIsNoneIsRefusedByName) {

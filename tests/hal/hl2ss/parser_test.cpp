@@ -61,13 +61,34 @@ TEST(Requests, AreReadByAServer) {
   EXPECT_EQ((*read)->request.divisor, 3);
   EXPECT_EQ((*read)->request.profile, VideoProfile::kH264High);
   EXPECT_EQ((*read)->request.bitrate, 77u);
-  // Options of the encoder are passed over, once they are all there.
+  // Options that nobody knows are passed over, once they are all there.
   std::vector<std::uint8_t> with_options = bytes;
   with_options[8] = 2;
   with_options.resize(9 + 31);
   EXPECT_FALSE(read_video_request(with_options)->has_value());
   with_options.resize(9 + 32);
   EXPECT_EQ((*read_video_request(with_options))->bytes, 41u);
+  EXPECT_FALSE((*read_video_request(with_options))->request.options.has_value());
+}
+
+TEST(Requests, AskForKeyFramesAndForStampsThatAreNotLate) {
+  VideoRequest asked;
+  asked.options = VideoOptions{30, 0.5, -125'000};
+  const auto bytes = request_bytes(asked);
+  ASSERT_EQ(bytes.size(), 9u + 3 * 16);
+  EXPECT_EQ(bytes[8], 3);
+  EXPECT_EQ(number_at<std::uint64_t>(bytes, 9), 10u);
+  EXPECT_EQ(number_at<std::uint64_t>(bytes, 17), 30u);
+  EXPECT_EQ(number_at<std::uint64_t>(bytes, 25), 0xFFFFFFFFFFFFFFFFu);
+  EXPECT_EQ(number_at<double>(bytes, 33), 0.5);
+  EXPECT_EQ(number_at<std::uint64_t>(bytes, 41), 0xFFFFFFFFFFFFFFFEu);
+  EXPECT_EQ(number_at<std::int64_t>(bytes, 49), -125'000);
+  const auto read = read_video_request(bytes);
+  ASSERT_TRUE(read.ok() && *read);
+  ASSERT_TRUE((*read)->request.options.has_value());
+  EXPECT_EQ((*read)->request.options->gop_size, 30u);
+  EXPECT_EQ((*read)->request.options->stamp_exposures, 0.5);
+  EXPECT_EQ((*read)->request.options->stamp_offset_ticks, -125'000);
 }
 
 TEST(Requests, ThatNobodyMayMakeAreRefused) {

@@ -6,7 +6,6 @@
 #include "hal/hl2ss/boot_clock.h"
 #include "hal/hl2ss/map_watch.h"
 #include "hal/hl2ss/options.h"
-#include "hal/hl2ss/pairer.h"
 #include "hal/hl2ss/server/faults.h"
 
 namespace orthonav::hl2ss {
@@ -18,56 +17,6 @@ using ::testing::HasSubstr;
 
 constexpr HostTime kStart{seconds(5000)};
 constexpr std::uint64_t kSecond = 10'000'000;
-
-CameraImage image_of(std::uint64_t sensor_ticks) {
-  CameraImage image;
-  image.sensor_ticks = sensor_ticks;
-  return image;
-}
-
-/// Adds an image of `ticks`; the ticks of the pair that it makes, or 0.
-std::uint64_t add(Pairer& pairer, Side side, std::uint64_t ticks) {
-  CameraImage image = image_of(ticks);
-  const auto pair = pairer.add(side, image);
-  return pair ? pair->left.sensor_ticks : 0;
-}
-
-TEST(Pairer, PairsBySensorTicksWhicheverComesFirst) {
-  Pairer pairer;
-  EXPECT_EQ(add(pairer, Side::kLeft, 100'000), 0u);
-  EXPECT_EQ(add(pairer, Side::kRight, 433'333), 0u);
-  EXPECT_EQ(add(pairer, Side::kRight, 100'000), 100'000u) << "out of order on its side";
-  EXPECT_EQ(add(pairer, Side::kLeft, 433'333), 433'333u);
-  EXPECT_EQ(pairer.unpaired(), 0);
-}
-
-TEST(Pairer, NeverGoesBackAndNeverMixesMoments) {
-  Pairer pairer;
-  add(pairer, Side::kLeft, 1'000'000);
-  EXPECT_EQ(add(pairer, Side::kRight, 1'020'001), 0u) << "2 ms apart";
-  add(pairer, Side::kLeft, 1'333'333);
-  EXPECT_EQ(add(pairer, Side::kRight, 1'333'333), 1'333'333u);
-  EXPECT_EQ(add(pairer, Side::kRight, 1'000'000), 0u) << "its moment is over";
-  EXPECT_EQ(pairer.unpaired(), 3);
-}
-
-TEST(Pairer, HoldsNoMoreThanAFew) {
-  Pairer pairer;
-  for (std::uint64_t i = 1; i <= 1000; ++i) {
-    add(pairer, Side::kLeft, i * 333'333);
-  }
-  EXPECT_EQ(pairer.unpaired(), 996);
-  EXPECT_EQ(add(pairer, Side::kRight, 1000 * 333'333ull), 1000 * 333'333ull);
-}
-
-TEST(Pairer, IsNotBlockedByTicksFromNowhere) {
-  Pairer pairer;
-  for (std::uint64_t i = 0; i < 10; ++i) {
-    add(pairer, Side::kLeft, (1ull << 63) + i * 100'000);
-  }
-  add(pairer, Side::kLeft, 500'000);
-  EXPECT_EQ(add(pairer, Side::kRight, 500'000), 500'000u);
-}
 
 TEST(StampReader, TurnsStampsIntoTimes) {
   StampReader stamps;
@@ -214,6 +163,15 @@ TEST(MapWatch, FindsAShiftOfSixCentimetres) {
       moves += watch.moved(pair_time(n), {Mat3::identity(), {n < 10 ? 0.0 : shift_m, 0, 0}});
     }
     EXPECT_EQ(moves, shift_m > 0.05 ? 1 : 0) << "the smaller one may be a head's start";
+  }
+}
+
+/// A head that goes on as ever, by stamps that leap: the poses tell that the map stayed.
+TEST(MapWatch, IsNotMovedByAStamp) {
+  MapWatch watch;
+  for (int n = 0; n < 300; ++n) {
+    const bool back = n % 7 == 6;
+    EXPECT_FALSE(watch.moved(pair_time(n) - milliseconds(back ? 100 : 0), head_at(n))) << n;
   }
 }
 

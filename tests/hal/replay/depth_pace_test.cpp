@@ -24,8 +24,9 @@ struct PacedRecording {
   StreamRecorderFolder folder{{0, kFrame}, {0, kFrame}};
 };
 
-std::unique_ptr<ReplayHeadset> opened(const PacedRecording& recording,
-                                      const ReplayOptions& options = {}) {
+/// By the stamps in the files, whose names the headset then gives to depth too.
+std::unique_ptr<ReplayHeadset> opened(const PacedRecording& recording, ReplayOptions options = {}) {
+  options.stamps = RecordedStamps::kExact;
   auto headset = ReplayHeadset::open(recording.folder.path(), options);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
   return headset ? std::move(*headset) : nullptr;

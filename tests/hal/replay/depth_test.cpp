@@ -24,8 +24,11 @@ constexpr std::int64_t kFrame = 333'333;
 // over a metre.
 constexpr double kQuantisationM = 0.0005 + 5e-6;
 
+/// By the stamps in the files, whose names the headset then gives to depth too.
 std::unique_ptr<ReplayHeadset> opened(const std::filesystem::path& folder) {
-  auto headset = ReplayHeadset::open(folder);
+  ReplayOptions options;
+  options.stamps = RecordedStamps::kExact;
+  auto headset = ReplayHeadset::open(folder, options);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
   return headset ? std::move(*headset) : nullptr;
 }

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <set>
 
+#include "base/random.h"
+#include "hal/replay/pairing.h"
 #include "hal/replay/replay_headset.h"
 #include "tests/support/session_log.h"
 #include "tests/support/stream_recorder_folder.h"
@@ -21,8 +23,12 @@ using ::testing::ElementsAre;
 constexpr std::int64_t kFrame = 333'333;  // ticks of 100 ns at 30 Hz
 constexpr std::int64_t kMillisecond = 10'000;
 
-std::unique_ptr<ReplayHeadset> opened(const std::filesystem::path& path) {
-  auto headset = ReplayHeadset::open(path);
+/// With the times and poses that stand in the files: that those are late is tested by itself.
+std::unique_ptr<ReplayHeadset> opened(const std::filesystem::path& path,
+                                      RecordedStamps stamps = RecordedStamps::kExact) {
+  ReplayOptions options;
+  options.stamps = stamps;
+  auto headset = ReplayHeadset::open(path, options);
   EXPECT_TRUE(headset.ok()) << headset.error().message;
   return headset ? *std::move(headset) : nullptr;
 }
@@ -52,10 +58,39 @@ TEST(StreamRecorder, PairsImagesOfTheSameTime) {
               ElementsAre(std::pair(0, 0), std::pair(1, 1), std::pair(2, 2)));
 }
 
-TEST(StreamRecorder, PairsWithinAMillisecondAndNotPastIt) {
-  EXPECT_THAT(delivered({0, kFrame, 2 * kFrame},
-                        {kMillisecond, kFrame - kMillisecond, 2 * kFrame + kMillisecond + 1}),
-              ElementsAre(std::pair(0, 0), std::pair(1, 1)));
+TEST(StreamRecorder, PairsWithinAThirdOfAFrameAndNotPastIt) {
+  constexpr std::int64_t kThird = 111'111;
+  EXPECT_THAT(
+      delivered({0, kFrame, 2 * kFrame}, {kThird, kFrame - kThird, 2 * kFrame + kThird + 1}),
+      ElementsAre(std::pair(0, 0), std::pair(1, 1)));
+}
+
+/// Stamps of real recordings tremble by milliseconds: all of 90 pairs remain.
+TEST(StreamRecorder, PairsThroughJitter) {
+  Random random(3);
+  std::vector<ImageMember> left;
+  std::vector<ImageMember> right;
+  for (int i = 0; i < 90; ++i) {
+    const auto stamped = [&] {
+      return ImageMember{
+          i * kFrame + static_cast<std::int64_t>(2 * kMillisecond * random.normal(0, 1)),
+          static_cast<std::uint64_t>(i)};
+    };
+    left.push_back(stamped());
+    right.push_back(stamped());
+  }
+  const auto pairs = paired(left, right, kPairWithin / Duration(100));
+  ASSERT_EQ(pairs.size(), 90u);
+  for (const MemberPair& pair : pairs) {
+    EXPECT_EQ(pair.left.pixels_offset, pair.right.pixels_offset);
+  }
+  EXPECT_LT(paired(left, right, kMillisecond).size(), 60u) << "the twin: within 1 ms";
+}
+
+TEST(StreamRecorder, UsesNoImageTwice) {
+  EXPECT_THAT(delivered({0, 60'000, kFrame}, {30'000, kFrame}),
+              ElementsAre(std::pair(0, 0), std::pair(2, 1)))
+      << "of two as near the earlier";
 }
 
 TEST(StreamRecorder, NeverPairsTheNextTwoWhenOneIsMissing) {

@@ -1,0 +1,33 @@
+#include "hal/hl2ss/server/server.h"
+
+namespace orthonav::hl2ss {
+namespace {
+
+/// A slice holds a row of macroblocks at least; with fewer pixels there is little to see by.
+constexpr int kMaxSlices = 30;
+constexpr int kMaxUnmappedPx = 100;
+
+}  // namespace
+
+std::vector<std::string> ServerOptions::check() const {
+  std::vector<std::string> problems = faults.check();
+  if (first_port < 0 || first_port > 65535 - kStandinOffset) {
+    problems.push_back("first_port must lie in [0, " + std::to_string(65535 - kStandinOffset) +
+                       "]");
+  }
+  if (paced && !standin) {
+    problems.push_back("paced needs standin");
+  }
+  if (utc_offset_ticks < 0) {
+    problems.push_back("utc_offset_ticks must not be negative");
+  }
+  if (slices < 1 || slices > kMaxSlices) {
+    problems.push_back("slices must lie in [1, " + std::to_string(kMaxSlices) + "]");
+  }
+  if (unmapped_edge_px < 0 || unmapped_edge_px > kMaxUnmappedPx) {
+    problems.push_back("unmapped_edge_px must lie in [0, " + std::to_string(kMaxUnmappedPx) + "]");
+  }
+  return problems;
+}
+
+}  // namespace orthonav::hl2ss

@@ -1,0 +1,60 @@
+#include "hal/hl2ss/stamp_check.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace orthonav::hl2ss {
+namespace {
+
+/// Stamps tremble by 2 ms or so; a head that turns by 30 degrees a second puts a pose of 10 ms
+/// earlier 2 mm off at a pointer's tip.
+constexpr double kMaxOffS = 0.010;
+/// So many images more that agree with one another than that do not, and none with the past: a
+/// clock was set, or the image believed first was the wrong one.
+constexpr int kBelievedAfter = 20;
+constexpr std::array<double, 2> kTickS = {1e-9, 1e-7};
+
+}  // namespace
+
+double StampCheck::ahead_s(const Moment& from, const Moment& to) {
+  // Unsigned ticks go round; the difference with a sign is right either way.
+  const auto ticks =
+      static_cast<double>(static_cast<std::int64_t>(to.sensor_ticks - from.sensor_ticks));
+  const double stamps_s = seconds(to.stamp - from.stamp);
+  const double of_ns = stamps_s - ticks * kTickS[0];
+  const double of_100ns = stamps_s - ticks * kTickS[1];
+  return std::abs(of_ns) <= std::abs(of_100ns) ? of_ns : of_100ns;
+}
+
+Status StampCheck::check(Timestamp stamp, std::uint64_t sensor_ticks) {
+  const Moment next{stamp, sensor_ticks};
+  const double off_s = trusted_ ? ahead_s(*trusted_, next) : 0.0;
+  if (std::abs(off_s) > kMaxOffS) {
+    doubt(next);
+    if (votes_ < kBelievedAfter) {
+      std::array<char, 120> text{};
+      std::snprintf(text.data(), text.size(),
+                    "stamp %.1f ms %s where the sensor's clock puts it, limit %.1f ms",
+                    std::abs(off_s) * 1e3, off_s < 0.0 ? "before" : "after", kMaxOffS * 1e3);
+      return Error{text.data()};
+    }
+  }
+  trusted_ = next;
+  doubted_.reset();
+  votes_ = 0;
+  return {};
+}
+
+/// The majority vote of Boyer and Moore (1981), which single wrong stamps in between only delay.
+void StampCheck::doubt(const Moment& next) {
+  const bool agrees = doubted_ && std::abs(ahead_s(*doubted_, next)) <= kMaxOffS;
+  if (agrees || votes_ == 0) {
+    doubted_ = next;
+    ++votes_;
+  } else {
+    --votes_;
+  }
+}
+
+}  // namespace orthonav::hl2ss

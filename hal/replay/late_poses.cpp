@@ -1,0 +1,50 @@
+#include "hal/replay/late_poses.h"
+
+#include <iterator>
+#include <optional>
+
+namespace orthonav::replay {
+namespace {
+
+// A head at work stays below these; beyond them World itself was moved, and between two worlds
+// there is nothing to interpolate.
+constexpr double kMaxSpeed = 2.0;      // m/s
+constexpr double kMaxTurnSpeed = 8.0;  // rad/s
+
+using Pose = PosesByTicks::value_type;
+
+constexpr Duration kTick(100);
+
+bool is_one_motion(const Pose& a, const Pose& b) {
+  const Duration apart = (b.first - a.first) * kTick;
+  const double apart_s = seconds(apart);
+  return apart <= HeadTracker::kMaxHeadPrediction &&
+         (b.second.translation() - a.second.translation()).norm() <= kMaxSpeed * apart_s &&
+         rotation_angle_rad(b.second.rotation(), a.second.rotation()) <= kMaxTurnSpeed * apart_s;
+}
+
+/// On the way from `a` to `b`, or before `a` on its line.
+Transform<World, Rig> at(double ticks, const Pose& a, const Pose& b) {
+  return interpolated(
+      a.second, b.second,
+      (ticks - static_cast<double>(a.first)) / static_cast<double>(b.first - a.first));
+}
+
+}  // namespace
+
+PosesByTicks poses_at_exposure(const PosesByTicks& at_stamps, Duration late) {
+  const double late_ticks = static_cast<double>(late / kTick);
+  PosesByTicks poses;
+  for (auto here = at_stamps.begin(); here != at_stamps.end(); ++here) {
+    const double taken = static_cast<double>(here->first) - late_ticks;
+    const auto after = std::next(here);
+    if (here != at_stamps.begin() && is_one_motion(*std::prev(here), *here)) {
+      poses.emplace(here->first, at(taken, *std::prev(here), *here));
+    } else if (after != at_stamps.end() && is_one_motion(*here, *after)) {
+      poses.emplace(here->first, at(taken, *here, *after));
+    }
+  }
+  return poses;
+}
+
+}  // namespace orthonav::replay
