@@ -57,13 +57,13 @@ void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
   scene.clear();
   add_paths(guidance, scene);
   if (visible_.vertebra) {
-    add_bone(guidance, scene);
+    add_bone(*visible_.vertebra, guidance.unstroked, scene);
+    add_check_points(*visible_.vertebra, guidance.to_check, scene);
   }
-  if (visible_.check_points) {
-    add_check_points(guidance, scene);
+  add_entries(scene);
+  if (visible_.trajectory) {
+    add_screw(*visible_.trajectory, scene);
   }
-  add_entries(guidance, scene);
-  add_screw(guidance, scene);
   if (visible_.rods) {
     add_rods(guidance, scene);
   }
@@ -106,29 +106,29 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
   }
 }
 
-void SceneBuilder::add_bone(const Guidance& guidance, render::Scene& scene) {
-  const LevelState& level = guidance.levels[guidance.level];
-  add_vertebra(scene, tinted_surface_of(level, guidance.unstroked),
-               to_matrix(level.registration->world_from_vertebra.row_major()),
-               label_of(HologramKind::kVertebra, 1));
+void SceneBuilder::add_bone(const PlacedLevel& at, std::span<const float> unstroked,
+                            render::Scene& scene) {
+  add_vertebra(scene, tinted_surface_of(*at.level, unstroked),
+               to_matrix(at.world_from_vertebra.row_major()), label_of(HologramKind::kVertebra, 1));
 }
 
-void SceneBuilder::add_check_points(const Guidance& guidance, render::Scene& scene) {
+void SceneBuilder::add_check_points(const PlacedLevel& at, std::span<const Point<World>> to_check,
+                                    render::Scene& scene) {
   std::size_t k = 0;
-  for (const Point<World>& place : guidance.to_check) {
+  for (const Point<World>& place : to_check) {
     add_place_to_check(scene, to_float3(place.v), label_of(HologramKind::kCheckPoint, ++k));
   }
-  for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points) {
+  for (const nav::CheckPoint& point : at.level->check_points) {
     add_check_point(scene, to_float3(point.place.v), distance_text(point.distance_m), point.within,
                     label_of(HologramKind::kCheckPoint, ++k));
   }
 }
 
-void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
+void SceneBuilder::add_entries(render::Scene& scene) {
   std::size_t k = 0;
-  for (const std::size_t i : visible_.entries_of) {
-    const LevelState& level = guidance.levels[i];
-    const auto& world_from_vertebra = level.registration->world_from_vertebra;
+  for (const PlacedLevel& at : visible_.entries_of) {
+    const LevelState& level = *at.level;
+    const auto& world_from_vertebra = at.world_from_vertebra;
     for (std::size_t s = 0; s < level.plan.screws.size(); ++s) {
       const nav::ScrewPlan& screw = level.plan.screws[s];
       const auto on_bone = level.plan.model->surface().nearest(screw.entry.v);
@@ -150,36 +150,18 @@ void SceneBuilder::add_entries(const Guidance& guidance, render::Scene& scene) {
   }
 }
 
-void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
-  if (!visible_.trajectory) {
-    return;
-  }
-  const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
+void SceneBuilder::add_screw(const PlacedScrew& screw, render::Scene& scene) {
+  const TrajectoryLine line = trajectory_of(screw);
   add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v),
                          label_of(HologramKind::kTrajectory, 1));
   if (visible_.triangle) {
-    // The overlay is where the tool will be at the display time; the number and its colour
-    // come from one stereo pair. What is only predicted has no number and is never called good.
-    const nav::ScrewGuidance& shown = guidance.tool->shown;
-    std::optional<double> angle_rad;
-    if (visible_.angle) {
-      angle_rad = guidance.tool->measured->angle_rad;
-    }
-    const Grade grade = grade_of_tool(guidance, visible_, rules_);
-    const render::Float3 a = to_float3(shown.a.v);
-    const render::Float3 b = to_float3(shown.b.v);
-    add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade,
-                           label_of(HologramKind::kTriangle, 1));
-    add_angle_readout(scene, a, b, angle_text(angle_rad), grade, label_of(HologramKind::kAngle, 1));
-  }
-  if (visible_.depth) {
-    add_depth_to_go(guidance, scene);
+    add_tool_guidance(*visible_.triangle, scene);
   }
   if (visible_.cross) {
-    add_target_cross(scene, cross_of(guidance, visible_, rules_), kCross);
+    add_target_cross(scene, cross_of(screw, *visible_.cross, rules_), kCross);
   }
   if (visible_.twin) {
-    add_virtual_twin(guidance, line, scene);
+    add_virtual_twin(screw, scene);
   }
   if (visible_.angle_lost && !visible_.triangle) {
     // Where the number would be with the tool on the plan.
@@ -188,32 +170,38 @@ void SceneBuilder::add_screw(const Guidance& guidance, render::Scene& scene) {
   }
 }
 
-void SceneBuilder::add_depth_to_go(const Guidance& guidance, render::Scene& scene) {
-  const nav::ScrewGuidance& measured = *guidance.tool->measured;
-  const nav::ScrewGuidance& shown = guidance.tool->shown;
-  if (write_depth_text(measured.depth_m, measured.to_target_m, text_)) {
-    add_depth(scene, to_float3(shown.a.v), to_float3(shown.b.v), text_, measured.to_target_m < 0.0,
-              label_of(HologramKind::kDepth, 1));
+/// The overlay is where the tool will be at the display time; the numbers and their colour come
+/// from one stereo pair. What is only predicted has no number and is never called good.
+void SceneBuilder::add_tool_guidance(const nav::ScrewGuidance& shown, render::Scene& scene) {
+  const nav::ScrewGuidance* measured = visible_.measurement;
+  const Grade grade = grade_of_tool(visible_, rules_);
+  const render::Float3 a = to_float3(shown.a.v);
+  const render::Float3 b = to_float3(shown.b.v);
+  add_deviation_triangle(scene, a, b, to_float3(shown.c.v), grade,
+                         label_of(HologramKind::kTriangle, 1));
+  add_angle_readout(scene, a, b,
+                    angle_text(measured ? std::optional(measured->angle_rad) : std::nullopt), grade,
+                    label_of(HologramKind::kAngle, 1));
+  if (measured && write_depth_text(measured->depth_m, measured->to_target_m, text_)) {
+    add_depth(scene, a, b, text_, measured->to_target_m < 0.0, label_of(HologramKind::kDepth, 1));
   }
 }
 
-void SceneBuilder::add_virtual_twin(const Guidance& guidance, const TrajectoryLine& line,
-                                    render::Scene& scene) {
-  const LevelState& level = guidance.levels[guidance.level];
-  const VirtualTwin twin = twin_of(level, guidance.screw);
+void SceneBuilder::add_virtual_twin(const PlacedScrew& screw, render::Scene& scene) {
+  const VirtualTwin twin = twin_of(screw);
+  const TrajectoryLine line = trajectory_of(screw);
   parts_.clear();
-  add_vertebra(parts_, surface_of(level),
-               to_matrix(level.registration->world_from_vertebra.row_major()), kTwin);
-  const render::Float3 entry = to_float3(line.entry.v);
-  add_planned_trajectory(parts_, entry, to_float3(line.target.v), kTwin);
+  add_vertebra(parts_, surface_of(*screw.at.level),
+               to_matrix(screw.at.world_from_vertebra.row_major()), kTwin);
+  add_planned_trajectory(parts_, to_float3(line.entry.v), to_float3(line.target.v), kTwin);
   add_twin(scene, twin, parts_, kTwin);
   if (!visible_.triangle) {
     return;
   }
-  const nav::ScrewGuidance& shown = guidance.tool->shown;
+  const nav::ScrewGuidance& shown = *visible_.triangle;
   parts_.clear();
   add_deviation_triangle(parts_, to_float3(shown.a.v), to_float3(shown.b.v), to_float3(shown.c.v),
-                         grade_of_tool(guidance, visible_, rules_), kTwinTool);
+                         grade_of_tool(visible_, rules_), kTwinTool);
   add_tool(parts_, to_float3(shown.tip.v), to_float3(shown.b - shown.a), kTwinTool);
   add_twin(scene, twin, parts_, kTwinTool);
 }

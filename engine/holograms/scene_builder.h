@@ -35,12 +35,13 @@ class SceneBuilder {
   };
 
   void add_paths(const Guidance& guidance, render::Scene& scene);
-  void add_bone(const Guidance& guidance, render::Scene& scene);
-  void add_check_points(const Guidance& guidance, render::Scene& scene);
-  void add_entries(const Guidance& guidance, render::Scene& scene);
-  void add_screw(const Guidance& guidance, render::Scene& scene);
-  void add_depth_to_go(const Guidance& guidance, render::Scene& scene);
-  void add_virtual_twin(const Guidance& guidance, const TrajectoryLine& line, render::Scene& scene);
+  void add_bone(const PlacedLevel& at, std::span<const float> unstroked, render::Scene& scene);
+  void add_check_points(const PlacedLevel& at, std::span<const Point<World>> to_check,
+                        render::Scene& scene);
+  void add_entries(render::Scene& scene);
+  void add_screw(const PlacedScrew& screw, render::Scene& scene);
+  void add_tool_guidance(const nav::ScrewGuidance& shown, render::Scene& scene);
+  void add_virtual_twin(const PlacedScrew& screw, render::Scene& scene);
   void add_rods(const Guidance& guidance, render::Scene& scene);
   void add_status(const Guidance& guidance, render::Scene& scene);
   const std::shared_ptr<const render::MeshData>& surface_of(const LevelState& level);

@@ -30,14 +30,6 @@ Point<World> to_point(render::Float3 p) { return {{p.x, p.y, p.z}}; }
 
 }  // namespace
 
-TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw) {
-  const auto& world_from_vertebra = level.registration->world_from_vertebra;
-  const nav::ScrewPlan& plan = level.plan.screws[screw];
-  const Vec3 out = (plan.entry - plan.target).normalized();
-  return {world_from_vertebra * (plan.entry + out * static_cast<double>(kTrajectoryOutside_m)),
-          world_from_vertebra * plan.entry, world_from_vertebra * plan.target};
-}
-
 ShownHologram& ShownFrameWriter::add(ShownFrame& frame, HologramKind kind) {
   if (used_ == frame.holograms.size()) {
     frame.holograms.emplace_back();
@@ -59,8 +51,10 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   frame.pose_time = guidance.pose_time;
   write_status(guidance.status, frame);
   write_digitizing(guidance, visible, frame);
-  write_entries(guidance, visible, frame);
-  write_screw(guidance, visible, rules, frame);
+  write_entries(visible, frame);
+  if (visible.trajectory) {
+    write_screw(*visible.trajectory, visible, rules, frame);
+  }
   if (visible.rods) {
     write_rods(guidance, rules, frame);
   }
@@ -78,7 +72,7 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
     }
   }
   if (visible.vertebra) {
-    const LevelState& level = guidance.levels[guidance.level];
+    const LevelState& level = *visible.vertebra->level;
     ShownHologram& vertebra = add(frame, HologramKind::kVertebra);
     const nav::VertebraModel& model = *level.plan.model;
     const auto [known, is_new] = landmarks_m_.try_emplace(&model);
@@ -86,44 +80,41 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
       known->second = landmarks_m(model.mesh());
     }
     for (const Vec3 landmark : known->second) {
-      vertebra.points_in_world.push_back(level.registration->world_from_vertebra *
+      vertebra.points_in_world.push_back(visible.vertebra->world_from_vertebra *
                                          Point<Vertebra>{landmark});
     }
   }
-  if (visible.check_points) {
-    for (const nav::CheckPoint& point : guidance.levels[guidance.level].check_points) {
+  if (visible.vertebra) {
+    for (const nav::CheckPoint& point : visible.vertebra->level->check_points) {
       ShownHologram& check = add(frame, HologramKind::kCheckPoint);
       check.text = distance_text(point.distance_m);
       check.reading = point.distance_m;
       check.points_in_world.push_back(point.place);
     }
-  }
-  if (visible.check_points) {
     for (const Point<World>& place : guidance.to_check) {
       add(frame, HologramKind::kCheckPoint).points_in_world.push_back(place);
     }
   }
 }
 
-void ShownFrameWriter::write_entries(const Guidance& guidance, const Visibility& visible,
-                                     ShownFrame& frame) {
-  for (const std::size_t i : visible.entries_of) {
-    const LevelState& level = guidance.levels[i];
-    for (const nav::ScrewPlan& screw : level.plan.screws) {
+void ShownFrameWriter::write_entries(const Visibility& visible, ShownFrame& frame) {
+  for (const PlacedLevel& at : visible.entries_of) {
+    const OperatedLevel& plan = at.level->plan;
+    for (const nav::ScrewPlan& screw : plan.screws) {
       ShownHologram& entry = add(frame, HologramKind::kEntry);
-      entry.level = level.plan.label;
+      entry.level = plan.label;
       entry.side = screw.side;
       if (visible.entry_labels) {
-        entry.text.append(level.plan.label).append(" ").append(word_of(screw.side));
+        entry.text.append(plan.label).append(" ").append(word_of(screw.side));
       }
-      entry.points_in_world.push_back(level.registration->world_from_vertebra * screw.entry);
+      entry.points_in_world.push_back(at.world_from_vertebra * screw.entry);
     }
   }
 }
 
-void ShownFrameWriter::write_cross(const Guidance& guidance, const Visibility& visible,
+void ShownFrameWriter::write_cross(const PlacedScrew& screw, const VisibleCross& visible,
                                    const VisibilityRules& rules, ShownFrame& frame) {
-  const TargetCross cross = cross_of(guidance, visible, rules);
+  const TargetCross cross = cross_of(screw, visible, rules);
   const CrossPlaces places = places_of(cross);
   ShownHologram& shown = add(frame, HologramKind::kCross);
   if (cross.lost) {
@@ -144,36 +135,30 @@ void ShownFrameWriter::write_angle(std::optional<double> angle_rad, ShownFrame& 
   angle.reading = read_angle_rad(angle_rad);
 }
 
-void ShownFrameWriter::write_screw(const Guidance& guidance, const Visibility& visible,
+void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& visible,
                                    const VisibilityRules& rules, ShownFrame& frame) {
-  if (visible.trajectory) {
-    const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
-    ShownHologram& trajectory = add(frame, HologramKind::kTrajectory);
-    trajectory.points_in_world = {line.outside, line.entry, line.target};
-  }
+  const TrajectoryLine line = trajectory_of(screw);
+  add(frame, HologramKind::kTrajectory).points_in_world = {line.outside, line.entry, line.target};
   if (visible.triangle) {
-    const nav::ScrewGuidance& shown = guidance.tool->shown;
+    const nav::ScrewGuidance& shown = *visible.triangle;
     add(frame, HologramKind::kTriangle).points_in_world = {shown.a, shown.b, shown.c};
   }
-  if (visible.angle) {
-    write_angle(guidance.tool->measured->angle_rad, frame);
+  if (visible.measurement) {
+    write_angle(visible.measurement->angle_rad, frame);
   }
   if (visible.cross) {
-    write_cross(guidance, visible, rules, frame);
+    write_cross(screw, *visible.cross, rules, frame);
   }
   if (visible.twin) {
-    const VirtualTwin twin = twin_of(guidance.levels[guidance.level], guidance.screw);
-    const TrajectoryLine line = trajectory_of(guidance.levels[guidance.level], guidance.screw);
+    const VirtualTwin twin = twin_of(screw);
     ShownHologram& shown = add(frame, HologramKind::kTwin);
     for (const Point<World>& place : {line.entry, line.target}) {
       shown.points_in_world.push_back(to_point(in_twin(twin, to_float3(place.v))));
     }
   }
-  if (visible.depth) {
-    const nav::ScrewGuidance& measured = *guidance.tool->measured;
-    if (write_depth_text(measured.depth_m, measured.to_target_m, text_)) {
-      add(frame, HologramKind::kDepth).text = text_;
-    }
+  if (visible.measurement &&
+      write_depth_text(visible.measurement->depth_m, visible.measurement->to_target_m, text_)) {
+    add(frame, HologramKind::kDepth).text = text_;
   }
   if (visible.angle_lost) {
     write_angle(std::nullopt, frame);

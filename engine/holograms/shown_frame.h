@@ -20,10 +20,10 @@ class ShownFrameWriter {
  private:
   ShownHologram& add(ShownFrame& frame, HologramKind kind);
   void write_digitizing(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
-  void write_entries(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
-  void write_screw(const Guidance& guidance, const Visibility& visible,
+  void write_entries(const Visibility& visible, ShownFrame& frame);
+  void write_screw(const PlacedScrew& screw, const Visibility& visible,
                    const VisibilityRules& rules, ShownFrame& frame);
-  void write_cross(const Guidance& guidance, const Visibility& visible,
+  void write_cross(const PlacedScrew& screw, const VisibleCross& visible,
                    const VisibilityRules& rules, ShownFrame& frame);
   void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
   void write_angle(std::optional<double> angle_rad, ShownFrame& frame);
@@ -34,13 +34,5 @@ class ShownFrameWriter {
   /// By which a person compares the hologram with the bone; found once for a model.
   std::map<const nav::VertebraModel*, std::array<Vec3, 4>> landmarks_m_;
 };
-
-/// The planned trajectory in the world: its outer end, the entry, the target.
-struct TrajectoryLine {
-  Point<World> outside;
-  Point<World> entry;
-  Point<World> target;
-};
-[[nodiscard]] TrajectoryLine trajectory_of(const LevelState& level, std::size_t screw);
 
 }  // namespace orthonav::engine

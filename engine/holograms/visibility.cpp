@@ -17,9 +17,69 @@ std::vector<std::string> VisibilityRules::check() const {
   return problems;
 }
 
+namespace {
+
+std::optional<PlacedLevel> placed(const LevelState& level) {
+  if (!level.registration) {
+    return std::nullopt;
+  }
+  return PlacedLevel{&level, level.registration->world_from_vertebra};
+}
+
+/// What may be guided on.
+std::optional<PlacedLevel> usable(const LevelState& level) {
+  return level.usable() ? placed(level) : std::nullopt;
+}
+
+/// H4 depends on the registration alone, so a lost tool leaves it.
+std::optional<PlacedScrew> selected_screw(const Guidance& g) {
+  if (g.step != Step::kGuide || g.level >= g.levels.size()) {
+    return std::nullopt;
+  }
+  const auto level = usable(g.levels[g.level]);
+  if (!level || g.screw >= level->level->plan.screws.size()) {
+    return std::nullopt;
+  }
+  return PlacedScrew{*level, g.screw};
+}
+
+/// H5, H6, H9: on a pose younger than the limit at the display time. A frozen triangle is worse
+/// than none. `fresh` is null where there is no such pose.
+void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibility& out) {
+  if (fresh) {
+    const nav::ScrewGuidance* measured = fresh->measured ? &*fresh->measured : nullptr;
+    const nav::ScrewGuidance& where = measured ? *measured : fresh->shown;
+    if (where.tip_to_entry_m <= rules.triangle_within_m) {
+      out.triangle = &fresh->shown;
+      out.measurement = measured;
+      out.pose_time = fresh->pose_time;
+    }
+  }
+  // A lost value says so in the place of the number, never with the last number, nor with one that
+  // was predicted.
+  out.angle_lost = !out.measurement && (out.triangle || !fresh);
+}
+
+/// H7: with the trajectory that it measures against, once it is known where the eyes are. Its dots
+/// are numbers in another shape: of one stereo pair, never of a prediction.
+void decide_cross(const PlacedScrew& screw, const Transform<World, Rig>& head,
+                  const ToolGuidance* fresh, Visibility& out) {
+  VisibleCross cross;
+  cross.world_from_head = head;
+  cross.side = out.cross_side = clear_side_of(screw, head, out.cross_side);
+  cross.lost = !fresh;
+  if (fresh && fresh->measured) {
+    cross.dots = &*fresh->measured;
+    out.pose_time = fresh->pose_time;
+  }
+  out.cross = cross;
+}
+
+}  // namespace
+
 void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestamp display_time,
                        Visibility& out) {
-  std::vector<std::size_t> entries = std::move(out.entries_of);  // keeps its buffer
+  std::vector<PlacedLevel> entries = std::move(out.entries_of);  // keeps its buffer
   entries.clear();
   const LabelSide cross_side = out.cross_side;
   out = {};
@@ -28,50 +88,33 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   if (g.blank) {
     return;
   }
-  // H1: the surgeon still compares the paths with the hologram while he verifies; after acceptance
+  // H1: the surgeon still compares the paths with the hologram while verifying; after acceptance
   // they would only cover the bone.
   out.paths = g.step == Step::kDigitize || g.step == Step::kVerify;
-  const LevelState* level = g.level < g.levels.size() ? &g.levels[g.level] : nullptr;
-  // H2: what is to be verified, and only that; gone with a rejected registration.
-  out.vertebra = g.step == Step::kVerify && level && level->registration.has_value();
-  // H12: with the surface that they were touched to check.
-  out.check_points = out.vertebra;
+  // H2, H12: what is to be verified, and only that; gone with a rejected registration.
+  if (g.step == Step::kVerify && g.level < g.levels.size()) {
+    out.vertebra = placed(g.levels[g.level]);
+  }
   // H3: entry points of everything that may be guided on, never faded by distance. An unaccepted
   // registration shows none: an entry point on display reads as "drill here".
-  for (std::size_t i = 0; i < g.levels.size(); ++i) {
-    if (g.levels[i].usable()) {
-      out.entries_of.push_back(i);
+  for (const LevelState& level : g.levels) {
+    if (const auto there = usable(level)) {
+      out.entries_of.push_back(*there);
     }
   }
   // Once every screw is in, the names would only cover the rod's lengths.
   out.entry_labels = g.step != Step::kRod && g.step != Step::kDone;
-  // H4: of the selected screw; it depends on the registration alone, so a lost tool leaves it.
-  out.trajectory =
-      g.step == Step::kGuide && level && level->usable() && g.screw < level->plan.screws.size();
-  // H5, H6: on a pose younger than the limit at the display time. A frozen
-  // triangle is worse than none.
-  const bool fresh =
-      out.trajectory && g.tool.has_value() && display_time - g.tool->pose_time <= g.stale_after;
-  const auto near = [&](const nav::ScrewGuidance& guidance) {
-    return guidance.tip_to_entry_m <= rules.triangle_within_m;
-  };
-  out.triangle = fresh && near(g.tool->measured ? *g.tool->measured : g.tool->shown);
-  out.angle = out.triangle && g.tool->measured.has_value();
-  // A lost value says so in the place of the number, never with the last number, nor with one that
-  // was predicted.
-  out.angle_lost = out.trajectory && !out.angle && (out.triangle || !fresh);
-  // H7: with the trajectory that it measures against, once it is known where the eyes are. Its dots
-  // are numbers in another shape: of one stereo pair, never of a prediction.
-  out.cross = out.trajectory && g.head.has_value();
-  if (out.cross) {
-    out.cross_side = clear_side_of(*level, g.screw, *g.head, cross_side);
+  out.trajectory = selected_screw(g);
+  if (out.trajectory) {
+    const bool fresh = g.tool && display_time - g.tool->pose_time <= g.stale_after;
+    const ToolGuidance* tool = fresh ? &*g.tool : nullptr;
+    decide_tool(tool, rules, out);
+    if (g.head) {
+      decide_cross(*out.trajectory, *g.head, tool, out);
+    }
+    // H8: only where the surgeon asked for it, since it takes their eyes off the patient.
+    out.twin = g.twin;
   }
-  out.cross_dots = out.cross && fresh && g.tool->measured.has_value();
-  out.cross_lost = out.cross && !fresh;
-  // H8: only where the surgeon asked for it, since it takes his eyes off the patient.
-  out.twin = out.trajectory && g.twin;
-  // H9: under the angle, and with it.
-  out.depth = out.angle;
   // H10: from the first head until the end.
   out.rods = g.step == Step::kRod || g.step == Step::kDone;
 }

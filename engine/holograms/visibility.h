@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,25 +19,45 @@ struct VisibilityRules {
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
-/// Which holograms one frame shows. Computed once, so that what is drawn and what the display is
-/// told can't differ.
+/// A level with a registration, so that what belongs to its vertebra has a place in the world.
+struct PlacedLevel {
+  const LevelState* level = nullptr;  ///< never null
+  Transform<World, Vertebra> world_from_vertebra;
+};
+
+/// One of its screws.
+struct PlacedScrew {
+  PlacedLevel at;
+  std::size_t screw = 0;  ///< an index into the plan's
+  [[nodiscard]] const nav::ScrewPlan& plan() const { return at.level->plan.screws[screw]; }
+};
+
+/// H7 of the selected screw.
+struct VisibleCross {
+  Transform<World, Rig> world_from_head;
+  LabelSide side = LabelSide::kLeft;         ///< of the site
+  const nav::ScrewGuidance* dots = nullptr;  ///< where the tool was measured; null: no dots
+  bool lost = false;                         ///< it says that the tool is lost
+};
+
+/// Which holograms one frame shows, each with what it needs: what is there to be shown is there to
+/// be read. Computed once, so that what is drawn and what the display is told can't differ. Points
+/// into the guidance that it was made from: valid as long as that.
 struct Visibility {
-  bool paths = false;                       ///< H1
-  bool vertebra = false;                    ///< H2 of the current level
-  std::vector<std::size_t> entries_of;      ///< H3: the levels whose entry points are shown
-  bool entry_labels = false;                ///< their names too
-  bool trajectory = false;                  ///< H4 of the selected screw
-  bool triangle = false;                    ///< H5
-  bool angle = false;                       ///< H6 with a number
-  bool angle_lost = false;                  ///< H6 without one
-  bool cross = false;                       ///< H7 of the selected screw
-  LabelSide cross_side = LabelSide::kLeft;  ///< of the site
-  bool cross_dots = false;                  ///< where the tool stands on it
-  bool cross_lost = false;                  ///< it says that the tool is lost
-  bool twin = false;                        ///< H8
-  bool depth = false;                       ///< H9
-  bool rods = false;                        ///< H10
-  bool check_points = false;                ///< H12 of the current level
+  bool paths = false;                               ///< H1
+  std::optional<PlacedLevel> vertebra;              ///< H2 and H12, of the current level
+  std::vector<PlacedLevel> entries_of;              ///< H3: the levels whose entry points are shown
+  bool entry_labels = false;                        ///< their names too
+  std::optional<PlacedScrew> trajectory;            ///< H4 of the selected screw
+  const nav::ScrewGuidance* triangle = nullptr;     ///< H5, predicted to the display time; or null
+  const nav::ScrewGuidance* measurement = nullptr;  ///< the numbers of H6 and H9; or null
+  bool angle_lost = false;                          ///< H6 without a number
+  std::optional<VisibleCross> cross;                ///< H7
+  LabelSide cross_side = LabelSide::kLeft;          ///< on which it hung last
+  bool twin = false;                                ///< H8 of the selected screw
+  bool rods = false;                                ///< H10
+  /// Of the pair that H5 and the dots of H7 rest on; absent where neither is shown.
+  std::optional<Timestamp> pose_time;
 };
 
 /// For a frame shown at `display_time`, which may be later than the guidance expected.

@@ -259,8 +259,8 @@ void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int
   snapshot->step = guidance.status.at;
   snapshot->blank = guidance.blank;
   snapshot->expires.reset();
-  if (builder_.visible().triangle || builder_.visible().cross_dots) {
-    snapshot->expires = guidance.tool->pose_time + guidance.stale_after;
+  if (const auto& pose_time = builder_.visible().pose_time) {
+    snapshot->expires = *pose_time + guidance.stale_after;
   }
   builder_.write_scene(guidance, snapshot->scene);
   if (observer_) {

@@ -250,15 +250,17 @@ TEST(StandinMessages, ComeBackAsTheyWere) {
   ShownFrame frame;
   frame.display_time = Timestamp(Duration(12));
   frame.pose_time = Timestamp(Duration(-5));
-  frame.status = ShownStatus{{Step::kGuide, "L4", Side::kLeft},
+  frame.status = ShownStatus{{Step::kGuide, "L4", orthonav::Side::kLeft},
                              Notice::kTouchNotRecorded,
                              ChecksAsked::kTouchMore,
                              "guide L4 left",
                              "heard: next"};
-  frame.holograms = {
-      {.kind = HologramKind::kEntry, .level = "L4", .side = Side::kRight, .text = "L4 right"},
-      {.kind = HologramKind::kAngle, .reading = 0.25},
-      {.kind = HologramKind::kRod, .points_in_world = {{{1, 2, 3}}}}};
+  frame.holograms = {{.kind = HologramKind::kEntry,
+                      .level = "L4",
+                      .side = orthonav::Side::kRight,
+                      .text = "L4 right"},
+                     {.kind = HologramKind::kAngle, .reading = 0.25},
+                     {.kind = HologramKind::kRod, .points_in_world = {{{1, 2, 3}}}}};
   std::vector<std::uint8_t> bytes;
   append(bytes, StandinMessage{StandinShown{frame}});
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -278,7 +280,7 @@ TEST(StandinMessages, ComeBackAsTheyWere) {
   ASSERT_EQ(shown.holograms.size(), 3u);
   EXPECT_EQ(shown.holograms[0].kind, HologramKind::kEntry);
   EXPECT_EQ(shown.holograms[0].level, "L4");
-  EXPECT_EQ(shown.holograms[0].side, Side::kRight);
+  EXPECT_EQ(shown.holograms[0].side, orthonav::Side::kRight);
   EXPECT_EQ(shown.holograms[0].text, "L4 right");
   EXPECT_EQ(shown.holograms[0].reading, std::nullopt);
   EXPECT_EQ(shown.holograms[1].reading, 0.25);
