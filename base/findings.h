@@ -8,7 +8,7 @@
 
 namespace orthonav {
 
-/// A finding in words: `format` as printf takes it, with the value and its limit (two `%f`, `%e` or
+/// A finding in words: `format` as for printf, with the value and its limit (two `%f`, `%e` or
 /// `%g`, or one), cut at 200 characters.
 [[nodiscard]] std::string with_numbers(const char* format, double value, double limit);
 
@@ -21,7 +21,7 @@ struct NamedNumber {
   const char* name;
   double value;
 };
-/// Notes every one of the options that is not above 0, or not finite.
+/// Reports every option that is not finite or not above 0.
 void must_be_positive(std::initializer_list<NamedNumber> options,
                       std::vector<std::string>& problems);
 

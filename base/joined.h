@@ -5,7 +5,7 @@
 
 namespace orthonav {
 
-/// Every problem in one line, as a message wants them: "a; b; c".
+/// Every problem in one line, for a message: "a; b; c".
 [[nodiscard]] inline std::string joined(std::span<const std::string> problems) {
   std::string line;
   for (const std::string& problem : problems) {

@@ -4,7 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 
-// What clang's -Wthread-safety reads; other compilers see nothing.
+// Read by clang's -Wthread-safety; other compilers see nothing.
 // https://clang.llvm.org/docs/ThreadSafetyAnalysis.html
 #if defined(__clang__)
 #define ORTHONAV_THREAD_ANNOTATION(attribute) __attribute__((attribute))
@@ -13,21 +13,21 @@
 #endif
 #define ORTHONAV_CAPABILITY(name) ORTHONAV_THREAD_ANNOTATION(capability(name))
 #define ORTHONAV_SCOPED_CAPABILITY ORTHONAV_THREAD_ANNOTATION(scoped_lockable)
-/// Of a function: it takes the mutex, or gives it back.
+/// On a function: it takes the mutex, or releases it.
 #define ORTHONAV_ACQUIRE(...) ORTHONAV_THREAD_ANNOTATION(acquire_capability(__VA_ARGS__))
 #define ORTHONAV_RELEASE(...) ORTHONAV_THREAD_ANNOTATION(release_capability(__VA_ARGS__))
-/// Of a member: read and written only while this mutex is held.
+/// On a member: read and written only while this mutex is held.
 #define ORTHONAV_GUARDED_BY(mutex) ORTHONAV_THREAD_ANNOTATION(guarded_by(mutex))
-/// Of a function: whoever calls it holds the mutex.
+/// On a function: whoever calls it holds the mutex.
 #define ORTHONAV_REQUIRES(...) ORTHONAV_THREAD_ANNOTATION(requires_capability(__VA_ARGS__))
-/// Of a function that takes the mutex itself: whoever calls it must not hold it.
+/// On a function that takes the mutex itself: whoever calls it must not hold it.
 #define ORTHONAV_EXCLUDES(...) ORTHONAV_THREAD_ANNOTATION(locks_excluded(__VA_ARGS__))
-/// Of a function that is right for a reason that clang can't see; a comment there names it.
+/// On a function that is right for a reason that clang can't see; a comment there gives it.
 #define ORTHONAV_NO_THREAD_SAFETY_ANALYSIS ORTHONAV_THREAD_ANNOTATION(no_thread_safety_analysis)
 
 namespace orthonav {
 
-/// A std::mutex that clang knows: it then refuses what touches a guarded member without it.
+/// A std::mutex that clang knows: it then refuses code that touches a guarded member without it.
 class ORTHONAV_CAPABILITY("mutex") Mutex {
  public:
   void lock() ORTHONAV_ACQUIRE() { mutex_.lock(); }
@@ -58,7 +58,7 @@ class ConditionVariable {
   void notify_one() { changed_.notify_one(); }
   void notify_all() { changed_.notify_all(); }
 
-  /// Lets go of the mutex while it waits, and holds it again when it returns.
+  /// Releases the mutex while it waits, and holds it again when it returns.
   void wait(Mutex& mutex) ORTHONAV_REQUIRES(mutex) {
     std::unique_lock lock(mutex.mutex_, std::adopt_lock);
     changed_.wait(lock);

@@ -21,8 +21,8 @@ class Random {
   double normal();
   double normal(double mean, double sd) { return mean + sd * normal(); }
 
-  /// An independent stream. It depends on the seed and the name alone, not on how much was drawn,
-  /// so that a new consumer never shifts what the others get.
+  /// An independent stream. It depends on the seed and the name only, not on how much was drawn, so
+  /// that a new consumer never changes what the others get.
   [[nodiscard]] Random fork(std::string_view name) const;
   [[nodiscard]] Random fork(std::uint64_t number) const;
 

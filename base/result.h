@@ -8,7 +8,7 @@
 
 namespace orthonav {
 
-/// What kind of thing went wrong: for callers that branch on it.
+/// What kind of thing went wrong, for callers that branch on it.
 enum class ErrorCode {
   kInvalid,      ///< input or arguments that can't be used as they are
   kNotFound,     ///< no such file, device or name

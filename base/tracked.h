@@ -7,12 +7,12 @@
 
 namespace orthonav {
 
-/// How a value came about. Only `kMeasured` values may be digitized.
+/// How a value was obtained. Only `kMeasured` values may be digitized.
 enum class PoseStatus { kMeasured, kPredicted, kLost };
 
 /// 6×6 covariance, row-major, of (translation m, rotation vector rad), both in the parent frame.
 using PoseCovariance = std::array<double, 36>;
-/// Its 3-D SDs.
+/// The SDs of its translation and rotation, in 3-D.
 [[nodiscard]] inline double translation_sigma_m(const PoseCovariance& c) {
   return std::sqrt(c[0] + c[7] + c[14]);
 }
@@ -20,8 +20,8 @@ using PoseCovariance = std::array<double, 36>;
   return std::sqrt(c[21] + c[28] + c[35]);
 }
 
-/// Truth has an age: a value with its time, how it was obtained and how sure it is.
-/// With `kLost` the value is meaningless and must not be read.
+/// A value with its time, how it was obtained and how certain it is. With `kLost` the value is
+/// meaningless and must not be read.
 template <class T>
 struct Tracked {
   T value{};

@@ -98,7 +98,7 @@ struct Quaternion {
 [[nodiscard]] Mat3 rotation_from_quaternion(Quaternion q);
 /// w ≥ 0, so that one rotation has one quaternion.
 [[nodiscard]] Quaternion quaternion_from_rotation(const Mat3& rotation);
-/// The rotation close to a matrix that is nearly one: Gram-Schmidt on the rows, the first kept.
+/// The rotation nearest to a matrix that is almost one: Gram-Schmidt on the rows, the first kept.
 [[nodiscard]] Mat3 orthonormalized(const Mat3& nearly_rotation);
 /// Largest deviation of M·Mᵀ from the identity; 0 for a rotation or a mirrored one.
 [[nodiscard]] double orthonormality_error(const Mat3& matrix);

@@ -6,8 +6,8 @@
 namespace orthonav {
 
 // What a display's runtime and a renderer hand each other when the runtime makes the Vulkan device
-// and owns the images. Vulkan's handles pass as plain pointers and numbers, so that neither side
-// needs Vulkan's headers for it; docs/decisions/0034-draw-on-the-runtimes-device.md.
+// and owns the images. Vulkan's handles are passed as plain pointers and numbers, so that neither
+// side needs Vulkan's headers for it; docs/decisions/0034-draw-on-the-runtimes-device.md.
 
 /// Any Vulkan function; the caller casts it to its own type.
 using VulkanFunction = void (*)();
@@ -26,8 +26,8 @@ struct VulkanObjects {
   std::uint32_t queue_index = 0;
 };
 
-/// The display's images, for the renderer to draw into. A chain is a ring of images; one of them is
-/// free at a time.
+/// The display's images, for the renderer to draw into. A chain is a ring of images, one of which
+/// is free at a time.
 struct EyeImages {
   std::int64_t format = 0;  ///< VkFormat, one that the renderer gave a score above 0
   int width_px = 0;

@@ -174,7 +174,7 @@ std::vector<Offer> offers_of_machine(const std::string& root) {
   std::vector<Offer> clickers = keyboards(root);
   if (clickers.empty()) {
     clickers.push_back({"Clicker or keyboard", Finding::kOptional,
-                        "none; --clicker evdev: needs one (the simulated surgeon has his own)",
+                        "none; --clicker evdev: needs one (the simulated surgeon has their own)",
                         "pair a Bluetooth clicker or plug in a keyboard"});
   }
   std::move(clickers.begin(), clickers.end(), std::back_inserter(offers));

@@ -13,14 +13,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The whole file; nothing when there is none, an Error when there is something else.
+/// The whole file; nothing when there is none, an Error when it can't be read.
 Result<std::optional<std::string>> content_of(const std::string& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (status.type() == fs::file_type::not_found) {
     return std::optional<std::string>();
   }
-  // A pipe would keep whoever reads it waiting.
+  // Whoever reads a pipe may wait for ever.
   if (!fs::is_regular_file(status)) {
     return Error{"is no file"};
   }

@@ -12,22 +12,22 @@ namespace orthonav::engine {
 
 /// Vertebrae prepared for registration, kept in files (engine/case/prepared_parts_file.h) so that
 /// the next session has them at once: in a folder, one for each mesh, named by its checksums. A
-/// file that is not what it should be (damaged, foreign, of another version) is made anew and is no
-/// more than a note. What comes out is the same to the bit, from a file or not.
+/// file that is not what it should be (damaged, foreign, of another version) is replaced and causes
+/// only a note. The result is the same to the bit, whether from a file or not.
 class ModelCache {
  public:
-  /// Without a folder nothing is kept. The folder is made when there is something to keep.
+  /// Without a folder nothing is kept. The folder is created when there is something to keep.
   explicit ModelCache(std::string folder = {}) : folder_(std::move(folder)) {}
 
-  /// Loads or makes; an Error means that the mesh is no vertebra. Writes nothing.
+  /// Loads or prepares; an Error means that the mesh is no vertebra. Writes nothing.
   Result<std::shared_ptr<const nav::VertebraModel>> prepared(const nav::TriangleMesh& mesh);
-  /// Writes what had to be made. Apart, so that a command that is refused in between leaves
-  /// nothing.
+  /// Writes what had to be prepared. A separate step, so that a command that is refused in between
+  /// leaves nothing.
   void keep();
 
   /// Where the mesh's file is or would be.
   [[nodiscard]] std::string file_of(const nav::TriangleMesh& mesh) const;
-  /// What went otherwise than it should: a line for each file that could not be used or written.
+  /// What went wrong: one line for each file that could not be used or written.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   [[nodiscard]] int loaded() const { return loaded_; }
   [[nodiscard]] int made() const { return made_; }

@@ -33,7 +33,7 @@ struct MeshKey {
 [[nodiscard]] std::string encoded(const MeshKey& key, const nav::PreparedParts& parts);
 
 /// The parts, or in a few words why the bytes are not those of this mesh by this version: damaged,
-/// of another mesh, version or kind. No size is believed before the whole is as large as it says.
+/// of another mesh, version or kind. No size is trusted before the content is as large as it says.
 Result<nav::PreparedParts> decoded(std::string_view bytes, const MeshKey& key);
 
 /// No file of parts is larger: a mesh has at most 250 mm.

@@ -17,7 +17,7 @@ Error failed(const std::string& path, const std::string& doing, int error_number
   return Error{path + ": " + doing + ": " + std::generic_category().message(error_number)};
 }
 
-/// The file behind a chain of symbolic links; the name itself where there is no link.
+/// The file at the end of a chain of symbolic links; the name itself where there is no link.
 fs::path followed(fs::path path) {
   std::error_code ignored;
   for (int links = 0; links < 16 && fs::is_symlink(path, ignored); ++links) {

@@ -7,10 +7,10 @@
 
 namespace orthonav::engine {
 
-/// A file that appears whole or not at all: it is written beside its final name (same folder, same
-/// extension) and renamed by `commit`; dropped without it, nothing is left. A name that stands for
-/// something else than a regular file (a terminal, a pipe) is written in place; a symbolic link is
-/// followed, not replaced.
+/// A file that appears completely or not at all: it is written beside its final name (same folder,
+/// same extension) and renamed by `commit`; without a commit nothing is left. A name that is no
+/// regular file (a terminal, a pipe) is written in place; a symbolic link is followed, not
+/// replaced.
 class AtomicFile {
  public:
   /// Refuses an empty name, a missing or unwritable folder, and a folder in the file's place.
@@ -22,7 +22,7 @@ class AtomicFile {
   /// Where to write until the commit.
   [[nodiscard]] const std::string& temporary_path() const { return temporary_path_; }
   [[nodiscard]] const std::string& final_path() const { return final_path_; }
-  /// Makes what was written durable and gives it its name.
+  /// Makes what was written durable and gives the file its name.
   Status commit();
 
  private:
@@ -35,7 +35,7 @@ class AtomicFile {
   bool open_ = true;
 };
 
-/// Writes `content` as the whole of the file.
+/// Writes `content` as the whole file.
 Status write_file(const std::string& path, std::string_view content);
 
 }  // namespace orthonav::engine

@@ -116,7 +116,7 @@ Result<GreyImage> parse_png(std::string_view content) {
   const bool coloured = (png.format & PNG_FORMAT_FLAG_COLOR) != 0;
   png.format = coloured ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
   std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(png));
-  const png_color black{0, 0, 0};  // what is transparent lies on
+  const png_color black{0, 0, 0};  // the colour under transparent pixels
   if (!png_image_finish_read(&png, &black, pixels.data(), 0, nullptr)) {
     return damaged();
   }

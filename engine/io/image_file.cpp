@@ -14,7 +14,7 @@
 namespace orthonav::engine {
 namespace {
 
-// A larger file is no picture of ours; refusing it here keeps a forged header from taking memory.
+// No picture of ours is larger; refusing it here keeps a forged header from allocating memory.
 constexpr png_uint_32 kLargestSide_px = 16384;
 
 Error error_of(const std::filesystem::path& path, const std::string& reason) {

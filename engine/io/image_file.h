@@ -14,11 +14,11 @@ Result<RgbaImage> read_png(const std::filesystem::path& path);
 /// The image as the bytes of a PNG file.
 Result<std::string> png_bytes(const RgbaImage& image);
 
-/// Writes beside `path` first and then renames, so that no half-written image is ever seen.
+/// Writes beside `path` first and then renames, so that nobody ever sees a half-written image.
 Status write_png(const std::filesystem::path& path, const RgbaImage& image);
 
-/// A label image as a picture and back, exactly: the label's three low bytes as red, green, blue.
-/// Labels of 2^24 and more are refused.
+/// A label image as a picture and back, without loss: the label's three low bytes as red, green,
+/// blue. Labels of 2^24 and more are refused.
 Result<RgbaImage> picture_of_labels(const LabelImage& labels);
 LabelImage labels_of_picture(const RgbaImage& picture);
 

@@ -28,7 +28,7 @@ struct JpegReader::Library {
   }
   static void on_message(j_common_ptr common, int level) {
     if (level >= 0) {
-      return;  // a trace
+      return;  // informational only
     }
     ++common->err->num_warnings;
     keep_message(common);
@@ -47,7 +47,7 @@ JpegReader::JpegReader(std::string_view content) : library_(std::make_unique<Lib
 
 JpegReader::~JpegReader() { jpeg_destroy_decompress(&library_->decoder); }
 
-// Nothing with a destructor may live in a function that longjmp returns into.
+// A function that longjmp returns into must hold nothing with a destructor.
 bool JpegReader::read_header() {
   jpeg_decompress_struct& decoder = library_->decoder;
   if (setjmp(library_->failed) != 0) {

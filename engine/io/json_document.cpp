@@ -146,7 +146,7 @@ int JsonNode::integer(const char* key) const {
 
 namespace {
 
-/// False when something in there is no finite number.
+/// False when any element is no finite number.
 bool flatten(const json& value, int depth, std::vector<double>& out) {
   if (value.is_number()) {
     out.push_back(value.get<double>());

@@ -14,10 +14,10 @@ namespace orthonav::engine {
 /// The text of a file; refuses what can't be read, folders, and more than `max_bytes`.
 Result<std::string> read_text(const std::string& path, std::size_t max_bytes = 64u << 20u);
 
-/// A value inside a JSON document together with the way to it. Reading what is missing or of the
+/// A value inside a JSON document together with the path to it. Reading what is missing or of the
 /// wrong type returns a plain default and notes the problem in the document; only the first problem
 /// is kept. Readers therefore read everything, then look at `JsonDocument::status` before they use
-/// any of it. Lives no longer than its document.
+/// any of it. Must not outlive its document.
 class JsonNode {
  public:
   [[nodiscard]] bool has(const char* key) const;
@@ -29,13 +29,13 @@ class JsonNode {
   /// Exactly `count` finite numbers; nested lists (a matrix by rows) are flattened.
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count) const;
   [[nodiscard]] Vec3 vec3(const char* key) const;
-  /// A list of such, 1,000,000 at most.
+  /// A list of vectors, at most 1,000,000.
   [[nodiscard]] std::vector<Vec3> vec3s(const char* key) const;
   [[nodiscard]] bool flag_or(const char* key, bool fallback) const;
   [[nodiscard]] JsonNode child(const char* key) const;
   /// The objects of a list.
   [[nodiscard]] std::vector<JsonNode> list(const char* key) const;
-  /// The first text of a list of texts, or the text itself.
+  /// The text, or the first one of a list of texts.
   [[nodiscard]] std::string first_text(const char* key) const;
 
   /// Notes "FILE: WHERE.KEY PROBLEM".

@@ -50,7 +50,7 @@ Status readable(const std::string& path) {
   return {};
 }
 
-/// Appends one of assimp's meshes, corners still apart.
+/// Appends one of assimp's meshes, without merging corners.
 void append(const aiMesh& part, nav::TriangleMesh& mesh) {
   const auto base = static_cast<std::uint32_t>(mesh.vertices_m.size());
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
@@ -66,7 +66,7 @@ void append(const aiMesh& part, nav::TriangleMesh& mesh) {
   }
 }
 
-/// One line of whatever a library says.
+/// A library's message as one line.
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -96,7 +96,7 @@ std::optional<std::string> declared_space(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   std::size_t at = head.find(kKey);
-  // A word of its own: COLORSPACE= says nothing of axes.
+  // Only as a word of its own: COLORSPACE= says nothing about axes.
   while (at != std::string::npos && at > 0 &&
          std::isalnum(static_cast<unsigned char>(head[at - 1])) != 0) {
     at = head.find(kKey, at + 1);
@@ -138,7 +138,8 @@ Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_u
   if (!apart) {
     return apart;
   }
-  // Files repeat a vertex for each of its triangles with the same digits, so equal means equal.
+  // Files repeat a vertex for each of its triangles with the same digits, so exactly equal ones are
+  // one.
   nav::TriangleMesh mesh = nav::welded(*apart);
   const Axes used = declared_axes(path).value_or(axes);
   for (Vec3& v : mesh.vertices_m) {

@@ -10,14 +10,13 @@
 namespace orthonav::engine {
 
 /// The axes that a mesh file itself declares: `SPACE=LPS` or `SPACE=RAS` in an STL header or a
-/// comment, as 3D Slicer writes. Nothing too for axes that are not known (`load_mesh` refuses
-/// them).
+/// comment, as 3D Slicer writes. Nothing also for unknown axes (`load_mesh` refuses them).
 [[nodiscard]] std::optional<Axes> declared_axes(const std::string& path);
 
-/// Reads a vertebra from STL, PLY or OBJ (told by the extension) into metres and LPS axes: corners
-/// at the same place become one vertex, triangles that vanish are dropped, then
-/// `nav::checked_vertebra` decides. `axes` holds unless the file itself declares its axes; it must
-/// not declare others than LPS or RAS.
+/// Reads a vertebra from STL, PLY or OBJ (by the extension) into metres and LPS axes: corners at
+/// the same place become one vertex, triangles that collapse are dropped, then
+/// `nav::checked_vertebra` decides. `axes` applies unless the file itself declares its axes, which
+/// must be LPS or RAS.
 Result<nav::TriangleMesh> load_mesh(const std::string& path, double metres_per_unit,
                                     Axes axes = Axes::kLps);
 

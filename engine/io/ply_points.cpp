@@ -24,7 +24,7 @@ struct Header {
   bool has_format = false;
   std::size_t count = 0;
   std::vector<Property> properties;
-  std::size_t end = 0;  ///< where the data start
+  std::size_t end = 0;  ///< where the data begin
 };
 
 const std::map<std::string, std::size_t>& sizes() {

@@ -10,11 +10,11 @@
 
 namespace orthonav::engine {
 
-/// The vertices of a PLY file (ascii, binary little or big endian); faces are not looked at. The
-/// vertex element must come first, x, y and z must be float or double.
+/// The vertices of a PLY file (ascii, binary little or big endian); faces are ignored. The vertex
+/// element must come first, and x, y and z must be float or double.
 Result<std::vector<Vec3>> ply_points(const std::string& text, const std::string& name);
 
-/// Points as such a file, binary little-endian, single precision; `comment` is a line of it.
+/// Points as a PLY file, binary little-endian, single precision; `comment` becomes a line of it.
 [[nodiscard]] std::string ply_text(std::span<const std::array<float, 3>> points,
                                    const std::string& comment);
 

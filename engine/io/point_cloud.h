@@ -10,8 +10,8 @@
 
 namespace orthonav::engine {
 
-/// Points on surfaces that were measured again and again: of each cube of space the first point
-/// alone is kept.
+/// Points on surfaces that were measured again and again: only the first point in each cube of
+/// space is kept.
 class PointCloud {
  public:
   using Single = std::array<float, 3>;  ///< metres

@@ -5,8 +5,8 @@
 
 namespace orthonav::engine {
 
-/// Pictures of one size joined to one, row by row; `values` is the member that holds their pixels,
-/// `channels` of them a pixel.
+/// Pictures of one size joined side by side, row by row; `values` is the member that holds their
+/// pixels, with `channels` values per pixel.
 template <class Picture, class Values>
 Picture side_by_side(const std::vector<Picture>& views, Values Picture::*values,
                      std::size_t channels) {

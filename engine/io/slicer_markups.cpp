@@ -11,8 +11,8 @@
 namespace orthonav::engine {
 namespace {
 
-/// The columns that every version of the legacy format begins with; a file that says it has others
-/// is refused.
+/// The columns with which every version of the legacy format begins; a file that declares others is
+/// refused.
 constexpr std::array<std::string_view, 4> kFirstColumns = {"id", "x", "y", "z"};
 constexpr std::size_t kFirstCoordinate = 1;
 constexpr std::size_t kLabelColumn = 11;
@@ -28,7 +28,7 @@ std::vector<MarkupPoint> defined_points(const JsonNode& markup) {
   return points;
 }
 
-/// Takes axes and unit of one markup; both must be declared, and the same in the whole file.
+/// Reads axes and unit of one markup; both must be declared, and the same in the whole file.
 void read_frame(const JsonNode& node, bool first, MarkupsFile& file) {
   const std::string system = node.text("coordinateSystem");
   const std::string unit = node.first_text("coordinateUnits");

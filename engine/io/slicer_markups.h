@@ -14,7 +14,7 @@ struct MarkupPoint {
   Vec3 position;  ///< in the file's unit and axes
 };
 
-/// One markup of a 3D Slicer file; only control points that are defined.
+/// One markup of a 3D Slicer file; only defined control points.
 struct Markup {
   std::string type;  ///< "Fiducial", "Line", ...
   std::string name;

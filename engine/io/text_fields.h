@@ -7,7 +7,7 @@
 
 namespace orthonav::engine {
 
-/// Without spaces, tabs and carriage returns around it.
+/// The text without surrounding spaces, tabs and carriage returns.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 /// The fields of one line; spaces, tabs and a carriage return around a field are dropped.
 [[nodiscard]] std::vector<std::string> split(std::string_view line, char separator);

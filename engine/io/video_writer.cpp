@@ -83,7 +83,8 @@ Status VideoWriter::Encoder::open_codec() {
   codec->framerate = {options.frames_per_second, 1};
   codec->pix_fmt = AV_PIX_FMT_YUV420P;
   codec->thread_count = options.threads;
-  // Fixed reference threads and no timing: the same pictures give the same bytes.
+  // A fixed number of threads, and nothing that depends on time: the same pictures give the same
+  // bytes.
   const std::string quality = std::to_string(options.quality);
   for (const auto& [key, value] : {std::pair{"preset", "veryfast"}, {"crf", quality.c_str()}}) {
     if (const int code = av_opt_set(codec->priv_data, key, value, 0); code < 0) {
@@ -185,7 +186,7 @@ Result<std::unique_ptr<VideoWriter>> VideoWriter::create(const std::string& path
   if (const Status status = check(path, options); !status) {
     return status.error();
   }
-  // The library never prints: what matters comes back as an Error.
+  // The library must not print: what matters comes back as an Error.
   av_log_set_level(AV_LOG_QUIET);
   auto file = AtomicFile::create(path);
   if (!file) {

@@ -16,8 +16,8 @@ struct VideoOptions {
   int threads = 1;
 };
 
-/// H.264 in an MP4 that browsers play, by libavcodec. An atomic file: there once `finish`
-/// has named it; a writer that is dropped without it leaves nothing behind.
+/// H.264 in an MP4 that browsers play, by libavcodec. An atomic file: it appears once `finish` has
+/// given it its name; a writer dropped before that leaves nothing behind.
 class VideoWriter {
  public:
   static Result<std::unique_ptr<VideoWriter>> create(const std::string& path,

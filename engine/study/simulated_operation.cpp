@@ -21,6 +21,19 @@ Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
   return replay::RecordingHeadset::around(room, folder, {tools_text(tools)});
 }
 
+void add_hooks(const OperationHooks& hooks, AssembledOperation& live) {
+  for (SessionObserver* hook : hooks.session) {
+    live.observe(hook);
+  }
+  live.observe(hooks.loop);
+  live.draw_into(hooks.sink);
+}
+
+Status tell_opened(const OperationHooks& hooks, sim::SimHeadset& room, const Method& method,
+                   const Session& session) {
+  return hooks.opened ? hooks.opened(room, method, session) : Status();
+}
+
 Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Operation operation,
                                 const OperationOptions& options, const OperationHooks& hooks) {
   // The engine gets the tools as a planning file describes them, not as they really are.
@@ -37,11 +50,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   EndNote end_note;
   live.observe(&ground_truth);
   live.observe(&end_note);
-  for (SessionObserver* hook : hooks.session) {
-    live.observe(hook);
-  }
-  live.observe(hooks.loop);
-  live.draw_into(hooks.sink);
+  add_hooks(hooks, live);
   auto recorder = recorder_of(room, options.record_folder, *tools);
   if (!recorder) {
     return recorder.error();
@@ -49,10 +58,8 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (*recorder) {
     live.go_through(**recorder);
   }
-  if (hooks.opened) {
-    if (const Status opened = hooks.opened(room, method, live.session()); !opened) {
-      return opened.error();
-    }
+  if (const Status opened = tell_opened(hooks, room, method, live.session()); !opened) {
+    return opened.error();
   }
   auto report = live.run();
   if (!report) {

@@ -4,8 +4,8 @@
 
 namespace orthonav {
 
-/// Inverse of `BrownConrady::distort` by Newton's method from the undistorted pixel; NaN where the
-/// polynomial does not reach the pixel on the branch that contains the centre.
+/// Inverse of `BrownConrady::distort` by Newton's method, starting from the undistorted pixel; NaN
+/// where the polynomial does not reach the pixel on the branch that contains the centre.
 [[nodiscard]] Vec2 undistorted(const BrownConrady& p, Vec2 pixel_px);
 
 /// Refuses numbers that are not finite and focal lengths that are not positive.

@@ -30,9 +30,9 @@ struct BrownConrady {
   [[nodiscard]] Vec2 distort(Vec2 unit_plane) const;
 };
 
-/// A camera as the device describes it: for the centre of each pixel the direction on the unit
-/// plane (x/z, y/z), and a fast inverse. Camera frame: x right, y down, z forward, as the raw image
-/// lies. Immutable and thread-safe.
+/// A camera as the device describes it: the direction of each pixel's centre on the unit plane
+/// (x/z, y/z), and a fast inverse. Camera frame: x right, y down, z forward, as the raw image lies.
+/// Immutable and thread-safe.
 class CameraModel {
  public:
   CameraModel() = default;
@@ -52,7 +52,7 @@ class CameraModel {
   [[nodiscard]] std::optional<Vec2> project(Vec2 unit_plane) const;
   /// The same for a point in the camera frame; nothing behind the camera.
   [[nodiscard]] std::optional<Vec2> project(Vec3 in_camera_m) const;
-  /// Derivative of the pixel by the unit-plane point at a pixel, [du/dx du/dy; dv/dx dv/dy].
+  /// Derivative of the pixel by the unit-plane point, at a pixel: [du/dx du/dy; dv/dx dv/dy].
   [[nodiscard]] std::optional<std::array<double, 4>> jacobian_px(Vec2 pixel_px) const;
   [[nodiscard]] std::span<const Vec2> lookup() const { return lookup_; }
 

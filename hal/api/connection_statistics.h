@@ -8,22 +8,22 @@
 
 namespace orthonav {
 
-/// What one stream of a connection did so far.
+/// What one stream of a connection has done so far.
 struct StreamStatistics {
   std::string name;
   std::int64_t connections = 0;
   std::int64_t packets = 0;
   std::int64_t bytes = 0;
-  std::int64_t damaged = 0;       ///< packets that were refused, or whose picture was
+  std::int64_t damaged = 0;       ///< packets refused, themselves or for their picture
   std::int64_t out_of_order = 0;  ///< packets stamped before their predecessor
   std::int64_t gaps = 0;          ///< stamps more than one and a half intervals apart
   Duration longest_gap{};         ///< between two stamps
-  /// Mean deviation of the time underway from packet to packet (RFC 3550, 6.4.1).
+  /// Mean deviation of the transit time from packet to packet (RFC 3550, 6.4.1).
   double jitter_ms = 0.0;
   std::string last_trouble;
 };
 
-/// What a headset's connection did so far.
+/// What a headset's connection has done so far.
 struct ConnectionStatistics {
   std::vector<StreamStatistics> streams;
   std::int64_t pairs = 0;
@@ -31,10 +31,11 @@ struct ConnectionStatistics {
   std::int64_t dropped = 0;   ///< pairs that a newer one replaced before they were asked for
   std::int64_t map_moves = 0;
   std::int64_t clock_restarts = 0;
-  /// Headset's clock minus this machine's steady one, by the packet that was underway shortest.
+  /// Headset's clock minus this machine's steady clock, from the packet with the shortest transit
+  /// time.
   Duration clock_offset{};
   double clock_spread_ms = 0.0;  ///< of that offset over the last seconds, largest minus smallest
-  /// From the last byte of a pair to its publication, and until it was taken; of the last pairs.
+  /// For the last pairs: from the last byte of a pair to its publication, and until it was taken.
   std::vector<double> publish_ms;
   std::vector<double> take_ms;
 };

@@ -17,14 +17,14 @@ namespace orthonav {
 /// How a depth camera measures. One camera of a HoloLens is two streams.
 enum class DepthStream {
   kAhat,       ///< HoloLens 2, near and fast; wraps: what is past about 1 m appears near
-  kLongThrow,  ///< HoloLens 1 and 2, far and slow
+  kLongThrow,  ///< HoloLens 1 and 2: far and slow
   kShortThrow  ///< HoloLens 1, near and fast
 };
 /// "ahat", "long-throw" or "short-throw".
 [[nodiscard]] const char* name_of(DepthStream stream);
 
-/// A depth camera as the device describes it. Nobody projects into one, so that its table may fold
-/// over outside a wide lens's image circle, where a CameraModel's must not.
+/// A depth camera as the device describes it. Nobody projects into one, so its table may fold over
+/// outside a wide lens's image circle, where a CameraModel's must not.
 struct DepthCalibration {
   /// A unit vector in the camera's frame, as devices store it; z = 0: the pixel sees nothing.
   using Ray = std::array<float, 3>;
@@ -53,11 +53,11 @@ struct DepthFrame {
   std::int64_t sequence = 0;
   std::int64_t map_epoch = 0;  ///< as StereoFrame's
   Timestamp time{};            ///< mid-exposure
-  /// Distance along each pixel's ray in whole millimetres; 0: not measured, whatever the device's
-  /// own mark for that is.
+  /// Distance along each pixel's ray in whole millimetres; 0: not measured, however the device
+  /// itself marks that.
   DepthImage range_mm;
-  /// How brightly each pixel sent the camera's own infrared light back, in the device's unit; of
-  /// the same size, or empty where the device does not tell.
+  /// How brightly each pixel returned the camera's own infrared light, in the device's unit; of the
+  /// same size, or empty where the device does not report it.
   DepthImage brightness;
   /// Where the headset was at `time`; absent while the headset is not located.
   std::optional<Transform<World, Rig>> world_from_rig;

@@ -21,13 +21,14 @@ struct DescribedTool {
   Vec3 axis_in_marker{0, 1, 0};  ///< from the tip back along the shaft
 };
 
-/// The text of a file of tools. A device does not read it: that is the engine's business.
+/// The text of a file of tools. A device does not interpret it: the engine does.
 struct ToolsFile {
   std::string name;  ///< stands for the file in messages
   std::string text;
 };
 
-/// What a device can tell of the tools before its cameras: nothing, values, or a file's text.
+/// What a device can say about the tools in front of its cameras: nothing, values, or a file's
+/// text.
 using DescribedTools = std::variant<std::monostate, std::vector<DescribedTool>, ToolsFile>;
 
 }  // namespace orthonav

@@ -34,8 +34,8 @@ struct StereoCalibration {
 /// Two images taken at the same moment. The buffers are reused from frame to frame.
 struct StereoFrame {
   std::int64_t sequence = 0;
-  /// Which map World is. It increases when the device's map has moved or was replaced (recentered,
-  /// relocalised, lost and found again): then no position in World from before means anything.
+  /// Which map World is. It increases when the device's map has moved or was replaced (recentred,
+  /// relocalised, lost and found again): positions in World from before then mean nothing.
   std::int64_t map_epoch = 0;
   Timestamp time{};  ///< mid-exposure
   GreyImage left;
@@ -51,7 +51,7 @@ struct StereoFrame {
 /// strictly increase, both images have the calibration's size, sequence numbers increase, the map's
 /// epoch never decreases, a pose is a rigid motion; after kEnd there is only kEnd. A frame that
 /// breaks it is answered with an Error and not passed on (`frame` comes back empty); the stream
-/// goes on with the next good frame.
+/// continues with the next good frame.
 class StereoCamera {
  public:
   virtual ~StereoCamera() = default;
@@ -66,9 +66,9 @@ class StereoCamera {
   FrameOrder order_;
 };
 
-/// Where the head is, was or will be. Contract: the answer's time is the time asked for; asked
-/// further ahead than `kMaxHeadPrediction` past the newest measurement it is lost. What is no rigid
-/// motion or belongs to another time is answered as lost, and so is a time before the map moved
+/// Where the head is, was or will be. Contract: the answer's time is the time asked for; more than
+/// `kMaxHeadPrediction` past the newest measurement, the answer is lost. What is no rigid motion or
+/// belongs to another time is answered as lost, and so is a time before the map moved
 /// (`StereoFrame::map_epoch`): answers are in the newest map. Thread-safe.
 class HeadTracker {
  public:
@@ -78,7 +78,7 @@ class HeadTracker {
 
  private:
   [[nodiscard]] virtual Tracked<Transform<World, Rig>> do_world_from_rig(Timestamp at) const = 0;
-  /// Time of the newest measurement; a device that tells it need not watch the limit itself.
+  /// Time of the newest measurement; a device that gives it need not check the limit itself.
   [[nodiscard]] virtual std::optional<Timestamp> do_newest_measurement() const {
     return std::nullopt;
   }
@@ -95,17 +95,17 @@ struct ClickerEvent {
 /// Where a button is in its sequence of events.
 struct ButtonState {
   bool pressed = false;
-  bool clickable = false;    ///< released, and not told as a click or a double click yet
-  bool clicked = false;      ///< released, and told as a click
-  bool after_click = false;  ///< the release before the newest press was told as a click
+  bool clickable = false;    ///< released, and not reported as a click or a double click yet
+  bool clicked = false;      ///< released, and reported as a click
+  bool after_click = false;  ///< the release before the newest press was reported as a click
 
   /// Takes the next event, or says why it cannot come now.
   Status take(ClickerAction action);
 };
 
 /// One button. Contract: times never decrease, press and release alternate, a click follows its
-/// release, a double click the second of two releases: the first was told as a click, and the
-/// second is told as a double click only. A hold falls between press and release.
+/// release, a double click the second of two releases: the first was reported as a click, and the
+/// second is reported as a double click only. A hold falls between press and release.
 class Clicker {
  public:
   virtual ~Clicker() = default;
@@ -120,11 +120,11 @@ class Clicker {
   ButtonState state_;
 };
 
-/// Makes clicks, double clicks and holds of raw presses and releases; devices that only see a
-/// button use it. Click: released within `hold_after`; double click: two clicks whose presses lie
-/// within `double_within`. The first click is delivered as a click too, the second as a double
-/// click only; a third in a row starts anew. A button reported twice in the same position (a
-/// keyboard's repeat) is ignored.
+/// Derives clicks, double clicks and holds from raw presses and releases; for devices that only see
+/// a button. Click: released within `hold_after`; double click: two clicks whose presses lie within
+/// `double_within`. The first click is delivered as a click too, the second as a double click only;
+/// a third in a row starts anew. A button reported twice in the same position (a keyboard's repeat)
+/// is ignored.
 class ClickTimer {
  public:
   Duration double_within = std::chrono::milliseconds(300);
@@ -165,7 +165,7 @@ class DepthCamera;   // hal/api/depth_camera.h
 class Microphone;    // hal/api/microphone.h
 class PixelDisplay;  // hal/api/pixel_display.h
 
-/// A headset and what hangs on it. Every part lives as long as the headset.
+/// A headset and its parts, each of which lives as long as the headset.
 class Headset {
  public:
   virtual ~Headset() = default;
@@ -183,16 +183,16 @@ class Headset {
   [[nodiscard]] virtual Clicker& clicker() = 0;
   [[nodiscard]] virtual Voice& voice() = 0;
   [[nodiscard]] virtual Display& display() = 0;
-  /// Its depth cameras, one a stream; none where it has none. The same ones at every call.
+  /// Its depth cameras, one per stream; none where it has none. The same ones at every call.
   [[nodiscard]] virtual std::vector<DepthCamera*> depth_cameras() { return {}; }
-  /// What it hears, where it lets others listen; null otherwise. Listened to from the first call
+  /// What it hears, if it lets others listen; null otherwise. It is listened to from the first call
   /// on.
   [[nodiscard]] virtual Microphone* microphone() { return nullptr; }
-  /// The display where it takes pixels; null otherwise.
+  /// The display, if it takes pixels; null otherwise.
   [[nodiscard]] virtual PixelDisplay* pixels() { return nullptr; }
-  /// What the source of the pairs tells of the tools in them.
+  /// What the source of the pairs says about the tools in them.
   [[nodiscard]] virtual DescribedTools described_tools() const { return {}; }
-  /// What the connection that the pairs come through did so far; absent where there is none.
+  /// What the connection that delivers the pairs has done so far; absent where there is none.
   [[nodiscard]] virtual std::optional<ConnectionStatistics> connection() const {
     return std::nullopt;
   }

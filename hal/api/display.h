@@ -49,9 +49,9 @@ struct ShownFrame {
   std::vector<ShownHologram> holograms;
 };
 
-/// The see-through display. Pixels go to a swapchain or an image; what was shown is told here, so
-/// that a simulated wearer can read it. Contract: display times strictly
-/// increase; a frame that does not is refused and reaches nobody.
+/// The see-through display. Pixels go to a swapchain or an image; what was shown is reported here,
+/// so that a simulated wearer can read it. Contract: display times strictly increase; a frame that
+/// breaks this is refused and reaches nobody.
 class Display {
  public:
   virtual ~Display() = default;

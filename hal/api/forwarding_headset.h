@@ -4,7 +4,8 @@
 
 namespace orthonav {
 
-/// Another headset, part by part: for one that replaces some of its parts. Borrows it.
+/// Forwards to another headset, part by part; a base for one that replaces some of its parts.
+/// Borrows it.
 class ForwardingHeadset : public Headset {
  public:
   explicit ForwardingHeadset(Headset& inner) : inner_(inner) {}

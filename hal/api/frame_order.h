@@ -22,10 +22,10 @@ enum class Next {
 /// A time as messages name it.
 [[nodiscard]] std::string in_seconds(Timestamp t);
 
-/// Whether a pose is what a device may publish: finite, and a rotation to rounding.
+/// Whether a pose is what a device may publish: finite, and a rotation up to rounding.
 [[nodiscard]] bool is_rigid(const Transform<World, Rig>& pose);
 
-/// What every stream of frames keeps, whoever takes the pictures: times and sequence numbers
+/// The contract of every stream of frames, whoever takes the pictures: times and sequence numbers
 /// strictly increase, the map's epoch never decreases, a pose is a rigid motion; after kEnd there
 /// is only kEnd. `Frame` has time, sequence, map_epoch, world_from_rig and clear().
 class FrameOrder {

@@ -6,12 +6,12 @@
 
 namespace orthonav {
 
-/// Where the head is at a time, by samples (`time`, `world_from_rig`) of one map in the order of
-/// their times: measured on and between them, predicted past the last as far as HeadTracker allows,
+/// Where the head is at a time, given samples (`time`, `world_from_rig`) of one map in the order of
+/// their times: measured at and between them, predicted past the last as far as HeadTracker allows,
 /// lost otherwise and in gaps longer than that.
 template <class Iterator>
 Tracked<Transform<World, Rig>> head_among(Iterator begin, Iterator end, Timestamp at) {
-  // Sums with it fit for every sample; differences with a time asked for might not.
+  // Adding it to a sample's time can't overflow; a difference with a time asked for might.
   constexpr Duration kMaxGap = HeadTracker::kMaxHeadPrediction;
   Tracked<Transform<World, Rig>> answer;
   answer.time = at;

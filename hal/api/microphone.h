@@ -15,11 +15,11 @@ namespace orthonav {
 class Microphone {
  public:
   virtual ~Microphone() = default;
-  /// Samples a second; it never changes. Positive.
+  /// Samples per second; never changes. Positive.
   [[nodiscard]] int sample_rate_hz() const { return do_sample_rate_hz(); }
-  /// Moves the next samples, each delivered once, into the front of `samples` and answers how many
+  /// Moves the next samples, each delivered once, to the front of `samples` and returns how many
   /// there were; 0 when nothing new was heard. Does not block. A device that is not read in time
-  /// drops the oldest samples, it never queues without limit. An Error says that sound was lost for
+  /// drops the oldest samples; it never queues without limit. An Error says that sound was lost for
   /// good (unplugged, disconnected) or dropped; the caller may go on asking.
   Result<std::size_t> read(std::span<std::int16_t> samples);
   /// When the newest sample that `read` delivered was heard, in the headset's time, so that a

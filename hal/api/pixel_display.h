@@ -12,24 +12,24 @@
 
 namespace orthonav {
 
-// A display that takes pixels straight from the device that draws them: a headset's runtime, which
+// A display that takes pixels directly from the device that draws them: a headset's runtime, which
 // makes that device, owns the images and says when they are wanted.
 
 /// How the display puts pixels over the world.
 enum class WorldBlend {
-  kAdditive,  ///< optical see-through: light is added, alpha counts for nothing
+  kAdditive,  ///< optical see-through: light is added, alpha has no effect
   kAlpha,     ///< over the cameras' view, premultiplied by alpha
   kOpaque     ///< instead of the world: what is black is black
 };
 
-/// What the display asks of the renderer before there is a device.
+/// What the display requires of the renderer before there is a device.
 struct GraphicsNeeds {
   std::array<VulkanVersion, 2> vulkan{};  ///< the oldest and the newest that it takes
   WorldBlend blend = WorldBlend::kOpaque;
 };
 
-/// The renderer's answer to which images it can draw into: how well each VkFormat suits it, 0 for
-/// not at all, and whether it takes images of two layers.
+/// The renderer's preferences among image formats: a score for each VkFormat (higher is better, 0:
+/// it can't draw into such images), and whether it can draw into images of two layers.
 class FormatPreference {
  public:
   virtual ~FormatPreference() = default;
@@ -53,7 +53,7 @@ struct EyeView {
 /// Both eyes, left first. With `kLost` nothing may be drawn that has a place in the world.
 struct EyeViews : Tracked<std::array<EyeView, 2>> {
   /// With `kLost`: true if it is still known where the eyes are on the head. Then World in `value`
-  /// is the head, and what hangs on the head may be drawn. If false, `value` means nothing.
+  /// is the head, and what is fixed to the head may be drawn. If false, `value` means nothing.
   bool on_head = false;
 };
 
@@ -95,12 +95,12 @@ class PixelDisplay {
   virtual Result<std::vector<std::uint32_t>> acquire() = 0;
   /// Where the eyes will be at the display time of the frame begun, as predicted now.
   virtual EyeViews views() = 0;
-  /// Hands the frame over: with what was drawn for the newest `views`, or with nothing.
+  /// Submits the frame: with what was drawn for the newest `views`, or with nothing.
   virtual Status end_frame(bool drawn) = 0;
 
-  /// Asks the runtime to end the session in order; `begin_frame` goes on until it says kOver.
+  /// Asks the runtime to end the session in order; `begin_frame` continues until it returns kOver.
   virtual void ask_to_end() = 0;
-  /// Lets go of images and session; the renderer must be done with them.
+  /// Releases images and session; the renderer must be done with them.
   virtual void close() = 0;
 };
 

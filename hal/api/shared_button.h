@@ -6,13 +6,13 @@
 
 namespace orthonav {
 
-/// Two buttons as one: who presses first has it until the release, and what the other does
-/// meanwhile is lost. A press belongs to whoever pressed, and so does all up to the next press of
-/// anybody.
+/// Two buttons as one: whoever presses first has it until the release, and what the other does
+/// meanwhile is dropped. A press belongs to whoever pressed, and so does everything up to the next
+/// press by either.
 class SharedButton {
  public:
   enum class Hand { kNobody, kFirst, kSecond };
-  /// Appends the event where it counts.
+  /// Appends the event if it counts.
   void offer(Hand hand, const ClickerEvent& event, std::vector<ClickerEvent>& events);
 
  private:

@@ -124,23 +124,32 @@ void note_slips(const PointerTrack& track, const SortedRests& rests,
             report.turning);
 }
 
+/// The track of the measured poses, once input and options are known to be good.
+Result<PointerTrack> checked_track(std::span<const TrackedPose> world_from_marker,
+                                   const ToolGeometry& pointer,
+                                   std::span<const Vec3> board_points_m,
+                                   const AccuracyOptions& options) {
+  if (Status s = check_input(board_points_m, options); !s) {
+    return s.error();
+  }
+  auto track = measured_track(world_from_marker, pointer.tip_in_marker);
+  if (track && track->tips.size() < 2 * options.min_still_samples) {
+    return refused("accuracy test: %.0f measured poses of the pointer, at least %.0f are needed",
+                   static_cast<double>(track->tips.size()),
+                   2.0 * static_cast<double>(options.min_still_samples));
+  }
+  return track;
+}
+
 }  // namespace
 
 Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from_marker,
                                          const ToolGeometry& pointer,
                                          std::span<const Vec3> board_points_m,
                                          const AccuracyOptions& options) {
-  if (Status s = check_input(board_points_m, options); !s) {
-    return s.error();
-  }
-  auto track = measured_track(world_from_marker, pointer.tip_in_marker);
+  auto track = checked_track(world_from_marker, pointer, board_points_m, options);
   if (!track) {
     return track.error();
-  }
-  if (track->tips.size() < 2 * options.min_still_samples) {
-    return refused("accuracy test: %.0f measured poses of the pointer, at least %.0f are needed",
-                   static_cast<double>(track->tips.size()),
-                   2.0 * static_cast<double>(options.min_still_samples));
   }
   const auto found = longest_fixed_point(track->world_from_marker, pointer.tip_in_marker,
                                          fixed_point_options(options));

@@ -27,9 +27,10 @@ std::vector<BoardTag> board() {
 }
 
 /// Cameras of which the right one is not quite as the device says.
-test::TagBodyScene scene(Vec3 turn_rad, Vec3 shift_m = {}) {
+test::TagBodyScene scene(Vec3 rotation_rad, Vec3 translation_m = {}) {
   test::TagBodyScene made;
-  const Transform<RightCamera, RightCamera> wrong(rotation_from_vector(turn_rad), shift_m);
+  const Transform<RightCamera, RightCamera> wrong(rotation_from_vector(rotation_rad),
+                                                  translation_m);
   made.seen_by.right_from_rig = wrong * made.calibration.right_from_rig;
   made.noise_px = kNoisePx;
   for (const BoardTag& tag : board()) {
@@ -74,10 +75,10 @@ TEST(StereoRecording, FindsByHowMuchTheRightCameraIsOff) {
     EXPECT_GT(found->epipolar_before_px, 0.5);
     // One coordinate of the right corner, and the left corner's along with it.
     EXPECT_NEAR(found->epipolar_after_px, std::sqrt(2.0) * kNoisePx, 0.01);
-    EXPECT_LT((found->shift_m - shift).norm(), 4.0 * found->translation_sigma_m);
+    EXPECT_LT((found->translation_m - shift).norm(), 4.0 * found->translation_sigma_m);
     EXPECT_EQ(found->judgement.verdict, Verdict::kNote);
     EXPECT_THAT(found->judgement.reason, HasSubstr("the device's calibration is off by 0."));
-    turn_off += (found->turn_rad - turn).squared_norm();
+    turn_off += (found->rotation_rad - turn).squared_norm();
     turn_sigma += found->rotation_sigma_rad * found->rotation_sigma_rad;
   }
   // 18 numbers, and the larger of two estimates is told: within a factor of two.
