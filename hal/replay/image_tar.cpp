@@ -88,8 +88,8 @@ Status ImageTar::index() {
   if (code) {
     return file_error(path_, "cannot be read: " + code.message());
   }
-  if (file_size < kTarBlockBytes) {
-    return no_whole_image(file_size);  // libarchive knows no archive in so few bytes
+  if (file_size == 0) {
+    return no_whole_image(file_size);  // for libarchive it is no archive
   }
   const ArchiveReader reader(archive_read_new());
   archive_read_support_format_tar(reader.get());
