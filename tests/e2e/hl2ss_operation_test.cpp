@@ -64,7 +64,7 @@ struct Operated {
 };
 
 /// One level from pixels over TCP, by a brisk surgeon in a perfect world.
-Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
+Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults, double pace) {
   Operated done;
   const Case spine = phantom();
   ModelCache models;
@@ -74,7 +74,7 @@ Operated operate(hl2ss::VideoProfile profile, const hl2ss::Faults& faults) {
   const auto room = room_of(spine, operation, built_in_tools());
   sim::SimOptions sim;
   sim.error_model = sim::ErrorModel::perfect();
-  sim.error_model.pace = 4.0;
+  sim.error_model.pace = pace;
   sim::Truth truth;
   hl2ss::ServerOptions options;
   options.first_port = 0;
@@ -133,7 +133,7 @@ void expect_wires_within(double angle_deg, double entry_m, const std::vector<Wir
 }
 
 TEST(OverTcp, RawAWholeOperationIsAsExactAsTheDirectRun) {
-  const Operated done = operate(hl2ss::VideoProfile::kRaw, {});
+  const Operated done = operate(hl2ss::VideoProfile::kRaw, {}, 6.0);
   EXPECT_TRUE(done.result.completed);
   ASSERT_EQ(done.wires.size(), 2u);
   expect_wires_within(kPerfectAngle_deg, kPerfectEntry_m, done.wires);
@@ -141,7 +141,7 @@ TEST(OverTcp, RawAWholeOperationIsAsExactAsTheDirectRun) {
 }
 
 TEST(OverTcp, H264AWholeOperationIsExactWithinTheCodecsNoise) {
-  const Operated done = operate(hl2ss::VideoProfile::kH264Base, {});
+  const Operated done = operate(hl2ss::VideoProfile::kH264Base, {}, 6.0);
   EXPECT_TRUE(done.result.completed);
   ASSERT_EQ(done.wires.size(), 2u);
   expect_wires_within(kCodecAngle_deg, kCodecEntry_m, done.wires);
@@ -154,7 +154,7 @@ TEST(OverTcp, SurvivesEveryFaultAndAJumpWhileGuiding) {
   hl2ss::Faults faults = *hl2ss::faults_of("all");
   faults.stall = 0.002;  // a third of a second each
   faults.jump_at = {1200};
-  const Operated done = operate(hl2ss::VideoProfile::kRaw, faults);
+  const Operated done = operate(hl2ss::VideoProfile::kRaw, faults, 4.0);
   EXPECT_TRUE(done.result.completed);
   EXPECT_THAT(done.map_moves, ::testing::ElementsAre(Step::kGuide));
   EXPECT_GE(done.wires.size(), 2u);

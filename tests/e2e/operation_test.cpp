@@ -44,8 +44,8 @@ TEST_P(EveryMethod, InAPerfectWorldEveryWireLiesOnItsPlan) {
   OperationOptions options = one_level();
   options.method = GetParam();
   options.sim.error_model = sim::ErrorModel::perfect();
-  // A brisk surgeon: the same work in half the frames.
-  options.sim.error_model.pace = 2.0;
+  // A brisk surgeon: the same work in a quarter of the frames.
+  options.sim.error_model.pace = 4.0;
   const auto result = run_operation(lumbar_spine(), options);
   ASSERT_TRUE(result.ok()) << result.error().message;
   EXPECT_TRUE(result->completed);
@@ -112,8 +112,8 @@ LoggedOperation logged(const OperationOptions& options) {
 
 TEST(Operation, AtItsDocumentedErrorsGivesTheSameReportWithOneAndTwoThreads) {
   OperationOptions options = one_level();
-  // A hasty surgeon: the same errors, the whole operation in a third of the frames.
-  options.sim.error_model.pace = 3.0;
+  // A hasty surgeon: the same errors, the whole operation in a sixth of the frames.
+  options.sim.error_model.pace = 6.0;
   options.tracker.parallel = true;
   const LoggedOperation two_threads = logged(options);
   ASSERT_TRUE(two_threads.result.ok()) << two_threads.result.error().message;

@@ -53,7 +53,7 @@ TEST(DemoCommand, ComesToItsEndWithEveryResultAndNothingOfAnEarlierRun) {
   for (const char* stale : {"12-done.png", "report.json", "mine-01-setup.png", "notes.txt"}) {
     std::ignore = folder.with("out/" + std::string(stale), "of an earlier run");
   }
-  const Called demo = orthonav({"demo", "--levels", "L5", "--pace", "3", "--out", out, "--json"});
+  const Called demo = orthonav({"demo", "--levels", "L5", "--pace", "4", "--out", out, "--json"});
   ASSERT_EQ(demo.code, 0) << demo.err;
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
@@ -128,10 +128,12 @@ TEST(RunCommand, EndsAfterTheFramesAskedForAndRecordsThem) {
 
 TEST(RunCommand, RefusesBadInput) {
   const ScratchFolder folder;
-  expect_refusal(orthonav({"run", "--headset", "holo:"}), "unknown scheme");
-  expect_refusal(orthonav({"run", "--headset", "replay:" + folder.file("none")}), "none");
+  expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "holo:"}), "unknown scheme");
+  expect_refusal(orthonav({"run", "--levels", "L5", "--headset", "replay:" + folder.file("none")}),
+                 "none");
   expect_refusal(orthonav({"run", "--method", "nearest"}), "nearest: unknown");
-  expect_refusal(orthonav({"run", "--tools", folder.with("t.json", "{}")}), "t.json");
+  expect_refusal(orthonav({"run", "--levels", "L5", "--tools", folder.with("t.json", "{}")}),
+                 "t.json");
 }
 
 TEST(StudyCommand, RefusesBadInput) {

@@ -39,7 +39,7 @@ class OperationOnOpenxr : public RuntimeTest {
     ASSERT_TRUE(operation.ok()) << operation.error().message;
     sim::SimOptions options;
     options.error_model = sim::ErrorModel::perfect();
-    options.error_model.pace = 4.0;
+    options.error_model.pace = 8.0;
     auto room = sim::SimHeadset::open(engine::room_of(spine, *operation, engine::built_in_tools()),
                                       options);
     ASSERT_TRUE(room.ok()) << room.error().message;

@@ -148,18 +148,24 @@ TEST_F(DigitizedStrokesTest, ReachEveryRegionWhenFull) {
 }
 
 TEST_F(DigitizedStrokesTest, GoAsDeepAsToldAndThereBeyondWhatTrimmingKeeps) {
+  // To prepare a model takes longer than all that is done with it here.
+  std::vector<std::shared_ptr<const nav::VertebraModel>> models;
+  for (const nav::TriangleMesh& mesh : meshes_) {
+    models.push_back(nav::VertebraModel::prepare(mesh).value());
+  }
   for (const double deepest : {0.7, 1.1, 1.25}) {
     StrokeErrorModel m = error_model_of(StrokeVariant::kFull);
     m.deepest_aside = deepest;
     double beyond = 0.0;
     double all = 0.0;
     for (std::size_t level = 0; level < meshes_.size(); ++level) {
-      const auto model = nav::VertebraModel::prepare(meshes_[level]).value();
       const auto marks = find_posterior_landmarks(meshes_[level], *surfaces_[level]).value();
       const double canal_m = marks.arch_front_y_m - marks.body_back_y_m;
       for (const DigitizedSample& s : strokes(level, StrokeVariant::kFull, level, m).samples) {
         all += 1.0;
-        beyond += model->reachable_surface().nearest(s.true_tip.v)->distance_m > 0.0005 ? 1.0 : 0.0;
+        beyond += models[level]->reachable_surface().nearest(s.true_tip.v)->distance_m > 0.0005
+                      ? 1.0
+                      : 0.0;
         const bool aside =
             std::abs(s.true_tip.v.x - marks.midline_x_m) > 1.2 * marks.canal_half_width_m;
         // Into the canal never, however deep the pointer goes beside it.
