@@ -3,17 +3,26 @@
 #include <algorithm>
 
 namespace orthonav::engine {
+namespace {
+
+/// Drawn back by more than this, a tool is no longer at depth; a hand at rest moves less.
+constexpr double kDrawnBack_m = 0.001;
+/// Farther off the planned axis than a screw goes astray, a tip is not in it: depth along the axis
+/// alone would count a tool laid down beside the patient.
+constexpr double kBesideTheScrew_m = 0.015;
+
+}  // namespace
 
 void Guiding::select_open_screw(const LevelState& level) {
   const auto& done = level.screw_done;
   const auto open = std::find(done.begin(), done.end(), false);
   screw_ = open == done.end() ? 0 : static_cast<std::size_t>(open - done.begin());
-  last_.reset();
+  at_depth_.reset();
 }
 
 void Guiding::begin_level() {
   screw_ = 0;
-  last_.reset();
+  at_depth_.reset();
 }
 
 std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWatch& watch,
@@ -37,10 +46,22 @@ std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWa
   ToolGuidance guidance{std::nullopt, against_plan(at_display.value),
                         watch.last_measured().value_or(Timestamp{})};
   if (watch.measured_now()) {
-    guidance.measured = against_plan(watch.newest().value);
-    last_ = guidance;
+    const nav::ScrewGuidance measured = against_plan(watch.newest().value);
+    guidance.measured = measured;
+    remember_depth(guidance, measured);
   }
   return guidance;
+}
+
+void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured) {
+  if (!(measured.tip_off_axis_m <= kBesideTheScrew_m)) {
+    return;
+  }
+  const double depth_m = measured.depth_m;
+  if (!at_depth_ || depth_m >= deepest_m_ - kDrawnBack_m) {
+    deepest_m_ = at_depth_ ? std::max(deepest_m_, depth_m) : depth_m;
+    at_depth_ = guidance;
+  }
 }
 
 StepState Guiding::state(const LevelState& level) const {

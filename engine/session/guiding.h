@@ -16,7 +16,7 @@ class Guiding {
   /// Another level: what guided on the one before has no part in it.
   void begin_level();
   /// Nothing guided so far holds any more; the screw stays selected.
-  void forget_guidance() { last_.reset(); }
+  void forget_guidance() { at_depth_.reset(); }
   void toggle_twin() { twin_ = !twin_; }
 
   /// The tool against the selected screw. Absent where nothing fresh is there to guide on.
@@ -26,13 +26,17 @@ class Guiding {
 
   [[nodiscard]] std::size_t screw() const { return screw_; }
   [[nodiscard]] bool twin() const { return twin_; }
-  /// The newest measured guidance on the selected screw, or null.
-  [[nodiscard]] const ToolGuidance* last() const { return last_ ? &*last_ : nullptr; }
+  /// What was measured last while the tool stood as deep in the selected screw as it ever did, or
+  /// null: what became of it, whatever the tool did after it was drawn back.
+  [[nodiscard]] const ToolGuidance* at_depth() const { return at_depth_ ? &*at_depth_ : nullptr; }
   [[nodiscard]] StepState state(const LevelState& level) const;
 
  private:
+  void remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured);
+
   std::size_t screw_ = 0;
-  std::optional<ToolGuidance> last_;
+  std::optional<ToolGuidance> at_depth_;
+  double deepest_m_ = 0.0;  ///< past the entry; of what `at_depth_` goes by
   bool twin_ = false;
 };
 

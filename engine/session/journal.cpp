@@ -152,16 +152,16 @@ void Journal::check_point_dropped(Timestamp time, const LevelState& level) {
 }
 
 void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
-                         const ToolGuidance* last) {
+                         const ToolGuidance* at_depth) {
   Json line = entry(file_ticks(time), time, "screw");
   line["level"] = level.plan.label;
   line["side"] = name_of(screw.side);
-  if (last && last->measured) {
-    line["pose_time_100ns"] = ticks_100ns(last->pose_time);
-    line["angle_deg"] = degrees(last->measured->angle_rad);
-    line["tip_to_entry_mm"] = last->measured->tip_to_entry_m * 1e3;
-    line["tip_off_axis_mm"] = last->measured->tip_off_axis_m * 1e3;
-    line["depth_mm"] = last->measured->depth_m * 1e3;
+  if (at_depth && at_depth->measured) {
+    line["pose_time_100ns"] = ticks_100ns(at_depth->pose_time);
+    line["angle_deg"] = degrees(at_depth->measured->angle_rad);
+    line["tip_to_entry_mm"] = at_depth->measured->tip_to_entry_m * 1e3;
+    line["tip_off_axis_mm"] = at_depth->measured->tip_off_axis_m * 1e3;
+    line["depth_mm"] = at_depth->measured->depth_m * 1e3;
   }
   write_line(out_, line);
 }

@@ -38,7 +38,7 @@ class Journal : public SessionObserver {
   void check_point_recorded(Timestamp time, const LevelState& level) override;
   void check_point_dropped(Timestamp time, const LevelState& level) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
-                  const ToolGuidance* last) override;
+                  const ToolGuidance* at_depth) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;
   void rod_done(Timestamp time, const RodState& rod) override;

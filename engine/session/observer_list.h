@@ -46,9 +46,9 @@ class ObserverList : public SessionObserver {
     }
   }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
-                  const ToolGuidance* last) override {
+                  const ToolGuidance* at_depth) override {
     for (auto* o : observers_) {
-      o->screw_done(time, level, screw, last);
+      o->screw_done(time, level, screw, at_depth);
     }
   }
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override {

@@ -123,7 +123,7 @@ void Session::finish_screw(Timestamp time) {
   const std::size_t screw = guiding_.screw();
   now.screw_done[screw] = true;
   if (observer_) {
-    observer_->screw_done(time, now, now.plan.screws[screw], guiding_.last());
+    observer_->screw_done(time, now, now.plan.screws[screw], guiding_.at_depth());
   }
   const auto finished = [](const LevelState& state) { return state.finished(); };
   if (!finished(now)) {

@@ -22,10 +22,10 @@ class SessionObserver {
   virtual void check_point_recorded(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The last of them was taken back; `level` is without it.
   virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
-  /// The surgeon declared the screw done; `last` is what they were guided by at the end, if
-  /// anything.
+  /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
+  /// at its depth, or null where it never did.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,
-                          const nav::ScrewPlan& /*screw*/, const ToolGuidance* /*last*/) {}
+                          const nav::ScrewPlan& /*screw*/, const ToolGuidance* /*at_depth*/) {}
   virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, Point<World> /*head*/) {}
   virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/) {}
   virtual void rod_done(Timestamp /*time*/, const RodState& /*rod*/) {}

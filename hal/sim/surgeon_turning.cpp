@@ -20,7 +20,7 @@ constexpr double kSteady_s = 0.7;
 constexpr double kHold_s = 2.4;
 constexpr double kRoll_rad = 0.35;
 constexpr double kRolls = 2.0;
-/// An average further off than this is no last correction: he turns on.
+/// An average further off than this is no last correction: they turn on.
 constexpr double kLastCorrection_rad = 1.0 * kRadiansPerDegree;
 constexpr int kFewestReadings = 5;
 constexpr double kLastMove_s = 0.4;

@@ -214,6 +214,52 @@ TEST(Session, HidesGuidanceOnceThePoseIsOlderThanItsLimit) {
   EXPECT_FALSE(g.status.tool_lost);
 }
 
+/// What the session tells of each screw that is done.
+struct DoneScrews : SessionObserver {
+  void screw_done(Timestamp /*time*/, const LevelState& /*level*/, const nav::ScrewPlan& /*screw*/,
+                  const ToolGuidance* at_depth) override {
+    told.push_back(at_depth ? std::optional(*at_depth) : std::nullopt);
+  }
+  std::vector<std::optional<ToolGuidance>> told;
+};
+
+/// Into the bone along the planned axis, which is -y here.
+constexpr Vec3 kDeep{0.0, -0.012, 0.0};
+
+TEST(Session, TellsOfTheToolAtDepthAndNotOfTheOneDrawnBack) {
+  ScriptedOperation s;
+  DoneScrews done;
+  s.session().observe(&done);
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, 0.10);
+  s.pairs(3);
+  s.tracker().guide = guide_at(kLeftEntry + kDeep, 0.02);
+  s.pairs(3);
+  s.tracker().guide = guide_at(kLeftEntry + 0.9 * kDeep, 0.03);  // it begins to be drawn back
+  s.pairs(3);
+  s.tracker().guide = guide_at(kLeftEntry - 2.0 * kDeep, 0.30);
+  s.pairs(3);
+  s.says("next");
+  ASSERT_EQ(done.told.size(), 1u);
+  ASSERT_TRUE(done.told[0] && done.told[0]->measured);
+  EXPECT_NEAR(done.told[0]->measured->angle_rad, 0.02, 1e-9);
+  EXPECT_NEAR(done.told[0]->measured->depth_m, 0.012, 1e-6);
+}
+
+TEST(Session, TellsOfNoToolThatWasNeverAtTheScrew) {
+  ScriptedOperation s;
+  DoneScrews done;
+  s.session().observe(&done);
+  s.accepts_first_level();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry + Vec3{0.2, -0.1, 0.0}, 0.02);  // laid down beside
+  s.pairs(3);
+  s.says("next");
+  ASSERT_EQ(done.told.size(), 1u);
+  EXPECT_FALSE(done.told[0].has_value());
+}
+
 TEST(Session, GoesThroughEveryScrewLevelAndRodToTheEnd) {
   ScriptedOperation s;
   s.accepts_first_level();

@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Workflow, EveryVerification,
                          ::testing::Values(Verification::kByTouch, Verification::kByEye));
 
 TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
-  // What is raised on his "accept" when the touched places bear it out, else the word itself.
+  // What is raised on an "accept" when the touched places bear it out, else the word itself.
   const Event accepting =
       GetParam() == Verification::kByTouch ? Event::kChecked : Event::kSayAccept;
   for (std::size_t s = 0; s < kStepCount; ++s) {
