@@ -39,7 +39,7 @@ class OperationOnOpenxr : public RuntimeTest {
     ASSERT_TRUE(operation.ok()) << operation.error().message;
     sim::SimOptions options;
     options.error_model = sim::ErrorModel::perfect();
-    options.error_model.pace = 8.0;
+    options.error_model.pace = 4.0;
     auto room = sim::SimHeadset::open(engine::room_of(spine, *operation, engine::built_in_tools()),
                                       options);
     ASSERT_TRUE(room.ok()) << room.error().message;
@@ -120,7 +120,7 @@ TEST_F(OperationOnOpenxr, GoesThroughWithEachStepsFramesAsTheRendererDrawsThem) 
   EXPECT_GT(presented.drawn, 100);
   EXPECT_THAT(watch.frames(),
               AllOf(Contains(Key(engine::Step::kDigitize)), Contains(Key(engine::Step::kVerify)),
-                    Contains(Key(engine::Step::kGuide)), Contains(Key(engine::Step::kRod))));
+                    Contains(Key(engine::Step::kGuide))));
   // Once the first snapshot is there and the runtime wants pixels, every frame has some.
   const std::vector<DrawnScene> all = drawn();
   const auto last = runtime().frames();
