@@ -20,6 +20,7 @@
 #include "tools/progress.h"
 #include "tools/reading_curves.h"
 #include "tools/step_pictures.h"
+#include "tools/stopped_run.h"
 #include "tools/surgeon_view.h"
 
 namespace orthonav::tools {
@@ -115,10 +116,11 @@ class Demo {
     if (const Status ready = prepare(source->name); !ready) {
       return bad_input(ready.error().message);
     }
-    const auto result = operate(*source);
+    auto result = operate(*source);
     if (!result) {
       return ended(result.error().message);
     }
+    explain_stop(signals_, *result);
     const Status written = write(*result);
     std::fputs(
         arguments_.json ? engine::report_json(*result).c_str() : operation_summary(*result).c_str(),
@@ -126,7 +128,9 @@ class Demo {
     if (!written) {
       return bad_input(written.error().message);
     }
-    if (!result->completed) {
+    if (signals_.caught()) {
+      tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
+    } else if (!result->completed) {
       std::fprintf(stderr, "orthonav: the operation did not come to its end\n");
     }
     return result->completed ? kDone : kNo;
@@ -147,7 +151,7 @@ class Demo {
         reason += "; " + done.error().message;
       }
     }
-    if (const Status done = journal_->finish(reason); !done) {
+    if (const Status done = journal_->finish({{}, reason}); !done) {
       reason += "; " + done.error().message;
     }
     return bad_input(reason);
@@ -200,6 +204,7 @@ class Demo {
     hooks.sink = view_.get();
     engine::ModelCache models(out_->file("models"));
     hooks.models = &models;
+    hooks.can_stop = [this](std::function<void()> stop) { signals_.on_stop(std::move(stop)); };
     hooks.opened = [&](sim::SimHeadset& headset, const engine::Method&, const engine::Session&) {
       view_->look_at(headset, options.sim.error_model);
       began_ = true;
@@ -222,7 +227,7 @@ class Demo {
     };
     note(engine::write_file(out_->file("report.json"), engine::report_json(result)));
     note(engine::write_file(out_->file("timing.json"), engine::timing_json(result.loop)));
-    note(journal_->finish());
+    note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));
     note(pictures_.finish());
     const bool film = video_ && note(video_->finish());
     const DemoReport report{.perfect = arguments_.perfect,
@@ -235,6 +240,7 @@ class Demo {
   }
 
   DemoArguments arguments_;
+  StopSignals signals_;           ///< before any thread
   bool began_ = false;            ///< the room is open, the first pair is next
   std::optional<OutFolder> out_;  ///< destroyed last: the files in it are dropped first
   std::unique_ptr<SurgeonView> view_;

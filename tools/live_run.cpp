@@ -30,6 +30,7 @@
 #include "tools/out_folder.h"
 #include "tools/progress.h"
 #include "tools/run_stats.h"
+#include "tools/stopped_run.h"
 
 namespace orthonav::tools {
 namespace {
@@ -48,11 +49,14 @@ class LiveRun {
     if (const Status presenting = present(); !presenting) {
       return ended(presenting.error().message);
     }
+    signals_.on_stop([this] { operation_->stop(); });
     auto report = operation_->run();
+    signals_.on_stop(nullptr);
     end_presenting();
     if (!report) {
       return ended(report.error().message);
     }
+    last_frame_ = report->last_frame;
     const engine::Session& session = operation_->session();
     engine::OperationResult result =
         engine::outcome_of(session.levels(), session.rods(), std::move(*report));
@@ -65,18 +69,21 @@ class LiveRun {
       ground_truth_->evaluate(session.levels(), result);
     }
     end_note_.explain(result);
+    explain_stop(signals_, result);
     if (const Status finished = finish(result); !finished) {
       return bad_input(finished.error().message);
     }
-    const bool limited = arguments_.frames > 0 && result.loop.displayed >= arguments_.frames;
-    return result.completed || limited ? kDone : kNo;
+    tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
+    const bool limited = arguments_.for_s > 0.0 ||
+                         (arguments_.frames > 0 && result.loop.displayed >= arguments_.frames);
+    return result.completed || (limited && !signals_.caught()) ? kDone : kNo;
   }
 
  private:
   /// What was written until then stays: the journal says how it ended.
   int ended(std::string reason) {
     if (journal_) {
-      if (const Status done = journal_->finish(reason); !done) {
+      if (const Status done = journal_->finish({last_frame_, reason}); !done) {
         reason += "; " + done.error().message;
       }
     }
@@ -184,6 +191,7 @@ class LiveRun {
     }
     engine::AssemblyOptions options;
     options.loop.max_frames = arguments_.frames;
+    options.loop.max_time = from_seconds(arguments_.for_s);
     options.loop.draw_every = headset_->pixels() ? 1 : 0;
     options.loop.drop_late_snapshots = headset_->pixels() != nullptr;
     auto assembled =
@@ -266,7 +274,7 @@ class LiveRun {
       note(write_demo_report(out_->path(), result, {.simulated = room_ != nullptr}));
     }
     if (journal_) {
-      note(journal_->finish());
+      note(journal_->finish({last_frame_, result.completed ? "" : result.why_not}));
     }
     if (recorder_) {
       note(recorder_->close());
@@ -275,6 +283,8 @@ class LiveRun {
   }
 
   RunArguments arguments_;
+  StopSignals signals_;  ///< before any thread
+  std::optional<Timestamp> last_frame_;
   engine::Method method_;
   engine::ModelCache models_;
   std::string case_name_;

@@ -18,6 +18,7 @@ struct RunArguments {
   std::string record;
   std::string out;
   std::int64_t frames = 0;
+  double for_s = 0.0;  ///< of the device's clock; 0: no limit
   bool json = false;
   bool stats = false;
 };

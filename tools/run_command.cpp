@@ -1,4 +1,6 @@
+#include <map>
 #include <memory>
+#include <string>
 
 #include "tools/arguments.h"
 #include "tools/command.h"
@@ -33,6 +35,10 @@ void add_run_command(CLI::App& app, Action& action) {
       ->check(some_text());
   run->add_option("--frames", arguments->frames, "end after so many displayed frames (0: no limit)")
       ->check(whole_number(0));
+  run->add_option("--for", arguments->for_s, "end after so long, as in 60s or 5min")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}},
+                                        CLI::AsNumberWithUnit::UNIT_REQUIRED, "TIME"))
+      ->check(finite_number(0.1, 86400.0));
   run->add_option("--record", arguments->record, "record the session into this new folder")
       ->check(some_text());
   run->add_option("--out", arguments->out,

@@ -8,6 +8,7 @@
 #include "engine/study/sim_scenario.h"
 #include "hal/api/as_headset.h"
 #include "hal/hl2ss/server/server.h"
+#include "hal/sim/sim_headset.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
@@ -111,6 +112,24 @@ int serve(ServeArguments arguments) {
   return watch(**server, arguments.sessions);
 }
 
+/// What a real headset does wrong, and the stand-in only when asked.
+void add_faults(CLI::App& serve, ServeArguments& arguments) {
+  serve
+      .add_option(
+          "--faults", arguments.faults,
+          "probabilities for each pair: gap=P, lose=P, unlocated=P, reorder=P, stall=P, "
+          "half=P, cut=P, misstamp=P, corrupt=P; jump=N: World jumps at pair N; all: 0.01 of each")
+      ->check(some_text());
+  serve.add_option("--slices", arguments.server.slices, "of each H.264 picture")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  serve
+      .add_option("--unmapped-edge-px", arguments.server.unmapped_edge_px,
+                  "pixels along the edges without a direction in the calibration")
+      ->check(whole_number(0))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_serve_hl2ss_command(CLI::App& app, Action& action) {
@@ -142,20 +161,7 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action) {
   serve_hl2ss->add_flag("--paced", server.paced,
                         "the next pair comes when the client is done with the last one, as fast as "
                         "it can (default: 30 pairs a second)");
-  serve_hl2ss
-      ->add_option(
-          "--faults", arguments->faults,
-          "probabilities for each pair: gap=P, lose=P, unlocated=P, reorder=P, stall=P, "
-          "half=P, cut=P, misstamp=P, corrupt=P; jump=N: World jumps at pair N; all: 0.01 of each")
-      ->check(some_text());
-  serve_hl2ss->add_option("--slices", server.slices, "of each H.264 picture")
-      ->check(whole_number(1))
-      ->capture_default_str();
-  serve_hl2ss
-      ->add_option("--unmapped-edge-px", server.unmapped_edge_px,
-                   "pixels along the edges without a direction in the calibration")
-      ->check(whole_number(0))
-      ->capture_default_str();
+  add_faults(*serve_hl2ss, *arguments);
   serve_hl2ss
       ->add_option("--sessions", arguments->sessions, "end after so many sessions (0: no end)")
       ->check(whole_number(0))

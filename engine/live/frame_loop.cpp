@@ -23,6 +23,9 @@ std::vector<std::string> LoopOptions::check() const {
   if (max_frames < 0) {
     problems.push_back("max_frames must not be negative");
   }
+  if (max_time < Duration::zero()) {
+    problems.push_back("max_time must not be negative");
+  }
   if (after_done < Duration::zero()) {
     problems.push_back("after_done must not be negative");
   }
@@ -217,6 +220,9 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   inputs.display_time = headset_->display().predicted_display_time(heard_at_);
   const Guidance& guidance = session_.step(frame_, inputs);
   report.last_frame = frame_.time;
+  if (!first_frame_) {
+    first_frame_ = frame_.time;
+  }
   if (observer_) {
     observer_->stepped(frame_, inputs, guidance);
   }
@@ -274,6 +280,10 @@ bool FrameLoop::finished(const LoopReport& report) {
     return true;
   }
   if (options_.max_frames > 0 && report.displayed >= options_.max_frames) {
+    return true;
+  }
+  if (options_.max_time > Duration::zero() && first_frame_ &&
+      report.last_frame - *first_frame_ >= options_.max_time) {
     return true;
   }
   if (session_.current_step() != Step::kDone) {

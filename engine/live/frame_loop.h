@@ -36,6 +36,8 @@ struct LoopOptions {
   /// drawn.
   bool drop_late_snapshots = false;
   std::int64_t max_frames = 0;  ///< ends after this many displayed frames; 0: no limit
+  /// Ends once the pairs span so much of the device's clock; 0: no limit.
+  Duration max_time = Duration::zero();
   Duration after_done = std::chrono::seconds(1);  ///< how long it goes on once the rod is done
   int max_errors_in_a_row = 30;  ///< of one device or the sink; beyond it the run ends
   /// A camera pair that delivers nothing for this long, by the device's clock, is gone for good.
@@ -116,7 +118,8 @@ class FrameLoop {
   Timestamp heard_at_{};                            ///< when the last pair came, or the loop began
   std::optional<Timestamp> guiding_since_;  ///< mid-exposure of the pair that is being shown
   std::optional<Timestamp> done_since_;
-  int camera_errors_ = 0;  ///< in a row, each
+  std::optional<Timestamp> first_frame_;  ///< mid-exposure of the first pair
+  int camera_errors_ = 0;                 ///< in a row, each
   int clicker_errors_ = 0;
   int voice_errors_ = 0;
   int display_errors_ = 0;

@@ -73,12 +73,13 @@ Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
       new Journal(std::move(*file), std::move(out), header.epoch_ticks_100ns));
 }
 
-Status Journal::finish(const std::string& reason) {
-  if (!reason.empty()) {
-    Json line = entry(file_ticks(newest_), newest_, "ended");
-    line["reason"] = reason;
-    write_line(out_, line);
+Status Journal::finish(const JournalEnd& end) {
+  const Timestamp time = std::max(newest_, end.time.value_or(newest_));
+  Json line = entry(file_ticks(time), time, "ended");
+  if (!end.reason.empty()) {
+    line["reason"] = end.reason;
   }
+  write_line(out_, line);
   out_.close();
   if (out_.fail()) {
     return Error{file_.final_path() + ": not every line could be written"};

@@ -2,12 +2,19 @@
 
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/io/atomic_file.h"
 #include "engine/session/session_observer.h"
 
 namespace orthonav::engine {
+
+/// How a session ended.
+struct JournalEnd {
+  std::optional<Timestamp> time;  ///< of the last pair; absent: that of the last line
+  std::string reason;             ///< what ended it before its time; empty: nothing did
+};
 
 /// What the journal says about the whole session, in its first line.
 struct JournalHeader {
@@ -27,9 +34,8 @@ class Journal : public SessionObserver {
  public:
   static Result<std::unique_ptr<Journal>> create(const std::string& path,
                                                  const JournalHeader& header);
-  /// Gives the file its name; an Error when any line could not be written. `reason`: what ended the
-  /// session before its time, told in a last line.
-  Status finish(const std::string& reason = {});
+  /// Writes the last line and gives the file its name; an Error when any line could not be written.
+  Status finish(const JournalEnd& end = {});
 
   void happened(Timestamp time, Step from, Event event, Cell answer) override;
   void not_understood(const Phrase& phrase) override;

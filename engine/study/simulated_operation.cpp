@@ -61,7 +61,13 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (const Status opened = tell_opened(hooks, room, method, live.session()); !opened) {
     return opened.error();
   }
+  if (hooks.can_stop) {
+    hooks.can_stop([&live] { live.stop(); });
+  }
   auto report = live.run();
+  if (hooks.can_stop) {
+    hooks.can_stop(nullptr);
+  }
   if (!report) {
     return report.error();
   }

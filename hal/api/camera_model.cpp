@@ -2,42 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "hal/api/brown_conrady.h"
+#include "hal/api/lookup_cell.h"
+#include "hal/api/start_grid.h"
 
 namespace orthonav {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Far beyond any sensor; keeps width · height from overflowing on damaged input.
 constexpr int kMaxSide = 16384;
-constexpr int kGridCellPx = 8;
 /// Newton's error is about the square of its last step: 1e-8 px, where the contract is 1e-6.
 constexpr double kNewtonStepPx = 1e-4;
 constexpr int kNewtonSteps = 30;
 /// A point that rounding put just past the image's edge still lies on it.
 constexpr double kEdgePx = 1e-7;
-
-bool is_nan(Vec2 v) { return std::isnan(v.x) || std::isnan(v.y); }
-
-/// The table between four neighbouring pixel centres: value and derivative at a fraction.
-struct Cell {
-  Vec2 a;  ///< top left
-  Vec2 b;  ///< top right
-  Vec2 c;  ///< bottom left
-  Vec2 d;  ///< bottom right
-
-  [[nodiscard]] bool valid() const { return !is_nan(a) && !is_nan(b) && !is_nan(c) && !is_nan(d); }
-  [[nodiscard]] Vec2 value(double s, double t) const {
-    const Vec2 top = a + s * (b - a);
-    const Vec2 bottom = c + s * (d - c);
-    return top + t * (bottom - top);
-  }
-  [[nodiscard]] Vec2 along_x(double t) const { return (1.0 - t) * (b - a) + t * (d - c); }
-  [[nodiscard]] Vec2 along_y(double s) const { return (1.0 - s) * (c - a) + s * (d - b); }
-};
 
 struct Place {
   int column = 0;
@@ -55,16 +35,9 @@ Place place_of(Vec2 pixel_px, int width_px, int height_px) {
   return {column, row, x - column, y - row};
 }
 
-Cell cell_at(std::span<const Vec2> lookup, int width_px, int column, int row) {
-  const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px) +
-                 static_cast<std::size_t>(column);
-  const auto below = i + static_cast<std::size_t>(width_px);
-  return {lookup[i], lookup[i + 1], lookup[below], lookup[below + 1]};
-}
-
 /// +1 or -1 where the cell keeps or mirrors orientation throughout, 0 where it folds: the
 /// determinant of a bilinear map is linear in each fraction, so its corners bound it.
-int orientation(const Cell& cell) {
+int orientation(const LookupCell& cell) {
   int positive = 0;
   int negative = 0;
   for (const double t : {0.0, 1.0}) {
@@ -91,7 +64,7 @@ Status check_entries(int width_px, std::vector<Vec2>& lookup) {
                    pixel_name(static_cast<int>(i) % width_px, static_cast<int>(i) / width_px)};
     }
     if (is_nan(v)) {
-      v = {kNaN, kNaN};
+      v = kNoDirection;
     } else {
       ++valid;
     }
@@ -106,7 +79,7 @@ Status check_folds(int width_px, int height_px, std::span<const Vec2> lookup) {
   int sign = 0;
   for (int row = 0; row + 1 < height_px; ++row) {
     for (int column = 0; column + 1 < width_px; ++column) {
-      const Cell cell = cell_at(lookup, width_px, column, row);
+      const LookupCell cell = cell_at(lookup, width_px, column, row);
       if (!cell.valid()) {
         continue;
       }
@@ -122,73 +95,6 @@ Status check_folds(int width_px, int height_px, std::span<const Vec2> lookup) {
     return Error{"camera look-up table has no four neighbouring valid pixels to interpolate in"};
   }
   return {};
-}
-
-struct Grid {
-  int columns = 0;
-  int rows = 0;
-  Vec2 origin{};
-  Vec2 step{};
-  std::vector<Vec2> start_px;
-};
-
-/// Cells nobody mapped to take the start of a neighbour, ring by ring.
-void fill_gaps(Grid& grid) {
-  std::vector<Vec2> next;
-  for (bool gaps = true; gaps;) {
-    gaps = false;
-    next = grid.start_px;
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        Vec2& here = next[static_cast<std::size_t>(row * grid.columns + column)];
-        if (!is_nan(here)) {
-          continue;
-        }
-        gaps = true;
-        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, grid.rows - 1); ++y) {
-          for (int x = std::max(column - 1, 0); x <= std::min(column + 1, grid.columns - 1); ++x) {
-            const Vec2 from = grid.start_px[static_cast<std::size_t>(y * grid.columns + x)];
-            if (!is_nan(from)) {
-              here = from;
-            }
-          }
-        }
-      }
-    }
-    grid.start_px.swap(next);
-  }
-}
-
-Grid build_grid(int width_px, int height_px, std::span<const Vec2> lookup) {
-  Vec2 low{1e300, 1e300};
-  Vec2 high{-1e300, -1e300};
-  for (const Vec2 v : lookup) {
-    if (is_nan(v)) {
-      continue;
-    }
-    low = {std::min(low.x, v.x), std::min(low.y, v.y)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y)};
-  }
-  Grid grid;
-  grid.columns = std::max(width_px / kGridCellPx, 2);
-  grid.rows = std::max(height_px / kGridCellPx, 2);
-  grid.origin = low;
-  grid.step = {(high.x - low.x) / grid.columns, (high.y - low.y) / grid.rows};
-  grid.start_px.assign(static_cast<std::size_t>(grid.columns * grid.rows), {kNaN, kNaN});
-  for (int row = 0; row + 1 < height_px; ++row) {
-    for (int column = 0; column + 1 < width_px; ++column) {
-      const Cell cell = cell_at(lookup, width_px, column, row);
-      if (!cell.valid()) {
-        continue;
-      }
-      const Vec2 v = cell.a;
-      const int x = std::clamp(static_cast<int>((v.x - low.x) / grid.step.x), 0, grid.columns - 1);
-      const int y = std::clamp(static_cast<int>((v.y - low.y) / grid.step.y), 0, grid.rows - 1);
-      grid.start_px[static_cast<std::size_t>(y * grid.columns + x)] = {column + 1.0, row + 1.0};
-    }
-  }
-  fill_gaps(grid);
-  return grid;
 }
 
 Status check_size(int width_px, int height_px) {
@@ -219,7 +125,7 @@ Result<CameraModel> CameraModel::from_lookup(int width_px, int height_px,
   if (Status folds = check_folds(width_px, height_px, unit_plane); !folds) {
     return folds.error();
   }
-  Grid grid = build_grid(width_px, height_px, unit_plane);
+  StartGrid grid = start_grid(width_px, height_px, unit_plane);
   CameraModel model;
   model.width_px_ = width_px;
   model.height_px_ = height_px;
@@ -256,12 +162,12 @@ std::optional<Vec2> CameraModel::unproject(Vec2 pixel_px) const {
     return std::nullopt;
   }
   const Place at = place_of(pixel_px, width_px_, height_px_);
-  const Cell cell = cell_at(lookup_, width_px_, at.column, at.row);
+  const LookupCell cell = cell_at(lookup_, width_px_, at.column, at.row);
   if (cell.valid()) {
     return cell.value(at.s, at.t);
   }
   // A pixel's own centre needs no neighbour, at the rim of the valid part it may have none.
-  const Vec2 own = at.s == 0.0 && at.t == 0.0 ? cell.a : Vec2{kNaN, kNaN};
+  const Vec2 own = at.s == 0.0 && at.t == 0.0 ? cell.a : kNoDirection;
   return is_nan(own) ? std::nullopt : std::optional<Vec2>(own);
 }
 
@@ -280,7 +186,7 @@ std::optional<Vec2> CameraModel::project(Vec2 u) const {
   Vec2 last_valid = pixel;
   for (int i = 0; i < kNewtonSteps; ++i) {
     const Place at = place_of(pixel, width_px_, height_px_);
-    const Cell cell = cell_at(lookup_, width_px_, at.column, at.row);
+    const LookupCell cell = cell_at(lookup_, width_px_, at.column, at.row);
     if (!cell.valid()) {  // a step too far, past the rim of the valid part
       pixel = 0.5 * (pixel + last_valid);
       continue;
@@ -324,7 +230,7 @@ std::optional<std::array<double, 4>> CameraModel::jacobian_px(Vec2 pixel_px) con
     return std::nullopt;
   }
   const Place at = place_of(pixel_px, width_px_, height_px_);
-  const Cell cell = cell_at(lookup_, width_px_, at.column, at.row);
+  const LookupCell cell = cell_at(lookup_, width_px_, at.column, at.row);
   if (!cell.valid()) {
     return std::nullopt;
   }

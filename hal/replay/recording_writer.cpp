@@ -156,10 +156,11 @@ Status RecordingWriter::close() {
       return s;
     }
   }
-  if (pairs_ == 0) {
-    return file_error(part_, "holds no pair: not a recording");
-  }
   std::error_code code;
+  if (pairs_ == 0) {
+    std::filesystem::remove_all(part_, code);
+    return file_error(folder_, "no pair came: nothing was recorded");
+  }
   std::filesystem::rename(part_, folder_, code);
   if (code) {
     return file_error(part_, "cannot be renamed: " + code.message());

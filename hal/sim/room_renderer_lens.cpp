@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/api/lookup_cell.h"
+
 namespace orthonav::sim {
-namespace {
-
-bool is_nan(Vec2 v) { return std::isnan(v.x) || std::isnan(v.y); }
-
-}  // namespace
 
 CameraLens::CameraLens(const CameraModel& camera) : camera_(camera) {
   const int column = camera.width_px() / 2;

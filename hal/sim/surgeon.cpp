@@ -87,50 +87,31 @@ Script Surgeon::operate() {
 
 Script Surgeon::perform(StepOnDisplay step) {
   const auto level = layout_->find(step.level);
-  switch (step.step) {
-    case Step::kSetup:
-      co_await set_up();
-      co_await await_change(step, "start");
-      co_return;
-    case Step::kDigitize:
-      if (level) {
-        co_await digitize(*level);
-        co_await await_verdict(*level, step);
-        co_return;
-      }
-      break;
-    case Step::kVerify:
-      if (level) {
-        co_await verify(*level);
-        co_return;
-      }
-      break;
-    case Step::kAccepted:
-      co_await body_.rest(1.0);
-      body_.say("next");
+  if (step.step == Step::kSetup) {
+    co_await set_up();
+    co_await await_change(step, "start");
+  } else if (step.step == Step::kDigitize && level) {
+    co_await digitize(*level);
+    co_await await_verdict(*level, step);
+  } else if (step.step == Step::kVerify && level) {
+    co_await verify(*level);
+  } else if (step.step == Step::kAccepted) {
+    co_await body_.rest(1.0);
+    body_.say("next");
+    co_await await_change(step, "next");
+  } else if (step.step == Step::kGuide && level && step.side) {
+    co_await guide(*level, *step.side);
+    if (driven_.contains(step)) {
       co_await await_change(step, "next");
-      co_return;
-    case Step::kGuide:
-      if (level && step.side) {
-        co_await guide(*level, *step.side);
-        if (driven_.contains(step)) {
-          co_await await_change(step, "next");
-        }
-        co_return;
-      }
-      break;
-    case Step::kRod:
-      if (step.side) {
-        co_await touch_heads(*step.side);
-        co_await await_change(step, "done");
-        co_return;
-      }
-      break;
-    case Step::kDone:
-      finished_ = true;
-      co_return;
+    }
+  } else if (step.step == Step::kRod && step.side) {
+    co_await touch_heads(*step.side);
+    co_await await_change(step, "done");
+  } else if (step.step == Step::kDone) {
+    finished_ = true;
+  } else {
+    co_await await_change(step, "");
   }
-  co_await await_change(step, "");
 }
 
 Script Surgeon::set_up() {

@@ -2,6 +2,7 @@
 #include "tests/support/test_data.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,10 +22,9 @@ void redirect(const std::string& path, int descriptor) {
 
 }  // namespace
 
-Called orthonav(const std::vector<std::string>& arguments) {
-  const ScratchFolder folder;
-  const std::string out = folder.file("out");
-  const std::string err = folder.file("err");
+StartedCommand::StartedCommand(const std::vector<std::string>& arguments) {
+  const std::string out = folder_.file("out");
+  const std::string err = folder_.file("err");
   std::vector<std::string> words = {ORTHONAV_COMMAND};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -32,21 +32,44 @@ Called orthonav(const std::vector<std::string>& arguments) {
     pointers.push_back(word.data());
   }
   pointers.push_back(nullptr);
-  const pid_t child = fork();
-  if (child == 0) {
+  child_ = fork();
+  if (child_ == 0) {
     redirect(out, STDOUT_FILENO);
     redirect(err, STDERR_FILENO);
     execv(ORTHONAV_COMMAND, pointers.data());
     _exit(127);
   }
+}
+
+StartedCommand::~StartedCommand() {
+  if (child_ > 0) {
+    kill(child_, SIGKILL);
+    waitpid(child_, nullptr, 0);
+  }
+}
+
+void StartedCommand::send(int signal) const {
+  if (child_ > 0) {
+    kill(child_, signal);
+  }
+}
+
+std::string StartedCommand::err_so_far() const { return content_of(folder_.file("err")); }
+
+Called StartedCommand::wait() {
   int status = 0;
   Called called;
-  if (child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status)) {
+  if (child_ > 0 && waitpid(child_, &status, 0) == child_ && WIFEXITED(status)) {
     called.code = WEXITSTATUS(status);
   }
-  called.out = content_of(out);
-  called.err = content_of(err);
+  child_ = -1;
+  called.out = content_of(folder_.file("out"));
+  called.err = content_of(folder_.file("err"));
   return called;
+}
+
+Called orthonav(const std::vector<std::string>& arguments) {
+  return StartedCommand(arguments).wait();
 }
 
 ScratchFolder::ScratchFolder() {

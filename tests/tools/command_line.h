@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -38,5 +40,23 @@ class ScratchFolder {
 using orthonav::test::content_of;
 /// A file or folder of the test data; empty when it is absent.
 std::string shared(const std::string& name);
+
+/// The built `orthonav` at work, for tests that do something to it meanwhile.
+class StartedCommand {
+ public:
+  explicit StartedCommand(const std::vector<std::string>& arguments);
+  ~StartedCommand();  ///< ends it at once, where nobody waited for it
+  StartedCommand(const StartedCommand&) = delete;
+  StartedCommand& operator=(const StartedCommand&) = delete;
+
+  void send(int signal) const;
+  /// What it has written on standard error until now.
+  [[nodiscard]] std::string err_so_far() const;
+  Called wait();
+
+ private:
+  ScratchFolder folder_;
+  pid_t child_ = -1;
+};
 
 }  // namespace orthonav::test

@@ -1,15 +1,9 @@
 #include "tools/preview/preview_app.h"
 
-#include <cstdio>
-#include <filesystem>
 #include <utility>
-
-#include "engine/io/image_file.h"
 
 namespace orthonav::preview {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double kPictures_hz = 30.0;
 constexpr const char* kReplay = "replay:";
@@ -220,75 +214,6 @@ Status PreviewApp::start_again() {
   if (operation_->room()) {
     stage_->look_at_room(*operation_->room());
   }
-  return {};
-}
-
-Status PreviewApp::make_out() {
-  std::error_code code;
-  fs::create_directories(options_.out, code);
-  if (code) {
-    return Error{"--out " + options_.out + ": cannot be made: " + code.message()};
-  }
-  return {};
-}
-
-std::string PreviewApp::next_name(const std::string& ending) {
-  for (int number = 1;; ++number) {
-    char name[32];
-    std::snprintf(name, sizeof name, "preview-%03d", number);
-    std::error_code code;
-    if (!fs::exists(fs::path(options_.out) / (name + ending), code)) {
-      return name + ending;
-    }
-  }
-}
-
-Status PreviewApp::take_screenshot(const std::string& name) {
-  const RgbaImage image = window_->screenshot();
-  const fs::path path = fs::path(options_.out) / name;
-  Status taken = image.pixels.empty()
-                     ? Status(Error{"screenshot: nothing of the window can be seen"})
-                     : make_out();
-  if (taken) {
-    taken = engine::write_png(path, image);
-  }
-  facts_.note = taken ? "wrote " + path.string() : taken.error().message;
-  // A script that gets no picture has failed; a person reads the reason.
-  return script_ ? taken : Status{};
-}
-
-Status PreviewApp::toggle_video() {
-  if (video_) {
-    return stop_video();
-  }
-  if (const Status made = make_out(); !made) {
-    return made;
-  }
-  video_name_ = (fs::path(options_.out) / next_name(".mp4")).string();
-  engine::VideoOptions video_options;
-  video_options.width_px = options_.stage.width_px;
-  video_options.height_px = options_.stage.height_px;
-  auto video = engine::VideoWriter::create(video_name_, video_options);
-  if (!video) {
-    return video.error();
-  }
-  video_ = std::move(*video);
-  facts_.video = true;
-  drawn_.reset();
-  facts_.note = "records " + video_name_;
-  return {};
-}
-
-Status PreviewApp::stop_video() {
-  if (!video_) {
-    return {};
-  }
-  const auto video = std::exchange(video_, nullptr);
-  facts_.video = false;
-  if (const Status finished = video->finish(); !finished) {
-    return finished;
-  }
-  facts_.note = "wrote " + video_name_;
   return {};
 }
 

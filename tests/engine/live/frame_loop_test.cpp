@@ -73,6 +73,15 @@ TEST(FrameLoop, StopsAfterTheFramesAskedFor) {
   EXPECT_EQ(FrameLoop(headset, *navigation, builder, options).run()->displayed, 4);
 }
 
+TEST(FrameLoop, StopsAfterTheTimeAskedFor) {
+  fake::FakeHeadset headset(pairs(10));
+  const auto navigation = session();
+  SceneBuilder builder;
+  LoopOptions options;
+  options.max_time = std::chrono::milliseconds(99);  // three intervals
+  EXPECT_EQ(FrameLoop(headset, *navigation, builder, options).run()->displayed, 4);
+}
+
 TEST(FrameLoop, DrawsEveryNthFrameHoweverSlowTheSink) {
   fake::FakeHeadset headset(pairs(20));
   const auto navigation = session();

@@ -224,8 +224,8 @@ TEST(Recorder, TellsThatNothingWasRecorded) {
   play(**recorder);
   const Status closed = (*recorder)->close();
   ASSERT_FALSE(closed.ok());
-  EXPECT_THAT(closed.error().message, HasSubstr("holds no pair"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "session"));
+  EXPECT_THAT(closed.error().message, HasSubstr("no pair came: nothing was recorded"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "and nothing is left of it";
 }
 
 TEST(Recorder, GoesOnWithTheSessionWhenItFails) {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace orthonav {
+
+/// A coarse grid over the unit plane with a pixel to start Newton's iteration from, for each cell.
+struct StartGrid {
+  int columns = 0;
+  int rows = 0;
+  Vec2 origin{};  ///< on the unit plane, as is the step
+  Vec2 step{};
+  std::vector<Vec2> start_px;  ///< row-major
+};
+
+/// Of a checked look-up table, row-major, NaN where a pixel has no direction.
+[[nodiscard]] StartGrid start_grid(int width_px, int height_px, std::span<const Vec2> lookup);
+
+}  // namespace orthonav

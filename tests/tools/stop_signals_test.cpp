@@ -1,0 +1,136 @@
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/wait_until.h"
+#include "tests/tools/command_line.h"
+#include "tools/stop_signals.h"
+
+namespace orthonav::tools {
+namespace {
+
+using nlohmann::json;
+using test::orthonav;
+using test::ScratchFolder;
+using test::StartedCommand;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+/// A run in the simulated room that would go on for minutes, recorded, with everything that it
+/// leaves.
+struct LongRun {
+  ScratchFolder folder;
+  std::string out = folder.file("out");
+  std::string recording = folder.file("recording");
+  StartedCommand command{
+      {"run", "--headset", "sim:?seed=3", "--levels", "L5", "--out", out, "--record", recording}};
+
+  /// Until pairs are being recorded.
+  bool is_under_way() const {
+    return test::wait_until([&] {
+      std::error_code none;
+      const auto bytes = std::filesystem::file_size(recording + ".part/VLC LF.tar", none);
+      return !none && bytes > 0;
+    });
+  }
+};
+
+std::vector<json> lines_of(const std::string& path) {
+  std::ifstream in(path);
+  std::vector<json> lines;
+  for (std::string line; std::getline(in, line);) {
+    lines.push_back(json::parse(line));
+  }
+  return lines;
+}
+
+/// Names that a run gives to files it has not finished.
+std::vector<std::string> unfinished_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(".") || name.find(".part") != std::string::npos) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
+
+void expect_a_whole_end(LongRun& run, const std::string& signal) {
+  const test::Called ended = run.command.wait();
+  EXPECT_EQ(ended.code, 1) << "the operation is not done: " << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr(signal + ": finishing what was begun"));
+  EXPECT_THAT(ended.err, HasSubstr("stopped by " + signal + "; kept: " + run.out));
+  std::ifstream in(run.out + "/report.json");
+  const json report = json::parse(in);
+  EXPECT_THAT(report["why_not"].get<std::string>(), StartsWith("stopped by " + signal));
+  EXPECT_TRUE(std::filesystem::exists(run.out + "/report.html"));
+  const std::vector<json> journal = lines_of(run.out + "/session.orthonav");
+  ASSERT_FALSE(journal.empty());
+  EXPECT_EQ(journal.back()["what"], "ended");
+  EXPECT_THAT(journal.back()["reason"].get<std::string>(), StartsWith("stopped by " + signal));
+  EXPECT_THAT(unfinished_in(run.folder.file("")), ::testing::IsEmpty());
+  // The recording is whole: it replays to the pair that was finished.
+  const test::Called again =
+      orthonav({"run", "--headset", "replay:" + run.recording, "--levels", "L5", "--json"});
+  EXPECT_EQ(again.err.find("cut"), std::string::npos) << again.err;
+  EXPECT_EQ(json::parse(again.out)["frames"]["displayed"], report["frames"]["displayed"]);
+}
+
+TEST(StopSignals, TheFirstFinishesWhatWasBegun) {
+  LongRun run;
+  ASSERT_TRUE(run.is_under_way());
+  run.command.send(SIGINT);
+  expect_a_whole_end(run, "SIGINT");
+}
+
+TEST(StopSignals, TerminationIsTakenLikeCtrlC) {
+  LongRun run;
+  ASSERT_TRUE(run.is_under_way());
+  run.command.send(SIGTERM);
+  expect_a_whole_end(run, "SIGTERM");
+}
+
+TEST(StopSignalsDeathTest, TheSecondEndsAtOnce) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto two_signals = [] {
+    StopSignals signals;
+    signals.on_stop([] {});  // asked, and never done
+    kill(getpid(), SIGINT);
+    if (test::wait_until([&] { return signals.caught().has_value(); })) {
+      kill(getpid(), SIGTERM);
+    }
+    pause();
+  };
+  EXPECT_EXIT(two_signals(), ::testing::ExitedWithCode(128 + SIGTERM),
+              "SIGINT: finishing what was begun");
+}
+
+TEST(StopSignals, AskAtOnceWhereTheSignalCameFirst) {
+  StopSignals signals;
+  EXPECT_FALSE(signals.caught());
+  kill(getpid(), SIGTERM);
+  ASSERT_TRUE(test::wait_until([&] { return signals.caught().has_value(); }));
+  bool asked = false;
+  signals.on_stop([&] { asked = true; });
+  EXPECT_TRUE(asked);
+  EXPECT_EQ(signals.caught(), "SIGTERM");
+}
+
+TEST(RunCommand, EndsAfterTheTimeAskedFor) {
+  const auto run =
+      orthonav({"run", "--headset", "sim:?seed=3", "--levels", "L5", "--for", "0.49s", "--json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  // 30 pairs a second: the first, and 15 intervals.
+  EXPECT_EQ(json::parse(run.out)["frames"]["displayed"], 16);
+  const auto unitless = orthonav({"run", "--for", "60"});
+  EXPECT_EQ(unitless.code, 2);
+  EXPECT_THAT(unitless.err, HasSubstr("--for"));
+}
+
+}  // namespace
+}  // namespace orthonav::tools
