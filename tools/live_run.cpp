@@ -8,27 +8,23 @@
 #include "engine/case/model_cache.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
-#include "engine/io/atomic_file.h"
 #include "engine/live/assembled_operation.h"
 #include "engine/live/known_tools.h"
 #include "engine/live/presenter.h"
 #include "engine/report/operation_result.h"
-#include "engine/session/journal.h"
 #include "engine/session/spoken_commands.h"
 #include "engine/study/evaluation.h"
 #include "engine/study/sim_scenario.h"
 #include "hal/open/joined_headset.h"
 #include "hal/open/open.h"
 #include "hal/open/open_parts.h"
-#include "hal/replay/recorder.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/connection_report.h"
-#include "tools/demo_report.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
-#include "tools/out_folder.h"
 #include "tools/progress.h"
+#include "tools/run_files.h"
 #include "tools/run_stats.h"
 #include "tools/stopped_run.h"
 
@@ -47,16 +43,15 @@ class LiveRun {
     OperationProgress progress(nullptr);
     operation_->observe(&progress);
     if (const Status presenting = present(); !presenting) {
-      return ended(presenting.error().message);
+      return bad_input(files_.close(presenting.error().message));
     }
     signals_.on_stop([this] { operation_->stop(); });
     auto report = operation_->run();
     signals_.on_stop(nullptr);
     end_presenting();
     if (!report) {
-      return ended(report.error().message);
+      return bad_input(files_.close(report.error().message));
     }
-    last_frame_ = report->last_frame;
     const engine::Session& session = operation_->session();
     engine::OperationResult result =
         engine::outcome_of(session.levels(), session.rods(), std::move(*report));
@@ -80,21 +75,6 @@ class LiveRun {
   }
 
  private:
-  /// What was written until then stays: the journal says how it ended.
-  int ended(std::string reason) {
-    if (journal_) {
-      if (const Status done = journal_->finish({last_frame_, reason}); !done) {
-        reason += "; " + done.error().message;
-      }
-    }
-    if (recorder_) {
-      if (const Status done = recorder_->close(); !done) {
-        reason += "; " + done.error().message;
-      }
-    }
-    return bad_input(reason);
-  }
-
   /// For a headset that takes pixels.
   Status present() {
     if (!headset_->pixels()) {
@@ -207,51 +187,31 @@ class LiveRun {
     if (const Status opened = open_journal(); !opened) {
       return opened;
     }
-    return start_recording(*tools);
+    if (arguments_.record.empty()) {
+      return {};
+    }
+    const Status recording = files_.start_recording(arguments_.record, *joined_, *tools);
+    if (recording) {
+      operation_->go_through(*files_.recorder());
+    }
+    return recording;
   }
 
   Status open_journal() {
     if (arguments_.out.empty()) {
       return {};
     }
-    auto out = OutFolder::create("--out", arguments_.out);
-    if (!out) {
-      return out.error();
+    const Status opened = files_.open_journal(
+        arguments_.out, {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_,
+                         room_ ? room_->options().seed : 0, headset_->epoch_ticks_100ns()});
+    if (opened) {
+      operation_->observe(files_.journal());
+      models_.keep();
+      print_notes(models_);
     }
-    out_.emplace(std::move(*out));
-    auto journal =
-        engine::Journal::create(out_->file("session.orthonav"),
-                                {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_,
-                                 room_ ? room_->options().seed : 0, headset_->epoch_ticks_100ns()});
-    if (!journal) {
-      return journal.error();
-    }
-    journal_ = std::move(*journal);
-    operation_->observe(journal_.get());
-    models_.keep();
-    print_notes(models_);
-    return {};
+    return opened;
   }
 
-  /// Last of all, since the files of a recording that was begun stay.
-  Status start_recording(const std::vector<nav::ToolGeometry>& tools) {
-    if (arguments_.record.empty()) {
-      return {};
-    }
-    replay::RecorderOptions options;
-    options.tools_json = engine::tools_text(tools);
-    options.takes_depth = true;
-    auto recorder = replay::RecordingHeadset::around(*joined_, arguments_.record, options);
-    if (!recorder) {
-      return recorder.error();
-    }
-    recorder_ = std::move(*recorder);
-    operation_->go_through(*recorder_);
-    return {};
-  }
-
-  /// Writes the measurements first, so that nothing that fails later can lose them. Returns the
-  /// first failure.
   Status finish(const engine::OperationResult& result) {
     const std::string report = engine::report_json(result);
     std::fputs(arguments_.json ? report.c_str() : operation_summary(result).c_str(), stdout);
@@ -261,41 +221,20 @@ class LiveRun {
     if (const auto connection = headset_->connection(); connection && arguments_.stats) {
       std::fputs(connection_report(*connection).c_str(), stderr);
     }
-    Status first;
-    const auto note = [&first](const Status& status) {
-      if (first.ok()) {
-        first = status;
-      }
-    };
-    if (out_) {
-      note(engine::write_file(out_->file("report.json"), report));
-    }
-    if (out_) {
-      note(write_demo_report(out_->path(), result, {.simulated = room_ != nullptr}));
-    }
-    if (journal_) {
-      note(journal_->finish({last_frame_, result.completed ? "" : result.why_not}));
-    }
-    if (recorder_) {
-      note(recorder_->close());
-    }
-    return first;
+    return files_.finish(result, report, room_ != nullptr);
   }
 
   RunArguments arguments_;
   StopSignals signals_;  ///< before any thread
-  std::optional<Timestamp> last_frame_;
   engine::Method method_;
   engine::ModelCache models_;
   std::string case_name_;
   std::unique_ptr<Headset> headset_;
   std::unique_ptr<JoinedHeadset> joined_;  ///< with the clicker and the voice asked for
-  std::unique_ptr<replay::RecordingHeadset> recorder_;
+  RunFiles files_;
   const sim::SimHeadset* room_ = nullptr;  ///< that the cameras see, where it is simulated
   std::optional<engine::GroundTruthRecorder> ground_truth_;
   engine::EndNote end_note_;
-  std::optional<OutFolder> out_;
-  std::unique_ptr<engine::Journal> journal_;
   std::unique_ptr<engine::AssembledOperation> operation_;
   std::unique_ptr<engine::Presenter> presenter_;
 };

@@ -8,11 +8,11 @@
 
 namespace orthonav::tools {
 
-/// Notes in the result of an operation that did not complete that a signal stopped it, if one did.
+/// If a signal stopped the operation before its end, says so in the result.
 void explain_stop(const StopSignals& signals, engine::OperationResult& result);
 
-/// Where a signal stopped the run: says on standard error in which folders its results are; empty
-/// names are none.
+/// If a signal stopped the run, names on standard error the folders that hold its results. Empty
+/// names are skipped.
 void tell_what_is_kept(const StopSignals& signals, const std::vector<std::string>& folders);
 
 }  // namespace orthonav::tools

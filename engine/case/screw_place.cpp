@@ -32,7 +32,7 @@ OffMidline off_midline(const nav::TriangleMesh& bone, Point<Vertebra> entry,
 }
 
 std::string to_the_side(double left_m) {
-  return in_mm(std::abs(left_m)) + " to the " + (left_m > 0.0 ? "left" : "right");
+  return in_mm(std::abs(left_m)) + " to the " + name_of(left_m > 0.0 ? Side::kLeft : Side::kRight);
 }
 
 std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Vertebra> entry,

@@ -14,8 +14,8 @@ struct OffMidline {
   double entry_m = 0.0;
   double target_m = 0.0;
 
-  /// The target lies on the other side than the entry, and farther off: a laminar screw, which the
-  /// lamina it ends in gives its name.
+  /// The target lies on the other side than the entry, and farther off: a translaminar screw, which
+  /// is named after the lamina that it ends in.
   [[nodiscard]] bool crosses() const;
   /// Where the entry lies. None where that is within 5 mm of the midline, or the screw crosses.
   [[nodiscard]] std::optional<nav::Side> side() const;

@@ -8,18 +8,17 @@
 
 namespace orthonav::engine {
 
-// Which hologram an item of a scene belongs to is its label: 100·n + k for the k-th instance of Hn,
-// as render/scene.h has it.
+// An item's label tells its hologram: 100·n + k for the k-th instance of Hn (render/scene.h).
 
 inline constexpr render::Label kInstancesOfAKind = 100;
-/// Further instances share this one's label.
+/// Instances beyond this one share its label.
 inline constexpr std::size_t kMostInstances = kInstancesOfAKind - 1;
 
 [[nodiscard]] constexpr render::Label label_of(HologramKind kind, std::size_t instance) {
   return kInstancesOfAKind * static_cast<render::Label>(kind) +
          static_cast<render::Label>(std::min(instance, kMostInstances));
 }
-/// Of a label that is a hologram's.
+/// The label must be a hologram's.
 [[nodiscard]] constexpr HologramKind kind_of(render::Label label) {
   return static_cast<HologramKind>(label / kInstancesOfAKind);
 }

@@ -139,7 +139,7 @@ void SceneBuilder::add_entries(render::Scene& scene) {
           to_float3((world_from_vertebra * Direction<Vertebra>{outward.normalized()}).v);
       text_.clear();
       if (visible_.entry_labels) {
-        text_.append(level.plan.label).append(" ").append(word_of(screw.side));
+        append_screw(text_, level.plan.label, screw.side);
       }
       entry.text = text_;
       entry.done = level.screw_done[s];

@@ -50,7 +50,10 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   frame.display_time = guidance.display_time;
   frame.pose_time = guidance.pose_time;
   write_status(guidance.status, frame);
-  write_digitizing(guidance, visible, frame);
+  write_path(guidance, visible, frame);
+  if (visible.vertebra) {
+    write_verifying(*visible.vertebra, guidance.to_check, frame);
+  }
   write_entries(visible, frame);
   if (visible.trajectory) {
     write_screw(*visible.trajectory, visible, rules, frame);
@@ -61,8 +64,8 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   frame.holograms.resize(used_);
 }
 
-void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibility& visible,
-                                        ShownFrame& frame) {
+void ShownFrameWriter::write_path(const Guidance& guidance, const Visibility& visible,
+                                  ShownFrame& frame) {
   if (visible.paths && !guidance.regions.empty()) {
     const auto& samples = guidance.regions.back().samples;
     ShownHologram& path = add(frame, HologramKind::kPath);
@@ -71,29 +74,27 @@ void ShownFrameWriter::write_digitizing(const Guidance& guidance, const Visibili
       path.points_in_world.push_back(samples[i].tip_in_world);
     }
   }
-  if (visible.vertebra) {
-    const LevelState& level = *visible.vertebra->level;
-    ShownHologram& vertebra = add(frame, HologramKind::kVertebra);
-    const nav::VertebraModel& model = *level.plan.model;
-    const auto [known, is_new] = landmarks_m_.try_emplace(&model);
-    if (is_new) {
-      known->second = landmarks_m(model.mesh());
-    }
-    for (const Vec3 landmark : known->second) {
-      vertebra.points_in_world.push_back(visible.vertebra->world_from_vertebra *
-                                         Point<Vertebra>{landmark});
-    }
+}
+
+void ShownFrameWriter::write_verifying(const PlacedLevel& at,
+                                       std::span<const Point<World>> to_check, ShownFrame& frame) {
+  ShownHologram& vertebra = add(frame, HologramKind::kVertebra);
+  const nav::VertebraModel& model = *at.level->plan.model;
+  const auto [known, is_new] = landmarks_m_.try_emplace(&model);
+  if (is_new) {
+    known->second = landmarks_m(model.mesh());
   }
-  if (visible.vertebra) {
-    for (const nav::CheckPoint& point : visible.vertebra->level->check_points) {
-      ShownHologram& check = add(frame, HologramKind::kCheckPoint);
-      check.text = distance_text(point.distance_m);
-      check.reading = point.distance_m;
-      check.points_in_world.push_back(point.place);
-    }
-    for (const Point<World>& place : guidance.to_check) {
-      add(frame, HologramKind::kCheckPoint).points_in_world.push_back(place);
-    }
+  for (const Vec3 landmark : known->second) {
+    vertebra.points_in_world.push_back(at.world_from_vertebra * Point<Vertebra>{landmark});
+  }
+  for (const nav::CheckPoint& point : at.level->check_points) {
+    ShownHologram& check = add(frame, HologramKind::kCheckPoint);
+    check.text = distance_text(point.distance_m);
+    check.reading = point.distance_m;
+    check.points_in_world.push_back(point.place);
+  }
+  for (const Point<World>& place : to_check) {
+    add(frame, HologramKind::kCheckPoint).points_in_world.push_back(place);
   }
 }
 
@@ -105,7 +106,7 @@ void ShownFrameWriter::write_entries(const Visibility& visible, ShownFrame& fram
       entry.level = plan.label;
       entry.side = screw.side;
       if (visible.entry_labels) {
-        entry.text.append(plan.label).append(" ").append(word_of(screw.side));
+        append_screw(entry.text, plan.label, screw.side);
       }
       entry.points_in_world.push_back(at.world_from_vertebra * screw.entry);
     }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <string>
 
 #include "engine/holograms/visibility.h"
@@ -19,7 +20,9 @@ class ShownFrameWriter {
 
  private:
   ShownHologram& add(ShownFrame& frame, HologramKind kind);
-  void write_digitizing(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
+  void write_path(const Guidance& guidance, const Visibility& visible, ShownFrame& frame);
+  void write_verifying(const PlacedLevel& at, std::span<const Point<World>> to_check,
+                       ShownFrame& frame);
   void write_entries(const Visibility& visible, ShownFrame& frame);
   void write_screw(const PlacedScrew& screw, const Visibility& visible,
                    const VisibilityRules& rules, ShownFrame& frame);

@@ -70,8 +70,8 @@ void append(std::string& out, const nav::UncertainMotion& motion) {
   constexpr std::array<std::string_view, 6> kMotions = {
       "slides sideways",  "moves in and out",   "slides along the spine",
       "nods up and down", "rolls to the sides", "twists about the spine's axis"};
-  static_assert(static_cast<std::size_t>(Kind::kWhollyOpen) == kMotions.size());
-  if (motion.kind == Kind::kWhollyOpen) {
+  static_assert(static_cast<std::size_t>(Kind::kUnconstrained) == kMotions.size());
+  if (motion.kind == Kind::kUnconstrained) {
     out += "a motion of the bone is left wholly open";
     return;
   }

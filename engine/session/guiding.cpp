@@ -5,11 +5,11 @@
 namespace orthonav::engine {
 namespace {
 
-/// Drawn back by more than this, a tool is no longer at depth; a hand at rest moves less.
-constexpr double kDrawnBack_m = 0.001;
-/// Farther off the planned axis than a screw goes astray, a tip is not in it: depth along the axis
-/// alone would count a tool laid down beside the patient.
-constexpr double kBesideTheScrew_m = 0.015;
+/// Withdrawn by more than this, the tool is no longer at depth; a hand at rest moves less.
+constexpr double kWithdrawn_m = 0.001;
+/// A tip farther off the planned axis is not at the screw. Depth along the axis alone would count a
+/// tool laid down beside the patient.
+constexpr double kOffTheScrew_m = 0.015;
 
 }  // namespace
 
@@ -54,11 +54,11 @@ std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWa
 }
 
 void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured) {
-  if (!(measured.tip_off_axis_m <= kBesideTheScrew_m)) {
+  if (!(measured.tip_off_axis_m <= kOffTheScrew_m)) {
     return;
   }
   const double depth_m = measured.depth_m;
-  if (!at_depth_ || depth_m >= deepest_m_ - kDrawnBack_m) {
+  if (!at_depth_ || depth_m >= deepest_m_ - kWithdrawn_m) {
     deepest_m_ = at_depth_ ? std::max(deepest_m_, depth_m) : depth_m;
     at_depth_ = guidance;
   }

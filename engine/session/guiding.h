@@ -26,8 +26,8 @@ class Guiding {
 
   [[nodiscard]] std::size_t screw() const { return screw_; }
   [[nodiscard]] bool twin() const { return twin_; }
-  /// What was measured last while the tool stood as deep in the selected screw as it ever did, or
-  /// null: what became of it, whatever the tool did after it was drawn back.
+  /// The last measurement with the tool at its greatest depth along the selected screw, or null.
+  /// Poses after the tool was withdrawn do not count.
   [[nodiscard]] const ToolGuidance* at_depth() const { return at_depth_ ? &*at_depth_ : nullptr; }
   [[nodiscard]] StepState state(const LevelState& level) const;
 
@@ -36,7 +36,7 @@ class Guiding {
 
   std::size_t screw_ = 0;
   std::optional<ToolGuidance> at_depth_;
-  double deepest_m_ = 0.0;  ///< past the entry; of what `at_depth_` goes by
+  double deepest_m_ = 0.0;  ///< the greatest depth past the entry so far
   bool twin_ = false;
 };
 

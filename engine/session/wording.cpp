@@ -192,6 +192,10 @@ void append_heard(std::string& out, const HeardCommand& heard) {
   out.append("heard: ").append(heard.phrase).append(heard.sure ? "" : "? not sure");
 }
 
+void append_screw(std::string& out, std::string_view level, Side side) {
+  out.append(level).append(" ").append(word_of(side));
+}
+
 void append_without_heard(std::string& out, const StatusLine& line) {
   append_step(out, line.at);
   const std::size_t end_of_step = out.size();

@@ -13,8 +13,9 @@
 
 namespace orthonav::engine {
 
-// Everything that a surgeon reads in words, made of data, in this one place: who translates
-// orthonav translates wording.cpp and findings_wording.cpp. No decision ever reads these texts.
+// Everything that a surgeon reads in words, made of data, in this one place: whoever
+// translates orthonav translates wording.cpp and findings_wording.cpp. No decision ever reads these
+// texts.
 //
 // The status line is written anew for every frame, into strings that keep their room: the `append`
 // functions allocate nothing once the frame loop is warm.
@@ -26,6 +27,8 @@ void append_step(std::string& out, const StepOnDisplay& at);
 void append_detail(std::string& out, const StatusLine& line);
 /// "heard: save".
 void append_heard(std::string& out, const HeardCommand& heard);
+/// "L4 left".
+void append_screw(std::string& out, std::string_view level, Side side);
 /// Step and detail: "guide L4 left | guide lost".
 void append_without_heard(std::string& out, const StatusLine& line);
 /// The whole line: "guide L4 left | guide lost | heard: next".

@@ -3,9 +3,6 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr std::array<std::string_view, kStepCount> kStepNames = {
-    "setup", "digitize", "verify", "accepted", "guide", "rod", "done"};
-
 constexpr std::array<std::string_view, kEventCount> kEventNames = {
     "press",
     "release",
@@ -73,8 +70,7 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
 };
 
 // A name forgotten at the end of an array would be empty.
-static_assert(!kStepNames.back().empty() && !kEventNames.back().empty() &&
-              !kActionNames.back().empty());
+static_assert(!kEventNames.back().empty() && !kActionNames.back().empty());
 
 /// Mermaid ends a label at a quote.
 std::string unquoted(std::string_view text) {
@@ -102,8 +98,8 @@ void append_state_diagram(std::string& out) {
 
 void append_table(std::string& out) {
   out += "| event |";
-  for (const auto& step : kStepNames) {
-    out += " " + std::string(step) + " |";
+  for (std::size_t s = 0; s < kStepCount; ++s) {
+    out += " " + std::string(name_of(static_cast<Step>(s))) + " |";
   }
   out += "\n|---|";
   for (std::size_t i = 0; i < kStepCount; ++i) {
@@ -138,20 +134,8 @@ void append_verify_by_eye(std::string& out) {
 
 }  // namespace
 
-std::string_view name_of(Step step) { return kStepNames[static_cast<std::size_t>(step)]; }
 std::string_view name_of(Event event) { return kEventNames[static_cast<std::size_t>(event)]; }
 std::string_view name_of(Action action) { return kActionNames[static_cast<std::size_t>(action)]; }
-
-std::string name_of(const StepOnDisplay& at) {
-  std::string name(name_of(at.step));
-  if (!at.level.empty()) {
-    name += " " + at.level;
-  }
-  if (at.side) {
-    name += std::string(" ") + name_of(*at.side);
-  }
-  return name;
-}
 
 std::string workflow_diagram() {
   std::string out;

@@ -280,11 +280,9 @@ inline constexpr workflow_detail::Table kWorkflowByEye = workflow_detail::make_t
   return table[static_cast<std::size_t>(step)][static_cast<std::size_t>(event)];
 }
 
-[[nodiscard]] std::string_view name_of(Step step);
+using orthonav::name_of;
 [[nodiscard]] std::string_view name_of(Event event);
 [[nodiscard]] std::string_view name_of(Action action);
-/// "guide L4 left": in files, scripts and file names, whatever the display says.
-[[nodiscard]] std::string name_of(const StepOnDisplay& at);
 
 /// The workflow as docs/safety.md holds it: a mermaid diagram of the changes of step, the whole
 /// table, and what `verify` answers instead where the eye alone verifies.

@@ -31,7 +31,8 @@ struct OperationHooks {
   LoopObserver* loop = nullptr;
   SnapshotSink* sink = nullptr;
   ModelCache* models = nullptr;  ///< asked for prepared models; not told to keep any
-  /// Told how to end the operation early, from any thread, until it has ended; then told null.
+  /// Receives, before the operation runs, a function that ends it early, from any thread; and null
+  /// once it has ended.
   std::function<void(std::function<void()>)> can_stop;
   /// Called once the room is open and before the first frame; an Error ends the run.
   std::function<Status(sim::SimHeadset&, const Method&, const Session&)> opened;

@@ -34,9 +34,8 @@ struct ShownHologram {
   std::string level;         ///< of an entry point: the vertebra's label
   std::optional<Side> side;  ///< of an entry point
   std::string text;          ///< what is written there, if anything
-  /// The number that is written there, as far as its digits go, in SI units: the angle (rad), the
-  /// distance of a check point (m). Absent where there is none, as on a place still to be touched,
-  /// or where dashes stand in its place.
+  /// What the number written there says: the angle in rad, rounded as it is shown, or the distance
+  /// of a check point in m. Absent on a place still to be touched, and where dashes are shown.
   std::optional<double> reading;
   std::vector<Point<World>> points_in_world;
 };

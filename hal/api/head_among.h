@@ -6,6 +6,10 @@
 
 namespace orthonav {
 
+// A head at work stays below these speeds; beyond them World itself was moved.
+inline constexpr double kFastestHead_m_s = 2.0;
+inline constexpr double kFastestHead_rad_s = 8.0;
+
 /// Where the head is at a time, given samples (`time`, `world_from_rig`) of one map in the order of
 /// their times: measured at and between them, predicted past the last as far as HeadTracker allows,
 /// lost otherwise and in gaps longer than that.

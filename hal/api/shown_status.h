@@ -1,9 +1,11 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/side.h"
 
@@ -14,7 +16,7 @@ namespace orthonav {
 enum class Step : std::uint8_t { kSetup, kDigitize, kVerify, kAccepted, kGuide, kRod, kDone };
 inline constexpr std::size_t kStepCount = 7;
 
-/// A step with what it is about, as its wearer tells one from the other.
+/// A step and what it is about.
 struct StepOnDisplay {
   Step step = Step::kSetup;
   std::string level;         ///< "L4"; empty in steps of no level
@@ -22,6 +24,10 @@ struct StepOnDisplay {
 
   friend auto operator<=>(const StepOnDisplay&, const StepOnDisplay&) = default;
 };
+
+// Names in files and scripts, which stay whatever the display says: "digitize"; "guide L4 left".
+[[nodiscard]] std::string_view name_of(Step step);
+[[nodiscard]] std::string name_of(const StepOnDisplay& at);
 
 /// What the message on the status line is about. Its data and its words are the engine's.
 enum class Notice : std::uint8_t {

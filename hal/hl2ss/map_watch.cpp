@@ -7,12 +7,10 @@
 namespace orthonav::hl2ss {
 namespace {
 
-// A head at work stays below these. A false alarm costs a registration, a missed move a wrong
-// hologram: at 30 Hz a move of more than 5 cm or 9 degrees is found.
+// A head at work stays below these as well. A false alarm costs a registration, a missed move a
+// wrong hologram: at 30 Hz a move of more than 5 cm or 9 degrees is found.
 constexpr double kMaxAcceleration = 30.0;       // m/s²
 constexpr double kMaxTurnAcceleration = 100.0;  // rad/s²
-constexpr double kMaxSpeed = 2.0;               // m/s
-constexpr double kMaxTurnSpeed = 8.0;           // rad/s
 constexpr double kNoiseM = 0.010;
 constexpr double kNoiseRad = 0.020;
 /// Beyond this two poses tell no speed.
@@ -35,8 +33,8 @@ bool MapWatch::is_possible(const Seen& next) const {
     return (pose.translation() - expected.translation()).norm() <= limit_m &&
            rotation_angle_rad(pose.rotation(), expected.rotation()) <= limit_rad;
   };
-  if (!within(last_->world_from_rig, kNoiseM + kMaxSpeed * dt_s,
-              kNoiseRad + kMaxTurnSpeed * dt_s)) {
+  if (!within(last_->world_from_rig, kNoiseM + kFastestHead_m_s * dt_s,
+              kNoiseRad + kFastestHead_rad_s * dt_s)) {
     return false;
   }
   if (!before_ || passed > kSpeedWithin) {

@@ -2,7 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "base/findings.h"
 
 namespace orthonav::hl2ss {
 namespace {
@@ -10,8 +11,8 @@ namespace {
 /// Stamps tremble by 2 ms or so; a head that turns by 30 degrees a second puts a pose of 10 ms
 /// earlier 2 mm off at a pointer's tip.
 constexpr double kMaxOffS = 0.010;
-/// So many images more that agree with one another than that do not, and none with the past: a
-/// clock was set, or the image believed first was the wrong one.
+/// With this surplus of images that agree with one another but not with the past, a clock was set,
+/// or the image believed first was the wrong one.
 constexpr int kBelievedAfter = 20;
 constexpr std::array<double, 2> kTickS = {1e-9, 1e-7};
 
@@ -33,11 +34,10 @@ Status StampCheck::check(Timestamp stamp, std::uint64_t sensor_ticks) {
   if (std::abs(off_s) > kMaxOffS) {
     doubt(next);
     if (votes_ < kBelievedAfter) {
-      std::array<char, 120> text{};
-      std::snprintf(text.data(), text.size(),
-                    "stamp %.1f ms %s where the sensor's clock puts it, limit %.1f ms",
-                    std::abs(off_s) * 1e3, off_s < 0.0 ? "before" : "after", kMaxOffS * 1e3);
-      return Error{text.data()};
+      return refused(off_s < 0.0
+                         ? "stamp %.1f ms before where the sensor's clock puts it, limit %.1f ms"
+                         : "stamp %.1f ms after where the sensor's clock puts it, limit %.1f ms",
+                     std::abs(off_s) * 1e3, kMaxOffS * 1e3);
     }
   }
   trusted_ = next;

@@ -3,24 +3,23 @@
 #include <iterator>
 #include <optional>
 
+#include "hal/api/head_among.h"
+
 namespace orthonav::replay {
 namespace {
-
-// A head at work stays below these; beyond them World itself was moved, and between two worlds
-// there is nothing to interpolate.
-constexpr double kMaxSpeed = 2.0;      // m/s
-constexpr double kMaxTurnSpeed = 8.0;  // rad/s
 
 using Pose = PosesByTicks::value_type;
 
 constexpr Duration kTick(100);
 
+/// Between two worlds there is nothing to interpolate.
 bool is_one_motion(const Pose& a, const Pose& b) {
   const Duration apart = (b.first - a.first) * kTick;
   const double apart_s = seconds(apart);
   return apart <= HeadTracker::kMaxHeadPrediction &&
-         (b.second.translation() - a.second.translation()).norm() <= kMaxSpeed * apart_s &&
-         rotation_angle_rad(b.second.rotation(), a.second.rotation()) <= kMaxTurnSpeed * apart_s;
+         (b.second.translation() - a.second.translation()).norm() <= kFastestHead_m_s * apart_s &&
+         rotation_angle_rad(b.second.rotation(), a.second.rotation()) <=
+             kFastestHead_rad_s * apart_s;
 }
 
 /// On the way from `a` to `b`, or before `a` on its line.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace orthonav::replay {
 
@@ -32,6 +33,13 @@ inline constexpr std::int64_t kMaxTicks = 90'000'000'000'000'000;
 inline constexpr std::int64_t kMaxNs = 100 * kMaxTicks;
 /// Poses farther from the origin than this are damage.
 inline constexpr double kMaxWorldM = 1e6;
+
+/// Ends the name of a recording that is not closed yet.
+inline constexpr std::string_view kUnfinished = ".part";
+/// "DIR/" and "DIR" are one folder.
+inline std::filesystem::path without_slash(const std::filesystem::path& folder) {
+  return folder.has_filename() ? folder : folder.parent_path();
+}
 
 inline std::filesystem::path tar_of(const std::filesystem::path& folder,
                                     const std::string& sensor) {

@@ -43,8 +43,8 @@ Status add_listed(const std::filesystem::path& folder, Recording& recording) {
   }
   const auto& left = recording.left.members();
   const auto& right = recording.right.members();
-  // Of a recording that was cut off one file may hold more than another; what all of them hold are
-  // whole pairs.
+  // In a recording that was cut off, one file may hold more than another. A pair is whole where all
+  // of them hold it.
   const std::size_t whole = std::min({rows->size(), left.size(), right.size()});
   if (whole == 0) {
     return file_error(folder, "holds no whole pair: it was cut off before its first one");

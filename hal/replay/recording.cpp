@@ -84,8 +84,8 @@ Status add_device(const std::filesystem::path& folder, RecordedStamps stamps,
   }
   const std::int64_t first_ticks = recording.left.members().front().ticks;
   recording.stamps_late = lateness(device, is_ours, stamps);
-  // What the files call a moment is late: time zero is called later too, so that each pair has its
-  // right time and the files' name.
+  // The files' ticks are late. Time zero is moved by as much, so that each pair has its true time
+  // and keeps the name that the files give it.
   recording.epoch_ticks_100ns = device.epoch_ticks_100ns.value_or(epoch_of(first_ticks)) +
                                 recording.stamps_late / Duration(100);
   recording.display_latency = device.display_latency;
@@ -159,7 +159,7 @@ Status read_hololens2(const std::filesystem::path& folder, RecordedStamps stamps
   if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) {
     return same.error();
   }
-  // What is no time is damage, whether a correction would leave it out or not.
+  // Ticks that are no valid time are damage, even of a pose that the correction would leave out.
   if (!poses->empty()) {
     for (const std::int64_t ticks : {poses->begin()->first, poses->rbegin()->first}) {
       if (auto time = named_time(path, ticks, recording.epoch_ticks_100ns); !time) {
@@ -220,7 +220,7 @@ Status read_hololens1(const std::filesystem::path& folder, Recording& recording)
 }
 
 void add_depth(const std::filesystem::path& folder, Recording& recording) {
-  // Depth cameras are not late: their stamps count from time zero itself.
+  // Depth stamps are not late: they count from the unmoved time zero.
   RecordedDepths depths =
       read_depths(folder, recording.epoch_ticks_100ns - recording.stamps_late / Duration(100));
   recording.depth = std::move(depths.streams);

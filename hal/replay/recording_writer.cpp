@@ -32,13 +32,13 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(
     const std::filesystem::path& folder, const StereoCalibration& calibration,
     const RecordedDevice& device, const std::string& tools_json) {
   auto writer = std::make_unique<RecordingWriter>();
-  // "DIR/" and "DIR" are one folder, whose temporary name lies beside it.
-  writer->folder_ = folder.has_filename() ? folder : folder.parent_path();
+  // Whose temporary name lies beside it.
+  writer->folder_ = without_slash(folder);
   if (writer->folder_.empty()) {
     return file_error(folder, "is no name for a recording");
   }
   writer->part_ = writer->folder_;
-  writer->part_ += ".part";
+  writer->part_ += kUnfinished;
   writer->epoch_ticks_ = device.epoch_ticks_100ns.value_or(0);
   if (Status s = check_free(writer->folder_, writer->part_); !s) {
     return s.error();

@@ -12,7 +12,6 @@ namespace orthonav::replay {
 
 namespace {
 
-constexpr const char* kTemporary = ".part";
 /// Two blocks of zeros end a tar.
 constexpr std::uint64_t kEndMarkBytes = 1024;
 constexpr std::uintmax_t kMaxLinesBytes = std::uintmax_t{1} << 31U;
@@ -23,7 +22,7 @@ Status resize(const std::filesystem::path& path, std::uint64_t bytes) {
   return code ? Status(file_error(path, "cannot be cut to size: " + code.message())) : Status();
 }
 
-/// Bytes that a file grows by are zeros.
+/// Growing a file adds zeros, which the end mark is made of.
 Status end_archive(const std::filesystem::path& path, std::uint64_t whole_bytes) {
   if (Status s = resize(path, whole_bytes); !s) {
     return s;
@@ -53,7 +52,7 @@ Status keep_lines(const std::filesystem::path& path, std::size_t most) {
 
 constexpr std::size_t kAllLines = static_cast<std::size_t>(-1);
 
-/// A stream's list of frames, of which so many are whole, with its header.
+/// Keeps the header and the first `whole` rows of a stream's list of frames.
 Status keep_frames(const std::filesystem::path& list, std::size_t whole) {
   return keep_lines(list, whole + 1);
 }
@@ -124,10 +123,10 @@ Status close_all(const std::filesystem::path& folder, const Recording& recording
 /// The name without ".part", which must be free.
 Result<std::filesystem::path> own_name(const std::filesystem::path& folder) {
   const std::string name = folder.string();
-  if (!name.ends_with(kTemporary)) {
+  if (!name.ends_with(kUnfinished)) {
     return folder;
   }
-  const std::filesystem::path own = name.substr(0, name.size() - std::string(kTemporary).size());
+  const std::filesystem::path own = name.substr(0, name.size() - kUnfinished.size());
   if (is_there(own)) {
     return file_error(own, "exists already; move it away first");
   }
@@ -137,8 +136,7 @@ Result<std::filesystem::path> own_name(const std::filesystem::path& folder) {
 }  // namespace
 
 Result<RepairReport> repair_recording(const std::filesystem::path& folder) {
-  // "DIR/" and "DIR" are one folder.
-  const auto path = folder.has_filename() ? folder : folder.parent_path();
+  const auto path = without_slash(folder);
   const auto own = own_name(path);
   if (!own) {
     return own.error();

@@ -44,7 +44,7 @@ std::vector<Pair> in_both(std::span<const BodyTag> measured,
   return pairs;
 }
 
-/// How a tag sits if the marker is turned so often.
+/// How a tag sits if the marker is turned by that many quarter turns.
 struct Reading {
   int turns = 0;
   double tilt_rad = 0.0;

@@ -32,11 +32,11 @@ struct UncertainMotion {
     kFlexion,  ///< and extension
     kLateralBending,
     kAxialRotation,
-    kWhollyOpen,  ///< some motion, which the strokes leave wholly open
+    kUnconstrained,  ///< by the strokes; which motion it is, is not known
   };
 
-  Kind kind = Kind::kWhollyOpen;
-  double error_m = 0.0;  ///< root mean square, at the worst target; meaningless when wholly open
+  Kind kind = Kind::kUnconstrained;
+  double error_m = 0.0;  ///< root mean square, at the worst target; meaningless when unconstrained
 
   friend bool operator==(const UncertainMotion&, const UncertainMotion&) = default;
 };

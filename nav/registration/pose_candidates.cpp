@@ -49,7 +49,7 @@ void refit_with_standoff(const VertebraModel& model, const Cloud& cloud, Surface
   }
 }
 
-/// The poses that the field suggests, fitted, as they come.
+/// The poses that the field suggests, fitted, in the order found.
 std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& cloud,
                                     std::span<const Point<Vertebra>> targets,
                                     const SurfaceFitOptions& options) {

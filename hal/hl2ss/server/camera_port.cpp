@@ -12,7 +12,7 @@
 namespace orthonav::hl2ss {
 namespace {
 
-/// More than that from key frame to key frame, no encoder takes.
+/// The most pictures from one key frame to the next that an encoder takes.
 constexpr std::uint64_t kMaxGopSize = 3000;
 constexpr Duration kStall = std::chrono::milliseconds(300);
 constexpr Duration kHalfPause = std::chrono::milliseconds(40);
@@ -20,7 +20,7 @@ constexpr Duration kHalfPause = std::chrono::milliseconds(40);
 /// What is added to the time of an image, in ticks of 100 ns.
 std::int64_t stamp_off_ticks(const VideoOptions& options) {
   const double exposures_s = options.stamp_exposures * 1e-9 * CameraPort::kExposureNs;
-  // What nobody can mean is not asked for.
+  // Implausible values are ignored.
   const Duration exposures =
       std::abs(exposures_s) <= 1.0 ? from_seconds(exposures_s) : Duration::zero();
   constexpr std::int64_t kSecondTicks = 10'000'000;

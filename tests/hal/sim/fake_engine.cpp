@@ -1,7 +1,6 @@
 #include "tests/hal/sim/fake_engine.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,16 +14,6 @@ std::size_t tool_of(const RoomDescription& room, ToolKind kind) {
     }
   }
   return 0;
-}
-
-/// "guide L4 left".
-std::string name_of(const StepOnDisplay& at) {
-  constexpr std::array<const char*, kStepCount> kNames = {"setup", "digitize", "verify", "accepted",
-                                                          "guide", "rod",      "done"};
-  std::string name = kNames[static_cast<std::size_t>(at.step)];
-  name += at.level.empty() ? "" : " " + at.level;
-  name += at.side ? std::string(" ") + orthonav::name_of(*at.side) : "";
-  return name;
 }
 
 std::string time_text(Timestamp time) { return std::to_string(time.time_since_epoch().count()); }

@@ -1,0 +1,74 @@
+#include "tools/run_files.h"
+
+#include <utility>
+
+#include "engine/case/tool_file.h"
+#include "engine/io/atomic_file.h"
+#include "tools/demo_report.h"
+
+namespace orthonav::tools {
+
+Status RunFiles::open_journal(const std::string& folder, const engine::JournalHeader& header) {
+  auto out = OutFolder::create("--out", folder);
+  if (!out) {
+    return out.error();
+  }
+  out_.emplace(std::move(*out));
+  auto journal = engine::Journal::create(out_->file("session.orthonav"), header);
+  if (!journal) {
+    return journal.error();
+  }
+  journal_ = std::move(*journal);
+  return {};
+}
+
+Status RunFiles::start_recording(const std::string& folder, Headset& headset,
+                                 const std::vector<nav::ToolGeometry>& tools) {
+  replay::RecorderOptions options;
+  options.tools_json = engine::tools_text(tools);
+  options.takes_depth = true;
+  auto recorder = replay::RecordingHeadset::around(headset, folder, options);
+  if (!recorder) {
+    return recorder.error();
+  }
+  recorder_ = std::move(*recorder);
+  return {};
+}
+
+Status RunFiles::finish(const engine::OperationResult& result, const std::string& report,
+                        bool simulated) {
+  Status first;
+  const auto note = [&first](const Status& status) {
+    if (first.ok()) {
+      first = status;
+    }
+  };
+  if (out_) {
+    note(engine::write_file(out_->file("report.json"), report));
+    note(write_demo_report(out_->path(), result, {.simulated = simulated}));
+  }
+  if (journal_) {
+    note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));
+  }
+  if (recorder_) {
+    note(recorder_->close());
+  }
+  return first;
+}
+
+std::string RunFiles::close(std::string reason) {
+  const auto note = [&reason](const Status& status) {
+    if (!status) {
+      reason += "; " + status.error().message;
+    }
+  };
+  if (journal_) {
+    note(journal_->finish({{}, reason}));
+  }
+  if (recorder_) {
+    note(recorder_->close());
+  }
+  return reason;
+}
+
+}  // namespace orthonav::tools

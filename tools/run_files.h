@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/report/operation_result.h"
+#include "engine/session/journal.h"
+#include "hal/replay/recorder.h"
+#include "nav/tracking/tool.h"
+#include "tools/out_folder.h"
+
+namespace orthonav::tools {
+
+/// What `run` leaves behind: journal and reports in one folder, a recording in another, each only
+/// where it was asked for.
+class RunFiles {
+ public:
+  /// Makes the folder and opens the journal in it.
+  Status open_journal(const std::string& folder, const engine::JournalHeader& header);
+  /// Starts to record what goes through `headset`, which must outlive this. Last of all, since the
+  /// files of a recording that was begun stay.
+  Status start_recording(const std::string& folder, Headset& headset,
+                         const std::vector<nav::ToolGeometry>& tools);
+  /// Null: none.
+  [[nodiscard]] engine::Journal* journal() const { return journal_.get(); }
+  [[nodiscard]] replay::RecordingHeadset* recorder() const { return recorder_.get(); }
+
+  /// Writes the reports first, so that no later failure can lose the measurements, then closes the
+  /// rest. Returns the first failure.
+  Status finish(const engine::OperationResult& result, const std::string& report, bool simulated);
+  /// Closes what was written before a run failed for `reason`; returns it with what failed here.
+  [[nodiscard]] std::string close(std::string reason);
+
+ private:
+  std::optional<OutFolder> out_;
+  std::unique_ptr<engine::Journal> journal_;
+  std::unique_ptr<replay::RecordingHeadset> recorder_;
+};
+
+}  // namespace orthonav::tools
