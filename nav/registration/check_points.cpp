@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace orthonav::nav {
 namespace {
@@ -48,6 +49,22 @@ Spread spread_of(std::span<const CheckPoint> points, const CheckPointRules& rule
     }
   }
   return spread;
+}
+
+/// In World: the places on the bone that the strokes went over.
+std::vector<Vec3> stroked_bone(const VertebraModel& model,
+                               const Transform<World, Vertebra>& world_from_vertebra,
+                               std::span<const Point<World>> stroked,
+                               const CheckPointRules& rules) {
+  const auto vertebra_from_world = world_from_vertebra.inverse();
+  std::vector<Vec3> on_bone;
+  for (const Point<World>& point : stroked) {
+    const auto nearest = model.reachable_surface().nearest((vertebra_from_world * point).v);
+    if (nearest && nearest->distance_m <= rules.within_m) {
+      on_bone.push_back((world_from_vertebra * Point<Vertebra>{nearest->point_m}).v);
+    }
+  }
+  return on_bone;
 }
 
 CheckAdvice advice_on(const Spread& spread, const CheckPointRules& rules) {
@@ -98,25 +115,16 @@ std::vector<Point<World>> places_to_check(const VertebraModel& model,
                                           const Transform<World, Vertebra>& world_from_vertebra,
                                           std::span<const Point<World>> stroked,
                                           const CheckPointRules& rules) {
-  const auto vertebra_from_world = world_from_vertebra.inverse();
-  std::vector<Vec3> unstroked;
-  Vec3 sum{};
-  for (const Point<World>& point : stroked) {
-    const auto nearest = model.reachable_surface().nearest((vertebra_from_world * point).v);
-    if (!nearest || nearest->distance_m > rules.within_m) {
-      continue;
-    }
-    unstroked.push_back((world_from_vertebra * Point<Vertebra>{nearest->point_m}).v);
-    sum += unstroked.back();
-  }
+  const auto on_bone = stroked_bone(model, world_from_vertebra, stroked, rules);
   std::vector<Point<World>> places;
-  if (unstroked.empty()) {
+  if (on_bone.empty()) {
     return places;
   }
-  const Vec3 middle = sum / static_cast<double>(unstroked.size());
+  const Vec3 middle =
+      std::accumulate(on_bone.begin(), on_bone.end(), Vec3{}) / static_cast<double>(on_bone.size());
   // Each as far as can be: from the middle, from the first, from the line of the first two.
   const auto take = [&](const auto& distance, double at_least_m) {
-    const Vec3 best = *std::max_element(unstroked.begin(), unstroked.end(),
+    const Vec3 best = *std::max_element(on_bone.begin(), on_bone.end(),
                                         [&](Vec3 a, Vec3 b) { return distance(a) < distance(b); });
     if (!(distance(best) >= at_least_m)) {
       return false;

@@ -76,6 +76,31 @@ UncertainMotion::Kind kind_of(const Vector6& motion, double lever_m) {
   return kKinds[most];
 }
 
+/// The motion in whose direction the error at the targets is largest.
+UncertainMotion::Kind worst_motion(const Matrix6& covariance, Vec3 centre_m,
+                                   std::span<const Point<Vertebra>> targets) {
+  Matrix6 at_targets = Matrix6::Zero();
+  double lever_m = 0.0;
+  for (const Point<Vertebra>& target : targets) {
+    const auto m = moves_at(target.v - centre_m);
+    at_targets += m.transpose() * m;
+    lever_m = std::max(lever_m, (target.v - centre_m).norm());
+  }
+  const Eigen::LLT<Matrix6> root(covariance + 1e-18 * Matrix6::Identity());
+  const Matrix6 l = root.matrixL();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(l.transpose() * at_targets * l);
+  return kind_of(l * solver.eigenvectors().col(5), lever_m);
+}
+
+/// The covariance after one more touch there: Kalman's update.
+Matrix6 after_touch(const Matrix6& covariance, Vec3 lever_arm, Vec3 normal) {
+  const Vec3 by_rotation = lever_arm.cross(normal);
+  Vector6 j;
+  j << normal.x, normal.y, normal.z, by_rotation.x, by_rotation.y, by_rotation.z;
+  const Vector6 gain = covariance * j;
+  return covariance - gain * gain.transpose() / (j.dot(gain) + kPinned_m * kPinned_m);
+}
+
 }  // namespace
 
 Degeneracy degeneracy_of(const VertebraModel& model, const PoseUncertainty& uncertainty,
@@ -83,23 +108,9 @@ Degeneracy degeneracy_of(const VertebraModel& model, const PoseUncertainty& unce
   const Matrix6 covariance = Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(
       uncertainty.covariance().data());
   const Vec3 centre = uncertainty.centre_m();
-  // The direction in which the error at the targets is largest.
-  Matrix6 at_targets = Matrix6::Zero();
-  double lever = 0.0;
-  for (const Point<Vertebra>& target : targets) {
-    const auto m = moves_at(target.v - centre);
-    at_targets += m.transpose() * m;
-    lever = std::max(lever, (target.v - centre).norm());
-  }
-  const Eigen::LLT<Matrix6> root(covariance + 1e-18 * Matrix6::Identity());
-  const Matrix6 l = root.matrixL();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(l.transpose() * at_targets * l);
-  const Vector6 motion = l * solver.eigenvectors().col(5);
-  Degeneracy out;
   const double before = tre2_m2(covariance, centre, targets);
-  out.motion = {kind_of(motion, lever), std::sqrt(before)};
-
-  // One more touch there, with the covariance of Kalman's update.
+  Degeneracy out;
+  out.motion = {worst_motion(covariance, centre, targets), std::sqrt(before)};
   const TriangleMesh& mesh = model.reachable();
   const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / 400);
   double least = before;
@@ -108,13 +119,7 @@ Degeneracy degeneracy_of(const VertebraModel& model, const PoseUncertainty& unce
     const Vec3 at = middle(mesh, t);
     const Vec3 normal =
         triangle_normal({mesh.vertices_m[t[0]], mesh.vertices_m[t[1]], mesh.vertices_m[t[2]]});
-    const Vec3 by_rotation = (at - centre).cross(normal);
-    Vector6 j;
-    j << normal.x, normal.y, normal.z, by_rotation.x, by_rotation.y, by_rotation.z;
-    const Vector6 gain = covariance * j;
-    const Matrix6 after =
-        covariance - gain * gain.transpose() / (j.dot(gain) + kPinned_m * kPinned_m);
-    const double now = tre2_m2(after, centre, targets);
+    const double now = tre2_m2(after_touch(covariance, at - centre, normal), centre, targets);
     if (now < least) {
       least = now;
       out.stroke_next = place_of(model, at);

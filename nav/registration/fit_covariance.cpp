@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "nav/tracking/symmetric_covariance.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -146,62 +148,80 @@ std::optional<Matrix7> inverse_of(const Matrix7& information) {
                  scale);
 }
 
-}  // namespace
-
-std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
-  const Strokes strokes = strokes_of(fit);
-  std::vector<Vector7> j;
-  j.reserve(fit.points.size());
-  Matrix7 plain = Matrix7::Zero();
-  if (!fit.with_standoff) {
-    plain(6, 6) = 1.0;
-  }
-  double slope = 0.0;  // mean derivative of the influence by the residual
+/// The fit linearized at its solution.
+struct Linearized {
+  std::vector<Vector7> j;           ///< of each point
+  Matrix7 plain = Matrix7::Zero();  ///< sum of j jᵀ over the points that are used
+  double slope = 0.0;               ///< mean derivative of the influence by the residual
   double used = 0.0;
+};
+
+Linearized linearized(const SurfaceFit& fit) {
+  Linearized out;
+  out.j.reserve(fit.points.size());
+  if (!fit.with_standoff) {
+    out.plain(6, 6) = 1.0;
+  }
   for (const FittedPoint& p : fit.points) {
-    j.push_back(derivative(p, fit.with_standoff));
+    out.j.push_back(derivative(p, fit.with_standoff));
     if (!(p.weight > 0.0)) {
       continue;
     }
-    plain += j.back() * j.back().transpose();
+    out.plain += out.j.back() * out.j.back().transpose();
     const double t = std::sqrt(p.weight);  // 1 - (r/c)^2
-    slope += t * (t - 4.0 * (1.0 - t));
-    used += 1.0;
+    out.slope += t * (t - 4.0 * (1.0 - t));
+    out.used += 1.0;
   }
-  if (used < 12.0) {
+  out.slope = std::max(out.slope / out.used, 0.2);
+  return out;
+}
+
+/// The middle of the sandwich: the covariance of the sum of the points' influences.
+struct Middle {
+  Matrix7 covariance;
+  double variance = 0.0;  ///< of one point's influence
+};
+
+Middle middle_of(const SurfaceFit& fit, const Linearized& at) {
+  const Strokes strokes = strokes_of(fit);
+  if (strokes.ordered) {
+    const std::vector<double> gamma = autocovariance(fit, strokes.of);
+    return {middle_along_strokes(fit, at.j, strokes.of, gamma), gamma[0]};
+  }
+  double sum = 0.0;
+  for (const FittedPoint& p : fit.points) {
+    sum += influence(p) * influence(p);
+  }
+  const double variance = sum / at.used;
+  return {middle_by_cells(fit, at.j, variance), variance};
+}
+
+}  // namespace
+
+std::optional<FitCovariance> covariance_of(const SurfaceFit& fit) {
+  const Linearized at = linearized(fit);
+  if (at.used < 12.0) {
     return std::nullopt;
   }
-  slope = std::max(slope / used, 0.2);
-  const auto inverse = inverse_of(plain);
+  const auto inverse = inverse_of(at.plain);
   if (!inverse) {
     return std::nullopt;
   }
-  const std::vector<double> gamma =
-      strokes.ordered ? autocovariance(fit, strokes.of) : std::vector<double>{[&] {
-        double sum = 0.0;
-        for (const FittedPoint& p : fit.points) {
-          sum += influence(p) * influence(p);
-        }
-        return sum / used;
-      }()};
-  const Matrix7 middle = strokes.ordered ? middle_along_strokes(fit, j, strokes.of, gamma)
-                                         : middle_by_cells(fit, j, gamma[0]);
-  const Matrix7 whole = *inverse * middle * *inverse / (slope * slope);
+  const Middle middle = middle_of(fit, at);
+  const double slope2 = at.slope * at.slope;
+  const Matrix7 whole = *inverse * middle.covariance * *inverse / slope2;
   Matrix6 covariance = whole.topLeftCorner<6, 6>();
   const Matrix6 independent =
-      (*inverse * (gamma[0] * plain) * *inverse).topLeftCorner<6, 6>() / (slope * slope);
+      (*inverse * (middle.variance * at.plain) * *inverse).topLeftCorner<6, 6>() / slope2;
   FitCovariance out;
   const double repeated = std::max(1.0, (covariance * independent.inverse()).trace() / 6.0);
-  out.effective_points = used / repeated;
+  out.effective_points = at.used / repeated;
   // Six numbers were fitted to the points, and some correlation (between strokes, of outliers that
   // pass) shows in no residual.
   const double more = kUnseen * out.effective_points / std::max(out.effective_points - 6.0, 1.0);
   covariance *= more;
   out.standoff_sd_m = std::sqrt(more * whole(6, 6));
-  std::array<double, 36> flat{};
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(flat.data()) =
-      0.5 * (covariance + covariance.transpose());
-  out.uncertainty = PoseUncertainty(fit.pose.centre_m, flat);
+  out.uncertainty = PoseUncertainty(fit.pose.centre_m, symmetrized(covariance));
   return out;
 }
 
