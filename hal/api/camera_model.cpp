@@ -50,6 +50,27 @@ int orientation(const LookupCell& cell) {
   return positive == 4 ? 1 : (negative == 4 ? -1 : 0);
 }
 
+/// Newton's step in pixels: so far the place in the cell moves to see what lies `off` away.
+std::optional<Vec2> newton_step(const LookupCell& cell, const Place& at, Vec2 off) {
+  const Vec2 by_x = cell.along_x(at.t);
+  const Vec2 by_y = cell.along_y(at.s);
+  const double determinant = by_x.cross(by_y);
+  if (determinant == 0.0) {
+    return std::nullopt;
+  }
+  return Vec2{off.cross(by_y) / determinant, by_x.cross(off) / determinant};
+}
+
+/// The pixel, on the image's edge where rounding put it just past that; nothing farther out.
+std::optional<Vec2> on_image(Vec2 pixel_px, int width_px, int height_px) {
+  if (pixel_px.x < -kEdgePx || pixel_px.y < -kEdgePx || pixel_px.x > width_px + kEdgePx ||
+      pixel_px.y > height_px + kEdgePx) {
+    return std::nullopt;
+  }
+  return Vec2{std::clamp(pixel_px.x, 0.0, static_cast<double>(width_px)),
+              std::clamp(pixel_px.y, 0.0, static_cast<double>(height_px))};
+}
+
 std::string pixel_name(int column, int row) {
   return std::string("(").append(std::to_string(column)).append(", ").append(std::to_string(row)) +
          ")";
@@ -192,28 +213,18 @@ std::optional<Vec2> CameraModel::project(Vec2 u) const {
       continue;
     }
     last_valid = pixel;
-    const Vec2 off = u - cell.value(at.s, at.t);
-    const Vec2 by_x = cell.along_x(at.t);
-    const Vec2 by_y = cell.along_y(at.s);
-    const double determinant = by_x.cross(by_y);
-    if (determinant == 0.0) {
+    const auto step = newton_step(cell, at, u - cell.value(at.s, at.t));
+    if (!step) {
       return std::nullopt;
     }
-    const Vec2 step{off.cross(by_y) / determinant, by_x.cross(off) / determinant};
-    pixel = pixel + step;
-    if (!(std::abs(step.x) + std::abs(step.y) < 1e6)) {
+    pixel = pixel + *step;
+    const double length_px = std::abs(step->x) + std::abs(step->y);
+    if (!(length_px < 1e6)) {
       return std::nullopt;
     }
-    if (std::abs(step.x) + std::abs(step.y) > kNewtonStepPx) {
-      continue;
+    if (length_px <= kNewtonStepPx) {
+      return on_image(pixel, width_px_, height_px_);
     }
-    if (pixel.x < -kEdgePx || pixel.y < -kEdgePx || pixel.x > width_px_ + kEdgePx ||
-        pixel.y > height_px_ + kEdgePx) {
-      return std::nullopt;
-    }
-    pixel = {std::clamp(pixel.x, 0.0, static_cast<double>(width_px_)),
-             std::clamp(pixel.y, 0.0, static_cast<double>(height_px_))};
-    return pixel;
   }
   return std::nullopt;
 }

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <Eigen/Dense>
 #include <optional>
+#include <utility>
 
+#include "nav/calibration/body_residuals.h"
 #include "nav/calibration/cauchy.h"
-#include "nav/calibration/corner_residual.h"
 
 namespace orthonav::nav {
 namespace {
@@ -35,54 +36,18 @@ Transform<A, B> moved(const Transform<A, B>& pose, const Vector6& step) {
           pose.translation() + from_eigen(step.head<3>())};
 }
 
-/// A corner's residual, and the blocks of unknowns it depends on besides the body's pose.
-struct Row {
-  CornerResidual corner;
-  int tag_block = -1;
-  int camera_block = -1;
-};
-
-/// Where each block of unknowns begins in the vector of unknowns; -1 for what is known.
-struct Blocks {
-  int camera = -1;
-  std::vector<int> tags;
-  int count = 0;
-
-  explicit Blocks(const BodyProblem& problem) {
-    if (problem.find_right_camera) {
-      camera = count++;
-    }
-    for (const bool find : problem.find_tag) {
-      tags.push_back(find ? count++ : -1);
-    }
-  }
-};
-
+/// The normal equations; each unknown is a block of six numbers.
 class System {
  public:
-  explicit System(const BodyProblem& problem) : problem_(problem), blocks_(problem) {}
+  explicit System(const BodyProblem& problem) : problem_(problem), unknowns_(problem) {}
 
-  /// The corners' residual lengths, pair by pair; nothing where one does not project.
   [[nodiscard]] std::optional<std::vector<double>> lengths_px(const BodyState& at) const {
-    std::vector<double> all;
-    bool good = true;
-    for (std::size_t i = 0; i < problem_.pairs.size(); ++i) {
-      for_each_corner(at, i, false, [&](const std::optional<Row>& row) {
-        good = good && row.has_value();
-        if (row) {
-          all.push_back(row->corner.off_px.norm());
-        }
-      });
-    }
-    if (!good) {
-      return std::nullopt;
-    }
-    return all;
+    return residual_lengths_px(problem_, unknowns_, at);
   }
 
   /// Normal equations at a state, with the poses of the body eliminated when solved.
   void build(const BodyState& at, double scale_px) {
-    const int size = 6 * blocks_.count;
+    const int size = 6 * unknowns_.count;
     global_.setZero(size, size);
     global_right_.setZero(size);
     const std::size_t count = problem_.pairs.size();
@@ -90,17 +55,17 @@ class System {
     body_right_.assign(count, Vector6::Zero());
     cross_.assign(count, Eigen::MatrixXd::Zero(size, 6));
     for (std::size_t i = 0; i < count; ++i) {
-      for_each_corner(at, i, true, [&](const std::optional<Row>& row) {
-        if (row) {
-          add(*row, i, scale_px);
+      for (const auto& residual : residuals_of_pair(problem_, unknowns_, at, i, true)) {
+        if (residual) {
+          add(*residual, i, scale_px);
         }
-      });
+      }
     }
   }
 
   /// The state after a damped step; nothing when it cannot be solved.
   [[nodiscard]] std::optional<BodyState> stepped(const BodyState& at, double damping) const {
-    const int size = 6 * blocks_.count;
+    const int size = 6 * unknowns_.count;
     Eigen::MatrixXd reduced = global_;
     reduced.diagonal() *= 1.0 + damping;
     Eigen::VectorXd right = global_right_;
@@ -156,7 +121,7 @@ class System {
     return Eigen::MatrixXd(solver.solve(Eigen::MatrixXd::Identity(size, size)));
   }
 
-  [[nodiscard]] int blocks() const { return blocks_.count; }
+  [[nodiscard]] int unknowns() const { return unknowns_.count; }
 
  private:
   /// Positive definite, by a margin above rounding.
@@ -167,34 +132,7 @@ class System {
     return solver.info() == Eigen::Success && d.minCoeff() > kLeast * d.maxCoeff() && d.allFinite();
   }
 
-  template <class Visit>
-  void for_each_corner(const BodyState& at, std::size_t pair, bool derivatives, Visit visit) const {
-    const StereoCalibration& cameras = problem_.calibration;
-    for (const TagSighting& sighting : problem_.pairs[pair]) {
-      const std::size_t tag = sighting.tag;
-      const auto corners = corners_in_marker(problem_.size_m[tag]);
-      const auto one = [&](std::size_t i, const auto& model, const auto& camera_from_rig,
-                           Vec2 seen_px, int camera_block) -> std::optional<Row> {
-        const auto corner =
-            corner_residual(model, camera_from_rig, at.rig_from_marker[pair],
-                            at.marker_from_tag[tag], Point<Tag>{corners[i]}, seen_px, derivatives);
-        if (!corner) {
-          return std::nullopt;
-        }
-        return Row{*corner, blocks_.tags[tag], camera_block};
-      };
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        if (sighting.left_px) {
-          visit(one(i, cameras.left, cameras.left_from_rig, (*sighting.left_px)[i], -1));
-        }
-        if (sighting.right_px) {
-          visit(one(i, cameras.right, at.right_from_rig, (*sighting.right_px)[i], blocks_.camera));
-        }
-      }
-    }
-  }
-
-  void add(const Row& row, std::size_t pair, double scale_px) {
+  void add(const BodyResidual& row, std::size_t pair, double scale_px) {
     const double weight = cauchy_weight(row.corner.off_px.norm(), scale_px);
     const Eigen::Vector2d off(weight * row.corner.off_px.x, weight * row.corner.off_px.y);
     const Matrix2x6 by_body = Eigen::Map<const Matrix2x6>(row.corner.by_body.data());
@@ -212,31 +150,31 @@ class System {
       global_right_.segment<6>(6 * block) -= j.transpose() * off;
       cross_[pair].middleRows<6>(6 * block) += j.transpose() * weighted;
     };
-    add_block(row.tag_block, by_tag);
-    add_block(row.camera_block, by_camera);
-    if (row.tag_block < 0 || row.camera_block < 0) {
+    add_block(row.tag, by_tag);
+    add_block(row.camera, by_camera);
+    if (row.tag < 0 || row.camera < 0) {
       return;
     }
     const Matrix2x6 camera = weight * by_camera;
     const Matrix6 between = by_tag.transpose() * camera;
-    global_.block<6, 6>(6 * row.tag_block, 6 * row.camera_block) += between;
-    global_.block<6, 6>(6 * row.camera_block, 6 * row.tag_block) += between.transpose();
+    global_.block<6, 6>(6 * row.tag, 6 * row.camera) += between;
+    global_.block<6, 6>(6 * row.camera, 6 * row.tag) += between.transpose();
   }
 
   void move_global(const Eigen::VectorXd& step, BodyState& next) const {
-    if (blocks_.camera >= 0) {
-      next.right_from_rig = moved(next.right_from_rig, step.segment<6>(6 * blocks_.camera));
+    if (unknowns_.camera >= 0) {
+      next.right_from_rig = moved(next.right_from_rig, step.segment<6>(6 * unknowns_.camera));
     }
-    for (std::size_t i = 0; i < blocks_.tags.size(); ++i) {
-      if (blocks_.tags[i] >= 0) {
+    for (std::size_t i = 0; i < unknowns_.tags.size(); ++i) {
+      if (unknowns_.tags[i] >= 0) {
         next.marker_from_tag[i] =
-            moved(next.marker_from_tag[i], step.segment<6>(6 * blocks_.tags[i]));
+            moved(next.marker_from_tag[i], step.segment<6>(6 * unknowns_.tags[i]));
       }
     }
   }
 
   const BodyProblem& problem_;
-  Blocks blocks_;
+  BodyUnknowns unknowns_;
   Eigen::MatrixXd global_;
   Eigen::VectorXd global_right_;
   std::vector<Matrix6> body_;
@@ -272,6 +210,39 @@ std::vector<PoseCovariance> blocks_of(const Eigen::MatrixXd& inverse, double var
   return blocks;
 }
 
+/// Levenberg's and Marquardt's steps to the least cost. In and out: the state and the residuals
+/// there; returns the scale of the weights.
+double descend(System& system, BodyState& state, std::vector<double>& lengths_px) {
+  double scale_px = cauchy_scale(lengths_px);
+  double damping = kFirstDamping;
+  bool is_new = true;
+  for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
+    if (is_new && step < kScaleSteps) {
+      scale_px = cauchy_scale(lengths_px);
+    }
+    if (is_new) {
+      system.build(state, scale_px);
+    }
+    is_new = false;
+    const double before = cauchy_cost(lengths_px, scale_px);
+    auto next = system.stepped(state, damping);
+    auto next_px = next ? system.lengths_px(*next) : std::nullopt;
+    const double after = next_px ? cauchy_cost(*next_px, scale_px) : before;
+    if (!next_px || !(after < before)) {
+      damping *= 10.0;
+      continue;
+    }
+    state = std::move(*next);
+    lengths_px = std::move(*next_px);
+    is_new = true;
+    damping = std::max(kLeastDamping, damping * 0.1);
+    if (before - after < kConverged * before) {
+      break;
+    }
+  }
+  return scale_px;
+}
+
 }  // namespace
 
 Result<BodyFit> adjust(const BodyProblem& problem, BodyState& state) {
@@ -283,46 +254,20 @@ Result<BodyFit> adjust(const BodyProblem& problem, BodyState& state) {
   if (lengths_px->empty()) {
     return Error{"no tag is seen"};
   }
-  double scale_px = cauchy_scale(*lengths_px);
-  double damping = kFirstDamping;
-  bool is_new = true;
-  for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
-    if (is_new && step < kScaleSteps) {
-      scale_px = cauchy_scale(*lengths_px);
-    }
-    if (is_new) {
-      system.build(state, scale_px);
-    }
-    is_new = false;
-    const double before = cauchy_cost(*lengths_px, scale_px);
-    auto next = system.stepped(state, damping);
-    const auto next_px = next ? system.lengths_px(*next) : std::nullopt;
-    const double after = next_px ? cauchy_cost(*next_px, scale_px) : before;
-    if (!next_px || !(after < before)) {
-      damping *= 10.0;
-      continue;
-    }
-    state = std::move(*next);
-    lengths_px = next_px;
-    is_new = true;
-    damping = std::max(kLeastDamping, damping * 0.1);
-    if (before - after < kConverged * before) {
-      break;
-    }
-  }
+  const double scale_px = descend(system, state, *lengths_px);
   BodyFit fit;
   summarize(*lengths_px, scale_px, fit);
-  if (system.blocks() == 0) {
+  if (system.unknowns() == 0) {
     return fit;
   }
-  const auto fit_blocks = static_cast<std::size_t>(system.blocks());
   system.build(state, scale_px);
   const auto covariance = system.covariance();
   if (!covariance) {
     return Error{"the corners seen do not determine what is to be found"};
   }
   const double numbers = 2.0 * static_cast<double>(fit.corners);
-  const double unknowns = 6.0 * static_cast<double>(problem.pairs.size() + fit_blocks);
+  const double unknowns =
+      6.0 * static_cast<double>(problem.pairs.size() + static_cast<std::size_t>(system.unknowns()));
   // The unknowns fitted have absorbed part of the noise.
   fit.covariances =
       blocks_of(*covariance, scale_px * scale_px * numbers / std::max(1.0, numbers - unknowns));

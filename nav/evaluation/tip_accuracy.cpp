@@ -61,6 +61,20 @@ FixedPointOptions fixed_point_options(const AccuracyOptions& options) {
   return out;
 }
 
+/// The point about which the pointer turned in the dimple.
+Result<FixedPoint> turned_about(const PointerTrack& track, Point<Marker> tip,
+                                const AccuracyOptions& options) {
+  const auto found =
+      longest_fixed_point(track.world_from_marker, tip, fixed_point_options(options));
+  if (!found) {
+    return refused(
+        "accuracy test: the pointer never turned about its resting tip, must do so for "
+        "at least %.1f s and %.2f rad RMS about every axis",
+        options.min_turning_s, options.min_turning_spread_rad);
+  }
+  return *found;
+}
+
 /// Where the tool's fixed point is during the stretch found.
 Vec3 fixed_place(const PointerTrack& track, const FixedPoint& found) {
   Vec3 sum_m{};
@@ -151,13 +165,9 @@ Result<AccuracyReport> test_tip_accuracy(std::span<const TrackedPose> world_from
   if (!track) {
     return track.error();
   }
-  const auto found = longest_fixed_point(track->world_from_marker, pointer.tip_in_marker,
-                                         fixed_point_options(options));
+  const auto found = turned_about(*track, pointer.tip_in_marker, options);
   if (!found) {
-    return refused(
-        "accuracy test: the pointer never turned about its resting tip, must do so for "
-        "at least %.1f s and %.2f rad RMS about every axis",
-        options.min_turning_s, options.min_turning_spread_rad);
+    return found.error();
   }
   add_fixed_points(pointer.tip_in_marker.v + found->offset_m, *track);
   const SortedRests rests = sorted_rests(*track, *found, options);

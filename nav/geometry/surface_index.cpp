@@ -50,6 +50,39 @@ double entry_into_box(const BoxRay& ray, Vec3 low, Vec3 high, double limit) {
   return near <= far ? near : kFar;
 }
 
+/// Takes in the triangles of the leaves, the nearer of two boxes first. `distance` of a node's box
+/// is infinite where it is of no interest; boxes beyond `limit`, which may shrink meanwhile, are
+/// left out.
+template <class Node, class Distance, class TakeIn>
+void search_boxes(const std::vector<Node>& nodes, const Distance& distance, const double& limit,
+                  const TakeIn& take_in) {
+  struct Pending {
+    std::uint32_t node;
+    double distance;
+  };
+  std::array<Pending, kStack> stack;
+  std::size_t depth = 0;
+  stack[depth++] = {0, distance(nodes[0])};
+  while (depth > 0) {
+    const Pending pending = stack[--depth];
+    if (pending.distance == kFar || pending.distance > limit) {
+      continue;
+    }
+    const Node& node = nodes[pending.node];
+    if (node.count > 0) {
+      for (std::size_t i = node.first; i < node.first + node.count; ++i) {
+        take_in(i);
+      }
+      continue;
+    }
+    const Pending left{node.first, distance(nodes[node.first])};
+    const Pending right{node.first + 1, distance(nodes[node.first + 1])};
+    const bool left_first = left.distance <= right.distance;
+    stack[depth++] = left_first ? right : left;  // the nearer one is taken next
+    stack[depth++] = left_first ? left : right;
+  }
+}
+
 }  // namespace
 
 SurfaceIndex::SurfaceIndex(const TriangleMesh& mesh) {
@@ -116,41 +149,20 @@ std::optional<SurfacePoint> SurfaceIndex::nearest(Vec3 query_m, double within_m)
   if (nodes_.empty() || !query_m.is_finite() || !(within_m >= 0.0)) {
     return std::nullopt;
   }
-  struct Pending {
-    std::uint32_t node;
-    double distance2;
-  };
-  std::array<Pending, kStack> stack;
-  std::size_t depth = 0;
   double best2 = within_m * within_m;
   std::size_t best = corners_.size();
   Vec3 best_point;
-  stack[depth++] = {0, squared_distance_to_box(query_m, nodes_[0].low, nodes_[0].high)};
-  while (depth > 0) {
-    const Pending pending = stack[--depth];
-    if (pending.distance2 > best2) {
-      continue;
+  const auto squared_distance = [&](const Node& node) {
+    return squared_distance_to_box(query_m, node.low, node.high);
+  };
+  search_boxes(nodes_, squared_distance, best2, [&](std::size_t i) {
+    const Vec3 point = nearest_on_triangle(query_m, corners_[i]);
+    const double d2 = (point - query_m).squared_norm();
+    const bool tie = d2 == best2 && (best == corners_.size() || original_[i] < original_[best]);
+    if (d2 < best2 || tie) {
+      best2 = d2, best = i, best_point = point;
     }
-    const Node& node = nodes_[pending.node];
-    if (node.count > 0) {
-      for (std::size_t i = node.first; i < node.first + node.count; ++i) {
-        const Vec3 point = nearest_on_triangle(query_m, corners_[i]);
-        const double d2 = (point - query_m).squared_norm();
-        const bool tie = d2 == best2 && (best == corners_.size() || original_[i] < original_[best]);
-        if (d2 < best2 || tie) {
-          best2 = d2, best = i, best_point = point;
-        }
-      }
-      continue;
-    }
-    const Node& a = nodes_[node.first];
-    const Node& b = nodes_[node.first + 1];
-    const Pending left{node.first, squared_distance_to_box(query_m, a.low, a.high)};
-    const Pending right{node.first + 1, squared_distance_to_box(query_m, b.low, b.high)};
-    const bool left_first = left.distance2 <= right.distance2;
-    stack[depth++] = left_first ? right : left;  // the nearer one is taken next
-    stack[depth++] = left_first ? left : right;
-  }
+  });
   if (best == corners_.size()) {
     return std::nullopt;
   }
@@ -165,38 +177,17 @@ std::optional<RayHit> SurfaceIndex::first_hit(Vec3 origin_m, Vec3 direction) con
   }
   const Vec3 unit = direction / length;
   const BoxRay ray{origin_m, unit, {1.0 / unit.x, 1.0 / unit.y, 1.0 / unit.z}};
-  struct Pending {
-    std::uint32_t node;
-    double entry;
-  };
-  std::array<Pending, kStack> stack;
-  std::size_t depth = 0;
   double best = kFar;
   std::size_t hit = corners_.size();
-  stack[depth++] = {0, entry_into_box(ray, nodes_[0].low, nodes_[0].high, best)};
-  while (depth > 0) {
-    const Pending pending = stack[--depth];
-    if (pending.entry == kFar || pending.entry > best) {
-      continue;
+  const auto entry = [&](const Node& node) {
+    return entry_into_box(ray, node.low, node.high, best);
+  };
+  search_boxes(nodes_, entry, best, [&](std::size_t i) {
+    if (const auto t = ray_meets_triangle(ray.origin, ray.direction, corners_[i]);
+        t && (*t < best || (*t == best && original_[i] < original_[hit]))) {
+      best = *t, hit = i;
     }
-    const Node& node = nodes_[pending.node];
-    if (node.count > 0) {
-      for (std::size_t i = node.first; i < node.first + node.count; ++i) {
-        if (const auto t = ray_meets_triangle(ray.origin, ray.direction, corners_[i]);
-            t && (*t < best || (*t == best && original_[i] < original_[hit]))) {
-          best = *t, hit = i;
-        }
-      }
-      continue;
-    }
-    const Node& a = nodes_[node.first];
-    const Node& b = nodes_[node.first + 1];
-    const Pending left{node.first, entry_into_box(ray, a.low, a.high, best)};
-    const Pending right{node.first + 1, entry_into_box(ray, b.low, b.high, best)};
-    const bool left_first = left.entry <= right.entry;
-    stack[depth++] = left_first ? right : left;
-    stack[depth++] = left_first ? left : right;
-  }
+  });
   if (hit == corners_.size()) {
     return std::nullopt;
   }

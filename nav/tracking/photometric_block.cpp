@@ -4,8 +4,8 @@
 
 #include "nav/tracking/photometric_view.h"
 
-// What a block of pixels adds to a view's equations. Loops of a fixed length over separate arrays,
-// so that they become vector instructions.
+// What a block of pixels adds to a view's equations and says of the tag's cells. Loops of a fixed
+// length over separate arrays, so that they become vector instructions.
 namespace orthonav::nav {
 namespace {
 
@@ -16,6 +16,10 @@ constexpr float kOutlierSd = 4.7F;
 constexpr float kEdgeSlope = 0.1F;
 /// Below this squared slope a pixel has no influence.
 constexpr float kLeastSlope2 = 1e-4F;
+/// The fractions of its pixels that agree with a cell: below the first it is hidden in part, above
+/// the second it is free.
+constexpr float kHiddenFraction = 0.45F;
+constexpr float kFreeFraction = 0.8F;
 
 float dot(const float* __restrict a, const float* __restrict b) {
   std::array<float, 8> lanes{};
@@ -27,6 +31,61 @@ float dot(const float* __restrict a, const float* __restrict b) {
   return ((lanes[0] + lanes[4]) + (lanes[1] + lanes[5])) +
          ((lanes[2] + lanes[6]) + (lanes[3] + lanes[7]));
 }
+
+/// The model of one pixel, and its factors that the derivatives need.
+struct PixelModel {
+  float shade;
+  float odd;     ///< 1 in black, -1 in white
+  float middle;  ///< 0 in black and in white
+  float answer;  ///< the sensor's response
+  float base;    ///< the grey before shading
+  float full;    ///< the contrast, shaded
+  float g;       ///< derivative of the grey by the template
+};
+
+/// What the pixels of a view have in common: its light, and the eye in the tag's cells.
+struct BlockModel {
+  float black;
+  float contrast;
+  float slope_x;
+  float slope_y;
+  float bend;
+  float bow;
+  float ends;
+  float eye_x;
+  float eye_y;
+  float inverse_eye;
+
+  BlockModel(const Photometry& light, Vec3 eye_cells, float half)
+      : black(static_cast<float>(light.black)),
+        contrast(static_cast<float>(light.contrast)),
+        slope_x(static_cast<float>(light.slope[0]) / half),
+        slope_y(static_cast<float>(light.slope[1]) / half),
+        bend(static_cast<float>(light.response[0])),
+        bow(static_cast<float>(light.response[1])),
+        ends(static_cast<float>(light.response[2])),
+        eye_x(static_cast<float>(eye_cells.x)),
+        eye_y(static_cast<float>(eye_cells.y)),
+        inverse_eye(static_cast<float>(1.0 / eye_cells.z)) {}
+
+  [[nodiscard]] PixelModel at(float x, float y, float white) const {
+    PixelModel m;
+    m.shade = 1.0F + slope_x * x - slope_y * y;
+    m.odd = 1.0F - 2.0F * white;
+    m.middle = white * (1.0F - white);
+    m.answer = white + m.middle * (bend + m.odd * (bow + ends * m.odd));
+    const float steep = 1.0F + bend * m.odd + bow * (1.0F - 6.0F * m.middle) +
+                        ends * m.odd * (1.0F - 8.0F * m.middle);
+    m.base = black + contrast * m.answer;
+    m.full = contrast * m.shade;
+    m.g = m.full * steep;
+    return m;
+  }
+  /// Of the template, by the tag's distance.
+  [[nodiscard]] float by_depth(float x, float y, float tx, float ty) const {
+    return inverse_eye * ((eye_x - x) * tx + (eye_y - y) * ty);
+  }
+};
 
 }  // namespace
 
@@ -45,47 +104,30 @@ void ViewModel::compare(const Photometry& light) {
   const float* __restrict tty = column(kTty);
   const float* __restrict tc = column(kTc);
   float* __restrict j = column(kFirst);
-  const auto black = static_cast<float>(light.black);
-  const auto contrast = static_cast<float>(light.contrast);
-  const float slope_x = static_cast<float>(light.slope[0]) / half_;
-  const float slope_y = static_cast<float>(light.slope[1]) / half_;
+  const BlockModel model(light, eye_cells_, half_);
   const float inverse_half = 1.0F / half_;
-  const auto eye_x = static_cast<float>(eye_cells_.x);
-  const auto eye_y = static_cast<float>(eye_cells_.y);
-  const auto inverse_eye = static_cast<float>(1.0 / eye_cells_.z);
-  const auto bend = static_cast<float>(light.response[0]);
-  const auto bow = static_cast<float>(light.response[1]);
-  const auto ends = static_cast<float>(light.response[2]);
   for (int k = 0; k < kBlock; ++k) {
-    const float shade = 1.0F + slope_x * x[k] - slope_y * y[k];
-    const float odd = 1.0F - 2.0F * white[k];
-    const float middle = white[k] * (1.0F - white[k]);
-    const float answer = white[k] + middle * (bend + odd * (bow + ends * odd));
-    const float steep =
-        1.0F + bend * odd + bow * (1.0F - 6.0F * middle) + ends * odd * (1.0F - 8.0F * middle);
-    const float base = black + contrast * answer;
-    const float full = contrast * shade;
-    const float g = full * steep;
-    const float s = inverse_eye * ((eye_x - x[k]) * tx[k] + (eye_y - y[k]) * ty[k]);
-    j[0 * kBlock + k] = -g * tx[k];
-    j[1 * kBlock + k] = -g * ty[k];
-    j[2 * kBlock + k] = g * s;
-    j[3 * kBlock + k] = g * s * y[k];
-    j[4 * kBlock + k] = -g * s * x[k];
-    j[5 * kBlock + k] = g * (tx[k] * y[k] - ty[k] * x[k]);
-    j[6 * kBlock + k] = shade;
-    j[7 * kBlock + k] = shade * answer;
-    j[8 * kBlock + k] = base * x[k] * inverse_half;
-    j[9 * kBlock + k] = -base * y[k] * inverse_half;
-    j[10 * kBlock + k] = g * tsx[k];
-    j[11 * kBlock + k] = g * tsy[k];
-    j[12 * kBlock + k] = g * ttx[k];
-    j[13 * kBlock + k] = g * tty[k];
-    j[14 * kBlock + k] = g * tc[k];
-    j[15 * kBlock + k] = full * middle;
-    j[16 * kBlock + k] = full * middle * odd;
-    j[17 * kBlock + k] = full * middle * odd * odd;
-    j[18 * kBlock + k] = grey[k] - base * shade;
+    const PixelModel m = model.at(x[k], y[k], white[k]);
+    const float s = model.by_depth(x[k], y[k], tx[k], ty[k]);
+    j[0 * kBlock + k] = -m.g * tx[k];
+    j[1 * kBlock + k] = -m.g * ty[k];
+    j[2 * kBlock + k] = m.g * s;
+    j[3 * kBlock + k] = m.g * s * y[k];
+    j[4 * kBlock + k] = -m.g * s * x[k];
+    j[5 * kBlock + k] = m.g * (tx[k] * y[k] - ty[k] * x[k]);
+    j[6 * kBlock + k] = m.shade;
+    j[7 * kBlock + k] = m.shade * m.answer;
+    j[8 * kBlock + k] = m.base * x[k] * inverse_half;
+    j[9 * kBlock + k] = -m.base * y[k] * inverse_half;
+    j[10 * kBlock + k] = m.g * tsx[k];
+    j[11 * kBlock + k] = m.g * tsy[k];
+    j[12 * kBlock + k] = m.g * ttx[k];
+    j[13 * kBlock + k] = m.g * tty[k];
+    j[14 * kBlock + k] = m.g * tc[k];
+    j[15 * kBlock + k] = m.full * m.middle;
+    j[16 * kBlock + k] = m.full * m.middle * m.odd;
+    j[17 * kBlock + k] = m.full * m.middle * m.odd * m.odd;
+    j[18 * kBlock + k] = grey[k] - m.base * m.shade;
   }
 }
 
@@ -179,6 +221,17 @@ void ViewModel::score(int pixels) {
     for (std::size_t i = 0; i < kColumns; ++i) {
       out[i] += pull * j[i * kBlock];
     }
+  }
+}
+
+/// What hides a tag hides it in one piece: a cell with many outliers is doubted as a whole.
+void ViewModel::judge_cells(std::vector<float>& cell_weights) const {
+  cell_weights.resize(counted_.size());
+  for (std::size_t i = 0; i < counted_.size(); ++i) {
+    const float fraction = counted_[i] > 0.0F ? kept_[i] / counted_[i] : 1.0F;
+    const float t =
+        std::clamp((fraction - kHiddenFraction) / (kFreeFraction - kHiddenFraction), 0.0F, 1.0F);
+    cell_weights[i] = t * t * (3.0F - 2.0F * t);
   }
 }
 

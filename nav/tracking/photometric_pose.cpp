@@ -6,6 +6,7 @@
 
 #include "nav/tracking/photometric_light.h"
 #include "nav/tracking/photometric_reduced.h"
+#include "nav/tracking/symmetric_covariance.h"
 
 namespace orthonav::nav {
 namespace {
@@ -41,6 +42,32 @@ Matrix6 tag_by_tool(const Transform<Marker, Tag>& marker_from_tag, double cell_m
   out.bottomRightCorner<3, 3>() = r;
   return out;
 }
+
+/// Least squares of the tool's motion over the views.
+struct MotionEquations {
+  Matrix6 normal = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+
+  /// A view's equations, its light eliminated.
+  void add(const TagView& view, const ViewEquations& of_view) {
+    const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
+    const ReducedView own = reduced(of_view, view.light);
+    const Eigen::Map<const Matrix6> own_normal(own.normal.data());
+    const Eigen::Map<const Vector6> own_right(own.right.data());
+    normal += motion.transpose() * own_normal * motion;
+    right += motion.transpose() * own_right;
+  }
+  /// False where the views do not determine the motion.
+  bool solve(Eigen::Map<Vector6>& motion, PoseCovariance& covariance) const {
+    const Eigen::LDLT<Matrix6> solver(normal);
+    motion = solver.solve(right);
+    if (solver.info() != Eigen::Success || !motion.allFinite() || !solver.isPositive()) {
+      return false;
+    }
+    covariance = symmetrized(Matrix6(solver.solve(Matrix6::Identity())));
+    return true;
+  }
+};
 
 Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 translation,
                              Vec3 rotation_vector) {
@@ -122,8 +149,7 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
                                                                const PhotometricOptions& options,
                                                                std::span<TagView> views,
                                                                PhotometricFit& fit) {
-  Matrix6 normal = Matrix6::Zero();
-  Vector6 right = Vector6::Zero();
+  MotionEquations equations;
   Step out;
   fit.views = 0;
   fit.left = fit.right = false;
@@ -136,32 +162,15 @@ std::optional<PhotometricSolver::Step> PhotometricSolver::step(const StereoFrame
     if (!view.used) {
       continue;
     }
-    const Matrix6 motion = tag_by_tool(view.marker_from_tag, view.tag->cell_m());
-    const ReducedView own = reduced(equations_[i], view.light);
-    const Eigen::Map<const Matrix6> own_normal(own.normal.data());
-    const Eigen::Map<const Vector6> own_right(own.right.data());
-    normal += motion.transpose() * own_normal * motion;
-    right += motion.transpose() * own_right;
+    equations.add(view, equations_[i]);
     ++fit.views;
     (view.right ? fit.right : fit.left) = true;
     out.pixels_a_metre = std::max(out.pixels_a_metre, pixels_a_metre(view, fit.rig_from_marker));
     out.cell_m = std::min(out.cell_m, view.tag->cell_m());
   }
-  if (fit.views == 0) {
-    return std::nullopt;
-  }
-  const Eigen::LDLT<Matrix6> solver(normal);
   Eigen::Map<Vector6> motion(out.motion.data());
-  motion = solver.solve(right);
-  if (solver.info() != Eigen::Success || !motion.allFinite() || !solver.isPositive()) {
+  if (fit.views == 0 || !equations.solve(motion, fit.covariance)) {
     return std::nullopt;
-  }
-  const Matrix6 covariance = solver.solve(Matrix6::Identity());
-  for (int r = 0; r < 6; ++r) {
-    for (int c = 0; c < 6; ++c) {
-      fit.covariance[static_cast<std::size_t>(6 * r + c)] =
-          0.5 * (covariance(r, c) + covariance(c, r));
-    }
   }
   update_light(out.motion, fit.rig_from_marker, views);
   // Displacement of the farthest cells, by translation and by rotation.

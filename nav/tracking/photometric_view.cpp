@@ -9,10 +9,6 @@ namespace orthonav::nav {
 namespace {
 
 constexpr std::uint8_t kSaturated = 254;
-/// The fractions of its pixels that agree with a cell: below the first it is hidden in part, above
-/// the second it is free.
-constexpr float kHiddenFraction = 0.45F;
-constexpr float kFreeFraction = 0.8F;
 /// In areas without edges every second column and row is enough: they only tell the light.
 constexpr int kFlatStep = 2;
 /// Where a corner lies outside the image, its place is known roughly.
@@ -73,6 +69,18 @@ void along(const float* __restrict place, const float* __restrict scale, int n, 
   }
 }
 
+/// Whether the blur reaches past the template along this axis of a pixel: what lies there is
+/// unknown. The densities are zero where the footprint does not reach an edge.
+inline bool reaches_out(const float* axis, std::ptrdiff_t stride, float last_cell) {
+  const float cell = axis[kCell * stride];
+  return (cell == 0.0F && axis[kLowDensity * stride] > 0.0F) ||
+         (cell == last_cell && axis[kHighDensity * stride] > 0.0F);
+}
+
+inline bool reaches_edge(const float* axis, std::ptrdiff_t stride) {
+  return axis[kLowDensity * stride] + axis[kHighDensity * stride] != 0.0F;
+}
+
 Mat3 inverse_of(const Mat3& m) {
   const Vec3 a = m.column(0);
   const Vec3 b = m.column(1);
@@ -104,16 +112,15 @@ Vec2 rough_pixel(const CameraModel& camera, Vec2 u) {
 
 ViewModel::ViewModel() : block_(static_cast<std::size_t>(kBlockColumns) * kBlock, 0.0F) {}
 
-bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose) {
-  const double cell = tag.cell_m();
-  const Vec3 t = pose.translation_m / cell;
-  const Vec3 eye = -(pose.rotation.transposed() * t);
+/// The camera's centre and the way from its rays to the tag's cells; `t` in cells. False where the
+/// tag is seen from behind or lies behind the camera.
+bool ViewModel::face(const Mat3& rotation, Vec3 t) {
+  const Vec3 eye = -(rotation.transposed() * t);
   if (!(eye.z > 0.5) || !(t.z > 0.5)) {
-    return false;  // seen from behind, or behind the camera
+    return false;
   }
   eye_cells_ = eye;
-  const Mat3 inverse =
-      inverse_of(Mat3::from_columns(pose.rotation.column(0), pose.rotation.column(1), t));
+  const Mat3 inverse = inverse_of(Mat3::from_columns(rotation.column(0), rotation.column(1), t));
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
       plane_from_ray_[static_cast<std::size_t>(3 * r + c)] =
@@ -121,6 +128,14 @@ bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const Ca
     }
   }
   depth_ = static_cast<float>(t.z);
+  return true;
+}
+
+bool ViewModel::place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose) {
+  const Vec3 t = pose.translation_m / tag.cell_m();
+  if (!face(pose.rotation, t)) {
+    return false;
+  }
   half_ = 0.5F * static_cast<float>(tag.cells().cells);
   Vec2 low{1e9, 1e9};
   Vec2 high{-1e9, -1e9};
@@ -226,24 +241,15 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
     }
     const float* across = r + kAcross * stride + i;
     const float* down = r + kDown * stride + i;
-    const float column = across[kCell * stride];
-    const float row = down[kCell * stride];
-    // The densities are zero where the footprint does not reach an edge.
-    const float left = across[kLowDensity * stride];
-    const float right = across[kHighDensity * stride];
-    const float above = down[kLowDensity * stride];
-    const float below = down[kHighDensity * stride];
-    // What lies outside the template is unknown.
-    if ((column == 0.0F && left > 0.0F) || (column == last && right > 0.0F) ||
-        (row == 0.0F && above > 0.0F) || (row == last && below > 0.0F)) {
+    if (reaches_out(across, stride, last) || reaches_out(down, stride, last)) {
       continue;
     }
-    if (left + right + above + below == 0.0F &&
-        ((i + x0_) % kFlatStep != 0 || y % kFlatStep != 0)) {
+    const bool flat = !reaches_edge(across, stride) && !reaches_edge(down, stride);
+    if (flat && ((i + x0_) % kFlatStep != 0 || y % kFlatStep != 0)) {
       continue;
     }
-    const int cell_row = static_cast<int>(row);
-    const int cell_column = static_cast<int>(column);
+    const int cell_row = static_cast<int>(down[kCell * stride]);
+    const int cell_column = static_cast<int>(across[kCell * stride]);
     cell_[static_cast<std::size_t>(filled_)] =
         static_cast<std::uint16_t>(cell_row * tag.cells().cells + cell_column);
     add(filled_++, i, pixels[i], static_cast<float>(light.skew),
@@ -251,17 +257,6 @@ void ViewModel::collect(const GreyImage& image, const BlurredTag& tag, int y,
     if (filled_ == kBlock) {
       finish(light, doubt_cells, out);
     }
-  }
-}
-
-/// What hides a tag hides it in one piece: a cell with many outliers is doubted as a whole.
-void ViewModel::judge_cells(std::vector<float>& cell_weights) const {
-  cell_weights.resize(counted_.size());
-  for (std::size_t i = 0; i < counted_.size(); ++i) {
-    const float fraction = counted_[i] > 0.0F ? kept_[i] / counted_[i] : 1.0F;
-    const float t =
-        std::clamp((fraction - kHiddenFraction) / (kFreeFraction - kHiddenFraction), 0.0F, 1.0F);
-    cell_weights[i] = t * t * (3.0F - 2.0F * t);
   }
 }
 

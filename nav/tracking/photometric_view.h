@@ -116,6 +116,7 @@ class ViewModel {
     kFirst,
     kBlockColumns = kFirst + kColumns + 1
   };
+  bool face(const Mat3& rotation, Vec3 t);
   bool place(const CameraModel& camera, const BlurredTag& tag, const CameraFromTag& pose);
   void spread(const RayTable& rays, int y, const Photometry& light);
   void collect(const GreyImage& image, const BlurredTag& tag, int y, const Photometry& light,

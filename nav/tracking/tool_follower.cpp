@@ -43,6 +43,25 @@ bool faces(const CameraFromTag& pose) {
          -pose.rotation.column(2).dot(pose.translation_m) > kLeastCosine * distance;
 }
 
+/// Where a view's tag is found, at the pose or near it; nothing when it is not there.
+std::optional<CellMatch> match_near(const StereoFrame& frame, const TagView& view,
+                                    const CameraFromTag& seen, double doubt_m,
+                                    const PhotometricSolver& solver, TagSearch& search) {
+  const GreyImage& image = image_of(frame, view);
+  CellMatch match = search.match(image, camera_of(solver, view), *view.tag, seen);
+  if (match.fraction < kLeastFraction) {
+    return std::nullopt;
+  }
+  if (match.correlation < kFoundHere) {
+    const double px = solver.focal_px(view.right) * doubt_m / seen.translation_m.z;
+    match = search.best_shift(image, static_cast<int>(std::ceil(std::min(px, kFarthestDoubtPx))));
+    if (match.correlation < kFoundNear) {
+      return std::nullopt;
+    }
+  }
+  return match.code < kSameId ? std::nullopt : std::optional(match);
+}
+
 /// Shifts in the images become a translation in space, by least squares.
 struct TranslationInSpace {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -71,6 +90,22 @@ struct TranslationInSpace {
     return {v.x(), v.y(), v.z()};
   }
 };
+
+/// By what fraction a tag is farther away than either camera alone takes it to be: where their
+/// lines of sight to it meet. Nothing where they do not meet.
+std::optional<double> farther_than_alone(const std::array<Vec3, 2>& eyes_m,
+                                         const std::array<Vec3, 2>& alone_m) {
+  const auto both =
+      closest_point({eyes_m[0], alone_m[0] - eyes_m[0]}, {eyes_m[1], alone_m[1] - eyes_m[1]});
+  if (!both) {
+    return std::nullopt;
+  }
+  double fraction = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    fraction += 0.5 * ((both->point_m - eyes_m[k]).norm() / (alone_m[k] - eyes_m[k]).norm() - 1.0);
+  }
+  return fraction;
+}
 
 }  // namespace
 
@@ -120,26 +155,14 @@ bool ToolFollower::choose_views(const StereoFrame& frame, Transform<Rig, Marker>
     if (!faces(seen)) {
       continue;
     }
-    const CameraModel& camera = camera_of(solver, view);
-    const GreyImage& image = image_of(frame, view);
-    CellMatch match = search.match(image, camera, *view.tag, seen);
-    if (match.fraction < kLeastFraction) {
+    const auto match = match_near(frame, view, seen, doubt_m, solver, search);
+    if (!match) {
       continue;
     }
-    if (match.correlation < kFoundHere) {
-      const double px = solver.focal_px(view.right) * doubt_m / seen.translation_m.z;
-      match = search.best_shift(image, static_cast<int>(std::ceil(std::min(px, kFarthestDoubtPx))));
-      if (match.correlation < kFoundNear) {
-        continue;
-      }
-    }
-    if (match.code < kSameId) {
-      continue;
-    }
-    shifted = shifted || match.shift_px.norm() > 0.0;
+    shifted = shifted || match->shift_px.norm() > 0.0;
     const Mat3& camera_from_rig = view.right ? solver.calibration().right_from_rig.rotation()
                                              : solver.calibration().left_from_rig.rotation();
-    translation.add(camera, camera_from_rig, seen.translation_m, match.shift_px);
+    translation.add(camera_of(solver, view), camera_from_rig, seen.translation_m, match->shift_px);
     view.used = any = true;
   }
   if (!any) {
@@ -252,15 +275,8 @@ std::optional<SizeEvidence> ToolFollower::measured_size(const StereoFrame& frame
       }
     }
   }
-  const auto both = closest_point({eyes[0], alone[0] - eyes[0]}, {eyes[1], alone[1] - eyes[1]});
-  if (!both) {
-    return std::nullopt;
-  }
-  double fraction = 0.0;
-  for (std::size_t k = 0; k < 2; ++k) {
-    fraction += 0.5 * ((both->point_m - eyes[k]).norm() / (alone[k] - eyes[k]).norm() - 1.0);
-  }
-  return SizeEvidence{fraction, std::sqrt(variance)};
+  const auto fraction = farther_than_alone(eyes, alone);
+  return fraction ? std::optional(SizeEvidence{*fraction, std::sqrt(variance)}) : std::nullopt;
 }
 
 }  // namespace orthonav::nav
