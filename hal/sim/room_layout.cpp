@@ -24,15 +24,31 @@ struct Box {
   [[nodiscard]] Vec3 middle() const { return 0.5 * (low + high); }
 };
 
-}  // namespace
-
-RoomLayout::RoomLayout(const RoomDescription& room) : room_(&room), middle_{kBareTable} {
+/// All of them where none is named.
+std::vector<std::size_t> operated_levels(const RoomDescription& room) {
+  std::vector<std::size_t> operated;
   for (std::size_t i = 0; i < room.levels.size(); ++i) {
     if (room.operated.empty() || std::find(room.operated.begin(), room.operated.end(),
                                            room.levels[i].label) != room.operated.end()) {
-      operated_.push_back(i);
+      operated.push_back(i);
     }
   }
+  return operated;
+}
+
+/// Near the back of a level, in its middle otherwise.
+Point<Vertebra> back_of(const RoomLevel& level) {
+  Box box;
+  for (const Vec3 vertex : level.vertices_m) {
+    box.add(vertex);
+  }
+  return {{box.middle().x, 0.25 * box.low.y + 0.75 * box.high.y, box.middle().z}};
+}
+
+}  // namespace
+
+RoomLayout::RoomLayout(const RoomDescription& room)
+    : room_(&room), operated_(operated_levels(room)), middle_{kBareTable} {
   Box all;
   Box operated;
   for (std::size_t i = 0; i < room.levels.size(); ++i) {
@@ -56,12 +72,7 @@ RoomLayout::RoomLayout(const RoomDescription& room) : room_(&room), middle_{kBar
   room_from_spine_ = {Mat3::identity(), {-centre.x, kSpineOverTable_m - all.low.y, -centre.z}};
   for (const RoomLevel& level : room.levels) {
     room_from_vertebra_.push_back(room_from_spine_ * level.spine_from_vertebra);
-    Box box;
-    for (const Vec3 vertex : level.vertices_m) {
-      box.add(vertex);
-    }
-    const Vec3 back{box.middle().x, 0.25 * box.low.y + 0.75 * box.high.y, box.middle().z};
-    sites_.push_back(room_from_vertebra_.back() * Point<Vertebra>{back});
+    sites_.push_back(room_from_vertebra_.back() * back_of(level));
   }
   Vec3 sum;
   for (const std::size_t i : operated_) {

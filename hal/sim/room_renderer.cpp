@@ -40,6 +40,51 @@ void doubled(const HalfImage& from, HalfImage& to) {
   }
 }
 
+/// Fills the quarter-size background point by point.
+struct GroundPoints {
+  const Ground& ground;
+  const CameraLens& lens;
+  const Transform<Spine, LeftCamera>& spine_from_camera;
+  HalfImage& grey;
+  std::vector<Ground::Kind>& kinds;
+
+  [[nodiscard]] std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(j * grey.width + i);
+  }
+  void look(int i, int j) const {
+    const Vec3 ray =
+        spine_from_camera.rotation() * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
+                                                std::min(4 * j + 2, lens.height_px() - 1));
+    const std::size_t at = index(i, j);
+    grey.grey[at] = 0.0F;
+    kinds[at] = Ground::Kind::kNothing;
+    if (std::isnan(ray.x)) {
+      return;
+    }
+    const Vec3 eye = spine_from_camera.translation();
+    const Ground::Hit hit = ground.hit(
+        {static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(eye.z)},
+        {static_cast<float>(ray.x), static_cast<float>(ray.y), static_cast<float>(ray.z)});
+    grey.grey[at] = ground.grey(hit);
+    kinds[at] = hit.kind;
+  }
+  /// The mean of the neighbours at ±(di, dj) where both are plain cloth or floor.
+  void fill(int i, int j, int di, int dj) const {
+    if (i + di >= grey.width || j + dj >= grey.height) {
+      return look(i, j);
+    }
+    const std::size_t a = index(i - di, j - dj);
+    const std::size_t b = index(i + di, j + dj);
+    if (kinds[a] != kinds[b] ||
+        (kinds[a] != Ground::Kind::kDrape && kinds[a] != Ground::Kind::kFloor)) {
+      return look(i, j);
+    }
+    const std::size_t at = index(i, j);
+    grey.grey[at] = 0.5F * (grey.grey[a] + grey.grey[b]);
+    kinds[at] = kinds[a];
+  }
+};
+
 }  // namespace
 
 std::unique_ptr<RoomRenderer> RoomRenderer::create(RoomDescription room,
@@ -57,53 +102,22 @@ SoftwareRoomRenderer::SoftwareRoomRenderer(RoomDescription room, const ErrorMode
 
 void SoftwareRoomRenderer::draw_ground(const CameraLens& lens,
                                        const Transform<Spine, LeftCamera>& spine_from_camera) {
-  const Vec3 eye = spine_from_camera.translation();
-  const std::array<float, 3> origin{static_cast<float>(eye.x), static_cast<float>(eye.y),
-                                    static_cast<float>(eye.z)};
-  const Mat3& spine_from_camera_rotation = spine_from_camera.rotation();
   kinds_.resize(quarter_.grey.size());
-  const auto sample = [&](int i, int j) {
-    const Vec3 ray =
-        spine_from_camera_rotation * lens.ray(std::min(4 * i + 2, lens.width_px() - 1),
-                                              std::min(4 * j + 2, lens.height_px() - 1));
-    const std::size_t at = static_cast<std::size_t>(j * quarter_.width + i);
-    quarter_.grey[at] = 0.0F;
-    kinds_[at] = Ground::Kind::kNothing;
-    if (std::isnan(ray.x)) {
-      return;
-    }
-    const Ground::Hit hit = ground_.hit(
-        origin, {static_cast<float>(ray.x), static_cast<float>(ray.y), static_cast<float>(ray.z)});
-    quarter_.grey[at] = ground_.grey(hit);
-    kinds_[at] = hit.kind;
-  };
+  const GroundPoints points{ground_, lens, spine_from_camera, quarter_, kinds_};
   // Every second point first; those in between only where something other than plain cloth is near.
-  const int last_i = quarter_.width - 1;
-  const int last_j = quarter_.height - 1;
-  for (int j = 0; j <= last_j; j += 2) {
-    for (int i = 0; i <= last_i; i += 2) {
-      sample(i, j);
+  for (int j = 0; j < quarter_.height; j += 2) {
+    for (int i = 0; i < quarter_.width; i += 2) {
+      points.look(i, j);
     }
   }
-  const auto between = [&](int i, int j, int di, int dj) {
-    const std::size_t a = static_cast<std::size_t>((j - dj) * quarter_.width + i - di);
-    const std::size_t b = static_cast<std::size_t>((j + dj) * quarter_.width + i + di);
-    if (i + di > last_i || j + dj > last_j || kinds_[a] != kinds_[b] ||
-        (kinds_[a] != Ground::Kind::kDrape && kinds_[a] != Ground::Kind::kFloor)) {
-      return sample(i, j);
-    }
-    const std::size_t at = static_cast<std::size_t>(j * quarter_.width + i);
-    quarter_.grey[at] = 0.5F * (quarter_.grey[a] + quarter_.grey[b]);
-    kinds_[at] = kinds_[a];
-  };
-  for (int j = 0; j <= last_j; j += 2) {
-    for (int i = 1; i <= last_i; i += 2) {
-      between(i, j, 1, 0);
+  for (int j = 0; j < quarter_.height; j += 2) {
+    for (int i = 1; i < quarter_.width; i += 2) {
+      points.fill(i, j, 1, 0);
     }
   }
-  for (int j = 1; j <= last_j; j += 2) {
-    for (int i = 0; i <= last_i; ++i) {
-      between(i, j, 0, 1);
+  for (int j = 1; j < quarter_.height; j += 2) {
+    for (int i = 0; i < quarter_.width; ++i) {
+      points.fill(i, j, 0, 1);
     }
   }
 }

@@ -101,13 +101,11 @@ double Layers::fill_outline(const Layer& layer, double grey) {
   return sign;
 }
 
-void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, double sign) {
+/// The corners of black cells in the layer's pixels, row by row; the others are not needed, and
+/// projecting them is the expensive part.
+void Layers::project_face(const Plate& plate, const Lens& lens, const Layer& layer) {
   const TagPattern& pattern = *plate.pattern;
   const int n = pattern.cells;
-  const auto vertex = [&](int row, int column) {
-    return static_cast<std::size_t>(row * (n + 1) + column);
-  };
-  // Only corners of black cells are needed; projecting them is the expensive part.
   corners_px_.assign(static_cast<std::size_t>((n + 1) * (n + 1)), {});
   for (int row = 0; row <= n; ++row) {
     for (int column = 0; column <= n; ++column) {
@@ -119,10 +117,19 @@ void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, doubl
       }
       const Vec3 at{(column - 0.5 * n) * plate.cell_m, (0.5 * n - row) * plate.cell_m, 0.0};
       const Vec2 pixel = lens.pixel((plate.camera_from_marker * Point<Marker>{at}).v);
-      corners_px_[vertex(row, column)] = {pixel.x - static_cast<double>(layer.x0),
-                                          pixel.y - static_cast<double>(layer.y0)};
+      corners_px_[static_cast<std::size_t>(row * (n + 1) + column)] = {
+          pixel.x - static_cast<double>(layer.x0), pixel.y - static_cast<double>(layer.y0)};
     }
   }
+}
+
+void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, double sign) {
+  project_face(plate, lens, layer);
+  const TagPattern& pattern = *plate.pattern;
+  const int n = pattern.cells;
+  const auto corner_px = [&](int row, int column) {
+    return corners_px_[static_cast<std::size_t>(row * (n + 1) + column)];
+  };
   const double step = static_cast<double>(kFullGrey * plate.light * (kBlackAlbedo - kWhiteAlbedo));
   CoverageWindow light(arena_.data() + layer.light, spans_.data() + layer.spans, layer.width,
                        layer.height);
@@ -132,8 +139,7 @@ void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, doubl
       const int turn = static_cast<int>(pattern.is_black(row - 1, column)) -
                        static_cast<int>(pattern.is_black(row, column));
       if (turn != 0) {
-        light.add_segment(corners_px_[vertex(row, column)], corners_px_[vertex(row, column + 1)],
-                          sign * step * turn);
+        light.add_segment(corner_px(row, column), corner_px(row, column + 1), sign * step * turn);
       }
     }
   }
@@ -142,8 +148,7 @@ void Layers::draw_face(const Plate& plate, const Lens& lens, Layer& layer, doubl
       const int turn = static_cast<int>(pattern.is_black(row, column - 1)) -
                        static_cast<int>(pattern.is_black(row, column));
       if (turn != 0) {
-        light.add_segment(corners_px_[vertex(row + 1, column)], corners_px_[vertex(row, column)],
-                          sign * step * turn);
+        light.add_segment(corner_px(row + 1, column), corner_px(row, column), sign * step * turn);
       }
     }
   }
@@ -188,17 +193,22 @@ void Layers::draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens)
   shade(capsule, lamp_in_camera, a, b, ra, rb, *layer);
 }
 
-void Layers::shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b, double radius_a,
-                   double radius_b, Layer& layer) {
+/// Of the front of the body, a radius nearer than its axis from `a` to `b` in the image.
+void Layers::set_depth(const Capsule& capsule, Vec2 a, Vec2 b, Layer& layer) {
   const Vec2 axis = b - a;
-  const double squared = std::max(axis.dot(axis), 1e-6);
-  // The front of the body, a radius nearer than its axis.
   const double near_a = 1.0 / std::max(capsule.a.z - capsule.radius_a_m, 0.01);
   const double near_b = 1.0 / std::max(capsule.b.z - capsule.radius_b_m, 0.01);
-  const Vec2 gradient = (near_b - near_a) / squared * axis;
+  const Vec2 gradient = (near_b - near_a) / std::max(axis.dot(axis), 1e-6) * axis;
   layer.nearness_x = static_cast<float>(gradient.x);
   layer.nearness_y = static_cast<float>(gradient.y);
   layer.nearness0 = static_cast<float>(near_a - gradient.dot(a));
+}
+
+void Layers::shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b, double radius_a,
+                   double radius_b, Layer& layer) {
+  set_depth(capsule, a, b, layer);
+  const Vec2 axis = b - a;
+  const double squared = std::max(axis.dot(axis), 1e-6);
   layer.tint = capsule.tint;
   layer.tool = capsule.tool;
   const float ax = static_cast<float>(axis.x / squared);

@@ -65,6 +65,28 @@ Thinned thinned(const RoomLevel& level, double cell_m) {
   return out;
 }
 
+/// Pixels [x0, x1) by [y0, y1).
+struct PixelRange {
+  int x0 = 0;
+  int x1 = 0;
+  int y0 = 0;
+  int y1 = 0;
+};
+
+/// The pixels whose centres lie between a triangle's corners, along either axis; may be empty.
+template <class Vertex>
+PixelRange pixels_of(const Vertex& a, const Vertex& b, const Vertex& c, float width, float height) {
+  const float low_x = std::max(std::min({a.x, b.x, c.x}), 0.0F);
+  const float high_x = std::min(std::max({a.x, b.x, c.x}), width);
+  const float low_y = std::max(std::min({a.y, b.y, c.y}), 0.0F);
+  const float high_y = std::min(std::max({a.y, b.y, c.y}), height);
+  if (!(low_x < high_x && low_y < high_y)) {
+    return {};
+  }
+  return {static_cast<int>(std::ceil(low_x - 0.5F)), static_cast<int>(std::ceil(high_x - 0.5F)),
+          static_cast<int>(std::ceil(low_y - 0.5F)), static_cast<int>(std::ceil(high_y - 0.5F))};
+}
+
 float light_on(Vec3 normal, double height_m) {
   const double length = normal.norm();
   const Vec3 n = length > 0.0 ? normal / length : Vec3{0, 1, 0};
@@ -177,27 +199,16 @@ void BoneImage::draw(const Vertex& a, const Vertex& b, const Vertex& c) {
   if (!(area < 0.0F) || (a.seen < 0.0F && b.seen < 0.0F && c.seen < 0.0F)) {
     return;
   }
-  const float limit_x = static_cast<float>(width_);
-  const float limit_y = static_cast<float>(height_px_);
-  const float low_x = std::max(std::min({a.x, b.x, c.x}), 0.0F);
-  const float high_x = std::min(std::max({a.x, b.x, c.x}), limit_x);
-  const float low_y = std::max(std::min({a.y, b.y, c.y}), 0.0F);
-  const float high_y = std::min(std::max({a.y, b.y, c.y}), limit_y);
-  if (!(low_x < high_x && low_y < high_y)) {
+  const PixelRange in =
+      pixels_of(a, b, c, static_cast<float>(width_), static_cast<float>(height_px_));
+  if (in.x0 >= in.x1 || in.y0 >= in.y1) {
     return;
   }
-  const int x0 = static_cast<int>(std::ceil(low_x - 0.5F));
-  const int x1 = static_cast<int>(std::ceil(high_x - 0.5F));
-  const int y0 = static_cast<int>(std::ceil(low_y - 0.5F));
-  const int y1 = static_cast<int>(std::ceil(high_y - 0.5F));
-  if (x0 >= x1 || y0 >= y1) {
-    return;
-  }
-  low_row_ = std::min(low_row_, y0);
-  high_row_ = std::max(high_row_, y1);
+  low_row_ = std::min(low_row_, in.y0);
+  high_row_ = std::max(high_row_, in.y1);
   const float inverse = 1.0F / area;
-  for (int row = y0; row < y1; ++row) {
-    for (int column = x0; column < x1; ++column) {
+  for (int row = in.y0; row < in.y1; ++row) {
+    for (int column = in.x0; column < in.x1; ++column) {
       const float px = static_cast<float>(column) + 0.5F;
       const float py = static_cast<float>(row) + 0.5F;
       const float wb = ((px - a.x) * (c.y - a.y) - (py - a.y) * (c.x - a.x)) * inverse;

@@ -66,6 +66,27 @@ bool is_operated(const RoomDescription& room, const RoomLevel& level) {
          std::find(room.operated.begin(), room.operated.end(), level.label) != room.operated.end();
 }
 
+/// From the lowest to the highest tip along the back.
+struct Stretch {
+  double low = 1e9;
+  double high = -1e9;
+
+  void add(double z) {
+    low = std::min(low, z);
+    high = std::max(high, z);
+  }
+  [[nodiscard]] double middle() const { return 0.5 * (low + high); }
+};
+
+/// The height of the tips along the back, from its middle on.
+std::array<double, 3> profile_of(const std::vector<Tip>& tips, double middle) {
+  std::vector<Vec2> profile;
+  for (const Tip& tip : tips) {
+    profile.push_back({tip.in_spine.z - middle, tip.in_spine.y});
+  }
+  return parabola(profile);
+}
+
 /// The most posterior point of every level, in Spine.
 std::vector<Tip> tips_of(const RoomDescription& room) {
   std::vector<Tip> tips;
@@ -125,44 +146,49 @@ Ground::Ground(const RoomDescription& room) {
   if (tips.empty()) {
     return;
   }
-  double z_low = 1e9;
-  double z_high = -1e9;
-  double wound_low = 1e9;
-  double wound_high = -1e9;
+  Stretch back;
+  Stretch wound;
   double x_sum = 0.0;
   for (const Tip& tip : tips) {
-    const Vec3 p = tip.in_spine;
-    z_low = std::min(z_low, p.z);
-    z_high = std::max(z_high, p.z);
-    x_sum += p.x;
-    if (!tip.operated) {
-      continue;
+    back.add(tip.in_spine.z);
+    x_sum += tip.in_spine.x;
+    if (tip.operated) {
+      wound_ = true;
+      wound.add(tip.in_spine.z);
     }
-    wound_ = true;
-    wound_low = std::min(wound_low, p.z);
-    wound_high = std::max(wound_high, p.z);
   }
-  const double middle = 0.5 * (z_low + z_high);
-  std::vector<Vec2> profile;
-  for (const Tip& tip : tips) {
-    profile.push_back({tip.in_spine.z - middle, tip.in_spine.y});
-  }
-  const auto [a, b, c] = parabola(profile);
-  z0_ = static_cast<float>(middle);
+  const auto [a, b, c] = profile_of(tips, back.middle());
+  z0_ = static_cast<float>(back.middle());
   a_ = static_cast<float>(a) + kSkinAboveTip;
   b_ = static_cast<float>(b);
   c_ = static_cast<float>(c);
-  low_ = static_cast<float>(z_low) - 0.02F;
-  high_ = static_cast<float>(z_high) + 0.02F;
+  low_ = static_cast<float>(back.low) - 0.02F;
+  high_ = static_cast<float>(back.high) + 0.02F;
   wound_x_ = static_cast<float>(x_sum / static_cast<double>(tips.size()));
   // A spinous process points down the back: the bone lies mostly above its tip.
   wound_z_ = z0_ + 0.006F;
   if (!wound_) {
     return;
   }
-  wound_z_ = static_cast<float>(0.5 * (wound_low + wound_high)) + 0.006F;
+  wound_z_ = static_cast<float>(wound.middle()) + 0.006F;
   half_width_ = kWoundHalfWidth;
-  half_length_ = static_cast<float>(0.5 * (wound_high - wound_low)) + kWoundPastTips;
+  half_length_ = static_cast<float>(0.5 * (wound.high - wound.low)) + kWoundPastTips;
+}
+
+/// Where the ray passes so far below the skin.
+void Ground::reach(const std::array<float, 3>& o, const std::array<float, 3>& d, float below_skin,
+                   Hit& hit) const {
+  // Two steps suffice: the skin's height changes slowly along the back.
+  float t = (a_ - below_skin - o[1]) / d[1];
+  float z = o[2] + t * d[2];
+  for (int i = 0; i < 2; ++i) {
+    t = (skin_height(z) - below_skin - o[1]) / d[1];
+    z = o[2] + t * d[2];
+  }
+  hit.distance = t;
+  hit.x = o[0] + t * d[0];
+  hit.y = o[1] + t * d[1];
+  hit.z = z;
 }
 
 Ground::Hit Ground::hit(const std::array<float, 3>& o, const std::array<float, 3>& d) const {
@@ -171,27 +197,14 @@ Ground::Hit Ground::hit(const std::array<float, 3>& o, const std::array<float, 3
   if (!(d[1] < -1e-3F)) {
     return hit;
   }
-  const auto reach = [&](float height, float from_z) {
-    // Two steps suffice: the skin's height changes slowly along the back.
-    float t = (height - o[1]) / d[1];
-    float z = o[2] + t * d[2];
-    for (int i = 0; i < 2; ++i) {
-      t = (skin_height(z) - from_z - o[1]) / d[1];
-      z = o[2] + t * d[2];
-    }
-    hit.distance = t;
-    hit.x = o[0] + t * d[0];
-    hit.y = o[1] + t * d[1];
-    hit.z = z;
-  };
-  reach(a_, 0.0F);
+  reach(o, d, 0.0F, hit);
   if (hit.distance <= 0.0F) {
     return hit;
   }
   hit.rim = rim_at(hit.x, hit.z);
   hit.skin_rim = hit.rim;
   if (wound_ && hit.rim < 1.0F) {
-    reach(a_ - kDepth, kDepth);
+    reach(o, d, kDepth, hit);
     hit.rim = rim_at(hit.x, hit.z);
     hit.kind = hit.rim < 1.0F ? Kind::kTissue : Kind::kWall;
     return hit;

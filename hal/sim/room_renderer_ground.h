@@ -71,6 +71,8 @@ class Ground {
 
  private:
   static constexpr float kDepth = 0.036F;
+  void reach(const std::array<float, 3>& origin, const std::array<float, 3>& direction,
+             float below_skin, Hit& hit) const;
   [[nodiscard]] std::array<float, 3> drape_colour(const Hit& hit) const;
 
   Blotches blotches_;

@@ -71,12 +71,16 @@ class Layers {
   void draw(const Plate& plate, const Lens& lens);
   /// Fills the contour in corners_px_; returns the sign that makes the inside positive.
   double fill_outline(const Layer& layer, double grey);
+  void project_face(const Plate& plate, const Lens& lens, const Layer& layer);
   void draw_face(const Plate& plate, const Lens& lens, Layer& layer, double sign);
   void draw(const Capsule& capsule, Vec3 lamp_in_camera, const Lens& lens);
+  static void set_depth(const Capsule& capsule, Vec2 a, Vec2 b, Layer& layer);
   void shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b, double radius_a,
              double radius_b, Layer& layer);
   void integrate(const Layer& layer, std::size_t window);
   void merge(float weight, Foreground& sum, const float* hidden_by);
+  void order_block(int y, int from, int to);
+  [[nodiscard]] bool order_holds(int last, int y, bool grey) const;
   void merge_block(int y, int from, int to, float weight, Foreground& sum, const float* hidden_by);
   void merge_pixel(int x, int y, float weight, Foreground& sum, const float* hidden_by);
   /// Adds columns [from, to) of a layer behind what is there; `left`, from column `block` on, is

@@ -62,9 +62,8 @@ void Layers::merge(float weight, Foreground& sum, const float* hidden_by) {
   }
 }
 
-void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
-                         const float* hidden_by) {
-  // Nearest first, by what holds at the block's left end.
+/// The layers of a block, nearest first, by what holds at its left end.
+void Layers::order_block(int y, int from, int to) {
   active_.clear();
   for (const RowLayer& row : in_row_) {
     if (row.low >= to || row.high <= from) {
@@ -77,39 +76,51 @@ void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
     }
     active_[place] = &row;
   }
-  // Checks the order at the right end too: if it is the same, it holds everywhere, depths being
-  // linear. Within the hand it does not matter: where its parts run into each other they look
-  // alike.
-  bool same_order = true;
+}
+
+/// Whether the order of a block is the same at its right end: then it holds everywhere, depths
+/// being linear. In grey it does not matter within the hand: where its parts run into each other
+/// they look alike.
+bool Layers::order_holds(int last, int y, bool grey) const {
   for (std::size_t i = 1; i < active_.size(); ++i) {
-    const bool alike = active_[i]->layer->tool < 0 && active_[i - 1]->layer->tool < 0;
-    same_order = same_order && ((alike && sum.channels == 1) ||
-                                !in_front(*active_[i]->layer, *active_[i - 1]->layer, to - 1, y));
+    const Layer& before = *active_[i - 1]->layer;
+    const Layer& layer = *active_[i]->layer;
+    const bool alike = grey && layer.tool < 0 && before.tool < 0;
+    if (!alike && in_front(layer, before, last, y)) {
+      return false;
+    }
   }
-  if (same_order) {
-    std::array<float, kBlockPx> through;
-    through.fill(0.0F);
-    std::fill_n(through.begin(), to - from, weight);
-    for (const RowLayer* row : active_) {
-      const int low = std::max(from, row->low);
-      const int high = std::min(to, row->high);
-      if (hidden_by == nullptr && sum.channels == 1) {
-        lay_block_under(*row, y, from, low, high, through.data(), sum);
-      } else {
-        lay_under(*row, y, from, low, high, through.data(), sum, hidden_by);
-      }
-      float left = 0.0F;  // what is behind a closed surface need not be added up
-      for (const float t : through) {
-        left = std::max(left, t);
-      }
-      if (left < kNothing * weight) {
-        break;
-      }
+  return true;
+}
+
+void Layers::merge_block(int y, int from, int to, float weight, Foreground& sum,
+                         const float* hidden_by) {
+  order_block(y, from, to);
+  const bool grey = sum.channels == 1;
+  if (!order_holds(to - 1, y, grey)) {
+    for (int x = from; x < to; ++x) {
+      merge_pixel(x, y, weight, sum, hidden_by);
     }
     return;
   }
-  for (int x = from; x < to; ++x) {
-    merge_pixel(x, y, weight, sum, hidden_by);
+  std::array<float, kBlockPx> through;
+  through.fill(0.0F);
+  std::fill_n(through.begin(), to - from, weight);
+  for (const RowLayer* row : active_) {
+    const int low = std::max(from, row->low);
+    const int high = std::min(to, row->high);
+    if (hidden_by == nullptr && grey) {
+      lay_block_under(*row, y, from, low, high, through.data(), sum);
+    } else {
+      lay_under(*row, y, from, low, high, through.data(), sum, hidden_by);
+    }
+    float left = 0.0F;  // what is behind a closed surface need not be added up
+    for (const float t : through) {
+      left = std::max(left, t);
+    }
+    if (left < kNothing * weight) {
+      break;
+    }
   }
 }
 

@@ -42,8 +42,9 @@ PicturePainter::PicturePainter(const RoomDescription& room, const Ground& ground
   }
 }
 
-void PicturePainter::paint_ground(const PinholeLens& lens,
-                                  const Transform<Spine, LeftCamera>& spine_from_camera) {
+/// At half the resolution.
+void PicturePainter::paint_coarse_ground(const PinholeLens& lens,
+                                         const Transform<Spine, LeftCamera>& spine_from_camera) {
   const int columns = (width_ + 1) / 2;
   const int rows = (height_ + 1) / 2;
   coarse_.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -62,6 +63,13 @@ void PicturePainter::paint_ground(const PinholeLens& lens,
       coarse_nearness_[at] = hit.distance > 0.0F ? 1.0F / hit.distance : 0.0F;
     }
   }
+}
+
+void PicturePainter::paint_ground(const PinholeLens& lens,
+                                  const Transform<Spine, LeftCamera>& spine_from_camera) {
+  paint_coarse_ground(lens, spine_from_camera);
+  const int columns = (width_ + 1) / 2;
+  const int rows = (height_ + 1) / 2;
   light_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   nearness_.resize(light_.size());
   for (int y = 0; y < height_; ++y) {

@@ -16,6 +16,8 @@ class PicturePainter {
              RgbaImage& image);
 
  private:
+  void paint_coarse_ground(const PinholeLens& lens,
+                           const Transform<Spine, LeftCamera>& spine_from_camera);
   void paint_ground(const PinholeLens& lens, const Transform<Spine, LeftCamera>& spine_from_camera);
   void paint_bones(const PinholeLens& lens, const Transform<LeftCamera, Spine>& camera_from_spine);
   void merge_tools(RgbaImage& image);

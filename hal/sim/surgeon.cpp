@@ -39,6 +39,25 @@ std::array<Vec3, 4> landmarks(const RoomLevel& level) {
   return found;
 }
 
+/// How far a shown bone lies from the real one at its landmarks, averaged over glances.
+struct OverlayComparison {
+  std::array<Vec3, 4> in_vertebra_m;
+  std::array<Vec3, 4> apart_m{};
+
+  void glance(const Transform<Room, Vertebra>& room_from_vertebra, const Eyes& eyes,
+              const ShownHologram& model) {
+    for (std::size_t i = 0; i < in_vertebra_m.size(); ++i) {
+      const Point<Room> bone = room_from_vertebra * Point<Vertebra>{in_vertebra_m[i]};
+      apart_m[i] += (kGlance_s / kComparing_s) * (eyes.place(model.points_in_world[i]) - bone);
+    }
+  }
+  [[nodiscard]] bool fits(Vec3 perceived_shift_m) const {
+    return std::all_of(apart_m.begin(), apart_m.end(), [perceived_shift_m](Vec3 away) {
+      return (away + perceived_shift_m).norm() <= kAcceptedOverlay_m;  // NaN does not fit
+    });
+  }
+};
+
 }  // namespace
 
 Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
@@ -141,15 +160,14 @@ Script Surgeon::await_change(std::optional<StepOnDisplay> step, std::string phra
 Script Surgeon::verify(std::size_t level) {
   const StepOnDisplay step = step_now();
   body_.posture().contact_normal.reset();
-  const auto real = landmarks(layout_->room().levels[level]);
-  std::array<Vec3, 4> apart{};
+  OverlayComparison overlay{landmarks(layout_->room().levels[level])};
   const Timestamp patience = body_.now() + from_seconds(kPatience_s * kRepeats);
   bool asked_to_touch = false;
   co_await body_.rest(1.0);
   for (double looked_s = 0.0; looked_s < kComparing_s; looked_s += kGlance_s) {
     co_await body_.rest(kGlance_s / body_.slowness());
     const ShownHologram* model = eyes_->find(HologramKind::kVertebra);
-    while (!(model && sees_now() && model->points_in_world.size() == real.size())) {
+    while (!(model && sees_now() && model->points_in_world.size() == overlay.apart_m.size())) {
       if (body_.now() > patience) {
         give_up();
       }
@@ -160,15 +178,9 @@ Script Surgeon::verify(std::size_t level) {
       model = eyes_->find(HologramKind::kVertebra);
     }
     asked_to_touch = asked_to_touch || asked(ChecksAsked::kTouchMore);
-    for (std::size_t i = 0; i < real.size(); ++i) {
-      const Point<Room> bone = layout_->room_from_vertebra(level) * Point<Vertebra>{real[i]};
-      apart[i] += (kGlance_s / kComparing_s) * (eyes_->place(model->points_in_world[i]) - bone);
-    }
+    overlay.glance(layout_->room_from_vertebra(level), *eyes_, *model);
   }
-  const Vec3 perceived_shift = normal_vector(body_.random(), error_model_->overlay_comparison_m);
-  bool fits = std::all_of(apart.begin(), apart.end(), [perceived_shift](Vec3 away) {
-    return (away + perceived_shift).norm() <= kAcceptedOverlay_m;  // NaN does not fit
-  });
+  bool fits = overlay.fits(normal_vector(body_.random(), error_model_->overlay_comparison_m));
   if (fits && asked_to_touch) {
     co_await check_by_touch(level, fits);
     if (!in_step(step)) {

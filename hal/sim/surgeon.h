@@ -101,6 +101,9 @@ class Surgeon {
   /// Holds still, reads the average and takes out what is left of it, if that is little.
   Script settle(double content_rad, bool& settled);
   void turn_by(Vec3 turn);
+  /// What they do where there is no reading; true when it has been away for so long that those
+  /// before it are out of date.
+  bool regain_reading(const Aim& aim, double lost_s, double tick_s);
   /// Turns the tag to and fro and leans over, so that the cameras find it again.
   void show_tag(const Aim& aim, double since_s, double tick_s);
 

@@ -46,14 +46,7 @@ Script Surgeon::turn_tool(const StepOnDisplay& step, const Aim& aim) {
     before = body_.now();
     const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
     if (!reading) {
-      const double lost_s = seconds(body_.now() - last_seen);
-      if (lost_s > kLongPatience_s) {
-        give_up();
-      }
-      if (lost_s > kLost_s) {
-        show_tag(aim, lost_s - kLost_s, tick_s);
-      }
-      if (lost_s > kLost_s) {
+      if (regain_reading(aim, seconds(body_.now() - last_seen), tick_s)) {
         memory.clear();
       }
       continue;
@@ -83,6 +76,16 @@ Script Surgeon::turn_tool(const StepOnDisplay& step, const Aim& aim) {
 void Surgeon::turn_by(Vec3 turn) {
   Grip& grip = body_.posture().grip;
   grip.axis = (rotation_from_vector(turn) * grip.axis).normalized();
+}
+
+bool Surgeon::regain_reading(const Aim& aim, double lost_s, double tick_s) {
+  if (lost_s > kLongPatience_s) {
+    give_up();
+  }
+  if (lost_s > kLost_s) {
+    show_tag(aim, lost_s - kLost_s, tick_s);
+  }
+  return lost_s > kLost_s;
 }
 
 void Surgeon::show_tag(const Aim& aim, double since_s, double tick_s) {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <utility>
+
+#include "base/mutex.h"
+#include "hal/api/devices.h"
+#include "hal/sim/head_track.h"
+#include "hal/sim/room_simulation.h"
+#include "hal/sim/sim_headset.h"
+
+namespace orthonav::sim {
+
+/// When a simulated headset is opened: the device had been running for a while.
+inline constexpr Timestamp kSimStart{std::chrono::seconds(100)};
+
+/// Follows the wall, or is set by the cameras.
+class SimClock final : public Clock {
+ public:
+  explicit SimClock(Pace pace) : pace_(pace), opened_(std::chrono::steady_clock::now()) {}
+  [[nodiscard]] Timestamp now() const override {
+    if (pace_ == Pace::kRealtime) {
+      return kSimStart +
+             std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - opened_);
+    }
+    return Timestamp(Duration(now_ns_.load()));
+  }
+  void set(Timestamp now) { now_ns_.store(now.time_since_epoch().count()); }
+
+ private:
+  Pace pace_;
+  std::chrono::steady_clock::time_point opened_;
+  std::atomic<std::int64_t> now_ns_{kSimStart.time_since_epoch().count()};
+};
+
+/// What every part of the simulated headset shares.
+struct SimRoom {
+  Mutex mutex;
+  SimClock clock;
+  RoomSimulation simulation ORTHONAV_GUARDED_BY(mutex);
+  HeadTrack head ORTHONAV_GUARDED_BY(mutex);
+  Timestamp last_frame ORTHONAV_GUARDED_BY(mutex) = kSimStart;
+
+  SimRoom(RoomDescription room, const SimOptions& options, Vec3 eyes_in_rig)
+      : clock(options.pace),
+        simulation(std::move(room), options, eyes_in_rig, kSimStart),
+        head(Random(options.seed).fork("head tracker"), options.error_model) {}
+};
+
+}  // namespace orthonav::sim
