@@ -35,7 +35,8 @@ Result<Transform<World, Eye>> head_of(Vec3 position, Vec3 forward, Vec3 up) {
   return head;
 }
 
-Result<Hand> take_hand(ByteReader& reader, const char* which, bool valid) {
+/// Nothing where the hand is not in view.
+Result<std::optional<Hand>> take_hand(ByteReader& reader, const char* which, bool valid) {
   Hand hand;
   bool finite = true;
   for (HandJoint& joint : hand) {
@@ -54,7 +55,7 @@ Result<Hand> take_hand(ByteReader& reader, const char* which, bool valid) {
     return Error{std::string("spatial input: ") + which +
                  " hand holds a number that is not finite"};
   }
-  return hand;
+  return valid ? std::optional<Hand>(hand) : std::nullopt;
 }
 
 }  // namespace
@@ -90,16 +91,12 @@ Result<SpatialInput> read_spatial_input(Bytes payload) {
   if (!left) {
     return left.error();
   }
-  if ((valid & kLeftHand) != 0) {
-    input.left_hand = *left;
-  }
+  input.left_hand = *left;
   const auto right = take_hand(reader, "right", (valid & kRightHand) != 0);
   if (!right) {
     return right.error();
   }
-  if ((valid & kRightHand) != 0) {
-    input.right_hand = *right;
-  }
+  input.right_hand = *right;
   return input;
 }
 

@@ -58,6 +58,24 @@ Result<std::optional<Transform<A, B>>> read_matrix(const std::vector<std::string
   return std::optional<Transform<A, B>>(*pose);
 }
 
+/// The camera in the headset, in vision axes: taken from the first row that has it, the same in
+/// all.
+template <class Camera>
+Status take_view(const Transform<Camera, Rig>& view,
+                 std::optional<Transform<Camera, Rig>>& camera_from_rig) {
+  const Transform<Camera, Rig> vision(kVisionFromView * view.rotation(),
+                                      kVisionFromView * view.translation());
+  if (!camera_from_rig) {
+    camera_from_rig = vision;
+  }
+  const double apart_m = (vision.translation() - camera_from_rig->translation()).norm();
+  if (apart_m > kSameCamera ||
+      rotation_angle_rad(vision.rotation(), camera_from_rig->rotation()) > kSameCamera) {
+    return Error{"CameraViewTransform differs from the one above it"};
+  }
+  return {};
+}
+
 template <class Camera>
 Status take_row(std::string_view line, std::vector<std::string_view>& fields,
                 std::optional<Transform<Camera, Rig>>& camera_from_rig, PosesByTicks& poses) {
@@ -78,15 +96,8 @@ Status take_row(std::string_view line, std::vector<std::string_view>& fields,
     return Error{"CameraViewTransform: " + view.error().message};
   }
   if (*view) {
-    const Transform<Camera, Rig> vision(kVisionFromView * (*view)->rotation(),
-                                        kVisionFromView * (*view)->translation());
-    if (!camera_from_rig) {
-      camera_from_rig = vision;
-    }
-    const double apart_m = (vision.translation() - camera_from_rig->translation()).norm();
-    if (apart_m > kSameCamera ||
-        rotation_angle_rad(vision.rotation(), camera_from_rig->rotation()) > kSameCamera) {
-      return Error{"CameraViewTransform differs from the one above it"};
+    if (Status taken = take_view(**view, camera_from_rig); !taken) {
+      return taken;
     }
   }
   const auto pose = read_matrix<World, Rig>(fields, kOriginColumn, kMaxWorldM);

@@ -35,6 +35,29 @@ std::string error_of(archive* a) {
   return text ? text : "unknown error";
 }
 
+/// Hands over the members until one is refused or reaches past the file's end; libarchive's last
+/// answer.
+template <class Take>
+Result<int> for_each_member(archive* reader, std::uint64_t file_size, const Take& take) {
+  archive_entry* entry = nullptr;
+  int answer = ARCHIVE_OK;
+  while ((answer = archive_read_next_header(reader, &entry)) == ARCHIVE_OK) {
+    const auto offset = static_cast<std::uint64_t>(archive_filter_bytes(reader, 0));
+    const auto size = static_cast<std::uint64_t>(archive_entry_size(entry));
+    const char* name = archive_entry_pathname(entry);
+    const bool plain = archive_entry_filetype(entry) == AE_IFREG &&
+                       archive_entry_sparse_count(entry) == 0 &&
+                       archive_entry_hardlink(entry) == nullptr;
+    if (offset > file_size || size > file_size - offset) {
+      break;
+    }
+    if (const Status taken = take(name ? name : "", plain, offset, size); !taken) {
+      return taken.error();
+    }
+  }
+  return answer;
+}
+
 std::string printable(const std::string& name) {
   std::string shown;
   for (const char c : name.substr(0, 60)) {
@@ -96,28 +119,23 @@ Status ImageTar::index() {
   if (archive_read_open_filename(reader.get(), path_.c_str(), 64 * 1024) != ARCHIVE_OK) {
     return file_error(path_, "is no tar archive: " + error_of(reader.get()));
   }
-  archive_entry* entry = nullptr;
-  int answer = ARCHIVE_OK;
-  while ((answer = archive_read_next_header(reader.get(), &entry)) == ARCHIVE_OK) {
-    const auto offset = static_cast<std::uint64_t>(archive_filter_bytes(reader.get(), 0));
-    const auto size = static_cast<std::uint64_t>(archive_entry_size(entry));
-    const char* name = archive_entry_pathname(entry);
-    const bool plain = archive_entry_filetype(entry) == AE_IFREG &&
-                       archive_entry_sparse_count(entry) == 0 &&
-                       archive_entry_hardlink(entry) == nullptr;
-    if (offset > file_size || size > file_size - offset) {
-      break;
-    }
-    if (Status status = index_member(name ? name : "", plain, offset, size); !status) {
-      return status;
-    }
-    whole_bytes_ = in_blocks(offset + size);
+  const auto answer =
+      for_each_member(reader.get(), file_size,
+                      [&](const char* name, bool plain, std::uint64_t offset, std::uint64_t size) {
+                        const Status indexed = index_member(name, plain, offset, size);
+                        if (indexed) {
+                          whole_bytes_ = in_blocks(offset + size);
+                        }
+                        return indexed;
+                      });
+  if (!answer) {
+    return answer.error();
   }
-  const bool is_cut = answer == ARCHIVE_OK || whole_bytes_ + kTarBlockBytes > file_size;
+  const bool is_cut = *answer == ARCHIVE_OK || whole_bytes_ + kTarBlockBytes > file_size;
   if (is_cut) {
     cut_ = path_.filename().string() + " is cut off at byte " + std::to_string(file_size) +
            ", after " + std::to_string(members_.size()) + " whole images";
-  } else if (answer != ARCHIVE_EOF) {
+  } else if (*answer != ARCHIVE_EOF) {
     return file_error(
         path_, "after " + std::to_string(members_.size()) + " images: " + error_of(reader.get()));
   }

@@ -137,6 +137,30 @@ Status open_archives(const std::filesystem::path& folder, const Sensors& sensors
   return {};
 }
 
+/// The rig's poses, by the left camera's file; the right one's says the same again and is read for
+/// its damage only.
+Status add_camera_poses(const std::filesystem::path& folder, Recording& recording) {
+  const auto path = poses_of(folder, kLeftSensor);
+  const auto poses = read_poses(path);
+  if (!poses) {
+    return poses.error();
+  }
+  if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) {
+    return same.error();
+  }
+  // Ticks that are no valid time are damage, even of a pose that the correction would leave out.
+  if (!poses->empty()) {
+    for (const std::int64_t ticks : {poses->begin()->first, poses->rbegin()->first}) {
+      if (auto time = named_time(path, ticks, recording.epoch_ticks_100ns); !time) {
+        return time.error();
+      }
+    }
+  }
+  const bool is_late = recording.stamps_late != Duration::zero();
+  return add_poses(path, is_late ? poses_at_exposure(*poses, recording.stamps_late) : *poses,
+                   recording);
+}
+
 /// StreamRecorder's and our own.
 Status read_hololens2(const std::filesystem::path& folder, RecordedStamps stamps,
                       Recording& recording) {
@@ -150,27 +174,7 @@ Status read_hololens2(const std::filesystem::path& folder, RecordedStamps stamps
   if (Status s = add_map_moves(folder / kMapFile, recording.pairs); !s) {
     return s;
   }
-  const auto path = poses_of(folder, kLeftSensor);
-  const auto poses = read_poses(path);
-  if (!poses) {
-    return poses.error();
-  }
-  // The right camera's file says the same again; it is read for its damage only.
-  if (auto same = read_poses(poses_of(folder, kRightSensor)); !same) {
-    return same.error();
-  }
-  // Ticks that are no valid time are damage, even of a pose that the correction would leave out.
-  if (!poses->empty()) {
-    for (const std::int64_t ticks : {poses->begin()->first, poses->rbegin()->first}) {
-      if (auto time = named_time(path, ticks, recording.epoch_ticks_100ns); !time) {
-        return time.error();
-      }
-    }
-  }
-  const bool is_late = recording.stamps_late != Duration::zero();
-  if (Status s = add_poses(
-          path, is_late ? poses_at_exposure(*poses, recording.stamps_late) : *poses, recording);
-      !s) {
+  if (Status s = add_camera_poses(folder, recording); !s) {
     return s;
   }
   if (Status s = add_own_files(folder, recording); !s) {

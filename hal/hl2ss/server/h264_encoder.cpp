@@ -23,6 +23,22 @@ Error failed(const char* what, int code) {
   return Error{std::string("H.264 encoder ") + what + ": " + text};
 }
 
+/// At once, a picture at a time, as the headset's own encoder does.
+void describe_stream(const H264Encoder::Options& options, AVCodecContext& context) {
+  context.width = kImageWidthPx;
+  context.height = kImageHeightPx;
+  context.time_base = {1, kFramesPerSecond};
+  context.framerate = {kFramesPerSecond, 1};
+  context.pix_fmt = AV_PIX_FMT_YUV420P;
+  context.color_range = AVCOL_RANGE_JPEG;
+  context.gop_size = options.gop_size;
+  context.slices = options.slices;
+  context.max_b_frames = 0;
+  context.thread_count = 1;
+  context.bit_rate = std::int64_t{options.bitrate};
+  context.log_level_offset = 64;  // a library does not print
+}
+
 }  // namespace
 
 struct H264Encoder::Codec {
@@ -50,17 +66,7 @@ Status H264Encoder::Codec::open(const Options& options) {
   if (context == nullptr || frame == nullptr || packet == nullptr) {
     return Error{"out of memory for the H.264 encoder"};
   }
-  context->width = kImageWidthPx;
-  context->height = kImageHeightPx;
-  context->time_base = {1, kFramesPerSecond};
-  context->framerate = {kFramesPerSecond, 1};
-  context->pix_fmt = AV_PIX_FMT_YUV420P;
-  context->color_range = AVCOL_RANGE_JPEG;
-  context->gop_size = options.gop_size;
-  context->slices = options.slices;
-  context->max_b_frames = 0;
-  context->thread_count = 1;
-  context->bit_rate = std::int64_t{options.bitrate};
+  describe_stream(options, *context);
   const std::pair<const char*, const char*> settings[] = {
       {"preset", "ultrafast"}, {"tune", "zerolatency"}, {"profile", "baseline"}};
   for (const auto& [key, value] : settings) {
@@ -68,7 +74,6 @@ Status H264Encoder::Codec::open(const Options& options) {
       return failed(key, code);
     }
   }
-  context->log_level_offset = 64;  // a library does not print
   if (const int code = avcodec_open2(context, h264, nullptr); code < 0) {
     return failed("refused the settings", code);
   }

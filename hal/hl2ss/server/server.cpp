@@ -11,9 +11,9 @@
 
 #include "base/joined.h"
 #include "base/mutex.h"
-#include "hal/hl2ss/calibration.h"
 #include "hal/hl2ss/server/camera_port.h"
 #include "hal/hl2ss/server/pair_sender.h"
+#include "hal/hl2ss/server/served_headset.h"
 #include "hal/hl2ss/server/side_ports.h"
 
 namespace orthonav::hl2ss {
@@ -31,11 +31,10 @@ class RunningServer final : public Server {
  public:
   RunningServer(const ServerOptions& options, OpenHeadset open, std::unique_ptr<Headset> first)
       : options_(options),
-        open_(std::move(open)),
-        headset_(std::move(first)),
-        left_({calibration_of(*headset_, Side::kLeft, options.unmapped_edge_px), options.faults,
+        headset_(std::move(open), std::move(first)),
+        left_({headset_.left_calibration(options.unmapped_edge_px), options.faults,
                Random(options.seed).fork("left"), options.slices}),
-        right_({calibration_of(*headset_, Side::kRight, options.unmapped_edge_px), options.faults,
+        right_({headset_.right_calibration(options.unmapped_edge_px), options.faults,
                 Random(options.seed).fork("right"), options.slices}),
         sides_(options.utc_offset_ticks),
         sender_(options.faults, options.seed, left_, right_, sides_) {}
@@ -83,16 +82,6 @@ class RunningServer final : public Server {
   }
 
  private:
-  enum class Side { kLeft, kRight };
-  [[nodiscard]] static std::vector<std::uint8_t> calibration_of(Headset& headset, Side side,
-                                                                int unmapped_edge_px) {
-    const StereoCalibration& c = headset.cameras().calibration();
-    auto bytes = side == Side::kLeft ? calibration_bytes(c.left, c.left_from_rig.row_major())
-                                     : calibration_bytes(c.right, c.right_from_rig.row_major());
-    unmap_edges(bytes, unmapped_edge_px);
-    return bytes;
-  }
-
   std::vector<std::pair<Port*, int>> ports() {
     std::vector<std::pair<Port*, int>> all = {
         {&left_.port(), offset_of(Service::kLeftFront)},
@@ -137,15 +126,7 @@ class RunningServer final : public Server {
   void show() {
     const Transform<World, World> back = sender_.world_from_jumped();
     for (ShownFrame& frame : sides_.take_shown()) {
-      const MutexLock lock(headset_mutex_);
-      for (ShownHologram& hologram : frame.holograms) {
-        for (Point<World>& point : hologram.points_in_world) {
-          point = back * point;
-        }
-      }
-      if (headset_ && in_session_) {
-        (void)headset_->display().shown(frame);
-      }
+      headset_.show(back, frame);
     }
     sides_.publish_took();
   }
@@ -162,40 +143,26 @@ class RunningServer final : public Server {
         std::this_thread::sleep_for(kIdle);
         continue;
       }
-      if (Headset* const headset = begin_session()) {
-        run_session(*headset);
+      if (const auto headset = headset_.begin_session([this](Headset& h) { begin(h); })) {
+        run_session(**headset);
+      } else {
+        note([&](ServerReport& report) { report.last_trouble = headset.error().message; });
       }
       end_session();
     }
   }
-  /// The headset, which stays until this thread ends the session; null where none opens.
-  Headset* begin_session() {
-    const MutexLock lock(headset_mutex_);
-    if (!headset_) {
-      auto opened = open_();
-      if (!opened) {
-        note([&](ServerReport& report) { report.last_trouble = opened.error().message; });
-        return nullptr;
-      }
-      headset_ = std::move(*opened);
-    }
-    in_session_ = true;
+  void begin(Headset& headset) {
     sender_.restart();
     note([](ServerReport& report) {
       ++report.sessions;
       report.is_streaming = true;
     });
-    const Timestamp now = headset_->clock().now();
-    const Duration latency = headset_->display().predicted_display_time(now) - now;
+    const Timestamp now = headset.clock().now();
+    const Duration latency = headset.display().predicted_display_time(now) - now;
     sides_.greet({options_.paced, latency, now});
-    return headset_.get();
   }
   void end_session() {
-    {
-      const MutexLock lock(headset_mutex_);
-      in_session_ = false;
-      headset_.reset();
-    }
+    headset_.end_session();
     note([](ServerReport& report) { report.is_streaming = false; });
     sides_.end();
     while (!stop_ && (left_.is_streaming() || right_.is_streaming())) {
@@ -261,10 +228,7 @@ class RunningServer final : public Server {
   }
 
   ServerOptions options_;
-  OpenHeadset open_;
-  Mutex headset_mutex_;  ///< of its coming and going; its parts may be used from two threads
-  std::unique_ptr<Headset> headset_ ORTHONAV_GUARDED_BY(headset_mutex_);
-  bool in_session_ ORTHONAV_GUARDED_BY(headset_mutex_) = false;
+  ServedHeadset headset_;
   CameraPort left_;
   CameraPort right_;
   SidePorts sides_;
