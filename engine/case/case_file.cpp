@@ -64,6 +64,16 @@ Transform<Spine, Vertebra> spine_from_model(const JsonNode& node, double metres_
   return {};
 }
 
+/// Of the case's own numbers; the node notes what is wrong with them.
+std::optional<double> declared_metres_per_unit(const JsonNode& root) {
+  const std::string units = root.text_or("units", "mm");
+  const auto metres_per_unit = metres_per_unit_from(units);
+  if (!metres_per_unit) {
+    root.refuse("units", "is \"" + units + "\", must be mm or m");
+  }
+  return metres_per_unit;
+}
+
 /// What case.json says of one level.
 struct Entry {
   std::string label;
@@ -121,11 +131,7 @@ Result<Case> load_case(const std::string& folder) {
   Case subject;
   subject.folder = folder;
   subject.name = root.text_or("name", fs::path(folder).filename().string());
-  const std::string units = root.text_or("units", "mm");
-  const auto metres_per_unit = metres_per_unit_from(units);
-  if (!metres_per_unit) {
-    root.refuse("units", "is \"" + units + "\", must be mm or m");
-  }
+  const auto metres_per_unit = declared_metres_per_unit(root);
   std::vector<Entry> entries;
   std::size_t placed = 0;
   for (const JsonNode& node : root.list("levels")) {

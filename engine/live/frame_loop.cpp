@@ -15,29 +15,6 @@ constexpr auto kNoPairPause = std::chrono::milliseconds(1);
 
 }  // namespace
 
-std::vector<std::string> LoopOptions::check() const {
-  std::vector<std::string> problems;
-  if (draw_every < 0) {
-    problems.push_back("draw_every must not be negative");
-  }
-  if (max_frames < 0) {
-    problems.push_back("max_frames must not be negative");
-  }
-  if (max_time < Duration::zero()) {
-    problems.push_back("max_time must not be negative");
-  }
-  if (after_done < Duration::zero()) {
-    problems.push_back("after_done must not be negative");
-  }
-  if (max_errors_in_a_row < 0) {
-    problems.push_back("max_errors_in_a_row must not be negative");
-  }
-  if (longest_silence <= Duration::zero()) {
-    problems.push_back("longest_silence must be positive");
-  }
-  return problems;
-}
-
 Result<LoopReport> FrameLoop::run() {
   const std::vector<std::string> problems = options_.check();
   if (!problems.empty()) {
@@ -200,17 +177,21 @@ void FrameLoop::take_back(const Guidance& guidance, SnapshotQueue* queue, LoopRe
   }
 }
 
-Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
-  const Stopwatch watch;
-  heard_at_ = headset_->clock().now();
+/// Clicks and phrases up to the pair's time.
+Status FrameLoop::poll_commands(LoopReport& report) {
   clicks_.clear();
   phrases_.clear();
   const Status clicked = headset_->clicker().poll(frame_.time, clicks_);
   if (const Status over = tolerate(clicked, clicker_errors_, report); !over) {
     return over;
   }
-  const Status spoken = headset_->voice().poll(frame_.time, phrases_);
-  if (const Status over = tolerate(spoken, voice_errors_, report); !over) {
+  return tolerate(headset_->voice().poll(frame_.time, phrases_), voice_errors_, report);
+}
+
+Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
+  const Stopwatch watch;
+  heard_at_ = headset_->clock().now();
+  if (const Status over = poll_commands(report); !over) {
     return over;
   }
   Inputs inputs;

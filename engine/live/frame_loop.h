@@ -94,6 +94,7 @@ class FrameLoop {
   void take_back(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);
   [[nodiscard]] Timestamp next_display_time() const;
   void draw_all(SnapshotQueue& queue, LoopReport& drawing, Status& status);
+  Status poll_commands(LoopReport& report);
   Status step(SnapshotQueue* queue, LoopReport& report);
   Status tolerate(const Status& status, int& in_a_row, LoopReport& report);
   void count_displayed(const Guidance& guidance, SnapshotQueue* queue, LoopReport& report);

@@ -54,6 +54,23 @@ void mark_crossed_edges(const SampleGrid& grid, GridCell& cell) {
   }
 }
 
+/// Numbers the sheets of a cell from 0 on, in the order of their first edges; returns how many.
+std::uint32_t number_sheets(GridCell& cell) {
+  std::uint32_t count = 0;
+  std::array<std::uint8_t, 12> number{};
+  number.fill(0xff);
+  for (std::size_t edge = 0; edge < 12; ++edge) {
+    if (cell.crossed[edge]) {
+      std::uint8_t& known = number[cell.sheet[edge]];
+      if (known == 0xff) {
+        known = static_cast<std::uint8_t>(count++);
+      }
+      cell.sheet[edge] = known;
+    }
+  }
+  return count;
+}
+
 /// Groups the crossed edges of a cell into sheets of the surface; returns how many.
 std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, GridCell& cell) {
   for (std::uint8_t edge = 0; edge < 12; ++edge) {
@@ -89,19 +106,7 @@ std::uint32_t find_sheets(const SampleGrid& grid, const JoinedFaces& joined, Gri
       }
     }
   }
-  std::uint32_t count = 0;
-  std::array<std::uint8_t, 12> number{};
-  number.fill(0xff);
-  for (std::size_t edge = 0; edge < 12; ++edge) {
-    if (cell.crossed[edge]) {
-      std::uint8_t& known = number[cell.sheet[edge]];
-      if (known == 0xff) {
-        known = static_cast<std::uint8_t>(count++);
-      }
-      cell.sheet[edge] = known;
-    }
-  }
-  return count;
+  return number_sheets(cell);
 }
 
 CellMap marked_cells(const SampleGrid& grid) {

@@ -21,7 +21,10 @@ Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
   return replay::RecordingHeadset::around(room, folder, {tools_text(tools)});
 }
 
-void add_hooks(const OperationHooks& hooks, AssembledOperation& live) {
+void observe(const OperationHooks& hooks, GroundTruthRecorder& ground_truth, EndNote& end_note,
+             AssembledOperation& live) {
+  live.observe(&ground_truth);
+  live.observe(&end_note);
   for (SessionObserver* hook : hooks.session) {
     live.observe(hook);
   }
@@ -32,6 +35,18 @@ void add_hooks(const OperationHooks& hooks, AssembledOperation& live) {
 Status tell_opened(const OperationHooks& hooks, sim::SimHeadset& room, const Method& method,
                    const Session& session) {
   return hooks.opened ? hooks.opened(room, method, session) : Status();
+}
+
+/// Runs it; meanwhile it can be stopped from outside.
+Result<LoopReport> run_until_done(const OperationHooks& hooks, AssembledOperation& live) {
+  if (hooks.can_stop) {
+    hooks.can_stop([&live] { live.stop(); });
+  }
+  auto report = live.run();
+  if (hooks.can_stop) {
+    hooks.can_stop(nullptr);
+  }
+  return report;
 }
 
 Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Operation operation,
@@ -48,9 +63,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   AssembledOperation& live = **assembled;
   GroundTruthRecorder ground_truth(room);
   EndNote end_note;
-  live.observe(&ground_truth);
-  live.observe(&end_note);
-  add_hooks(hooks, live);
+  observe(hooks, ground_truth, end_note, live);
   auto recorder = recorder_of(room, options.record_folder, *tools);
   if (!recorder) {
     return recorder.error();
@@ -61,13 +74,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (const Status opened = tell_opened(hooks, room, method, live.session()); !opened) {
     return opened.error();
   }
-  if (hooks.can_stop) {
-    hooks.can_stop([&live] { live.stop(); });
-  }
-  auto report = live.run();
-  if (hooks.can_stop) {
-    hooks.can_stop(nullptr);
-  }
+  auto report = run_until_done(hooks, live);
   if (!report) {
     return report.error();
   }
