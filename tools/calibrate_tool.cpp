@@ -1,10 +1,11 @@
-#include <cstdio>
+#include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+#include <utility>
 
-#include "base/angle.h"
 #include "base/joined.h"
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
@@ -14,8 +15,8 @@
 #include "tools/calibrate.h"
 #include "tools/json_output.h"
 #include "tools/number_list.h"
-#include "tools/pose_json.h"
 #include "tools/recorded_pairs.h"
+#include "tools/tag_body_output.h"
 
 namespace orthonav::tools {
 namespace {
@@ -159,90 +160,75 @@ Result<std::string> tools_with(const ToolArguments& arguments, const nav::TagBod
   return text;
 }
 
-nlohmann::ordered_json body_json(const Result<nav::TagBody>& body, std::size_t pairs) {
-  nlohmann::ordered_json out = {{"pairs", pairs}};
-  if (!body) {
-    add_judgement({nav::Verdict::kFail, body.error().message}, out);
-    return out;
+/// What the arguments name, before the recording is read.
+struct ToolInput {
+  std::vector<nav::MarkerDefinition> tags;
+  std::optional<nav::ToolGeometry> tool;  ///< as described; none without a tools file
+};
+
+/// The results must have a place, too.
+Result<ToolInput> tool_input(const ToolArguments& arguments) {
+  auto tags = tags_from(arguments);
+  if (!tags) {
+    return tags.error();
   }
-  out["pairs_used"] = body->pairs;
-  out["rms_px"] = body->rms_px;
-  out["outlier_share"] = body->outlier_fraction;
-  for (const nav::BodyTag& tag : body->tags) {
-    out["tags"].push_back({{"family", tag.definition.family},
-                           {"id", tag.definition.id},
-                           {"size_mm", tag.definition.size_m * 1e3},
-                           {"measured_size_mm", tag.definition.size_m * tag.size_ratio * 1e3},
-                           {"pose", rows_mm(tag.marker_from_tag.row_major())},
-                           {"pairs", tag.pairs},
-                           {"sigma_mm", tag.sigma_m * 1e3},
-                           {"sigma_deg", tag.sigma_rad * kDegreesPerRadian}});
+  auto tool = described_tool(arguments);
+  if (!tool) {
+    return tool.error();
   }
-  add_judgement(body->judgement, out);
-  return out;
+  if (const Status s = check_marker(arguments, *tool, tags->front()); !s) {
+    return s.error();
+  }
+  if (const Status s = arguments.json.check(); !s) {
+    return s.error();
+  }
+  if (auto place = engine::AtomicFile::create(arguments.out); !place) {
+    return place.error();
+  }
+  return ToolInput{std::move(*tags), std::move(*tool)};
 }
 
-void print(const nav::TagBody& body) {
-  std::printf("%zu pairs, residual %.3f px RMS, %.1f %% of the corners left out\n", body.pairs,
-              body.rms_px, 100 * body.outlier_fraction);
-  for (const nav::BodyTag& tag : body.tags) {
-    const Vec3 at_mm = tag.marker_from_tag.translation() * 1e3;
-    std::printf(
-        "%s id %d: at %.3f %.3f %.3f mm, known to %.3f mm and %.3f°; seen in %zu pairs, "
-        "edges measure %.2f mm\n",
-        tag.definition.family.c_str(), tag.definition.id, at_mm.x, at_mm.y, at_mm.z,
-        tag.sigma_m * 1e3, tag.sigma_rad * kDegreesPerRadian, tag.pairs,
-        tag.definition.size_m * tag.size_ratio * 1e3);
+/// Refused also where a tag is not mounted as described.
+Result<nav::TagBody> calibrated(const ToolArguments& arguments, const ToolInput& input,
+                                const RecordedSightings& seen) {
+  auto body = nav::calibrate_tag_body(seen.calibration, input.tags, seen.pairs);
+  if (!body) {
+    return body;
   }
-  print_judgement(body.judgement);
+  if (const Status s = check_mounting(arguments, input.tool, *body); !s) {
+    return s.error();
+  }
+  return body;
+}
+
+Status write_tools(const ToolArguments& arguments, const nav::TagBody& body) {
+  const auto text = tools_with(arguments, body);
+  return text ? engine::write_file(arguments.out, *text) : Status(text.error());
 }
 
 int run_tool(const ToolArguments& arguments) {
-  const auto tags = tags_from(arguments);
-  if (!tags) {
-    return bad_input(tags.error().message);
+  const auto input = tool_input(arguments);
+  if (!input) {
+    return bad_input(input.error().message);
   }
-  const auto tool = described_tool(arguments);
-  if (!tool) {
-    return bad_input(tool.error().message);
-  }
-  if (const Status s = check_marker(arguments, *tool, tags->front()); !s) {
-    return bad_input(s.error().message);
-  }
-  if (const Status s = arguments.json.check(); !s) {
-    return bad_input(s.error().message);
-  }
-  if (auto place = engine::AtomicFile::create(arguments.out); !place) {
-    return bad_input(place.error().message);
-  }
-  const auto seen = recorded_sightings(arguments.recording, *tags);
+  const auto seen = recorded_sightings(arguments.recording, input->tags);
   if (!seen) {
     return bad_input(seen.error().message);
   }
-
-  auto body = nav::calibrate_tag_body(seen->calibration, *tags, seen->pairs);
+  const auto body = calibrated(arguments, *input, *seen);
   if (body) {
-    if (const Status s = check_mounting(arguments, *tool, *body); !s) {
-      body = s.error();
-    }
-  }
-  if (body) {
-    const auto text = tools_with(arguments, *body);
-    if (!text) {
-      return bad_input(text.error().message);
-    }
-    if (const Status s = engine::write_file(arguments.out, *text); !s) {
+    if (const Status s = write_tools(arguments, *body); !s) {
       return bad_input(s.error().message);
     }
   }
-  if (const Status s = arguments.json.write(body_json(body, seen->pairs.size())); !s) {
+  if (const Status s = arguments.json.write(tag_body_json(body, seen->pairs.size())); !s) {
     return bad_input(s.error().message);
   }
   if (!body) {
     return refused(body.error().message);
   }
   if (!arguments.json.on_stdout()) {
-    print(*body);
+    print_tag_body(*body);
   }
   return kDone;
 }

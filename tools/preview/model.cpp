@@ -10,6 +10,15 @@ namespace {
 /// From slow to fast; the last means as fast as possible.
 constexpr std::array<double, 6> kSpeeds = {0.1, 0.25, 0.5, 1.0, 4.0, 0.0};
 
+void flip(bool& choice) { choice = !choice; }
+
+void wish(Command command, Wishes& wishes) {
+  wishes.screenshot = wishes.screenshot || command == Command::kScreenshot;
+  wishes.video = wishes.video != (command == Command::kVideo);
+  wishes.restart = wishes.restart || command == Command::kRestart;
+  wishes.quit = wishes.quit || command == Command::kQuit;
+}
+
 }  // namespace
 
 void PreviewModel::key(Key key, bool down) {
@@ -52,26 +61,16 @@ void PreviewModel::obey(const KeyBinding& binding) {
     case Command::kAllHolograms:
       return look_.holograms.toggle_all();
     case Command::kTools:
-      look_.tools = !look_.tools;
-      break;
-    case Command::kScreenshot:
-      wishes_.screenshot = true;
-      break;
-    case Command::kVideo:
-      wishes_.video = !wishes_.video;
-      break;
+      return flip(look_.tools);
     case Command::kPanel:
-      panel_ = !panel_;
-      break;
+      return flip(panel_);
     case Command::kHelp:
-      help_ = !help_;
-      break;
+      return flip(help_);
+    case Command::kScreenshot:
+    case Command::kVideo:
     case Command::kRestart:
-      wishes_.restart = true;
-      break;
     case Command::kQuit:
-      wishes_.quit = true;
-      break;
+      return wish(binding.command, wishes_);
   }
 }
 

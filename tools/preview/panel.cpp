@@ -215,6 +215,23 @@ void draw_help() {
   ImGui::End();
 }
 
+void draw_moment(PreviewModel& model, const Moment& moment, const PanelFacts& facts) {
+  draw_time(model, moment, facts);
+  draw_buttons(model, facts);
+  if (ImGui::CollapsingHeader("workflow", ImGuiTreeNodeFlags_DefaultOpen)) {
+    draw_step(moment);
+  }
+  if (ImGui::CollapsingHeader("tracking", ImGuiTreeNodeFlags_DefaultOpen)) {
+    draw_tools(moment);
+  }
+  if (ImGui::CollapsingHeader("holograms", ImGuiTreeNodeFlags_DefaultOpen)) {
+    draw_holograms(model);
+  }
+  if (ImGui::CollapsingHeader("timings")) {
+    draw_timings(moment, facts);
+  }
+}
+
 }  // namespace
 
 void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& error_model) {
@@ -236,24 +253,10 @@ void draw_panel(PreviewModel& model, const PanelFacts& facts, sim::ErrorModel& e
   text(facts.headset);
   ImGui::SameLine(230.0f);
   ImGui::TextColored(kDim, "h: keys");
-  const Moment* moment = facts.moment.get();
-  if (!moment) {
-    ImGui::TextColored(kFair, "waiting for the first pair");
+  if (facts.moment) {
+    draw_moment(model, *facts.moment, facts);
   } else {
-    draw_time(model, *moment, facts);
-    draw_buttons(model, facts);
-    if (ImGui::CollapsingHeader("workflow", ImGuiTreeNodeFlags_DefaultOpen)) {
-      draw_step(*moment);
-    }
-    if (ImGui::CollapsingHeader("tracking", ImGuiTreeNodeFlags_DefaultOpen)) {
-      draw_tools(*moment);
-    }
-    if (ImGui::CollapsingHeader("holograms", ImGuiTreeNodeFlags_DefaultOpen)) {
-      draw_holograms(model);
-    }
-    if (ImGui::CollapsingHeader("timings")) {
-      draw_timings(*moment, facts);
-    }
+    ImGui::TextColored(kFair, "waiting for the first pair");
   }
   if (facts.running && ImGui::CollapsingHeader("error sources")) {
     draw_error_sources(model, facts, error_model);

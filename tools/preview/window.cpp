@@ -99,9 +99,23 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, int width
 
 Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
     : glfw_(std::move(glfw)), input_(std::move(input)) {
+  // Set before Dear ImGui's callbacks, which forward to these.
+  watch_input();
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  set_look_and_feel();
+  ImGui_ImplGlfw_InitForOpenGL(glfw_->window, true);
+  ImGui_ImplOpenGL2_Init();
+  glfw_->imgui = true;
+  glGenTextures(1, &texture_);
+  poll(0.0);
+}
+
+/// Keys and mouse, where Dear ImGui does not want them.
+void Window::watch_input() {
   GLFWwindow* window = glfw_->window;
   glfwSetWindowUserPointer(window, this);
-  // Set before Dear ImGui's callbacks, which forward to these.
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
     const auto known = key_of_glfw(key);
@@ -130,15 +144,6 @@ Window::Window(std::unique_ptr<Glfw> glfw, WindowInput input)
       self->input_.scroll(steps);
     }
   });
-  IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;
-  set_look_and_feel();
-  ImGui_ImplGlfw_InitForOpenGL(window, true);
-  ImGui_ImplOpenGL2_Init();
-  glfw_->imgui = true;
-  glGenTextures(1, &texture_);
-  poll(0.0);
 }
 
 Window::~Window() {

@@ -54,6 +54,7 @@ class Window {
  private:
   struct Glfw;
   Window(std::unique_ptr<Glfw> glfw, WindowInput input);
+  void watch_input();
   void place_picture(int panel_px);
 
   std::unique_ptr<Glfw> glfw_;

@@ -6,13 +6,11 @@
 #include <sphinxbase/err.h>
 
 #include <algorithm>
-#include <array>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <numeric>
 
 #include "engine/session/spoken_commands.h"
 #include "hal/voice/adapted_means.h"
@@ -23,6 +21,7 @@
 #include "hal/voice/speech_cleaner.h"
 #include "tests/support/noisy_speech.h"
 #include "tools/voice/phrase_in_room.h"
+#include "tools/voice/sphinx_mixture.h"
 #include "tools/voice/voice_sets.h"
 
 namespace orthonav::bench {
@@ -151,34 +150,57 @@ std::vector<std::int16_t> heard(const std::string& phrase, const std::string& vo
   return cleaned(segments.front().samples, kBackgroundSamples);
 }
 
-void write_corpus(const Options& options) {
-  Aligner aligner(options);
-  Random random(131);
-  std::string names;
-  std::string transcription;
-  int count = 0;
-  const auto add = [&](const std::string& phrase, const std::string& voice) {
-    std::vector<Cepstrum> cepstra = cepstra_of(aligner.front_end(), heard(phrase, voice, random));
-    const std::string words = cepstra.empty() ? "" : aligner.words_of(phrase, cepstra);
+/// What the recogniser hears, phrase by phrase, as sphinxtrain wants it.
+class Corpus {
+ public:
+  explicit Corpus(const Options& options) : folder_(options.folder), aligner_(options) {}
+
+  /// Leaves out what no pronunciation fits.
+  void add(const std::string& phrase, const std::string& voice) {
+    std::vector<Cepstrum> cepstra = cepstra_of(aligner_.front_end(), heard(phrase, voice, random_));
+    const std::string words = cepstra.empty() ? "" : aligner_.words_of(phrase, cepstra);
     if (words.empty()) {
       return;
     }
-    const std::string name = "phrase-" + std::to_string(count++);
+    const std::string name = "phrase-" + std::to_string(count_++);
     std::string file;
     put(file, static_cast<std::int32_t>(cepstra.size() * cepstra.front().size()));
     for (const Cepstrum& cepstrum : cepstra) {
       put(file, cepstrum);
     }
-    write_file(options.folder + "/" + name + ".mfc", file);
-    names += name + "\n";
-    transcription += "<s> " + words + " </s> (" + name + ")\n";
-  };
+    write_file(folder_ + "/" + name + ".mfc", file);
+    names_ += name + "\n";
+    transcription_ += "<s> " + words + " </s> (" + name + ")\n";
+  }
+  void write_lists() const {
+    std::string dictionary;
+    for (const Pronunciation& p : kSpoken) {
+      dictionary += std::string(p.word) + " " + std::string(p.sounds) + "\n";
+    }
+    write_file(folder_ + "/names", names_);
+    write_file(folder_ + "/transcription", transcription_);
+    write_file(folder_ + "/dictionary", dictionary);
+    std::printf("%d phrases\n", count_);
+  }
+
+ private:
+  std::string folder_;
+  Aligner aligner_;
+  Random random_{131};
+  std::string names_;
+  std::string transcription_;
+  int count_ = 0;
+};
+
+void write_corpus(const Options& options) {
+  Corpus corpus(options);
   std::size_t voice = 0;
   for (const std::string_view variant : kTrainingVariants) {
     for (std::size_t accent = 0; accent < std::size(kTrainingAccents) / 2; ++accent) {
       for (const std::string& command : engine::spoken_commands()) {
         for (const char* wake : {"", "", "ortho ", "ortho "}) {
-          add(wake + command,
+          corpus.add(
+              wake + command,
               std::string(kTrainingAccents[(voice + 2 * accent) % std::size(kTrainingAccents)]) +
                   "+" + std::string(variant));
         }
@@ -186,14 +208,7 @@ void write_corpus(const Options& options) {
     }
     ++voice;
   }
-  std::string dictionary;
-  for (const Pronunciation& p : kSpoken) {
-    dictionary += std::string(p.word) + " " + std::string(p.sounds) + "\n";
-  }
-  write_file(options.folder + "/names", names);
-  write_file(options.folder + "/transcription", transcription);
-  write_file(options.folder + "/dictionary", dictionary);
-  std::printf("%d phrases\n", count);
+  corpus.write_lists();
 }
 
 MixtureWeights own_mixture_weights() {
@@ -204,83 +219,13 @@ MixtureWeights own_mixture_weights() {
   return std::move(*own);
 }
 
-/// The weights of one stream of a senone.
-std::vector<double> fractions_of(const MixtureWeights& weights, int stream, int senone) {
-  std::vector<double> fractions;
-  for (int density = 0; density < weights.densities; ++density) {
-    fractions.push_back(fraction_of(
-        static_cast<std::uint8_t>(weights.values[weights.at(stream, density, senone)])));
-  }
-  const double sum = std::accumulate(fractions.begin(), fractions.end(), 0.0);
-  for (double& fraction : fractions) {
-    fraction /= sum;
-  }
-  return fractions;
-}
-
-/// The numbers that precede the weights in a file of sphinxtrain's.
-std::array<std::int32_t, 4> sphinx_shape_of(const MixtureWeights& weights) {
-  return {weights.senones, weights.streams, weights.densities,
-          static_cast<std::int32_t>(weights.values.size())};
-}
-
-/// In sphinxtrain's format: fractions instead of 8 bits of their logarithms, senones first.
-void write_mixture_weights(const std::string& path) {
-  const MixtureWeights own = own_mixture_weights();
-  std::string out = sphinx_file_start();
-  for (const int number : sphinx_shape_of(own)) {
-    put(out, number);
-  }
-  for (int senone = 0; senone < own.senones; ++senone) {
-    for (int stream = 0; stream < own.streams; ++stream) {
-      for (const double fraction : fractions_of(own, stream, senone)) {
-        put(out, static_cast<float>(fraction));
-      }
-    }
-  }
-  write_file(path, out);
-}
-
-/// sphinxtrain moves the weights of a senone that nothing was said in by half of this.
-constexpr double kUntouched = 1e-3;
-
-/// From sphinxtrain's results: the weights, or counts of them, in the same order.
 void write_mixture_change(const Options& options) {
-  const MixtureWeights own = own_mixture_weights();
-  const std::string content = model_file(options.adapted_mixture);
-  std::string_view rest = after_sphinx_file_start(content).value_or("");
-  bool fits = true;
-  for (const int number : sphinx_shape_of(own)) {
-    fits = fits && take<std::int32_t>(rest) == number;
+  const auto change = sphinx_mixture_change(own_mixture_weights(), options.adapted_mixture,
+                                            options.mixture_fraction);
+  if (!change) {
+    give_up(change.error().message);
   }
-  if (!fits || rest.size() < own.values.size() * sizeof(float)) {
-    give_up(options.adapted_mixture + " is another model's");
-  }
-  MixtureWeights adapted = own;
-  for (int senone = 0; senone < own.senones; ++senone) {
-    for (int stream = 0; stream < own.streams; ++stream) {
-      const std::vector<double> before = fractions_of(own, stream, senone);
-      std::vector<double> after;
-      for (int i = 0; i < own.densities; ++i) {
-        after.push_back(take<float>(rest));
-      }
-      const double sum = std::accumulate(after.begin(), after.end(), 0.0);
-      double most = 0.0;
-      for (std::size_t i = 0; i < after.size(); ++i) {
-        after[i] = sum > 0.0 ? after[i] / sum : before[i];
-        most = std::max(most, std::abs(after[i] - before[i]));
-        after[i] = std::lerp(before[i], after[i], options.mixture_fraction);
-      }
-      if (most < kUntouched) {
-        continue;
-      }
-      for (int i = 0; i < own.densities; ++i) {
-        adapted.values[own.at(stream, i, senone)] =
-            static_cast<char>(quantised_weight(after[static_cast<std::size_t>(i)]));
-      }
-    }
-  }
-  write_file(options.mixture_change, mixture_weights_change(own, adapted));
+  write_file(options.mixture_change, *change);
 }
 
 void write_change(const Options& options) {
@@ -317,7 +262,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   using namespace orthonav::bench;
   if (!options.mixture.empty()) {
-    write_mixture_weights(options.mixture);
+    write_file(options.mixture, sphinx_mixture_weights(own_mixture_weights()));
   }
   if (!options.folder.empty()) {
     write_corpus(options);
