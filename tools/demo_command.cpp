@@ -19,6 +19,7 @@
 #include "tools/out_folder.h"
 #include "tools/progress.h"
 #include "tools/reading_curves.h"
+#include "tools/run_files.h"
 #include "tools/step_pictures.h"
 #include "tools/stopped_run.h"
 #include "tools/surgeon_view.h"
@@ -113,7 +114,7 @@ class Demo {
     if (!levels) {
       return bad_input("--levels: " + levels.error().message);
     }
-    if (const Status ready = prepare(source->name); !ready) {
+    if (const Status ready = prepare(*source, *levels); !ready) {
       return bad_input(ready.error().message);
     }
     auto result = operate(*source);
@@ -157,7 +158,7 @@ class Demo {
     return bad_input(reason);
   }
 
-  Status prepare(const std::string& case_name) {
+  Status prepare(const engine::Case& source, const std::vector<std::string>& levels) {
     SurgeonViewOptions view_options;
     view_options.device = arguments_.device;
     auto view = SurgeonView::create(view_options);
@@ -170,9 +171,12 @@ class Demo {
       return out.error();
     }
     out_.emplace(std::move(*out));
-    auto journal = engine::Journal::create(
-        out_->file("session.orthonav"),
-        {ORTHONAV_VERSION, "sim:", arguments_.method, case_name, arguments_.seed});
+    engine::JournalHeader header{
+        ORTHONAV_VERSION, "sim:", arguments_.method, source.name, arguments_.seed, 0, {}};
+    for (const std::string& label : levels) {
+      header.levels.push_back(engine::planned(label, source.find(label)->screws));
+    }
+    auto journal = engine::Journal::create(out_->file("session.orthonav"), header);
     if (!journal) {
       return journal.error();
     }
@@ -228,6 +232,7 @@ class Demo {
     note(engine::write_file(out_->file("report.json"), engine::report_json(result)));
     note(engine::write_file(out_->file("timing.json"), engine::timing_json(result.loop)));
     note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));
+    tell_of_earlier(*journal_);
     note(pictures_.finish());
     const bool film = video_ && note(video_->finish());
     const DemoReport report{.perfect = arguments_.perfect,

@@ -201,9 +201,20 @@ class LiveRun {
     if (arguments_.out.empty()) {
       return {};
     }
-    const Status opened = files_.open_journal(
-        arguments_.out, {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_,
-                         room_ ? room_->options().seed : 0, headset_->epoch_ticks_100ns()});
+    engine::JournalHeader header{ORTHONAV_VERSION,
+                                 headset_->name(),
+                                 method_.name,
+                                 case_name_,
+                                 0,
+                                 headset_->epoch_ticks_100ns(),
+                                 {}};
+    if (room_) {
+      header.seed = room_->options().seed;
+    }
+    for (const engine::LevelState& level : operation_->session().levels()) {
+      header.levels.push_back(engine::planned(level.plan.label, level.plan.screws));
+    }
+    const Status opened = files_.open_journal(arguments_.out, header);
     if (opened) {
       operation_->observe(files_.journal());
       models_.keep();
