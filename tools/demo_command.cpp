@@ -46,8 +46,7 @@ struct DemoArguments {
   std::optional<double> pace;
 };
 
-/// Every n-th displayed frame becomes a picture: an operation of ten minutes then makes a video of
-/// under a minute at 20 pictures per second.
+/// Every n-th displayed frame becomes a picture: ten minutes make a film of under a minute.
 constexpr int kDrawEvery = 15;
 constexpr int kVideoRate = 20;
 
@@ -98,8 +97,10 @@ Status remove_earlier_results(const fs::path& folder) {
 /// Everything that a demo needs besides the operation itself; made before anything is written.
 class Demo {
  public:
-  explicit Demo(DemoArguments arguments)
-      : arguments_(std::move(arguments)), pictures_(arguments_.out) {}
+  Demo(DemoArguments arguments, StopSignals& signals)
+      : arguments_(std::move(arguments)), signals_(signals), pictures_(arguments_.out) {
+    signals_.let_finish();
+  }
 
   int run() {
     const auto method = engine::method_named(arguments_.method);
@@ -245,7 +246,7 @@ class Demo {
   }
 
   DemoArguments arguments_;
-  StopSignals signals_;           ///< before any thread
+  StopSignals& signals_;
   bool began_ = false;            ///< the room is open, the first pair is next
   std::optional<OutFolder> out_;  ///< destroyed last: the files in it are dropped first
   std::unique_ptr<SurgeonView> view_;
@@ -258,7 +259,7 @@ class Demo {
 
 }  // namespace
 
-void add_demo_command(CLI::App& app, Action& action) {
+void add_demo_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<DemoArguments>();
   auto* demo = app.add_subcommand(
       "demo", "A whole navigated operation in the simulated room, from camera frames to holograms");
@@ -291,7 +292,9 @@ void add_demo_command(CLI::App& app, Action& action) {
       ->check(finite_number(0.5, 4))
       ->group("");
   demo->add_flag("--json", arguments->json, "print the report as JSON");
-  demo->callback([arguments, &action] { action = [arguments] { return Demo(*arguments).run(); }; });
+  demo->callback([arguments, &action, &signals] {
+    action = [arguments, &signals] { return Demo(*arguments, signals).run(); };
+  });
 }
 
 }  // namespace orthonav::tools

@@ -34,7 +34,10 @@ namespace {
 /// Opens everything, then runs; members stand in the order in which they borrow from one another.
 class LiveRun {
  public:
-  explicit LiveRun(RunArguments arguments) : arguments_(std::move(arguments)) {}
+  LiveRun(RunArguments arguments, StopSignals& signals)
+      : arguments_(std::move(arguments)), signals_(signals) {
+    signals_.let_finish();
+  }
 
   int run() {
     if (const Status opened = open(); !opened) {
@@ -236,7 +239,7 @@ class LiveRun {
   }
 
   RunArguments arguments_;
-  StopSignals signals_;  ///< before any thread
+  StopSignals& signals_;
   engine::Method method_;
   engine::ModelCache models_;
   std::string case_name_;
@@ -252,6 +255,8 @@ class LiveRun {
 
 }  // namespace
 
-int run_live(const RunArguments& arguments) { return LiveRun(arguments).run(); }
+int run_live(const RunArguments& arguments, StopSignals& signals) {
+  return LiveRun(arguments, signals).run();
+}
 
 }  // namespace orthonav::tools
