@@ -14,26 +14,30 @@ inline constexpr int kBadInput = 2;
 /// What main runs once the command line is parsed; a subcommand's callback sets it.
 using Action = std::function<int()>;
 
+class StopSignals;
+
 /// One line on standard error, then the exit code for bad input.
 int bad_input(const std::string& message);
 
-// Each adds its subcommand to `app`; one file a subcommand.
+// Each adds its subcommand to `app`; one file a subcommand. Those that take the signals finish what
+// they are at when they are to stop; the others end at once.
 void add_calibrate_command(CLI::App& app, Action& action);
 void add_accuracy_command(CLI::App& app, Action& action);
-void add_demo_command(CLI::App& app, Action& action);
+void add_demo_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_depth_command(CLI::App& app, Action& action);
 void add_detect_command(CLI::App& app, Action& action);
 void add_doctor_command(CLI::App& app, Action& action);
 void add_golden_command(CLI::App& app, Action& action);
-void add_preview_command(CLI::App& app, Action& action);
+void add_preview_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_print_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_recording_command(CLI::App& app, Action& action);
 void add_register_command(CLI::App& app, Action& action);
+void add_report_command(CLI::App& app, Action& action);
 void add_rod_command(CLI::App& app, Action& action);
-void add_run_command(CLI::App& app, Action& action);
-void add_serve_hl2ss_command(CLI::App& app, Action& action);
-void add_study_command(CLI::App& app, Action& action);
+void add_run_command(CLI::App& app, Action& action, StopSignals& signals);
+void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals);
+void add_study_command(CLI::App& app, Action& action, StopSignals& signals);
 void add_track_command(CLI::App& app, Action& action);
 
 }  // namespace orthonav::tools

@@ -19,6 +19,7 @@
 #include "tools/out_folder.h"
 #include "tools/progress.h"
 #include "tools/reading_curves.h"
+#include "tools/run_files.h"
 #include "tools/step_pictures.h"
 #include "tools/stopped_run.h"
 #include "tools/surgeon_view.h"
@@ -45,8 +46,7 @@ struct DemoArguments {
   std::optional<double> pace;
 };
 
-/// Every n-th displayed frame becomes a picture: an operation of ten minutes then makes a video of
-/// under a minute at 20 pictures per second.
+/// Every n-th displayed frame becomes a picture: ten minutes make a film of under a minute.
 constexpr int kDrawEvery = 15;
 constexpr int kVideoRate = 20;
 
@@ -97,8 +97,10 @@ Status remove_earlier_results(const fs::path& folder) {
 /// Everything that a demo needs besides the operation itself; made before anything is written.
 class Demo {
  public:
-  explicit Demo(DemoArguments arguments)
-      : arguments_(std::move(arguments)), pictures_(arguments_.out) {}
+  Demo(DemoArguments arguments, StopSignals& signals)
+      : arguments_(std::move(arguments)), signals_(signals), pictures_(arguments_.out) {
+    signals_.let_finish();
+  }
 
   int run() {
     const auto method = engine::method_named(arguments_.method);
@@ -113,7 +115,7 @@ class Demo {
     if (!levels) {
       return bad_input("--levels: " + levels.error().message);
     }
-    if (const Status ready = prepare(source->name); !ready) {
+    if (const Status ready = prepare(*source, *levels); !ready) {
       return bad_input(ready.error().message);
     }
     auto result = operate(*source);
@@ -157,7 +159,7 @@ class Demo {
     return bad_input(reason);
   }
 
-  Status prepare(const std::string& case_name) {
+  Status prepare(const engine::Case& source, const std::vector<std::string>& levels) {
     SurgeonViewOptions view_options;
     view_options.device = arguments_.device;
     auto view = SurgeonView::create(view_options);
@@ -170,9 +172,12 @@ class Demo {
       return out.error();
     }
     out_.emplace(std::move(*out));
-    auto journal = engine::Journal::create(
-        out_->file("session.orthonav"),
-        {ORTHONAV_VERSION, "sim:", arguments_.method, case_name, arguments_.seed});
+    engine::JournalHeader header{
+        ORTHONAV_VERSION, "sim:", arguments_.method, source.name, arguments_.seed, 0, {}};
+    for (const std::string& label : levels) {
+      header.levels.push_back(engine::planned(label, source.find(label)->screws));
+    }
+    auto journal = engine::Journal::create(out_->file("session.orthonav"), header);
     if (!journal) {
       return journal.error();
     }
@@ -228,6 +233,7 @@ class Demo {
     note(engine::write_file(out_->file("report.json"), engine::report_json(result)));
     note(engine::write_file(out_->file("timing.json"), engine::timing_json(result.loop)));
     note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));
+    tell_of_earlier(*journal_);
     note(pictures_.finish());
     const bool film = video_ && note(video_->finish());
     const DemoReport report{.perfect = arguments_.perfect,
@@ -240,7 +246,7 @@ class Demo {
   }
 
   DemoArguments arguments_;
-  StopSignals signals_;           ///< before any thread
+  StopSignals& signals_;
   bool began_ = false;            ///< the room is open, the first pair is next
   std::optional<OutFolder> out_;  ///< destroyed last: the files in it are dropped first
   std::unique_ptr<SurgeonView> view_;
@@ -253,7 +259,7 @@ class Demo {
 
 }  // namespace
 
-void add_demo_command(CLI::App& app, Action& action) {
+void add_demo_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<DemoArguments>();
   auto* demo = app.add_subcommand(
       "demo", "A whole navigated operation in the simulated room, from camera frames to holograms");
@@ -286,7 +292,9 @@ void add_demo_command(CLI::App& app, Action& action) {
       ->check(finite_number(0.5, 4))
       ->group("");
   demo->add_flag("--json", arguments->json, "print the report as JSON");
-  demo->callback([arguments, &action] { action = [arguments] { return Demo(*arguments).run(); }; });
+  demo->callback([arguments, &action, &signals] {
+    action = [arguments, &signals] { return Demo(*arguments, signals).run(); };
+  });
 }
 
 }  // namespace orthonav::tools

@@ -34,7 +34,10 @@ namespace {
 /// Opens everything, then runs; members stand in the order in which they borrow from one another.
 class LiveRun {
  public:
-  explicit LiveRun(RunArguments arguments) : arguments_(std::move(arguments)) {}
+  LiveRun(RunArguments arguments, StopSignals& signals)
+      : arguments_(std::move(arguments)), signals_(signals) {
+    signals_.let_finish();
+  }
 
   int run() {
     if (const Status opened = open(); !opened) {
@@ -201,9 +204,20 @@ class LiveRun {
     if (arguments_.out.empty()) {
       return {};
     }
-    const Status opened = files_.open_journal(
-        arguments_.out, {ORTHONAV_VERSION, headset_->name(), method_.name, case_name_,
-                         room_ ? room_->options().seed : 0, headset_->epoch_ticks_100ns()});
+    engine::JournalHeader header{ORTHONAV_VERSION,
+                                 headset_->name(),
+                                 method_.name,
+                                 case_name_,
+                                 0,
+                                 headset_->epoch_ticks_100ns(),
+                                 {}};
+    if (room_) {
+      header.seed = room_->options().seed;
+    }
+    for (const engine::LevelState& level : operation_->session().levels()) {
+      header.levels.push_back(engine::planned(level.plan.label, level.plan.screws));
+    }
+    const Status opened = files_.open_journal(arguments_.out, header);
     if (opened) {
       operation_->observe(files_.journal());
       models_.keep();
@@ -225,7 +239,7 @@ class LiveRun {
   }
 
   RunArguments arguments_;
-  StopSignals signals_;  ///< before any thread
+  StopSignals& signals_;
   engine::Method method_;
   engine::ModelCache models_;
   std::string case_name_;
@@ -241,6 +255,8 @@ class LiveRun {
 
 }  // namespace
 
-int run_live(const RunArguments& arguments) { return LiveRun(arguments).run(); }
+int run_live(const RunArguments& arguments, StopSignals& signals) {
+  return LiveRun(arguments, signals).run();
+}
 
 }  // namespace orthonav::tools

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/stop_signals.h"
+
 namespace orthonav::tools {
 
 /// The arguments of `orthonav run`.
@@ -25,6 +27,6 @@ struct RunArguments {
 
 /// Runs an operation on the headset asked for, from opening it to the files left at the end.
 /// Returns the exit code.
-int run_live(const RunArguments& arguments);
+int run_live(const RunArguments& arguments, StopSignals& signals);
 
 }  // namespace orthonav::tools

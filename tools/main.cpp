@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tools/command.h"
+#include "tools/stop_signals.h"
 
 namespace orthonav::tools {
 
@@ -49,26 +50,28 @@ int with_output_written(int code) {
 }
 
 int run(int argc, char** argv) {
+  StopSignals signals;  // before any thread
   CLI::App app{"orthonav: standalone mixed-reality navigation for orthopaedic surgery", "orthonav"};
   app.require_subcommand(1);
   app.set_version_flag("--version", ORTHONAV_VERSION);
   Action action;
   add_calibrate_command(app, action);
   add_accuracy_command(app, action);
-  add_demo_command(app, action);
+  add_demo_command(app, action, signals);
   add_depth_command(app, action);
   add_detect_command(app, action);
   add_doctor_command(app, action);
   add_golden_command(app, action);
-  add_preview_command(app, action);
+  add_preview_command(app, action, signals);
   add_print_command(app, action);
   add_recording_command(app, action);
   add_register_command(app, action);
   add_render_command(app, action);
+  add_report_command(app, action);
   add_rod_command(app, action);
-  add_run_command(app, action);
-  add_serve_hl2ss_command(app, action);
-  add_study_command(app, action);
+  add_run_command(app, action, signals);
+  add_serve_hl2ss_command(app, action, signals);
+  add_study_command(app, action, signals);
   add_track_command(app, action);
   try {
     app.parse(argc, argv);

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -7,6 +8,7 @@
 #include "tools/command.h"
 #include "tools/model_notes.h"
 #include "tools/preview/preview_app.h"
+#include "tools/stopped_run.h"
 
 namespace orthonav::tools {
 namespace {
@@ -46,7 +48,7 @@ Result<preview::OperationSource> source_of(const PreviewArguments& arguments) {
   return source;
 }
 
-int preview_window(PreviewArguments arguments) {
+int preview_window(PreviewArguments arguments, StopSignals& signals) {
   auto source = source_of(arguments);
   if (!source) {
     return bad_input(source.error().message);
@@ -81,7 +83,15 @@ int preview_window(PreviewArguments arguments) {
   if (const Status opened = app.open_operation(std::move(*source)); !opened) {
     return bad_input(opened.error().message);
   }
+  signals.on_stop([&app] { app.quit(); });
   const Status done = app.run();
+  signals.on_stop(nullptr);
+  if (signals.caught()) {
+    std::error_code ignored;
+    const bool wrote = std::filesystem::exists(arguments.options.out, ignored);
+    tell_what_is_kept(signals, {wrote ? arguments.options.out : std::string()});
+    return signals.exit_code();
+  }
   return done ? kDone : bad_input(done.error().message);
 }
 
@@ -129,7 +139,7 @@ void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArgument
 
 }  // namespace
 
-void add_preview_command(CLI::App& app, Action& action) {
+void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<PreviewArguments>();
   auto* preview = app.add_subcommand(
       "preview", "A window with the holograms over the simulated room or a recording");
@@ -159,8 +169,9 @@ void add_preview_command(CLI::App& app, Action& action) {
   preview->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
       ->check(finite_number(0.5, 4))
       ->group("");
-  preview->callback(
-      [arguments, &action] { action = [arguments] { return preview_window(*arguments); }; });
+  preview->callback([arguments, &action, &signals] {
+    action = [arguments, &signals] { return preview_window(*arguments, signals); };
+  });
 }
 
 }  // namespace orthonav::tools

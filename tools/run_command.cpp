@@ -8,7 +8,7 @@
 
 namespace orthonav::tools {
 
-void add_run_command(CLI::App& app, Action& action) {
+void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<RunArguments>();
   auto* run = app.add_subcommand("run", "An operation with a headset, simulated or recorded");
   run->add_option("--headset", arguments->headset,
@@ -47,7 +47,9 @@ void add_run_command(CLI::App& app, Action& action) {
   run->add_flag("--stats", arguments->stats,
                 "print frame intervals, ages from capture to photon and tracking times");
   run->add_flag("--json", arguments->json, "print the report as JSON");
-  run->callback([arguments, &action] { action = [arguments] { return run_live(*arguments); }; });
+  run->callback([arguments, &action, &signals] {
+    action = [arguments, &signals] { return run_live(*arguments, signals); };
+  });
 }
 
 }  // namespace orthonav::tools

@@ -1,5 +1,6 @@
 #include "tools/run_files.h"
 
+#include <cstdio>
 #include <utility>
 
 #include "engine/case/tool_file.h"
@@ -7,6 +8,13 @@
 #include "tools/demo_report.h"
 
 namespace orthonav::tools {
+
+void tell_of_earlier(const engine::Journal& journal) {
+  if (!journal.earlier_kept_as().empty()) {
+    std::fprintf(stderr, "orthonav: the journal of an earlier session is kept as %s\n",
+                 journal.earlier_kept_as().c_str());
+  }
+}
 
 Status RunFiles::open_journal(const std::string& folder, const engine::JournalHeader& header) {
   auto out = OutFolder::create("--out", folder);
@@ -49,6 +57,7 @@ Status RunFiles::finish(const engine::OperationResult& result, const std::string
   }
   if (journal_) {
     note(journal_->finish({result.loop.last_frame, result.completed ? "" : result.why_not}));
+    tell_of_earlier(*journal_);
   }
   if (recorder_) {
     note(recorder_->close());

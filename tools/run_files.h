@@ -13,6 +13,9 @@
 
 namespace orthonav::tools {
 
+/// Says on standard error where journals of earlier sessions in the same folder are, if there were.
+void tell_of_earlier(const engine::Journal& journal);
+
 /// What `run` leaves behind: journal and reports in one folder, a recording in another, each only
 /// where it was asked for.
 class RunFiles {

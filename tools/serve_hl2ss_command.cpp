@@ -12,6 +12,7 @@
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
+#include "tools/stop_signals.h"
 
 namespace orthonav::tools {
 namespace {
@@ -63,7 +64,7 @@ void say_where(const hl2ss::Server& server, const hl2ss::ServerOptions& options)
 }
 
 /// Reports the beginning and end of each session, until there were enough.
-int watch(const hl2ss::Server& server, std::int64_t sessions) {
+int watch(const hl2ss::Server& server, std::int64_t sessions, const StopSignals& signals) {
   bool was_streaming = false;
   std::int64_t pairs_before = 0;
   std::int64_t faults_before = 0;
@@ -85,6 +86,12 @@ int watch(const hl2ss::Server& server, std::int64_t sessions) {
       return bad_input(report.last_trouble);
     }
     was_streaming = report.is_streaming;
+    if (const auto signal = signals.caught()) {
+      std::fprintf(stderr, "orthonav: stopped by %s after %lld sessions, %lld pairs\n",
+                   signal->c_str(), static_cast<long long>(report.sessions),
+                   static_cast<long long>(report.pairs));
+      return signals.exit_code();
+    }
     if (sessions > 0 && report.sessions >= sessions && !report.is_streaming) {
       // The last packets are still on their way.
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
@@ -93,7 +100,7 @@ int watch(const hl2ss::Server& server, std::int64_t sessions) {
   }
 }
 
-int serve(ServeArguments arguments) {
+int serve(ServeArguments arguments, StopSignals& signals) {
   const auto faults = hl2ss::faults_of(arguments.faults);
   if (!faults) {
     return bad_input("--faults: " + faults.error().message);
@@ -108,8 +115,9 @@ int serve(ServeArguments arguments) {
   if (!server) {
     return bad_input(server.error().message);
   }
+  signals.let_finish();
   say_where(**server, arguments.server);
-  return watch(**server, arguments.sessions);
+  return watch(**server, arguments.sessions, signals);
 }
 
 /// What a real headset does wrong, and the stand-in only when asked.
@@ -132,7 +140,7 @@ void add_faults(CLI::App& serve, ServeArguments& arguments) {
 
 }  // namespace
 
-void add_serve_hl2ss_command(CLI::App& app, Action& action) {
+void add_serve_hl2ss_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<ServeArguments>();
   auto* serve_hl2ss = app.add_subcommand(
       "serve-hl2ss", "A stand-in for a HoloLens 2: a simulated operation over hl2ss's protocol");
@@ -166,8 +174,9 @@ void add_serve_hl2ss_command(CLI::App& app, Action& action) {
       ->add_option("--sessions", arguments->sessions, "end after so many sessions (0: no end)")
       ->check(whole_number(0))
       ->capture_default_str();
-  serve_hl2ss->callback(
-      [arguments, &action] { action = [arguments] { return serve(*arguments); }; });
+  serve_hl2ss->callback([arguments, &action, &signals] {
+    action = [arguments, &signals] { return serve(*arguments, signals); };
+  });
 }
 
 }  // namespace orthonav::tools

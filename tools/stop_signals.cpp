@@ -13,6 +13,8 @@ constexpr int kOver = SIGUSR1;
 /// As a shell says it of a program that a signal ended.
 constexpr int kEndedBySignal = 128;
 
+const char* name_of_signal(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
+
 }  // namespace
 
 StopSignals::StopSignals() {
@@ -30,17 +32,28 @@ StopSignals::~StopSignals() {
   pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
 }
 
+void StopSignals::let_finish() {
+  const MutexLock lock(mutex_);
+  finishes_ = true;
+}
+
 void StopSignals::on_stop(std::function<void()> stop) {
   const MutexLock lock(mutex_);
+  finishes_ = true;
   stop_ = std::move(stop);
-  if (stop_ && caught_) {
+  if (stop_ && caught_ != 0) {
     stop_();
   }
 }
 
 std::optional<std::string> StopSignals::caught() const {
   const MutexLock lock(mutex_);
-  return caught_;
+  return caught_ == 0 ? std::nullopt : std::optional<std::string>(name_of_signal(caught_));
+}
+
+int StopSignals::exit_code() const {
+  const MutexLock lock(mutex_);
+  return caught_ == 0 ? 0 : kEndedBySignal + caught_;
 }
 
 void StopSignals::wait() {
@@ -58,12 +71,17 @@ void StopSignals::wait() {
 
 void StopSignals::take(int signal) {
   const MutexLock lock(mutex_);
-  if (caught_) {
+  if (caught_ != 0) {
     _exit(kEndedBySignal + signal);
   }
-  caught_ = signal == SIGINT ? "SIGINT" : "SIGTERM";
+  if (!finishes_) {
+    std::fprintf(stderr, "\northonav: stopped by %s; every file that it wrote is whole\n",
+                 name_of_signal(signal));
+    _exit(kEndedBySignal + signal);
+  }
+  caught_ = signal;
   std::fprintf(stderr, "\northonav: %s: finishing what was begun; once more ends at once\n",
-               caught_->c_str());
+               name_of_signal(signal));
   if (stop_) {
     stop_();
   }

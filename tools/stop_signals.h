@@ -10,9 +10,11 @@
 
 namespace orthonav::tools {
 
-/// What SIGINT (Ctrl-C) and SIGTERM do while it lives: the first asks for an end, so that what was
-/// begun is finished and its files are closed; the second ends the program at once. Make it before
-/// any other thread, since threads inherit that the signals are blocked.
+/// What SIGINT (Ctrl-C) and SIGTERM do to a command. They end it at once: files that it had not
+/// finished have no name yet and go with it. A command that would rather finish what it is at says
+/// so
+/// (`let_finish`, `on_stop`): then the first signal asks for an end, and the second ends it at
+/// once. Made by main before any other thread, since threads inherit that the signals are blocked.
 class StopSignals {
  public:
   StopSignals();
@@ -20,11 +22,16 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
-  /// Calls `stop` at the first signal, on a thread of its own; at once, where that was already.
-  /// Null: nobody is to be asked any more.
+  /// From now on the first signal only asks; the command looks at `caught`.
+  void let_finish();
+  /// The same, and calls `stop` at the first signal, on a thread of its own; at once, where that
+  /// was already. Null: nobody is to be asked any more.
   void on_stop(std::function<void()> stop);
   /// "SIGINT" or "SIGTERM"; absent before the first.
   [[nodiscard]] std::optional<std::string> caught() const;
+  /// What a command returns that a signal stopped, as a shell has it: 128 and the signal's number.
+  /// 0 before the first signal.
+  [[nodiscard]] int exit_code() const;
 
  private:
   void wait();
@@ -34,7 +41,8 @@ class StopSignals {
   sigset_t mask_before_{};
   mutable Mutex mutex_;
   std::function<void()> stop_ ORTHONAV_GUARDED_BY(mutex_);
-  std::optional<std::string> caught_ ORTHONAV_GUARDED_BY(mutex_);
+  int caught_ ORTHONAV_GUARDED_BY(mutex_) = 0;  ///< 0: none yet
+  bool finishes_ ORTHONAV_GUARDED_BY(mutex_) = false;
   std::thread waiter_;
 };
 

@@ -13,6 +13,7 @@
 #include "tools/command.h"
 #include "tools/count_progress.h"
 #include "tools/json_output.h"
+#include "tools/stop_signals.h"
 
 namespace orthonav::tools {
 namespace {
@@ -96,7 +97,23 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   return options;
 }
 
-int run_study(const StudyArguments& arguments) {
+/// What was made until a signal came is kept, if it is anything.
+int stopped(const StudyArguments& arguments, const engine::Study& study, StopSignals& signals) {
+  const std::string how_far = "orthonav: stopped by " + signals.caught().value_or("") + " after " +
+                              std::to_string(study.made) + " of " + std::to_string(study.planned) +
+                              " operations";
+  if (study.made == 0) {
+    std::fprintf(stderr, "%s; nothing was written\n", how_far.c_str());
+    return signals.exit_code();
+  }
+  if (const Status written = arguments.json.write_text(study.text); !written) {
+    return bad_input(written.error().message);
+  }
+  std::fprintf(stderr, "%s; they are kept, marked incomplete\n", how_far.c_str());
+  return signals.exit_code();
+}
+
+int run_study(const StudyArguments& arguments, StopSignals& signals) {
   const auto method = engine::method_named(arguments.method);
   if (!method) {
     return bad_input(method.error().message);
@@ -113,15 +130,21 @@ int run_study(const StudyArguments& arguments) {
     return bad_input(cases.error().message);
   }
   std::optional<CountProgress> progress;
-  const auto study = engine::run_study(*cases, *options, [&progress](int /*done*/, int all) {
+  const auto count = [&progress](int /*done*/, int all) {
     if (!progress) {
       progress.emplace("operations", all);
     }
     progress->add_one();
-  });
+  };
+  const auto study = engine::run_study(
+      *cases, *options, count,
+      [&signals](std::function<void()> stop) { signals.on_stop(std::move(stop)); });
   progress.reset();
   if (!study) {
     return bad_input(study.error().message);
+  }
+  if (study->made < study->planned) {
+    return stopped(arguments, *study, signals);
   }
   if (const Status written = arguments.json.write_text(study->text); !written) {
     return bad_input(written.error().message);
@@ -152,7 +175,7 @@ int merge(const StudyArguments& arguments) {
 
 }  // namespace
 
-void add_study_command(CLI::App& app, Action& action) {
+void add_study_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<StudyArguments>();
   auto* study = app.add_subcommand(
       "study", "Many simulated operations and the paper's Table 1 over them; merge joins shards");
@@ -185,9 +208,11 @@ void add_study_command(CLI::App& app, Action& action) {
   merge_command->add_option("files", arguments->merged, "results of shards")->required();
   arguments->merged_json.add_to(*merge_command);
   study->require_subcommand(0, 1);
-  study->callback([arguments, &action, merge_command] {
+  study->callback([arguments, &action, &signals, merge_command] {
     const bool merging = merge_command->parsed();
-    action = [arguments, merging] { return merging ? merge(*arguments) : run_study(*arguments); };
+    action = [arguments, &signals, merging] {
+      return merging ? merge(*arguments) : run_study(*arguments, signals);
+    };
   });
 }
 

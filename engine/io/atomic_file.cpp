@@ -27,6 +27,8 @@ fs::path followed(fs::path path) {
   return path;
 }
 
+std::string way_to(int file) { return "/proc/self/fd/" + std::to_string(file); }
+
 Status made_durable(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
@@ -41,9 +43,33 @@ Status made_durable(const std::string& path) {
   return {};
 }
 
+/// The descriptor of a file without a name in that folder, which /proc lets us open and link by
+/// its number; -1 where that can't be had.
+int nameless_file(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (file >= 0 && ::access(way_to(file).c_str(), W_OK) != 0) {
+    ::close(file);
+    return -1;
+  }
+  return file;
+}
+
+/// A free name beside the target: "report.part-4711-0.json".
+std::string name_beside(const fs::path& target, int attempt) {
+  const std::string name = target.stem().string() + ".part-" + std::to_string(::getpid()) + "-" +
+                           std::to_string(attempt) + target.extension().string();
+  return (target.parent_path() / name).string();
+}
+
+constexpr int kMostAttempts = 1000;
+
+Error too_many_beside(const std::string& path) {
+  return Error{path + ": 1000 unfinished writes lie beside it, remove them"};
+}
+
 }  // namespace
 
-Result<AtomicFile> AtomicFile::create(const std::string& path) {
+Result<AtomicFile> AtomicFile::create(const std::string& path, Staging staging) {
   if (path.empty()) {
     return Error{"a file to write has no name"};
   }
@@ -59,10 +85,13 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
   if (!fs::is_directory(folder, ignored)) {
     return Error{path + ": folder " + folder.string() + " does not exist"};
   }
-  const std::string stem = "." + target.stem().string() + ".part-" + std::to_string(::getpid());
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    const std::string name = stem + "-" + std::to_string(attempt) + target.extension().string();
-    const std::string beside = (folder / name).string();
+  if (staging == Staging::kNameless) {
+    if (const int file = nameless_file(folder); file >= 0) {
+      return AtomicFile(way_to(file), target.string(), file);
+    }
+  }
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    const std::string beside = name_beside(target, attempt);
     const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
       ::close(file);
@@ -72,12 +101,13 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
       return failed(path, "cannot be written", errno);
     }
   }
-  return Error{path + ": 1000 unfinished writes lie beside it, remove them"};
+  return too_many_beside(path);
 }
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : temporary_path_(std::move(other.temporary_path_)),
       final_path_(std::move(other.final_path_)),
+      nameless_(std::exchange(other.nameless_, -1)),
       open_(std::exchange(other.open_, false)) {}
 
 AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
@@ -87,6 +117,7 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
   drop();
   temporary_path_ = std::move(other.temporary_path_);
   final_path_ = std::move(other.final_path_);
+  nameless_ = std::exchange(other.nameless_, -1);
   open_ = std::exchange(other.open_, false);
   return *this;
 }
@@ -94,10 +125,30 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
 AtomicFile::~AtomicFile() { drop(); }
 
 void AtomicFile::drop() noexcept {
-  if (open_ && temporary_path_ != final_path_) {
+  if (nameless_ >= 0) {
+    ::close(std::exchange(nameless_, -1));
+  } else if (open_ && temporary_path_ != final_path_) {
     ::unlink(temporary_path_.c_str());
   }
   open_ = false;
+}
+
+/// A link replaces no file, a rename does: where the target exists, the file takes a name beside it
+/// for that moment.
+Status AtomicFile::take_a_name() {
+  for (int attempt = -1; attempt < kMostAttempts; ++attempt) {
+    const std::string name = attempt < 0 ? final_path_ : name_beside(final_path_, attempt);
+    if (::linkat(AT_FDCWD, temporary_path_.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) ==
+        0) {
+      temporary_path_ = name;
+      ::close(std::exchange(nameless_, -1));
+      return {};
+    }
+    if (errno != EEXIST) {
+      return failed(final_path_, "cannot be written", errno);
+    }
+  }
+  return too_many_beside(final_path_);
 }
 
 Status AtomicFile::commit() {
@@ -111,7 +162,13 @@ Status AtomicFile::commit() {
   if (Status durable = made_durable(temporary_path_); !durable) {
     return durable;
   }
-  if (::rename(temporary_path_.c_str(), final_path_.c_str()) != 0) {
+  if (nameless_ >= 0) {
+    if (Status named = take_a_name(); !named) {
+      return named;
+    }
+  }
+  if (temporary_path_ != final_path_ &&
+      ::rename(temporary_path_.c_str(), final_path_.c_str()) != 0) {
     return failed(final_path_, "cannot be written", errno);
   }
   open_ = false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -7,31 +8,43 @@
 
 namespace orthonav::engine {
 
-/// A file that appears completely or not at all: it is written beside its final name (same folder,
-/// same extension) and renamed by `commit`; without a commit nothing is left. A name that is no
-/// regular file (a terminal, a pipe) is written in place; a symbolic link is followed, not
-/// replaced.
+/// Where what is not whole yet lies.
+enum class Staging : std::uint8_t {
+  /// In a file without a name (O_TMPFILE), which goes away with the process however that ends;
+  /// where
+  /// the file system has none, kBeside.
+  kNameless,
+  kBeside,  ///< in the same folder, as STEM.part-PROCESS-N.EXTENSION
+};
+
+/// A file that appears completely or not at all: `commit` gives it its name; without a commit
+/// nothing is left. A name that is no regular file (a terminal, a pipe) is written in place; a
+/// symbolic link is followed, not replaced.
 class AtomicFile {
  public:
   /// Refuses an empty name, a missing or unwritable folder, and a folder in the file's place.
-  static Result<AtomicFile> create(const std::string& path);
+  static Result<AtomicFile> create(const std::string& path, Staging staging = Staging::kNameless);
   AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(AtomicFile&& other) noexcept;
   ~AtomicFile();
 
-  /// Where to write until the commit.
+  /// Where to write until the commit: to be opened by this process alone.
   [[nodiscard]] const std::string& temporary_path() const { return temporary_path_; }
   [[nodiscard]] const std::string& final_path() const { return final_path_; }
   /// Makes what was written durable and gives the file its name.
   Status commit();
 
  private:
-  AtomicFile(std::string temporary_path, std::string final_path)
-      : temporary_path_(std::move(temporary_path)), final_path_(std::move(final_path)) {}
+  AtomicFile(std::string temporary_path, std::string final_path, int nameless = -1)
+      : temporary_path_(std::move(temporary_path)),
+        final_path_(std::move(final_path)),
+        nameless_(nameless) {}
+  Status take_a_name();
   void drop() noexcept;
 
   std::string temporary_path_;
   std::string final_path_;
+  int nameless_ = -1;  ///< its descriptor; -1: it has a name, or is written in place
   bool open_ = true;
 };
 

@@ -144,6 +144,35 @@ int JsonNode::integer(const char* key) const {
   return static_cast<int>(value);
 }
 
+std::uint64_t JsonNode::unsigned_integer(const char* key) const {
+  const json* found = value_->find(key);
+  if (found == nullptr) {
+    return refuse(key, "is missing"), 0;
+  }
+  if (!found->is_number_unsigned()) {
+    return refuse(key, "must be a whole number from 0 on"), 0;
+  }
+  return found->get<std::uint64_t>();
+}
+
+std::vector<std::string> JsonNode::texts(const char* key) const {
+  std::vector<std::string> out;
+  const json* found = value_->find(key);
+  if (found == nullptr) {
+    return refuse(key, "is missing"), out;
+  }
+  if (!found->is_array()) {
+    return refuse(key, std::string("must be a list, is ") + found->type_name()), out;
+  }
+  for (const json& element : *found) {
+    if (!element.is_string()) {
+      return refuse(key, "must be a list of texts"), out;
+    }
+    out.push_back(element.get<std::string>());
+  }
+  return out;
+}
+
 namespace {
 
 /// False when any element is no finite number.

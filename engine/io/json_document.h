@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -26,6 +27,10 @@ class JsonNode {
   /// A finite number.
   [[nodiscard]] double number(const char* key) const;
   [[nodiscard]] int integer(const char* key) const;
+  /// Any whole number from 0 on, to the last digit.
+  [[nodiscard]] std::uint64_t unsigned_integer(const char* key) const;
+  /// A list of texts.
+  [[nodiscard]] std::vector<std::string> texts(const char* key) const;
   /// Exactly `count` finite numbers; nested lists (a matrix by rows) are flattened.
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count) const;
   [[nodiscard]] Vec3 vec3(const char* key) const;

@@ -44,33 +44,50 @@ void put_judgement(Json& line, const nav::Registration& result) {
   }
 }
 
-/// Labels come from files: bytes that are no UTF-8 must not end the journal. A line is out of this
-/// process as soon as it is written.
-void write_line(std::ostream& out, const Json& line) {
-  out << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
+/// What must survive a loss of power: what is guided on, and what was done to the patient.
+constexpr auto kDurable = LineLog::Keep::kDurable;
+
+/// Labels come from files: bytes that are no UTF-8 must not end the journal.
+void add_line(LineLog& log, const Json& line, LineLog::Keep keep = LineLog::Keep::kWritten) {
+  log.add(line.dump(-1, ' ', false, Json::error_handler_t::replace), keep);
+}
+
+Json plan_of(const std::vector<PlannedLevel>& levels) {
+  Json plan = Json::array();
+  for (const PlannedLevel& level : levels) {
+    plan.push_back(Json{{"label", level.label}, {"screws", Json::array()}});
+    for (const nav::Side side : level.screws) {
+      plan.back()["screws"].push_back(name_of(side));
+    }
+  }
+  return plan;
 }
 
 }  // namespace
 
+PlannedLevel planned(const std::string& label, const std::vector<nav::ScrewPlan>& screws) {
+  PlannedLevel level{label, {}};
+  for (const nav::ScrewPlan& screw : screws) {
+    level.screws.push_back(screw.side);
+  }
+  return level;
+}
+
 Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
                                                  const JournalHeader& header) {
-  auto file = AtomicFile::create(path);
-  if (!file) {
-    return file.error();
+  auto log = LineLog::create(path);
+  if (!log) {
+    return log.error();
   }
-  std::ofstream out(file->temporary_path(), std::ios::binary);
-  if (!out) {
-    return Error{path + ": can't be written"};
-  }
-  write_line(out, Json{{"format", "orthonav session"},
+  add_line(**log, Json{{"format", "orthonav session"},
                        {"format_version", 1},
                        {"orthonav", header.version},
                        {"device", header.device},
                        {"method", header.method},
                        {"case", header.case_name},
-                       {"seed", header.seed}});
-  return std::unique_ptr<Journal>(
-      new Journal(std::move(*file), std::move(out), header.epoch_ticks_100ns));
+                       {"seed", header.seed},
+                       {"levels", plan_of(header.levels)}});
+  return std::unique_ptr<Journal>(new Journal(std::move(*log), header.epoch_ticks_100ns));
 }
 
 Status Journal::finish(const JournalEnd& end) {
@@ -79,12 +96,8 @@ Status Journal::finish(const JournalEnd& end) {
   if (!end.reason.empty()) {
     line["reason"] = end.reason;
   }
-  write_line(out_, line);
-  out_.close();
-  if (out_.fail()) {
-    return Error{file_.final_path() + ": not every line could be written"};
-  }
-  return file_.commit();
+  add_line(*log_, line);
+  return log_->finish();
 }
 
 void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
@@ -94,14 +107,14 @@ void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
   line["event"] = name_of(event);
   line["action"] = name_of(answer.action);
   line["next"] = name_of(answer.next);
-  write_line(out_, line);
+  add_line(*log_, line, answer.action == Action::kAccept ? kDurable : LineLog::Keep::kWritten);
 }
 
 void Journal::not_understood(const Phrase& phrase) {
   Json line = entry(file_ticks(phrase.time), phrase.time, "not understood");
   line["phrase"] = phrase.text;
   line["confidence"] = phrase.confidence;
-  write_line(out_, line);
+  add_line(*log_, line);
 }
 
 void Journal::registered(Timestamp time, const LevelState& level,
@@ -131,7 +144,7 @@ void Journal::registered(Timestamp time, const LevelState& level,
   if (outcome.passed()) {
     line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
   }
-  write_line(out_, line);
+  add_line(*log_, line, kDurable);
 }
 
 void Journal::check_point_recorded(Timestamp time, const LevelState& level) {
@@ -142,14 +155,14 @@ void Journal::check_point_recorded(Timestamp time, const LevelState& level) {
   line["in_world_mm"] = millimetres(point.place.v);
   line["distance_mm"] = point.distance_m * 1e3;
   line["within"] = point.within;
-  write_line(out_, line);
+  add_line(*log_, line);
 }
 
 void Journal::check_point_dropped(Timestamp time, const LevelState& level) {
   Json line = entry(file_ticks(time), time, "check point dropped");
   line["level"] = level.plan.label;
   line["number"] = level.check_points.size() + 1;
-  write_line(out_, line);
+  add_line(*log_, line);
 }
 
 void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
@@ -164,20 +177,20 @@ void Journal::screw_done(Timestamp time, const LevelState& level, const nav::Scr
     line["tip_off_axis_mm"] = at_depth->measured->tip_off_axis_m * 1e3;
     line["depth_mm"] = at_depth->measured->depth_m * 1e3;
   }
-  write_line(out_, line);
+  add_line(*log_, line, kDurable);
 }
 
 void Journal::head_recorded(Timestamp time, nav::Side side, Point<World> head) {
   Json line = entry(file_ticks(time), time, "head");
   line["side"] = name_of(side);
   line["in_world_mm"] = millimetres(head.v);
-  write_line(out_, line);
+  add_line(*log_, line);
 }
 
 void Journal::head_dropped(Timestamp time, nav::Side side) {
   Json line = entry(file_ticks(time), time, "head dropped");
   line["side"] = name_of(side);
-  write_line(out_, line);
+  add_line(*log_, line);
 }
 
 void Journal::rod_done(Timestamp time, const RodState& rod) {
@@ -193,7 +206,7 @@ void Journal::rod_done(Timestamp time, const RodState& rod) {
     }
     line["bends"] = bends;
   }
-  write_line(out_, line);
+  add_line(*log_, line, kDurable);
 }
 
 }  // namespace orthonav::engine

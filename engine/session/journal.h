@@ -1,11 +1,11 @@
 #pragma once
 
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "engine/io/atomic_file.h"
+#include "engine/io/line_log.h"
 #include "engine/session/session_observer.h"
 
 namespace orthonav::engine {
@@ -16,6 +16,15 @@ struct JournalEnd {
   std::string reason;             ///< what ended it before its time; empty: nothing did
 };
 
+/// What is to be done on one level.
+struct PlannedLevel {
+  std::string label;
+  std::vector<nav::Side> screws;
+};
+
+[[nodiscard]] PlannedLevel planned(const std::string& label,
+                                   const std::vector<nav::ScrewPlan>& screws);
+
 /// What the journal says about the whole session, in its first line.
 struct JournalHeader {
   std::string version;
@@ -24,18 +33,21 @@ struct JournalHeader {
   std::string case_name;
   std::uint64_t seed = 0;
   std::int64_t epoch_ticks_100ns = 0;  ///< Headset::epoch_ticks_100ns
+  std::vector<PlannedLevel> levels;    ///< in the order of the operation
 };
 
 /// The event log of a session: one JSON object a line, the first is the header. Times as
 /// files name them (`time_100ns`, with the device's epoch) and in nanoseconds of the device's clock
-/// (`time_ns`), lengths in mm, angles in degrees. Written beside its name as it
-/// happens, so that a crash leaves it readable there, and named by `finish`.
+/// (`time_ns`), lengths in mm, angles in degrees. Grows as NAME.part line by line, so that whatever
+/// ends the process leaves it readable there; `finish` names it. No file system stalls the session.
 class Journal : public SessionObserver {
  public:
   static Result<std::unique_ptr<Journal>> create(const std::string& path,
                                                  const JournalHeader& header);
   /// Writes the last line and gives the file its name; an Error when any line could not be written.
   Status finish(const JournalEnd& end = {});
+  /// Where journals of earlier sessions were put that had its name; empty: there were none.
+  [[nodiscard]] const std::string& earlier_kept_as() const { return log_->earlier_kept_as(); }
 
   void happened(Timestamp time, Step from, Event event, Cell answer) override;
   void not_understood(const Phrase& phrase) override;
@@ -50,14 +62,13 @@ class Journal : public SessionObserver {
   void rod_done(Timestamp time, const RodState& rod) override;
 
  private:
-  Journal(AtomicFile file, std::ofstream out, std::int64_t epoch_ticks_100ns)
-      : file_(std::move(file)), out_(std::move(out)), epoch_ticks_100ns_(epoch_ticks_100ns) {}
+  Journal(std::unique_ptr<LineLog> log, std::int64_t epoch_ticks_100ns)
+      : log_(std::move(log)), epoch_ticks_100ns_(epoch_ticks_100ns) {}
   [[nodiscard]] std::int64_t file_ticks(Timestamp time) const {
     return epoch_ticks_100ns_ + ticks_100ns(time);
   }
 
-  AtomicFile file_;
-  std::ofstream out_;
+  std::unique_ptr<LineLog> log_;
   std::int64_t epoch_ticks_100ns_;
   Timestamp newest_{};  ///< of what was told
 };

@@ -15,7 +15,8 @@ bool rod_planned(std::span<const LevelState> levels, nav::Side side) {
   return screws >= 2;
 }
 
-RodTemplating::RodTemplating() {
+RodTemplating::RodTemplating(bool left_planned, bool right_planned)
+    : planned_{left_planned, right_planned}, current_(right_planned && !left_planned ? 1 : 0) {
   rods_[0].side = nav::Side::kLeft;
   rods_[1].side = nav::Side::kRight;
 }
@@ -47,7 +48,7 @@ Status RodTemplating::bend(double rod_diameter_m) {
 
 bool RodTemplating::finish() {
   rod().done = true;
-  const bool another = current_ + 1 < rods_.size();
+  const bool another = current_ + 1 < rods_.size() && planned_[current_ + 1];
   if (another) {
     ++current_;
   }

@@ -13,10 +13,11 @@ namespace orthonav::engine {
 [[nodiscard]] bool rod_planned(std::span<const LevelState> levels, nav::Side side);
 
 /// The step in which the heads of the screws are touched, the left rod's, then the right one's, and
-/// a rod is bent through them.
+/// a rod is bent through them. A side without a rod in the plan is passed over.
 class RodTemplating {
  public:
-  RodTemplating();
+  RodTemplating() : RodTemplating(true, true) {}
+  RodTemplating(bool left_planned, bool right_planned);
 
   /// The first rod, or the next one: a press from before it is no touch of its heads.
   void begin() { touch_.drop(); }
@@ -26,7 +27,7 @@ class RodTemplating {
   bool drop_head();
   /// Makes the template of the heads as they are now; an Error says why they give none.
   Status bend(double rod_diameter_m);
-  /// The rod is done; false when there is no other left.
+  /// The rod is done; false when no other is left to do.
   bool finish();
   void move_away() { moved_away_ = !moved_away_; }
   /// A finished rod stays in the report, shown nowhere; one under way begins anew.
@@ -41,6 +42,7 @@ class RodTemplating {
   [[nodiscard]] RodState& rod() { return rods_[current_]; }
 
   std::array<RodState, 2> rods_;  ///< left, right
+  std::array<bool, 2> planned_;
   std::size_t current_ = 0;
   bool moved_away_ = false;
   Touch touch_;

@@ -65,6 +65,8 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
     state.plan = std::move(plan);
     levels_.push_back(std::move(state));
   }
+  rod_templating_ = RodTemplating(rod_planned(levels_, nav::Side::kLeft),
+                                  rod_planned(levels_, nav::Side::kRight));
 }
 
 const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <thread>
 #include <utility>
 
 #include "base/mutex.h"
-#include "engine/report/paper_table.h"
-#include "nav/evaluation/errors.h"
+#include "engine/study/study_text.h"
 
 namespace orthonav::engine {
 namespace {
@@ -35,54 +34,12 @@ std::vector<Job> jobs_of(std::span<const Case> cases, const StudyOptions& option
   return jobs;
 }
 
-/// The five rows of the table, each over every run that has a value for it.
-Json table_of(const Json& runs) {
-  Json table = Json::array();
-  for (const PaperRow& row : kPaperTable) {
-    std::vector<double> values;
-    for (const Json& run : runs) {
-      const auto measured = values_of(nlohmann::json(run), row);
-      values.insert(values.end(), measured.begin(), measured.end());
-    }
-    const nav::Summary summary = nav::summarize(values);
-    table.push_back(Json{{"name", row.name},
-                         {"unit", row.unit},
-                         {"count", summary.count},
-                         {"mean", summary.mean},
-                         {"sd", summary.sd},
-                         {"min", summary.min},
-                         {"max", summary.max},
-                         {"paper_mean", row.mean},
-                         {"paper_sd", row.sd}});
-  }
-  return table;
-}
-
-std::string study_text(const std::string& method, const Json& runs, const Json& failed) {
-  int completed = 0;
-  for (const Json& run : runs) {
-    completed += run.value("completed", false) ? 1 : 0;
-  }
-  Json study{{"method", method},
-             {"operations", runs.size()},
-             {"completed", completed},
-             {"table", table_of(runs)},
-             {"runs", runs}};
-  if (!failed.empty()) {
-    study["failed"] = failed;
-  }
-  return study.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 /// Works through the jobs on several threads; each result lies at the index of its job.
 class Workers {
  public:
   Workers(std::vector<Job> jobs, const StudyOptions& options,
           const std::function<void(int, int)>& progress)
-      : jobs_(std::move(jobs)),
-        options_(options),
-        progress_(progress),
-        reports_(jobs_.size(), std::string()) {}
+      : jobs_(std::move(jobs)), options_(options), progress_(progress), reports_(jobs_.size()) {}
 
   Result<Study> run() {
     std::vector<std::thread> threads;
@@ -97,27 +54,58 @@ class Workers {
     return study();
   }
 
+  /// Begins no further run and ends those under way; from any thread.
+  void stop() {
+    const MutexLock lock(mutex_);
+    stopped_ = true;
+    for (const auto& [run, end] : under_way_) {
+      end();
+    }
+  }
+
  private:
   void work() {
     while (true) {
       const std::size_t i = next_++;
-      if (i >= jobs_.size()) {
+      if (i >= jobs_.size() || is_stopped()) {
         return;
       }
       OperationOptions operation = options_.operation;
       operation.sim.seed = jobs_[i].seed;
       operation.tracker.parallel = options_.jobs < 2;
-      const auto result = run_operation(*jobs_[i].source, operation);
-      const MutexLock lock(mutex_);
-      if (result) {
-        reports_[i] = report_json(*result);
-      } else {
-        reports_[i] = result.error();
-      }
-      ++done_;
-      if (progress_) {
-        progress_(done_, static_cast<int>(jobs_.size()));
-      }
+      OperationHooks hooks;
+      hooks.can_stop = [this, i](std::function<void()> end) { set_under_way(i, std::move(end)); };
+      take(i, run_operation(*jobs_[i].source, operation, hooks));
+    }
+  }
+
+  bool is_stopped() {
+    const MutexLock lock(mutex_);
+    return stopped_;
+  }
+
+  /// Null: it has ended.
+  void set_under_way(std::size_t run, std::function<void()> end) {
+    const MutexLock lock(mutex_);
+    if (!end) {
+      under_way_.erase(run);
+      return;
+    }
+    if (stopped_) {
+      end();
+    }
+    under_way_[run] = std::move(end);
+  }
+
+  void take(std::size_t i, const Result<OperationResult>& result) {
+    const MutexLock lock(mutex_);
+    if (stopped_ && result && !result->completed) {
+      return;  // it may well have been ended for that
+    }
+    reports_[i] = result ? Result<std::string>(report_json(*result)) : result.error();
+    ++done_;
+    if (progress_) {
+      progress_(done_, static_cast<int>(jobs_.size()));
     }
   }
 
@@ -127,12 +115,15 @@ class Workers {
     Json failed = Json::array();
     const MutexLock lock(mutex_);
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      if (reports_[i]) {
-        runs.push_back(Json::parse(*reports_[i]));
+      if (!reports_[i]) {
+        continue;  // stopped before it was made
+      }
+      if (*reports_[i]) {
+        runs.push_back(Json::parse(**reports_[i]));
         continue;
       }
       const std::string& name = jobs_[i].source->name;
-      const std::string& why = reports_[i].error().message;
+      const std::string& why = reports_[i]->error().message;
       failed.push_back(Json{{"case", name}, {"seed", jobs_[i].seed}, {"why", why}});
       if (!out.failure) {
         out.failure =
@@ -142,7 +133,9 @@ class Workers {
     if (runs.empty() && out.failure) {
       return *out.failure;
     }
-    out.text = study_text(options_.operation.method, runs, failed);
+    out.text = study_text(options_.operation.method, runs, failed, jobs_.size());
+    out.made = done_;
+    out.planned = static_cast<int>(jobs_.size());
     return out;
   }
 
@@ -151,60 +144,11 @@ class Workers {
   const std::function<void(int, int)>& progress_;
   std::atomic<std::size_t> next_ = 0;
   mutable Mutex mutex_;
-  std::vector<Result<std::string>> reports_ ORTHONAV_GUARDED_BY(mutex_);
+  std::vector<std::optional<Result<std::string>>> reports_ ORTHONAV_GUARDED_BY(mutex_);
+  std::map<std::size_t, std::function<void()>> under_way_ ORTHONAV_GUARDED_BY(mutex_);
+  bool stopped_ ORTHONAV_GUARDED_BY(mutex_) = false;
   int done_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
-
-Status check_run(const Json& run, const std::string& name) {
-  const bool whole = run.is_object() && run.contains("case") && run["case"].is_string() &&
-                     run.contains("seed") && run["seed"].is_number_unsigned() &&
-                     run.contains("levels") && run["levels"].is_array();
-  if (!whole) {
-    return Error{name + ": a run lacks case, seed or levels"};
-  }
-  if (run.contains("completed") && !run["completed"].is_boolean()) {
-    return Error{name + ": completed of a run is " + run["completed"].dump() +
-                 ", must be true or false"};
-  }
-  for (const Json& level : run["levels"]) {
-    if (!level.is_object()) {
-      return Error{name + ": a level of a run is no object"};
-    }
-  }
-  return {};
-}
-
-Status append_runs(const std::string& text, const std::string& name, std::string& method,
-                   std::set<std::pair<std::string, std::uint64_t>>& seen, Json& runs,
-                   Json& failed) {
-  const Json study = Json::parse(text, nullptr, false);
-  if (study.is_discarded() || !study.is_object() || !study.contains("runs") ||
-      !study["runs"].is_array() || !study.contains("method") || !study["method"].is_string()) {
-    return Error{name + ": is no study (an object with method and runs)"};
-  }
-  const std::string here = study["method"];
-  if (!method.empty() && method != here) {
-    return Error{name + ": method '" + here + "', the others have '" + method + "'"};
-  }
-  method = here;
-  for (const Json& run : study["runs"]) {
-    if (const Status good = check_run(run, name); !good) {
-      return good;
-    }
-    const std::pair key(run["case"].get<std::string>(), run["seed"].get<std::uint64_t>());
-    if (!seen.insert(key).second) {
-      return Error{name + ": case '" + key.first + "' with seed " + std::to_string(key.second) +
-                   " occurs twice"};
-    }
-    runs.push_back(run);
-  }
-  if (study.contains("failed") && study["failed"].is_array()) {
-    for (const Json& run : study["failed"]) {
-      failed.push_back(run);
-    }
-  }
-  return {};
-}
 
 }  // namespace
 
@@ -224,7 +168,8 @@ std::vector<std::string> StudyOptions::check() const {
 }
 
 Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options,
-                        const std::function<void(int, int)>& progress) {
+                        const std::function<void(int, int)>& progress,
+                        const std::function<void(std::function<void()>)>& can_stop) {
   const auto problems = options.check();
   if (!problems.empty()) {
     return Error{problems.front()};
@@ -232,27 +177,15 @@ Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options
   if (cases.empty()) {
     return Error{"study: no case"};
   }
-  return Workers(jobs_of(cases, options), options, progress).run();
-}
-
-Result<std::string> merge_studies(std::span<const std::string> texts,
-                                  std::span<const std::string> names) {
-  std::string method;
-  std::set<std::pair<std::string, std::uint64_t>> seen;
-  Json runs = Json::array();
-  Json failed = Json::array();
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (const Status read = append_runs(texts[i], names[i], method, seen, runs, failed); !read) {
-      return read.error();
-    }
+  Workers workers(jobs_of(cases, options), options, progress);
+  if (can_stop) {
+    can_stop([&workers] { workers.stop(); });
   }
-  std::stable_sort(runs.begin(), runs.end(), [](const Json& a, const Json& b) {
-    const auto key = [](const Json& run) {
-      return std::pair(run["case"].get<std::string>(), run["seed"].get<std::uint64_t>());
-    };
-    return key(a) < key(b);
-  });
-  return study_text(method, runs, failed);
+  auto study = workers.run();
+  if (can_stop) {
+    can_stop(nullptr);
+  }
+  return study;
 }
 
 }  // namespace orthonav::engine

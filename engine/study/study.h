@@ -27,15 +27,19 @@ struct StudyOptions {
 struct Study {
   std::string text;
   std::optional<Error> failure;
+  int made = 0;     ///< runs that were made, or tried
+  int planned = 0;  ///< more than that, where it was stopped
 };
 
 /// Many simulated operations as one JSON text: `runs` holds every run's report, ordered by case and
 /// seed; `table` the rows of the paper's Table 1 over all of them. `progress` is called after each
 /// run with the number done and the total, from any thread, one call at a time. A run that could
 /// not be made stands in `failed` with the reason, and the others are kept; an Error when none
-/// could be made.
+/// could be made. `can_stop` receives a function that stops the study, from any thread, and null at
+/// its end: runs that are under way then do not count, and the text says `incomplete`.
 Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options,
-                        const std::function<void(int, int)>& progress = {});
+                        const std::function<void(int, int)>& progress = {},
+                        const std::function<void(std::function<void()>)>& can_stop = {});
 
 /// Joins the texts of shards as if they were one study. `names` stand for them in messages. Refuses
 /// what is no study, different methods, and a run that occurs twice.

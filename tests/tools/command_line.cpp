@@ -54,6 +54,17 @@ void StartedCommand::send(int signal) const {
   }
 }
 
+bool StartedCommand::takes_signals() const {
+  std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("SigBlk:")) {
+      const std::uint64_t blocked = std::strtoull(line.c_str() + 7, nullptr, 16);
+      return (blocked >> (SIGTERM - 1) & 1U) != 0;
+    }
+  }
+  return false;
+}
+
 std::string StartedCommand::err_so_far() const { return content_of(folder_.file("err")); }
 
 Called StartedCommand::wait() {

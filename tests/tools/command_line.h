@@ -50,6 +50,8 @@ class StartedCommand {
   StartedCommand& operator=(const StartedCommand&) = delete;
 
   void send(int signal) const;
+  /// It is so far that SIGTERM no longer ends it as if nobody cared.
+  [[nodiscard]] bool takes_signals() const;
   /// What it has written on standard error until now.
   [[nodiscard]] std::string err_so_far() const;
   Called wait();

@@ -95,6 +95,45 @@ TEST(StopSignals, TerminationIsTakenLikeCtrlC) {
   expect_a_whole_end(run, "SIGTERM");
 }
 
+/// What nobody can catch leaves what was written in plain sight, and it can be read.
+TEST(StopSignals, AKilledRunLeavesAJournalAndARecordingThatCanBeRead) {
+  LongRun run;
+  ASSERT_TRUE(run.is_under_way());
+  run.command.send(SIGKILL);
+  EXPECT_EQ(run.command.wait().code, -1);
+  EXPECT_THAT(unfinished_in(run.folder.file("")),
+              ::testing::UnorderedElementsAre("session.orthonav.part", "recording.part"));
+  const std::string page = run.folder.file("page.html");
+  const test::Called report = orthonav({"report", run.out, "--out", page});
+  EXPECT_EQ(report.code, 0) << report.err;
+  EXPECT_THAT(test::content_of(page), HasSubstr("This session was cut off"));
+  const test::Called closed = orthonav({"recording", "repair", run.recording + ".part"});
+  EXPECT_EQ(closed.code, 0) << closed.err;
+  EXPECT_TRUE(std::filesystem::exists(run.recording));
+}
+
+/// Whatever it is at: preparing the model, or the first operation.
+TEST(StopSignals, StopAStudyThatHasNothingYetWithoutAFile) {
+  const ScratchFolder folder;
+  StartedCommand study({"study", "--levels", "L5", "--json", folder.file("study.json")});
+  ASSERT_TRUE(test::wait_until([&] { return study.takes_signals(); }));
+  study.send(SIGTERM);
+  const test::Called ended = study.wait();
+  EXPECT_EQ(ended.code, 128 + SIGTERM);
+  EXPECT_THAT(folder.names(), ::testing::IsEmpty());
+  EXPECT_THAT(ended.err, HasSubstr("stopped by SIGTERM"));
+}
+
+TEST(StopSignals, EndTheStandInWithItsSessions) {
+  StartedCommand server({"serve-hl2ss", "--levels", "L5", "--port", "47512"});
+  ASSERT_TRUE(
+      test::wait_until([&] { return server.err_so_far().find("serving") != std::string::npos; }));
+  server.send(SIGINT);
+  const test::Called ended = server.wait();
+  EXPECT_EQ(ended.code, 128 + SIGINT);
+  EXPECT_THAT(ended.err, HasSubstr("stopped by SIGINT after 0 sessions, 0 pairs"));
+}
+
 TEST(StopSignalsDeathTest, TheSecondEndsAtOnce) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto two_signals = [] {
@@ -110,15 +149,29 @@ TEST(StopSignalsDeathTest, TheSecondEndsAtOnce) {
               "SIGINT: finishing what was begun");
 }
 
+TEST(StopSignalsDeathTest, TheFirstEndsACommandAtOnceThatDoesNotFinish) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto one_signal = [] {
+    const StopSignals signals;
+    kill(getpid(), SIGTERM);
+    pause();
+  };
+  EXPECT_EXIT(one_signal(), ::testing::ExitedWithCode(128 + SIGTERM),
+              "stopped by SIGTERM; every file that it wrote is whole");
+}
+
 TEST(StopSignals, AskAtOnceWhereTheSignalCameFirst) {
   StopSignals signals;
+  signals.let_finish();
   EXPECT_FALSE(signals.caught());
+  EXPECT_EQ(signals.exit_code(), 0);
   kill(getpid(), SIGTERM);
   ASSERT_TRUE(test::wait_until([&] { return signals.caught().has_value(); }));
   bool asked = false;
   signals.on_stop([&] { asked = true; });
   EXPECT_TRUE(asked);
   EXPECT_EQ(signals.caught(), "SIGTERM");
+  EXPECT_EQ(signals.exit_code(), 128 + SIGTERM);
 }
 
 TEST(RunCommand, EndsAfterTheTimeAskedFor) {

@@ -114,7 +114,7 @@ Status PreviewApp::watch() {
       return did;
     }
     const Wishes wishes = model_.take_wishes();
-    if (wishes.quit || (script_ && script_->done() && wanted_screenshot_.empty())) {
+    if (quit_ || wishes.quit || (script_ && script_->done() && wanted_screenshot_.empty())) {
       return {};
     }
     if (const Status granted = grant(wishes); !granted) {

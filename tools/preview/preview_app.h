@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,6 +33,8 @@ class PreviewApp {
   Status open_operation(OperationSource source);
   /// Runs until the user quits or the script has come to its end.
   Status run();
+  /// Ends `run` as if the user had quit; from any thread.
+  void quit() { quit_ = true; }
 
  private:
   Status start_operation();
@@ -50,6 +53,7 @@ class PreviewApp {
 
   PreviewOptions options_;
   std::optional<Script> script_;
+  std::atomic<bool> quit_ = false;
   WallClock wall_;
   Gate gate_{wall_};
   Keyboard keyboard_;

@@ -14,23 +14,28 @@ using orthonav::test::content_of;
 using orthonav::test::TemporaryFolder;
 using ::testing::HasSubstr;
 
-TEST(AtomicFile, AppearsUnderItsNameOnlyWhenCommitted) {
+class StagedFile : public ::testing::TestWithParam<Staging> {};
+
+TEST_P(StagedFile, AppearsUnderItsNameOnlyWhenCommitted) {
   const TemporaryFolder folder;
   const std::string path = folder.file("report.json");
-  auto file = AtomicFile::create(path);
-  ASSERT_TRUE(file.ok()) << file.error().message;
-  std::ofstream(file->temporary_path()) << "whole";
-  EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_TRUE(file->commit().ok());
-  EXPECT_EQ(content_of(path), "whole");
-  EXPECT_EQ(folder.count(), 1u);
+  for (const char* content : {"whole", "newer"}) {
+    auto file = AtomicFile::create(path, GetParam());
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    const bool there = std::filesystem::exists(path);
+    std::ofstream(file->temporary_path()) << content;
+    EXPECT_EQ(there, std::filesystem::exists(path));
+    EXPECT_TRUE(file->commit().ok());
+    EXPECT_EQ(content_of(path), content);
+    EXPECT_EQ(folder.count(), 1u);
+  }
 }
 
-TEST(AtomicFile, LeavesNothingWhenDropped) {
+TEST_P(StagedFile, LeavesNothingWhenDropped) {
   const TemporaryFolder folder;
   std::ignore = folder.with("report.json", "old");
   {
-    auto file = AtomicFile::create(folder.file("report.json"));
+    auto file = AtomicFile::create(folder.file("report.json"), GetParam());
     ASSERT_TRUE(file.ok());
     std::ofstream(file->temporary_path()) << "half";
   }
@@ -38,18 +43,34 @@ TEST(AtomicFile, LeavesNothingWhenDropped) {
   EXPECT_EQ(content_of(folder.file("report.json")), "old");
 }
 
-TEST(AtomicFile, KeepsTheExtensionWhileWriting) {
+INSTANTIATE_TEST_SUITE_P(Every, StagedFile, ::testing::Values(Staging::kNameless, Staging::kBeside),
+                         [](const auto& each) {
+                           return each.param == Staging::kNameless ? "Nameless" : "Beside";
+                         });
+
+/// However a process ends, nothing that it had not finished lies about.
+TEST(AtomicFile, HasNoNameBeforeTheCommit) {
   const TemporaryFolder folder;
-  auto file = AtomicFile::create(folder.file("operation.mp4"));
+  auto file = AtomicFile::create(folder.file("report.json"));
   ASSERT_TRUE(file.ok());
-  EXPECT_THAT(file->temporary_path(), ::testing::EndsWith(".mp4"));
+  std::ofstream(file->temporary_path()) << "half";
+  EXPECT_EQ(folder.count(), 0u);
+}
+
+TEST(AtomicFile, IsVisibleWhereItHasANameBeforeTheCommit) {
+  const TemporaryFolder folder;
+  auto file = AtomicFile::create(folder.file("operation.mp4"), Staging::kBeside);
+  ASSERT_TRUE(file.ok());
+  const std::string name = std::filesystem::path(file->temporary_path()).filename().string();
+  EXPECT_THAT(name, ::testing::StartsWith("operation.part-"));
+  EXPECT_THAT(name, ::testing::EndsWith(".mp4"));
 }
 
 TEST(AtomicFile, MovesWithoutLosingOrKeepingTheFile) {
   const TemporaryFolder folder;
   {
-    auto first = AtomicFile::create(folder.file("a.txt"));
-    auto second = AtomicFile::create(folder.file("b.txt"));
+    auto first = AtomicFile::create(folder.file("a.txt"), Staging::kBeside);
+    auto second = AtomicFile::create(folder.file("b.txt"), Staging::kBeside);
     ASSERT_TRUE(first.ok() && second.ok());
     *first = std::move(*second);
     EXPECT_EQ(folder.count(), 1u) << "the file that was moved over is dropped";

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/scripted_operation.h"
+#include "tests/support/wait_until.h"
 
 namespace orthonav::engine::journal_test {
 namespace {
@@ -83,26 +84,23 @@ TEST_F(JournalTest, TellsTheWholeOperation) {
   }
 }
 
-TEST_F(JournalTest, EveryLineIsInTheFileBeforeTheNextComes) {
+TEST_F(JournalTest, GrowsInTheOpenLineByLine) {
   auto journal = Journal::create(path_, {}).value();
   test::ScriptedOperation s({"L5"});
   s.session().observe(journal.get());
   s.says("start");
-  EXPECT_FALSE(fs::exists(path_)) << "named only when it is whole";
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
-    files.push_back(entry.path());
-  }
-  ASSERT_EQ(files.size(), 1u);
-  std::ifstream in(files[0]);
-  std::string line;
-  int count = 0;
-  for (; std::getline(in, line); ++count) {
-    EXPECT_TRUE(nlohmann::json::accept(line)) << line;
-  }
-  EXPECT_EQ(count, 2) << "the header and the word";
+  const auto lines_so_far = [this] {
+    std::ifstream in(path_ + ".part");
+    int count = 0;
+    for (std::string line; std::getline(in, line); ++count) {
+      EXPECT_TRUE(nlohmann::json::accept(line)) << line;
+    }
+    return count;
+  };
+  EXPECT_TRUE(test::wait_until([&] { return lines_so_far() == 2; })) << "the header and the word";
   journal.reset();
   EXPECT_FALSE(fs::exists(path_)) << "nothing under its name without finish";
+  EXPECT_EQ(lines_so_far(), 2) << "what was written stays";
 }
 
 TEST_F(JournalTest, SaysWhatEndedTheSessionBeforeItsTime) {

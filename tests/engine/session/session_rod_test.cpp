@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "engine/session/rod_templating.h"
 #include "engine/session/session.h"
 #include "engine/session/wording.h"
 #include "tests/support/said.h"
@@ -25,6 +26,20 @@ class RodSession : public ::testing::Test {
   RodSession() { s.finishes_every_screw(); }
   ScriptedOperation s;
 };
+
+/// A side with fewer than two screws has nothing to join.
+TEST(RodTemplating, AsksOnlyForSidesWithARod) {
+  RodTemplating right(false, true);
+  EXPECT_EQ(right.current().side, nav::Side::kRight);
+  EXPECT_FALSE(right.finish());
+  RodTemplating left(true, false);
+  EXPECT_EQ(left.current().side, nav::Side::kLeft);
+  EXPECT_FALSE(left.finish());
+  RodTemplating both(true, true);
+  EXPECT_TRUE(both.finish());
+  EXPECT_EQ(both.current().side, nav::Side::kRight);
+  EXPECT_FALSE(both.finish());
+}
 
 TEST_F(RodSession, RecordsHeadsAtTheTipAndJoinsThem) {
   ASSERT_EQ(step_of(s.pair()), "rod left");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
@@ -123,6 +124,45 @@ TEST(Study, KeepsTheRunsThatCouldBeMadeBesideOneThatCouldNot) {
   EXPECT_EQ(text["failed"].size(), 1u);
   EXPECT_EQ(text["runs"][0]["why_not"], "ended at setup of L5");
   EXPECT_EQ(text["table"][4]["count"], 0) << "a level never registered has no points";
+}
+
+TEST(Study, KeepsWhatWasMadeWhenItIsStoppedAndSaysThatItIsIncomplete) {
+  StudyOptions options;
+  options.runs = 3;
+  options.operation.levels = {"L5"};
+  options.operation.tools = built_in_tools();
+  options.operation.loop.draw_every = 0;
+  options.operation.loop.max_frames = 2;
+  const Case spine = phantom({"L5"});
+  std::function<void()> stop;
+  bool told_of_the_end = false;
+  const auto study = run_study(
+      {&spine, 1}, options,
+      [&stop](int /*done*/, int /*all*/) {
+        // From another thread, as a signal does; this one holds what the study guards.
+        std::thread(stop).detach();
+      },
+      [&](std::function<void()> asked) {
+        told_of_the_end = !asked;
+        stop = std::move(asked);
+      });
+  ASSERT_TRUE(study.ok()) << study.error().message;
+  EXPECT_TRUE(told_of_the_end);
+  EXPECT_EQ(study->planned, 3);
+  const json text = json::parse(study->text);
+  EXPECT_EQ(text["operations"], study->made);
+  EXPECT_EQ(text.value("incomplete", false), study->made < 3);
+}
+
+TEST(Study, AMergeWithAnIncompleteShardIsIncomplete) {
+  json part = json::parse(study_of("paper", {run_of("a", 1, 2.0)}));
+  part["incomplete"] = true;
+  part["planned"] = 5;
+  const json all = json::parse(*merged({part.dump(), study_of("paper", {run_of("b", 1, 3.0)})}));
+  EXPECT_EQ(all["incomplete"], true);
+  EXPECT_EQ(all["planned"], 6);
+  EXPECT_FALSE(
+      json::parse(*merged({study_of("paper", {run_of("b", 1, 3.0)})})).contains("planned"));
 }
 
 TEST(Study, RefusesOptionsWithAReason) {

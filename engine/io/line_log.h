@@ -1,0 +1,66 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "base/mutex.h"
+#include "base/result.h"
+
+namespace orthonav::engine {
+
+/// A text file that grows by whole lines as PATH.part and is named PATH by `finish`. A thread of
+/// its own writes, each line in one piece: no disk stalls whoever tells it, and a process that is
+/// killed leaves whole lines. Nothing that lay there before is overwritten: it gets another name,
+/// PATH-1, PATH-2, ... before the extension.
+class LineLog {
+ public:
+  /// Refuses a missing or unwritable folder, and a PATH.part that another process is writing.
+  static Result<std::unique_ptr<LineLog>> create(const std::string& path);
+  /// Without `finish`, what was written stays as PATH.part, unless only the first line was: then
+  /// nothing stays.
+  ~LineLog();
+  LineLog(const LineLog&) = delete;
+  LineLog& operator=(const LineLog&) = delete;
+
+  /// Whether the line must survive a loss of power as well.
+  enum class Keep { kWritten, kDurable };
+  /// Hands over a line, without its end. It is in the file when this returns, unless the disk takes
+  /// longer than a millisecond.
+  void add(std::string line, Keep keep = Keep::kWritten);
+  /// Waits until every line is on the disk and names the file. An Error when a line could not be
+  /// written; the rest of them are still there.
+  Status finish();
+
+  /// Where an earlier file of these names was put; empty: there was none.
+  [[nodiscard]] const std::string& earlier_kept_as() const { return earlier_kept_as_; }
+
+ private:
+  struct Line {
+    std::string text;
+    Keep keep = Keep::kWritten;
+  };
+  LineLog(std::string path, int file);
+  void work();
+  void write(const Line& line);
+  void stop_writing();
+  Status take_its_name();
+
+  std::string path_;
+  int file_ = -1;  ///< written by the thread alone
+  std::string earlier_kept_as_;
+  bool finished_ = false;
+
+  Mutex mutex_;
+  ConditionVariable changed_;
+  std::deque<Line> waiting_ ORTHONAV_GUARDED_BY(mutex_);
+  std::size_t told_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  std::size_t written_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+  bool closing_ ORTHONAV_GUARDED_BY(mutex_) = false;
+  std::optional<Error> failure_ ORTHONAV_GUARDED_BY(mutex_);
+  std::thread writer_;
+};
+
+}  // namespace orthonav::engine

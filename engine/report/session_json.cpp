@@ -1,0 +1,111 @@
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/angle.h"
+#include "engine/report/session_report.h"
+
+namespace orthonav::engine {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void put_length_mm(Json& object, const char* key, const std::optional<double>& length_m) {
+  if (length_m) {
+    object[key] = *length_m * 1e3;
+  }
+}
+
+Json recorded_screw_json(const RecordedScrew& screw) {
+  Json out{{"side", name_of(screw.side)}, {"done", screw.done}};
+  if (screw.at_depth) {
+    out["at_depth"] = Json{{"angle_deg", degrees(screw.at_depth->angle_rad)},
+                           {"tip_to_entry_mm", screw.at_depth->tip_to_entry_m * 1e3},
+                           {"tip_off_axis_mm", screw.at_depth->tip_off_axis_m * 1e3},
+                           {"depth_mm", screw.at_depth->depth_m * 1e3}};
+  }
+  return out;
+}
+
+Json recorded_level_json(const RecordedLevel& level, const SessionRecord& session) {
+  Json out{{"label", level.label}, {"accepted", level.accepted}, {"attempts", level.attempts}};
+  if (level.registration) {
+    const RecordedRegistration& in_force = session.registrations[*level.registration];
+    put_length_mm(out, "rmse_mm", in_force.rmse_m);
+    put_length_mm(out, "predicted_tre_mm", in_force.predicted_tre_m);
+    if (in_force.points) {
+      out["points"] = *in_force.points;
+    }
+  }
+  if (level.digitization_s) {
+    out["digitization_s"] = *level.digitization_s;
+  }
+  for (const RecordedCheck& check : level.checks) {
+    out["check_points_mm"].push_back(check.distance_m * 1e3);
+  }
+  out["screws"] = Json::array();
+  for (const RecordedScrew& screw : level.screws) {
+    out["screws"].push_back(recorded_screw_json(screw));
+  }
+  return out;
+}
+
+/// As report.json has it: the mean length, and each side.
+Json recorded_rods_json(const std::vector<RecordedRod>& rods) {
+  Json out = Json::object();
+  double sum_m = 0.0;
+  int lengths = 0;
+  Json sides = Json::array();
+  for (const RecordedRod& rod : rods) {
+    Json side{{"side", name_of(rod.side)}, {"heads", rod.heads}};
+    put_length_mm(side, "length_mm", rod.length_m);
+    if (rod.length_m) {
+      sum_m += *rod.length_m;
+      ++lengths;
+    }
+    sides.push_back(std::move(side));
+  }
+  if (lengths > 0) {
+    out["length_mm"] = sum_m / lengths * 1e3;
+  }
+  if (!sides.empty()) {
+    out["sides"] = std::move(sides);
+  }
+  return out;
+}
+
+Json ending_json(const SessionRecord& session) {
+  Json out{{"cut", session.cut},
+           {"last_line_torn", session.last_line_torn},
+           {"lines", session.lines},
+           {"plan_recorded", session.has_plan}};
+  if (session.begin && session.end) {
+    out["begin_s"] = seconds(session.begin->time_since_epoch());
+    out["end_s"] = seconds(session.end->time_since_epoch());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string session_json(const SessionRecord& session) {
+  Json out{{"method", session.method}};
+  if (session.seed != 0) {
+    out["seed"] = session.seed;
+  }
+  out["case"] = session.case_name;
+  out["completed"] = session.completed();
+  if (session.cut) {
+    out["why_not"] = ending_of(session);
+  } else if (!session.reason.empty()) {
+    out["why_not"] = session.reason;
+  }
+  out["session"] = ending_json(session);
+  out["levels"] = Json::array();
+  for (const RecordedLevel& level : session.levels) {
+    out["levels"].push_back(recorded_level_json(level, session));
+  }
+  out["rod"] = recorded_rods_json(session.rods);
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace orthonav::engine

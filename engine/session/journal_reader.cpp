@@ -1,0 +1,246 @@
+#include "engine/session/journal_reader.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include "base/angle.h"
+#include "engine/io/json_document.h"
+#include "engine/session/journal_replay.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr std::size_t kLongestLine = 1U << 20U;
+constexpr double kMetresPerMm = 1e-3;
+/// Clicks and words that a network delays come some seconds after what was seen meanwhile.
+constexpr auto kMostBack = std::chrono::minutes(1);
+/// Beyond it a time in nanoseconds is no time.
+constexpr double kLatest_ns = 4e18;
+
+std::optional<double> optional_number(const JsonNode& line, const char* key, double unit = 1.0) {
+  return line.has(key) ? std::optional(line.number(key) * unit) : std::nullopt;
+}
+
+std::size_t count_of(const JsonNode& line, const char* key) {
+  const int count = line.integer(key);
+  if (count < 0) {
+    line.refuse(key, "is negative");
+  }
+  return static_cast<std::size_t>(std::max(0, count));
+}
+
+Side side_of(const JsonNode& line) {
+  const std::string side = line.text("side");
+  if (side != "left" && side != "right") {
+    line.refuse("side", "is \"" + side + "\", must be left or right");
+  }
+  return side == "right" ? Side::kRight : Side::kLeft;
+}
+
+/// The value of an enumeration whose name stands under `key`.
+template <class Enum>
+Enum named(const JsonNode& line, const char* key, std::size_t count) {
+  const std::string name = line.text(key);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (name_of(static_cast<Enum>(i)) == name) {
+      return static_cast<Enum>(i);
+    }
+  }
+  line.refuse(key, "\"" + name.substr(0, 40) + "\" is unknown");
+  return {};
+}
+
+RecordedRegistration registration_of(const JsonNode& line, Timestamp time) {
+  RecordedRegistration found;
+  found.time = time;
+  found.level = line.text("level");
+  found.attempt = line.integer("attempt");
+  found.passed = line.flag_or("accepted", false);
+  found.reason = line.text_or("reason", "");
+  found.warning = line.text_or("warning", "");
+  if (line.has("points")) {
+    found.points = count_of(line, "points");
+  }
+  found.rmse_m = optional_number(line, "rmse_mm", kMetresPerMm);
+  found.runner_up_rmse_m = optional_number(line, "runner_up_rmse_mm", kMetresPerMm);
+  found.predicted_tre_m = optional_number(line, "predicted_tre_mm", kMetresPerMm);
+  found.tre_95_m = optional_number(line, "tre_95_mm", kMetresPerMm);
+  return found;
+}
+
+std::optional<RecordedPose> pose_of(const JsonNode& line) {
+  if (!line.has("angle_deg")) {
+    return std::nullopt;
+  }
+  return RecordedPose{
+      line.number("angle_deg") * kRadiansPerDegree, line.number("tip_to_entry_mm") * kMetresPerMm,
+      line.number("tip_off_axis_mm") * kMetresPerMm, line.number("depth_mm") * kMetresPerMm};
+}
+
+RecordedRod rod_of(const JsonNode& line) {
+  RecordedRod rod;
+  rod.side = side_of(line);
+  rod.heads = count_of(line, "heads");
+  rod.done = true;
+  rod.length_m = optional_number(line, "length_mm", kMetresPerMm);
+  if (line.has("bends")) {
+    for (const JsonNode& bend : line.list("bends")) {
+      rod.bends.push_back({bend.number("arc_length_mm") * kMetresPerMm,
+                           bend.number("angle_deg") * kRadiansPerDegree});
+    }
+  }
+  return rod;
+}
+
+/// Goes through a journal line by line.
+class Reading {
+ public:
+  explicit Reading(std::string name) : name_(std::move(name)) {}
+
+  Status take(std::string_view text) {
+    const std::string where = name_ + ":" + std::to_string(++record_.lines);
+    if (text.size() > kLongestLine) {
+      return Error{where + ": " + std::to_string(text.size()) + " bytes long, limit " +
+                   std::to_string(kLongestLine)};
+    }
+    const auto document = JsonDocument::parse(text, where);
+    if (!document) {
+      return document.error();
+    }
+    if (record_.lines == 1) {
+      take_header(document->root());
+    } else {
+      take_line(document->root());
+    }
+    return document->status();
+  }
+
+  SessionRecord finish(bool torn) {
+    record_.last_line_torn = torn;
+    record_.cut = torn || !ended_;
+    return std::move(record_);
+  }
+
+ private:
+  void take_header(const JsonNode& line) {
+    if (line.text("format") != "orthonav session") {
+      return line.refuse("format", "is no \"orthonav session\"");
+    }
+    if (const int version = line.integer("format_version"); version != 1) {
+      return line.refuse("format_version", "is " + std::to_string(version) + ", known is 1");
+    }
+    record_.orthonav = line.text("orthonav");
+    record_.device = line.text("device");
+    record_.method = line.text("method");
+    record_.case_name = line.text("case");
+    record_.seed = line.unsigned_integer("seed");
+    if (!line.has("levels")) {
+      return;
+    }
+    record_.has_plan = true;
+    for (const JsonNode& level : line.list("levels")) {
+      replay_.plan(level.text("label"), level.texts("screws"), level);
+    }
+  }
+
+  /// Refuses what can't be one; else notes it as the newest.
+  Timestamp time_of(const JsonNode& line) {
+    const double ns = line.number("time_ns");
+    if (!(std::abs(ns) <= kLatest_ns)) {
+      line.refuse("time_ns", "is no time of a session");
+      return {};
+    }
+    const Timestamp time{Duration(static_cast<std::int64_t>(ns))};
+    if (record_.end && *record_.end - time > kMostBack) {
+      char text[80];
+      std::snprintf(text, sizeof text, "goes back by %.1f s, limit 60 s",
+                    seconds(*record_.end - time));
+      line.refuse("time_ns", text);
+    }
+    record_.begin = std::min(time, record_.begin.value_or(time));
+    record_.end = std::max(time, record_.end.value_or(time));
+    return time;
+  }
+
+  void take_line(const JsonNode& line) {
+    if (ended_) {
+      return line.refuse("stands after the end of the session");
+    }
+    const Timestamp time = time_of(line);
+    const std::string what = line.text("what");
+    if (what == "event") {
+      take_event(line, time);
+    } else if (what == "registration") {
+      replay_.registered(registration_of(line, time), line);
+    } else if (what == "check point") {
+      replay_.checked(line.text("level"),
+                      {line.number("distance_mm") * kMetresPerMm, line.flag_or("within", false)},
+                      line);
+    } else if (what == "check point dropped") {
+      replay_.check_dropped(line.text("level"), line);
+    } else if (what == "screw") {
+      replay_.screw_done(line.text("level"), {side_of(line), true, time, pose_of(line)}, line);
+    } else if (what == "head" || what == "head dropped") {
+      replay_.head(side_of(line), what == "head");
+    } else if (what == "rod") {
+      replay_.rod_done(rod_of(line));
+    } else if (what == "ended") {
+      record_.reason = line.text_or("reason", "");
+      ended_ = true;
+    } else if (what != "not understood") {
+      line.refuse("what", "\"" + what.substr(0, 40) + "\" is unknown");
+    }
+  }
+
+  void take_event(const JsonNode& line, Timestamp time) {
+    (void)named<Step>(line, "step", kStepCount);
+    const auto event = named<Event>(line, "event", kEventCount);
+    const auto action = named<Action>(line, "action", kActionCount);
+    const auto next = named<Step>(line, "next", kStepCount);
+    replay_.happened(time, event, {next, action});
+  }
+
+  std::string name_;
+  SessionRecord record_;
+  JournalReplay replay_{record_};
+  bool ended_ = false;
+};
+
+}  // namespace
+
+Result<SessionRecord> read_journal_text(const std::string& text, const std::string& name) {
+  // A disk that lost its power may leave zeros where the last lines were to be.
+  const std::size_t last = text.find_last_not_of('\0');
+  const std::string_view content =
+      std::string_view(text).substr(0, last == std::string::npos ? 0 : last + 1);
+  if (content.empty()) {
+    return Error{name + ": is empty"};
+  }
+  Reading reading(name);
+  for (std::size_t at = 0; at < content.size();) {
+    const std::size_t end = std::min(content.find('\n', at), content.size());
+    const std::string_view line = content.substr(at, end - at);
+    // Only the last line may lack its end. If it is no whole object, its writing was cut off.
+    if (end == content.size() && at > 0 && !JsonDocument::parse(line, name)) {
+      return reading.finish(true);
+    }
+    if (const Status taken = reading.take(line); !taken) {
+      return taken.error();
+    }
+    at = end + 1;
+  }
+  return reading.finish(content.size() < text.size());
+}
+
+Result<SessionRecord> read_journal(const std::string& path) {
+  const auto text = read_text(path);
+  if (!text) {
+    return text.error();
+  }
+  return read_journal_text(*text, path);
+}
+
+}  // namespace orthonav::engine

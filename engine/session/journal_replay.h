@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/io/json_document.h"
+#include "engine/session/session_record.h"
+
+namespace orthonav::engine {
+
+/// Follows a session from the lines of its journal as the session itself went on (Session::act):
+/// which level is at work, what a rejection or a moved map took back. `line` takes what is wrong.
+class JournalReplay {
+ public:
+  explicit JournalReplay(SessionRecord& record) : record_(record) {}
+
+  /// A level of the plan with the sides of its screws.
+  void plan(const std::string& label, const std::vector<std::string>& sides, const JsonNode& line);
+  void happened(Timestamp time, Event event, Cell answer);
+  void registered(RecordedRegistration found, const JsonNode& line);
+  void checked(const std::string& label, RecordedCheck check, const JsonNode& line);
+  void check_dropped(const std::string& label, const JsonNode& line);
+  void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
+  /// A head was touched, or the last one taken back.
+  void head(Side side, bool touched);
+  void rod_done(RecordedRod rod);
+
+ private:
+  /// The level of that name, made where the plan did not tell of it. Null, with the line refused,
+  /// where there are too many.
+  RecordedLevel* level_named(const std::string& label, const JsonNode& line);
+  RecordedLevel* current();
+  RecordedRod& rod_of(Side side);
+  void forget_registration(RecordedLevel& level);
+  void forget_map();
+
+  SessionRecord& record_;
+  std::optional<std::size_t> level_;      ///< that was registered last
+  std::optional<Timestamp> first_press_;  ///< of the digitization under way
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/side.h"
+#include "base/time.h"
+#include "engine/session/workflow.h"
+
+namespace orthonav::engine {
+
+/// The tool against its screw, as it was measured at depth.
+struct RecordedPose {
+  double angle_rad = 0.0;
+  double tip_to_entry_m = 0.0;
+  double tip_off_axis_m = 0.0;
+  double depth_m = 0.0;
+};
+
+struct RecordedScrew {
+  Side side = Side::kLeft;
+  bool done = false;
+  std::optional<Timestamp> time;         ///< when it was declared done
+  std::optional<RecordedPose> at_depth;  ///< absent where the tool never stood at its depth
+};
+
+/// One registration that was asked for. What the journal does not hold is absent.
+struct RecordedRegistration {
+  Timestamp time{};
+  std::string level;
+  int attempt = 0;
+  bool passed = false;
+  std::string reason;   ///< why not
+  std::string warning;  ///< of the pointer it was made with
+  std::optional<std::size_t> points;
+  std::optional<double> rmse_m;
+  std::optional<double> runner_up_rmse_m;
+  std::optional<double> predicted_tre_m;  ///< at the worst of the screws; passed ones only
+  std::optional<double> tre_95_m;
+};
+
+struct RecordedCheck {
+  double distance_m = 0.0;  ///< positive outside of the bone
+  bool within = false;      ///< the limit
+};
+
+/// One level, as it stood when the journal ended.
+struct RecordedLevel {
+  std::string label;
+  int attempts = 0;
+  bool accepted = false;
+  bool finished = false;                    ///< the workflow went on from it
+  std::optional<std::size_t> registration;  ///< in force; of SessionRecord::registrations
+  std::optional<double> digitization_s;     ///< that led to it
+  std::vector<RecordedCheck> checks;        ///< touched on it
+  std::vector<RecordedScrew> screws;
+};
+
+struct RecordedBend {
+  double arc_length_m = 0.0;
+  double angle_rad = 0.0;
+};
+
+struct RecordedRod {
+  Side side = Side::kLeft;
+  std::size_t heads = 0;
+  bool done = false;
+  std::optional<double> length_m;  ///< of the template that was taken
+  std::vector<RecordedBend> bends;
+};
+
+/// The workflow came to this step.
+struct RecordedStep {
+  Timestamp time{};
+  Step step = Step::kSetup;
+};
+
+/// A session as its journal tells it.
+struct SessionRecord {
+  std::string orthonav;  ///< the version that wrote it
+  std::string device;
+  std::string method;
+  std::string case_name;
+  std::uint64_t seed = 0;  ///< 0 where nothing was drawn by lot
+  bool has_plan = false;   ///< the levels and screws are those of the plan, reached or not
+  std::size_t lines = 0;   ///< that were read, the header among them
+  bool cut = false;        ///< it has no end: the process was killed, or the machine went down
+  bool last_line_torn = false;
+  std::optional<Timestamp> begin;  ///< of the first line with a time
+  std::optional<Timestamp> end;    ///< of the last one
+  std::string reason;              ///< what ended it before its time; empty: nothing did, or cut
+  std::vector<RecordedLevel> levels;
+  std::vector<RecordedRegistration> registrations;
+  std::vector<RecordedRod> rods;
+  std::vector<RecordedStep> steps;
+
+  [[nodiscard]] bool completed() const { return !cut && reason.empty(); }
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,60 @@
+#include "engine/study/study_text.h"
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "engine/report/paper_table.h"
+#include "nav/evaluation/errors.h"
+
+namespace orthonav::engine {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The five rows of the table, each over every run that has a value for it.
+Json table_of(const Json& runs) {
+  Json table = Json::array();
+  for (const PaperRow& row : kPaperTable) {
+    std::vector<double> values;
+    for (const Json& run : runs) {
+      const auto measured = values_of(nlohmann::json(run), row);
+      values.insert(values.end(), measured.begin(), measured.end());
+    }
+    const nav::Summary summary = nav::summarize(values);
+    table.push_back(Json{{"name", row.name},
+                         {"unit", row.unit},
+                         {"count", summary.count},
+                         {"mean", summary.mean},
+                         {"sd", summary.sd},
+                         {"min", summary.min},
+                         {"max", summary.max},
+                         {"paper_mean", row.mean},
+                         {"paper_sd", row.sd}});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string study_text(const std::string& method, const Json& runs, const Json& failed,
+                       std::size_t planned) {
+  int completed = 0;
+  for (const Json& run : runs) {
+    completed += run.value("completed", false) ? 1 : 0;
+  }
+  Json study{{"method", method},
+             {"operations", runs.size()},
+             {"completed", completed},
+             {"table", table_of(runs)},
+             {"runs", runs}};
+  if (!failed.empty()) {
+    study["failed"] = failed;
+  }
+  if (runs.size() + failed.size() < planned) {
+    study["incomplete"] = true;
+    study["planned"] = planned;
+  }
+  return study.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace orthonav::engine

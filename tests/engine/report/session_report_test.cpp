@@ -1,0 +1,132 @@
+#include "engine/report/session_report.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/session/journal_reader.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::engine {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// One level of two screws, one of them done, cut off before the second.
+SessionRecord cut_session() {
+  SessionRecord session;
+  session.case_name = "<spine>";
+  session.method = "best";
+  session.has_plan = true;
+  session.lines = 9;
+  session.cut = true;
+  session.last_line_torn = true;
+  session.begin = Timestamp(std::chrono::seconds(101));
+  session.end = Timestamp(std::chrono::milliseconds(165'570));
+  RecordedRegistration registration;
+  registration.level = "L4";
+  registration.attempt = 2;
+  registration.passed = true;
+  registration.rmse_m = 0.00131;
+  session.registrations = {registration};
+  RecordedLevel level;
+  level.label = "L4";
+  level.attempts = 2;
+  level.accepted = true;
+  level.registration = 0;
+  level.checks = {{-0.0004, true}};
+  level.screws = {{Side::kLeft, true, session.end, RecordedPose{0.02, 0.011, 0.001, 0.0109}},
+                  {Side::kRight, false, {}, {}}};
+  session.levels = {level};
+  return session;
+}
+
+TEST(SessionReport, SaysFirstOfAllThatTheSessionWasCutOffAndWhen) {
+  const std::string page = session_page(cut_session(), "a/session.orthonav.part");
+  const std::size_t cut = page.find("This session was cut off");
+  ASSERT_NE(cut, std::string::npos);
+  EXPECT_LT(cut, page.find("<table"));
+  EXPECT_THAT(page, HasSubstr("its last line is of 02:45.57 on the headset's clock, 64.6 s after "
+                              "the first; one more line was torn and is not used"));
+  EXPECT_THAT(page, HasSubstr("a/session.orthonav.part"));
+  EXPECT_THAT(page, HasSubstr("&lt;spine&gt;"));
+}
+
+TEST(SessionReport, CallsWhatTheJournalDoesNotHoldNotRecorded) {
+  const std::string page = session_page(cut_session(), "j");
+  EXPECT_THAT(page, HasSubstr("not recorded"));
+  EXPECT_THAT(page, HasSubstr("<td>1 of 2</td>"));
+  EXPECT_THAT(page, HasSubstr("not done"));
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  const auto json = nlohmann::json::parse(session_json(cut_session()));
+  for (const char* key : {"frames", "seed"}) {
+    EXPECT_FALSE(json.contains(key)) << key;
+  }
+  for (const char* key : {"points", "predicted_tre_mm", "tre_mm", "digitization_s"}) {
+    EXPECT_FALSE(json["levels"][0].contains(key)) << key;
+  }
+}
+
+TEST(SessionReport, HasTheFiguresInTheKeysOfAReport) {
+  const auto json = nlohmann::json::parse(session_json(cut_session()));
+  EXPECT_EQ(json["completed"], false);
+  EXPECT_THAT(json["why_not"].get<std::string>(), HasSubstr("The journal has no end"));
+  EXPECT_EQ(json["session"]["cut"], true);
+  EXPECT_DOUBLE_EQ(json["session"]["end_s"], 165.57);
+  const auto& level = json["levels"][0];
+  EXPECT_EQ(level["label"], "L4");
+  EXPECT_DOUBLE_EQ(level["rmse_mm"], 1.31);
+  EXPECT_DOUBLE_EQ(level["check_points_mm"][0], -0.4);
+  EXPECT_EQ(level["screws"][0]["done"], true);
+  EXPECT_DOUBLE_EQ(level["screws"][0]["at_depth"]["depth_mm"], 10.9);
+  EXPECT_EQ(level["screws"][1]["done"], false);
+}
+
+/// A real session, cut at every tenth of it and at every byte of its last two lines.
+TEST(SessionReport, IsMadeOfAJournalThatWasCutAnywhere) {
+  const std::string whole = orthonav::test::content_of(std::filesystem::path(ORTHONAV_SOURCE_DIR) /
+                                                       "tests/data/session.orthonav");
+  ASSERT_GT(whole.size(), 10'000U);
+  std::vector<std::size_t> lengths;
+  for (std::size_t tenth = 1; tenth < 10; ++tenth) {
+    lengths.push_back(whole.size() * tenth / 10);
+  }
+  const std::size_t last = whole.rfind('\n', whole.size() - 2);
+  for (std::size_t at = whole.rfind('\n', last - 1) + 1; at < whole.size(); ++at) {
+    lengths.push_back(at);
+  }
+  ASSERT_GT(lengths.size(), 100U);
+  for (const std::size_t length : lengths) {
+    SCOPED_TRACE(length);
+    const auto session = read_journal_text(whole.substr(0, length), "cut");
+    ASSERT_TRUE(session.ok()) << session.error().message;
+    // All but its last line end: whole without that end, the journal is.
+    const bool is_whole = length + 1 == whole.size();
+    EXPECT_EQ(session->cut, !is_whole);
+    const auto lines = static_cast<std::size_t>(
+        std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length), '\n'));
+    EXPECT_GE(session->lines, lines);
+    EXPECT_LE(session->lines, lines + 1);
+    const std::string page = session_page(*session, "cut");
+    EXPECT_EQ(page.find("This session was cut off") == std::string::npos, is_whole);
+    EXPECT_FALSE(session_json(*session).empty());
+  }
+}
+
+TEST(SessionReport, TellsOfASessionThatEnded) {
+  SessionRecord session = cut_session();
+  session.cut = session.last_line_torn = false;
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("The operation is done"));
+  EXPECT_EQ(nlohmann::json::parse(session_json(session))["completed"], true);
+  session.reason = "stopped by SIGTERM, ended at rod";
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("Operation incomplete"));
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("; stopped by SIGTERM, ended at rod."));
+  const SessionRecord header_alone;
+  EXPECT_THAT(ending_of(header_alone), HasSubstr("no line after its first"));
+}
+
+}  // namespace
+}  // namespace orthonav::engine

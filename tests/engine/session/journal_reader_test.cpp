@@ -1,0 +1,255 @@
+#include "engine/session/journal_reader.h"
+
+#include <gmock/gmock.h>
+
+#include "engine/session/journal.h"
+#include "tests/support/scripted_operation.h"
+#include "tests/support/temporary_folder.h"
+
+namespace orthonav::engine::journal_reader_test {
+namespace {
+
+using orthonav::test::content_of;
+using orthonav::test::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A session with its journal, told to the end or not.
+struct Journaled {
+  explicit Journaled(const std::vector<std::string>& labels,
+                     Verification verification = Verification::kByEye)
+      : operation(labels, {}, verification) {
+    JournalHeader header{"0.1.0", "fake", "paper", "boxes", 18'446'744'073'709'551'615U, 0, {}};
+    for (const LevelState& level : operation.session().levels()) {
+      header.levels.push_back(planned(level.plan.label, level.plan.screws));
+    }
+    journal = Journal::create(path, header).value();
+    operation.session().observe(journal.get());
+  }
+
+  SessionRecord finished(const std::string& reason = "") {
+    EXPECT_TRUE(journal->finish({{}, reason}).ok());
+    auto record = read_journal(path);
+    EXPECT_TRUE(record.ok()) << record.error().message;
+    return record.ok() ? *record : SessionRecord{};
+  }
+
+  TemporaryFolder folder;
+  std::string path = folder.file("session.orthonav");
+  test::ScriptedOperation operation;
+  std::unique_ptr<Journal> journal;
+};
+
+/// Every figure that the session itself has of its levels and rods.
+void expect_the_same(const SessionRecord& record, const Session& session) {
+  ASSERT_EQ(record.levels.size(), session.levels().size());
+  for (std::size_t i = 0; i < record.levels.size(); ++i) {
+    const RecordedLevel& read = record.levels[i];
+    const LevelState& level = session.levels()[i];
+    SCOPED_TRACE(level.plan.label);
+    EXPECT_EQ(read.label, level.plan.label);
+    EXPECT_EQ(read.attempts, level.attempts);
+    EXPECT_EQ(read.accepted, level.accepted);
+    ASSERT_EQ(read.registration.has_value(), level.registration.has_value());
+    if (read.registration) {
+      const RecordedRegistration& in_force = record.registrations[*read.registration];
+      EXPECT_DOUBLE_EQ(in_force.rmse_m.value_or(-1), level.registration->rmse_m);
+      EXPECT_EQ(in_force.points, level.registration->points);
+      EXPECT_NEAR(read.digitization_s.value_or(-1), level.digitization_s, 1e-9);
+    }
+    ASSERT_EQ(read.checks.size(), level.check_points.size());
+    for (std::size_t c = 0; c < read.checks.size(); ++c) {
+      EXPECT_DOUBLE_EQ(read.checks[c].distance_m, level.check_points[c].distance_m);
+      EXPECT_EQ(read.checks[c].within, level.check_points[c].within);
+    }
+    ASSERT_EQ(read.screws.size(), level.plan.screws.size());
+    for (std::size_t s = 0; s < read.screws.size(); ++s) {
+      EXPECT_EQ(read.screws[s].side, level.plan.screws[s].side);
+      EXPECT_EQ(read.screws[s].done, level.screw_done[s]);
+    }
+  }
+  for (const RecordedRod& rod : record.rods) {
+    const RodState& state = session.rods()[rod.side == Side::kLeft ? 0 : 1];
+    ASSERT_EQ(state.side, rod.side);
+    EXPECT_EQ(rod.heads, state.heads.size());
+    EXPECT_EQ(rod.done, state.done);
+    if (rod.done) {
+      EXPECT_DOUBLE_EQ(rod.length_m.value_or(-1), state.rod->length_m);
+      EXPECT_EQ(rod.bends.size(), state.rod->bends.size());
+    }
+  }
+}
+
+TEST(JournalReader, TellsTheWholeOperationAsTheSessionHasIt) {
+  Journaled j({"L4", "L5"});
+  j.operation.tracker().guide = test::guide_at({0.015, 0.020, 0.0}, 0.1);
+  j.operation.finishes_every_screw();
+  j.operation.touches({0.02, 0.03, 0.00});
+  j.operation.touches({0.02, 0.03, 0.04});
+  j.operation.says("mumble");
+  j.operation.says("done");
+  j.operation.touches({-0.02, 0.03, 0.00});
+  const SessionRecord record = j.finished("cable");
+  EXPECT_FALSE(record.cut);
+  EXPECT_FALSE(record.completed());
+  EXPECT_EQ(record.reason, "cable");
+  EXPECT_TRUE(record.has_plan);
+  EXPECT_EQ(record.seed, 18'446'744'073'709'551'615U);
+  EXPECT_EQ(record.device, "fake");
+  expect_the_same(record, j.operation.session());
+  EXPECT_EQ(record.rods.size(), 2U);
+  EXPECT_EQ(record.registrations.size(), 2U);
+  const auto& pose = record.levels[0].screws[0].at_depth;
+  ASSERT_TRUE(pose);
+  EXPECT_NEAR(pose->angle_rad, 0.1, 1e-9);
+  std::vector<Step> course;
+  for (const RecordedStep& step : record.steps) {
+    course.push_back(step.step);
+  }
+  using enum Step;
+  EXPECT_THAT(course, ::testing::ElementsAre(kDigitize, kVerify, kAccepted, kGuide, kDigitize,
+                                             kVerify, kAccepted, kGuide, kRod));
+}
+
+TEST(JournalReader, FollowsRejectionsCheckPointsAndAMovedMap) {
+  Journaled j({"L4", "L5"}, Verification::kByTouch);
+  j.operation.registers_first_level();
+  j.operation.touches({0.0, 0.0213, 0.0});
+  j.operation.touches({0.02, 0.0251, 0.0});
+  j.operation.says("delete");
+  const auto so_far = [&j] {
+    auto read = read_journal(j.path + ".part");
+    EXPECT_TRUE(read.ok()) << read.error().message;
+    return read.ok() ? *read : SessionRecord{};
+  };
+  expect_the_same(so_far(), j.operation.session());
+  EXPECT_TRUE(so_far().cut) << "as long as it is being written";
+  EXPECT_EQ(so_far().levels[0].checks.size(), 1U);
+  j.operation.says("reject");
+  expect_the_same(so_far(), j.operation.session());
+  EXPECT_FALSE(so_far().levels[0].registration);
+  ++j.operation.map_epoch;
+  j.operation.pairs(2);
+  expect_the_same(j.finished("end"), j.operation.session());
+}
+
+/// What the three lines of a short journal are.
+std::string header() {
+  return R"({"format":"orthonav session","format_version":1,"orthonav":"0.1.0","device":"d",)"
+         R"("method":"best","case":"c","seed":1})"
+         "\n";
+}
+std::string started() {
+  return R"({"time_100ns":1,"time_ns":100000000000,"what":"event","step":"setup",)"
+         R"("event":"\"start\"","action":"begin level","next":"digitize"})"
+         "\n";
+}
+std::string registered() {
+  return R"({"time_100ns":1,"time_ns":101000000000,"what":"registration","level":"L4","attempt":1,)"
+         R"("accepted":true,"points":100,"rmse_mm":1.5,"predicted_tre_mm":null})"
+         "\n";
+}
+
+TEST(JournalReader, LeavesOutALineThatWasTorn) {
+  const std::string whole = header() + started() + registered();
+  for (std::size_t length = header().size(); length < whole.size(); ++length) {
+    const auto read = read_journal_text(whole.substr(0, length), "cut");
+    ASSERT_TRUE(read.ok()) << length << ": " << read.error().message;
+    EXPECT_TRUE(read->cut);
+    const std::size_t behind_start = header().size() + started().size();
+    // A line counts when it is whole, with or without its end.
+    EXPECT_EQ(read->steps.size(), length + 1 >= behind_start ? 1U : 0U) << length;
+    EXPECT_EQ(read->registrations.size(), length + 1 == whole.size() ? 1U : 0U) << length;
+    const bool between = length == header().size() || length + 1 == behind_start ||
+                         length == behind_start || length + 1 == whole.size();
+    EXPECT_EQ(read->last_line_torn, !between) << length;
+  }
+  const auto zeros = read_journal_text(header() + started() + std::string(100, '\0'), "cut");
+  ASSERT_TRUE(zeros.ok()) << zeros.error().message;
+  EXPECT_TRUE(zeros->last_line_torn);
+  EXPECT_EQ(zeros->lines, 2U);
+}
+
+TEST(JournalReader, DoesNotInventWhatIsNotThere) {
+  const auto read = read_journal_text(header() + started() + registered(), "j");
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_FALSE(read->has_plan);
+  EXPECT_FALSE(read->registrations[0].predicted_tre_m) << "null: without a bound";
+  EXPECT_FALSE(read->registrations[0].tre_95_m);
+  EXPECT_FALSE(read->levels[0].digitization_s) << "no press was recorded";
+  EXPECT_TRUE(read->levels[0].screws.empty());
+}
+
+struct Hostile {
+  const char* name;
+  std::string content;
+  const char* refusal;
+};
+void PrintTo(const Hostile& hostile, std::ostream* out) { *out << hostile.name; }
+
+std::string line_with(const std::string& what) {
+  return header() + R"({"time_ns":100000000000,"what":)" + what + "}\n" + started();
+}
+
+class HostileJournal : public ::testing::TestWithParam<Hostile> {};
+
+TEST_P(HostileJournal, IsRefusedInOneLineThatNamesFileAndLine) {
+  const auto read = read_journal_text(GetParam().content, "bad");
+  ASSERT_FALSE(read.ok());
+  EXPECT_THAT(read.error().message, HasSubstr(GetParam().refusal));
+  EXPECT_THAT(read.error().message, Not(HasSubstr("\n")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, HostileJournal,
+    ::testing::Values(
+        Hostile{"Empty", "", "bad: is empty"}, Hostile{"Zeros", std::string(9, '\0'), "is empty"},
+        Hostile{"Binary", "\x89PNG\r\n\x1a\n", "bad:1: is not JSON"},
+        Hostile{"TornHeader", header().substr(0, 40), "bad:1: is not JSON"},
+        Hostile{"AnotherFormat", "{\"format\":\"x\"}\n",
+                "bad:1: format is no \"orthonav session\""},
+        Hostile{"ALaterVersion", R"({"format":"orthonav session","format_version":2})",
+                "bad:1: format_version is 2, known is 1"},
+        Hostile{"NoJson", line_with("\"ended\"").insert(header().size(), "x"),
+                "bad:2: is not JSON"},
+        Hostile{"AList", header() + "[]\n" + started(), "bad:2: must hold a JSON object"},
+        Hostile{"TwoHeaders", header() + header(), "bad:2: time_ns is missing"},
+        Hostile{"UnknownWord", line_with("\"dance\""), "bad:2: what \"dance\" is unknown"},
+        Hostile{"NoWord", line_with("7"), "bad:2: what must be text, is number"},
+        Hostile{
+            "UnknownStep",
+            line_with(R"("event","step":"fly","event":"press","action":"ignore","next":"done")"),
+            "bad:2: step \"fly\" is unknown"},
+        Hostile{"WrongType", line_with(R"("registration","level":"L4","attempt":"two")"),
+                "bad:2: attempt must be a number, is string"},
+        Hostile{"Infinite", line_with(R"("registration","level":"L4","attempt":1,"rmse_mm":1e999)"),
+                "bad:2: holds a number that is too large"},
+        Hostile{"NotANumber", line_with(R"("registration","level":"L4","attempt":1,"rmse_mm":NaN)"),
+                "bad:2: is not JSON"},
+        Hostile{"NegativeCount", line_with(R"("rod","side":"left","heads":-1)"),
+                "bad:2: heads is negative"},
+        Hostile{"NoSide", line_with(R"("head","side":"up")"), "bad:2: side is \"up\""},
+        Hostile{"NothingToDrop", line_with(R"("check point dropped","level":"L4")"),
+                "bad:2: level has no check point"},
+        Hostile{"LongLine", header() + std::string(2'000'000, ' ') + "{}\n" + started(),
+                "bad:2: 2000002 bytes long, limit 1048576"},
+        Hostile{"TimeGoesBack",
+                header() + started() + "{\"time_ns\":39000000000,\"what\":\"ended\"}\n",
+                "bad:3: time_ns goes back by 61.0 s, limit 60 s"},
+        Hostile{"NoTime", header() + "{\"time_ns\":1e300,\"what\":\"ended\"}\n",
+                "bad:2: time_ns is no time"},
+        Hostile{"AfterTheEnd", line_with("\"ended\""), "bad:3: stands after the end"}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+TEST(JournalReader, TakesNoMoreLevelsThanASpineCanHave) {
+  std::string many = header();
+  for (int i = 0; i < 101; ++i) {
+    many += R"({"time_ns":1,"what":"screw","side":"left","level":")" + std::to_string(i) + "\"}\n";
+  }
+  const auto read = read_journal_text(many, "bad");
+  ASSERT_FALSE(read.ok());
+  EXPECT_THAT(read.error().message, HasSubstr("bad:102: level is the 101st, limit 100"));
+}
+
+}  // namespace
+}  // namespace orthonav::engine::journal_reader_test
