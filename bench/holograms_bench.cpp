@@ -3,11 +3,16 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/golden/golden_scenes.h"
+#include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/label_layout.h"
+#include "render/projection.h"
 #include "render/shapes.h"
 
 namespace orthonav {
@@ -57,6 +62,34 @@ BENCHMARK(draw_both_eyes)
     ->UseRealTime()
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
+
+/// Labels laid out for both eyes of a head that sways, as the loop does with every snapshot.
+void lay_out_labels(benchmark::State& state) {
+  render::Scene crowd = guidance().scene;
+  for (int level = 0; level < state.range(0); ++level) {
+    for (const float side : {0.0165f, -0.0165f}) {
+      engine::EntryHologram entry;
+      entry.position = {side, 0.032f, -0.034f * static_cast<float>(level)};
+      entry.surface_normal = {0, 1, 0};
+      entry.text = "L1 right";
+      engine::add_entry(crowd, entry,
+                        310 + 2 * static_cast<render::Label>(level) + (side > 0 ? 1 : 0));
+    }
+  }
+  render::Scene scene;
+  engine::LabelLayout layout;
+  int frame = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    scene = crowd;
+    const float sway_m = 0.1f * std::sin(0.02f * static_cast<float>(++frame));
+    const auto views = render::stereo_pair(
+        render::look_at({sway_m, 0.45f, -0.25f}, {0, 0.03f, -0.05f}, {0, 0.3f, 1}, 0.39f, 0.26f));
+    state.ResumeTiming();
+    layout.lay_out(scene, views, {}, Timestamp{} + frame * std::chrono::milliseconds(33));
+  }
+}
+BENCHMARK(lay_out_labels)->Arg(0)->Arg(2)->Arg(6)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace orthonav

@@ -69,11 +69,13 @@ Status SurgeonView::draw(const engine::Snapshot& snapshot) {
     views_[0].eye_from_world = engine::to_matrix(eye_from_world.row_major());
   }
   backgrounds_.assign(1, &background_);
-  if (!located) {
-    engine::write_head_lost(snapshot.scene, head_lost_);
+  if (located) {
+    drawn_ = snapshot.scene;
+    labels_.lay_out(drawn_, views_, snapshot.patches, snapshot.display_time);
+  } else {
+    engine::write_head_lost(snapshot.scene, drawn_);
   }
-  const Status drawn =
-      renderer_->draw(located ? snapshot.scene : head_lost_, views_, backgrounds_, images_);
+  const Status drawn = renderer_->draw(drawn_, views_, backgrounds_, images_);
   background_.pixels.swap(room_picture_.pixels);
   if (!drawn) {
     return drawn;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/holograms/label_layout.h"
 #include "engine/live/frame_loop.h"
 #include "hal/sim/room_renderer.h"
 #include "hal/sim/sim_headset.h"
@@ -67,7 +68,8 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
   std::vector<render::View> views_;
   std::vector<const RgbaImage*> backgrounds_;
   std::vector<RgbaImage> images_;
-  render::Scene head_lost_;  ///< what is left to draw then
+  render::Scene drawn_;
+  engine::LabelLayout labels_;
 };
 
 }  // namespace orthonav::tools

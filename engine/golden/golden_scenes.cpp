@@ -1,6 +1,7 @@
 #include "engine/golden/golden_scenes.h"
 
 #include "engine/golden/golden_stage.h"
+#include "engine/holograms/label_layout.h"
 
 namespace orthonav::engine {
 
@@ -11,6 +12,10 @@ std::vector<GoldenScene> golden_scenes() {
   golden::add_other_scenes(scenes);
   golden::add_step_scenes(scenes);
   golden::add_view_scenes(scenes);
+  golden::add_label_scenes(scenes);
+  for (GoldenScene& golden : scenes) {
+    LabelLayout().lay_out(golden.scene, golden.views, golden.papers, Timestamp{});
+  }
   return scenes;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/holograms/glare_patches.h"
 #include "render/renderer.h"
 
 namespace orthonav::engine {
@@ -21,6 +22,7 @@ struct GoldenScene {
   int height_px = 234;
   render::Scene scene;
   std::vector<render::View> views;
+  std::vector<GlarePatch> papers;  ///< that labels make way for; not drawn
   /// Points that the hologram must cover.
   std::vector<GoldenPoint> covered;
   /// Centres of holograms that are alike on all sides of them, text left out.

@@ -71,5 +71,6 @@ void add_precision_scenes(std::vector<GoldenScene>& scenes);  ///< H7 to H9
 void add_other_scenes(std::vector<GoldenScene>& scenes);      ///< H10 to H12
 void add_step_scenes(std::vector<GoldenScene>& scenes);       ///< the workflow, step by step
 void add_view_scenes(std::vector<GoldenScene>& scenes);       ///< distances and head rolls
+void add_label_scenes(std::vector<GoldenScene>& scenes);      ///< labels that make way
 
 }  // namespace orthonav::engine::golden

@@ -124,7 +124,7 @@ GoldenScene verifying() {
   for (std::size_t i = 50; i < 70; ++i) {
     distances_m[i] = 0.0016f;
   }
-  add_residual_path(golden.scene, samples, distances_m, kPathLabel);
+  add_residual_path(golden.scene, samples, distances_m, kPathLabel, kPathBehindChecks);
   std::size_t k = 0;
   for (const Float3 place : kPlacesToCheck) {
     add_place_to_check(golden.scene, place, label_of(HologramKind::kCheckPoint, ++k));

@@ -199,7 +199,7 @@ void add_depth(Scene& scene, Float3 a, Float3 b, std::string_view text, bool pas
   item.align = render::TextAlign::kLeft;
   // Under the angle, whose height it follows down to the least that is read.
   item.offset_right = 1.6f;
-  item.offset_up = -1.9f;
+  item.offset_up = -kDepthBelowAngle;
   item.height_m = 0.004f;
   item.min_height_deg = 0.45f;
   add_run(item, text, past_target ? look::kRed : look::kWhite);

@@ -26,7 +26,6 @@ using render::Scene;
 constexpr float kPathWidth_m = 0.001f;
 constexpr float kNear_m = 0.001f;
 constexpr float kFar_m = 0.002f;
-constexpr float kDiamond_m = 0.004f;  // from tip to tip
 constexpr float kEntryRadius_m = 0.0015f;
 constexpr float kEntryRingRadius_m = 0.003f;
 constexpr float kEntryRingWidth_m = 0.0006f;
@@ -51,11 +50,6 @@ std::string fixed_width(std::string_view text) {
     c == '-' ? out += "\u2012" : out += c;
   }
   return out;
-}
-
-void add_diamond(Scene& scene, Float3 centre, Colour colour, Label label) {
-  static const auto mesh = std::make_shared<const render::MeshData>(render::make_octahedron(1.0f));
-  add_mesh(scene, mesh, render::placed_at(centre, 0.5f * kDiamond_m), colour, label);
 }
 
 void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
@@ -130,7 +124,7 @@ void add_sampled_path(Scene& scene, std::span<const Float3> samples, PathState s
 }
 
 void add_residual_path(Scene& scene, std::span<const Float3> samples,
-                       std::span<const float> distances_m, Label label) {
+                       std::span<const float> distances_m, Label label, float opacity) {
   const auto band = [&](std::size_t i) {
     const float away = std::abs(distances_m[i]);
     return away <= kNear_m ? Grade::kGood : (away <= kFar_m ? Grade::kFair : Grade::kPoor);
@@ -141,8 +135,8 @@ void add_residual_path(Scene& scene, std::span<const Float3> samples,
     while (last + 1 < count && band(last) == band(first)) {
       ++last;
     }
-    add_line(scene, samples.subspan(first, last - first + 1), kPathWidth_m, colour_of(band(first)),
-             label);
+    add_line(scene, samples.subspan(first, last - first + 1), kPathWidth_m,
+             faded(colour_of(band(first)), opacity), label);
     first = last;
   }
 }
@@ -167,21 +161,6 @@ void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
   if (entry.done) {
     add_run(text, " ✓", look::kGreen);
   }
-}
-
-std::string distance_text(double distance_m) {
-  return std::isfinite(distance_m) ? in_mm(std::abs(distance_m)) : "-- mm";
-}
-
-void add_check_point(Scene& scene, Float3 position, std::string_view text, bool within,
-                     Label label) {
-  const render::Colour colour = within ? look::kGreen : look::kRed;
-  add_diamond(scene, position, colour, label);
-  add_run(add_text_beside(scene, position, 1.0f, 0.0045f, 0.5f, label), text, colour);
-}
-
-void add_place_to_check(Scene& scene, Float3 position, Label label) {
-  add_diamond(scene, position, look::kCyan, label);
 }
 
 Float3 trajectory_outer_end(Float3 entry, Float3 target) {

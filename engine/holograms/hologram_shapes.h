@@ -62,7 +62,10 @@ void add_sampled_path(render::Scene& scene, std::span<const render::Float3> samp
 /// H1 once it is registered: green where a sample lies within 1 mm of the surface, amber within 2,
 /// red beyond. One distance a sample; samples without one are left out.
 void add_residual_path(render::Scene& scene, std::span<const render::Float3> samples,
-                       std::span<const float> distances_m, render::Label label);
+                       std::span<const float> distances_m, render::Label label,
+                       float opacity = 1.0f);
+/// Of a path while there are check points: these are what to look at.
+inline constexpr float kPathBehindChecks = 0.20f;
 
 /// H2: the registered surface, bright where it turns away from the eye; in `look::kUnstroked` where
 /// its tints say that no stroke came near.
@@ -122,8 +125,8 @@ void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 
 /// `0.4 mm`, without a sign, one decimal; `-- mm` for a distance that is not finite.
 [[nodiscard]] std::string distance_text(double distance_m);
-/// H12: a diamond at a place touched to check the registration, with its distance from the surface;
-/// green where near enough, else red.
+/// H12: a diamond in a halo at a place touched to check the registration, with its distance from
+/// the surface; green where near enough, else red.
 void add_check_point(render::Scene& scene, render::Float3 position, std::string_view text,
                      bool within, render::Label label);
 

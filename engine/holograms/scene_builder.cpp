@@ -71,6 +71,8 @@ void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
 }
 
 void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
+  const bool checks = visible_.vertebra && (!guidance.to_check.empty() ||
+                                            !visible_.vertebra->level->check_points.empty());
   std::size_t measured = 0;  // samples of saved regions so far
   const auto add = [&](const nav::Region& region, std::size_t k, float opacity) {
     points_.clear();
@@ -86,7 +88,7 @@ void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
     }
     if (region.saved && measured <= guidance.residuals_m.size()) {
       return add_residual_path(scene, points_, guidance.residuals_m.subspan(first, points_.size()),
-                               label_of(HologramKind::kPath, k));
+                               label_of(HologramKind::kPath, k), checks ? kPathBehindChecks : 1.0f);
     }
     add_sampled_path(scene, points_, region.saved ? PathState::kSaved : PathState::kRecording,
                      label_of(HologramKind::kPath, k), opacity);

@@ -31,6 +31,8 @@ class DisplayRenderer {
   /// views.
   [[nodiscard]] const render::Scene& drawn() const { return *drawn_; }
   [[nodiscard]] const std::vector<render::View>& views() const { return views_; }
+  /// Whether those views are places in the world.
+  [[nodiscard]] bool head_located() const { return !views_.empty() && drawn_ != &head_lost_; }
 
  private:
   explicit DisplayRenderer(PixelDisplay& display) : display_(display) {}

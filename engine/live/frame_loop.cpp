@@ -250,6 +250,7 @@ void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int
     snapshot->expires = *pose_time + guidance.stale_after;
   }
   builder_.write_scene(guidance, snapshot->scene);
+  write_patches(guidance, snapshot->patches);
   if (observer_) {
     observer_->captured(*snapshot);
   }

@@ -138,14 +138,24 @@ void Presenter::present(const DisplayFrame& frame) {
   }
 }
 
-bool Presenter::draw_scene(const DisplayFrame& frame) {
+/// Labels are laid out for the eyes of the frame before: by the time that this frame's are known it
+/// must be drawn, and a head hardly moves from one frame to the next.
+void Presenter::take_newest() {
   {
     const MutexLock lock(mutex_);
-    if (std::exchange(fresh_, false)) {
-      std::swap(shown_, incoming_);
-      has_snapshot_ = true;
+    if (!std::exchange(fresh_, false)) {
+      return;
     }
+    std::swap(shown_, incoming_);
+    has_snapshot_ = true;
   }
+  if (renderer_->head_located()) {
+    labels_.lay_out(shown_.scene, renderer_->views(), shown_.patches, shown_.display_time);
+  }
+}
+
+bool Presenter::draw_scene(const DisplayFrame& frame) {
+  take_newest();
   if (!frame.draw || !has_snapshot_) {
     return false;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/mutex.h"
+#include "engine/holograms/label_layout.h"
 #include "engine/live/display_renderer.h"
 #include "engine/live/frame_loop.h"
 #include "hal/api/pixel_display.h"
@@ -59,6 +60,7 @@ class Presenter : public SnapshotSink {
   void run();
   void next_frame();
   void present(const DisplayFrame& frame);
+  void take_newest();
   bool draw_scene(const DisplayFrame& frame);
   void look_again();
   void leave();
@@ -84,6 +86,7 @@ class Presenter : public SnapshotSink {
   std::unique_ptr<DisplayRenderer> renderer_;
   Snapshot shown_;
   bool has_snapshot_ = false;
+  LabelLayout labels_;
   bool over_ = false;
 };
 

@@ -7,6 +7,7 @@
 
 #include "base/mutex.h"
 #include "base/time.h"
+#include "engine/holograms/glare_patches.h"
 #include "hal/api/shown_status.h"
 #include "render/scene.h"
 
@@ -20,8 +21,9 @@ struct Snapshot {
   StepOnDisplay step;
   /// When shown later than this, tool guidance is too old to be seen; absent when there is none.
   std::optional<Timestamp> expires;
-  bool blank = false;  ///< the loop has ended: only the status line is shown
-  render::Scene scene;
+  bool blank = false;   ///< the loop has ended: only the status line is shown
+  render::Scene scene;  ///< labels stand where they were built; whoever draws it lays them out
+  std::vector<GlarePatch> patches;  ///< where they would not be read
 };
 
 /// A few snapshots that go round between two threads. The buffers are made once and reused.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,11 +81,13 @@ struct RodState {
   [[nodiscard]] bool visible() const { return !heads.empty() && !map_moved; }
 };
 
-/// How well a tool is seen right now, for the status line.
+/// How well a tool is seen right now, and where white paper makes a bad background.
 struct ToolSight {
   std::string name;
   nav::ToolRole role = nav::ToolRole::kPointer;
   PoseStatus status = PoseStatus::kLost;
+  /// Corners of the white paper of each of its tags, as tracked; none while it is lost.
+  std::vector<std::array<Point<World>, 4>> papers;
 };
 
 /// The tool against the selected screw.

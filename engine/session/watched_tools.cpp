@@ -1,5 +1,6 @@
 #include "engine/session/watched_tools.h"
 
+#include <array>
 #include <utility>
 
 namespace orthonav::engine {
@@ -23,6 +24,30 @@ Result<std::size_t> only_tool(std::span<const nav::ToolGeometry> tools, nav::Too
   return *found;
 }
 
+/// Half the width of a printed tag's paper by the tag's size: a quiet zone of one cell of eight,
+/// and what is left around it where it was cut out.
+constexpr double kHalfPaper = 0.5 + 0.125 + 0.025;
+
+template <class Frame>
+std::array<Point<World>, 4> paper_of(const Transform<World, Frame>& world_from_tag, double size_m) {
+  const double half_m = kHalfPaper * size_m;
+  const auto corner = [&](double x, double y) {
+    return world_from_tag * Point<Frame>{{x * half_m, y * half_m, 0.0}};
+  };
+  return {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+}
+
+void note_papers(const nav::TrackedPose& pose, const nav::ToolGeometry& tool, ToolSight& sight) {
+  sight.papers.clear();
+  if (pose.status == PoseStatus::kLost) {
+    return;
+  }
+  sight.papers.push_back(paper_of(pose.value, tool.marker.size_m));
+  for (const nav::AttachedMarker& more : tool.more_markers) {
+    sight.papers.push_back(paper_of(pose.value * more.marker_from_tag, more.definition.size_m));
+  }
+}
+
 }  // namespace
 
 Result<WatchedTools> WatchedTools::create(std::unique_ptr<nav::ToolTracker> tracker) {
@@ -42,7 +67,7 @@ WatchedTools::WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_
     : tracker_(std::move(tracker)), pointer_(pointer), guide_(guide) {
   watches_.resize(tracker_->tools().size());
   for (const nav::ToolGeometry& tool : tracker_->tools()) {
-    sights_.push_back({tool.name, tool.role, PoseStatus::kLost});
+    sights_.push_back({tool.name, tool.role, PoseStatus::kLost, {}});
   }
 }
 
@@ -51,6 +76,7 @@ void WatchedTools::track(const StereoFrame& frame) {
   for (std::size_t i = 0; i < watches_.size() && i < states_.size(); ++i) {
     watches_[i].update(states_[i].world_from_marker);
     sights_[i].status = states_[i].world_from_marker.status;
+    note_papers(states_[i].world_from_marker, geometry(i), sights_[i]);
   }
 }
 
@@ -63,6 +89,7 @@ void WatchedTools::forget_poses() {
 void WatchedTools::lose_sight() {
   for (ToolSight& sight : sights_) {
     sight.status = PoseStatus::kLost;
+    sight.papers.clear();
   }
 }
 

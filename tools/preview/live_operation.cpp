@@ -4,9 +4,11 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
+#include "engine/holograms/render_values.h"
 #include "engine/live/known_tools.h"
 #include "engine/session/wording.h"
 #include "engine/study/sim_scenario.h"
+#include "tools/eye_in_rig.h"
 
 namespace orthonav::preview {
 namespace {
@@ -126,6 +128,22 @@ void LiveOperation::stepped(const StereoFrame& frame, const engine::Inputs& /*in
   moment_.detail = engine::detail_text(guidance.status);
 }
 
+/// For the eye that a surgeon, or the recording's left camera, has there.
+void LiveOperation::lay_out_labels(const engine::Snapshot& snapshot) {
+  if (moment_.world_from_rig.status == PoseStatus::kLost) {
+    return;
+  }
+  const auto rig_from_eye =
+      room_ ? tools::rig_from_eye()
+            : Transform<Rig, Eye>{
+                  Mat3::identity(),
+                  headset_->cameras().calibration().left_from_rig.inverse().translation()};
+  eye_.resize(1);
+  eye_[0].eye_from_world =
+      engine::to_matrix((moment_.world_from_rig.value * rig_from_eye).inverse().row_major());
+  labels_.lay_out(moment_.scene, eye_, snapshot.patches, snapshot.display_time);
+}
+
 /// Comes after `stepped` for the same pair, or without one when guidance is taken back.
 void LiveOperation::captured(const engine::Snapshot& snapshot) {
   moment_.at = snapshot.step;
@@ -133,6 +151,7 @@ void LiveOperation::captured(const engine::Snapshot& snapshot) {
     moment_.detail = engine::text_of(engine::Message(engine::Ended{}));
   }
   moment_.scene = snapshot.scene;
+  lay_out_labels(snapshot);
   timeline_.push(std::make_shared<const Moment>(moment_));
 }
 

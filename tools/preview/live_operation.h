@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "engine/case/case.h"
+#include "engine/holograms/label_layout.h"
 #include "engine/live/assembled_operation.h"
 #include "hal/open/open.h"
 #include "tools/preview/preview_headset.h"
@@ -50,6 +51,7 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   void stepped(const StereoFrame& frame, const engine::Inputs& inputs,
                const engine::Guidance& guidance) override;
   void captured(const engine::Snapshot& snapshot) override;
+  void lay_out_labels(const engine::Snapshot& snapshot);
   Status draw(const engine::Snapshot& /*snapshot*/) override { return {}; }
 
   std::unique_ptr<Headset> headset_;
@@ -59,6 +61,9 @@ class LiveOperation : private engine::LoopObserver, private engine::SnapshotSink
   Timeline& timeline_;
   std::unique_ptr<engine::AssembledOperation> operation_;
   Moment moment_;  ///< of the pair being worked on
+  /// Here and not where pictures are drawn: moments are looked at in any order.
+  engine::LabelLayout labels_;
+  std::vector<render::View> eye_;
   std::atomic<bool> ended_ = false;
   Status outcome_;
   std::thread thread_;

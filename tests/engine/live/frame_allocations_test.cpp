@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/holograms/hologram_label.h"
+#include "engine/holograms/label_layout.h"
 #include "engine/holograms/scene_builder.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/scripted_operation.h"
@@ -23,6 +24,9 @@ class Frames {
     builder_.update(guidance);
     builder_.write_shown(guidance, shown_);
     builder_.write_scene(guidance, scene_);
+    write_patches(guidance, patches_);
+    time_ += std::chrono::milliseconds(33);
+    labels_.lay_out(scene_, views_, patches_, time_);
   }
   void make_too_late(const Guidance& guidance) {
     make(guidance);
@@ -39,6 +43,11 @@ class Frames {
   SceneBuilder builder_;
   ShownFrame shown_;
   render::Scene scene_;
+  std::vector<GlarePatch> patches_;
+  LabelLayout labels_;
+  std::vector<render::View> views_ = render::stereo_pair(
+      render::look_at({0.1f, 0.45f, -0.2f}, {0, 0.03f, 0}, {0, 0.3f, 1}, 0.39f, 0.26f));
+  Timestamp time_{};
 };
 
 /// Counted once buffers have grown. Where items are taken out of a scene, those after them change

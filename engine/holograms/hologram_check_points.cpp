@@ -1,0 +1,42 @@
+#include <cmath>
+#include <memory>
+
+#include "base/length_text.h"
+#include "engine/holograms/hologram_parts.h"
+#include "engine/holograms/hologram_shapes.h"
+#include "render/shapes.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr float kDiamond_m = 0.004f;  // from tip to tip
+constexpr float kHaloRadius_m = 0.005f;
+
+/// The halo is a bubble of which the rim shows: a ring from wherever it is seen.
+void add_diamond_in_halo(render::Scene& scene, render::Float3 centre, render::Colour colour,
+                         render::Label label) {
+  static const auto diamond =
+      std::make_shared<const render::MeshData>(render::make_octahedron(1.0f));
+  add_mesh(scene, diamond, render::placed_at(centre, 0.5f * kDiamond_m), colour, label);
+  add_sphere(scene, centre, kHaloRadius_m, colour, label);
+  scene.meshes.back().style = render::MeshStyle::kRim;
+}
+
+}  // namespace
+
+std::string distance_text(double distance_m) {
+  return std::isfinite(distance_m) ? in_mm(std::abs(distance_m)) : "-- mm";
+}
+
+void add_check_point(render::Scene& scene, render::Float3 position, std::string_view text,
+                     bool within, render::Label label) {
+  const render::Colour colour = within ? look::kGreen : look::kRed;
+  add_diamond_in_halo(scene, position, colour, label);
+  add_run(add_text_beside(scene, position, 1.5f, 0.0045f, 0.5f, label), text, colour);
+}
+
+void add_place_to_check(render::Scene& scene, render::Float3 position, render::Label label) {
+  add_diamond_in_halo(scene, position, look::kCyan, label);
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/holograms/label_geometry.h"
+#include "engine/holograms/label_obstacles.h"
+#include "engine/holograms/label_places.h"
+#include "render/text/font.h"
+
+namespace orthonav::engine {
+
+/// A text of a scene that is to be placed; the angle takes the depth under it along.
+struct LabelSubject {
+  std::size_t text = 0;  ///< an index into the scene's texts
+  std::optional<std::size_t> below;
+  float below_caps = 0;  ///< cap height of that one, by the cap height of `text`
+  LabelRank rank = LabelRank::kFixed;
+  std::uint32_t instance = 0;  ///< among the texts of its label and rank
+  LabelExtent extent;          ///< of both
+  render::Matrix4 world_from_caps{};
+};
+
+/// The least harm of a place where a text can't be read, or another one there.
+inline constexpr int kTextLost = 8;
+
+/// How good a place is.
+struct LabelVerdict {
+  int blocked = 0;  ///< the harm of covering what lies there; 0: the place is free
+  int cost = 0;     ///< less is better; whatever is blocked costs more than all that is free
+};
+
+/// How near is too near, tangents of visual angles.
+struct LabelMargins {
+  float others = 0;  ///< to other texts and to what they name
+  float own = 0;     ///< to what the label names itself
+};
+
+/// Says of one frame what a label would cover at a place. Keeps its buffers between frames.
+class LabelJudge {
+ public:
+  /// The eyes, what is in the way, and the texts that are not to be moved.
+  void begin(const render::Scene& scene, const std::vector<render::View>& views,
+             std::span<const GlarePatch> patches);
+  /// The texts to be placed, the most important first. Valid until `begin`.
+  [[nodiscard]] std::span<const LabelSubject> subjects() const { return subjects_; }
+
+  [[nodiscard]] LabelVerdict judge(const render::Scene& scene, const LabelSubject& subject,
+                                   std::size_t place, const LabelMargins& margins) const;
+  /// From now on others make way for it there.
+  void occupy(const render::Scene& scene, const LabelSubject& subject, std::size_t place);
+  /// From what is named to the label, metres in the world.
+  [[nodiscard]] static std::array<render::Float3, 2> leader(const LabelSubject& subject,
+                                                            const LabelPlace& place);
+
+ private:
+  void add_subject(const render::Scene& scene, std::size_t text);
+  void put_under(const render::Scene& scene, LabelSubject& subject) const;
+  /// A place in three sizes.
+  struct Spot {
+    BoxInEyes box;
+    BoxInEyes from_others;
+    BoxInEyes from_own;
+  };
+  [[nodiscard]] static int harm(const LabelObstacle& obstacle, render::Label label, LabelRank rank,
+                                const Spot& spot);
+  [[nodiscard]] int crossed(const OutlineInEyes& leader, float margin) const;
+
+  render::Font font_;
+  Eyes eyes_;
+  std::vector<LabelObstacle> obstacles_;
+  std::vector<BoxInEyes> placed_;
+  std::vector<LabelSubject> subjects_;
+};
+
+}  // namespace orthonav::engine

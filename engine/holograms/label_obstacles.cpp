@@ -1,0 +1,117 @@
+#include "engine/holograms/label_obstacles.h"
+
+#include <algorithm>
+
+#include "engine/holograms/hologram_label.h"
+#include "render/float3.h"
+
+namespace orthonav::engine {
+namespace {
+
+using render::Float3;
+using render::Label;
+using Kind = LabelObstacle::Kind;
+
+constexpr float kRodRadius_m = 0.003f;
+constexpr float kLineHalfWidth_m = 0.001f;
+
+/// Spheres and diamonds are unit shapes, scaled down; bones and rods are drawn life-size.
+bool is_small(const render::MeshItem& mesh) {
+  const render::Matrix4& m = mesh.world_from_model;
+  return render::length({m[0], m[1], m[2]}) < 0.1f;
+}
+
+bool names_something(Label label) {
+  switch (kind_of(label)) {
+    case HologramKind::kEntry:
+    case HologramKind::kRod:
+    case HologramKind::kCheckPoint:
+      return true;
+    default:
+      return false;
+  }
+}
+
+class Finder {
+ public:
+  Finder(const Eyes& eyes, std::vector<LabelObstacle>& obstacles)
+      : eyes_(eyes), obstacles_(obstacles) {
+    obstacles_.clear();
+  }
+
+  void add(Kind kind, Label label, std::span<const Float3> corners, float radius_m) {
+    obstacles_.push_back({kind, label, eyes_.outline(corners, radius_m)});
+  }
+
+  void add_small_shapes(const render::Scene& scene) {
+    const render::MeshItem* before = nullptr;  // along a rod
+    for (const render::MeshItem& mesh : scene.meshes) {
+      if (!names_something(mesh.label) || !is_small(mesh)) {
+        continue;
+      }
+      const render::Matrix4& m = mesh.world_from_model;
+      const std::array<Float3, 1> centre = {{{m[12], m[13], m[14]}}};
+      add(Kind::kNamed, mesh.label, centre, render::length({m[0], m[1], m[2]}));
+      const bool rod = kind_of(mesh.label) == HologramKind::kRod;
+      if (rod && before && before->label == mesh.label) {
+        const render::Matrix4& b = before->world_from_model;
+        const std::array<Float3, 2> span = {{{b[12], b[13], b[14]}, centre[0]}};
+        add(Kind::kNamed, mesh.label, span, kRodRadius_m);
+      }
+      before = rod ? &mesh : nullptr;
+    }
+  }
+
+  void add_ring(const render::LineItem& line) {
+    std::array<Float3, 1> middle{};
+    for (const Float3 p : line.points) {
+      middle[0] = middle[0] + 1.0f / static_cast<float>(line.points.size()) * p;
+    }
+    float radius_m = 0;
+    for (const Float3 p : line.points) {
+      radius_m = std::max(radius_m, render::length(p - middle[0]));
+    }
+    add(Kind::kNamed, line.label, middle, radius_m + 0.5f * line.width_m);
+  }
+
+  void add_trajectory(const render::LineItem& line) {
+    add(Kind::kLine, line.label, line.points, kLineHalfWidth_m);
+    if (line.dash_m == 0) {  // the part outside ends at the entry
+      add(Kind::kWound, line.label, std::span(line.points).last(1), kWoundRadius_m);
+    }
+  }
+
+  void add_lines(const render::Scene& scene) {
+    for (const render::LineItem& line : scene.lines) {
+      const bool cross = kind_of(line.label) == HologramKind::kCross;
+      if (line.closed && line.points.size() > 4 && (cross || names_something(line.label))) {
+        add_ring(line);
+      } else if (kind_of(line.label) == HologramKind::kTrajectory && line.points.size() == 2) {
+        add_trajectory(line);
+      }
+    }
+  }
+
+ private:
+  const Eyes& eyes_;
+  std::vector<LabelObstacle>& obstacles_;
+};
+
+}  // namespace
+
+void find_obstacles(const render::Scene& scene, std::span<const GlarePatch> patches,
+                    const Eyes& eyes, std::vector<LabelObstacle>& obstacles) {
+  Finder finder(eyes, obstacles);
+  for (const GlarePatch& patch : patches) {
+    finder.add(Kind::kGlare, 0, patch, 0);
+  }
+  finder.add_small_shapes(scene);
+  finder.add_lines(scene);
+  for (const render::TriangleItem& triangle : scene.triangles) {
+    if (kind_of(triangle.label) == HologramKind::kTriangle) {
+      finder.add(Kind::kLine, triangle.label, triangle.corners, kLineHalfWidth_m);
+    }
+  }
+}
+
+}  // namespace orthonav::engine
