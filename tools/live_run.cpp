@@ -113,6 +113,9 @@ class LiveRun {
       return method.error();
     }
     method_ = std::move(*method);
+    if (const Status good = check_arguments(); !good) {
+      return good;
+    }
     const auto source = load_checked_case(arguments_.case_folder);
     if (!source) {
       return source.error();
@@ -139,14 +142,29 @@ class LiveRun {
     if (!opened->warning.empty()) {
       std::fprintf(stderr, "orthonav: warning: %s\n", opened->warning.c_str());
     }
-    if (arguments_.headset.find("pace=step") != std::string::npos) {
-      return Error{"headset URI \"" + arguments_.headset +
-                   "\": nobody steps here; known paces are fast and realtime"};
-    }
     if (const Status joined = join_parts(); !joined) {
       return joined;
     }
     return start(std::move(*operation));
+  }
+
+  /// What can be told before the models are prepared, which takes seconds.
+  Status check_arguments() {
+    if (const Status good = check_headset_uri(arguments_.headset); !good) {
+      return good;
+    }
+    if (arguments_.headset.find("pace=step") != std::string::npos) {
+      return Error{"headset URI \"" + arguments_.headset +
+                   "\": nobody steps here; known paces are fast and realtime"};
+    }
+    if (!arguments_.tools_file.empty()) {
+      auto tools = engine::load_tools(arguments_.tools_file);
+      if (!tools) {
+        return tools.error();
+      }
+      tools_ = std::move(*tools);
+    }
+    return {};
   }
 
   Status join_parts() {
@@ -167,8 +185,8 @@ class LiveRun {
   }
 
   Status start(engine::Operation operation) {
-    const auto tools = arguments_.tools_file.empty() ? engine::tools_known_to(*headset_)
-                                                     : engine::load_tools(arguments_.tools_file);
+    const auto tools = tools_ ? Result<std::vector<nav::ToolGeometry>>(*tools_)
+                              : engine::tools_known_to(*headset_);
     if (!tools) {
       return tools.error();
     }
@@ -241,6 +259,7 @@ class LiveRun {
   RunArguments arguments_;
   StopSignals& signals_;
   engine::Method method_;
+  std::optional<std::vector<nav::ToolGeometry>> tools_;  ///< of the file, where one was named
   engine::ModelCache models_;
   std::string case_name_;
   std::unique_ptr<Headset> headset_;

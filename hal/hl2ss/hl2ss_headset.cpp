@@ -80,7 +80,7 @@ class Cameras final : public StereoCamera {
     if (!waiting) {
       return ended ? Next::kEnd : Next::kNone;
     }
-    if (standin && !standin->admits(*waiting)) {
+    if (standin && !standin->admits(*waiting - receiver_.stamps_left_late())) {
       return Next::kNone;
     }
     if (!receiver_.pairs().take(frame)) {

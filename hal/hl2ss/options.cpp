@@ -6,7 +6,8 @@
 namespace orthonav::hl2ss {
 namespace {
 
-constexpr const char* kKnownKeys = "known are profile=raw|h264, port=BASE and standin=PORT";
+constexpr const char* kKnownKeys =
+    "known are profile=raw|h264, stamps=late|exact, port=BASE and standin=PORT";
 constexpr int kMaxPort = 65535;
 
 Result<int> port_of(const std::string& key, std::string_view text, int largest) {
@@ -25,7 +26,7 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
   const std::string key(item.substr(0, equals));
   const bool has_value = equals != std::string_view::npos;
   const std::string_view value = has_value ? item.substr(equals + 1) : std::string_view{};
-  if (key != "profile" && key != "port" && key != "standin") {
+  if (key != "profile" && key != "stamps" && key != "port" && key != "standin") {
     return Error{"unknown key \"" + key + "\"; " + kKnownKeys};
   }
   if (!seen.insert(key).second) {
@@ -36,6 +37,13 @@ Status apply(std::string_view item, std::set<std::string>& seen, Hl2ssOptions& o
       return Error{"profile \"" + std::string(value) + "\" must be raw or h264"};
     }
     options.profile = value == "raw" ? VideoProfile::kRaw : VideoProfile::kH264Base;
+    return {};
+  }
+  if (key == "stamps") {
+    if (value != "late" && value != "exact") {
+      return Error{"stamps \"" + std::string(value) + "\" must be late or exact"};
+    }
+    options.stamps_late = value == "late" ? kResearchModeStampsLate : Duration::zero();
     return {};
   }
   const auto port = port_of(key, value, key == "port" ? kMaxPort - kLastOffset : kMaxPort);

@@ -26,8 +26,9 @@ struct Hl2ssOptions {
   Duration open_within = std::chrono::seconds(8);
 };
 
-/// What follows `hl2ss:` in a URI: `//HOST[?profile=raw|h264&port=BASE&standin=PORT]`. An Error
-/// says what is wrong and names the known keys.
+/// What follows `hl2ss:` in a URI:
+/// `//HOST[?profile=raw|h264&stamps=late|exact&port=BASE&standin=PORT]`. An Error says what is
+/// wrong and names the known keys.
 Result<Hl2ssOptions> options_of(std::string_view after_scheme);
 
 }  // namespace orthonav::hl2ss

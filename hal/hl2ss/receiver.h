@@ -45,6 +45,11 @@ class Receiver final : private ImageSink {
   /// What the streams that are not connected last suffered, and what was refused of the others.
   [[nodiscard]] std::string troubles() const;
 
+  /// By how much later than its images a HoloLens 2 stamps them for us, as we asked.
+  [[nodiscard]] Duration stamps_left_late() const {
+    return kResearchModeStampsLate - options_.stamps_late;
+  }
+
  private:
   struct Stream {
     std::unique_ptr<ArrivalMeter> meter;

@@ -179,11 +179,35 @@ Result<std::unique_ptr<Headset>> open_headset(const std::string& uri, const Open
   return std::move(opened->headset);
 }
 
-Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options) {
+Status check_headset_uri(const std::string& uri) {
   const std::size_t colon = uri.find(':');
   if (colon == std::string::npos) {
     return bad_uri(uri, std::string("has no scheme; ") + kKnownSchemes);
   }
+  const std::string scheme = uri.substr(0, colon);
+  const std::string rest = uri.substr(colon + 1);
+  if (scheme == "sim") {
+    const auto options = sim_options(uri, rest, {});
+    return options ? Status{} : options.error();
+  }
+  if (scheme == "replay") {
+    const auto options = replay_options(uri, rest);
+    return options ? Status{} : options.error();
+  }
+  if (scheme == "hl2ss") {
+    const auto options = hl2ss::options_of(rest);
+    return options ? Status{} : Status(bad_uri(uri, options.error().message));
+  }
+  return scheme == "openxr"
+             ? Status{}
+             : Status(bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes));
+}
+
+Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options) {
+  if (const Status good = check_headset_uri(uri); !good) {
+    return good.error();
+  }
+  const std::size_t colon = uri.find(':');
   const std::string scheme = uri.substr(0, colon);
   const std::string rest = uri.substr(colon + 1);
   if (scheme == "sim") {
@@ -193,16 +217,9 @@ Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& 
     return open_replay(uri, rest);
   }
   if (scheme == "hl2ss") {
-    auto chosen = hl2ss::options_of(rest);
-    if (!chosen) {
-      return bad_uri(uri, chosen.error().message);
-    }
-    return without_room(hl2ss::Hl2ssHeadset::open(*chosen));
+    return without_room(hl2ss::Hl2ssHeadset::open(*hl2ss::options_of(rest)));
   }
-  if (scheme == "openxr") {
-    return open_openxr(uri, rest, options);
-  }
-  return bad_uri(uri, "unknown scheme \"" + scheme + "\"; " + kKnownSchemes);
+  return open_openxr(uri, rest, options);
 }
 
 }  // namespace orthonav

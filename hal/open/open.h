@@ -32,7 +32,11 @@ struct OpenedHeadset {
 Result<std::unique_ptr<Headset>> open_headset(const std::string& uri,
                                               const OpenOptions& options = {});
 
-/// The same, with the simulated room beside it.
+/// Refuses what can't be opened by its text alone (scheme, keys, values), at once and without
+/// looking at any device; what follows `openxr:` is only read when it is opened.
+Status check_headset_uri(const std::string& uri);
+
+/// The same as `open_headset`, with the simulated room beside it.
 Result<OpenedHeadset> open_with_room(const std::string& uri, const OpenOptions& options = {});
 
 }  // namespace orthonav

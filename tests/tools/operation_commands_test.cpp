@@ -26,6 +26,12 @@ void expect_refusal(const Called& called, const std::string& reason) {
   EXPECT_EQ(std::count(called.err.begin(), called.err.end(), '\n'), 1) << called.err;
 }
 
+TEST(RunCommand, RefusesItsArgumentsBeforeItPreparesAnything) {
+  expect_refusal(orthonav({"run", "--headset", "sim:?sed=3", "--case", "/none"}),
+                 "unknown key \"sed\"");
+  expect_refusal(orthonav({"run", "--tools", "none.json", "--case", "/none"}), "none.json");
+}
+
 TEST(DemoCommand, RefusesWhatItCannotDoAndLeavesNothing) {
   const ScratchFolder folder;
   const std::string out = folder.file("out");

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "hal/hl2ss/socket.h"
+#include "tests/support/wait_until.h"
 #include "tests/tools/command_line.h"
 
 namespace orthonav::test::serve_hl2ss_test {
@@ -18,6 +21,43 @@ TEST(ServeHl2ss, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(host.code, 2);
   EXPECT_THAT(host.err, HasSubstr("no.such.host.invalid"));
 }
+
+/// A run through what real units do: the stand-in's options of the command line, one by one.
+struct Unit {
+  const char* name;
+  std::vector<std::string> serve;
+  std::string uri;     ///< besides address and ports
+  std::string counts;  ///< in the statistics of the connection
+};
+void PrintTo(const Unit& unit, std::ostream* out) { *out << unit.name; }
+
+class StandIn : public ::testing::TestWithParam<Unit> {};
+
+TEST_P(StandIn, IsRunThrough) {
+  std::vector<std::string> words = {"serve-hl2ss", "--levels", "L5", "--paced", "--port", "47612"};
+  words.insert(words.end(), GetParam().serve.begin(), GetParam().serve.end());
+  StartedCommand server(words);
+  ASSERT_TRUE(wait_until([&] { return server.err_so_far().find("serving") != std::string::npos; }));
+  const Called run =
+      orthonav({"run", "--headset", "hl2ss://127.0.0.1?port=47612&standin=47631" + GetParam().uri,
+                "--levels", "L5", "--frames", "30", "--stats", "--json"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(nlohmann::json::parse(run.out)["frames"]["displayed"], 30) << run.err;
+  EXPECT_THAT(run.err, HasSubstr(GetParam().counts));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Every, StandIn,
+    // Late stamps that nobody corrects, edges of zeros; stamps 0.1 s back (or 1 s ahead), slices.
+    ::testing::Values(Unit{"StampsLateZerosAtTheEdges",
+                           {"--unmapped-edge-px", "8"},
+                           "&stamps=exact",
+                           " 0 damaged"},
+                      Unit{"StampsJumpBackSlices",
+                           {"--faults", "misstamp=0.2", "--slices", "4"},
+                           "&profile=h264",
+                           "packets refused, the last one: stamp"}),
+    [](const auto& each) { return std::string(each.param.name); });
 
 TEST(ServeHl2ss, SaysWhichPortIsTaken) {
   const auto host = hl2ss::resolve("127.0.0.1");

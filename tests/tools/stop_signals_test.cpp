@@ -29,12 +29,12 @@ struct LongRun {
   StartedCommand command{
       {"run", "--headset", "sim:?seed=3", "--levels", "L5", "--out", out, "--record", recording}};
 
-  /// Until pairs are being recorded.
-  bool is_under_way() const {
+  /// Until pairs are being recorded: so many bytes of right images are in their file.
+  bool is_under_way(std::uintmax_t least_bytes = 1) const {
     return test::wait_until([&] {
       std::error_code none;
-      const auto bytes = std::filesystem::file_size(recording + ".part/VLC LF.tar", none);
-      return !none && bytes > 0;
+      const auto bytes = std::filesystem::file_size(recording + ".part/VLC RF.tar", none);
+      return !none && bytes >= least_bytes;
     });
   }
 };
@@ -98,7 +98,8 @@ TEST(StopSignals, TerminationIsTakenLikeCtrlC) {
 /// What nobody can catch leaves what was written in plain sight, and it can be read.
 TEST(StopSignals, AKilledRunLeavesAJournalAndARecordingThatCanBeRead) {
   LongRun run;
-  ASSERT_TRUE(run.is_under_way());
+  constexpr std::uintmax_t kThreeImages = 3 * 640 * 480;
+  ASSERT_TRUE(run.is_under_way(kThreeImages));
   run.command.send(SIGKILL);
   EXPECT_EQ(run.command.wait().code, -1);
   EXPECT_THAT(unfinished_in(run.folder.file("")),
