@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/holograms/optical_model.h"
 #include "engine/live/frame_loop.h"
 #include "hal/sim/room_renderer.h"
 #include "hal/sim/sim_headset.h"
@@ -67,6 +68,7 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
   std::vector<render::View> views_;
   std::vector<const RgbaImage*> backgrounds_;
   std::vector<RgbaImage> images_;
+  engine::WorldBehindCombiner combiner_;
   render::Scene head_lost_;  ///< what is left to draw then
 };
 

@@ -64,7 +64,8 @@ void take_dots_off(render::Scene& scene, render::Label label);
 [[nodiscard]] std::optional<std::string> depth_text(double depth_m, double to_target_m);
 /// The same into a text that is there already; false and empty for what is no depth.
 [[nodiscard]] bool write_depth_text(double depth_m, double to_target_m, std::string& text);
-/// H9: under H6, which stands beside `b` (as `add_angle_readout`); past the target it warns in red.
+/// H9: under H6, which stands beside `b` (as `add_angle_readout`); past the target it has a red
+/// rim.
 void add_depth(render::Scene& scene, render::Float3 a, render::Float3 b, std::string_view text,
                bool past_target, render::Label label);
 
