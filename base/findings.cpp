@@ -1,22 +1,20 @@
 #include "base/findings.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "base/printed.h"
 
 namespace orthonav {
 
 std::string with_numbers(const char* format, double value, double limit) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, value, limit);
-  return text.data();
+  return beside_limit(format, value, limit);
 }
 
 void must_be_positive(std::initializer_list<NamedNumber> options,
                       std::vector<std::string>& problems) {
   for (const auto& [name, value] : options) {
     if (!(value > 0.0) || !std::isfinite(value)) {
-      problems.push_back(std::string(name) + " " + std::to_string(value) + ", must be above 0");
+      problems.push_back(std::string(name) + " " + printed("%f", value) + ", must be above 0");
     }
   }
 }

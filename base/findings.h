@@ -9,7 +9,7 @@
 namespace orthonav {
 
 /// A finding in words: `format` as for printf, with the value and its limit (two `%f`, `%e` or
-/// `%g`, or one), cut at 200 characters.
+/// `%g`, or one). They never read alike where they differ (base/printed.h).
 [[nodiscard]] std::string with_numbers(const char* format, double value, double limit);
 
 /// The same as an Error.

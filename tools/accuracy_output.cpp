@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "base/printed.h"
 
 namespace orthonav::tools {
 namespace {
@@ -89,59 +90,59 @@ ordered_json distances_json(const nav::DistancePart& part) {
   return out;
 }
 
-void append(std::string& text, const char* format, ...) __attribute__((format(printf, 2, 3)));
-void append(std::string& text, const char* format, ...) {
-  std::array<char, 400> line{};
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line.data(), line.size(), format, arguments);
-  va_end(arguments);
-  text += line.data();
+/// With as many digits as tell the figure from the limits that it lies between.
+void append_judged(const nav::Judged& figure, std::string& text) {
+  const double value = in_mm(figure.value_m);
+  const double pass = in_mm(figure.limits.pass_m);
+  const double note = in_mm(figure.limits.note_m);
+  const double nearest = std::abs(value - pass) < std::abs(value - note) ? pass : note;
+  append_printed(text, "  %s %s mm: %s (pass to %.2f, note to %.2f)\n", figure.what.c_str(),
+                 value_beside(value, nearest, 2).c_str(),
+                 std::string(to_text(figure.verdict)).c_str(), pass, note);
 }
 
 void append_part(const char* name, const nav::AccuracyPart& part, std::string& text) {
-  append(text, "%s: %s (%.1f-%.1f s)\n", name, std::string(to_text(part.verdict())).c_str(),
-         part.start_s, part.end_s);
+  append_printed(text, "%s: %s (%.1f-%.1f s)\n", name, std::string(to_text(part.verdict())).c_str(),
+                 part.start_s, part.end_s);
   if (!part.failure.empty()) {
     text += "  " + part.failure + "\n";
   }
   for (const nav::Judged& figure : part.judged) {
-    append(text, "  %s %.2f mm: %s (pass to %.2f, note to %.2f)\n", figure.what.c_str(),
-           in_mm(figure.value_m), std::string(to_text(figure.verdict)).c_str(),
-           in_mm(figure.limits.pass_m), in_mm(figure.limits.note_m));
+    append_judged(figure, text);
   }
 }
 
 void append_spread(const nav::TipSpread& spread, std::string& text) {
-  append(text, "  RMS %.2f mm, max %.2f mm, %zu poses\n", in_mm(spread.rms_m), in_mm(spread.max_m),
-         spread.samples);
+  append_printed(text, "  RMS %.2f mm, max %.2f mm, %zu poses\n", in_mm(spread.rms_m),
+                 in_mm(spread.max_m), spread.samples);
 }
 
 void append_turning(const nav::TurningPart& part, std::string& text) {
   append_part("sensitivity to orientation", part, text);
   append_spread(part.spread, text);
   const Vec3 bias = part.tip_bias_m;
-  append(text,
-         "  tip bias %+.2f %+.2f %+.2f mm in the marker's axes (SD %.2f mm), %.2f mm RMS "
-         "without it\n",
-         in_mm(bias.x), in_mm(bias.y), in_mm(bias.z), in_mm(part.tip_bias_sigma_m),
-         in_mm(part.residual_rms_m));
+  append_printed(text,
+                 "  tip bias %+.2f %+.2f %+.2f mm in the marker's axes (SD %.2f mm), %.2f mm RMS "
+                 "without it\n",
+                 in_mm(bias.x), in_mm(bias.y), in_mm(bias.z), in_mm(part.tip_bias_sigma_m),
+                 in_mm(part.residual_rms_m));
   for (const nav::TiltBin& bin : part.bins) {
     if (bin.samples > 0) {
-      append(text, "  tilt %2.0f-%2.0f°: RMS %.2f mm, max %.2f mm, %zu poses\n",
-             bin.from_rad * kDegreesPerRadian, bin.to_rad * kDegreesPerRadian, in_mm(bin.rms_m),
-             in_mm(bin.max_m), bin.samples);
+      append_printed(text, "  tilt %2.0f-%2.0f°: RMS %.2f mm, max %.2f mm, %zu poses\n",
+                     bin.from_rad * kDegreesPerRadian, bin.to_rad * kDegreesPerRadian,
+                     in_mm(bin.rms_m), in_mm(bin.max_m), bin.samples);
     }
   }
 }
 
 void append_distances(const nav::DistancePart& part, std::string& text) {
   append_part("distances", part, text);
-  append(text, "  %zu distances of %zu points: mean error %+.2f mm, SD %.2f mm, RMS %.2f mm\n",
-         part.distances, part.points.size(), in_mm(part.mean_error_m), in_mm(part.sd_m),
-         in_mm(part.rms_m));
+  append_printed(text,
+                 "  %zu distances of %zu points: mean error %+.2f mm, SD %.2f mm, RMS %.2f mm\n",
+                 part.distances, part.points.size(), in_mm(part.mean_error_m), in_mm(part.sd_m),
+                 in_mm(part.rms_m));
   if (part.stray_rests > 0) {
-    append(text, "  %zu rests that touched no point left out\n", part.stray_rests);
+    append_printed(text, "  %zu rests that touched no point left out\n", part.stray_rests);
   }
 }
 
@@ -163,11 +164,11 @@ ordered_json accuracy_json(const AccuracySubject& subject, const nav::AccuracyRe
 
 std::string accuracy_text(const AccuracySubject& subject, const nav::AccuracyReport& report) {
   std::string text = "accuracy test of " + subject.pointer + ", method " + subject.method;
-  append(text, ": %zu measured poses in %.1f s\n", report.samples, report.duration_s);
+  append_printed(text, ": %zu measured poses in %.1f s\n", report.samples, report.duration_s);
   append_part("single-point repeatability", report.single_point, text);
   append_spread(report.single_point.spread, text);
   if (report.single_point.predicted_rms_m) {
-    append(text, "  predicted RMS %.2f mm\n", in_mm(*report.single_point.predicted_rms_m));
+    append_printed(text, "  predicted RMS %.2f mm\n", in_mm(*report.single_point.predicted_rms_m));
   }
   append_turning(report.turning, text);
   if (report.distances) {

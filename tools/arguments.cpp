@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 
+#include "base/printed.h"
 #include "engine/io/text_fields.h"
 
 namespace orthonav::tools {
@@ -24,11 +25,7 @@ CLI::Validator whole(Whole low, Whole high) {
   return {check, "", "whole number"};
 }
 
-std::string shortest(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+std::string shortest(double value) { return printed("%g", value); }
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include "tools/arguments.h"
 #include "tools/calibrate.h"
 #include "tools/json_output.h"
+#include "tools/print_text.h"
 #include "tools/recorded_pairs.h"
 
 namespace orthonav::tools {
@@ -48,10 +49,10 @@ nlohmann::ordered_json pivot_json(const PivotArguments& arguments, const Measure
 
 void print(const PivotArguments& arguments, const nav::PivotCalibration& found) {
   const Vec3 tip_mm = found.tip_in_marker.v * 1e3;
-  std::printf("%s: tip %.3f %.3f %.3f mm, known to %.3f mm\n", arguments.tool.c_str(), tip_mm.x,
-              tip_mm.y, tip_mm.z, found.tip_sigma_m * 1e3);
-  std::printf("%zu of %zu poses agree, residual %.3f mm RMS, turned by %.1f° RMS\n", found.inliers,
-              found.poses, found.rmse_m * 1e3, found.spread_rad * kDegreesPerRadian);
+  print_text("%s: tip %.3f %.3f %.3f mm, known to %.3f mm\n", arguments.tool.c_str(), tip_mm.x,
+             tip_mm.y, tip_mm.z, found.tip_sigma_m * 1e3);
+  print_text("%zu of %zu poses agree, residual %.3f mm RMS, turned by %.1f° RMS\n", found.inliers,
+             found.poses, found.rmse_m * 1e3, found.spread_rad * kDegreesPerRadian);
   print_judgement(found.judgement);
 }
 

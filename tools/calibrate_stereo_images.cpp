@@ -11,6 +11,7 @@
 #include "tools/count_progress.h"
 #include "tools/image_pairs.h"
 #include "tools/pose_json.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 namespace {
@@ -155,29 +156,29 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments, const Views& vi
 }
 
 void print_camera(const char* side, const BrownConrady& c) {
-  std::printf(
+  print_text(
       "%s: focal %.3f %.3f px, principal point %.3f %.3f px, k1 %.5f k2 %.5f p1 %.6f "
       "p2 %.6f k3 %.5f\n",
       side, c.fx_px, c.fy_px, c.cx_px, c.cy_px, c.k1, c.k2, c.p1, c.p2, c.k3);
 }
 
 void print(const Views& views, const nav::StereoBoardCalibration& found) {
-  std::printf("RMS: left %.3f px, right %.3f px, stereo %.3f px, across epipolar lines %.3f px\n",
-              found.left_rms_px, found.right_rms_px, found.stereo_rms_px, found.epipolar_rms_px);
+  print_text("RMS: left %.3f px, right %.3f px, stereo %.3f px, across epipolar lines %.3f px\n",
+             found.left_rms_px, found.right_rms_px, found.stereo_rms_px, found.epipolar_rms_px);
   print_camera("left", found.left);
   print_camera("right", found.right);
-  std::printf("baseline %.3f mm", found.baseline_m() * 1e3);
+  print_text("baseline %.3f mm", found.baseline_m() * 1e3);
   if (found.sigma) {
-    std::printf(", known to %.3f mm; rotation known to %.3f°, focal length to %.3f %%",
-                found.sigma->baseline_m * 1e3, found.sigma->rotation_rad * kDegreesPerRadian,
-                found.sigma->focal_fraction * 100);
+    print_text(", known to %.3f mm; rotation known to %.3f°, focal length to %.3f %%",
+               found.sigma->baseline_m * 1e3, found.sigma->rotation_rad * kDegreesPerRadian,
+               found.sigma->focal_fraction * 100);
   }
-  std::printf("\n");
+  print_text("\n");
   for (std::size_t i = 0; i < found.views.size(); ++i) {
     const nav::BoardViewResidual& view = found.views[i];
-    std::printf("%s %s: left %.3f px, right %.3f px, epipolar %.3f px%s\n",
-                views.pairs[i].left.c_str(), views.pairs[i].right.c_str(), view.left_rms_px,
-                view.right_rms_px, view.epipolar_rms_px, view.used ? "" : " (left out)");
+    print_text("%s %s: left %.3f px, right %.3f px, epipolar %.3f px%s\n",
+               views.pairs[i].left.c_str(), views.pairs[i].right.c_str(), view.left_rms_px,
+               view.right_rms_px, view.epipolar_rms_px, view.used ? "" : " (left out)");
   }
   print_judgement(found.judgement);
 }

@@ -8,6 +8,7 @@
 #include "tools/calibrate.h"
 #include "tools/calibrate_stereo.h"
 #include "tools/pose_json.h"
+#include "tools/print_text.h"
 #include "tools/recorded_pairs.h"
 
 namespace orthonav::tools {
@@ -81,17 +82,17 @@ nlohmann::ordered_json as_json(const StereoArguments& arguments, const RecordedS
 void print(const nav::StereoRecording& found) {
   const Vec3 rotation_deg = found.rotation_rad * kDegreesPerRadian;
   const Vec3 translation_mm = found.translation_m * 1e3;
-  std::printf(
+  print_text(
       "%zu pairs, residual %.3f px RMS; across epipolar lines %.3f px RMS as the device has "
       "them, %.3f px as found\n",
       found.pairs, found.rms_px, found.epipolar_before_px, found.epipolar_after_px);
-  std::printf(
+  print_text(
       "right camera turned by %.4f %.4f %.4f°, known to %.4f°; shifted by %.3f %.3f %.3f mm, "
       "known to %.3f mm\n",
       rotation_deg.x, rotation_deg.y, rotation_deg.z, found.rotation_sigma_rad * kDegreesPerRadian,
       translation_mm.x, translation_mm.y, translation_mm.z, found.translation_sigma_m * 1e3);
-  std::printf("baseline %.3f mm; the tags' edges measure %.4f of their size\n",
-              found.right_from_left.translation().norm() * 1e3, found.size_ratio);
+  print_text("baseline %.3f mm; the tags' edges measure %.4f of their size\n",
+             found.right_from_left.translation().norm() * 1e3, found.size_ratio);
   print_judgement(found.judgement);
 }
 

@@ -1,19 +1,10 @@
 #include "tools/connection_report.h"
 
-#include <array>
-#include <cstdio>
-
+#include "base/printed.h"
 #include "engine/report/operation_result.h"
 
 namespace orthonav::tools {
 namespace {
-
-template <class... Values>
-std::string line(const char* format, Values... values) {
-  std::array<char, 320> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 std::string latency_line(const char* what, const std::vector<double>& ms) {
   const auto median = engine::quantile(ms, 0.5);
@@ -21,7 +12,7 @@ std::string latency_line(const char* what, const std::vector<double>& ms) {
   if (!median || !p99) {
     return {};
   }
-  return line("%-40s %8.2f ms, p99 %8.2f ms\n", what, *median, *p99);
+  return printed("%-40s %8.2f ms, p99 %8.2f ms\n", what, *median, *p99);
 }
 
 }  // namespace
@@ -29,7 +20,7 @@ std::string latency_line(const char* what, const std::vector<double>& ms) {
 std::string connection_report(const ConnectionStatistics& s) {
   std::string text;
   for (const StreamStatistics& stream : s.streams) {
-    text += line(
+    text += printed(
         "%-14s %8lld packets, %4lld connections, jitter %6.2f ms, %lld gaps (longest %.0f ms), "
         "%lld "
         "out of order, %lld damaged\n",
@@ -42,13 +33,13 @@ std::string connection_report(const ConnectionStatistics& s) {
     }
   }
   text +=
-      line("pairs          %8lld, %lld images without a partner, %lld pairs dropped for newer\n",
-           static_cast<long long>(s.pairs), static_cast<long long>(s.unpaired),
-           static_cast<long long>(s.dropped));
-  text += line("map moved %lld times, headset's clock began anew %lld times\n",
-               static_cast<long long>(s.map_moves), static_cast<long long>(s.clock_restarts));
-  text += line("headset's clock minus this machine's: %.6f s, spread %.3f ms\n",
-               seconds(s.clock_offset), s.clock_spread_ms);
+      printed("pairs          %8lld, %lld images without a partner, %lld pairs dropped for newer\n",
+              static_cast<long long>(s.pairs), static_cast<long long>(s.unpaired),
+              static_cast<long long>(s.dropped));
+  text += printed("map moved %lld times, headset's clock began anew %lld times\n",
+                  static_cast<long long>(s.map_moves), static_cast<long long>(s.clock_restarts));
+  text += printed("headset's clock minus this machine's: %.6f s, spread %.3f ms\n",
+                  seconds(s.clock_offset), s.clock_spread_ms);
   text += latency_line("last byte received to pair published", s.publish_ms);
   text += latency_line("last byte received to pair taken", s.take_ms);
   return text;

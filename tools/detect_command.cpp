@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/printed.h"
 #include "engine/io/grey_image_file.h"
 #include "nav/tracking/marker_detector.h"
 #include "tools/arguments.h"
@@ -106,15 +107,13 @@ std::string as_text(const std::vector<Seen>& all) {
     text += seen.image + ": " + std::to_string(seen.markers.size()) +
             (seen.markers.size() == 1 ? " marker\n" : " markers\n");
     for (const nav::MarkerCorners& marker : seen.markers) {
-      std::array<char, 300> line{};
       const auto& c = marker.corners_px;
-      std::snprintf(line.data(), line.size(),
-                    "  %s id %d  corrected bits %d  margin %.1f  (%.3f %.3f) (%.3f %.3f) "
-                    "(%.3f %.3f) (%.3f %.3f)\n",
-                    std::string(marker.family).c_str(), marker.id, marker.hamming,
-                    marker.decision_margin, c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y, c[3].x,
-                    c[3].y);
-      text += line.data();
+      append_printed(text,
+                     "  %s id %d  corrected bits %d  margin %.1f  (%.3f %.3f) (%.3f %.3f) "
+                     "(%.3f %.3f) (%.3f %.3f)\n",
+                     std::string(marker.family).c_str(), marker.id, marker.hamming,
+                     marker.decision_margin, c[0].x, c[0].y, c[1].x, c[1].y, c[2].x, c[2].y, c[3].x,
+                     c[3].y);
     }
   }
   return text;

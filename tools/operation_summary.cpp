@@ -1,8 +1,7 @@
 #include "tools/operation_summary.h"
 
-#include <cstdio>
-
 #include "base/angle.h"
+#include "base/printed.h"
 
 namespace orthonav::tools {
 namespace {
@@ -11,9 +10,7 @@ std::string number(const std::optional<double>& value, double scale, const char*
   if (!value) {
     return "-";
   }
-  char text[48];
-  std::snprintf(text, sizeof text, "%.2f %s", *value * scale, unit);
-  return text;
+  return printed("%.2f %s", *value * scale, unit);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
+#include "tools/print_text.h"
 #include "tools/register_inputs.h"
 
 namespace orthonav::tools {
@@ -47,39 +48,36 @@ constexpr double kLargestTip_mm = 10.0;
 
 void print_screws(const engine::RegisteredLevel& level) {
   const auto place = [](const engine::PlaceError& e) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.2f mm (95 of 100 below %.2f)", e.rms_m * 1e3,
-                  e.within_95_m * 1e3);
-    return std::string(text);
+    return printed("%.2f mm (95 of 100 below %.2f)", e.rms_m * 1e3, e.within_95_m * 1e3);
   };
   for (const engine::ScrewErrors& s : engine::errors_at_screws(level)) {
-    std::printf("error to expect at the %s screw: entry %s, target %s\n", name_of(s.side),
-                place(s.entry).c_str(), place(s.target).c_str());
+    print_text("error to expect at the %s screw: entry %s, target %s\n", name_of(s.side),
+               place(s.entry).c_str(), place(s.target).c_str());
   }
 }
 
 void print(const engine::RegisteredLevel& level, const engine::FigureFrame& frame) {
   const nav::Registration& r = level.registration;
-  std::printf("%s: %zu points, RMSE %.2f mm", r.accepted ? "accepted" : "refused", r.points,
-              r.rmse_m * 1e3);
+  print_text("%s: %zu points, RMSE %.2f mm", r.accepted ? "accepted" : "refused", r.points,
+             r.rmse_m * 1e3);
   if (engine::runner_up_distance(level)) {
-    std::printf(", next best pose %.2f mm", r.runner_up_rmse_m * 1e3);
+    print_text(", next best pose %.2f mm", r.runner_up_rmse_m * 1e3);
   }
-  std::printf("\n");
+  print_text("\n");
   if (r.noise_m > 0.0) {
-    std::printf(
+    print_text(
         "%.0f %% of the points on the bone, scatter %.2f mm at a mean height of %.2f mm, worth "
         "%.0f independent ones; %.0f %% of the surface stroked\n",
         r.inlier_fraction * 1e2, r.noise_m * 1e3, r.standoff_m * 1e3, r.effective_points,
         r.coverage_fraction * 1e2);
   }
-  std::printf("%s\n", engine::ambiguity_of(level).c_str());
+  print_text("%s\n", engine::ambiguity_of(level).c_str());
   print_screws(level);
-  std::printf("%s\n", engine::certainty_of(level).c_str());
-  std::printf("model to points (%s):\n", frame.points_unit_m == 1.0 ? "m" : "mm");
+  print_text("%s\n", engine::certainty_of(level).c_str());
+  print_text("model to points (%s):\n", frame.points_unit_m == 1.0 ? "m" : "mm");
   const auto a = engine::model_to_points(r.world_from_vertebra, frame);
   for (std::size_t i = 0; i < 16; i += 4) {
-    std::printf("%12.6f %12.6f %12.6f %14.6f\n", a[i], a[i + 1], a[i + 2], a[i + 3]);
+    print_text("%12.6f %12.6f %12.6f %14.6f\n", a[i], a[i + 1], a[i + 2], a[i + 3]);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 namespace {
@@ -62,11 +63,11 @@ nlohmann::ordered_json as_json(const nav::RodTemplate& rod) {
 }
 
 void print(const nav::RodTemplate& rod) {
-  std::printf("rod through %zu heads: length %.3f mm, diameter %.1f mm, %zu bends\n",
-              rod.heads_m.size(), rod.length_m * 1e3, rod.diameter_m * 1e3, rod.bends.size());
+  print_text("rod through %zu heads: length %.3f mm, diameter %.1f mm, %zu bends\n",
+             rod.heads_m.size(), rod.length_m * 1e3, rod.diameter_m * 1e3, rod.bends.size());
   for (const nav::RodBend& bend : rod.bends) {
-    std::printf("bend at %.1f mm: %.1f°\n", bend.arc_length_m * 1e3,
-                bend.angle_rad * kDegreesPerRadian);
+    print_text("bend at %.1f mm: %.1f°\n", bend.arc_length_m * 1e3,
+               bend.angle_rad * kDegreesPerRadian);
   }
 }
 

@@ -58,6 +58,7 @@ void SurgeonView::draw_room(const Moment& moment) {
   view.tan_down = static_cast<double>(views_[0].tan_down);
   room_->picture(moment.room, view, room_picture_);
   background_.pixels.swap(room_picture_.pixels);
+  combiner_.dim(background_);
 }
 
 Status SurgeonView::draw(const engine::Snapshot& snapshot) {

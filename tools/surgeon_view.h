@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/holograms/label_layout.h"
+#include "engine/holograms/optical_model.h"
 #include "engine/live/frame_loop.h"
 #include "hal/sim/room_renderer.h"
 #include "hal/sim/sim_headset.h"
@@ -70,6 +71,8 @@ class SurgeonView : public engine::LoopObserver, public engine::SnapshotSink {
   std::vector<RgbaImage> images_;
   render::Scene drawn_;
   engine::LabelLayout labels_;
+  engine::WorldBehindCombiner combiner_;
+  render::Scene head_lost_;  ///< what is left to draw then
 };
 
 }  // namespace orthonav::tools

@@ -1,11 +1,11 @@
 #include "tools/tag_body_output.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
 #include "tools/calibrate.h"
 #include "tools/pose_json.h"
+#include "tools/print_text.h"
 
 namespace orthonav::tools {
 
@@ -33,11 +33,11 @@ nlohmann::ordered_json tag_body_json(const Result<nav::TagBody>& body, std::size
 }
 
 void print_tag_body(const nav::TagBody& body) {
-  std::printf("%zu pairs, residual %.3f px RMS, %.1f %% of the corners left out\n", body.pairs,
+  print_text("%zu pairs, residual %.3f px RMS, %.1f %% of the corners left out\n", body.pairs,
               body.rms_px, 100 * body.outlier_fraction);
   for (const nav::BodyTag& tag : body.tags) {
     const Vec3 at_mm = tag.marker_from_tag.translation() * 1e3;
-    std::printf(
+    print_text(
         "%s id %d: at %.3f %.3f %.3f mm, known to %.3f mm and %.3f°; seen in %zu pairs, "
         "edges measure %.2f mm\n",
         tag.definition.family.c_str(), tag.definition.id, at_mm.x, at_mm.y, at_mm.z,

@@ -4,12 +4,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/printed.h"
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
 #include "engine/session/method.h"
 #include "hal/replay/replay_headset.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
+#include "tools/print_text.h"
 #include "tools/recorded_pairs.h"
 
 namespace orthonav::tools {
@@ -41,13 +43,10 @@ void append_row(const Headset& headset, const nav::ToolGeometry& tool, const nav
   Quaternion q = quaternion_from_rotation(pose.value.rotation());
   const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   q = {q.x / norm, q.y / norm, q.z / norm, q.w / norm};
-  std::array<char, 400> row{};
-  std::snprintf(row.data(), row.size(),
-                "%lld,%d,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,measured,%.6g,%.6g,%d\n",
-                static_cast<long long>(headset.file_ticks_100ns(pose.time)), tool.marker.id, p.x,
-                p.y, p.z, q.x, q.y, q.z, q.w, translation_sigma_m(pose.covariance) * 1e3,
-                state.residual_px, state.cameras);
-  csv += row.data();
+  append_printed(csv, "%lld,%d,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,measured,%.6g,%.6g,%d\n",
+                 static_cast<long long>(headset.file_ticks_100ns(pose.time)), tool.marker.id, p.x,
+                 p.y, p.z, q.x, q.y, q.z, q.w, translation_sigma_m(pose.covariance) * 1e3,
+                 state.residual_px, state.cameras);
 }
 
 Result<TrackSummary> track_all(replay::ReplayHeadset& headset, nav::ToolTracker& tracker,
@@ -114,7 +113,7 @@ void print(const nav::StereoAlignment& found) {
   if (!found.within_bounds) {
     verdict = "beyond the limit of 10 mrad: the calibration is not this headset's";
   }
-  std::printf(
+  print_text(
       "right camera turned against its calibration by %.2f, %.2f, %.2f mrad"
       " (SD %.2f, %.2f, %.2f): %s\n",
       kMilli * found.rotation_rad.x, kMilli * found.rotation_rad.y, kMilli * found.rotation_rad.z,
@@ -142,16 +141,16 @@ void print(const TrackArguments& arguments, const TrackSummary& summary,
     if (alignment) {
       out["stereo_alignment"] = as_json(*alignment);
     }
-    std::printf("%s\n", out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    print_text("%s\n", out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return;
   }
-  std::printf("%lld stereo pairs, %lld without a head pose, %lld images without a partner\n",
-              static_cast<long long>(summary.pairs),
-              static_cast<long long>(recording.pairs_without_pose),
-              static_cast<long long>(recording.left_unpaired + recording.right_unpaired));
+  print_text("%lld stereo pairs, %lld without a head pose, %lld images without a partner\n",
+             static_cast<long long>(summary.pairs),
+             static_cast<long long>(recording.pairs_without_pose),
+             static_cast<long long>(recording.left_unpaired + recording.right_unpaired));
   for (std::size_t i = 0; i < tools.size(); ++i) {
-    std::printf("%s (id %d): measured in %lld\n", tools[i].name.c_str(), tools[i].marker.id,
-                static_cast<long long>(summary.measured[i]));
+    print_text("%s (id %d): measured in %lld\n", tools[i].name.c_str(), tools[i].marker.id,
+               static_cast<long long>(summary.measured[i]));
   }
   if (alignment) {
     print(*alignment);

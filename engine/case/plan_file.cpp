@@ -36,13 +36,14 @@ std::optional<nav::Side> side_from(const std::string& text) {
 std::string problem_of(const StatedScrew& screw) {
   const double length_m = (screw.target - screw.entry).norm();
   if (!(length_m >= kMinScrewLength_m && length_m <= kMaxScrewLength_m)) {
-    return "is " + in_mm(length_m) + " from entry to target, must be " + in_mm(kMinScrewLength_m) +
-           " to " + in_mm(kMaxScrewLength_m);
+    return "is " + in_mm_outside(length_m, kMinScrewLength_m, kMaxScrewLength_m) +
+           " from entry to target, must be " + in_mm(kMinScrewLength_m) + " to " +
+           in_mm(kMaxScrewLength_m);
   }
   if (screw.radius_m != 0.0 &&
       !(screw.radius_m >= kMinRadius_m && screw.radius_m <= kMaxRadius_m)) {
-    return "has radius " + in_mm(screw.radius_m) + ", must be " + in_mm(kMinRadius_m) + " to " +
-           in_mm(kMaxRadius_m);
+    return "has radius " + in_mm_outside(screw.radius_m, kMinRadius_m, kMaxRadius_m) +
+           ", must be " + in_mm(kMinRadius_m) + " to " + in_mm(kMaxRadius_m);
   }
   return {};
 }

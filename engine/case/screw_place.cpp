@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/length_text.h"
+#include "base/printed.h"
 
 namespace orthonav::engine {
 namespace {
@@ -40,7 +41,8 @@ std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Verteb
   const auto at_entry = bone.nearest(entry.v);
   const double off_m = at_entry ? at_entry->distance_m : 1e3;
   if (off_m > kMaxEntryOffBone_m) {
-    return "entry lies " + in_mm(off_m) + " off the bone, limit " + in_mm(kMaxEntryOffBone_m);
+    return "entry lies " + beside_limit("%.1f mm off the bone, limit %.1f mm", off_m * 1e3,
+                                        kMaxEntryOffBone_m * 1e3);
   }
   const double behind_m = entry.v.y - target.v.y;
   if (!(behind_m > 0.0)) {
@@ -51,7 +53,8 @@ std::optional<std::string> misplaced(const nav::SurfaceIndex& bone, Point<Verteb
   const double outside_m = bone.contains(target.v) || !at_target ? 0.0 : at_target->distance_m;
   const double limit_m = std::max(radius_m, kMinTargetOutside_m);
   if (outside_m > limit_m) {
-    return "target lies " + in_mm(outside_m) + " outside the bone, limit " + in_mm(limit_m);
+    return "target lies " +
+           beside_limit("%.1f mm outside the bone, limit %.1f mm", outside_m * 1e3, limit_m * 1e3);
   }
   return std::nullopt;
 }

@@ -77,7 +77,7 @@ GoldenScene status(const std::string& name, const std::string& what, const std::
 /// A whole scene of which only what hangs on the head is left.
 GoldenScene head_lost() {
   GoldenScene golden =
-      status("h11_head_lost", "status line, an amber line above it, nothing else",
+      status("h11_head_lost", "status line, a line with a red rim above it, nothing else",
              "guide L4 left | RMSE 0.62 mm", ToolState::kMeasured, ToolState::kMeasured);
   render::Scene whole = golden.scene;
   whole.lines.push_back(
@@ -116,19 +116,20 @@ void add_other_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(rod("h10_rod_moved", "the same rod, moved aside", {0.014f, -0.006f, -0.006f}));
   scenes.push_back(heads("h10_one_head", "one blue head, no rod, no length", 1));
   scenes.push_back(heads("h10_no_rod", "two blue heads that make no rod, no length", 2));
-  scenes.push_back(status("h11_measured", "status line low in view, two filled green dots",
+  scenes.push_back(status("h11_measured", "status line low in view, two filled dots in green rims",
                           "verify L4 | RMSE 0.62 mm | predicted 1.1 mm", ToolState::kMeasured,
                           ToolState::kMeasured));
-  scenes.push_back(status("h11_lost", "status line: pointer half amber, guide hollow red",
+  scenes.push_back(status("h11_lost", "status line: pointer half in amber, guide hollow in red",
                           "digitize L4 | refused: registration RMSE 3.4 mm, limit 3.0 mm",
                           ToolState::kPredicted, ToolState::kLost));
   scenes.push_back(status("h11_short", "status line: one word", "setup", ToolState::kLost,
                           ToolState::kMeasured));
   scenes.push_back(head_lost());
   scenes.push_back(to_check());
-  scenes.push_back(check("h12_within", "green diamond, 0.4 mm", 0.0004, true));
-  scenes.push_back(check("h12_off", "red diamond, 3.1 mm", 0.0031, false));
-  scenes.push_back(check("h12_nowhere", "red diamond, -- mm", std::nan(""), false));
+  scenes.push_back(check("h12_within", "green diamond, 0.4 mm and a tick", 0.0004, true));
+  scenes.push_back(check("h12_off", "red diamond, 3.1 mm and a cross in a red rim", 0.0031, false));
+  scenes.push_back(
+      check("h12_nowhere", "red diamond, -- mm and a cross in a red rim", std::nan(""), false));
 }
 
 }  // namespace orthonav::engine::golden

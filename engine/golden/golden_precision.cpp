@@ -113,7 +113,7 @@ void add_precision_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(depth("h9_to_entry", "1.4°, under it 12.3 mm to entry", -0.0123, 0.055));
   scenes.push_back(depth("h9_to_target", "1.4°, under it 31.0 mm to target", 0.0134, 0.0310));
   scenes.push_back(
-      depth("h9_past_target", "1.4°, under it 1.2 mm past target in red", 0.0456, -0.0012));
+      depth("h9_past_target", "1.4°, under it 1.2 mm past target in a red rim", 0.0456, -0.0012));
 }
 
 }  // namespace orthonav::engine::golden

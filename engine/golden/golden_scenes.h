@@ -14,12 +14,19 @@ struct GoldenPoint {
   render::Float3 in_world;
 };
 
+/// What lies behind the holograms of an `over` picture.
+enum class GoldenBehind {
+  kSite,        ///< drapes, and a wound in the middle
+  kFourGrounds  ///< wound, drape above, bone, glove below: as the simulated room shows them
+};
+
 /// A picture that is kept: what is drawn, from where, and how large.
 struct GoldenScene {
   std::string name;
   std::string what;  ///< what a reviewer should see, one line
   int width_px = 360;
   int height_px = 234;
+  GoldenBehind behind = GoldenBehind::kSite;
   render::Scene scene;
   std::vector<render::View> views;
   std::vector<GlarePatch> papers;  ///< that labels make way for; not drawn
@@ -32,7 +39,8 @@ struct GoldenScene {
 /// Every golden scene, in a fixed order; the same values at every call.
 [[nodiscard]] std::vector<GoldenScene> golden_scenes();
 
-/// What lies behind the holograms in the `over` pictures: a lit wound, a little uneven.
-[[nodiscard]] RgbaImage golden_background(int width_px, int height_px);
+/// What lies behind the holograms in the `over` pictures, a little uneven.
+[[nodiscard]] RgbaImage golden_background(int width_px, int height_px,
+                                          GoldenBehind behind = GoldenBehind::kSite);
 
 }  // namespace orthonav::engine

@@ -8,6 +8,7 @@
 #include "engine/holograms/hologram_cross.h"
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/hologram_status.h"
 
 namespace orthonav::engine::golden {
 
@@ -72,5 +73,6 @@ void add_other_scenes(std::vector<GoldenScene>& scenes);      ///< H10 to H12
 void add_step_scenes(std::vector<GoldenScene>& scenes);       ///< the workflow, step by step
 void add_view_scenes(std::vector<GoldenScene>& scenes);       ///< distances and head rolls
 void add_label_scenes(std::vector<GoldenScene>& scenes);      ///< labels that make way
+void add_text_scenes(std::vector<GoldenScene>& scenes);       ///< every text on every ground
 
 }  // namespace orthonav::engine::golden

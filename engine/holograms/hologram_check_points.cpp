@@ -32,7 +32,12 @@ void add_check_point(render::Scene& scene, render::Float3 position, std::string_
                      bool within, render::Label label) {
   const render::Colour colour = within ? look::kGreen : look::kRed;
   add_diamond_in_halo(scene, position, colour, label);
-  add_run(add_text_beside(scene, position, 1.5f, 0.0045f, 0.5f, label), text, colour);
+  render::TextItem& item = add_text_beside(scene, position, 1.5f, 0.0045f, 0.5f, label);
+  if (!within) {
+    item.rim = look::kRed;
+  }
+  add_run(item, text, look::kWhite);
+  add_run(item, within ? " ✓" : " ✗", look::kWhite);
 }
 
 void add_place_to_check(render::Scene& scene, render::Float3 position, render::Label label) {

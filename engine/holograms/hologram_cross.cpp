@@ -77,7 +77,8 @@ void add_ring_text(Scene& scene, const CrossPlaces& places, float ring_m, Label 
   const float side = ring_m == kCrossRings_m[1] ? -1.0f : 1.0f;
   const Float3 place =
       places.middle + kDiagonal * kCrossScale * ring_m * (side * places.right - places.up);
-  add_run(add_text_beside(scene, place, 0.25f * side, 0.0030f, 0.5f, label), text, look::kDimWhite);
+  add_run(add_text_beside(scene, place, 0.25f * side, 0.0030f, 0.5f, label), text,
+          look::kSoftWhite);
 }
 
 void add_lost_text(Scene& scene, Float3 middle, Label label) {
@@ -87,7 +88,8 @@ void add_lost_text(Scene& scene, Float3 middle, Label label) {
   text.offset_up = -0.5f;
   text.height_m = 0.0045f;
   text.min_height_deg = 0.5f;
-  add_run(text, words::kToolLost, look::kRed);
+  text.rim = look::kRed;
+  add_run(text, words::kToolLost, look::kWhite);
 }
 
 }  // namespace
@@ -202,7 +204,10 @@ void add_depth(Scene& scene, Float3 a, Float3 b, std::string_view text, bool pas
   item.offset_up = -kDepthBelowAngle;
   item.height_m = 0.004f;
   item.min_height_deg = 0.45f;
-  add_run(item, text, past_target ? look::kRed : look::kWhite);
+  if (past_target) {
+    item.rim = look::kRed;
+  }
+  add_run(item, text, look::kWhite);
 }
 
 }  // namespace orthonav::engine

@@ -66,7 +66,8 @@ void take_dots_off(render::Scene& scene, render::Label label);
 [[nodiscard]] bool write_depth_text(double depth_m, double to_target_m, std::string& text);
 /// From the angle's baseline down to the depth's, cap heights of the depth.
 inline constexpr float kDepthBelowAngle = 1.9f;
-/// H9: under H6, which stands beside `b` (as `add_angle_readout`); past the target it warns in red.
+/// H9: under H6, which stands beside `b` (as `add_angle_readout`); past the target it has a red
+/// rim.
 void add_depth(render::Scene& scene, render::Float3 a, render::Float3 b, std::string_view text,
                bool past_target, render::Label label);
 

@@ -69,10 +69,14 @@ render::TextItem& add_text_beside(Scene& scene, Float3 place, float offset_right
   return text;
 }
 
-void add_run(render::TextItem& item, std::string_view text, Colour colour) {
+std::string& add_run(render::TextItem& item, Colour colour) {
   render::TextRun& run = item.runs.emplace_back();
-  run.text = text;
   run.colour = colour;
+  return run.text;
+}
+
+void add_run(render::TextItem& item, std::string_view text, Colour colour) {
+  add_run(item, colour) = text;
 }
 
 }  // namespace orthonav::engine

@@ -35,5 +35,7 @@ void add_ring(render::Scene& scene, render::Float3 centre, render::Float3 normal
 render::TextItem& add_text_beside(render::Scene& scene, render::Float3 place, float offset_right,
                                   float height_m, float min_height_deg, render::Label label);
 void add_run(render::TextItem& item, std::string_view text, render::Colour colour);
+/// A run that is still to be written.
+[[nodiscard]] std::string& add_run(render::TextItem& item, render::Colour colour);
 
 }  // namespace orthonav::engine

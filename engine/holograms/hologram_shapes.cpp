@@ -55,9 +55,9 @@ std::string fixed_width(std::string_view text) {
 void add_bend(Scene& scene, const RodBendMark& bend, Float3 at, Float3 along, Label label) {
   add_ring(scene, at, along, kBendRingRadius_m, kBendRingWidth_m, look::kAmber, label);
   render::TextItem& text = add_text_beside(scene, at, 1.6f, 0.0035f, 0.35f, label);
-  add_run(text, angle_text(bend.angle_rad), look::kAmber);
-  add_run(text, words::kAt, look::kDimWhite);
-  add_run(text, in_mm(bend.arc_length_m), look::kDimWhite);
+  add_run(text, angle_text(bend.angle_rad), look::kWhite);
+  add_run(text, words::kAt, look::kSoftWhite);
+  add_run(text, in_mm(bend.arc_length_m), look::kSoftWhite);
 }
 
 /// In degrees; absent where there is nothing to read.
@@ -66,8 +66,9 @@ std::optional<std::array<char, 16>> angle_digits(std::optional<double> angle_rad
   if (!(angle_deg >= 0.0 && angle_deg < 99.95)) {
     return std::nullopt;
   }
+  // Adding 0 makes a positive zero of a negative one.
   std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%.1f", angle_deg);
+  std::snprintf(text.data(), text.size(), "%.1f", angle_deg + 0.0);
   return text;
 }
 
@@ -157,9 +158,9 @@ void add_entry(Scene& scene, const EntryHologram& entry, Label label) {
   }
   const float beside = entry.side == LabelSide::kRight ? 1.2f : -1.2f;
   render::TextItem& text = add_text_beside(scene, entry.position, beside, 0.0045f, 0.5f, label);
-  add_run(text, entry.text, look::kBlue);
+  add_run(text, entry.text, look::kWhite);
   if (entry.done) {
-    add_run(text, " ✓", look::kGreen);
+    add_run(text, " ✓", look::kWhite);
   }
 }
 
@@ -231,48 +232,6 @@ void add_rod(Scene& scene, const RodHologram& rod, Label label) {
   text.height_m = 0.005f;
   text.min_height_deg = 0.6f;
   add_run(text, in_mm(*rod.length_m), look::kWhite);
-}
-
-namespace {
-
-/// Low in view, wherever the head goes.
-render::TextItem& add_line_on_head(Scene& scene, Label label) {
-  render::TextItem& item = scene.texts.emplace_back();
-  item.label = label;
-  item.place = render::TextPlace::kView;
-  item.position = {0, -0.096f, -0.5f};  // 11° below straight ahead
-  item.height_m = 0.003f;
-  item.min_height_deg = 0.5f;
-  return item;
-}
-
-}  // namespace
-
-void add_notice(Scene& scene, std::string_view text, Label label) {
-  render::TextItem& item = add_line_on_head(scene, label);
-  item.offset_up = 2.0f;
-  add_run(item, text, look::kAmber);
-}
-
-void add_status_line(Scene& scene, std::string_view text, std::span<const ToolDot> tools,
-                     Label label) {
-  render::TextItem& item = add_line_on_head(scene, label);
-  add_run(item, text, look::kDimWhite);
-  for (const ToolDot& tool : tools) {
-    // The shape says it as well as the colour does.
-    switch (tool.state) {
-      case ToolState::kMeasured:
-        add_run(item, "  ● ", look::kGreen);
-        break;
-      case ToolState::kPredicted:
-        add_run(item, "  ◐ ", look::kAmber);
-        break;
-      case ToolState::kLost:
-        add_run(item, "  ○ ", look::kRed);
-        break;
-    }
-    add_run(item, tool.name, look::kDimWhite);
-  }
 }
 
 }  // namespace orthonav::engine

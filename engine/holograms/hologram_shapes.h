@@ -15,7 +15,9 @@ namespace orthonav::engine {
 // render::Scene. Nothing here decides what is shown when; that is the scene builder's work.
 // Labels follow the scene's convention, 100·n + k for the k-th instance of hologram Hn.
 
-/// Linear colours of the holograms, tuned for an additive display.
+/// Linear colours of the holograms, tuned for an additive display. Text is white, since light can't
+/// darken what is behind it and red light alone is read on nothing bright (docs/holograms.md has
+/// the contrasts); colour stands in a rim or in the mark beside it.
 namespace look {
 inline constexpr render::Colour kYellow{1.0f, 0.78f, 0.04f, 1};
 inline constexpr render::Colour kOrange{1.0f, 0.30f, 0.02f, 1};
@@ -26,7 +28,7 @@ inline constexpr render::Colour kGreen{0.04f, 0.90f, 0.13f, 1};
 inline constexpr render::Colour kAmber{1.0f, 0.42f, 0.0f, 1};
 inline constexpr render::Colour kRed{1.0f, 0.06f, 0.04f, 1};
 inline constexpr render::Colour kWhite{1, 1, 1, 1};
-inline constexpr render::Colour kDimWhite{0.42f, 0.42f, 0.42f, 1};
+inline constexpr render::Colour kSoftWhite{0.90f, 0.90f, 0.90f, 1};
 inline constexpr render::Colour kCyan{0.02f, 0.72f, 0.80f, 1};
 inline constexpr render::Colour kRing{0.30f, 0.30f, 0.30f, 1};
 inline constexpr render::Colour kTitanium{0.46f, 0.48f, 0.52f, 1};
@@ -126,25 +128,11 @@ void add_rod(render::Scene& scene, const RodHologram& rod, render::Label label);
 /// `0.4 mm`, without a sign, one decimal; `-- mm` for a distance that is not finite.
 [[nodiscard]] std::string distance_text(double distance_m);
 /// H12: a diamond in a halo at a place touched to check the registration, with its distance from
-/// the surface; green where near enough, else red.
+/// the surface; green and a tick where near enough, else red and a cross.
 void add_check_point(render::Scene& scene, render::Float3 position, std::string_view text,
                      bool within, render::Label label);
 
 /// H12: a place that is still to be touched.
 void add_place_to_check(render::Scene& scene, render::Float3 position, render::Label label);
-
-enum class ToolState { kMeasured, kPredicted, kLost };
-struct ToolDot {
-  std::string_view name;
-  ToolState state = ToolState::kLost;
-};
-
-/// H11: what everything else depends on, above the status line.
-void add_notice(render::Scene& scene, std::string_view text, render::Label label);
-
-/// H11: one line low in view; a filled dot for a measured tool, a half one for a predicted, an
-/// empty one for a lost tool.
-void add_status_line(render::Scene& scene, std::string_view text, std::span<const ToolDot> tools,
-                     render::Label label);
 
 }  // namespace orthonav::engine

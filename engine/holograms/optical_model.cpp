@@ -29,11 +29,6 @@ std::uint8_t encoded(double v) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb_from_linear(v), 0.0, 1.0)));
 }
 
-/// Luminance behind the combiner of a white, matte surface.
-double white_behind(const OpticalModel& model) {
-  return model.combiner_fraction * model.ambient_lux / std::numbers::pi;
-}
-
 double grey_at(const RgbaImage& image, std::size_t pixel) {
   double sum = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -46,6 +41,10 @@ double grey_at(const RgbaImage& image, std::size_t pixel) {
 constexpr double kDarkest_cd_m2 = 0.01;
 
 }  // namespace
+
+double OpticalModel::white_sheet_cd_m2() const {
+  return combiner_fraction * ambient_lux / std::numbers::pi;
+}
 
 std::vector<std::string> OpticalModel::check() const {
   std::vector<std::string> problems;
@@ -64,7 +63,7 @@ std::vector<std::string> OpticalModel::check() const {
 std::vector<HologramContrast> contrasts(const RgbaImage& light, const LabelImage& labels,
                                         const RgbaImage& background, const OpticalModel& model) {
   std::map<render::Label, std::vector<double>> ratios;
-  const double white = white_behind(model);
+  const double white = model.white_sheet_cd_m2();
   for (std::size_t i = 0; i < labels.labels.size(); ++i) {
     if (labels.labels[i] == 0) {
       continue;
@@ -81,9 +80,25 @@ std::vector<HologramContrast> contrasts(const RgbaImage& light, const LabelImage
   return out;
 }
 
+WorldBehindCombiner::WorldBehindCombiner(const OpticalModel& model) {
+  const double share =
+      model.white_sheet_cd_m2() / (model.display_cd_m2 + model.white_sheet_cd_m2());
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    seen_[i] = encoded(share * linear_table()[i]);
+  }
+}
+
+void WorldBehindCombiner::dim(RgbaImage& world) const {
+  for (std::size_t i = 0; i < world.pixels.size(); ++i) {
+    if (i % 4 != 3) {
+      world.pixels[i] = seen_[world.pixels[i]];
+    }
+  }
+}
+
 RgbaImage through_combiner(const RgbaImage& light, const RgbaImage& background,
                            const OpticalModel& model) {
-  const double white = white_behind(model);
+  const double white = model.white_sheet_cd_m2();
   std::vector<double> seen(light.pixels.size(), 0.0);
   double brightest = kDarkest_cd_m2;
   for (std::size_t i = 0; i < seen.size(); ++i) {

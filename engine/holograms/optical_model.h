@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,8 @@ struct OpticalModel {
   double ambient_lux = 1000.0;      ///< on what is behind; an operating field takes 10,000 and more
   double combiner_fraction = 0.40;  ///< of the world's light that passes
 
+  /// Luminance behind the combiner of a white, matte surface.
+  [[nodiscard]] double white_sheet_cd_m2() const;
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
@@ -36,6 +40,18 @@ inline constexpr double kLegibleContrast = 3.0;
                                                       const LabelImage& labels,
                                                       const RgbaImage& background,
                                                       const OpticalModel& model);
+
+/// The world as it passes the combiner, exposed so that the display's full white over a white sheet
+/// is white. Pictures for people show their background so: at its own brightness no light on top of
+/// it would stand out as it does in the display.
+class WorldBehindCombiner {
+ public:
+  explicit WorldBehindCombiner(const OpticalModel& model = {});
+  void dim(RgbaImage& world) const;
+
+ private:
+  std::array<std::uint8_t, 256> seen_{};
+};
 
 /// What the eye sees, exposed so that the brightest of display and background together is white.
 [[nodiscard]] RgbaImage through_combiner(const RgbaImage& light, const RgbaImage& background,

@@ -244,8 +244,12 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
     dots_.push_back({tool.name, state});
   }
   text_.clear();
-  append_status(text_, guidance.status);
-  add_status_line(scene, text_, dots_, label_of(HologramKind::kStatus, 1));
+  append_step(text_, guidance.status.at);
+  detail_.clear();
+  parts_of_detail_.clear();
+  append_beside_step(detail_, guidance.status, &parts_of_detail_);
+  add_status_line(scene, StatusWords{text_, detail_, &parts_of_detail_}, dots_,
+                  label_of(HologramKind::kStatus, 1));
 }
 
 const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const LevelState& level) {

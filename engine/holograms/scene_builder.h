@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/holograms/hologram_shapes.h"
+#include "engine/holograms/hologram_status.h"
 #include "engine/holograms/shown_frame.h"
 #include "engine/holograms/visibility.h"
 #include "engine/session/guidance.h"
@@ -61,6 +62,8 @@ class SceneBuilder {
   std::vector<render::Float3> points_;
   std::vector<RodBendMark> bends_;
   std::string text_;
+  std::string detail_;
+  StatusParts parts_of_detail_;
   std::vector<ToolDot> dots_;
   render::Scene parts_;  ///< of the twin
 };

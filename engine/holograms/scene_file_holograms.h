@@ -15,12 +15,4 @@ void add_hologram(const JsonNode& node, const std::string& folder, std::size_t k
 /// The number n of hologram Hn of a kind ("path": 1); 99 for `line` and `text`; 0: not known.
 [[nodiscard]] render::Label hologram_number(const std::string& type);
 
-/// A number between limits, which its refusal names.
-[[nodiscard]] double number_between(const JsonNode& node, const char* key, double low, double high,
-                                    const char* unit);
-/// A length in millimetres between limits, in metres.
-[[nodiscard]] float length_from(const JsonNode& node, const char* key, double low_mm,
-                                double high_mm);
-[[nodiscard]] render::Float3 place_from(const JsonNode& node, const char* key);
-
 }  // namespace orthonav::engine

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/printed.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -130,9 +132,7 @@ void add_tag(Sheet& sheet, const TagCells& tag, double x_mm, double y_mm, double
 }
 
 std::string mm_text(double mm) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.3f", mm);
-  std::string shown = text.data();
+  std::string shown = printed("%.3f", mm);
   shown.erase(shown.find_last_not_of('0') + 1);
   if (shown.back() == '.') {
     shown.pop_back();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 
+#include "base/printed.h"
 #include "engine/print/text_outline.h"
 
 namespace orthonav::engine {
@@ -153,7 +154,7 @@ Result<GreyImage> image_of(const Sheet& sheet, double px_per_mm) {
   const double width = std::round(sheet.width_mm * px_per_mm);
   const double height = std::round(sheet.height_mm * px_per_mm);
   if (!(width >= 1 && height >= 1 && width * height <= kMostPixels)) {
-    return Error{"page image: " + std::to_string(px_per_mm) +
+    return Error{"page image: " + printed("%f", px_per_mm) +
                  " px/mm, must give 1 pixel to 200 megapixels"};
   }
   const auto font = PrintFont::open();

@@ -1,9 +1,8 @@
 #include "engine/report/html_text.h"
 
-#include <array>
-
 #include <cmath>
-#include <cstdio>
+
+#include "base/printed.h"
 
 namespace orthonav::engine {
 
@@ -34,9 +33,7 @@ std::string html_number(double value, int decimals) {
   if (!std::isfinite(value)) {
     return "\u2013";
   }
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  std::string out = text;
+  std::string out = printed("%.*f", decimals, value);
   if (!out.empty() && out[0] == '-') {
     out = "\u2212" + out.substr(1);
   }
@@ -44,9 +41,7 @@ std::string html_number(double value, int decimals) {
 }
 
 std::string formatted(const char* format, double a, double b, double c, double d) {
-  std::array<char, 240> line{};
-  std::snprintf(line.data(), line.size(), format, a, b, c, d);
-  return line.data();
+  return printed(format, a, b, c, d);
 }
 
 }  // namespace orthonav::engine

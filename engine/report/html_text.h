@@ -6,7 +6,7 @@ namespace orthonav::engine {
 
 /// Escapes any text for use inside an HTML element or an attribute in double quotes.
 [[nodiscard]] std::string html_escaped(const std::string& text);
-/// printf with up to four numbers, cut at 240 characters.
+/// printf with up to four numbers.
 [[nodiscard]] std::string formatted(const char* format, double a, double b = 0.0, double c = 0.0,
                                     double d = 0.0);
 /// A number as a person reads it, with a true minus sign; a dash where it is not finite.

@@ -15,7 +15,10 @@ using Json = nlohmann::ordered_json;
 Json mm_or_null(double m) { return std::isfinite(m) ? Json(m * 1e3) : Json(); }
 
 Json matrix_json(const Transform<World, Vertebra>& pose, const FigureFrame& frame) {
-  const auto a = model_to_points(pose, frame);
+  auto a = model_to_points(pose, frame);
+  for (double& number : a) {
+    number += 0.0;  // never "-0.0"
+  }
   Json rows = Json::array();
   for (std::size_t row = 0; row < 16; row += 4) {
     rows.push_back({a[row], a[row + 1], a[row + 2], a[row + 3]});
@@ -35,7 +38,7 @@ Json covariance_json(const PlaceError& error, const FigureFrame& frame) {
   for (std::size_t r = 0; r < 3; ++r) {
     Json row = Json::array();
     for (std::size_t c = 0; c < 3; ++c) {
-      row.push_back((*error.covariance_m2)[3 * r + c] * sign(r) * sign(c) * 1e6);
+      row.push_back((*error.covariance_m2)[3 * r + c] * sign(r) * sign(c) * 1e6 + 0.0);
     }
     rows.push_back(std::move(row));
   }

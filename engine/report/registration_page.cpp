@@ -1,19 +1,17 @@
 #include "engine/report/registration_page.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "embedded/report_css.h"
 #include "engine/case/operation.h"
+#include "engine/report/figure_row.h"
 #include "engine/report/html_text.h"
 #include "engine/report/registration_drawing.h"
 #include "engine/session/findings_wording.h"
 
 namespace orthonav::engine {
 namespace {
-
-std::string mm(double metres, int decimals = 2) { return html_number(metres * 1e3, decimals); }
-
-std::string whole(double value) { return html_number(value, 0); }
 
 std::string title_of(const RegisteredLevel& level) {
   return "Registration" + (level.label.empty() ? "" : " of " + html_escaped(level.label));
@@ -42,80 +40,88 @@ std::string in_words(const RegisteredLevel& level) {
          sentence(ambiguity_of(level)) + ".</p>";
 }
 
-/// A figure, whether it keeps its limit, the limit (empty: none) and its meaning.
-struct Figure {
-  const char* name;
-  std::string value;
-  bool good;
-  std::string limit;
-  const char* meaning;
-};
-
-std::string row(const Figure& f) {
-  return std::string("<tr><th scope=row>") + f.name +
-         "</th><td class=" + (f.good ? "ours>" : "bad>") + f.value + "</td><td>" + f.limit +
-         "</td><td class=why>" + f.meaning + "</td></tr>";
+/// No limit is set on it.
+JudgedFigure plain(double value, int decimals) { return {value, decimals, Bound::kNone, 0.0, 0}; }
+JudgedFigure at_most(double value, int decimals, double limit, int limit_decimals) {
+  return {value, decimals, Bound::kAtMost, limit, limit_decimals};
+}
+JudgedFigure at_least(double value, int decimals, double limit, int limit_decimals) {
+  return {value, decimals, Bound::kAtLeast, limit, limit_decimals};
 }
 
-std::string at_least(const std::string& limit) { return "\u2265 " + limit; }
-std::string at_most(const std::string& limit) { return "\u2264 " + limit; }
+std::string margin_row(const nav::Registration& r, double least) {
+  const std::string name = "Margin of the next best pose";
+  const std::string meaning = "how much worse it explains the points (log-likelihood ratio)";
+  const JudgedFigure margin = at_least(r.log_likelihood_ratio, 1, least, 0);
+  return std::isfinite(r.log_likelihood_ratio)
+             ? figure_row(name, margin, meaning)
+             : figure_row(name, judged_cell("none near", margin.bound, margin.keeps_limit()),
+                          limit_text(margin), meaning);
+}
 
 std::string rows_of_best(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   const nav::PoseSearchRegistrationOptions limits;
-  return row({"RMSE <small>mm</small>", mm(r.rmse_m), true, "",
-              "of all points to the surface; hardly tells the error at the screws"}) +
-         row({"Points on the bone", whole(r.inlier_fraction * 1e2) + " %",
-              r.inlier_fraction >= limits.min_inlier_fraction,
-              at_least(whole(limits.min_inlier_fraction * 1e2)),
-              "the rest lies farther off than the scatter explains and has no say"}) +
-         row({"Scatter <small>mm</small>", mm(r.noise_m), r.noise_m <= limits.max_noise_m,
-              at_most(mm(limits.max_noise_m, 1)),
-              "standard deviation of the points on the bone about its surface"}) +
-         row({"Height of the tip above the bone <small>mm</small>", mm(r.standoff_m), true, "",
-              "its mean over the strokes, as far as they tell it; taken into account"}) +
-         row({"Independent points", whole(r.effective_points), true, "",
-              "what the points are worth: neighbours share the tracker\u2019s error"}) +
-         row({"Surface stroked", whole(r.coverage_fraction * 1e2) + " %",
-              r.coverage_fraction >= limits.min_coverage_fraction,
-              at_least(whole(limits.min_coverage_fraction * 1e2)),
-              "of what a pointer reaches from behind"}) +
-         row({"Margin of the next best pose",
-              std::isfinite(r.log_likelihood_ratio) ? html_number(r.log_likelihood_ratio, 1)
-                                                    : "none near",
-              r.log_likelihood_ratio >= limits.min_log_likelihood_ratio,
-              at_least(whole(limits.min_log_likelihood_ratio)),
-              "how much worse it explains the points (log-likelihood ratio)"});
+  return figure_row("RMSE <small>mm</small>", plain(r.rmse_m * 1e3, 2),
+                    "of all points to the surface; hardly tells the error at the screws") +
+         figure_row("Points on the bone <small>%</small>",
+                    at_least(r.inlier_fraction * 1e2, 0, limits.min_inlier_fraction * 1e2, 0),
+                    "the rest lies farther off than the scatter explains and has no say") +
+         figure_row("Scatter <small>mm</small>",
+                    at_most(r.noise_m * 1e3, 2, limits.max_noise_m * 1e3, 1),
+                    "standard deviation of the points on the bone about its surface") +
+         figure_row("Height of the tip above the bone <small>mm</small>",
+                    plain(r.standoff_m * 1e3, 2),
+                    "its mean over the strokes, as far as they tell it; taken into account") +
+         figure_row("Independent points", plain(r.effective_points, 0),
+                    "what the points are worth: neighbours share the tracker’s error") +
+         figure_row("Surface stroked <small>%</small>",
+                    at_least(r.coverage_fraction * 1e2, 0, limits.min_coverage_fraction * 1e2, 0),
+                    "of what a pointer reaches from behind") +
+         figure_row("Pointer through bone <small>% of the points</small>",
+                    at_most(r.shaft_collision_fraction * 1e2, 0,
+                            limits.max_shaft_collision_fraction * 1e2, 0),
+                    "where its shaft would have been, were this pose right") +
+         margin_row(r, limits.min_log_likelihood_ratio);
 }
 
 /// `paper` judges by the residuals and by the error to expect at the model's centre.
 std::string rows_of_paper(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   const nav::RegistrationOptions limits;
-  const double next_m = limits.min_runner_up_ratio * r.rmse_m;
-  return row({"RMSE <small>mm</small>", mm(r.rmse_m), r.rmse_m <= limits.max_rmse_m,
-              at_most(mm(limits.max_rmse_m, 1)),
-              "of all points to the surface; hardly tells the error at the screws"}) +
-         row({"RMSE of the next best pose <small>mm</small>", mm(r.runner_up_rmse_m),
-              r.runner_up_rmse_m >= next_m, at_least(mm(next_m)),
-              "so much worse that it can\u2019t be meant"}) +
-         row({"Error at the model\u2019s centre <small>mm</small>", mm(r.predicted_tre_m),
-              r.predicted_tre_m <= limits.max_predicted_tre_m,
-              at_most(mm(limits.max_predicted_tre_m, 1)), "root mean square to expect"});
+  return figure_row("RMSE <small>mm</small>",
+                    at_most(r.rmse_m * 1e3, 2, limits.max_rmse_m * 1e3, 1),
+                    "of all points to the surface; hardly tells the error at the screws") +
+         figure_row(
+             "RMSE of the next best pose <small>mm</small>",
+             at_least(r.runner_up_rmse_m * 1e3, 2, limits.min_runner_up_ratio * r.rmse_m * 1e3, 2),
+             "so much worse that it can’t be meant") +
+         figure_row("Error at the model’s centre <small>mm</small>",
+                    at_most(r.predicted_tre_m * 1e3, 2, limits.max_predicted_tre_m * 1e3, 1),
+                    "root mean square to expect");
 }
 
-std::string rows_of_error(const RegisteredLevel& level, bool best) {
-  const nav::PoseSearchRegistrationOptions limits;
-  const double rms = worst_rms_m(level);
+/// `paper` sets no limit at the screws.
+JudgedFigure rms_figure(double rms_m, bool best) {
+  const double limit_m = nav::PoseSearchRegistrationOptions{}.max_predicted_tre_m;
+  return best ? at_most(rms_m * 1e3, 2, limit_m * 1e3, 1) : plain(rms_m * 1e3, 2);
+}
+JudgedFigure within_95_figure(double within_m, bool best) {
+  const double limit_m = nav::PoseSearchRegistrationOptions{}.max_tre_95_m;
+  return best ? at_most(within_m * 1e3, 2, limit_m * 1e3, 1) : plain(within_m * 1e3, 2);
+}
+
+bool is_best(const RegisteredLevel& level) { return level.registration.noise_m > 0.0; }
+
+std::string rows_of_error(const RegisteredLevel& level) {
+  const bool best = is_best(level);
   std::string out =
-      row({level.screws.empty() ? "Error where screws usually go <small>mm</small>"
-                                : "Error at the worst screw <small>mm</small>",
-           mm(rms), !best || rms <= limits.max_predicted_tre_m,
-           best ? at_most(mm(limits.max_predicted_tre_m, 1)) : "", "root mean square to expect"});
+      figure_row(level.screws.empty() ? "Error where screws usually go <small>mm</small>"
+                                      : "Error at the worst screw <small>mm</small>",
+                 rms_figure(worst_rms_m(level), best), "root mean square to expect");
   if (const auto within = worst_within_95_m(level)) {
-    out += row({"95 of 100 errors below <small>mm</small>", mm(*within),
-                !best || *within <= limits.max_tre_95_m,
-                best ? at_most(mm(limits.max_tre_95_m, 1)) : "", "at the same place"});
+    out += figure_row("95 of 100 errors below <small>mm</small>", within_95_figure(*within, best),
+                      "at the same place");
   }
   return out;
 }
@@ -124,40 +130,44 @@ std::string row_of_checks(const RegisteredLevel& level) {
   if (level.check_points.empty()) {
     return "";
   }
+  const double limit_mm = nav::CheckPointRules{}.within_m * 1e3;
   std::string distances;
   bool all_within = true;
   for (const nav::CheckPoint& check : level.check_points) {
-    distances += (distances.empty() ? "" : ", ") + mm(check.distance_m, 1);
+    distances += (distances.empty() ? "" : ", ") + html_number(check.distance_m * 1e3, 1) +
+                 (check.within ? "" : " ✗");
     all_within = all_within && check.within;
   }
-  return row({"Check points <small>mm</small>", distances, all_within,
-              at_most(mm(nav::CheckPointRules{}.within_m, 1)),
-              "distances of places touched afterwards, which had no part in the fit"});
+  return figure_row("Check points <small>mm</small>",
+                    judged_cell(distances, Bound::kAtMost, all_within),
+                    limit_text(at_most(0.0, 1, limit_mm, 1)),
+                    "distances of places touched afterwards, which had no part in the fit");
 }
 
 std::string figures(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
-  const bool best = r.noise_m > 0.0;
   std::string out =
       "<table><thead><tr><th></th><th></th><th>limit</th><th class=why>meaning</th></tr></thead>"
       "<tbody>" +
-      row({"Points", whole(static_cast<double>(r.points)), true, "", "digitized and registered"}) +
-      (best ? rows_of_best(level) : rows_of_paper(level));
-  if (best || !level.screws.empty()) {
-    out += rows_of_error(level, best);
+      figure_row("Points", plain(static_cast<double>(r.points), 0), "digitized and registered") +
+      (is_best(level) ? rows_of_best(level) : rows_of_paper(level));
+  if (is_best(level) || !level.screws.empty()) {
+    out += rows_of_error(level);
   }
   out += row_of_checks(level);
   return out + "</tbody></table>";
 }
 
-std::string place_row(const std::string& name, const PlaceError& e) {
-  std::string out = "<tr><th scope=row>" + name + "</th><td>" + mm(e.rms_m) +
-                    "</td><td class=ours>" + mm(e.within_95_m) + "</td>";
+std::string place_row(const std::string& name, const PlaceError& e, bool best) {
+  std::string out = "<tr><th scope=row>" + name + "</th>" +
+                    narrow_judged_cell(rms_figure(e.rms_m, best)) +
+                    narrow_judged_cell(within_95_figure(e.within_95_m, best));
   for (const std::size_t axis : {0U, 1U, 2U}) {
-    out +=
-        "<td>" +
-        (e.covariance_m2 ? mm(std::sqrt(std::max(0.0, (*e.covariance_m2)[4 * axis]))) : "\u2013") +
-        "</td>";
+    out += "<td>" +
+           (e.covariance_m2
+                ? html_number(1e3 * std::sqrt(std::max(0.0, (*e.covariance_m2)[4 * axis])), 2)
+                : "–") +
+           "</td>";
   }
   return out + "</tr>";
 }
@@ -166,13 +176,18 @@ std::string screws(const RegisteredLevel& level) {
   if (level.screws.empty()) {
     return "";
   }
-  std::string out =
-      "<table><thead><tr><th>errors to expect <small>mm</small></th><th>RMS</th><th>95 of 100 "
-      "below</th><th>SD sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
-      "</thead><tbody>";
+  const bool best = is_best(level);
+  const auto head = [&](const std::string& name, const JudgedFigure& of) {
+    return "<th>" + name + (best ? " <small>" + limit_text(of) + "</small>" : "") + "</th>";
+  };
+  std::string out = "<table><thead><tr><th>errors to expect <small>mm</small></th>" +
+                    head("RMS", rms_figure(0.0, best)) +
+                    head("95 of 100 below", within_95_figure(0.0, best)) +
+                    "<th>SD sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
+                    "</thead><tbody>";
   for (const ScrewErrors& e : errors_at_screws(level)) {
     const std::string side = name_of(e.side);
-    out += place_row(side + " entry", e.entry) + place_row(side + " target", e.target);
+    out += place_row(side + " entry", e.entry, best) + place_row(side + " target", e.target, best);
   }
   return out + "</tbody></table>";
 }

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "engine/session/printed.h"
+#include "base/printed.h"
 
 namespace orthonav::engine {
 namespace {
@@ -85,7 +85,7 @@ void append(std::string& out, const nav::RefusalReason& reason) {
     return;
   }
   const auto [format, unit] = words_about(reason.kind);
-  append_printed(out, format, reason.value * unit, reason.limit * unit);
+  append_beside_limit(out, format, reason.value * unit, reason.limit * unit);
   if (reason.motion) {
     out += ": ";
     append(out, *reason.motion);
@@ -120,8 +120,9 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
                      advice.value_m * 1e3);
       break;
     case nav::CheckAdvice::Kind::kReject:
-      append_printed(out, "check point %zu is %.1f mm off, limit %.1f mm: reject and stroke again",
-                     advice.number, advice.value_m * 1e3, advice.limit_m * 1e3);
+      append_printed(out, "check point %zu is ", advice.number);
+      append_beside_limit(out, "%.1f mm off, limit %.1f mm: reject and stroke again",
+                          advice.value_m * 1e3, advice.limit_m * 1e3);
       break;
   }
 }

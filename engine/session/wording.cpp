@@ -1,10 +1,12 @@
 #include "engine/session/wording.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 
-#include "engine/session/printed.h"
+#include "base/length_text.h"
+#include "base/printed.h"
 
 namespace orthonav::engine {
 namespace {
@@ -26,7 +28,8 @@ void append_refusal(std::string& out, const TouchRefusal& why) {
       out += "pointer not seen";
       break;
     case TouchRefusal::Kind::kTipMoved:
-      append_printed(out, "tip moved %.1f mm, limit %.1f mm", why.value_m * 1e3, why.limit_m * 1e3);
+      append_beside_limit(out, "tip moved %.1f mm, limit %.1f mm", why.value_m * 1e3,
+                          why.limit_m * 1e3);
       break;
     case TouchRefusal::Kind::kHeldTooLong:
       out += "hold too long";
@@ -37,69 +40,102 @@ void append_refusal(std::string& out, const TouchRefusal& why) {
   }
 }
 
-/// Appends each kind of message.
+/// The words of each kind of message; as parts where they are more than one.
 struct MessageWriter {
-  std::string& out;
+  PartedText text;
+  std::string& out = text.out;
 
-  void operator()(std::monostate /*none*/) const {}
-  void operator()(const NotPossibleNow& m) const {
+  void operator()(std::monostate /*none*/) {}
+  void operator()(const NotPossibleNow& m) {
+    text.begin(Importance::kMessage);
     out.append("not possible now: ").append(name_of(m.event));
   }
-  void operator()(const NotUnderstood& /*m*/) const { out += "not understood"; }
-  void operator()(const SaidBeforeShown& /*m*/) const {
+  void operator()(const NotUnderstood& /*m*/) {
+    text.begin(Importance::kMessage);
+    out += "not understood";
+  }
+  void operator()(const SaidBeforeShown& /*m*/) {
+    text.begin(Importance::kMessage);
     out += "not accepted: said before the hologram was shown";
   }
-  void operator()(const NothingToDelete& m) const {
+  void operator()(const NothingToDelete& m) {
+    text.begin(Importance::kMessage);
     constexpr std::array<std::string_view, 3> kTexts = {
         "nothing to delete", "no check point to delete", "no head to delete"};
     out += kTexts[static_cast<std::size_t>(m.what)];
   }
-  void operator()(const ConfirmDelete& m) const {
+  void operator()(const ConfirmDelete& m) {
+    text.begin(Importance::kNext);
     append_printed(out, "say delete again to drop the last saved %zu points", m.points);
   }
-  void operator()(const RegistrationRefused& m) const {
+  void operator()(const RegistrationRefused& m) {
+    text.begin(Importance::kMessage);
     out += "refused: ";
+    const std::span<const nav::RefusalReason> reasons = m.reasons;
     if (m.error) {
       out += m.error->message;
     } else {
-      append(out, std::span<const nav::RefusalReason>(m.reasons));
+      append(out, reasons.first(std::min<std::size_t>(1, reasons.size())));
+    }
+    for (std::size_t i = 1; !m.error && i < reasons.size(); ++i) {
+      text.begin(Importance::kMore, "; ");
+      append(out, reasons[i]);
     }
     if (m.another_level_fits) {
-      out += "; make sure of the level";
+      text.begin(Importance::kNext, "; ");
+      out += "make sure of the level";
     } else if (m.stroke_next) {
-      out += "; ";
+      text.begin(Importance::kNext, "; ");
       append(out, *m.stroke_next);
     }
   }
-  void operator()(const ChecksMissing& m) const {
+  void operator()(const ChecksMissing& m) {
+    text.begin(Importance::kNext);
     out += "not accepted: ";
     append(out, m.advice);
   }
-  void operator()(const TouchNotRecorded& m) const {
+  void operator()(const TouchNotRecorded& m) {
+    text.begin(Importance::kMessage);
     const bool head = m.what == TouchNotRecorded::What::kHead;
     out += head ? "head not recorded: " : "check point not recorded: ";
     append_refusal(out, m.why);
   }
-  void operator()(const NoRod& m) const { out.append("no rod: ").append(m.why.message); }
-  void operator()(const MapMoved& m) const {
+  void operator()(const NoRod& m) {
+    text.begin(Importance::kMessage);
+    out.append("no rod: ").append(m.why.message);
+  }
+  void operator()(const MapMoved& m) {
+    text.begin(Importance::kDanger);
     out += "the headset's map moved";
     if (m.step == Step::kDigitize) {
-      out += ": digitize again";
+      text.begin(Importance::kNext, ": ");
+      out += "digitize again";
     } else if (m.step == Step::kRod) {
-      out += ": touch this rod's heads again";
+      text.begin(Importance::kNext, ": ");
+      out += "touch this rod's heads again";
     }
   }
-  void operator()(const NoImages& /*m*/) const { out += "no camera images"; }
-  void operator()(const Ended& /*m*/) const { out += "ended"; }
+  void operator()(const NoImages& /*m*/) {
+    text.begin(Importance::kDanger);
+    out += "no camera images";
+  }
+  void operator()(const Ended& /*m*/) {
+    text.begin(Importance::kDanger);
+    out += "ended";
+  }
 };
 
 /// What is to be touched, and how the last touch was.
-void append_checks(std::string& out, const ChecksSoFar& checks) {
+void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
+  std::string& out = text.out;
   if (checks.last_m) {
+    text.begin(Importance::kMessage, separator);
     append_printed(out, "check point %zu: ", checks.count);
     append_mm(out, *checks.last_m, 1);
-    out += " off; ";
+    out += " off";
+    separator = "; ";
   }
+  text.begin(Importance::kNext, separator);
   if (checks.verdict->passed) {
     out += "checked, worst ";
     append_mm(out, checks.verdict->worst_m, 1);
@@ -108,55 +144,73 @@ void append_checks(std::string& out, const ChecksSoFar& checks) {
   }
 }
 
-/// Appends how each step stands.
-struct StateWriter {
-  std::string& out;
-
-  void operator()(std::monostate /*none*/) const {}
-  void operator()(const StrokesSoFar& strokes) const {
-    append_printed(out, "%zu points", strokes.points);
-    if (strokes.coaching) {
-      out += " | ";
-      append(out, *strokes.coaching);
-    }
-  }
-  void operator()(const RegistrationFigures& figures) const {
-    out += "RMSE ";
-    append_mm(out, figures.rmse_m, 2);
-    out += ", ";
-    append_mm(out, figures.expected_m, 1);
-    out += figures.of_one_screw ? " expected" : " expected at the screws";
-  }
-  void operator()(const ChecksSoFar& checks) const {
-    append_mm(out, checks.expected_m, 1);
-    out += " expected; ";
-    append_checks(out, checks);
-  }
-  void operator()(const HeadsSoFar& heads) const { append_printed(out, "%zu heads", heads.count); }
-};
-
-}  // namespace
-
-void append(std::string& out, const Coaching& coaching) {
+void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator) {
+  std::string& out = text.out;
   if (!coaching.unique) {
     // An error about a pose that may be the wrong one says nothing.
+    text.begin(Importance::kMessage, separator);
     out += "could be more than one pose";
   } else {
+    text.begin(Importance::kFigures, separator);
     append_mm(out, coaching.expected_m, 1);
     out += " expected";
   }
   if (coaching.enough) {
-    out += ", enough to register";
+    text.begin(Importance::kNext, ", ");
+    out += "enough to register";
   } else if (coaching.against) {
-    out += ", ";
+    text.begin(Importance::kMessage, ", ");
     append(out, *coaching.against);
   } else if (coaching.stroke_next) {
-    out += ", ";
+    text.begin(Importance::kNext, ", ");
     append(out, *coaching.stroke_next);
   }
 }
 
-void append(std::string& out, const Message& message) { std::visit(MessageWriter{out}, message); }
+/// How each step stands.
+struct StateWriter {
+  PartedText text;
+  std::string& out = text.out;
+
+  void operator()(std::monostate /*none*/) {}
+  void operator()(const StrokesSoFar& strokes) {
+    text.begin(Importance::kCount);
+    append_printed(out, "%zu points", strokes.points);
+    if (strokes.coaching != nullptr) {
+      write_coaching(text, *strokes.coaching, kBetweenParts);
+    }
+  }
+  void operator()(const RegistrationFigures& figures) {
+    text.begin(Importance::kFigures);
+    out += "RMSE ";
+    append_mm(out, figures.rmse_m, 2);
+    text.begin(Importance::kFigures, ", ");
+    append_mm(out, figures.expected_m, 1);
+    out += figures.of_one_screw ? " expected" : " expected at the screws";
+  }
+  void operator()(const ChecksSoFar& checks) {
+    text.begin(Importance::kFigures);
+    append_mm(out, checks.expected_m, 1);
+    out += " expected";
+    write_checks(text, checks, "; ");
+  }
+  void operator()(const HeadsSoFar& heads) {
+    text.begin(Importance::kCount);
+    append_printed(out, "%zu heads", heads.count);
+  }
+};
+
+void write_message(PartedText text, const Message& message) {
+  std::visit(MessageWriter{text}, message);
+}
+
+}  // namespace
+
+void append(std::string& out, const Coaching& coaching) {
+  write_coaching(PartedText{out}, coaching, "");
+}
+
+void append(std::string& out, const Message& message) { write_message(PartedText{out}, message); }
 
 void append_step(std::string& out, const StepOnDisplay& at) {
   out += word_of(at.step);
@@ -168,28 +222,39 @@ void append_step(std::string& out, const StepOnDisplay& at) {
   }
 }
 
-void append_detail(std::string& out, const StatusLine& line) {
+void append_detail(std::string& out, const StatusLine& line, StatusParts* parts) {
+  PartedText text{out, parts};
   const std::size_t begin = out.size();
   if (line.tool_lost) {
+    text.begin(Importance::kDanger);
     out.append(line.tool).append(" lost");
   } else if (line.tag_size_off) {
+    text.begin(Importance::kDanger);
     append_tag_size_off(out, line.tool, *line.tag_size_off);
   }
   const bool taken = out.size() > begin;
   if (line.message) {
     out += taken ? "; " : "";
-    append(out, *line.message);
+    write_message(text, *line.message);
   } else if (!taken) {
-    std::visit(StateWriter{out}, line.state);
+    std::visit(StateWriter{text}, line.state);
   } else if (const auto* checks = std::get_if<ChecksSoFar>(&line.state)) {
     // What is to be touched counts on beside a warning that stays.
-    out += "; ";
-    append_checks(out, *checks);
+    write_checks(text, *checks, "; ");
   }
 }
 
 void append_heard(std::string& out, const HeardCommand& heard) {
   out.append("heard: ").append(heard.phrase).append(heard.sure ? "" : "? not sure");
+}
+
+void append_beside_step(std::string& out, const StatusLine& line, StatusParts* parts) {
+  const std::size_t begin = out.size();
+  append_detail(out, line, parts);
+  if (line.heard) {
+    PartedText{out, parts}.begin(Importance::kHeard, out.size() > begin ? kBetweenParts : "");
+    append_heard(out, *line.heard);
+  }
 }
 
 void append_screw(std::string& out, std::string_view level, Side side) {

@@ -8,6 +8,7 @@
 #include "engine/session/message.h"
 #include "engine/session/registration_outcome.h"
 #include "engine/session/status_line.h"
+#include "engine/session/status_parts.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/findings.h"
 
@@ -23,8 +24,10 @@ namespace orthonav::engine {
 /// "guide L4 left".
 void append_step(std::string& out, const StepOnDisplay& at);
 /// What follows the step: the loss of the tool first, which no message may cover, then the message
-/// or how the step stands. Empty: nothing.
-void append_detail(std::string& out, const StatusLine& line);
+/// or how the step stands. Empty: nothing. `parts`, where asked for: which of it gives way first.
+void append_detail(std::string& out, const StatusLine& line, StatusParts* parts = nullptr);
+/// The detail and the command heard: "guide lost | heard: next".
+void append_beside_step(std::string& out, const StatusLine& line, StatusParts* parts = nullptr);
 /// "heard: save".
 void append_heard(std::string& out, const HeardCommand& heard);
 /// "L4 left".

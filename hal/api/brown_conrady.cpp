@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "base/printed.h"
+
 namespace orthonav {
 namespace {
 
@@ -61,7 +63,7 @@ Status checked_parameters(const BrownConrady& p) {
     }
   }
   if (p.fx_px <= 0.0 || p.fy_px <= 0.0) {
-    return Error{"camera focal length is " + std::to_string(std::min(p.fx_px, p.fy_px)) +
+    return Error{"camera focal length is " + printed("%f", std::min(p.fx_px, p.fy_px)) +
                  " px, must be positive"};
   }
   return {};

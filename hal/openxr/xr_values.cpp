@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/printed.h"
+
 namespace orthonav::openxr {
 
 Status take_fov(const XrFovf& fov, EyeView& view) {
@@ -13,7 +15,7 @@ Status take_fov(const XrFovf& fov, EyeView& view) {
   constexpr float kMost_rad = 1.55f;  // a little less than a right angle
   for (const float angle : {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown}) {
     if (!(std::fabs(angle) < kMost_rad)) {
-      return Error{"openxr: a field of view reaches " + std::to_string(angle) + " rad, limit " +
+      return Error{"openxr: a field of view reaches " + printed("%f", angle) + " rad, limit " +
                    std::to_string(kMost_rad)};
     }
   }

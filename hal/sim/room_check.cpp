@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "base/printed.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/tag_pattern.h"
 
@@ -44,7 +45,7 @@ Status check_level(const RoomLevel& level) {
 Status check_tool(const RoomTool& tool) {
   const std::string name = "room tool \"" + tool.name + "\": ";
   if (!(tool.size_m > 0.0 && tool.size_m <= kLargestTag_m)) {
-    return Error{name + "tag size is " + std::to_string(tool.size_m) +
+    return Error{name + "tag size is " + printed("%f", tool.size_m) +
                  " m, must be more than 0 and at most 0.5"};
   }
   if (!tool.tip_in_marker.v.is_finite() || tool.tip_in_marker.v.norm() > kLongestTool_m) {

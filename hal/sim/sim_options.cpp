@@ -1,4 +1,5 @@
 #include "base/joined.h"
+#include "base/printed.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/sim_headset.h"
 #include "hal/sim/stroke_plan.h"
@@ -17,15 +18,15 @@ Status SimOptions::check() const {
     return Error{joined(problems)};
   }
   if (!(frame_rate_hz >= 1.0 && frame_rate_hz <= kFastestRate_hz)) {
-    return Error{"simulated frame rate is " + std::to_string(frame_rate_hz) +
+    return Error{"simulated frame rate is " + printed("%f", frame_rate_hz) +
                  " Hz, must lie in [1, 240]"};
   }
   if (error_model.exposure_s * frame_rate_hz > 1.0) {
-    return Error{"simulated exposure of " + std::to_string(error_model.exposure_s) +
-                 " s is longer than a frame at " + std::to_string(frame_rate_hz) + " Hz"};
+    return Error{"simulated exposure of " + printed("%f", error_model.exposure_s) +
+                 " s is longer than a frame at " + printed("%f", frame_rate_hz) + " Hz"};
   }
   if (!(limit_s > 0.0 && limit_s <= kLongest_s)) {
-    return Error{"simulated time limit is " + std::to_string(limit_s) +
+    return Error{"simulated time limit is " + printed("%f", limit_s) +
                  " s, must be more than 0 and at most 86400"};
   }
   return {};

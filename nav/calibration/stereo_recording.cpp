@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/findings.h"
+#include "base/printed.h"
 #include "nav/calibration/body_jackknife.h"
 #include "nav/calibration/body_start.h"
 #include "nav/calibration/coverage.h"
@@ -152,7 +153,7 @@ void judge(const StereoRecordingOptions& options, StereoRecording& result) {
   result.is_off = result.off_px > options.min_off_px &&
                   result.off_px > options.significance * result.off_sigma_px;
   const std::string off =
-      with_numbers("%.3f ± %.3f px across the epipolar lines", result.off_px, result.off_sigma_px);
+      printed("%.3f ± %.3f px across the epipolar lines", result.off_px, result.off_sigma_px);
   if (result.is_off) {
     judgement.add(Verdict::kNote, "the device's calibration is off by " + off);
   }
@@ -184,9 +185,9 @@ Status check_pairs(const BodyProblem& problem, const StereoRecordingOptions& opt
   const double ratio = median_size_ratio(problem.pairs);
   if (!(std::abs(ratio - 1.0) <= options.max_size_deviation)) {
     return stereo_refused(
-        with_numbers("the tags' edges measure %.3f of the size given, must be within "
-                     "%.2f of it (was the board printed at 100 %%?)",
-                     ratio, options.max_size_deviation));
+        printed("the tags' edges measure %.3f of the size given, must be within "
+                "%.2f of it (was the board printed at 100 %%?)",
+                ratio, options.max_size_deviation));
   }
   return {};
 }

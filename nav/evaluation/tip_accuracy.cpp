@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/findings.h"
+#include "base/printed.h"
 #include "nav/evaluation/fixed_point.h"
 #include "nav/evaluation/tip_accuracy_parts.h"
 
@@ -125,8 +126,8 @@ void note_slip(const std::optional<TipSlip>& slip, AccuracyPart& part) {
     return;
   }
   part.failure =
-      with_numbers("the tip slipped by %.1f mm about %.1f s into the recording: repeat the test",
-                   slip->step_m * 1e3, slip->time_s);
+      printed("the tip slipped by %.1f mm about %.1f s into the recording: repeat the test",
+              slip->step_m * 1e3, slip->time_s);
 }
 
 void note_slips(const PointerTrack& track, const SortedRests& rests,

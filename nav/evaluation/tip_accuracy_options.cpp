@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdio>
 
+#include "base/printed.h"
 #include "nav/evaluation/tip_accuracy.h"
 
 namespace orthonav::nav {
@@ -18,10 +19,8 @@ void check_number(const Number& number, std::vector<std::string>& problems) {
   if (number.value >= number.low && number.value <= number.high) {
     return;
   }
-  std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(), "accuracy test: %s %g, must be %g to %g", number.name,
-                number.value, number.low, number.high);
-  problems.emplace_back(line.data());
+  problems.push_back(printed("accuracy test: %s %g, must be %g to %g", number.name, number.value,
+                             number.low, number.high));
 }
 
 void check_limits(const char* name, const AccuracyLimits& limits,
@@ -29,11 +28,9 @@ void check_limits(const char* name, const AccuracyLimits& limits,
   if (limits.pass_m > 0.0 && limits.pass_m <= limits.note_m && limits.note_m <= 0.1) {
     return;
   }
-  std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(),
-                "accuracy test: limits of %s %g and %g mm, must rise from above 0 to 100 mm", name,
-                limits.pass_m * 1e3, limits.note_m * 1e3);
-  problems.emplace_back(line.data());
+  problems.push_back(
+      printed("accuracy test: limits of %s %g and %g mm, must rise from above 0 to 100 mm", name,
+              limits.pass_m * 1e3, limits.note_m * 1e3));
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/printed.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -23,11 +25,7 @@ struct DirectedEdge {
   bool upward;  ///< runs from low to high
 };
 
-std::string number(double value, const char* format) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
+std::string number(double value, const char* format) { return printed(format, value); }
 
 Status check_numbers(const TriangleMesh& mesh) {
   if (mesh.triangles.empty() || mesh.vertices_m.empty()) {

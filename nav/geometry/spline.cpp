@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "base/printed.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -112,10 +114,8 @@ Result<CatmullRom> CatmullRom::through(std::span<const Vec3> points_m) {
     }
     const double gap_m = (points_m[i] - points_m[i - 1]).norm();
     if (!(gap_m >= kClosest_m)) {
-      char text[128];
-      std::snprintf(text, sizeof text, "spline points %zu and %zu are %.4f mm apart, limit 0.1 mm",
-                    i - 1, i, gap_m * 1e3);
-      return Error{text};
+      return Error{printed("spline points %zu and %zu are %s mm apart, limit 0.1 mm", i - 1, i,
+                           value_beside(gap_m * 1e3, kClosest_m * 1e3, 4).c_str())};
     }
   }
   CatmullRom curve;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/angle.h"
+#include "base/printed.h"
 #include "nav/geometry/spline.h"
 #include "nav/registration/principal_axes.h"
 
@@ -27,20 +28,23 @@ constexpr double kSharpest_rad = 60.0 * kRadiansPerDegree;
 constexpr double kBack_rad = 90.0 * kRadiansPerDegree;
 constexpr double kSampling_m = 0.001;
 
-std::string millimetres(double m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g mm", m * 1e3);
+/// A length outside of what is allowed, with the digits that tell it from the limit.
+std::string outside(double length_m, double shortest_m, double longest_m) {
+  const double limit_m = length_m < shortest_m ? shortest_m : longest_m;
+  std::string text = beside_limit("%.4g mm;%.4g", length_m * 1e3, limit_m * 1e3);
+  text.resize(text.find(';'));
   return text;
 }
 
 Error apart(std::size_t i, std::size_t j, double gap_m) {
   return Error{"screw heads " + std::to_string(i + 1) + " and " + std::to_string(j + 1) + " are " +
-               millimetres(gap_m) + " apart, limit 5-150 mm"};
+               outside(gap_m, kClosest_m, kFarthest_m) + " apart, limit 5-150 mm"};
 }
 
 Status check(std::span<const Vec3> heads_m, double diameter_m) {
   if (!(diameter_m >= kThinnestRod_m && diameter_m <= kThickestRod_m)) {
-    return Error{"rod diameter is " + millimetres(diameter_m) + ", limit 1-15 mm"};
+    return Error{"rod diameter is " + outside(diameter_m, kThinnestRod_m, kThickestRod_m) +
+                 ", limit 1-15 mm"};
   }
   if (heads_m.size() < 2) {
     return Error{"rod needs at least 2 screw heads, got " + std::to_string(heads_m.size())};
@@ -91,11 +95,11 @@ Status check_run(std::span<const Vec3> heads_m, std::span<const std::size_t> ord
   for (std::size_t i = 1; i + 1 < heads_m.size(); ++i) {
     const double angle_rad = bend_rad(heads_m, i);
     if (angle_rad > kSharpest_rad) {
-      char text[80];
-      std::snprintf(text, sizeof text, "rod %s %.1f° at screw head %zu, limit 60°",
-                    angle_rad > kBack_rad ? "doubles back by" : "bends by",
-                    angle_rad * kDegreesPerRadian, order[i] + 1);
-      return Error{text};
+      return Error{printed(
+          "rod %s %s° at screw head %zu, limit 60°",
+          angle_rad > kBack_rad ? "doubles back by" : "bends by",
+          value_beside(angle_rad * kDegreesPerRadian, kSharpest_rad * kDegreesPerRadian, 1).c_str(),
+          order[i] + 1)};
     }
   }
   return {};
@@ -128,7 +132,7 @@ Result<RodTemplate> rod_template(std::span<const Vec3> heads_m, double diameter_
     rod.length_m += spline->segment_length_m(i);
   }
   if (rod.length_m > kLongest_m) {
-    return Error{"rod is " + millimetres(rod.length_m) + " long, limit 600 mm"};
+    return Error{"rod is " + outside(rod.length_m, 0.0, kLongest_m) + " long, limit 600 mm"};
   }
   return rod;
 }

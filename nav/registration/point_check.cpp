@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "base/printed.h"
 #include "nav/registration/principal_axes.h"
 #include "nav/registration/registration.h"
 
@@ -13,11 +14,7 @@ constexpr double kNarrowest_m = 0.001;
 /// Points of one vertebra are not farther than this (standard deviation) from their centre.
 constexpr double kWidest_m = 0.1;
 
-std::string line(const char* format, double a, double b) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
+std::string line(const char* format, double a, double b) { return beside_limit(format, a, b); }
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "base/angle.h"
 #include "base/findings.h"
 #include "base/joined.h"
+#include "base/printed.h"
 #include "base/random.h"
 #include "nav/statistics/blocked_jackknife.h"
 #include "nav/statistics/median.h"
@@ -221,7 +222,7 @@ std::vector<std::string> PivotOptions::check() const {
   std::vector<std::string> problems;
   const auto fraction = [&](const char* name, double value) {
     if (!(value > 0.0 && value <= 1.0)) {
-      problems.push_back(std::string(name) + " " + std::to_string(value) +
+      problems.push_back(std::string(name) + " " + printed("%f", value) +
                          ", must be above 0 and at most 1");
     }
   };

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "base/printed.h"
 #include "nav/tracking/marker_detector.h"
 
 namespace orthonav::nav {
@@ -17,11 +18,7 @@ constexpr double kLargestMarkerM = 0.2;
 constexpr double kFarthestM = 1.0;
 constexpr double kUnitTolerance = 1e-3;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
+std::string number(double value) { return printed("%.6g", value); }
 
 void check_marker(const MarkerDefinition& marker, const std::string& name,
                   std::vector<std::string>& problems) {

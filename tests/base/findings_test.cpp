@@ -16,8 +16,9 @@ TEST(Wording, PutsValueAndLimitIn) {
 }
 
 TEST(Wording, CutsWhatIsTooLong) {
-  // The largest number alone has 309 digits.
-  EXPECT_EQ(with_numbers("%.0f, limit %.0f", std::numeric_limits<double>::max(), 1.0).size(), 199u);
+  // The largest number alone has 309 digits, and is asked for with as many decimals again.
+  EXPECT_EQ(with_numbers("%.300f; %.0f", std::numeric_limits<double>::max(), 1.0).size(),
+            399u + 3u);
 }
 
 TEST(MustBePositive, NotesEachThatIsNot) {

@@ -74,7 +74,7 @@ Box box_of_shapes(const GoldenScene& golden, render::Label label, std::size_t vi
 }
 
 Box box_of_text(const GoldenScene& golden, const render::TextItem& item, std::size_t view) {
-  const render::Font font;
+  static const render::Font font;
   const render::Matrix4 place = world_from_caps(item, render::head_of(golden.views));
   std::vector<render::PlacedGlyph> glyphs;
   lay_out(font, item, glyphs);

@@ -81,12 +81,14 @@ void StageView::draw_background(const Moment& moment, const Look& look,
         static_cast<double>(view.tan_up), static_cast<double>(view.tan_down)};
     room_->picture(*moment.room, seen, room_picture_);
     background_.pixels.swap(room_picture_.pixels);
+    combiner_.dim(background_);
   } else {
     for (std::size_t i = 0; i < background_.pixels.size(); i += 4) {
       std::copy(kEmpty.begin(), kEmpty.end(), background_.pixels.begin() + static_cast<long>(i));
     }
     if (recording_ && !look.camera.orbits()) {
       recording_->draw(moment.sequence, view, background_);
+      combiner_.dim(background_);
     }
   }
   background_ms_ = watch.elapsed_ms();

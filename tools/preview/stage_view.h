@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/holograms/optical_model.h"
 #include "hal/api/devices.h"
 #include "hal/sim/room_renderer.h"
 #include "hal/sim/sim_headset.h"
@@ -53,6 +54,7 @@ class StageView {
   std::unique_ptr<render::Renderer> renderer_;
   std::unique_ptr<sim::RoomRenderer> room_;
   std::optional<RecordedImages> recording_;
+  engine::WorldBehindCombiner combiner_;
   double background_ms_ = 0.0;
 
   // Reused from picture to picture.

@@ -116,18 +116,6 @@ TEST(SampledPath, FadesAndVanishes) {
   EXPECT_EQ(scene.lines.size(), 1u);
 }
 
-TEST(StatusLine, TellsToolsApartByShapeToo) {
-  const std::vector<ToolDot> tools = {
-      {"a", ToolState::kMeasured}, {"b", ToolState::kPredicted}, {"c", ToolState::kLost}};
-  render::Scene scene;
-  add_status_line(scene, "setup", tools, 1101);
-  std::string text;
-  for (const render::TextRun& run : scene.texts.at(0).runs) {
-    text += run.text;
-  }
-  EXPECT_EQ(text, "setup  ● a  ◐ b  ○ c");
-}
-
 TEST(Rod, ShowsTheRodWithoutHeadsAndHeadsWithoutARod) {
   render::Scene scene;
   add_rod(scene, {}, 1001);

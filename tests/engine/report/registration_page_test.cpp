@@ -86,9 +86,52 @@ TEST(RegistrationPage, ShowsWhatWasTouchedToVerify) {
   level.check_points.push_back({level.points[0], 0.0004, true});
   level.check_points.push_back({level.points[9], -0.0025, false});
   const std::string page = registration_section(level).value();
-  EXPECT_THAT(page, AllOf(HasSubstr("class=\"check\""), HasSubstr("0.4, \u22122.5</td>"),
+  EXPECT_THAT(page, AllOf(HasSubstr("class=\"check\""),
+                          HasSubstr("0.4, \u22122.5 ✗ ✗ <b>over the limit</b></td>"),
                           HasSubstr("touched to verify it")));
   EXPECT_THAT(page, HasSubstr("<td class=bad>0.4")) << "one is off";
+}
+
+/// The table's row that begins with these words.
+std::string row_of(const std::string& page, const std::string& name) {
+  const std::size_t begin = page.find("<tr><th scope=row>" + name);
+  return begin == std::string::npos ? "" : page.substr(begin, page.find("</tr>", begin) - begin);
+}
+
+TEST(RegistrationPage, MarksEveryFigureThatFailsInWordsAndNoneAsGood) {
+  RegisteredLevel level = exact();
+  nav::Registration& r = level.registration;
+  r.accepted = false;
+  r.inlier_fraction = 0.5;
+  r.noise_m = 0.0019;
+  r.coverage_fraction = 0.05;
+  r.shaft_collision_fraction = 0.4;
+  r.log_likelihood_ratio = 3.0;
+  std::array<double, 36> covariance{};
+  covariance[0] = covariance[7] = covariance[14] = 1.222e-3 * 1.222e-3;
+  r.uncertainty = nav::PoseUncertainty{{}, covariance};
+  const std::string page = registration_section(level).value();
+  for (const char* name : {"Points on the bone", "Surface stroked", "Margin of"}) {
+    EXPECT_THAT(row_of(page, name), HasSubstr("✗ <b>below the limit</b>")) << name;
+  }
+  for (const char* name :
+       {"Scatter", "Pointer through", "Error at the worst", "95 of 100 errors"}) {
+    EXPECT_THAT(row_of(page, name), HasSubstr("✗ <b>over the limit</b>")) << name;
+  }
+  EXPECT_THAT(row_of(page, "95 of 100 errors"), HasSubstr("3.41 ✗"));
+  EXPECT_THAT(row_of(page, "left target"), HasSubstr("<td class=bad>3.41 ✗</td>"));
+  EXPECT_THAT(page, AllOf(Not(HasSubstr("class=ours")), Not(HasSubstr("class=good"))));
+}
+
+TEST(RegistrationPage, TellsAFigureFromTheLimitThatItBreaks) {
+  RegisteredLevel level = exact();
+  level.registration.noise_m = 0.001604;
+  EXPECT_THAT(row_of(registration_section(level).value(), "Scatter"), HasSubstr("1.604 ✗"));
+  level.registration.noise_m = 0.0014;
+  EXPECT_THAT(row_of(registration_section(level).value(), "Scatter"),
+              HasSubstr("<td class=good>1.40 ✓</td>"));
+  EXPECT_THAT(row_of(registration_section(level).value(), "RMSE"), HasSubstr("<td>0.00</td>"))
+      << "without a limit there is nothing to keep";
 }
 
 TEST(RegistrationScene, IsThinnedOutWhereThereAreTooManyPoints) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 namespace orthonav::engine {
@@ -58,6 +59,68 @@ TEST(Wording, GivesEveryReasonItsNumberAndLimit) {
             "1 of 20 errors at the screws would exceed 3.1 mm, limit 2.0 mm");
   EXPECT_EQ(text_of(nav::RefusalReason{Reason::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}),
             "the points fit level L3 as well");
+}
+
+TEST(Wording, NeverSaysThatANumberExceedsItself) {
+  EXPECT_EQ(text_of_reason(Reason::kTre95AtScrews, 0.00204, 0.002),
+            "1 of 20 errors at the screws would exceed 2.04 mm, limit 2.00 mm");
+  EXPECT_EQ(text_of_reason(Reason::kInliers, 0.696, 0.7),
+            "only 69.6 % of the points lie on the model, at least 70.0 %");
+  EXPECT_EQ(text_of_reason(Reason::kLogLikelihoodRatio, 11.96, 12.0),
+            "another pose fits nearly as well (margin 11.96, at least 12.0)");
+  EXPECT_EQ(text_of_reason(Reason::kRmse, 0.00300001, 0.003),
+            "registration RMSE just over 3.0 mm, limit 3.0 mm");
+  EXPECT_EQ(text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kReject, 4, 0.002003, 0.002}),
+            "check point 4 is 2.003 mm off, limit 2.000 mm: reject and stroke again");
+  EXPECT_EQ(line_with(Message(TouchNotRecorded{TouchNotRecorded::What::kHead,
+                                               {TouchRefusal::Kind::kTipMoved, 0.00304, 0.003}})),
+            "head not recorded: tip moved 3.04 mm, limit 3.00 mm");
+}
+
+TEST(Wording, HasNoNegativeZero) {
+  constexpr double kTiny = -1e-9;
+  nav::CheckVerdict verdict{true, kTiny, {}};
+  Coaching coaching;
+  coaching.unique = true;
+  coaching.expected_m = kTiny;
+  const nav::UncertainMotion motion{nav::UncertainMotion::Kind::kCraniocaudal, kTiny};
+  std::string all = line_with(RegistrationFigures{kTiny, kTiny, true}) +
+                    line_with(ChecksSoFar{kTiny, 1, kTiny, &verdict}) +
+                    line_with(StrokesSoFar{1, &coaching}) + text_of(motion) +
+                    text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kReject, 4, kTiny, 0.002}) +
+                    text_of(nav::CheckAdvice{nav::CheckAdvice::Kind::kTouchApart, 3, kTiny, 0.0});
+  for (int kind = 0; kind < static_cast<int>(Reason::kFitsOtherLevel); ++kind) {
+    all += text_of_reason(static_cast<Reason>(kind), kTiny, 1.0);
+  }
+  append_tag_size_off(all, "pointer", kTiny);
+  EXPECT_EQ(all.find("-0"), std::string::npos) << all;
+}
+
+TEST(Wording, SaysWhichPartsGiveWayFirst) {
+  RegistrationRefused refused;
+  refused.reasons = {{Reason::kNoise, 0.0019, 0.0016, {}, {}},
+                     {Reason::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}};
+  refused.stroke_next = kLeftLamina;
+  const Message message = refused;
+  const HeardCommand heard{"next", true};
+  StatusLine line;
+  line.tool = "pointer";
+  line.tool_lost = true;
+  line.message = &message;
+  line.heard = &heard;
+  std::string text;
+  StatusParts parts;
+  append_beside_step(text, line, &parts);
+  using enum Importance;
+  constexpr std::array<Importance, 5> kExpected = {kDanger, kMessage, kMore, kNext, kHeard};
+  ASSERT_EQ(parts.count, kExpected.size());
+  for (std::size_t i = 0; i < kExpected.size(); ++i) {
+    EXPECT_EQ(parts.parts[i].importance, kExpected[i]) << i;
+  }
+  EXPECT_EQ(text.substr(parts.parts[3].begin), "; stroke the left lamina | heard: next");
+  std::string plain;
+  append_beside_step(plain, line);
+  EXPECT_EQ(plain, text) << "asking for the parts changes no word";
 }
 
 TEST(Wording, NamesTheMotionBehindAnError) {

@@ -1,0 +1,131 @@
+#include "engine/golden/golden_texts.h"
+
+#include <array>
+
+#include "base/angle.h"
+#include "engine/golden/golden_stage.h"
+#include "engine/session/wording.h"
+
+namespace orthonav::engine {
+namespace {
+
+using golden::kEntry;
+using golden::planned_point;
+using render::Label;
+using render::Scene;
+
+/// The last text that is added to a scene.
+template <class Add>
+TextKind last_of(const char* name, const Add& add) {
+  Scene scene;
+  add(scene);
+  return {name, scene.texts.back()};
+}
+
+TextKind angle(const char* name, std::optional<double> angle_deg, Label label) {
+  const std::optional<double> angle_rad =
+      angle_deg ? std::optional(*angle_deg * kRadiansPerDegree) : std::nullopt;
+  return last_of(name, [&](Scene& s) {
+    add_angle_readout(s, kEntry, planned_point(), angle_text(angle_rad),
+                      grade_of(angle_rad.value_or(1.0)), label);
+  });
+}
+
+TextKind depth(const char* name, const char* text, bool past_target, Label label) {
+  return last_of(
+      name, [&](Scene& s) { add_depth(s, kEntry, planned_point(), text, past_target, label); });
+}
+
+TextKind cross(const char* name, bool lost, Label label) {
+  TargetCross target;
+  target.viewer = golden::surgeon();
+  target.lost = lost;
+  return last_of(name, [&](Scene& s) { add_target_cross(s, target, label); });
+}
+
+TextKind entry(const char* name, bool done, Label label) {
+  return last_of(name, [&](Scene& s) {
+    add_entry(s, {kEntry, golden::kNormal, "L4 left", done, LabelSide::kRight}, label);
+  });
+}
+
+TextKind check(const char* name, double distance_m, bool within, Label label) {
+  return last_of(name, [&](Scene& s) {
+    add_check_point(s, kEntry, distance_text(distance_m), within, label);
+  });
+}
+
+/// The length is written behind all bends.
+TextKind rod(const char* name, bool bend, Label label) {
+  const std::array<render::Float3, 2> heads = {golden::kEntry, golden::kOtherEntry};
+  const std::array<RodBendMark, 1> bends = {{{kEntry, 6.2 * kRadiansPerDegree, 0.0271}}};
+  RodHologram hologram;
+  hologram.heads = heads;
+  hologram.bends = bends;
+  hologram.length_m = 0.0820;
+  Scene scene;
+  add_rod(scene, hologram, label);
+  return {name, bend ? scene.texts.front() : scene.texts.back()};
+}
+
+TextKind status(const char* name, const char* text, Label label) {
+  return last_of(name, [&](Scene& s) { add_status_line(s, text, {}, label); });
+}
+
+}  // namespace
+
+std::vector<TextKind> text_kinds() {
+  return {
+      entry("entry", false, 301),
+      entry("entry, done", true, 302),
+      angle("angle, good", 1.2, 601),
+      angle("angle, fair", 3.4, 602),
+      angle("angle, poor", 12.4, 603),
+      angle("angle, lost", {}, 604),
+      cross("cross, rings", false, 701),
+      cross("cross, tool lost", true, 703),
+      depth("depth", "12.3 mm to entry", false, 901),
+      depth("depth, past target", "1.2 mm past target", true, 902),
+      rod("rod, bend", true, 1001),
+      rod("rod, length", false, 1002),
+      check("check point, within", 0.0004, true, 1201),
+      check("check point, off", 0.0031, false, 1202),
+      status("status line", "verify L4", 1101),
+      status("status line, danger", "guide | guide lost", 1102),
+      last_of("head not located", [](Scene& s) { add_notice(s, words::kHeadNotLocated, 1103); })};
+}
+
+namespace golden {
+
+/// Each kind of text on each of the four grounds.
+void add_text_scenes(std::vector<GoldenScene>& scenes) {
+  constexpr std::size_t kRows = 8;
+  constexpr float kLastRow = 8.5f;
+  constexpr float kRow = 0.0265f;  // these are tangents
+  constexpr float kColumn = 0.19f;
+  GoldenScene golden = start_wide(
+      "texts", "every kind of text, legible on wound, drape, bone and glove", surgeon_views());
+  golden.views.resize(1);
+  golden.behind = GoldenBehind::kFourGrounds;
+  const std::vector<TextKind> kinds = text_kinds();
+  for (const float left : {-0.385f, 0.01f}) {
+    for (const float top : {0.235f, -0.021f}) {
+      for (std::size_t i = 0; i < kinds.size(); ++i) {
+        // The last is the longest and has a row of its own.
+        const bool last = i + 1 == kinds.size();
+        const auto column = static_cast<float>(last ? 0 : i / kRows);
+        const float row = last ? kLastRow : static_cast<float>(i % kRows);
+        render::TextItem& item = golden.scene.texts.emplace_back();
+        item = kinds[i].text;
+        item.place = render::TextPlace::kView;
+        item.position = {0.5f * (left + column * kColumn), 0.5f * (top - row * kRow), -0.5f};
+        item.align = render::TextAlign::kLeft;
+        item.offset_right = item.offset_up = 0;
+      }
+    }
+  }
+  scenes.push_back(std::move(golden));
+}
+
+}  // namespace golden
+}  // namespace orthonav::engine

@@ -1,0 +1,142 @@
+#include "engine/holograms/hologram_status.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/holograms/hologram_parts.h"
+#include "engine/holograms/status_rows.h"
+
+namespace orthonav::engine {
+namespace {
+
+using render::Label;
+using render::Scene;
+using render::TextItem;
+
+constexpr float kRowDistance_caps = 1.9f;
+constexpr float kBeforeDot_caps = 1.2f;
+constexpr float kBehindDot_caps = 0.4f;
+constexpr std::string_view kBehindStep = " | ";
+
+/// `row` counts downwards from the one with the step.
+TextItem& add_row(Scene& scene, float row, Label label) {
+  TextItem& item = scene.texts.emplace_back();
+  item.label = label;
+  item.place = render::TextPlace::kView;
+  item.position = {0, -0.096f, -0.5f};  // 11° below straight ahead
+  item.height_m = 0.003f;
+  item.min_height_deg = 0.5f;
+  item.offset_up = -row * kRowDistance_caps;
+  return item;
+}
+
+/// The shape says it as well as the colour does.
+std::string_view dot_of(ToolState state) {
+  constexpr std::array<std::string_view, 3> kDots = {"●", "◐", "○"};
+  return kDots[static_cast<std::size_t>(state)];
+}
+
+render::Colour colour_of(ToolState state) {
+  constexpr std::array<render::Colour, 3> kColours = {look::kGreen, look::kAmber, look::kRed};
+  return kColours[static_cast<std::size_t>(state)];
+}
+
+float tools_width_caps(std::span<const ToolDot> tools, float name_caps) {
+  float width = 0;
+  for (const ToolDot& tool : tools) {
+    width += kBeforeDot_caps + width_caps(dot_of(tool.state)) +
+             (name_caps > 0 ? kBehindDot_caps + std::min(name_caps, width_caps(tool.name)) : 0.0f);
+  }
+  return width;
+}
+
+/// How wide a tool's name may be: all of it, or as much as leaves room for a step so wide.
+float name_room_caps(std::span<const ToolDot> tools, float step_caps) {
+  constexpr float kLeast = 3.0f;  // of a name that still tells something
+  constexpr float kLongest = 20.0f;
+  float name = kLongest;
+  while (name >= kLeast && step_caps + tools_width_caps(tools, name) > kStatusWidth_caps) {
+    name -= 1.0f;
+  }
+  return name >= kLeast ? name : 0.0f;
+}
+
+/// Appends to a row that runs from left to right; its end so far is `pen`.
+TextItem& add_piece(Scene& scene, float& pen, float width, Label label) {
+  TextItem& item = add_row(scene, 0, label);
+  item.align = render::TextAlign::kLeft;
+  item.offset_right = pen;
+  pen += width;
+  return item;
+}
+
+void add_step_and_tools(Scene& scene, std::string_view step, std::span<const ToolDot> tools,
+                        Label label) {
+  constexpr float kLongestStep_caps = 0.6f * kStatusWidth_caps;
+  float step_caps = std::min(width_caps(step), kLongestStep_caps);
+  const float name_caps = name_room_caps(tools, step_caps);
+  const float of_tools = tools_width_caps(tools, name_caps);
+  step_caps = std::min(step_caps, kStatusWidth_caps - of_tools);
+  float pen = -0.5f * (step_caps + of_tools);
+  append_cut(add_run(add_piece(scene, pen, step_caps, label), look::kSoftWhite), step, step_caps);
+  for (const ToolDot& tool : tools) {
+    pen += kBeforeDot_caps;
+    const std::string_view dot = dot_of(tool.state);
+    TextItem& mark = add_piece(scene, pen, width_caps(dot), label);
+    mark.rim = colour_of(tool.state);
+    add_run(mark, dot, look::kWhite);
+    if (name_caps > 0) {
+      pen += kBehindDot_caps;
+      const float width = std::min(name_caps, width_caps(tool.name));
+      append_cut(add_run(add_piece(scene, pen, width, label), look::kSoftWhite), tool.name, width);
+    }
+  }
+}
+
+void add_detail(Scene& scene, std::string_view detail, const StatusParts* parts, Label label) {
+  if (detail.empty()) {
+    return;
+  }
+  StatusParts whole;
+  whole.add({});
+  const std::size_t first = scene.texts.size();
+  for (std::size_t i = 0; i < kDetailRows; ++i) {
+    add_run(add_row(scene, static_cast<float>(i + 1), label), "", look::kSoftWhite);
+  }
+  std::array<std::string*, kDetailRows> rows{};
+  for (std::size_t i = 0; i < kDetailRows; ++i) {
+    rows[i] = &scene.texts[first + i].runs.front().text;
+  }
+  fill_rows(detail, parts != nullptr ? *parts : whole, rows);
+  while (scene.texts.back().runs.front().text.empty()) {
+    scene.texts.pop_back();
+  }
+}
+
+}  // namespace
+
+void add_notice(Scene& scene, std::string_view text, Label label) {
+  TextItem& item = add_row(scene, 0, label);
+  item.offset_up = 2.0f;
+  item.rim = look::kRed;
+  add_run(item, text, look::kWhite);
+}
+
+void add_status_line(Scene& scene, const StatusWords& words, std::span<const ToolDot> tools,
+                     Label label) {
+  add_step_and_tools(scene, words.step, tools, label);
+  add_detail(scene, words.detail, words.parts, label);
+}
+
+void add_status_line(Scene& scene, std::string_view text, std::span<const ToolDot> tools,
+                     Label label) {
+  const std::size_t end = text.find(kBehindStep);
+  const bool step_alone = end == std::string_view::npos;
+  add_status_line(
+      scene,
+      StatusWords{text.substr(0, end),
+                  step_alone ? std::string_view{} : text.substr(end + kBehindStep.size()), nullptr},
+      tools, label);
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/holograms/hologram_shapes.h"
+#include "engine/io/json_document.h"
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+// What scene files state, read from one of their nodes; problems are noted in its document.
+
+/// A number between limits, which its refusal names.
+[[nodiscard]] double number_between(const JsonNode& node, const char* key, double low, double high,
+                                    const char* unit);
+/// A length in millimetres between limits, in metres.
+[[nodiscard]] float length_from(const JsonNode& node, const char* key, double low_mm,
+                                double high_mm);
+[[nodiscard]] render::Float3 place_from(const JsonNode& node, const char* key);
+/// Places in millimetres, in metres.
+[[nodiscard]] std::vector<render::Float3> places_from(const JsonNode& node, const char* key);
+/// Of unit length.
+[[nodiscard]] render::Float3 direction_from(const JsonNode& node, const char* key);
+/// One of the words, by its place among them; the first where the key is absent.
+[[nodiscard]] std::size_t word_from(const JsonNode& node, const char* key,
+                                    std::span<const char* const> words);
+/// `angle_deg`, absent where it is.
+[[nodiscard]] std::optional<double> angle_from(const JsonNode& node);
+/// Of that angle; poor where it is absent.
+[[nodiscard]] Grade grade_from(const JsonNode& node);
+/// `colour`, linear; white where it is absent.
+[[nodiscard]] render::Colour colour_from(const JsonNode& node);
+
+}  // namespace orthonav::engine
