@@ -5,7 +5,8 @@ string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
 file(WRITE "${OUT}/${NAME}.cpp" "#include \"embedded/${NAME}.h\"
 
 namespace orthonav::embedded {
-std::string_view ${NAME}() {
+// As long as the file.
+std::string_view ${NAME}() {  // NOLINT(readability-function-size)
   static constexpr unsigned char kBytes[] = {
 ${bytes}0x00};
   return {reinterpret_cast<const char*>(kBytes), sizeof(kBytes) - 1};
