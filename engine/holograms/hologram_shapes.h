@@ -67,7 +67,7 @@ void add_residual_path(render::Scene& scene, std::span<const render::Float3> sam
                        std::span<const float> distances_m, render::Label label,
                        float opacity = 1.0f);
 /// Of a path while there are check points: these are what to look at.
-inline constexpr float kPathBehindChecks = 0.20f;
+inline constexpr float kPathBehindChecks = 0.10f;
 
 /// H2: the registered surface, bright where it turns away from the eye; in `look::kUnstroked` where
 /// its tints say that no stroke came near.
