@@ -3,7 +3,9 @@
 #include <array>
 #include <string_view>
 
+#include "base/length_text.h"
 #include "base/printed.h"
+#include "engine/session/coach.h"
 
 namespace orthonav::engine {
 namespace {
@@ -125,6 +127,33 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
                           advice.value_m * 1e3, advice.limit_m * 1e3);
       break;
   }
+}
+
+void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator) {
+  std::string& out = text.out;
+  if (!coaching.unique) {
+    // An error about a pose that may be the wrong one says nothing.
+    text.begin(Importance::kMessage, separator);
+    out += "could be more than one pose";
+  } else {
+    text.begin(Importance::kFigures, separator);
+    append_mm(out, coaching.expected_m, 1);
+    out += " expected";
+  }
+  if (coaching.enough) {
+    text.begin(Importance::kNext, ", ");
+    out += "enough to register";
+  } else if (coaching.against) {
+    text.begin(Importance::kMessage, ", ");
+    append(out, *coaching.against);
+  } else if (coaching.stroke_next) {
+    text.begin(Importance::kNext, ", ");
+    append(out, *coaching.stroke_next);
+  }
+}
+
+void append(std::string& out, const Coaching& coaching) {
+  write_coaching(PartedText{out}, coaching, "");
 }
 
 }  // namespace orthonav::engine

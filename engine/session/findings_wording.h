@@ -4,10 +4,13 @@
 #include <string>
 #include <string_view>
 
+#include "engine/session/status_parts.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/findings.h"
 
 namespace orthonav::engine {
+
+struct Coaching;
 
 // What a registration finds out about itself, in words: a part of engine/session/wording.h. Each is
 // appended as one clause, and allocates nothing where the string has the room.
@@ -24,6 +27,11 @@ void append(std::string& out, const nav::RefusalReason& reason);
 void append(std::string& out, std::span<const nav::RefusalReason> reasons);
 /// What is wrong with the check points, and what to do; nothing when nothing is.
 void append(std::string& out, const nav::CheckAdvice& advice);
+
+/// "0.6 mm expected, stroke the left lamina".
+void append(std::string& out, const Coaching& coaching);
+/// The same in parts; the separator comes before the first.
+void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator);
 
 /// One of them alone.
 template <class Finding>

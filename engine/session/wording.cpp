@@ -144,29 +144,6 @@ void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view s
   }
 }
 
-void write_coaching(PartedText text, const Coaching& coaching, std::string_view separator) {
-  std::string& out = text.out;
-  if (!coaching.unique) {
-    // An error about a pose that may be the wrong one says nothing.
-    text.begin(Importance::kMessage, separator);
-    out += "could be more than one pose";
-  } else {
-    text.begin(Importance::kFigures, separator);
-    append_mm(out, coaching.expected_m, 1);
-    out += " expected";
-  }
-  if (coaching.enough) {
-    text.begin(Importance::kNext, ", ");
-    out += "enough to register";
-  } else if (coaching.against) {
-    text.begin(Importance::kMessage, ", ");
-    append(out, *coaching.against);
-  } else if (coaching.stroke_next) {
-    text.begin(Importance::kNext, ", ");
-    append(out, *coaching.stroke_next);
-  }
-}
-
 /// How each step stands.
 struct StateWriter {
   PartedText text;
@@ -205,10 +182,6 @@ void write_message(PartedText text, const Message& message) {
 }
 
 }  // namespace
-
-void append(std::string& out, const Coaching& coaching) {
-  write_coaching(PartedText{out}, coaching, "");
-}
 
 void append(std::string& out, const Message& message) { write_message(PartedText{out}, message); }
 

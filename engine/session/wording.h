@@ -41,8 +41,6 @@ void append_status(std::string& out, const StatusLine& line);
 
 /// Why a registration does not count, every reason in one line; empty when it does.
 [[nodiscard]] std::string refusal_text(const RegistrationOutcome& outcome);
-/// "0.6 mm expected, stroke the left lamina".
-void append(std::string& out, const Coaching& coaching);
 void append(std::string& out, const Message& message);
 /// "pointer: tag 2.0 % larger than stated, check print and unit".
 void append_tag_size_off(std::string& out, std::string_view tool, double fraction);
