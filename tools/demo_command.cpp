@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <regex>
 
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
@@ -14,6 +13,7 @@
 #include "tools/case_source.h"
 #include "tools/command.h"
 #include "tools/demo_report.h"
+#include "tools/earlier_results.h"
 #include "tools/model_notes.h"
 #include "tools/operation_summary.h"
 #include "tools/out_folder.h"
@@ -68,30 +68,6 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
   options.loop.drop_late_snapshots = arguments.realtime;
   options.record_folder = arguments.record;
   return options;
-}
-
-/// Removes what an earlier demo left here: its pictures of steps or its film would pass for this
-/// run's. Only files with the names that a demo gives.
-Status remove_earlier_results(const fs::path& folder) {
-  static const std::regex kOurs(
-      "report\\.html|report\\.json|timing\\.json|session\\.orthonav|operation\\.mp4|"
-      "[0-9]{2,}-(setup|digitize|verify|accepted|guide|rod|done)(-[^/]*)?\\.png");
-  std::error_code code;
-  for (const auto& entry : fs::directory_iterator(folder, code)) {
-    if (!std::regex_match(entry.path().filename().string(), kOurs)) {
-      continue;
-    }
-    if (!entry.is_directory()) {
-      fs::remove(entry.path(), code);
-    }
-    if (code) {
-      return Error{entry.path().string() + ": cannot be replaced: " + code.message()};
-    }
-  }
-  if (code) {
-    return Error{folder.string() + ": cannot be read: " + code.message()};
-  }
-  return {};
 }
 
 /// Everything that a demo needs besides the operation itself; made before anything is written.

@@ -25,6 +25,7 @@ TEST(ServeHl2ss, RefusesWhatItDoesNotKnow) {
 /// A run through what real units do: the stand-in's options of the command line, one by one.
 struct Unit {
   const char* name;
+  int port;  ///< of its own: two runs may go on at the same time
   std::vector<std::string> serve;
   std::string uri;     ///< besides address and ports
   std::string counts;  ///< in the statistics of the connection
@@ -34,13 +35,15 @@ void PrintTo(const Unit& unit, std::ostream* out) { *out << unit.name; }
 class StandIn : public ::testing::TestWithParam<Unit> {};
 
 TEST_P(StandIn, IsRunThrough) {
-  std::vector<std::string> words = {"serve-hl2ss", "--levels", "L5", "--paced", "--port", "47612"};
+  std::vector<std::string> words = {"serve-hl2ss", "--levels", "L5",
+                                    "--paced",     "--port",   std::to_string(GetParam().port)};
   words.insert(words.end(), GetParam().serve.begin(), GetParam().serve.end());
   StartedCommand server(words);
   ASSERT_TRUE(wait_until([&] { return server.err_so_far().find("serving") != std::string::npos; }));
+  const std::string uri = "hl2ss://127.0.0.1?port=" + std::to_string(GetParam().port) +
+                          "&standin=" + std::to_string(GetParam().port + 19) + GetParam().uri;
   const Called run =
-      orthonav({"run", "--headset", "hl2ss://127.0.0.1?port=47612&standin=47631" + GetParam().uri,
-                "--levels", "L5", "--frames", "30", "--stats", "--json"});
+      orthonav({"run", "--headset", uri, "--levels", "L5", "--frames", "30", "--stats", "--json"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(nlohmann::json::parse(run.out)["frames"]["displayed"], 30) << run.err;
   EXPECT_THAT(run.err, HasSubstr(GetParam().counts));
@@ -50,10 +53,12 @@ INSTANTIATE_TEST_SUITE_P(
     Every, StandIn,
     // Late stamps that nobody corrects, edges of zeros; stamps 0.1 s back (or 1 s ahead), slices.
     ::testing::Values(Unit{"StampsLateZerosAtTheEdges",
+                           47612,
                            {"--unmapped-edge-px", "8"},
                            "&stamps=exact",
                            " 0 damaged"},
                       Unit{"StampsJumpBackSlices",
+                           47712,
                            {"--faults", "misstamp=0.2", "--slices", "4"},
                            "&profile=h264",
                            "packets refused, the last one: stamp"}),
