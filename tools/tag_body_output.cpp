@@ -34,7 +34,7 @@ nlohmann::ordered_json tag_body_json(const Result<nav::TagBody>& body, std::size
 
 void print_tag_body(const nav::TagBody& body) {
   print_text("%zu pairs, residual %.3f px RMS, %.1f %% of the corners left out\n", body.pairs,
-              body.rms_px, 100 * body.outlier_fraction);
+             body.rms_px, 100 * body.outlier_fraction);
   for (const nav::BodyTag& tag : body.tags) {
     const Vec3 at_mm = tag.marker_from_tag.translation() * 1e3;
     print_text(
