@@ -23,6 +23,12 @@ struct Arguments {
   std::vector<std::string> variants;
   std::vector<std::string> methods;
   RunOptions run;
+  std::string tissue = "smooth";
+  double tissue_mm = 0.0;
+  double common_mm = 0.0;
+  double segmented_mm = 0.0;
+  double scale = 1.0;
+  bool mirrored = false;
   bool wrong_level = false;
   bool alone = false;
   bool each = false;
@@ -30,6 +36,15 @@ struct Arguments {
 
 bool chosen(const std::vector<std::string>& wanted, const std::string& name) {
   return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+}
+
+/// The bone as the model has it.
+nav::TriangleMesh modelled(nav::TriangleMesh mesh, const Arguments& arguments) {
+  if (arguments.segmented_mm > 0.0) {
+    mesh = test::segmented(mesh, 1e-3 * arguments.segmented_mm, 1);
+  }
+  mesh = test::scaled(mesh, arguments.scale);
+  return arguments.mirrored ? test::mirrored(mesh) : mesh;
 }
 
 Result<std::vector<BenchLevel>> load_levels(const Arguments& arguments) {
@@ -54,7 +69,7 @@ Result<std::vector<BenchLevel>> load_levels(const Arguments& arguments) {
         continue;
       }
       const Stopwatch watch;
-      auto model = nav::VertebraModel::prepare(from.mesh);
+      auto model = nav::VertebraModel::prepare(modelled(from.mesh, arguments));
       const double prepare_ms = watch.elapsed_ms();
       if (!model) {
         return model.error();
@@ -91,6 +106,13 @@ void print_costs(const std::vector<BenchLevel>& levels) {
 }
 
 int measured(Arguments& arguments) {
+  for (const test::Tissue tissue : test::kTissues) {
+    if (arguments.tissue == test::name_of(tissue)) {
+      arguments.run.truths.tissue = tissue;
+    }
+  }
+  arguments.run.truths.mean_tissue_m = 1e-3 * arguments.tissue_mm;
+  arguments.run.truths.common_sd_m = 1e-3 * arguments.common_mm;
   const auto levels = load_levels(arguments);
   if (!levels) {
     std::fprintf(stderr, "bench_registration: %s\n", levels.error().message.c_str());
@@ -149,6 +171,14 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.3, 1.5));
   app.add_option("--jobs", arguments.run.jobs, "levels beside each other")
       ->check(CLI::Range(1, 64));
+  app.add_option("--tissue", arguments.tissue, "uniform, smooth, areas, strokes or valleys");
+  app.add_option("--tissue-mm", arguments.tissue_mm, "mean thickness of soft tissue");
+  app.add_option("--common-mm", arguments.common_mm,
+                 "SD along an axis of a shift that all points share");
+  app.add_option("--copies", arguments.run.truths.copies, "of every point");
+  app.add_option("--segmented-mm", arguments.segmented_mm, "SD of the model's own error");
+  app.add_option("--scale", arguments.scale, "size of the model, of the bone's");
+  app.add_flag("--mirrored", arguments.mirrored, "the model is the bone's mirror image");
   app.add_flag("--wrong-level", arguments.wrong_level, "strokes fitted to the neighbouring levels");
   app.add_flag("--alone", arguments.alone,
                "one registration is timed, none of the levels beside are tried");

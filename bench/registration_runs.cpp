@@ -23,12 +23,13 @@ test::DigitizedStrokes strokes_of(const BenchLevel& level, test::StrokeVariant v
                                   std::uint64_t seed, const RunOptions& options) {
   test::StrokeErrorModel error_model = test::error_model_of(variant);
   error_model.deepest_aside = options.deepest_aside;
-  auto strokes = test::digitize_strokes(level.mesh, variant, Random(seed).fork(level.name()).next(),
-                                        error_model);
+  const std::uint64_t own_seed = Random(seed).fork(level.name()).next();
+  auto strokes = test::digitize_strokes(level.mesh, variant, own_seed, error_model);
   if (!strokes) {
     std::fprintf(stderr, "%s: %s\n", level.name().c_str(), strokes.error().message.c_str());
     std::exit(2);
   }
+  test::apply_truths(options.truths, level.mesh, own_seed, *strokes);
   return std::move(*strokes);
 }
 

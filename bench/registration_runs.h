@@ -5,6 +5,7 @@
 
 #include "bench/registration_methods.h"
 #include "tests/support/digitized_strokes.h"
+#include "tests/support/stroke_truths.h"
 
 namespace orthonav::bench {
 
@@ -36,6 +37,7 @@ struct RunOptions {
   std::vector<test::StrokeVariant> variants;
   std::uint64_t seeds = 2;
   double deepest_aside = test::StrokeErrorModel{}.deepest_aside;
+  test::StrokeTruths truths;
   unsigned jobs = 1;  ///< levels at the same time; changes the times, not the results
 };
 

@@ -55,6 +55,9 @@ std::vector<double> values(const std::vector<Run>& runs,
 std::optional<double> error_mm(const Run& run) {
   return run.found ? 1e3 * run.error_m : std::numeric_limits<double>::infinity();
 }
+std::optional<double> accepted_error_mm(const Run& run) {
+  return run.accepted ? std::optional(1e3 * run.error_m) : std::nullopt;
+}
 std::optional<double> right_error_mm(const Run& run) {
   return run.right() ? std::optional(1e3 * run.error_m) : std::nullopt;
 }
@@ -64,22 +67,26 @@ std::optional<double> right_error_mm(const Run& run) {
 void print_success(const std::vector<Run>& runs, const Methods& methods, const Variants& variants) {
   std::printf(
       "| strokes | method | runs | right | accepted | silent failures | median error, mm | "
-      "where right | median ms | p99 ms |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
-  for_rows(runs, methods, variants,
-           [&](const char* group, std::size_t m, const std::vector<Run>& chosen) {
-             const auto count = [&](auto&& is) {
-               return static_cast<int>(std::count_if(chosen.begin(), chosen.end(), is));
-             };
-             const auto ms = values(chosen, [](const Run& r) { return std::optional(r.ms); });
-             std::printf("| %s | %s | %zu | %d | %d | %d | %.2f | %.2f | %.1f | %.1f |\n", group,
-                         methods[m].name.c_str(), chosen.size(),
-                         count([](const Run& r) { return r.right(); }),
-                         count([](const Run& r) { return r.accepted; }),
-                         count([](const Run& r) { return r.silent_failure(); }),
-                         quantile(values(chosen, error_mm), 0.5),
-                         quantile(values(chosen, right_error_mm), 0.5), quantile(ms, 0.5),
-                         quantile(ms, 0.99));
-           });
+      "where right | accepted: median | p95 | max | median ms | p99 ms "
+      "|\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+  for_rows(
+      runs, methods, variants,
+      [&](const char* group, std::size_t m, const std::vector<Run>& chosen) {
+        const auto accepted = values(chosen, accepted_error_mm);
+        const auto count = [&](auto&& is) {
+          return static_cast<int>(std::count_if(chosen.begin(), chosen.end(), is));
+        };
+        const auto ms = values(chosen, [](const Run& r) { return std::optional(r.ms); });
+        std::printf(
+            "| %s | %s | %zu | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.1f | %.1f |\n",
+            group, methods[m].name.c_str(), chosen.size(),
+            count([](const Run& r) { return r.right(); }),
+            count([](const Run& r) { return r.accepted; }),
+            count([](const Run& r) { return r.silent_failure(); }),
+            quantile(values(chosen, error_mm), 0.5), quantile(values(chosen, right_error_mm), 0.5),
+            quantile(accepted, 0.5), quantile(accepted, 0.95), quantile(accepted, 1.0),
+            quantile(ms, 0.5), quantile(ms, 0.99));
+      });
 }
 
 void print_against_first(const std::vector<Run>& runs, const Methods& methods,

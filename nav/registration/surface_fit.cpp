@@ -71,6 +71,7 @@ void weigh(std::span<const double> sd_m, double known_m2, SurfaceFit& fit) {
     const double t =
         std::max(0.0, 1.0 - p.residual_m * p.residual_m / (kTukeySd * kTukeySd * own_m2));
     p.weight = t * t * noise_m2 / own_m2;
+    p.precision = noise_m2 / own_m2;
   }
 }
 
@@ -129,7 +130,8 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
   SurfaceFit fit;
   fit.pose = start;
   fit.with_standoff = options.with_standoff;
-  fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0});
+  fit.standoff_m = options.first_standoff_m;
+  fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0, 1.0});
   std::vector<double> scratch;
   double known_m2 = 0.0;
   for (const double sd : options.point_sd_m) {

@@ -17,6 +17,7 @@ struct SurfaceFitOptions {
   /// Whether a mean height of the tip above the bone (soft tissue, a light hand) is one of the
   /// unknowns: surfaces that face different ways distinguish it from a translation.
   bool with_standoff = false;
+  double first_standoff_m = 0.0;  ///< where it starts from; stays so where it is not an unknown
   /// SD of each point, as far as it is known; empty: all equal.
   std::span<const double> point_sd_m{};
   /// Limits of the SD that residuals are taken to have.
@@ -31,6 +32,11 @@ struct FittedPoint {
   Vec3 nearest_m;           ///< on the surface
   double residual_m = 0.0;  ///< outside the surface positive
   double weight = 0.0;      ///< in [0, 1]: robust weight, and what is known of the point
+  double precision = 1.0;   ///< what is known of the point alone, in that of the points' mean
+  /// What a fit that is not robust may count it for: nothing beyond 3 SDs.
+  [[nodiscard]] double inlier_precision() const {
+    return weight > 0.1 * precision ? precision : 0.0;
+  }
 };
 
 struct SurfaceFit {

@@ -173,7 +173,7 @@ Result<DigitizedStrokes> digitize_strokes(const nav::TriangleMesh& mesh, StrokeV
   for (const TipPlace& place : places) {
     const Point<Vertebra> tip{place.touch.tip_m};
     strokes.samples.push_back({strokes.world_from_vertebra * (tip + noise.next(place.stroke)), tip,
-                               place.region, place.stroke, place.off_bone});
+                               place.touch.normal, place.region, place.stroke, place.off_bone});
   }
   return strokes;
 }

@@ -47,6 +47,7 @@ struct StrokeErrorModel {
 struct DigitizedSample {
   Point<World> tip;          ///< as tracked
   Point<Vertebra> true_tip;  ///< where the tip was
+  Vec3 normal;               ///< of the bone there, outward, in the vertebra's frame
   BoneRegion region;         ///< that was stroked
   int stroke = 0;            ///< which movement, from 0
   bool off_bone = false;     ///< the pointer was lifted or in soft tissue

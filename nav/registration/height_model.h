@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "nav/registration/residual_noise.h"
+#include "nav/registration/residual_units.h"
+
+namespace orthonav::nav {
+
+/// The heights of units, linear in the unknowns: height = -derivative · unknowns + field + noise.
+/// Refers to the fit and the units given.
+class HeightModel {
+ public:
+  HeightModel(const SurfaceFit& fit, const ResidualUnits& units);
+  ~HeightModel();
+  HeightModel(const HeightModel&) = delete;
+  HeightModel& operator=(const HeightModel&) = delete;
+
+  /// The unknowns in the order of ResidualUnit::derivative, those of a pose as a step from the
+  /// fit's; the standoff is not negative. Covariance by rows.
+  struct Answer {
+    double log_evidence = 0.0;
+    std::array<double, kHeightUnknowns> unknowns{};
+    std::array<double, kHeightUnknowns * kHeightUnknowns> covariance{};
+  };
+  struct Answers {
+    Answer fixed_size;
+    Answer free_size;
+  };
+  /// Given a field's variance and length (no field: 0, any) and the noise beside it. Nothing where
+  /// a motion is undetermined. Fastest when fields of one length come one after the other.
+  [[nodiscard]] std::optional<Answers> solve(double field_m2, double length_m,
+                                             const StrokeNoise& noise);
+
+ private:
+  struct Matrices;
+  std::unique_ptr<Matrices> matrices_;
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,219 @@
+#include "nav/registration/residual_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <Eigen/Dense>
+#include <limits>
+
+#include "nav/registration/height_model.h"
+
+namespace orthonav::nav {
+namespace {
+
+using UnknownsMean = Eigen::Matrix<double, kHeightUnknowns, 1>;
+using UnknownsSpread = Eigen::Matrix<double, kHeightUnknowns, kHeightUnknowns, Eigen::RowMajor>;
+
+Eigen::Map<const UnknownsMean> unknowns_of(const HeightModel::Answer& a) {
+  return Eigen::Map<const UnknownsMean>(a.unknowns.data());
+}
+Eigen::Map<const UnknownsSpread> spread_of(const HeightModel::Answer& a) {
+  return Eigen::Map<const UnknownsSpread>(a.covariance.data());
+}
+
+constexpr std::size_t kMostUnits = 160;
+constexpr std::size_t kFewestUnits = 12;
+constexpr std::array<double, 3> kLengths_m = {0.008, 0.020, 0.050};
+constexpr std::array<double, 6> kSds_m = {0.00007, 0.00015, 0.0003, 0.0006, 0.0011, 0.002};
+/// Before anything was stroked: the bone is bare, or one of the fields above is as likely as any.
+constexpr double kBareProbability = 0.5;
+/// A field of this much more than what the heights vary by is not tried.
+constexpr double kMostVariance = 4.0;
+/// Larger SDs are not tried once the evidence has fallen by this from its maximum.
+constexpr double kMuchLess = 8.0;
+constexpr double kWorthAThought = 0.003;
+/// Variance in addition to what the model of the heights says: measured (docs/registration.md).
+constexpr double kUnseen = 1.15;
+constexpr double kUnseenWithField = 1.7;
+
+struct Tried {
+  FieldHypothesis field;
+  HeightModel::Answers answers;
+  double log_prior = 0.0;
+};
+
+/// Every hypothesis, each with what it says about the unknowns.
+class Trial {
+ public:
+  Trial(const SurfaceFit& fit, const ResidualUnits& units)
+      : model_(fit, units), seen_(along_strokes(fit, units)) {}
+
+  [[nodiscard]] bool has_noise() const { return !seen_.covariance_m2.empty(); }
+
+  /// Of single points' heights.
+  [[nodiscard]] double variance_m2() const { return seen_.covariance_m2[0]; }
+
+  std::vector<Tried> all() {
+    consider({});
+    for (const double length_m : kLengths_m) {
+      double most = -std::numeric_limits<double>::infinity();
+      for (const double sd_m : kSds_m) {
+        if (sd_m * sd_m > kMostVariance * variance_m2()) {
+          break;
+        }
+        const double evidence = consider({sd_m, length_m, 0.0});
+        most = std::max(most, evidence);
+        if (evidence < most - kMuchLess) {
+          break;
+        }
+      }
+    }
+    return std::move(tried_);
+  }
+
+  std::vector<Tried> of(std::span<const FieldHypothesis> among) {
+    for (const FieldHypothesis& field : among) {
+      consider(field);
+    }
+    return std::move(tried_);
+  }
+
+ private:
+  double consider(FieldHypothesis field) {
+    const double field_m2 = field.sd_m * field.sd_m;
+    const auto answers =
+        model_.solve(field_m2, field.length_m, noise_beside_field(seen_, field_m2, field.length_m));
+    if (!answers) {
+      return -std::numeric_limits<double>::infinity();
+    }
+    const double fields = static_cast<double>(kLengths_m.size() * kSds_m.size());
+    const double prior = field.sd_m > 0.0 ? (1.0 - kBareProbability) / fields : kBareProbability;
+    tried_.push_back({field, *answers, std::log(prior)});
+    return answers->fixed_size.log_evidence;
+  }
+
+  HeightModel model_;
+  AlongStrokes seen_;
+  std::vector<Tried> tried_;
+};
+
+/// The logarithm of the summed evidence; `of` gives one hypothesis's own.
+template <class Of>
+double sum_evidence(const std::vector<Tried>& tried, const Of& of) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Tried& t : tried) {
+    most = std::max(most, t.log_prior + of(t));
+  }
+  double sum = 0.0;
+  for (const Tried& t : tried) {
+    sum += std::exp(t.log_prior + of(t) - most);
+  }
+  return most + std::log(sum);
+}
+
+void find_size(const std::vector<Tried>& tried, double log_evidence, ResidualField& out) {
+  const auto evidence = [](const Tried& t) { return t.answers.free_size.log_evidence; };
+  const double free = sum_evidence(tried, evidence);
+  out.size_log_evidence = free - log_evidence;
+  double mean = 0.0;
+  double square = 0.0;
+  for (const Tried& t : tried) {
+    const double probability = std::exp(t.log_prior + evidence(t) - free);
+    const HeightModel::Answer& a = t.answers.free_size;
+    mean += probability * a.unknowns[kSizeUnknown];
+    square += probability * (a.covariance[kHeightUnknowns * kSizeUnknown + kSizeUnknown] +
+                             a.unknowns[kSizeUnknown] * a.unknowns[kSizeUnknown]);
+  }
+  out.size = std::exp(mean);
+  out.size_sd = std::sqrt(std::max(0.0, square - mean * mean));
+}
+
+/// The number of points, by how much more the pose varies than if all were independent.
+double effective_points(const ResidualUnits& units, double variance_m2,
+                        const UnknownsSpread& covariance) {
+  using Pose = Eigen::Matrix<double, 6, 6>;
+  using Free = Eigen::Matrix<double, 7, 7>;
+  Free all = Free::Zero();
+  double points = 0.0;
+  for (const ResidualUnit& unit : units.all) {
+    const Eigen::Map<const Eigen::Matrix<double, 7, 1>> j(unit.derivative.data());
+    all += unit.weight / variance_m2 * j * j.transpose();
+    points += unit.weight;
+  }
+  // About the pose, the standoff being unknown.
+  const Pose information = all.topLeftCorner<6, 6>() -
+                           all.topRightCorner<6, 1>() * all.bottomLeftCorner<1, 6>() / all(6, 6);
+  const double repeated = (covariance.topLeftCorner<6, 6>() * information).trace() / 6.0;
+  return points / std::max(1.0, repeated);
+}
+
+double fixed_evidence(const Tried& t) { return t.answers.fixed_size.log_evidence; }
+
+/// The hypotheses by their probability; returns the mean of the unknowns over them.
+UnknownsMean average(const std::vector<Tried>& tried, ResidualField& out) {
+  UnknownsMean mean = UnknownsMean::Zero();
+  double field_m2 = 0.0;
+  for (const Tried& t : tried) {
+    FieldHypothesis field = t.field;
+    field.probability = std::exp(t.log_prior + fixed_evidence(t) - out.log_evidence);
+    mean += field.probability * unknowns_of(t.answers.fixed_size);
+    field_m2 += field.probability * field.sd_m * field.sd_m;
+    if (field.probability > out.likeliest.probability) {
+      out.likeliest = field;
+    }
+    if (field.probability > kWorthAThought) {
+      out.hypotheses.push_back(field);
+    }
+  }
+  out.field_sd_m = std::sqrt(field_m2);
+  return mean;
+}
+
+/// Of each hypothesis, and between them.
+UnknownsSpread total_covariance(const std::vector<Tried>& tried, const UnknownsMean& mean,
+                                double log_evidence) {
+  UnknownsSpread covariance = UnknownsSpread::Zero();
+  for (const Tried& t : tried) {
+    const double probability = std::exp(t.log_prior + fixed_evidence(t) - log_evidence);
+    const UnknownsMean off = unknowns_of(t.answers.fixed_size) - mean;
+    covariance += probability * ((t.field.sd_m > 0.0 ? kUnseenWithField : kUnseen) *
+                                     spread_of(t.answers.fixed_size) +
+                                 off * off.transpose());
+  }
+  return covariance;
+}
+
+}  // namespace
+
+std::optional<ResidualField> residual_field(const SurfaceFit& fit,
+                                            std::span<const FieldHypothesis> among) {
+  const ResidualUnits units = residual_units(fit, kMostUnits);
+  if (units.all.size() < kFewestUnits) {
+    return std::nullopt;
+  }
+  Trial trial(fit, units);
+  if (!trial.has_noise()) {
+    return std::nullopt;
+  }
+  const std::vector<Tried> tried = among.empty() ? trial.all() : trial.of(among);
+  if (tried.empty()) {
+    return std::nullopt;
+  }
+  ResidualField out;
+  out.log_evidence = sum_evidence(tried, fixed_evidence);
+  const UnknownsMean mean = average(tried, out);
+  const UnknownsSpread covariance = total_covariance(tried, mean, out.log_evidence);
+  out.standoff_m = mean(kStandoffUnknown);
+  out.standoff_sd_m = std::sqrt(covariance(kStandoffUnknown, kStandoffUnknown));
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    out.step[static_cast<std::size_t>(k)] = mean(k);
+    for (Eigen::Index l = 0; l < 6; ++l) {
+      out.covariance[static_cast<std::size_t>(6 * k + l)] = covariance(k, l);
+    }
+  }
+  out.effective_points = effective_points(units, trial.variance_m2(), covariance);
+  find_size(tried, out.log_evidence, out);
+  return out;
+}
+
+}  // namespace orthonav::nav

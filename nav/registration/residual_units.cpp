@@ -1,0 +1,147 @@
+#include "nav/registration/residual_units.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <unordered_set>
+
+namespace orthonav::nav {
+namespace {
+
+constexpr double kLeap_m = 0.008;
+constexpr double kShortest_m = 0.004;
+constexpr double kSmallestCell_m = 0.005;
+constexpr double kLargestCell_m = 0.1;
+constexpr double kGrows = 1.25;
+
+struct SamePlace {
+  std::size_t operator()(const Vec3& p) const {
+    std::uint64_t hash = 0;
+    for (const double x : {p.x, p.y, p.z}) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15ULL;
+      hash ^= hash >> 29U;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+  bool operator()(const Vec3& a, const Vec3& b) const {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+  }
+};
+
+/// What is repeated tells nothing new, whatever came in between.
+std::vector<std::uint32_t> different_points(const SurfaceFit& fit) {
+  std::unordered_set<Vec3, SamePlace, SamePlace> seen(2 * fit.points.size());
+  std::vector<std::uint32_t> out;
+  for (std::size_t i = 0; i < fit.points.size(); ++i) {
+    const FittedPoint& p = fit.points[i];
+    if (p.inlier_precision() > 0.0 && seen.insert(p.lever_arm_m).second) {
+      out.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return out;
+}
+
+/// Numbers the strokes; returns how long all of them are.
+double find_strokes(const SurfaceFit& fit, ResidualUnits& out, std::vector<double>& along_m) {
+  double length_m = 0.0;
+  int stroke = 0;
+  for (std::size_t k = 0; k < out.order.size(); ++k) {
+    if (k > 0) {
+      const double step_m =
+          (fit.points[out.order[k]].lever_arm_m - fit.points[out.order[k - 1]].lever_arm_m).norm();
+      stroke += step_m > kLeap_m ? 1 : 0;
+      length_m += step_m > kLeap_m ? 0.0 : step_m;
+    }
+    along_m.push_back(length_m);
+    out.stroke.push_back(stroke);
+  }
+  return length_m;
+}
+
+void add_unit(const SurfaceFit& fit, std::size_t first, std::size_t end, ResidualUnits& out) {
+  ResidualUnit unit;
+  unit.stroke = out.stroke[first];
+  unit.first = first, unit.end = end;
+  for (const std::uint32_t i : out.points_of(unit)) {
+    const FittedPoint& p = fit.points[i];
+    const double weight = p.inlier_precision();
+    const Vec3 by_rotation = p.lever_arm_m.cross(p.gradient);
+    const double by_size = -p.lever_arm_m.dot(p.gradient);
+    const std::array<double, kHeightUnknowns> j = {p.gradient.x,  p.gradient.y,  p.gradient.z,
+                                                   by_rotation.x, by_rotation.y, by_rotation.z,
+                                                   -1.0,          by_size};
+    unit.weight += weight;
+    unit.height_m += weight * (p.residual_m + fit.standoff_m);
+    for (std::size_t k = 0; k < j.size(); ++k) {
+      unit.derivative[k] += weight * j[k];
+    }
+  }
+  unit.height_m /= unit.weight;
+  for (double& d : unit.derivative) {
+    d /= unit.weight;
+  }
+  const std::size_t count = end - first;
+  unit.halves_m = {fit.points[out.order[first + count / 4]].lever_arm_m,
+                   fit.points[out.order[first + (3 * count) / 4]].lever_arm_m};
+  out.all.push_back(unit);
+}
+
+void cut_strokes(const SurfaceFit& fit, const std::vector<double>& along_m, double unit_m,
+                 ResidualUnits& out) {
+  std::size_t first = 0;
+  for (std::size_t k = 1; k <= out.order.size(); ++k) {
+    if (k == out.order.size() || out.stroke[k] != out.stroke[first] ||
+        along_m[k] - along_m[first] >= unit_m) {
+      add_unit(fit, first, k, out);
+      first = k;
+    }
+  }
+}
+
+/// Points in no order: each cell of space is a unit, and a stroke of its own.
+void cut_space(const SurfaceFit& fit, std::size_t most, ResidualUnits& out) {
+  std::map<std::array<long, 3>, std::vector<std::uint32_t>> cells;
+  for (double cell_m = kSmallestCell_m; cell_m < kLargestCell_m; cell_m *= kGrows) {
+    cells.clear();
+    for (const std::uint32_t i : out.order) {
+      const Vec3 p = fit.points[i].lever_arm_m / cell_m;
+      cells[{std::lround(p.x), std::lround(p.y), std::lround(p.z)}].push_back(i);
+    }
+    if (cells.size() <= most) {
+      break;
+    }
+  }
+  out.order.clear();
+  out.stroke.clear();
+  int stroke = 0;
+  for (const auto& [cell, points] : cells) {
+    const std::size_t first = out.order.size();
+    out.order.insert(out.order.end(), points.begin(), points.end());
+    out.stroke.resize(out.order.size(), stroke++);
+    add_unit(fit, first, out.order.size(), out);
+  }
+}
+
+}  // namespace
+
+ResidualUnits residual_units(const SurfaceFit& fit, std::size_t most) {
+  ResidualUnits out;
+  out.order = different_points(fit);
+  if (out.order.empty()) {
+    return out;
+  }
+  std::vector<double> along_m;
+  const double length_m = find_strokes(fit, out, along_m);
+  const auto strokes = static_cast<std::size_t>(out.stroke.back()) + 1;
+  out.along_strokes = 2 * strokes < std::min(most, out.order.size());
+  if (out.along_strokes) {
+    const double room = static_cast<double>(most - strokes);
+    cut_strokes(fit, along_m, std::max(kShortest_m, length_m / room), out);
+  } else {
+    cut_space(fit, most, out);
+  }
+  return out;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "nav/registration/surface_fit.h"
+
+namespace orthonav::nav {
+
+/// Height above the bone by translation and rotation of the points (about their centre), by the
+/// standoff, and by the model's size (natural logarithm).
+inline constexpr std::size_t kHeightUnknowns = 8;
+inline constexpr std::size_t kStandoffUnknown = 6;
+inline constexpr std::size_t kSizeUnknown = 7;
+
+/// Some millimetres of a stroke, whose points count as one.
+struct ResidualUnit {
+  int stroke = 0;
+  std::size_t first = 0;  ///< in `ResidualUnits::order`, and the one after its last
+  std::size_t end = 0;
+  std::array<Vec3, 2> halves_m;  ///< where its halves lie, from the points' centre
+  double weight = 0.0;           ///< sum of its points'
+  double height_m = 0.0;         ///< of the tip above the bone, weighted mean
+  std::array<double, kHeightUnknowns> derivative{};  ///< of `height_m`, weighted mean
+};
+
+/// The points of a fit that lie on the bone, each place once, along their strokes.
+struct ResidualUnits {
+  std::vector<ResidualUnit> all;
+  std::vector<std::uint32_t> order;  ///< of points
+  std::vector<int> stroke;           ///< of each entry of `order`
+  /// False where most steps are leaps. Then a unit is what lies in a cell of space.
+  bool along_strokes = true;
+
+  [[nodiscard]] std::span<const std::uint32_t> points_of(const ResidualUnit& unit) const {
+    return std::span(order).subspan(unit.first, unit.end - unit.first);
+  }
+};
+
+/// About `most` units at most. A step of more than 8 mm begins another stroke.
+[[nodiscard]] ResidualUnits residual_units(const SurfaceFit& fit, std::size_t most);
+
+}  // namespace orthonav::nav
