@@ -94,12 +94,16 @@ HeightModel::Answer plain(const UnknownsAnswer& a) {
 
 }  // namespace
 
-struct HeightModel::Matrices {
+class HeightModel::Matrices {
+ public:
   Matrices(const SurfaceFit& fit, const ResidualUnits& units);
-  [[nodiscard]] Eigen::MatrixXd field_correlation(double length_m) const;
   [[nodiscard]] Eigen::MatrixXd noise_covariance(const StrokeNoise& noise) const;
-  [[nodiscard]] double own_noise_m2(const ResidualUnit& unit, const StrokeNoise& noise) const;
+  /// Of a field, between units; that of the last length is kept.
+  [[nodiscard]] const Eigen::MatrixXd& field_correlation(double length_m);
   [[nodiscard]] std::optional<Answers> solve(const Eigen::MatrixXd& covariance) const;
+
+ private:
+  [[nodiscard]] double own_noise_m2(const ResidualUnit& unit, const StrokeNoise& noise) const;
 
   const SurfaceFit& fit_;
   const ResidualUnits& units_;
@@ -124,9 +128,13 @@ HeightModel::Matrices::Matrices(const SurfaceFit& fit, const ResidualUnits& unit
   }
 }
 
-Eigen::MatrixXd HeightModel::Matrices::field_correlation(double length_m) const {
+const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(double length_m) {
+  if (length_m == last_length_m_) {
+    return last_correlation_;
+  }
+  last_length_m_ = length_m;
   const Index m = heights_m_.size();
-  Eigen::MatrixXd out(m, m);
+  last_correlation_.resize(m, m);
   for (Index a = 0; a < m; ++a) {
     for (Index b = 0; b <= a; ++b) {
       double sum = 0.0;
@@ -135,10 +143,10 @@ Eigen::MatrixXd HeightModel::Matrices::field_correlation(double length_m) const 
           sum += std::exp(-(p - q).norm() / length_m);
         }
       }
-      out(a, b) = out(b, a) = 0.25 * sum;
+      last_correlation_(a, b) = last_correlation_(b, a) = 0.25 * sum;
     }
   }
-  return out;
+  return last_correlation_;
 }
 
 Eigen::MatrixXd HeightModel::Matrices::noise_covariance(const StrokeNoise& noise) const {
@@ -213,11 +221,7 @@ std::optional<HeightModel::Answers> HeightModel::solve(double field_m2, double l
                                                        const StrokeNoise& noise) {
   Eigen::MatrixXd covariance = matrices_->noise_covariance(noise);
   if (field_m2 > 0.0) {
-    if (length_m != matrices_->last_length_m_) {
-      matrices_->last_correlation_ = matrices_->field_correlation(length_m);
-      matrices_->last_length_m_ = length_m;
-    }
-    covariance += field_m2 * matrices_->last_correlation_;
+    covariance += field_m2 * matrices_->field_correlation(length_m);
   }
   return matrices_->solve(covariance);
 }

@@ -35,7 +35,7 @@ class HeightModel {
                                              const StrokeNoise& noise);
 
  private:
-  struct Matrices;
+  class Matrices;
   std::unique_ptr<Matrices> matrices_;
 };
 
