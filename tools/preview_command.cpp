@@ -48,6 +48,20 @@ Result<preview::OperationSource> source_of(const PreviewArguments& arguments) {
   return source;
 }
 
+/// Runs the window until it is closed or a signal ends it.
+int run_until_closed(preview::PreviewApp& app, const std::string& out, StopSignals& signals) {
+  signals.on_stop([&app] { app.quit(); });
+  const Status done = app.run();
+  signals.on_stop(nullptr);
+  if (signals.caught()) {
+    std::error_code ignored;
+    const bool wrote = std::filesystem::exists(out, ignored);
+    tell_what_is_kept(signals, {wrote ? out : std::string()});
+    return signals.exit_code();
+  }
+  return done ? kDone : bad_input(done.error().message);
+}
+
 int preview_window(PreviewArguments arguments, StopSignals& signals) {
   auto source = source_of(arguments);
   if (!source) {
@@ -83,16 +97,7 @@ int preview_window(PreviewArguments arguments, StopSignals& signals) {
   if (const Status opened = app.open_operation(std::move(*source)); !opened) {
     return bad_input(opened.error().message);
   }
-  signals.on_stop([&app] { app.quit(); });
-  const Status done = app.run();
-  signals.on_stop(nullptr);
-  if (signals.caught()) {
-    std::error_code ignored;
-    const bool wrote = std::filesystem::exists(arguments.options.out, ignored);
-    tell_what_is_kept(signals, {wrote ? arguments.options.out : std::string()});
-    return signals.exit_code();
-  }
-  return done ? kDone : bad_input(done.error().message);
+  return run_until_closed(app, arguments.options.out, signals);
 }
 
 /// `WIDTHxHEIGHT` in pixels, both even, since videos need that.

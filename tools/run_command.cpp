@@ -7,6 +7,26 @@
 #include "tools/live_run.h"
 
 namespace orthonav::tools {
+namespace {
+
+/// When the run ends, and what stays of it.
+void add_ends_and_results(CLI::App& run, RunArguments& arguments) {
+  run.add_option("--frames", arguments.frames, "end after so many displayed frames (0: no limit)")
+      ->check(whole_number(0));
+  run.add_option("--for", arguments.for_s, "end after so long, as in 60s or 5min")
+      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}},
+                                        CLI::AsNumberWithUnit::UNIT_REQUIRED, "TIME"))
+      ->check(finite_number(0.1, 86400.0));
+  run.add_option("--record", arguments.record, "record the session into this new folder")
+      ->check(some_text());
+  run.add_option("--out", arguments.out, "folder for report.html, report.json and session.orthonav")
+      ->check(some_text());
+  run.add_flag("--stats", arguments.stats,
+               "print frame intervals, ages from capture to photon and tracking times");
+  run.add_flag("--json", arguments.json, "print the report as JSON");
+}
+
+}  // namespace
 
 void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<RunArguments>();
@@ -33,20 +53,7 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   run->add_option("--tools", arguments->tools_file,
                   "tool definitions (default: the headset's own, else the built-in)")
       ->check(some_text());
-  run->add_option("--frames", arguments->frames, "end after so many displayed frames (0: no limit)")
-      ->check(whole_number(0));
-  run->add_option("--for", arguments->for_s, "end after so long, as in 60s or 5min")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, double>{{"s", 1.0}, {"min", 60.0}},
-                                        CLI::AsNumberWithUnit::UNIT_REQUIRED, "TIME"))
-      ->check(finite_number(0.1, 86400.0));
-  run->add_option("--record", arguments->record, "record the session into this new folder")
-      ->check(some_text());
-  run->add_option("--out", arguments->out,
-                  "folder for report.html, report.json and session.orthonav")
-      ->check(some_text());
-  run->add_flag("--stats", arguments->stats,
-                "print frame intervals, ages from capture to photon and tracking times");
-  run->add_flag("--json", arguments->json, "print the report as JSON");
+  add_ends_and_results(*run, *arguments);
   run->callback([arguments, &action, &signals] {
     action = [arguments, &signals] { return run_live(*arguments, signals); };
   });
