@@ -10,9 +10,9 @@ namespace orthonav::engine {
 
 /// Where what is not whole yet lies.
 enum class Staging : std::uint8_t {
-  /// In a file without a name (O_TMPFILE), which goes away with the process however that ends;
-  /// where
-  /// the file system has none, kBeside.
+  /// In a file without a name (O_TMPFILE), which goes away with the process however that ends.
+  /// Where
+  /// the file system has no such files, kBeside.
   kNameless,
   kBeside,  ///< in the same folder, as STEM.part-PROCESS-N.EXTENSION
 };

@@ -30,9 +30,10 @@ constexpr double kBareProbability = 0.5;
 /// A field of this much more than what the heights vary by is not tried.
 constexpr double kMostVariance = 4.0;
 /// Larger SDs are not tried once the evidence has fallen by this from its maximum.
-constexpr double kMuchLess = 8.0;
-constexpr double kWorthAThought = 0.003;
-/// Variance in addition to what the model of the heights says: measured (docs/registration.md).
+constexpr double kEvidenceLost = 8.0;
+constexpr double kLeastProbability = 0.003;
+/// Factors of the variance for what this model of the heights leaves out: measured on strokes over
+/// soft tissue (bench_registration --tissue-mm).
 constexpr double kUnseen = 1.15;
 constexpr double kUnseenWithField = 1.7;
 
@@ -63,7 +64,7 @@ class Trial {
         }
         const double evidence = consider({sd_m, length_m, 0.0});
         most = std::max(most, evidence);
-        if (evidence < most - kMuchLess) {
+        if (evidence < most - kEvidenceLost) {
           break;
         }
       }
@@ -161,7 +162,7 @@ UnknownsMean average(const std::vector<Tried>& tried, ResidualField& out) {
     if (field.probability > out.likeliest.probability) {
       out.likeliest = field;
     }
-    if (field.probability > kWorthAThought) {
+    if (field.probability > kLeastProbability) {
       out.hypotheses.push_back(field);
     }
   }

@@ -20,7 +20,7 @@ struct FieldHypothesis {
 /// What the heights of a fit's points say when such a field is marginalised: about the pose, the
 /// standoff, and the size of the model.
 struct ResidualField {
-  std::vector<FieldHypothesis> hypotheses;  ///< those worth a thought
+  std::vector<FieldHypothesis> hypotheses;  ///< those more probable than 0.3 %
   FieldHypothesis likeliest;
   double field_sd_m = 0.0;  ///< of the field, root of its mean variance over the hypotheses
   /// The step (translation m, rotation vector rad) from the fit's pose to the likeliest one, and
