@@ -11,8 +11,7 @@ namespace orthonav::engine {
 /// Where what is not whole yet lies.
 enum class Staging : std::uint8_t {
   /// In a file without a name (O_TMPFILE), which goes away with the process however that ends.
-  /// Where
-  /// the file system has no such files, kBeside.
+  /// Where the file system has no such files, kBeside.
   kNameless,
   kBeside,  ///< in the same folder, as STEM.part-PROCESS-N.EXTENSION
 };
