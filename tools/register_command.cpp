@@ -45,6 +45,7 @@ struct RegisterOutputs {
 };
 
 constexpr double kLargestTip_mm = 10.0;
+constexpr double kLargestCommon_mm = 10.0;
 
 void print_screws(const engine::RegisteredLevel& level) {
   const auto place = [](const engine::PlaceError& e) {
@@ -105,10 +106,13 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
     return bad_input(inputs.error().message);
   }
   const double tip_radius_m = arguments.tip_radius_mm * 1e-3;
+  const nav::CommonErrors common{arguments.tip_sd_mm * 1e-3, arguments.cameras_sd_mm * 1e-3,
+                                 arguments.map_sd_mm * 1e-3};
   const auto registration = (*registrar)({*inputs->level.model,
                                           inputs->points,
                                           inputs->level.screws,
                                           inputs->level.neighbours,
+                                          common,
                                           {},
                                           {},
                                           tip_radius_m});
@@ -137,8 +141,11 @@ constexpr const char* kRegisterFooter =
     "points' unit) to the points.\n"
     "predicted_tre_mm: root mean square error to expect at the worst of the plan's entries and\n"
     "targets; without a plan, where screws usually go (paper: at the model's centre).\n"
-    "With --level the strokes are tried on the levels above and below too, and refused where\n"
-    "they fit one of them as well.";
+    "Without what all points share (--tip-sd-mm and the others), errors to expect are those of "
+    "the\n"
+    "registration alone. The limits are about these.\n"
+    "With --level the strokes are tried on every other level of the case too, and refused where\n"
+    "they fit one of them as well; with --model the level can't be checked.";
 
 void add_inputs(CLI::App& command, RegisterArguments& arguments) {
   command.add_option("--model", arguments.model, "Vertebra (STL, PLY, OBJ)")->type_name("MESH");
@@ -170,6 +177,15 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
                   "Radius of a ball at the pointer's end, whose centre the points are")
       ->check(finite_number(0, kLargestTip_mm))
       ->capture_default_str();
+  const auto add_sd = [&command](const char* name, double& sd_mm, const char* text) {
+    command.add_option(name, sd_mm, text)
+        ->check(finite_number(0, kLargestCommon_mm))
+        ->capture_default_str();
+  };
+  add_sd("--tip-sd-mm", arguments.tip_sd_mm,
+         "What all points share: SD along an axis of the pointer's tip, as calibrated");
+  add_sd("--cameras-sd-mm", arguments.cameras_sd_mm, "of the cameras' calibration");
+  add_sd("--map-sd-mm", arguments.map_sd_mm, "of the map's drift since they were stroked");
   command
       .add_option("--cache", arguments.cache,
                   "Folder that keeps prepared models for the next time [nothing is kept]")

@@ -20,6 +20,9 @@ struct RegisterArguments {
   std::string level;  ///< of the case; with neither a folder nor a model, of the built-in phantom
   std::string method = "best";
   double tip_radius_mm = 0.0;
+  double tip_sd_mm = 0.0;
+  double cameras_sd_mm = 0.0;
+  double map_sd_mm = 0.0;
   std::string cache;  ///< folder of prepared models; empty: nothing is kept
 };
 

@@ -29,19 +29,11 @@ std::vector<const CaseLevel*> from_the_lowest(const Case& source) {
   return levels;
 }
 
-/// The levels below and above.
-std::vector<std::string> beside(const Case& source, const std::string& label) {
-  const auto levels = from_the_lowest(source);
+std::vector<std::string> other_levels(const Case& source, const std::string& label) {
   std::vector<std::string> out;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (levels[i]->label != label) {
-      continue;
-    }
-    if (i > 0) {
-      out.push_back(levels[i - 1]->label);
-    }
-    if (i + 1 < levels.size()) {
-      out.push_back(levels[i + 1]->label);
+  for (const CaseLevel* level : from_the_lowest(source)) {
+    if (level->label != label) {
+      out.push_back(level->label);
     }
   }
   return out;
@@ -122,12 +114,12 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
       return model.error();
     }
     OperatedLevel level{label, *model, source.find(label)->screws, {}};
-    for (const std::string& next : beside(source, label)) {
-      const auto neighbour = prepared.model(next);
-      if (!neighbour) {
-        return neighbour.error();
+    for (const std::string& other : other_levels(source, label)) {
+      const auto other_model = prepared.model(other);
+      if (!other_model) {
+        return other_model.error();
       }
-      level.neighbours.push_back({next, *neighbour});
+      level.neighbours.push_back({other, *other_model});
     }
     operation.levels.push_back(std::move(level));
   }

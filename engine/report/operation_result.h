@@ -26,6 +26,9 @@ struct LevelOutcome {
   int attempts = 0;
   std::optional<double> rmse_m;  ///< absent without an accepted registration
   std::optional<double> tre_m;   ///< mean over the entries and targets of the level's screws
+  /// Of each of these places, screw by screw: from the true one to the registered one, in the
+  /// vertebra's axes (LPS).
+  std::vector<Vec3> errors_m;
   /// Root mean square error to expect at the worst of the screws' entries and targets.
   std::optional<double> predicted_tre_m;
   /// Used by that registration; absent without one, as the time is.

@@ -9,6 +9,7 @@
 #include "base/angle.h"
 #include "engine/case/operation.h"
 #include "engine/session/findings_wording.h"
+#include "nav/guidance/predicted_error.h"
 
 namespace orthonav::engine {
 namespace {
@@ -24,11 +25,7 @@ PlaceError error_at(const nav::Registration& r, Point<Vertebra> place) {
 
 /// Where poses are compared: at the screws, or else at the extremes of what can be touched.
 std::vector<Point<Vertebra>> places_of(const RegisteredLevel& level) {
-  std::vector<Point<Vertebra>> places;
-  for (const nav::ScrewPlan& screw : level.screws) {
-    places.push_back(screw.entry);
-    places.push_back(screw.target);
-  }
+  std::vector<Point<Vertebra>> places = nav::entries_and_targets(level.screws);
   if (places.empty()) {
     for (const Vec3& extreme : level.model->reachable_extremes()) {
       places.push_back({extreme});
@@ -102,9 +99,13 @@ std::string ambiguity_of(const RegisteredLevel& level) {
   if (!r.fits_better.empty()) {
     return "ambiguous: the points fit level " + r.fits_better + " as well or better";
   }
+  const std::string unchecked =
+      tells_log_likelihood_ratio(r) && r.levels_compared == 0
+          ? "; no other level is known, so whether it is this level could not be checked"
+          : "";
   const auto other = runner_up_distance(level);
   if (!other) {
-    return "unambiguous: no other pose comes near to explaining the points";
+    return "unambiguous: no other pose comes near to explaining the points" + unchecked;
   }
   const std::string where =
       formatted(level.screws.empty()
@@ -117,8 +118,21 @@ std::string ambiguity_of(const RegisteredLevel& level) {
           ? formatted(" (margin %.0f, at least %.0f)", r.log_likelihood_ratio,
                       nav::PoseSearchRegistrationOptions{}.min_log_likelihood_ratio)
           : formatted(" (RMSE %.2f against %.2f mm)", r.runner_up_rmse_m * 1e3, r.rmse_m * 1e3);
-  return tells_apart(r) ? "unambiguous: the next best pose, " + where + "clearly worse" + by
-                        : "ambiguous: another pose, " + where + "nearly as well" + by;
+  return tells_apart(r)
+             ? "unambiguous: the next best pose, " + where + "clearly worse" + by + unchecked
+             : "ambiguous: another pose, " + where + "nearly as well" + by + unchecked;
+}
+
+std::string sources_of(const nav::CommonErrors& common) {
+  if (!(common.sd_m() > 0.0)) {
+    return "Of the registration alone: what all strokes share (tip, cameras, drift of the map) is "
+           "not in it.";
+  }
+  return formatted(
+      "With what all strokes share, SD along an axis: tip %.2f, cameras %.2f, drift of the map "
+      "%.2f "
+      "mm.",
+      common.tip_m * 1e3, common.cameras_m * 1e3, common.map_m * 1e3);
 }
 
 std::string certainty_of(const RegisteredLevel& level) {
@@ -139,6 +153,9 @@ std::string certainty_of(const RegisteredLevel& level) {
                   *within * 1e3);
   } else {
     out = std::string("How large the errors ") + where + " are is not known.";
+  }
+  if (within && std::isfinite(*within)) {
+    out += " " + sources_of(r.common);
   }
   if (r.weakest) {
     out += " Least sure: " + text_of(*r.weakest) + ".";

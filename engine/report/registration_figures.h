@@ -57,6 +57,8 @@ struct RunnerUpDistance {
 
 /// Whether another pose could be meant, in words.
 [[nodiscard]] std::string ambiguity_of(const RegisteredLevel& level);
+/// What is in the errors to expect beside the registration's own.
+[[nodiscard]] std::string sources_of(const nav::CommonErrors& common);
 /// How certain the registration is, in plain sentences: what 95 of 100 errors are below, the motion
 /// known worst, and where to stroke to know it better.
 [[nodiscard]] std::string certainty_of(const RegisteredLevel& level);

@@ -117,6 +117,16 @@ nlohmann::ordered_json registration_json(const RegisteredLevel& level, const Fig
   if (const auto within = worst_within_95_m(level)) {
     out["predicted_tre_95_mm"] = mm_or_null(*within);
   }
+  if (r.noise_m > 0.0) {
+    out["predicted_tre_99_mm"] = mm_or_null(r.tre_99_m);
+    out["tissue_sd_mm"] = r.field_sd_m * 1e3;
+    out["size"] = r.size;
+    out["common_sd_mm"] = {{"tip", r.common.tip_m * 1e3},
+                           {"cameras", r.common.cameras_m * 1e3},
+                           {"map", r.common.map_m * 1e3}};
+    out["registration_only"] = !(r.common.sd_m() > 0.0);
+    out["levels_compared"] = r.levels_compared;
+  }
   out["covariance_frame"] = out["model_frame"];
   for (const ScrewErrors& screw : errors_at_screws(level)) {
     out["screws"].push_back(screw_json(screw, frame));

@@ -106,21 +106,33 @@ JudgedFigure rms_figure(double rms_m, bool best) {
   const double limit_m = nav::PoseSearchRegistrationOptions{}.max_predicted_tre_m;
   return best ? at_most(rms_m * 1e3, 2, limit_m * 1e3, 1) : plain(rms_m * 1e3, 2);
 }
-JudgedFigure within_95_figure(double within_m, bool best) {
-  const double limit_m = nav::PoseSearchRegistrationOptions{}.max_tre_95_m;
-  return best ? at_most(within_m * 1e3, 2, limit_m * 1e3, 1) : plain(within_m * 1e3, 2);
+JudgedFigure within_99_figure(double within_m) {
+  return at_most(within_m * 1e3, 2, nav::PoseSearchRegistrationOptions{}.max_tre_99_m * 1e3, 1);
 }
 
 bool is_best(const RegisteredLevel& level) { return level.registration.noise_m > 0.0; }
 
+/// Whether errors to expect hold more than the registration's own, which the limits are about.
+bool holds_common(const RegisteredLevel& level) { return level.registration.common.sd_m() > 0.0; }
+
 std::string rows_of_error(const RegisteredLevel& level) {
   const bool best = is_best(level);
+  const double own_m =
+      holds_common(level) ? level.registration.predicted_tre_m : worst_rms_m(level);
   std::string out =
       figure_row(level.screws.empty() ? "Error where screws usually go <small>mm</small>"
                                       : "Error at the worst screw <small>mm</small>",
-                 rms_figure(worst_rms_m(level), best), "root mean square to expect");
+                 rms_figure(own_m, best), "root mean square to expect of the registration alone");
+  if (best) {
+    out += figure_row("99 of 100 errors below <small>mm</small>",
+                      within_99_figure(level.registration.tre_99_m), "likewise");
+  }
+  if (holds_common(level)) {
+    out += figure_row("With what all strokes share <small>mm</small>",
+                      plain(worst_rms_m(level) * 1e3, 2), sources_of(level.registration.common));
+  }
   if (const auto within = worst_within_95_m(level)) {
-    out += figure_row("95 of 100 errors below <small>mm</small>", within_95_figure(*within, best),
+    out += figure_row("95 of 100 errors below <small>mm</small>", plain(*within * 1e3, 2),
                       "at the same place");
   }
   return out;
@@ -138,10 +150,10 @@ std::string row_of_checks(const RegisteredLevel& level) {
                  (check.within ? "" : " ✗");
     all_within = all_within && check.within;
   }
-  return figure_row("Check points <small>mm</small>",
-                    judged_cell(distances, Bound::kAtMost, all_within),
-                    limit_text(at_most(0.0, 1, limit_mm, 1)),
-                    "distances of places touched afterwards, which had no part in the fit");
+  return figure_row(
+      "Check points <small>mm</small>", judged_cell(distances, Bound::kAtMost, all_within),
+      limit_text(at_most(0.0, 1, limit_mm, 1)),
+      "distances of places touched afterwards, which \"accept\" takes into the registration");
 }
 
 std::string figures(const RegisteredLevel& level) {
@@ -158,10 +170,10 @@ std::string figures(const RegisteredLevel& level) {
   return out + "</tbody></table>";
 }
 
-std::string place_row(const std::string& name, const PlaceError& e, bool best) {
+std::string place_row(const std::string& name, const PlaceError& e, bool judged) {
   std::string out = "<tr><th scope=row>" + name + "</th>" +
-                    narrow_judged_cell(rms_figure(e.rms_m, best)) +
-                    narrow_judged_cell(within_95_figure(e.within_95_m, best));
+                    narrow_judged_cell(rms_figure(e.rms_m, judged)) +
+                    narrow_judged_cell(plain(e.within_95_m * 1e3, 2));
   for (const std::size_t axis : {0U, 1U, 2U}) {
     out += "<td>" +
            (e.covariance_m2
@@ -176,18 +188,18 @@ std::string screws(const RegisteredLevel& level) {
   if (level.screws.empty()) {
     return "";
   }
-  const bool best = is_best(level);
+  const bool judged = is_best(level) && !holds_common(level);
   const auto head = [&](const std::string& name, const JudgedFigure& of) {
-    return "<th>" + name + (best ? " <small>" + limit_text(of) + "</small>" : "") + "</th>";
+    return "<th>" + name + (judged ? " <small>" + limit_text(of) + "</small>" : "") + "</th>";
   };
   std::string out = "<table><thead><tr><th>errors to expect <small>mm</small></th>" +
-                    head("RMS", rms_figure(0.0, best)) +
-                    head("95 of 100 below", within_95_figure(0.0, best)) +
+                    head("RMS", rms_figure(0.0, judged)) + "<th>95 of 100 below</th>" +
                     "<th>SD sideways</th><th>SD front to back</th><th>SD along the spine</th></tr>"
                     "</thead><tbody>";
   for (const ScrewErrors& e : errors_at_screws(level)) {
     const std::string side = name_of(e.side);
-    out += place_row(side + " entry", e.entry, best) + place_row(side + " target", e.target, best);
+    out +=
+        place_row(side + " entry", e.entry, judged) + place_row(side + " target", e.target, judged);
   }
   return out + "</tbody></table>";
 }
@@ -199,10 +211,9 @@ std::string caption(const RegisteredLevel& level, const RegistrationScene& scene
            std::to_string(level.points.size()) + " points. ";
   }
   return out +
-         "Points behind the bone shine through it. The errors are those of this registration "
-         "alone: "
-         "how tools are tracked and how steady a hand is comes on top. A wrong tip shifts all "
-         "points alike and shows in none of these figures.</p>";
+         "Points behind the bone shine through it. How the guide is tracked and how steady a hand "
+         "is comes on top of these errors. " +
+         sources_of(level.registration.common) + "</p>";
 }
 
 /// As in a technical drawing: from behind; beside it from the left; below it from above; all to one

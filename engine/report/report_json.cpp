@@ -35,6 +35,9 @@ Json level_json(const LevelOutcome& level) {
   Json out{{"label", level.label}, {"accepted", level.accepted}, {"attempts", level.attempts}};
   put_mm(out, "rmse_mm", level.rmse_m);
   put_mm(out, "tre_mm", level.tre_m);
+  for (const Vec3& error : level.errors_m) {
+    out["errors_mm"].push_back({error.x * 1e3, error.y * 1e3, error.z * 1e3});
+  }
   put_mm(out, "predicted_tre_mm", level.predicted_tre_m);
   if (level.points) {
     out["points"] = *level.points;

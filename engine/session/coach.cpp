@@ -1,5 +1,7 @@
 #include "engine/session/coach.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace orthonav::engine {
@@ -19,12 +21,20 @@ Coaching coaching_from(const nav::Registration& registration) {
   const nav::PoseSearchRegistrationOptions limits;
   Coaching coaching;
   coaching.unique = registration.log_likelihood_ratio >= limits.min_log_likelihood_ratio;
-  coaching.enough = registration.accepted;
-  coaching.expected_m = registration.predicted_tre_m;
+  const auto is_tissue = [](const nav::RefusalReason& reason) {
+    return reason.kind == nav::RefusalReason::Kind::kSoftTissue;
+  };
+  coaching.then_touch =
+      registration.provisional &&
+      std::any_of(registration.reasons.begin(), registration.reasons.end(), is_tissue);
+  coaching.enough = registration.accepted || coaching.then_touch;
+  const double common_m = registration.common.sd_m();
+  coaching.expected_m = std::hypot(registration.predicted_tre_m, std::sqrt(3.0) * common_m);
+  coaching.registration_only = !(common_m > 0.0);
   coaching.stroke_next = registration.stroke_next;
   // A small error to expect is no comfort where something else stands against it.
-  if (coaching.unique && !coaching.enough && coaching.expected_m <= limits.max_predicted_tre_m &&
-      !registration.reasons.empty()) {
+  if (coaching.unique && !coaching.enough &&
+      registration.predicted_tre_m <= limits.max_predicted_tre_m && !registration.reasons.empty()) {
     coaching.against = registration.reasons.front();
   }
   return coaching;
@@ -73,7 +83,7 @@ void Coach::take_answer() {
 
 void Coach::run() {
   // Whether another level fits better is asked when it counts, not while half of it is stroked.
-  const auto result = registrar_({*level_->model, points_, level_->screws, {}});
+  const auto result = registrar_({*level_->model, points_, level_->screws, {}, common_});
   answer_ = result ? std::optional(coaching_from(*result)) : std::nullopt;
 }
 

@@ -13,8 +13,10 @@ namespace orthonav::engine {
 /// What registering the strokes made so far would say.
 struct Coaching {
   bool unique = false;      ///< no other pose explains the strokes nearly as well
-  bool enough = false;      ///< it would be accepted
+  bool enough = false;      ///< it would be accepted, or more strokes over tissue would not help
+  bool then_touch = false;  ///< then: places must be pressed to the bone first
   double expected_m = 0.0;  ///< root mean square error at the worst of the screws; may be infinite
+  bool registration_only = false;  ///< what all strokes share is not known, so not in it
   /// What stands against it, where that is more to the point than where to stroke next.
   std::optional<nav::RefusalReason> against;
   std::optional<nav::BonePlace> stroke_next;
@@ -33,7 +35,8 @@ class Coach {
   /// Half a second: several times what a trial takes, so that hardly any is awaited.
   static constexpr int kPairsToAnswer = 15;
 
-  explicit Coach(Registrar registrar) : registrar_(std::move(registrar)) {}
+  explicit Coach(Registrar registrar, const nav::CommonErrors& common = {})
+      : registrar_(std::move(registrar)), common_(common) {}
 
   /// Once for each pair of stroking, with everything stroked so far. The level must stay until
   /// `forget` or the end.
@@ -53,6 +56,7 @@ class Coach {
   void run();
 
   Registrar registrar_;
+  nav::CommonErrors common_;
   std::optional<Coaching> newest_;
   std::size_t asked_samples_ = 0;  ///< of the last trial
   int pairs_left_ = 0;             ///< until the answer of the trial under way; 0: none is

@@ -1,6 +1,7 @@
 #include "engine/session/digitizing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace orthonav::engine {
@@ -22,9 +23,10 @@ Message message_about(const RegistrationOutcome& outcome) {
   return refused;
 }
 
-Digitizing::Digitizing(const Method& method) {
+Digitizing::Digitizing(const Method& method, const SessionOptions& options)
+    : verification_(method.verification), options_(options) {
   if (method.coaching) {
-    coach_ = std::make_unique<Coach>(method.registrar);
+    coach_ = std::make_unique<Coach>(method.registrar, options.common);
   }
 }
 
@@ -82,14 +84,18 @@ RegistrationOutcome Digitizing::register_level(LevelState& level, const Registra
   const std::vector<Point<World>> points = digitizer.saved_points();
   const std::vector<double> sds_m = digitizer.saved_point_sds_m();
   const std::vector<Vec3> shafts = digitizer.saved_shafts();
+  nav::CommonErrors common = options_.common;
+  common.map_m =
+      std::hypot(common.map_m, options_.drift_since_m(time - level.first_press.value_or(time)));
   const auto result = registrar(
-      {*level.plan.model, points, level.plan.screws, level.plan.neighbours, sds_m, shafts});
+      {*level.plan.model, points, level.plan.screws, level.plan.neighbours, common, sds_m, shafts});
   RegistrationOutcome outcome;
   level.newest.reset();
   if (!result) {
     outcome.error = result.error();
   } else {
     outcome.result = *result;
+    outcome.provisional = result->provisional && verification_ == Verification::kByTouch;
     level.newest = RegistrationAttempt{points, *result};
   }
   if (outcome.passed()) {

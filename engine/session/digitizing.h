@@ -8,6 +8,7 @@
 #include "engine/session/guidance.h"
 #include "engine/session/method.h"
 #include "engine/session/registration_outcome.h"
+#include "engine/session/session_options.h"
 
 namespace orthonav::engine {
 
@@ -18,7 +19,7 @@ namespace orthonav::engine {
 /// registration. The strokes outlive the step: they stay visible while they are verified.
 class Digitizing {
  public:
-  explicit Digitizing(const Method& method);
+  Digitizing(const Method& method, const SessionOptions& options);
 
   void press(LevelState& level, Timestamp time);
   void release(Timestamp time) { strokes_.digitizer.release(time); }
@@ -57,6 +58,8 @@ class Digitizing {
 
   Strokes strokes_;
   std::unique_ptr<Coach> coach_;  ///< null: nobody is coached
+  Verification verification_;
+  SessionOptions options_;
 };
 
 }  // namespace orthonav::engine

@@ -10,6 +10,9 @@
 namespace orthonav::engine {
 namespace {
 
+constexpr const char* kOneOf100 =
+    "1 of 100 errors at the screws would exceed %.1f mm, limit %.1f mm";
+
 /// The words about a number and its limit, and what the number is shown in.
 struct NumberWords {
   const char* format;
@@ -40,8 +43,14 @@ NumberWords words_about(nav::RefusalReason::Kind kind) {
       return {"another pose fits nearly as well (margin %.1f, at least %.0f)", 1.0};
     case kTreAtScrews:
       return {"error expected at the screws %.1f mm, limit %.1f mm", 1e3};
-    case kTre95AtScrews:
-      return {"1 of 20 errors at the screws would exceed %.1f mm, limit %.1f mm", 1e3};
+    case kTre99AtScrews:
+      return {kOneOf100, 1e3};
+    case kSoftTissue:
+      return {"soft tissue? The tip's height over the bone varies by %.1f mm, limit %.1f mm", 1e3};
+    case kModelSize:
+      return {"the points fit a bone of %.3f times the model's size", 1.0};
+    case kMirrored:
+      return {"the points fit the mirror image of this model better (by %.1f, limit %.1f)", 1.0};
     case kFitsOtherLevel:
       break;
   }
@@ -52,19 +61,25 @@ NumberWords words_about(nav::RefusalReason::Kind kind) {
 
 std::string_view word_of(Side side) { return side == Side::kLeft ? "left" : "right"; }
 
-void append(std::string& out, const nav::BonePlace& place) {
+namespace {
+void append_part(std::string& out, const nav::BonePlace& place) {
   using Part = nav::BonePlace::Part;
   constexpr std::array<std::string_view, 3> kHeights = {"upper ", "", "lower "};
   constexpr std::array<std::string_view, 3> kParts = {"spinous process", "lamina",
                                                       "facet and root of the transverse process"};
   static_assert(static_cast<int>(Part::kFacet) == 2);
-  out += "stroke the ";
   if (place.side) {
     out += word_of(*place.side);
     out += ' ';
   }
   out += kHeights[static_cast<std::size_t>(place.height)];
   out += kParts[static_cast<std::size_t>(place.part)];
+}
+}  // namespace
+
+void append(std::string& out, const nav::BonePlace& place) {
+  out += "stroke the ";
+  append_part(out, place);
 }
 
 void append(std::string& out, const nav::UncertainMotion& motion) {
@@ -83,7 +98,8 @@ void append(std::string& out, const nav::UncertainMotion& motion) {
 
 void append(std::string& out, const nav::RefusalReason& reason) {
   if (reason.kind == nav::RefusalReason::Kind::kFitsOtherLevel) {
-    out.append("the points fit level ").append(reason.level).append(" as well");
+    out.append("the points fit ").append(reason.level == nav::kSeveralLevels ? "" : "level ");
+    out.append(reason.level).append(" as well");
     return;
   }
   const auto [format, unit] = words_about(reason.kind);
@@ -91,6 +107,10 @@ void append(std::string& out, const nav::RefusalReason& reason) {
   if (reason.motion) {
     out += ": ";
     append(out, *reason.motion);
+  }
+  if (reason.scrape) {
+    out += ": scrape to the bone at the ";
+    append_part(out, *reason.scrape);
   }
 }
 
@@ -126,6 +146,14 @@ void append(std::string& out, const nav::CheckAdvice& advice) {
       append_beside_limit(out, "%.1f mm off, limit %.1f mm: reject and stroke again",
                           advice.value_m * 1e3, advice.limit_m * 1e3);
       break;
+    case nav::CheckAdvice::Kind::kTouchMore:
+      out += "touch 1 more place: ";
+      append_beside_limit(out, kOneOf100, advice.value_m * 1e3, advice.limit_m * 1e3);
+      break;
+    case nav::CheckAdvice::Kind::kUncertain:
+      append_beside_limit(out, kOneOf100, advice.value_m * 1e3, advice.limit_m * 1e3);
+      out += ": reject and stroke again";
+      break;
   }
 }
 
@@ -139,10 +167,12 @@ void write_coaching(PartedText text, const Coaching& coaching, std::string_view 
     text.begin(Importance::kFigures, separator);
     append_mm(out, coaching.expected_m, 1);
     out += " expected";
+    out += coaching.registration_only ? kRegistrationOnly : "";
   }
   if (coaching.enough) {
     text.begin(Importance::kNext, ", ");
-    out += "enough to register";
+    out +=
+        coaching.then_touch ? "soft tissue: register, then touch the bone" : "enough to register";
   } else if (coaching.against) {
     text.begin(Importance::kMessage, ", ");
     append(out, *coaching.against);

@@ -10,6 +10,9 @@
 
 namespace orthonav::engine {
 
+/// Beside an error to expect that lacks what all strokes share.
+inline constexpr std::string_view kRegistrationOnly = " (registration only)";
+
 struct Coaching;
 
 // What a registration finds out about itself, in words: a part of engine/session/wording.h. Each is

@@ -65,6 +65,10 @@ struct LevelState {
     accepted = false;
     first_press.reset();
   }
+  /// The errors that are expected lack what all strokes share: nobody knows it.
+  [[nodiscard]] bool registration_only() const {
+    return registration && !(registration->common.sd_m() > 0.0);
+  }
   /// World's vertebra may be shown and guided on.
   [[nodiscard]] bool usable() const { return accepted && registration && !map_moved; }
 };

@@ -68,7 +68,8 @@ StepState Guiding::state(const LevelState& level) const {
   if (!level.registration) {
     return {};
   }
-  return RegistrationFigures{level.registration->rmse_m, level.predicted[screw_].worst_m(), true};
+  return RegistrationFigures{level.registration->rmse_m, level.predicted[screw_].worst_m(), true,
+                             level.registration_only()};
 }
 
 }  // namespace orthonav::engine

@@ -123,6 +123,9 @@ void Journal::registered(Timestamp time, const LevelState& level,
   line["level"] = level.plan.label;
   line["attempt"] = level.attempts;
   line["accepted"] = outcome.passed();
+  if (outcome.provisional) {
+    line["provisional"] = true;
+  }
   if (!outcome.passed()) {
     line["reason"] = refusal_text(outcome);
   }
@@ -143,6 +146,18 @@ void Journal::registered(Timestamp time, const LevelState& level,
   // Infinite, that is without a bound, becomes null.
   if (outcome.passed()) {
     line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
+  }
+  add_line(*log_, line, kDurable);
+}
+
+void Journal::accepted(Timestamp time, const LevelState& level) {
+  Json line = entry(file_ticks(time), time, "accepted");
+  line["level"] = level.plan.label;
+  line["check_points"] = level.check_points.size();
+  line["world_from_vertebra_mm"] = matrix_mm(level.registration->world_from_vertebra.row_major());
+  line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
+  if (level.registration->tre_95_m > 0.0) {
+    line["tre_95_mm"] = level.registration->tre_95_m * 1e3;
   }
   add_line(*log_, line, kDurable);
 }

@@ -53,6 +53,7 @@ class Journal : public SessionObserver {
   void not_understood(const Phrase& phrase) override;
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;
+  void accepted(Timestamp time, const LevelState& level) override;
   void check_point_recorded(Timestamp time, const LevelState& level) override;
   void check_point_dropped(Timestamp time, const LevelState& level) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,

@@ -175,6 +175,11 @@ class Reading {
       take_event(line, time);
     } else if (what == "registration") {
       replay_.registered(registration_of(line, time), line);
+    } else if (what == "accepted") {
+      replay_.accepted(line.text("level"),
+                       {optional_number(line, "predicted_tre_mm", kMetresPerMm),
+                        optional_number(line, "tre_95_mm", kMetresPerMm)},
+                       line);
     } else if (what == "check point") {
       replay_.checked(line.text("level"),
                       {line.number("distance_mm") * kMetresPerMm, line.flag_or("within", false)},

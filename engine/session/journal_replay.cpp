@@ -124,6 +124,18 @@ void JournalReplay::registered(RecordedRegistration found, const JsonNode& line)
   record_.registrations.push_back(std::move(found));
 }
 
+void JournalReplay::accepted(const std::string& label, const Expected& expected,
+                             const JsonNode& line) {
+  RecordedLevel* const level = level_named(label, line);
+  if (level && !level->registration) {
+    line.refuse("level", "has no registration that could be accepted");
+  } else if (level) {
+    RecordedRegistration& found = record_.registrations[*level->registration];
+    found.predicted_tre_m = expected.predicted_tre_m;
+    found.tre_95_m = expected.tre_95_m;
+  }
+}
+
 void JournalReplay::checked(const std::string& label, RecordedCheck check, const JsonNode& line) {
   if (RecordedLevel* const level = level_named(label, line)) {
     level->checks.push_back(check);

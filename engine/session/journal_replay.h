@@ -19,6 +19,12 @@ class JournalReplay {
   void plan(const std::string& label, const std::vector<std::string>& sides, const JsonNode& line);
   void happened(Timestamp time, Event event, Cell answer);
   void registered(RecordedRegistration found, const JsonNode& line);
+  /// What the level's registration leaves uncertain, now that it holds what was touched.
+  struct Expected {
+    std::optional<double> predicted_tre_m;
+    std::optional<double> tre_95_m;
+  };
+  void accepted(const std::string& label, const Expected& expected, const JsonNode& line);
   void checked(const std::string& label, RecordedCheck check, const JsonNode& line);
   void check_dropped(const std::string& label, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);

@@ -1,5 +1,7 @@
 #include "engine/session/method.h"
 
+#include "nav/guidance/predicted_error.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -9,13 +11,11 @@ Result<nav::Registration> by_paper(const RegistrationRequest& request) {
 
 Result<nav::Registration> by_pose_search(const RegistrationRequest& request) {
   nav::PoseSearchRegistrationOptions options;
+  options.common = request.common;
   options.tip_radius_m = request.tip_radius_m;
   options.point_sd_m.assign(request.point_sd_m.begin(), request.point_sd_m.end());
   options.shafts.assign(request.shafts.begin(), request.shafts.end());
-  for (const nav::ScrewPlan& screw : request.screws) {
-    options.targets.push_back(screw.entry);
-    options.targets.push_back(screw.target);
-  }
+  options.targets = nav::entries_and_targets(request.screws);
   for (const NeighbouringLevel& level : request.neighbours) {
     options.neighbours.push_back({level.label, level.model.get()});
   }

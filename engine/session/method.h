@@ -19,6 +19,7 @@ struct RegistrationRequest {
   std::span<const Point<World>> points_in_world;  ///< in the order of time
   std::span<const nav::ScrewPlan> screws;         ///< where the pose must be sure; may be empty
   std::span<const NeighbouringLevel> neighbours;
+  nav::CommonErrors common{};  ///< as far as they are known
   /// How exactly each was tracked (RMS of an axis); empty where nothing tells.
   std::span<const double> point_sd_m{};
   /// The pointer's shaft at each, from the tip back, unit vectors; empty where nothing tells.

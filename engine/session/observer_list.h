@@ -45,6 +45,11 @@ class ObserverList : public SessionObserver {
       o->check_point_dropped(time, level);
     }
   }
+  void accepted(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) {
+      o->accepted(time, level);
+    }
+  }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override {
     for (auto* o : observers_) {

@@ -11,8 +11,9 @@ namespace orthonav::engine {
 struct RegistrationOutcome {
   std::optional<nav::Registration> result;  ///< absent: none was found at all
   std::optional<Error> error;               ///< then: why
-  /// Passed its limits: it counts.
-  [[nodiscard]] bool passed() const { return result && result->accepted; }
+  /// It may be verified: it passed its limits, or what is touched to verify it can make it so.
+  [[nodiscard]] bool passed() const { return result && (result->accepted || provisional); }
+  bool provisional = false;  ///< and is verified by touch
 };
 
 }  // namespace orthonav::engine

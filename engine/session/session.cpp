@@ -57,7 +57,7 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
     : tools_(std::move(tools)),
       method_(std::move(method)),
       options_(options),
-      digitizing_(method_),
+      digitizing_(method_, options),
       messages_(options.message_for, options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
     LevelState state;
@@ -180,9 +180,12 @@ void Session::collect_samples() {
   if (step_ == Step::kDigitize) {
     digitizing_.collect(pose, pointer);
     digitizing_.coach(level().plan);
-  } else if ((step_ == Step::kRod || checks_by_touch()) && touch_of_step().down() &&
-             pose.status == PoseStatus::kMeasured) {
-    touch_of_step().add(pose.value * pointer.tip_in_marker);
+  } else if (step_ == Step::kRod || checks_by_touch()) {
+    if (pose.status == PoseStatus::kMeasured) {
+      touch_of_step().add(pose.value * pointer.tip_in_marker);
+    } else {
+      touch_of_step().lose();
+    }
   }
 }
 

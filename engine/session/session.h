@@ -85,11 +85,12 @@ class Session {
   void begin_level();
   void drop_region(Timestamp time);
   void register_level(Timestamp time);
-  void show_registration();
+  void show_registration(Timestamp time);
   void clear_level();
   void judge_checks(Timestamp time);
   void record_check(Timestamp time);
   void drop_check(Timestamp time);
+  void accept(Timestamp time);
   void select_screw();
   void finish_screw(Timestamp time);
   void drop_touch(Timestamp time);

@@ -21,13 +21,13 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kSaveRegion: return digitizing_.save();
     case kDropRegion: return drop_region(time);
     case kRegister: return register_level(time);
-    case kShowRegistration: return show_registration();
+    case kShowRegistration: return show_registration(time);
     case kCountRefusal: return;  // the reason was said where it arose
     case kJudgeChecks: return judge_checks(time);
     case kAskForChecks: return messages_.say(ChecksMissing{verifying_.verdict().advice}, time);
     case kRecordCheck: return record_check(time);
     case kDropCheck: return drop_check(time);
-    case kAccept: level().accepted = true; return;
+    case kAccept: return accept(time);
     case kClearLevel: return clear_level();
     case kSelectScrew: return select_screw();
     case kFinishScrew: return finish_screw(time);
@@ -81,9 +81,9 @@ void Session::register_level(Timestamp time) {
   handle(outcome.passed() ? Event::kRegistered : Event::kRegistrationRefused, time);
 }
 
-void Session::show_registration() {
+void Session::show_registration(Timestamp time) {
   level().check_points.clear();
-  verifying_ = Verifying(level(), method_.verification, options_.check_points);
+  verifying_ = Verifying(level(), method_.verification, options_, time);
 }
 
 void Session::clear_level() {
@@ -98,10 +98,18 @@ void Session::judge_checks(Timestamp time) {
 }
 
 void Session::record_check(Timestamp time) {
-  if (const auto refusal = verifying_.record(level(), touched_place(time))) {
+  if (const auto refusal = verifying_.record(level(), touched_place(time), time)) {
     messages_.say(TouchNotRecorded{TouchNotRecorded::What::kCheckPoint, *refusal}, time);
   } else if (observer_) {
     observer_->check_point_recorded(time, level());
+  }
+}
+
+void Session::accept(Timestamp time) {
+  verifying_.join(level());
+  level().accepted = true;
+  if (observer_) {
+    observer_->accepted(time, level());
   }
 }
 
@@ -156,16 +164,16 @@ void Session::drop_touch(Timestamp time) {
 
 void Session::record_head(Timestamp time) {
   const TouchedPlace place = touched_place(time);
-  const auto* head = std::get_if<Point<World>>(&place);
+  const auto* head = std::get_if<nav::PressedPlace>(&place);
   if (!head) {
     messages_.say(TouchNotRecorded{TouchNotRecorded::What::kHead, std::get<TouchRefusal>(place)},
                   time);
     return;
   }
-  rod_templating_.add_head(*head);
+  rod_templating_.add_head(head->place);
   bend_rod(time);
   if (observer_) {
-    observer_->head_recorded(time, rod_templating_.current().side, *head);
+    observer_->head_recorded(time, rod_templating_.current().side, head->place);
   }
 }
 

@@ -22,6 +22,8 @@ class SessionObserver {
   virtual void check_point_recorded(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The last of them was taken back; `level` is without it.
   virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// The surgeon accepted the level's registration, which holds what was touched on it by now.
+  virtual void accepted(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
   /// at its depth, or null where it never did.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,

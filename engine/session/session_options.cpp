@@ -1,6 +1,14 @@
 #include "engine/session/session_options.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace orthonav::engine {
+
+double SessionOptions::drift_since_m(Duration spread) const {
+  // The variance of a random walk's end about its own mean.
+  return map_drift_m_per_sqrt_s * std::sqrt(std::max(0.0, seconds(spread)) / 3.0);
+}
 
 std::vector<std::string> SessionOptions::check() const {
   std::vector<std::string> problems;
@@ -21,6 +29,14 @@ std::vector<std::string> SessionOptions::check() const {
   }
   for (const std::string& problem : check_points.check()) {
     problems.push_back(problem);
+  }
+  for (const double sd_m : {common.tip_m, common.cameras_m, common.map_m}) {
+    if (!(sd_m >= 0.0 && sd_m <= 0.01)) {
+      problems.push_back("common errors must lie in [0, 0.01]");
+    }
+  }
+  if (!(map_drift_m_per_sqrt_s >= 0.0 && map_drift_m_per_sqrt_s <= 0.001)) {
+    problems.push_back("map_drift_m_per_sqrt_s must lie in [0, 0.001]");
   }
   if (message_for <= Duration::zero()) {
     problems.push_back("message_for must be positive");

@@ -22,12 +22,22 @@ struct SessionOptions {
   /// mm and more.
   double max_touch_spread_m = 0.003;
   nav::CheckPointRules check_points;
+  /// What is known of errors that all strokes share; without, the errors that are expected are
+  /// those of the registration alone, and called so.
+  nav::CommonErrors common;
+  /// Random walk of World against the patient, SD along an axis after one second, m/√s; what it
+  /// makes of the time that passes is added to the errors in common. 0: not known.
+  double map_drift_m_per_sqrt_s = 0.0;
   /// A message to the surgeon goes by itself after so long.
   Duration message_for = std::chrono::seconds(3);
   /// What was heard stays on the status line for so long.
   Duration heard_for = std::chrono::seconds(2);
   /// A deleted path fades for so long.
   Duration fade = std::chrono::milliseconds(300);
+
+  /// SD along an axis by which the map moved against the mean of places that were spread evenly
+  /// over so long, until now.
+  [[nodiscard]] double drift_since_m(Duration spread) const;
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;

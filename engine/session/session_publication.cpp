@@ -93,7 +93,8 @@ StepState Session::state_of_step() const {
       if (checks_by_touch()) {
         return verifying_.state(level());
       }
-      return RegistrationFigures{level().registration->rmse_m, nav::worst_m(level().predicted)};
+      return RegistrationFigures{level().registration->rmse_m, nav::worst_m(level().predicted),
+                                 false, level().registration_only()};
     case Step::kGuide:
       return guiding_.state(level());
     case Step::kRod:

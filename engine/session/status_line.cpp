@@ -9,8 +9,10 @@ ChecksAsked asked_by(const nav::CheckAdvice& advice) {
       return ChecksAsked::kPassed;
     case nav::CheckAdvice::Kind::kTouchApart:
     case nav::CheckAdvice::Kind::kTouchOffLine:
+    case nav::CheckAdvice::Kind::kTouchMore:
       return ChecksAsked::kTouchMore;
     case nav::CheckAdvice::Kind::kReject:
+    case nav::CheckAdvice::Kind::kUncertain:
       return ChecksAsked::kReject;
   }
   return ChecksAsked::kNone;

@@ -26,6 +26,7 @@ struct RegistrationFigures {
   double rmse_m = 0.0;
   double expected_m = 0.0;  ///< error at the worst of the screws, or at the selected one
   bool of_one_screw = false;
+  bool registration_only = false;  ///< what all strokes share is not known, so not in it
 };
 /// While a registration is verified by touch.
 struct ChecksSoFar {
@@ -34,6 +35,7 @@ struct ChecksSoFar {
   /// Of the last check point, when it lies near enough; the verdict tells of one that does not.
   std::optional<double> last_m;
   const nav::CheckVerdict* verdict = nullptr;
+  bool registration_only = false;  ///< as above
 };
 struct HeadsSoFar {
   std::size_t count = 0;

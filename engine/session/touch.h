@@ -6,14 +6,16 @@
 
 #include "base/transform.h"
 #include "engine/session/message.h"
+#include "nav/registration/pressed_places.h"
 
 namespace orthonav::engine {
 
-/// The place, or why it does not count.
-using TouchedPlace = std::variant<Point<World>, TouchRefusal>;
+/// Or why it does not count.
+using TouchedPlace = std::variant<nav::PressedPlace, TouchRefusal>;
 
 /// One place that the pointer's tip rests on, from a press to the click that follows. Both belong
-/// to one step: whoever owns the touch lets go of it where the step begins.
+/// to one step: whoever owns the touch lets go of it where the step begins. Where the tip rested
+/// already before the press, that counts too.
 class Touch {
  public:
   Touch();
@@ -24,8 +26,10 @@ class Touch {
   /// There is none any more. Keeps its room: pressing allocates nothing in the frame loop.
   void drop();
   [[nodiscard]] bool down() const { return down_; }
-  /// A measured tip while the button is down.
-  void add(Point<World> tip) { tips_.push_back(tip); }
+  /// A measured tip, once for each pair.
+  void add(Point<World> tip);
+  /// The tip was not measured: where it was before says nothing of where it rests.
+  void lose() { before_.clear(); }
 
   /// Where the tip rested; ends the touch, whatever the answer. `last_tip` answers a click shorter
   /// than a frame: the tip of the pair just before it, if that is fresh. Refused when the press
@@ -36,9 +40,11 @@ class Touch {
 
  private:
   [[nodiscard]] TouchedPlace mean_tip(double max_spread_m) const;
+  void take_rest_before();
 
-  std::vector<Point<World>> tips_;
-  bool begun_ = false;  ///< by a press that no click has used yet
+  std::vector<Point<World>> tips_;    ///< while the button is down
+  std::vector<Point<World>> before_;  ///< of the last half second before, the oldest first
+  bool begun_ = false;                ///< by a press that no click has used yet
   bool down_ = false;
 };
 

@@ -1,8 +1,10 @@
 #include "engine/session/verifying.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "nav/guidance/predicted_error.h"
 #include "nav/registration/unstroked_surface.h"
 
 namespace orthonav::engine {
@@ -38,22 +40,75 @@ std::vector<float> smoothed(std::span<const float> each_m) {
 
 }  // namespace
 
-Verifying::Verifying(const LevelState& level, Verification verification,
-                     const nav::CheckPointRules& rules)
-    : rules_(rules),
+Verifying::Verifying(LevelState& level, Verification verification, const SessionOptions& options,
+                     Timestamp registered)
+    : options_(options),
+      by_touch_(verification == Verification::kByTouch),
+      strokes_(level.registration),
+      registered_(registered),
+      first_pressed_(registered),
+      last_pressed_(registered),
       residuals_m_(smoothed(distances_m(level))),
       unstroked_(nav::unstroked_surface(*level.plan.model, level.registration->world_from_vertebra,
                                         level.newest->points)) {
-  if (verification == Verification::kByTouch) {
+  if (by_touch_) {
+    limits_.targets = nav::entries_and_targets(level.plan.screws);
     places_ = nav::places_to_check(*level.plan.model, level.registration->world_from_vertebra,
-                                   level.newest->points, rules);
+                                   level.newest->points, options_.check_points);
   }
   judge(level);
 }
 
-void Verifying::judge(const LevelState& level) {
+void Verifying::judge(LevelState& level) {
+  joined_.reset();
+  if (by_touch_) {
+    joined_ = nav::join_places(*level.plan.model, *strokes_, pressed_, limits_, press_model());
+  }
+  if (strokes_->provisional) {
+    // It stands on what was touched, so it is shown with it.
+    put(joined_ ? joined_->registration : *strokes_, level);
+  }
+  for (nav::CheckPoint& point : level.check_points) {
+    point = nav::check_point(*level.plan.model, level.registration->world_from_vertebra,
+                             point.place, options_.check_points);
+  }
+  if (joined_) {
+    nav::weigh(*joined_, level.check_points);
+    verdict_ = nav::verdict_on(level.check_points, options_.check_points, *joined_);
+  } else {
+    verdict_ = nav::verdict_on(level.check_points, options_.check_points);
+  }
+  propose(level);
+}
+
+nav::PressModel Verifying::press_model() const {
+  nav::PressModel press;
+  const double since_m =
+      options_.map_drift_m_per_sqrt_s * std::sqrt(seconds(first_pressed_ - registered_));
+  press.moved_sd_m = std::max(press.moved_sd_m, std::hypot(strokes_->common.map_m, since_m));
+  press.moved_since_sd_m = options_.drift_since_m(last_pressed_ - first_pressed_);
+  return press;
+}
+
+void Verifying::propose(const LevelState& level) {
   to_check_ = nav::still_to_check(places_, level.check_points);
-  verdict_ = nav::verdict_on(level.check_points, rules_);
+  if (to_check_.empty() && joined_ && !verdict_.passed) {
+    const auto place = nav::place_to_press(*level.plan.model, joined_->registration,
+                                           level.newest->points, pressed_, limits_);
+    to_check_.assign(place ? 1 : 0, place.value_or(Point<World>{}));
+  }
+}
+
+void Verifying::put(const nav::Registration& registration, LevelState& level) {
+  level.registration = registration;
+  level.predicted = nav::predicted_errors(registration, level.plan.screws);
+}
+
+void Verifying::join(LevelState& level) const {
+  if (joined_) {
+    put(joined_->registration, level);
+    level.newest->registration = joined_->registration;
+  }
 }
 
 void Verifying::show(Timestamp display_time) {
@@ -66,16 +121,21 @@ bool Verifying::shown_before(Timestamp spoken) const {
   return visible_at_ && *visible_at_ <= spoken;
 }
 
-std::optional<TouchRefusal> Verifying::record(LevelState& level, const TouchedPlace& place) {
-  const auto* touched = std::get_if<Point<World>>(&place);
+std::optional<TouchRefusal> Verifying::record(LevelState& level, const TouchedPlace& place,
+                                              Timestamp time) {
+  const auto* touched = std::get_if<nav::PressedPlace>(&place);
   if (!touched) {
     return std::get<TouchRefusal>(place);
   }
   if (level.check_points.size() >= nav::kMostCheckPoints) {
     return TouchRefusal{TouchRefusal::Kind::kTooMany};
   }
-  level.check_points.push_back(nav::check_point(
-      *level.plan.model, level.registration->world_from_vertebra, *touched, rules_));
+  if (pressed_.empty()) {
+    first_pressed_ = time;
+  }
+  last_pressed_ = time;
+  pressed_.push_back(*touched);
+  level.check_points.emplace_back().place = touched->place;
   judge(level);
   return std::nullopt;
 }
@@ -84,6 +144,7 @@ bool Verifying::drop(LevelState& level) {
   if (level.check_points.empty()) {
     return false;
   }
+  pressed_.pop_back();
   level.check_points.pop_back();
   judge(level);
   return true;
@@ -97,6 +158,7 @@ ChecksSoFar Verifying::state(const LevelState& level) const {
     checks.last_m = level.check_points.back().distance_m;
   }
   checks.verdict = &verdict_;
+  checks.registration_only = level.registration_only();
   return checks;
 }
 

@@ -6,7 +6,9 @@
 
 #include "engine/session/guidance.h"
 #include "engine/session/method.h"
+#include "engine/session/session_options.h"
 #include "engine/session/touch.h"
+#include "nav/registration/pressed_places.h"
 
 namespace orthonav::engine {
 
@@ -16,7 +18,8 @@ class Verifying {
  public:
   Verifying() = default;  ///< nothing was registered
   /// Of the level's registration and the points that it was made of; both are there.
-  Verifying(const LevelState& level, Verification verification, const nav::CheckPointRules& rules);
+  Verifying(LevelState& level, Verification verification, const SessionOptions& options,
+            Timestamp registered);
 
   /// The registration is shown then, if it was not before.
   void show(Timestamp display_time);
@@ -25,10 +28,13 @@ class Verifying {
 
   [[nodiscard]] Touch& touch() { return touch_; }
   /// Adds a check point, or says why there is none.
-  [[nodiscard]] std::optional<TouchRefusal> record(LevelState& level, const TouchedPlace& place);
+  [[nodiscard]] std::optional<TouchRefusal> record(LevelState& level, const TouchedPlace& place,
+                                                   Timestamp time);
   /// Takes the last one back; false when there is none.
   [[nodiscard]] bool drop(LevelState& level);
   [[nodiscard]] const nav::CheckVerdict& verdict() const { return verdict_; }
+  /// The level's registration takes in what was touched.
+  void join(LevelState& level) const;
 
   /// How far the points of the registration lie from its surface, in their order.
   [[nodiscard]] std::span<const float> residuals_m() const { return residuals_m_; }
@@ -38,13 +44,24 @@ class Verifying {
   [[nodiscard]] ChecksSoFar state(const LevelState& level) const;
 
  private:
-  void judge(const LevelState& level);
+  void judge(LevelState& level);
+  [[nodiscard]] nav::PressModel press_model() const;
+  void propose(const LevelState& level);
+  static void put(const nav::Registration& registration, LevelState& level);
 
-  nav::CheckPointRules rules_;
+  SessionOptions options_;
+  bool by_touch_ = false;
+  nav::PoseSearchRegistrationOptions limits_;  ///< with the level's screws
+  std::optional<nav::Registration> strokes_;   ///< what the strokes alone say
+  std::vector<nav::PressedPlace> pressed_;     ///< of the level's check points
+  Timestamp registered_{};
+  Timestamp first_pressed_{};
+  Timestamp last_pressed_{};
+  std::optional<nav::JoinedPlaces> joined_;  ///< of both; nothing where they can't be joined
   std::vector<float> residuals_m_;
   std::vector<float> unstroked_;
-  std::vector<Point<World>> places_;    ///< proposed to be touched
-  std::vector<Point<World>> to_check_;  ///< of them those that were not touched yet
+  std::vector<Point<World>> places_;    ///< proposed to be touched first
+  std::vector<Point<World>> to_check_;  ///< of them those that were not touched yet, or one more
   nav::CheckVerdict verdict_;           ///< on the check points so far
   std::optional<Timestamp> visible_at_;
   Touch touch_;

@@ -164,11 +164,13 @@ struct StateWriter {
     text.begin(Importance::kFigures, ", ");
     append_mm(out, figures.expected_m, 1);
     out += figures.of_one_screw ? " expected" : " expected at the screws";
+    out += figures.registration_only ? kRegistrationOnly : "";
   }
   void operator()(const ChecksSoFar& checks) {
     text.begin(Importance::kFigures);
     append_mm(out, checks.expected_m, 1);
     out += " expected";
+    out += checks.registration_only ? kRegistrationOnly : "";
     write_checks(text, checks, "; ");
   }
   void operator()(const HeadsSoFar& heads) {

@@ -8,9 +8,17 @@ namespace orthonav::engine {
 
 void GroundTruthRecorder::registered(Timestamp /*time*/, const LevelState& level,
                                      const RegistrationOutcome& outcome) {
-  if (!outcome.passed()) {
-    return;
+  if (outcome.passed()) {
+    note(level, outcome.result->world_from_vertebra);
   }
+}
+
+void GroundTruthRecorder::accepted(Timestamp /*time*/, const LevelState& level) {
+  note(level, level.registration->world_from_vertebra);
+}
+
+void GroundTruthRecorder::note(const LevelState& level,
+                               const Transform<World, Vertebra>& estimated) {
   const auto& levels = headset_.room().levels;
   const auto here = std::find_if(levels.begin(), levels.end(), [&](const sim::RoomLevel& l) {
     return l.label == level.plan.label;
@@ -21,8 +29,7 @@ void GroundTruthRecorder::registered(Timestamp /*time*/, const LevelState& level
   const auto world_from_vertebra =
       headset_.world_from_room() * headset_.state().room_from_spine * here->spine_from_vertebra;
   std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
-  registrations_.push_back(
-      {level.plan.label, outcome.result->world_from_vertebra, world_from_vertebra});
+  registrations_.push_back({level.plan.label, estimated, world_from_vertebra});
 }
 
 void GroundTruthRecorder::head_recorded(Timestamp /*time*/, nav::Side side, Point<World> head) {
@@ -53,9 +60,13 @@ void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& 
       continue;
     }
     double sum = 0.0;
+    level.errors_m.clear();
+    const auto vertebra_from_world = truth.truth.inverse();
     for (const nav::ScrewPlan& screw : state.plan.screws) {
       for (const Point<Vertebra> target : {screw.entry, screw.target}) {
-        sum += nav::target_registration_error_m(truth.estimated, truth.truth, target);
+        const Point<Vertebra> registered = vertebra_from_world * (truth.estimated * target);
+        level.errors_m.push_back(registered - target);
+        sum += level.errors_m.back().norm();
       }
     }
     level.tre_m = sum / (2.0 * static_cast<double>(state.plan.screws.size()));

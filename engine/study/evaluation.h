@@ -19,6 +19,7 @@ class GroundTruthRecorder : public SessionObserver {
 
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;
+  void accepted(Timestamp time, const LevelState& level) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;
 
@@ -36,6 +37,7 @@ class GroundTruthRecorder : public SessionObserver {
     nav::Side side;
     Point<sim::Room> position;
   };
+  void note(const LevelState& level, const Transform<World, Vertebra>& estimated);
   void evaluate_level(const LevelState& state, LevelOutcome& level) const;
   void evaluate_rod(RodOutcome& rod) const;
 

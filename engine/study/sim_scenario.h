@@ -4,6 +4,8 @@
 
 #include "engine/case/case.h"
 #include "engine/case/operation.h"
+#include "engine/session/session_options.h"
+#include "hal/sim/error_model.h"
 #include "hal/sim/room.h"
 #include "nav/tracking/tool.h"
 
@@ -13,5 +15,9 @@ namespace orthonav::engine {
 /// operated, in its order. The tools are made exactly as `tools` says.
 [[nodiscard]] sim::RoomDescription room_of(const Case& source, const Operation& operation,
                                            const std::vector<nav::ToolGeometry>& tools);
+
+/// Tells an operation in this room of the errors that all strokes share: the SDs that the room
+/// draws them by, not what it drew.
+void tell_common_errors(const sim::ErrorModel& room, SessionOptions& session);
 
 }  // namespace orthonav::engine

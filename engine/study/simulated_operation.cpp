@@ -56,7 +56,9 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (!tools) {
     return tools.error();
   }
-  auto assembled = assemble_operation(room, std::move(operation), method, *tools, options);
+  AssemblyOptions assembly = options;
+  tell_common_errors(options.sim.error_model, assembly.session);
+  auto assembled = assemble_operation(room, std::move(operation), method, *tools, assembly);
   if (!assembled) {
     return assembled.error();
   }

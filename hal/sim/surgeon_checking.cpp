@@ -11,9 +11,13 @@ constexpr double kReach_s = 1.5;
 constexpr double kTouchLift_m = 0.02;
 constexpr double kSettle_s = 1.0;
 constexpr double kReadLine_s = 0.5;
-/// A little farther apart than the line asks for, as one does who is told 15 mm and has no ruler.
+/// The first ones a little farther apart than the line asks for, as one does who is told 15 mm and
+/// has no ruler.
 constexpr double kApart_m = 0.017;
-constexpr std::size_t kMostPlaces = 8;
+constexpr double kLaterApart_m = 0.005;
+constexpr std::size_t kFirstPlaces = 8;
+/// As many as count, where the line goes on asking.
+constexpr std::size_t kMostPlaces = 20;
 /// Nobody touches the very ends of what is stroked: there the tip slips off.
 constexpr double kFromEnd = 0.2;
 
@@ -45,7 +49,7 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
     const auto farthest = std::max_element(
         spots.begin(), spots.end(),
         [&](const BoneSpot& a, const BoneSpot& b) { return nearest_m(a) < nearest_m(b); });
-    if (nearest_m(*farthest) < kApart_m) {
+    if (nearest_m(*farthest) < (places.size() < kFirstPlaces ? kApart_m : kLaterApart_m)) {
       break;
     }
     places.push_back(*farthest);

@@ -27,4 +27,12 @@ double worst_m(std::span<const PredictedScrewError> errors) {
   return worst;
 }
 
+std::vector<Point<Vertebra>> entries_and_targets(std::span<const ScrewPlan> screws) {
+  std::vector<Point<Vertebra>> places;
+  for (const ScrewPlan& screw : screws) {
+    places.insert(places.end(), {screw.entry, screw.target});
+  }
+  return places;
+}
+
 }  // namespace orthonav::nav

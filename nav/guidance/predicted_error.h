@@ -8,7 +8,7 @@
 
 namespace orthonav::nav {
 
-/// Root mean square errors to expect at a screw from the registration alone, metres; infinite when
+/// Root mean square errors to expect at a screw from the registration, metres; infinite when
 /// the points leave a motion of the bone open.
 struct PredictedScrewError {
   Side side = Side::kLeft;
@@ -23,5 +23,8 @@ struct PredictedScrewError {
 
 /// The worst of them; 0 without any.
 [[nodiscard]] double worst_m(std::span<const PredictedScrewError> errors);
+
+/// Where screws need a pose to be sure: of each its entry and its target.
+[[nodiscard]] std::vector<Point<Vertebra>> entries_and_targets(std::span<const ScrewPlan> screws);
 
 }  // namespace orthonav::nav

@@ -95,6 +95,7 @@ CheckPoint check_point(const VertebraModel& model,
                        const CheckPointRules& rules) {
   CheckPoint point;
   point.place = touched;
+  point.limit_m = rules.within_m;
   point.distance_m = std::numeric_limits<double>::infinity();
   const Vec3 in_vertebra = (world_from_vertebra.inverse() * touched).v;
   if (!in_vertebra.is_finite()) {
@@ -171,13 +172,40 @@ CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRule
       continue;
     }
     verdict.advice = {CheckAdvice::Kind::kReject, i + 1, std::abs(points[i].distance_m),
-                      rules.within_m};
+                      points[i].limit_m};
     return verdict;
   }
   const Spread spread = spread_of(points, rules);
   verdict.passed = spread.off_line;
   if (!verdict.passed) {
     verdict.advice = advice_on(spread, rules);
+  }
+  return verdict;
+}
+
+void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
+  // What may be off by chance; less than that is never held against a touch.
+  constexpr double kMostSds = 4.0;
+  constexpr double kTouch_m = 0.001;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double limit_m = std::max(kTouch_m, kMostSds * joined.off_sd_m[i]);
+    if (points[i].within && !(std::abs(joined.off_m[i]) <= limit_m)) {
+      points[i].within = false;
+      points[i].distance_m = joined.off_m[i];
+      points[i].limit_m = limit_m;
+    }
+  }
+}
+
+CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRules& rules,
+                        const JoinedPlaces& joined) {
+  CheckVerdict verdict = verdict_on(points, rules);
+  const Registration& r = joined.registration;
+  if (verdict.passed && !r.accepted) {
+    verdict.passed = false;
+    const bool more = points.size() < kMostCheckPoints;
+    verdict.advice = {more ? CheckAdvice::Kind::kTouchMore : CheckAdvice::Kind::kUncertain, 1,
+                      r.tre_99_m, PoseSearchRegistrationOptions{}.max_tre_99_m};
   }
   return verdict;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/transform.h"
+#include "nav/registration/pressed_places.h"
 #include "nav/registration/registration.h"
 
 namespace orthonav::nav {
@@ -31,6 +32,7 @@ struct CheckPoint {
   Point<World> place;
   double distance_m = 0.0;  ///< of the registered surface; positive outside of the bone
   bool within = false;      ///< near enough
+  double limit_m = CheckPointRules{}.within_m;  ///< of the distance, for `within`
 };
 
 /// `touched` against the part of the model that a pointer reaches: a lamina's far face must not
@@ -56,6 +58,8 @@ struct CheckAdvice {
     kTouchApart,    ///< so many places, `value_m` apart from each other
     kTouchOffLine,  ///< one more place, `value_m` off the line of the others
     kReject,        ///< check point `number` lies `value_m` off the surface, above `limit_m`
+    kTouchMore,     ///< one more place: 1 of 100 errors at the screws would exceed `value_m`
+    kUncertain,     ///< as much would after the most places that count: reject
   };
   Kind kind = Kind::kNone;
   std::size_t number = 0;  ///< places to touch, or the check point, counted from 1
@@ -68,6 +72,12 @@ struct CheckVerdict {
   double worst_m = 0.0;  ///< the largest distance in size
   CheckAdvice advice;
 };
+
+/// The places that check points are, against a registration that took them in.
+void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points);
+/// The verdict, where the registration that took them in must be certain at the screws as well.
+[[nodiscard]] CheckVerdict verdict_on(std::span<const CheckPoint> points,
+                                      const CheckPointRules& rules, const JoinedPlaces& joined);
 
 /// One check point too far off, wherever it lies, and none of the others helps.
 [[nodiscard]] CheckVerdict verdict_on(std::span<const CheckPoint> points,

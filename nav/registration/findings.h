@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "base/side.h"
 
@@ -41,6 +42,9 @@ struct UncertainMotion {
   friend bool operator==(const UncertainMotion&, const UncertainMotion&) = default;
 };
 
+/// In place of a label, where several levels explain the points alike.
+inline constexpr std::string_view kSeveralLevels = "several levels";
+
 /// One reason why nothing may be guided on a registration: what was found, and the limit.
 struct RefusalReason {
   enum class Kind : std::uint8_t {
@@ -53,8 +57,11 @@ struct RefusalReason {
     kShaftCollision,      ///< fraction of the points
     kLogLikelihoodRatio,  ///< against the runner-up
     kTreAtScrews,         ///< m, expected at the worst of the screws
-    kTre95AtScrews,       ///< m, below which 95 of 100 errors lie at the worst of the screws
+    kTre99AtScrews,       ///< m, below which 99 of 100 errors lie at the worst of the screws
     kFitsOtherLevel,      ///< no number: the label tells which
+    kSoftTissue,          ///< m, SD of the tip's height over the bone; `scrape` tells where
+    kModelSize,           ///< size of the bone, that of the model being 1
+    kMirrored,            ///< against the model's mirror image: its log-likelihood ratio
   };
 
   Kind kind = Kind::kRmse;
@@ -62,6 +69,7 @@ struct RefusalReason {
   double limit = 0.0;
   std::optional<UncertainMotion> motion;  ///< behind an error at the screws, where it is known
   std::string level;                      ///< of kFitsOtherLevel
+  std::optional<BonePlace> scrape;        ///< of kSoftTissue, where it is known
 };
 
 }  // namespace orthonav::nav

@@ -99,8 +99,8 @@ struct PoseSearchRegistrationOptions {
   std::vector<Point<Vertebra>> targets;
   /// Root mean square error to expect at the worst of them; above: refused.
   double max_predicted_tre_m = 0.0015;
-  /// What 95 of 100 errors are below, at the worst of them; above: refused.
-  double max_tre_95_m = 0.002;
+  /// What 99 of 100 errors are below, at the worst of them; above: refused.
+  double max_tre_99_m = 0.002;
   /// By how much another pose must explain the points worse (log-likelihood ratio).
   double min_log_likelihood_ratio = 12.0;
   double max_noise_m = 0.0016;          ///< SD of the points about the surface
@@ -115,25 +115,36 @@ struct PoseSearchRegistrationOptions {
   std::vector<Vec3> shafts;
   double max_shaft_collision_fraction = 0.15;  ///< of the points whose shaft would go through bone
   std::vector<NeighbourLevel> neighbours;
+  CommonErrors common;
+  /// By how much (natural logarithm) the model's mirror image may explain the points better; and
+  /// how far off the model's size may be.
+  double max_mirror_log_likelihood = 2.0;
+  double max_size_off = 0.015;
 };
 
 /// What registration says. `accepted` false: `reasons` tells why, nothing may be guided on it.
 struct Registration {
   bool accepted = false;
   std::vector<RefusalReason> reasons;
+  /// Refused, but for the error at the screws only: places pressed to the bone can take it away
+  /// (nav/registration/pressed_places.h).
+  bool provisional = false;
   Transform<World, Vertebra> world_from_vertebra;
   double rmse_m = 0.0;
   double runner_up_rmse_m = 0.0;
   Transform<World, Vertebra> runner_up;
   int iterations = 0;
   std::size_t points = 0;
-  /// What the points leave open; absent when a whole motion is.
+  /// What the points leave open, with the errors in common; absent when a whole motion is.
   std::optional<PoseUncertainty> uncertainty;
-  /// Root mean square error to expect at the centre of the model; infinite when a motion is open.
+  /// Root mean square error to expect, `paper` at the centre of the model, `best` at the worst
+  /// target; of the registration alone. Infinite when a motion is open.
   double predicted_tre_m = 0.0;
 
   // What `best` says besides; zero and empty with `paper`.
-  double tre_95_m = 0.0;          ///< at the worst target
+  double tre_95_m = 0.0;  ///< what 95 of 100 errors are below, at the worst target
+  double tre_99_m = 0.0;
+  CommonErrors common;            ///< that are in `uncertainty`, and nowhere else
   double noise_m = 0.0;           ///< SD of the points about the surface, outliers left aside
   double standoff_m = 0.0;        ///< mean height of the tip above the bone; 0 where not certain
   double inlier_fraction = 0.0;   ///< of the points
@@ -145,6 +156,12 @@ struct Registration {
   /// The motion known worst, and the part of the bone whose strokes would tell most.
   std::optional<UncertainMotion> weakest;
   std::optional<BonePlace> stroke_next;
+  /// SD over the bone of the tip's height: soft tissue, or a model that is not quite the bone.
+  double field_sd_m = 0.0;
+  double size = 1.0;  ///< of the bone, as the points say; that of the model is 1
+  double size_sd = 0.0;
+  double mirror_log_likelihood = 0.0;  ///< of the mirror image, against the model as it is
+  std::size_t levels_compared = 0;  ///< other levels of the patient that the points were tried on
   std::string fits_better;  ///< label of a neighbouring level that the points fit as well or better
 };
 

@@ -188,7 +188,11 @@ UnknownsSpread total_covariance(const std::vector<Tried>& tried, const UnknownsM
 
 std::optional<ResidualField> residual_field(const SurfaceFit& fit,
                                             std::span<const FieldHypothesis> among) {
-  const ResidualUnits units = residual_units(fit, kMostUnits);
+  return residual_field(fit, residual_units(fit, kMostUnits), among);
+}
+
+std::optional<ResidualField> residual_field(const SurfaceFit& fit, const ResidualUnits& units,
+                                            std::span<const FieldHypothesis> among) {
   if (units.all.size() < kFewestUnits) {
     return std::nullopt;
   }

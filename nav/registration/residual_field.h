@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "nav/registration/residual_units.h"
 #include "nav/registration/surface_fit.h"
 
 namespace orthonav::nav {
@@ -45,5 +46,8 @@ struct ResidualField {
 /// Nothing when a motion is undetermined or fewer than 12 units are there.
 [[nodiscard]] std::optional<ResidualField> residual_field(
     const SurfaceFit& fit, std::span<const FieldHypothesis> among = {});
+/// The same over units of the fit's points that were made before.
+[[nodiscard]] std::optional<ResidualField> residual_field(
+    const SurfaceFit& fit, const ResidualUnits& units, std::span<const FieldHypothesis> among = {});
 
 }  // namespace orthonav::nav

@@ -59,11 +59,11 @@ double find_strokes(const SurfaceFit& fit, ResidualUnits& out, std::vector<doubl
   return length_m;
 }
 
-void add_unit(const SurfaceFit& fit, std::size_t first, std::size_t end, ResidualUnits& out) {
-  ResidualUnit unit;
-  unit.stroke = out.stroke[first];
-  unit.first = first, unit.end = end;
-  for (const std::uint32_t i : out.points_of(unit)) {
+/// What a unit's points say by this fit.
+void fill(const SurfaceFit& fit, const ResidualUnits& units, ResidualUnit& unit) {
+  unit.weight = unit.height_m = 0.0;
+  unit.derivative = {};
+  for (const std::uint32_t i : units.points_of(unit)) {
     const FittedPoint& p = fit.points[i];
     const double weight = p.inlier_precision();
     const Vec3 by_rotation = p.lever_arm_m.cross(p.gradient);
@@ -81,9 +81,16 @@ void add_unit(const SurfaceFit& fit, std::size_t first, std::size_t end, Residua
   for (double& d : unit.derivative) {
     d /= unit.weight;
   }
-  const std::size_t count = end - first;
-  unit.halves_m = {fit.points[out.order[first + count / 4]].lever_arm_m,
-                   fit.points[out.order[first + (3 * count) / 4]].lever_arm_m};
+  const std::size_t count = unit.end - unit.first;
+  unit.halves_m = {fit.points[units.order[unit.first + count / 4]].lever_arm_m,
+                   fit.points[units.order[unit.first + (3 * count) / 4]].lever_arm_m};
+}
+
+void add_unit(const SurfaceFit& fit, std::size_t first, std::size_t end, ResidualUnits& out) {
+  ResidualUnit unit;
+  unit.stroke = out.stroke[first];
+  unit.first = first, unit.end = end;
+  fill(fit, out, unit);
   out.all.push_back(unit);
 }
 
@@ -124,6 +131,14 @@ void cut_space(const SurfaceFit& fit, std::size_t most, ResidualUnits& out) {
 }
 
 }  // namespace
+
+ResidualUnits refilled(const ResidualUnits& units, const SurfaceFit& fit) {
+  ResidualUnits out = units;
+  for (ResidualUnit& unit : out.all) {
+    fill(fit, out, unit);
+  }
+  return out;
+}
 
 ResidualUnits residual_units(const SurfaceFit& fit, std::size_t most) {
   ResidualUnits out;

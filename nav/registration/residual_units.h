@@ -40,6 +40,9 @@ struct ResidualUnits {
   }
 };
 
+/// The same points in the same units, with their heights by another fit.
+[[nodiscard]] ResidualUnits refilled(const ResidualUnits& units, const SurfaceFit& fit);
+
 /// About `most` units at most. A step of more than 8 mm begins another stroke.
 [[nodiscard]] ResidualUnits residual_units(const SurfaceFit& fit, std::size_t most);
 

@@ -151,4 +151,23 @@ double PoseUncertainty::tre_quantile_m(Point<Vertebra> target, double probabilit
   return std::sqrt(mean * root * root * root);
 }
 
+double CommonErrors::sd_m() const { return std::hypot(tip_m, cameras_m, map_m); }
+
+namespace {
+PoseUncertainty shifted_by(const PoseUncertainty& uncertainty, double variance_m2) {
+  auto covariance = uncertainty.covariance();
+  for (std::size_t k = 0; k < 3; ++k) {
+    covariance[7 * k] += variance_m2;
+  }
+  return {uncertainty.centre_m(), covariance};
+}
+}  // namespace
+
+PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common) {
+  return shifted_by(own, common.sd_m() * common.sd_m());
+}
+PoseUncertainty without_common(const PoseUncertainty& all, const CommonErrors& common) {
+  return shifted_by(all, -common.sd_m() * common.sd_m());
+}
+
 }  // namespace orthonav::nav

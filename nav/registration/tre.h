@@ -16,7 +16,8 @@ class VertebraModel;
 /// normal says about the six motions what a plane can say; the inverse of that information, times
 /// the squared residual, is the covariance of the pose (Simon 1996, "Fast and accurate shape-based
 /// registration", section 4). Points of a stroke share the tracker's error, so all points within 5
-/// mm count as one. Errors common to all points, such as a wrong tip, are not included.
+/// mm count as one. Errors common to all points are added by
+/// `with_common`.
 class PoseUncertainty {
  public:
   /// An Error when the points leave a motion wholly undetermined (a plane, a ball, a cylinder).
@@ -44,5 +45,19 @@ class PoseUncertainty {
   std::array<double, 36>
       covariance_{};  ///< row-major, of (translation m, rotation rad) about the centre
 };
+
+/// SD along each axis of what shifts all points alike, by its source; 0 where nobody knows it. No
+/// residual shows it.
+struct CommonErrors {
+  double tip_m = 0.0;      ///< of the pointer, as its calibration leaves it
+  double cameras_m = 0.0;  ///< of where calibrated cameras see a tool
+  double map_m = 0.0;      ///< of World against the patient since the bone was stroked
+  /// Of all of them together, along each axis.
+  [[nodiscard]] double sd_m() const;
+};
+/// An uncertainty with errors in common added, and without them again.
+[[nodiscard]] PoseUncertainty with_common(const PoseUncertainty& own, const CommonErrors& common);
+[[nodiscard]] PoseUncertainty without_common(const PoseUncertainty& all,
+                                             const CommonErrors& common);
 
 }  // namespace orthonav::nav

@@ -1,6 +1,19 @@
 #include "nav/registration/verdict.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace orthonav::nav {
+namespace {
+
+/// A field of less cannot be told from a segmentation's own error.
+constexpr double kUneven_m = 0.0003;
+/// A size is off where it is so by this many SDs.
+constexpr double kCertainSds = 1.8;
+/// Root mean square error at the screws above which a pose is no start for pressed places.
+constexpr double kMostProvisional_m = 0.004;
+
+}  // namespace
 
 std::vector<RefusalReason> reasons_against(const Registration& r,
                                            const PoseSearchRegistrationOptions& o) {
@@ -22,16 +35,45 @@ std::vector<RefusalReason> reasons_against(const Registration& r,
   at_least(Kind::kCoverage, r.coverage_fraction, o.min_coverage_fraction);
   at_most(Kind::kShaftCollision, r.shaft_collision_fraction, o.max_shaft_collision_fraction);
   at_least(Kind::kLogLikelihoodRatio, r.log_likelihood_ratio, o.min_log_likelihood_ratio);
-  if (!(r.predicted_tre_m <= o.max_predicted_tre_m)) {
-    reasons.push_back(
-        {Kind::kTreAtScrews, r.predicted_tre_m, o.max_predicted_tre_m, r.weakest, {}});
-  } else if (!(r.tre_95_m <= o.max_tre_95_m)) {
-    reasons.push_back({Kind::kTre95AtScrews, r.tre_95_m, o.max_tre_95_m, r.weakest, {}});
+  if (const auto reason = error_at_screws(r, o)) {
+    reasons.push_back(*reason);
+  }
+  if (!reasons.empty() && r.field_sd_m > kUneven_m) {
+    reasons.push_back({Kind::kSoftTissue, r.field_sd_m, kUneven_m, {}, {}, r.stroke_next});
+  }
+  if (!(std::abs(r.size - 1.0) <= std::max(o.max_size_off, kCertainSds * r.size_sd))) {
+    reasons.push_back({Kind::kModelSize, r.size, o.max_size_off, {}, {}, {}});
+  }
+  if (!(r.mirror_log_likelihood <= o.max_mirror_log_likelihood)) {
+    reasons.push_back({Kind::kMirrored, r.mirror_log_likelihood, o.max_mirror_log_likelihood});
   }
   if (!r.fits_better.empty()) {
     reasons.push_back({Kind::kFitsOtherLevel, 0.0, 0.0, {}, r.fits_better});
   }
   return reasons;
+}
+
+std::optional<RefusalReason> error_at_screws(const Registration& r,
+                                             const PoseSearchRegistrationOptions& o) {
+  using Kind = RefusalReason::Kind;
+  if (!(r.predicted_tre_m <= o.max_predicted_tre_m)) {
+    return RefusalReason{
+        Kind::kTreAtScrews, r.predicted_tre_m, o.max_predicted_tre_m, r.weakest, {}, {}};
+  }
+  if (!(r.tre_99_m <= o.max_tre_99_m)) {
+    return RefusalReason{Kind::kTre99AtScrews, r.tre_99_m, o.max_tre_99_m, r.weakest, {}, {}};
+  }
+  return std::nullopt;
+}
+
+bool is_provisional(const Registration& r) {
+  using Kind = RefusalReason::Kind;
+  const auto about_error = [](const RefusalReason& reason) {
+    return reason.kind == Kind::kTreAtScrews || reason.kind == Kind::kTre99AtScrews ||
+           reason.kind == Kind::kSoftTissue;
+  };
+  return !r.reasons.empty() && std::all_of(r.reasons.begin(), r.reasons.end(), about_error) &&
+         r.uncertainty && r.predicted_tre_m <= kMostProvisional_m;
 }
 
 }  // namespace orthonav::nav

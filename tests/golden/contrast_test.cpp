@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -217,6 +219,24 @@ std::string row_in_docs(const std::string& kind) {
   return {};
 }
 
+/// The same words, and numbers that differ by no more than what rounding may do on another machine.
+void expect_nearly(const std::string& in_docs, const std::string& measured) {
+  std::istringstream docs(in_docs), now(measured);
+  std::string a, b;
+  while (now >> b) {
+    docs >> a;
+    char* end = nullptr;
+    const double number = std::strtod(b.c_str(), &end);
+    if (end != b.c_str() && *end == 0) {
+      EXPECT_NEAR(std::strtod(a.c_str(), nullptr), number, 0.11)
+          << "docs/holograms.md is stale: " << in_docs << " is now " << measured;
+    } else {
+      EXPECT_EQ(a, b) << "docs/holograms.md is stale: " << in_docs << " is now " << measured;
+    }
+    a.clear();
+  }
+}
+
 TEST(Contrast, EveryTextIsLegibleOverEverythingInTheRoom) {
   const std::vector<Background> behind = backgrounds();
   Contrasts contrasts;
@@ -229,7 +249,7 @@ TEST(Contrast, EveryTextIsLegibleOverEverythingInTheRoom) {
       row += printed(" %.1f |", least);
     }
     std::printf("%s\n", row.c_str());
-    EXPECT_EQ(row_in_docs(kind.name), row) << "docs/holograms.md is stale";
+    expect_nearly(row_in_docs(kind.name), row);
   }
 }
 

@@ -171,7 +171,7 @@ TEST(StatusLineOnDisplays, ShowsTheLongestMessageOfEveryKindWhole) {
   Coaching coaching;
   coaching.unique = true;
   coaching.expected_m = 0.0123;
-  coaching.against = reason(nav::RefusalReason::Kind::kTre95AtScrews);
+  coaching.against = reason(nav::RefusalReason::Kind::kTre99AtScrews);
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
   const HeardCommand heard{"move rod", false};

@@ -111,6 +111,27 @@ TEST(JournalReader, TellsTheWholeOperationAsTheSessionHasIt) {
                                              kVerify, kAccepted, kGuide, kRod));
 }
 
+TEST(JournalReader, KnowsWhatWasAcceptedAfterTouching) {
+  Journaled j({"L4"}, Verification::kByTouch);
+  std::array<double, 36> covariance{};
+  for (const std::size_t k : {0U, 7U, 14U}) {
+    covariance[k] = 0.25e-6;
+  }
+  j.operation.registration.uncertainty = nav::PoseUncertainty({}, covariance);
+  j.operation.registers_first_level();
+  for (const Vec3 place : {Vec3{-0.015, 0.02, -0.01}, {0.015, 0.02, -0.01}, {0.0, 0.02, 0.012}}) {
+    j.operation.touches(place);
+  }
+  j.operation.says("accept");
+  const LevelState& level = j.operation.session().levels()[0];
+  ASSERT_TRUE(level.accepted);
+  const SessionRecord record = j.finished("");
+  expect_the_same(record, j.operation.session());
+  const RecordedRegistration& read = record.registrations.at(0);
+  EXPECT_NEAR(read.predicted_tre_m.value_or(-1), nav::worst_m(level.predicted), 1e-12);
+  EXPECT_NE(level.registration->uncertainty->covariance(), covariance) << "it holds the touches";
+}
+
 TEST(JournalReader, FollowsRejectionsCheckPointsAndAMovedMap) {
   Journaled j({"L4", "L5"}, Verification::kByTouch);
   j.operation.registers_first_level();
@@ -229,6 +250,8 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"NegativeCount", line_with(R"("rod","side":"left","heads":-1)"),
                 "bad:2: heads is negative"},
         Hostile{"NoSide", line_with(R"("head","side":"up")"), "bad:2: side is \"up\""},
+        Hostile{"NothingToAccept", line_with(R"("accepted","level":"L4")"),
+                "bad:2: level has no registration that could be accepted"},
         Hostile{"NothingToDrop", line_with(R"("check point dropped","level":"L4")"),
                 "bad:2: level has no check point"},
         Hostile{"LongLine", header() + std::string(2'000'000, ' ') + "{}\n" + started(),

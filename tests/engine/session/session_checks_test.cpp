@@ -162,6 +162,74 @@ TEST_F(CheckedSession, ShowsThemWhileVerifyingOnly) {
   EXPECT_EQ(s.says("accept").levels[0].check_points.size(), 3u) << "they stay for the report";
 }
 
+/// Soft tissue left 1.5 mm of doubt in how deep the box lies, which its back tells of.
+nav::Registration provisional() {
+  nav::Registration r;
+  r.provisional = true;
+  r.reasons = {{nav::RefusalReason::Kind::kTre99AtScrews, 0.0039, 0.002}};
+  r.rmse_m = 0.0012;
+  r.points = 300;
+  std::array<double, 36> covariance{};
+  covariance[0] = covariance[14] = 1e-8;
+  covariance[7] = 0.0015 * 0.0015;
+  covariance[21] = covariance[28] = covariance[35] = 1e-8;
+  r.uncertainty = nav::PoseUncertainty({}, covariance);
+  r.tre_99_m = 0.0039;
+  return r;
+}
+
+TEST(ProvisionalRegistration, CountsOnceTheBoneWasTouched) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.registration = provisional();
+  s.registers_first_level();
+  EXPECT_EQ(step_of(s.pair()), "verify L4");
+  EXPECT_EQ(s.says("accept").step, Step::kVerify) << "it has not been touched";
+  // The bone lies 1.2 mm deeper than the strokes told.
+  const Vec3 deeper{0, -0.0012, 0};
+  s.touches(kFirst + deeper);
+  const double shown_m = s.pair().levels[0].registration->world_from_vertebra.translation().y;
+  EXPECT_NEAR(shown_m, -0.0013, 0.0002) << "the picture follows what is touched";
+  EXPECT_EQ(s.says("accept").step, Step::kVerify);
+  s.touches(kSecond + deeper);
+  EXPECT_EQ(checks_asked(s.touches(kThird + deeper).status), ChecksAsked::kPassed);
+  EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
+  const nav::Registration& r = *s.session().levels()[0].registration;
+  EXPECT_TRUE(r.accepted);
+  EXPECT_NEAR(r.world_from_vertebra.translation().y, -0.0014, 0.0001) << "0.2 mm under the tip";
+  EXPECT_LT(r.tre_99_m, 0.002);
+}
+
+TEST(ProvisionalRegistration, AsksForMorePlacesAndTakesOneBackAsIfItHadNotBeen) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.registration = provisional();
+  // The doubt is about a slide along the back, which no place on it tells of.
+  std::array<double, 36> covariance = s.registration.uncertainty->covariance();
+  covariance[0] = 0.0015 * 0.0015;
+  s.registration.uncertainty = nav::PoseUncertainty({}, covariance);
+  s.registers_first_level();
+  for (const Vec3 place : {kFirst, kSecond, kThird}) {
+    s.touches(place);
+  }
+  EXPECT_EQ(advice(s.pair()).kind, nav::CheckAdvice::Kind::kTouchMore);
+  EXPECT_GT(advice(s.pair()).value_m, 0.002);
+  const auto three = s.pair().levels[0].registration->world_from_vertebra;
+  s.touches(kFirst + Vec3{0.004, 0.0, 0.004});
+  s.says("delete");
+  EXPECT_EQ(s.pair().levels[0].registration->world_from_vertebra, three);
+  while (s.pair().levels[0].check_points.size() < nav::kMostCheckPoints) {
+    s.touches(kThird);
+  }
+  EXPECT_EQ(advice(s.pair()).kind, nav::CheckAdvice::Kind::kUncertain);
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kReject);
+}
+
+TEST(ProvisionalRegistration, IsRefusedWhereNobodyTouches) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByEye);
+  s.registration = provisional();
+  EXPECT_EQ(s.registers_first_level().step, Step::kDigitize);
+  EXPECT_NE(said<RegistrationRefused>(s.pair()), nullptr);
+}
+
 TEST(VerifiedByEye, ClicksSayNothingAndTheWordAccepts) {
   ScriptedOperation s({"L4"}, {}, Verification::kByEye);
   s.registers_first_level();

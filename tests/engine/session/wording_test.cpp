@@ -55,15 +55,15 @@ TEST(Wording, GivesEveryReasonItsNumberAndLimit) {
             "another pose fits nearly as well (margin 3.2, at least 12)");
   EXPECT_EQ(text_of_reason(Reason::kTreAtScrews, 0.0024, 0.0015),
             "error expected at the screws 2.4 mm, limit 1.5 mm");
-  EXPECT_EQ(text_of_reason(Reason::kTre95AtScrews, 0.0031, 0.002),
-            "1 of 20 errors at the screws would exceed 3.1 mm, limit 2.0 mm");
+  EXPECT_EQ(text_of_reason(Reason::kTre99AtScrews, 0.0031, 0.002),
+            "1 of 100 errors at the screws would exceed 3.1 mm, limit 2.0 mm");
   EXPECT_EQ(text_of(nav::RefusalReason{Reason::kFitsOtherLevel, 0.0, 0.0, {}, "L3"}),
             "the points fit level L3 as well");
 }
 
 TEST(Wording, NeverSaysThatANumberExceedsItself) {
-  EXPECT_EQ(text_of_reason(Reason::kTre95AtScrews, 0.00204, 0.002),
-            "1 of 20 errors at the screws would exceed 2.04 mm, limit 2.00 mm");
+  EXPECT_EQ(text_of_reason(Reason::kTre99AtScrews, 0.00204, 0.002),
+            "1 of 100 errors at the screws would exceed 2.04 mm, limit 2.00 mm");
   EXPECT_EQ(text_of_reason(Reason::kInliers, 0.696, 0.7),
             "only 69.6 % of the points lie on the model, at least 70.0 %");
   EXPECT_EQ(text_of_reason(Reason::kLogLikelihoodRatio, 11.96, 12.0),
@@ -154,6 +154,11 @@ TEST(Wording, AsksForCheckPoints) {
             "touch 1 more place, 5 mm off the line of the others");
   EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kReject, 4, 0.0031, 0.002}),
             "check point 4 is 3.1 mm off, limit 2.0 mm: reject and stroke again");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kTouchMore, 1, 0.0026, 0.002}),
+            "touch 1 more place: 1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm");
+  EXPECT_EQ(text_of(nav::CheckAdvice{Kind::kUncertain, 1, 0.0026, 0.002}),
+            "1 of 100 errors at the screws would exceed 2.6 mm, limit 2.0 mm: reject and stroke "
+            "again");
 }
 
 TEST(Wording, SaysWhatStrokesAreWorth) {
@@ -182,6 +187,8 @@ TEST(Wording, SaysHowAStepStands) {
   EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false}),
             "RMSE 0.60 mm, 1.2 mm expected at the screws");
   EXPECT_EQ(line_with(RegistrationFigures{kInfinite, 0.0012, true}), "RMSE -- mm, 1.2 mm expected");
+  EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false, true}),
+            "RMSE 0.60 mm, 1.2 mm expected at the screws (registration only)");
   EXPECT_EQ(line_with(HeadsSoFar{2}), "2 heads");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};

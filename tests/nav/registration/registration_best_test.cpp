@@ -12,6 +12,7 @@
 #include "tests/support/digitized_strokes.h"
 #include "tests/support/refusal_kinds.h"
 #include "tests/support/slab_bone.h"
+#include "tests/support/stroke_truths.h"
 
 namespace orthonav::nav {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 using orthonav::test::digitize_strokes;
 using orthonav::test::DigitizedStrokes;
 using orthonav::test::StrokeVariant;
+using orthonav::test::Tissue;
 using test::kinds_of;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -106,6 +108,94 @@ TEST_F(RegisterBest, AcceptsFullStrokesAndSaysHowSureItIs) {
   EXPECT_GT(r->weakest->error_m, 0.0);
   EXPECT_TRUE(r->stroke_next.has_value());
   EXPECT_GE(r->runner_up_rmse_m, r->rmse_m);
+}
+
+/// Tissue of uneven thickness: what is accepted is right; what is refused says why and where to
+/// scrape.
+TEST_F(RegisterBest, IsNeverSilentlyWrongOverSoftTissue) {
+  int refused = 0;
+  int scrape = 0;
+  for (const Tissue tissue : orthonav::test::kTissues) {
+    for (const double mean_m : {0.001, 0.002}) {
+      auto strokes = digitize_strokes(l4().from.mesh, StrokeVariant::kFull, 31).value();
+      apply_truths({tissue, mean_m, 0.0, 1}, l4().from.mesh, 7, strokes);
+      const auto r = registered(strokes.tips());
+      ASSERT_TRUE(r.ok()) << r.error().message;
+      refused += r->accepted ? 0 : 1;
+      if (r->accepted) {
+        EXPECT_LT(error_m(l4(), r->world_from_vertebra, strokes.world_from_vertebra), kSilent_m)
+            << name_of(tissue) << " " << mean_m;
+      }
+      for (const RefusalReason& reason : r->reasons) {
+        scrape += reason.kind == RefusalReason::Kind::kSoftTissue && reason.scrape ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_LE(refused, 7) << "of 10: tissue of 1 mm can be seen through";
+  EXPECT_GT(scrape, 0);
+}
+
+TEST_F(RegisterBest, AStandoffOfHalfAMillimetreIsSolved) {
+  auto strokes = full_;
+  apply_truths({Tissue::kUniform, 0.0005, 0.0, 1}, l4().from.mesh, 7, strokes);
+  const auto r = registered(strokes.tips());
+  ASSERT_TRUE(r.ok()) << r.error().message;
+  EXPECT_TRUE(r->accepted);
+  EXPECT_NEAR(r->standoff_m, 0.0005, 0.0001);
+  EXPECT_LT(error_m(l4(), r->world_from_vertebra, strokes.world_from_vertebra), 0.0003);
+}
+
+TEST_F(RegisterBest, RefusesAModelOfAnotherSizeAndSaysSo) {
+  for (const double factor : {0.9, 0.97, 1.03, 1.1}) {
+    const auto model = VertebraModel::prepare(orthonav::test::scaled(l4().from.mesh, factor));
+    ASSERT_TRUE(model.ok());
+    const auto r = register_by_pose_search(**model, full_.tips(), options(l4()));
+    if (!r) {
+      continue;
+    }
+    EXPECT_FALSE(r->accepted) << factor;
+    EXPECT_THAT(kinds_of(*r), Contains(RefusalReason::Kind::kModelSize)) << factor;
+    EXPECT_NEAR(r->size, 1.0 / factor, 0.3 * std::abs(1.0 / factor - 1.0)) << factor;
+  }
+}
+
+TEST_F(RegisterBest, RefusesTheMirrorImageOfTheModelAndOfThePoints) {
+  TriangleMesh crooked = l4().from.mesh;
+  for (Vec3& v : crooked.vertices_m) {
+    v.z += 0.12 * v.x;  // no vertebra is its own mirror image
+    v.x *= v.x > 0.0 ? 1.08 : 1.0;
+  }
+  const auto strokes = digitize_strokes(crooked, StrokeVariant::kFull, 3).value();
+  const auto right = VertebraModel::prepare(crooked).value();
+  const auto own = register_by_pose_search(*right, strokes.tips(), options(l4()));
+  ASSERT_TRUE(own.ok());
+  EXPECT_THAT(kinds_of(*own), Not(Contains(RefusalReason::Kind::kMirrored)));
+  EXPECT_LT(own->mirror_log_likelihood, -10.0);
+  const auto wrong = VertebraModel::prepare(orthonav::test::mirrored(crooked)).value();
+  const auto r = register_by_pose_search(*wrong, strokes.tips(), options(l4()));
+  ASSERT_TRUE(r.ok());
+  EXPECT_FALSE(r->accepted);
+  EXPECT_THAT(kinds_of(*r), Contains(RefusalReason::Kind::kMirrored));
+  Points left_handed = strokes.tips();
+  for (Point<World>& p : left_handed) {
+    p.v.x = -p.v.x;
+  }
+  const auto l = register_by_pose_search(*right, left_handed, options(l4()));
+  EXPECT_TRUE(!l.ok() || !l->accepted);
+}
+
+TEST_F(RegisterBest, WhatShiftsAllPointsAlikeIsPartOfTheErrorToExpect) {
+  auto o = options(l4());
+  const auto without = register_by_pose_search(*l4().model, full_.tips(), o);
+  o.common = {0.0002, 0.0002, 0.0001};
+  const auto with = register_by_pose_search(*l4().model, full_.tips(), o);
+  ASSERT_TRUE(without.ok() && with.ok());
+  const Point<Vertebra> entry = o.targets.front();
+  EXPECT_NEAR(std::pow(with->uncertainty->predicted_tre_m(entry), 2),
+              std::pow(without->uncertainty->predicted_tre_m(entry), 2) + 3.0 * 0.0003 * 0.0003,
+              1e-12);
+  EXPECT_EQ(with->predicted_tre_m, without->predicted_tre_m) << "what the limits are about";
+  EXPECT_TRUE(with->accepted);
 }
 
 TEST_F(RegisterBest, IsNeverSilentlyWrongHoweverItWasStroked) {

@@ -1,0 +1,152 @@
+#include "nav/registration/pressed_places.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "engine/phantom/phantom.h"
+#include "nav/guidance/predicted_error.h"
+#include "nav/registration/check_points.h"
+#include "tests/support/stroke_truths.h"
+
+namespace orthonav::nav {
+namespace {
+
+using orthonav::test::digitize_strokes;
+using orthonav::test::StrokeVariant;
+using orthonav::test::Tissue;
+using ::testing::Each;
+using ::testing::SizeIs;
+
+constexpr double kRightWithin_m = 0.002;
+/// What a press leaves beneath the tip, as the simulated surgeon's: SD before it is cut off at 0.
+constexpr double kPress_m = 0.0003;
+
+/// One level of the phantom under soft tissue, stroked, then pressed in places.
+class PressedBone {
+ public:
+  PressedBone(std::uint64_t seed, double tissue_m)
+      : strokes_(digitize_strokes(level().mesh, StrokeVariant::kFull, seed).value()),
+        random_(seed) {
+    orthonav::test::apply_truths({Tissue::kSmooth, tissue_m, 0.0, 1}, level().mesh, seed, strokes_);
+    options.targets = entries_and_targets(level().screws);
+    points_ = strokes_.tips();
+    registration = register_by_pose_search(model(), points_, options).value();
+  }
+  static const engine::CaseLevel& level() {
+    static const auto kPhantom = engine::phantom({"L4"});
+    return kPhantom.levels.at(0);
+  }
+  static const VertebraModel& model() {
+    static const auto kModel = VertebraModel::prepare(level().mesh).value();
+    return *kModel;
+  }
+  /// On the bone where it truly is, beneath a point of a stroke.
+  PressedPlace pressed_below(Point<World> stroked) {
+    const Vec3 p = (strokes_.world_from_vertebra.inverse() * stroked).v;
+    const auto nearest = model().reachable_surface().nearest(p).value();
+    const Vec3 tip = nearest.point_m + std::abs(random_.normal(0.0, kPress_m)) * nearest.normal;
+    return {strokes_.world_from_vertebra * Point<Vertebra>{tip}, 0.0001};
+  }
+  /// Places one after the other, each where it tells most.
+  std::vector<PressedPlace> press(std::size_t count) {
+    std::vector<PressedPlace> places;
+    Registration now = registration;
+    while (places.size() < count) {
+      const auto next = place_to_press(model(), now, points_, places, options);
+      if (!next) {
+        break;
+      }
+      places.push_back(pressed_below(*next));
+      now = join_places(model(), registration, places, options)->registration;
+    }
+    return places;
+  }
+  [[nodiscard]] double error_m(const Registration& r) const {
+    double worst = 0.0;
+    for (const Point<Vertebra>& p : options.targets) {
+      worst =
+          std::max(worst, (r.world_from_vertebra * p - strokes_.world_from_vertebra * p).norm());
+    }
+    return worst;
+  }
+
+  PoseSearchRegistrationOptions options;
+  Registration registration;
+
+ private:
+  orthonav::test::DigitizedStrokes strokes_;
+  std::vector<Point<World>> points_;
+  Random random_;
+};
+
+TEST(PressedPlaces, TakeTheErrorOfSoftTissueAway) {
+  constexpr std::uint64_t kSeeds = 12;
+  int provisional = 0, accepted = 0, within_95 = 0;
+  double before_m = 0.0, after_m = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    PressedBone bone(seed, 0.0025);
+    provisional += bone.registration.provisional ? 1 : 0;
+    const auto joined =
+        join_places(bone.model(), bone.registration, bone.press(10), bone.options).value();
+    accepted += joined.registration.accepted ? 1 : 0;
+    EXPECT_FALSE(joined.registration.accepted && bone.error_m(joined.registration) > kRightWithin_m)
+        << "seed " << seed;
+    EXPECT_LE(joined.registration.tre_99_m, bone.registration.tre_99_m);
+    within_95 += bone.error_m(joined.registration) <= joined.registration.tre_95_m ? 1 : 0;
+    before_m += bone.error_m(bone.registration) / kSeeds;
+    after_m += bone.error_m(joined.registration) / kSeeds;
+  }
+  EXPECT_GE(provisional, 4) << "else nothing is shown";
+  EXPECT_GE(accepted, 10);
+  EXPECT_GE(within_95, 10);
+  EXPECT_LT(after_m, 0.6 * before_m);
+}
+
+TEST(PressedPlaces, OneThatSlippedStandsOut) {
+  PressedBone bone(3, 0.0015);
+  auto places = bone.press(8);
+  ASSERT_THAT(places, SizeIs(8));
+  const auto right = join_places(bone.model(), bone.registration, places, bone.options).value();
+  const auto up = right.registration.world_from_vertebra * Direction<Vertebra>{{0, 1, 0}};
+  places[5].place = places[5].place + 0.006 * up.v;
+  const auto wrong = join_places(bone.model(), bone.registration, places, bone.options).value();
+  std::vector<CheckPoint> points(places.size());
+  for (CheckPoint& point : points) {
+    point.within = true;
+  }
+  weigh(right, points);
+  EXPECT_THAT(points, Each(::testing::Field(&CheckPoint::within, true)));
+  weigh(wrong, points);
+  EXPECT_FALSE(points[5].within);
+  EXPECT_GT(points[5].distance_m, points[5].limit_m);
+}
+
+TEST(PressedPlaces, AreOfNoUseWhereTheStrokesLeaveAMotionOpen) {
+  PressedBone bone(1, 0.0);
+  EXPECT_TRUE(bone.registration.accepted);
+  Registration open = bone.registration;
+  open.uncertainty.reset();
+  const auto places = bone.press(3);
+  EXPECT_FALSE(join_places(bone.model(), open, places, bone.options));
+  EXPECT_FALSE(join_places(bone.model(), bone.registration, {}, bone.options));
+  EXPECT_FALSE(place_to_press(bone.model(), open, {}, {}, bone.options));
+  const PressedPlace nowhere{{{std::nan(""), 0, 0}}, 0.0};
+  EXPECT_FALSE(join_places(bone.model(), bone.registration, {&nowhere, 1}, bone.options));
+}
+
+/// What pressed places do not see still stands against it.
+TEST(PressedPlaces, TakeNoOtherReasonAway) {
+  PressedBone bone(2, 0.0);
+  Registration refused = bone.registration;
+  refused.accepted = false;
+  refused.reasons = {{RefusalReason::Kind::kMirrored, 9.0, 2.5}};
+  const auto joined = join_places(bone.model(), refused, bone.press(6), bone.options).value();
+  EXPECT_FALSE(joined.registration.accepted);
+  EXPECT_FALSE(joined.registration.provisional);
+  EXPECT_THAT(joined.registration.reasons, SizeIs(1));
+}
+
+}  // namespace
+}  // namespace orthonav::nav
