@@ -40,6 +40,18 @@ std::uint8_t lit(std::uint8_t colour, double light) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(colour * light, 0.0, 255.0)));
 }
 
+Rgb colour_of(double value, const SurfacePaint& paint) {
+  if (paint.steps.empty()) {
+    return value < paint.limit ? paint.near : paint.far;
+  }
+  if (std::isnan(value)) {
+    return paint.far;
+  }
+  const double count = static_cast<double>(paint.steps.size());
+  const double step = std::clamp(count * value / paint.limit, 0.0, count - 1.0);
+  return paint.steps[static_cast<std::size_t>(step)];
+}
+
 }  // namespace
 
 DepthPicture::DepthPicture(const Viewpoint& view, const PageArea& area, double pixels_per_mm)
@@ -115,7 +127,7 @@ void DepthPicture::put(std::size_t sample, const Corner& at, const SurfacePaint&
     return;
   }
   nearness_m_[sample] = static_cast<float>(at.nearness_m);
-  const Rgb colour = at.value < paint.limit ? paint.near : paint.far;
+  const Rgb colour = colour_of(at.value, paint);
   rgba_[4 * sample] = lit(colour.red, at.light);
   rgba_[4 * sample + 1] = lit(colour.green, at.light);
   rgba_[4 * sample + 2] = lit(colour.blue, at.light);

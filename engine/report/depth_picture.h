@@ -43,6 +43,9 @@ struct SurfacePaint {
   double limit = 0.0;
   Rgb near;
   Rgb far;
+  /// Where given: the colours of values from 0 to the limit, in equal steps, the last one beyond;
+  /// `far` where the value is not a number.
+  std::span<const Rgb> steps{};
 };
 
 /// A shaded picture of surfaces with a depth buffer, four samples per pixel. Plain arithmetic on

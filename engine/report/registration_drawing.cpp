@@ -25,12 +25,6 @@ constexpr Rgb kUntouchable{214, 208, 197};
 constexpr Rgb kStrokedBone{170, 205, 178};
 constexpr Rgb kOpenBone{240, 200, 132};
 
-std::string hex(Rgb c) {
-  char out[8];
-  std::snprintf(out, sizeof out, "#%02x%02x%02x", c.red, c.green, c.blue);
-  return out;
-}
-
 /// The place outside the bone on the screw's axis to which its shaft is drawn.
 Vec3 shaft_end_m(const nav::ScrewPlan& screw) {
   const Vec3 out = screw.entry - screw.target;
@@ -156,7 +150,7 @@ std::string screws_svg(const RegisteredLevel& level, const RegistrationScene& sc
   return out;
 }
 
-/// Places touched to verify the registration, which had no part in it.
+/// Places touched to verify the registration.
 std::string checks_svg(const RegistrationScene& scene, const Viewpoint& view) {
   std::string out;
   for (const PlacedPoint& point : scene.checks) {
@@ -198,13 +192,26 @@ std::array<RegistrationView, 3> registration_views() {
            {"from above", {-left, -back, head}, "left", "right", "front", "back"}}};
 }
 
-Result<RegistrationDrawing> registration_drawing(const RegisteredLevel& level,
-                                                 const RegistrationScene& scene,
-                                                 const RegistrationView& view) {
-  const PageArea area = area_of(level, scene, view.from);
-  DepthPicture bone(view.from, area, kPixelsPerMm);
+std::string hex(Rgb c) {
+  char out[8];
+  std::snprintf(out, sizeof out, "#%02x%02x%02x", c.red, c.green, c.blue);
+  return out;
+}
+
+namespace {
+
+/// The picture itself, for those who must know what it hides.
+DepthPicture shaded_bone(const RegisteredLevel& level, const PageArea& area, const Viewpoint& from,
+                         const SurfacePaint& paint) {
+  DepthPicture bone(from, area, kPixelsPerMm);
   bone.draw(level.model->mesh(), {{}, 0.0, kUntouchable, kUntouchable});
-  bone.draw(level.model->reachable(), {scene.from_strokes_m, kStroked_m, kStrokedBone, kOpenBone});
+  bone.draw(level.model->reachable(), paint);
+  return bone;
+}
+
+/// Still open.
+Result<RegistrationDrawing> framed(const DepthPicture& bone, const PageArea& area,
+                                   const RegistrationView& view) {
   const auto png = png_bytes(bone.image());
   if (!png) {
     return png.error();
@@ -217,10 +224,35 @@ Result<RegistrationDrawing> registration_drawing(const RegisteredLevel& level,
                     " role=img aria-label=\"" + view.name + "\"><image " + box +
                     " preserveAspectRatio=\"none\" href=\"data:image/png;base64," +
                     base64({reinterpret_cast<const std::uint8_t*>(png->data()), png->size()}) +
-                    "\"/>" + points_svg(scene, view.from, bone) +
-                    screws_svg(level, scene, view.from) + checks_svg(scene, view.from) +
-                    margins_svg(view, area) + "</svg>";
+                    "\"/>";
   return RegistrationDrawing{std::move(svg), size};
+}
+
+}  // namespace
+
+Result<RegistrationDrawing> bone_drawing(const RegisteredLevel& level,
+                                         const RegistrationScene& scene,
+                                         const RegistrationView& view, const SurfacePaint& paint) {
+  const PageArea area = area_of(level, scene, view.from);
+  auto drawing = framed(shaded_bone(level, area, view.from, paint), area, view);
+  if (drawing) {
+    drawing->svg += margins_svg(view, area);
+  }
+  return drawing;
+}
+
+Result<RegistrationDrawing> registration_drawing(const RegisteredLevel& level,
+                                                 const RegistrationScene& scene,
+                                                 const RegistrationView& view) {
+  const PageArea area = area_of(level, scene, view.from);
+  const DepthPicture bone = shaded_bone(
+      level, area, view.from, {scene.from_strokes_m, kStroked_m, kStrokedBone, kOpenBone});
+  auto drawing = framed(bone, area, view);
+  if (drawing) {
+    drawing->svg += points_svg(scene, view.from, bone) + screws_svg(level, scene, view.from) +
+                    checks_svg(scene, view.from) + margins_svg(view, area) + "</svg>";
+  }
+  return drawing;
 }
 
 std::string registration_legend(const RegisteredLevel& level, const RegistrationScene& scene) {
@@ -239,7 +271,7 @@ std::string registration_legend(const RegisteredLevel& level, const Registration
            (level.registration.noise_m > 0.0 ? ", without a say" : "") + "</span>";
   }
   if (!scene.checks.empty()) {
-    out += "<span><b class=cross>\u25c7</b>touched to verify it, not used in the fit</span>";
+    out += "<span><b class=cross>\u25c7</b>touched to verify it</span>";
   }
   out += swatch(hex(kStrokedBone), "stroked (within 5 mm)") +
          swatch(hex(kOpenBone), "not stroked") +

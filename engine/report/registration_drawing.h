@@ -26,6 +26,14 @@ struct RegistrationDrawing {
   Vec2 size_mm;
 };
 
+[[nodiscard]] std::string hex(Rgb colour);
+
+/// The shaded bone alone, its touchable surface painted, with what lies at the view's edges; the
+/// element is still open for what is drawn over it.
+Result<RegistrationDrawing> bone_drawing(const RegisteredLevel& level,
+                                         const RegistrationScene& scene,
+                                         const RegistrationView& view, const SurfacePaint& paint);
+
 /// The vertebra at the registered pose, the digitized points coloured by their distance to it, what
 /// was stroked of it, and the screws with their predicted errors, with the shaded bone as an
 /// embedded picture.

@@ -8,6 +8,7 @@
 #include "engine/report/figure_row.h"
 #include "engine/report/html_text.h"
 #include "engine/report/registration_drawing.h"
+#include "engine/report/tissue_drawing.h"
 #include "engine/session/findings_wording.h"
 
 namespace orthonav::engine {
@@ -59,6 +60,22 @@ std::string margin_row(const nav::Registration& r, double least) {
                           limit_text(margin), meaning);
 }
 
+std::string rows_of_hypotheses(const nav::Registration& r,
+                               const nav::PoseSearchRegistrationOptions& limits) {
+  const std::string levels =
+      !r.fits_better.empty()   ? "the points fit " + html_escaped(r.fits_better) + " as well"
+      : r.levels_compared == 0 ? "none is known: the level could not be checked"
+                               : "each explains the points clearly worse";
+  const double mirror = std::max(-999.0, r.mirror_log_likelihood);
+  return figure_row("Size of the bone", plain(r.size, 3),
+                    "as the points say, the model’s is 1; SD " + html_number(r.size_sd, 3)) +
+         figure_row("Margin of the mirror image",
+                    at_most(mirror, 1, limits.max_mirror_log_likelihood, 0),
+                    "how much better it explains the points (log-likelihood ratio)") +
+         figure_row("Other levels compared", plain(static_cast<double>(r.levels_compared), 0),
+                    levels);
+}
+
 std::string rows_of_best(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   const nav::PoseSearchRegistrationOptions limits;
@@ -82,7 +99,7 @@ std::string rows_of_best(const RegisteredLevel& level) {
                     at_most(r.shaft_collision_fraction * 1e2, 0,
                             limits.max_shaft_collision_fraction * 1e2, 0),
                     "where its shaft would have been, were this pose right") +
-         margin_row(r, limits.min_log_likelihood_ratio);
+         margin_row(r, limits.min_log_likelihood_ratio) + rows_of_hypotheses(r, limits);
 }
 
 /// `paper` judges by the residuals and by the error to expect at the model's centre.
@@ -243,10 +260,14 @@ Result<std::string> registration_section(const RegisteredLevel& level) {
   if (!drawn) {
     return drawn;
   }
+  const auto tissue = tissue_figure(level, scene);
+  if (!tissue) {
+    return tissue;
+  }
   return "<section class=registration><h2>" + title_of(level) + ": " +
          (level.registration.accepted ? "<span class=good>accepted by its figures</span>"
                                       : "<span class=bad>refused</span>") +
-         "</h2>" + in_words(level) + *drawn + figures(level) + "</section>";
+         "</h2>" + in_words(level) + *drawn + *tissue + figures(level) + "</section>";
 }
 
 Result<std::string> registration_page(const RegisteredLevel& level, const std::string& source) {

@@ -63,6 +63,36 @@ std::vector<double> distances_from_strokes_m(const nav::TriangleMesh& mesh,
   return out;
 }
 
+/// Standoff or a field of less is no tissue worth a picture.
+bool shows_tissue(const nav::Registration& r) {
+  constexpr double kShown_m = 0.0003;
+  return r.noise_m > 0.0 && (r.standoff_m > kShown_m || r.field_sd_m > kShown_m);
+}
+
+/// The mean over strokes nearby, those next to a vertex first.
+std::vector<double> tissue_over(const nav::TriangleMesh& mesh,
+                                const std::vector<PlacedPoint>& points, double standoff_m) {
+  constexpr double kNear_m = 0.003;
+  constexpr double kFarthest_m = 0.008;
+  std::vector<double> out;
+  out.reserve(mesh.vertices_m.size());
+  for (const Vec3& vertex : mesh.vertices_m) {
+    double weights = 0.0;
+    double sum_m = 0.0;
+    for (const PlacedPoint& p : points) {
+      const double apart_m2 = (p.place_m - vertex).squared_norm();
+      if (!p.off_bone && apart_m2 < kFarthest_m * kFarthest_m) {
+        const double weight = std::exp(-0.5 * apart_m2 / (kNear_m * kNear_m));
+        weights += weight;
+        sum_m += weight * (p.residual_m + standoff_m);
+      }
+    }
+    out.push_back(weights > 0.0 ? std::max(0.0, sum_m / weights)
+                                : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
 /// A whole number that makes errors readable and never larger than the bone's details.
 double magnification(const RegisteredLevel& level) {
   double largest_m = 0.0;
@@ -95,6 +125,13 @@ RegistrationScene registration_scene(const RegisteredLevel& level) {
     scene.off_bone += p.off_bone ? 1 : 0;
   }
   scene.from_strokes_m = distances_from_strokes_m(level.model->reachable(), scene.points);
+  if (shows_tissue(level.registration)) {
+    scene.tissue_m =
+        tissue_over(level.model->reachable(), scene.points, level.registration.standoff_m);
+    if (!level.registration.accepted && level.registration.stroke_next) {
+      scene.scrape_m = level.registration.stroke_next_at.v;
+    }
+  }
   for (const nav::CheckPoint& check : level.check_points) {
     scene.checks.push_back({(level.registration.world_from_vertebra.inverse() * check.place).v,
                             check.distance_m, !check.within});

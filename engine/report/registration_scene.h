@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/report/registration_figures.h"
@@ -23,7 +24,11 @@ struct RegistrationScene {
   std::vector<PlacedPoint> checks;  ///< touched to verify the registration
   /// How far each vertex of the touchable surface is from the nearest stroke on the bone.
   std::vector<double> from_strokes_m;
-  double full_colour_m = 0.0;  ///< the residual that gets the last colour
+  /// Height of the tip above each vertex of the touchable surface, as strokes nearby tell: soft
+  /// tissue. Not a number where none is near. Empty where nothing tells of tissue.
+  std::vector<double> tissue_m;
+  std::optional<Vec3> scrape_m;  ///< the place to press to the bone next
+  double full_colour_m = 0.0;    ///< the residual that gets the last colour
   /// By how much the predicted errors are magnified when drawn.
   double magnified = 1.0;
 };

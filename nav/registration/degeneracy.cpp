@@ -123,6 +123,7 @@ Degeneracy degeneracy_of(const VertebraModel& model, const PoseUncertainty& unce
     if (now < least) {
       least = now;
       out.stroke_next = place_of(model, at);
+      out.stroke_next_at = {at};
     }
   }
   return out;

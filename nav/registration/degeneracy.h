@@ -12,6 +12,7 @@ namespace orthonav::nav {
 struct Degeneracy {
   UncertainMotion motion;
   std::optional<BonePlace> stroke_next;  ///< absent where no place would tell more
+  Point<Vertebra> stroke_next_at;        ///< the middle of that place, where there is one
 };
 
 /// The motion that adds most to the error at the worst of the targets, and the part of the

@@ -32,6 +32,7 @@ void put_errors(const VertebraModel& model, const PoseUncertainty& own, const Co
   const Degeneracy degeneracy = degeneracy_of(model, own, targets);
   r.weakest = degeneracy.motion;
   r.stroke_next = degeneracy.stroke_next;
+  r.stroke_next_at = degeneracy.stroke_next_at;
   r.common = common;
   r.uncertainty = with_common(own, common);
 }

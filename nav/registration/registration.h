@@ -156,6 +156,7 @@ struct Registration {
   /// The motion known worst, and the part of the bone whose strokes would tell most.
   std::optional<UncertainMotion> weakest;
   std::optional<BonePlace> stroke_next;
+  Point<Vertebra> stroke_next_at;  ///< where there is one
   /// SD over the bone of the tip's height: soft tissue, or a model that is not quite the bone.
   double field_sd_m = 0.0;
   double size = 1.0;  ///< of the bone, as the points say; that of the model is 1

@@ -124,6 +124,42 @@ TEST(RegistrationPage, MarksEveryFigureThatFailsInWordsAndNoneAsGood) {
   EXPECT_THAT(page, AllOf(Not(HasSubstr("class=ours")), Not(HasSubstr("class=good"))));
 }
 
+TEST(RegistrationPage, DrawsTheTissueAndWhereToPress) {
+  RegisteredLevel level = exact();
+  EXPECT_THAT(registration_section(level).value(), Not(HasSubstr("soft tissue, from behind")));
+  nav::Registration& r = level.registration;
+  r.accepted = false;
+  r.field_sd_m = 0.0008;
+  r.stroke_next = nav::BonePlace{};
+  r.stroke_next_at = {level.model->reachable().vertices_m.front()};
+  const RegistrationScene scene = registration_scene(level);
+  // The points lie on the bone, all but one.
+  std::size_t known = 0;
+  for (const double tissue_m : scene.tissue_m) {
+    if (!std::isnan(tissue_m)) {
+      ++known;
+      EXPECT_NEAR(tissue_m, 0.0, 2e-4);
+    }
+  }
+  EXPECT_GT(known, scene.tissue_m.size() / 2);
+  const std::string page = registration_section(level).value();
+  EXPECT_THAT(page, AllOf(HasSubstr("soft tissue, from behind"), HasSubstr("press here")));
+  r.accepted = true;
+  EXPECT_THAT(registration_section(level).value(), Not(HasSubstr("press here")));
+}
+
+TEST(RegistrationPage, SaysWhatAllStrokesShareBesideTheLimit) {
+  RegisteredLevel level = exact();
+  level.registration.predicted_tre_m = 0.0004;
+  EXPECT_THAT(registration_section(level).value(), HasSubstr("Of the registration alone"));
+  level.registration.common = {0.0005, 0.0003, 0.0012};
+  level.registration.uncertainty = with_common(shifts_only(), level.registration.common);
+  const std::string page = registration_section(level).value();
+  EXPECT_THAT(row_of(page, "Error at the worst"), HasSubstr("0.40 ✓"));
+  EXPECT_THAT(row_of(page, "With what all strokes share"),
+              AllOf(HasSubstr("2.34"), HasSubstr("tip 0.50, cameras 0.30, drift of the map 1.20")));
+}
+
 TEST(RegistrationPage, TellsAFigureFromTheLimitThatItBreaks) {
   RegisteredLevel level = exact();
   level.registration.noise_m = 0.001604;
