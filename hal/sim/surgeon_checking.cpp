@@ -79,10 +79,13 @@ Script Surgeon::touch_place(const StepOnDisplay& step, const BoneSpot& place) {
 
 Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
   const StepOnDisplay step = step_now();
-  for (const BoneSpot& place : places_to_check(level)) {
+  const std::vector<BoneSpot> places = places_to_check(level);
+  // Where the line asks for more than there are, a place is pressed a second time.
+  for (std::size_t touch = 0; !places.empty() && touch < 2 * kMostPlaces; ++touch) {
     if (!in_step(step) || !asked(ChecksAsked::kTouchMore)) {
       break;
     }
+    const BoneSpot& place = places[touch % places.size()];
     const auto& room_from_vertebra = layout_->room_from_vertebra(level);
     co_await touch_place(step, {(room_from_vertebra * Point<Vertebra>{place.point}).v,
                                 (room_from_vertebra * Direction<Vertebra>{place.normal}).v});

@@ -18,6 +18,9 @@ using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 /// Nearer to the surface than this, the direction to it says nothing.
 constexpr double kOnSurface_m = 1e-5;
 
+/// Soft tissue under a pressed tip is alike over such a distance.
+constexpr double kSameTissue_m = 0.003;
+
 /// How high a point of the model's frame lies above the reachable bone, and the way up.
 struct HeightThere {
   double height_m = 0.0;
@@ -74,6 +77,13 @@ Heights linear_heights(const VertebraModel& model, const Transform<Vertebra, Wor
     out.above_press_m(i) =
         height.height_m - press.height_m - press.tip_radius_m - out.slopes.row(i).dot(at);
     out.noise_m2(i, i) += press.sd_m * press.sd_m + place.sd_m * place.sd_m;
+    for (Eigen::Index k = 0; k < i; ++k) {
+      // Over the same tissue, a second press leaves what the first one left.
+      const double apart_m = (places[static_cast<std::size_t>(k)].place - place.place).norm();
+      const double shared_m2 = press.sd_m * press.sd_m * std::exp(-apart_m / kSameTissue_m);
+      out.noise_m2(i, k) += shared_m2;
+      out.noise_m2(k, i) += shared_m2;
+    }
   }
   return out;
 }

@@ -123,6 +123,18 @@ TEST(PressedPlaces, OneThatSlippedStandsOut) {
   EXPECT_GT(points[5].distance_m, points[5].limit_m);
 }
 
+TEST(PressedPlaces, TheSamePlaceAgainTellsHardlyMore) {
+  PressedBone bone(4, 0.0025);
+  auto places = bone.press(4);
+  ASSERT_THAT(places, SizeIs(4));
+  const auto once = join_places(bone.model(), bone.registration, places, bone.options).value();
+  for (int copy = 0; copy < 4; ++copy) {
+    places.insert(places.end(), places.begin(), places.begin() + 4);
+  }
+  const auto often = join_places(bone.model(), bone.registration, places, bone.options).value();
+  EXPECT_GT(often.registration.predicted_tre_m, 0.9 * once.registration.predicted_tre_m);
+}
+
 TEST(PressedPlaces, AreOfNoUseWhereTheStrokesLeaveAMotionOpen) {
   PressedBone bone(1, 0.0);
   EXPECT_TRUE(bone.registration.accepted);
