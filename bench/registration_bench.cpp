@@ -118,7 +118,7 @@ int measured(Arguments& arguments) {
     std::fprintf(stderr, "bench_registration: %s\n", levels.error().message.c_str());
     return 2;
   }
-  std::vector<RegistrationMethod> methods = registration_methods();
+  std::vector<RegistrationMethod> methods = registration_methods(1e-3 * arguments.common_mm);
   std::erase_if(methods, [&](const auto& m) { return !chosen(arguments.methods, m.name); });
   for (const auto variant : test::kStrokeVariants) {
     if (chosen(arguments.variants, test::name_of(variant))) {

@@ -45,15 +45,16 @@ RegistrationMethod paper() {
           true};
 }
 
-RegistrationMethod best() {
+RegistrationMethod best(double common_m) {
   return {"best",
-          [](const BenchLevel& level) -> Fit {
+          [common_m](const BenchLevel& level) -> Fit {
             nav::PoseSearchRegistrationOptions options;
             for (const nav::ScrewPlan& screw : level.screws) {
               for (const Point<Vertebra> at : {screw.entry, screw.target}) {
                 options.targets.push_back(at);
               }
             }
+            options.common.tip_m = common_m;
             options.neighbours = level.neighbours;
             return [model = level.model, options](std::span<const Point<World>> points) {
               return told_by(nav::register_by_pose_search(*model, points, options));
@@ -64,10 +65,10 @@ RegistrationMethod best() {
 
 }  // namespace
 
-std::vector<RegistrationMethod> registration_methods() {
+std::vector<RegistrationMethod> registration_methods(double common_m) {
   std::vector<RegistrationMethod> methods{
       paper(),
-      best(),
+      best(common_m),
   };
 #ifdef ORTHONAV_BENCH_PCL
   for (auto& peer : pcl_methods()) {

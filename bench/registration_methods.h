@@ -49,7 +49,8 @@ struct RegistrationMethod {
   bool judges = false;
 };
 
-/// Ours, then the peers found when the build was configured.
-[[nodiscard]] std::vector<RegistrationMethod> registration_methods();
+/// Ours, then the peers found when the build was configured. `common_m`: what `best` is told of a
+/// shift that all points share, SD along an axis.
+[[nodiscard]] std::vector<RegistrationMethod> registration_methods(double common_m);
 
 }  // namespace orthonav::bench

@@ -11,11 +11,9 @@ constexpr double kReach_s = 1.5;
 constexpr double kTouchLift_m = 0.02;
 constexpr double kSettle_s = 1.0;
 constexpr double kReadLine_s = 0.5;
-/// The first ones a little farther apart than the line asks for, as one does who is told 15 mm and
-/// has no ruler.
-constexpr double kApart_m = 0.017;
-constexpr double kLaterApart_m = 0.005;
-constexpr std::size_t kFirstPlaces = 8;
+/// The first ones are as far apart as they can be; those that follow where the line asks for more,
+/// at least so far.
+constexpr double kApart_m = 0.005;
 /// As many as count, where the line goes on asking.
 constexpr std::size_t kMostPlaces = 20;
 /// Nobody touches the very ends of what is stroked: there the tip slips off.
@@ -49,7 +47,7 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
     const auto farthest = std::max_element(
         spots.begin(), spots.end(),
         [&](const BoneSpot& a, const BoneSpot& b) { return nearest_m(a) < nearest_m(b); });
-    if (nearest_m(*farthest) < (places.size() < kFirstPlaces ? kApart_m : kLaterApart_m)) {
+    if (nearest_m(*farthest) < kApart_m) {
       break;
     }
     places.push_back(*farthest);
