@@ -191,6 +191,7 @@ class LiveRun {
       return tools.error();
     }
     engine::AssemblyOptions options;
+    options.session.common = arguments_.common.in_metres();
     options.loop.max_frames = arguments_.frames;
     options.loop.max_time = from_seconds(arguments_.for_s);
     options.loop.draw_every = headset_->pixels() ? 1 : 0;

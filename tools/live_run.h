@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/common_error_arguments.h"
 #include "tools/stop_signals.h"
 
 namespace orthonav::tools {
@@ -19,6 +20,7 @@ struct RunArguments {
   std::string voice = "headset";
   std::string record;
   std::string out;
+  CommonErrorArguments common;
   std::int64_t frames = 0;
   double for_s = 0.0;  ///< of the device's clock; 0: no limit
   bool json = false;

@@ -45,7 +45,6 @@ struct RegisterOutputs {
 };
 
 constexpr double kLargestTip_mm = 10.0;
-constexpr double kLargestCommon_mm = 10.0;
 
 void print_screws(const engine::RegisteredLevel& level) {
   const auto place = [](const engine::PlaceError& e) {
@@ -106,13 +105,11 @@ int run_register(const RegisterArguments& arguments, const RegisterOutputs& outp
     return bad_input(inputs.error().message);
   }
   const double tip_radius_m = arguments.tip_radius_mm * 1e-3;
-  const nav::CommonErrors common{arguments.tip_sd_mm * 1e-3, arguments.cameras_sd_mm * 1e-3,
-                                 arguments.map_sd_mm * 1e-3};
   const auto registration = (*registrar)({*inputs->level.model,
                                           inputs->points,
                                           inputs->level.screws,
                                           inputs->level.neighbours,
-                                          common,
+                                          arguments.common.in_metres(),
                                           {},
                                           {},
                                           tip_radius_m});
@@ -177,15 +174,7 @@ void add_inputs(CLI::App& command, RegisterArguments& arguments) {
                   "Radius of a ball at the pointer's end, whose centre the points are")
       ->check(finite_number(0, kLargestTip_mm))
       ->capture_default_str();
-  const auto add_sd = [&command](const char* name, double& sd_mm, const char* text) {
-    command.add_option(name, sd_mm, text)
-        ->check(finite_number(0, kLargestCommon_mm))
-        ->capture_default_str();
-  };
-  add_sd("--tip-sd-mm", arguments.tip_sd_mm,
-         "What all points share: SD along an axis of the pointer's tip, as calibrated");
-  add_sd("--cameras-sd-mm", arguments.cameras_sd_mm, "of the cameras' calibration");
-  add_sd("--map-sd-mm", arguments.map_sd_mm, "of the map's drift since they were stroked");
+  arguments.common.add_to(command);
   command
       .add_option("--cache", arguments.cache,
                   "Folder that keeps prepared models for the next time [nothing is kept]")

@@ -7,6 +7,7 @@
 #include "base/result.h"
 #include "engine/case/operation.h"
 #include "engine/report/registration_figures.h"
+#include "tools/common_error_arguments.h"
 
 namespace orthonav::tools {
 
@@ -20,9 +21,7 @@ struct RegisterArguments {
   std::string level;  ///< of the case; with neither a folder nor a model, of the built-in phantom
   std::string method = "best";
   double tip_radius_mm = 0.0;
-  double tip_sd_mm = 0.0;
-  double cameras_sd_mm = 0.0;
-  double map_sd_mm = 0.0;
+  CommonErrorArguments common;
   std::string cache;  ///< folder of prepared models; empty: nothing is kept
 };
 

@@ -85,6 +85,25 @@ void put_fit(Json& out, const nav::Registration& r) {
   out["swept_share"] = r.shaft_collision_fraction;
 }
 
+/// Errors to expect, and what is in them.
+void put_expected(Json& out, const RegisteredLevel& level) {
+  const nav::Registration& r = level.registration;
+  out["predicted_tre_mm"] = mm_or_null(worst_rms_m(level));
+  if (const auto within = worst_within_95_m(level)) {
+    out["predicted_tre_95_mm"] = mm_or_null(*within);
+  }
+  if (r.noise_m > 0.0) {
+    out["predicted_tre_99_mm"] = mm_or_null(r.tre_99_m);
+    out["tissue_sd_mm"] = r.field_sd_m * 1e3;
+    out["size"] = r.size;
+    out["common_sd_mm"] = {{"tip", r.common.tip_m * 1e3},
+                           {"cameras", r.common.cameras_m * 1e3},
+                           {"map", r.common.map_m * 1e3}};
+    out["registration_only"] = !(r.common.sd_m() > 0.0);
+    out["levels_compared"] = r.levels_compared;
+  }
+}
+
 }  // namespace
 
 nlohmann::ordered_json registration_json(const RegisteredLevel& level, const FigureFrame& frame) {
@@ -113,20 +132,7 @@ nlohmann::ordered_json registration_json(const RegisteredLevel& level, const Fig
   out["model_to_points"] = matrix_json(r.world_from_vertebra, frame);
   put_fit(out, r);
   put_runner_up(out, level, frame);
-  out["predicted_tre_mm"] = mm_or_null(worst_rms_m(level));
-  if (const auto within = worst_within_95_m(level)) {
-    out["predicted_tre_95_mm"] = mm_or_null(*within);
-  }
-  if (r.noise_m > 0.0) {
-    out["predicted_tre_99_mm"] = mm_or_null(r.tre_99_m);
-    out["tissue_sd_mm"] = r.field_sd_m * 1e3;
-    out["size"] = r.size;
-    out["common_sd_mm"] = {{"tip", r.common.tip_m * 1e3},
-                           {"cameras", r.common.cameras_m * 1e3},
-                           {"map", r.common.map_m * 1e3}};
-    out["registration_only"] = !(r.common.sd_m() > 0.0);
-    out["levels_compared"] = r.levels_compared;
-  }
+  put_expected(out, level);
   out["covariance_frame"] = out["model_frame"];
   for (const ScrewErrors& screw : errors_at_screws(level)) {
     out["screws"].push_back(screw_json(screw, frame));

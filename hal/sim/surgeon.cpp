@@ -160,19 +160,37 @@ Script Surgeon::await_change(std::optional<StepOnDisplay> step, std::string phra
 Script Surgeon::verify(std::size_t level) {
   const StepOnDisplay step = step_now();
   body_.posture().contact_normal.reset();
-  OverlayComparison overlay{landmarks(layout_->room().levels[level])};
-  const Timestamp patience = body_.now() + from_seconds(kPatience_s * kRepeats);
   bool fits = true;
-  bool asked_to_touch = false;
   co_await body_.rest(1.0);
-  if (asked(ChecksAsked::kTouchMore)) {
+  bool asked_to_touch = asked(ChecksAsked::kTouchMore);
+  if (asked_to_touch) {
     // What is touched may still move the picture.
     co_await check_by_touch(level, fits);
-    if (!in_step(step)) {
-      co_return;
-    }
   }
-  for (double looked_s = 0.0; fits && looked_s < kComparing_s; looked_s += kGlance_s) {
+  if (fits && in_step(step)) {
+    co_await compare_overlay(level, fits, asked_to_touch);
+  }
+  if (fits && asked_to_touch && in_step(step)) {
+    // Where the line said something else at first.
+    co_await check_by_touch(level, fits);
+  }
+  if (!in_step(step) || finished_) {
+    co_return;
+  }
+  body_.say(fits ? "accept" : "reject");
+  if (!fits && ++failures_[level] >= kMaxFailures) {
+    give_up();
+  }
+  if (!finished_) {
+    co_await await_change(step, fits ? "accept" : "reject");
+  }
+}
+
+Script Surgeon::compare_overlay(std::size_t level, bool& fits, bool& asked_to_touch) {
+  const StepOnDisplay step = step_now();
+  OverlayComparison overlay{landmarks(layout_->room().levels[level])};
+  const Timestamp patience = body_.now() + from_seconds(kPatience_s * kRepeats);
+  for (double looked_s = 0.0; looked_s < kComparing_s; looked_s += kGlance_s) {
     co_await body_.rest(kGlance_s / body_.slowness());
     const ShownHologram* model = eyes_->find(HologramKind::kVertebra);
     while (!(model && sees_now() && model->points_in_world.size() == overlay.apart_m.size())) {
@@ -188,22 +206,7 @@ Script Surgeon::verify(std::size_t level) {
     asked_to_touch = asked_to_touch || asked(ChecksAsked::kTouchMore);
     overlay.glance(layout_->room_from_vertebra(level), *eyes_, *model);
   }
-  if (fits && asked_to_touch) {
-    // The line said something else at first.
-    co_await check_by_touch(level, fits);
-    if (!in_step(step)) {
-      co_return;
-    }
-  }
-  const Vec3 misjudged = normal_vector(body_.random(), error_model_->overlay_comparison_m);
-  fits = fits && overlay.fits(misjudged);
-  body_.say(fits ? "accept" : "reject");
-  if (!fits && ++failures_[level] >= kMaxFailures) {
-    give_up();
-  }
-  if (!finished_) {
-    co_await await_change(step, fits ? "accept" : "reject");
-  }
+  fits = overlay.fits(normal_vector(body_.random(), error_model_->overlay_comparison_m));
 }
 
 }  // namespace orthonav::sim

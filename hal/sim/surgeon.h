@@ -55,6 +55,9 @@ class Surgeon {
   Script perform(StepOnDisplay step);
   Script set_up();
   Script verify(std::size_t level);
+  /// Holds the shown bone against the real one for a while; notes whether the line asked for
+  /// touches meanwhile.
+  Script compare_overlay(std::size_t level, bool& fits, bool& asked_to_touch);
   /// Waits until the status line leaves `step`, or, where none is given, until there is one;
   /// repeats the phrase each minute, then gives up.
   Script await_change(std::optional<StepOnDisplay> step, std::string phrase);
