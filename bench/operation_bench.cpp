@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
 #include "engine/study/simulated_operation.h"
+#include "nav/guidance/clearance_spread.h"
 
 namespace orthonav {
 namespace {
@@ -57,6 +59,26 @@ void operation(benchmark::State& state) {
     state.counters["step_ms_p99"] = quantile(step, 0.99);
   }
 }
+/// What the readout of a screw's clearance costs in every pair: the clearance alone, and with its
+/// bound for a pose known to 0.5 mm and 0.5° (1 SD along and about each axis).
+void clearance(benchmark::State& state) {
+  const engine::Case spine = engine::phantom({"L4"});
+  const nav::SurfaceIndex bone(spine.levels[0].mesh);
+  const nav::ScrewPlan& plan = spine.levels[0].screws[0];
+  const auto screw = nav::cylinder_of(plan);
+  std::array<double, 36> covariance{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    covariance[7 * k] = 0.0005 * 0.0005;
+    covariance[7 * (k + 3)] = 0.0087 * 0.0087;
+  }
+  const nav::PoseUncertainty pose(plan.entry.v, covariance);
+  for (auto _ : state) {
+    auto found = nav::screw_clearance(bone, *screw, state.range(0) == 0 ? nullptr : &pose);
+    benchmark::DoNotOptimize(found);
+  }
+}
+BENCHMARK(clearance)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+
 BENCHMARK(operation)->Arg(2400)->Iterations(1)->UseRealTime()->Unit(benchmark::kSecond);
 
 }  // namespace

@@ -53,6 +53,11 @@ CLI::Validator some_text() {
   return {check, "", "text"};
 }
 
+void add_reference_flag(CLI::App& command, bool& reference) {
+  command.add_flag("--reference", reference,
+                   "everything hangs on the patient reference instead of the headset's map");
+}
+
 std::optional<std::array<int, 2>> size_from(const std::string& text) {
   std::array<int, 2> size{};
   char rest = 0;

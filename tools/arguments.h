@@ -22,6 +22,9 @@ namespace orthonav::tools {
 /// Any text but an empty one: an unset variable in a script must not mean a default.
 [[nodiscard]] CLI::Validator some_text();
 
+/// `--reference`, of every command that runs operations.
+void add_reference_flag(CLI::App& command, bool& reference);
+
 /// `WIDTHxHEIGHT` in whole pixels and nothing else.
 [[nodiscard]] std::optional<std::array<int, 2>> size_from(const std::string& text);
 

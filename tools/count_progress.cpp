@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <optional>
 
 namespace orthonav::tools {
 
@@ -16,6 +18,16 @@ void CountProgress::add_one() {
   } else if (done_ * 4 / total_ != (done_ - 1) * 4 / total_) {
     std::fprintf(stderr, "%s\n", text.c_str());
   }
+}
+
+std::function<void(int, int)> counted(const std::string& what) {
+  return
+      [what, progress = std::make_shared<std::optional<CountProgress>>()](int /*done*/, int all) {
+        if (!*progress) {
+          progress->emplace(what, all);
+        }
+        (*progress)->add_one();
+      };
 }
 
 }  // namespace orthonav::tools

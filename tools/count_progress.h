@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "tools/progress_bar.h"
@@ -20,5 +21,9 @@ class CountProgress {
   std::int64_t done_ = 0;
   ProgressBar bar_;
 };
+
+/// For what tells how many are done, of how many: counts its calls, and begins with the first. Its
+/// bar ends with the last copy of it.
+[[nodiscard]] std::function<void(int done, int all)> counted(const std::string& what);
 
 }  // namespace orthonav::tools

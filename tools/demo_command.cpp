@@ -40,6 +40,7 @@ struct DemoArguments {
   bool realtime = false;
   bool fast = false;
   bool perfect = false;
+  bool reference = false;
   bool no_video = false;
   bool json = false;
   int threads = 2;
@@ -55,6 +56,7 @@ engine::OperationOptions options_of(const DemoArguments& arguments) {
   options.method = arguments.method;
   options.levels = arguments.levels;
   options.tools = engine::built_in_tools();
+  options.use_reference = arguments.reference;
   options.sim.seed = arguments.seed;
   if (arguments.perfect) {
     options.sim.error_model = sim::ErrorModel::perfect();
@@ -263,6 +265,7 @@ void add_demo_command(CLI::App& app, Action& action, StopSignals& signals) {
       ->capture_default_str();
   demo->add_flag("--no-video", arguments->no_video, "write no operation.mp4");
   demo->add_flag("--perfect", arguments->perfect, "every source of error at zero");
+  add_reference_flag(*demo, arguments->reference);
   // For tests: a hasty surgeon finishes in a fraction of the frames.
   demo->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
       ->check(finite_number(0.5, 4))

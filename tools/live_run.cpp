@@ -191,6 +191,7 @@ class LiveRun {
       return tools.error();
     }
     engine::AssemblyOptions options;
+    options.use_reference = arguments_.reference;
     options.session.common = arguments_.common.in_metres();
     options.loop.max_frames = arguments_.frames;
     options.loop.max_time = from_seconds(arguments_.for_s);
@@ -204,7 +205,7 @@ class LiveRun {
     operation_ = std::move(*assembled);
     operation_->observe(&end_note_);
     if (room_) {
-      operation_->observe(&ground_truth_.emplace(*room_));
+      operation_->observe(&ground_truth_.emplace(*room_, operation_->session()));
     }
     if (const Status opened = open_journal(); !opened) {
       return opened;

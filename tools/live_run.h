@@ -23,6 +23,7 @@ struct RunArguments {
   CommonErrorArguments common;
   std::int64_t frames = 0;
   double for_s = 0.0;  ///< of the device's clock; 0: no limit
+  bool reference = false;
   bool json = false;
   bool stats = false;
 };

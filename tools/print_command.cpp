@@ -14,23 +14,13 @@
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/number_list.h"
+#include "tools/print_page.h"
+#include "tools/print_rod.h"
 
 namespace orthonav::tools {
 namespace {
 
 constexpr int kMostTags = 1000;
-
-struct PageArguments {
-  std::string page = "A4";
-  bool landscape = false;
-  std::string out;
-
-  void add_to(CLI::App& command) {
-    command.add_option("--page", page, "Paper: A4, Letter or A3")->capture_default_str();
-    command.add_flag("--landscape", landscape, "The paper on its side");
-    command.add_option("--out", out, "The PDF file")->required()->type_name("FILE");
-  }
-};
 
 struct TagArguments {
   PageArguments page;
@@ -264,12 +254,13 @@ constexpr const char* kPrintFooter =
 
 void add_print_command(CLI::App& app, Action& action) {
   CLI::App* command =
-      app.add_subcommand("print", "Tags, tools and boards as PDF, in exact millimetres");
+      app.add_subcommand("print", "Tags, tools, boards and rods as PDF, in exact millimetres");
   command->require_subcommand(1);
   command->footer(kPrintFooter);
   add_tags(*command, action);
   add_tool(*command, action);
   add_board(*command, action);
+  add_print_rod(*command, action);
 }
 
 }  // namespace orthonav::tools

@@ -1,44 +1,24 @@
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
-#include "engine/case/points_file.h"
 #include "nav/guidance/rod.h"
-#include "tools/arguments.h"
+#include "nav/guidance/rod_bends.h"
 #include "tools/command.h"
 #include "tools/json_output.h"
 #include "tools/print_text.h"
+#include "tools/rod_arguments.h"
 
 namespace orthonav::tools {
 namespace {
 
 struct RodArguments {
-  std::string heads;
-  std::string units = "mm";
-  double diameter_mm = 5.5;
+  RodHeadArguments heads;
+  RodBendingArguments bending;
+  bool instructions = false;
   JsonOutput json;
 };
-
-Result<std::vector<Vec3>> load_heads_m(const RodArguments& arguments) {
-  const auto file = engine::load_points(arguments.heads);
-  if (!file) {
-    return file.error();
-  }
-  const auto other = std::find_if(file->regions.begin(), file->regions.end(),
-                                  [&](const std::string& r) { return r != file->regions[0]; });
-  if (other != file->regions.end()) {
-    return Error{arguments.heads + ": holds heads of regions \"" + file->regions[0] + "\" and \"" +
-                 *other + "\", must be one rod"};
-  }
-  const double unit_m = file->metres_per_unit.value_or(arguments.units == "m" ? 1.0 : 1e-3);
-  std::vector<Vec3> heads_m;
-  for (const Vec3& p : file->points) {
-    heads_m.push_back(unit_m * p);
-  }
-  return heads_m;
-}
 
 nlohmann::ordered_json in_mm(Vec3 v_m) { return {v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3}; }
 
@@ -71,17 +51,73 @@ void print(const nav::RodTemplate& rod) {
   }
 }
 
+nlohmann::ordered_json as_json(const nav::RodInstructions& told) {
+  nlohmann::ordered_json out = {{"cut_length_mm", told.cut_length_m() * 1e3},
+                                {"worst_seat_mm", told.fit.worst_off_m * 1e3},
+                                {"bends", nlohmann::ordered_json::array()}};
+  for (const nav::RodInstruction& bend : told.bends) {
+    out["bends"].push_back({{"arc_length_mm", bend.arc.centre_m * 1e3},
+                            {"roll_deg", bend.arc.roll_rad * kDegreesPerRadian},
+                            {"angle_deg", bend.arc.angle_rad * kDegreesPerRadian},
+                            {"set_deg", bend.set_rad * kDegreesPerRadian}});
+  }
+  return out;
+}
+
+void print(const nav::RodInstructions& told) {
+  print_text("cut to %.1f mm; draw a line along it\n", told.cut_length_m() * 1e3);
+  for (std::size_t k = 0; k < told.bends.size(); ++k) {
+    const nav::RodInstruction& bend = told.bends[k];
+    print_text("bend %zu: middle at %.1f mm, roll %.0f°, angle %.1f°, set %.1f°\n", k + 1,
+               bend.arc.centre_m * 1e3, bend.arc.roll_rad * kDegreesPerRadian,
+               bend.arc.angle_rad * kDegreesPerRadian, bend.set_rad * kDegreesPerRadian);
+  }
+  print_text("farthest head %.2f mm off\n", told.fit.worst_off_m * 1e3);
+}
+
+/// Writes template and instructions; 1 where no instructions lead to the heads.
+int run_instructions(const RodArguments& arguments, const nav::RodTemplate& rod) {
+  const auto bending = arguments.bending.bending(arguments.heads.diameter_mm);
+  if (!bending) {
+    return bad_input(bending.error().message);
+  }
+  const auto seats_m = arguments.bending.seats_m(rod);
+  if (!seats_m) {
+    return bad_input(seats_m.error().message);
+  }
+  const auto told = nav::rod_instructions(*seats_m, *bending);
+  nlohmann::ordered_json out = as_json(rod);
+  if (told) {
+    out["instructions"] = as_json(*told);
+  } else {
+    out["no_instructions"] = told.error().message;
+  }
+  if (const Status s = arguments.json.write(out); !s) {
+    return bad_input(s.error().message);
+  }
+  if (!arguments.json.on_stdout()) {
+    print(rod);
+    if (told) {
+      print(*told);
+    }
+  }
+  if (!told) {
+    std::fprintf(stderr, "orthonav: %s: %s\n", arguments.heads.heads.c_str(),
+                 told.error().message.c_str());
+  }
+  return told ? kDone : kNo;
+}
+
 int run_rod(const RodArguments& arguments) {
   if (const Status s = arguments.json.check(); !s) {
     return bad_input(s.error().message);
   }
-  const auto heads_m = load_heads_m(arguments);
-  if (!heads_m) {
-    return bad_input(heads_m.error().message);
-  }
-  const auto rod = nav::rod_template(*heads_m, arguments.diameter_mm * 1e-3);
+  const auto rod = arguments.heads.rod();
   if (!rod) {
-    return bad_input(arguments.heads + ": " + rod.error().message);
+    return bad_input(rod.error().message);
+  }
+  if (arguments.instructions) {
+    return run_instructions(arguments, *rod);
   }
   if (const Status s = arguments.json.write(as_json(*rod)); !s) {
     return bad_input(s.error().message);
@@ -96,19 +132,12 @@ int run_rod(const RodArguments& arguments) {
 
 void add_rod_command(CLI::App& app, Action& action) {
   auto arguments = std::make_shared<RodArguments>();
-  CLI::App* command =
-      app.add_subcommand("rod", "Rod template through screw heads: spline, length, bends");
-  command
-      ->add_option("--heads", arguments->heads,
-                   "Screw heads of one rod in any order (CSV x,y,z; PLY; 3D Slicer markups)")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--units", arguments->units, "Unit of a file that declares none")
-      ->check(CLI::IsMember({"mm", "m"}))
-      ->capture_default_str();
-  command->add_option("--diameter-mm", arguments->diameter_mm, "Rod diameter")
-      ->check(finite_number(1, 15))
-      ->capture_default_str();
+  CLI::App* command = app.add_subcommand(
+      "rod", "Rod template through screw heads: spline, length, bends; bending instructions");
+  arguments->heads.add_to(*command);
+  command->add_flag("--instructions", arguments->instructions,
+                    "Also how to bend it: cut length, and place, roll and angle of each bend");
+  arguments->bending.add_to(*command);
   arguments->json.add_to(*command);
   command->footer(
       "\nThe rod is a centripetal Catmull-Rom spline through the heads, ordered along their\n"
@@ -116,7 +145,12 @@ void add_rod_command(CLI::App& app, Action& action) {
       "before and after a head, its place the length along the rod from the first head. Refused "
       "is\n"
       "what no rod of a spine is: heads less than 5 mm or, along the rod, more than 150 mm apart,\n"
-      "bends of more than 60 degrees, points that double back, more than 600 mm of length.");
+      "bends of more than 60 degrees, points that double back, more than 600 mm of length.\n"
+      "Instructions place bends between the heads alone, in order from the first end, none bent\n"
+      "back; roll is against a line drawn along the rod, clockwise as seen from the first end; "
+      "set\n"
+      "is the angle on the bender, with spring-back. Exit code 1 with the reason where a radius\n"
+      "would be too tight or no rod of this bender passes the heads. On paper: print rod.");
   command->callback([arguments, &action] { action = [arguments] { return run_rod(*arguments); }; });
 }
 

@@ -53,6 +53,7 @@ void add_run_command(CLI::App& app, Action& action, StopSignals& signals) {
   run->add_option("--tools", arguments->tools_file,
                   "tool definitions (default: the headset's own, else the built-in)")
       ->check(some_text());
+  add_reference_flag(*run, arguments->reference);
   arguments->common.add_to(*run);
   add_ends_and_results(*run, *arguments);
   run->callback([arguments, &action, &signals] {

@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "engine/case/screw_breach.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -114,6 +116,11 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
       return model.error();
     }
     OperatedLevel level{label, *model, source.find(label)->screws, {}};
+    for (const nav::ScrewPlan& screw : level.screws) {
+      if (const auto problem = breach_problem(**model, screw)) {
+        return Error{"case '" + source.name + "': " + label + " " + *problem};
+      }
+    }
     for (const std::string& other : other_levels(source, label)) {
       const auto other_model = prepared.model(other);
       if (!other_model) {

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "base/length_text.h"
 #include "engine/case/line_name.h"
@@ -75,6 +76,28 @@ void read_frame(const JsonNode& root, Plan& plan) {
   plan.axes = axes.value_or(Axes::kLps);
 }
 
+/// The reason stands where a report shows it: one line.
+std::string accepted_breach(const JsonNode& screw) {
+  constexpr std::size_t kMost = 200;
+  constexpr const char* kKey = "accept_breach";
+  if (!screw.has(kKey)) {
+    return {};
+  }
+  const std::string reason = screw.text(kKey);
+  if (reason.find_first_not_of(" \t") == std::string::npos) {
+    screw.refuse(kKey, "must say why");
+  }
+  if (reason.size() > kMost) {
+    screw.refuse(kKey, "is " + std::to_string(reason.size()) + " bytes long, limit " +
+                           std::to_string(kMost));
+  }
+  if (std::any_of(reason.begin(), reason.end(),
+                  [](unsigned char c) { return std::iscntrl(c) != 0; })) {
+    screw.refuse(kKey, "must be one line");
+  }
+  return reason;
+}
+
 Result<Plan> plan_from_json(const std::string& path) {
   const Result<JsonDocument> document = JsonDocument::read(path);
   if (!document) {
@@ -100,7 +123,7 @@ Result<Plan> plan_from_json(const std::string& path) {
     }
     plan.screws.push_back({"screws[" + std::to_string(plan.screws.size()) + "]", side,
                            point(node, "entry"), point(node, "target"),
-                           radius * plan.metres_per_unit});
+                           radius * plan.metres_per_unit, accepted_breach(node)});
   }
   if (Status status = document->status(); !status) {
     return status.error();
@@ -127,6 +150,18 @@ double stated_radius(const Markup& markup) {
     return number_from(text.substr(at, end - at)).value_or(0.0) / 2.0;
   }
   return 0.0;
+}
+
+/// What `accept_breach=` in the description says, up to the end of the line.
+std::string accepted_breach(const Markup& markup) {
+  constexpr std::string_view kKey = "accept_breach=";
+  const std::size_t key = markup.description.find(kKey);
+  if (key == std::string::npos) {
+    return {};
+  }
+  std::string reason = markup.description.substr(key + kKey.size());
+  reason.resize(std::min(reason.find_first_of("\r\n"), reason.size()));
+  return reason;
 }
 
 /// A name may be of any length and hold anything; a message is one line.
@@ -177,8 +212,8 @@ Result<Plan> plan_from_markups(const std::string& path) {
     const auto point = [&](std::size_t i) {
       return Point<Vertebra>{to_lps(markup.points[i].position, plan.axes) * plan.metres_per_unit};
     };
-    plan.screws.push_back(
-        {where, side_of(name), point(0), point(1), stated_radius(markup) * plan.metres_per_unit});
+    plan.screws.push_back({where, side_of(name), point(0), point(1),
+                           stated_radius(markup) * plan.metres_per_unit, accepted_breach(markup)});
   }
   return checked(std::move(plan));
 }
@@ -233,7 +268,7 @@ Result<std::vector<nav::ScrewPlan>> screws_on(const nav::TriangleMesh& bone, con
         return Error{which + "is the second one on the " + name_of(*side) + ", one is the limit"};
       }
     }
-    screws.push_back({*side, stated.entry, stated.target, stated.radius_m});
+    screws.push_back({*side, stated.entry, stated.target, stated.radius_m, stated.accepted_breach});
   }
   return screws;
 }
@@ -251,6 +286,9 @@ Status save_plan(const std::string& path, const std::string& level,
     entry["entry"] = list_mm(screw.entry);
     entry["target"] = list_mm(screw.target);
     entry["radius"] = screw.radius_m * 1e3;
+    if (!screw.accepted_breach.empty()) {
+      entry["accept_breach"] = screw.accepted_breach;
+    }
     root["screws"].push_back(entry);
   }
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;

@@ -18,7 +18,8 @@ struct StatedScrew {
   std::optional<nav::Side> side;  ///< as the file or the line's name says; none: it says nothing
   Point<Vertebra> entry;
   Point<Vertebra> target;
-  double radius_m = 0.0;  ///< 0: none is stated
+  double radius_m = 0.0;             ///< 0: none is stated
+  std::string accepted_breach = {};  ///< why the screw may leave the cortex; empty: it may not
 };
 
 /// What a file plans for one level, in metres and LPS; `axes` and `metres_per_unit` are what the
@@ -32,9 +33,10 @@ struct Plan {
 };
 
 /// Reads a plan: `{"units": "mm"|"m", "frame": "LPS"|"RAS", "level"?, "screws": [{"side": "left"|
-/// "right", "entry", "target", "radius"}]}`, or the lines of a 3D Slicer markups file (`.mrk.json`:
-/// point 0 entry, point 1 target, side and level from the name (`line_name.h`), `diameter=5.5` in
-/// name or description). Refuses plans without unit or frame, without screws, names that say both
+/// "right", "entry", "target", "radius", "accept_breach"?}]}`, or the lines of a 3D Slicer markups
+/// file (`.mrk.json`: point 0 entry, point 1 target, side and level from the name (`line_name.h`),
+/// `diameter=5.5` in name or description, `accept_breach=` and the reason up to the end of its line
+/// in the description). Refuses plans without unit or frame, without screws, names that say both
 /// sides, screws shorter than 10 mm or longer than 120 mm, radii outside 1-6 mm, and the legacy
 /// `.fcsv`, which knows no lines.
 Result<Plan> load_plan(const std::string& path);

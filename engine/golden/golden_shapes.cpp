@@ -9,6 +9,7 @@
 
 #include "base/angle.h"
 #include "engine/golden/golden_vertebra.h"
+#include "engine/holograms/render_values.h"
 #include "render/float3.h"
 #include "render/projection.h"
 #include "render/shapes.h"
@@ -105,9 +106,8 @@ GoldenScene trajectory(const std::string& name, const std::string& what, Float3 
   return golden;
 }
 
-GoldenScene triangle(const std::string& name, const std::string& what, double angle_deg) {
+GoldenScene triangle(const std::string& name, const std::string& what, double angle_deg, Float3 b) {
   GoldenScene golden = start(name, what, close_view({0.022f, 0.072f, 0.010f}));
-  const Float3 b = tool_point(angle_deg);
   const Float3 c = planned_point();
   add_deviation_triangle(golden.scene, kEntry, b, c, grade_of(angle_deg * kRadiansPerDegree),
                          kTriangleLabel);
@@ -150,10 +150,13 @@ void add_shape_scenes(std::vector<GoldenScene>& scenes) {
       trajectory("h4_trajectory", "green: solid outside the bone, dashed inside", kTarget));
   scenes.push_back(trajectory("h4_trajectory_short", "green: solid outside, one dash inside",
                               kEntry - 0.009f * planned_direction()));
-  scenes.push_back(triangle("h5_green", "thin green triangle, solid edges", 1.5));
-  scenes.push_back(triangle("h5_amber", "amber triangle, solid edges", 3.8));
-  scenes.push_back(triangle("h5_red", "red triangle, dashed edges", 12.4));
-  scenes.push_back(triangle("h5_limit", "still amber at 5.0 degrees, solid edges", 5.0));
+  scenes.push_back(triangle("h5_green", "thin green triangle, solid edges", 1.5, tool_point(1.5)));
+  scenes.push_back(triangle("h5_amber", "amber triangle, solid edges", 3.8, tool_point(3.8)));
+  scenes.push_back(triangle("h5_red", "red triangle, dashed edges", 12.4, tool_point(12.4)));
+  scenes.push_back(
+      triangle("h5_limit", "still amber at 5.0 degrees, solid edges", 5.0, tool_point(5.0)));
+  scenes.push_back(triangle("h5_beside", "open green triangle: parallel, 3 mm beside the entry",
+                            0.0, to_float3(guided(0.0, 0.003, 0.0).b.v)));
   scenes.push_back(readout("h6_green", "1.2° in white, green rim", 1.2));
   scenes.push_back(readout("h6_amber", "3.8° in white, amber rim", 3.8));
   scenes.push_back(readout("h6_red", "12.4° in white, red rim", 12.4));

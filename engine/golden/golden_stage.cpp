@@ -18,6 +18,11 @@ constexpr Float3 kLooked = {0, 0.045f, 0};
 /// From the patient's left and above, as far as `surgeon` says.
 constexpr Float3 kFrom = {0.19f, 0.325f, -0.20f};
 
+/// Across the planned axis, towards the patient's left and head.
+Float3 tool_side() { return render::unit_or(cross({0.3f, 0, -1}, planned_direction()), {}); }
+
+Vec3 to_vec3(Float3 v) { return {v.x, v.y, v.z}; }
+
 Float3 eye_at(float distance_m) { return kLooked + distance_m * render::unit_or(kFrom, {}); }
 
 /// The head's up when it is rolled about its line of sight.
@@ -37,9 +42,18 @@ Float3 planned_point() { return kEntry + kToolLength_m * planned_direction(); }
 
 Float3 tool_point(double angle_deg) {
   const Float3 along = planned_direction();
-  const Float3 side = render::unit_or(cross({0.3f, 0, -1}, along), {});
   const auto angle_rad = static_cast<float>(angle_deg * kRadiansPerDegree);
-  return kEntry + kToolLength_m * (std::cos(angle_rad) * along + std::sin(angle_rad) * side);
+  return kEntry + kToolLength_m * (std::cos(angle_rad) * along + std::sin(angle_rad) * tool_side());
+}
+
+nav::ScrewGuidance guided(double angle_deg, double beside_m, double depth_m) {
+  const nav::ScrewPlan plan{Side::kLeft, {to_vec3(kEntry)}, {to_vec3(kTarget)}, 0.003};
+  const Vec3 along = to_vec3(planned_direction());
+  const Vec3 side = to_vec3(tool_side());
+  const double angle_rad = angle_deg * kRadiansPerDegree;
+  const Point<World> tip{plan.entry.v + beside_m * side - depth_m * along};
+  return nav::guide({Mat3::identity(), {}}, plan, tip,
+                    std::cos(angle_rad) * along + std::sin(angle_rad) * side);
 }
 
 std::vector<Float3> stroke() {

@@ -9,6 +9,7 @@
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/hologram_status.h"
+#include "nav/guidance/screw.h"
 
 namespace orthonav::engine::golden {
 
@@ -46,8 +47,12 @@ inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {
 [[nodiscard]] render::Float3 planned_direction();
 /// The point C of the deviation triangle.
 [[nodiscard]] render::Float3 planned_point();
-/// The point B of a tool that is off by the angle, towards the patient's left and head.
+/// The point B of a tool that is off by the angle, towards the patient's left and head, its tip in
+/// the entry.
 [[nodiscard]] render::Float3 tool_point(double angle_deg);
+/// What the product makes of a tool that is off by the angle, its tip so far beside the planned
+/// axis to the same side, and so deep (< 0: before the entry).
+[[nodiscard]] nav::ScrewGuidance guided(double angle_deg, double beside_m, double depth_m);
 
 /// Strokes over lamina and spinous process, as a surgeon lays them.
 [[nodiscard]] std::vector<render::Float3> stroke();

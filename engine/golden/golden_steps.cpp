@@ -5,6 +5,7 @@
 #include "base/angle.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/golden/golden_vertebra.h"
+#include "engine/holograms/render_values.h"
 #include "engine/session/wording.h"
 #include "render/float3.h"
 
@@ -81,9 +82,9 @@ void add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool
 }
 
 /// The guide at an angle, its tip beside the entry.
-void add_tool_to(GoldenScene& golden, double angle_deg, bool measured, double depth_m) {
-  const Float3 b = tool_point(angle_deg);
-  const double angle_rad = angle_deg * kRadiansPerDegree;
+void add_tool_to(GoldenScene& golden, const nav::ScrewGuidance& guide, bool measured) {
+  const Float3 b = to_float3(guide.b.v);
+  const double angle_rad = guide.angle_rad;
   const Grade grade = measured ? grade_of(angle_rad) : Grade::kFair;
   add_deviation_triangle(golden.scene, kEntry, b, planned_point(), grade, kTriangleLabel);
   add_angle_readout(golden.scene, kEntry, b,
@@ -94,11 +95,11 @@ void add_tool_to(GoldenScene& golden, double angle_deg, bool measured, double de
   if (!measured) {
     return add_cross_to(golden, std::nullopt, false);
   }
-  const Float3 top = (b - planned_point()) +
-                     -1.0f * dot(b - planned_point(), planned_direction()) * planned_direction();
-  add_cross_to(golden, CrossReading{0.12f * top, top, grade}, false);
-  add_depth(golden.scene, kEntry, b, depth_text(depth_m, 0.045 - depth_m).value_or(""),
-            depth_m > 0.045, kDepthLabel);
+  add_cross_to(golden,
+               CrossReading{to_float3(guide.tip_offset_m), to_float3(guide.top_offset_m), grade},
+               false);
+  add_depth(golden.scene, kEntry, b, depth_text(guide.depth_m, guide.to_target_m).value_or(""),
+            guide.to_target_m < 0.0, kDepthLabel);
 }
 
 GoldenScene digitizing() {
@@ -157,7 +158,7 @@ GoldenScene guidance() {
       guiding("guidance", "guiding the left screw of L4 with everything, the right one done",
               "RMSE 0.62 mm | predicted 1.1 mm");
   add_bone(golden);
-  add_tool_to(golden, 3.4, true, -0.0062);
+  add_tool_to(golden, guided(3.4, 0.0006, -0.0062), true);
   return golden;
 }
 
@@ -168,17 +169,25 @@ GoldenScene guide_far() {
   return golden;
 }
 
+GoldenScene guide_beside() {
+  GoldenScene golden =
+      guiding("guide_beside", "parallel, 3 mm beside the entry: green number, open triangle",
+              "RMSE 0.62 mm | predicted 1.1 mm");
+  add_tool_to(golden, guided(0.4, 0.0030, -0.0021), true);
+  return golden;
+}
+
 GoldenScene guide_drilling() {
   GoldenScene golden = guiding("guide_drilling", "green triangle and dots, depth to the target",
                                "RMSE 0.62 mm | predicted 1.1 mm");
-  add_tool_to(golden, 0.8, true, 0.0140);
+  add_tool_to(golden, guided(0.8, 0.0001, 0.0140), true);
   return golden;
 }
 
 GoldenScene guide_predicted() {
   GoldenScene golden = guiding("guide_predicted", "amber triangle, dashes, rings without dots",
                                "RMSE 0.62 mm | predicted 1.1 mm", ToolState::kPredicted);
-  add_tool_to(golden, 1.0, false, 0.0);
+  add_tool_to(golden, guided(1.0, 0.0, 0.0), false);
   return golden;
 }
 
@@ -208,6 +217,7 @@ void add_step_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(accepted());
   scenes.push_back(guide_far());
   scenes.push_back(guidance());
+  scenes.push_back(guide_beside());
   scenes.push_back(guide_drilling());
   scenes.push_back(guide_predicted());
   scenes.push_back(guide_lost());

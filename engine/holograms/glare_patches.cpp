@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/holograms/anchored_frame.h"
 #include "engine/holograms/render_values.h"
 
 namespace orthonav::engine {
@@ -14,6 +15,9 @@ void write_patches(const Guidance& guidance, std::vector<GlarePatch>& patches) {
       std::transform(paper.begin(), paper.end(), patch.begin(),
                      [](const Point<World>& corner) { return to_float3(corner.v); });
     }
+  }
+  if (guidance.anchor) {
+    take_to_map(guidance.anchor->world_from_anchored, patches);
   }
 }
 

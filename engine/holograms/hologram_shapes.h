@@ -94,7 +94,7 @@ inline constexpr float kTrajectoryOutside_m = 0.060f;
 void add_planned_trajectory(render::Scene& scene, render::Float3 entry, render::Float3 target,
                             render::Label label);
 
-/// H5: A the entry, B on the tool's axis, C on the planned axis.
+/// H5: A the entry, B on the tool's axis, C on the planned axis (`nav::ScrewGuidance`).
 void add_deviation_triangle(render::Scene& scene, render::Float3 a, render::Float3 b,
                             render::Float3 c, Grade grade, render::Label label);
 

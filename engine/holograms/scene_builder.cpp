@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/holograms/anchored_frame.h"
 #include "engine/holograms/hologram_label.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/wording.h"
-#include "render/shapes.h"
 
 namespace orthonav::engine {
 namespace {
@@ -51,6 +51,9 @@ void SceneBuilder::update(const Guidance& guidance, Timestamp display_time) {
 
 void SceneBuilder::write_shown(const Guidance& guidance, ShownFrame& frame) {
   shown_.write(guidance, visible_, rules_, frame);
+  if (guidance.anchor) {
+    take_to_map(guidance.anchor->world_from_anchored, frame);
+  }
 }
 
 void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
@@ -68,6 +71,9 @@ void SceneBuilder::write_scene(const Guidance& guidance, render::Scene& scene) {
     add_rods(guidance, scene);
   }
   add_status(guidance, scene);
+  if (guidance.anchor) {
+    take_to_map(guidance.anchor->world_from_anchored, scene);
+  }
 }
 
 void SceneBuilder::add_paths(const Guidance& guidance, render::Scene& scene) {
@@ -204,7 +210,7 @@ void SceneBuilder::add_virtual_twin(const PlacedScrew& screw, render::Scene& sce
   parts_.clear();
   add_deviation_triangle(parts_, to_float3(shown.a.v), to_float3(shown.b.v), to_float3(shown.c.v),
                          grade_of_tool(visible_, rules_), kTwinTool);
-  add_tool(parts_, to_float3(shown.tip.v), to_float3(shown.b - shown.a), kTwinTool);
+  add_tool(parts_, to_float3(shown.tip.v), to_float3(shown.tool_outward), kTwinTool);
   add_twin(scene, twin, parts_, kTwinTool);
 }
 
@@ -250,50 +256,6 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
   append_beside_step(detail_, guidance.status, &parts_of_detail_);
   add_status_line(scene, StatusWords{text_, detail_, &parts_of_detail_}, dots_,
                   label_of(HologramKind::kStatus, 1));
-}
-
-const std::shared_ptr<const render::MeshData>& SceneBuilder::surface_of(const LevelState& level) {
-  auto& surface = surfaces_[level.plan.model.get()];
-  if (!surface) {
-    surface = mesh_data(level.plan.model->mesh());
-  }
-  return surface;
-}
-
-const std::shared_ptr<const render::MeshData>& SceneBuilder::tinted_surface_of(
-    const LevelState& level, std::span<const float> tints) {
-  const auto& surface = surface_of(level);
-  if (tints.size() != surface->positions.size()) {
-    return surface;
-  }
-  const bool known = tinted_from_ == surface.get() &&
-                     std::equal(tints.begin(), tints.end(), tinted_->tints.begin());
-  if (!known) {
-    auto tinted = std::make_shared<render::MeshData>(*surface);
-    tinted->tints.assign(tints.begin(), tints.end());
-    tinted_ = std::move(tinted);
-    tinted_from_ = surface.get();
-  }
-  return tinted_;
-}
-
-const std::shared_ptr<const render::MeshData>& SceneBuilder::tube_of(std::size_t i,
-                                                                     const RodState& rod) {
-  Tube& tube = tubes_[i];
-  if (tube.heads == rod.heads) {
-    return tube.mesh;
-  }
-  tube.heads = rod.heads;
-  tube.mesh.reset();
-  if (rod.rod) {
-    std::vector<render::Float3> path;
-    for (const Vec3 p : rod.rod->path_m) {
-      path.push_back(to_float3(p));
-    }
-    tube.mesh = std::make_shared<render::MeshData>(
-        render::make_tube(path, static_cast<float>(rod.rod->diameter_m / 2.0)));
-  }
-  return tube.mesh;
 }
 
 }  // namespace orthonav::engine

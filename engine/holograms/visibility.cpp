@@ -85,7 +85,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   out = {};
   out.entries_of = std::move(entries);
   out.cross_side = cross_side;
-  if (g.blank) {
+  if (g.blank || (g.anchor != nullptr && g.anchor->stale(display_time, g.stale_after))) {
     return;
   }
   // H1: the surgeon still compares the paths with the hologram while verifying; after acceptance

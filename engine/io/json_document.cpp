@@ -82,10 +82,7 @@ JsonNode JsonDocument::root() const {
 }
 
 Status JsonDocument::status() const {
-  if (state_->problem) {
-    return *state_->problem;
-  }
-  return {};
+  return state_->problem ? Status(*state_->problem) : Status();
 }
 
 std::string JsonNode::way_to(const char* key) const {
@@ -105,6 +102,16 @@ void JsonNode::refuse(const char* key, const std::string& problem) const {
 }
 
 bool JsonNode::has(const char* key) const { return value_->find(key) != nullptr; }
+
+std::vector<std::string> JsonNode::keys() const {
+  std::vector<std::string> names;
+  if (value_->content->is_object()) {
+    for (const auto& [name, ignored] : value_->content->items()) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
 
 std::string JsonNode::text(const char* key) const {
   const json* found = value_->find(key);

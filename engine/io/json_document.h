@@ -22,6 +22,8 @@ Result<std::string> read_text(const std::string& path, std::size_t max_bytes = 6
 class JsonNode {
  public:
   [[nodiscard]] bool has(const char* key) const;
+  /// The names in an object, sorted, so that unknown ones can be refused; none where it is none.
+  [[nodiscard]] std::vector<std::string> keys() const;
   [[nodiscard]] std::string text(const char* key) const;
   [[nodiscard]] std::string text_or(const char* key, const std::string& fallback) const;
   /// A finite number.

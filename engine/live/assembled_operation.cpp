@@ -37,6 +37,16 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
   if (!tracker) {
     return tracker.error();
   }
+  if (options.use_reference) {
+    if (!method.anchors) {
+      return Error{"method '" + method.name + "': uses no patient reference"};
+    }
+    tracker =
+        nav::create_anchored_tracker(std::move(*tracker), options.tracker.coast, options.reference);
+    if (!tracker) {
+      return tracker.error();
+    }
+  }
   auto session =
       Session::create(std::move(operation), std::move(*tracker), method, options.session);
   if (!session) {

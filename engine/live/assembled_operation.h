@@ -7,6 +7,7 @@
 #include "engine/live/frame_loop.h"
 #include "engine/session/method.h"
 #include "engine/session/observer_list.h"
+#include "nav/tracking/anchored_tracker.h"
 
 namespace orthonav::engine {
 
@@ -16,6 +17,10 @@ struct AssemblyOptions {
   /// pair.
   nav::TrackerOptions tracker{.full_search_interval = 10};
   SessionOptions session;
+  /// Everything hangs on the patient reference among the tools instead of the headset's map. The
+  /// published method has none and is refused.
+  bool use_reference = false;
+  nav::ReferenceLimits reference;
   LoopOptions loop;
   VisibilityRules visibility;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/vertex_normals.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -11,22 +13,6 @@ constexpr int kSamplesASide = 2;
 constexpr double kMostPixels = 1200.0;
 /// Two surfaces this close together are the same one, drawn twice.
 constexpr double kSame_m = 1e-6;
-
-/// Mean of the triangles' normals about each vertex, by area, so that the bone looks smooth.
-std::vector<Vec3> vertex_normals(const nav::TriangleMesh& mesh) {
-  std::vector<Vec3> normals(mesh.vertices_m.size());
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices_m[t[0]];
-    const Vec3 n = (mesh.vertices_m[t[1]] - a).cross(mesh.vertices_m[t[2]] - a);
-    for (const std::uint32_t corner : t) {
-      normals[corner] += n;
-    }
-  }
-  for (Vec3& n : normals) {
-    n = n.norm() > 0.0 ? n.normalized() : Vec3{};
-  }
-  return normals;
-}
 
 /// 0 to 1: a lamp above the viewer's left shoulder, plus ambient light.
 double light_on(Vec3 normal, const Viewpoint& view) {
@@ -71,7 +57,7 @@ DepthPicture::DepthPicture(const Viewpoint& view, const PageArea& area, double p
 }
 
 void DepthPicture::draw(const nav::TriangleMesh& mesh, const SurfacePaint& paint) {
-  const std::vector<Vec3> normals = vertex_normals(mesh);
+  const std::vector<Vec3> normals = vertex_normals(mesh.vertices_m, mesh.triangles);
   std::vector<Corner> corners(mesh.vertices_m.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3 place = mesh.vertices_m[i];

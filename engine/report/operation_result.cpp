@@ -34,6 +34,28 @@ LevelOutcome outcome_of(const LevelState& state) {
   return level;
 }
 
+ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
+  const nav::ScrewPlan& plan = state.plan.screws[index];
+  ScrewOutcome screw{plan.side, state.screw_done[index], {}, {}};
+  screw.accepted_breach = plan.accepted_breach;
+  const auto cylinder = nav::cylinder_of(plan);
+  if (cylinder && state.plan.model) {
+    constexpr double kStep_m = 0.002;
+    const double side_m = cylinder->length_m - nav::CylinderSurface::kFrom_m;
+    screw.planned_profile_m.resize(1 + static_cast<std::size_t>(std::max(1.0, side_m / kStep_m)));
+    if (!nav::clearance_profile(state.plan.model->surface(), *cylinder, screw.planned_profile_m)) {
+      screw.planned_profile_m.clear();
+    }
+    const bool known = state.registration && state.registration->uncertainty;
+    screw.planned = nav::screw_clearance(state.plan.model->surface(), *cylinder,
+                                         known ? &*state.registration->uncertainty : nullptr);
+  }
+  if (index < state.clearance_at_depth.size()) {
+    screw.tracked = state.clearance_at_depth[index];
+  }
+  return screw;
+}
+
 }  // namespace
 
 OperationResult outcome_of(std::span<const LevelState> levels, std::span<const RodState> rods,
@@ -43,7 +65,7 @@ OperationResult outcome_of(std::span<const LevelState> levels, std::span<const R
   for (const LevelState& state : levels) {
     LevelOutcome level = outcome_of(state);
     for (std::size_t s = 0; s < state.plan.screws.size(); ++s) {
-      level.screws.push_back({state.plan.screws[s].side, state.screw_done[s], {}, {}});
+      level.screws.push_back(outcome_of_screw(state, s));
       result.completed = result.completed && state.screw_done[s];
     }
     result.completed = result.completed && level.accepted;

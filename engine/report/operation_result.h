@@ -18,6 +18,16 @@ struct ScrewOutcome {
   bool done = false;                      ///< as the surgeon declared it
   std::optional<double> angle_error_rad;  ///< against the truth, where there is one
   std::optional<double> entry_error_m;    ///< absent too when the wire misses the bone
+  std::string accepted_breach = {};       ///< why the plan may leave the cortex, where it says so
+  /// As planned, and what the registration leaves open of a screw that is guided there exactly;
+  /// absent where the plan states no radius.
+  std::optional<nav::ScrewClearance> planned = {};
+  /// Of that, the least depth every 2 mm or so from 6 mm past the entry to the tip.
+  std::vector<double> planned_profile_m = {};
+  /// Along the tool as it was tracked at depth, with what registration and tracking leave open.
+  std::optional<nav::ScrewClearance> tracked = {};
+  /// Of the planned screw along the executed axis, against the truth.
+  std::optional<nav::Clearance> executed = {};
 };
 
 struct LevelOutcome {

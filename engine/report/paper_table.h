@@ -1,9 +1,7 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json_fwd.hpp>
 #include <string_view>
-#include <vector>
 
 namespace orthonav::engine {
 
@@ -26,8 +24,5 @@ inline constexpr std::array<PaperRow, 5> kPaperTable = {{
     {"Digitization time", "s", "digitization_s", false, 125.0, 27.0, 0},
     {"Digitized points", "", "points", false, 1983.0, 404.0, 0},
 }};
-
-/// Every value of that row in a report; absent ones are left out.
-[[nodiscard]] std::vector<double> values_of(const nlohmann::json& report, const PaperRow& row);
 
 }  // namespace orthonav::engine

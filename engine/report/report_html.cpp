@@ -9,10 +9,13 @@
 #include "embedded/report_css.h"
 #include "embedded/report_js.h"
 #include "engine/report/base64.h"
+#include "engine/report/clearance_section.h"
 #include "engine/report/html_text.h"
 #include "engine/report/operation_result.h"
 #include "engine/report/paper_table.h"
 #include "engine/report/registration_page.h"
+#include "engine/report/report_values.h"
+#include "engine/report/script_json.h"
 #include "nav/evaluation/errors.h"
 
 namespace orthonav::engine {
@@ -22,10 +25,8 @@ using nlohmann::json;
 
 /// A figure of the report, or a dash where it is absent (no truth, not reached).
 std::string figure(const json& object, const char* key, int decimals) {
-  if (!object.contains(key) || !object[key].is_number()) {
-    return "\u2013";
-  }
-  return html_number(object[key].get<double>(), decimals);
+  const auto value = value_of(object, key);
+  return value ? html_number(*value, decimals) : "\u2013";
 }
 
 std::string text_of(const json& object, const char* key) {
@@ -38,7 +39,7 @@ void table_against_paper(const json& report, std::string& html) {
       "<th>Liebmann et al. 2019</th><th>this run</th><th>min\u2013max</th><th>n</th></tr>"
       "</thead><tbody>";
   for (const PaperRow& row : kPaperTable) {
-    const std::vector<double> values = values_of(report, row);
+    const std::vector<double> values = values_of(report, row.key, row.per_screw);
     const nav::Summary s = nav::summarize(values);
     html += "<tr><th scope=row>" + std::string(row.name) + " <small>" + std::string(row.unit) +
             "</small></th><td>" + html_number(row.mean, row.decimals) + " \u00b1 " +
@@ -224,15 +225,6 @@ json error_bars(const json& report) {
   return {{"rows", std::move(rows)}, {"screws", std::move(screws)}};
 }
 
-/// JSON as the text of a script element: "</script>" inside a name must not end it.
-std::string script_json(const json& value) {
-  std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) {
-    text.replace(at, 2, "<\\/");
-  }
-  return text;
-}
-
 /// The page up to its first section.
 std::string head(const json& report) {
   return "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: operation "
@@ -279,6 +271,7 @@ Result<std::string> report_html(const ReportContent& content) {
   table_against_paper(report, html);
   add_notes(report, content.notes, html);
   table_of_levels(report, html);
+  html += clearance_section(report);
   for (const RegisteredLevel& level : content.registrations) {
     const auto section = registration_section(level);
     if (!section) {

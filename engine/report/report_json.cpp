@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/report/clearance_figures.h"
 #include "engine/report/operation_result.h"
 
 namespace orthonav::engine {
@@ -28,6 +29,7 @@ Json screw_json(const ScrewOutcome& screw) {
     out["angle_error_deg"] = degrees(*screw.angle_error_rad);
   }
   put_mm(out, "entry_error_mm", screw.entry_error_m);
+  put_clearance(out, screw);
   return out;
 }
 

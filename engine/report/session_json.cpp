@@ -22,6 +22,8 @@ Json recorded_screw_json(const RecordedScrew& screw) {
                            {"tip_to_entry_mm", screw.at_depth->tip_to_entry_m * 1e3},
                            {"tip_off_axis_mm", screw.at_depth->tip_off_axis_m * 1e3},
                            {"depth_mm", screw.at_depth->depth_m * 1e3}};
+    put_length_mm(out["at_depth"], "clearance_mm", screw.at_depth->clearance_m);
+    put_length_mm(out["at_depth"], "clearance_95_mm", screw.at_depth->clearance_95_m);
   }
   return out;
 }
@@ -49,6 +51,20 @@ Json recorded_level_json(const RecordedLevel& level, const SessionRecord& sessio
   return out;
 }
 
+/// As in the journal.
+void put_instructions(Json& side, const RecordedRod& rod) {
+  if (!rod.no_instructions.empty()) {
+    side["no_instructions"] = rod.no_instructions;
+  }
+  put_length_mm(side, "cut_length_mm", rod.cut_length_m);
+  for (const RecordedInstruction& bend : rod.instructions) {
+    side["instructions"].push_back(Json{{"arc_length_mm", bend.arc_length_m * 1e3},
+                                        {"roll_deg", degrees(bend.roll_rad)},
+                                        {"angle_deg", degrees(bend.angle_rad)},
+                                        {"set_deg", degrees(bend.set_rad)}});
+  }
+}
+
 /// As report.json has it: the mean length, and each side.
 Json recorded_rods_json(const std::vector<RecordedRod>& rods) {
   Json out = Json::object();
@@ -62,6 +78,7 @@ Json recorded_rods_json(const std::vector<RecordedRod>& rods) {
       sum_m += *rod.length_m;
       ++lengths;
     }
+    put_instructions(side, rod);
     sides.push_back(std::move(side));
   }
   if (lengths > 0) {

@@ -106,7 +106,8 @@ void put_screws(const SessionRecord& session, std::string& html) {
       table_head("Screws, as measured at depth",
                  "<th>screw</th><th>done at</th><th>angle to the plan <small>\u00b0</small></th>"
                  "<th>tip off the axis <small>mm</small></th><th>tip to entry "
-                 "<small>mm</small></th><th>depth <small>mm</small></th>");
+                 "<small>mm</small></th><th>depth <small>mm</small></th><th>clearance "
+                 "<small>mm</small></th><th>95 % above <small>mm</small></th>");
   for (const RecordedLevel& level : session.levels) {
     for (const RecordedScrew& screw : level.screws) {
       html += "<tr>" + cell(html_escaped(level.label) + " " + name_of(screw.side)) +
@@ -115,14 +116,25 @@ void put_screws(const SessionRecord& session, std::string& html) {
         html += cell(html_number(degrees(pose->angle_rad), 2)) +
                 cell(html_number(pose->tip_off_axis_m * 1e3, 2)) +
                 cell(html_number(pose->tip_to_entry_m * 1e3, 2)) +
-                cell(html_number(pose->depth_m * 1e3, 2)) + "</tr>";
+                cell(html_number(pose->depth_m * 1e3, 2)) +
+                cell(recorded(pose->clearance_m, 1e3, 2)) +
+                cell(recorded(pose->clearance_95_m, 1e3, 2)) + "</tr>";
         continue;
       }
       const std::string none = cell(screw.done ? kNotRecorded : "\u2013");
-      html += none + none + none + none + "</tr>";
+      html += none + none + none + none + none + none + "</tr>";
     }
   }
   html += kTableEnd;
+}
+
+std::string instructed(const RecordedRod& rod) {
+  std::string text;
+  for (const RecordedInstruction& bend : rod.instructions) {
+    text += (text.empty() ? "" : "; ") + html_number(bend.arc_length_m * 1e3, 1) + ": " +
+            html_number(degrees(bend.roll_rad), 0) + ", " + html_number(degrees(bend.set_rad), 1);
+  }
+  return text.empty() ? "\u2013" : text;
 }
 
 void put_rods(const SessionRecord& session, std::string& html) {
@@ -131,7 +143,8 @@ void put_rods(const SessionRecord& session, std::string& html) {
   }
   html += table_head("Rods",
                      "<th>side</th><th>heads</th><th>template</th><th>length <small>mm</small></th>"
-                     "<th>bends <small>mm: \u00b0</small></th>");
+                     "<th>bends <small>mm: \u00b0</small></th><th>cut to <small>mm</small></th>"
+                     "<th>instructions <small>mm: roll \u00b0, set \u00b0</small></th>");
   for (const RecordedRod& rod : session.rods) {
     std::string bends;
     for (const RecordedBend& bend : rod.bends) {
@@ -141,7 +154,8 @@ void put_rods(const SessionRecord& session, std::string& html) {
     html += "<tr>" + cell(name_of(rod.side)) + cell(std::to_string(rod.heads)) +
             cell(rod.done ? "taken" : "not taken") +
             cell(rod.done ? recorded(rod.length_m, 1e3, 1) : "\u2013") +
-            cell(bends.empty() ? "\u2013" : bends) + "</tr>";
+            cell(bends.empty() ? "\u2013" : bends) + cell(recorded(rod.cut_length_m, 1e3, 1)) +
+            cell(instructed(rod)) + "</tr>";
   }
   html += kTableEnd;
 }

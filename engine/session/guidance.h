@@ -11,12 +11,15 @@
 #include "engine/case/operation.h"
 #include "engine/session/status_line.h"
 #include "engine/session/workflow.h"
+#include "nav/guidance/clearance_spread.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/rod.h"
+#include "nav/guidance/rod_bends.h"
 #include "nav/guidance/screw.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/digitizer.h"
 #include "nav/registration/registration.h"
+#include "nav/tracking/anchor.h"
 #include "nav/tracking/tool.h"
 
 namespace orthonav::engine {
@@ -50,6 +53,8 @@ struct LevelState {
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration
   std::vector<bool> screw_done;
+  /// Of each screw that is done: as planned, but along the tool as it was last measured at depth.
+  std::vector<std::optional<nav::ScrewClearance>> clearance_at_depth;
   /// Finished, and the map has moved since: kept for the report, shown nowhere.
   bool map_moved = false;
 
@@ -73,11 +78,15 @@ struct LevelState {
   [[nodiscard]] bool usable() const { return accepted && registration && !map_moved; }
 };
 
-/// One rod: the heads as they were touched, and the template once there are two.
+/// One rod: the heads as they were touched, the template once there are two, and how to bend it.
 struct RodState {
   nav::Side side = nav::Side::kLeft;
   std::vector<Point<World>> heads;
   std::optional<nav::RodTemplate> rod;
+  /// How to bend it, with the bender and the material of the options; absent where there is no
+  /// template, or `no_instructions` says why.
+  std::optional<nav::RodInstructions> instructions;
+  std::string no_instructions;
   bool done = false;
   /// Finished, and the map has moved since: kept for the report, shown nowhere.
   bool map_moved = false;
@@ -102,6 +111,10 @@ struct ToolGuidance {
   /// Predicted to the display time: what is drawn over the patient.
   nav::ScrewGuidance shown;
   Timestamp pose_time{};  ///< mid-exposure of the newest pair in which the tool was measured
+  /// Of the planned screw if it were driven along the tool's axis as measured in this pair. Absent
+  /// too where the plan states no radius, the tool is not held near the plan, or its axis misses
+  /// the bone.
+  std::optional<nav::ScrewClearance> clearance = {};
 };
 
 /// A region that was deleted a moment ago.
@@ -132,6 +145,8 @@ struct Guidance {
   std::span<const RodState> rods;
   bool rods_moved_away = false;
   std::span<const ToolSight> tools;
+  /// The patient reference that World hangs on; null where World is the headset's map itself.
+  const nav::Anchor* anchor = nullptr;
   /// Where the head was in the newest pair that told: some holograms face it.
   std::optional<Transform<World, Rig>> head;
   bool twin = false;  ///< the virtual twin was asked for

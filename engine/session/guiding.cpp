@@ -10,6 +10,8 @@ constexpr double kWithdrawn_m = 0.001;
 /// A tip farther off the planned axis is not at the screw. Depth along the axis alone would count a
 /// tool laid down beside the patient.
 constexpr double kOffTheScrew_m = 0.015;
+/// A tool that is turned farther from the plan is not aimed at it: 30°.
+constexpr double kAway_rad = 0.52;
 
 }  // namespace
 
@@ -48,12 +50,13 @@ std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWa
   if (watch.measured_now()) {
     const nav::ScrewGuidance measured = against_plan(watch.newest().value);
     guidance.measured = measured;
-    remember_depth(guidance, measured);
+    remember_depth(guidance, measured, watch.newest());
   }
   return guidance;
 }
 
-void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured) {
+void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
+                             const nav::TrackedPose& pose) {
   if (!(measured.tip_off_axis_m <= kOffTheScrew_m)) {
     return;
   }
@@ -61,7 +64,44 @@ void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuida
   if (!at_depth_ || depth_m >= deepest_m_ - kWithdrawn_m) {
     deepest_m_ = at_depth_ ? std::max(deepest_m_, depth_m) : depth_m;
     at_depth_ = guidance;
+    pose_at_depth_ = pose;
   }
+}
+
+std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& level,
+                                                            const nav::TrackedPose& pose,
+                                                            const nav::ToolGeometry& tool) const {
+  if (!level.registration) {
+    return std::nullopt;
+  }
+  const nav::ScrewPlan& plan = level.plan.screws[screw_];
+  const auto vertebra_from_world = level.registration->world_from_vertebra.inverse();
+  const auto vertebra_from_marker = vertebra_from_world * pose.value;
+  const nav::Axis<Vertebra> axis{vertebra_from_marker * tool.tip_in_marker,
+                                 -(vertebra_from_marker * tool.axis_in_marker).v};
+  const Vec3 planned = plan.target - plan.entry;
+  const Vec3 off_m = (axis.point - plan.entry).cross(planned.normalized());
+  if (!(off_m.norm() <= kOffTheScrew_m) ||
+      !(angle_between_rad(planned, axis.direction) <= kAway_rad)) {
+    return std::nullopt;
+  }
+  const nav::SurfaceIndex& bone = level.plan.model->surface();
+  const auto screw = nav::cylinder_along(axis, plan, bone);
+  if (!screw) {
+    return std::nullopt;
+  }
+  if (!level.registration->uncertainty) {
+    return nav::screw_clearance(bone, *screw, nullptr);
+  }
+  const nav::PoseUncertainty both =
+      nav::with_tool(*level.registration->uncertainty, vertebra_from_world,
+                     vertebra_from_marker * Point<Marker>{}, pose.covariance);
+  return nav::screw_clearance(bone, *screw, &both);
+}
+
+std::optional<nav::ScrewClearance> Guiding::clearance_at_depth(
+    const LevelState& level, const nav::ToolGeometry& tool) const {
+  return at_depth_ ? clearance_along(level, pose_at_depth_, tool) : std::nullopt;
 }
 
 StepState Guiding::state(const LevelState& level) const {

@@ -29,14 +29,24 @@ class Guiding {
   /// The last measurement with the tool at its greatest depth along the selected screw, or null.
   /// Poses after the tool was withdrawn do not count.
   [[nodiscard]] const ToolGuidance* at_depth() const { return at_depth_ ? &*at_depth_ : nullptr; }
+  /// Of the selected screw if it were driven along the tool's axis; none where the tool is not held
+  /// near the plan (15 mm, 30°). Of the pose's uncertainty and the registration's, where there is
+  /// one. Allocates nothing.
+  [[nodiscard]] std::optional<nav::ScrewClearance> clearance_along(
+      const LevelState& level, const nav::TrackedPose& pose, const nav::ToolGeometry& tool) const;
+  /// The same of the measurement of `at_depth`.
+  [[nodiscard]] std::optional<nav::ScrewClearance> clearance_at_depth(
+      const LevelState& level, const nav::ToolGeometry& tool) const;
   [[nodiscard]] StepState state(const LevelState& level) const;
 
  private:
-  void remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured);
+  void remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
+                      const nav::TrackedPose& pose);
 
   std::size_t screw_ = 0;
   std::optional<ToolGuidance> at_depth_;
-  double deepest_m_ = 0.0;  ///< the greatest depth past the entry so far
+  nav::TrackedPose pose_at_depth_;  ///< of the tool, where there is an `at_depth_`
+  double deepest_m_ = 0.0;          ///< the greatest depth past the entry so far
   bool twin_ = false;
 };
 

@@ -44,6 +44,21 @@ void put_judgement(Json& line, const nav::Registration& result) {
   }
 }
 
+/// Along the tool at depth, where it is known.
+void put_clearance_at_depth(Json& line, const LevelState& level, nav::Side side) {
+  for (std::size_t s = 0; s < level.clearance_at_depth.size(); ++s) {
+    const auto& clearance = level.clearance_at_depth[s];
+    if (level.plan.screws[s].side != side || !clearance) {
+      continue;
+    }
+    line["clearance_mm"] = clearance->least.clearance_m * 1e3;
+    line["grade"] = nav::name_of(nav::grade_of(clearance->least.clearance_m));
+    if (clearance->spread) {
+      line["clearance_95_mm"] = clearance->spread->lower_95_m * 1e3;
+    }
+  }
+}
+
 /// What must survive a loss of power: what is guided on, and what was done to the patient.
 constexpr auto kDurable = LineLog::Keep::kDurable;
 
@@ -59,16 +74,42 @@ Json plan_of(const std::vector<PlannedLevel>& levels) {
     for (const nav::Side side : level.screws) {
       plan.back()["screws"].push_back(name_of(side));
     }
+    for (const AcceptedBreach& breach : level.breaches) {
+      plan.back()["accepted_breaches"].push_back(
+          Json{{"side", name_of(breach.side)}, {"reason", breach.reason}});
+    }
   }
   return plan;
+}
+
+/// How the rod was to be bent, or why nobody was told.
+void put_instructions(Json& line, const RodState& rod) {
+  if (!rod.no_instructions.empty()) {
+    line["no_instructions"] = rod.no_instructions;
+  }
+  if (!rod.instructions) {
+    return;
+  }
+  line["cut_length_mm"] = rod.instructions->cut_length_m() * 1e3;
+  Json instructions = Json::array();
+  for (const nav::RodInstruction& bend : rod.instructions->bends) {
+    instructions.push_back(Json{{"arc_length_mm", bend.arc.centre_m * 1e3},
+                                {"roll_deg", degrees(bend.arc.roll_rad)},
+                                {"angle_deg", degrees(bend.arc.angle_rad)},
+                                {"set_deg", degrees(bend.set_rad)}});
+  }
+  line["instructions"] = instructions;
 }
 
 }  // namespace
 
 PlannedLevel planned(const std::string& label, const std::vector<nav::ScrewPlan>& screws) {
-  PlannedLevel level{label, {}};
+  PlannedLevel level{label, {}, {}};
   for (const nav::ScrewPlan& screw : screws) {
     level.screws.push_back(screw.side);
+    if (!screw.accepted_breach.empty()) {
+      level.breaches.push_back({screw.side, screw.accepted_breach});
+    }
   }
   return level;
 }
@@ -192,6 +233,7 @@ void Journal::screw_done(Timestamp time, const LevelState& level, const nav::Scr
     line["tip_off_axis_mm"] = at_depth->measured->tip_off_axis_m * 1e3;
     line["depth_mm"] = at_depth->measured->depth_m * 1e3;
   }
+  put_clearance_at_depth(line, level, screw.side);
   add_line(*log_, line, kDurable);
 }
 
@@ -221,6 +263,7 @@ void Journal::rod_done(Timestamp time, const RodState& rod) {
     }
     line["bends"] = bends;
   }
+  put_instructions(line, rod);
   add_line(*log_, line, kDurable);
 }
 

@@ -16,10 +16,17 @@ struct JournalEnd {
   std::string reason;             ///< what ended it before its time; empty: nothing did
 };
 
+/// A screw that is planned to leave the cortex, and why.
+struct AcceptedBreach {
+  nav::Side side = nav::Side::kLeft;
+  std::string reason;
+};
+
 /// What is to be done on one level.
 struct PlannedLevel {
   std::string label;
   std::vector<nav::Side> screws;
+  std::vector<AcceptedBreach> breaches = {};
 };
 
 [[nodiscard]] PlannedLevel planned(const std::string& label,

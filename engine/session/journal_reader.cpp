@@ -75,9 +75,12 @@ std::optional<RecordedPose> pose_of(const JsonNode& line) {
   if (!line.has("angle_deg")) {
     return std::nullopt;
   }
-  return RecordedPose{
-      line.number("angle_deg") * kRadiansPerDegree, line.number("tip_to_entry_mm") * kMetresPerMm,
-      line.number("tip_off_axis_mm") * kMetresPerMm, line.number("depth_mm") * kMetresPerMm};
+  return RecordedPose{line.number("angle_deg") * kRadiansPerDegree,
+                      line.number("tip_to_entry_mm") * kMetresPerMm,
+                      line.number("tip_off_axis_mm") * kMetresPerMm,
+                      line.number("depth_mm") * kMetresPerMm,
+                      optional_number(line, "clearance_mm", kMetresPerMm),
+                      optional_number(line, "clearance_95_mm", kMetresPerMm)};
 }
 
 RecordedRod rod_of(const JsonNode& line) {
@@ -90,6 +93,16 @@ RecordedRod rod_of(const JsonNode& line) {
     for (const JsonNode& bend : line.list("bends")) {
       rod.bends.push_back({bend.number("arc_length_mm") * kMetresPerMm,
                            bend.number("angle_deg") * kRadiansPerDegree});
+    }
+  }
+  rod.cut_length_m = optional_number(line, "cut_length_mm", kMetresPerMm);
+  rod.no_instructions = line.text_or("no_instructions", "");
+  if (line.has("instructions")) {
+    for (const JsonNode& bend : line.list("instructions")) {
+      rod.instructions.push_back({bend.number("arc_length_mm") * kMetresPerMm,
+                                  bend.number("roll_deg") * kRadiansPerDegree,
+                                  bend.number("angle_deg") * kRadiansPerDegree,
+                                  bend.number("set_deg") * kRadiansPerDegree});
     }
   }
   return rod;

@@ -15,6 +15,7 @@ struct ToNotice {
   Notice operator()(const TouchNotRecorded& /*m*/) const { return Notice::kTouchNotRecorded; }
   Notice operator()(const NoRod& /*m*/) const { return Notice::kNoRod; }
   Notice operator()(const MapMoved& /*m*/) const { return Notice::kMapMoved; }
+  Notice operator()(const ReferenceMoved& /*m*/) const { return Notice::kReferenceMoved; }
   Notice operator()(const NoImages& /*m*/) const { return Notice::kNoImages; }
   Notice operator()(const Ended& /*m*/) const { return Notice::kEnded; }
 };

@@ -66,13 +66,17 @@ struct NoRod {
 struct MapMoved {
   Step step;
 };
+/// References moved against each other.
+struct ReferenceMoved {
+  Step step;
+};
 struct NoImages {};
 struct Ended {};
 
 /// Nothing, or one of these.
 using Message = std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown,
                              NothingToDelete, ConfirmDelete, RegistrationRefused, ChecksMissing,
-                             TouchNotRecorded, NoRod, MapMoved, NoImages, Ended>;
+                             TouchNotRecorded, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// What it is about, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);

@@ -40,11 +40,12 @@ Result<Registrar> registrar_named(const std::string& name) {
 
 Result<Method> method_named(const std::string& name) {
   if (name == "best") {
-    return Method{name, &nav::create_photometric_tracker, &by_pose_search, Verification::kByTouch,
-                  true};
+    return Method{
+        name, &nav::create_photometric_tracker, &by_pose_search, Verification::kByTouch, true,
+        true};
   }
   if (name == "paper") {
-    return Method{name, &nav::create_corner_tracker, &by_paper, Verification::kByEye, false};
+    return Method{name, &nav::create_corner_tracker, &by_paper, Verification::kByEye, false, false};
   }
   return unknown(name);
 }

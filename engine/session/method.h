@@ -40,6 +40,8 @@ struct Method {
   Verification verification = Verification::kByTouch;
   /// What was stroked so far is registered on the side, to tell what to expect and what to stroke.
   bool coaching = false;
+  /// Its tracker gives the poses of single pairs, so that it can hang on a patient reference.
+  bool anchors = false;
 };
 
 /// `paper`: the published method (Liebmann et al. 2019). `best`: tools by the photometric pose of

@@ -1,9 +1,51 @@
 #include "engine/session/rod_templating.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "nav/guidance/rod_cut.h"
+
 namespace orthonav::engine {
+namespace {
+
+struct PlacedScrew {
+  Vec3 entry;
+  Vec3 to_tip;
+};
+
+std::vector<PlacedScrew> screws_in_world(std::span<const LevelState> levels, nav::Side side) {
+  std::vector<PlacedScrew> screws;
+  for (const LevelState& level : levels) {
+    if (!level.registration || level.map_moved) {
+      continue;
+    }
+    const auto& world_from_vertebra = level.registration->world_from_vertebra;
+    for (const nav::ScrewPlan& screw : level.plan.screws) {
+      if (screw.side == side) {
+        const Vec3 entry = (world_from_vertebra * screw.entry).v;
+        screws.push_back({entry, (world_from_vertebra * screw.target).v - entry});
+      }
+    }
+  }
+  return screws;
+}
+
+/// For every head the direction of the screw whose entry is nearest; empty without screws.
+std::vector<Vec3> directions_of_screws(std::span<const Vec3> heads_m,
+                                       const std::vector<PlacedScrew>& screws) {
+  std::vector<Vec3> directions;
+  for (const Vec3& head_m : screws.empty() ? std::span<const Vec3>() : heads_m) {
+    const auto nearest = std::min_element(
+        screws.begin(), screws.end(), [&](const PlacedScrew& a, const PlacedScrew& b) {
+          return (a.entry - head_m).squared_norm() < (b.entry - head_m).squared_norm();
+        });
+    directions.push_back(nearest->to_tip);
+  }
+  return directions;
+}
+
+}  // namespace
 
 bool rod_planned(std::span<const LevelState> levels, nav::Side side) {
   std::size_t screws = 0;
@@ -29,8 +71,37 @@ bool RodTemplating::drop_head() {
   return true;
 }
 
-Status RodTemplating::bend(double rod_diameter_m) {
+void RodTemplating::instruct(const SessionOptions& options, std::span<const LevelState> levels) {
+  const nav::RodTemplate& shape = *rod().rod;
+  const auto directions = directions_of_screws(shape.heads_m, screws_in_world(levels, rod().side));
+  if (directions.empty()) {
+    rod().no_instructions = "the direction of no screw is known";
+    return;
+  }
+  nav::RodBending bending = options.rod_bending;
+  bending.diameter_m = options.rod_diameter_m;
+  const auto cut = nav::rod_cut(shape, directions, {options.head_to_seat_m, bending.overhang_m});
+  auto told = cut ? nav::rod_instructions(cut->seats_m, bending)
+                  : Result<nav::RodInstructions>(cut.error());
+  if (told) {
+    rod().instructions = *std::move(told);
+  } else {
+    rod().no_instructions = told.error().message;
+  }
+}
+
+HeadsSoFar RodTemplating::state() const {
+  const RodState& now = current();
+  if (!now.instructions) {
+    return {now.heads.size()};
+  }
+  return {now.heads.size(), now.instructions->cut_length_m(), now.instructions->bends.size()};
+}
+
+Status RodTemplating::bend(const SessionOptions& options, std::span<const LevelState> levels) {
   rod().rod.reset();
+  rod().instructions.reset();
+  rod().no_instructions.clear();
   if (rod().heads.size() < 2) {
     return {};
   }
@@ -38,11 +109,12 @@ Status RodTemplating::bend(double rod_diameter_m) {
   for (const Point<World>& head : rod().heads) {
     heads.push_back(head.v);
   }
-  auto made = nav::rod_template(heads, rod_diameter_m);
+  auto made = nav::rod_template(heads, options.rod_diameter_m);
   if (!made) {
     return made.error();
   }
   rod().rod = std::move(*made);
+  instruct(options, levels);
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "engine/session/guidance.h"
+#include "engine/session/session_options.h"
 #include "engine/session/touch.h"
 
 namespace orthonav::engine {
@@ -25,8 +26,10 @@ class RodTemplating {
   void add_head(Point<World> head) { rod().heads.push_back(head); }
   /// False when there is none to drop.
   bool drop_head();
-  /// Makes the template of the heads as they are now; an Error says why they give none.
-  Status bend(double rod_diameter_m);
+  /// Makes the template of the heads as they are now, and the instructions to bend it; an Error
+  /// says why they give no template. How deep the rod lies below a head follows the nearest screw
+  /// of this side among the registered levels.
+  Status bend(const SessionOptions& options, std::span<const LevelState> levels);
   /// The rod is done; false when no other is left to do.
   bool finish();
   void move_away() { moved_away_ = !moved_away_; }
@@ -36,10 +39,11 @@ class RodTemplating {
   [[nodiscard]] const RodState& current() const { return rods_[current_]; }
   [[nodiscard]] std::span<const RodState> rods() const { return rods_; }
   [[nodiscard]] bool moved_away() const { return moved_away_; }
-  [[nodiscard]] HeadsSoFar state() const { return {current().heads.size()}; }
+  [[nodiscard]] HeadsSoFar state() const;
 
  private:
   [[nodiscard]] RodState& rod() { return rods_[current_]; }
+  void instruct(const SessionOptions& options, std::span<const LevelState> levels);
 
   std::array<RodState, 2> rods_;  ///< left, right
   std::array<bool, 2> planned_;

@@ -62,6 +62,7 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
   for (OperatedLevel& plan : operation.levels) {
     LevelState state;
     state.screw_done.assign(plan.screws.size(), false);
+    state.clearance_at_depth.resize(plan.screws.size());
     state.plan = std::move(plan);
     levels_.push_back(std::move(state));
   }
@@ -75,6 +76,7 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
   // Events first: a press before this pair makes this pair a sample, a release before it does not.
   answer_inputs(inputs);
   tools_.track(frame);
+  watch_reference(frame.time);
   watch_tool_in_use(frame.time);
   collect_samples();
   publish(frame, inputs.display_time);
@@ -156,8 +158,23 @@ void Session::handle(Event event, Timestamp time) {
 void Session::watch_map(const StereoFrame& frame) {
   const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
   map_epoch_ = frame.map_epoch;
-  if (moved) {
+  // With a patient reference nothing hangs on the map.
+  if (moved && tools_.tracker().anchor() == nullptr) {
     handle(Event::kMapMoved, frame.time);
+  }
+}
+
+void Session::watch_reference(Timestamp now) {
+  const nav::Anchor* anchor = tools_.tracker().anchor();
+  if (anchor == nullptr) {
+    return;
+  }
+  if (std::exchange(reference_moves_, anchor->moves) != anchor->moves) {
+    handle(Event::kReferenceMoved, now);
+  }
+  const bool hidden = anchor->stale(now, options_.stale_after);
+  if (std::exchange(reference_hidden_, hidden) != hidden) {
+    handle(hidden ? Event::kReferenceHidden : Event::kReferenceSeen, now);
   }
 }
 

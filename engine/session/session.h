@@ -68,6 +68,7 @@ class Session {
   void hear(const Phrase& phrase);
   void handle(Event event, Timestamp time);
   void watch_map(const StereoFrame& frame);
+  void watch_reference(Timestamp now);
   void watch_tool_in_use(Timestamp now);
   void collect_samples();
   [[nodiscard]] std::optional<std::size_t> tool_of_step() const;
@@ -79,6 +80,7 @@ class Session {
   void publish_status();
   [[nodiscard]] StepOnDisplay step_on_display() const;
   [[nodiscard]] StepState state_of_step() const;
+  [[nodiscard]] std::optional<std::size_t> hidden_reference() const;
 
   // session_actions.cpp: what the table asks for.
   void act(Action action, Event event, Timestamp time);
@@ -98,7 +100,7 @@ class Session {
   void drop_head(Timestamp time);
   void bend_rod(Timestamp time);
   void finish_rod(Timestamp time);
-  void forget_map(Timestamp time);
+  void forget_places(Event why, Timestamp time);
   [[nodiscard]] TouchedPlace touched_place(Timestamp time);
   [[nodiscard]] Touch& touch_of_step();
   [[nodiscard]] LevelState& level() { return levels_[level_]; }
@@ -109,6 +111,8 @@ class Session {
   SessionOptions options_;
   SessionObserver* observer_ = nullptr;
   std::optional<std::int64_t> map_epoch_;  ///< of the newest pair
+  std::int64_t reference_moves_ = 0;       ///< that were answered
+  bool reference_hidden_ = true;           ///< where one is in use
   ToolInUse in_use_;
 
   Step step_ = Step::kSetup;

@@ -44,7 +44,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kWarnLost: return;  // the status line shows it from the tool in use
     case kHideGuidance: return in_use_.hide_guidance(true);
     case kShowGuidance: return in_use_.hide_guidance(false);
-    case kForgetMap: return forget_map(time);
+    case kForgetMap: return forget_places(event, time);
   }
 }
 // clang-format on
@@ -130,6 +130,7 @@ void Session::finish_screw(Timestamp time) {
   LevelState& now = level();
   const std::size_t screw = guiding_.screw();
   now.screw_done[screw] = true;
+  now.clearance_at_depth[screw] = guiding_.clearance_at_depth(now, tools_.geometry(tools_.guide()));
   if (observer_) {
     observer_->screw_done(time, now, now.plan.screws[screw], guiding_.at_depth());
   }
@@ -189,7 +190,7 @@ void Session::drop_head(Timestamp time) {
 }
 
 void Session::bend_rod(Timestamp time) {
-  const Status bent = rod_templating_.bend(options_.rod_diameter_m);
+  const Status bent = rod_templating_.bend(options_, levels_);
   if (!bent) {
     messages_.say(NoRod{bent.error()}, time);
   }
@@ -202,9 +203,9 @@ void Session::finish_rod(Timestamp time) {
   handle(rod_templating_.finish() ? Event::kAnotherSide : Event::kNoSideLeft, time);
 }
 
-/// World is another one: whatever was measured in it is gone. What the patient has already, and
-/// what was measured of it, stays in the report.
-void Session::forget_map(Timestamp time) {
+/// World is another one, or what hung it on the patient moved: whatever was measured in it is gone.
+/// What the patient has already, and what was measured of it, stays in the report.
+void Session::forget_places(Event why, Timestamp time) {
   for (LevelState& level : levels_) {
     level.map_moved = level.registration.has_value() && level.finished();
     if (!level.map_moved) {
@@ -218,7 +219,9 @@ void Session::forget_map(Timestamp time) {
   tools_.forget_poses();
   guidance_.head.reset();
   if (step_ == Step::kDigitize || step_ == Step::kRod || step_ == Step::kDone) {
-    messages_.say(MapMoved{step_}, time);
+    messages_.say(
+        why == Event::kReferenceMoved ? Message(ReferenceMoved{step_}) : Message(MapMoved{step_}),
+        time);
   }
 }
 

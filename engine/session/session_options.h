@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/time.h"
+#include "nav/guidance/rod_bends.h"
 #include "nav/registration/check_points.h"
 
 namespace orthonav::engine {
@@ -16,6 +17,9 @@ struct SessionOptions {
   /// one said twice.
   double min_voice_confidence = 0.5;
   double rod_diameter_m = 0.0055;
+  double head_to_seat_m = nav::RodSeating{}.head_to_seat_m;
+  /// Its own diameter is `rod_diameter_m`.
+  nav::RodBending rod_bending;
   /// A screw head or a check point whose tips scatter more than this over one click (root mean
   /// square about their mean) was not touched at rest. Noise and tremor at the end of a 130 mm
   /// lever already make up to 2.5 mm over three pairs in the simulated room; a moving tip makes 5
@@ -28,6 +32,9 @@ struct SessionOptions {
   /// Random walk of World against the patient, SD along an axis after one second, m/√s; what it
   /// makes of the time that passes is added to the errors in common. 0: not known.
   double map_drift_m_per_sqrt_s = 0.0;
+  /// The clearance to the cortex along the tool is computed in every pair in which it is guided:
+  /// about a millisecond. Without, only of what was measured at depth.
+  bool live_clearance = true;
   /// A message to the surgeon goes by itself after so long.
   Duration message_for = std::chrono::seconds(3);
   /// What was heard stays on the status line for so long.

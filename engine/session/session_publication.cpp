@@ -15,8 +15,10 @@ void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   out.fade = options_.fade;
   out.blank = false;
   out.tools = tools_.sights();
+  out.anchor = tools_.tracker().anchor();
   if (frame.world_from_rig) {
-    out.head = frame.world_from_rig;
+    out.head = out.anchor ? out.anchor->world_from_anchored.inverse() * *frame.world_from_rig
+                          : *frame.world_from_rig;
   }
   publish_steps(frame.time, display_time);
   publish_status();
@@ -42,6 +44,10 @@ void Session::publish_steps(Timestamp now, Timestamp display_time) {
     out.tool =
         guiding_.guide(level(), tools_.watch(tools_.guide()), tools_.geometry(tools_.guide()), now,
                        display_time, options_.stale_after);
+    if (out.tool && out.tool->measured && options_.live_clearance) {
+      out.tool->clearance = guiding_.clearance_along(level(), tools_.watch(tools_.guide()).newest(),
+                                                     tools_.geometry(tools_.guide()));
+    }
   }
   out.rods = rod_templating_.rods();
   out.rods_moved_away = rod_templating_.moved_away();
@@ -76,9 +82,21 @@ void Session::publish_status() {
     line.tool_lost = in_use_.lost();
     line.tag_size_off = tools_.tag_size_off(*tool);
   }
+  if (const auto reference = hidden_reference()) {
+    line.tool = tools_.geometry(*reference).name;
+    line.tool_lost = true;
+  }
   line.message = messages_.message();
   line.heard = messages_.heard();
   line.state = state_of_step();
+}
+
+/// The first of them, while none is seen in a step that needs one.
+std::optional<std::size_t> Session::hidden_reference() const {
+  if (!guidance_.anchor || !reference_hidden_ || step_ == Step::kSetup || step_ == Step::kDone) {
+    return std::nullopt;
+  }
+  return tools_.first_reference();
 }
 
 StepState Session::state_of_step() const {

@@ -17,6 +17,8 @@ struct RecordedPose {
   double tip_to_entry_m = 0.0;
   double tip_off_axis_m = 0.0;
   double depth_m = 0.0;
+  std::optional<double> clearance_m;  ///< of the planned screw along the tool
+  std::optional<double> clearance_95_m;
 };
 
 struct RecordedScrew {
@@ -63,12 +65,23 @@ struct RecordedBend {
   double angle_rad = 0.0;
 };
 
+/// One bend as it was instructed.
+struct RecordedInstruction {
+  double arc_length_m = 0.0;  ///< of its middle, from the first end
+  double roll_rad = 0.0;
+  double angle_rad = 0.0;
+  double set_rad = 0.0;  ///< on the bender
+};
+
 struct RecordedRod {
   Side side = Side::kLeft;
   std::size_t heads = 0;
   bool done = false;
   std::optional<double> length_m;  ///< of the template that was taken
   std::vector<RecordedBend> bends;
+  std::optional<double> cut_length_m;  ///< absent: there were no instructions
+  std::vector<RecordedInstruction> instructions;
+  std::string no_instructions;  ///< why not
 };
 
 /// The workflow came to this step.

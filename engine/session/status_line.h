@@ -39,6 +39,8 @@ struct ChecksSoFar {
 };
 struct HeadsSoFar {
   std::size_t count = 0;
+  std::optional<double> cut_length_m;  ///< of the rod through them, where it has instructions
+  std::size_t bends = 0;
 };
 using StepState =
     std::variant<std::monostate, StrokesSoFar, RegistrationFigures, ChecksSoFar, HeadsSoFar>;

@@ -83,8 +83,8 @@ void Verifying::judge(LevelState& level) {
 
 nav::PressModel Verifying::press_model() const {
   nav::PressModel press;
-  const double since_m =
-      options_.map_drift_m_per_sqrt_s * std::sqrt(seconds(first_pressed_ - registered_));
+  const double since_m = options_.map_drift_m_per_sqrt_s *
+                         std::sqrt(std::max(0.0, seconds(first_pressed_ - registered_)));
   press.moved_sd_m = std::max(press.moved_sd_m, std::hypot(strokes_->common.map_m, since_m));
   press.moved_since_sd_m = options_.drift_since_m(last_pressed_ - first_pressed_);
   return press;

@@ -1,5 +1,6 @@
 #include "engine/session/watched_tools.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -91,6 +92,15 @@ void WatchedTools::lose_sight() {
     sight.status = PoseStatus::kLost;
     sight.papers.clear();
   }
+}
+
+std::optional<std::size_t> WatchedTools::first_reference() const {
+  const auto tools = tracker_->tools();
+  const auto found = std::find_if(tools.begin(), tools.end(), [](const nav::ToolGeometry& tool) {
+    return tool.role == nav::ToolRole::kReference;
+  });
+  return found == tools.end() ? std::nullopt
+                              : std::optional(static_cast<std::size_t>(found - tools.begin()));
 }
 
 std::optional<Point<World>> WatchedTools::pointer_tip(Timestamp now, Duration within) const {

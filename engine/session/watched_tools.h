@@ -29,6 +29,8 @@ class WatchedTools {
 
   [[nodiscard]] std::size_t pointer() const { return pointer_; }
   [[nodiscard]] std::size_t guide() const { return guide_; }
+  /// A patient reference; nothing where the tools have none.
+  [[nodiscard]] std::optional<std::size_t> first_reference() const;
   [[nodiscard]] const ToolWatch& watch(std::size_t tool) const { return watches_[tool]; }
   [[nodiscard]] const nav::ToolGeometry& geometry(std::size_t tool) const {
     return tracker_->tools()[tool];

@@ -107,10 +107,18 @@ struct MessageWriter {
   void operator()(const MapMoved& m) {
     text.begin(Importance::kDanger);
     out += "the headset's map moved";
-    if (m.step == Step::kDigitize) {
+    ask_again(m.step);
+  }
+  void operator()(const ReferenceMoved& m) {
+    text.begin(Importance::kDanger);
+    out += "a patient reference moved";
+    ask_again(m.step);
+  }
+  void ask_again(Step step) {
+    if (step == Step::kDigitize) {
       text.begin(Importance::kNext, ": ");
       out += "digitize again";
-    } else if (m.step == Step::kRod) {
+    } else if (step == Step::kRod) {
       text.begin(Importance::kNext, ": ");
       out += "touch this rod's heads again";
     }
@@ -176,6 +184,12 @@ struct StateWriter {
   void operator()(const HeadsSoFar& heads) {
     text.begin(Importance::kCount);
     append_printed(out, "%zu heads", heads.count);
+    if (heads.cut_length_m) {
+      text.begin(Importance::kFigures, ", ");
+      out += "cut to ";
+      append_mm(out, *heads.cut_length_m, 1);
+      append_printed(out, heads.bends == 1 ? ", %zu bend" : ", %zu bends", heads.bends);
+    }
   }
 };
 

@@ -32,6 +32,9 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
     "pose stale",
     "tracking regained",
     "map moved",
+    "reference hidden",
+    "reference seen",
+    "reference moved",
 };
 
 constexpr std::array<std::string_view, kActionCount> kActionNames = {
@@ -63,7 +66,7 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "move rod",
     "show or hide twin",
     "finish",
-    "warn: tool lost",
+    "warn: not seen",
     "hide guidance",
     "show guidance",
     "forget map",

@@ -6,82 +6,13 @@
 #include <string>
 #include <string_view>
 
+#include "engine/session/event.h"
 #include "hal/api/shown_status.h"
 
 namespace orthonav::engine {
 
 using orthonav::kStepCount;
 using orthonav::Step;
-
-/// Everything that can happen: what the surgeon does, and what the engine itself finds out.
-enum class Event : std::uint8_t {
-  kPress,
-  kRelease,
-  kClick,
-  kDoubleClick,
-  kHold,
-  kSayStart,
-  kSaySave,
-  kSayDelete,
-  kSayAccept,
-  kSayReject,
-  kSayNext,
-  kSayDone,
-  kSayMoveRod,
-  kSayTwin,
-  kRegistered,           ///< a registration passed its limits
-  kRegistrationRefused,  ///< a registration failed its limits
-  kChecked,              ///< "accept" was said and the check points bear it out
-  kNotChecked,           ///< "accept" was said too early, or against the check points
-  kAnotherScrew,         ///< the level has a further screw
-  kAnotherLevel,         ///< the level is finished, a further one is planned
-  kNoScrewLeft,          ///< every screw of the plan is done
-  kNoRodPlanned,         ///< and no side has two, which a rod would join
-  kAnotherSide,          ///< the rod of the other side is still to do
-  kNoSideLeft,           ///< both rods are done
-  kTrackingLost,         ///< the step's tool is no longer measured
-  kPoseStale,            ///< the step's tool was last measured longer ago than may be shown
-  kTrackingRegained,     ///< the step's tool is measured again
-  kMapMoved,             ///< the headset's map is another one: positions in it mean nothing now
-};
-inline constexpr std::size_t kEventCount = 28;
-
-/// What the session does about it. The first is the answer of a forgotten cell.
-enum class Action : std::uint8_t {
-  kRefuse,  ///< not possible now; the surgeon is told
-  kIgnore,  ///< means nothing here, and need not be told
-  kBeginLevel,
-  kStartSampling,
-  kStopSampling,
-  kSaveRegion,
-  kDropRegion,
-  kRegister,
-  kShowRegistration,
-  kCountRefusal,
-  kJudgeChecks,
-  kAskForChecks,
-  kRecordCheck,
-  kDropCheck,
-  kAccept,
-  kClearLevel,
-  kSelectScrew,
-  kFinishScrew,
-  kBeginRod,
-  kBeginTouch,
-  kEndTouch,
-  kDropTouch,
-  kRecordHead,
-  kDropHead,
-  kFinishRod,
-  kMoveRod,
-  kToggleTwin,
-  kFinish,
-  kWarnLost,
-  kHideGuidance,
-  kShowGuidance,
-  kForgetMap,
-};
-inline constexpr std::size_t kActionCount = 32;
 
 struct Cell {
   Step next = Step::kSetup;
@@ -105,7 +36,8 @@ using enum Action;
 // clang-format off
 inline constexpr auto kRules = std::to_array<Rule>({
     // When the map moves, what was measured in it is forgotten wherever anything was measured; a level
-    // that is not finished is digitized again.
+    // that is not finished is digitized again. With a patient reference the map does not matter; one
+    // that moved does the same. While it is hidden nothing is shown on the patient, in any step.
 
     // Nothing is tracked for guidance before the operation starts.
     {kSetup, kSayStart, kBeginLevel, kDigitize},
@@ -117,6 +49,9 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kSetup, kPoseStale, kIgnore, kSetup},
     {kSetup, kTrackingRegained, kIgnore, kSetup},
     {kSetup, kMapMoved, kIgnore, kSetup},
+    {kSetup, kReferenceHidden, kIgnore, kSetup},
+    {kSetup, kReferenceSeen, kIgnore, kSetup},
+    {kSetup, kReferenceMoved, kIgnore, kSetup},
 
     // Samples while the button is down; a double click asks for the registration. Its two clicks
     // come as clicks too and mean nothing of their own.
@@ -133,6 +68,9 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDigitize, kPoseStale, kHideGuidance, kDigitize},
     {kDigitize, kTrackingRegained, kShowGuidance, kDigitize},
     {kDigitize, kMapMoved, kForgetMap, kDigitize},
+    {kDigitize, kReferenceHidden, kWarnLost, kDigitize},
+    {kDigitize, kReferenceSeen, kIgnore, kDigitize},
+    {kDigitize, kReferenceMoved, kForgetMap, kDigitize},
 
     // The surgeon looks at the hologram on the bone and touches places that were not stroked for it.
     // The only way on is their own word, and it counts once the touched places bear it out.
@@ -150,6 +88,9 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kVerify, kPoseStale, kHideGuidance, kVerify},
     {kVerify, kTrackingRegained, kShowGuidance, kVerify},
     {kVerify, kMapMoved, kForgetMap, kDigitize},
+    {kVerify, kReferenceHidden, kWarnLost, kVerify},
+    {kVerify, kReferenceSeen, kIgnore, kVerify},
+    {kVerify, kReferenceMoved, kForgetMap, kDigitize},
 
     {kAccepted, kSayNext, kSelectScrew, kGuide},
     {kAccepted, kSayReject, kClearLevel, kDigitize},
@@ -161,6 +102,9 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kAccepted, kPoseStale, kIgnore, kAccepted},
     {kAccepted, kTrackingRegained, kIgnore, kAccepted},
     {kAccepted, kMapMoved, kForgetMap, kDigitize},
+    {kAccepted, kReferenceHidden, kWarnLost, kAccepted},
+    {kAccepted, kReferenceSeen, kIgnore, kAccepted},
+    {kAccepted, kReferenceMoved, kForgetMap, kDigitize},
 
     // A registration that turns out wrong while guiding can be thrown away at any screw.
     {kGuide, kSayNext, kFinishScrew, kGuide},
@@ -178,6 +122,9 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kPoseStale, kHideGuidance, kGuide},
     {kGuide, kTrackingRegained, kShowGuidance, kGuide},
     {kGuide, kMapMoved, kForgetMap, kDigitize},
+    {kGuide, kReferenceHidden, kWarnLost, kGuide},
+    {kGuide, kReferenceSeen, kIgnore, kGuide},
+    {kGuide, kReferenceMoved, kForgetMap, kDigitize},
 
     // Heads are touched with the pointer's tip; the tip is averaged while the button is down. A
     // button held too long makes no click, so its touch is dropped and the surgeon told.
@@ -195,6 +142,9 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kRod, kPoseStale, kHideGuidance, kRod},
     {kRod, kTrackingRegained, kShowGuidance, kRod},
     {kRod, kMapMoved, kForgetMap, kRod},
+    {kRod, kReferenceHidden, kWarnLost, kRod},
+    {kRod, kReferenceSeen, kIgnore, kRod},
+    {kRod, kReferenceMoved, kForgetMap, kRod},
 
     {kDone, kSayMoveRod, kMoveRod, kDone},
     {kDone, kPress, kIgnore, kDone},
@@ -205,6 +155,9 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDone, kPoseStale, kIgnore, kDone},
     {kDone, kTrackingRegained, kIgnore, kDone},
     {kDone, kMapMoved, kForgetMap, kDone},
+    {kDone, kReferenceHidden, kIgnore, kDone},
+    {kDone, kReferenceSeen, kIgnore, kDone},
+    {kDone, kReferenceMoved, kForgetMap, kDone},
 });
 
 /// What `verify` answers instead where the surgeon's eye alone verifies.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "nav/evaluation/errors.h"
+#include "nav/tracking/anchor.h"
 
 namespace orthonav::engine {
 
@@ -29,11 +30,16 @@ void GroundTruthRecorder::note(const LevelState& level,
   const auto world_from_vertebra =
       headset_.world_from_room() * headset_.state().room_from_spine * here->spine_from_vertebra;
   std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
-  registrations_.push_back({level.plan.label, estimated, world_from_vertebra});
+  registrations_.push_back({level.plan.label, map_from_session() * estimated, world_from_vertebra});
+}
+
+Transform<World, World> GroundTruthRecorder::map_from_session() const {
+  const nav::Anchor* anchor = session_.tracker().anchor();
+  return anchor != nullptr ? anchor->world_from_anchored : Transform<World, World>();
 }
 
 void GroundTruthRecorder::head_recorded(Timestamp /*time*/, nav::Side side, Point<World> head) {
-  touched_.push_back({side, headset_.world_from_room().inverse() * head});
+  touched_.push_back({side, headset_.world_from_room().inverse() * (map_from_session() * head)});
 }
 
 void GroundTruthRecorder::head_dropped(Timestamp /*time*/, nav::Side side) {
@@ -82,6 +88,10 @@ void GroundTruthRecorder::evaluate_level(const LevelState& state, LevelOutcome& 
           state.plan.screws[s], {wire.entry, wire.direction}, state.plan.model->surface());
       screw.angle_error_rad = error.angle_rad;
       screw.entry_error_m = error.entry_m;
+      const auto executed = nav::cylinder_along({wire.entry, wire.direction}, state.plan.screws[s],
+                                                state.plan.model->surface());
+      screw.executed =
+          executed ? nav::least_clearance(state.plan.model->surface(), *executed) : std::nullopt;
     }
   }
 }

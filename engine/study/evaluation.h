@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/report/operation_result.h"
+#include "engine/session/session.h"
 #include "engine/session/session_observer.h"
 #include "hal/sim/sim_headset.h"
 
@@ -15,7 +16,9 @@ namespace orthonav::engine {
 /// holds only at its moment.
 class GroundTruthRecorder : public SessionObserver {
  public:
-  explicit GroundTruthRecorder(const sim::SimHeadset& headset) : headset_(headset) {}
+  /// Both must outlive it.
+  GroundTruthRecorder(const sim::SimHeadset& headset, const Session& session)
+      : headset_(headset), session_(session) {}
 
   void registered(Timestamp time, const LevelState& level,
                   const RegistrationOutcome& outcome) override;
@@ -40,8 +43,11 @@ class GroundTruthRecorder : public SessionObserver {
   void note(const LevelState& level, const Transform<World, Vertebra>& estimated);
   void evaluate_level(const LevelState& state, LevelOutcome& level) const;
   void evaluate_rod(RodOutcome& rod) const;
+  /// From the World of the session, which may hang on a patient reference, to the headset's map.
+  [[nodiscard]] Transform<World, World> map_from_session() const;
 
   const sim::SimHeadset& headset_;
+  const Session& session_;
   std::vector<LevelTruth> registrations_;
   std::vector<TouchedHead> touched_;
 };

@@ -37,16 +37,21 @@ sim::RoomDescription room_of(const Case& source, const Operation& operation,
 
 void tell_common_errors(const sim::ErrorModel& room, SessionOptions& session) {
   // At arm's length. The tag's known size and the rotation that is estimated take most of a wrong
-  // rotation and centre away in depth; what stays is the scale, by focal length and baseline.
+  // rotation and centre away in depth; what stays is the scale, by focal length, baseline and by
+  // how large the tags were printed: cameras that are turned towards each other look the same.
   constexpr double kReach_m = 0.45;
   constexpr double kFocal_px = 365.0;
   constexpr double kBaseline_m = 0.1;
   const double across_m = kReach_m * room.calibration_centre_px / kFocal_px;
-  const double depth_m = kReach_m * std::hypot(room.calibration_focal_ratio / std::numbers::sqrt2,
-                                               room.calibration_baseline_m / kBaseline_m);
+  const double depth_m =
+      kReach_m * std::hypot(room.calibration_focal_ratio / std::numbers::sqrt2,
+                            room.calibration_baseline_m / kBaseline_m, room.tag_scale);
   session.common.tip_m = room.tip_calibration_m;
   session.common.cameras_m = std::sqrt((2.0 * across_m * across_m + depth_m * depth_m) / 3.0);
-  session.map_drift_m_per_sqrt_s = room.map_drift_m_per_sqrt_s;
+  constexpr double kSecondsAMinute = 60.0;
+  session.map_drift_m_per_sqrt_s =
+      std::hypot(room.map_drift_m_per_sqrt_s,
+                 room.map_step_m * std::sqrt(room.map_steps_per_min / kSecondsAMinute));
 }
 
 }  // namespace orthonav::engine

@@ -5,6 +5,7 @@
 #include "engine/case/tool_file.h"
 #include "engine/live/known_tools.h"
 #include "engine/study/evaluation.h"
+#include "engine/study/modelled_tracker.h"
 #include "engine/study/sim_scenario.h"
 #include "hal/replay/recorder.h"
 
@@ -63,7 +64,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
     return assembled.error();
   }
   AssembledOperation& live = **assembled;
-  GroundTruthRecorder ground_truth(room);
+  GroundTruthRecorder ground_truth(room, live.session());
   EndNote end_note;
   observe(hooks, ground_truth, end_note, live);
   auto recorder = recorder_of(room, options.record_folder, *tools);
@@ -91,6 +92,28 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   return result;
 }
 
+sim::SimOptions sim_options(const OperationOptions& options) {
+  sim::SimOptions sim = options.sim;
+  sim.render = sim.render && options.measurement == Measurement::kPixels && !options.navigation;
+  return sim;
+}
+
+/// The method as it works in this room.
+Result<Method> method_in(const sim::SimHeadset& room, const Operation& operation,
+                         const OperationOptions& options) {
+  if (options.navigation) {
+    return method_of(*options.navigation, room, operation);
+  }
+  auto method = method_named(options.method);
+  if (method && options.measurement == Measurement::kModel) {
+    method->create_tracker = [name = method->name, &room](const auto&... given) {
+      return create_modelled_tracker(name, room, given...);
+    };
+    method->coaching = false;  // the simulated surgeon does not read it, and it is not for free
+  }
+  return method;
+}
+
 }  // namespace
 
 std::vector<std::string> OperationOptions::check() const {
@@ -115,20 +138,32 @@ Result<OperationResult> run_operation(const Case& source, const OperationOptions
   if (const auto problems = options.check(); !problems.empty()) {
     return Error{joined(problems)};
   }
-  const auto method = method_named(options.method);
-  if (!method) {
-    return method.error();
-  }
   ModelCache none;
   auto operation = plan_operation(source, options.levels, hooks.models ? *hooks.models : none);
   if (!operation) {
     return operation.error();
   }
-  auto room = sim::SimHeadset::open(room_of(source, *operation, options.tools), options.sim);
+  return run_operation(source, std::move(*operation), options, hooks);
+}
+
+Result<OperationResult> run_operation(const Case& source, Operation planned,
+                                      const OperationOptions& options,
+                                      const OperationHooks& hooks) {
+  if (const auto problems = options.check(); !problems.empty()) {
+    return Error{joined(problems)};
+  }
+  auto room = sim::SimHeadset::open(room_of(source, planned, options.tools), sim_options(options));
   if (!room) {
     return room.error();
   }
-  auto result = operate(**room, *method, std::move(*operation), options, hooks);
+  auto method = method_in(**room, planned, options);
+  if (!method) {
+    return method.error();
+  }
+  if (hooks.adapt) {
+    hooks.adapt(**room, *method);
+  }
+  auto result = operate(**room, *method, std::move(planned), options, hooks);
   if (!result) {
     return result.error();
   }

@@ -10,12 +10,22 @@
 #include "engine/case/model_cache.h"
 #include "engine/live/assembled_operation.h"
 #include "engine/report/operation_result.h"
+#include "engine/study/stated_navigation.h"
 #include "hal/sim/sim_headset.h"
 
 namespace orthonav::engine {
 
+/// What the tools are tracked in.
+enum class Measurement {
+  kPixels,  ///< images of the room
+  kModel    ///< no images: what they would tell, by a model fitted to them (measurement_model.h)
+};
+
 struct OperationOptions : AssemblyOptions {
   std::string method = "best";
+  Measurement measurement = Measurement::kPixels;
+  /// In place of the method: a published system's, in the measurement model.
+  std::optional<StatedNavigation> navigation;
   std::vector<std::string> levels;  ///< empty: the two lowest of the case
   std::vector<nav::ToolGeometry> tools;
   sim::SimOptions sim;
@@ -34,6 +44,8 @@ struct OperationHooks {
   /// Receives, before the operation runs, a function that ends it early, from any thread; and null
   /// once it has ended.
   std::function<void(std::function<void()>)> can_stop;
+  /// May replace parts of the method once the room is open.
+  std::function<void(const sim::SimHeadset&, Method&)> adapt;
   /// Called once the room is open and before the first frame; an Error ends the run.
   std::function<Status(sim::SimHeadset&, const Method&, const Session&)> opened;
 };
@@ -42,6 +54,10 @@ struct OperationHooks {
 /// same case, options and seed give the same result, whoever takes part. An Error means bad input;
 /// an operation that did not reach its end is a result with `completed` false.
 Result<OperationResult> run_operation(const Case& source, const OperationOptions& options,
+                                      const OperationHooks& hooks = {});
+/// The same with an operation that was planned on this case before, with its models prepared.
+Result<OperationResult> run_operation(const Case& source, Operation planned,
+                                      const OperationOptions& options,
                                       const OperationHooks& hooks = {});
 
 }  // namespace orthonav::engine

@@ -9,6 +9,9 @@
 #include <utility>
 
 #include "base/mutex.h"
+#include "engine/case/operation_plan.h"
+#include "engine/study/study_definition.h"
+#include "engine/study/study_store.h"
 #include "engine/study/study_text.h"
 
 namespace orthonav::engine {
@@ -19,15 +22,17 @@ using Json = nlohmann::ordered_json;
 struct Job {
   const Case* source = nullptr;
   std::uint64_t seed = 0;
+  int number = 0;  ///< in the whole study
 };
 
+/// In the order of their numbers.
 std::vector<Job> jobs_of(std::span<const Case> cases, const StudyOptions& options) {
   std::vector<Job> jobs;
   int number = 0;
   for (const Case& source : cases) {
     for (int run = 0; run < options.runs; ++run, ++number) {
       if (number % options.shards == options.shard - 1) {
-        jobs.push_back({&source, options.first_seed + static_cast<std::uint64_t>(run)});
+        jobs.push_back({&source, options.first_seed + static_cast<std::uint64_t>(run), number});
       }
     }
   }
@@ -38,8 +43,37 @@ std::vector<Job> jobs_of(std::span<const Case> cases, const StudyOptions& option
 class Workers {
  public:
   Workers(std::vector<Job> jobs, const StudyOptions& options,
-          const std::function<void(int, int)>& progress)
-      : jobs_(std::move(jobs)), options_(options), progress_(progress), reports_(jobs_.size()) {}
+          const std::function<void(int, int)>& progress, std::optional<StudyStore> store)
+      : jobs_(std::move(jobs)),
+        options_(options),
+        progress_(progress),
+        store_(std::move(store)),
+        reports_(jobs_.size()) {}
+
+  /// Takes what the store holds already.
+  Status resume() {
+    const MutexLock lock(mutex_);
+    if (!store_) {
+      return {};
+    }
+    const auto stored = store_->operations();
+    if (!stored) {
+      return stored.error();
+    }
+    for (const StoredOperation& operation : *stored) {
+      const auto job =
+          std::lower_bound(jobs_.begin(), jobs_.end(), operation.index,
+                           [](const Job& one, int number) { return one.number < number; });
+      if (job == jobs_.end() || job->number != operation.index) {
+        continue;  // another shard's
+      }
+      reports_[static_cast<std::size_t>(job - jobs_.begin())] =
+          operation.report.empty() ? Result<std::string>(Error{operation.why})
+                                   : Result<std::string>(operation.report);
+      ++done_;
+    }
+    return {};
+  }
 
   Result<Study> run() {
     std::vector<std::thread> threads;
@@ -51,16 +85,13 @@ class Workers {
     for (std::thread& thread : threads) {
       thread.join();
     }
-    return study();
+    return keep_and_tell();
   }
 
   /// Begins no further run and ends those under way; from any thread.
   void stop() {
     const MutexLock lock(mutex_);
-    stopped_ = true;
-    for (const auto& [run, end] : under_way_) {
-      end();
-    }
+    stop_all();
   }
 
  private:
@@ -70,13 +101,56 @@ class Workers {
       if (i >= jobs_.size() || is_stopped()) {
         return;
       }
+      if (is_made(i)) {
+        continue;
+      }
       OperationOptions operation = options_.operation;
       operation.sim.seed = jobs_[i].seed;
       operation.tracker.parallel = options_.jobs < 2;
+      operation.session.live_clearance = false;  // nobody reads it there
       OperationHooks hooks;
       hooks.can_stop = [this, i](std::function<void()> end) { set_under_way(i, std::move(end)); };
-      take(i, run_operation(*jobs_[i].source, operation, hooks));
+      const auto planned = planned_on(*jobs_[i].source);
+      take(i, planned ? run_operation(*jobs_[i].source, *planned, operation, hooks)
+                      : Result<OperationResult>(planned.error()));
     }
+  }
+
+  bool is_made(std::size_t i) {
+    const MutexLock lock(mutex_);
+    return reports_[i].has_value();
+  }
+
+  /// The plan of a case, with its models prepared once.
+  Result<Operation> planned_on(const Case& source) {
+    const MutexLock lock(planning_);
+    const auto known = plans_.find(&source);
+    if (known != plans_.end()) {
+      return known->second;
+    }
+    ModelCache models;
+    return plans_.emplace(&source, plan_operation(source, options_.operation.levels, models))
+        .first->second;
+  }
+
+  void stop_all() ORTHONAV_REQUIRES(mutex_) {
+    stopped_ = true;
+    for (const auto& [run, end] : under_way_) {
+      end();
+    }
+  }
+
+  Result<Study> keep_and_tell() {
+    {
+      const MutexLock lock(mutex_);
+      if (stored_ && store_ && done_ == static_cast<int>(jobs_.size())) {
+        stored_ = store_->finish();
+      }
+      if (!stored_) {
+        return stored_.error();
+      }
+    }
+    return study();
   }
 
   bool is_stopped() {
@@ -104,6 +178,15 @@ class Workers {
     }
     reports_[i] = result ? Result<std::string>(report_json(*result)) : result.error();
     ++done_;
+    if (store_ && stored_.ok()) {
+      const Job& job = jobs_[i];
+      stored_ = store_->add({job.number, job.source->name, job.seed,
+                             result ? **reports_[i] : std::string(),
+                             result ? std::string() : result.error().message});
+      if (!stored_) {
+        stop_all();
+      }
+    }
     if (progress_) {
       progress_(done_, static_cast<int>(jobs_.size()));
     }
@@ -133,7 +216,7 @@ class Workers {
     if (runs.empty() && out.failure) {
       return *out.failure;
     }
-    out.text = study_text(options_.operation.method, runs, failed, jobs_.size());
+    out.text = study_text(method_label(options_.operation), runs, failed, jobs_.size());
     out.made = done_;
     out.planned = static_cast<int>(jobs_.size());
     return out;
@@ -144,7 +227,11 @@ class Workers {
   const std::function<void(int, int)>& progress_;
   std::atomic<std::size_t> next_ = 0;
   mutable Mutex mutex_;
+  std::optional<StudyStore> store_ ORTHONAV_GUARDED_BY(mutex_);
+  Status stored_ ORTHONAV_GUARDED_BY(mutex_);
   std::vector<std::optional<Result<std::string>>> reports_ ORTHONAV_GUARDED_BY(mutex_);
+  Mutex planning_;
+  std::map<const Case*, Result<Operation>> plans_ ORTHONAV_GUARDED_BY(planning_);
   std::map<std::size_t, std::function<void()>> under_way_ ORTHONAV_GUARDED_BY(mutex_);
   bool stopped_ ORTHONAV_GUARDED_BY(mutex_) = false;
   int done_ ORTHONAV_GUARDED_BY(mutex_) = 0;
@@ -177,7 +264,18 @@ Result<Study> run_study(std::span<const Case> cases, const StudyOptions& options
   if (cases.empty()) {
     return Error{"study: no case"};
   }
-  Workers workers(jobs_of(cases, options), options, progress);
+  std::optional<StudyStore> store;
+  if (!options.store.empty()) {
+    auto opened = StudyStore::open(options.store, definition_of(cases, options));
+    if (!opened) {
+      return opened.error();
+    }
+    store = std::move(*opened);
+  }
+  Workers workers(jobs_of(cases, options), options, progress, std::move(store));
+  if (const Status resumed = workers.resume(); !resumed) {
+    return resumed.error();
+  }
   if (can_stop) {
     can_stop([&workers] { workers.stop(); });
   }

@@ -18,6 +18,10 @@ struct StudyOptions {
   int shard = 1;  ///< of `shards`, from 1: every shards-th run
   int shards = 1;
   int jobs = 1;  ///< operations at the same time; no figure depends on it
+  /// An SQLite file that keeps each operation once it is made; empty: none. What it holds already
+  /// is not made again.
+  std::string store;
+  std::string version;  ///< of the program, part of what a stored study is
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;

@@ -42,6 +42,7 @@ enum class Notice : std::uint8_t {
   kTouchNotRecorded,  ///< of a check point or a head
   kNoRod,             ///< the heads give none
   kMapMoved,          ///< the headset's map: what was measured in it is gone
+  kReferenceMoved,    ///< the patient's: what hung on it is gone
   kNoImages,          ///< the cameras deliver none
   kEnded,
 };

@@ -1,41 +1,64 @@
 #include "hal/sim/deviation.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/angle.h"
+#include "hal/sim/shown_cross.h"
 
 namespace orthonav::sim {
 namespace {
 
 constexpr double kDisagreement_rad = 1.0 * kRadiansPerDegree;
 constexpr double kShortest_m = 1e-3;
+/// A dot counts as held at the rim from just within it.
+constexpr double kNearRim = 0.99;
+
+/// A hologram with that many places, or null.
+const ShownHologram* find_places(const Eyes& eyes, HologramKind kind, std::size_t count) {
+  const ShownHologram* found = eyes.find(kind);
+  return found && found->points_in_world.size() == count ? found : nullptr;
+}
+
+/// From a hologram's first place to another one, in the room.
+Vec3 from_first(const Eyes& eyes, const ShownHologram& shown, std::size_t to) {
+  return eyes.place(shown.points_in_world[to]) - eyes.place(shown.points_in_world[0]);
+}
+
+Vec3 turn_of(Vec3 lean, Vec3 planned, double angle_rad) {
+  const Vec3 axis = lean.cross(planned);
+  return axis.norm() > 0.0 ? angle_rad * axis.normalized() : Vec3{};
+}
 
 }  // namespace
 
 std::optional<Deviation> read_deviation(const Eyes& eyes) {
-  const ShownHologram* triangle = eyes.find(HologramKind::kTriangle);
+  const ShownHologram* triangle = find_places(eyes, HologramKind::kTriangle, 3);
+  const ShownHologram* cross = find_places(eyes, HologramKind::kCross, 3);
   const ShownHologram* number = eyes.find(HologramKind::kAngle);
-  if (!triangle || triangle->points_in_world.size() != 3 || !number) {
+  if (!triangle || !cross || !number || !number->reading) {
     return std::nullopt;
   }
-  const std::optional<double> reading_rad = number->reading;
-  if (!reading_rad) {
+  const Vec3 planned = from_first(eyes, *triangle, 2);
+  const Vec3 tip = from_first(eyes, *cross, 1) / kCrossScale;
+  const Vec3 top = from_first(eyes, *cross, 2) / kCrossScale;
+  if (!(planned.norm() > kShortest_m)) {
     return std::nullopt;
   }
-  const Point<Room> a = eyes.place(triangle->points_in_world[0]);
-  const Vec3 tool = eyes.place(triangle->points_in_world[1]) - a;
-  const Vec3 planned = eyes.place(triangle->points_in_world[2]) - a;
-  if (!(tool.norm() > kShortest_m && planned.norm() > kShortest_m)) {
-    return std::nullopt;
+  if (std::max(tip.norm(), top.norm()) > kNearRim * kCrossRim_m) {
+    const Vec3 lean = from_first(eyes, *triangle, 1) - tip;
+    if (!lean.is_finite()) {
+      return std::nullopt;
+    }
+    return Deviation{*eyes.seen_at(), turn_of(lean, planned, *number->reading)};
   }
-  const double angle_rad = angle_between_rad(tool, planned);
+  const Vec3 lean = top - tip;
+  const double angle_rad = std::asin(std::min(1.0, lean.norm() / kCrossReach_m));
   // Negated, so that NaN disagrees.
-  if (!(std::abs(angle_rad - *reading_rad) <= kDisagreement_rad)) {
+  if (!(std::abs(angle_rad - *number->reading) <= kDisagreement_rad)) {
     return std::nullopt;
   }
-  const Vec3 axis = tool.cross(planned);
-  const Vec3 turn = axis.norm() > 0.0 ? angle_rad * axis.normalized() : Vec3{};
-  return Deviation{*eyes.seen_at(), turn};
+  return Deviation{*eyes.seen_at(), turn_of(lean, planned, angle_rad)};
 }
 
 void DeviationMemory::add(const Deviation& reading) {

@@ -7,15 +7,18 @@
 
 namespace orthonav::sim {
 
-/// What H5 and H6 show at a moment: the rotation vector (Room, rad) that takes the tool's axis onto
+/// What H5 to H7 show at a moment: the rotation vector (Room, rad) that takes the tool's axis onto
 /// the planned one.
 struct Deviation {
   Timestamp seen_at{};
   Vec3 turn;
 };
 
-/// Reads it off the display: the direction from the triangle, checked against the number. Nothing
-/// when either is missing or shows dashes, or when they disagree by more than a degree.
+/// Reads it off the display. With both dots of the cross off its rim: from the filled to the hollow
+/// one, checked against the number. Farther off: where to by the triangle, less what the filled dot
+/// says of the tip, and how far by the number. The triangle alone does not tell: with the tip
+/// beside the entry it closes at another angle. Nothing when a part is missing or shows dashes, or
+/// when dots and number disagree by more than a degree.
 [[nodiscard]] std::optional<Deviation> read_deviation(const Eyes& eyes);
 
 /// The readings of the last seconds, one per displayed frame.

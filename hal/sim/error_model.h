@@ -27,14 +27,16 @@ struct ErrorModel {
   double read_noise_grey = 1.0;
 
   // The calibration that the device reports, compared with the true one. One real unit's factory
-  // calibration was off by 0.6 px across the epipolar lines; these four give an SD of 0.36 px
-  // there, and an SD of depth of 2 mm at arm's length, the most that a surgeon still accepts as an
-  // overlay's error.
+  // calibration was off by 0.6 px across the epipolar lines; the first four give an SD
+  // of 0.28 px there, and an SD of depth of 1.5 mm at arm's length.
 
-  double calibration_focal_ratio = 0.001;    ///< SD, per camera
-  double calibration_centre_px = 0.2;        ///< SD, per camera and axis
-  double calibration_rotation_rad = 0.0006;  ///< SD per axis, right relative to left camera
-  double calibration_baseline_m = 0.0002;    ///< SD per axis of the right camera's position
+  double calibration_focal_ratio = 0.0007;   ///< SD, per camera
+  double calibration_centre_px = 0.15;       ///< SD, per camera and axis
+  double calibration_rotation_rad = 0.0005;  ///< SD per axis, right relative to left camera
+  double calibration_baseline_m = 0.00015;   ///< SD per axis of the right camera's position
+  /// SD of a radial error of the lens at the image's corner, per camera; it grows with the cube of
+  /// the distance from the middle. Estimate: what a calibration with a board leaves there.
+  double calibration_distortion_px = 0.3;
 
   // The head and the map.
 
@@ -46,17 +48,48 @@ struct ErrorModel {
   /// trackers lies below a millimetre.
   double head_pose_noise_m = 0.0005;
   double head_pose_noise_rad = 0.0003;
-  /// Random walk of World against the room: 1 mm and half a milliradian after 100 s. Estimate.
+  /// Fraction of that variance that lasts for seconds instead of being new in every frame.
+  /// Estimate: a tracker smooths over many frames, so its error is anything but white.
+  double head_pose_lasting = 0.5;
+  /// Random walk of World against the room: 1 mm and half a milliradian after 100 s. The low end of
+  /// what is reported (0.1 to 0.5 mm/sqrt(s)): with 0.3 the surfaces of the paper would not have
+  /// fitted as they did.
   double map_drift_m_per_sqrt_s = 0.0001;
   double map_drift_rad_per_sqrt_s = 0.00005;
+  /// Now and then the map corrects itself in one step: SD per axis, and how often. Estimate.
+  double map_step_m = 0.0005;
+  double map_steps_per_min = 0.5;
 
   // The tools as the planning file describes them, compared with how they are.
 
   /// SD of the tip: what a pivot calibration with such cameras leaves. Estimate.
   double tip_calibration_m = 0.0005;
-  /// SD of the axis about the two directions across it: 0.17°, 0.4 mm over the 130 mm
-  /// between tag and tip.
-  double axis_calibration_rad = 0.003;
+  /// SD of the axis about the two directions across it: a printed tool, made by hand (0.005 to
+  /// 0.017).
+  double axis_calibration_rad = 0.010;
+  /// Relative SD of a printed tag's size against the size that is stated (0.001 to 0.01).
+  double tag_scale = 0.003;
+
+  // The model against the bone that it was made of.
+
+  /// RMS distance of the preoperative surface from the bone (0.3 to 0.8 mm).
+  double model_error_m = 0.0005;
+  /// Over this length the distance is alike (5 to 10 mm).
+  double model_error_length_m = 0.007;
+
+  // The patient. All zero: a phantom on a table.
+
+  /// Mean thickness of the soft tissue left on what is stroked: thick in valleys, thin on ridges.
+  /// 1 mm: a spine that was dissected in a hurry.
+  double tissue_m = 0.0;
+  /// How far the spine moves with a breath, from end to end (1.96 +- 1.32 mm in ten patients).
+  double breathing_m = 0.0;
+  double breathing_hz = 0.0;
+  /// How far it gives way under the instrument (1.55 +- 1.13 mm).
+  double push_m = 0.0;
+  /// The part of such a push that a reference on the neighbouring vertebra moves by as well (0.5 to
+  /// 0.9). Estimate.
+  double push_reaching_reference = 0.7;
 
   // The hand and the surgeon.
 
@@ -67,7 +100,10 @@ struct ErrorModel {
   /// RMS height of the tip above the bone while stroking: soft tissue and lift-off, correlated over
   /// 7-30 mm of path; never below the bone. Uncertain; the published registration RMSE was matched
   /// with it (docs/accuracy.md).
-  double stroke_lift_m = 0.0019;
+  double stroke_lift_m = 0.0020;
+  /// Relative SD of that height over surgeons: one presses, another glides. Fitted to the SD of the
+  /// published registration RMSE.
+  double stroke_lift_sd = 0.18;
   /// SD of the tip's height above the bone when a single place is touched: pressed through soft
   /// tissue without hurry, it is a fraction of what stroking leaves; never below the bone.
   /// Estimate.
@@ -84,7 +120,7 @@ struct ErrorModel {
   double voice_doubt = 0.10;
   double voice_doubt_sd = 0.03;
   /// SD of placing the tip on the perceived entry. Estimate.
-  double entry_pick_m = 0.0008;
+  double entry_pick_m = 0.0004;
   /// The guide's first direction is off by half to all of this, before any reading: by eye, a hand
   /// aligns a tool with a line in space to several degrees. Estimate. The surgeon corrects it
   /// afterwards.
@@ -95,17 +131,38 @@ struct ErrorModel {
   /// The surgeon pierces when the deviation seen stays within this, and misreads the rest with this
   /// SD about each direction across the axis: 0.3°, three of the readout's last digits.
   double angle_reading_rad = 0.005;
-  /// SD of where a hologram is perceived, constant during one placement: vergence, focus and eye
-  /// calibration. Estimate; published overlays on this kind of display are off by 1-5 mm.
+  /// SD of where a hologram is perceived across the line of sight, constant during one placement:
+  /// vergence, focus and eye calibration (1.3 to 2.5 mm; Condino et al. 2020 measured 2.3 mm for
+  /// touching a hologram with a tip, 0.9 mm for a real target).
   double overlay_perception_m = 0.0013;
+  /// By how much larger that error is along the line of sight. Vergence alone makes it 2 to 3
+  /// times; a tip that rests on the bone, seen while the head moves, leaves less. Fitted to the
+  /// entry error of Liebmann 2019.
+  double perception_depth_ratio = 1.25;
   /// SD of comparing model and bone when verifying: looking from more than one side reveals half of
   /// what one view gets wrong. Estimate.
   double overlay_comparison_m = 0.00065;
-  /// SD of the wire's slip along the cortex at piercing. Estimate, the least certain of all.
-  double wire_skiving_m = 0.0012;
-  /// SD of the wire's bending about each direction across it while it is driven. Estimate, just as
-  /// uncertain.
+  /// SD of the direction in which a tool is held along a hologram where no number tells, about each
+  /// direction across it. Estimate: the perceived places of the two ends of 100 mm.
+  double overlay_aligning_rad = 0.02;
+  /// How often a number is misread by a degree or a millimetre. Estimate.
+  double misreading_probability = 0.01;
+  /// SD of the hand's rotation about each direction across the tool while it drills: without a
+  /// number that it corrects by (0.015 to 0.035), and with one (0.008 to 0.018).
+  double hand_drilling_rad = 0.028;
+  double hand_drilling_corrected_rad = 0.014;
+
+  // The instrument. These are of a K-wire that nothing supports; `instruments.h` holds others.
+
+  /// SD of the tip's slip along the cortex at piercing: a sharp tip, or one in a sleeve (0.2 to
+  /// 0.6); a blunt one on a facet slips by 1.2 mm.
+  double wire_skiving_m = 0.0004;
+  /// SD of the bending about each direction across it while it is driven (0.02 to 0.04; in a
+  /// cannula or as a drill in a sleeve 0.004 to 0.012).
   double wire_bending_rad = 0.03;
+  /// SD of how badly a screw follows the hole that was made for it (0.02 to 0.06); zero for what
+  /// makes its own.
+  double hole_following_rad = 0.0;
   /// Speed of the median surgeon; 1 is that of the publication (Liebmann et al. 2019: 125 s and
   /// 1,983 points per level), so it is an input here and not a finding.
   double pace = 1.0;

@@ -1,20 +1,35 @@
 #include "hal/sim/head_track.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace orthonav::sim {
+namespace {
+
+/// How slowly the lasting part of a tracker's error changes.
+constexpr double kSlowest_hz = 0.1;
+constexpr double kFastest_hz = 2.0;
+
+}  // namespace
 
 HeadTrack::HeadTrack(const Random& random, const ErrorModel& error_model)
     : random_(random),
       noise_m_(error_model.head_pose_noise_m),
-      noise_rad_(error_model.head_pose_noise_rad) {}
+      noise_rad_(error_model.head_pose_noise_rad),
+      fresh_(std::sqrt(1.0 - error_model.head_pose_lasting)),
+      lasting_m_(random.fork("lasting position"),
+                 noise_m_ * std::sqrt(error_model.head_pose_lasting), kSlowest_hz, kFastest_hz),
+      lasting_rad_(random.fork("lasting rotation"),
+                   noise_rad_ * std::sqrt(error_model.head_pose_lasting), kSlowest_hz,
+                   kFastest_hz) {}
 
 void HeadTrack::add(std::int64_t frame, Timestamp time, const Transform<World, Rig>& pose,
                     Timestamp before, const Transform<World, Rig>& pose_before) {
   // One random stream per frame, so that skipped frames don't change the others' noise.
   Random noise = random_.fork(static_cast<std::uint64_t>(frame));
-  const Vec3 translation_m = normal_vector(noise, noise_m_);
-  const Vec3 rotation_rad = normal_vector(noise, noise_rad_);
+  const double time_s = seconds(time.time_since_epoch());
+  const Vec3 translation_m = normal_vector(noise, fresh_ * noise_m_) + lasting_m_.at(time_s);
+  const Vec3 rotation_rad = normal_vector(noise, fresh_ * noise_rad_) + lasting_rad_.at(time_s);
   nodes_[count_++ % kKept] = {time, before, pose, pose_before, translation_m, rotation_rad};
 }
 

@@ -43,6 +43,9 @@ class HeadTrack {
   Random random_;
   double noise_m_;
   double noise_rad_;
+  double fresh_ = 1.0;  ///< of the noise's SD: what is new in every frame
+  SmoothNoise3 lasting_m_;
+  SmoothNoise3 lasting_rad_;
   std::array<Node, kKept> nodes_;
   std::size_t count_ = 0;
 };

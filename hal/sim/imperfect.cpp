@@ -23,7 +23,8 @@ Result<CameraModel> perturbed(const CameraModel& camera, const ErrorModel& error
   const double zoom = 1.0 + random.normal(0.0, error_model.calibration_focal_ratio);
   const double right_px = random.normal(0.0, error_model.calibration_centre_px);
   const double down_px = random.normal(0.0, error_model.calibration_centre_px);
-  if (zoom == 1.0 && right_px == 0.0 && down_px == 0.0) {
+  const double corner_px = random.normal(0.0, error_model.calibration_distortion_px);
+  if (zoom == 1.0 && right_px == 0.0 && down_px == 0.0 && corner_px == 0.0) {
     return camera;
   }
   const auto focal = focal_px(camera);
@@ -31,8 +32,12 @@ Result<CameraModel> perturbed(const CameraModel& camera, const ErrorModel& error
     return focal.error();
   }
   std::vector<Vec2> rays(camera.lookup().begin(), camera.lookup().end());
+  const double half_px = 0.5 * std::hypot(camera.width_px(), camera.height_px());
+  const double corner = half_px / *focal;
   for (Vec2& ray : rays) {
-    ray = (1.0 / zoom) * (ray - Vec2{right_px / *focal, down_px / *focal});
+    const double squared = ray.dot(ray) / (corner * corner);
+    const double radial = 1.0 + corner_px / half_px * squared;
+    ray = (radial / zoom) * (ray - Vec2{right_px / *focal, down_px / *focal});
   }
   return CameraModel::from_lookup(camera.width_px(), camera.height_px(), std::move(rays));
 }
@@ -76,6 +81,7 @@ std::vector<RoomTool> described(const std::vector<RoomTool>& tools, const ErrorM
     const Vec3 tilt = normal_vector(noise, error_model.axis_calibration_rad);
     const Vec3 axis = tool.axis_in_marker;
     tool.axis_in_marker = (rotation_from_vector(tilt - tilt.dot(axis) * axis) * axis).normalized();
+    tool.size_m *= 1.0 + noise.normal(0.0, error_model.tag_scale);
   }
   return descriptions;
 }

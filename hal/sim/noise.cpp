@@ -41,11 +41,16 @@ Vec3 normal_vector(Random& random, double sd) {
   return sd * Vec3{x, y, z};
 }
 
-MapDrift::MapDrift(Random random, double m_per_sqrt_s, double rad_per_sqrt_s, double length_s) {
+MapDrift::MapDrift(Random random, double m_per_sqrt_s, double rad_per_sqrt_s, double length_s,
+                   const MapSteps& steps) {
+  Random jumps = random.fork("steps");
   nodes_.resize(static_cast<std::size_t>(std::max(length_s, 0.0)) + 3);
   for (std::size_t i = 1; i < nodes_.size(); ++i) {
     nodes_[i].translation_m = nodes_[i - 1].translation_m + normal_vector(random, m_per_sqrt_s);
     nodes_[i].rotation_rad = nodes_[i - 1].rotation_rad + normal_vector(random, rad_per_sqrt_s);
+    if (jumps.uniform() < steps.per_min / 60.0) {
+      nodes_[i].translation_m += normal_vector(jumps, steps.sd_m);
+    }
   }
 }
 

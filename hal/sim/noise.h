@@ -39,11 +39,18 @@ class SmoothNoise3 {
 /// Three independent standard normals times `sd`.
 [[nodiscard]] Vec3 normal_vector(Random& random, double sd);
 
+/// Corrections of a map, each within a second.
+struct MapSteps {
+  double sd_m = 0.0;
+  double per_min = 0.0;
+};
+
 /// How a headset's map creeps: a random walk in position and rotation with a node every second,
-/// linear in between. Starts at zero.
+/// linear in between, and now and then a step within a second. Starts at zero.
 class MapDrift {
  public:
-  MapDrift(Random random, double m_per_sqrt_s, double rad_per_sqrt_s, double length_s);
+  MapDrift(Random random, double m_per_sqrt_s, double rad_per_sqrt_s, double length_s,
+           const MapSteps& steps = {});
   struct Offset {
     Vec3 translation_m;
     Vec3 rotation_rad;

@@ -19,7 +19,13 @@ struct RoomLevel {
   std::vector<Vec3> vertices_m;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Transform<Spine, Vertebra> spine_from_vertebra;
+  /// The vertices that are extreme to posterior, left, right and superior in the model that was
+  /// made of the bone; where there is none, those of the bone itself.
+  std::optional<std::array<std::uint32_t, 4>> extremes = {};
 };
+
+/// Which vertices these are.
+[[nodiscard]] std::array<std::uint32_t, 4> extremes_of(const RoomLevel& level);
 
 using orthonav::ToolKind;
 

@@ -24,18 +24,23 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
       physics_(Random(options.seed).fork("physics")),
       head_(Random(options.seed).fork("head"), error_model_, eyes_in_rig, {layout_.middle()}),
       drift_(Random(options.seed).fork("map"), error_model_.map_drift_m_per_sqrt_s,
-             error_model_.map_drift_rad_per_sqrt_s, options.limit_s),
+             error_model_.map_drift_rad_per_sqrt_s, options.limit_s,
+             {error_model_.map_step_m, error_model_.map_steps_per_min}),
       tremor_m_(Random(options.seed).fork("tremor position"), error_model_.tremor_m,
                 kSlowestTremor_hz, kFastestTremor_hz),
       tremor_rad_(Random(options.seed).fork("tremor rotation"), error_model_.tremor_rad,
-                  kSlowestTremor_hz, kFastestTremor_hz) {
+                  kSlowestTremor_hz, kFastestTremor_hz),
+      spine_(Random(options.seed).fork("spine"), error_model_),
+      bump_(options.reference_bump),
+      bumping_(Random(options.seed).fork("bump")) {
   RoomState nothing;
   nothing.room_from_marker.resize(room_.tools.size());
   nothing.tool_present.resize(room_.tools.size());
   states_.resize(kKept, nothing);
   if (options.surgeon && layout_.levels() > 0) {
-    surgeon_ = std::make_unique<Surgeon>(layout_, error_model_,
-                                         Random(options.seed).fork("surgeon"), eyes_, truth_.heads);
+    surgeon_ =
+        std::make_unique<Surgeon>(layout_, error_model_, Random(options.seed).fork("surgeon"),
+                                  eyes_, truth_.heads, options.guidance);
   }
   step();
 }
@@ -49,7 +54,9 @@ void RoomSimulation::advance(Timestamp until) {
 void RoomSimulation::step() {
   RoomState& now = kept(steps_);
   now.time = start_ + static_cast<std::int64_t>(steps_) * kStep;
-  now.room_from_spine = layout_.room_from_spine();
+  spine_moved_m_ = spine_.at(seconds_in(now.time));
+  now.room_from_spine = {layout_.room_from_spine().rotation(),
+                         layout_.room_from_spine().translation() + spine_moved_m_};
   if (surgeon_) {
     head_.advance(seconds(kStep), surgeon_->body().posture().head);
   }
@@ -71,12 +78,15 @@ void RoomSimulation::step() {
 }
 
 void RoomSimulation::let_surgeon_act(RoomState& now) {
-  surgeon_->tick(now.time);
+  surgeon_->tick(now.time, {now.room_from_rig.origin(), spine_moved_m_});
   SurgeonBody& body = surgeon_->body();
   const Posture& posture = body.posture();
   const auto tool = posture.in_hand ? layout_.tool(*posture.in_hand) : std::nullopt;
   if (tool) {
-    put(now, *tool, posture.grip, posture.contact_normal);
+    // The hand rests on the patient and moves with them.
+    Grip riding = posture.grip;
+    riding.tip = riding.tip + spine_moved_m_ + posture.pushed_m;
+    put(now, *tool, riding, posture.contact_normal);
     const Vec3 view = posture.head.from_gaze;
     // The forearm comes from the surgeon's right, across the shaft, so that it never hides the tag,
     // and below the line of sight to the wound.
@@ -98,7 +108,7 @@ void RoomSimulation::let_surgeon_act(RoomState& now) {
   truth_.surgeon_gave_up = surgeon_->gave_up();
 }
 
-/// The reference is clamped to the patient, facing the head's initial position, and stays there.
+/// The reference is clamped to the patient, facing the head's initial position, and rides on them.
 void RoomSimulation::leave_reference(RoomState& now) {
   constexpr Vec3 kBesideTheSite_m{-0.02, 0.0, 0.13};
   const auto reference = layout_.tool(ToolKind::kReference);
@@ -109,8 +119,24 @@ void RoomSimulation::leave_reference(RoomState& now) {
     put(now, *reference, {layout_.middle() + kBesideTheSite_m, {0, 1, 0}, 0.0}, std::nullopt);
     room_from_reference_ = now.room_from_marker[*reference];
   }
-  now.room_from_marker[*reference] = *room_from_reference_;
+  const bool is_due = static_cast<int>(truth_.wires.size()) >= bump_.after_wires;
+  if (is_due && (bump_.shift_m > 0.0 || bump_.turn_rad > 0.0)) {
+    bump_reference();
+  }
+  const Vec3 pushed_m = surgeon_ ? surgeon_->body().posture().pushed_m : Vec3{};
+  const Vec3 moved_m = spine_moved_m_ + error_model_.push_reaching_reference * pushed_m;
+  now.room_from_marker[*reference] = {room_from_reference_->rotation(),
+                                      room_from_reference_->translation() + moved_m};
   now.tool_present[*reference] = true;
+}
+
+void RoomSimulation::bump_reference() {
+  const Vec3 way = normal_vector(bumping_, 1.0).normalized();
+  const Vec3 about = normal_vector(bumping_, 1.0).normalized();
+  *room_from_reference_ = {
+      rotation_from_vector(bump_.turn_rad * about) * room_from_reference_->rotation(),
+      room_from_reference_->translation() + bump_.shift_m * way};
+  bump_ = {};
 }
 
 /// Without a surgeon the tools hover side by side over the table, slowly rotating.
@@ -158,16 +184,21 @@ void RoomSimulation::pierce(const WireInsertion& insertion) {
   if (!guide) {
     return;
   }
-  const auto room_from_vertebra = layout_.room_from_vertebra(insertion.level);
+  const auto& room_from_vertebra = layout_.room_from_vertebra(insertion.level);
+  const Vec3 moved_m = spine_moved_m_ + surgeon_->body().posture().pushed_m;
+  const Transform<Room, Room> at_rest{Mat3::identity(), -moved_m};
   const RoomTool& tool = room_.tools[*guide];
-  const auto vertebra_from_marker = room_from_vertebra.inverse() * now.room_from_marker[*guide];
+  const auto vertebra_from_marker =
+      room_from_vertebra.inverse() * at_rest * now.room_from_marker[*guide];
   const Vec3 tip = (vertebra_from_marker * tool.tip_in_marker).v;
   const Vec3 straight = -(vertebra_from_marker * Direction<Marker>{tool.axis_in_marker}).v;
   const BoneSurface& bone = layout_.bone(insertion.level);
   const Vec3 slip = normal_vector(physics_, error_model_.wire_skiving_m);
   const Vec3 normal = bone.closest(tip).normal;
   const Vec3 slipped = tip + (slip - slip.dot(normal) * normal);
-  const Vec3 bend = normal_vector(physics_, error_model_.wire_bending_rad);
+  const Vec3 bend = normal_vector(physics_, error_model_.wire_bending_rad) +
+                    normal_vector(physics_, error_model_.hole_following_rad) +
+                    (room_from_vertebra.inverse() * Direction<Room>{insertion.hand_turn_rad}).v;
   const Vec3 direction =
       (rotation_from_vector(bend - bend.dot(straight) * straight) * straight).normalized();
   const auto hit = bone.first_hit(slipped - kSearch_m * direction, direction, 2.0 * kSearch_m);

@@ -10,6 +10,7 @@
 #include "hal/sim/noise.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/sim_headset.h"
+#include "hal/sim/spine_motion.h"
 #include "hal/sim/surgeon.h"
 
 namespace orthonav::sim {
@@ -57,6 +58,7 @@ class RoomSimulation {
   void let_surgeon_act(RoomState& now);
   void let_tools_hover(RoomState& now) const;
   void leave_reference(RoomState& now);
+  void bump_reference();
   void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact) const;
   void pierce(const WireInsertion& insertion);
   [[nodiscard]] double seconds_in(Timestamp time) const { return seconds(time - start_); }
@@ -73,7 +75,12 @@ class RoomSimulation {
   MapDrift drift_;
   SmoothNoise3 tremor_m_;
   SmoothNoise3 tremor_rad_;
-  std::optional<Transform<Room, Marker>> room_from_reference_;  ///< since the first step
+  SpineMotion spine_;
+  Vec3 spine_moved_m_{};  ///< with the breath, at the newest step, in Room
+  /// Since the first step, with the patient at rest.
+  std::optional<Transform<Room, Marker>> room_from_reference_;
+  ReferenceBump bump_;
+  Random bumping_;
   Eyes eyes_;
   Truth truth_;
   std::unique_ptr<Surgeon> surgeon_;

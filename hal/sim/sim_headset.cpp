@@ -9,6 +9,7 @@
 #include "hal/sim/imperfect.h"
 #include "hal/sim/sim_cameras.h"
 #include "hal/sim/sim_room.h"
+#include "hal/sim/surface_field.h"
 
 namespace orthonav::sim {
 namespace {
@@ -91,8 +92,9 @@ class SimulatedHeadset final : public SimHeadset {
   SimulatedHeadset(RoomDescription room, const SimOptions& options, StereoCalibration reported,
                    StereoCalibration actual)
       : options_(options),
+        actual_(std::move(actual)),
         room_(std::move(room), options, between_cameras(reported)),
-        cameras_(room_, options, std::move(reported), std::move(actual)),
+        cameras_(room_, options, std::move(reported), actual_),
         head_(room_),
         clicker_(room_),
         voice_(room_),
@@ -128,6 +130,7 @@ class SimulatedHeadset final : public SimHeadset {
   [[nodiscard]] const RoomDescription& room() const override ORTHONAV_NO_THREAD_SAFETY_ANALYSIS {
     return room_.simulation.room();
   }
+  [[nodiscard]] const StereoCalibration& actual_calibration() const override { return actual_; }
   [[nodiscard]] const SimOptions& options() const override { return options_; }
 
  private:
@@ -137,6 +140,7 @@ class SimulatedHeadset final : public SimHeadset {
   }
 
   SimOptions options_;
+  StereoCalibration actual_;
   mutable SimRoom room_;
   SimCameras cameras_;
   SimHeadTracker head_;
@@ -165,6 +169,8 @@ Result<std::unique_ptr<SimHeadset>> SimHeadset::open(RoomDescription room,
   if (!actual) {
     return actual.error();
   }
+  room = with_bones_off_their_models(std::move(room), options.error_model,
+                                     Random(options.seed).fork("bones"));
   return std::unique_ptr<SimHeadset>(std::make_unique<SimulatedHeadset>(
       std::move(room), options, reported, std::move(actual).value()));
 }

@@ -5,6 +5,7 @@
 
 #include "hal/api/devices.h"
 #include "hal/sim/error_model.h"
+#include "hal/sim/guidance_profile.h"
 #include "hal/sim/room.h"
 #include "hal/sim/truth.h"
 
@@ -15,11 +16,20 @@ enum class Pace {
   kRealtime  ///< the clock follows the wall; next() answers kNone until the next frame is due
 };
 
+/// Somebody knocks against the clamped patient reference, once so many wires are in.
+struct ReferenceBump {
+  double shift_m = 0.0;   ///< in a random direction
+  double turn_rad = 0.0;  ///< about a random axis through the reference's tag
+  int after_wires = 1;
+};
+
 struct SimOptions {
   std::uint64_t seed = 1;
   ErrorModel error_model;
   Pace pace = Pace::kFast;
   double frame_rate_hz = 30.0;
+  GuidanceProfile guidance = GuidanceProfile::kNumbers;
+  ReferenceBump reference_bump;
   /// The scripted surgeon operates; without one the tools hover over the table in slow motion.
   bool surgeon = true;
   double limit_s = 3600.0;  ///< the stream ends at the latest then (simulated time)
@@ -46,6 +56,8 @@ class SimHeadset : public Headset {
   /// World (as the headset believes) from Room now.
   [[nodiscard]] virtual Transform<World, Room> world_from_room() const = 0;
   [[nodiscard]] virtual const RoomDescription& room() const = 0;
+  /// Its cameras as they are; `cameras().calibration()` is what the device says of them.
+  [[nodiscard]] virtual const StereoCalibration& actual_calibration() const = 0;
   /// What it was opened with.
   [[nodiscard]] virtual const SimOptions& options() const = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/random.h"
 #include "hal/sim/bone_surface.h"
 
 namespace orthonav::sim {
@@ -10,10 +11,16 @@ namespace orthonav::sim {
 struct Stroke {
   std::vector<BoneSpot> spots;  ///< about half a millimetre apart
   std::vector<double> arc_m;    ///< length from the start to each spot
+  /// Thickness of the soft tissue over each spot; empty where there is none.
+  std::vector<double> tissue_m;
 
   [[nodiscard]] double length_m() const { return arc_m.empty() ? 0.0 : arc_m.back(); }
   /// The place at `along_m` from the start, clamped to the ends.
   [[nodiscard]] BoneSpot at(double along_m) const;
+  [[nodiscard]] double tissue_at(double along_m) const;
+  /// That place on soft tissue that is pressed to the fraction `left` of its thickness: 0 is on the
+  /// bone, 1 on untouched tissue. The normal is the bone's.
+  [[nodiscard]] BoneSpot on_tissue(double along_m, double left) const;
 };
 
 /// What is recorded before one "save": strokes close together, with the button released between
@@ -28,5 +35,9 @@ struct StrokeRegion {
 /// facets and the roots of the transverse processes in lines along the spine, and the two sides and
 /// the crest of the spinous process. Empty when the mesh has no such surface.
 [[nodiscard]] std::vector<StrokeRegion> plan_strokes(const RoomLevel& level);
+
+/// Lays soft tissue over what is stroked: `mean_m` thick on average, more in valleys than on
+/// ridges, uneven over some centimetres, never negative.
+void cover_with_tissue(std::vector<StrokeRegion>& regions, double mean_m, const Random& random);
 
 }  // namespace orthonav::sim

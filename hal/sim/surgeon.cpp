@@ -20,21 +20,34 @@ double slowness_of(const ErrorModel& error_model, Random random) {
   return std::exp(sd * random.normal() - 0.5 * sd * sd) / error_model.pace;
 }
 
+/// How high this surgeon glides over the bone, against the mean of surgeons.
+double lightness_of(const ErrorModel& error_model, Random random) {
+  return std::max(0.0, 1.0 + error_model.stroke_lift_sd * random.normal());
+}
+
 Posture standing_at(const RoomLayout& layout) {
   Posture posture;
   posture.head.gaze = layout.middle();
   return posture;
 }
 
-/// The four places that H2 marks: the extreme vertices to posterior, left, right and superior.
+/// Places that a surgeon who looks from behind can see on the bone itself: nothing of it lies over
+/// them. What hides behind the bone, a hologram shows all the same; nobody can compare it.
+bool is_visible(const BoneSurface& bone, Vec3 place) {
+  constexpr double kFrom_m = 0.1;
+  constexpr double kSame_m = 0.003;
+  constexpr Vec3 kPosterior{0, 1, 0};
+  const auto hit = bone.first_hit(place + kFrom_m * kPosterior, -kPosterior, 2.0 * kFrom_m);
+  return hit && (hit->point - place).norm() < kSame_m;
+}
+
+/// The four places that H2 marks, on the bone: the extreme vertices to posterior, left, right and
+/// superior.
 std::array<Vec3, 4> landmarks(const RoomLevel& level) {
-  constexpr std::array<Vec3, 4> kDirections = {Vec3{0, 1, 0}, Vec3{1, 0, 0}, Vec3{-1, 0, 0},
-                                               Vec3{0, 0, 1}};
+  const auto extremes = level.extremes.value_or(extremes_of(level));
   std::array<Vec3, 4> found;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    found[i] =
-        *std::max_element(level.vertices_m.begin(), level.vertices_m.end(),
-                          [d = kDirections[i]](Vec3 a, Vec3 b) { return a.dot(d) < b.dot(d); });
+    found[i] = level.vertices_m[extremes[i]];
   }
   return found;
 }
@@ -42,8 +55,15 @@ std::array<Vec3, 4> landmarks(const RoomLevel& level) {
 /// How far a shown bone lies from the real one at its landmarks, averaged over glances.
 struct OverlayComparison {
   std::array<Vec3, 4> in_vertebra_m;
+  std::array<bool, 4> visible;
   std::array<Vec3, 4> apart_m{};
 
+  OverlayComparison(const RoomLevel& level, const BoneSurface& surface)
+      : in_vertebra_m(landmarks(level)) {
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+      visible[i] = is_visible(surface, in_vertebra_m[i]);
+    }
+  }
   void glance(const Transform<Room, Vertebra>& room_from_vertebra, const Eyes& eyes,
               const ShownHologram& model) {
     for (std::size_t i = 0; i < in_vertebra_m.size(); ++i) {
@@ -52,33 +72,44 @@ struct OverlayComparison {
     }
   }
   [[nodiscard]] bool fits(Vec3 perceived_shift_m) const {
-    return std::all_of(apart_m.begin(), apart_m.end(), [perceived_shift_m](Vec3 away) {
-      return (away + perceived_shift_m).norm() <= kAcceptedOverlay_m;  // NaN does not fit
-    });
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+      // Negated, so that NaN does not fit.
+      if (visible[i] && !((apart_m[i] + perceived_shift_m).norm() <= kAcceptedOverlay_m)) {
+        return false;
+      }
+    }
+    return true;
   }
 };
 
 }  // namespace
 
 Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-                 const Eyes& eyes, const std::vector<PlacedHead>& heads)
+                 const Eyes& eyes, const std::vector<PlacedHead>& heads, GuidanceProfile guidance)
     : layout_(&layout),
       error_model_(&error_model),
       eyes_(&eyes),
       heads_(&heads),
       body_(random.fork("hand"), error_model, slowness_of(error_model, random.fork("pace")),
             standing_at(layout)),
+      guidance_(guidance),
       checking_(random.fork("checking")),
+      lightness_(lightness_of(error_model, random.fork("lightness"))),
       regions_(layout.levels()),
       failures_(layout.levels()),
       life_(operate()) {
+  const Random tissue = random.fork("tissue");
   for (const std::size_t level : layout.operated()) {
     regions_[level] = plan_strokes(layout.room().levels[level]);
+    cover_with_tissue(regions_[level], error_model.tissue_m, tissue.fork(level));
   }
   life_.start();
 }
 
-void Surgeon::tick(Timestamp now) { body_.tick(now); }
+void Surgeon::tick(Timestamp now, const Bearings& bearings) {
+  bearings_ = bearings;
+  body_.tick(now);
+}
 
 bool Surgeon::sees_now() const {
   const auto seen = eyes_->seen_at();
@@ -188,7 +219,7 @@ Script Surgeon::verify(std::size_t level) {
 
 Script Surgeon::compare_overlay(std::size_t level, bool& fits, bool& asked_to_touch) {
   const StepOnDisplay step = step_now();
-  OverlayComparison overlay{landmarks(layout_->room().levels[level])};
+  OverlayComparison overlay(layout_->room().levels[level], layout_->bone(level));
   const Timestamp patience = body_.now() + from_seconds(kPatience_s * kRepeats);
   for (double looked_s = 0.0; looked_s < kComparing_s; looked_s += kGlance_s) {
     co_await body_.rest(kGlance_s / body_.slowness());
@@ -204,9 +235,11 @@ Script Surgeon::compare_overlay(std::size_t level, bool& fits, bool& asked_to_to
       model = eyes_->find(HologramKind::kVertebra);
     }
     asked_to_touch = asked_to_touch || asked(ChecksAsked::kTouchMore);
-    overlay.glance(layout_->room_from_vertebra(level), *eyes_, *model);
+    const auto& at_rest = layout_->room_from_vertebra(level);
+    overlay.glance({at_rest.rotation(), at_rest.translation() + bearings_.spine_moved_m}, *eyes_,
+                   *model);
   }
-  fits = overlay.fits(normal_vector(body_.random(), error_model_->overlay_comparison_m));
+  fits = overlay.fits(misperceived(layout_->site(level), error_model_->overlay_comparison_m));
 }
 
 }  // namespace orthonav::sim

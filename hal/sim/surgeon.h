@@ -7,6 +7,7 @@
 
 #include "hal/sim/error_model.h"
 #include "hal/sim/eyes.h"
+#include "hal/sim/guidance_profile.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/stroke_plan.h"
 #include "hal/sim/surgeon_body.h"
@@ -18,6 +19,13 @@ namespace orthonav::sim {
 struct WireInsertion {
   std::size_t level = 0;
   Side side = Side::kLeft;
+  Vec3 hand_turn_rad{};  ///< by which the hand turned while it drilled, in Room
+};
+
+/// What the surgeon knows of their own body and of the patient's, whatever the display shows.
+struct Bearings {
+  Point<Room> eyes;
+  Vec3 spine_moved_m{};  ///< with the breath, in Room; the hands go with it
 };
 
 /// The scripted surgeon. Knows the bones as they lie there (strokes them, compares holograms with
@@ -27,10 +35,10 @@ class Surgeon {
  public:
   /// The layout, the eyes and the heads must outlive it.
   Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-          const Eyes& eyes, const std::vector<PlacedHead>& heads);
+          const Eyes& eyes, const std::vector<PlacedHead>& heads, GuidanceProfile guidance);
 
   /// Lives on to `now`.
-  void tick(Timestamp now);
+  void tick(Timestamp now, const Bearings& bearings);
   [[nodiscard]] SurgeonBody& body() { return body_; }
   [[nodiscard]] std::vector<WireInsertion>& wire_insertions() { return wire_insertions_; }
   /// Has seen the end of the operation, or has given up.
@@ -95,8 +103,24 @@ class Surgeon {
   Script look_at_entry(const StepOnDisplay& step, std::size_t level, Side side, double look_s,
                        bool& found, Vec3& entry, Vec3& outwards);
   Script set_on(const Aim& aim);
+  /// Aims the tool by what the guidance profile lets the surgeon go by.
+  Script aim_tool(const StepOnDisplay& step, std::size_t level, const Aim& aim);
   Script drive_wire(std::size_t level, Side side, const Aim& aim);
   [[nodiscard]] BoneSpot put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) const;
+
+  // surgeon_perceiving.cpp
+  /// A draw of how far off a place is perceived: more along the line of sight than across it.
+  [[nodiscard]] Vec3 misperceived(Point<Room> place, double across_sd_m);
+  /// Where a hologram's point hangs, relative to a patient who does not breathe.
+  [[nodiscard]] Point<Room> seen_at_rest(Point<World> in_world) const {
+    return eyes_->place(in_world) - bearings_.spine_moved_m;
+  }
+  /// Holds the tool along the shown trajectory by eye.
+  Script align_by_eye(const StepOnDisplay& step, const Aim& aim);
+  /// Moves the tip until the dot of the target cross lies in its middle.
+  Script centre_tip(const StepOnDisplay& step, std::size_t level, const Aim& aim);
+  /// The mean offset of the tip that the cross shows over a while; nothing when it shows none.
+  Script read_offset(const StepOnDisplay& step, const Aim& aim, std::optional<Vec3>& offset_m);
 
   // surgeon_turning.cpp
   /// Turns the tool about its tip until the readings are small and steady.
@@ -126,7 +150,10 @@ class Surgeon {
   const Eyes* eyes_;
   const std::vector<PlacedHead>* heads_;
   SurgeonBody body_;
+  GuidanceProfile guidance_;
+  Bearings bearings_;
   Random checking_;  ///< of its own: who need not touch draws the same from the others
+  double lightness_ = 1.0;
   std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
   std::vector<int> failures_;                       ///< refusals and rejections, for each level
   std::set<StepOnDisplay> driven_;                  ///< guide steps whose wire is in

@@ -18,6 +18,7 @@ struct Posture {
   Grip grip;
   /// Outward normal of the bone that the tip rests on.
   std::optional<Vec3> contact_normal;
+  Vec3 pushed_m{};  ///< by which the instrument has pushed the bone, in Room
   HeadGoal head;
 };
 

@@ -8,6 +8,8 @@ namespace orthonav::sim {
 namespace {
 
 constexpr double kReach_s = 1.5;
+/// What is left of soft tissue under a tip that is pressed through it. Estimate.
+constexpr double kPressedTissue = 0.08;
 constexpr double kTouchLift_m = 0.02;
 constexpr double kSettle_s = 1.0;
 constexpr double kReadLine_s = 0.5;
@@ -26,7 +28,7 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
   for (const StrokeRegion& region : regions_[level]) {
     for (const Stroke& stroke : region.strokes) {
       for (double way = kFromEnd; way <= 1.0 - kFromEnd; way += 0.1) {
-        spots.push_back(stroke.at(way * stroke.length_m()));
+        spots.push_back(stroke.on_tissue(way * stroke.length_m(), kPressedTissue));
       }
     }
   }

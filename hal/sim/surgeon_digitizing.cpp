@@ -23,6 +23,8 @@ constexpr double kLift_m = 0.015;
 constexpr double kLongestLift_m = 0.030;
 constexpr double kShortestLift_m = 0.007;
 constexpr double kVerdict_s = 1.5;
+/// Whoever is refused presses harder the next time. Estimate.
+constexpr double kHarder = 0.7;
 
 /// Where and how far the tip leaves the bone in a stroke that slips.
 struct Slip {
@@ -98,8 +100,9 @@ Script Surgeon::record(std::size_t level, const StrokeRegion& region, bool slips
 Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s, bool slips) {
   const auto& room_from_vertebra = layout_->room_from_vertebra(level);
   const double length_m = stroke.length_m();
-  const SmoothNoise lift(body_.random().fork(body_.random().next()), error_model_->stroke_lift_m,
-                         1.0 / kLongestLift_m, 1.0 / kShortestLift_m);
+  const SmoothNoise lift(body_.random().fork(body_.random().next()),
+                         lightness_ * error_model_->stroke_lift_m, 1.0 / kLongestLift_m,
+                         1.0 / kShortestLift_m);
   Slip slip{length_m * body_.random().uniform(0.3, 0.8), 0.06 * length_m + 1e-6,
             slips ? body_.random().uniform(0.5, 1.0) * error_model_->bad_stroke_lift_m : 0.0};
   const Timestamp begin = body_.now();
@@ -110,7 +113,8 @@ Script Surgeon::slide(std::size_t level, const Stroke& stroke, double duration_s
     const double along_m = length_m * minimum_jerk(t);
     const BoneSpot spot = in_room(room_from_vertebra, stroke.at(along_m));
     // The bone stops the tip, so it is lifted off only.
-    const double lift_m = std::abs(lift.at(along_m)) + slip.lift_m(along_m);
+    const double lift_m =
+        std::abs(lift.at(along_m)) + stroke.tissue_at(along_m) + slip.lift_m(along_m);
     body_.posture().grip.tip = {spot.point + lift_m * spot.normal};
     body_.posture().contact_normal = spot.normal;
   }
@@ -126,6 +130,7 @@ Script Surgeon::await_verdict(std::size_t level, StepOnDisplay step) {
         co_return;
       }
       if (told(Notice::kRegistrationRefused)) {
+        lightness_ *= kHarder;
         if (++failures_[level] >= kMaxFailures) {
           give_up();
         }

@@ -26,7 +26,7 @@ Script Surgeon::guide(std::size_t level, Side side) {
       co_return;
     }
     co_await set_on(aim);
-    co_await turn_tool(step, aim);
+    co_await aim_tool(step, level, aim);
     if (!in_step(step) || finished_) {
       co_return;
     }
@@ -46,6 +46,25 @@ Script Surgeon::set_on(const Aim& aim) {
   co_await body_.move({tip + kOverBone_m * axis, axis, 0.0}, 1.2);
   co_await body_.move({tip, axis, 0.0}, 1.2);
   body_.posture().contact_normal = aim.on_bone.normal;
+  // The bone gives way to the instrument for as long as it is pressed on.
+  body_.posture().pushed_m =
+      std::abs(body_.random().normal(0.0, error_model_->push_m)) * Vec3{0, -1, 0};
+}
+
+Script Surgeon::aim_tool(const StepOnDisplay& step, std::size_t level, const Aim& aim) {
+  switch (guidance_) {
+    case GuidanceProfile::kOverlay:
+      co_await align_by_eye(step, aim);
+      break;
+    case GuidanceProfile::kNumbers:
+      co_await turn_tool(step, aim);
+      break;
+    case GuidanceProfile::kClosedLoop:
+      co_await centre_tip(step, level, aim);
+      co_await turn_tool(step, aim);
+      co_await centre_tip(step, level, aim);
+      break;
+  }
 }
 
 BoneSpot Surgeon::put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) const {
@@ -61,8 +80,9 @@ BoneSpot Surgeon::put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) cons
 }
 
 Script Surgeon::find_entry(const StepOnDisplay& step, std::size_t level, Side side, Aim& aim) {
-  const Vec3 perceived_shift = normal_vector(body_.random(), error_model_->overlay_perception_m) +
-                               normal_vector(body_.random(), error_model_->entry_pick_m);
+  const Vec3 perceived_shift =
+      misperceived(layout_->site(level), error_model_->overlay_perception_m) +
+      normal_vector(body_.random(), error_model_->entry_pick_m);
   // First a glance for the direction, to stand right; then a look for the place.
   for (const double look_s : {kQuickLook_s, kLook_s}) {
     bool found = false;
@@ -103,7 +123,7 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
     }
     const Vec3 axis =
         eyes_->place(path->points_in_world[0]) - eyes_->place(path->points_in_world[2]);
-    const Point<Room> place = eyes_->place(spot->points_in_world[0]);
+    const Point<Room> place = seen_at_rest(spot->points_in_world[0]);
     if (!(axis.norm() > 1e-3) || !place.v.is_finite()) {
       continue;
     }
@@ -118,15 +138,22 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
 }
 
 Script Surgeon::drive_wire(std::size_t level, Side side, const Aim& aim) {
-  wire_insertions_.push_back({level, side});
-  body_.posture().contact_normal.reset();
+  const double hand_rad = guidance_ == GuidanceProfile::kClosedLoop
+                              ? error_model_->hand_drilling_corrected_rad
+                              : error_model_->hand_drilling_rad;
   const Grip pierced = body_.posture().grip;
+  const Vec3 turn = normal_vector(body_.random(), hand_rad);
+  const Vec3 across = turn - turn.dot(pierced.axis) * pierced.axis;
+  wire_insertions_.push_back({level, side, across});
+  body_.posture().contact_normal.reset();
   Grip deep = pierced;
-  deep.tip = pierced.tip - kAdvance_m * pierced.axis;
+  deep.axis = (rotation_from_vector(across) * pierced.axis).normalized();
+  deep.tip = pierced.tip - kAdvance_m * deep.axis;
   co_await body_.move(deep, kDriving_s);
   co_await body_.rest(0.3);
-  Grip out = pierced;
-  out.tip = Point<Room>{aim.on_bone.point} + kOverBone_m * pierced.axis;
+  body_.posture().pushed_m = {};
+  Grip out = deep;
+  out.tip = Point<Room>{aim.on_bone.point} + kOverBone_m * deep.axis;
   co_await body_.move(out, 1.0);
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/angle.h"
 #include "hal/sim/deviation.h"
@@ -15,14 +14,13 @@ constexpr double kReaction_s = 0.25;
 /// would swing.
 constexpr double kGain_per_s = 1.6;
 constexpr double kSteady_s = 0.7;
-/// The sleeve is round: rolled to and fro in the hand it keeps its axis, while every reading sees
-/// the tag on other pixels, so that their errors average out.
-constexpr double kHold_s = 2.4;
-constexpr double kRoll_rad = 0.35;
-constexpr double kRolls = 2.0;
+/// So long a number is watched before the last correction.
+constexpr double kHold_s = 0.7;
 /// An average further off than this is no last correction: they turn on.
 constexpr double kLastCorrection_rad = 1.0 * kRadiansPerDegree;
 constexpr int kFewestReadings = 5;
+/// One digit of the number taken for another.
+constexpr double kMisread_rad = 1.0 * kRadiansPerDegree;
 constexpr double kLastMove_s = 0.4;
 /// Half the last digit of the readout: a zero can't be told from this.
 constexpr double kReadoutFloor_rad = 0.05 * kRadiansPerDegree;
@@ -98,13 +96,10 @@ void Surgeon::show_tag(const Aim& aim, double since_s, double tick_s) {
 Script Surgeon::settle(double content_rad, bool& settled) {
   co_await body_.rest(kReaction_s / body_.slowness());
   const Timestamp start = body_.now();
-  const double roll_rad = body_.posture().grip.roll_rad;
   std::optional<Timestamp> last;
   Vec3 sum;
   int readings = 0;
   for (double done = 0.0; done < 1.0; done = seconds(body_.now() - start) / kHold_s) {
-    body_.posture().grip.roll_rad =
-        roll_rad + kRoll_rad * std::sin(2.0 * std::numbers::pi * kRolls * done);
     co_await body_.next_tick();
     const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
     if (!reading || reading->seen_at == last) {
@@ -114,12 +109,14 @@ Script Surgeon::settle(double content_rad, bool& settled) {
     sum += reading->turn;
     ++readings;
   }
-  body_.posture().grip.roll_rad = roll_rad;
   const double limit_rad = std::max(2.0 * content_rad, kLastCorrection_rad);
   if (readings < kFewestReadings || sum.norm() > limit_rad * readings) {
     co_return;
   }
-  const Vec3 misread = normal_vector(body_.random(), error_model_->angle_reading_rad);
+  Vec3 misread = normal_vector(body_.random(), error_model_->angle_reading_rad);
+  if (body_.random().uniform() < error_model_->misreading_probability) {
+    misread = misread + kMisread_rad * perpendicular_to(body_.posture().grip.axis);
+  }
   Grip last_grip = body_.posture().grip;
   last_grip.axis = (rotation_from_vector(sum / readings + misread) * last_grip.axis).normalized();
   co_await body_.move(last_grip, kLastMove_s);

@@ -16,7 +16,9 @@ struct ScrewPlan {
   Side side = Side::kLeft;
   Point<Vertebra> entry;
   Point<Vertebra> target;
-  double radius_m = 0.0;
+  double radius_m = 0.0;  ///< 0: not stated
+  /// Why the screw may break through the cortex; empty: it may not.
+  std::string accepted_breach = {};
 };
 
 /// An axis in space: `point` on it, unit `direction` into the bone.
@@ -26,12 +28,22 @@ struct Axis {
   Vec3 direction;
 };
 
-/// What guides the surgeon to one screw: the paper's triangle A-B-C and 3-D angle, and depth.
+/// What guides the surgeon to one screw: the triangle between entry point, current and planned
+/// trajectory, the angle between the two in space (both Liebmann et al. 2019), and depth.
+///
+/// B and C are where the tool's axis and the planned axis leave the sphere of `reach` about A. So
+/// the triangle is closed only where the tool's axis runs through the entry: a parallel tool beside
+/// it leaves B as far from C. How deep the tip is changes nothing. The angle at A is that of the
+/// number only where the tool's axis runs through the entry, and a closed triangle alone does not
+/// mean that the tool stands as planned: its axis may cross the planned one in C.
 struct ScrewGuidance {
-  double angle_rad = 0.0;       ///< between tool axis and planned trajectory, in [0, pi]
-  Point<World> tip;             ///< of the tool
-  Point<World> a;               ///< entry point
-  Point<World> b;               ///< on the tool's direction, |AB| = reach
+  double angle_rad = 0.0;  ///< between the directions of tool axis and planned trajectory, [0, pi]
+  Point<World> tip;        ///< of the tool
+  Vec3 tool_outward;       ///< unit, along the tool's axis from the tip up the shaft
+  Point<World> a;          ///< entry point
+  /// On the tool's axis, |AB| = reach; where the axis passes the entry farther off than that, its
+  /// point nearest to the entry.
+  Point<World> b;
   Point<World> c;               ///< on the planned axis outside the bone, |AC| = reach
   double tip_to_entry_m = 0.0;  ///< distance of the tip from the entry point
   double tip_off_axis_m = 0.0;  ///< distance of the tip from the planned axis

@@ -178,6 +178,9 @@ std::optional<JoinedPlaces> join_places(const VertebraModel& model, const Regist
   Registration& r = out.registration;
   r = strokes;
   r.world_from_vertebra = strokes.world_from_vertebra * moved_by(at, centre_m).inverse();
+  if (strokes.runner_up == strokes.world_from_vertebra) {
+    r.runner_up = r.world_from_vertebra;  // there is none
+  }
   CommonErrors common = strokes.common;
   common.map_m = press.moved_since_sd_m;
   put_errors(model, uncertainty_of(found->covariance, centre_m), common, targets_of(model, options),

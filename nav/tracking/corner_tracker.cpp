@@ -18,7 +18,7 @@ constexpr double kBoxPx = 6.0;
 class PaperTracker final : public ToolTracker {
  public:
   PaperTracker(const StereoCalibration& calibration, std::vector<ToolGeometry> tools,
-               const TrackerOptions& options, std::unique_ptr<PairDetector> detector)
+               const TrackerOptions& options, std::unique_ptr<TagFinder> detector)
       : geometry_(calibration),
         tools_(std::move(tools)),
         options_(options),
@@ -178,7 +178,7 @@ class PaperTracker final : public ToolTracker {
   TagGeometry geometry_;
   std::vector<ToolGeometry> tools_;
   TrackerOptions options_;
-  std::unique_ptr<PairDetector> detector_;
+  std::unique_ptr<TagFinder> detector_;
   std::vector<Trail> trails_;
   std::vector<ToolState> states_;
   std::int64_t pairs_ = 0;
@@ -207,8 +207,18 @@ Result<std::unique_ptr<ToolTracker>> create_corner_tracker(const StereoCalibrati
   if (!detector) {
     return detector.error();
   }
-  std::unique_ptr<ToolTracker> tracker = std::make_unique<PaperTracker>(
-      calibration, std::move(tools), options, std::move(detector).value());
+  return create_tracker_of_corners(calibration, std::move(tools), options, std::move(*detector));
+}
+
+Result<std::unique_ptr<ToolTracker>> create_tracker_of_corners(const StereoCalibration& calibration,
+                                                               std::vector<ToolGeometry> tools,
+                                                               const TrackerOptions& options,
+                                                               std::unique_ptr<TagFinder> finder) {
+  if (Status status = check(calibration, tools, options); !status) {
+    return status.error();
+  }
+  std::unique_ptr<ToolTracker> tracker =
+      std::make_unique<PaperTracker>(calibration, std::move(tools), options, std::move(finder));
   return tracker;
 }
 

@@ -33,20 +33,32 @@ struct SearchPlan {
   void add(const TagCorners& corners_px, const BoxRoom& room, std::string_view family, int id);
 };
 
+/// Finds tags in pairs of images. One thread at a time.
+class TagFinder {
+ public:
+  virtual ~TagFinder() = default;
+  [[nodiscard]] virtual SearchPlan& left_plan() = 0;
+  [[nodiscard]] virtual SearchPlan& right_plan() = 0;
+  /// Fills `left()` and `right()` as planned.
+  virtual void detect(const StereoFrame& frame) = 0;
+  [[nodiscard]] virtual std::span<const MarkerCorners> left() const = 0;
+  [[nodiscard]] virtual std::span<const MarkerCorners> right() const = 0;
+};
+
 /// Detects tags in both images of a pair, concurrently when a second thread is given; the result is
 /// the same.
-class PairDetector {
+class PairDetector final : public TagFinder {
  public:
   static Result<std::unique_ptr<PairDetector>> create(const DetectorOptions& options,
                                                       bool parallel);
   PairDetector(MarkerDetector left, MarkerDetector right, bool parallel);
 
-  SearchPlan& left_plan() { return left_.plan; }
-  SearchPlan& right_plan() { return right_.plan; }
-  /// Fills `left()` and `right()` as planned. An image that the detector refuses shows no tags.
-  void detect(const StereoFrame& frame);
-  [[nodiscard]] std::span<const MarkerCorners> left() const { return left_.found; }
-  [[nodiscard]] std::span<const MarkerCorners> right() const { return right_.found; }
+  [[nodiscard]] SearchPlan& left_plan() override { return left_.plan; }
+  [[nodiscard]] SearchPlan& right_plan() override { return right_.plan; }
+  /// An image that the detector refuses shows no tags.
+  void detect(const StereoFrame& frame) override;
+  [[nodiscard]] std::span<const MarkerCorners> left() const override { return left_.found; }
+  [[nodiscard]] std::span<const MarkerCorners> right() const override { return right_.found; }
 
  private:
   struct Side {

@@ -275,9 +275,4 @@ std::optional<AlignmentEquations> PhotometricSolver::alignment(
   return out;
 }
 
-void PhotometricSolver::turn_right_camera(Vec3 rotation_rad) {
-  const Transform<RightCamera, RightCamera> correction(rotation_from_vector(rotation_rad), {});
-  calibration_.right_from_rig = correction * calibration_.right_from_rig;
-}
-
 }  // namespace orthonav::nav

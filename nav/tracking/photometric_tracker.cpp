@@ -81,17 +81,15 @@ void PhotometricTracker::forget_map() {
 }
 
 void PhotometricTracker::align() {
-  const auto found = aligning_.estimate();
-  if (!found || !found->significant || !found->within_bounds || may_be_of_wrong_size()) {
+  if (may_be_of_wrong_size()) {
     return;
   }
-  solver_.turn_right_camera(found->rotation_rad);
+  const auto correction_rad = take_correction(aligning_, applied_);
+  if (!correction_rad) {
+    return;
+  }
+  solver_.turn_right_camera(*correction_rad);
   geometry_ = TagGeometry(solver_.calibration());
-  const Vec3 before = applied_ ? applied_->rotation_rad : Vec3{};
-  applied_ = *found;
-  applied_->rotation_rad = before + found->rotation_rad;
-  applied_->applied = true;
-  aligning_.restart();
   for (Trail& trail : trails_) {
     trail.size.restart();
   }
@@ -116,8 +114,7 @@ bool PhotometricTracker::any_recent(Timestamp time) const {
 
 bool PhotometricTracker::follow(std::size_t i, const StereoFrame& frame) {
   Trail& trail = trails_[i];
-  if (!trail.filter.alive() || frame.time <= trail.filter.time() ||
-      frame.time - trail.filter.time() > options_.coast) {
+  if (!trail.filter.follows(frame.time, options_.coast)) {
     return false;
   }
   const TrackedPose ahead = trail.filter.predicted(frame.time);
@@ -155,6 +152,7 @@ bool PhotometricTracker::take(std::size_t i, const StereoFrame& frame,
   state.world_from_marker = trail.filter.state();
   state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
   state.cameras = (fit->left ? 1 : 0) + (fit->right ? 1 : 0);
+  state.pair = PairPose{fit->rig_from_marker, fit->covariance_in_rig, trail.follower.exposure_s()};
   trail.last_seen = state.world_from_marker.value;
   trail.last_time = frame.time;
   return true;

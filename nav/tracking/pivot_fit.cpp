@@ -13,7 +13,7 @@ using Chosen = std::span<const std::size_t>;
 // A rotation so small determines no tip.
 constexpr double kLeastSpreadRad = 1e-6;
 
-Eigen::Matrix3d as_eigen(const Mat3& m) {
+Eigen::Matrix3d to_eigen(const Mat3& m) {
   Eigen::Matrix3d out;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
@@ -23,7 +23,7 @@ Eigen::Matrix3d as_eigen(const Mat3& m) {
   return out;
 }
 
-Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
+Eigen::Vector3d to_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
 Vec3 from_eigen(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 struct Means {
@@ -34,8 +34,8 @@ struct Means {
 Means means_of(Poses poses, Chosen chosen) {
   Means mean;
   for (const std::size_t i : chosen) {
-    mean.rotation += as_eigen(poses[i].rotation());
-    mean.translation += as_eigen(poses[i].translation());
+    mean.rotation += to_eigen(poses[i].rotation());
+    mean.translation += to_eigen(poses[i].translation());
   }
   mean.rotation /= static_cast<double>(chosen.size());
   mean.translation /= static_cast<double>(chosen.size());
@@ -57,9 +57,9 @@ std::optional<PivotFit> fit_pivot(Poses poses, Chosen chosen) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const std::size_t i : chosen) {
-    const Eigen::Matrix3d deviation = as_eigen(poses[i].rotation()) - mean.rotation;
+    const Eigen::Matrix3d deviation = to_eigen(poses[i].rotation()) - mean.rotation;
     normal += deviation.transpose() * deviation;
-    right -= deviation.transpose() * (as_eigen(poses[i].translation()) - mean.translation);
+    right -= deviation.transpose() * (to_eigen(poses[i].translation()) - mean.translation);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal);
   PivotFit fit;

@@ -39,6 +39,10 @@ class PoseFilter {
   [[nodiscard]] bool alive() const { return alive_; }
   void stop() { alive_ = false; }
   [[nodiscard]] Timestamp time() const { return time_; }
+  /// Alive, and its newest measurement lies before `time` by no more than `coast`.
+  [[nodiscard]] bool follows(Timestamp time, Duration coast) const {
+    return alive_ && time > time_ && time - time_ <= coast;
+  }
 
   /// Where the tool is at a later time; `alive` must hold.
   [[nodiscard]] Tracked<Pose> predicted(Timestamp time) const;

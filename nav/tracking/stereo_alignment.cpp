@@ -46,4 +46,23 @@ std::optional<StereoAlignment> AlignmentEstimator::estimate() const {
   return out;
 }
 
+std::optional<Vec3> take_correction(AlignmentEstimator& aligning,
+                                    std::optional<StereoAlignment>& applied) {
+  const auto found = aligning.estimate();
+  if (!found || !found->significant || !found->within_bounds) {
+    return std::nullopt;
+  }
+  const Vec3 before_rad = applied ? applied->rotation_rad : Vec3{};
+  applied = *found;
+  applied->rotation_rad = before_rad + found->rotation_rad;
+  applied->applied = true;
+  aligning.restart();
+  return found->rotation_rad;
+}
+
+void turn_right_camera(StereoCalibration& calibration, Vec3 rotation_rad) {
+  const Transform<RightCamera, RightCamera> correction(rotation_from_vector(rotation_rad), {});
+  calibration.right_from_rig = correction * calibration.right_from_rig;
+}
+
 }  // namespace orthonav::nav

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/vec.h"
+#include "hal/api/devices.h"
 
 namespace orthonav::nav {
 
@@ -56,5 +57,14 @@ class AlignmentEstimator {
   std::array<double, 3> right_{};
   std::int64_t pairs_ = 0;
 };
+
+/// The rotation (rad) by which the right camera is to be turned now; nothing while the estimate is
+/// not certain, or so large that the device is broken. `applied`, the sum of those taken so far,
+/// then includes it, and the estimator starts over.
+[[nodiscard]] std::optional<Vec3> take_correction(AlignmentEstimator& aligning,
+                                                  std::optional<StereoAlignment>& applied);
+
+/// Turns the right camera by a rotation vector (rad) in its own frame.
+void turn_right_camera(StereoCalibration& calibration, Vec3 rotation_rad);
 
 }  // namespace orthonav::nav

@@ -12,9 +12,9 @@ using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
 constexpr double kStepPx = 0.05;
 
-Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
+Eigen::Vector3d eigen_of(Vec3 v) { return {v.x, v.y, v.z}; }
 
-Eigen::Matrix3d as_eigen(const Mat3& m) {
+Eigen::Matrix3d eigen_of(const Mat3& m) {
   Eigen::Matrix3d out;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
@@ -52,7 +52,7 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
       if (!ahead || !behind) {
         return false;
       }
-      const Eigen::Vector3d slope = as_eigen(*ahead - *behind) / (2.0 * kStepPx);
+      const Eigen::Vector3d slope = eigen_of(*ahead - *behind) / (2.0 * kStepPx);
       noise += variance * slope * slope.transpose();
       return true;
     };
@@ -70,7 +70,7 @@ std::optional<PoseCovariance> TagGeometry::covariance(const Transform<Rig, Marke
 
 PoseCovariance turned(const PoseCovariance& covariance, const Mat3& b_from_a) {
   Matrix6 both = Matrix6::Zero();
-  both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = as_eigen(b_from_a);
+  both.topLeftCorner<3, 3>() = both.bottomRightCorner<3, 3>() = eigen_of(b_from_a);
   const Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> in_a(covariance.data());
   return symmetrized(Matrix6(both * in_a * both.transpose()));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,7 +14,18 @@
 
 namespace orthonav::nav {
 
+class TagFinder;
+struct Anchor;
+
 using TrackedPose = Tracked<Transform<World, Marker>>;
+
+/// Where a tool is relative to the headset by one stereo pair alone. Of two tools of the same pair,
+/// the head's pose, its noise and the map have no part in their relative pose.
+struct PairPose {
+  Transform<Rig, Marker> rig_from_marker;
+  PoseCovariance covariance{};  ///< in Rig
+  double exposure_s = 0.0;      ///< which the pose is a mean over
+};
 
 /// The state of one tool after one stereo pair.
 struct ToolState {
@@ -25,6 +37,8 @@ struct ToolState {
   /// How many cameras a measured pose comes from; with 1 it is less certain, above all along the
   /// line of sight.
   int cameras = 0;
+  /// Absent where this pair does not measure the tool, or the method keeps no pose of one pair.
+  std::optional<PairPose> pair = {};
 };
 
 struct TrackerOptions {
@@ -57,6 +71,9 @@ class ToolTracker {
   [[nodiscard]] virtual std::optional<TagSize> tag_size(std::size_t /*tool*/) const {
     return std::nullopt;
   }
+  /// The patient reference that its poses hang on (nav/tracking/anchor.h); null: they are
+  /// in the headset's map.
+  [[nodiscard]] virtual const Anchor* anchor() const { return nullptr; }
 };
 
 /// The published method (Liebmann et al. 2019, section 3.1): AprilTag corners in both images,
@@ -65,6 +82,12 @@ class ToolTracker {
 Result<std::unique_ptr<ToolTracker>> create_corner_tracker(const StereoCalibration& calibration,
                                                            std::vector<ToolGeometry> tools,
                                                            const TrackerOptions& options = {});
+
+/// The same with corners that someone else finds.
+Result<std::unique_ptr<ToolTracker>> create_tracker_of_corners(const StereoCalibration& calibration,
+                                                               std::vector<ToolGeometry> tools,
+                                                               const TrackerOptions& options,
+                                                               std::unique_ptr<TagFinder> finder);
 
 /// The pose at which the tool's tags, as they are printed, explain both images at once, starting
 /// from a prediction (docs/tracking.md). Whole images are searched only for tools that are lost.

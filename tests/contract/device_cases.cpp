@@ -213,7 +213,7 @@ std::unique_ptr<Headset> open_surgeon() {
   options.room = sim::scene::operating_room(12);
   options.sim.render = false;
   options.sim.frame_rate_hz = 10.0;
-  options.sim.limit_s = 9.0;
+  options.sim.limit_s = 14.0;
   options.sim.error_model.pace = 4.0;
   return std::make_unique<Prompting>(checked(open_headset("sim:?seed=11", options)),
                                      StepOnDisplay{Step::kDigitize, "L3", {}});

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <numbers>
 
 #include "engine/case/operation_plan.h"
@@ -19,7 +21,7 @@ namespace fs = std::filesystem;
 
 // What the chain may lose without any source of error: 8-bit images and the exact geometry of a tag
 // leave the method's own resolution, with a margin.
-constexpr double kPerfectAngle_deg = 0.3;
+constexpr double kPerfectAngle_deg = 0.4;
 constexpr double kPerfectEntry_m = 0.0003;
 
 double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
@@ -59,16 +61,72 @@ TEST_P(EveryMethod, InAPerfectWorldEveryWireLiesOnItsPlan) {
   }
 }
 
-/// Six standard deviations of the paper's results: beyond it something else is wrong. The bound of
-/// the perfect world is one that errors do break.
-void expect_errors_as_documented(const OperationResult& result) {
-  double worst_deg = 0.0;
-  for (const ScrewOutcome& screw : result.levels[0].screws) {
-    ASSERT_TRUE(screw.angle_error_rad.has_value());
-    worst_deg = std::max(worst_deg, degrees(*screw.angle_error_rad));
-    EXPECT_LT(degrees(*screw.angle_error_rad), 3.38 + 6 * 1.73);
+double quadrature(std::initializer_list<double> sds) {
+  double sum = 0.0;
+  for (const double sd : sds) {
+    sum += sd * sd;
   }
-  EXPECT_GT(worst_deg, kPerfectAngle_deg);
+  return std::sqrt(sum);
+}
+
+/// Two independent deviations across an axis make a Rayleigh variable: it exceeds four of their
+/// SDs once in 3,000 draws.
+constexpr double kRayleighSds = 4.0;
+
+/// About each direction across the wire: hand, wire, the guide's axis, its reading, tremor. 2.4°;
+/// 18 screws of the measurement model had 2.6°.
+double most_angle_rad(const sim::ErrorModel& m) {
+  return kRayleighSds * quadrature({m.hand_drilling_rad, m.wire_bending_rad, m.hole_following_rad,
+                                    m.axis_calibration_rad, m.angle_reading_rad, m.tremor_rad});
+}
+
+/// Along each direction of the cortex: where the hologram is perceived, the hand, the wire's slip,
+/// and what shifts the registration: the tip, the model, the map, the cameras. 2.6 mm; 18 screws of
+/// the measurement model had 1.9 mm.
+double most_entry_m(const sim::ErrorModel& m) {
+  // From stroking to piercing, for a hasty surgeon.
+  constexpr double kBetween_s = 60.0;
+  // Of depth at arm's length, by all errors of the calibration (error_model.h).
+  constexpr double kDepth_m = 0.0015;
+  return kRayleighSds *
+         quadrature({m.overlay_perception_m * m.perception_depth_ratio, m.entry_pick_m,
+                     m.wire_skiving_m, m.tremor_m, m.tip_calibration_m, m.model_error_m,
+                     m.map_drift_m_per_sqrt_s * std::sqrt(kBetween_s), m.map_step_m,
+                     m.head_pose_noise_m, kDepth_m});
+}
+
+/// Both screws within what the error model allows, and beyond what a perfect world leaves: errors
+/// that were not applied would be noticed too.
+void expect_errors_as_documented(const OperationResult& result, const sim::ErrorModel& model) {
+  ASSERT_EQ(result.levels.size(), 1u);
+  ASSERT_EQ(result.levels[0].screws.size(), 2u);
+  double worst_rad = 0.0;
+  double worst_m = 0.0;
+  for (const ScrewOutcome& screw : result.levels[0].screws) {
+    ASSERT_TRUE(screw.angle_error_rad.has_value()) << name_of(screw.side);
+    ASSERT_TRUE(screw.entry_error_m.has_value()) << name_of(screw.side);
+    EXPECT_LT(*screw.angle_error_rad, most_angle_rad(model)) << name_of(screw.side);
+    EXPECT_LT(*screw.entry_error_m, most_entry_m(model)) << name_of(screw.side);
+    worst_rad = std::max(worst_rad, *screw.angle_error_rad);
+    worst_m = std::max(worst_m, *screw.entry_error_m);
+  }
+  EXPECT_GT(degrees(worst_rad), kPerfectAngle_deg);
+  EXPECT_GT(worst_m, kPerfectEntry_m);
+}
+
+/// The twin: a wire that went along the plan of the other side would be past both bounds.
+TEST(Operation, TheBoundsOfItsDocumentedErrorsTellOneSideFromTheOther) {
+  const sim::ErrorModel model;
+  const Operation planned = plan_operation(lumbar_spine(), {"L5"}).value();
+  const auto& screws = planned.levels.at(0).screws;
+  ASSERT_EQ(screws.size(), 2u);
+  EXPECT_GT(
+      angle_between_rad(screws[0].target - screws[0].entry, screws[1].target - screws[1].entry),
+      most_angle_rad(model));
+  EXPECT_GT((screws[0].entry - screws[1].entry).norm(), most_entry_m(model));
+  // Nor are they so wide that any wire passes: 10° and 11 mm, a quarter of a screw.
+  EXPECT_LT(degrees(most_angle_rad(model)), 10.0);
+  EXPECT_LT(most_entry_m(model), 0.011);
 }
 
 /// Every tool's pose in every pair, and the step it was in.
@@ -118,7 +176,7 @@ TEST(Operation, AtItsDocumentedErrorsGivesTheSameReportWithOneAndTwoThreads) {
   const LoggedOperation two_threads = logged(options);
   ASSERT_TRUE(two_threads.result.ok()) << two_threads.result.error().message;
   EXPECT_TRUE(two_threads.result->completed);
-  expect_errors_as_documented(*two_threads.result);
+  expect_errors_as_documented(*two_threads.result, options.sim.error_model);
   options.tracker.parallel = false;
   const LoggedOperation one_thread = logged(options);
   ASSERT_TRUE(one_thread.result.ok());

@@ -48,6 +48,8 @@ std::vector<nav::ScrewPlan> plan(const std::string& text) {
     screw.side = text.find("left", at) - at < 20 ? nav::Side::kLeft : nav::Side::kRight;
     screw.entry.v = vector_after(text, "\"entry\"", at);
     screw.target.v = vector_after(text, "\"target\"", at);
+    at = text.find(':', text.find("\"radius\"", at)) + 1;
+    screw.radius_m = std::strtod(text.c_str() + at, nullptr) * 1e-3;
     screws.push_back(screw);
   }
   return screws;

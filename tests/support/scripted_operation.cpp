@@ -89,7 +89,16 @@ ScriptedTracker::ScriptedTracker() {
   states_.resize(2);
 }
 
+void ScriptedTracker::hang_on_reference() {
+  tools_.push_back(
+      {"reference", nav::ToolRole::kReference, {"tag36h11", 17, 0.04}, {{0, -0.06, 0}}});
+}
+
 std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame) {
+  reference.in_sight = reference_seen;
+  if (reference_seen) {
+    reference.last_seen = frame.time;
+  }
   const std::optional<Transform<World, Marker>> poses[] = {pointer, guide};
   const PoseStatus origins[] = {pointer_origin, guide_origin};
   for (std::size_t i = 0; i < states_.size(); ++i) {

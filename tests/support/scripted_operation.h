@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/session/session.h"
+#include "nav/tracking/anchor.h"
 
 namespace orthonav::test {
 
@@ -29,9 +30,16 @@ class ScriptedTracker : public nav::ToolTracker {
   /// How the poses above came about.
   PoseStatus pointer_origin = PoseStatus::kMeasured;
   PoseStatus guide_origin = PoseStatus::kMeasured;
+  /// From now on there is a patient reference, seen in every pair until it is said otherwise.
+  void hang_on_reference();
+  bool reference_seen = true;
+  nav::Anchor reference;             ///< what is said of it
   std::optional<nav::TagSize> size;  ///< of every tool
   [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t /*tool*/) const override {
     return size;
+  }
+  [[nodiscard]] const nav::Anchor* anchor() const override {
+    return tools_.size() > 2 ? &reference : nullptr;
   }
 
  private:

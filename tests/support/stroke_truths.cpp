@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/random.h"
+#include "base/vertex_normals.h"
 
 namespace orthonav::test {
 namespace {
@@ -116,21 +117,6 @@ std::vector<double> unevenness(Tissue tissue, const nav::TriangleMesh& mesh, con
   return out;
 }
 
-std::vector<Vec3> vertex_normals(const nav::TriangleMesh& mesh) {
-  std::vector<Vec3> normals(mesh.vertices_m.size());
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices_m[t[0]];
-    const Vec3 by_area = (mesh.vertices_m[t[1]] - a).cross(mesh.vertices_m[t[2]] - a);
-    for (const std::uint32_t v : t) {
-      normals[v] += by_area;
-    }
-  }
-  for (Vec3& n : normals) {
-    n = n.norm() > 0.0 ? n.normalized() : Vec3{};
-  }
-  return normals;
-}
-
 }  // namespace
 
 const char* name_of(Tissue tissue) {
@@ -184,7 +170,7 @@ nav::TriangleMesh segmented(const nav::TriangleMesh& mesh, double sd_m, std::uin
     off.push_back(noise.at(v));
   }
   standardize(off);
-  const std::vector<Vec3> normals = vertex_normals(mesh);
+  const std::vector<Vec3> normals = vertex_normals(mesh.vertices_m, mesh.triangles);
   nav::TriangleMesh out = mesh;
   for (std::size_t i = 0; i < off.size(); ++i) {
     out.vertices_m[i] += sd_m * off[i] * normals[i];

@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/tools/command_line.h"
 
@@ -64,6 +67,87 @@ TEST(RodCommand, TakesMetres) {
   const Called wrong = orthonav({"rod", "--heads", heads});
   EXPECT_EQ(wrong.code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("0.05 mm apart, limit 5-150 mm"));
+}
+
+/// Heads of a lordosis, 35 mm apart, set off sideways.
+constexpr const char* kLordosis = "x,y,z\n0,0,0\n0.5,-5.5,35\n-1,-5.3,70\n0.4,0.4,105\n2,12,138\n";
+
+TEST(RodCommand, InstructsHowToBendIt) {
+  const ScratchFolder folder;
+  const std::string heads = folder.with("heads.csv", kLordosis);
+  const Called called =
+      orthonav({"rod", "--heads", heads, "--instructions", "--to-bone", "0,-1,0", "--json", "-"});
+  ASSERT_EQ(called.code, 0) << called.err;
+  const json told = json::parse(called.out)["instructions"];
+  EXPECT_GT(told["cut_length_mm"].get<double>(), 115.0);
+  EXPECT_LE(told["worst_seat_mm"].get<double>(), 0.3);
+  ASSERT_GE(told["bends"].size(), 2U);
+  double before_mm = 0.0;
+  for (const json& bend : told["bends"]) {
+    EXPECT_GE(bend["arc_length_mm"].get<double>(), before_mm);
+    before_mm = bend["arc_length_mm"].get<double>() + 20.0;
+    EXPECT_GT(bend["set_deg"].get<double>(), bend["angle_deg"].get<double>());
+  }
+  const Called text = orthonav({"rod", "--heads", heads, "--instructions"});
+  EXPECT_THAT(text.out, AllOf(HasSubstr("cut to "), HasSubstr("bend 1: middle at ")));
+}
+
+TEST(RodCommand, SaysNoWhereNoInstructionsLeadThere) {
+  const ScratchFolder folder;
+  const std::string heads = folder.with("heads.csv", kCorner);
+  const Called called = orthonav({"rod", "--heads", heads, "--instructions", "--json", "-"});
+  EXPECT_EQ(called.code, 1);
+  EXPECT_THAT(json::parse(called.out)["no_instructions"].get<std::string>(), HasSubstr("limit"));
+  const std::string out = folder.file("rod.pdf");
+  EXPECT_EQ(orthonav({"print", "rod", "--heads", heads, "--out", out}).code, 1);
+  EXPECT_THAT(folder.names(), ElementsAre("heads.csv"));
+}
+
+TEST(RodCommand, TakesTrialsOfTheSpringBack) {
+  const ScratchFolder folder;
+  const std::string heads = folder.with("heads.csv", kLordosis);
+  const auto first_set_deg = [&](const std::string& trials) {
+    const Called called = orthonav({"rod", "--heads", heads, "--instructions", "--json", "-",
+                                    "--spring-back", folder.with("trials.csv", trials)});
+    return called.code == 0
+               ? json::parse(called.out)["instructions"]["bends"][0]["set_deg"].get<double>()
+               : -1.0;
+  };
+  // Half of every bend is lost, then a tenth.
+  const double half_deg = first_set_deg("set_deg,kept_deg\n60,30\n");
+  const double tenth_deg = first_set_deg("# CoCr\nkept_deg,set_deg\n36,40\n");
+  EXPECT_NEAR(half_deg * 0.5, tenth_deg * 0.9, 1e-6);
+  for (const auto& [content, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"10,8\n", "line 1 must be the header"},
+           {"set_deg,kept_deg\n", "holds no trials"},
+           {"set_deg,kept_deg\n10,x\n", "line 2 must hold two numbers"},
+           {"set_deg,kept_deg\n10,12\n", "trials.csv: spring-back trial 1 keeps 12.0"}}) {
+    const Called called = orthonav({"rod", "--heads", heads, "--instructions", "--spring-back",
+                                    folder.with("trials.csv", content)});
+    EXPECT_EQ(called.code, 2) << content;
+    EXPECT_THAT(called.err, HasSubstr(expected));
+  }
+}
+
+TEST(RodCommand, PrintsItsInstructions) {
+  const ScratchFolder folder;
+  const std::string heads = folder.with("heads.csv", kLordosis);
+  const std::string out = folder.file("rod.pdf");
+  const Called called = orthonav({"print", "rod", "--heads", heads, "--out", out});
+  ASSERT_EQ(called.code, 0) << called.err;
+  EXPECT_THAT(content_of(out), StartsWith("%PDF"));
+  EXPECT_THAT(called.out, HasSubstr("both rulers must be 100 mm"));
+}
+
+TEST(RodCommand, RefusesADirectionThatIsNone) {
+  const ScratchFolder folder;
+  const std::string heads = folder.with("heads.csv", kLordosis);
+  for (const std::string to_bone : {"0,0,0", "0,1", "a,b,c", "0,nan,1"}) {
+    const Called called =
+        orthonav({"rod", "--heads", heads, "--instructions", "--to-bone", to_bone});
+    EXPECT_EQ(called.code, 2) << to_bone;
+    EXPECT_THAT(called.err, HasSubstr("--to-bone: \"" + to_bone + "\" must be three numbers"));
+  }
 }
 
 TEST(RodCommand, RefusesBadInputInOneLine) {

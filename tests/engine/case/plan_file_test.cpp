@@ -67,6 +67,33 @@ TEST(PlanFile, ReadsMillimetresAndLps) {
   EXPECT_DOUBLE_EQ(read->screws[0].radius_m, 0.003);
 }
 
+TEST(PlanFile, ReadsWhyAScrewMayLeaveTheCortex) {
+  const std::string places = R"("entry": [20, 30, 1], "target": [10, -14, 2], "radius": 3)";
+  const auto read = loaded(
+      plan(screw("left", places + R"(, "accept_breach": "in-out-in")") + "," + screw("right")));
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  EXPECT_EQ(read->screws[0].accepted_breach, "in-out-in");
+  EXPECT_EQ(read->screws[1].accepted_breach, "");
+  const auto drawn =
+      loaded(markups(line("L4 left", R"(diameter=5.5\naccept_breach=narrow pedicle\nchecked)")),
+             "L4.mrk.json");
+  ASSERT_TRUE(drawn.ok()) << drawn.error().message;
+  EXPECT_EQ(drawn->screws[0].accepted_breach, "narrow pedicle");
+  EXPECT_DOUBLE_EQ(drawn->screws[0].radius_m, 0.00275);
+}
+
+TEST(PlanFile, RefusesABreachWithoutAReason) {
+  const auto said = [](const std::string& reason) {
+    return refusal(plan(screw("left", R"("entry": [20, 30, 1], "target": [10, -14, 2],
+                                         "radius": 3, "accept_breach": ")" +
+                                          reason + "\"")));
+  };
+  EXPECT_THAT(said(""), HasSubstr("screws[0].accept_breach must say why"));
+  EXPECT_THAT(said("  "), HasSubstr("screws[0].accept_breach must say why"));
+  EXPECT_THAT(said("a\\nb"), HasSubstr("screws[0].accept_breach must be one line"));
+  EXPECT_THAT(said(std::string(201, 'a')), HasSubstr("is 201 bytes long, limit 200"));
+}
+
 TEST(PlanFile, ReadsMetresAndRas) {
   const auto read = loaded(plan(screw("left", R"("entry": [0.020, 0.030, 0.001],
                                 "target": [0.010, -0.014, 0.002], "radius": 0.003)"),

@@ -265,6 +265,23 @@ TEST_F(Guiding, ShowsPlanTriangleAndAngle) {
   EXPECT_NEAR((triangle[2] - triangle[0]).norm(), nav::kTriangleReach_m, kExact);
 }
 
+TEST_F(Guiding, ATipBesideTheEntryOpensTheTriangleAndLeavesTheNumber) {
+  constexpr double kBeside_m = 0.003;
+  std::array<double, 2> open_m{};
+  for (const std::size_t i : {0U, 1U}) {
+    const double beside_m = i == 0 ? 0.0 : kBeside_m;
+    s.tracker().guide = guide_at(kLeftEntry + Vec3{beside_m, 0.010, 0}, 0.0);
+    const Guidance& g = s.pairs(2);
+    const ShownFrame frame = shown(g);
+    EXPECT_EQ(find(frame, kAngle)->text, "0.0°");
+    const auto& triangle = find(frame, kTriangle)->points_in_world;
+    ASSERT_EQ(triangle.size(), 3u);
+    open_m[i] = (triangle[1] - triangle[2]).norm();
+  }
+  EXPECT_NEAR(open_m[0], 0.0, 1e-6);
+  EXPECT_NEAR(open_m[1], kBeside_m, 0.001 * kBeside_m);
+}
+
 TEST_F(Guiding, TheCrossHasADotForTheTipAndOneForTheToolFartherUp) {
   // 2 mm beside the plan towards the patient's left, parallel to it.
   s.tracker().guide = guide_at(kLeftEntry + Vec3{0.002, 0.010, 0}, 0.0);

@@ -76,6 +76,13 @@ void expect_the_same(const SessionRecord& record, const Session& session) {
     if (rod.done) {
       EXPECT_DOUBLE_EQ(rod.length_m.value_or(-1), state.rod->length_m);
       EXPECT_EQ(rod.bends.size(), state.rod->bends.size());
+      ASSERT_EQ(rod.cut_length_m.has_value(), state.instructions.has_value());
+      EXPECT_EQ(rod.no_instructions, state.no_instructions);
+      EXPECT_NE(rod.cut_length_m.has_value(), !rod.no_instructions.empty());
+      if (state.instructions) {
+        EXPECT_DOUBLE_EQ(*rod.cut_length_m, state.instructions->cut_length_m());
+        EXPECT_EQ(rod.instructions.size(), state.instructions->bends.size());
+      }
     }
   }
 }

@@ -54,6 +54,36 @@ TEST_F(RodSession, RecordsHeadsAtTheTipAndJoinsThem) {
   EXPECT_EQ(state<HeadsSoFar>(g)->count, 2u);
 }
 
+TEST_F(RodSession, InstructsHowToBendTheRod) {
+  s.touches({0.02, 0.03, 0.00});
+  const Guidance& straight = s.touches({0.02, 0.03, 0.04});
+  ASSERT_TRUE(straight.rods[0].instructions) << straight.rods[0].no_instructions;
+  // Two heads: a straight rod, 5 mm longer at both ends than from seat to seat.
+  const auto& seats = straight.rods[0].instructions->seats_m;
+  ASSERT_EQ(seats.size(), 2u);
+  EXPECT_NEAR((seats[0] - Vec3{0.02, 0.03, 0.00}).norm(), 0.006, kExact) << "below the head";
+  EXPECT_NEAR(straight.rods[0].instructions->cut_length_m(), (seats[1] - seats[0]).norm() + 0.010,
+              1e-6);
+  EXPECT_TRUE(straight.rods[0].instructions->bends.empty());
+  ASSERT_NE(state<HeadsSoFar>(straight), nullptr);
+  EXPECT_TRUE(state<HeadsSoFar>(straight)->cut_length_m.has_value());
+  const Guidance& bent = s.touches({0.02, 0.04, 0.08});
+  ASSERT_TRUE(bent.rods[0].instructions) << bent.rods[0].no_instructions;
+  EXPECT_EQ(bent.rods[0].instructions->bends.size(), 1u);
+  EXPECT_FALSE(s.says("delete").rods[0].instructions->bends.size() > 0);
+}
+
+TEST_F(RodSession, SaysWhyThereAreNoInstructions) {
+  s.touches({0.02, 0.03, 0.00});
+  s.touches({0.02, 0.035, 0.02});
+  const Guidance& g = s.touches({0.02, 0.03, 0.04});
+  EXPECT_TRUE(g.rods[0].rod.has_value());
+  EXPECT_FALSE(g.rods[0].instructions.has_value());
+  EXPECT_THAT(g.rods[0].no_instructions,
+              ::testing::HasSubstr("no bend fits between seats 1 and 2"));
+  EXPECT_FALSE(state<HeadsSoFar>(g)->cut_length_m.has_value());
+}
+
 TEST_F(RodSession, DropsTheLastHead) {
   s.touches({0.02, 0.03, 0.00});
   s.touches({0.02, 0.03, 0.04});

@@ -190,6 +190,8 @@ TEST(Wording, SaysHowAStepStands) {
   EXPECT_EQ(line_with(RegistrationFigures{0.0006, 0.0012, false, true}),
             "RMSE 0.60 mm, 1.2 mm expected at the screws (registration only)");
   EXPECT_EQ(line_with(HeadsSoFar{2}), "2 heads");
+  EXPECT_EQ(line_with(HeadsSoFar{4, 0.15236, 3}), "4 heads, cut to 152.4 mm, 3 bends");
+  EXPECT_EQ(line_with(HeadsSoFar{3, 0.09, 1}), "3 heads, cut to 90.0 mm, 1 bend");
   nav::CheckVerdict verdict;
   verdict.advice = {nav::CheckAdvice::Kind::kTouchApart, 2, 0.015, 0.0};
   EXPECT_EQ(line_with(ChecksSoFar{0.0008, 1, -0.0007, &verdict}),

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "hal/sim/shown_cross.h"
+
 namespace orthonav::sim {
 namespace {
 
@@ -201,12 +203,22 @@ const RoomLevel& FakeEngine::level_named(const std::string& label) const {
                        [&label](const RoomLevel& level) { return level.label == label; });
 }
 
+Transform<Room, Vertebra> FakeEngine::room_from_vertebra(const std::string& label) const {
+  return headset_.state().room_from_spine * level_named(label).spine_from_vertebra;
+}
+
+Transform<Room, Vertebra> FakeEngine::room_from_shown(const std::string& label) const {
+  const Transform<Room, Vertebra> truth = room_from_vertebra(label);
+  return {rotation_from_vector(options_.registration_turn_rad) * truth.rotation(),
+          truth.translation() + options_.registration_error_m};
+}
+
 Transform<World, Vertebra> FakeEngine::world_from_vertebra(const std::string& label) const {
-  const Transform<Room, Vertebra> room_from_vertebra =
-      headset_.state().room_from_spine * level_named(label).spine_from_vertebra;
-  return headset_.world_from_room() * Transform<Room, Vertebra>{room_from_vertebra.rotation(),
-                                                                room_from_vertebra.translation() +
-                                                                    options_.registration_error_m};
+  return headset_.world_from_room() * room_from_shown(label);
+}
+
+Transform<Vertebra, Vertebra> FakeEngine::vertebra_from_shown(const std::string& label) const {
+  return room_from_vertebra(label).inverse() * room_from_shown(label);
 }
 
 void FakeEngine::draw(const StereoFrame& frame) {
@@ -243,7 +255,6 @@ void FakeEngine::draw(const StereoFrame& frame) {
 }
 
 void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const {
-  constexpr double kReach_m = 0.080;
   const TestScrew& screw = case_.screws[screw_];
   const auto from_vertebra = world_from_vertebra(screw.level);
   const Point<World> entry = from_vertebra * screw.entry;
@@ -270,8 +281,17 @@ void FakeEngine::draw_screw(ShownFrame& shown, const RoomState& state, bool blin
   const double reading_rad = std::round(10.0 * angle_deg) / 10.0 * std::numbers::pi / 180.0;
   shown.holograms.push_back(
       {.kind = HologramKind::kTriangle,
-       .points_in_world = {entry, entry + kReach_m * axis, entry + kReach_m * outwards}});
+       .points_in_world = {entry, entry + kCrossReach_m * axis, entry + kCrossReach_m * outwards}});
   shown.holograms.push_back({.kind = HologramKind::kAngle, .reading = reading_rad});
+  const Vec3 tip = world_from_marker * tool.tip_in_marker - entry;
+  const auto dot = [&](Vec3 from_entry) {
+    const Vec3 offset = from_entry - outwards * from_entry.dot(outwards);
+    const double held = std::min(1.0, kCrossRim_m / std::max(kCrossRim_m, offset.norm()));
+    return entry + kCrossScale * held * offset;
+  };
+  shown.holograms.push_back(
+      {.kind = HologramKind::kCross,
+       .points_in_world = {entry, dot(tip), dot(tip + kCrossReach_m * axis)}});
 }
 
 }  // namespace orthonav::sim

@@ -21,7 +21,9 @@ struct DigitizedLevel {
 
 struct EngineOptions {
   int refusals = 0;           ///< of each level, before it is accepted
-  Vec3 registration_error_m;  ///< shifts every hologram of the bone
+  Vec3 registration_error_m;  ///< shifts every hologram of the bone, in Room
+  /// Turns them about the vertebra's origin, before the shift; a rotation vector in Room.
+  Vec3 registration_turn_rad;
   double blind_from_s = 0.0;  ///< the tools are lost in this span of time
   double blind_to_s = 0.0;
   bool deaf = false;     ///< hears no voice
@@ -48,6 +50,8 @@ class FakeEngine {
   [[nodiscard]] const std::vector<std::string>& events() const { return events_; }
   [[nodiscard]] const std::vector<Phrase>& phrases() const { return phrases_; }
   [[nodiscard]] const std::vector<Point<World>>& heads() const { return heads_; }
+  /// Where a level is, as its holograms show it, in the frame of the level as it is.
+  [[nodiscard]] Transform<Vertebra, Vertebra> vertebra_from_shown(const std::string& label) const;
 
  private:
   void take(const ClickerEvent& event);
@@ -61,6 +65,8 @@ class FakeEngine {
   void draw(const StereoFrame& frame);
   void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
   [[nodiscard]] std::string level_label() const { return order_[level_]; }
+  [[nodiscard]] Transform<Room, Vertebra> room_from_vertebra(const std::string& label) const;
+  [[nodiscard]] Transform<Room, Vertebra> room_from_shown(const std::string& label) const;
   [[nodiscard]] Transform<World, Vertebra> world_from_vertebra(const std::string& label) const;
   [[nodiscard]] const RoomLevel& level_named(const std::string& label) const;
 

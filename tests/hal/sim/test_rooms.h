@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/side.h"
 #include "hal/sim/room.h"
 
 namespace orthonav::sim {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -54,13 +55,57 @@ TEST(Guide, TellsATheReverseDirectionFromTheRightOne) {
 
 TEST(Guide, DrawsTheTriangleOutsideTheBone) {
   const Scene s;
-  const auto g = guide(s.world_from_vertebra, s.plan, s.at({0, 0, 0}), s.turned({0.5, 0, 0}));
-  const auto back = s.world_from_vertebra.inverse();
-  EXPECT_LT((back * g.a - s.plan.entry).norm(), kRounding_m);
-  EXPECT_LT((back * g.b - Point<Vertebra>{{0.09, 0.02, 0.03}}).norm(), kRounding_m);
-  EXPECT_LT((back * g.c - Point<Vertebra>{{0.01, 0.10, 0.03}}).norm(), kRounding_m);
-  EXPECT_NEAR((g.b - g.a).norm(), kTriangleReach_m, kRounding_m);
-  EXPECT_NEAR((g.c - g.a).norm(), kTriangleReach_m, kRounding_m);
+  // Along x through the entry: the tip before it, in it, past it.
+  for (const double x : {0.03, 0.01, -0.02}) {
+    const auto g =
+        guide(s.world_from_vertebra, s.plan, s.at({x, 0.02, 0.03}), s.turned({0.5, 0, 0}));
+    const auto back = s.world_from_vertebra.inverse();
+    EXPECT_LT((back * g.a - s.plan.entry).norm(), kRounding_m);
+    EXPECT_LT((back * g.b - Point<Vertebra>{{0.09, 0.02, 0.03}}).norm(), kRounding_m) << x;
+    EXPECT_LT((back * g.c - Point<Vertebra>{{0.01, 0.10, 0.03}}).norm(), kRounding_m);
+    EXPECT_NEAR((g.b - g.a).norm(), kTriangleReach_m, kRounding_m);
+    EXPECT_NEAR((g.c - g.a).norm(), kTriangleReach_m, kRounding_m);
+  }
+}
+
+/// Distance of a point from the axis through the tip.
+double off_tool_m(const ScrewGuidance& g, Point<World> at) {
+  return (at - g.tip).cross(g.tool_outward).norm();
+}
+
+TEST(Guide, ShowsATipBesideTheEntryInTheTriangleOfAParallelTool) {
+  const Scene s;
+  for (const double aside_m : {0.0, 0.001, 0.003, 0.040}) {
+    const auto g = guide(s.world_from_vertebra, s.plan, s.at({0.01 + aside_m, 0.015, 0.03}),
+                         s.turned({0, 1, 0}));
+    EXPECT_NEAR(g.angle_rad, 0.0, kRounding_rad) << "the number is that of the directions";
+    EXPECT_LT(off_tool_m(g, g.b), kRounding_m);
+    EXPECT_NEAR((g.b - g.a).norm(), kTriangleReach_m, kRounding_m);
+    // As far from the planned axis as the tip: the chord of that, by the sphere about A.
+    const double angle_at_a_rad = std::asin(aside_m / kTriangleReach_m);
+    EXPECT_NEAR((g.b - g.c).norm(), 2.0 * kTriangleReach_m * std::sin(0.5 * angle_at_a_rad),
+                kRounding_m);
+  }
+}
+
+TEST(Guide, ClosesTheTriangleOfAToolThatCrossesThePlanThereButNotTheNumber) {
+  const Scene s;
+  // From 3 mm beside the entry to C.
+  const Vec3 tip{0.013, 0.02, 0.03};
+  const auto g = guide(s.world_from_vertebra, s.plan, s.at(tip),
+                       s.turned(Vec3{0.01, 0.02 + kTriangleReach_m, 0.03} - tip));
+  EXPECT_LT((g.b - g.c).norm(), kRounding_m);
+  EXPECT_NEAR(g.angle_rad, std::atan2(0.003, kTriangleReach_m), kRounding_rad);
+}
+
+TEST(Guide, KeepsBOnTheToolWhereItPassesTheEntryFartherOffThanTheTriangleReaches) {
+  const Scene s;
+  for (const double aside_m : {0.079999, 0.080001, 0.3}) {
+    const auto g = guide(s.world_from_vertebra, s.plan, s.at({0.01 + aside_m, 0.5, 0.03}),
+                         s.turned({0, 1, 0}));
+    EXPECT_LT(off_tool_m(g, g.b), 10 * kRounding_m) << aside_m;
+    EXPECT_NEAR((g.b - g.a).norm(), std::max(kTriangleReach_m, aside_m), 10 * kRounding_m);
+  }
 }
 
 TEST(Guide, SaysHowFarTheTipIsFromAxisAndEntry) {

@@ -138,6 +138,11 @@ TEST(PressedPlaces, TheSamePlaceAgainTellsHardlyMore) {
 TEST(PressedPlaces, AreOfNoUseWhereTheStrokesLeaveAMotionOpen) {
   PressedBone bone(1, 0.0);
   EXPECT_TRUE(bone.registration.accepted);
+  Registration alone = bone.registration;
+  alone.runner_up = alone.world_from_vertebra;
+  const auto joined = join_places(bone.model(), alone, bone.press(3), bone.options).value();
+  EXPECT_EQ(joined.registration.runner_up, joined.registration.world_from_vertebra)
+      << "without a rival there is none afterwards";
   Registration open = bone.registration;
   open.uncertainty.reset();
   const auto places = bone.press(3);

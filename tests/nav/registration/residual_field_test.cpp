@@ -214,26 +214,56 @@ TEST_F(ResidualFieldTest, AStandoffIsFoundAndNeverNegative) {
   }
 }
 
+/// A fit of noisy places to a surface, from the pose that is true. Never nothing: its damping holds
+/// a motion that is open where it was.
+SurfaceFit fit_from_truth(const SurfaceIndex& surface, std::vector<Vec3> places) {
+  Random random(4);
+  for (Vec3& p : places) {
+    p += Vec3{random.normal(0, 0.0002), random.normal(0, 0.0002), random.normal(0, 0.0002)};
+  }
+  const CentredPoints cloud = test::centred_somewhere(places, random);
+  const auto fit = fit_to_surface(surface, cloud.points_m, cloud.truth, {});
+  EXPECT_TRUE(fit.has_value());
+  return fit.value_or(SurfaceFit{});
+}
+
+/// Far more units than the fewest, 12, so that their number is no reason for nothing.
+constexpr std::size_t kEnoughUnits = 40;
+constexpr std::size_t kMostUnits = 1000;
+
 TEST_F(ResidualFieldTest, IsNoneWhenAMotionIsOpen) {
   // On a flat front three motions are open.
   Random random(4);
   std::vector<Vec3> flat;
   for (int i = 0; i < 500; ++i) {
-    flat.push_back({random.uniform(-0.02, 0.02), -0.02 + random.normal(0, 0.0002),
-                    random.uniform(-0.01, 0.01)});
+    flat.push_back({random.uniform(-0.02, 0.02), -0.02, random.uniform(-0.01, 0.01)});
   }
-  const CentredPoints cloud = test::centred_somewhere(flat, random);
-  const auto fit = fit_to_surface(surface_, cloud.points_m, cloud.truth, {});
-  if (fit) {
-    EXPECT_FALSE(residual_field(*fit).has_value());
-  }
-  // And with too few points on the surface.
-  const CentredPoints few =
-      test::centred_somewhere(std::vector<Vec3>(flat.begin(), flat.begin() + 8), random);
-  const auto small = fit_to_surface(surface_, few.points_m, few.truth, {});
-  if (small) {
-    EXPECT_FALSE(residual_field(*small).has_value());
-  }
+  const SurfaceFit on_front = fit_from_truth(surface_, flat);
+  EXPECT_GE(residual_units(on_front, kMostUnits).all.size(), kEnoughUnits);
+  EXPECT_FALSE(residual_field(on_front).has_value());
+  // Along a straight crest one is.
+  const TriangleMesh straight =
+      test::slab_bone([](double x, double) { return 0.012 * std::exp(-x * x / (0.007 * 0.007)); });
+  const SurfaceIndex crest(straight);
+  const SurfaceFit on_crest = fit_from_truth(crest, test::strokes_over(crest, 10));
+  EXPECT_GE(residual_units(on_crest, kMostUnits).all.size(), kEnoughUnits);
+  EXPECT_FALSE(residual_field(on_crest).has_value());
+  // The twin: the same strokes over a back on which no motion is open.
+  EXPECT_TRUE(residual_field(fit_from_truth(surface_, test::strokes_over(surface_, 10))));
+}
+
+TEST_F(ResidualFieldTest, IsNoneOfTooFewPoints) {
+  // Spread over a back on which no motion is open: only their number is wanting.
+  const std::vector<Vec3> places = test::strokes_over(surface_, 10);
+  const auto spread = [&](std::size_t count) {
+    std::vector<Vec3> some;
+    for (std::size_t i = 0; i < count; ++i) {
+      some.push_back(places[i * places.size() / count]);
+    }
+    return fit_from_truth(surface_, some);
+  };
+  EXPECT_FALSE(residual_field(spread(11)).has_value());
+  EXPECT_TRUE(residual_field(spread(100)).has_value());
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+#include "engine/holograms/anchored_frame.h"
+
+#include "engine/holograms/render_values.h"
+
+namespace orthonav::engine {
+namespace {
+
+render::Float3 taken(const Transform<World, World>& by, render::Float3 p) {
+  return to_float3((by * Point<World>{{p.x, p.y, p.z}}).v);
+}
+
+/// Of a model that is placed in the scene already; column-major, as `render::Matrix4` is.
+render::Matrix4 taken(const Transform<World, World>& by, const render::Matrix4& model) {
+  render::Matrix4 out = model;
+  for (std::size_t column = 0; column < 4; ++column) {
+    const std::size_t i = 4 * column;
+    const Vec3 v{model[i], model[i + 1], model[i + 2]};
+    const Vec3 w = by.rotation() * v + static_cast<double>(model[i + 3]) * by.translation();
+    out[i] = static_cast<float>(w.x);
+    out[i + 1] = static_cast<float>(w.y);
+    out[i + 2] = static_cast<float>(w.z);
+  }
+  return out;
+}
+
+}  // namespace
+
+void take_to_map(const Transform<World, World>& by, render::Scene& scene) {
+  for (render::MeshItem& mesh : scene.meshes) {
+    mesh.world_from_model = taken(by, mesh.world_from_model);
+  }
+  for (render::LineItem& line : scene.lines) {
+    for (render::Float3& point : line.points) {
+      point = taken(by, point);
+    }
+  }
+  for (render::TriangleItem& triangle : scene.triangles) {
+    for (render::Float3& corner : triangle.corners) {
+      corner = taken(by, corner);
+    }
+  }
+  for (render::TextItem& text : scene.texts) {
+    if (text.place == render::TextPlace::kWorld) {
+      text.position = taken(by, text.position);
+    }
+  }
+}
+
+void take_to_map(const Transform<World, World>& by, ShownFrame& frame) {
+  for (ShownHologram& hologram : frame.holograms) {
+    for (Point<World>& point : hologram.points_in_world) {
+      point = by * point;
+    }
+  }
+}
+
+void take_to_map(const Transform<World, World>& by, std::vector<GlarePatch>& patches) {
+  for (GlarePatch& patch : patches) {
+    for (render::Float3& corner : patch) {
+      corner = taken(by, corner);
+    }
+  }
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "base/transform.h"
+#include "engine/holograms/glare_patches.h"
+#include "hal/api/display.h"
+#include "render/scene.h"
+
+namespace orthonav::engine {
+
+// What was built in the anchored World (nav/tracking/anchored_tracker.h), taken to the headset's
+// map in place. What hangs on the head stays. Nothing allocates.
+
+void take_to_map(const Transform<World, World>& world_from_anchored, render::Scene& scene);
+void take_to_map(const Transform<World, World>& world_from_anchored, ShownFrame& frame);
+void take_to_map(const Transform<World, World>& world_from_anchored,
+                 std::vector<GlarePatch>& patches);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,15 @@
+#include "engine/report/script_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace orthonav::engine {
+
+std::string script_json(const nlohmann::json& value) {
+  std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = text.find("</", at)) != std::string::npos; at += 3) {
+    text.replace(at, 2, "<\\/");
+  }
+  return text;
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+
+#include "nav/guidance/screw_clearance.h"
+
+namespace orthonav::engine {
+
+/// How honest a study's clearances are: bounds and grades against the truth, screw by screw.
+struct ClearanceQuality {
+  /// Screws of which a bound and the truth are known, and of how many the truth lies above it.
+  struct Bound {
+    int screws = 0;
+    int held = 0;
+    [[nodiscard]] double share() const {
+      return screws > 0 ? static_cast<double>(held) / screws : 0.0;
+    }
+  };
+  Bound planned;  ///< of the plan and the registration
+  Bound tracked;  ///< of the tool at depth, the registration and the tracking
+  using Counts = std::array<int, nav::kPedicleGrades>;
+  /// [likeliest grade as tracked][true grade].
+  std::array<Counts, nav::kPedicleGrades> grades{};
+};
+/// Of the reports in a study's `runs`.
+[[nodiscard]] ClearanceQuality clearance_quality(const nlohmann::ordered_json& runs);
+/// As the study's JSON has it.
+[[nodiscard]] nlohmann::ordered_json clearance_quality_json(const nlohmann::ordered_json& runs);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,124 @@
+#include "engine/study/corner_pose.h"
+
+#include <cmath>
+#include <Eigen/Dense>
+
+namespace orthonav::engine {
+namespace {
+
+/// The tag's motion in the rig (m, rad about its centre), then the right camera's rotation.
+constexpr int kPose = 6;
+constexpr int kAll = 9;
+using Normal = Eigen::Matrix<double, kAll, kAll>;
+using Right = Eigen::Matrix<double, kAll, 1>;
+using Row = Eigen::Matrix<double, 2, kAll>;
+using Matrix3 = Eigen::Matrix3d;
+constexpr int kIterations = 3;
+
+Matrix3 as_eigen(const Mat3& m) {
+  Matrix3 out;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      out(r, c) = m[r][static_cast<std::size_t>(c)];
+    }
+  }
+  return out;
+}
+
+Matrix3 cross_matrix(Vec3 v) {
+  Matrix3 m;
+  m << 0, -v.z, v.y, v.z, 0, -v.x, -v.y, v.x, 0;
+  return m;
+}
+
+struct Equations {
+  Normal normal = Normal::Zero();
+  Right right = Right::Zero();
+
+  /// Corners of one camera. `turns`: it is the one whose rotation is asked for.
+  template <class CameraFrame>
+  bool add(const nav::TagCorners& corners_px, const CameraModel& camera,
+           const Transform<CameraFrame, Rig>& camera_from_rig, const Transform<Rig, Marker>& pose,
+           double size_m, double sd_px, bool turns) {
+    const auto in_marker_m = nav::corners_in_marker(size_m);
+    const Matrix3 rotation = as_eigen(camera_from_rig.rotation());
+    for (std::size_t k = 0; k < corners_px.size(); ++k) {
+      const auto ray = camera.unproject(corners_px[k]);
+      const auto slope = camera.jacobian_px(corners_px[k]);
+      if (!ray || !slope) {
+        return false;
+      }
+      const Vec3 lever_arm = pose.rotation() * in_marker_m[k];
+      const Vec3 p = (camera_from_rig * Point<Rig>{pose.translation() + lever_arm}).v;
+      const double focal_px =
+          std::sqrt(std::abs((*slope)[0] * (*slope)[3] - (*slope)[1] * (*slope)[2]));
+      const double weight = focal_px / sd_px;
+      Eigen::Matrix<double, 2, 3> by_point;
+      by_point << 1 / p.z, 0, -p.x / (p.z * p.z), 0, 1 / p.z, -p.y / (p.z * p.z);
+      Row row = Row::Zero();
+      row.leftCols<3>() = by_point * rotation;
+      row.middleCols<3>(3) = -by_point * rotation * cross_matrix(lever_arm);
+      if (turns) {
+        row.rightCols<3>() = -by_point * cross_matrix(p);
+      }
+      const Eigen::Vector2d residual(ray->x - p.x / p.z, ray->y - p.y / p.z);
+      normal += weight * weight * row.transpose() * row;
+      right += weight * weight * row.transpose() * residual;
+    }
+    return true;
+  }
+
+  [[nodiscard]] nav::AlignmentEquations alignment() const {
+    const auto pose = normal.topLeftCorner<kPose, kPose>().ldlt();
+    const Eigen::Matrix<double, kPose, 3> cross = normal.topRightCorner<kPose, 3>();
+    const Matrix3 information =
+        normal.bottomRightCorner<3, 3>() - cross.transpose() * pose.solve(cross);
+    const Eigen::Vector3d rest =
+        right.tail<3>() - cross.transpose() * pose.solve(right.head<kPose>());
+    nav::AlignmentEquations out;
+    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(out.information.data()) = information;
+    Eigen::Map<Eigen::Vector3d>(out.right.data()) = rest;
+    return out;
+  }
+};
+
+Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose,
+                             const Eigen::Matrix<double, kPose, 1>& step) {
+  const Vec3 rotation{step[3], step[4], step[5]};
+  return {rotation_from_vector(rotation) * pose.rotation(),
+          pose.translation() + Vec3{step[0], step[1], step[2]}};
+}
+
+}  // namespace
+
+std::optional<CornerPose> corner_pose(const ModelledSighting& seen,
+                                      const Transform<Rig, Marker>& start,
+                                      const StereoCalibration& cameras, double size_m,
+                                      double sd_px) {
+  CornerPose out;
+  out.rig_from_marker = start;
+  for (int i = 0;; ++i) {
+    Equations e;
+    const Transform<Rig, Marker>& pose = out.rig_from_marker;
+    const bool added = (!seen.left_px || e.add(*seen.left_px, cameras.left, cameras.left_from_rig,
+                                               pose, size_m, sd_px, false)) &&
+                       (!seen.right_px || e.add(*seen.right_px, cameras.right,
+                                                cameras.right_from_rig, pose, size_m, sd_px, true));
+    const Eigen::Matrix<double, kPose, kPose> normal = e.normal.topLeftCorner<kPose, kPose>();
+    const Eigen::LLT<Eigen::Matrix<double, kPose, kPose>> solver(normal);
+    if (!added || solver.info() != Eigen::Success) {
+      return std::nullopt;
+    }
+    if (i == kIterations) {
+      Eigen::Map<Eigen::Matrix<double, kPose, kPose, Eigen::RowMajor>>(out.covariance.data()) =
+          solver.solve(Eigen::Matrix<double, kPose, kPose>::Identity());
+      if (seen.left_px && seen.right_px) {
+        out.alignment = e.alignment();
+      }
+      return out;
+    }
+    out.rig_from_marker = moved(pose, solver.solve(e.right.head<kPose>()));
+  }
+}
+
+}  // namespace orthonav::engine

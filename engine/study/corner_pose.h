@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "engine/study/modelled_sightings.h"
+#include "nav/tracking/stereo_alignment.h"
+
+namespace orthonav::engine {
+
+/// The pose that explains a tag's corners best.
+struct CornerPose {
+  Transform<Rig, Marker> rig_from_marker;
+  PoseCovariance covariance{};  ///< in the rig
+  /// Where both cameras saw it: what the corners say about the right camera's rotation.
+  std::optional<nav::AlignmentEquations> alignment;
+};
+
+/// Gauss-Newton on the unit planes of the cameras as described, from a pose that is right to a few
+/// pixels on. Nothing when a corner has no direction or a motion stays open. `sd_px`: of a corner.
+[[nodiscard]] std::optional<CornerPose> corner_pose(const ModelledSighting& seen,
+                                                    const Transform<Rig, Marker>& start,
+                                                    const StereoCalibration& cameras, double size_m,
+                                                    double sd_px);
+
+}  // namespace orthonav::engine

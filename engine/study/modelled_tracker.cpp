@@ -1,0 +1,190 @@
+#include "engine/study/modelled_tracker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/study/corner_pose.h"
+#include "engine/study/modelled_sightings.h"
+#include "nav/tracking/pair_detector.h"
+#include "nav/tracking/pose_filter.h"
+
+namespace orthonav::engine {
+namespace {
+
+/// A library's detector tells how well it read a tag; drawn corners are always well read.
+constexpr double kReadWell = 100.0;
+/// A tool that is lost is looked for beside its last place and, every few pairs, everywhere: as
+/// often as this it is found.
+constexpr int kLookEvery = 5;
+
+/// Finds tags where a search plan looks for them.
+class ModelledFinder final : public nav::TagFinder {
+ public:
+  ModelledFinder(const sim::SimHeadset& room, const MeasurementModel& model)
+      : room_(room), sightings_(room, model) {}
+
+  [[nodiscard]] nav::SearchPlan& left_plan() override { return left_plan_; }
+  [[nodiscard]] nav::SearchPlan& right_plan() override { return right_plan_; }
+  [[nodiscard]] std::span<const nav::MarkerCorners> left() const override { return left_; }
+  [[nodiscard]] std::span<const nav::MarkerCorners> right() const override { return right_; }
+
+  void detect(const StereoFrame& frame) override {
+    sightings_.look(frame);
+    left_.clear();
+    right_.clear();
+    for (std::size_t i = 0; i < sightings_.seen().size(); ++i) {
+      const ModelledSighting& seen = sightings_.seen()[i];
+      find(i, seen.left_px, left_plan_, left_);
+      find(i, seen.right_px, right_plan_, right_);
+    }
+  }
+
+ private:
+  static bool is_in(const nav::TagCorners& corners, const nav::PixelBox& box) {
+    return std::all_of(corners.begin(), corners.end(), [&](Vec2 corner) {
+      return corner.x >= box.x_px && corner.x <= box.x_px + box.width_px && corner.y >= box.y_px &&
+             corner.y <= box.y_px + box.height_px;
+    });
+  }
+
+  void find(std::size_t tool, const std::optional<nav::TagCorners>& corners,
+            const nav::SearchPlan& plan, std::vector<nav::MarkerCorners>& found) const {
+    const sim::RoomTool& made = room_.room().tools[tool];
+    const bool looked_for =
+        corners &&
+        (plan.everywhere ||
+         std::any_of(plan.boxes.begin(), plan.boxes.end(), [&](const nav::SearchPlan::Box& box) {
+           return box.family == made.family && box.id == made.id && is_in(*corners, box.box);
+         }));
+    if (looked_for) {
+      found.push_back({made.family, made.id, *corners, kReadWell, 0});
+    }
+  }
+
+  const sim::SimHeadset& room_;
+  ModelledSightings sightings_;
+  nav::SearchPlan left_plan_;
+  nav::SearchPlan right_plan_;
+  std::vector<nav::MarkerCorners> left_;
+  std::vector<nav::MarkerCorners> right_;
+};
+
+/// The tracker of `best` with corners in place of pixels.
+class ModelledTracker final : public nav::ToolTracker {
+ public:
+  ModelledTracker(const sim::SimHeadset& room, const StereoCalibration& calibration,
+                  std::vector<nav::ToolGeometry> tools, const nav::TrackerOptions& options,
+                  const MeasurementModel& model)
+      : room_(room),
+        calibration_(calibration),
+        tools_(std::move(tools)),
+        options_(options),
+        model_(model),
+        sightings_(room, model),
+        filters_(tools_.size()) {
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      states_.push_back({i, {}, {}, 0.0});
+    }
+  }
+
+  std::span<const nav::ToolState> track(const StereoFrame& frame) override {
+    sightings_.look(frame);
+    ++pairs_;
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+      states_[i] = {i, {}, {}, 0.0};
+      states_[i].world_from_marker.time = frame.time;
+      if (frame.world_from_rig && !measure(i, frame)) {
+        predict(i, frame);
+      }
+    }
+    align();
+    return states_;
+  }
+
+  [[nodiscard]] std::span<const nav::ToolGeometry> tools() const override { return tools_; }
+  [[nodiscard]] std::optional<nav::StereoAlignment> alignment() const override {
+    return applied_ ? applied_ : aligning_.estimate();
+  }
+
+ private:
+  [[nodiscard]] bool is_followed(std::size_t i, Timestamp time) const {
+    return filters_[i].follows(time, options_.coast);
+  }
+
+  bool measure(std::size_t i, const StereoFrame& frame) {
+    const ModelledSighting& seen = sightings_.seen()[i];
+    const auto near = sightings_.near(i);
+    const bool found = is_followed(i, frame.time) || pairs_ % kLookEvery == 0;
+    if (!near || !found) {
+      return false;
+    }
+    const auto fit =
+        corner_pose(seen, *near, calibration_, tools_[i].marker.size_m, model_.believed_px);
+    if (!fit) {
+      return false;
+    }
+    if (fit->alignment) {
+      aligning_.add(*fit->alignment);
+    }
+    const nav::TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
+                                    PoseStatus::kMeasured,
+                                    nav::turned(fit->covariance, frame.world_from_rig->rotation())};
+    if (!is_followed(i, frame.time)) {
+      filters_[i].stop();
+    }
+    filters_[i].update(measured, room_.options().error_model.exposure_s);
+    nav::ToolState& state = states_[i];
+    state.world_from_marker = filters_[i].state();
+    state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
+    state.cameras = (seen.left_px ? 1 : 0) + (seen.right_px ? 1 : 0);
+    state.pair = nav::PairPose{fit->rig_from_marker, fit->covariance,
+                               room_.options().error_model.exposure_s};
+    return true;
+  }
+
+  void predict(std::size_t i, const StereoFrame& frame) {
+    if (!is_followed(i, frame.time)) {
+      return;
+    }
+    states_[i].world_from_marker = filters_[i].predicted(frame.time);
+    states_[i].rig_from_marker =
+        frame.world_from_rig->inverse() * states_[i].world_from_marker.value;
+  }
+
+  void align() {
+    if (const auto correction_rad = nav::take_correction(aligning_, applied_)) {
+      nav::turn_right_camera(calibration_, *correction_rad);
+    }
+  }
+
+  const sim::SimHeadset& room_;
+  StereoCalibration calibration_;
+  std::vector<nav::ToolGeometry> tools_;
+  nav::TrackerOptions options_;
+  MeasurementModel model_;
+  ModelledSightings sightings_;
+  std::vector<nav::PoseFilter> filters_;
+  std::vector<nav::ToolState> states_;
+  nav::AlignmentEstimator aligning_;
+  std::optional<nav::StereoAlignment> applied_;
+  std::int64_t pairs_ = -1;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<nav::ToolTracker>> create_modelled_tracker(
+    std::string_view method, const sim::SimHeadset& room, const StereoCalibration& calibration,
+    std::vector<nav::ToolGeometry> tools, const nav::TrackerOptions& options) {
+  const MeasurementModel model = MeasurementModel::of(method);
+  if (method == "paper") {
+    return nav::create_tracker_of_corners(calibration, std::move(tools), options,
+                                          std::make_unique<ModelledFinder>(room, model));
+  }
+  if (Status status = nav::check(calibration, tools, options); !status) {
+    return status.error();
+  }
+  return std::unique_ptr<nav::ToolTracker>(
+      std::make_unique<ModelledTracker>(room, calibration, std::move(tools), options, model));
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "base/random.h"
+#include "base/vec.h"
+#include "engine/study/rod_experiment.h"
+#include "engine/study/rod_in_hand.h"
+#include "nav/guidance/rod_bends.h"
+#include "nav/guidance/rod_cut.h"
+
+namespace orthonav::engine {
+
+/// Draws of heads or touches that give no rod are made anew; with options that pass their check
+/// almost none does.
+inline constexpr int kMostRodDraws = 1000;
+
+/// A factor of mean 1.
+[[nodiscard]] double rod_log_normal(Random& random, double relative_sd);
+
+/// Where one rod has to lie, and whose hands bend it.
+struct RodTask {
+  std::vector<Vec3> heads_m;
+  std::vector<Vec3> to_bone;
+  nav::RodCut cut;  ///< the true seats, the length that is right
+  double hands = 1.0;
+};
+
+/// What is done to one rod, by whom, and the time it takes. One bench per rod.
+class RodBench {
+ public:
+  RodBench(const RodExperimentOptions& options, const RodTask& task, Random random)
+      : options_(options), task_(task), random_(random) {}
+
+  [[nodiscard]] BentRod with_template();
+  [[nodiscard]] BentRod by_eye();
+  /// As instructed (nav/guidance/rod_bends.h); where there are no instructions, with the template.
+  [[nodiscard]] InstructedRod with_instructions();
+
+ private:
+  void spend(double mean_s);
+  void work(double mean_s) { spend(mean_s * options_.pace); }
+  [[nodiscard]] nav::RodCut touched();
+  /// Cut and bent against the hologram.
+  [[nodiscard]] BentRod matched(const nav::RodCut& shown);
+  void bend(RodInHand& rod, std::size_t joint, Vec3 wanted_rad, double relative_sd);
+  /// Measured off the length that is shown, and cut.
+  [[nodiscard]] double cut_to(double shown_m);
+  using WorstBend = RodCorrection (RodInHand::*)(std::span<const Vec3> seats_m) const;
+  [[nodiscard]] BentRod finished(RodInHand rod, double length_m, WorstBend worst_bend);
+  [[nodiscard]] nav::RodArc bent_as_told(const nav::RodInstruction& told,
+                                         const nav::RodSpringBack& spring_back, double stiffness);
+  [[nodiscard]] std::vector<Vec3> stroked(std::span<const nav::RodArc> rod, double length_m);
+  [[nodiscard]] nav::RodInstructions followed(nav::RodInstructions told,
+                                              const nav::RodBending& bending, double length_m,
+                                              std::vector<nav::RodArc>& rod);
+
+  const RodExperimentOptions& options_;
+  const RodTask& task_;
+  Random random_;
+  double time_s_ = 0.0;
+};
+
+}  // namespace orthonav::engine

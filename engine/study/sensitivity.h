@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/study/study.h"
+#include "hal/sim/magnitudes.h"
+
+namespace orthonav::engine {
+
+/// How much a magnitude moves the mean error of a screw when it goes through its plausible range.
+struct Sensitivity {
+  std::string magnitude;
+  std::string unit;
+  double low = 0.0;
+  double high = 0.0;
+  double entry_mm = 0.0;  ///< mean of the absolute elementary effects (Morris's mu*)
+  double angle_deg = 0.0;
+  /// SD of the effects: large where it acts with others, or not in proportion.
+  double entry_spread_mm = 0.0;
+  double angle_spread_deg = 0.0;
+};
+
+struct SensitivityOptions {
+  OperationOptions operation;  ///< its seed and the magnitudes that are studied are replaced
+  int trajectories = 4;        ///< of the method
+  int runs = 3;                ///< operations at each point, the same seeds everywhere
+  std::uint64_t seed = 1;
+  int jobs = 1;
+};
+
+/// The magnitudes with a range, but for those in which a room differs from `ErrorModel{}`: its
+/// profile has decided them (a cannula's bending, what stated navigation holds).
+[[nodiscard]] std::vector<const sim::Magnitude*> studied_magnitudes(const sim::ErrorModel& own);
+
+/// The method of elementary effects (Morris 1991; mu*: Campolongo 2007) over the ranges of the
+/// studied magnitudes (hal/sim/magnitudes.h), the others left as they are. Sorted by what decides
+/// entry and angle. `progress`: points done, of all.
+Result<std::vector<Sensitivity>> sensitivities(const Case& source,
+                                               const SensitivityOptions& options,
+                                               const std::function<void(int, int)>& progress = {});
+
+/// A table in Markdown.
+[[nodiscard]] std::string sensitivity_table(const std::vector<Sensitivity>& found,
+                                            const SensitivityOptions& options);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,78 @@
+#include "engine/study/stated_navigation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/study/modelled_tracker.h"
+#include "hal/sim/noise.h"
+
+namespace orthonav::engine {
+namespace {
+
+/// Which level of the room a model is of.
+struct KnownModel {
+  const nav::VertebraModel* model = nullptr;
+  std::string label;
+};
+
+std::vector<KnownModel> models_of(const Operation& operation) {
+  std::vector<KnownModel> models;
+  for (const OperatedLevel& level : operation.levels) {
+    models.push_back({level.model.get(), level.label});
+  }
+  return models;
+}
+
+Vec3 middle_of(std::span<const nav::ScrewPlan> screws) {
+  Vec3 sum;
+  for (const nav::ScrewPlan& screw : screws) {
+    sum += 0.5 * (screw.entry.v + screw.target.v);
+  }
+  return screws.empty() ? sum : sum / static_cast<double>(screws.size());
+}
+
+Result<nav::Registration> registered(const StatedNavigation& stated, const sim::SimHeadset& room,
+                                     const std::vector<KnownModel>& models,
+                                     const RegistrationRequest& request) {
+  const auto known = std::find_if(models.begin(), models.end(),
+                                  [&](const KnownModel& m) { return m.model == &request.model; });
+  if (known == models.end()) {
+    return Error{"stated navigation: a model of no level"};
+  }
+  const auto& levels = room.room().levels;
+  const auto level = std::find_if(levels.begin(), levels.end(),
+                                  [&](const sim::RoomLevel& l) { return l.label == known->label; });
+  const auto truth =
+      room.world_from_room() * room.state().room_from_spine * level->spine_from_vertebra;
+  Random random = Random(room.options().seed).fork("stated navigation").fork(known->label);
+  const Vec3 off_m = sim::normal_vector(random, stated.target_m / std::sqrt(3.0));
+  const Mat3 turn = rotation_from_vector(sim::normal_vector(random, stated.angle_rad));
+  const Vec3 middle = middle_of(request.screws);
+  const Transform<Vertebra, Vertebra> error{turn, middle + off_m - turn * middle};
+  nav::Registration out;
+  out.accepted = true;
+  out.world_from_vertebra = out.runner_up = truth * error;
+  out.points = request.points_in_world.size();
+  out.predicted_tre_m = stated.target_m;
+  return out;
+}
+
+}  // namespace
+
+Method method_of(const StatedNavigation& stated, const sim::SimHeadset& room,
+                 const Operation& operation) {
+  Method method;
+  method.name = "stated";
+  method.create_tracker = [&room](const auto&... given) {
+    return create_modelled_tracker("best", room, given...);
+  };
+  method.registrar = [stated, &room,
+                      models = models_of(operation)](const RegistrationRequest& request) {
+    return registered(stated, room, models, request);
+  };
+  method.verification = Verification::kByEye;
+  return method;
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,28 @@
+#include "engine/study/study_page_frame.h"
+
+#include <nlohmann/json.hpp>
+
+#include "embedded/chart_js.h"
+#include "embedded/report_css.h"
+#include "embedded/study_js.h"
+#include "engine/report/html_text.h"
+#include "engine/report/script_json.h"
+
+namespace orthonav::engine {
+
+std::string framed(const StudyPage& page, const nlohmann::json& charts) {
+  const std::string title = html_escaped(page.title);
+  std::string html =
+      "<!doctype html><html lang=en><head><meta charset=utf-8><title>orthonav: " + title +
+      "</title><meta name=viewport content=\"width=device-width\"><style>" +
+      std::string(embedded::report_css()) + "</style></head><body><header><h1>orthonav <span>" +
+      title + "</span></h1><p>" + page.intro + "</p></header><main>" + page.body +
+      "</main><script type=\"application/json\" id=study-data>" + script_json(charts) +
+      "</script><script>";
+  return html.append(embedded::chart_js())
+      .append("</script><script>")
+      .append(embedded::study_js())
+      .append("</script></body></html>\n");
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,110 @@
+#include "engine/study/study_statistics.h"
+
+#include <array>
+#include <cmath>
+#include <Eigen/Dense>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace orthonav::engine {
+namespace {
+
+/// Quantiles of chi squared with three degrees of freedom.
+constexpr double kChi68 = 3.5059;
+constexpr double kChi95 = 7.8147;
+
+/// The covariances of a level's entries and targets, in the order of its errors.
+std::vector<Eigen::Matrix3d> covariances_of(const nlohmann::ordered_json& level) {
+  std::vector<Eigen::Matrix3d> out;
+  if (!level.contains("registration") || !level["registration"].contains("screws")) {
+    return out;
+  }
+  for (const auto& screw : level["registration"]["screws"]) {
+    for (const char* key : {"entry_covariance_mm2", "target_covariance_mm2"}) {
+      if (!screw.contains(key) || !screw[key].is_array() || screw[key].size() != 3) {
+        return {};
+      }
+      Eigen::Matrix3d covariance;
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) {
+          covariance(r, c) = screw[key][static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+        }
+      }
+      out.push_back(covariance);
+    }
+  }
+  return out;
+}
+
+std::vector<Eigen::Vector3d> errors_of(const nlohmann::ordered_json& level) {
+  std::vector<Eigen::Vector3d> out;
+  if (!level.contains("errors_mm")) {
+    return out;
+  }
+  for (const auto& error : level["errors_mm"]) {
+    out.emplace_back(error[0].get<double>(), error[1].get<double>(), error[2].get<double>());
+  }
+  return out;
+}
+
+double probability_of_at_most(int hits, int of, double p) {
+  double term = std::exp(of * std::log1p(-p));
+  double sum = term;
+  for (int k = 1; k <= hits; ++k) {
+    term *= static_cast<double>(of - k + 1) / k * p / (1.0 - p);
+    sum += term;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double upper_limit_95(int hits, int of) {
+  if (hits >= of) {
+    return 1.0;
+  }
+  double low = 0.0;
+  double high = 1.0;
+  constexpr int kHalvings = 60;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (probability_of_at_most(hits, of, middle) > 0.05 ? low : high) = middle;
+  }
+  return high;
+}
+
+RegistrationQuality registration_quality(const nlohmann::ordered_json& runs) {
+  RegistrationQuality out;
+  int in_68 = 0;
+  int in_95 = 0;
+  for (const auto& run : runs) {
+    for (const auto& level : run["levels"]) {
+      const auto errors = errors_of(level);
+      if (!level.value("accepted", false) || errors.empty()) {
+        continue;
+      }
+      ++out.levels;
+      const auto covariances = covariances_of(level);
+      double worst_mm = 0.0;
+      for (std::size_t i = 0; i < errors.size(); ++i) {
+        worst_mm = std::max(worst_mm, errors[i].norm());
+        if (covariances.size() != errors.size()) {
+          continue;
+        }
+        const double squared = errors[i].dot(covariances[i].ldlt().solve(errors[i]));
+        ++out.places;
+        in_68 += squared <= kChi68 ? 1 : 0;
+        in_95 += squared <= kChi95 ? 1 : 0;
+      }
+      out.silent += worst_mm * 1e-3 > RegistrationQuality::kSilent_m ? 1 : 0;
+    }
+  }
+  if (out.places > 0) {
+    out.within_68 = static_cast<double>(in_68) / out.places;
+    out.within_95 = static_cast<double>(in_95) / out.places;
+  }
+  out.silent_upper_95 = upper_limit_95(out.silent, out.levels);
+  return out;
+}
+
+}  // namespace orthonav::engine

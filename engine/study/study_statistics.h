@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace orthonav::engine {
+
+/// What a study says of its accepted registrations.
+struct RegistrationQuality {
+  int levels = 0;
+  int places = 0;          ///< entries and targets with an error and a covariance
+  double within_68 = 0.0;  ///< fraction of the places whose error lies in its ellipsoid
+  double within_95 = 0.0;
+  int silent = 0;                ///< levels accepted with more than `kSilent_m` at a screw
+  double silent_upper_95 = 1.0;  ///< upper limit of their fraction (Clopper and Pearson 1934)
+  static constexpr double kSilent_m = 0.002;
+};
+/// Of the reports in a study's `runs`.
+[[nodiscard]] RegistrationQuality registration_quality(const nlohmann::ordered_json& runs);
+
+/// The one-sided 95 % upper limit of a fraction of which `hits` of `of` were seen, exact.
+[[nodiscard]] double upper_limit_95(int hits, int of);
+
+}  // namespace orthonav::engine

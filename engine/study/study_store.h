@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace orthonav::engine {
+
+/// One operation of a study as it is kept.
+struct StoredOperation {
+  int index = 0;  ///< in the study, from 0
+  std::string case_name;
+  std::uint64_t seed = 0;
+  std::string report;  ///< report.json; empty where it could not be made
+  std::string why;     ///< then: why not
+};
+
+/// The operations of a study, or of a shard of it, in an SQLite file. Each is durable once `add`
+/// returns. While it grows, the file is named `PATH.part`; `finish` gives it its name. What is
+/// there already is resumed, so that a worker that was killed loses only what was under way.
+class StudyStore {
+ public:
+  /// `definition`: the text that says all that decides the results (docs/cohorts.md). Refuses a
+  /// file of another study, or that is no study, and leaves it alone.
+  static Result<StudyStore> open(const std::string& path, const std::string& definition);
+  /// A finished one or a part of one, to be read.
+  static Result<StudyStore> read(const std::string& path);
+  StudyStore(StudyStore&&) noexcept;
+  StudyStore& operator=(StudyStore&&) noexcept;
+  ~StudyStore();
+
+  [[nodiscard]] const std::string& definition() const { return definition_; }
+  [[nodiscard]] Result<std::vector<StoredOperation>> operations() const;
+  /// An operation that is there already stays as it is: a task that ran twice made the same.
+  Status add(const StoredOperation& operation);
+  Status finish();
+
+ private:
+  struct Database;
+  StudyStore(std::unique_ptr<Database> database, std::string path, std::string definition,
+             bool growing);
+
+  std::unique_ptr<Database> database_;
+  std::string path_;
+  std::string definition_;
+  bool growing_ = false;
+};
+
+/// 16 hexadecimal digits of a definition (FNV-1a, 64 bits).
+[[nodiscard]] std::string study_hash(const std::string& definition);
+
+}  // namespace orthonav::engine

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/study/simulated_operation.h"
+
+namespace orthonav::engine {
+
+/// What a publication reports of one quantity.
+struct PublishedFigure {
+  double mean = 0.0;
+  std::optional<double> sd;
+};
+
+/// A published system as the simulated room can stand for it, and what it reached.
+struct SystemProfile {
+  std::string name;
+  std::string title;
+  std::string conditions;
+  bool fitted = false;  ///< its figures were looked at when magnitudes were chosen
+  std::string method = "best";
+  std::optional<StatedNavigation> navigation;  ///< in place of a method of ours
+  sim::GuidanceProfile guidance = sim::GuidanceProfile::kNumbers;
+  std::string instrument;
+  sim::ErrorModel magnitudes;
+  std::optional<PublishedFigure> entry_mm;
+  std::optional<PublishedFigure> angle_deg;
+  std::optional<PublishedFigure> rmse_mm;
+  std::optional<int> screws;  ///< how many were measured
+
+  /// Its settings, for operations.
+  void apply(OperationOptions& options) const;
+};
+
+/// A list of profiles (docs/file-formats.md). `name` stands for the file in messages.
+Result<std::vector<SystemProfile>> parse_systems(std::string_view text, const std::string& name);
+/// Those of data/systems.json, which is part of the program.
+[[nodiscard]] const std::vector<SystemProfile>& published_systems();
+/// One of them by its name, or the only one in a file. Refuses in one line that names what there
+/// is.
+Result<SystemProfile> system_named(const std::string& name_or_file);
+
+}  // namespace orthonav::engine

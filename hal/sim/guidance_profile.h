@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+namespace orthonav::sim {
+
+/// What a surgeon goes by on the display while placing an instrument.
+enum class GuidanceProfile : std::uint8_t {
+  kOverlay,     ///< entry and trajectory as they hang over the bone; no number is read
+  kNumbers,     ///< the entry as it hangs there; the angle by number, triangle and cross
+  kClosedLoop,  ///< entry and angle by cross and number, and on while drilling
+};
+
+}  // namespace orthonav::sim

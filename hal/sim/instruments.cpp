@@ -1,0 +1,53 @@
+#include "hal/sim/instruments.h"
+
+#include <algorithm>
+#include <array>
+
+namespace orthonav::sim {
+namespace {
+
+struct Instrument {
+  std::string_view name;
+  double bending_rad;
+  double skiving_m;
+  double hole_following_rad;
+  bool by_hand;
+};
+
+// The middles of the ranges in magnitudes.cpp.
+constexpr std::array<Instrument, 5> kInstruments = {{
+    {"wire", 0.030, 0.0004, 0.0, true},
+    {"cannula", 0.008, 0.0004, 0.0, true},
+    {"sleeved drill", 0.008, 0.0004, 0.0, true},
+    {"screw", 0.008, 0.0004, 0.035, true},
+    {"robot arm", 0.008, 0.0004, 0.0, false},
+}};
+
+}  // namespace
+
+Status use_instrument(std::string_view name, ErrorModel& error_model) {
+  const auto* found = std::find_if(kInstruments.begin(), kInstruments.end(),
+                                   [&](const Instrument& i) { return i.name == name; });
+  if (found == kInstruments.end()) {
+    std::string known;
+    for (const Instrument& instrument : kInstruments) {
+      known += (known.empty() ? "" : ", ") + std::string(instrument.name);
+    }
+    return Error{"instrument '" + std::string(name) + "': unknown (known: " + known + ")"};
+  }
+  error_model.wire_bending_rad = found->bending_rad;
+  error_model.wire_skiving_m = found->skiving_m;
+  error_model.hole_following_rad = found->hole_following_rad;
+  if (!found->by_hand) {
+    for (double ErrorModel::*of_a_hand :
+         {&ErrorModel::tremor_m, &ErrorModel::tremor_rad, &ErrorModel::entry_pick_m,
+          &ErrorModel::overlay_perception_m, &ErrorModel::angle_reading_rad,
+          &ErrorModel::misreading_probability, &ErrorModel::hand_drilling_rad,
+          &ErrorModel::hand_drilling_corrected_rad}) {
+      error_model.*of_a_hand = 0.0;
+    }
+  }
+  return {};
+}
+
+}  // namespace orthonav::sim

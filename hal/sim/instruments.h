@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "hal/sim/error_model.h"
+
+namespace orthonav::sim {
+
+/// Sets what an instrument decides: bending, slip, how a screw follows its hole, and with a robot's
+/// arm the hand. Known are `wire` (a K-wire that nothing supports), `cannula`, `sleeved drill`,
+/// `screw` (in a hole made by a sleeved drill) and `robot arm`. Refuses any other name.
+Status use_instrument(std::string_view name, ErrorModel& error_model);
+
+}  // namespace orthonav::sim

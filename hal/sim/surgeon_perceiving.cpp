@@ -1,0 +1,86 @@
+#include <algorithm>
+
+#include "hal/sim/shown_cross.h"
+#include "hal/sim/surgeon.h"
+
+namespace orthonav::sim {
+namespace {
+
+/// Holding a tool along a line takes some seconds.
+constexpr double kAligning_s = 3.0;
+/// A dot this near to the middle of the cross is in it.
+constexpr double kCentred_m = 0.0004;
+/// A dot is read for this long, then the tip is moved; nobody goes on for ever.
+constexpr double kReading_s = 0.6;
+constexpr double kMoving_s = 0.5;
+constexpr int kMostMoves = 6;
+constexpr double kPatienceForDots_s = 20.0;
+constexpr int kFewestDots = 5;
+/// One ring taken for another.
+constexpr double kMisread_m = 0.001;
+
+}  // namespace
+
+Vec3 Surgeon::misperceived(Point<Room> place, double across_sd_m) {
+  const Vec3 off = normal_vector(body_.random(), across_sd_m);
+  const Vec3 sight = (place - bearings_.eyes).normalized();
+  const double more = std::max(1.0, error_model_->perception_depth_ratio) - 1.0;
+  return off + more * off.dot(sight) * sight;
+}
+
+Script Surgeon::align_by_eye(const StepOnDisplay& step, const Aim& aim) {
+  if (!in_step(step)) {
+    co_return;
+  }
+  const Vec3 off = normal_vector(body_.random(), error_model_->overlay_aligning_rad);
+  Grip held = body_.posture().grip;
+  held.axis = (rotation_from_vector(off) * aim.outwards).normalized();
+  co_await body_.move(held, kAligning_s);
+}
+
+Script Surgeon::read_offset(const StepOnDisplay& step, const Aim& aim,
+                            std::optional<Vec3>& offset_m) {
+  offset_m.reset();
+  Vec3 sum;
+  int dots = 0;
+  std::optional<Timestamp> last;
+  const Timestamp patience = body_.now() + from_seconds(kPatienceForDots_s);
+  const Timestamp start = body_.now();
+  while (body_.now() < patience && in_step(step) &&
+         (body_.now() - start < from_seconds(kReading_s) || dots < kFewestDots)) {
+    co_await body_.next_tick();
+    const ShownHologram* cross = eyes_->find(HologramKind::kCross);
+    if (!sees_now() || eyes_->seen_at() == last || !cross || cross->points_in_world.size() < 2) {
+      continue;
+    }
+    last = eyes_->seen_at();
+    sum += (eyes_->place(cross->points_in_world[1]) - eyes_->place(cross->points_in_world[0])) /
+           kCrossScale;
+    ++dots;
+  }
+  if (dots >= kFewestDots) {
+    const Vec3 mean = sum / dots;
+    offset_m = mean - mean.dot(aim.outwards) * aim.outwards;
+  }
+}
+
+Script Surgeon::centre_tip(const StepOnDisplay& step, std::size_t level, const Aim& aim) {
+  for (int moves = 0; moves < kMostMoves && in_step(step) && !finished_; ++moves) {
+    std::optional<Vec3> offset_m;
+    co_await read_offset(step, aim, offset_m);
+    if (!offset_m || offset_m->norm() < kCentred_m) {
+      co_return;
+    }
+    Vec3 misread = normal_vector(body_.random(), 0.25 * error_model_->entry_pick_m);
+    if (body_.random().uniform() < error_model_->misreading_probability) {
+      misread = misread + kMisread_m * perpendicular_to(aim.outwards);
+    }
+    Grip grip = body_.posture().grip;
+    const BoneSpot spot = put_on_bone(level, (grip.tip - *offset_m + misread).v, aim.outwards);
+    grip.tip = {spot.point};
+    co_await body_.move(grip, kMoving_s);
+    body_.posture().contact_normal = spot.normal;
+  }
+}
+
+}  // namespace orthonav::sim

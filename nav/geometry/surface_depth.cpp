@@ -1,0 +1,43 @@
+#include "nav/geometry/surface_depth.h"
+
+#include <cmath>
+
+namespace orthonav::nav {
+namespace {
+
+/// Cosine between the nearest face's normal and the way from it. It is 1 above the middle of a
+/// face. Above an edge, the face that happens to be taken tells the wrong side only where two faces
+/// meet at less than acos(0.95) = 18°, as on the edge of a blade.
+constexpr double kBeyondDoubt = 0.95;
+/// Of a distance and its square: what is as near as the last place must still be found.
+constexpr double kRounding = 1e-12;
+constexpr double kRounding_m = 1e-15;
+constexpr double kOnSurface_m = 1e-9;
+
+bool lies_inside(const SurfaceIndex& closed, Vec3 place_m, const SurfacePoint& nearest) {
+  const double above_m = (place_m - nearest.point_m).dot(nearest.normal);
+  if (std::abs(above_m) >= kBeyondDoubt * nearest.distance_m) {
+    return above_m <= 0.0;
+  }
+  return closed.contains(place_m);
+}
+
+}  // namespace
+
+std::optional<SurfaceDepth> DepthProbe::at(Vec3 place_m) {
+  const double within_m =
+      last_m_ ? (*last_m_ - place_m).norm() * (1.0 + kRounding) + kRounding_m : 1e9;
+  const auto nearest = closed_.nearest(place_m, within_m);
+  if (!nearest) {
+    return std::nullopt;
+  }
+  last_m_ = nearest->point_m;
+  const double side = lies_inside(closed_, place_m, *nearest) ? 1.0 : -1.0;
+  // As good as on the surface, only the face knows the way in: the difference is rounding.
+  const Vec3 deeper = nearest->distance_m > kOnSurface_m
+                          ? (side / nearest->distance_m) * (place_m - nearest->point_m)
+                          : -nearest->normal;
+  return SurfaceDepth{side * nearest->distance_m, deeper};
+}
+
+}  // namespace orthonav::nav

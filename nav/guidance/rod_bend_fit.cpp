@@ -1,0 +1,245 @@
+#include "nav/guidance/rod_bend_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "nav/statistics/levenberg_marquardt.h"
+
+namespace orthonav::nav {
+namespace {
+
+// What weighs how much, as standard deviations: seats and tulips decide, angles and places choose
+// among what these leave open. Orders of magnitude apart, so the values do not matter further.
+
+constexpr double kSeatSd_m = 0.05e-3;
+constexpr double kTulipSd_m = 0.05e-3;
+constexpr double kLimitSd_rad = 0.002;
+/// In a second fit, where the first gave way at tulips or limits: by so much stiffer that a seat
+/// 1 mm off moves them less than their margins. Stiff from the start, the fit would get stuck
+/// there.
+constexpr double kStiffer = 20.0;
+constexpr double kAngleSd_rad = 0.35;
+constexpr double kMiddleSd_m = 0.01;
+constexpr double kEndsSd_m = 0.001;
+/// Limits are approached from inside by this, so that what is found keeps them.
+constexpr double kTulipMargin_m = 0.1e-3;
+constexpr double kLimitMargin_rad = 0.002;
+/// Rounding alone.
+constexpr double kClearance_m = 1e-6;
+/// A bend that is made may reach so far into a tulip: the rod leaves its straight by 20 µm there.
+constexpr double kMadeLeeway_m = 0.001;
+
+constexpr std::size_t kPoseParameters = 6;
+constexpr std::size_t kBendParameters = 3;  ///< turn towards the line, across it, centre
+
+double wrapped_rad(double angle_rad) { return std::remainder(angle_rad, 2.0 * std::numbers::pi); }
+
+/// Which straight each seat lies on.
+std::vector<std::size_t> straights_of_seats(const RodFitTask& task) {
+  std::vector<std::size_t> straights;
+  for (std::size_t i = 0; i < task.seats_m.size(); ++i) {
+    straights.push_back(static_cast<std::size_t>(
+        std::count_if(task.gaps.begin(), task.gaps.end(), [&](std::size_t g) { return g < i; })));
+  }
+  return straights;
+}
+
+struct RodGuess {
+  Mat3 seats_from_rod = Mat3::identity();
+  std::vector<double> parameters;
+};
+
+RodFit rod_of(const RodFitTask& task, const std::vector<std::size_t>& straights_of,
+              const Mat3& start, std::span<const double> p) {
+  RodFit rod;
+  rod.seats_from_rod = rotation_from_vector({p[0], p[1], p[2]}) * start;
+  rod.rod_in_seats_m = {p[3], p[4], p[5]};
+  rod.arcs.assign(task.made.begin(), task.made.end());
+  for (std::size_t i = kPoseParameters; i < p.size(); i += kBendParameters) {
+    const double angle_rad = std::hypot(p[i], p[i + 1]);
+    rod.arcs.push_back({p[i + 2], task.width_m, angle_rad, std::atan2(p[i + 1], p[i])});
+    rod.sharpest_rad = std::max(rod.sharpest_rad, angle_rad);
+    rod.sum_of_squares += angle_rad * angle_rad;
+  }
+  const std::vector<RodStraight> straights = rod_straights(rod.arcs, 0.0);
+  const Mat3 rod_from_seats = rod.seats_from_rod.transposed();
+  for (std::size_t i = 0; i < task.seats_m.size(); ++i) {
+    const RodStraight& straight = straights[straights_of[i]];
+    const Vec3 away_m = rod_from_seats * (task.seats_m[i] - rod.rod_in_seats_m) - straight.from_m;
+    const double along_m = away_m.dot(straight.direction);
+    const double off_m = (away_m - along_m * straight.direction).norm();
+    rod.seats.push_back({straight.begin_m + along_m, off_m});
+    rod.worst_off_m = std::max(rod.worst_off_m, off_m);
+  }
+  rod.length_m = task.length_m.value_or(rod.seats.back().at_m - rod.seats.front().at_m +
+                                        2.0 * task.overhang_m);
+  return rod;
+}
+
+/// Of the rod that the tulips on either side of bend `k` leave for it, less the bend: negative
+/// where it reaches into one.
+struct TulipRoom {
+  double before_m = 0.0;
+  double after_m = 0.0;
+};
+
+TulipRoom room_of(const RodFitTask& task, const RodFit& rod, std::size_t k) {
+  const double half_m = 0.5 * (task.width_m + task.tulip_m);
+  return {rod.arcs[k].centre_m - half_m - rod.seats[task.gaps[k]].at_m,
+          rod.seats[task.gaps[k] + 1].at_m - half_m - rod.arcs[k].centre_m};
+}
+
+bool keeps_clear(const RodFitTask& task, const RodFit& rod) {
+  for (std::size_t k = 0; k < rod.arcs.size(); ++k) {
+    const TulipRoom room = room_of(task, rod, k);
+    const double leeway_m = k < task.made.size() ? kMadeLeeway_m : kClearance_m;
+    if (std::min(room.before_m, room.after_m) < -leeway_m) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void write_residuals(const RodFitTask& task, const RodFit& rod,
+                     const std::vector<std::size_t>& straights_of, double stiffer,
+                     std::vector<double>& out) {
+  out.clear();
+  // The distance alone has no derivative at zero; its three components have.
+  const std::vector<RodStraight> straights = rod_straights(rod.arcs, 0.0);
+  const Mat3 rod_from_seats = rod.seats_from_rod.transposed();
+  for (std::size_t i = 0; i < task.seats_m.size(); ++i) {
+    const RodStraight& straight = straights[straights_of[i]];
+    const Vec3 away_m = rod_from_seats * (task.seats_m[i] - rod.rod_in_seats_m) - straight.from_m;
+    const Vec3 off_m = away_m - away_m.dot(straight.direction) * straight.direction;
+    out.insert(out.end(), {off_m.x / kSeatSd_m, off_m.y / kSeatSd_m, off_m.z / kSeatSd_m});
+  }
+  for (std::size_t k = 0; k < rod.arcs.size(); ++k) {
+    const TulipRoom room = room_of(task, rod, k);
+    out.push_back(std::min(0.0, room.before_m - kTulipMargin_m) / kTulipSd_m * stiffer);
+    out.push_back(std::min(0.0, room.after_m - kTulipMargin_m) / kTulipSd_m * stiffer);
+    if (k >= task.made.size()) {
+      const RodArc& arc = rod.arcs[k];
+      out.push_back(arc.angle_rad * std::cos(arc.roll_rad) / kAngleSd_rad);
+      out.push_back(arc.angle_rad * std::sin(arc.roll_rad) / kAngleSd_rad);
+      out.push_back(std::max(0.0, arc.angle_rad - task.most_angle_rad + kLimitMargin_rad) /
+                    kLimitSd_rad * stiffer);
+      out.push_back(0.5 * (room.before_m - room.after_m) / kMiddleSd_m);
+    }
+  }
+  const double first_m = rod.seats.front().at_m;
+  const double last_m = rod.length_m - rod.seats.back().at_m;
+  out.push_back((task.length_m ? 0.5 * (first_m - last_m) : first_m - task.overhang_m) / kEndsSd_m);
+}
+
+/// The direction of each straight: between the ends of its seats; of a single seat, of the chord
+/// past it.
+std::vector<Vec3> guessed_directions(const RodFitTask& task) {
+  const std::vector<std::size_t> straights_of = straights_of_seats(task);
+  const std::size_t seats = task.seats_m.size();
+  std::vector<Vec3> directions;
+  for (std::size_t first = 0; first < seats;) {
+    std::size_t last = first;
+    while (last + 1 < seats && straights_of[last + 1] == straights_of[first]) {
+      ++last;
+    }
+    const std::size_t from = first == last && first > 0 ? first - 1 : first;
+    const std::size_t to = first == last ? std::min(last + 1, seats - 1) : last;
+    directions.push_back((task.seats_m[to] - task.seats_m[from]).normalized());
+    first = last + 1;
+  }
+  return directions;
+}
+
+Mat3 frame_along(Vec3 along) {
+  const Vec3 least = std::abs(along.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  const Vec3 line = (least - least.dot(along) * along).normalized();
+  return Mat3::from_columns(line, along.cross(line), along);
+}
+
+/// A rod not begun: straights along the guessed directions, bends in the middle of their gaps.
+RodGuess guess_from_seats(const RodFitTask& task) {
+  const std::vector<Vec3> directions = guessed_directions(task);
+  RodGuess guess;
+  guess.seats_from_rod = frame_along(directions[0]);
+  const Vec3 origin_m = task.seats_m[0] - task.overhang_m * directions[0];
+  guess.parameters = {0.0, 0.0, 0.0, origin_m.x, origin_m.y, origin_m.z};
+  std::vector<double> places_m = {task.overhang_m};
+  for (std::size_t i = 1; i < task.seats_m.size(); ++i) {
+    places_m.push_back(places_m.back() + (task.seats_m[i] - task.seats_m[i - 1]).norm());
+  }
+  Mat3 frame = guess.seats_from_rod;
+  for (std::size_t k = 0; k < task.gaps.size(); ++k) {
+    const Vec3 across = directions[k].cross(directions[k + 1]);
+    const double angle_rad = angle_between_rad(directions[k], directions[k + 1]);
+    const Vec3 turn_rad = across.norm() > 0.0 ? angle_rad * across.normalized() : Vec3{};
+    const Vec3 towards_rad = turn_rad.cross(directions[k]);
+    const double centre_m = 0.5 * (places_m[task.gaps[k]] + places_m[task.gaps[k] + 1]);
+    guess.parameters.insert(guess.parameters.end(), {towards_rad.dot(frame.column(0)),
+                                                     towards_rad.dot(frame.column(1)), centre_m});
+    frame = rotation_from_vector(turn_rad) * frame;
+  }
+  return guess;
+}
+
+RodGuess guess_from_plan(const RodFitTask& task, const RodFit& before) {
+  RodGuess guess;
+  guess.seats_from_rod = before.seats_from_rod;
+  const Vec3 at_m = before.rod_in_seats_m;
+  guess.parameters = {0.0, 0.0, 0.0, at_m.x, at_m.y, at_m.z};
+  for (std::size_t k = task.made.size(); k < task.gaps.size(); ++k) {
+    const RodArc& planned = before.arcs[k];
+    guess.parameters.insert(guess.parameters.end(),
+                            {planned.angle_rad * std::cos(planned.roll_rad),
+                             planned.angle_rad * std::sin(planned.roll_rad), planned.centre_m});
+  }
+  return guess;
+}
+
+/// The first end lies `overhang_m` before the first seat, and the line is drawn on the side to
+/// which the first bend goes: both are free on a rod not begun.
+void settle_ends_and_line(const RodFitTask& task, RodFit& rod) {
+  const double shift_m = rod.seats.front().at_m - task.overhang_m;
+  const double roll_rad = rod.arcs.empty() ? 0.0 : rod.arcs.front().roll_rad;
+  for (SeatOnRod& seat : rod.seats) {
+    seat.at_m -= shift_m;
+  }
+  for (RodArc& arc : rod.arcs) {
+    arc.centre_m -= shift_m;
+    arc.roll_rad = wrapped_rad(arc.roll_rad - roll_rad);
+  }
+  rod.rod_in_seats_m += shift_m * rod.seats_from_rod.column(2);
+  rod.seats_from_rod = rod.seats_from_rod * rotation_from_vector({0.0, 0.0, roll_rad});
+}
+
+}  // namespace
+
+Result<RodFit> fit_rod_bends(const RodFitTask& task, const RodFit* before) {
+  const std::vector<std::size_t> straights_of = straights_of_seats(task);
+  const RodGuess guess = before ? guess_from_plan(task, *before) : guess_from_seats(task);
+  double stiffer = 1.0;
+  const auto residuals = [&](std::span<const double> p, std::vector<double>& out) {
+    const RodFit rod = rod_of(task, straights_of, guess.seats_from_rod, p);
+    write_residuals(task, rod, straights_of, stiffer, out);
+  };
+  auto found = levenberg_marquardt(guess.parameters, residuals);
+  if (!found) {
+    return found.error();
+  }
+  RodFit rod = rod_of(task, straights_of, guess.seats_from_rod, found->parameters);
+  if (!keeps_clear(task, rod) || rod.sharpest_rad > task.most_angle_rad) {
+    stiffer = kStiffer;
+    found = levenberg_marquardt(std::vector<double>(found->parameters), residuals);
+    if (!found) {
+      return found.error();
+    }
+    rod = rod_of(task, straights_of, guess.seats_from_rod, found->parameters);
+  }
+  rod.clear = keeps_clear(task, rod);
+  if (task.made.empty() && !task.length_m) {
+    settle_ends_and_line(task, rod);
+  }
+  return rod;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,270 @@
+#include "nav/guidance/rod_bends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/angle.h"
+#include "base/length_text.h"
+#include "base/printed.h"
+
+namespace orthonav::nav {
+namespace {
+
+/// Nearer than this, two seats are one head touched twice (rod.cpp).
+constexpr double kMeeting_m = 0.005;
+/// What the fit keeps off a tulip's edge, on both sides of a bend.
+constexpr double kFittingMargin_m = 0.0002;
+/// So many of the gentlest bends are tried to be left out; the others are needed anyhow.
+constexpr std::size_t kLeftOutTries = 4;
+
+Status check_length(const char* name, double value_m, double least_m, double most_m) {
+  if (!std::isfinite(value_m)) {
+    return Error{printed("%s is not finite", name)};
+  }
+  if (value_m < least_m || value_m > most_m) {
+    return Error{printed("%s is %s, limit %g-%g mm", name,
+                         in_mm_outside(value_m, least_m, most_m, 2).c_str(), least_m * 1e3,
+                         most_m * 1e3)};
+  }
+  return {};
+}
+
+Status check_bending(const RodBending& bending) {
+  if (const Status s =
+          check_length("overhang of the rod", bending.overhang_m, 0.0, kLongestOverhang_m);
+      !s) {
+    return s;
+  }
+  if (const Status s = check_length("width of a tulip", bending.tulip_m, 0.0, kWidestTulip_m); !s) {
+    return s;
+  }
+  return check_length("tolerance at the seats", bending.tolerance_m, kFinestTolerance_m,
+                      kCoarsestTolerance_m);
+}
+
+Status check_seats(std::span<const Vec3> seats_m) {
+  if (seats_m.size() < 2) {
+    return Error{printed("rod to bend needs at least 2 seats, got %zu", seats_m.size())};
+  }
+  for (std::size_t i = 0; i < seats_m.size(); ++i) {
+    if (!seats_m[i].is_finite()) {
+      return Error{printed("seat %zu of the rod is not finite", i + 1)};
+    }
+  }
+  for (std::size_t i = 1; i < seats_m.size(); ++i) {
+    const double gap_m = (seats_m[i] - seats_m[i - 1]).norm();
+    if (gap_m < kMeeting_m) {
+      return Error{printed("seats %zu and %zu of the rod meet: %s apart, at least 5 mm", i, i + 1,
+                           in_mm_outside(gap_m, kMeeting_m, 1.0).c_str())};
+    }
+  }
+  return {};
+}
+
+double least_gap_m(const RodBending& bending) {
+  return bending.bender.width_m + bending.tulip_m + kFittingMargin_m;
+}
+
+/// Those long enough for a bend between their tulips.
+std::vector<std::size_t> gaps_for_bends(std::span<const Vec3> seats_m, const RodBending& bending) {
+  std::vector<std::size_t> gaps;
+  for (std::size_t i = 0; i + 1 < seats_m.size(); ++i) {
+    if ((seats_m[i + 1] - seats_m[i]).norm() >= least_gap_m(bending)) {
+      gaps.push_back(i);
+    }
+  }
+  return gaps;
+}
+
+RodFitTask fit_task(std::span<const Vec3> seats_m, std::vector<std::size_t> gaps,
+                    const RodBending& bending, double most_angle_rad) {
+  return {.seats_m = seats_m,
+          .gaps = std::move(gaps),
+          .width_m = bending.bender.width_m,
+          .tulip_m = bending.tulip_m,
+          .overhang_m = bending.overhang_m,
+          .most_angle_rad = most_angle_rad};
+}
+
+bool serves(const RodFit& fit, double tolerance_m, double most_angle_rad) {
+  return fit.clear && fit.worst_off_m <= tolerance_m && fit.sharpest_rad <= most_angle_rad;
+}
+
+struct PlannedRod {
+  std::vector<std::size_t> gaps;
+  RodFit fit;
+};
+
+/// The same rod with one bend less, if one can be spared: of those tried, what bends least.
+std::optional<PlannedRod> with_a_bend_less(std::span<const Vec3> seats_m, const PlannedRod& rod,
+                                           const RodBending& bending, double most_angle_rad) {
+  std::vector<std::size_t> order(rod.gaps.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return rod.fit.arcs[a].angle_rad < rod.fit.arcs[b].angle_rad;
+  });
+  order.resize(std::min(order.size(), kLeftOutTries));
+  std::optional<PlannedRod> best;
+  for (const std::size_t left_out : order) {
+    std::vector<std::size_t> gaps = rod.gaps;
+    gaps.erase(gaps.begin() + static_cast<std::ptrdiff_t>(left_out));
+    auto fit = fit_rod_bends(fit_task(seats_m, gaps, bending, most_angle_rad));
+    if (fit && serves(*fit, bending.tolerance_m, most_angle_rad) &&
+        (!best || fit->sum_of_squares < best->fit.sum_of_squares)) {
+      best = PlannedRod{std::move(gaps), *std::move(fit)};
+    }
+  }
+  return best;
+}
+
+/// Why not even a bend in every gap does.
+Error out_of_reach(const PlannedRod& rod, std::span<const Vec3> seats_m, const RodBending& bending,
+                   const RodSpringBack& spring_back) {
+  for (std::size_t k = 0; k < rod.fit.arcs.size(); ++k) {
+    const auto set_rad = spring_back.set_rad(rod.fit.arcs[k].angle_rad);
+    if (!set_rad && rod.fit.worst_off_m <= bending.tolerance_m) {
+      return Error{printed("bend between seats %zu and %zu: %s", rod.gaps[k] + 1, rod.gaps[k] + 2,
+                           set_rad.error().message.c_str())};
+    }
+  }
+  const auto worst =
+      std::max_element(rod.fit.seats.begin(), rod.fit.seats.end(),
+                       [](const SeatOnRod& a, const SeatOnRod& b) { return a.off_m < b.off_m; });
+  std::string text = printed("seat %zu is %s off the rod that this bender makes, limit %.2f mm",
+                             worst - rod.fit.seats.begin() + 1,
+                             in_mm_outside(worst->off_m, 0.0, bending.tolerance_m, 2).c_str(),
+                             bending.tolerance_m * 1e3);
+  for (std::size_t i = 0; i + 1 < seats_m.size(); ++i) {
+    const double gap_m = (seats_m[i + 1] - seats_m[i]).norm();
+    if (gap_m < least_gap_m(bending)) {
+      append_printed(text, "; no bend fits between seats %zu and %zu: %s apart, at least %.1f mm",
+                     i + 1, i + 2, in_mm_outside(gap_m, least_gap_m(bending), 1.0).c_str(),
+                     least_gap_m(bending) * 1e3);
+      break;
+    }
+  }
+  return Error{text};
+}
+
+Result<RodInstructions> told(PlannedRod rod, std::span<const Vec3> seats_m, std::size_t made,
+                             const RodSpringBack& spring_back) {
+  RodInstructions out;
+  out.seats_m.assign(seats_m.begin(), seats_m.end());
+  out.made = made;
+  for (std::size_t k = 0; k < rod.fit.arcs.size(); ++k) {
+    RodInstruction bend{rod.fit.arcs[k], 0.0, rod.gaps[k]};
+    if (k >= made) {
+      const auto set_rad = spring_back.set_rad(bend.arc.angle_rad);
+      if (!set_rad) {
+        return set_rad.error();
+      }
+      bend.set_rad = *set_rad;
+    }
+    out.bends.push_back(bend);
+  }
+  out.fit = std::move(rod.fit);
+  return out;
+}
+
+/// A bend in every gap that takes one.
+Result<PlannedRod> with_every_bend(std::span<const Vec3> seats_m, const RodBending& bending,
+                                   const RodSpringBack& spring_back) {
+  const double most_angle_rad = spring_back.most_kept_rad();
+  const std::vector<std::size_t> gaps = gaps_for_bends(seats_m, bending);
+  constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  auto free = fit_rod_bends(fit_task(seats_m, gaps, bending, kNoLimit));
+  if (!free) {
+    return free.error();
+  }
+  if (serves(*free, bending.tolerance_m, most_angle_rad)) {
+    return PlannedRod{gaps, *std::move(free)};
+  }
+  auto limited = fit_rod_bends(fit_task(seats_m, gaps, bending, most_angle_rad));
+  if (limited && serves(*limited, bending.tolerance_m, most_angle_rad)) {
+    return PlannedRod{gaps, *std::move(limited)};
+  }
+  return out_of_reach({gaps, *std::move(free)}, seats_m, bending, spring_back);
+}
+
+Status check_made(const RodInstructions& plan, std::span<const RodArc> made) {
+  if (made.size() > plan.bends.size()) {
+    return Error{
+        printed("%zu bends were made of the %zu instructed", made.size(), plan.bends.size())};
+  }
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    const RodArc& arc = made[k];
+    if (!(std::isfinite(arc.centre_m) && std::isfinite(arc.width_m) &&
+          std::isfinite(arc.angle_rad) && std::isfinite(arc.roll_rad))) {
+      return Error{printed("bend %zu as made is not finite", k + 1)};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<RodInstructions> rod_instructions(std::span<const Vec3> seats_m, const RodBending& bending) {
+  const auto spring_back = RodSpringBack::of(bending.bender, bending.material, bending.diameter_m);
+  if (!spring_back) {
+    return spring_back.error();
+  }
+  if (const Status s = check_bending(bending); !s) {
+    return s.error();
+  }
+  if (const Status s = check_seats(seats_m); !s) {
+    return s.error();
+  }
+  auto rod = with_every_bend(seats_m, bending, *spring_back);
+  if (!rod) {
+    return rod.error();
+  }
+  while (auto less = with_a_bend_less(seats_m, *rod, bending, spring_back->most_kept_rad())) {
+    *rod = *std::move(less);
+  }
+  return told(*std::move(rod), seats_m, 0, *spring_back);
+}
+
+Result<RodInstructions> rod_instructions_after(const RodInstructions& plan,
+                                               std::span<const RodArc> made,
+                                               const RodBending& bending) {
+  const auto spring_back = RodSpringBack::of(bending.bender, bending.material, bending.diameter_m);
+  if (!spring_back) {
+    return spring_back.error();
+  }
+  if (const Status s = check_bending(bending); !s) {
+    return s.error();
+  }
+  if (const Status s = check_made(plan, made); !s) {
+    return s.error();
+  }
+  PlannedRod rod;
+  for (const RodInstruction& bend : plan.bends) {
+    rod.gaps.push_back(bend.gap);
+  }
+  RodFitTask task = fit_task(plan.seats_m, rod.gaps, bending, spring_back->most_kept_rad());
+  task.made = made;
+  task.length_m = plan.cut_length_m();
+  auto fit = fit_rod_bends(task, &plan.fit);
+  if (!fit) {
+    return fit.error();
+  }
+  if (fit->worst_off_m > kLost_m) {
+    return Error{
+        printed("rod can't be brought nearer to its seats than %s after bend %zu, limit "
+                "%.1f mm: begin another",
+                in_mm_outside(fit->worst_off_m, 0.0, kLost_m).c_str(), made.size(), kLost_m * 1e3)};
+  }
+  if (!fit->clear) {
+    return Error{
+        printed("after bend %zu a bend would lie in a tulip: begin another rod", made.size())};
+  }
+  rod.fit = *std::move(fit);
+  return told(std::move(rod), plan.seats_m, made.size(), *spring_back);
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,72 @@
+#include "nav/guidance/rod_cut.h"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "base/printed.h"
+#include "nav/geometry/spline.h"
+
+namespace orthonav::nav {
+namespace {
+
+Status check_rod_distance(const char* name, double distance_m, double longest_m) {
+  if (!std::isfinite(distance_m)) {
+    return Error{printed("%s is not finite", name)};
+  }
+  if (distance_m < 0.0 || distance_m > longest_m) {
+    const double limit_m = distance_m < 0.0 ? 0.0 : longest_m;
+    return Error{printed("%s is %s mm, limit 0-%.0f mm", name,
+                         value_beside(distance_m * 1e3, limit_m * 1e3, 1).c_str(),
+                         longest_m * 1e3)};
+  }
+  return {};
+}
+
+Status check_rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
+                     const RodSeating& seating) {
+  if (rod.heads_m.size() < 2) {
+    return Error{printed("rod to cut needs at least 2 screw heads, got %zu", rod.heads_m.size())};
+  }
+  if (to_bone.size() != rod.heads_m.size()) {
+    return Error{printed("rod to cut has %zu screw heads, but %zu directions of screws",
+                         rod.heads_m.size(), to_bone.size())};
+  }
+  for (std::size_t i = 0; i < to_bone.size(); ++i) {
+    const double length = to_bone[i].norm();
+    if (!rod.heads_m[i].is_finite()) {
+      return Error{printed("screw head %zu is not finite", i + 1)};
+    }
+    if (!(std::isfinite(length) && length > 0.0)) {
+      return Error{printed("direction of screw %zu is zero or not finite", i + 1)};
+    }
+  }
+  if (const Status s =
+          check_rod_distance("distance from head to seat", seating.head_to_seat_m, kDeepestSeat_m);
+      !s) {
+    return s;
+  }
+  return check_rod_distance("overhang of the rod", seating.overhang_m, kLongestOverhang_m);
+}
+
+}  // namespace
+
+Result<RodCut> rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
+                       const RodSeating& seating) {
+  if (const Status s = check_rod_cut(rod, to_bone, seating); !s) {
+    return s.error();
+  }
+  RodCut cut;
+  for (std::size_t i = 0; i < to_bone.size(); ++i) {
+    cut.seats_m.push_back(rod.heads_m[i] + seating.head_to_seat_m * to_bone[i].normalized());
+  }
+  const auto spline = CatmullRom::through(cut.seats_m);
+  if (!spline) {
+    return Error{"seats of the rod: " + spline.error().message, spline.error().code};
+  }
+  cut.seated_length_m = spline->length_m();
+  cut.cut_length_m = cut.seated_length_m + 2.0 * seating.overhang_m;
+  return cut;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,69 @@
+#include "nav/guidance/rod_shape.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace orthonav::nav {
+namespace {
+
+constexpr int kChordsOfArc = 8;
+/// Below this the series of sine and cosine is exact to the last bit that matters.
+constexpr double kNearlyStraight_rad = 1e-4;
+
+/// A place on the axis with the frame that is carried along.
+struct RodPlace {
+  Vec3 at_m;
+  Vec3 line{1.0, 0.0, 0.0};
+  Vec3 beside{0.0, 1.0, 0.0};
+  Vec3 along{0.0, 0.0, 1.0};
+};
+
+RodPlace beyond_arc(const RodPlace& from, double width_m, double angle_rad, double roll_rad) {
+  const Vec3 towards = std::cos(roll_rad) * from.line + std::sin(roll_rad) * from.beside;
+  const bool straight = std::abs(angle_rad) < kNearlyStraight_rad;
+  const double forward =
+      straight ? 1.0 - angle_rad * angle_rad / 6.0 : std::sin(angle_rad) / angle_rad;
+  const double aside = straight ? 0.5 * angle_rad : (1.0 - std::cos(angle_rad)) / angle_rad;
+  const Mat3 turn = rotation_from_vector(angle_rad * from.along.cross(towards));
+  return {from.at_m + width_m * (forward * from.along + aside * towards), turn * from.line,
+          turn * from.beside, turn * from.along};
+}
+
+}  // namespace
+
+std::vector<RodStraight> rod_straights(std::span<const RodArc> arcs, double length_m) {
+  std::vector<RodStraight> straights;
+  RodPlace place;
+  double begin_m = 0.0;
+  for (const RodArc& arc : arcs) {
+    const double end_m = arc.centre_m - 0.5 * arc.width_m;
+    straights.push_back({place.at_m, place.along, begin_m, end_m});
+    place.at_m += (end_m - begin_m) * place.along;
+    place = beyond_arc(place, arc.width_m, arc.angle_rad, arc.roll_rad);
+    begin_m = end_m + arc.width_m;
+  }
+  straights.push_back({place.at_m, place.along, begin_m, length_m});
+  return straights;
+}
+
+std::vector<Vec3> rod_axis(std::span<const RodArc> arcs, double length_m) {
+  std::vector<Vec3> axis = {Vec3{}};
+  RodPlace place;
+  double begin_m = 0.0;
+  for (const RodArc& arc : arcs) {
+    const double end_m = arc.centre_m - 0.5 * arc.width_m;
+    place.at_m += (end_m - begin_m) * place.along;
+    axis.push_back(place.at_m);
+    for (int i = 1; i <= kChordsOfArc; ++i) {
+      const double part = static_cast<double>(i) / kChordsOfArc;
+      axis.push_back(
+          beyond_arc(place, part * arc.width_m, part * arc.angle_rad, arc.roll_rad).at_m);
+    }
+    place = beyond_arc(place, arc.width_m, arc.angle_rad, arc.roll_rad);
+    begin_m = end_m + arc.width_m;
+  }
+  axis.push_back(place.at_m + (length_m - begin_m) * place.along);
+  return axis;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/time.h"
+#include "base/transform.h"
+
+namespace orthonav::nav {
+
+/// What is known of the patient references that the poses of an anchored tracker hang on.
+///
+/// With a reference, a session's World is the *anchored* World: it lay in the headset's map where
+/// that lay when a reference was first seen, and moves with the reference from then on. What is
+/// clamped to the patient rests in it, however the patient, the map or the head's noise move.
+struct Anchor {
+  bool in_sight = false;               ///< at least one reference was measured in the newest pair
+  std::optional<Timestamp> last_seen;  ///< mid-exposure of the newest pair that measured one
+  /// From the anchored World to the headset's map, by the pair of `last_seen`.
+  Transform<World, World> world_from_anchored;
+  /// How often references were found to have moved against each other: from then on nothing that
+  /// was measured before holds.
+  std::int64_t moves = 0;
+
+  /// None was seen for longer than `stale_after` before `at`: nothing may be shown on the patient.
+  [[nodiscard]] bool stale(Timestamp at, Duration stale_after) const {
+    return !last_seen || at - *last_seen > stale_after;
+  }
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,230 @@
+#include "nav/tracking/anchored_tracker.h"
+
+#include <Eigen/Dense>
+#include <utility>
+
+#include "nav/tracking/pose_filter.h"
+#include "nav/tracking/symmetric_covariance.h"
+#include "nav/tracking/tag_pose.h"
+
+namespace orthonav::nav {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+
+/// One reference, as it lies in the anchored World.
+struct Reference {
+  std::size_t tool = 0;
+  /// Absent until it counts.
+  std::optional<Transform<World, Marker>> anchored_from_marker;
+  PoseFilter learning;  ///< where it lies, by references that count
+  int pairs_learnt = 0;
+  int pairs_elsewhere = 0;  ///< in a row, in which it lay where it should not
+};
+
+class AnchoredTracker final : public ToolTracker {
+ public:
+  AnchoredTracker(std::unique_ptr<ToolTracker> tracker, Duration coast,
+                  const ReferenceLimits& limits, std::vector<Reference> references)
+      : tracker_(std::move(tracker)),
+        coast_(coast),
+        limits_(limits),
+        references_(std::move(references)),
+        filters_(tracker_->tools().size()) {}
+
+  std::span<const ToolState> track(const StereoFrame& frame) override {
+    const std::span<const ToolState> seen = tracker_->track(frame);
+    states_.assign(seen.begin(), seen.end());
+    const Reference* best = frame.world_from_rig ? best_in_sight(seen) : nullptr;
+    anchor_.in_sight = best != nullptr;
+    if (best != nullptr) {
+      const PairPose& reference = *seen[best->tool].pair;
+      const Transform<World, Rig> anchored_from_rig =
+          *best->anchored_from_marker * reference.rig_from_marker.inverse();
+      anchor_.last_seen = frame.time;
+      anchor_.world_from_anchored = *frame.world_from_rig * anchored_from_rig.inverse();
+      watch(seen, *best, anchored_from_rig, frame);
+      measure(seen, *best, anchored_from_rig, frame);
+    }
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      if (best == nullptr || !seen[i].pair) {
+        predict(i, frame);
+      }
+    }
+    return states_;
+  }
+
+  [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tracker_->tools(); }
+  [[nodiscard]] std::optional<StereoAlignment> alignment() const override {
+    return tracker_->alignment();
+  }
+  [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override {
+    return tracker_->tag_size(tool);
+  }
+  [[nodiscard]] const Anchor* anchor() const override { return &anchor_; }
+
+ private:
+  /// The surest of those that count; the very first to be seen counts at once and says where the
+  /// anchored World lies.
+  const Reference* best_in_sight(std::span<const ToolState> seen) {
+    const Reference* best = nullptr;
+    for (const Reference& reference : references_) {
+      const auto& pair = seen[reference.tool].pair;
+      if (pair && reference.anchored_from_marker &&
+          (best == nullptr || rotation_sigma_rad(pair->covariance) <
+                                  rotation_sigma_rad(seen[best->tool].pair->covariance))) {
+        best = &reference;
+      }
+    }
+    if (best != nullptr || anchor_.last_seen) {
+      return best;
+    }
+    for (Reference& reference : references_) {
+      if (seen[reference.tool].pair) {
+        reference.anchored_from_marker = seen[reference.tool].world_from_marker.value;
+        return &reference;
+      }
+    }
+    return nullptr;
+  }
+
+  /// The other references in sight: those that count must lie where they did, the others are
+  /// learnt.
+  void watch(std::span<const ToolState> seen, const Reference& best,
+             const Transform<World, Rig>& anchored_from_rig, const StereoFrame& frame) {
+    bool moved = false;
+    for (Reference& other : references_) {
+      const auto& pair = seen[other.tool].pair;
+      if (&other == &best || !pair) {
+        continue;
+      }
+      const Transform<World, Marker> here = anchored_from_rig * pair->rig_from_marker;
+      if (!other.anchored_from_marker) {
+        learn(other,
+              {here, frame.time, PoseStatus::kMeasured,
+               turned(relative_covariance(*pair, *seen[best.tool].pair),
+                      anchored_from_rig.rotation())},
+              pair->exposure_s);
+        continue;
+      }
+      const bool elsewhere =
+          (here.translation() - other.anchored_from_marker->translation()).norm() >
+              limits_.moved_m ||
+          rotation_angle_rad(here.rotation(), other.anchored_from_marker->rotation()) >
+              limits_.moved_rad;
+      other.pairs_elsewhere = elsewhere ? other.pairs_elsewhere + 1 : 0;
+      moved = moved || other.pairs_elsewhere >= limits_.pairs;
+    }
+    if (moved) {
+      ++anchor_.moves;
+      forget_all_but(best);
+    }
+  }
+
+  void learn(Reference& reference, const TrackedPose& here, double exposure_s) const {
+    reference.learning.update(here, exposure_s);
+    if (++reference.pairs_learnt >= limits_.learnt_from_pairs) {
+      reference.anchored_from_marker = reference.learning.state().value;
+    }
+  }
+
+  /// Which of two moved nobody knows: one of them says where the anchored World lies from now on.
+  void forget_all_but(const Reference& kept) {
+    for (Reference& reference : references_) {
+      if (&reference != &kept) {
+        reference = Reference{reference.tool, std::nullopt, PoseFilter(), 0, 0};
+      }
+    }
+  }
+
+  void measure(std::span<const ToolState> seen, const Reference& best,
+               const Transform<World, Rig>& anchored_from_rig, const StereoFrame& frame) {
+    const PairPose& reference = *seen[best.tool].pair;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const auto& pair = seen[i].pair;
+      if (!pair) {
+        continue;
+      }
+      const bool is_anchor = i == best.tool;
+      const PoseCovariance in_rig =
+          is_anchor ? pair->covariance : relative_covariance(*pair, reference);
+      const TrackedPose measured{anchored_from_rig * pair->rig_from_marker, frame.time,
+                                 PoseStatus::kMeasured,
+                                 turned(in_rig, anchored_from_rig.rotation())};
+      if (is_anchor) {
+        states_[i].world_from_marker = measured;
+        continue;
+      }
+      if (!filters_[i].follows(frame.time, coast_)) {
+        filters_[i].stop();
+      }
+      filters_[i].update(measured, pair->exposure_s);
+      states_[i].world_from_marker = filters_[i].state();
+    }
+  }
+
+  void predict(std::size_t i, const StereoFrame& frame) {
+    TrackedPose& state = states_[i].world_from_marker;
+    state = {};
+    state.time = frame.time;
+    if (filters_[i].follows(frame.time, coast_)) {
+      state = filters_[i].predicted(frame.time);
+    }
+  }
+
+  std::unique_ptr<ToolTracker> tracker_;
+  Duration coast_;
+  ReferenceLimits limits_;
+  std::vector<Reference> references_;
+  std::vector<PoseFilter> filters_;  ///< of all tools, in the anchored World
+  std::vector<ToolState> states_;
+  Anchor anchor_;
+};
+
+}  // namespace
+
+std::vector<std::string> ReferenceLimits::check() const {
+  std::vector<std::string> problems;
+  if (!(moved_m > 0.0 && moved_m <= 0.01)) {
+    problems.push_back("moved_m " + std::to_string(moved_m) + " must lie in (0, 0.01]");
+  }
+  if (!(moved_rad > 0.0 && moved_rad <= 0.2)) {
+    problems.push_back("moved_rad " + std::to_string(moved_rad) + " must lie in (0, 0.2]");
+  }
+  if (pairs < 1 || learnt_from_pairs < 1) {
+    problems.emplace_back("pairs and learnt_from_pairs must be at least 1");
+  }
+  return problems;
+}
+
+PoseCovariance relative_covariance(const PairPose& tool, const PairPose& reference) {
+  const Vec3 arm_m = tool.rig_from_marker.translation() - reference.rig_from_marker.translation();
+  Matrix6 carried = Matrix6::Identity();
+  carried.topRightCorner<3, 3>() << 0, arm_m.z, -arm_m.y, -arm_m.z, 0, arm_m.x, arm_m.y, -arm_m.x,
+      0;
+  const Eigen::Map<const Matrix6> of_tool(tool.covariance.data());
+  const Eigen::Map<const Matrix6> of_reference(reference.covariance.data());
+  return symmetrized(Matrix6(of_tool + carried * of_reference * carried.transpose()));
+}
+
+Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(std::unique_ptr<ToolTracker> tracker,
+                                                             Duration coast,
+                                                             const ReferenceLimits& limits) {
+  if (const auto problems = limits.check(); !problems.empty()) {
+    return Error{"reference: " + problems.front()};
+  }
+  std::vector<Reference> references;
+  const auto tools = tracker->tools();
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    if (tools[i].role == ToolRole::kReference) {
+      references.emplace_back().tool = i;
+    }
+  }
+  if (references.empty()) {
+    return Error{"tools: no reference, at least 1 needed to anchor to the patient"};
+  }
+  return std::unique_ptr<ToolTracker>(
+      std::make_unique<AnchoredTracker>(std::move(tracker), coast, limits, std::move(references)));
+}
+
+}  // namespace orthonav::nav

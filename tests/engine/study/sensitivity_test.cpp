@@ -1,0 +1,61 @@
+#include "engine/study/sensitivity.h"
+
+#include <gmock/gmock.h>
+
+#include "engine/study/sensitivity_page.h"
+#include "engine/study/system_profile.h"
+
+namespace orthonav::engine {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> studied_in(const std::string& profile) {
+  std::vector<std::string> names;
+  for (const sim::Magnitude* magnitude : studied_magnitudes(system_named(profile)->magnitudes)) {
+    names.emplace_back(magnitude->name);
+  }
+  return names;
+}
+
+TEST(Sensitivity, StudiesWhatHasARange) {
+  std::size_t with_range = 0;
+  for (const sim::Magnitude& magnitude : sim::magnitudes()) {
+    with_range += magnitude.high > magnitude.low ? 1 : 0;
+  }
+  EXPECT_EQ(studied_magnitudes({}).size(), with_range);
+  EXPECT_EQ(studied_in("liebmann-2019").size(), with_range) << "it leaves all as it is by default";
+}
+
+TEST(Sensitivity, LeavesWhatAProfileHasDecided) {
+  const std::vector<std::string> names = studied_in("straighttrack-cannula");
+  EXPECT_THAT(names, Not(Contains("wire_bending_rad"))) << "the cannula's";
+  EXPECT_THAT(names, Not(Contains("tip_calibration_m"))) << "held by the stated navigation";
+  EXPECT_THAT(names, Not(Contains("map_drift_m_per_sqrt_s")));
+  EXPECT_THAT(names, AllOf(Contains("tremor_m"), Contains("wire_skiving_m")));
+  EXPECT_THAT(studied_in("robot-wires"), Not(Contains("tremor_m"))) << "a robot's arm";
+  EXPECT_THAT(studied_in("xvision"), Not(Contains("tissue_m"))) << "its own magnitude";
+}
+
+TEST(SensitivityPage, ShowsBarsOfTheFirstAndATableOfAll) {
+  std::vector<Sensitivity> found;
+  for (int i = 0; i < 25; ++i) {
+    found.push_back(
+        {"magnitude_" + std::to_string(i), "mm", 0.5, 1.5, 2.0 - 0.05 * i, 1.0, 0.25, 0.125});
+  }
+  SensitivityOptions options;
+  options.trajectories = 7;
+  const std::string page = sensitivity_html(found, options);
+  EXPECT_THAT(page, HasSubstr("7 trajectories"));
+  EXPECT_THAT(page, HasSubstr("The 20 of 25 magnitudes"));
+  EXPECT_THAT(page, HasSubstr("\"names\":[\"magnitude_0\","));
+  EXPECT_THAT(page, Not(HasSubstr("\"magnitude_20\"")));
+  EXPECT_THAT(page, HasSubstr("<code>magnitude_24</code></th><td>0.5 to 1.5 mm</td><td>0.80 ± 0.25"
+                              "</td><td>1.00 ± 0.12</td>"));
+}
+
+}  // namespace
+}  // namespace orthonav::engine

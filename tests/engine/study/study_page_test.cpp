@@ -1,0 +1,68 @@
+#include "engine/study/study_page.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace orthonav::engine {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Two screws, of which one missed the bone, and an operation that came to nothing.
+std::string small_study(const std::string& case_name) {
+  const nlohmann::json screws = {
+      {{"side", "left"}, {"angle_error_deg", 1.25}, {"entry_error_mm", 2.0}},
+      {{"side", "right"}, {"angle_error_deg", 6.5}}};
+  const nlohmann::json runs = {{{"case", case_name},
+                                {"seed", 3},
+                                {"completed", true},
+                                {"levels", {{{"label", "L5"}, {"screws", screws}}}}},
+                               {{"case", case_name},
+                                {"seed", 4},
+                                {"completed", false},
+                                {"why_not", "ended at setup"},
+                                {"levels", nlohmann::json::array()}}};
+  return nlohmann::json{{"method", "paper"}, {"operations", 2}, {"completed", 1}, {"runs", runs}}
+      .dump();
+}
+
+TEST(StudyPage, ShowsTheWorstScrewsFirstAndTheirCommand) {
+  const std::string page = study_html(small_study("phantom"));
+  const auto worst = page.find("phantom, L5 right");
+  ASSERT_NE(worst, std::string::npos);
+  EXPECT_LT(worst, page.find("phantom, L5 left"));
+  EXPECT_THAT(
+      page, HasSubstr("<td>6.50</td><td>–</td><td class=again><code><span>orthonav preview</span> "
+                      "<span>--seed 3</span> <span>--method paper</span></code>"));
+}
+
+TEST(StudyPage, ShowsWhatWasNotCompletedAndWhy) {
+  EXPECT_THAT(study_html(small_study("phantom")),
+              HasSubstr("<td>4</td><td>ended at setup</td><td class=again><code><span>orthonav "
+                        "preview</span> <span>--seed 4</span>"));
+}
+
+TEST(StudyPage, RepeatsAnOperationByTheCommandOfItsStudy) {
+  const std::string page =
+      study_html(small_study("spine"), [](const std::string& name, std::uint64_t seed) {
+        return "again '" + name + "' & " + std::to_string(seed);
+      });
+  EXPECT_THAT(page, HasSubstr("<code><span>again 'spine' &amp; 3</span></code>"));
+  EXPECT_THAT(page, Not(HasSubstr("orthonav preview")));
+}
+
+TEST(StudyPage, DrawsEveryValueItHas) {
+  const std::string page = study_html(small_study("phantom"));
+  EXPECT_THAT(page, HasSubstr("\"values\":[1.25,6.5]"));
+  EXPECT_THAT(page, HasSubstr("\"values\":[2.0]"));
+}
+
+TEST(StudyPage, TakesNoNameForMarkup) {
+  EXPECT_THAT(study_html(small_study("<b>")), Not(HasSubstr("<b>, L5")));
+  EXPECT_THAT(study_html("[]"), HasSubstr("This is no study."));
+}
+
+}  // namespace
+}  // namespace orthonav::engine

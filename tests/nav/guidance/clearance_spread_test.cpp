@@ -1,0 +1,199 @@
+#include "nav/guidance/clearance_spread.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "tests/support/allocation_count.h"
+#include "tests/support/anatomy.h"
+#include "tests/support/mesh_builder.h"
+
+namespace orthonav::nav::clearance_spread_test {
+namespace {
+
+/// Of the standard normal distribution.
+constexpr double kQuantile95 = 1.6448536;
+/// Of 1024 motions: what the quantile is off by, in SDs.
+constexpr double kMotions = 0.05;
+
+PoseUncertainty with_sds(Vec3 centre_m, double shift_m, double turn_rad) {
+  std::array<double, 36> covariance{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    covariance[7 * k] = shift_m * shift_m;
+    covariance[7 * (k + 3)] = turn_rad * turn_rad;
+  }
+  return {centre_m, covariance};
+}
+
+/// Walls 100 mm and more away but one, at x = 10 mm.
+const SurfaceIndex& one_wall() {
+  static const SurfaceIndex kBox(test::box({-0.100, -0.200, -0.100}, {0.010, 0.100, 0.100}));
+  return kBox;
+}
+const SurfaceIndex& two_walls() {
+  static const SurfaceIndex kBox(test::box({-0.010, -0.200, -0.100}, {0.010, 0.100, 0.100}));
+  return kBox;
+}
+
+const ScrewCylinder kScrew{{{0.0, 0.020, 0.0}}, {0, -1, 0}, 0.045, 0.003};
+const Vec3 kMiddle{0.0, -0.0055, 0.0};
+
+ClearanceSpread spread_of(const SurfaceIndex& bone, const ScrewCylinder& screw,
+                          const PoseUncertainty& pose) {
+  return *clearance_spread(bone, screw, *least_clearance(bone, screw), pose);
+}
+
+TEST(ClearanceSpread, OfAShiftBesideOneWallIsTheNormalQuantile) {
+  for (const double sd_m : {0.0003, 0.001, 0.002}) {
+    const auto spread = spread_of(one_wall(), kScrew, with_sds(kMiddle, sd_m, 0.0));
+    EXPECT_NEAR(spread.lower_95_m, 0.007 - kQuantile95 * sd_m, kMotions * sd_m);
+  }
+}
+
+TEST(ClearanceSpread, WithoutUncertaintyIsTheClearance) {
+  const auto spread = spread_of(one_wall(), kScrew, with_sds(kMiddle, 0.0, 0.0));
+  EXPECT_NEAR(spread.lower_95_m, 0.007, 1e-6);
+  EXPECT_EQ(spread.probability(PedicleGrade::kA), 1.0);
+}
+
+TEST(ClearanceSpread, BetweenTwoWallsIsLessThanBesideOne) {
+  const double sd_m = 0.001;
+  const auto spread = spread_of(two_walls(), kScrew, with_sds(kMiddle, sd_m, 0.0));
+  // The larger of a normal number and its negative: 1.96, not 1.64.
+  EXPECT_NEAR(spread.lower_95_m, 0.007 - 1.959964 * sd_m, kMotions * sd_m);
+}
+
+TEST(ClearanceSpread, OfATurnGrowsWithTheDistanceFromTheCentre) {
+  const double sd_rad = 0.02;
+  const Vec3 tip = kScrew.entry.v + kScrew.length_m * kScrew.direction;
+  const auto about_tip = spread_of(one_wall(), kScrew, with_sds(tip, 0.0, sd_rad));
+  // The far end of the side is 39 mm from the tip; the rim lies 3 mm aside.
+  const double arm_m = 0.039;
+  EXPECT_NEAR(about_tip.lower_95_m, 0.007 - kQuantile95 * sd_rad * arm_m, 0.0001);
+  const auto from_afar =
+      spread_of(one_wall(), kScrew, with_sds(tip + Vec3{0, -0.05, 0}, 0.0, sd_rad));
+  EXPECT_NEAR(from_afar.lower_95_m, 0.007 - kQuantile95 * sd_rad * (arm_m + 0.05), 0.0002);
+}
+
+TEST(ClearanceSpread, GradesAreAsLikelyAsTheNormalDistributionSays) {
+  ScrewCylinder screw = kScrew;
+  screw.entry.v.x = 0.0085;  // 1.5 mm out
+  const double sd_m = 0.001;
+  const auto spread = spread_of(one_wall(), screw, with_sds(kMiddle, sd_m, 0.0));
+  const auto below = [](double sds) { return 0.5 * std::erfc(-sds / std::sqrt(2.0)); };
+  constexpr double kShare = 0.006;  // of 1024 motions
+  EXPECT_NEAR(spread.probability(PedicleGrade::kA), below(-1.5), kShare);
+  EXPECT_NEAR(spread.probability(PedicleGrade::kB), below(0.5) - below(-1.5), kShare);
+  EXPECT_NEAR(spread.probability(PedicleGrade::kC), below(2.5) - below(0.5), kShare);
+  EXPECT_NEAR(spread.probability(PedicleGrade::kD), below(4.5) - below(2.5), kShare);
+  double sum = 0.0;
+  for (const double p : spread.grade_probability) {
+    sum += p;
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+TEST(ClearanceSpread, IsAbsentWhereTheCovarianceIsNoNumber) {
+  const auto least = *least_clearance(one_wall(), kScrew);
+  EXPECT_FALSE(
+      clearance_spread(one_wall(), kScrew, least, with_sds(kMiddle, INFINITY, 0.0)).has_value());
+  EXPECT_FALSE(
+      clearance_spread(one_wall(), kScrew, least, with_sds({NAN, 0, 0}, 0.001, 0.0)).has_value());
+}
+
+TEST(ClearanceSpread, AllocatesNothing) {
+  const PoseUncertainty pose = with_sds(kMiddle, 0.001, 0.01);
+  (void)screw_clearance(one_wall(), kScrew, &pose);
+  const std::size_t before = test::allocation_count();
+  const auto found = screw_clearance(one_wall(), kScrew, &pose);
+  EXPECT_EQ(test::allocation_count() - before, 0u);
+  EXPECT_TRUE(found && found->spread);
+}
+
+TEST(WithTool, MovesTheToolsCovarianceToTheBonesCentre) {
+  // The tool turns by 0.01 rad about World's z at a marker 0.2 m along World's x; World's x is the
+  // vertebra's y.
+  const Transform<Vertebra, World> vertebra_from_world{
+      rotation_from_vector({0, 0, std::acos(-1.0) / 2}), {0.1, 0.2, 0.3}};
+  const Point<World> marker{{0.2, 0, 0}};
+  PoseCovariance tool{};
+  tool[35] = 1e-4;
+  tool[0] = 4e-8;
+  const PoseUncertainty bone = with_sds({0.1, 0.2, 0.3}, 0.0, 0.0);  // World's origin
+  const PoseUncertainty both =
+      with_tool(bone, vertebra_from_world, vertebra_from_world * marker, tool);
+  // At World's origin: 0.2 m × 0.01 rad across, World's y, that is the vertebra's -x.
+  const auto at_origin = both.covariance_at({{0.1, 0.2, 0.3}});
+  EXPECT_NEAR(at_origin[0], 0.04 * 1e-4, 1e-12);
+  EXPECT_NEAR(at_origin[4], 4e-8, 1e-12);
+  EXPECT_NEAR(at_origin[8], 0.0, 1e-12);
+  // At the marker nothing turns.
+  const auto at_marker = both.covariance_at(vertebra_from_world * marker);
+  EXPECT_NEAR(at_marker[0], 0.0, 1e-12);
+  EXPECT_NEAR(at_marker[4], 4e-8, 1e-12);
+}
+
+/// How often the truth lies above the bound: screws of real plans, moved by motions drawn from the
+/// covariance that the bound is made of, and by `more` times as much as it says.
+struct Honesty {
+  int draws = 0;
+  int above = 0;
+  int grade_as_expected = 0;  ///< the truth has the likeliest grade
+  double expected = 0.0;      ///< the sum of that grade's probabilities
+  [[nodiscard]] double share() const { return static_cast<double>(above) / draws; }
+};
+
+Honesty honesty(double more) {
+  constexpr int kDraws = 60;
+  Honesty out;
+  Random random(11);
+  const auto levels = test::anatomy_levels();
+  for (std::size_t i = 0; i < levels.size(); i += 4) {
+    const SurfaceIndex bone(levels[i].mesh);
+    for (const ScrewPlan& plan : levels[i].screws) {
+      const auto screw = *cylinder_of(plan);
+      const double shift_m = random.uniform(0.0003, 0.0015);
+      const double turn_rad = random.uniform(0.003, 0.03);
+      const Vec3 centre = 0.5 * (plan.entry.v + plan.target.v) + Vec3{0, 0.02, 0};
+      const auto spread = spread_of(bone, screw, with_sds(centre, shift_m, turn_rad));
+      const auto likeliest = static_cast<PedicleGrade>(
+          std::max_element(spread.grade_probability.begin(), spread.grade_probability.end()) -
+          spread.grade_probability.begin());
+      for (int k = 0; k < kDraws; ++k) {
+        const Vec3 shift = more * shift_m * Vec3{random.normal(), random.normal(), random.normal()};
+        const Vec3 turn = more * turn_rad * Vec3{random.normal(), random.normal(), random.normal()};
+        const Mat3 turned = rotation_from_vector(turn);
+        ScrewCylinder real = screw;
+        real.entry.v = centre + turned * (screw.entry.v - centre) + shift;
+        real.direction = turned * screw.direction;
+        const double clearance_m = least_clearance(bone, real)->clearance_m;
+        ++out.draws;
+        out.above += clearance_m > spread.lower_95_m ? 1 : 0;
+        out.grade_as_expected += grade_of(clearance_m) == likeliest ? 1 : 0;
+        out.expected += spread.probability(likeliest);
+      }
+    }
+  }
+  return out;
+}
+
+TEST(ClearanceSpread, BoundHoldsIn95Of100DrawsOnRealVertebrae) {
+  if (test::anatomy_levels().empty()) {
+    GTEST_SKIP() << "the shared anatomy is not here";
+  }
+  const Honesty honest = honesty(1.0);
+  RecordProperty("draws", honest.draws);
+  RecordProperty("share", std::to_string(honest.share()));
+  ASSERT_GE(honest.draws, 400);
+  EXPECT_GE(honest.share(), 0.93);
+  EXPECT_LE(honest.share(), 0.97);
+  EXPECT_NEAR(honest.grade_as_expected / static_cast<double>(honest.draws),
+              honest.expected / honest.draws, 0.03);
+  // The twins: a covariance that says too little, or too much.
+  EXPECT_LT(honesty(1.3).share(), 0.93);
+  EXPECT_GT(honesty(0.7).share(), 0.97);
+}
+
+}  // namespace
+}  // namespace orthonav::nav::clearance_spread_test

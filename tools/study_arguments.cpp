@@ -1,0 +1,210 @@
+#include "tools/study_arguments.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "engine/case/tool_file.h"
+#include "engine/io/atomic_file.h"
+#include "tools/arguments.h"
+#include "tools/case_source.h"
+
+namespace orthonav::tools {
+
+namespace fs = std::filesystem;
+
+Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
+  if (folder.empty()) {
+    auto spine = load_checked_case(folder);
+    if (!spine) {
+      return spine.error();
+    }
+    return std::vector<engine::Case>{std::move(*spine)};
+  }
+  std::vector<std::string> folders;
+  std::error_code code;
+  if (fs::exists(fs::path(folder) / "case.json", code)) {
+    folders.push_back(folder);
+  } else {
+    for (const auto& entry : fs::directory_iterator(folder, code)) {
+      if (fs::exists(entry.path() / "case.json")) {
+        folders.push_back(entry.path().string());
+      }
+    }
+    std::sort(folders.begin(), folders.end());
+  }
+  if (folders.empty()) {
+    return Error{"--cases " + folder + ": no case.json in it or one level below"};
+  }
+  std::vector<engine::Case> cases;
+  for (const std::string& path : folders) {
+    auto loaded = load_checked_case(path);
+    if (!loaded) {
+      return loaded.error();
+    }
+    cases.push_back(std::move(*loaded));
+  }
+  return cases;
+}
+
+Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
+  engine::StudyOptions options;
+  options.operation = study_operation();
+  options.operation.method = arguments.method;
+  if (!arguments.profile.empty()) {
+    const auto system = engine::system_named(arguments.profile);
+    if (!system) {
+      return system.error();
+    }
+    system->apply(options.operation);
+  }
+  if (arguments.measurement == "model") {
+    options.operation.measurement = engine::Measurement::kModel;
+  }
+  options.operation.levels = arguments.levels;
+  options.operation.use_reference = options.operation.use_reference || arguments.reference;
+  if (arguments.perfect) {
+    options.operation.sim.error_model = sim::ErrorModel::perfect();
+  }
+  if (arguments.navigation_alone) {
+    options.operation.sim.error_model = sim::ErrorModel::navigation_alone();
+  }
+  options.runs = arguments.runs;
+  options.store = arguments.store;
+  options.version = ORTHONAV_VERSION;
+  options.first_seed = arguments.first_seed;
+  options.jobs = jobs_or_cores(arguments.jobs);
+  int used = 0;
+  const bool whole = std::sscanf(arguments.shard.c_str(), "%d/%d%n", &options.shard,
+                                 &options.shards, &used) == 2 &&
+                     used == static_cast<int>(arguments.shard.size());
+  if (!whole) {
+    return Error{"--shard " + arguments.shard + ": must be I/N with 1 <= I <= N"};
+  }
+  return options;
+}
+
+int jobs_or_cores(int jobs) {
+  return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+engine::OperationOptions study_operation() {
+  engine::OperationOptions operation;
+  operation.tools = engine::built_in_tools();
+  operation.loop.draw_every = 0;
+  return operation;
+}
+
+engine::OperationOptions modelled_operation(const engine::SystemProfile& system) {
+  engine::OperationOptions operation = study_operation();
+  system.apply(operation);
+  operation.measurement = engine::Measurement::kModel;
+  return operation;
+}
+
+std::string quoted(const std::string& text) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+:,@%-";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) {
+    return text;
+  }
+  std::string out = "'";
+  for (const char c : text) {
+    out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return out + "'";
+}
+
+std::string operation_words(const StudyArguments& arguments, const std::string& cases) {
+  std::error_code code;
+  std::string words;
+  const auto add = [&words](const char* name, const std::string& value) {
+    if (!value.empty()) {
+      words += std::string(" ") + name + " " + quoted(value);
+    }
+  };
+  add("--cases", cases.empty() ? "" : fs::absolute(cases, code).string());
+  add("--method", arguments.method);
+  const bool is_file = fs::is_regular_file(arguments.profile, code);
+  add("--profile", is_file ? fs::absolute(arguments.profile, code).string() : arguments.profile);
+  add("--measurement", arguments.measurement);
+  for (const std::string& level : arguments.levels) {
+    add("--levels", level);
+  }
+  words += arguments.perfect ? " --perfect" : "";
+  words += arguments.navigation_alone ? " --navigation-alone" : "";
+  words += arguments.reference ? " --reference" : "";
+  return words;
+}
+
+int write_study(const JsonOutput& json, const std::string& page, const std::string& study,
+                const engine::ReplayCommand& replay) {
+  if (const Status written = json.write_text(study); !written) {
+    return bad_input(written.error().message);
+  }
+  const Status drawn =
+      page.empty() ? Status() : engine::write_file(page, engine::study_html(study, replay));
+  return drawn ? kDone : bad_input(drawn.error().message);
+}
+
+namespace {
+
+/// How many, and where.
+void add_cohort_options(CLI::App& study, StudyArguments& arguments) {
+  study.add_option("--runs", arguments.runs, "operations a case")
+      ->check(whole_number(1, 1'000'000))
+      ->capture_default_str();
+  study.add_option("--seed", arguments.first_seed, "seed of the first run, then one more each")
+      ->check(seed_number())
+      ->capture_default_str();
+  study.add_option("--shard", arguments.shard, "I/N: every N-th run from the I-th on")
+      ->capture_default_str();
+  study.add_option("--jobs", arguments.jobs, "operations at once (0: as many as cores)")
+      ->check(whole_number(0, 1024))
+      ->capture_default_str();
+  study
+      .add_option("--db", arguments.store,
+                  "SQLite file that keeps each operation; what it holds is not made again")
+      ->check(some_text());
+  study
+      .add_option("--slurm", arguments.slurm,
+                  "runs as an array job of Slurm; its shards and logs go to this folder")
+      ->check(some_text());
+  study.add_option("--tasks", arguments.slurm_tasks, "tasks of that job (0: one in 60 operations)")
+      ->check(whole_number(0, 100'000))
+      ->capture_default_str();
+  study.add_option("--report", arguments.report, "HTML page to write")->check(some_text());
+  arguments.json.add_to(study);
+  auto* perfect = study.add_flag("--perfect", arguments.perfect, "every source of error at zero");
+  study
+      .add_flag("--navigation-alone", arguments.navigation_alone,
+                "the eye, the aiming hand and the wire at zero, all else as documented")
+      ->excludes(perfect);
+}
+
+}  // namespace
+
+void add_options(CLI::App& study, StudyArguments& arguments) {
+  study
+      .add_option("--cases", arguments.cases,
+                  "case folder or a folder of them (default: the built-in phantom)")
+      ->check(some_text());
+  study.add_option("--method", arguments.method, "best or paper (the published one)")
+      ->capture_default_str();
+  study
+      .add_option("--profile", arguments.profile,
+                  "a published system, by its name or as a file (data/systems.json)")
+      ->check(some_text());
+  study
+      .add_option("--measurement", arguments.measurement,
+                  "pixels, or model: what pixels would tell, drawn")
+      ->check(CLI::IsMember({"pixels", "model"}))
+      ->capture_default_str();
+  study.add_option("--levels", arguments.levels, "levels to operate (default: the two lowest)")
+      ->delimiter(',');
+  add_reference_flag(study, arguments.reference);
+  add_cohort_options(study, arguments);
+}
+
+}  // namespace orthonav::tools

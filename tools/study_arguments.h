@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/study/study.h"
+#include "engine/study/study_page.h"
+#include "engine/study/system_profile.h"
+#include "tools/command.h"
+#include "tools/json_output.h"
+
+namespace orthonav::tools {
+
+/// What `study` was asked for.
+struct StudyArguments {
+  std::string cases;
+  std::string method = "best";
+  std::string profile;
+  std::string measurement = "pixels";
+  std::string store;
+  std::vector<std::string> levels;
+  int runs = 20;
+  std::uint64_t first_seed = 1;
+  std::string shard = "1/1";
+  int jobs = 0;
+  JsonOutput json{JsonOutput::Unasked::kStdout};
+  bool perfect = false;
+  bool navigation_alone = false;
+  bool reference = false;
+  std::string slurm;  ///< folder of an array job; empty: on this machine
+  int slurm_tasks = 0;
+  std::string report;  ///< HTML page; empty: none
+  std::vector<std::string> merged;
+  std::string merged_report;  ///< HTML page of what was joined; empty: none
+  JsonOutput merged_json{JsonOutput::Unasked::kStdout};
+};
+
+void add_options(CLI::App& study, StudyArguments& arguments);
+/// A case folder, or a folder of case folders in the order of their names; the phantom without one.
+Result<std::vector<engine::Case>> cases_in(const std::string& folder);
+Result<engine::StudyOptions> options_of(const StudyArguments& arguments);
+/// The words of the command line that say what an operation is: all but how many, which seeds, and
+/// where they go. For a shell, with folders as absolute paths.
+[[nodiscard]] std::string operation_words(const StudyArguments& arguments,
+                                          const std::string& cases);
+
+/// How many operations at once: as asked for, or as many as there are cores.
+[[nodiscard]] int jobs_or_cores(int jobs);
+/// An operation of a study: the built-in tools, no pictures.
+[[nodiscard]] engine::OperationOptions study_operation();
+/// The same of a published system, in the measurement model.
+[[nodiscard]] engine::OperationOptions modelled_operation(const engine::SystemProfile& system);
+/// A text as one word of a shell; in quotes where it needs them.
+[[nodiscard]] std::string quoted(const std::string& text);
+/// Writes a study as JSON and, where `page` names one, as a page; the exit code.
+int write_study(const JsonOutput& json, const std::string& page, const std::string& study,
+                const engine::ReplayCommand& replay = {});
+
+}  // namespace orthonav::tools

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tools/command.h"
+
+namespace orthonav::tools {
+
+/// `study rods`: rods bent with the template beside rods bent by eye.
+void add_rods_command(CLI::App& study, Action& action);
+
+}  // namespace orthonav::tools
