@@ -152,6 +152,7 @@ class Demo {
     out_.emplace(std::move(*out));
     engine::JournalHeader header{
         ORTHONAV_VERSION, "sim:", arguments_.method, source.name, arguments_.seed, 0, {}};
+    header.patient_reference = arguments_.reference;
     for (const std::string& label : levels) {
       header.levels.push_back(engine::planned(label, source.find(label)->screws));
     }

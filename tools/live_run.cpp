@@ -60,6 +60,7 @@ class LiveRun {
         engine::outcome_of(session.levels(), session.rods(), std::move(*report));
     result.method = method_.name;
     result.case_name = case_name_;
+    result.patient_reference = arguments_.reference;
     if (room_) {
       result.seed = room_->options().seed;
     }
@@ -231,6 +232,7 @@ class LiveRun {
                                  0,
                                  headset_->epoch_ticks_100ns(),
                                  {}};
+    header.patient_reference = arguments_.reference;
     if (room_) {
       header.seed = room_->options().seed;
     }

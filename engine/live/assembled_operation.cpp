@@ -37,7 +37,10 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
   if (!tracker) {
     return tracker.error();
   }
+  SessionOptions session_options = options.session;
   if (options.use_reference) {
+    // Nothing hangs on the map, so its drift is no error of what is shown.
+    session_options.map_drift_m_per_sqrt_s = 0.0;
     if (!method.anchors) {
       return Error{"method '" + method.name + "': uses no patient reference"};
     }
@@ -48,7 +51,7 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
     }
   }
   auto session =
-      Session::create(std::move(operation), std::move(*tracker), method, options.session);
+      Session::create(std::move(operation), std::move(*tracker), method, session_options);
   if (!session) {
     return session.error();
   }

@@ -128,11 +128,11 @@ std::string sources_of(const nav::CommonErrors& common) {
     return "Of the registration alone: what all strokes share (tip, cameras, drift of the map) is "
            "not in it.";
   }
-  return formatted(
-      "With what all strokes share, SD along an axis: tip %.2f, cameras %.2f, drift of the map "
-      "%.2f "
-      "mm.",
-      common.tip_m * 1e3, common.cameras_m * 1e3, common.map_m * 1e3);
+  const std::string map =
+      common.map_m > 0.0 ? formatted(", drift of the map %.2f", common.map_m * 1e3) : "";
+  return formatted("With what all strokes share, SD along an axis: tip %.2f, cameras %.2f",
+                   common.tip_m * 1e3, common.cameras_m * 1e3) +
+         map + " mm.";
 }
 
 std::string certainty_of(const RegisteredLevel& level) {

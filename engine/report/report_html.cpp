@@ -233,6 +233,9 @@ std::string head(const json& report) {
          "</style></head><body><header><h1>orthonav <span>operation report</span></h1><p>Case <b>" +
          html_escaped(text_of(report, "case")) + "</b>, method <b>" +
          html_escaped(text_of(report, "method")) + "</b>, seed <b>" + figure(report, "seed", 0) +
+         "</b>, relative to <b>" +
+         (report.value("patient_reference", json()) == true ? "the patient reference"
+                                                            : "the headset\u2019s map") +
          "</b></p></header><main>";
 }
 

@@ -125,6 +125,9 @@ std::string report_json(const OperationResult& result) {
     out["seed"] = *result.seed;
   }
   out["case"] = result.case_name;
+  if (result.patient_reference) {
+    out["patient_reference"] = true;
+  }
   out["completed"] = result.completed;
   if (!result.why_not.empty()) {
     out["why_not"] = result.why_not;

@@ -110,6 +110,9 @@ std::string session_json(const SessionRecord& session) {
     out["seed"] = session.seed;
   }
   out["case"] = session.case_name;
+  if (session.patient_reference) {
+    out["patient_reference"] = *session.patient_reference;
+  }
   out["completed"] = session.completed();
   if (session.cut) {
     out["why_not"] = ending_of(session);

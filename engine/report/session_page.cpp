@@ -220,7 +220,11 @@ std::string session_page(const SessionRecord& session, const std::string& source
       "</style></head><body><header><h1>orthonav <span>report of a journal</span></h1><p>Case <b>" +
       html_escaped(session.case_name) + "</b>, method <b>" + html_escaped(session.method) +
       "</b>, headset <b>" + html_escaped(session.device) + "</b>, journal <b>" +
-      html_escaped(source) + "</b></p></header><main>";
+      html_escaped(source) + "</b>, relative to <b>" +
+      (session.patient_reference
+           ? (*session.patient_reference ? "the patient reference" : "the headset\u2019s map")
+           : "a frame that is not recorded") +
+      "</b></p></header><main>";
   put_ending(session, html);
   put_levels(session, html);
   put_screws(session, html);

@@ -127,6 +127,7 @@ Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
                        {"method", header.method},
                        {"case", header.case_name},
                        {"seed", header.seed},
+                       {"patient_reference", header.patient_reference},
                        {"levels", plan_of(header.levels)}});
   return std::unique_ptr<Journal>(new Journal(std::move(*log), header.epoch_ticks_100ns));
 }

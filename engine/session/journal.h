@@ -41,6 +41,7 @@ struct JournalHeader {
   std::uint64_t seed = 0;
   std::int64_t epoch_ticks_100ns = 0;  ///< Headset::epoch_ticks_100ns
   std::vector<PlannedLevel> levels;    ///< in the order of the operation
+  bool patient_reference = false;      ///< World hangs on one instead of on the headset's map
 };
 
 /// The event log of a session: one JSON object a line, the first is the header. Times as

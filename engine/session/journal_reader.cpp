@@ -150,6 +150,9 @@ class Reading {
     record_.method = line.text("method");
     record_.case_name = line.text("case");
     record_.seed = line.unsigned_integer("seed");
+    if (line.has("patient_reference")) {
+      record_.patient_reference = line.flag_or("patient_reference", false);
+    }
     if (!line.has("levels")) {
       return;
     }

@@ -97,6 +97,8 @@ struct SessionRecord {
   std::string method;
   std::string case_name;
   std::uint64_t seed = 0;  ///< 0 where nothing was drawn by lot
+  /// World hung on a patient reference instead of on the headset's map; absent in older journals.
+  std::optional<bool> patient_reference;
   bool has_plan = false;   ///< the levels and screws are those of the plan, reached or not
   std::size_t lines = 0;   ///< that were read, the header among them
   bool cut = false;        ///< it has no end: the process was killed, or the machine went down

@@ -170,6 +170,7 @@ Result<OperationResult> run_operation(const Case& source, Operation planned,
   result->method = method->name;
   result->seed = options.sim.seed;
   result->case_name = source.name;
+  result->patient_reference = options.use_reference;
   return result;
 }
 

@@ -108,6 +108,25 @@ TEST_F(AssembledOperationTest, NamesEveryProblemOfItsOptions) {
   EXPECT_THAT(refused.error().message, HasSubstr("loop: draw_every must not be negative"));
 }
 
+TEST_F(AssembledOperationTest, TheMapsDriftIsNoErrorBesideAPatientReference) {
+  fake::FakeHeadset headset(test::pairs(1));
+  options_.session.map_drift_m_per_sqrt_s = 0.0003;
+  Method method = blind(asked_);
+  method.anchors = true;
+  method.create_tracker = [](const auto&...) -> Result<std::unique_ptr<nav::ToolTracker>> {
+    auto tracker = std::make_unique<test::ScriptedTracker>();
+    tracker->hang_on_reference();
+    return std::unique_ptr<nav::ToolTracker>(std::move(tracker));
+  };
+  for (const bool reference : {false, true}) {
+    options_.use_reference = reference;
+    const auto operation =
+        assemble_operation(headset, test::operation_of({"L5"}), method, tools_, options_);
+    ASSERT_TRUE(operation.ok()) << operation.error().message;
+    EXPECT_EQ((*operation)->session().options().map_drift_m_per_sqrt_s, reference ? 0.0 : 0.0003);
+  }
+}
+
 TEST_F(AssembledOperationTest, SaysWhyThereIsNoTracker) {
   fake::FakeHeadset headset(test::pairs(1));
   tools_.clear();

@@ -159,6 +159,9 @@ TEST(RegistrationPage, SaysWhatAllStrokesShareBesideTheLimit) {
   EXPECT_THAT(row_of(page, "Error at the worst"), HasSubstr("0.40 ✓"));
   EXPECT_THAT(row_of(page, "With what all strokes share"),
               AllOf(HasSubstr("2.34"), HasSubstr("tip 0.50, cameras 0.30, drift of the map 1.20")));
+  level.registration.common.map_m = 0.0;
+  EXPECT_THAT(row_of(registration_section(level).value(), "With what all strokes share"),
+              HasSubstr("tip 0.50, cameras 0.30 mm"));
 }
 
 TEST(RegistrationPage, TellsAFigureFromTheLimitThatItBreaks) {

@@ -55,6 +55,16 @@ TEST(SessionReport, SaysFirstOfAllThatTheSessionWasCutOffAndWhen) {
   EXPECT_THAT(page, HasSubstr("&lt;spine&gt;"));
 }
 
+TEST(SessionReport, TellsWhatPositionsAreRelativeTo) {
+  SessionRecord session = cut_session();
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("a frame that is not recorded"));
+  session.patient_reference = false;
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("the headset\u2019s map"));
+  session.patient_reference = true;
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("the patient reference"));
+  EXPECT_EQ(nlohmann::json::parse(session_json(session))["patient_reference"], true);
+}
+
 TEST(SessionReport, CallsWhatTheJournalDoesNotHoldNotRecorded) {
   const std::string page = session_page(cut_session(), "j");
   EXPECT_THAT(page, HasSubstr("not recorded"));

@@ -21,6 +21,7 @@ struct Journaled {
       : operation(labels, {}, verification) {
     JournalHeader header{"0.1.0", "fake", "paper", "boxes", 18'446'744'073'709'551'615U, 0, {}};
     for (const LevelState& level : operation.session().levels()) {
+      header.patient_reference = true;
       header.levels.push_back(planned(level.plan.label, level.plan.screws));
     }
     journal = Journal::create(path, header).value();
@@ -103,6 +104,7 @@ TEST(JournalReader, TellsTheWholeOperationAsTheSessionHasIt) {
   EXPECT_TRUE(record.has_plan);
   EXPECT_EQ(record.seed, 18'446'744'073'709'551'615U);
   EXPECT_EQ(record.device, "fake");
+  EXPECT_EQ(record.patient_reference, true);
   expect_the_same(record, j.operation.session());
   EXPECT_EQ(record.rods.size(), 2U);
   EXPECT_EQ(record.registrations.size(), 2U);
