@@ -19,4 +19,14 @@ void must_be_positive(std::initializer_list<NamedNumber> options,
   }
 }
 
+void must_be_fractions(std::initializer_list<NamedNumber> options,
+                       std::vector<std::string>& problems) {
+  for (const auto& [name, value] : options) {
+    if (!(value > 0.0 && value <= 1.0)) {
+      problems.push_back(std::string(name) + " " + printed("%f", value) +
+                         ", must be above 0 and at most 1");
+    }
+  }
+}
+
 }  // namespace orthonav

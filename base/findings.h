@@ -24,5 +24,8 @@ struct NamedNumber {
 /// Reports every option that is not finite or not above 0.
 void must_be_positive(std::initializer_list<NamedNumber> options,
                       std::vector<std::string>& problems);
+/// Reports every option that is not above 0 and at most 1.
+void must_be_fractions(std::initializer_list<NamedNumber> options,
+                       std::vector<std::string>& problems);
 
 }  // namespace orthonav

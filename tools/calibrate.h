@@ -10,6 +10,7 @@
 namespace orthonav::tools {
 
 // The parts of `calibrate`, one file each.
+void add_calibrate_axis(CLI::App& calibrate, Action& action);
 void add_calibrate_pivot(CLI::App& calibrate, Action& action);
 void add_calibrate_stereo(CLI::App& calibrate, Action& action);
 void add_calibrate_tool(CLI::App& calibrate, Action& action);

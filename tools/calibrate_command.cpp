@@ -22,9 +22,10 @@ int refused(const std::string& reason) {
 
 void add_calibrate_command(CLI::App& app, Action& action) {
   CLI::App* command =
-      app.add_subcommand("calibrate", "The tip of a tool, the stereo cameras, the tags of a tool");
+      app.add_subcommand("calibrate", "The tip, axis and tags of a tool, the stereo cameras");
   command->require_subcommand(1);
   add_calibrate_pivot(*command, action);
+  add_calibrate_axis(*command, action);
   add_calibrate_stereo(*command, action);
   add_calibrate_tool(*command, action);
   command->footer(

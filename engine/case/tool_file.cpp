@@ -206,6 +206,9 @@ Result<std::string> changed_tools(const std::string& path, const std::string& to
     if (change.tip_in_marker) {
       entry["tip_mm"] = list_of(change.tip_in_marker->v / kMetresPerMm);
     }
+    if (change.axis_in_marker) {
+      entry["axis"] = list_of(change.axis_in_marker->v);
+    }
     if (!change.more_markers) {
       continue;
     }

@@ -28,6 +28,7 @@ Result<std::vector<nav::ToolGeometry>> parse_tools(const std::string& text,
 /// What a calibration found out about a tool.
 struct ToolChange {
   std::optional<Point<Marker>> tip_in_marker;
+  std::optional<Direction<Marker>> axis_in_marker;
   std::optional<std::vector<nav::AttachedMarker>> more_markers;
 };
 

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
+
+#include "base/vec.h"
 
 namespace orthonav::nav {
 
@@ -19,6 +23,24 @@ inline constexpr std::size_t kJackknifeBlocks = 10;
     }
   }
   return rest;
+}
+
+/// The SD of an estimate from what it was without each tenth; of vectors in all directions
+/// together. 0 for fewer than two.
+[[nodiscard]] inline double jackknife_sd(std::span<const Vec3> without_each) {
+  const auto count = static_cast<double>(without_each.size());
+  if (count < 2.0) {
+    return 0.0;
+  }
+  Vec3 sum;
+  for (const Vec3& value : without_each) {
+    sum += value;
+  }
+  double squared = 0.0;
+  for (const Vec3& value : without_each) {
+    squared += (value - sum / count).squared_norm();
+  }
+  return std::sqrt((count - 1.0) / count * squared);
 }
 
 }  // namespace orthonav::nav

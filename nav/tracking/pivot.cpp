@@ -3,62 +3,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
-#include <utility>
 
 #include "base/angle.h"
 #include "base/findings.h"
 #include "base/joined.h"
 #include "base/printed.h"
 #include "base/random.h"
-#include "nav/statistics/blocked_jackknife.h"
-#include "nav/statistics/median.h"
+#include "nav/statistics/consensus.h"
 #include "nav/tracking/pivot_fit.h"
 
 namespace orthonav::nav {
 namespace {
 
 using Poses = std::span<const Transform<World, Marker>>;
-using Indices = std::vector<std::size_t>;
+using PivotConsensus = Consensus<PivotFit>;
 
 constexpr std::size_t kSampleSize = 3;
-// For tips that scatter normally with SD s in each direction, half lie within 1.538 s, and all but
-// one in 3000 within 4.5 s.
+// Half of the tips that scatter normally with SD s in each direction lie within 1.538 s.
 constexpr double kMedianOfMaxwell = 1.538;
-constexpr double kInlierSds = 4.5;
 // Below this, differences are rounding.
 constexpr double kLeastInlierM = 1e-4;
-constexpr int kMostRefits = 20;
 
 Error refused(const char* format, double value, double limit) {
   return Error{"pivot calibration: " + with_numbers(format, value, limit)};
-}
-
-Indices all_of(Poses poses) {
-  Indices all(poses.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  return all;
-}
-
-Indices within(const PivotFit& fit, Poses poses, double limit_m) {
-  Indices inliers;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (fit.miss_m(poses[i]) <= limit_m) {
-      inliers.push_back(i);
-    }
-  }
-  return inliers;
-}
-
-/// Squared misses, each counted up to the limit.
-double cost(const PivotFit& fit, Poses poses, double limit_m) {
-  double sum = 0.0;
-  for (const auto& pose : poses) {
-    const double miss_m = std::min(fit.miss_m(pose), limit_m);
-    sum += miss_m * miss_m;
-  }
-  return sum;
 }
 
 /// Three different poses that determine the tip: neighbours in time hardly turn.
@@ -74,83 +42,24 @@ std::optional<PivotFit> sampled(Poses poses, double least_spread_rad, Random& ra
   return fit && fit->spread_rad >= least_spread_rad ? fit : std::nullopt;
 }
 
-/// The fit that most poses agree with; the plain one when no sample turns enough.
-std::optional<PivotFit> best_fit(Poses poses, const PivotOptions& options) {
-  Random random(options.seed);
-  std::optional<PivotFit> best = fit_pivot(poses, all_of(poses));
-  double best_cost = best ? cost(*best, poses, options.inlier_m) : 0.0;
-  for (int round = 0; round < options.rounds; ++round) {
-    auto fit = sampled(poses, 0.5 * options.min_spread_rad, random);
-    if (!fit) {
-      continue;
-    }
-    // A sample of three amplifies noise: the poses that agree with it locate the pivot better.
-    if (const auto again = fit_pivot(poses, within(*fit, poses, 2.0 * options.inlier_m))) {
-      fit = again;
-    }
-    const double fit_cost = cost(*fit, poses, options.inlier_m);
-    if (best && fit_cost >= best_cost) {
-      continue;
-    }
-    best = fit;
-    best_cost = fit_cost;
-  }
-  return best;
+PivotConsensus consensus_of(Poses poses, const PivotOptions& options) {
+  return {poses.size(),
+          [poses](std::span<const std::size_t> chosen) { return fit_pivot(poses, chosen); },
+          [poses](const PivotFit& fit, std::size_t i) { return fit.miss_m(poses[i]); },
+          [poses, least_rad = 0.5 * options.min_spread_rad](Random& random) {
+            return sampled(poses, least_rad, random);
+          },
+          options.inlier_m,
+          kLeastInlierM,
+          kMedianOfMaxwell};
 }
 
-/// The limit for inliers, from the scatter of the poses nearest to the pivot.
-double inlier_limit_m(const PivotFit& fit, Poses poses, double most_m) {
-  std::vector<double> misses;
-  for (const std::size_t i : within(fit, poses, most_m)) {
-    misses.push_back(fit.miss_m(poses[i]));
-  }
-  if (misses.empty()) {
-    return most_m;
-  }
-  return std::clamp(kInlierSds * median(std::move(misses)) / kMedianOfMaxwell, kLeastInlierM,
-                    most_m);
-}
-
-/// Repeats the fit to the inliers until they no longer change.
-Indices settled(Poses poses, double most_m, PivotFit& fit) {
-  Indices inliers;
-  for (int round = 0; round < kMostRefits; ++round) {
-    Indices now = within(fit, poses, inlier_limit_m(fit, poses, most_m));
-    const bool same = now == inliers;
-    inliers = std::move(now);
-    const auto again = fit_pivot(poses, inliers);
-    if (same || !again) {
-      break;
-    }
-    fit = *again;
-  }
-  return inliers;
-}
-
-double jackknife_sigma_m(Poses poses, const Indices& inliers) {
+double jackknife_sigma_m(const PivotConsensus& consensus, const PivotConsensus::Indices& inliers) {
   std::vector<Vec3> tips;
-  Vec3 mean;
-  for (std::size_t block = 0; block < kJackknifeBlocks; ++block) {
-    Indices rest = without_block(inliers.size(), block);
-    for (std::size_t& i : rest) {
-      i = inliers[i];
-    }
-    const auto fit = fit_pivot(poses, rest);
-    if (!fit) {
-      continue;
-    }
-    tips.push_back(fit->tip_in_marker.v);
-    mean += fit->tip_in_marker.v;
+  for (const PivotFit& fit : consensus.without_tenths(inliers)) {
+    tips.push_back(fit.tip_in_marker.v);
   }
-  if (tips.size() < 2) {
-    return 0.0;
-  }
-  const auto count = static_cast<double>(tips.size());
-  double squared = 0.0;
-  for (const Vec3& tip : tips) {
-    squared += (tip - mean / count).squared_norm();
-  }
-  return std::sqrt((count - 1.0) / count * squared);
+  return jackknife_sd(tips);
 }
 
 Status check_poses(Poses poses, const PivotOptions& options) {
@@ -220,12 +129,6 @@ Judgement judged(const PivotCalibration& found, const PivotOptions& options) {
 
 std::vector<std::string> PivotOptions::check() const {
   std::vector<std::string> problems;
-  const auto fraction = [&](const char* name, double value) {
-    if (!(value > 0.0 && value <= 1.0)) {
-      problems.push_back(std::string(name) + " " + printed("%f", value) +
-                         ", must be above 0 and at most 1");
-    }
-  };
   if (min_poses < kSampleSize) {
     problems.push_back("min_poses " + std::to_string(min_poses) + ", must be at least " +
                        std::to_string(kSampleSize));
@@ -237,8 +140,9 @@ std::vector<std::string> PivotOptions::check() const {
                     {"note_spread_rad", note_spread_rad},
                     {"note_tip_sigma_m", note_tip_sigma_m}},
                    problems);
-  fraction("min_inlier_fraction", min_inlier_fraction);
-  fraction("note_inlier_fraction", note_inlier_fraction);
+  must_be_fractions({{"min_inlier_fraction", min_inlier_fraction},
+                     {"note_inlier_fraction", note_inlier_fraction}},
+                    problems);
   if (rounds < 1) {
     problems.push_back("rounds " + std::to_string(rounds) + ", must be at least 1");
   }
@@ -249,12 +153,14 @@ Result<PivotCalibration> pivot_calibration(Poses poses, const PivotOptions& opti
   if (Status status = check_poses(poses, options); !status) {
     return status.error();
   }
-  std::optional<PivotFit> fit = best_fit(poses, options);
+  const PivotConsensus consensus = consensus_of(poses, options);
+  Random random(options.seed);
+  std::optional<PivotFit> fit = consensus.best(options.rounds, random);
   if (!fit) {
     return refused("the tool turned by %.3f rad RMS, at least %.3f is needed", 0.0,
                    options.min_spread_rad);
   }
-  const Indices inliers = settled(poses, options.inlier_m, *fit);
+  const auto inliers = consensus.settle(*fit);
   PivotCalibration found;
   found.tip_in_marker = fit->tip_in_marker;
   found.pivot_in_world = fit->pivot_in_world;
@@ -266,7 +172,8 @@ Result<PivotCalibration> pivot_calibration(Poses poses, const PivotOptions& opti
   for (const std::size_t i : inliers) {
     found.inlier[i] = true;
   }
-  found.leave_out_m = inliers.size() > kJackknifeBlocks ? jackknife_sigma_m(poses, inliers) : 0.0;
+  found.leave_out_m =
+      inliers.size() > kJackknifeBlocks ? jackknife_sigma_m(consensus, inliers) : 0.0;
   found.tip_sigma_m = std::max(fit->tip_sigma_m, found.leave_out_m);
   if (Status status = check_result(found, options); !status) {
     return status.error();

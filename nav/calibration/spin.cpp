@@ -1,0 +1,198 @@
+#include "nav/calibration/spin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/angle.h"
+#include "base/findings.h"
+#include "base/joined.h"
+#include "base/printed.h"
+#include "base/random.h"
+#include "nav/calibration/spin_fit.h"
+#include "nav/statistics/consensus.h"
+
+namespace orthonav::nav {
+namespace {
+
+using SpinPoses = std::span<const Transform<World, Marker>>;
+using SpinConsensus = Consensus<SpinFit>;
+
+constexpr std::size_t kSpinSample = 2;
+// Half of the axes that scatter normally with SD s in each of two directions lie within 1.177 s.
+constexpr double kMedianOfRayleigh = 1.177;
+constexpr double kLeastInlierRad = 1e-3;
+// Two poses of a sample are turned so far against each other: a smaller turn has no clear axis, and
+// about half a turn has none either.
+constexpr double kLeastTurnRad = 0.35;
+constexpr double kMostTurnRad = 2.8;
+
+Error spin_refused(const char* format, double value, double limit) {
+  return Error{"axis calibration: " + with_numbers(format, value, limit)};
+}
+
+/// Of the same line, the direction on the side of `like`.
+Vec3 on_the_side_of(Vec3 like, Vec3 axis) { return like.dot(axis) < 0.0 ? -axis : axis; }
+
+std::optional<SpinFit> sampled_spin(SpinPoses poses, Vec3 given, double most_off_rad,
+                                    Random& random) {
+  const auto any = [&] {
+    return static_cast<std::size_t>(random.uniform() * static_cast<double>(poses.size()));
+  };
+  const Mat3& first = poses[any()].rotation();
+  const Mat3& second = poses[any()].rotation();
+  const Vec3 turn = vector_from_rotation(first.transposed() * second);
+  if (!(turn.norm() >= kLeastTurnRad && turn.norm() <= kMostTurnRad)) {
+    return std::nullopt;
+  }
+  SpinFit fit;
+  fit.axis_in_marker = on_the_side_of(given, turn.normalized());
+  fit.axis_in_world = first * fit.axis_in_marker;
+  if (angle_between_rad(fit.axis_in_marker, given) > most_off_rad) {
+    return std::nullopt;
+  }
+  return fit;
+}
+
+SpinConsensus consensus_of(SpinPoses poses, Vec3 given, const SpinOptions& options) {
+  return {poses.size(),
+          [poses](std::span<const std::size_t> chosen) { return fit_spin(poses, chosen); },
+          [poses](const SpinFit& fit, std::size_t i) { return fit.miss_rad(poses[i]); },
+          [poses, given, most_off_rad = options.max_off_rad](Random& random) {
+            return sampled_spin(poses, given, most_off_rad, random);
+          },
+          options.inlier_rad,
+          kLeastInlierRad,
+          kMedianOfRayleigh};
+}
+
+Status check_poses(SpinPoses poses, const SpinOptions& options) {
+  if (const auto problems = options.check(); !problems.empty()) {
+    return Error{"axis calibration: " + joined(problems)};
+  }
+  if (poses.size() < options.min_poses) {
+    return spin_refused("%.0f poses, at least %.0f are needed", static_cast<double>(poses.size()),
+                        static_cast<double>(options.min_poses));
+  }
+  for (const auto& pose : poses) {
+    for (const double number : pose.row_major()) {
+      if (!std::isfinite(number)) {
+        return Error{"axis calibration: a pose is not finite"};
+      }
+    }
+  }
+  return {};
+}
+
+double agreeing(const SpinCalibration& found) {
+  return static_cast<double>(found.inliers) / static_cast<double>(found.poses);
+}
+
+Status check_result(const SpinCalibration& found, const SpinOptions& options) {
+  if (!(agreeing(found) >= options.min_inlier_fraction) || found.inliers < options.min_poses) {
+    return spin_refused("%.0f %% of the poses agree on an axis, at least %.0f %% are needed",
+                        100.0 * agreeing(found), 100.0 * options.min_inlier_fraction);
+  }
+  if (!(found.off_rad <= options.max_off_rad)) {
+    return spin_refused(
+        "the tool turned about an axis %.1f° from its own, limit %.1f° (was it spun "
+        "about its shaft?)",
+        degrees(found.off_rad), degrees(options.max_off_rad));
+  }
+  if (!(found.spread >= options.min_spread)) {
+    return spin_refused("the tool turned by %.2f, at least %.2f is needed (60° evenly)",
+                        found.spread, options.min_spread);
+  }
+  if (!(found.wobble_rad <= options.max_wobble_rad)) {
+    return spin_refused("the axis wobbled by %.2f° RMS, limit %.2f°", degrees(found.wobble_rad),
+                        degrees(options.max_wobble_rad));
+  }
+  if (!(found.axis_sigma_rad <= options.max_axis_sigma_rad)) {
+    return spin_refused("the axis is known to %.2f°, limit %.2f° (turn it further, for longer)",
+                        degrees(found.axis_sigma_rad), degrees(options.max_axis_sigma_rad));
+  }
+  return {};
+}
+
+Judgement judged(const SpinCalibration& found, const SpinOptions& options) {
+  Judgement judgement;
+  if (found.spread < options.note_spread) {
+    judgement.add(Verdict::kNote, with_numbers("turned by %.2f only, better %.2f (90° evenly)",
+                                               found.spread, options.note_spread));
+  }
+  if (found.axis_sigma_rad > options.note_axis_sigma_rad) {
+    judgement.add(Verdict::kNote, with_numbers("the axis is known to %.2f° only, better %.2f°",
+                                               degrees(found.axis_sigma_rad),
+                                               degrees(options.note_axis_sigma_rad)));
+  }
+  if (found.tip_beside_m.norm() > options.note_tip_beside_m) {
+    judgement.add(Verdict::kNote,
+                  with_numbers("the tip lies %.2f mm beside that axis, better %.2f",
+                               found.tip_beside_m.norm() * 1e3, options.note_tip_beside_m * 1e3));
+  }
+  judgement.conclude();
+  return judgement;
+}
+
+}  // namespace
+
+std::vector<std::string> SpinOptions::check() const {
+  std::vector<std::string> problems;
+  if (min_poses < kSpinSample) {
+    problems.push_back("min_poses " + std::to_string(min_poses) + ", must be at least " +
+                       std::to_string(kSpinSample));
+  }
+  must_be_positive({{"inlier_rad", inlier_rad},
+                    {"max_off_rad", max_off_rad},
+                    {"max_wobble_rad", max_wobble_rad},
+                    {"max_axis_sigma_rad", max_axis_sigma_rad},
+                    {"note_axis_sigma_rad", note_axis_sigma_rad},
+                    {"note_tip_beside_m", note_tip_beside_m}},
+                   problems);
+  must_be_fractions({{"min_spread", min_spread},
+                     {"note_spread", note_spread},
+                     {"min_inlier_fraction", min_inlier_fraction}},
+                    problems);
+  if (rounds < 1) {
+    problems.push_back("rounds " + std::to_string(rounds) + ", must be at least 1");
+  }
+  return problems;
+}
+
+Result<SpinCalibration> spin_calibration(SpinPoses poses, Point<Marker> tip, Direction<Marker> axis,
+                                         const SpinOptions& options) {
+  if (Status status = check_poses(poses, options); !status) {
+    return status.error();
+  }
+  const SpinConsensus consensus = consensus_of(poses, axis.v, options);
+  Random random(options.seed);
+  std::optional<SpinFit> fit = consensus.best(options.rounds, random);
+  if (!fit) {
+    return spin_refused("the tool turned by %.2f, at least %.2f is needed (60° evenly)", 0.0,
+                        options.min_spread);
+  }
+  const auto inliers = consensus.settle(*fit);
+  SpinCalibration found;
+  found.axis_in_marker = {on_the_side_of(axis.v, fit->axis_in_marker)};
+  found.off_rad = angle_between_rad(found.axis_in_marker.v, axis.v);
+  found.wobble_rad = fit->wobble_rad;
+  found.spread = fit->spread;
+  found.poses = poses.size();
+  found.inliers = inliers.size();
+  if (inliers.size() > kJackknifeBlocks) {
+    std::vector<Vec3> axes;
+    for (const SpinFit& without : consensus.without_tenths(inliers)) {
+      axes.push_back(on_the_side_of(axis.v, without.axis_in_marker));
+    }
+    found.leave_out_rad = jackknife_sd(axes);
+  }
+  found.axis_sigma_rad = std::max(fit->axis_sigma_rad, found.leave_out_rad);
+  if (Status status = check_result(found, options); !status) {
+    return status.error();
+  }
+  found.tip_beside_m = beside_axis_m(poses, inliers, *fit, tip);
+  found.judgement = judged(found, options);
+  return found;
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,73 @@
+#include "tools/calibrate_movement.h"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "engine/io/atomic_file.h"
+#include "tools/arguments.h"
+
+namespace orthonav::tools {
+
+void MovementArguments::add_to(CLI::App& command, const std::string& changed) {
+  command.add_option("RECORDING", recording, "Folder of a recording")->required();
+  command.add_option("--tools", tools_file, "Tool definitions (JSON)")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--tool", tool, "Name of the tool")->required()->type_name("NAME");
+  command.add_option("--method", method, "Tracking")->type_name("NAME")->capture_default_str();
+  command
+      .add_option("--out", out,
+                  "Writes the tools with " + changed + " there; may be the file of --tools")
+      ->check(some_text())
+      ->type_name("FILE");
+  json.add_to(command);
+}
+
+Result<ToolMovement> movement_of(const MovementArguments& arguments) {
+  const auto tools = engine::load_tools(arguments.tools_file);
+  if (!tools) {
+    return tools.error();
+  }
+  const auto tool = engine::tool_named(*tools, arguments.tool);
+  if (!tool) {
+    return Error{arguments.tools_file + ": " + tool.error().message};
+  }
+  if (const Status s = arguments.json.check(); !s) {
+    return s.error();
+  }
+  if (!arguments.out.empty()) {
+    if (auto place = engine::AtomicFile::create(arguments.out); !place) {
+      return place.error();
+    }
+  }
+  auto seen = measured_poses(arguments.recording, arguments.method, *tool);
+  if (!seen) {
+    return seen.error();
+  }
+  ToolMovement movement{*tool, std::move(*seen), {}};
+  for (const nav::TrackedPose& pose : movement.seen.world_from_marker) {
+    movement.poses.push_back(pose.value);
+  }
+  return movement;
+}
+
+nlohmann::ordered_json movement_json(const MovementArguments& arguments,
+                                     const ToolMovement& movement) {
+  return {{"tool", arguments.tool},
+          {"method", arguments.method},
+          {"pairs", movement.seen.pairs},
+          {"poses", movement.poses.size()}};
+}
+
+Status write_change(const MovementArguments& arguments, const engine::ToolChange& change) {
+  if (arguments.out.empty()) {
+    return {};
+  }
+  const auto changed = engine::changed_tools(arguments.tools_file, arguments.tool, change);
+  if (!changed) {
+    return changed.error();
+  }
+  return engine::write_file(arguments.out, *changed);
+}
+
+}  // namespace orthonav::tools
