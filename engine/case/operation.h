@@ -25,10 +25,17 @@ struct OperatedLevel {
   std::vector<NeighbouringLevel> neighbours;  ///< above and below, where the case has them
 };
 
+/// A vertebra of the case, operated or not.
+struct SpineLevel {
+  std::string label;
+  double height_m = 0.0;  ///< of its middle along the spine, towards the head
+};
+
 /// What the surgeon is going to do. Levels in the order in which they are operated.
 struct Operation {
   std::string case_name;
   std::vector<OperatedLevel> levels;
+  std::vector<SpineLevel> spine;  ///< all of the case, from the lowest
 
   /// Every problem at once: no level, a level without model, label or screw, labels twice. Empty
   /// when all is well.

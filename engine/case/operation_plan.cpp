@@ -109,6 +109,9 @@ Result<Operation> plan_operation(const Case& source, const std::vector<std::stri
   }
   Operation operation;
   operation.case_name = source.name;
+  for (const CaseLevel* level : from_the_lowest(source)) {
+    operation.spine.push_back({level->label, level->centre_in_spine().v.z});
+  }
   PreparedLevels prepared(source, cache);
   for (const std::string& label : *ordered) {
     const auto model = prepared.model(label);

@@ -70,6 +70,12 @@ nav::ToolGeometry tool_from(const JsonNode& node) {
   if (tool.role != nav::ToolRole::kReference || node.has("tip_mm")) {
     tool.tip_in_marker = {node.vec3("tip_mm") * kMetresPerMm};
   }
+  if (node.has("level")) {
+    tool.level = node.text("level");
+    if (tool.role != nav::ToolRole::kReference) {
+      node.refuse("level", "is for a reference: no other tool is clamped to a vertebra");
+    }
+  }
   const Vec3 axis = node.has("axis") ? node.vec3("axis") : Vec3{0, 1, 0};
   if (axis.norm() < 1e-9) {
     node.refuse("axis", "must not be zero");
@@ -150,6 +156,9 @@ std::string tools_text(const std::vector<nav::ToolGeometry>& tools) {
     }
     entry["tip_mm"] = list_of(tool.tip_in_marker.v / kMetresPerMm);
     entry["axis"] = list_of(tool.axis_in_marker.v);
+    if (!tool.level.empty()) {
+      entry["level"] = tool.level;
+    }
     list.push_back(entry);
   }
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;

@@ -10,11 +10,12 @@
 namespace orthonav::engine {
 
 /// Reads tool definitions: `{"tools": [{"name", "role": "pointer"|"guide"|"reference", "marker":
-/// {"family", "id", "size_mm"}, "tip_mm": [x,y,z], "axis": [x,y,z], "markers": [...]}]}`. The axis
-/// may have any length but zero and is +y where absent; a reference needs no tip. `markers` lists
-/// further tags of the body, each as `marker` with a `pose`: marker_from_tag, 4×4 by rows, mm.
-/// Refuses, naming file and field, whatever is missing, of the wrong type, no rigid pose, or a
-/// problem in the sense of `nav::problems_of`.
+/// {"family", "id", "size_mm"}, "tip_mm": [x,y,z], "axis": [x,y,z], "markers": [...], "level":
+/// "L4"}]}`. The axis may have any length but zero and is +y where absent; a reference needs no tip
+/// and may say the level that it is clamped to. `markers` lists further tags of the body, each as
+/// `marker` with a `pose`: marker_from_tag, 4×4 by rows, mm. Refuses, naming file and field,
+/// whatever is missing, of the wrong type, no rigid pose, or a problem in the sense of
+/// `nav::problems_of`.
 Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path);
 
 /// Writes what `load_tools` reads back to the same numbers.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/joined.h"
+#include "engine/case/reference_levels.h"
 
 namespace orthonav::engine {
 
@@ -43,6 +44,9 @@ Result<std::unique_ptr<AssembledOperation>> assemble_operation(
     session_options.map_drift_m_per_sqrt_s = 0.0;
     if (!method.anchors) {
       return Error{"method '" + method.name + "': uses no patient reference"};
+    }
+    if (const Status near = check_references(operation, tools); !near) {
+      return near.error();
     }
     tracker =
         nav::create_anchored_tracker(std::move(*tracker), options.tracker.coast, options.reference);

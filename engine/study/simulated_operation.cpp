@@ -152,7 +152,9 @@ Result<OperationResult> run_operation(const Case& source, Operation planned,
   if (const auto problems = options.check(); !problems.empty()) {
     return Error{joined(problems)};
   }
-  auto room = sim::SimHeadset::open(room_of(source, planned, options.tools), sim_options(options));
+  sim::RoomDescription description = room_of(source, planned, options.tools);
+  description.exposure = options.exposure;
+  auto room = sim::SimHeadset::open(std::move(description), sim_options(options));
   if (!room) {
     return room.error();
   }

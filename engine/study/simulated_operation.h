@@ -28,6 +28,7 @@ struct OperationOptions : AssemblyOptions {
   std::optional<StatedNavigation> navigation;
   std::vector<std::string> levels;  ///< empty: the two lowest of the case
   std::vector<nav::ToolGeometry> tools;
+  sim::Exposure exposure = sim::Exposure::kLaminae;
   sim::SimOptions sim;
   std::string record_folder;  ///< empty: nothing is recorded
 

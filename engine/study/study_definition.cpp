@@ -84,6 +84,9 @@ std::string definition_of(std::span<const Case> cases, const StudyOptions& optio
            {"runs", static_cast<std::size_t>(options.runs)},
            {"first_seed", options.first_seed},
            {"magnitudes", magnitudes}};
+  if (operation.exposure != sim::Exposure::kLaminae) {
+    out["exposure"] = static_cast<int>(operation.exposure);
+  }
   if (operation.navigation) {
     out["navigation"] = {{"target_mm", operation.navigation->target_m * 1e3},
                          {"angle_deg", operation.navigation->angle_rad / kRadiansPerDegree}};

@@ -23,6 +23,31 @@ constexpr std::array<NamedGuidance, 3> kGuidance = {{
     {"closed loop", sim::GuidanceProfile::kClosedLoop},
 }};
 
+struct NamedExposure {
+  std::string_view name;
+  sim::Exposure value;
+};
+constexpr std::array<NamedExposure, 2> kExposure = {{
+    {"laminae", sim::Exposure::kLaminae},
+    {"transverse processes", sim::Exposure::kTransverseProcesses},
+}};
+
+/// What `key` names among `known`, or refuses it.
+template <class Named, std::size_t N>
+void read_name(const JsonNode& system, const char* key, const std::array<Named, N>& known,
+               decltype(Named::value)& out) {
+  const std::string name = system.text(key);
+  std::string names;
+  for (const Named& one : known) {
+    if (one.name == name) {
+      out = one.value;
+      return;
+    }
+    names += (names.empty() ? "" : ", ") + std::string(one.name);
+  }
+  system.refuse(key, "'" + name + "' is unknown (known: " + names + ")");
+}
+
 std::optional<PublishedFigure> read_figure(const JsonNode& published, const char* key) {
   if (!published.has(key)) {
     return std::nullopt;
@@ -76,14 +101,9 @@ void read_ways(const JsonNode& system, SystemProfile& out) {
       system.refuse("method", known.error().message);
     }
   }
-  const std::string guidance = system.text("guidance");
-  const auto* found = std::find_if(kGuidance.begin(), kGuidance.end(),
-                                   [&](const NamedGuidance& g) { return g.name == guidance; });
-  if (found == kGuidance.end()) {
-    system.refuse("guidance",
-                  "'" + guidance + "' is unknown (known: overlay, numbers, closed loop)");
-  } else {
-    out.guidance = found->value;
+  read_name(system, "guidance", kGuidance, out.guidance);
+  if (system.has("exposure")) {
+    read_name(system, "exposure", kExposure, out.exposure);
   }
   out.instrument = system.text("instrument");
   if (const Status known = sim::use_instrument(out.instrument, out.magnitudes); !known) {
@@ -117,6 +137,7 @@ SystemProfile read_system(const JsonNode& system) {
 void SystemProfile::apply(OperationOptions& options) const {
   options.method = method;
   options.navigation = navigation;
+  options.exposure = exposure;
   options.sim.guidance = guidance;
   options.sim.error_model = magnitudes;
 }

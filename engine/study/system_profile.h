@@ -25,6 +25,7 @@ struct SystemProfile {
   std::optional<StatedNavigation> navigation;  ///< in place of a method of ours
   sim::GuidanceProfile guidance = sim::GuidanceProfile::kNumbers;
   std::string instrument;
+  sim::Exposure exposure = sim::Exposure::kLaminae;
   sim::ErrorModel magnitudes;
   std::optional<PublishedFigure> entry_mm;
   std::optional<PublishedFigure> angle_deg;

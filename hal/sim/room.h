@@ -32,11 +32,19 @@ using orthonav::ToolKind;
 /// A tool as it was manufactured. What the planning file says about it may be slightly off.
 using RoomTool = DescribedTool;
 
+/// How much of a bone lies open, and so can be stroked from behind.
+enum class Exposure : std::uint8_t {
+  kLaminae,             ///< spinous process, laminae and facets, out to the roots of the
+                        ///< transverse processes
+  kTransverseProcesses  ///< and these to their ends, as for a posterolateral fusion
+};
+
 /// What stands in the operating room; fixed for a session.
 struct RoomDescription {
   std::vector<RoomLevel> levels;  ///< may be empty: a table and tools only
   std::vector<RoomTool> tools;
   std::vector<std::string> operated;  ///< labels to be operated, in order; empty: all
+  Exposure exposure = Exposure::kLaminae;
 };
 
 /// Frame of the room itself: fixed, +y up, origin on the table's top under the spine; the patient

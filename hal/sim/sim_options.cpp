@@ -41,7 +41,7 @@ Status check_surgery(const RoomDescription& room) {
     return Error{"room: the surgeon has no guide"};
   }
   for (const std::size_t level : layout.operated()) {
-    if (plan_strokes(room.levels[level]).empty()) {
+    if (plan_strokes(room.levels[level], room.exposure).empty()) {
       return Error{"room level \"" + room.levels[level].label +
                    "\": has no surface that a pointer reaches from behind (+y)"};
     }

@@ -19,14 +19,23 @@ constexpr double kSteepest = 0.42;             // cosine of 65° between normal 
 constexpr double kHalfMidline_m = 0.006;       // the crest's lines and the side lines meet here
 constexpr double kSpinousHalfWidth_m = 0.014;  // sides of the spinous process lie within
 
-/// The part of a vertebra that a pointer reaches from behind: its posterior half, out to the roots
-/// of the transverse processes. The midline is the middle of the box: a model's origin is free.
+/// How far out the strokes go: a share of half the width and a limit, for vertebrae of any size.
+struct Outwards {
+  double share;
+  double most_m;
+};
+constexpr Outwards outwards(Exposure exposure) {
+  return exposure == Exposure::kLaminae ? Outwards{0.65, 0.030} : Outwards{0.95, 0.060};
+}
+
+/// The part of a vertebra that a pointer reaches from behind: its posterior half, as far out as it
+/// lies open. The midline is the middle of the box: a model's origin is free.
 struct Reach {
   double lowest_y_m = 0.0;
   double midline_x_m = 0.0;
   double half_width_m = 0.0;
 
-  explicit Reach(const RoomLevel& level) {
+  Reach(const RoomLevel& level, Exposure exposure) {
     double front = 1e9;
     double back = -1e9;
     double right = 1e9;
@@ -39,7 +48,8 @@ struct Reach {
     }
     lowest_y_m = 0.5 * (front + back);
     midline_x_m = 0.5 * (right + left);
-    half_width_m = std::min(0.65 * 0.5 * (left - right), 0.030);
+    const Outwards out = outwards(exposure);
+    half_width_m = std::min(out.share * 0.5 * (left - right), out.most_m);
   }
   [[nodiscard]] bool holds(const BoneSpot& spot) const {
     return spot.point.y > lowest_y_m && std::abs(lateral_m(spot)) < half_width_m &&
@@ -218,8 +228,8 @@ double StrokeRegion::length_m() const {
   return sum;
 }
 
-std::vector<StrokeRegion> plan_strokes(const RoomLevel& level) {
-  const Reach reach(level);
+std::vector<StrokeRegion> plan_strokes(const RoomLevel& level, Exposure exposure) {
+  const Reach reach(level, exposure);
   std::vector<StrokeRegion> regions;
   const SurfaceMap from_behind(level, {0, 1, 0});
   const auto reachable = [&reach](const BoneSpot& spot) { return reach.holds(spot); };

@@ -32,9 +32,10 @@ struct StrokeRegion {
 };
 
 /// The strokes by which a surgeon covers what a pointer reaches of a vertebra from behind: laminae,
-/// facets and the roots of the transverse processes in lines along the spine, and the two sides and
-/// the crest of the spinous process. Empty when the mesh has no such surface.
-[[nodiscard]] std::vector<StrokeRegion> plan_strokes(const RoomLevel& level);
+/// facets and the roots of the transverse processes, or all of these, in lines along the spine, and
+/// the two sides and the crest of the spinous process. Empty when the mesh has no such surface.
+[[nodiscard]] std::vector<StrokeRegion> plan_strokes(const RoomLevel& level,
+                                                     Exposure exposure = Exposure::kLaminae);
 
 /// Lays soft tissue over what is stroked: `mean_m` thick on average, more in valleys than on
 /// ridges, uneven over some centimetres, never negative.

@@ -100,7 +100,7 @@ Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const 
       life_(operate()) {
   const Random tissue = random.fork("tissue");
   for (const std::size_t level : layout.operated()) {
-    regions_[level] = plan_strokes(layout.room().levels[level]);
+    regions_[level] = plan_strokes(layout.room().levels[level], layout.room().exposure);
     cover_with_tissue(regions_[level], error_model.tissue_m, tissue.fork(level));
   }
   life_.start();

@@ -32,6 +32,7 @@ struct ToolGeometry {
   /// Other tags of the same rigid body. A tracker may use them or `marker` alone; poses are always
   /// those of `marker`.
   std::vector<AttachedMarker> more_markers;
+  std::string level = {};  ///< of a reference: the vertebra that it is clamped to; empty: not said
 };
 
 /// Every problem at once: empty names, unknown families, duplicate names, a tag given twice on any

@@ -89,6 +89,9 @@ TEST(ToolFile, RefusesMissingAndMistypedFieldsByName) {
 }
 
 TEST(ToolFile, RefusesAnUnknownRole) {
+  EXPECT_THAT(refusal(R"({"tools": [{"name": "x", "role": "guide", "level": "L4", )" + kMarker +
+                      R"(, "tip_mm": [0, 0, 0]}]})"),
+              HasSubstr("is for a reference"));
   EXPECT_THAT(refusal(R"({"tools": [{"name": "x", "role": "hammer", )" + kMarker +
                       R"(, "tip_mm": [0, 0, 0]}]})"),
               HasSubstr("\"hammer\", must be pointer, guide or reference"));

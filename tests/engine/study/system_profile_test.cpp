@@ -48,6 +48,17 @@ TEST(SystemProfile, TakesItsMagnitudesOverItsInstruments) {
   EXPECT_EQ(read->front().screws, 25);
 }
 
+TEST(SystemProfile, ExposesTheLaminaeUnlessItSaysMore) {
+  json system = system_json();
+  EXPECT_EQ(parsed(system)->front().exposure, sim::Exposure::kLaminae);
+  system["exposure"] = "transverse processes";
+  const auto read = parsed(system);
+  ASSERT_TRUE(read.ok()) << read.error().message;
+  OperationOptions options;
+  read->front().apply(options);
+  EXPECT_EQ(options.exposure, sim::Exposure::kTransverseProcesses);
+}
+
 TEST(SystemProfile, AStatedNavigationHoldsWhatTheRoomWouldAdd) {
   json system = system_json();
   system["navigation"] = {{"target_mm", 2.0}, {"angle_deg", 1.0}};
@@ -67,6 +78,8 @@ TEST(SystemProfile, RefusesWhatItDoesNotKnow) {
     return read.ok() ? std::string("accepted") : read.error().message;
   };
   EXPECT_THAT(refused("guidance", "by smell"), HasSubstr("mine.json: systems[0].guidance"));
+  EXPECT_THAT(refused("exposure", "all of it"),
+              HasSubstr("'all of it' is unknown (known: laminae, transverse processes)"));
   EXPECT_THAT(refused("instrument", "spoon"), HasSubstr("'spoon': unknown"));
   EXPECT_THAT(refused("method", "third"), HasSubstr("third"));
   EXPECT_THAT(refused("magnitudes", {{"tissue_m", 5.0}}), HasSubstr("tissue_m is 5, must lie in"));

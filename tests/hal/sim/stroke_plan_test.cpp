@@ -65,6 +65,23 @@ void expect_the_same_strokes(const RoomLevel& level, Vec3 by) {
   EXPECT_LT(farthest_m(spots_of(here), back), kCells_m);
 }
 
+TEST(StrokePlan, GoesOutToTheEndsOfTransverseProcessesThatLieOpen) {
+  const RoomLevel level = synthetic_level("L4", 0.0);
+  const auto widest_m = [&](Exposure exposure) {
+    double widest = 0.0;
+    for (const Vec3& spot : spots_of(plan_strokes(level, exposure))) {
+      widest = std::max(widest, std::abs(spot.x));
+    }
+    return widest;
+  };
+  double half_m = 0.0;
+  for (const Vec3& vertex : level.vertices_m) {
+    half_m = std::max(half_m, std::abs(vertex.x));
+  }
+  EXPECT_LT(widest_m(Exposure::kLaminae), 0.7 * half_m);
+  EXPECT_GT(widest_m(Exposure::kTransverseProcesses), 0.85 * half_m);
+}
+
 TEST(StrokePlan, DoesNotDependOnTheModelsOrigin) {
   const RoomLevel level = synthetic_level("L4", 0.0);
   expect_the_same_strokes(level, {0.090, 0.0, 0.0});
