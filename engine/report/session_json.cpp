@@ -28,6 +28,19 @@ Json recorded_screw_json(const RecordedScrew& screw) {
   return out;
 }
 
+Json recorded_landmark_json(const RecordedLandmark& touch) {
+  Json out{{"first", touch.first}};
+  if (!touch.first) {
+    out["off_mm"] = touch.off_m * 1e3;
+    out["within"] = touch.within;
+  }
+  out["limit_mm"] = touch.limit_m * 1e3;
+  if (touch.dropped) {
+    out["dropped"] = true;
+  }
+  return out;
+}
+
 Json recorded_level_json(const RecordedLevel& level, const SessionRecord& session) {
   Json out{{"label", level.label}, {"accepted", level.accepted}, {"attempts", level.attempts}};
   if (level.registration) {
@@ -43,6 +56,9 @@ Json recorded_level_json(const RecordedLevel& level, const SessionRecord& sessio
   }
   for (const RecordedCheck& check : level.checks) {
     out["check_points_mm"].push_back(check.distance_m * 1e3);
+  }
+  for (const RecordedLandmark& touch : level.landmark) {
+    out["landmark"].push_back(recorded_landmark_json(touch));
   }
   out["screws"] = Json::array();
   for (const RecordedScrew& screw : level.screws) {

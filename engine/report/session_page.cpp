@@ -60,6 +60,18 @@ std::string screws_done(const RecordedLevel& level, bool has_plan) {
   return std::to_string(done) + of;
 }
 
+/// "recorded, 0.4, <span class=bad>2.3</span>": each touch against the first.
+std::string touches_of_landmark(const RecordedLevel& level) {
+  std::string text;
+  for (const RecordedLandmark& touch : level.landmark) {
+    const std::string off = touch.first ? "recorded" : html_number(touch.off_m * 1e3, 1);
+    text += (text.empty() ? "" : ", ") +
+            (touch.within ? off : "<span class=bad>" + off + "</span>") +
+            (touch.dropped ? " (taken back)" : "");
+  }
+  return text.empty() ? "\u2013" : text;
+}
+
 void put_levels(const SessionRecord& session, std::string& html) {
   if (session.levels.empty()) {
     return put_nothing("Levels", html);
@@ -68,7 +80,7 @@ void put_levels(const SessionRecord& session, std::string& html) {
                      "<th>level</th><th>registration</th><th>attempts</th><th>RMSE "
                      "<small>mm</small></th><th>predicted TRE <small>mm</small></th><th>points</th>"
                      "<th>time <small>s</small></th><th>check points <small>mm</small></th>"
-                     "<th>screws done</th>");
+                     "<th>dimple <small>mm off</small></th><th>screws done</th>");
   for (const RecordedLevel& level : session.levels) {
     html += "<tr>" + cell(html_escaped(level.label)) + cell(verdict(level)) +
             cell(std::to_string(level.attempts));
@@ -85,8 +97,8 @@ void put_levels(const SessionRecord& session, std::string& html) {
     for (const RecordedCheck& check : level.checks) {
       checks += (checks.empty() ? "" : ", ") + html_number(check.distance_m * 1e3, 1);
     }
-    html += cell(checks.empty() ? "\u2013" : checks) + cell(screws_done(level, session.has_plan)) +
-            "</tr>";
+    html += cell(checks.empty() ? "\u2013" : checks) + cell(touches_of_landmark(level)) +
+            cell(screws_done(level, session.has_plan)) + "</tr>";
   }
   html += kTableEnd;
   if (!session.has_plan) {

@@ -25,6 +25,9 @@ enum class Event : std::uint8_t {
   kRegistrationRefused,  ///< a registration failed its limits
   kChecked,              ///< "accept" was said and the check points bear it out
   kNotChecked,           ///< "accept" was said too early, or against the check points
+  kLandmarkTouched,      ///< "next" was said and the landmark was found where it was recorded
+  kLandmarkMissing,      ///< "next" was said before the landmark was touched
+  kLandmarkMoved,        ///< the landmark was touched, farther from where it was than may be
   kAnotherScrew,         ///< the level has a further screw
   kAnotherLevel,         ///< the level is finished, a further one is planned
   kNoScrewLeft,          ///< every screw of the plan is done
@@ -39,7 +42,7 @@ enum class Event : std::uint8_t {
   kReferenceSeen,        ///< one is seen again, or for the first time
   kReferenceMoved,       ///< references moved against each other: what hangs on them means nothing
 };
-inline constexpr std::size_t kEventCount = 31;
+inline constexpr std::size_t kEventCount = 34;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -59,6 +62,12 @@ enum class Action : std::uint8_t {
   kDropCheck,
   kAccept,
   kClearLevel,
+  kTouchLandmark,
+  kDropLandmark,
+  kJudgeLandmark,
+  kAskForLandmark,
+  kExpectLandmark,
+  kVerifyAgain,
   kSelectScrew,
   kFinishScrew,
   kBeginRod,
@@ -76,6 +85,6 @@ enum class Action : std::uint8_t {
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 32;
+inline constexpr std::size_t kActionCount = 38;
 
 }  // namespace orthonav::engine

@@ -9,6 +9,7 @@
 
 #include "base/tracked.h"
 #include "engine/case/operation.h"
+#include "engine/session/landmark.h"
 #include "engine/session/status_line.h"
 #include "engine/session/workflow.h"
 #include "nav/guidance/clearance_spread.h"
@@ -49,6 +50,8 @@ struct LevelState {
   std::optional<TagSizeWarning> tag_size;  ///< with which the newest registration was made
   /// The newest one that found a pose, whatever became of it: reports tell of it.
   std::optional<RegistrationAttempt> newest;
+  /// Of the bone, by the registration that it was first touched on; gone with it.
+  std::optional<Landmark> landmark;
   bool accepted = false;                 ///< by the surgeon; only then anything is guided on it
   std::optional<Timestamp> first_press;  ///< of the digitization that led to the registration
   double digitization_s = 0.0;           ///< from the first press to the registration
@@ -67,6 +70,7 @@ struct LevelState {
     registration.reset();
     predicted.clear();
     check_points.clear();
+    landmark.reset();
     accepted = false;
     first_press.reset();
   }

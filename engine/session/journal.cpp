@@ -222,6 +222,27 @@ void Journal::check_point_dropped(Timestamp time, const LevelState& level) {
   add_line(*log_, line);
 }
 
+void Journal::landmark_touched(Timestamp time, const LevelState& level,
+                               const LandmarkTouch& touch) {
+  Json line = entry(file_ticks(time), time, "landmark");
+  line["level"] = level.plan.label;
+  line["first"] = touch.first;
+  if (touch.first) {
+    line["in_vertebra_mm"] = millimetres(level.landmark->in_vertebra.v);
+  } else {
+    line["off_mm"] = touch.off_m * 1e3;
+    line["within"] = touch.held();
+  }
+  line["limit_mm"] = touch.limit_m * 1e3;
+  add_line(*log_, line, kDurable);
+}
+
+void Journal::landmark_dropped(Timestamp time, const LevelState& level) {
+  Json line = entry(file_ticks(time), time, "landmark dropped");
+  line["level"] = level.plan.label;
+  add_line(*log_, line);
+}
+
 void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                          const ToolGuidance* at_depth) {
   Json line = entry(file_ticks(time), time, "screw");

@@ -64,6 +64,9 @@ class Journal : public SessionObserver {
   void accepted(Timestamp time, const LevelState& level) override;
   void check_point_recorded(Timestamp time, const LevelState& level) override;
   void check_point_dropped(Timestamp time, const LevelState& level) override;
+  void landmark_touched(Timestamp time, const LevelState& level,
+                        const LandmarkTouch& touch) override;
+  void landmark_dropped(Timestamp time, const LevelState& level) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;

@@ -71,6 +71,12 @@ RecordedRegistration registration_of(const JsonNode& line, Timestamp time) {
   return found;
 }
 
+RecordedLandmark landmark_of(const JsonNode& line) {
+  const bool first = line.flag_or("first", false);
+  return {first, first ? 0.0 : line.number("off_mm") * kMetresPerMm,
+          line.number("limit_mm") * kMetresPerMm, first || line.flag_or("within", false), false};
+}
+
 std::optional<RecordedPose> pose_of(const JsonNode& line) {
   if (!line.has("angle_deg")) {
     return std::nullopt;
@@ -202,6 +208,10 @@ class Reading {
                       line);
     } else if (what == "check point dropped") {
       replay_.check_dropped(line.text("level"), line);
+    } else if (what == "landmark") {
+      replay_.landmark(line.text("level"), landmark_of(line), line);
+    } else if (what == "landmark dropped") {
+      replay_.landmark_dropped(line.text("level"), line);
     } else if (what == "screw") {
       replay_.screw_done(line.text("level"), {side_of(line), true, time, pose_of(line)}, line);
     } else if (what == "head" || what == "head dropped") {

@@ -100,6 +100,12 @@ void JournalReplay::happened(Timestamp time, Event event, Cell answer) {
       }
       first_press_.reset();
       return;
+    case Action::kVerifyAgain:
+      if (level) {
+        level->accepted = false;
+        level->checks.clear();
+      }
+      return;
     case Action::kForgetMap:
       return forget_map();
     default:
@@ -148,6 +154,22 @@ void JournalReplay::check_dropped(const std::string& label, const JsonNode& line
     line.refuse("level", "has no check point that could be dropped");
   } else if (level) {
     level->checks.pop_back();
+  }
+}
+
+void JournalReplay::landmark(const std::string& label, RecordedLandmark touch,
+                             const JsonNode& line) {
+  if (RecordedLevel* const level = level_named(label, line)) {
+    level->landmark.push_back(touch);
+  }
+}
+
+void JournalReplay::landmark_dropped(const std::string& label, const JsonNode& line) {
+  RecordedLevel* const level = level_named(label, line);
+  if (level && level->landmark.empty()) {
+    line.refuse("level", "has no touch of a landmark that could be dropped");
+  } else if (level) {
+    level->landmark.back().dropped = true;
   }
 }
 

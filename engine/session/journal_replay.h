@@ -27,6 +27,8 @@ class JournalReplay {
   void accepted(const std::string& label, const Expected& expected, const JsonNode& line);
   void checked(const std::string& label, RecordedCheck check, const JsonNode& line);
   void check_dropped(const std::string& label, const JsonNode& line);
+  void landmark(const std::string& label, RecordedLandmark touch, const JsonNode& line);
+  void landmark_dropped(const std::string& label, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
   /// A head was touched, or the last one taken back.
   void head(Side side, bool touched);

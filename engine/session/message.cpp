@@ -13,6 +13,8 @@ struct ToNotice {
   Notice operator()(const RegistrationRefused& /*m*/) const { return Notice::kRegistrationRefused; }
   Notice operator()(const ChecksMissing& /*m*/) const { return Notice::kChecksMissing; }
   Notice operator()(const TouchNotRecorded& /*m*/) const { return Notice::kTouchNotRecorded; }
+  Notice operator()(const LandmarkMissing& /*m*/) const { return Notice::kLandmarkMissing; }
+  Notice operator()(const LandmarkMoved& /*m*/) const { return Notice::kLandmarkMoved; }
   Notice operator()(const NoRod& /*m*/) const { return Notice::kNoRod; }
   Notice operator()(const MapMoved& /*m*/) const { return Notice::kMapMoved; }
   Notice operator()(const ReferenceMoved& /*m*/) const { return Notice::kReferenceMoved; }

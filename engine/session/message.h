@@ -22,7 +22,9 @@ struct TouchRefusal {
     kPointerNotSeen,
     kTipMoved,  ///< by `value_m` (root mean square), above `limit_m`
     kHeldTooLong,
-    kTooMany,  ///< there are nav::kMostCheckPoints already
+    kTooMany,       ///< there are nav::kMostCheckPoints already
+    kTouchesApart,  ///< of one place, by `value_m`, above `limit_m`
+    kTooNear,       ///< `value_m` from a patient reference, at least `limit_m` needed
   };
   Kind kind = Kind::kPressAgain;
   double value_m = 0.0;
@@ -38,7 +40,7 @@ struct NotUnderstood {};
 /// "accept" was said before the registration was shown.
 struct SaidBeforeShown {};
 struct NothingToDelete {
-  enum class What : std::uint8_t { kRegion, kCheckPoint, kHead };
+  enum class What : std::uint8_t { kRegion, kCheckPoint, kHead, kLandmark };
   What what;
 };
 /// The last saved region goes when "delete" is said again.
@@ -56,9 +58,19 @@ struct ChecksMissing {
   nav::CheckAdvice advice;
 };
 struct TouchNotRecorded {
-  enum class What : std::uint8_t { kCheckPoint, kHead };
+  enum class What : std::uint8_t { kCheckPoint, kHead, kLandmark };
   What what;
   TouchRefusal why;
+};
+/// "next" was said before the landmark was touched.
+struct LandmarkMissing {
+  bool recorded = false;  ///< once before
+};
+/// The landmark was touched `off_m` from where it was recorded.
+struct LandmarkMoved {
+  double off_m = 0.0;
+  double limit_m = 0.0;
+  bool anchored = false;  ///< to a patient reference: what moves with it shows nowhere
 };
 struct NoRod {
   Error why;
@@ -74,9 +86,10 @@ struct NoImages {};
 struct Ended {};
 
 /// Nothing, or one of these.
-using Message = std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown,
-                             NothingToDelete, ConfirmDelete, RegistrationRefused, ChecksMissing,
-                             TouchNotRecorded, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
+using Message =
+    std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
+                 ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
+                 LandmarkMissing, LandmarkMoved, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// What it is about, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);

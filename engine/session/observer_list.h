@@ -50,6 +50,17 @@ class ObserverList : public SessionObserver {
       o->accepted(time, level);
     }
   }
+  void landmark_touched(Timestamp time, const LevelState& level,
+                        const LandmarkTouch& touch) override {
+    for (auto* o : observers_) {
+      o->landmark_touched(time, level, touch);
+    }
+  }
+  void landmark_dropped(Timestamp time, const LevelState& level) override {
+    for (auto* o : observers_) {
+      o->landmark_dropped(time, level);
+    }
+  }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override {
     for (auto* o : observers_) {

@@ -58,6 +58,7 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
       method_(std::move(method)),
       options_(options),
       digitizing_(method_, options),
+      landmarking_(options.landmark),
       messages_(options.message_for, options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
     LevelState state;
@@ -197,7 +198,7 @@ void Session::collect_samples() {
   if (step_ == Step::kDigitize) {
     digitizing_.collect(pose, pointer);
     digitizing_.coach(level().plan);
-  } else if (step_ == Step::kRod || checks_by_touch()) {
+  } else if (is_touched_in()) {
     if (pose.status == PoseStatus::kMeasured) {
       touch_of_step().add(pose.value * pointer.tip_in_marker);
     } else {
@@ -207,7 +208,7 @@ void Session::collect_samples() {
 }
 
 std::optional<std::size_t> Session::tool_of_step() const {
-  if (step_ == Step::kDigitize || step_ == Step::kRod || checks_by_touch()) {
+  if (step_ == Step::kDigitize || is_touched_in()) {
     return tools_.pointer();
   }
   if (step_ == Step::kGuide) {
@@ -216,8 +217,12 @@ std::optional<std::size_t> Session::tool_of_step() const {
   return std::nullopt;
 }
 
-bool Session::checks_by_touch() const {
-  return step_ == Step::kVerify && method_.verification == Verification::kByTouch;
+bool Session::by_touch(Step step) const {
+  return step_ == step && method_.verification == Verification::kByTouch;
+}
+
+bool Session::is_touched_in() const {
+  return step_ == Step::kRod || by_touch(Step::kVerify) || by_touch(Step::kAccepted);
 }
 
 }  // namespace orthonav::engine

@@ -10,6 +10,7 @@
 #include "engine/session/digitizing.h"
 #include "engine/session/guidance.h"
 #include "engine/session/guiding.h"
+#include "engine/session/landmarking.h"
 #include "engine/session/messages.h"
 #include "engine/session/method.h"
 #include "engine/session/rod_templating.h"
@@ -72,7 +73,8 @@ class Session {
   void watch_tool_in_use(Timestamp now);
   void collect_samples();
   [[nodiscard]] std::optional<std::size_t> tool_of_step() const;
-  [[nodiscard]] bool checks_by_touch() const;
+  [[nodiscard]] bool by_touch(Step step) const;
+  [[nodiscard]] bool is_touched_in() const;
 
   // session_publication.cpp: what the surgeon is shown after it.
   void publish(const StereoFrame& frame, Timestamp display_time);
@@ -93,6 +95,10 @@ class Session {
   void record_check(Timestamp time);
   void drop_check(Timestamp time);
   void accept(Timestamp time);
+  void touch_landmark(Timestamp time);
+  void drop_landmark(Timestamp time);
+  void judge_landmark(Timestamp time);
+  void verify_again(Timestamp time);
   void select_screw();
   void finish_screw(Timestamp time);
   void drop_touch(Timestamp time);
@@ -120,6 +126,7 @@ class Session {
   std::size_t level_ = 0;
   Digitizing digitizing_;  ///< ends before the levels: a trial may be reading one
   Verifying verifying_;
+  Landmarking landmarking_;
   Guiding guiding_;
   RodTemplating rod_templating_;
 

@@ -29,6 +29,12 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kDropCheck: return drop_check(time);
     case kAccept: return accept(time);
     case kClearLevel: return clear_level();
+    case kTouchLandmark: return touch_landmark(time);
+    case kDropLandmark: return drop_landmark(time);
+    case kJudgeLandmark: return judge_landmark(time);
+    case kAskForLandmark: return messages_.say(LandmarkMissing{level().landmark.has_value()}, time);
+    case kExpectLandmark: return landmarking_.begin();
+    case kVerifyAgain: return verify_again(time);
     case kSelectScrew: return select_screw();
     case kFinishScrew: return finish_screw(time);
     case kBeginRod: return rod_templating_.begin();
@@ -90,6 +96,7 @@ void Session::clear_level() {
   level().forget_registration();
   digitizing_.clear();
   verifying_ = Verifying{};
+  landmarking_.begin();
   guiding_.forget_guidance();
 }
 
@@ -108,6 +115,7 @@ void Session::record_check(Timestamp time) {
 void Session::accept(Timestamp time) {
   verifying_.join(level());
   level().accepted = true;
+  landmarking_.begin();
   if (observer_) {
     observer_->accepted(time, level());
   }
@@ -119,6 +127,46 @@ void Session::drop_check(Timestamp time) {
   } else if (observer_) {
     observer_->check_point_dropped(time, level());
   }
+}
+
+void Session::touch_landmark(Timestamp time) {
+  const TouchedPlace place = touched_place(time);
+  const auto taken = landmarking_.take(level(), place, tools_.reference_posts(),
+                                       tools_.tracker().anchor() != nullptr, time);
+  if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
+    messages_.say(TouchNotRecorded{TouchNotRecorded::What::kLandmark, *refusal}, time);
+    return;
+  }
+  const auto& touch = std::get<LandmarkTouch>(taken);
+  if (observer_ && touch.missing == 0) {
+    observer_->landmark_touched(time, level(), touch);
+  }
+  if (touch.moved()) {
+    handle(Event::kLandmarkMoved, time);
+  }
+}
+
+void Session::drop_landmark(Timestamp time) {
+  const Landmarking::Dropped dropped = landmarking_.drop(level());
+  if (dropped == Landmarking::Dropped::kNothing) {
+    messages_.say(NothingToDelete{NothingToDelete::What::kLandmark}, time);
+  } else if (observer_ && dropped == Landmarking::Dropped::kPlace) {
+    observer_->landmark_dropped(time, level());
+  }
+}
+
+void Session::judge_landmark(Timestamp time) {
+  handle(landmarking_.touched() ? Event::kLandmarkTouched : Event::kLandmarkMissing, time);
+}
+
+/// The landmark stays: what is accepted next must put the bone where it was touched first.
+void Session::verify_again(Timestamp time) {
+  const LandmarkTouch& touch = *landmarking_.last();
+  level().accepted = false;
+  verifying_.begin_again(level(), touch.off_m);
+  guiding_.forget_guidance();
+  messages_.say(LandmarkMoved{touch.off_m, touch.limit_m, tools_.tracker().anchor() != nullptr},
+                time);
 }
 
 void Session::select_screw() {
@@ -146,9 +194,12 @@ void Session::finish_screw(Timestamp time) {
   }
 }
 
-/// Only `verify` and `rod` are touched in: the table asks for no touch elsewhere.
+/// Only `verify`, `accepted` and `rod` are touched in: the table asks for no touch elsewhere.
 Touch& Session::touch_of_step() {
-  return step_ == Step::kRod ? rod_templating_.touch() : verifying_.touch();
+  if (step_ == Step::kRod) {
+    return rod_templating_.touch();
+  }
+  return step_ == Step::kAccepted ? landmarking_.touch() : verifying_.touch();
 }
 
 TouchedPlace Session::touched_place(Timestamp time) {
@@ -158,8 +209,9 @@ TouchedPlace Session::touched_place(Timestamp time) {
 
 void Session::drop_touch(Timestamp time) {
   touch_of_step().drop();
-  const auto what =
-      step_ == Step::kRod ? TouchNotRecorded::What::kHead : TouchNotRecorded::What::kCheckPoint;
+  using What = TouchNotRecorded::What;
+  const What elsewhere = step_ == Step::kAccepted ? What::kLandmark : What::kCheckPoint;
+  const What what = step_ == Step::kRod ? What::kHead : elsewhere;
   messages_.say(TouchNotRecorded{what, {TouchRefusal::Kind::kHeldTooLong}}, time);
 }
 
@@ -214,6 +266,7 @@ void Session::forget_places(Event why, Timestamp time) {
   }
   digitizing_.forget_map();
   verifying_ = Verifying{};
+  landmarking_.begin();
   guiding_.forget_guidance();
   rod_templating_.forget_map();
   tools_.forget_poses();

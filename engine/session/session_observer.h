@@ -24,6 +24,11 @@ class SessionObserver {
   virtual void check_point_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The surgeon accepted the level's registration, which holds what was touched on it by now.
   virtual void accepted(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// The level's landmark was touched: for the first time, or against where it was then.
+  virtual void landmark_touched(Timestamp /*time*/, const LevelState& /*level*/,
+                                const LandmarkTouch& /*touch*/) {}
+  /// That touch was taken back; with a first one, the landmark.
+  virtual void landmark_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
   /// at its depth, or null where it never did.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,

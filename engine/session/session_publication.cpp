@@ -1,6 +1,14 @@
 #include "engine/session/session.h"
 
 namespace orthonav::engine {
+namespace {
+
+RegistrationFigures figures(const LevelState& level) {
+  return {level.registration->rmse_m, nav::worst_m(level.predicted), false,
+          level.registration_only()};
+}
+
+}  // namespace
 
 void Session::publish(const StereoFrame& frame, Timestamp display_time) {
   Guidance& out = guidance_;
@@ -108,11 +116,13 @@ StepState Session::state_of_step() const {
       if (!level().registration) {
         return {};
       }
-      if (checks_by_touch()) {
+      if (by_touch(Step::kVerify)) {
         return verifying_.state(level());
       }
-      return RegistrationFigures{level().registration->rmse_m, nav::worst_m(level().predicted),
-                                 false, level().registration_only()};
+      if (by_touch(Step::kAccepted)) {
+        return LandmarkSoFar{figures(level()), level().landmark.has_value(), landmarking_.last()};
+      }
+      return figures(level());
     case Step::kGuide:
       return guiding_.state(level());
     case Step::kRod:

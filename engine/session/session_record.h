@@ -48,6 +48,15 @@ struct RecordedCheck {
   bool within = false;      ///< the limit
 };
 
+/// One touch of a level's landmark.
+struct RecordedLandmark {
+  bool first = false;  ///< it recorded the landmark
+  double off_m = 0.0;  ///< from where it was recorded
+  double limit_m = 0.0;
+  bool within = false;   ///< the limit
+  bool dropped = false;  ///< taken back
+};
+
 /// One level, as it stood when the journal ended.
 struct RecordedLevel {
   std::string label;
@@ -57,6 +66,8 @@ struct RecordedLevel {
   std::optional<std::size_t> registration;  ///< in force; of SessionRecord::registrations
   std::optional<double> digitization_s;     ///< that led to it
   std::vector<RecordedCheck> checks;        ///< touched on it
+  /// Every touch of a landmark, of registrations that were thrown away too: they tell why.
+  std::vector<RecordedLandmark> landmark;
   std::vector<RecordedScrew> screws;
 };
 

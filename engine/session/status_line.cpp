@@ -22,8 +22,15 @@ ChecksAsked asked_by(const nav::CheckAdvice& advice) {
 
 ChecksAsked checks_asked(const StatusLine& line) {
   if (line.message) {
+    if (std::holds_alternative<LandmarkMissing>(*line.message)) {
+      return ChecksAsked::kTouchMore;
+    }
     const auto* missing = std::get_if<ChecksMissing>(line.message);
     return missing ? asked_by(missing->advice) : ChecksAsked::kNone;
+  }
+  if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {
+    return landmark->last && landmark->last->missing == 0 ? ChecksAsked::kPassed
+                                                          : ChecksAsked::kTouchMore;
   }
   const auto* checks = std::get_if<ChecksSoFar>(&line.state);
   return checks ? asked_by(checks->verdict->advice) : ChecksAsked::kNone;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <variant>
 
+#include "engine/session/landmark.h"
 #include "engine/session/message.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
@@ -36,14 +37,22 @@ struct ChecksSoFar {
   std::optional<double> last_m;
   const nav::CheckVerdict* verdict = nullptr;
   bool registration_only = false;  ///< as above
+  /// The landmark lies so far off: the registration is verified once more.
+  std::optional<double> moved_m = {};
+};
+/// A registration accepted by touch, before a screw.
+struct LandmarkSoFar {
+  RegistrationFigures figures;
+  bool recorded = false;              ///< the landmark was touched once
+  std::optional<LandmarkTouch> last;  ///< since the last screw
 };
 struct HeadsSoFar {
   std::size_t count = 0;
   std::optional<double> cut_length_m;  ///< of the rod through them, where it has instructions
   std::size_t bends = 0;
 };
-using StepState =
-    std::variant<std::monostate, StrokesSoFar, RegistrationFigures, ChecksSoFar, HeadsSoFar>;
+using StepState = std::variant<std::monostate, StrokesSoFar, RegistrationFigures, ChecksSoFar,
+                               LandmarkSoFar, HeadsSoFar>;
 
 /// A command as it was heard. A surgeon who was misheard must see it at once, and one who was
 /// heard need not ask.

@@ -59,6 +59,16 @@ Verifying::Verifying(LevelState& level, Verification verification, const Session
   judge(level);
 }
 
+void Verifying::begin_again(LevelState& level, double moved_m) {
+  strokes_ = level.registration;
+  pressed_.clear();
+  level.check_points.clear();
+  moved_m_ = moved_m;
+  visible_at_.reset();
+  touch_.drop();
+  judge(level);
+}
+
 void Verifying::judge(LevelState& level) {
   joined_.reset();
   if (by_touch_) {
@@ -158,6 +168,7 @@ ChecksSoFar Verifying::state(const LevelState& level) const {
     checks.last_m = level.check_points.back().distance_m;
   }
   checks.verdict = &verdict_;
+  checks.moved_m = moved_m_;
   checks.registration_only = level.registration_only();
   return checks;
 }

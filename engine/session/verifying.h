@@ -21,6 +21,10 @@ class Verifying {
   Verifying(LevelState& level, Verification verification, const SessionOptions& options,
             Timestamp registered);
 
+  /// Of the registration that was accepted, once something moved by so much since: nothing that was
+  /// touched to verify it counts any more.
+  void begin_again(LevelState& level, double moved_m);
+
   /// The registration is shown then, if it was not before.
   void show(Timestamp display_time);
   /// What was said before the registration was first shown can't be a judgement of it.
@@ -63,6 +67,7 @@ class Verifying {
   std::vector<Point<World>> places_;    ///< proposed to be touched first
   std::vector<Point<World>> to_check_;  ///< of them those that were not touched yet, or one more
   nav::CheckVerdict verdict_;           ///< on the check points so far
+  std::optional<double> moved_m_;       ///< since it was accepted
   std::optional<Timestamp> visible_at_;
   Touch touch_;
 };

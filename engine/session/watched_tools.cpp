@@ -103,6 +103,17 @@ std::optional<std::size_t> WatchedTools::first_reference() const {
                               : std::optional(static_cast<std::size_t>(found - tools.begin()));
 }
 
+std::vector<ReferencePost> WatchedTools::reference_posts() const {
+  std::vector<ReferencePost> posts;
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    const nav::TrackedPose& pose = watches_[i].last_measured_pose();
+    if (geometry(i).role == nav::ToolRole::kReference && pose.status == PoseStatus::kMeasured) {
+      posts.push_back({pose.value * Point<Marker>{}, pose.value * geometry(i).tip_in_marker});
+    }
+  }
+  return posts;
+}
+
 std::optional<Point<World>> WatchedTools::pointer_tip(Timestamp now, Duration within) const {
   const ToolWatch& watch = watches_[pointer_];
   if (!watch.fresh(now, within)) {

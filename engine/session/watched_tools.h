@@ -9,6 +9,7 @@
 
 #include "base/result.h"
 #include "engine/session/guidance.h"
+#include "engine/session/landmarking.h"
 #include "engine/session/tool_watch.h"
 #include "nav/tracking/tool_tracker.h"
 
@@ -31,6 +32,9 @@ class WatchedTools {
   [[nodiscard]] std::size_t guide() const { return guide_; }
   /// A patient reference; nothing where the tools have none.
   [[nodiscard]] std::optional<std::size_t> first_reference() const;
+  /// Where the patient references are, as they were last measured; those that never were are not
+  /// among them.
+  [[nodiscard]] std::vector<ReferencePost> reference_posts() const;
   [[nodiscard]] const ToolWatch& watch(std::size_t tool) const { return watches_[tool]; }
   [[nodiscard]] const nav::ToolGeometry& geometry(std::size_t tool) const {
     return tracker_->tools()[tool];

@@ -7,6 +7,7 @@
 
 #include "base/length_text.h"
 #include "base/printed.h"
+#include "engine/session/message_wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -18,120 +19,6 @@ std::string_view word_of(Step step) {
       "setup", "digitize", "verify", "accepted", "guide", "rod", "done"};
   return kWords[static_cast<std::size_t>(step)];
 }
-
-void append_refusal(std::string& out, const TouchRefusal& why) {
-  switch (why.kind) {
-    case TouchRefusal::Kind::kPressAgain:
-      out += "press again";
-      break;
-    case TouchRefusal::Kind::kPointerNotSeen:
-      out += "pointer not seen";
-      break;
-    case TouchRefusal::Kind::kTipMoved:
-      append_beside_limit(out, "tip moved %.1f mm, limit %.1f mm", why.value_m * 1e3,
-                          why.limit_m * 1e3);
-      break;
-    case TouchRefusal::Kind::kHeldTooLong:
-      out += "hold too long";
-      break;
-    case TouchRefusal::Kind::kTooMany:
-      append_printed(out, "there are %zu already", nav::kMostCheckPoints);
-      break;
-  }
-}
-
-/// The words of each kind of message; as parts where they are more than one.
-struct MessageWriter {
-  PartedText text;
-  std::string& out = text.out;
-
-  void operator()(std::monostate /*none*/) {}
-  void operator()(const NotPossibleNow& m) {
-    text.begin(Importance::kMessage);
-    out.append("not possible now: ").append(name_of(m.event));
-  }
-  void operator()(const NotUnderstood& /*m*/) {
-    text.begin(Importance::kMessage);
-    out += "not understood";
-  }
-  void operator()(const SaidBeforeShown& /*m*/) {
-    text.begin(Importance::kMessage);
-    out += "not accepted: said before the hologram was shown";
-  }
-  void operator()(const NothingToDelete& m) {
-    text.begin(Importance::kMessage);
-    constexpr std::array<std::string_view, 3> kTexts = {
-        "nothing to delete", "no check point to delete", "no head to delete"};
-    out += kTexts[static_cast<std::size_t>(m.what)];
-  }
-  void operator()(const ConfirmDelete& m) {
-    text.begin(Importance::kNext);
-    append_printed(out, "say delete again to drop the last saved %zu points", m.points);
-  }
-  void operator()(const RegistrationRefused& m) {
-    text.begin(Importance::kMessage);
-    out += "refused: ";
-    const std::span<const nav::RefusalReason> reasons = m.reasons;
-    if (m.error) {
-      out += m.error->message;
-    } else {
-      append(out, reasons.first(std::min<std::size_t>(1, reasons.size())));
-    }
-    for (std::size_t i = 1; !m.error && i < reasons.size(); ++i) {
-      text.begin(Importance::kMore, "; ");
-      append(out, reasons[i]);
-    }
-    if (m.another_level_fits) {
-      text.begin(Importance::kNext, "; ");
-      out += "make sure of the level";
-    } else if (m.stroke_next) {
-      text.begin(Importance::kNext, "; ");
-      append(out, *m.stroke_next);
-    }
-  }
-  void operator()(const ChecksMissing& m) {
-    text.begin(Importance::kNext);
-    out += "not accepted: ";
-    append(out, m.advice);
-  }
-  void operator()(const TouchNotRecorded& m) {
-    text.begin(Importance::kMessage);
-    const bool head = m.what == TouchNotRecorded::What::kHead;
-    out += head ? "head not recorded: " : "check point not recorded: ";
-    append_refusal(out, m.why);
-  }
-  void operator()(const NoRod& m) {
-    text.begin(Importance::kMessage);
-    out.append("no rod: ").append(m.why.message);
-  }
-  void operator()(const MapMoved& m) {
-    text.begin(Importance::kDanger);
-    out += "the headset's map moved";
-    ask_again(m.step);
-  }
-  void operator()(const ReferenceMoved& m) {
-    text.begin(Importance::kDanger);
-    out += "a patient reference moved";
-    ask_again(m.step);
-  }
-  void ask_again(Step step) {
-    if (step == Step::kDigitize) {
-      text.begin(Importance::kNext, ": ");
-      out += "digitize again";
-    } else if (step == Step::kRod) {
-      text.begin(Importance::kNext, ": ");
-      out += "touch this rod's heads again";
-    }
-  }
-  void operator()(const NoImages& /*m*/) {
-    text.begin(Importance::kDanger);
-    out += "no camera images";
-  }
-  void operator()(const Ended& /*m*/) {
-    text.begin(Importance::kDanger);
-    out += "ended";
-  }
-};
 
 /// What is to be touched, and how the last touch was.
 void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
@@ -150,6 +37,38 @@ void write_checks(PartedText text, const ChecksSoFar& checks, std::string_view s
   } else {
     append(out, checks.verdict->advice);
   }
+}
+
+/// Since the registration was accepted.
+void write_moved(PartedText text, const ChecksSoFar& checks, std::string_view separator) {
+  if (checks.moved_m) {
+    text.begin(Importance::kDanger, separator);
+    text.out += "moved ";
+    append_mm(text.out, *checks.moved_m, 1);
+  }
+}
+
+/// Whether the landmark is still to be touched, and how the last touch was.
+void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
+  std::string& out = text.out;
+  if (!landmark.last) {
+    text.begin(Importance::kNext, separator);
+    out += landmark.recorded ? words::kTouchDimple : words::kMakeDimple;
+    return;
+  }
+  if (landmark.last->missing > 0) {
+    text.begin(Importance::kNext, separator);
+    out += "lift the tip and touch the dimple again";
+    return;
+  }
+  text.begin(Importance::kMessage, separator);
+  if (landmark.last->first) {
+    out += "dimple recorded";
+    return;
+  }
+  out += "dimple found, ";
+  append_mm(out, landmark.last->off_m, 1);
+  out += " off";
 }
 
 /// How each step stands.
@@ -179,7 +98,12 @@ struct StateWriter {
     append_mm(out, checks.expected_m, 1);
     out += " expected";
     out += checks.registration_only ? kRegistrationOnly : "";
+    write_moved(text, checks, "; ");
     write_checks(text, checks, "; ");
+  }
+  void operator()(const LandmarkSoFar& landmark) {
+    (*this)(landmark.figures);
+    write_landmark(text, landmark, "; ");
   }
   void operator()(const HeadsSoFar& heads) {
     text.begin(Importance::kCount);
@@ -193,13 +117,7 @@ struct StateWriter {
   }
 };
 
-void write_message(PartedText text, const Message& message) {
-  std::visit(MessageWriter{text}, message);
-}
-
 }  // namespace
-
-void append(std::string& out, const Message& message) { write_message(PartedText{out}, message); }
 
 void append_step(std::string& out, const StepOnDisplay& at) {
   out += word_of(at.step);
@@ -229,7 +147,10 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     std::visit(StateWriter{text}, line.state);
   } else if (const auto* checks = std::get_if<ChecksSoFar>(&line.state)) {
     // What is to be touched counts on beside a warning that stays.
+    write_moved(text, *checks, "; ");
     write_checks(text, *checks, "; ");
+  } else if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {
+    write_landmark(text, *landmark, "; ");
   }
 }
 

@@ -15,8 +15,8 @@
 namespace orthonav::engine {
 
 // Everything that a surgeon reads in words, made of data, in this one place: whoever
-// translates orthonav translates wording.cpp and findings_wording.cpp. No decision ever reads these
-// texts.
+// translates orthonav translates wording.cpp, message_wording.cpp and findings_wording.cpp. No
+// decision ever reads these texts.
 //
 // The status line is written anew for every frame, into strings that keep their room: the `append`
 // functions allocate nothing once the frame loop is warm.
@@ -49,6 +49,8 @@ namespace words {
 inline constexpr std::string_view kToolLost = "tool lost";
 inline constexpr std::string_view kHeadNotLocated =
     "Head not located: nothing is shown in the world";
+inline constexpr std::string_view kTouchDimple = "touch the dimple";
+inline constexpr std::string_view kMakeDimple = "make a dimple in this bone and touch it";
 inline constexpr std::string_view kToEntry = "to entry";
 inline constexpr std::string_view kToTarget = "to target";
 inline constexpr std::string_view kPastTarget = "past target";

@@ -22,6 +22,9 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
     "registration refused",
     "checked",
     "not checked",
+    "landmark touched",
+    "landmark missing",
+    "landmark moved",
     "another screw",
     "another level",
     "no screw left",
@@ -54,6 +57,12 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "drop check point",
     "accept",
     "clear level",
+    "touch landmark",
+    "drop landmark",
+    "judge landmark",
+    "ask for landmark",
+    "expect landmark",
+    "verify again",
     "select screw",
     "finish screw",
     "begin rod",
@@ -123,11 +132,12 @@ void append_table(std::string& out) {
   }
 }
 
-void append_verify_by_eye(std::string& out) {
-  out += "Where the eye alone verifies (`paper`), `verify` answers instead:\n\n";
-  out += "| event | verify |\n|---|---|\n";
+void append_by_eye(std::string& out) {
+  out += "Where the eye alone verifies (`paper`), these answers stand instead:\n\n";
+  out += "| step | event | answer |\n|---|---|---|\n";
   for (const Rule& rule : workflow_detail::kRulesByEye) {
-    out += "| " + std::string(name_of(rule.event)) + " | " + std::string(name_of(rule.action));
+    out += "| " + std::string(name_of(rule.step)) + " | " + std::string(name_of(rule.event)) +
+           " | " + std::string(name_of(rule.action));
     if (rule.next != rule.step) {
       out += " → **" + std::string(name_of(rule.next)) + "**";
     }
@@ -146,7 +156,7 @@ std::string workflow_diagram() {
   out += "\n";
   append_table(out);
   out += "\n";
-  append_verify_by_eye(out);
+  append_by_eye(out);
   return out;
 }
 

@@ -92,15 +92,22 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kVerify, kReferenceSeen, kIgnore, kVerify},
     {kVerify, kReferenceMoved, kForgetMap, kDigitize},
 
-    {kAccepted, kSayNext, kSelectScrew, kGuide},
+    // Before each screw the landmark is touched: recorded the first time, found again from then on.
+    // One that is not where it was takes the acceptance back.
+    {kAccepted, kSayNext, kJudgeLandmark, kAccepted},
+    {kAccepted, kLandmarkTouched, kSelectScrew, kGuide},
+    {kAccepted, kLandmarkMissing, kAskForLandmark, kAccepted},
+    {kAccepted, kLandmarkMoved, kVerifyAgain, kVerify},
     {kAccepted, kSayReject, kClearLevel, kDigitize},
-    {kAccepted, kPress, kIgnore, kAccepted},
-    {kAccepted, kRelease, kIgnore, kAccepted},
-    {kAccepted, kClick, kIgnore, kAccepted},
-    {kAccepted, kHold, kIgnore, kAccepted},
-    {kAccepted, kTrackingLost, kIgnore, kAccepted},
-    {kAccepted, kPoseStale, kIgnore, kAccepted},
-    {kAccepted, kTrackingRegained, kIgnore, kAccepted},
+    {kAccepted, kPress, kBeginTouch, kAccepted},
+    {kAccepted, kRelease, kEndTouch, kAccepted},
+    {kAccepted, kClick, kTouchLandmark, kAccepted},
+    {kAccepted, kDoubleClick, kIgnore, kAccepted},
+    {kAccepted, kHold, kDropTouch, kAccepted},
+    {kAccepted, kSayDelete, kDropLandmark, kAccepted},
+    {kAccepted, kTrackingLost, kWarnLost, kAccepted},
+    {kAccepted, kPoseStale, kHideGuidance, kAccepted},
+    {kAccepted, kTrackingRegained, kShowGuidance, kAccepted},
     {kAccepted, kMapMoved, kForgetMap, kDigitize},
     {kAccepted, kReferenceHidden, kWarnLost, kAccepted},
     {kAccepted, kReferenceSeen, kIgnore, kAccepted},
@@ -110,7 +117,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kSayNext, kFinishScrew, kGuide},
     {kGuide, kSayReject, kClearLevel, kDigitize},
     {kGuide, kSayTwin, kToggleTwin, kGuide},
-    {kGuide, kAnotherScrew, kSelectScrew, kGuide},
+    {kGuide, kAnotherScrew, kExpectLandmark, kAccepted},
     {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
     {kGuide, kNoScrewLeft, kBeginRod, kRod},
     {kGuide, kNoRodPlanned, kFinish, kDone},
@@ -160,7 +167,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kDone, kReferenceMoved, kForgetMap, kDone},
 });
 
-/// What `verify` answers instead where the surgeon's eye alone verifies.
+/// What is answered instead where the surgeon's eye alone verifies.
 inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kVerify, kSayAccept, kAccept, kAccepted},
     {kVerify, kChecked, kRefuse, kVerify},
@@ -174,6 +181,20 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kVerify, kTrackingLost, kIgnore, kVerify},
     {kVerify, kPoseStale, kIgnore, kVerify},
     {kVerify, kTrackingRegained, kIgnore, kVerify},
+    {kAccepted, kSayNext, kSelectScrew, kGuide},
+    {kAccepted, kLandmarkTouched, kRefuse, kAccepted},
+    {kAccepted, kLandmarkMissing, kRefuse, kAccepted},
+    {kAccepted, kLandmarkMoved, kRefuse, kAccepted},
+    {kAccepted, kPress, kIgnore, kAccepted},
+    {kAccepted, kRelease, kIgnore, kAccepted},
+    {kAccepted, kClick, kIgnore, kAccepted},
+    {kAccepted, kDoubleClick, kRefuse, kAccepted},
+    {kAccepted, kHold, kIgnore, kAccepted},
+    {kAccepted, kSayDelete, kRefuse, kAccepted},
+    {kAccepted, kTrackingLost, kIgnore, kAccepted},
+    {kAccepted, kPoseStale, kIgnore, kAccepted},
+    {kAccepted, kTrackingRegained, kIgnore, kAccepted},
+    {kGuide, kAnotherScrew, kSelectScrew, kGuide},
 });
 // clang-format on
 
@@ -238,7 +259,7 @@ using orthonav::name_of;
 [[nodiscard]] std::string_view name_of(Action action);
 
 /// The workflow as docs/safety.md holds it: a mermaid diagram of the changes of step, the whole
-/// table, and what `verify` answers instead where the eye alone verifies.
+/// table, and what is answered instead where the eye alone verifies.
 [[nodiscard]] std::string workflow_diagram();
 
 }  // namespace orthonav::engine

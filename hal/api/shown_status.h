@@ -35,11 +35,13 @@ enum class Notice : std::uint8_t {
   kNotPossibleNow,   ///< what was done means nothing in this step
   kNotUnderstood,    ///< a phrase
   kSaidTooEarly,     ///< "accept", before what is to be accepted was shown
-  kNothingToDelete,  ///< no region, check point or head
+  kNothingToDelete,  ///< no region, check point, touch of the landmark or head
   kConfirmDelete,    ///< a saved region goes when "delete" is said again
   kRegistrationRefused,
   kChecksMissing,     ///< "accept", while the check points do not bear it out
-  kTouchNotRecorded,  ///< of a check point or a head
+  kTouchNotRecorded,  ///< of a check point, the landmark or a head
+  kLandmarkMissing,   ///< "next", before the landmark was touched
+  kLandmarkMoved,     ///< it is not where it was: the registration is verified again
   kNoRod,             ///< the heads give none
   kMapMoved,          ///< the headset's map: what was measured in it is gone
   kReferenceMoved,    ///< the patient's: what hung on it is gone
@@ -50,7 +52,7 @@ enum class Notice : std::uint8_t {
 /// What the status line asks of a surgeon who verifies by touch.
 enum class ChecksAsked : std::uint8_t {
   kNone,       ///< it says nothing of check points
-  kTouchMore,  ///< further places
+  kTouchMore,  ///< further places, or the landmark before a screw
   kReject,     ///< a check point lies too far off the surface
   kPassed,
 };

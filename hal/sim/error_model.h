@@ -108,6 +108,9 @@ struct ErrorModel {
   /// tissue without hurry, it is a fraction of what stroking leaves; never below the bone.
   /// Estimate.
   double touch_lift_m = 0.0003;
+  /// SD along an axis of the pointer's tip put into the same dimple of the bone again. Estimate:
+  /// the play of a 1 mm ball in what an awl leaves.
+  double dimple_seating_m = 0.0002;
   /// Relative SD of the stroking speed from region to region. Estimate.
   double stroke_pace_sd = 0.05;
   /// Fraction of strokes that slip off the bone, are noticed, deleted and repeated. Estimate.

@@ -7,7 +7,7 @@ namespace orthonav::sim {
 namespace {
 
 // clang-format off
-constexpr std::array<Magnitude, 55> kMagnitudes = {{
+constexpr std::array<Magnitude, 56> kMagnitudes = {{
     {"blur_sigma_px", "px", &ErrorModel::blur_sigma_px, 0.0, 5.0, 0.5, 1.0,
      "estimate: edges in published frames rise over about two pixels"},
     {"exposure_s", "s", &ErrorModel::exposure_s, 0.0, 0.030, 0.002, 0.008,
@@ -76,6 +76,8 @@ constexpr std::array<Magnitude, 55> kMagnitudes = {{
      "fitted to the SD of that RMSE"},
     {"touch_lift_m", "m", &ErrorModel::touch_lift_m, 0.0, 0.02, 0.0001, 0.0006,
      "estimate"},
+    {"dimple_seating_m", "m", &ErrorModel::dimple_seating_m, 0.0, 0.005, 0.0001, 0.0004,
+     "estimate: the play of a ball in what an awl leaves"},
     {"stroke_pace_sd", "", &ErrorModel::stroke_pace_sd, 0.0, 1.0, 0.05, 0.05,
      "estimate"},
     {"bad_stroke_probability", "", &ErrorModel::bad_stroke_probability, 0.0, 0.9, 0.1, 0.1,

@@ -32,7 +32,9 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
                   kSlowestTremor_hz, kFastestTremor_hz),
       spine_(Random(options.seed).fork("spine"), error_model_),
       bump_(options.reference_bump),
-      bumping_(Random(options.seed).fork("bump")) {
+      bumping_(Random(options.seed).fork("bump")),
+      shift_(options.patient_shift),
+      shifting_(Random(options.seed).fork("shift")) {
   RoomState nothing;
   nothing.room_from_marker.resize(room_.tools.size());
   nothing.tool_present.resize(room_.tools.size());
@@ -54,7 +56,8 @@ void RoomSimulation::advance(Timestamp until) {
 void RoomSimulation::step() {
   RoomState& now = kept(steps_);
   now.time = start_ + static_cast<std::int64_t>(steps_) * kStep;
-  spine_moved_m_ = spine_.at(seconds_in(now.time));
+  shift_patient();
+  spine_moved_m_ = spine_.at(seconds_in(now.time)) + slipped_m_;
   now.room_from_spine = {layout_.room_from_spine().rotation(),
                          layout_.room_from_spine().translation() + spine_moved_m_};
   if (surgeon_) {
@@ -137,6 +140,13 @@ void RoomSimulation::bump_reference() {
       rotation_from_vector(bump_.turn_rad * about) * room_from_reference_->rotation(),
       room_from_reference_->translation() + bump_.shift_m * way};
   bump_ = {};
+}
+
+void RoomSimulation::shift_patient() {
+  if (shift_.shift_m > 0.0 && static_cast<int>(truth_.wires.size()) >= shift_.after_wires) {
+    slipped_m_ = shift_.shift_m * normal_vector(shifting_, 1.0).normalized();
+    shift_ = {};
+  }
 }
 
 /// Without a surgeon the tools hover side by side over the table, slowly rotating.

@@ -59,6 +59,7 @@ class RoomSimulation {
   void let_tools_hover(RoomState& now) const;
   void leave_reference(RoomState& now);
   void bump_reference();
+  void shift_patient();
   void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact) const;
   void pierce(const WireInsertion& insertion);
   [[nodiscard]] double seconds_in(Timestamp time) const { return seconds(time - start_); }
@@ -76,11 +77,14 @@ class RoomSimulation {
   SmoothNoise3 tremor_m_;
   SmoothNoise3 tremor_rad_;
   SpineMotion spine_;
-  Vec3 spine_moved_m_{};  ///< with the breath, at the newest step, in Room
+  Vec3 spine_moved_m_{};  ///< with the breath and on the table, at the newest step, in Room
   /// Since the first step, with the patient at rest.
   std::optional<Transform<Room, Marker>> room_from_reference_;
   ReferenceBump bump_;
   Random bumping_;
+  PatientShift shift_;
+  Random shifting_;
+  Vec3 slipped_m_{};  ///< on the table, in Room
   Eyes eyes_;
   Truth truth_;
   std::unique_ptr<Surgeon> surgeon_;

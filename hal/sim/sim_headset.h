@@ -23,6 +23,13 @@ struct ReferenceBump {
   int after_wires = 1;
 };
 
+/// The patient slips on the table, for good, once so many wires are in: bones, hands on them and a
+/// clamped reference go along.
+struct PatientShift {
+  double shift_m = 0.0;  ///< in a random direction
+  int after_wires = 1;
+};
+
 struct SimOptions {
   std::uint64_t seed = 1;
   ErrorModel error_model;
@@ -30,6 +37,7 @@ struct SimOptions {
   double frame_rate_hz = 30.0;
   GuidanceProfile guidance = GuidanceProfile::kNumbers;
   ReferenceBump reference_bump;
+  PatientShift patient_shift;
   /// The scripted surgeon operates; without one the tools hover over the table in slow motion.
   bool surgeon = true;
   double limit_s = 3600.0;  ///< the stream ends at the latest then (simulated time)

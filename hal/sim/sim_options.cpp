@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLongest_s = 86400.0;
 constexpr double kFastestRate_hz = 240.0;
+constexpr double kFarthestShift_m = 0.05;
 
 }  // namespace
 
@@ -24,6 +25,12 @@ Status SimOptions::check() const {
   if (error_model.exposure_s * frame_rate_hz > 1.0) {
     return Error{"simulated exposure of " + printed("%f", error_model.exposure_s) +
                  " s is longer than a frame at " + printed("%f", frame_rate_hz) + " Hz"};
+  }
+  for (const double shift_m : {reference_bump.shift_m, patient_shift.shift_m}) {
+    if (!(shift_m >= 0.0 && shift_m <= kFarthestShift_m)) {
+      return Error{"simulated shift of the reference or the patient is " + printed("%f", shift_m) +
+                   " m, must lie in [0, 0.05]"};
+    }
   }
   if (!(limit_s > 0.0 && limit_s <= kLongest_s)) {
     return Error{"simulated time limit is " + printed("%f", limit_s) +

@@ -94,9 +94,12 @@ Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const 
             standing_at(layout)),
       guidance_(guidance),
       checking_(random.fork("checking")),
+      seating_(random.fork("seating")),
       lightness_(lightness_of(error_model, random.fork("lightness"))),
       regions_(layout.levels()),
       failures_(layout.levels()),
+      dimples_(layout.levels()),
+      moved_(layout.levels()),
       life_(operate()) {
   const Random tissue = random.fork("tissue");
   for (const std::size_t level : layout.operated()) {
@@ -145,10 +148,15 @@ Script Surgeon::perform(StepOnDisplay step) {
     co_await await_verdict(*level, step);
   } else if (step.step == Step::kVerify && level) {
     co_await verify(*level);
-  } else if (step.step == Step::kAccepted) {
+  } else if (step.step == Step::kAccepted && level) {
     co_await body_.rest(1.0);
-    body_.say("next");
-    co_await await_change(step, "next");
+    if (asked(ChecksAsked::kTouchMore)) {
+      co_await touch_landmark(*level);
+    }
+    if (in_step(step)) {
+      body_.say("next");
+      co_await await_change(step, "next");
+    }
   } else if (step.step == Step::kGuide && level && step.side) {
     co_await guide(*level, *step.side);
     if (driven_.contains(step)) {
@@ -191,10 +199,11 @@ Script Surgeon::await_change(std::optional<StepOnDisplay> step, std::string phra
 Script Surgeon::verify(std::size_t level) {
   const StepOnDisplay step = step_now();
   body_.posture().contact_normal.reset();
-  bool fits = true;
+  // Once it may have been the touch; twice it is not where it was.
+  bool fits = !(told(Notice::kLandmarkMoved) && ++moved_[level] > 1);
   co_await body_.rest(1.0);
   bool asked_to_touch = asked(ChecksAsked::kTouchMore);
-  if (asked_to_touch) {
+  if (fits && asked_to_touch) {
     // What is touched may still move the picture.
     co_await check_by_touch(level, fits);
   }
@@ -209,6 +218,7 @@ Script Surgeon::verify(std::size_t level) {
     co_return;
   }
   body_.say(fits ? "accept" : "reject");
+  moved_[level] = fits ? moved_[level] : 0;
   if (!fits && ++failures_[level] >= kMaxFailures) {
     give_up();
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -75,6 +76,8 @@ class Surgeon {
   /// when it says that the registration must go.
   Script check_by_touch(std::size_t level, bool& fits);
   Script touch_place(const StepOnDisplay& step, const BoneSpot& place);
+  /// Rests the pointer's tip there and clicks, again where the line says that it was not taken.
+  Script touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal);
   /// Spread over what can be stroked, each well away from those before it.
   [[nodiscard]] std::vector<BoneSpot> places_to_check(std::size_t level);
   [[nodiscard]] bool told(Notice notice) const {
@@ -83,6 +86,10 @@ class Surgeon {
   [[nodiscard]] bool asked(ChecksAsked checks) const {
     return eyes_->status() && eyes_->status()->checks == checks;
   }
+
+  // surgeon_landmark.cpp
+  /// Makes a dimple in the bone, or finds it again, and touches it.
+  Script touch_landmark(std::size_t level);
 
   // surgeon_digitizing.cpp
   Script digitize(std::size_t level);
@@ -153,10 +160,13 @@ class Surgeon {
   GuidanceProfile guidance_;
   Bearings bearings_;
   Random checking_;  ///< of its own: who need not touch draws the same from the others
+  Random seating_;   ///< of the tip in a dimple; of its own likewise
   double lightness_ = 1.0;
   std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
   std::vector<int> failures_;                       ///< refusals and rejections, for each level
-  std::set<StepOnDisplay> driven_;                  ///< guide steps whose wire is in
+  std::vector<std::optional<BoneSpot>> dimples_;    ///< in Vertebra, for each level
+  std::vector<int> moved_;  ///< how often its landmark had moved since a level was registered
+  std::set<StepOnDisplay> driven_;  ///< guide steps whose wire is in
   std::vector<WireInsertion> wire_insertions_;
   bool finished_ = false;
   bool gave_up_ = false;

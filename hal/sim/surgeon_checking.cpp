@@ -60,11 +60,14 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
 Script Surgeon::touch_place(const StepOnDisplay& step, const BoneSpot& place) {
   // The bone stops the tip, so soft tissue can only hold it off.
   const double lift_m = std::abs(checking_.normal(0.0, error_model_->touch_lift_m));
-  const Point<Room> tip{place.point + lift_m * place.normal};
+  co_await touch_at(step, {place.point + lift_m * place.normal}, place.normal);
+}
+
+Script Surgeon::touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal) {
   body_.look(tip);
   body_.posture().contact_normal.reset();
-  co_await body_.move({tip, body_.pointer_axis(place.normal), 0.0}, kReach_s, kTouchLift_m);
-  body_.posture().contact_normal = place.normal;
+  co_await body_.move({tip, body_.pointer_axis(normal), 0.0}, kReach_s, kTouchLift_m);
+  body_.posture().contact_normal = normal;
   // The line says when a touch was not taken: rest a little longer and click again.
   for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
     co_await body_.rest(kSettle_s);

@@ -78,6 +78,9 @@ std::vector<Message> messages() {
           Message(ChecksMissing{{Advice::kTouchApart, 2, 0.015, 0.0}}),
           Message(TouchNotRecorded{What::kCheckPoint,
                                    {TouchRefusal::Kind::kTipMoved, 0.03000001, 0.03}}),
+          Message(TouchNotRecorded{What::kLandmark, {TouchRefusal::Kind::kTooNear, 0.022, 0.03}}),
+          Message(LandmarkMissing{}),
+          Message(LandmarkMoved{0.0123001, 0.0123, false}),
           Message(NoRod{{"screw heads 10 and 11 are 4.9999 mm apart, limit 5-150 mm"}}),
           Message(MapMoved{Step::kDigitize}),
           Message(MapMoved{Step::kRod}),
@@ -89,10 +92,12 @@ std::vector<Message> messages() {
 std::vector<StatusLine> lines_about(const Message& message, const Coaching& coaching,
                                     const nav::CheckVerdict& verdict, const HeardCommand& heard) {
   const bool none = std::holds_alternative<std::monostate>(message);
-  std::vector<StepState> states = {ChecksSoFar{0.0123, 20, -0.0123, &verdict}};
+  std::vector<StepState> states = {ChecksSoFar{0.0123, 20, -0.0123, &verdict},
+                                   ChecksSoFar{0.0123, 20, -0.0123, &verdict, true, 0.0123}};
   if (none) {
-    states.insert(states.end(), {StrokesSoFar{123456, &coaching},
-                                 RegistrationFigures{0.0123, 0.0123, false}, HeadsSoFar{20}});
+    states.insert(states.end(),
+                  {StrokesSoFar{123456, &coaching}, RegistrationFigures{0.0123, 0.0123, false},
+                   LandmarkSoFar{{0.0123, 0.0123, false, true}, false, {}}, HeadsSoFar{20}});
   }
   std::vector<StatusLine> lines;
   for (int step = 0; step < static_cast<int>(kStepCount); ++step) {

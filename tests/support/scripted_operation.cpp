@@ -92,6 +92,7 @@ ScriptedTracker::ScriptedTracker() {
 void ScriptedTracker::hang_on_reference() {
   tools_.push_back(
       {"reference", nav::ToolRole::kReference, {"tag36h11", 17, 0.04}, {{0, -0.06, 0}}});
+  states_.resize(3);
 }
 
 std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame) {
@@ -99,8 +100,8 @@ std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame)
   if (reference_seen) {
     reference.last_seen = frame.time;
   }
-  const std::optional<Transform<World, Marker>> poses[] = {pointer, guide};
-  const PoseStatus origins[] = {pointer_origin, guide_origin};
+  const std::optional<Transform<World, Marker>> poses[] = {pointer, guide, reference_pose};
+  const PoseStatus origins[] = {pointer_origin, guide_origin, PoseStatus::kMeasured};
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].tool = i;
     states_[i].world_from_marker = {};
@@ -116,12 +117,16 @@ std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame)
 
 ScriptedOperation::ScriptedOperation(std::vector<std::string> labels,
                                      engine::SessionOptions options,
-                                     engine::Verification verification, bool coaching) {
+                                     engine::Verification verification, bool coaching,
+                                     bool reference) {
   registration.accepted = true;
   registration.rmse_m = 0.0006;
   registration.points = 300;
   auto tracker = std::make_unique<ScriptedTracker>();
   tracker_ = tracker.get();
+  if (reference) {
+    tracker->hang_on_reference();
+  }
   auto registrar = [this](const engine::RegistrationRequest& request) -> Result<nav::Registration> {
     registered_points.push_back(request.points_in_world.size());
     if (unusable) {
@@ -216,6 +221,26 @@ const engine::Guidance& ScriptedOperation::finishes_every_screw() {
     }
   }
   return *last;
+}
+
+const engine::Guidance& ScriptedOperation::checks_by_touch() {
+  touches({-0.015, 0.020, -0.010});
+  touches({0.015, 0.020, -0.010});
+  return touches({0.000, 0.020, 0.012});
+}
+
+const engine::Guidance& ScriptedOperation::touches_dimple(Vec3 off_m) {
+  const int touches = engine::LandmarkRules{}.touches_of(tracker_->anchor() != nullptr);
+  for (int touch = 1; touch < touches; ++touch) {
+    this->touches(kDimple + off_m);
+  }
+  return this->touches(kDimple + off_m);
+}
+
+const engine::Guidance& ScriptedOperation::accepts_first_by_touch() {
+  registers_first_level();
+  checks_by_touch();
+  return accepts();
 }
 
 const engine::Guidance& ScriptedOperation::accepts_first_level() {

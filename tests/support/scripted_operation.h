@@ -33,8 +33,9 @@ class ScriptedTracker : public nav::ToolTracker {
   /// From now on there is a patient reference, seen in every pair until it is said otherwise.
   void hang_on_reference();
   bool reference_seen = true;
-  nav::Anchor reference;             ///< what is said of it
-  std::optional<nav::TagSize> size;  ///< of every tool
+  std::optional<Transform<World, Marker>> reference_pose;  ///< absent: not told
+  nav::Anchor reference;                                   ///< what is said of it
+  std::optional<nav::TagSize> size;                        ///< of every tool
   [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t /*tool*/) const override {
     return size;
   }
@@ -53,7 +54,7 @@ class ScriptedOperation {
   explicit ScriptedOperation(std::vector<std::string> labels = {"L4", "L5"},
                              engine::SessionOptions options = {},
                              engine::Verification verification = engine::Verification::kByEye,
-                             bool coaching = false);
+                             bool coaching = false, bool reference = false);
 
   const engine::Guidance& pair();
   const engine::Guidance& pairs(int n);
@@ -71,6 +72,14 @@ class ScriptedOperation {
   const engine::Guidance& accepts();
   /// From setup to `accepted` of the first level.
   const engine::Guidance& accepts_first_level();
+  /// Touches three places of the box's back that bear a registration out.
+  const engine::Guidance& checks_by_touch();
+  /// From setup to `accepted` of the first level, where registrations are verified by touch.
+  const engine::Guidance& accepts_first_by_touch();
+  /// Where its landmark may be touched then: on the box's back.
+  static constexpr Vec3 kDimple{0.012, 0.020, 0.015};
+  /// As often as its place takes, so far off.
+  const engine::Guidance& touches_dimple(Vec3 off_m = {});
   /// From setup to the end of the last level's last screw: to `rod`, or `done` with one level.
   const engine::Guidance& finishes_every_screw();
 

@@ -38,6 +38,9 @@ SessionRecord cut_session() {
   level.accepted = true;
   level.registration = 0;
   level.checks = {{-0.0004, true}};
+  level.landmark = {{true, 0.0, 0.0015, true, false},
+                    {false, 0.0004, 0.0015, true, true},
+                    {false, 0.0023, 0.0015, false, false}};
   level.screws = {{Side::kLeft, true, session.end, RecordedPose{0.02, 0.011, 0.001, 0.0109}},
                   {Side::kRight, false, {}, {}}};
   session.levels = {level};
@@ -69,6 +72,7 @@ TEST(SessionReport, CallsWhatTheJournalDoesNotHoldNotRecorded) {
   const std::string page = session_page(cut_session(), "j");
   EXPECT_THAT(page, HasSubstr("not recorded"));
   EXPECT_THAT(page, HasSubstr("<td>1 of 2</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>recorded, 0.4 (taken back), <span class=bad>2.3</span></td>"));
   EXPECT_THAT(page, HasSubstr("not done"));
   EXPECT_THAT(page, Not(HasSubstr("nan")));
   const auto json = nlohmann::json::parse(session_json(cut_session()));
@@ -90,6 +94,11 @@ TEST(SessionReport, HasTheFiguresInTheKeysOfAReport) {
   EXPECT_EQ(level["label"], "L4");
   EXPECT_DOUBLE_EQ(level["rmse_mm"], 1.31);
   EXPECT_DOUBLE_EQ(level["check_points_mm"][0], -0.4);
+  EXPECT_EQ(level["landmark"][0]["first"], true);
+  EXPECT_FALSE(level["landmark"][0].contains("off_mm"));
+  EXPECT_EQ(level["landmark"][1]["dropped"], true);
+  EXPECT_DOUBLE_EQ(level["landmark"][2]["off_mm"], 2.3);
+  EXPECT_EQ(level["landmark"][2]["within"], false);
   EXPECT_EQ(level["screws"][0]["done"], true);
   EXPECT_DOUBLE_EQ(level["screws"][0]["at_depth"]["depth_mm"], 10.9);
   EXPECT_EQ(level["screws"][1]["done"], false);

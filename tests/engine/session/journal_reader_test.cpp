@@ -141,6 +141,31 @@ TEST(JournalReader, KnowsWhatWasAcceptedAfterTouching) {
   EXPECT_NE(level.registration->uncertainty->covariance(), covariance) << "it holds the touches";
 }
 
+TEST(JournalReader, KnowsEveryTouchOfTheLandmarkAndWhatItTookBack) {
+  Journaled j({"L4"}, Verification::kByTouch);
+  j.operation.accepts_first_by_touch();
+  j.operation.touches_dimple();
+  j.operation.says("next");
+  j.operation.says("next");
+  j.operation.touches_dimple(Vec3{0.0006, 0, 0});
+  j.operation.says("delete");
+  j.operation.touches_dimple(Vec3{0, 0, 0.0031});
+  ASSERT_EQ(j.operation.pair().step, Step::kVerify);
+  const SessionRecord record = j.finished("");
+  expect_the_same(record, j.operation.session());
+  EXPECT_FALSE(record.levels[0].accepted);
+  EXPECT_TRUE(record.levels[0].registration) << "it is judged anew";
+  EXPECT_TRUE(record.levels[0].checks.empty());
+  const std::vector<RecordedLandmark>& touches = record.levels[0].landmark;
+  ASSERT_EQ(touches.size(), 3U);
+  EXPECT_TRUE(touches[0].first);
+  EXPECT_NEAR(touches[1].off_m, 0.0006, 1e-9);
+  EXPECT_TRUE(touches[1].within && touches[1].dropped);
+  EXPECT_NEAR(touches[2].off_m, 0.0031, 1e-9);
+  EXPECT_FALSE(touches[2].within || touches[2].dropped);
+  EXPECT_NEAR(touches[2].limit_m, LandmarkRules{}.most_m, 1e-9);
+}
+
 TEST(JournalReader, FollowsRejectionsCheckPointsAndAMovedMap) {
   Journaled j({"L4", "L5"}, Verification::kByTouch);
   j.operation.registers_first_level();

@@ -122,6 +122,19 @@ TEST(SessionAllocations, AreNoneWhileThePointerTouches) {
   EXPECT_EQ(allocations_of(s, 15), 0u) << "half a second, then the button counts as held";
 }
 
+TEST(SessionAllocations, AreNoneWhileTheLandmarkIsTouchedAndAfterItMoved) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.accepts_first_by_touch();
+  EXPECT_EQ(allocations_once_warm(s), 0u) << "with nothing touched";
+  s.touches_dimple();
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+  s.says("next");
+  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+  EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
+  EXPECT_EQ(s.touches_dimple(Vec3{0, 0, 0.003}).step, Step::kVerify);
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
 TEST(SessionAllocations, AreNoneWhileVerifyingByEyeAndOnceAccepted) {
   ScriptedOperation s;
   s.registers_first_level();

@@ -200,6 +200,28 @@ TEST(Wording, SaysHowAStepStands) {
   verdict = {true, 0.0013, {}};
   EXPECT_EQ(line_with(ChecksSoFar{0.0008, 3, std::nullopt, &verdict}),
             "0.8 mm expected; checked, worst 1.3 mm");
+  EXPECT_EQ(line_with(ChecksSoFar{0.0008, 3, std::nullopt, &verdict, false, 0.0023}),
+            "0.8 mm expected; moved 2.3 mm; checked, worst 1.3 mm");
+}
+
+TEST(Wording, AsksForTheLandmarkAndTellsHowItWasFound) {
+  const RegistrationFigures figures{0.00062, 0.0011, false};
+  EXPECT_EQ(line_with(LandmarkSoFar{figures, false, {}}),
+            "RMSE 0.62 mm, 1.1 mm expected at the screws; make a dimple in this bone and touch it");
+  EXPECT_EQ(line_with(LandmarkSoFar{figures, true, LandmarkTouch{true, 0, 0.0, 0.0015}}),
+            "RMSE 0.62 mm, 1.1 mm expected at the screws; dimple recorded");
+  EXPECT_EQ(line_with(LandmarkSoFar{figures, true, {}}),
+            "RMSE 0.62 mm, 1.1 mm expected at the screws; touch the dimple");
+  EXPECT_EQ(line_with(LandmarkSoFar{figures, true, LandmarkTouch{false, 0, 0.0004, 0.0015}}),
+            "RMSE 0.62 mm, 1.1 mm expected at the screws; dimple found, 0.4 mm off");
+  EXPECT_EQ(line_with(LandmarkSoFar{figures, true, LandmarkTouch{false, 1, 0.0, 0.0015}}),
+            "RMSE 0.62 mm, 1.1 mm expected at the screws; lift the tip and touch the dimple again");
+  StatusLine warned;
+  warned.tool = "pointer";
+  warned.tag_size_off = 0.02;
+  warned.state = LandmarkSoFar{figures, true, {}};
+  EXPECT_EQ(detail_text(warned),
+            "pointer: tag 2.0 % larger than stated, check print and unit; touch the dimple");
 }
 
 TEST(Wording, SaysEveryMessage) {
@@ -228,6 +250,20 @@ TEST(Wording, SaysEveryMessage) {
             "head not recorded: hold too long");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kCheckPoint, {Touch::kTooMany}})),
             "check point not recorded: there are 20 already");
+  EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kLandmark, {Touch::kTooNear, 0.022, 0.030}})),
+            "dimple not recorded: 22 mm from the reference, at least 30 mm: make it farther away");
+  EXPECT_EQ(
+      line_with(Message(TouchNotRecorded{What::kLandmark, {Touch::kTouchesApart, 0.0031, 0.0021}})),
+      "dimple not recorded: touches 3.1 mm apart, limit 2.1 mm: touch it anew");
+  EXPECT_EQ(line_with(Message(NothingToDelete{NothingToDelete::What::kLandmark})),
+            "no touch of the dimple to delete");
+  EXPECT_EQ(line_with(Message(LandmarkMissing{false})),
+            "not yet: make a dimple in this bone and touch it");
+  EXPECT_EQ(line_with(Message(LandmarkMissing{true})), "not yet: touch the dimple");
+  EXPECT_EQ(line_with(Message(LandmarkMoved{0.0023, 0.0014, false})),
+            "the patient or the map moved 2.3 mm, limit 1.4 mm: check again or reject");
+  EXPECT_EQ(line_with(Message(LandmarkMoved{0.00161, 0.0016, true})),
+            "the reference moved 1.61 mm, limit 1.60 mm: check again or reject");
   EXPECT_EQ(line_with(Message(NoRod{{"2 heads lie 0.4 mm apart, at least 1.0 mm"}})),
             "no rod: 2 heads lie 0.4 mm apart, at least 1.0 mm");
   EXPECT_EQ(line_with(Message(MapMoved{Step::kDigitize})),

@@ -34,12 +34,19 @@ TEST(Workflow, IsWrittenDownAsItIs) {
 
 TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
   // Raised by the session itself, in these steps only.
-  constexpr std::pair<Step, Event> kRaised[] = {
-      {Step::kDigitize, Event::kRegistered}, {Step::kDigitize, Event::kRegistrationRefused},
-      {Step::kVerify, Event::kChecked},      {Step::kVerify, Event::kNotChecked},
-      {Step::kGuide, Event::kAnotherScrew},  {Step::kGuide, Event::kAnotherLevel},
-      {Step::kGuide, Event::kNoScrewLeft},   {Step::kGuide, Event::kNoRodPlanned},
-      {Step::kRod, Event::kAnotherSide},     {Step::kRod, Event::kNoSideLeft}};
+  constexpr std::pair<Step, Event> kRaised[] = {{Step::kDigitize, Event::kRegistered},
+                                                {Step::kDigitize, Event::kRegistrationRefused},
+                                                {Step::kVerify, Event::kChecked},
+                                                {Step::kVerify, Event::kNotChecked},
+                                                {Step::kAccepted, Event::kLandmarkTouched},
+                                                {Step::kAccepted, Event::kLandmarkMissing},
+                                                {Step::kAccepted, Event::kLandmarkMoved},
+                                                {Step::kGuide, Event::kAnotherScrew},
+                                                {Step::kGuide, Event::kAnotherLevel},
+                                                {Step::kGuide, Event::kNoScrewLeft},
+                                                {Step::kGuide, Event::kNoRodPlanned},
+                                                {Step::kRod, Event::kAnotherSide},
+                                                {Step::kRod, Event::kNoSideLeft}};
   for (const auto& [step, event] : kRaised) {
     EXPECT_NE(answer(step, event).action, Action::kRefuse) << name_of(step) << name_of(event);
   }
@@ -88,18 +95,21 @@ INSTANTIATE_TEST_SUITE_P(Workflow, EveryVerification,
 
 TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
   // What is raised on an "accept" when the touched places bear it out, else the word itself.
-  const Event accepting =
-      GetParam() == Verification::kByTouch ? Event::kChecked : Event::kSayAccept;
+  const bool by_touch = GetParam() == Verification::kByTouch;
+  const Event accepting = by_touch ? Event::kChecked : Event::kSayAccept;
+  // What is raised on a "next" once the landmark was found.
+  const Event guiding = by_touch ? Event::kLandmarkTouched : Event::kSayNext;
   for (std::size_t s = 0; s < kStepCount; ++s) {
     for (std::size_t e = 0; e < kEventCount; ++e) {
       const auto step = static_cast<Step>(s);
       const auto event = static_cast<Event>(e);
       const Step next = answer(step, event, GetParam()).next;
       if (next == Step::kAccepted && step != Step::kAccepted) {
-        EXPECT_TRUE(step == Step::kVerify && event == accepting) << s << " " << e;
+        const bool after_screw = by_touch && step == Step::kGuide && event == Event::kAnotherScrew;
+        EXPECT_TRUE(after_screw || (step == Step::kVerify && event == accepting)) << s << " " << e;
       }
       if (next == Step::kGuide && step != Step::kGuide) {
-        EXPECT_TRUE(step == Step::kAccepted && event == Event::kSayNext) << s << " " << e;
+        EXPECT_TRUE(step == Step::kAccepted && event == guiding) << s << " " << e;
       }
     }
   }
@@ -111,12 +121,25 @@ TEST(Workflow, VerifyingByTouchTheWordAloneAcceptsNothing) {
   EXPECT_EQ(answer(Step::kVerify, Event::kNotChecked).next, Step::kVerify);
 }
 
-TEST(Workflow, VerifyingByEyeDiffersInVerifyAlone) {
+TEST(Workflow, BeforeEveryScrewTheLandmarkIsTouched) {
+  EXPECT_EQ(answer(Step::kGuide, Event::kAnotherScrew),
+            (Cell{Step::kAccepted, Action::kExpectLandmark}));
+  EXPECT_EQ(answer(Step::kAccepted, Event::kSayNext),
+            (Cell{Step::kAccepted, Action::kJudgeLandmark}));
+  EXPECT_EQ(answer(Step::kAccepted, Event::kLandmarkMoved),
+            (Cell{Step::kVerify, Action::kVerifyAgain}));
+  EXPECT_EQ(answer(Step::kAccepted, Event::kSayNext, Verification::kByEye),
+            (Cell{Step::kGuide, Action::kSelectScrew}));
+}
+
+TEST(Workflow, VerifyingByEyeDiffersInVerifyAndInTheLandmark) {
   for (std::size_t s = 0; s < kStepCount; ++s) {
     for (std::size_t e = 0; e < kEventCount; ++e) {
       const auto step = static_cast<Step>(s);
       const auto event = static_cast<Event>(e);
-      if (step == Step::kVerify) {
+      const bool landmark =
+          step == Step::kAccepted || (step == Step::kGuide && event == Event::kAnotherScrew);
+      if (step == Step::kVerify || landmark) {
         continue;
       }
       EXPECT_EQ(answer(step, event, Verification::kByEye), answer(step, event)) << s << " " << e;
@@ -124,8 +147,9 @@ TEST(Workflow, VerifyingByEyeDiffersInVerifyAlone) {
   }
   // The published way has nothing to click at and nothing to take back.
   for (const Event event : {Event::kPress, Event::kRelease, Event::kClick, Event::kHold}) {
-    EXPECT_EQ(answer(Step::kVerify, event, Verification::kByEye),
-              (Cell{Step::kVerify, Action::kIgnore}));
+    for (const Step step : {Step::kVerify, Step::kAccepted}) {
+      EXPECT_EQ(answer(step, event, Verification::kByEye), (Cell{step, Action::kIgnore}));
+    }
   }
   EXPECT_EQ(answer(Step::kVerify, Event::kSayDelete, Verification::kByEye).action, Action::kRefuse);
 }
@@ -141,7 +165,8 @@ TEST(Workflow, LosingAToolNeverChangesTheStep) {
 }
 
 TEST(Workflow, AStalePoseHidesWhereverAToolIsUsed) {
-  for (const Step step : {Step::kDigitize, Step::kVerify, Step::kGuide, Step::kRod}) {
+  for (const Step step :
+       {Step::kDigitize, Step::kVerify, Step::kAccepted, Step::kGuide, Step::kRod}) {
     EXPECT_EQ(answer(step, Event::kPoseStale).action, Action::kHideGuidance) << name_of(step);
   }
 }

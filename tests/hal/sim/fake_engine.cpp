@@ -96,7 +96,9 @@ void FakeEngine::take(const ClickerEvent& event) {
     double_clicked(event.time);
   }
   const bool checking = options_.check_points > 0 && (step_.step == Step::kVerify);
-  if (event.action == ClickerAction::kClick && (checking || (step_.step == Step::kRod))) {
+  if (event.action == ClickerAction::kClick && step_.step == Step::kAccepted && options_.landmark) {
+    touched_landmark();
+  } else if (event.action == ClickerAction::kClick && (checking || (step_.step == Step::kRod))) {
     touched();
   }
 }
@@ -122,6 +124,17 @@ void FakeEngine::touched() {
   levels_[level_label()].checks_in_vertebra.push_back(
       (world_from_vertebra(level_label()).inverse() * tip()).v);
   ask_for_checks();
+}
+
+void FakeEngine::touched_landmark() {
+  std::vector<Vec3>& touched = levels_[level_label()].landmark_in_vertebra;
+  touched.push_back((world_from_vertebra(level_label()).inverse() * tip()).v);
+  checks_ = ChecksAsked::kPassed;
+  if (touched.size() > 1 && options_.landmark_moves > 0) {
+    --options_.landmark_moves;
+    enter({Step::kVerify, level_label(), {}});
+    notice_ = Notice::kLandmarkMoved;
+  }
 }
 
 void FakeEngine::ask_for_checks() {
@@ -167,6 +180,7 @@ void FakeEngine::take(const Phrase& phrase) {
     region_.clear();
   } else if ((step_.step == Step::kVerify) && phrase.text == "accept") {
     enter({Step::kAccepted, level_label(), {}});
+    checks_ = options_.landmark ? ChecksAsked::kTouchMore : ChecksAsked::kNone;
   } else if ((step_.step == Step::kVerify) && phrase.text == "reject") {
     level = {};
     first_press_.reset();
@@ -182,13 +196,21 @@ void FakeEngine::take(const Phrase& phrase) {
 }
 
 void FakeEngine::next_screw() {
-  const bool fresh = (step_.step == Step::kAccepted);
-  for (std::size_t i = fresh ? 0 : screw_ + 1; i < case_.screws.size(); ++i) {
+  const bool before_one = (step_.step == Step::kAccepted);
+  const std::size_t first = before_one ? (guided_here_ ? screw_ + 1 : 0) : screw_ + 1;
+  for (std::size_t i = first; i < case_.screws.size(); ++i) {
+    if (case_.screws[i].level == level_label() && options_.landmark && !before_one) {
+      enter({Step::kAccepted, level_label(), {}});
+      checks_ = ChecksAsked::kTouchMore;
+      return;
+    }
     if (case_.screws[i].level == level_label()) {
+      guided_here_ = true;
       screw_ = i;
       return enter({Step::kGuide, level_label(), case_.screws[i].side});
     }
   }
+  guided_here_ = false;
   first_press_.reset();
   attempts_ = 0;
   if (++level_ < order_.size()) {

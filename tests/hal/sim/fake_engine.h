@@ -15,8 +15,9 @@ struct DigitizedLevel {
   double duration_s = 0.0;  ///< from the first press to the double click
   int saved_samples = 0;
   int deleted_regions = 0;
-  std::vector<Vec3> samples_in_vertebra;  ///< saved ones
-  std::vector<Vec3> checks_in_vertebra;   ///< touched in `verify`
+  std::vector<Vec3> samples_in_vertebra;   ///< saved ones
+  std::vector<Vec3> checks_in_vertebra;    ///< touched in `verify`
+  std::vector<Vec3> landmark_in_vertebra;  ///< touched in `accepted`
 };
 
 struct EngineOptions {
@@ -26,10 +27,12 @@ struct EngineOptions {
   Vec3 registration_turn_rad;
   double blind_from_s = 0.0;  ///< the tools are lost in this span of time
   double blind_to_s = 0.0;
-  bool deaf = false;     ///< hears no voice
-  int lost_touches = 0;  ///< the first touches are not recorded
-  int check_points = 0;  ///< asked for in `verify`
-  bool off = false;      ///< what is touched then turns out too far off
+  bool deaf = false;       ///< hears no voice
+  int lost_touches = 0;    ///< the first touches are not recorded
+  int check_points = 0;    ///< asked for in `verify`
+  bool off = false;        ///< what is touched then turns out too far off
+  bool landmark = false;   ///< is asked for in `accepted`, before every screw
+  int landmark_moves = 0;  ///< so many touches before a level's second screw find it elsewhere
 };
 
 /// For a simulation that renders nothing: who only talks to the engine needs no images.
@@ -61,6 +64,7 @@ class FakeEngine {
   void touched();
   void ask_for_checks();
   [[nodiscard]] Point<World> tip() const;
+  void touched_landmark();
   void next_screw();
   void draw(const StereoFrame& frame);
   void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
@@ -76,6 +80,7 @@ class FakeEngine {
   std::vector<std::string> order_;
   std::size_t level_ = 0;
   std::size_t screw_ = 0;
+  bool guided_here_ = false;  ///< `screw_` is one of this level
   StepOnDisplay step_;
   Notice notice_ = Notice::kNone;
   ChecksAsked checks_ = ChecksAsked::kNone;

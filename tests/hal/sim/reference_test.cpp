@@ -39,5 +39,54 @@ TEST(Reference, StaysOnThePatientAllTheOperation) {
   EXPECT_GT(head_turned_rad, 0.3) << "the head must have moved, or this shows nothing";
 }
 
+/// The tip of the wires' truth in the bone, and where reference and bone came to lie.
+struct Ends {
+  Transform<Room, Spine> spine;
+  Transform<Spine, Marker> reference;
+  std::size_t wires = 0;
+};
+
+Ends ends_with(const SimOptions& with) {
+  TestCase test_case = synthetic_case();
+  test_case.room.tools.push_back(
+      {"reference", ToolKind::kReference, "tag36h11", 17, 0.040, {{0, -0.060, 0}}, {0, 1, 0}});
+  SimOptions options = with;
+  options.render = false;
+  options.error_model = ErrorModel::perfect();
+  auto headset = SimHeadset::open(test_case.room, options);
+  EXPECT_TRUE(headset.ok());
+  FakeEngine engine(**headset, test_case);
+  EXPECT_GT(engine.run(), 0);
+  const RoomState state = (*headset)->state();
+  return {state.room_from_spine, state.room_from_spine.inverse() * state.room_from_marker[2],
+          (*headset)->truth().wires.size()};
+}
+
+TEST(Reference, ABumpMovesItAgainstTheBoneAndAShiftTakesItAlong) {
+  SimOptions options;
+  const Ends rest = ends_with(options);
+  options.reference_bump = {0.002, 0.0, 1};
+  const Ends bumped = ends_with(options);
+  options.reference_bump = {};
+  options.patient_shift = {0.003, 1};
+  const Ends shifted = ends_with(options);
+  ASSERT_EQ(shifted.wires, rest.wires);
+  constexpr double kExact_m = 1e-9;
+  EXPECT_NEAR((bumped.reference.translation() - rest.reference.translation()).norm(), 0.002,
+              kExact_m);
+  EXPECT_NEAR((bumped.spine.translation() - rest.spine.translation()).norm(), 0.0, kExact_m);
+  EXPECT_NEAR((shifted.reference.translation() - rest.reference.translation()).norm(), 0.0,
+              kExact_m);
+  EXPECT_NEAR((shifted.spine.translation() - rest.spine.translation()).norm(), 0.003, kExact_m);
+}
+
+TEST(Reference, AShiftThatNoPatientMakesIsRefused) {
+  SimOptions options;
+  options.patient_shift.shift_m = 0.06;
+  EXPECT_FALSE(options.check().ok());
+  options.patient_shift.shift_m = 0.05;
+  EXPECT_TRUE(options.check().ok());
+}
+
 }  // namespace
 }  // namespace orthonav::sim

@@ -1,0 +1,44 @@
+#include "engine/session/landmark.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthonav::engine {
+
+double LandmarkRules::limit_m(double recorded_sd_m, double sd_m, bool anchored) const {
+  const double lasting_m = anchored ? lasting_sd_anchored_m : lasting_sd_m;
+  const double each_m2 = dimple_sd_m * dimple_sd_m + lasting_m * lasting_m;
+  const double variance_m2 =
+      recorded_sd_m * recorded_sd_m + sd_m * sd_m + 2.0 * each_m2 / touches_of(anchored);
+  return std::min(sds * std::sqrt(variance_m2), most_m);
+}
+
+double LandmarkRules::apart_m(double sd_m, bool anchored) const {
+  const double lasting_m = anchored ? lasting_sd_anchored_m : lasting_sd_m;
+  return sds * std::sqrt(2.0 * (sd_m * sd_m + dimple_sd_m * dimple_sd_m + lasting_m * lasting_m));
+}
+
+std::vector<std::string> LandmarkRules::check() const {
+  std::vector<std::string> problems;
+  const auto in = [&problems](const char* name, double value, double above, double most) {
+    if (!(value > above && value <= most)) {
+      problems.push_back(std::string(name) + " must lie in (" + std::to_string(above) + ", " +
+                         std::to_string(most) + "]");
+    }
+  };
+  in("landmark.dimple_sd_m", dimple_sd_m, 0.0, 0.001);
+  for (const int count : {touches, touches_anchored}) {
+    if (count < 1 || count > 5) {
+      problems.emplace_back("landmark.touches must lie in [1, 5]");
+    }
+  }
+  in("landmark.lasting_sd_m", lasting_sd_m, 0.0, 0.001);
+  in("landmark.lasting_sd_anchored_m", lasting_sd_anchored_m, 0.0, 0.001);
+  in("landmark.sds", sds, 2.0, 6.0);
+  in("landmark.most_m", most_m, 0.0005, 0.003);
+  in("landmark.from_reference_m", from_reference_m, 0.0, 0.1);
+  in("landmark.reach", reach, 0.0, 1.0);
+  return problems;
+}
+
+}  // namespace orthonav::engine

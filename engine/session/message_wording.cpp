@@ -1,0 +1,156 @@
+#include "engine/session/message_wording.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "base/printed.h"
+#include "engine/session/wording.h"
+
+namespace orthonav::engine {
+namespace {
+
+void append_refusal(std::string& out, const TouchRefusal& why) {
+  switch (why.kind) {
+    case TouchRefusal::Kind::kPressAgain:
+      out += "press again";
+      break;
+    case TouchRefusal::Kind::kPointerNotSeen:
+      out += "pointer not seen";
+      break;
+    case TouchRefusal::Kind::kTipMoved:
+      append_beside_limit(out, "tip moved %.1f mm, limit %.1f mm", why.value_m * 1e3,
+                          why.limit_m * 1e3);
+      break;
+    case TouchRefusal::Kind::kHeldTooLong:
+      out += "hold too long";
+      break;
+    case TouchRefusal::Kind::kTooMany:
+      append_printed(out, "there are %zu already", nav::kMostCheckPoints);
+      break;
+    case TouchRefusal::Kind::kTouchesApart:
+      append_beside_limit(out, "touches %.1f mm apart, limit %.1f mm: touch it anew",
+                          why.value_m * 1e3, why.limit_m * 1e3);
+      break;
+    case TouchRefusal::Kind::kTooNear:
+      append_beside_limit(out, "%.0f mm from the reference, at least %.0f mm: make it farther away",
+                          why.value_m * 1e3, why.limit_m * 1e3);
+      break;
+  }
+}
+
+/// The words of each kind of message; as parts where they are more than one.
+struct MessageWriter {
+  PartedText text;
+  std::string& out = text.out;
+
+  void operator()(std::monostate /*none*/) {}
+  void operator()(const NotPossibleNow& m) {
+    text.begin(Importance::kMessage);
+    out.append("not possible now: ").append(name_of(m.event));
+  }
+  void operator()(const NotUnderstood& /*m*/) {
+    text.begin(Importance::kMessage);
+    out += "not understood";
+  }
+  void operator()(const SaidBeforeShown& /*m*/) {
+    text.begin(Importance::kMessage);
+    out += "not accepted: said before the hologram was shown";
+  }
+  void operator()(const NothingToDelete& m) {
+    text.begin(Importance::kMessage);
+    constexpr std::array<std::string_view, 4> kTexts = {
+        "nothing to delete", "no check point to delete", "no head to delete",
+        "no touch of the dimple to delete"};
+    out += kTexts[static_cast<std::size_t>(m.what)];
+  }
+  void operator()(const ConfirmDelete& m) {
+    text.begin(Importance::kNext);
+    append_printed(out, "say delete again to drop the last saved %zu points", m.points);
+  }
+  void operator()(const RegistrationRefused& m) {
+    text.begin(Importance::kMessage);
+    out += "refused: ";
+    const std::span<const nav::RefusalReason> reasons = m.reasons;
+    if (m.error) {
+      out += m.error->message;
+    } else {
+      append(out, reasons.first(std::min<std::size_t>(1, reasons.size())));
+    }
+    for (std::size_t i = 1; !m.error && i < reasons.size(); ++i) {
+      text.begin(Importance::kMore, "; ");
+      append(out, reasons[i]);
+    }
+    if (m.another_level_fits) {
+      text.begin(Importance::kNext, "; ");
+      out += "make sure of the level";
+    } else if (m.stroke_next) {
+      text.begin(Importance::kNext, "; ");
+      append(out, *m.stroke_next);
+    }
+  }
+  void operator()(const ChecksMissing& m) {
+    text.begin(Importance::kNext);
+    out += "not accepted: ";
+    append(out, m.advice);
+  }
+  void operator()(const TouchNotRecorded& m) {
+    text.begin(Importance::kMessage);
+    constexpr std::array<std::string_view, 3> kWhat = {"check point", "head", "dimple"};
+    out.append(kWhat[static_cast<std::size_t>(m.what)]).append(" not recorded: ");
+    append_refusal(out, m.why);
+  }
+  void operator()(const LandmarkMissing& m) {
+    text.begin(Importance::kNext);
+    out += "not yet: ";
+    out += m.recorded ? words::kTouchDimple : words::kMakeDimple;
+  }
+  void operator()(const LandmarkMoved& m) {
+    text.begin(Importance::kDanger);
+    out += m.anchored ? "the reference moved " : "the patient or the map moved ";
+    append_beside_limit(out, "%.1f mm, limit %.1f mm", m.off_m * 1e3, m.limit_m * 1e3);
+    text.begin(Importance::kNext, ": ");
+    out += "check again or reject";
+  }
+  void operator()(const NoRod& m) {
+    text.begin(Importance::kMessage);
+    out.append("no rod: ").append(m.why.message);
+  }
+  void operator()(const MapMoved& m) {
+    text.begin(Importance::kDanger);
+    out += "the headset's map moved";
+    ask_again(m.step);
+  }
+  void operator()(const ReferenceMoved& m) {
+    text.begin(Importance::kDanger);
+    out += "a patient reference moved";
+    ask_again(m.step);
+  }
+  void ask_again(Step step) {
+    if (step == Step::kDigitize) {
+      text.begin(Importance::kNext, ": ");
+      out += "digitize again";
+    } else if (step == Step::kRod) {
+      text.begin(Importance::kNext, ": ");
+      out += "touch this rod's heads again";
+    }
+  }
+  void operator()(const NoImages& /*m*/) {
+    text.begin(Importance::kDanger);
+    out += "no camera images";
+  }
+  void operator()(const Ended& /*m*/) {
+    text.begin(Importance::kDanger);
+    out += "ended";
+  }
+};
+
+}  // namespace
+
+void write_message(PartedText text, const Message& message) {
+  std::visit(MessageWriter{text}, message);
+}
+
+void append(std::string& out, const Message& message) { write_message(PartedText{out}, message); }
+
+}  // namespace orthonav::engine

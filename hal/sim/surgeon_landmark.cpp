@@ -1,0 +1,39 @@
+#include <vector>
+
+#include "hal/sim/noise.h"
+#include "hal/sim/surgeon.h"
+
+namespace orthonav::sim {
+namespace {
+
+constexpr int kMostTouches = 40;
+
+}  // namespace
+
+Script Surgeon::touch_landmark(std::size_t level) {
+  const StepOnDisplay step = step_now();
+  co_await body_.take(ToolKind::kPointer, layout_->site(level));
+  const bool made = dimples_[level].has_value();
+  const std::vector<BoneSpot> places =
+      made ? std::vector<BoneSpot>{*dimples_[level]} : places_to_check(level);
+  const auto& room_from_vertebra = layout_->room_from_vertebra(level);
+  std::size_t place = 0;
+  for (int touch = 0; touch < kMostTouches && in_step(step) && !finished_; ++touch) {
+    const BoneSpot& spot = places[place];
+    dimples_[level] = spot;
+    const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
+    co_await touch_at(step, room_from_vertebra * Point<Vertebra>{spot.point} + off,
+                      (room_from_vertebra * Direction<Vertebra>{spot.normal}).v);
+    // A place that is not taken, as too near to the reference, is left for another one.
+    place = told(Notice::kTouchNotRecorded) ? (place + 1) % places.size() : place;
+    const Timestamp end = body_.now() + from_seconds(kPatience_s);
+    while (in_step(step) && told(Notice::kTouchNotRecorded) && body_.now() < end) {
+      co_await body_.next_tick();
+    }
+    if (!asked(ChecksAsked::kTouchMore)) {
+      break;
+    }
+  }
+}
+
+}  // namespace orthonav::sim

@@ -1,0 +1,270 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "engine/session/session.h"
+#include "engine/session/wording.h"
+#include "tests/support/said.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine::session_landmark_test {
+namespace {
+
+using test::notice_of;
+using test::pointer_at;
+using test::said;
+using test::ScriptedOperation;
+using test::state;
+using test::step_of;
+using test::touch_refusal;
+using enum ClickerAction;
+
+// Arithmetic on values of the order of 1: far below what any device resolves.
+constexpr double kExact = 1e-9;
+constexpr Vec3 kDimple = ScriptedOperation::kDimple;
+/// Two touches of a few pairs each are that far from telling: the limit is its ceiling.
+constexpr double kLimit_m = LandmarkRules{}.most_m;
+constexpr double kJust_m = 1e-5;
+
+/// In `accepted`, with a registration that puts the box where it is: World is Vertebra.
+class LandmarkSession : public ::testing::Test {
+ protected:
+  LandmarkSession() : s({"L4", "L5"}, {}, Verification::kByTouch) { s.accepts_first_by_touch(); }
+  const LevelState& level() { return s.session().levels()[0]; }
+  void finish_first_screw() {
+    s.touches_dimple();
+    s.says("next");
+    s.says("next");
+  }
+  ScriptedOperation s;
+};
+
+TEST_F(LandmarkSession, NothingIsGuidedBeforeTheLandmarkIsRecorded) {
+  EXPECT_EQ(step_of(s.pair()), "accepted L4");
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore);
+  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+  ASSERT_NE(said<LandmarkMissing>(s.pair()), nullptr);
+  EXPECT_FALSE(said<LandmarkMissing>(s.pair())->recorded);
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore) << "in a message as well";
+  const Guidance& g = s.touches_dimple();
+  ASSERT_NE(state<LandmarkSoFar>(g), nullptr);
+  EXPECT_TRUE(state<LandmarkSoFar>(g)->last->first);
+  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
+  ASSERT_TRUE(level().landmark);
+  EXPECT_NEAR((level().landmark->in_vertebra.v - kDimple).norm(), 0.0, kExact);
+  EXPECT_EQ(step_of(s.says("next")), "guide L4 left");
+}
+
+TEST_F(LandmarkSession, OnTheMapOneTouchAloneSaysNothing) {
+  s.touches(kDimple);
+  EXPECT_EQ(state<LandmarkSoFar>(s.pair())->last->missing, 1);
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore);
+  EXPECT_FALSE(level().landmark);
+  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+  s.touches(kDimple + Vec3{0.001, 0, 0});
+  ASSERT_TRUE(level().landmark);
+  EXPECT_NEAR((level().landmark->in_vertebra.v - kDimple).norm(), 0.0005, kExact) << "the mean";
+  EXPECT_EQ(s.says("next").step, Step::kGuide);
+}
+
+TEST_F(LandmarkSession, TouchesThatLieApartAreNotOfOneDimple) {
+  s.touches(kDimple);
+  const TouchRefusal why = touch_refusal(s.touches(kDimple + Vec3{0.006, 0, 0}));
+  EXPECT_EQ(why.kind, TouchRefusal::Kind::kTouchesApart);
+  EXPECT_NEAR(why.value_m, 0.006, kExact);
+  EXPECT_LT(why.limit_m, 0.003);
+  s.touches(kDimple);
+  EXPECT_FALSE(level().landmark) << "it begins anew";
+  s.touches(kDimple + Vec3{0.002, 0, 0});
+  EXPECT_TRUE(level().landmark) << "the twin";
+}
+
+TEST_F(LandmarkSession, IsTouchedAgainAfterEveryScrew) {
+  finish_first_screw();
+  EXPECT_EQ(step_of(s.pair()), "accepted L4");
+  EXPECT_EQ(s.says("next").step, Step::kAccepted) << "the touch before the last screw is past";
+  ASSERT_NE(said<LandmarkMissing>(s.pair()), nullptr);
+  EXPECT_TRUE(said<LandmarkMissing>(s.pair())->recorded);
+  s.touches_dimple(Vec3{0.0009, 0, 0});
+  EXPECT_NEAR(state<LandmarkSoFar>(s.pair())->last->off_m, 0.0009, kExact);
+  EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
+  EXPECT_EQ(step_of(s.says("next")), "digitize L5") << "the last screw of a level needs none";
+}
+
+TEST_F(LandmarkSession, OneThatMovedTakesTheAcceptanceBack) {
+  finish_first_screw();
+  const Guidance& g = s.touches_dimple(Vec3{0, 0, kLimit_m + kJust_m});
+  EXPECT_EQ(step_of(g), "verify L4");
+  EXPECT_FALSE(level().accepted);
+  EXPECT_TRUE(level().check_points.empty());
+  EXPECT_TRUE(level().registration) << "it is judged anew";
+  ASSERT_NE(said<LandmarkMoved>(g), nullptr);
+  EXPECT_NEAR(said<LandmarkMoved>(g)->off_m, kLimit_m + kJust_m, kExact);
+  EXPECT_NEAR(said<LandmarkMoved>(g)->limit_m, kLimit_m, kExact);
+  EXPECT_FALSE(said<LandmarkMoved>(g)->anchored);
+  EXPECT_EQ(s.says("next").step, Step::kVerify);
+  EXPECT_EQ(s.says("accept").step, Step::kVerify) << "check points are touched anew";
+  EXPECT_TRUE(state<ChecksSoFar>(s.pairs(100))->moved_m) << "and the line goes on saying so";
+}
+
+TEST_F(LandmarkSession, TheTwinJustWithinTheLimitIsGuided) {
+  finish_first_screw();
+  s.touches_dimple(Vec3{0, 0, kLimit_m - kJust_m});
+  EXPECT_EQ(step_of(s.says("next")), "guide L4 right");
+}
+
+TEST_F(LandmarkSession, StaysOverAnotherAcceptanceAndMustBeFoundThen) {
+  finish_first_screw();
+  const Vec3 away{0, 0, 0.0025};
+  s.touches_dimple(away);
+  s.checks_by_touch();
+  s.says("accept");
+  ASSERT_EQ(step_of(s.pair()), "accepted L4");
+  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+  EXPECT_EQ(s.touches_dimple(away).step, Step::kVerify) << "the bone is where it was touched";
+  s.checks_by_touch();
+  s.says("accept");
+  s.touches_dimple();
+  EXPECT_EQ(step_of(s.says("next")), "guide L4 right") << "a slip of the tip costs three touches";
+}
+
+TEST_F(LandmarkSession, WhatIsShownAgainIsNotAcceptedByAnEarlierWord) {
+  finish_first_screw();
+  const Timestamp before = s.now();
+  s.touches_dimple(Vec3{0, 0, 0.003});
+  s.checks_by_touch();
+  ASSERT_EQ(step_of(s.pair()), "verify L4");
+  s.hears_at(before, "accept");
+  EXPECT_EQ(notice_of(s.pair()), Notice::kSaidTooEarly);
+  EXPECT_EQ(s.says("accept").step, Step::kAccepted) << "the twin, said now";
+}
+
+TEST_F(LandmarkSession, DeleteTakesTheLastTouchBack) {
+  EXPECT_EQ(notice_of(s.says("delete")), Notice::kNothingToDelete);
+  s.touches_dimple();
+  s.says("delete");
+  EXPECT_FALSE(level().landmark) << "the first touch was the landmark";
+  finish_first_screw();
+  s.touches_dimple(Vec3{0.001, 0, 0});
+  s.says("delete");
+  ASSERT_TRUE(level().landmark);
+  EXPECT_NEAR((level().landmark->in_vertebra.v - kDimple).norm(), 0.0, kExact);
+  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+}
+
+TEST_F(LandmarkSession, IsForgottenWithItsRegistration) {
+  finish_first_screw();
+  s.says("reject");
+  EXPECT_FALSE(level().landmark);
+}
+
+TEST_F(LandmarkSession, IsForgottenWithTheMap) {
+  s.touches_dimple();
+  ++s.map_epoch;
+  s.pair();
+  EXPECT_FALSE(level().landmark);
+}
+
+TEST_F(LandmarkSession, ATouchThatDoesNotCountRecordsNothing) {
+  s.tracker().pointer = pointer_at(kDimple);
+  s.does({kPress});
+  EXPECT_EQ(touch_refusal(s.does({kHold})).kind, TouchRefusal::Kind::kHeldTooLong);
+  EXPECT_EQ(said<TouchNotRecorded>(s.pair())->what, TouchNotRecorded::What::kLandmark);
+  s.does({kRelease});
+  s.does({kPress});
+  s.tracker().pointer = pointer_at(kDimple + Vec3{0.0064, 0, 0});
+  s.pair();
+  EXPECT_EQ(touch_refusal(s.does({kRelease, kClick})).kind, TouchRefusal::Kind::kTipMoved);
+  EXPECT_EQ(touch_refusal(s.does({kClick})).kind, TouchRefusal::Kind::kPressAgain);
+  EXPECT_FALSE(level().landmark);
+  EXPECT_EQ(s.says("next").step, Step::kAccepted);
+}
+
+TEST_F(LandmarkSession, AskForThePointerWhileItIsNotSeen) {
+  s.tracker().pointer.reset();
+  EXPECT_TRUE(s.pairs(5).status.tool_lost);
+}
+
+TEST_F(LandmarkSession, APressWhileAScrewWasGuidedIsNoTouch) {
+  s.touches_dimple();
+  s.says("next");
+  s.does({kPress});
+  s.says("next");
+  EXPECT_EQ(touch_refusal(s.does({kRelease, kClick})).kind, TouchRefusal::Kind::kPressAgain);
+}
+
+/// The reference stands on the box's right, its foot 20 mm from the dimple's side.
+class AnchoredLandmark : public ::testing::Test {
+ protected:
+  AnchoredLandmark() : s({"L4"}, {}, Verification::kByTouch, false, true) {
+    s.tracker().reference_pose = {Mat3::identity(), kFoot + Vec3{0, 0.06, 0}};
+    s.accepts_first_by_touch();
+  }
+  static constexpr Vec3 kFoot{-0.028, 0.020, 0.0};
+  ScriptedOperation s;
+};
+
+TEST_F(AnchoredLandmark, IsRefusedNearTheReference) {
+  const Vec3 near = kFoot + Vec3{0.020, 0, 0};
+  const TouchRefusal why = touch_refusal(s.touches(near));
+  EXPECT_EQ(why.kind, TouchRefusal::Kind::kTooNear);
+  EXPECT_NEAR(why.value_m, 0.020, kExact);
+  EXPECT_NEAR(why.limit_m, LandmarkRules{}.from_reference_m, kExact);
+  EXPECT_FALSE(s.session().levels()[0].landmark);
+  s.touches(kFoot + Vec3{0.031, 0, 0});
+  EXPECT_TRUE(s.session().levels()[0].landmark);
+}
+
+TEST_F(AnchoredLandmark, SaysThatItIsTheReferenceThatMoved) {
+  s.touches_dimple();
+  s.says("next");
+  s.says("next");
+  const Guidance& g = s.touches_dimple(Vec3{0.002, 0, 0});
+  ASSERT_NE(said<LandmarkMoved>(g), nullptr);
+  EXPECT_TRUE(said<LandmarkMoved>(g)->anchored);
+}
+
+TEST(Landmarking, OfABoneThatDoesNotReachSoFarMayLieNearer) {
+  LandmarkRules rules;
+  rules.from_reference_m = 0.1;
+  Landmarking landmarking(rules);
+  LevelState level;
+  level.plan = test::operation_of({"L4"}).levels[0];
+  level.registration = nav::Registration{};
+  const std::vector<ReferencePost> posts = {{{{0, 0.08, 0}}, {{0, 0.02, 0}}}};
+  // The farthest corner of the box's back, 30 x 25 mm from the foot, or deeper.
+  const auto at = [&](double x_m) {
+    return landmarking.take(level, nav::PressedPlace{{{x_m, 0.020, 0}}, 0.0003}, posts, true, {});
+  };
+  const auto refused = at(0.020);
+  ASSERT_TRUE(std::holds_alternative<TouchRefusal>(refused));
+  const double limit_m = std::get<TouchRefusal>(refused).limit_m;
+  EXPECT_GT(limit_m, 0.030);
+  EXPECT_LT(limit_m, 0.8 * std::hypot(0.030, 0.025, 0.040) + kExact);
+  EXPECT_TRUE(std::holds_alternative<LandmarkTouch>(at(limit_m + kJust_m)));
+}
+
+TEST(LandmarkRules, TheLimitFollowsHowSurelyBothTouchesWereSeen) {
+  LandmarkRules rules;
+  rules.most_m = 0.003;
+  const double sharp_m = rules.limit_m(0.0001, 0.0001, true);
+  EXPECT_NEAR(sharp_m,
+              rules.sds * std::sqrt(2.0 * (1e-8 + rules.dimple_sd_m * rules.dimple_sd_m +
+                                           std::pow(rules.lasting_sd_anchored_m, 2))),
+              kExact);
+  EXPECT_GT(rules.limit_m(0.0003, 0.0001, true), sharp_m);
+  EXPECT_GT(rules.limit_m(0.0001, 0.0001, false), sharp_m);
+  EXPECT_EQ(rules.limit_m(0.01, 0.01, false), rules.most_m) << "what matters must show";
+}
+
+TEST(LandmarkRules, NamesWhatMakesNoSense) {
+  EXPECT_TRUE(LandmarkRules{}.check().empty());
+  SessionOptions bad;
+  bad.landmark.dimple_sd_m = -0.1;
+  bad.landmark.most_m = 0.01;
+  bad.landmark.sds = std::nan("");
+  EXPECT_EQ(bad.check().size(), 3U);
+}
+
+}  // namespace
+}  // namespace orthonav::engine::session_landmark_test
