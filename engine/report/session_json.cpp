@@ -136,6 +136,11 @@ std::string session_json(const SessionRecord& session) {
     out["why_not"] = session.reason;
   }
   out["session"] = ending_json(session);
+  if (session.tips) {
+    out["tips"] = Json{{"apart_mm", session.tips->apart_m * 1e3},
+                       {"limit_mm", session.tips->limit_m * 1e3},
+                       {"corrected", session.tips->corrected}};
+  }
   out["levels"] = Json::array();
   for (const RecordedLevel& level : session.levels) {
     out["levels"].push_back(recorded_level_json(level, session));

@@ -195,6 +195,16 @@ void put_registrations(const SessionRecord& session, std::string& html) {
   html += kTableEnd;
 }
 
+std::string tips_note(const SessionRecord& session) {
+  if (!session.tips) {
+    return "<ul class=notes><li>The tips of pointer and guide were not compared.</li></ul>";
+  }
+  return "<ul class=notes><li>In one dimple the tips of pointer and guide were " +
+         html_number(session.tips->apart_m * 1e3, 2) + " mm apart" +
+         (session.tips->corrected ? "; the guide\u2019s was corrected by that" : "") +
+         ".</li></ul>";
+}
+
 void put_steps(const SessionRecord& session, std::string& html) {
   html += table_head("Course", "<th>time</th><th>step</th>");
   for (const RecordedStep& step : session.steps) {
@@ -243,6 +253,7 @@ std::string session_page(const SessionRecord& session, const std::string& source
   put_rods(session, html);
   put_registrations(session, html);
   put_steps(session, html);
+  html += tips_note(session);
   return html +
          "<ul class=notes><li>From the journal alone: digitized points, images, frame times and "
          "errors against the truth are not recorded in it.</li><li>Times are of the headset's "

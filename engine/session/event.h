@@ -68,6 +68,7 @@ enum class Action : std::uint8_t {
   kAskForLandmark,
   kExpectLandmark,
   kVerifyAgain,
+  kCorrectTip,
   kSelectScrew,
   kFinishScrew,
   kBeginRod,
@@ -85,6 +86,6 @@ enum class Action : std::uint8_t {
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 38;
+inline constexpr std::size_t kActionCount = 39;
 
 }  // namespace orthonav::engine

@@ -19,6 +19,12 @@ Json entry(std::int64_t file_ticks, Timestamp time, const char* what) {
               {"what", what}};
 }
 
+Json entry(std::int64_t file_ticks, Timestamp time, const char* what, const LevelState& level) {
+  Json line = entry(file_ticks, time, what);
+  line["level"] = level.plan.label;
+  return line;
+}
+
 /// Row-major, translation in mm.
 Json matrix_mm(std::array<double, 16> m) {
   for (const std::size_t i : {3u, 7u, 11u}) {
@@ -161,8 +167,7 @@ void Journal::not_understood(const Phrase& phrase) {
 
 void Journal::registered(Timestamp time, const LevelState& level,
                          const RegistrationOutcome& outcome) {
-  Json line = entry(file_ticks(time), time, "registration");
-  line["level"] = level.plan.label;
+  Json line = entry(file_ticks(time), time, "registration", level);
   line["attempt"] = level.attempts;
   line["accepted"] = outcome.passed();
   if (outcome.provisional) {
@@ -193,8 +198,7 @@ void Journal::registered(Timestamp time, const LevelState& level,
 }
 
 void Journal::accepted(Timestamp time, const LevelState& level) {
-  Json line = entry(file_ticks(time), time, "accepted");
-  line["level"] = level.plan.label;
+  Json line = entry(file_ticks(time), time, "accepted", level);
   line["check_points"] = level.check_points.size();
   line["world_from_vertebra_mm"] = matrix_mm(level.registration->world_from_vertebra.row_major());
   line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
@@ -206,8 +210,7 @@ void Journal::accepted(Timestamp time, const LevelState& level) {
 
 void Journal::check_point_recorded(Timestamp time, const LevelState& level) {
   const nav::CheckPoint& point = level.check_points.back();
-  Json line = entry(file_ticks(time), time, "check point");
-  line["level"] = level.plan.label;
+  Json line = entry(file_ticks(time), time, "check point", level);
   line["number"] = level.check_points.size();
   line["in_world_mm"] = millimetres(point.place.v);
   line["distance_mm"] = point.distance_m * 1e3;
@@ -216,16 +219,14 @@ void Journal::check_point_recorded(Timestamp time, const LevelState& level) {
 }
 
 void Journal::check_point_dropped(Timestamp time, const LevelState& level) {
-  Json line = entry(file_ticks(time), time, "check point dropped");
-  line["level"] = level.plan.label;
+  Json line = entry(file_ticks(time), time, "check point dropped", level);
   line["number"] = level.check_points.size() + 1;
   add_line(*log_, line);
 }
 
 void Journal::landmark_touched(Timestamp time, const LevelState& level,
                                const LandmarkTouch& touch) {
-  Json line = entry(file_ticks(time), time, "landmark");
-  line["level"] = level.plan.label;
+  Json line = entry(file_ticks(time), time, "landmark", level);
   line["first"] = touch.first;
   if (touch.first) {
     line["in_vertebra_mm"] = millimetres(level.landmark->in_vertebra.v);
@@ -237,16 +238,22 @@ void Journal::landmark_touched(Timestamp time, const LevelState& level,
   add_line(*log_, line, kDurable);
 }
 
+void Journal::tips_compared(Timestamp time, const TipDifference& difference) {
+  Json line = entry(file_ticks(time), time, "tips");
+  line.update({{"apart_mm", difference.apart_m.norm() * 1e3},
+               {"limit_mm", difference.limit_m * 1e3},
+               {"corrected", difference.corrected}});
+  add_line(*log_, line, kDurable);
+}
+
 void Journal::landmark_dropped(Timestamp time, const LevelState& level) {
-  Json line = entry(file_ticks(time), time, "landmark dropped");
-  line["level"] = level.plan.label;
+  Json line = entry(file_ticks(time), time, "landmark dropped", level);
   add_line(*log_, line);
 }
 
 void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                          const ToolGuidance* at_depth) {
-  Json line = entry(file_ticks(time), time, "screw");
-  line["level"] = level.plan.label;
+  Json line = entry(file_ticks(time), time, "screw", level);
   line["side"] = name_of(screw.side);
   if (at_depth && at_depth->measured) {
     line["pose_time_100ns"] = ticks_100ns(at_depth->pose_time);

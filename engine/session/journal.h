@@ -66,6 +66,7 @@ class Journal : public SessionObserver {
   void check_point_dropped(Timestamp time, const LevelState& level) override;
   void landmark_touched(Timestamp time, const LevelState& level,
                         const LandmarkTouch& touch) override;
+  void tips_compared(Timestamp time, const TipDifference& difference) override;
   void landmark_dropped(Timestamp time, const LevelState& level) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override;

@@ -210,6 +210,10 @@ class Reading {
       replay_.check_dropped(line.text("level"), line);
     } else if (what == "landmark") {
       replay_.landmark(line.text("level"), landmark_of(line), line);
+    } else if (what == "tips") {
+      record_.tips =
+          RecordedTips{line.number("apart_mm") * kMetresPerMm,
+                       line.number("limit_mm") * kMetresPerMm, line.flag_or("corrected", false)};
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
     } else if (what == "screw") {

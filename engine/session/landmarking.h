@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -39,6 +41,9 @@ class Landmarking {
   [[nodiscard]] Dropped drop(LevelState& level);
   /// Since the step began, and found where it was.
   [[nodiscard]] bool touched() const { return last_ && last_->held(); }
+  /// Where, in the vertebra, once it was touched; the mean of the touches.
+  [[nodiscard]] Point<Vertebra> place() const { return {sum_m_ / std::max(1, touches_)}; }
+  [[nodiscard]] double sd_m() const { return std::sqrt(variances_m2_) / std::max(1, touches_); }
   [[nodiscard]] const std::optional<LandmarkTouch>& last() const { return last_; }
 
  private:

@@ -15,6 +15,7 @@ struct ToNotice {
   Notice operator()(const TouchNotRecorded& /*m*/) const { return Notice::kTouchNotRecorded; }
   Notice operator()(const LandmarkMissing& /*m*/) const { return Notice::kLandmarkMissing; }
   Notice operator()(const LandmarkMoved& /*m*/) const { return Notice::kLandmarkMoved; }
+  Notice operator()(const TipCorrected& /*m*/) const { return Notice::kTipCorrected; }
   Notice operator()(const NoRod& /*m*/) const { return Notice::kNoRod; }
   Notice operator()(const MapMoved& /*m*/) const { return Notice::kMapMoved; }
   Notice operator()(const ReferenceMoved& /*m*/) const { return Notice::kReferenceMoved; }

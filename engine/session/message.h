@@ -58,13 +58,17 @@ struct ChecksMissing {
   nav::CheckAdvice advice;
 };
 struct TouchNotRecorded {
-  enum class What : std::uint8_t { kCheckPoint, kHead, kLandmark };
+  enum class What : std::uint8_t { kCheckPoint, kHead, kLandmark, kGuideTip };
   What what;
   TouchRefusal why;
 };
 /// "next" was said before the landmark was touched.
 struct LandmarkMissing {
   bool recorded = false;  ///< once before
+};
+/// The guide's tip and the pointer's were that far apart in the same dimple; corrected.
+struct TipCorrected {
+  double by_m = 0.0;
 };
 /// The landmark was touched `off_m` from where it was recorded.
 struct LandmarkMoved {
@@ -86,10 +90,10 @@ struct NoImages {};
 struct Ended {};
 
 /// Nothing, or one of these.
-using Message =
-    std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
-                 ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
-                 LandmarkMissing, LandmarkMoved, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
+using Message = std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown,
+                             NothingToDelete, ConfirmDelete, RegistrationRefused, ChecksMissing,
+                             TouchNotRecorded, LandmarkMissing, LandmarkMoved, TipCorrected, NoRod,
+                             MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// What it is about, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);

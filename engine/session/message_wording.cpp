@@ -96,7 +96,8 @@ struct MessageWriter {
   }
   void operator()(const TouchNotRecorded& m) {
     text.begin(Importance::kMessage);
-    constexpr std::array<std::string_view, 3> kWhat = {"check point", "head", "dimple"};
+    constexpr std::array<std::string_view, 4> kWhat = {"check point", "head", "dimple",
+                                                       "guide's tip"};
     out.append(kWhat[static_cast<std::size_t>(m.what)]).append(" not recorded: ");
     append_refusal(out, m.why);
   }
@@ -111,6 +112,11 @@ struct MessageWriter {
     append_beside_limit(out, "%.1f mm, limit %.1f mm", m.off_m * 1e3, m.limit_m * 1e3);
     text.begin(Importance::kNext, ": ");
     out += "check again or reject";
+  }
+  void operator()(const TipCorrected& m) {
+    text.begin(Importance::kMessage);
+    out += "guide's tip corrected by ";
+    append_mm(out, m.by_m, 1);
   }
   void operator()(const NoRod& m) {
     text.begin(Importance::kMessage);

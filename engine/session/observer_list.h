@@ -56,6 +56,11 @@ class ObserverList : public SessionObserver {
       o->landmark_touched(time, level, touch);
     }
   }
+  void tips_compared(Timestamp time, const TipDifference& difference) override {
+    for (auto* o : observers_) {
+      o->tips_compared(time, difference);
+    }
+  }
   void landmark_dropped(Timestamp time, const LevelState& level) override {
     for (auto* o : observers_) {
       o->landmark_dropped(time, level);

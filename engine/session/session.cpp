@@ -59,6 +59,7 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
       options_(options),
       digitizing_(method_, options),
       landmarking_(options.landmark),
+      tip_check_(options.tips, options.landmark),
       messages_(options.message_for, options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
     LevelState state;
@@ -204,15 +205,26 @@ void Session::collect_samples() {
     } else {
       touch_of_step().lose();
     }
+    collect_guide_tip();
+  }
+}
+
+void Session::collect_guide_tip() {
+  const nav::TrackedPose& pose = tools_.watch(tools_.guide()).newest();
+  if (by_touch(Step::kAccepted) && pose.status == PoseStatus::kMeasured) {
+    tip_check_.touch().add(pose.value * tools_.geometry(tools_.guide()).tip_in_marker);
+  } else {
+    tip_check_.touch().lose();
   }
 }
 
 std::optional<std::size_t> Session::tool_of_step() const {
+  // With the landmark touched, what comes next is the guide's.
+  if (step_ == Step::kGuide || (by_touch(Step::kAccepted) && landmarking_.touched())) {
+    return tools_.guide();
+  }
   if (step_ == Step::kDigitize || is_touched_in()) {
     return tools_.pointer();
-  }
-  if (step_ == Step::kGuide) {
-    return tools_.guide();
   }
   return std::nullopt;
 }

@@ -16,6 +16,7 @@
 #include "engine/session/rod_templating.h"
 #include "engine/session/session_observer.h"
 #include "engine/session/session_options.h"
+#include "engine/session/tip_check.h"
 #include "engine/session/tool_in_use.h"
 #include "engine/session/verifying.h"
 #include "engine/session/watched_tools.h"
@@ -72,6 +73,7 @@ class Session {
   void watch_reference(Timestamp now);
   void watch_tool_in_use(Timestamp now);
   void collect_samples();
+  void collect_guide_tip();
   [[nodiscard]] std::optional<std::size_t> tool_of_step() const;
   [[nodiscard]] bool by_touch(Step step) const;
   [[nodiscard]] bool is_touched_in() const;
@@ -96,6 +98,9 @@ class Session {
   void drop_check(Timestamp time);
   void accept(Timestamp time);
   void touch_landmark(Timestamp time);
+  [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(const TouchedPlace& pointer);
+  void compare_tips(const nav::PressedPlace& guide_tip, Timestamp time);
+  void correct_tip(Timestamp time);
   void drop_landmark(Timestamp time);
   void judge_landmark(Timestamp time);
   void verify_again(Timestamp time);
@@ -127,6 +132,7 @@ class Session {
   Digitizing digitizing_;  ///< ends before the levels: a trial may be reading one
   Verifying verifying_;
   Landmarking landmarking_;
+  TipCheck tip_check_;
   Guiding guiding_;
   RodTemplating rod_templating_;
 

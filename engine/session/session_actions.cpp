@@ -35,11 +35,12 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kAskForLandmark: return messages_.say(LandmarkMissing{level().landmark.has_value()}, time);
     case kExpectLandmark: return landmarking_.begin();
     case kVerifyAgain: return verify_again(time);
+    case kCorrectTip: return correct_tip(time);
     case kSelectScrew: return select_screw();
     case kFinishScrew: return finish_screw(time);
     case kBeginRod: return rod_templating_.begin();
-    case kBeginTouch: return touch_of_step().begin();
-    case kEndTouch: return touch_of_step().release();
+    case kBeginTouch: tip_check_.touch().begin(); return touch_of_step().begin();
+    case kEndTouch: tip_check_.touch().release(); return touch_of_step().release();
     case kDropTouch: return drop_touch(time);
     case kRecordHead: return record_head(time);
     case kDropHead: return drop_head(time);
@@ -127,46 +128,6 @@ void Session::drop_check(Timestamp time) {
   } else if (observer_) {
     observer_->check_point_dropped(time, level());
   }
-}
-
-void Session::touch_landmark(Timestamp time) {
-  const TouchedPlace place = touched_place(time);
-  const auto taken = landmarking_.take(level(), place, tools_.reference_posts(),
-                                       tools_.tracker().anchor() != nullptr, time);
-  if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
-    messages_.say(TouchNotRecorded{TouchNotRecorded::What::kLandmark, *refusal}, time);
-    return;
-  }
-  const auto& touch = std::get<LandmarkTouch>(taken);
-  if (observer_ && touch.missing == 0) {
-    observer_->landmark_touched(time, level(), touch);
-  }
-  if (touch.moved()) {
-    handle(Event::kLandmarkMoved, time);
-  }
-}
-
-void Session::drop_landmark(Timestamp time) {
-  const Landmarking::Dropped dropped = landmarking_.drop(level());
-  if (dropped == Landmarking::Dropped::kNothing) {
-    messages_.say(NothingToDelete{NothingToDelete::What::kLandmark}, time);
-  } else if (observer_ && dropped == Landmarking::Dropped::kPlace) {
-    observer_->landmark_dropped(time, level());
-  }
-}
-
-void Session::judge_landmark(Timestamp time) {
-  handle(landmarking_.touched() ? Event::kLandmarkTouched : Event::kLandmarkMissing, time);
-}
-
-/// The landmark stays: what is accepted next must put the bone where it was touched first.
-void Session::verify_again(Timestamp time) {
-  const LandmarkTouch& touch = *landmarking_.last();
-  level().accepted = false;
-  verifying_.begin_again(level(), touch.off_m);
-  guiding_.forget_guidance();
-  messages_.say(LandmarkMoved{touch.off_m, touch.limit_m, tools_.tracker().anchor() != nullptr},
-                time);
 }
 
 void Session::select_screw() {

@@ -27,6 +27,8 @@ class SessionObserver {
   /// The level's landmark was touched: for the first time, or against where it was then.
   virtual void landmark_touched(Timestamp /*time*/, const LevelState& /*level*/,
                                 const LandmarkTouch& /*touch*/) {}
+  /// The guide's tip was put into the landmark after the pointer's, or corrected by it.
+  virtual void tips_compared(Timestamp /*time*/, const TipDifference& /*difference*/) {}
   /// That touch was taken back; with a first one, the landmark.
   virtual void landmark_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood

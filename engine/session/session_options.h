@@ -6,6 +6,7 @@
 
 #include "base/time.h"
 #include "engine/session/landmark.h"
+#include "engine/session/tip_check.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/registration/check_points.h"
 
@@ -28,6 +29,7 @@ struct SessionOptions {
   double max_touch_spread_m = 0.003;
   nav::CheckPointRules check_points;
   LandmarkRules landmark;
+  TipCheckRules tips;
   /// What is known of errors that all strokes share; without, the errors that are expected are
   /// those of the registration alone, and called so.
   nav::CommonErrors common;

@@ -120,7 +120,8 @@ StepState Session::state_of_step() const {
         return verifying_.state(level());
       }
       if (by_touch(Step::kAccepted)) {
-        return LandmarkSoFar{figures(level()), level().landmark.has_value(), landmarking_.last()};
+        return LandmarkSoFar{figures(level()), level().landmark.has_value(), landmarking_.last(),
+                             &tip_check_};
       }
       return figures(level());
     case Step::kGuide:

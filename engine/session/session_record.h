@@ -48,6 +48,13 @@ struct RecordedCheck {
   bool within = false;      ///< the limit
 };
 
+/// The guide's tip against the pointer's, in one dimple.
+struct RecordedTips {
+  double apart_m = 0.0;
+  double limit_m = 0.0;
+  bool corrected = false;
+};
+
 /// One touch of a level's landmark.
 struct RecordedLandmark {
   bool first = false;  ///< it recorded the landmark
@@ -110,15 +117,16 @@ struct SessionRecord {
   std::uint64_t seed = 0;  ///< 0 where nothing was drawn by lot
   /// World hung on a patient reference instead of on the headset's map; absent in older journals.
   std::optional<bool> patient_reference;
-  bool has_plan = false;   ///< the levels and screws are those of the plan, reached or not
-  std::size_t lines = 0;   ///< that were read, the header among them
-  bool cut = false;        ///< it has no end: the process was killed, or the machine went down
+  bool has_plan = false;  ///< the levels and screws are those of the plan, reached or not
+  std::size_t lines = 0;  ///< that were read, the header among them
+  bool cut = false;       ///< it has no end: the process was killed, or the machine went down
   bool last_line_torn = false;
   std::optional<Timestamp> begin;  ///< of the first line with a time
   std::optional<Timestamp> end;    ///< of the last one
   std::string reason;              ///< what ended it before its time; empty: nothing did, or cut
   std::vector<RecordedLevel> levels;
   std::vector<RecordedRegistration> registrations;
+  std::optional<RecordedTips> tips;  ///< as they were compared last
   std::vector<RecordedRod> rods;
   std::vector<RecordedStep> steps;
 

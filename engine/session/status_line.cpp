@@ -29,8 +29,13 @@ ChecksAsked checks_asked(const StatusLine& line) {
     return missing ? asked_by(missing->advice) : ChecksAsked::kNone;
   }
   if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {
-    return landmark->last && landmark->last->missing == 0 ? ChecksAsked::kPassed
-                                                          : ChecksAsked::kTouchMore;
+    if (!landmark->last || landmark->last->missing > 0) {
+      return ChecksAsked::kTouchMore;
+    }
+    if (landmark->tips->due()) {
+      return ChecksAsked::kGuideTip;
+    }
+    return landmark->tips->offers() ? ChecksAsked::kCorrectTip : ChecksAsked::kPassed;
   }
   const auto* checks = std::get_if<ChecksSoFar>(&line.state);
   return checks ? asked_by(checks->verdict->advice) : ChecksAsked::kNone;

@@ -8,6 +8,7 @@
 
 #include "engine/session/landmark.h"
 #include "engine/session/message.h"
+#include "engine/session/tip_check.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
 
@@ -45,6 +46,7 @@ struct LandmarkSoFar {
   RegistrationFigures figures;
   bool recorded = false;              ///< the landmark was touched once
   std::optional<LandmarkTouch> last;  ///< since the last screw
+  const TipCheck* tips = nullptr;     ///< of the guide against the pointer
 };
 struct HeadsSoFar {
   std::size_t count = 0;

@@ -37,7 +37,12 @@ class WatchedTools {
   [[nodiscard]] std::vector<ReferencePost> reference_posts() const;
   [[nodiscard]] const ToolWatch& watch(std::size_t tool) const { return watches_[tool]; }
   [[nodiscard]] const nav::ToolGeometry& geometry(std::size_t tool) const {
-    return tracker_->tools()[tool];
+    return geometries_[tool];
+  }
+  /// The tip lies there instead of where the tool's description has it, to the end of the
+  /// operation.
+  void correct_tip(std::size_t tool, Point<Marker> tip_in_marker) {
+    geometries_[tool].tip_in_marker = tip_in_marker;
   }
   /// The pointer's tip where it was last measured, no longer than `within` before `now`.
   [[nodiscard]] std::optional<Point<World>> pointer_tip(Timestamp now, Duration within) const;
@@ -53,6 +58,7 @@ class WatchedTools {
   WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer, std::size_t guide);
 
   std::unique_ptr<nav::ToolTracker> tracker_;
+  std::vector<nav::ToolGeometry> geometries_;  ///< the tracker's, tips corrected
   std::size_t pointer_ = 0;
   std::size_t guide_ = 0;
   std::span<const nav::ToolState> states_;

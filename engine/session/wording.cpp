@@ -48,6 +48,27 @@ void write_moved(PartedText text, const ChecksSoFar& checks, std::string_view se
   }
 }
 
+/// The guide's tip beside the pointer's: what is to be done, or how far apart they were.
+void write_tips(PartedText text, const TipCheck& tips, std::string_view separator) {
+  std::string& out = text.out;
+  if (tips.due()) {
+    text.begin(Importance::kNext, separator);
+    out += "now the guide's tip in it, or next";
+    return;
+  }
+  if (tips.last()->corrected) {
+    return;
+  }
+  text.begin(tips.offers() ? Importance::kDanger : Importance::kMessage, separator);
+  out += tips.offers() ? "guide's tip " : "tips agree, ";
+  append_mm(out, tips.last()->apart_m.norm(), 1);
+  out += tips.offers() ? " from the pointer's" : " apart";
+  if (tips.offers()) {
+    text.begin(Importance::kNext, ": ");
+    out += "accept to correct it";
+  }
+}
+
 /// Whether the landmark is still to be touched, and how the last touch was.
 void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
   std::string& out = text.out;
@@ -64,11 +85,12 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
   text.begin(Importance::kMessage, separator);
   if (landmark.last->first) {
     out += "dimple recorded";
-    return;
+  } else {
+    out += "dimple found, ";
+    append_mm(out, landmark.last->off_m, 1);
+    out += " off";
   }
-  out += "dimple found, ";
-  append_mm(out, landmark.last->off_m, 1);
-  out += " off";
+  write_tips(text, *landmark.tips, "; ");
 }
 
 /// How each step stands.

@@ -63,6 +63,7 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "ask for landmark",
     "expect landmark",
     "verify again",
+    "correct tip",
     "select screw",
     "finish screw",
     "begin rod",

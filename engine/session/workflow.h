@@ -95,6 +95,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     // Before each screw the landmark is touched: recorded the first time, found again from then on.
     // One that is not where it was takes the acceptance back.
     {kAccepted, kSayNext, kJudgeLandmark, kAccepted},
+    {kAccepted, kSayAccept, kCorrectTip, kAccepted},
     {kAccepted, kLandmarkTouched, kSelectScrew, kGuide},
     {kAccepted, kLandmarkMissing, kAskForLandmark, kAccepted},
     {kAccepted, kLandmarkMoved, kVerifyAgain, kVerify},
@@ -182,6 +183,7 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kVerify, kPoseStale, kIgnore, kVerify},
     {kVerify, kTrackingRegained, kIgnore, kVerify},
     {kAccepted, kSayNext, kSelectScrew, kGuide},
+    {kAccepted, kSayAccept, kRefuse, kAccepted},
     {kAccepted, kLandmarkTouched, kRefuse, kAccepted},
     {kAccepted, kLandmarkMissing, kRefuse, kAccepted},
     {kAccepted, kLandmarkMoved, kRefuse, kAccepted},

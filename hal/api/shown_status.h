@@ -42,6 +42,7 @@ enum class Notice : std::uint8_t {
   kTouchNotRecorded,  ///< of a check point, the landmark or a head
   kLandmarkMissing,   ///< "next", before the landmark was touched
   kLandmarkMoved,     ///< it is not where it was: the registration is verified again
+  kTipCorrected,      ///< of the guide, by the pointer's
   kNoRod,             ///< the heads give none
   kMapMoved,          ///< the headset's map: what was measured in it is gone
   kReferenceMoved,    ///< the patient's: what hung on it is gone
@@ -51,9 +52,11 @@ enum class Notice : std::uint8_t {
 
 /// What the status line asks of a surgeon who verifies by touch.
 enum class ChecksAsked : std::uint8_t {
-  kNone,       ///< it says nothing of check points
-  kTouchMore,  ///< further places, or the landmark before a screw
-  kReject,     ///< a check point lies too far off the surface
+  kNone,        ///< it says nothing of check points
+  kTouchMore,   ///< further places, or the landmark before a screw
+  kGuideTip,    ///< the guide's tip in the landmark too
+  kCorrectTip,  ///< consent to correct it
+  kReject,      ///< a check point lies too far off the surface
   kPassed,
 };
 

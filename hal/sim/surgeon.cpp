@@ -153,6 +153,9 @@ Script Surgeon::perform(StepOnDisplay step) {
     if (asked(ChecksAsked::kTouchMore)) {
       co_await touch_landmark(*level);
     }
+    if (in_step(step) && asked(ChecksAsked::kGuideTip)) {
+      co_await compare_tips(*level);
+    }
     if (in_step(step)) {
       body_.say("next");
       co_await await_change(step, "next");

@@ -90,6 +90,8 @@ class Surgeon {
   // surgeon_landmark.cpp
   /// Makes a dimple in the bone, or finds it again, and touches it.
   Script touch_landmark(std::size_t level);
+  /// Puts the guide into the same dimple, and consents to its tip being corrected.
+  Script compare_tips(std::size_t level);
 
   // surgeon_digitizing.cpp
   Script digitize(std::size_t level);

@@ -36,4 +36,22 @@ Script Surgeon::touch_landmark(std::size_t level) {
   }
 }
 
+Script Surgeon::compare_tips(std::size_t level) {
+  constexpr int kMostTimes = 3;
+  const StepOnDisplay step = step_now();
+  co_await body_.take(ToolKind::kGuide, layout_->site(level));
+  const auto& room_from_vertebra = layout_->room_from_vertebra(level);
+  const BoneSpot& spot = *dimples_[level];
+  const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
+  co_await touch_at(step, room_from_vertebra * Point<Vertebra>{spot.point} + off,
+                    (room_from_vertebra * Direction<Vertebra>{spot.normal}).v);
+  for (int time = 0; time < kMostTimes && in_step(step); ++time) {
+    if (!asked(ChecksAsked::kCorrectTip)) {
+      break;
+    }
+    body_.say("accept");
+    co_await body_.rest(2.0);
+  }
+}
+
 }  // namespace orthonav::sim

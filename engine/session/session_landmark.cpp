@@ -1,0 +1,97 @@
+#include <utility>
+
+#include "engine/session/session.h"
+
+namespace orthonav::engine {
+
+// What is done in the step `accepted`: the landmark is touched, and the tips are compared in it.
+
+void Session::touch_landmark(Timestamp time) {
+  const TouchedPlace place = touched_place(time);
+  if (const auto guide_tip = guide_tip_in_landmark(place)) {
+    return compare_tips(*guide_tip, time);
+  }
+  const auto taken = landmarking_.take(level(), place, tools_.reference_posts(),
+                                       tools_.tracker().anchor() != nullptr, time);
+  if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
+    messages_.say(TouchNotRecorded{TouchNotRecorded::What::kLandmark, *refusal}, time);
+    return;
+  }
+  const auto& touch = std::get<LandmarkTouch>(taken);
+  if (observer_ && touch.missing == 0) {
+    observer_->landmark_touched(time, level(), touch);
+  }
+  if (touch.moved()) {
+    handle(Event::kLandmarkMoved, time);
+  }
+}
+
+/// Once the pointer was in the dimple the guide may follow: a press is that of the tool whose tip
+/// is nearer to it.
+std::optional<nav::PressedPlace> Session::guide_tip_in_landmark(const TouchedPlace& pointer) {
+  constexpr double kInReach_m = 0.02;
+  const TouchedPlace guide =
+      tip_check_.touch().take_place(std::nullopt, options_.max_touch_spread_m);
+  const auto* guide_tip = std::get_if<nav::PressedPlace>(&guide);
+  if (!guide_tip || !landmarking_.touched()) {
+    return std::nullopt;
+  }
+  const Point<World> dimple = level().registration->world_from_vertebra * landmarking_.place();
+  const double guide_m = (guide_tip->place - dimple).norm();
+  const auto* pointer_tip = std::get_if<nav::PressedPlace>(&pointer);
+  const bool nearer = !pointer_tip || guide_m < (pointer_tip->place - dimple).norm();
+  return nearer && guide_m <= kInReach_m ? std::optional(*guide_tip) : std::nullopt;
+}
+
+void Session::compare_tips(const nav::PressedPlace& guide_tip, Timestamp time) {
+  const nav::PressedPlace pointer_tip{
+      level().registration->world_from_vertebra * landmarking_.place(), landmarking_.sd_m()};
+  const auto taken =
+      tip_check_.take(guide_tip, tools_.watch(tools_.guide()).last_measured_pose().value,
+                      pointer_tip, tools_.tracker().anchor() != nullptr);
+  if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
+    messages_.say(TouchNotRecorded{TouchNotRecorded::What::kGuideTip, *refusal}, time);
+  } else if (observer_) {
+    observer_->tips_compared(time, std::get<TipDifference>(taken));
+  }
+}
+
+void Session::correct_tip(Timestamp time) {
+  if (!tip_check_.offers()) {
+    messages_.say(NotPossibleNow{Event::kSayAccept}, time);
+    return;
+  }
+  const std::size_t guide = tools_.guide();
+  const Vec3 apart_m = tip_check_.correct();
+  tools_.correct_tip(guide, tools_.geometry(guide).tip_in_marker - apart_m);
+  guiding_.forget_guidance();
+  messages_.say(TipCorrected{apart_m.norm()}, time);
+  if (observer_) {
+    observer_->tips_compared(time, *tip_check_.last());
+  }
+}
+
+void Session::drop_landmark(Timestamp time) {
+  const Landmarking::Dropped dropped = landmarking_.drop(level());
+  if (dropped == Landmarking::Dropped::kNothing) {
+    messages_.say(NothingToDelete{NothingToDelete::What::kLandmark}, time);
+  } else if (observer_ && dropped == Landmarking::Dropped::kPlace) {
+    observer_->landmark_dropped(time, level());
+  }
+}
+
+void Session::judge_landmark(Timestamp time) {
+  handle(landmarking_.touched() ? Event::kLandmarkTouched : Event::kLandmarkMissing, time);
+}
+
+/// The landmark stays: what is accepted next must put the bone where it was touched first.
+void Session::verify_again(Timestamp time) {
+  const LandmarkTouch& touch = *landmarking_.last();
+  level().accepted = false;
+  verifying_.begin_again(level(), touch.off_m);
+  guiding_.forget_guidance();
+  messages_.say(LandmarkMoved{touch.off_m, touch.limit_m, tools_.tracker().anchor() != nullptr},
+                time);
+}
+
+}  // namespace orthonav::engine

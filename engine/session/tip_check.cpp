@@ -1,0 +1,30 @@
+#include "engine/session/tip_check.h"
+
+#include <cmath>
+
+namespace orthonav::engine {
+
+std::variant<TipDifference, TouchRefusal> TipCheck::take(
+    const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
+    const nav::PressedPlace& pointer_tip, bool anchored) {
+  const double lasting_m = anchored ? landmark_.lasting_sd_anchored_m : landmark_.lasting_sd_m;
+  const double each_m2 = landmark_.dimple_sd_m * landmark_.dimple_sd_m + lasting_m * lasting_m;
+  TipDifference found;
+  found.apart_m = world_from_guide.rotation().transposed() * (place.place - pointer_tip.place);
+  // The pointer's place is that of as many touches as make one; the guide's is one.
+  found.sd_m = std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
+                         each_m2 / landmark_.touches_of(anchored));
+  found.limit_m = rules_.sds * found.sd_m;
+  if (!(found.apart_m.norm() <= rules_.most_m)) {
+    return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), rules_.most_m};
+  }
+  last_ = found;
+  return found;
+}
+
+Vec3 TipCheck::correct() {
+  last_->corrected = true;
+  return last_->apart_m;
+}
+
+}  // namespace orthonav::engine

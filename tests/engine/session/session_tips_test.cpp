@@ -1,0 +1,91 @@
+#include <gmock/gmock.h>
+
+#include "engine/session/session.h"
+#include "engine/session/wording.h"
+#include "tests/support/said.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine::session_tips_test {
+namespace {
+
+using test::guide_at;
+using test::said;
+using test::ScriptedOperation;
+using test::touch_refusal;
+using ::testing::HasSubstr;
+using enum ClickerAction;
+
+constexpr Vec3 kDimple = ScriptedOperation::kDimple;
+constexpr double kExact = 1e-9;
+constexpr double kTilt_rad = 0.3;
+
+/// With a reference; the landmark was touched by the pointer, which is laid aside in view.
+class TipsSession : public ::testing::Test {
+ protected:
+  TipsSession() : s({"L4", "L5"}, {}, Verification::kByTouch, false, true) {
+    s.accepts_first_by_touch();
+    s.touches_dimple();
+    s.tracker().pointer = test::pointer_at(kDimple + Vec3{0.2, 0, 0});
+  }
+  /// A click with the guide's tip there, as its description has it.
+  const Guidance& touches_by_guide(Vec3 tip) {
+    s.tracker().guide = guide_at(tip, kTilt_rad);
+    s.does({kPress});
+    s.pair();
+    return s.does({kRelease, kClick});
+  }
+  double tip_off_axis_m() {
+    s.says("next");
+    s.tracker().guide = guide_at(kDimple, -kTilt_rad);
+    return (s.pairs(2).tool->measured->tip.v - kDimple).norm();
+  }
+  ScriptedOperation s;
+};
+
+TEST_F(TipsSession, TipsThatAgreeAreToldAndLeftAlone) {
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTip);
+  const Guidance& g = touches_by_guide(kDimple + Vec3{0.0005, 0, 0});
+  EXPECT_THAT(detail_text(g.status), HasSubstr("tips agree, 0.5 mm apart"));
+  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
+  s.says("accept");
+  ASSERT_NE(said<NotPossibleNow>(s.pair()), nullptr) << "there is nothing to correct";
+  EXPECT_NEAR(tip_off_axis_m(), 0.0, kExact);
+}
+
+TEST_F(TipsSession, ADifferenceIsCorrectedOnlyWithConsent) {
+  const Vec3 off{0.0015, 0.0005, -0.001};
+  const Guidance& g = touches_by_guide(kDimple + off);
+  EXPECT_THAT(detail_text(g.status), HasSubstr("guide's tip 1.9 mm from the pointer's"));
+  EXPECT_EQ(checks_asked(g.status), ChecksAsked::kCorrectTip);
+  EXPECT_NEAR(tip_off_axis_m(), 0.0, kExact) << "not yet";
+}
+
+TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeld) {
+  const Vec3 off{0.0015, 0.0005, -0.001};
+  touches_by_guide(kDimple + off);
+  s.tracker().guide = guide_at({0.3, 0.3, 0.3}, 1.2);  // moved before the consent
+  EXPECT_THAT(detail_text(s.says("accept").status), HasSubstr("guide's tip corrected by 1.9 mm"));
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kNone) << "while the message stands";
+  // The same pose as in the dimple: there its tip is the pointer's now.
+  s.says("next");
+  s.tracker().guide = guide_at(kDimple + off, kTilt_rad);
+  EXPECT_NEAR((s.pairs(2).tool->measured->tip.v - kDimple).norm(), 0.0, kExact);
+  EXPECT_NEAR(tip_off_axis_m(), off.norm(), kExact) << "turned, the correction turns with it";
+}
+
+TEST_F(TipsSession, AGuideElsewhereIsNoTouchOfIt) {
+  const TouchRefusal why = touch_refusal(touches_by_guide(kDimple + Vec3{0.010, 0, 0}));
+  EXPECT_EQ(why.kind, TouchRefusal::Kind::kTouchesApart);
+  EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kGuideTip) << "still to be done";
+}
+
+TEST_F(TipsSession, NextIsTakenWithoutIt) { EXPECT_EQ(s.says("next").step, Step::kGuide); }
+
+TEST_F(TipsSession, ThePointerInTheDimpleIsThePointers) {
+  s.tracker().guide = guide_at(kDimple + Vec3{0.015, 0, 0}, 0.0);
+  s.touches_dimple();
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTip) << "the guide lay beside it";
+}
+
+}  // namespace
+}  // namespace orthonav::engine::session_tips_test
