@@ -27,6 +27,7 @@ std::vector<GoldenScene> golden_scenes() {
   std::vector<GoldenScene> scenes;
   golden::add_shape_scenes(scenes);
   golden::add_precision_scenes(scenes);
+  golden::add_number_scenes(scenes);
   golden::add_other_scenes(scenes);
   golden::add_step_scenes(scenes);
   golden::add_view_scenes(scenes);

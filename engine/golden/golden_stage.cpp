@@ -46,14 +46,34 @@ Float3 tool_point(double angle_deg) {
   return kEntry + kToolLength_m * (std::cos(angle_rad) * along + std::sin(angle_rad) * tool_side());
 }
 
+nav::ScrewPlan plan_of(Side side) {
+  const bool left = side == Side::kLeft;
+  return {side,
+          {to_vec3(left ? kEntry : kOtherEntry)},
+          {to_vec3(left ? kTarget : kOtherTarget)},
+          0.003};
+}
+
 nav::ScrewGuidance guided(double angle_deg, double beside_m, double depth_m) {
-  const nav::ScrewPlan plan{Side::kLeft, {to_vec3(kEntry)}, {to_vec3(kTarget)}, 0.003};
+  const nav::ScrewPlan plan = plan_of(Side::kLeft);
   const Vec3 along = to_vec3(planned_direction());
   const Vec3 side = to_vec3(tool_side());
   const double angle_rad = angle_deg * kRadiansPerDegree;
   const Point<World> tip{plan.entry.v + beside_m * side - depth_m * along};
   return nav::guide({Mat3::identity(), {}}, plan, tip,
                     std::cos(angle_rad) * along + std::sin(angle_rad) * side);
+}
+
+nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sds, Side side) {
+  std::array<double, 36> covariance{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    covariance[7 * i] = sds.shift_m * sds.shift_m;
+    covariance[7 * (i + 3)] = sds.turn_rad * sds.turn_rad;
+  }
+  const nav::PoseUncertainty uncertainty(tool.tip.v, covariance);
+  const auto deviation =
+      nav::anatomical_deviation(plan_of(side), {{tool.tip.v}, -tool.tool_outward}, &uncertainty);
+  return nav::ScrewNumberWriter().write(deviation.value());
 }
 
 std::vector<Float3> stroke() {

@@ -10,6 +10,7 @@
 #include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/hologram_status.h"
 #include "nav/guidance/screw.h"
+#include "nav/guidance/screw_numbers.h"
 
 namespace orthonav::engine::golden {
 
@@ -37,6 +38,8 @@ inline constexpr render::Label kTwinToolLabel = label_of(HologramKind::kTwin, 2)
 inline constexpr render::Label kDepthLabel = label_of(HologramKind::kDepth, 1);
 inline constexpr render::Label kRodLabel = label_of(HologramKind::kRod, 1);
 inline constexpr render::Label kStatusLabel = label_of(HologramKind::kStatus, 1);
+inline constexpr render::Label kNumbersLabel = label_of(HologramKind::kNumbers, 1);
+inline constexpr render::Label kNumbersRowLabel = label_of(HologramKind::kNumbers, 2);
 inline constexpr render::Label kCheckPointLabel = label_of(HologramKind::kCheckPoint, 1);
 
 /// Spread over the bone, to be touched for verification.
@@ -50,9 +53,20 @@ inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {
 /// The point B of a tool that is off by the angle, towards the patient's left and head, its tip in
 /// the entry.
 [[nodiscard]] render::Float3 tool_point(double angle_deg);
+/// The screw of a side; the vertebra lies as the world does.
+[[nodiscard]] nav::ScrewPlan plan_of(Side side);
 /// What the product makes of a tool that is off by the angle, its tip so far beside the planned
 /// axis to the same side, and so deep (< 0: before the entry).
 [[nodiscard]] nav::ScrewGuidance guided(double angle_deg, double beside_m, double depth_m);
+
+/// What is written of a tool at the plan of a side, where the errors of its pose have these SDs
+/// along and about each axis.
+struct NumberSds {
+  double shift_m = 0.0003;
+  double turn_rad = 0.005;
+};
+[[nodiscard]] nav::ScrewNumbers numbers_of(const nav::ScrewGuidance& tool, const NumberSds& sds,
+                                           Side side = Side::kLeft);
 
 /// Strokes over lamina and spinous process, as a surgeon lays them.
 [[nodiscard]] std::vector<render::Float3> stroke();
@@ -74,6 +88,7 @@ inline constexpr std::array<render::Float3, 3> kPlacesToCheck = {
 // Appended in the order in which they are listed.
 void add_shape_scenes(std::vector<GoldenScene>& scenes);      ///< H1 to H6
 void add_precision_scenes(std::vector<GoldenScene>& scenes);  ///< H7 to H9
+void add_number_scenes(std::vector<GoldenScene>& scenes);     ///< H13
 void add_other_scenes(std::vector<GoldenScene>& scenes);      ///< H10 to H12
 void add_step_scenes(std::vector<GoldenScene>& scenes);       ///< the workflow, step by step
 void add_view_scenes(std::vector<GoldenScene>& scenes);       ///< distances and head rolls

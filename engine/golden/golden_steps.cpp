@@ -5,6 +5,7 @@
 #include "base/angle.h"
 #include "engine/golden/golden_stage.h"
 #include "engine/golden/golden_vertebra.h"
+#include "engine/holograms/hologram_numbers.h"
 #include "engine/holograms/render_values.h"
 #include "engine/session/wording.h"
 #include "render/float3.h"
@@ -70,8 +71,8 @@ GoldenScene guiding(const std::string& name, const std::string& what, const std:
   return golden;
 }
 
-void add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool lost,
-                  const Viewer& viewer = surgeon()) {
+TargetCross add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool lost,
+                         const Viewer& viewer = surgeon()) {
   TargetCross cross;
   cross.site = 0.5f * (kEntry + kOtherEntry);
   cross.outward = planned_direction();
@@ -79,6 +80,7 @@ void add_cross_to(GoldenScene& golden, std::optional<CrossReading> reading, bool
   cross.reading = reading;
   cross.lost = lost;
   add_target_cross(golden.scene, cross, kCrossLabel);
+  return cross;
 }
 
 /// The guide at an angle, its tip beside the entry.
@@ -93,11 +95,17 @@ void add_tool_to(GoldenScene& golden, const nav::ScrewGuidance& guide, bool meas
   golden.covered.push_back({kTriangleLabel, b});
   golden.covered.push_back({kTriangleLabel, planned_point()});
   if (!measured) {
-    return add_cross_to(golden, std::nullopt, false);
+    add_cross_to(golden, std::nullopt, false);
+    return;
   }
-  add_cross_to(golden,
-               CrossReading{to_float3(guide.tip_offset_m), to_float3(guide.top_offset_m), grade},
-               false);
+  const TargetCross cross = add_cross_to(
+      golden, CrossReading{to_float3(guide.tip_offset_m), to_float3(guide.top_offset_m), grade},
+      false);
+  const nav::ScrewNumbers numbers = numbers_of(guide, {});
+  add_numbers(golden.scene, cross, numbers, false, kNumbersLabel);
+  std::string row;
+  append_numbers(row, numbers, false);
+  add_row_above_status(golden.scene, row, kNumbersRowLabel);
   add_depth(golden.scene, kEntry, b, depth_text(guide.depth_m, guide.to_target_m).value_or(""),
             guide.to_target_m < 0.0, kDepthLabel);
 }
@@ -238,13 +246,16 @@ void add_view_scenes(std::vector<GoldenScene>& scenes) {
       golden.views = surgeon_views(distance_m, kRolls_deg[i]);
       // The cross faces the eyes from wherever they are.
       const auto of_cross = [](const auto& item) {
-        return kind_of(item.label) == HologramKind::kCross;
+        return kind_of(item.label) == HologramKind::kCross || item.label == kNumbersLabel;
       };
       golden.scene.meshes.erase_if(of_cross);
       golden.scene.lines.erase_if(of_cross);
       golden.scene.texts.erase_if(of_cross);
-      add_cross_to(golden, CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair},
-                   false, surgeon(distance_m, kRolls_deg[i]));
+      const TargetCross cross = add_cross_to(
+          golden, CrossReading{{0.0005f, 0, 0.0004f}, {0.004f, 0, -0.002f}, Grade::kFair}, false,
+          surgeon(distance_m, kRolls_deg[i]));
+      add_numbers(golden.scene, cross, numbers_of(guided(3.4, 0.0006, -0.0062), {}), false,
+                  kNumbersLabel);
       scenes.push_back(std::move(golden));
     }
   }

@@ -4,6 +4,7 @@
 
 #include "base/angle.h"
 #include "engine/golden/golden_stage.h"
+#include "engine/holograms/hologram_numbers.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
@@ -68,6 +69,15 @@ TextKind rod(const char* name, bool bend, Label label) {
   return {name, bend ? scene.texts.front() : scene.texts.back()};
 }
 
+TextKind numbers(const char* name, double shift_m, Label label) {
+  return last_of(name, [&](Scene& s) {
+    TargetCross target;
+    target.viewer = golden::surgeon();
+    const golden::NumberSds sds{shift_m, 10.0 * shift_m};
+    add_numbers(s, target, golden::numbers_of(golden::guided(2.0, 0.001, 0.0), sds), false, label);
+  });
+}
+
 TextKind status(const char* name, const char* text, Label label) {
   return last_of(name, [&](Scene& s) { add_status_line(s, text, {}, label); });
 }
@@ -86,6 +96,8 @@ std::vector<TextKind> text_kinds() {
       cross("cross, tool lost", true, 703),
       depth("depth", "12.3 mm to entry", false, 901),
       depth("depth, past target", "1.2 mm past target", true, 902),
+      numbers("numbers", 0.0003, 1301),
+      numbers("numbers, unsure", 0.003, 1302),
       rod("rod, bend", true, 1001),
       rod("rod, length", false, 1002),
       check("check point, within", 0.0004, true, 1201),
@@ -99,9 +111,9 @@ namespace golden {
 
 /// Each kind of text on each of the four grounds.
 void add_text_scenes(std::vector<GoldenScene>& scenes) {
-  constexpr std::size_t kRows = 8;
-  constexpr float kLastRow = 8.5f;
-  constexpr float kRow = 0.0265f;  // these are tangents
+  constexpr std::size_t kRows = 10;
+  constexpr float kLastRow = 10.2f;
+  constexpr float kRow = 0.0225f;  // these are tangents
   constexpr float kColumn = 0.19f;
   GoldenScene golden = start_wide(
       "texts", "every kind of text, legible on wound, drape, bone and glove", surgeon_views());

@@ -29,6 +29,7 @@ inline constexpr render::Colour kAmber{1.0f, 0.42f, 0.0f, 1};
 inline constexpr render::Colour kRed{1.0f, 0.06f, 0.04f, 1};
 inline constexpr render::Colour kWhite{1, 1, 1, 1};
 inline constexpr render::Colour kSoftWhite{0.90f, 0.90f, 0.90f, 1};
+inline constexpr render::Colour kPale{0.86f, 0.86f, 0.86f, 1};
 inline constexpr render::Colour kCyan{0.02f, 0.72f, 0.80f, 1};
 inline constexpr render::Colour kRing{0.30f, 0.30f, 0.30f, 1};
 inline constexpr render::Colour kTitanium{0.46f, 0.48f, 0.52f, 1};

@@ -122,6 +122,10 @@ void add_notice(Scene& scene, std::string_view text, Label label) {
   add_run(item, text, look::kWhite);
 }
 
+void add_row_above_status(Scene& scene, std::string_view text, Label label) {
+  append_cut(add_run(add_row(scene, -1, label), look::kSoftWhite), text, kStatusWidth_caps);
+}
+
 void add_status_line(Scene& scene, const StatusWords& words, std::span<const ToolDot> tools,
                      Label label) {
   add_step_and_tools(scene, words.step, tools, label);

@@ -17,6 +17,9 @@ struct ToolDot {
   ToolState state = ToolState::kLost;
 };
 
+/// A row above the one with the step, as white as that.
+void add_row_above_status(render::Scene& scene, std::string_view text, render::Label label);
+
 /// What the status line says.
 struct StatusWords {
   std::string_view step;

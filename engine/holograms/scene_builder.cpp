@@ -5,6 +5,7 @@
 
 #include "engine/holograms/anchored_frame.h"
 #include "engine/holograms/hologram_label.h"
+#include "engine/holograms/hologram_numbers.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/wording.h"
@@ -15,6 +16,8 @@ namespace {
 constexpr render::Label kCross = label_of(HologramKind::kCross, 1);  // its dots: the next
 constexpr render::Label kTwin = label_of(HologramKind::kTwin, 1);
 constexpr render::Label kTwinTool = label_of(HologramKind::kTwin, 2);
+constexpr render::Label kNumbers = label_of(HologramKind::kNumbers, 1);
+constexpr render::Label kNumbersRow = label_of(HologramKind::kNumbers, 2);
 
 }  // namespace
 
@@ -22,7 +25,7 @@ void hide_tool_guidance(render::Scene& scene) {
   const auto of_tool = [](const auto& item) {
     const HologramKind kind = kind_of(item.label);
     return kind == HologramKind::kTriangle || kind == HologramKind::kDepth ||
-           item.label == kTwinTool;
+           kind == HologramKind::kNumbers || item.label == kTwinTool;
   };
   scene.triangles.erase_if(of_tool);
   scene.lines.erase_if(of_tool);
@@ -38,7 +41,7 @@ void hide_tool_guidance(render::Scene& scene) {
 void write_head_lost(const render::Scene& scene, render::Scene& left) {
   left.clear();
   for (const render::TextItem& text : scene.texts) {
-    if (text.place == render::TextPlace::kView) {
+    if (text.place == render::TextPlace::kView && text.label != kNumbersRow) {
       left.texts.push_back(text);
     }
   }
@@ -166,7 +169,11 @@ void SceneBuilder::add_screw(const PlacedScrew& screw, render::Scene& scene) {
     add_tool_guidance(*visible_.triangle, scene);
   }
   if (visible_.cross) {
-    add_target_cross(scene, cross_of(screw, *visible_.cross, rules_), kCross);
+    const TargetCross cross = cross_of(screw, *visible_.cross, rules_);
+    add_target_cross(scene, cross, kCross);
+    if (visible_.numbers) {
+      add_numbers(scene, cross, *visible_.numbers, screw.at.level->registration_only(), kNumbers);
+    }
   }
   if (visible_.twin) {
     add_virtual_twin(screw, scene);
@@ -256,6 +263,11 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
   append_beside_step(detail_, guidance.status, &parts_of_detail_);
   add_status_line(scene, StatusWords{text_, detail_, &parts_of_detail_}, dots_,
                   label_of(HologramKind::kStatus, 1));
+  if (visible_.numbers) {
+    text_.clear();
+    append_numbers(text_, *visible_.numbers, visible_.trajectory->at.level->registration_only());
+    add_row_above_status(scene, text_, kNumbersRow);
+  }
 }
 
 }  // namespace orthonav::engine

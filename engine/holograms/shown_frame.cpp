@@ -6,6 +6,7 @@
 #include "engine/holograms/hologram_shapes.h"
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
+#include "engine/session/numbers_wording.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
@@ -49,7 +50,7 @@ void ShownFrameWriter::write(const Guidance& guidance, const Visibility& visible
   used_ = 0;
   frame.display_time = guidance.display_time;
   frame.pose_time = guidance.pose_time;
-  write_status(guidance.status, frame);
+  write_status(guidance.status, visible, frame);
   write_path(guidance, visible, frame);
   if (visible.vertebra) {
     write_verifying(*visible.vertebra, guidance.to_check, frame);
@@ -161,8 +162,22 @@ void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& v
       write_depth_text(visible.measurement->depth_m, visible.measurement->to_target_m, text_)) {
     add(frame, HologramKind::kDepth).text = text_;
   }
+  if (visible.numbers) {
+    write_numbers(*visible.numbers, screw.plan().side, frame);
+  }
   if (visible.angle_lost) {
     write_angle(std::nullopt, frame);
+  }
+}
+
+void ShownFrameWriter::write_numbers(const nav::ScrewNumbers& numbers, nav::Side side,
+                                     ShownFrame& frame) {
+  for (std::size_t i = 0; i < kNumberRows; ++i) {
+    const auto row = static_cast<NumberRow>(i);
+    ShownHologram& shown = add(frame, HologramKind::kNumbers);
+    shown.side = side;
+    append_number(shown.text, numbers, row);
+    shown.reading = reading_of(numbers, row);
   }
 }
 
@@ -180,7 +195,8 @@ void ShownFrameWriter::write_rods(const Guidance& guidance, const VisibilityRule
   }
 }
 
-void ShownFrameWriter::write_status(const StatusLine& line, ShownFrame& frame) {
+void ShownFrameWriter::write_status(const StatusLine& line, const Visibility& visible,
+                                    ShownFrame& frame) {
   if (!frame.status) {
     frame.status.emplace();
   }
@@ -190,6 +206,11 @@ void ShownFrameWriter::write_status(const StatusLine& line, ShownFrame& frame) {
   status.checks = checks_asked(line);
   status.text.clear();
   append_without_heard(status.text, line);
+  if (visible.numbers) {
+    status.text += " | ";
+    append_numbers(status.text, *visible.numbers,
+                   visible.trajectory->at.level->registration_only());
+  }
   status.heard.clear();
   if (line.heard) {
     append_heard(status.heard, *line.heard);

@@ -30,7 +30,8 @@ class ShownFrameWriter {
                    const VisibilityRules& rules, ShownFrame& frame);
   void write_rods(const Guidance& guidance, const VisibilityRules& rules, ShownFrame& frame);
   void write_angle(std::optional<double> angle_rad, ShownFrame& frame);
-  void write_status(const StatusLine& line, ShownFrame& frame);
+  void write_numbers(const nav::ScrewNumbers& numbers, nav::Side side, ShownFrame& frame);
+  void write_status(const StatusLine& line, const Visibility& visible, ShownFrame& frame);
 
   std::size_t used_ = 0;
   std::string text_;

@@ -43,8 +43,8 @@ std::optional<PlacedScrew> selected_screw(const Guidance& g) {
   return PlacedScrew{*level, g.screw};
 }
 
-/// H5, H6, H9: on a pose younger than the limit at the display time. A frozen triangle is worse
-/// than none. `fresh` is null where there is no such pose.
+/// H5, H6, H9, H13: on a pose younger than the limit at the display time. A frozen triangle is
+/// worse than none. `fresh` is null where there is no such pose.
 void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibility& out) {
   if (fresh) {
     const nav::ScrewGuidance* measured = fresh->measured ? &*fresh->measured : nullptr;
@@ -52,6 +52,7 @@ void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibi
     if (where.tip_to_entry_m <= rules.triangle_within_m) {
       out.triangle = &fresh->shown;
       out.measurement = measured;
+      out.numbers = measured && fresh->numbers ? &*fresh->numbers : nullptr;
       out.pose_time = fresh->pose_time;
     }
   }

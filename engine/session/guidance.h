@@ -17,6 +17,7 @@
 #include "nav/guidance/rod.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/guidance/screw.h"
+#include "nav/guidance/screw_numbers.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/digitizer.h"
 #include "nav/registration/registration.h"
@@ -119,6 +120,9 @@ struct ToolGuidance {
   /// too where the plan states no radius, the tool is not held near the plan, or its axis misses
   /// the bone.
   std::optional<nav::ScrewClearance> clearance = {};
+  /// Tip and aim in the surgeon's directions, as they are written. Absent with `measured`, and for
+  /// a plan whose directions have no such names (`nav::directions_of`).
+  std::optional<nav::ScrewNumbers> numbers = {};
 };
 
 /// A region that was deleted a moment ago.

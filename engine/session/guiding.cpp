@@ -13,18 +13,44 @@ constexpr double kOffTheScrew_m = 0.015;
 /// A tool that is turned farther from the plan is not aimed at it: 30°.
 constexpr double kAway_rad = 0.52;
 
+/// A tool as the bone has it.
+struct ToolInVertebra {
+  nav::Axis<Vertebra> axis;  ///< from the tip into the bone
+  /// Of its pose relative to the bone; absent where the registration's is not known.
+  std::optional<nav::PoseUncertainty> uncertainty;
+};
+
+ToolInVertebra in_vertebra(const nav::Registration& registration, const nav::TrackedPose& pose,
+                           const nav::ToolGeometry& tool) {
+  const auto vertebra_from_world = registration.world_from_vertebra.inverse();
+  const auto vertebra_from_marker = vertebra_from_world * pose.value;
+  ToolInVertebra found{
+      {vertebra_from_marker * tool.tip_in_marker, -(vertebra_from_marker * tool.axis_in_marker).v},
+      std::nullopt};
+  if (registration.uncertainty) {
+    found.uncertainty = nav::with_tool(*registration.uncertainty, vertebra_from_world,
+                                       vertebra_from_marker * Point<Marker>{}, pose.covariance);
+  }
+  return found;
+}
+
 }  // namespace
 
 void Guiding::select_open_screw(const LevelState& level) {
   const auto& done = level.screw_done;
   const auto open = std::find(done.begin(), done.end(), false);
   screw_ = open == done.end() ? 0 : static_cast<std::size_t>(open - done.begin());
-  at_depth_.reset();
+  forget_guidance();
 }
 
 void Guiding::begin_level() {
   screw_ = 0;
+  forget_guidance();
+}
+
+void Guiding::forget_guidance() {
   at_depth_.reset();
+  numbers_.forget();
 }
 
 std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWatch& watch,
@@ -47,12 +73,23 @@ std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWa
   };
   ToolGuidance guidance{std::nullopt, against_plan(at_display.value),
                         watch.last_measured().value_or(Timestamp{})};
-  if (watch.measured_now()) {
-    const nav::ScrewGuidance measured = against_plan(watch.newest().value);
-    guidance.measured = measured;
-    remember_depth(guidance, measured, watch.newest());
+  if (!watch.measured_now()) {
+    numbers_.forget();
+    return guidance;
   }
+  guidance.measured = against_plan(watch.newest().value);
+  guidance.numbers = numbers_of(level, watch.newest(), tool);
+  remember_depth(guidance, *guidance.measured, watch.newest());
   return guidance;
+}
+
+std::optional<nav::ScrewNumbers> Guiding::numbers_of(const LevelState& level,
+                                                     const nav::TrackedPose& pose,
+                                                     const nav::ToolGeometry& tool) {
+  const ToolInVertebra there = in_vertebra(*level.registration, pose, tool);
+  const auto deviation = nav::anatomical_deviation(
+      level.plan.screws[screw_], there.axis, there.uncertainty ? &*there.uncertainty : nullptr);
+  return deviation ? std::optional(numbers_.write(*deviation)) : std::nullopt;
 }
 
 void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
@@ -75,10 +112,8 @@ std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& le
     return std::nullopt;
   }
   const nav::ScrewPlan& plan = level.plan.screws[screw_];
-  const auto vertebra_from_world = level.registration->world_from_vertebra.inverse();
-  const auto vertebra_from_marker = vertebra_from_world * pose.value;
-  const nav::Axis<Vertebra> axis{vertebra_from_marker * tool.tip_in_marker,
-                                 -(vertebra_from_marker * tool.axis_in_marker).v};
+  const ToolInVertebra there = in_vertebra(*level.registration, pose, tool);
+  const nav::Axis<Vertebra>& axis = there.axis;
   const Vec3 planned = plan.target - plan.entry;
   const Vec3 off_m = (axis.point - plan.entry).cross(planned.normalized());
   if (!(off_m.norm() <= kOffTheScrew_m) ||
@@ -90,13 +125,7 @@ std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& le
   if (!screw) {
     return std::nullopt;
   }
-  if (!level.registration->uncertainty) {
-    return nav::screw_clearance(bone, *screw, nullptr);
-  }
-  const nav::PoseUncertainty both =
-      nav::with_tool(*level.registration->uncertainty, vertebra_from_world,
-                     vertebra_from_marker * Point<Marker>{}, pose.covariance);
-  return nav::screw_clearance(bone, *screw, &both);
+  return nav::screw_clearance(bone, *screw, there.uncertainty ? &*there.uncertainty : nullptr);
 }
 
 std::optional<nav::ScrewClearance> Guiding::clearance_at_depth(

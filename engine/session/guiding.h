@@ -16,7 +16,7 @@ class Guiding {
   /// Another level: what guided on the one before has no part in it.
   void begin_level();
   /// Nothing guided so far holds any more; the screw stays selected.
-  void forget_guidance() { at_depth_.reset(); }
+  void forget_guidance();
   void toggle_twin() { twin_ = !twin_; }
 
   /// The tool against the selected screw. Absent where nothing fresh is there to guide on.
@@ -40,6 +40,9 @@ class Guiding {
   [[nodiscard]] StepState state(const LevelState& level) const;
 
  private:
+  /// Of the tool as it was measured in this pair.
+  std::optional<nav::ScrewNumbers> numbers_of(const LevelState& level, const nav::TrackedPose& pose,
+                                              const nav::ToolGeometry& tool);
   void remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
                       const nav::TrackedPose& pose);
 
@@ -47,6 +50,7 @@ class Guiding {
   std::optional<ToolGuidance> at_depth_;
   nav::TrackedPose pose_at_depth_;  ///< of the tool, where there is an `at_depth_`
   double deepest_m_ = 0.0;          ///< the greatest depth past the entry so far
+  nav::ScrewNumberWriter numbers_;
   bool twin_ = false;
 };
 

@@ -12,7 +12,7 @@
 
 namespace orthonav {
 
-/// The holograms by their numbers in docs/holograms.md: H1 to H12.
+/// The holograms by their numbers in docs/holograms.md: H1 to H13.
 enum class HologramKind : std::uint8_t {
   kPath = 1,
   kVertebra,
@@ -26,16 +26,19 @@ enum class HologramKind : std::uint8_t {
   kRod,
   kStatus,
   kCheckPoint,
+  kNumbers,
 };
 
 /// What a person wearing the display can read off one hologram: text and a few world positions.
 struct ShownHologram {
   HologramKind kind = HologramKind::kPath;
   std::string level;         ///< of an entry point: the vertebra's label
-  std::optional<Side> side;  ///< of an entry point
+  std::optional<Side> side;  ///< of an entry point, and of the screw that numbers are about
   std::string text;          ///< what is written there, if anything
   /// What the number written there says: the angle in rad, rounded as it is shown, or the distance
-  /// of a check point in m. Absent on a place still to be touched, and where dashes are shown.
+  /// of a check point in m. Absent on a place still to be touched, and where dashes are shown. H13
+  /// comes as four holograms, each with one number as it is shown: how far the tip is off the
+  /// planned axis to cranial and to medial (m), then how far the tool's aim is (rad).
   std::optional<double> reading;
   std::vector<Point<World>> points_in_world;
 };

@@ -93,7 +93,7 @@ Status take_points(ByteReader& reader, std::vector<Point<World>>& points) {
 Status take_hologram(ByteReader& reader, ShownHologram& hologram) {
   Status problem;
   hologram.kind =
-      take_one(reader, HologramKind::kPath, HologramKind::kCheckPoint, "hologram", problem);
+      take_one(reader, HologramKind::kPath, HologramKind::kNumbers, "hologram", problem);
   hologram.level = take_text(reader);
   hologram.side = take_side(reader, problem);
   hologram.text = take_text(reader);

@@ -50,6 +50,16 @@ const ShownHologram* Eyes::find(HologramKind kind) const {
   return nullptr;
 }
 
+std::size_t Eyes::readings(HologramKind kind, std::span<double> out) const {
+  std::size_t count = 0;
+  for (const ShownHologram& hologram : view_.holograms) {
+    if (hologram.kind == kind && hologram.reading && count < out.size()) {
+      out[count++] = *hologram.reading;
+    }
+  }
+  return count;
+}
+
 const ShownHologram* Eyes::find_entry(std::string_view level, Side side) const {
   for (const ShownHologram& hologram : view_.holograms) {
     if (hologram.kind == HologramKind::kEntry && hologram.level == level && hologram.side == side) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "hal/api/display.h"
@@ -24,6 +25,9 @@ class Eyes {
   [[nodiscard]] std::optional<Timestamp> seen_at() const;
   /// The first hologram of that kind in the frame in view, or null.
   [[nodiscard]] const ShownHologram* find(HologramKind kind) const;
+  /// The numbers on the holograms of that kind in the frame in view, in their order; how many there
+  /// are, at most as many as `out` holds.
+  std::size_t readings(HologramKind kind, std::span<double> out) const;
   /// The entry point of that screw, or null.
   [[nodiscard]] const ShownHologram* find_entry(std::string_view level, Side side) const;
   /// Where a hologram's point hangs in the room.

@@ -8,7 +8,7 @@ namespace orthonav::sim {
 enum class GuidanceProfile : std::uint8_t {
   kOverlay,     ///< entry and trajectory as they hang over the bone; no number is read
   kNumbers,     ///< the entry as it hangs there; the angle by number, triangle and cross
-  kClosedLoop,  ///< entry and angle by cross and number, and on while drilling
+  kClosedLoop,  ///< entry and angle by the numbers at the cross, and on while drilling
 };
 
 }  // namespace orthonav::sim

@@ -9,6 +9,7 @@
 #include "hal/sim/error_model.h"
 #include "hal/sim/eyes.h"
 #include "hal/sim/guidance_profile.h"
+#include "hal/sim/number_reading.h"
 #include "hal/sim/room_layout.h"
 #include "hal/sim/stroke_plan.h"
 #include "hal/sim/surgeon_body.h"
@@ -59,6 +60,7 @@ class Surgeon {
   struct Aim {
     BoneSpot on_bone;  ///< in Room
     Vec3 outwards;     ///< the planned axis, out of the bone
+    SpokenDirections directions;
   };
   Script operate();
   Script perform(StepOnDisplay step);
@@ -126,16 +128,18 @@ class Surgeon {
   }
   /// Holds the tool along the shown trajectory by eye.
   Script align_by_eye(const StepOnDisplay& step, const Aim& aim);
-  /// Moves the tip until the dot of the target cross lies in its middle.
+  /// Moves the tip until the numbers say that it is on the planned axis.
   Script centre_tip(const StepOnDisplay& step, std::size_t level, const Aim& aim);
-  /// The mean offset of the tip that the cross shows over a while; nothing when it shows none.
+  /// The mean offset of the tip that the numbers say over a while; nothing when there are none.
   Script read_offset(const StepOnDisplay& step, const Aim& aim, std::optional<Vec3>& offset_m);
 
   // surgeon_turning.cpp
   /// Turns the tool about its tip until the readings are small and steady.
   Script turn_tool(const StepOnDisplay& step, const Aim& aim);
   /// Holds still, reads the average and takes out what is left of it, if that is little.
-  Script settle(double content_rad, bool& settled);
+  Script settle(const Aim& aim, double content_rad, bool& settled);
+  /// How the tool has to be turned: by the numbers in a closed loop, else by cross and triangle.
+  [[nodiscard]] std::optional<Deviation> read_turn(const Aim& aim) const;
   void turn_by(Vec3 turn);
   /// What they do where there is no reading; true when it has been away for so long that those
   /// before it are out of date.

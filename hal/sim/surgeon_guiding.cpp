@@ -92,6 +92,7 @@ Script Surgeon::find_entry(const StepOnDisplay& step, std::size_t level, Side si
       co_return;
     }
     aim.on_bone = put_on_bone(level, entry + perceived_shift, aim.outwards);
+    aim.directions = spoken_directions(layout_->room_from_vertebra(level), side, aim.outwards);
     body_.look({aim.on_bone.point}, body_.best_view(aim.outwards));
     if (look_s == kQuickLook_s) {
       co_await body_.rest(kMoveHead_s);

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "hal/sim/shown_cross.h"
 #include "hal/sim/surgeon.h"
 
 namespace orthonav::sim {
@@ -8,15 +7,15 @@ namespace {
 
 /// Holding a tool along a line takes some seconds.
 constexpr double kAligning_s = 3.0;
-/// A dot this near to the middle of the cross is in it.
+/// A tip this near to the axis is on it.
 constexpr double kCentred_m = 0.0004;
-/// A dot is read for this long, then the tip is moved; nobody goes on for ever.
+/// The numbers are read for this long, then the tip is moved; nobody goes on for ever.
 constexpr double kReading_s = 0.6;
 constexpr double kMoving_s = 0.5;
 constexpr int kMostMoves = 6;
-constexpr double kPatienceForDots_s = 20.0;
-constexpr int kFewestDots = 5;
-/// One ring taken for another.
+constexpr double kPatienceForNumbers_s = 20.0;
+constexpr int kFewestNumbers = 5;
+/// One digit taken for another.
 constexpr double kMisread_m = 0.001;
 
 }  // namespace
@@ -42,25 +41,23 @@ Script Surgeon::read_offset(const StepOnDisplay& step, const Aim& aim,
                             std::optional<Vec3>& offset_m) {
   offset_m.reset();
   Vec3 sum;
-  int dots = 0;
+  int readings = 0;
   std::optional<Timestamp> last;
-  const Timestamp patience = body_.now() + from_seconds(kPatienceForDots_s);
+  const Timestamp patience = body_.now() + from_seconds(kPatienceForNumbers_s);
   const Timestamp start = body_.now();
   while (body_.now() < patience && in_step(step) &&
-         (body_.now() - start < from_seconds(kReading_s) || dots < kFewestDots)) {
+         (body_.now() - start < from_seconds(kReading_s) || readings < kFewestNumbers)) {
     co_await body_.next_tick();
-    const ShownHologram* cross = eyes_->find(HologramKind::kCross);
-    if (!sees_now() || eyes_->seen_at() == last || !cross || cross->points_in_world.size() < 2) {
+    const auto numbers = read_numbers(*eyes_, aim.directions);
+    if (!sees_now() || eyes_->seen_at() == last || !numbers) {
       continue;
     }
     last = eyes_->seen_at();
-    sum += (eyes_->place(cross->points_in_world[1]) - eyes_->place(cross->points_in_world[0])) /
-           kCrossScale;
-    ++dots;
+    sum += numbers->tip_offset_m;
+    ++readings;
   }
-  if (dots >= kFewestDots) {
-    const Vec3 mean = sum / dots;
-    offset_m = mean - mean.dot(aim.outwards) * aim.outwards;
+  if (readings >= kFewestNumbers) {
+    offset_m = sum / readings;
   }
 }
 

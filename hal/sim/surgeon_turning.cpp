@@ -42,7 +42,7 @@ Script Surgeon::turn_tool(const StepOnDisplay& step, const Aim& aim) {
     co_await body_.next_tick();
     const double tick_s = seconds(body_.now() - before);
     before = body_.now();
-    const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
+    const auto reading = read_turn(aim);
     if (!reading) {
       if (regain_reading(aim, seconds(body_.now() - last_seen), tick_s)) {
         memory.clear();
@@ -62,13 +62,24 @@ Script Surgeon::turn_tool(const StepOnDisplay& step, const Aim& aim) {
       continue;
     }
     bool settled = false;
-    co_await settle(content_rad, settled);
+    co_await settle(aim, content_rad, settled);
     if (settled) {
       co_return;
     }
     before = body_.now();
     memory.clear();
   }
+}
+
+std::optional<Deviation> Surgeon::read_turn(const Aim& aim) const {
+  if (!sees_now()) {
+    return std::nullopt;
+  }
+  if (guidance_ != GuidanceProfile::kClosedLoop) {
+    return read_deviation(*eyes_);
+  }
+  const auto numbers = read_numbers(*eyes_, aim.directions);
+  return numbers ? std::optional(numbers->deviation) : std::nullopt;
 }
 
 void Surgeon::turn_by(Vec3 turn) {
@@ -93,7 +104,7 @@ void Surgeon::show_tag(const Aim& aim, double since_s, double tick_s) {
              rotation_from_vector({0, lean, 0}) * body_.best_view(aim.outwards));
 }
 
-Script Surgeon::settle(double content_rad, bool& settled) {
+Script Surgeon::settle(const Aim& aim, double content_rad, bool& settled) {
   co_await body_.rest(kReaction_s / body_.slowness());
   const Timestamp start = body_.now();
   std::optional<Timestamp> last;
@@ -101,7 +112,7 @@ Script Surgeon::settle(double content_rad, bool& settled) {
   int readings = 0;
   for (double done = 0.0; done < 1.0; done = seconds(body_.now() - start) / kHold_s) {
     co_await body_.next_tick();
-    const auto reading = sees_now() ? read_deviation(*eyes_) : std::nullopt;
+    const auto reading = read_turn(aim);
     if (!reading || reading->seen_at == last) {
       continue;
     }

@@ -12,7 +12,7 @@ struct HologramName {
   unsigned number;
   const char* name;
 };
-inline constexpr unsigned kLastHologram = 12;
+inline constexpr unsigned kLastHologram = 13;
 inline constexpr std::array<HologramName, kLastHologram> kHolograms = {{
     {1, "sampled path"},
     {2, "vertebra"},
@@ -26,6 +26,7 @@ inline constexpr std::array<HologramName, kLastHologram> kHolograms = {{
     {10, "rod template"},
     {11, "status line"},
     {12, "check points"},
+    {13, "numbers"},
 }};
 
 /// Which holograms are shown; all at first.

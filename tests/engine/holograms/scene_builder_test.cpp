@@ -250,7 +250,7 @@ TEST(SceneBuilder, PutsHologramsWhereTheRegistrationSays) {
 TEST_F(Guiding, ShowsPlanTriangleAndAngle) {
   const Guidance& g = s.pair();
   EXPECT_THAT(drawn(g), ::testing::ElementsAre(kEntry, kTrajectory, kTriangle, kAngle, kCross,
-                                               kDepth, kStatus));
+                                               kDepth, kStatus, kNumbers));
   EXPECT_EQ(drawn(g), told(g));
   const ShownFrame frame = shown(g);
   EXPECT_EQ(find(frame, kAngle)->text, "5.7°");  // 0.1 rad

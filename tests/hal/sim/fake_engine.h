@@ -67,6 +67,8 @@ class FakeEngine {
   void touched_landmark();
   void next_screw();
   void draw(const StereoFrame& frame);
+  /// H13 of a tip off the entry and an axis out of the bone, all in World.
+  void draw_numbers(ShownFrame& shown, const TestScrew& screw, Vec3 tip_m, Vec3 axis) const;
   void draw_screw(ShownFrame& shown, const RoomState& state, bool blind) const;
   [[nodiscard]] std::string level_label() const { return order_[level_]; }
   [[nodiscard]] Transform<Room, Vertebra> room_from_vertebra(const std::string& label) const;

@@ -1,0 +1,72 @@
+#include "engine/session/numbers_wording.h"
+
+#include <array>
+#include <cstdlib>
+
+#include "base/printed.h"
+#include "engine/session/findings_wording.h"
+
+namespace orthonav::engine {
+namespace {
+
+bool is_angle(NumberRow row) {
+  return row == NumberRow::kAimCranial || row == NumberRow::kAimMedial;
+}
+
+std::string_view direction_of(NumberRow row, int tenths) {
+  const bool along_spine = row == NumberRow::kTipCranial || row == NumberRow::kAimCranial;
+  if (along_spine) {
+    return tenths > 0 ? " cranial" : " caudal";
+  }
+  return tenths > 0 ? " medial" : " lateral";
+}
+
+void append_tenths(std::string& out, int tenths) { append_printed(out, "%.1f", 0.1 * tenths); }
+
+}  // namespace
+
+const nav::ShownNumber& number_of(const nav::ScrewNumbers& numbers, NumberRow row) {
+  const std::array<const nav::ShownNumber*, kNumberRows> all = {
+      &numbers.tip_cranial, &numbers.tip_medial, &numbers.aim_cranial, &numbers.aim_medial};
+  return *all[static_cast<std::size_t>(row)];
+}
+
+double reading_of(const nav::ScrewNumbers& numbers, NumberRow row) {
+  return number_of(numbers, row).tenths * (is_angle(row) ? nav::kTenth_rad : nav::kTenth_m);
+}
+
+void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow row) {
+  const nav::ShownNumber& number = number_of(numbers, row);
+  append_tenths(out, std::abs(number.tenths));
+  if (!number.sure) {
+    out += " ± ";
+    if (number.sd_tenths) {
+      append_tenths(out, *number.sd_tenths);
+    } else {
+      out += "--";
+    }
+  }
+  out += is_angle(row) ? "°" : " mm";
+  if (number.tenths != 0) {
+    out += direction_of(row, number.tenths);
+  }
+}
+
+void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool registration_only) {
+  out.append(words::kTip).append(" ");
+  append_number(out, numbers, NumberRow::kTipCranial);
+  out += ", ";
+  append_number(out, numbers, NumberRow::kTipMedial);
+  out.append("; ").append(words::kAims).append(" ");
+  append_number(out, numbers, NumberRow::kAimCranial);
+  out += ", ";
+  append_number(out, numbers, NumberRow::kAimMedial);
+  out += registration_only && !all_sure(numbers) ? kRegistrationOnly : "";
+}
+
+bool all_sure(const nav::ScrewNumbers& numbers) {
+  return numbers.tip_cranial.sure && numbers.tip_medial.sure && numbers.aim_cranial.sure &&
+         numbers.aim_medial.sure;
+}
+
+}  // namespace orthonav::engine

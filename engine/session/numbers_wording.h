@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "nav/guidance/screw_numbers.h"
+
+namespace orthonav::engine {
+
+// The numbers of step `guide` in a surgeon's words (part of engine/session/wording.h). They say
+// where the tip is and where the tool aims, as the dots of the target cross do, never where to go.
+
+/// The four of them, in the order in which they are read.
+enum class NumberRow : std::size_t { kTipCranial, kTipMedial, kAimCranial, kAimMedial };
+inline constexpr std::size_t kNumberRows = 4;
+
+[[nodiscard]] const nav::ShownNumber& number_of(const nav::ScrewNumbers& numbers, NumberRow row);
+/// What it says, signed, as it is shown: m or rad; > 0: cranial or medial.
+[[nodiscard]] double reading_of(const nav::ScrewNumbers& numbers, NumberRow row);
+
+/// "1.2 mm cranial"; "0.0 mm"; where it is not sure, "1.2 ± 0.8 mm cranial", and "1.2 ± -- mm
+/// cranial" where nobody knows how sure.
+void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow row);
+/// All in one line: "tip 1.2 mm cranial, 0.8 mm medial; aims 2.1° caudal, 0.4° lateral".
+/// `registration_only`: SDs lack what all strokes share, so a line with one says so.
+void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool registration_only);
+[[nodiscard]] bool all_sure(const nav::ScrewNumbers& numbers);
+
+namespace words {
+inline constexpr std::string_view kTip = "tip";
+inline constexpr std::string_view kAims = "aims";
+inline constexpr std::string_view kSdOfRegistrationOnly = "± registration only";
+}  // namespace words
+
+}  // namespace orthonav::engine

@@ -1,0 +1,102 @@
+#include "nav/guidance/anatomical_deviation.h"
+
+#include <cmath>
+#include <limits>
+
+namespace orthonav::nav {
+namespace {
+
+/// cos(60°)
+constexpr double kLeastAlong = 0.5;
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+double sd_of_variance(double variance) {
+  return variance >= 0.0 ? std::sqrt(variance) : kUnknown;  // NaN is not known either
+}
+
+/// Of the error of a place, along a unit direction.
+double sd_along(const std::array<double, 9>& covariance_m2, Vec3 direction) {
+  double variance = 0.0;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      variance += direction[r] * covariance_m2[static_cast<std::size_t>(3 * r + c)] * direction[c];
+    }
+  }
+  return sd_of_variance(variance);
+}
+
+/// A tool's direction within a plane through the planned axis, and the axis about which a small
+/// turn of the tool changes its angle there, scaled to how much.
+struct AngleInPlane {
+  double angle_rad = 0.0;
+  Vec3 by_turn;
+};
+
+AngleInPlane angle_in_plane(Vec3 tool, Vec3 inward, Vec3 across) {
+  const double along = tool.dot(inward);
+  const double beside = tool.dot(across);
+  // d atan2 = (along · d beside - beside · d along) / r², with d tool = turn × tool.
+  const Vec3 gradient = (along * across - beside * inward) / (along * along + beside * beside);
+  return {std::atan2(beside, along), tool.cross(gradient)};
+}
+
+NumberWithSd angle_with_sd(const AngleInPlane& angle, const PoseUncertainty* uncertainty) {
+  if (!uncertainty) {
+    return {angle.angle_rad, kUnknown};
+  }
+  const auto& c = uncertainty->covariance();
+  double variance = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      variance +=
+          angle.by_turn[i] * c[static_cast<std::size_t>(6 * (i + 3) + j + 3)] * angle.by_turn[j];
+    }
+  }
+  return {angle.angle_rad, sd_of_variance(variance)};
+}
+
+}  // namespace
+
+std::optional<ScrewDirections> directions_of(const ScrewPlan& plan) {
+  constexpr Vec3 kCranial{0, 0, 1};
+  ScrewDirections d;
+  d.inward = (plan.target - plan.entry).normalized();
+  const Vec3 cranial = kCranial - d.inward.z * d.inward;
+  // Its length is also the cosine of the angle between the two.
+  if (!(cranial.norm() >= kLeastAlong)) {
+    return std::nullopt;
+  }
+  d.cranial = cranial.normalized();
+  const Vec3 across = d.inward.cross(d.cranial);
+  if (!(std::abs(across.x) >= kLeastAlong)) {
+    return std::nullopt;
+  }
+  // +x is the patient's left, so the midline lies towards -x of a left screw.
+  const bool towards_midline = (across.x < 0.0) == (plan.side == Side::kLeft);
+  d.medial = towards_midline ? across : -across;
+  return d;
+}
+
+std::optional<AnatomicalDeviation> anatomical_deviation(const ScrewPlan& plan,
+                                                        const Axis<Vertebra>& tool,
+                                                        const PoseUncertainty* uncertainty) {
+  const auto directions = directions_of(plan);
+  if (!directions || !tool.point.v.is_finite() || !tool.direction.is_finite()) {
+    return std::nullopt;
+  }
+  const Vec3 from_entry = tool.point - plan.entry;
+  const auto covariance_m2 =
+      uncertainty ? uncertainty->covariance_at(tool.point) : std::array<double, 9>{};
+  const auto offset = [&](Vec3 direction) {
+    return NumberWithSd{from_entry.dot(direction),
+                        uncertainty ? sd_along(covariance_m2, direction) : kUnknown};
+  };
+  const auto angle = [&](Vec3 across) {
+    return angle_with_sd(angle_in_plane(tool.direction, directions->inward, across), uncertainty);
+  };
+  return AnatomicalDeviation{offset(directions->cranial), offset(directions->medial),
+                             angle(directions->cranial), angle(directions->medial),
+                             offset(directions->inward)};
+}
+
+}  // namespace orthonav::nav

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <numbers>
+#include <optional>
+
+#include "nav/guidance/anatomical_deviation.h"
+
+namespace orthonav::nav {
+
+/// A number as the surgeon reads it, in tenths of a millimetre or of a degree.
+struct ShownNumber {
+  int tenths = 0;                ///< > 0: cranial or medial
+  std::optional<int> sd_tenths;  ///< of its error, rounded up; absent: not known
+  bool sure = false;             ///< else it is shown greyed, with its SD
+};
+
+/// `AnatomicalDeviation` as it is shown.
+struct ScrewNumbers {
+  ShownNumber tip_cranial;  ///< tenths of a millimetre
+  ShownNumber tip_medial;
+  ShownNumber aim_cranial;  ///< tenths of a degree
+  ShownNumber aim_medial;
+};
+inline constexpr double kTenth_m = 1e-4;
+inline constexpr double kTenth_rad = 0.1 * std::numbers::pi / 180.0;
+
+/// A number is sure up to these SDs. 1.0 mm: 95 % of its errors lie within 2 mm, one step of the
+/// Gertzbein-Robbins scale. 1.5°: 95 % of them move the end of a screw of 40 mm by no more than
+/// those 2 mm.
+inline constexpr double kSureOffset_m = 1.0e-3;
+inline constexpr double kSureAngle_rad = 1.5 * std::numbers::pi / 180.0;
+
+/// Decides which whole number of tenths stands for a measured one, so that it never looks better
+/// than measured and a trembling hand does not flicker the last digit. One for each number.
+///
+/// The magnitude is rounded up. A larger one is shown at once; a smaller one only when the measured
+/// one has fallen by another tenth below where rounding changes. So what is shown is never below
+/// what is measured, and above it by less than two tenths. Zero alone is excepted: it is shown from
+/// half a tenth down, stays up to a whole one, and in either case only while the measured number is
+/// no larger than its own SD, that is, zero as far as anyone can tell.
+class SteadyNumber {
+ public:
+  static constexpr double kBand = 1.0;       ///< tenths, towards the safe side
+  static constexpr double kEnterZero = 0.5;  ///< tenths
+  static constexpr double kLeaveZero = 1.0;
+
+  /// `tenths` is finite; `sd_tenths` may be infinite.
+  int show(double tenths, double sd_tenths);
+  void forget() { shown_.reset(); }
+
+ private:
+  std::optional<int> shown_;
+};
+
+/// All four of them, pair after pair.
+class ScrewNumberWriter {
+ public:
+  [[nodiscard]] ScrewNumbers write(const AnatomicalDeviation& measured);
+  /// What was shown so far has no part in what comes: another screw, or no measurement since.
+  void forget() { *this = {}; }
+
+ private:
+  SteadyNumber tip_cranial_;
+  SteadyNumber tip_medial_;
+  SteadyNumber aim_cranial_;
+  SteadyNumber aim_medial_;
+};
+
+}  // namespace orthonav::nav

@@ -1,0 +1,164 @@
+// H13 as it is drawn and told.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+
+#include "engine/holograms/hologram_label.h"
+#include "engine/holograms/scene_builder.h"
+#include "tests/support/scripted_operation.h"
+
+namespace orthonav::engine::shown_numbers_test {
+namespace {
+
+using test::guide_at;
+using test::ScriptedOperation;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr Vec3 kLeftEntry{0.015, 0.020, 0.0};
+constexpr Vec3 kRightEntry{-0.015, 0.020, 0.0};
+
+struct Told {
+  std::vector<std::string> texts;
+  std::vector<double> readings;
+  std::string status;
+};
+
+Told told(const Guidance& g, std::optional<Timestamp> at = std::nullopt) {
+  SceneBuilder builder;
+  ShownFrame frame;
+  builder.update(g, at.value_or(g.display_time));
+  builder.write_shown(g, frame);
+  Told out;
+  for (const ShownHologram& hologram : frame.holograms) {
+    if (hologram.kind == HologramKind::kNumbers) {
+      out.texts.push_back(hologram.text);
+      out.readings.push_back(hologram.reading.value_or(-1.0));
+    }
+  }
+  out.status = frame.status->text;
+  return out;
+}
+
+/// Every text of H13 in a scene, and of its row in the status line.
+std::vector<std::string> drawn(const render::Scene& scene) {
+  std::vector<std::string> texts;
+  for (const render::TextItem& text : scene.texts) {
+    if (kind_of(text.label) == HologramKind::kNumbers) {
+      texts.push_back(text.runs.at(0).text);
+    }
+  }
+  return texts;
+}
+
+render::Scene scene_of(const Guidance& g) {
+  SceneBuilder builder;
+  render::Scene scene;
+  builder.update(g);
+  builder.write_scene(g, scene);
+  return scene;
+}
+
+class ShownNumbers : public ::testing::Test {
+ protected:
+  ShownNumbers() { know_registration(0.0003); }
+  void know_registration(double sd_m) {
+    std::array<double, 36> covariance{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      covariance[7 * k] = sd_m * sd_m;
+      covariance[7 * (k + 3)] = 1e-6;
+    }
+    s.registration.uncertainty = nav::PoseUncertainty({0, 0, 0}, covariance);
+  }
+  /// The tip off the left entry; both to the patient's left of the midline.
+  const Guidance& guided(Vec3 off_m, double angle_rad = 0.0) {
+    if (s.session().current_step() == Step::kSetup) {
+      s.accepts_first_level();
+      s.says("next");
+    }
+    s.tracker().guide = guide_at(entry + off_m, angle_rad);
+    s.pair();
+    return s.pair();
+  }
+  ScriptedOperation s;
+  Vec3 entry = kLeftEntry;
+};
+
+TEST_F(ShownNumbers, SayWhereTheTipIsAndWhereTheToolAims) {
+  // +x is to the patient's left: lateral of the left screw. The shaft leans left, so it aims
+  // medial.
+  const Told here = told(guided({0.0012, 0.010, 0.0008}, 0.0349));
+  EXPECT_THAT(here.texts, ElementsAre("0.8 mm cranial", "1.2 mm lateral", "0.0°", "2.0° medial"));
+  ASSERT_EQ(here.readings.size(), 4u);
+  EXPECT_NEAR(here.readings[0], 0.0008, 1e-12);
+  EXPECT_NEAR(here.readings[1], -0.0012, 1e-12);
+  EXPECT_NEAR(here.readings[3], 2.0 * 3.14159265358979 / 180.0, 1e-9);
+  EXPECT_THAT(here.status,
+              ::testing::EndsWith(" | tip 0.8 mm cranial, 1.2 mm lateral; aims 0.0°, 2.0° medial"));
+}
+
+TEST_F(ShownNumbers, NameTheSameWayMedialOnTheOtherSide) {
+  guided({});
+  s.says("next");
+  entry = kRightEntry;
+  EXPECT_EQ(told(guided({0.0012, 0.010, 0.0})).texts.at(1), "1.2 mm medial");
+}
+
+TEST_F(ShownNumbers, AreAbsentWhereTheToolWasNotMeasuredInThisPair) {
+  ASSERT_EQ(told(guided({})).texts.size(), 4u);
+  s.tracker().guide_origin = PoseStatus::kPredicted;
+  const Guidance& predicted = s.pair();
+  EXPECT_THAT(told(predicted).texts, IsEmpty());
+  EXPECT_THAT(drawn(scene_of(predicted)), IsEmpty());
+}
+
+TEST_F(ShownNumbers, GoWithAPoseThatIsTooOldWhereverTheyStand) {
+  const Guidance& g = guided({});
+  render::Scene scene = scene_of(g);
+  EXPECT_EQ(drawn(scene).size(), 7u) << "four numbers, tip, aims, the row of the status line";
+  const Told late = told(g, g.tool->pose_time + g.stale_after + Duration(1));
+  EXPECT_THAT(late.texts, IsEmpty());
+  EXPECT_THAT(late.status, ::testing::Not(::testing::HasSubstr("tip")));
+  hide_tool_guidance(scene);
+  EXPECT_THAT(drawn(scene), IsEmpty());
+}
+
+TEST_F(ShownNumbers, GoWithTheHead) {
+  render::Scene left;
+  write_head_lost(scene_of(guided({})), left);
+  EXPECT_FALSE(left.texts.empty());
+  EXPECT_THAT(drawn(left), IsEmpty());
+}
+
+TEST_F(ShownNumbers, AreGreyedWithTheirSdsWhereTheyAreNotSure) {
+  know_registration(0.00149);
+  const Guidance& g = guided({0.0012, 0.010, 0.0});
+  EXPECT_THAT(told(g).texts.at(1), "1.2 ± 1.5 mm lateral");
+  EXPECT_THAT(drawn(scene_of(g)), ::testing::Contains("± registration only"))
+      << "nobody knows what all strokes share";
+}
+
+TEST_F(ShownNumbers, KnowTheErrorThatAllStrokesShare) {
+  know_registration(0.0003);
+  ASSERT_EQ(told(guided({0.0012, 0.010, 0.0})).texts.at(1), "1.2 mm lateral");
+  ScriptedOperation shared;
+  shared.registration.common.cameras_m = 0.0014;
+  shared.registration.uncertainty =
+      nav::with_common(*s.registration.uncertainty, shared.registration.common);
+  shared.accepts_first_level();
+  shared.says("next");
+  shared.tracker().guide = guide_at(kLeftEntry + Vec3{0.0012, 0.010, 0.0}, 0.0);
+  shared.pair();
+  const Guidance& g = shared.pair();
+  EXPECT_EQ(told(g).texts.at(1), "1.2 ± 1.5 mm lateral");
+  EXPECT_THAT(drawn(scene_of(g)), ::testing::Not(::testing::Contains("± registration only")));
+}
+
+TEST_F(ShownNumbers, SayThatNobodyKnowsHowSureTheyAre) {
+  s.registration.uncertainty.reset();
+  EXPECT_THAT(told(guided({0.0012, 0.010, 0.0})).texts.at(1), "1.2 ± -- mm lateral");
+}
+
+}  // namespace
+}  // namespace orthonav::engine::shown_numbers_test

@@ -1,0 +1,54 @@
+#include "engine/session/numbers_wording.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace orthonav::engine::numbers_wording_test {
+namespace {
+
+std::string row_text(const nav::ScrewNumbers& numbers, NumberRow row) {
+  std::string out;
+  append_number(out, numbers, row);
+  return out;
+}
+
+std::string line_text(const nav::ScrewNumbers& numbers, bool registration_only) {
+  std::string out;
+  append_numbers(out, numbers, registration_only);
+  return out;
+}
+
+constexpr nav::ScrewNumbers kSure{{12, 3, true}, {8, 3, true}, {-21, 5, true}, {-4, 5, true}};
+
+TEST(NumbersWording, SaysMillimetresAndDegreesWithTheirDirections) {
+  EXPECT_EQ(line_text(kSure, false),
+            "tip 1.2 mm cranial, 0.8 mm medial; aims 2.1° caudal, 0.4° lateral");
+  EXPECT_EQ(line_text({{-12, 3, true}, {-8, 3, true}, {21, 5, true}, {4, 5, true}}, false),
+            "tip 1.2 mm caudal, 0.8 mm lateral; aims 2.1° cranial, 0.4° medial");
+}
+
+TEST(NumbersWording, GivesZeroNoDirection) {
+  EXPECT_EQ(row_text({{0, 3, true}, {}, {}, {}}, NumberRow::kTipCranial), "0.0 mm");
+  EXPECT_EQ(row_text({{}, {}, {}, {0, 3, true}}, NumberRow::kAimMedial), "0.0°");
+}
+
+TEST(NumbersWording, SaysHowUnsureANumberIs) {
+  nav::ScrewNumbers numbers = kSure;
+  numbers.tip_cranial = {12, 14, false};
+  numbers.aim_medial = {-4, std::nullopt, false};
+  EXPECT_EQ(row_text(numbers, NumberRow::kTipCranial), "1.2 ± 1.4 mm cranial");
+  EXPECT_EQ(row_text(numbers, NumberRow::kAimMedial), "0.4 ± --° lateral");
+  EXPECT_EQ(line_text(numbers, true),
+            "tip 1.2 ± 1.4 mm cranial, 0.8 mm medial; aims 2.1° caudal, 0.4 ± --° lateral "
+            "(registration only)");
+  EXPECT_EQ(line_text(kSure, true), line_text(kSure, false)) << "without an SD, nothing to add";
+}
+
+TEST(NumbersWording, SaysWhatTheNumberSays) {
+  EXPECT_NEAR(reading_of(kSure, NumberRow::kTipCranial), 0.0012, 1e-15);
+  EXPECT_NEAR(reading_of(kSure, NumberRow::kAimCranial), -2.1 * 3.14159265358979 / 180.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace orthonav::engine::numbers_wording_test
