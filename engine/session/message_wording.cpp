@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "base/length_text.h"
 #include "base/printed.h"
 #include "engine/session/wording.h"
 
