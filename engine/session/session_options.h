@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/time.h"
+#include "nav/guidance/drill_watch.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/registration/check_points.h"
 
@@ -26,6 +27,7 @@ struct SessionOptions {
   /// mm and more.
   double max_touch_spread_m = 0.003;
   nav::CheckPointRules check_points;
+  nav::DrillLimits drill;
   /// What is known of errors that all strokes share; without, the errors that are expected are
   /// those of the registration alone, and called so.
   nav::CommonErrors common;

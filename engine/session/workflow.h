@@ -110,6 +110,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kSayNext, kFinishScrew, kGuide},
     {kGuide, kSayReject, kClearLevel, kDigitize},
     {kGuide, kSayTwin, kToggleTwin, kGuide},
+    {kGuide, kSayDrill, kBeginDrill, kGuide},
     {kGuide, kAnotherScrew, kSelectScrew, kGuide},
     {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
     {kGuide, kNoScrewLeft, kBeginRod, kRod},
