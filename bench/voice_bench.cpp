@@ -74,7 +74,7 @@ double worked_ms() {
 
 std::unique_ptr<CommandSpotter> new_spotter(const Options& bench, Waking waking) {
   SpotterOptions options;
-  options.commands = engine::spoken_commands();
+  options.commands = engine::trained_commands();
   options.waking = waking;
   if (bench.least_log_odds) {
     options.least_log_odds = *bench.least_log_odds;
@@ -172,7 +172,7 @@ void measure_recall(const Options& options) {
     const auto spotter = new_spotter(options, waking);
     for (const double snr_db : {kClean, 20.0, 15.0, 10.0}) {
       for (const int speed : speeds) {
-        for (const std::string& command : engine::spoken_commands()) {
+        for (const std::string& command : engine::trained_commands()) {
           const auto noise = static_cast<Noise>(count++ % 3);
           say_one(*spotter, command, options, {std::string(voice), speed}, noise, snr_db, random,
                   figures);

@@ -176,7 +176,7 @@ class LiveRun {
     }
     parts.clicker = std::move(*clicker);
     auto voice =
-        open_voice(arguments_.voice, engine::spoken_commands(), headset_->clock(), headset_.get());
+        open_voice(arguments_.voice, engine::trained_commands(), headset_->clock(), headset_.get());
     if (!voice) {
       return voice.error();
     }

@@ -33,12 +33,12 @@ TargetCross cross_with(const nav::ScrewGuidance& tool, LabelSide hangs) {
 
 GoldenScene captioned(const std::string& name, const std::string& what, const TargetCross& cross,
                       const nav::ScrewNumbers& numbers, bool registration_only) {
-  constexpr float kCaption_m = 0.021f;
+  constexpr float kCaption_m = 0.037f;
   const CrossPlaces places = places_of(cross);
   GoldenScene golden =
       start(name, what,
             {render::look_at(cross.viewer.eye, places.middle - kCaption_m * places.up,
-                             cross.viewer.up, 0.155f, 0.10075f)});
+                             cross.viewer.up, 0.216f, 0.1404f)});
   add_target_cross(golden.scene, cross, kCrossLabel);
   add_numbers(golden.scene, cross, numbers, registration_only, kNumbersLabel);
   golden.centred = {{kCrossLabel, places.middle}};
@@ -71,6 +71,35 @@ GoldenScene on_plan() {
                    cross_with(tool, LabelSide::kLeft), numbers_of(tool, {}), false);
 }
 
+GoldenScene cleared(const std::string& name, const std::string& what,
+                    const nav::ShownClearance& clearance) {
+  const nav::ScrewGuidance tool = tool_at(Side::kLeft, kTipOff_m, kLean_rad);
+  const TargetCross cross = cross_with(tool, LabelSide::kLeft);
+  GoldenScene golden = captioned(name, what, cross, numbers_of(tool, {}), false);
+  add_clearance(golden.scene, cross, clearance, kClearanceLabel);
+  return golden;
+}
+
+/// The tool off the entry by so much towards the patient's left, aiming as planned.
+GoldenScene drilled(const std::string& name, const std::string& what, double off_m,
+                    nav::DrillAlarm alarm) {
+  const nav::ScrewGuidance tool = tool_at(Side::kLeft, {off_m, 0.0, 0.0}, {});
+  const TargetCross cross = cross_with(tool, LabelSide::kLeft);
+  const bool stop = alarm == nav::DrillAlarm::kStop;
+  GoldenScene golden = captioned(name, what, cross, numbers_of(tool, {}), false);
+  add_drill(golden.scene, cross, {nav::DrillPhase::kDrilling, alarm, true},
+            stop ? kStopLabel : kDrillLabel);
+  return golden;
+}
+
+/// A pose that is too old takes all but the stop.
+GoldenScene stop_unseen() {
+  GoldenScene golden = drilled("h13_stop_late", "tool lost in the outer ring, stop below it",
+                               0.0002, nav::DrillAlarm::kStop);
+  hide_tool_guidance(golden.scene);
+  return golden;
+}
+
 GoldenScene lost() {
   GoldenScene golden = of_side(Side::kLeft, LabelSide::kLeft);
   golden.name = "h13_lost";
@@ -90,6 +119,21 @@ void add_number_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(unsure("h13_all_unsure", "all four with SDs, of the registration only",
                           {0.0014, 0.031}, true));
   scenes.push_back(on_plan());
+  scenes.push_back(cleared("h13_clearance", "clearance 2.4 mm, at least 1.1 mm below the numbers",
+                           {24, 11, "medial"}));
+  scenes.push_back(cleared("h13_may_break",
+                           "clearance 0.4 mm, in a red rim: may break through medially",
+                           {4, -7, "medial"}));
+  scenes.push_back(cleared("h13_breaks", "clearance below zero, in a red rim: breaks through",
+                           {-13, -24, "lateral"}));
+  scenes.push_back(drilled("h13_drilling", "drilling, in white", 0.0003, nav::DrillAlarm::kNone));
+  scenes.push_back(drilled("h13_drifting", "drilling: drifting, in an amber rim", 0.0014,
+                           nav::DrillAlarm::kAmber));
+  scenes.push_back(
+      drilled("h13_off_plan", "drilling: off plan, in a red rim", 0.0026, nav::DrillAlarm::kRed));
+  scenes.push_back(
+      drilled("h13_stop", "stop, large and in a red rim", 0.0003, nav::DrillAlarm::kStop));
+  scenes.push_back(stop_unseen());
   scenes.push_back(lost());
 }
 

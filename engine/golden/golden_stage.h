@@ -39,6 +39,9 @@ inline constexpr render::Label kDepthLabel = label_of(HologramKind::kDepth, 1);
 inline constexpr render::Label kRodLabel = label_of(HologramKind::kRod, 1);
 inline constexpr render::Label kStatusLabel = label_of(HologramKind::kStatus, 1);
 inline constexpr render::Label kNumbersLabel = label_of(HologramKind::kNumbers, 1);
+inline constexpr render::Label kClearanceLabel = label_of(HologramKind::kNumbers, 3);
+inline constexpr render::Label kDrillLabel = label_of(HologramKind::kNumbers, 4);
+inline constexpr render::Label kStopLabel = label_of(HologramKind::kNumbers, 5);
 inline constexpr render::Label kNumbersRowLabel = label_of(HologramKind::kNumbers, 2);
 inline constexpr render::Label kCheckPointLabel = label_of(HologramKind::kCheckPoint, 1);
 

@@ -62,6 +62,8 @@ void add_entries(GoldenScene& golden, bool left_done, bool right_done) {
   golden.covered.push_back({kOtherEntryLabel, kOtherEntry});
 }
 
+constexpr nav::ShownClearance kClearance{24, 11, "medial"};
+
 /// What does not depend on the tool.
 GoldenScene guiding(const std::string& name, const std::string& what, const std::string& detail,
                     ToolState tool = ToolState::kMeasured) {
@@ -103,6 +105,7 @@ void add_tool_to(GoldenScene& golden, const nav::ScrewGuidance& guide, bool meas
       false);
   const nav::ScrewNumbers numbers = numbers_of(guide, {});
   add_numbers(golden.scene, cross, numbers, false, kNumbersLabel);
+  add_clearance(golden.scene, cross, kClearance, kClearanceLabel);
   std::string row;
   append_numbers(row, numbers, false);
   add_row_above_status(golden.scene, row, kNumbersRowLabel);
@@ -246,7 +249,8 @@ void add_view_scenes(std::vector<GoldenScene>& scenes) {
       golden.views = surgeon_views(distance_m, kRolls_deg[i]);
       // The cross faces the eyes from wherever they are.
       const auto of_cross = [](const auto& item) {
-        return kind_of(item.label) == HologramKind::kCross || item.label == kNumbersLabel;
+        return kind_of(item.label) == HologramKind::kCross || item.label == kNumbersLabel ||
+               item.label == kClearanceLabel;
       };
       golden.scene.meshes.erase_if(of_cross);
       golden.scene.lines.erase_if(of_cross);
@@ -256,6 +260,7 @@ void add_view_scenes(std::vector<GoldenScene>& scenes) {
           surgeon(distance_m, kRolls_deg[i]));
       add_numbers(golden.scene, cross, numbers_of(guided(3.4, 0.0006, -0.0062), {}), false,
                   kNumbersLabel);
+      add_clearance(golden.scene, cross, kClearance, kClearanceLabel);
       scenes.push_back(std::move(golden));
     }
   }

@@ -98,6 +98,12 @@ std::vector<TextKind> text_kinds() {
       depth("depth, past target", "1.2 mm past target", true, 902),
       numbers("numbers", 0.0003, 1301),
       numbers("numbers, unsure", 0.003, 1302),
+      last_of("clearance, may break through",
+              [](Scene& s) {
+                TargetCross target;
+                target.viewer = golden::surgeon();
+                add_clearance(s, target, {4, -7, "medial"}, 1303);
+              }),
       rod("rod, bend", true, 1001),
       rod("rod, length", false, 1002),
       check("check point, within", 0.0004, true, 1201),

@@ -1,5 +1,7 @@
 #include "engine/holograms/hologram_numbers.h"
 
+#include <array>
+
 #include "engine/holograms/hologram_parts.h"
 #include "render/float3.h"
 
@@ -19,21 +21,58 @@ constexpr float kLeastCaps_deg = 0.55f;
 constexpr float kSmaller = 0.8f;
 constexpr float kRow_caps = 1.7f;
 /// From the rim of the cross down to the first row's baseline.
-constexpr float kBelowRim_caps = 2.2f;
-/// The words "tip" and "aims" end left of the middle of the cross, the numbers begin there.
-constexpr float kColumn_caps = 3.0f;
+constexpr float kBelowRim_caps = 4.2f;
+/// Text keeps its visual angle, so it grows in the world with the distance: it grows away from the
+/// site, from that edge of the cross that is nearer to it. From there to where the numbers begin:
+/// as wide as they get, or as the words before them.
+constexpr float kNumbersWidth_caps = 9.0f;
+constexpr float kHeadingsWidth_caps = 5.2f;
+constexpr float kNearerToSite_m = 0.004f;
 constexpr float kBetweenColumns_caps = 0.6f;
+
+/// Of the row about the drill, above the numbers.
+constexpr float kAboveNumbers_caps = 2.0f;
+constexpr float kStopLarger = 1.6f;
+
+/// Below the numbers and what may be said of their SDs.
+constexpr float kClearanceAfter_rows = 5.1f;
 
 /// Where the rows of a block hang, in cap heights of its numbers from one place.
 class Block {
  public:
-  Block(Scene& scene, Float3 place, Label label) : scene_(scene), place_(place), label_(label) {}
+  Block(Scene& scene, const TargetCross& cross, Label label) : scene_(scene), label_(label) {
+    const CrossPlaces places = places_of(cross);
+    const float rim_m = kCrossScale * kCrossRings_m.back();
+    left_of_site_ = cross.side == LabelSide::kLeft;
+    const float aside_m = rim_m + kNearerToSite_m;
+    place_ =
+        places.middle - rim_m * places.up + (left_of_site_ ? aside_m : -aside_m) * places.right;
+    column_ = left_of_site_ ? -kNumbersWidth_caps : kHeadingsWidth_caps + kBetweenColumns_caps;
+  }
 
   void next_row() { up_ -= kRow_caps; }
+  void skip(float rows) { up_ -= rows * kRow_caps; }
   void heading(std::string_view words) {
-    add(TextAlign::kRight, -kColumn_caps - kBetweenColumns_caps, false) = words;
+    add(TextAlign::kRight, column_ - kBetweenColumns_caps, false) = words;
   }
-  std::string& text(bool sure) { return add(TextAlign::kLeft, -kColumn_caps, sure); }
+  /// As long as it is, in a red rim.
+  std::string& warning() {
+    std::string& text = add(left_of_site_ ? TextAlign::kRight : TextAlign::kLeft, 0, true);
+    scene_.texts.back().rim = look::kRed;
+    return text;
+  }
+  /// Above the numbers, as much larger.
+  TextItem& above(float larger) {
+    TextItem& item = scene_.texts.emplace_back();
+    item.label = label_;
+    item.position = place_;
+    item.align = left_of_site_ ? TextAlign::kRight : TextAlign::kLeft;
+    item.offset_up = (up_ + kAboveNumbers_caps) / larger;
+    item.height_m = larger * kCaps_m;
+    item.min_height_deg = larger * kLeastCaps_deg;
+    return item;
+  }
+  std::string& text(bool sure) { return add(TextAlign::kLeft, column_, sure); }
 
  private:
   std::string& add(TextAlign align, float right, bool sure) {
@@ -52,6 +91,8 @@ class Block {
   Scene& scene_;
   Float3 place_;
   Label label_;
+  bool left_of_site_ = true;
+  float column_ = 0;
   float up_ = -kBelowRim_caps;
 };
 
@@ -59,9 +100,7 @@ class Block {
 
 void add_numbers(Scene& scene, const TargetCross& cross, const nav::ScrewNumbers& numbers,
                  bool registration_only, Label label) {
-  const CrossPlaces places = places_of(cross);
-  const Float3 rim = places.middle - kCrossScale * kCrossRings_m.back() * places.up;
-  Block block(scene, rim, label);
+  Block block(scene, cross, label);
   for (std::size_t i = 0; i < kNumberRows; ++i) {
     const auto row = static_cast<NumberRow>(i);
     if (row == NumberRow::kTipCranial) {
@@ -75,6 +114,35 @@ void add_numbers(Scene& scene, const TargetCross& cross, const nav::ScrewNumbers
   if (registration_only && !all_sure(numbers)) {
     block.text(false) = words::kSdOfRegistrationOnly;
   }
+}
+
+void add_clearance(Scene& scene, const TargetCross& cross, const nav::ShownClearance& clearance,
+                   Label label) {
+  Block block(scene, cross, label);
+  block.skip(kClearanceAfter_rows);
+  block.heading(words::kClearance);
+  append_clearance(block.text(true), clearance.least_tenths);
+  block.next_row();
+  if (clearance.may_break()) {
+    append_breach(block.warning(), clearance);
+  } else if (clearance.lower_95_tenths) {
+    block.heading(words::kAtLeast);
+    append_clearance(block.text(true), *clearance.lower_95_tenths);
+  }
+}
+
+void add_drill(Scene& scene, const TargetCross& cross, const nav::DrillView& drill, Label label) {
+  constexpr std::array<render::Colour, 4> kRims = {render::Colour{0, 0, 0, 0}, look::kAmber,
+                                                   look::kRed, look::kRed};
+  const bool away = drill.phase == nav::DrillPhase::kAway;
+  if (away || (drill.phase == nav::DrillPhase::kSet && !drill.watched)) {
+    return;
+  }
+  const bool stop = drill.alarm == nav::DrillAlarm::kStop;
+  TextItem& item = Block(scene, cross, label).above(stop ? kStopLarger : 1.0f);
+  const bool unwatched = !drill.watched;
+  item.rim = unwatched ? look::kRed : kRims[static_cast<std::size_t>(drill.alarm)];
+  append_drill(add_run(item, look::kWhite), drill);
 }
 
 }  // namespace orthonav::engine

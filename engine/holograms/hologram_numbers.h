@@ -11,5 +11,14 @@ namespace orthonav::engine {
 /// an SD lacks what all strokes share, and a further row says so.
 void add_numbers(render::Scene& scene, const TargetCross& cross, const nav::ScrewNumbers& numbers,
                  bool registration_only, render::Label label);
+/// Two rows below them: the screw's clearance if it were driven along the tool, and its 95 % bound;
+/// in a red rim that it may break through, and where to, in place of a bound below 0.
+void add_clearance(render::Scene& scene, const TargetCross& cross,
+                   const nav::ShownClearance& clearance, render::Label label);
+
+/// On the row above the numbers, whether the surgeon drills and how it goes; an alarm in a rim of
+/// its colour, a stop larger. Nothing where there is nothing to say.
+void add_drill(render::Scene& scene, const TargetCross& cross, const nav::DrillView& drill,
+               render::Label label);
 
 }  // namespace orthonav::engine

@@ -122,6 +122,12 @@ void add_notice(Scene& scene, std::string_view text, Label label) {
   add_run(item, text, look::kWhite);
 }
 
+void add_stop_row(Scene& scene, std::string_view text, Label label) {
+  TextItem& item = add_row(scene, -2, label);
+  item.rim = look::kRed;
+  append_cut(add_run(item, look::kWhite), text, kStatusWidth_caps);
+}
+
 void add_row_above_status(Scene& scene, std::string_view text, Label label) {
   append_cut(add_run(add_row(scene, -1, label), look::kSoftWhite), text, kStatusWidth_caps);
 }

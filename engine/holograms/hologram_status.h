@@ -17,6 +17,8 @@ struct ToolDot {
   ToolState state = ToolState::kLost;
 };
 
+/// H13: above all rows, in a red rim, seen wherever the head looks.
+void add_stop_row(render::Scene& scene, std::string_view text, render::Label label);
 /// A row above the one with the step, as white as that.
 void add_row_above_status(render::Scene& scene, std::string_view text, render::Label label);
 

@@ -17,6 +17,10 @@ constexpr render::Label kCross = label_of(HologramKind::kCross, 1);  // its dots
 constexpr render::Label kTwin = label_of(HologramKind::kTwin, 1);
 constexpr render::Label kTwinTool = label_of(HologramKind::kTwin, 2);
 constexpr render::Label kNumbers = label_of(HologramKind::kNumbers, 1);
+constexpr render::Label kClearance = label_of(HologramKind::kNumbers, 3);
+constexpr render::Label kDrill = label_of(HologramKind::kNumbers, 4);
+constexpr render::Label kStop =
+    label_of(HologramKind::kNumbers, 5);  // stays when a pose is too old
 constexpr render::Label kNumbersRow = label_of(HologramKind::kNumbers, 2);
 
 }  // namespace
@@ -25,7 +29,7 @@ void hide_tool_guidance(render::Scene& scene) {
   const auto of_tool = [](const auto& item) {
     const HologramKind kind = kind_of(item.label);
     return kind == HologramKind::kTriangle || kind == HologramKind::kDepth ||
-           kind == HologramKind::kNumbers || item.label == kTwinTool;
+           (kind == HologramKind::kNumbers && item.label != kStop) || item.label == kTwinTool;
   };
   scene.triangles.erase_if(of_tool);
   scene.lines.erase_if(of_tool);
@@ -174,6 +178,11 @@ void SceneBuilder::add_screw(const PlacedScrew& screw, render::Scene& scene) {
     if (visible_.numbers) {
       add_numbers(scene, cross, *visible_.numbers, screw.at.level->registration_only(), kNumbers);
     }
+    if (visible_.clearance) {
+      add_clearance(scene, cross, *visible_.clearance, kClearance);
+    }
+    add_drill(scene, cross, visible_.drill,
+              visible_.drill.alarm == nav::DrillAlarm::kStop ? kStop : kDrill);
   }
   if (visible_.twin) {
     add_virtual_twin(screw, scene);
@@ -267,6 +276,11 @@ void SceneBuilder::add_status(const Guidance& guidance, render::Scene& scene) {
     text_.clear();
     append_numbers(text_, *visible_.numbers, visible_.trajectory->at.level->registration_only());
     add_row_above_status(scene, text_, kNumbersRow);
+  }
+  if (visible_.drill.alarm == nav::DrillAlarm::kStop) {
+    text_.clear();
+    append_drill(text_, visible_.drill);
+    add_stop_row(scene, text_, kStop);
   }
 }
 

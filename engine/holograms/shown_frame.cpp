@@ -165,6 +165,12 @@ void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& v
   if (visible.numbers) {
     write_numbers(*visible.numbers, screw.plan().side, frame);
   }
+  if (visible.clearance) {
+    append_clearance_line(add(frame, HologramKind::kNumbers).text, *visible.clearance);
+  }
+  if (visible.cross && visible.drill.phase != nav::DrillPhase::kAway) {
+    append_drill(add(frame, HologramKind::kNumbers).text, visible.drill);
+  }
   if (visible.angle_lost) {
     write_angle(std::nullopt, frame);
   }

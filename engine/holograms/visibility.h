@@ -53,11 +53,13 @@ struct Visibility {
   const nav::ScrewGuidance* measurement = nullptr;  ///< the numbers of H6 and H9; or null
   /// H13 and its row of the status line: of the pair of `measurement`, or null.
   const nav::ScrewNumbers* numbers = nullptr;
-  bool angle_lost = false;                  ///< H6 without a number
-  std::optional<VisibleCross> cross;        ///< H7
-  LabelSide cross_side = LabelSide::kLeft;  ///< on which it hung last
-  bool twin = false;                        ///< H8 of the selected screw
-  bool rods = false;                        ///< H10
+  const nav::ShownClearance* clearance = nullptr;  ///< under them; or null
+  nav::DrillView drill;                            ///< with the cross
+  bool angle_lost = false;                         ///< H6 without a number
+  std::optional<VisibleCross> cross;               ///< H7
+  LabelSide cross_side = LabelSide::kLeft;         ///< on which it hung last
+  bool twin = false;                               ///< H8 of the selected screw
+  bool rods = false;                               ///< H10
   /// Of the pair that H5 and the dots of H7 rest on; absent where neither is shown.
   std::optional<Timestamp> pose_time;
 };

@@ -21,6 +21,7 @@ enum class Event : std::uint8_t {
   kSayDone,
   kSayMoveRod,
   kSayTwin,
+  kSayDrill,
   kRegistered,           ///< a registration passed its limits
   kRegistrationRefused,  ///< a registration failed its limits
   kChecked,              ///< "accept" was said and the check points bear it out
@@ -42,7 +43,7 @@ enum class Event : std::uint8_t {
   kReferenceSeen,        ///< one is seen again, or for the first time
   kReferenceMoved,       ///< references moved against each other: what hangs on them means nothing
 };
-inline constexpr std::size_t kEventCount = 34;
+inline constexpr std::size_t kEventCount = 35;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -80,12 +81,13 @@ enum class Action : std::uint8_t {
   kFinishRod,
   kMoveRod,
   kToggleTwin,
+  kBeginDrill,
   kFinish,
   kWarnLost,
   kHideGuidance,
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 39;
+inline constexpr std::size_t kActionCount = 40;
 
 }  // namespace orthonav::engine

@@ -13,11 +13,14 @@
 #include "engine/session/status_line.h"
 #include "engine/session/workflow.h"
 #include "nav/guidance/clearance_spread.h"
+#include "nav/guidance/drill_watch.h"
+#include "nav/guidance/executed_trajectory.h"
 #include "nav/guidance/predicted_error.h"
 #include "nav/guidance/rod.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/guidance/screw.h"
 #include "nav/guidance/screw_numbers.h"
+#include "nav/guidance/shown_clearance.h"
 #include "nav/registration/check_points.h"
 #include "nav/registration/digitizer.h"
 #include "nav/registration/registration.h"
@@ -59,6 +62,8 @@ struct LevelState {
   std::vector<bool> screw_done;
   /// Of each screw that is done: as planned, but along the tool as it was last measured at depth.
   std::vector<std::optional<nav::ScrewClearance>> clearance_at_depth;
+  /// Of each screw that is done: where its tool went, as tracked.
+  std::vector<std::optional<nav::ExecutedTrajectory>> executed;
   /// Finished, and the map has moved since: kept for the report, shown nowhere.
   bool map_moved = false;
 
@@ -123,6 +128,8 @@ struct ToolGuidance {
   /// Tip and aim in the surgeon's directions, as they are written. Absent with `measured`, and for
   /// a plan whose directions have no such names (`nav::directions_of`).
   std::optional<nav::ScrewNumbers> numbers = {};
+  /// `clearance` as it is written, with it.
+  std::optional<nav::ShownClearance> shown_clearance = {};
 };
 
 /// A region that was deleted a moment ago.
@@ -150,6 +157,8 @@ struct Guidance {
   Duration fade{};     ///< a deleted path fades for so long
   bool blank = false;  ///< no more pairs will come: nothing may be shown that could go stale
   std::optional<ToolGuidance> tool;  ///< absent: not guiding, or nothing fresh to guide on
+  /// While guiding, whether the tool is seen or not: a stop stays while it is hidden.
+  nav::DrillView drill;
   std::span<const RodState> rods;
   bool rods_moved_away = false;
   std::span<const ToolSight> tools;

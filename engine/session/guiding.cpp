@@ -1,6 +1,7 @@
 #include "engine/session/guiding.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace orthonav::engine {
 namespace {
@@ -51,11 +52,17 @@ void Guiding::begin_level() {
 void Guiding::forget_guidance() {
   at_depth_.reset();
   numbers_.forget();
+  clearance_.forget();
+  drill_.forget();
+  path_.forget();
 }
 
 std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWatch& watch,
                                            const nav::ToolGeometry& tool, Timestamp now,
                                            Timestamp display_time, Duration stale_after) {
+  if (!watch.measured_now()) {
+    lose_measurement();
+  }
   if (!level.registration || !watch.fresh(now, stale_after)) {
     return std::nullopt;
   }
@@ -74,22 +81,39 @@ std::optional<ToolGuidance> Guiding::guide(const LevelState& level, const ToolWa
   ToolGuidance guidance{std::nullopt, against_plan(at_display.value),
                         watch.last_measured().value_or(Timestamp{})};
   if (!watch.measured_now()) {
-    numbers_.forget();
     return guidance;
   }
   guidance.measured = against_plan(watch.newest().value);
-  guidance.numbers = numbers_of(level, watch.newest(), tool);
+  take_measurement(guidance, level, watch.newest(), tool);
   remember_depth(guidance, *guidance.measured, watch.newest());
   return guidance;
 }
 
-std::optional<nav::ScrewNumbers> Guiding::numbers_of(const LevelState& level,
-                                                     const nav::TrackedPose& pose,
-                                                     const nav::ToolGeometry& tool) {
+void Guiding::lose_measurement() {
+  numbers_.forget();
+  clearance_.forget();
+  drill_.not_measured();
+}
+
+void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
+                               const nav::TrackedPose& pose, const nav::ToolGeometry& tool) {
+  const nav::ScrewPlan& plan = level.plan.screws[screw_];
+  const nav::ScrewGuidance& measured = *guidance.measured;
   const ToolInVertebra there = in_vertebra(*level.registration, pose, tool);
-  const auto deviation = nav::anatomical_deviation(
-      level.plan.screws[screw_], there.axis, there.uncertainty ? &*there.uncertainty : nullptr);
-  return deviation ? std::optional(numbers_.write(*deviation)) : std::nullopt;
+  const nav::PoseUncertainty* uncertainty = there.uncertainty ? &*there.uncertainty : nullptr;
+  const auto deviation = nav::anatomical_deviation(plan, there.axis, uncertainty);
+  if (deviation) {
+    guidance.numbers = numbers_.write(*deviation);
+  }
+  const auto on_bone = level.plan.model->surface().nearest(there.axis.point.v);
+  if (measured.tip_off_axis_m <= kOffTheScrew_m) {
+    path_.add(plan, there.axis, uncertainty);
+  }
+  drill_.measured({pose.time, there.axis.point.v,
+                   on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
+                   measured.tip_off_axis_m, measured.angle_rad, measured.depth_m,
+                   deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity(),
+                   measured.to_target_m});
 }
 
 void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
@@ -126,6 +150,17 @@ std::optional<nav::ScrewClearance> Guiding::clearance_along(const LevelState& le
     return std::nullopt;
   }
   return nav::screw_clearance(bone, *screw, there.uncertainty ? &*there.uncertainty : nullptr);
+}
+
+void Guiding::add_clearance(ToolGuidance& guidance, const LevelState& level,
+                            const nav::TrackedPose& pose, const nav::ToolGeometry& tool) {
+  guidance.clearance = clearance_along(level, pose, tool);
+  if (guidance.clearance) {
+    guidance.shown_clearance =
+        clearance_.write(*guidance.clearance, level.plan.screws[screw_].side);
+  } else {
+    clearance_.forget();
+  }
 }
 
 std::optional<nav::ScrewClearance> Guiding::clearance_at_depth(

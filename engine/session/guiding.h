@@ -11,12 +11,18 @@ namespace orthonav::engine {
 /// The step in which screws are guided: which one, and by what.
 class Guiding {
  public:
+  explicit Guiding(const nav::DrillLimits& limits = {}) : drill_(limits) {}
+
   /// The level's first screw that is not done, or its first.
   void select_open_screw(const LevelState& level);
   /// Another level: what guided on the one before has no part in it.
   void begin_level();
   /// Nothing guided so far holds any more; the screw stays selected.
   void forget_guidance();
+  /// What rests on the last pair's measurement goes: in this one there is none.
+  void lose_measurement();
+  /// The surgeon says so.
+  void begin_drill() { drill_.begin(); }
   void toggle_twin() { twin_ = !twin_; }
 
   /// The tool against the selected screw. Absent where nothing fresh is there to guide on.
@@ -34,15 +40,21 @@ class Guiding {
   /// one. Allocates nothing.
   [[nodiscard]] std::optional<nav::ScrewClearance> clearance_along(
       const LevelState& level, const nav::TrackedPose& pose, const nav::ToolGeometry& tool) const;
+  /// That, and as it is written, into guidance on a measurement.
+  void add_clearance(ToolGuidance& guidance, const LevelState& level, const nav::TrackedPose& pose,
+                     const nav::ToolGeometry& tool);
   /// The same of the measurement of `at_depth`.
   [[nodiscard]] std::optional<nav::ScrewClearance> clearance_at_depth(
       const LevelState& level, const nav::ToolGeometry& tool) const;
+  [[nodiscard]] const nav::DrillView& drill() const { return drill_.view(); }
+  /// Where the tool went at the selected screw; none where it was not measured there.
+  [[nodiscard]] std::optional<nav::ExecutedTrajectory> executed() const { return path_.mean(); }
   [[nodiscard]] StepState state(const LevelState& level) const;
 
  private:
-  /// Of the tool as it was measured in this pair.
-  std::optional<nav::ScrewNumbers> numbers_of(const LevelState& level, const nav::TrackedPose& pose,
-                                              const nav::ToolGeometry& tool);
+  /// Takes the tool as it was measured in this pair to numbers, drill and path.
+  void take_measurement(ToolGuidance& guidance, const LevelState& level,
+                        const nav::TrackedPose& pose, const nav::ToolGeometry& tool);
   void remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
                       const nav::TrackedPose& pose);
 
@@ -51,6 +63,9 @@ class Guiding {
   nav::TrackedPose pose_at_depth_;  ///< of the tool, where there is an `at_depth_`
   double deepest_m_ = 0.0;          ///< the greatest depth past the entry so far
   nav::ScrewNumberWriter numbers_;
+  nav::ClearanceWriter clearance_;
+  nav::DrillWatch drill_;
+  nav::TrajectoryAtDepth path_;
   bool twin_ = false;
 };
 

@@ -65,6 +65,34 @@ void put_clearance_at_depth(Json& line, const LevelState& level, nav::Side side)
   }
 }
 
+Json scaled(const std::array<double, 9>& covariance, double factor) {
+  Json out = Json::array();
+  for (const double value : covariance) {
+    out.push_back(value * factor);
+  }
+  return out;
+}
+
+/// Where the tool went, in the vertebra's frame.
+void put_executed(Json& line, const LevelState& level, nav::Side side) {
+  for (std::size_t s = 0; s < level.executed.size(); ++s) {
+    const auto& executed = level.executed[s];
+    if (level.plan.screws[s].side != side || !executed) {
+      continue;
+    }
+    const Vec3 direction = executed->axis.direction;
+    Json& out = line["executed"];
+    out["pairs"] = executed->pairs;
+    out["entry_mm"] = millimetres(executed->axis.point.v);
+    out["direction"] = Json::array({direction.x, direction.y, direction.z});
+    out["depth_mm"] = executed->depth_m * 1e3;
+    if (executed->point_covariance_m2) {
+      out["entry_covariance_mm2"] = scaled(*executed->point_covariance_m2, 1e6);
+      out["direction_covariance_rad2"] = scaled(*executed->direction_covariance_rad2, 1.0);
+    }
+  }
+}
+
 /// What must survive a loss of power: what is guided on, and what was done to the patient.
 constexpr auto kDurable = LineLog::Keep::kDurable;
 
@@ -263,6 +291,7 @@ void Journal::screw_done(Timestamp time, const LevelState& level, const nav::Scr
     line["depth_mm"] = at_depth->measured->depth_m * 1e3;
   }
   put_clearance_at_depth(line, level, screw.side);
+  put_executed(line, level, screw.side);
   add_line(*log_, line, kDurable);
 }
 

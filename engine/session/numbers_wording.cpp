@@ -64,6 +64,48 @@ void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool reg
   out += registration_only && !all_sure(numbers) ? kRegistrationOnly : "";
 }
 
+void append_clearance(std::string& out, int tenths) {
+  out += tenths < 0 ? "−" : "";
+  append_tenths(out, std::abs(tenths));
+  out += " mm";
+}
+
+void append_breach(std::string& out, const nav::ShownClearance& clearance) {
+  const std::string_view towards = clearance.towards;
+  out += clearance.least_tenths < 0 ? "breaks through " : "may break through ";
+  if (towards == "tip") {
+    out += "at its tip";
+  } else {
+    out.append(towards).append("ly");
+  }
+}
+
+void append_clearance_line(std::string& out, const nav::ShownClearance& clearance) {
+  out.append(words::kClearance).append(" ");
+  append_clearance(out, clearance.least_tenths);
+  if (clearance.may_break()) {
+    out += ": ";
+    append_breach(out, clearance);
+  } else if (clearance.lower_95_tenths) {
+    out.append(", ").append(words::kAtLeast).append(" ");
+    append_clearance(out, *clearance.lower_95_tenths);
+  }
+}
+
+void append_drill(std::string& out, const nav::DrillView& drill) {
+  if (drill.phase == nav::DrillPhase::kAway) {
+    return;
+  }
+  if (drill.phase == nav::DrillPhase::kSet) {
+    out += drill.watched ? "tip set" : "";
+    return;
+  }
+  constexpr std::array<std::string_view, 4> kTexts = {"drilling", "drilling: drifting",
+                                                      "drilling: off plan", "stop"};
+  out += kTexts[static_cast<std::size_t>(drill.alarm)];
+  out += drill.watched ? "" : ", tool not seen";
+}
+
 bool all_sure(const nav::ScrewNumbers& numbers) {
   return numbers.tip_cranial.sure && numbers.tip_medial.sure && numbers.aim_cranial.sure &&
          numbers.aim_medial.sure;

@@ -4,7 +4,9 @@
 #include <string>
 #include <string_view>
 
+#include "nav/guidance/drill_watch.h"
 #include "nav/guidance/screw_numbers.h"
+#include "nav/guidance/shown_clearance.h"
 
 namespace orthonav::engine {
 
@@ -27,7 +29,22 @@ void append_number(std::string& out, const nav::ScrewNumbers& numbers, NumberRow
 void append_numbers(std::string& out, const nav::ScrewNumbers& numbers, bool registration_only);
 [[nodiscard]] bool all_sure(const nav::ScrewNumbers& numbers);
 
+/// "2.4 mm"; "-0.4 mm" with a minus sign of its own, as U+2212.
+void append_clearance(std::string& out, int tenths);
+/// "may break through medially", or "breaks through medially" where the clearance itself is below
+/// 0.
+void append_breach(std::string& out, const nav::ShownClearance& clearance);
+/// All in one line: "clearance 2.4 mm, at least 1.1 mm"; "clearance 0.4 mm: may break through
+/// medially"; "clearance 2.4 mm" where the bound is not known.
+void append_clearance_line(std::string& out, const nav::ShownClearance& clearance);
+
+/// "tip set", "drilling", "drilling: drifting", "drilling: off plan", "stop"; "drilling, tool not
+/// seen" and "stop, tool not seen" where nobody watches; nothing for a tool that is away.
+void append_drill(std::string& out, const nav::DrillView& drill);
+
 namespace words {
+inline constexpr std::string_view kClearance = "clearance";
+inline constexpr std::string_view kAtLeast = "at least";
 inline constexpr std::string_view kTip = "tip";
 inline constexpr std::string_view kAims = "aims";
 inline constexpr std::string_view kSdOfRegistrationOnly = "± registration only";

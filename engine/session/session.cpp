@@ -60,11 +60,13 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
       digitizing_(method_, options),
       landmarking_(options.landmark),
       tip_check_(options.tips, options.landmark),
+      guiding_(options.drill),
       messages_(options.message_for, options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
     LevelState state;
     state.screw_done.assign(plan.screws.size(), false);
     state.clearance_at_depth.resize(plan.screws.size());
+    state.executed.resize(plan.screws.size());
     state.plan = std::move(plan);
     levels_.push_back(std::move(state));
   }
@@ -88,6 +90,8 @@ const Guidance& Session::step(const StereoFrame& frame, const Inputs& inputs) {
 const Guidance& Session::expire(Timestamp display_time) {
   guidance_.display_time = display_time;
   guidance_.tool.reset();
+  guiding_.lose_measurement();
+  guidance_.drill = step_ == Step::kGuide ? guiding_.drill() : nav::DrillView{};
   tools_.lose_sight();
   guidance_.status = {};
   guidance_.status.at = step_on_display();

@@ -47,6 +47,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kFinishRod: return finish_rod(time);
     case kMoveRod: return rod_templating_.move_away();
     case kToggleTwin: return guiding_.toggle_twin();
+    case kBeginDrill: return guiding_.begin_drill();
     case kFinish: return;  // rods were told of when they were done
     case kWarnLost: return;  // the status line shows it from the tool in use
     case kHideGuidance: return in_use_.hide_guidance(true);
@@ -140,6 +141,7 @@ void Session::finish_screw(Timestamp time) {
   const std::size_t screw = guiding_.screw();
   now.screw_done[screw] = true;
   now.clearance_at_depth[screw] = guiding_.clearance_at_depth(now, tools_.geometry(tools_.guide()));
+  now.executed[screw] = guiding_.executed();
   if (observer_) {
     observer_->screw_done(time, now, now.plan.screws[screw], guiding_.at_depth());
   }

@@ -61,9 +61,8 @@ void Session::correct_tip(Timestamp time) {
     messages_.say(NotPossibleNow{Event::kSayAccept}, time);
     return;
   }
-  const std::size_t guide = tools_.guide();
   const Vec3 apart_m = tip_check_.correct();
-  tools_.correct_tip(guide, tools_.geometry(guide).tip_in_marker - apart_m);
+  tools_.correct_guide_tip(tools_.geometry(tools_.guide()).tip_in_marker - apart_m);
   guiding_.forget_guidance();
   messages_.say(TipCorrected{apart_m.norm()}, time);
   if (observer_) {

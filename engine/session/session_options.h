@@ -7,6 +7,7 @@
 #include "base/time.h"
 #include "engine/session/landmark.h"
 #include "engine/session/tip_check.h"
+#include "nav/guidance/drill_watch.h"
 #include "nav/guidance/rod_bends.h"
 #include "nav/registration/check_points.h"
 
@@ -30,6 +31,7 @@ struct SessionOptions {
   nav::CheckPointRules check_points;
   LandmarkRules landmark;
   TipCheckRules tips;
+  nav::DrillLimits drill;
   /// What is known of errors that all strokes share; without, the errors that are expected are
   /// those of the registration alone, and called so.
   nav::CommonErrors common;

@@ -53,10 +53,14 @@ void Session::publish_steps(Timestamp now, Timestamp display_time) {
         guiding_.guide(level(), tools_.watch(tools_.guide()), tools_.geometry(tools_.guide()), now,
                        display_time, options_.stale_after);
     if (out.tool && out.tool->measured && options_.live_clearance) {
-      out.tool->clearance = guiding_.clearance_along(level(), tools_.watch(tools_.guide()).newest(),
-                                                     tools_.geometry(tools_.guide()));
+      guiding_.add_clearance(*out.tool, level(), tools_.watch(tools_.guide()).newest(),
+                             tools_.geometry(tools_.guide()));
     }
   }
+  if (step_ == Step::kGuide && in_use_.guidance_hidden()) {
+    guiding_.lose_measurement();
+  }
+  out.drill = step_ == Step::kGuide ? guiding_.drill() : nav::DrillView{};
   out.rods = rod_templating_.rods();
   out.rods_moved_away = rod_templating_.moved_away();
 }

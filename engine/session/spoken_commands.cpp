@@ -6,7 +6,7 @@
 namespace orthonav::engine {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Event>, 9> kCommands = {{
+constexpr std::array<std::pair<std::string_view, Event>, 10> kCommands = {{
     {"start", Event::kSayStart},
     {"save", Event::kSaySave},
     {"delete", Event::kSayDelete},
@@ -16,6 +16,7 @@ constexpr std::array<std::pair<std::string_view, Event>, 9> kCommands = {{
     {"done", Event::kSayDone},
     {"move rod", Event::kSayMoveRod},
     {"twin", Event::kSayTwin},
+    {"drill", Event::kSayDrill},
 }};
 
 }  // namespace
@@ -25,6 +26,12 @@ std::vector<std::string> spoken_commands() {
   for (const auto& command : kCommands) {
     commands.emplace_back(command.first);
   }
+  return commands;
+}
+
+std::vector<std::string> trained_commands() {
+  std::vector<std::string> commands = spoken_commands();
+  std::erase(commands, "drill");
   return commands;
 }
 

@@ -66,7 +66,6 @@ Result<WatchedTools> WatchedTools::create(std::unique_ptr<nav::ToolTracker> trac
 WatchedTools::WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer,
                            std::size_t guide)
     : tracker_(std::move(tracker)), pointer_(pointer), guide_(guide) {
-  geometries_.assign(tracker_->tools().begin(), tracker_->tools().end());
   watches_.resize(tracker_->tools().size());
   for (const nav::ToolGeometry& tool : tracker_->tools()) {
     sights_.push_back({tool.name, tool.role, PoseStatus::kLost, {}});

@@ -37,12 +37,13 @@ class WatchedTools {
   [[nodiscard]] std::vector<ReferencePost> reference_posts() const;
   [[nodiscard]] const ToolWatch& watch(std::size_t tool) const { return watches_[tool]; }
   [[nodiscard]] const nav::ToolGeometry& geometry(std::size_t tool) const {
-    return geometries_[tool];
+    return tool == guide_ && corrected_guide_ ? *corrected_guide_ : tracker_->tools()[tool];
   }
-  /// The tip lies there instead of where the tool's description has it, to the end of the
+  /// The guide's tip lies there instead of where its description has it, to the end of the
   /// operation.
-  void correct_tip(std::size_t tool, Point<Marker> tip_in_marker) {
-    geometries_[tool].tip_in_marker = tip_in_marker;
+  void correct_guide_tip(Point<Marker> tip_in_marker) {
+    corrected_guide_ = geometry(guide_);
+    corrected_guide_->tip_in_marker = tip_in_marker;
   }
   /// The pointer's tip where it was last measured, no longer than `within` before `now`.
   [[nodiscard]] std::optional<Point<World>> pointer_tip(Timestamp now, Duration within) const;
@@ -58,7 +59,7 @@ class WatchedTools {
   WatchedTools(std::unique_ptr<nav::ToolTracker> tracker, std::size_t pointer, std::size_t guide);
 
   std::unique_ptr<nav::ToolTracker> tracker_;
-  std::vector<nav::ToolGeometry> geometries_;  ///< the tracker's, tips corrected
+  std::optional<nav::ToolGeometry> corrected_guide_;
   std::size_t pointer_ = 0;
   std::size_t guide_ = 0;
   std::span<const nav::ToolState> states_;

@@ -118,6 +118,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kSayNext, kFinishScrew, kGuide},
     {kGuide, kSayReject, kClearLevel, kDigitize},
     {kGuide, kSayTwin, kToggleTwin, kGuide},
+    {kGuide, kSayDrill, kBeginDrill, kGuide},
     {kGuide, kAnotherScrew, kExpectLandmark, kAccepted},
     {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
     {kGuide, kNoScrewLeft, kBeginRod, kRod},

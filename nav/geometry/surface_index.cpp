@@ -62,24 +62,33 @@ void search_boxes(const std::vector<Node>& nodes, const Distance& distance, cons
   };
   std::array<Pending, kStack> stack;
   std::size_t depth = 0;
-  stack[depth++] = {0, distance(nodes[0])};
-  while (depth > 0) {
-    const Pending pending = stack[--depth];
-    if (pending.distance == kFar || pending.distance > limit) {
-      continue;
-    }
-    const Node& node = nodes[pending.node];
-    if (node.count > 0) {
+  const auto wanted = [&limit](const Pending& p) {
+    return p.distance != kFar && p.distance <= limit;
+  };
+  Pending here{0, distance(nodes[0])};
+  for (;;) {
+    // The limit may have shrunk since this one was put aside.
+    if (wanted(here)) {
+      const Node& node = nodes[here.node];
+      if (node.count == 0) {
+        const Pending left{node.first, distance(nodes[node.first])};
+        const Pending right{node.first + 1, distance(nodes[node.first + 1])};
+        const bool left_first = left.distance <= right.distance;
+        const Pending& other = left_first ? right : left;
+        if (wanted(other)) {
+          stack[depth++] = other;
+        }
+        here = left_first ? left : right;
+        continue;
+      }
       for (std::size_t i = node.first; i < node.first + node.count; ++i) {
         take_in(i);
       }
-      continue;
     }
-    const Pending left{node.first, distance(nodes[node.first])};
-    const Pending right{node.first + 1, distance(nodes[node.first + 1])};
-    const bool left_first = left.distance <= right.distance;
-    stack[depth++] = left_first ? right : left;  // the nearer one is taken next
-    stack[depth++] = left_first ? left : right;
+    if (depth == 0) {
+      return;
+    }
+    here = stack[--depth];
   }
 }
 

@@ -197,7 +197,7 @@ void write_corpus(const Options& options) {
   std::size_t voice = 0;
   for (const std::string_view variant : kTrainingVariants) {
     for (std::size_t accent = 0; accent < std::size(kTrainingAccents) / 2; ++accent) {
-      for (const std::string& command : engine::spoken_commands()) {
+      for (const std::string& command : engine::trained_commands()) {
         for (const char* wake : {"", "", "ortho ", "ortho "}) {
           corpus.add(
               wake + command,

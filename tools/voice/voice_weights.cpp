@@ -61,7 +61,7 @@ struct Saying {
 class Listener {
  public:
   Listener() {
-    options_.commands = engine::spoken_commands();
+    options_.commands = engine::trained_commands();
     auto recognizer = PhraseRecognizer::create(options_.phrases(), options_.acoustic_model);
     if (!recognizer) {
       give_up(recognizer.error().message);
@@ -93,7 +93,7 @@ void add_commands(Listener& listener, const Options& options, Examples& examples
   int count = 0;
   for (const std::string_view voice : kTuningVoices) {
     for (const int speed : {120, 160, 200}) {
-      for (const std::string& command : engine::spoken_commands()) {
+      for (const std::string& command : engine::trained_commands()) {
         for (const double snr_db : {60.0, 20.0, 15.0, 10.0}) {
           for (const Noise noise : {Noise::kWhite, Noise::kPink, Noise::kBabble}) {
             for (const char* wake : {"ortho ", ""}) {
@@ -256,7 +256,7 @@ int run(const Options& options) {
   Examples examples;
   add_commands(listener, options, examples);
   add_others(listener, options, examples);
-  const std::vector<std::string> commands = engine::spoken_commands();
+  const std::vector<std::string> commands = engine::trained_commands();
   const auto train = [&](bool wake, double false_fraction) {
     std::vector<Row> rows;
     for (const Example& example : examples.all) {

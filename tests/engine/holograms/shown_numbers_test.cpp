@@ -23,6 +23,7 @@ struct Told {
   std::vector<std::string> texts;
   std::vector<double> readings;
   std::string status;
+  std::string clearance;
 };
 
 Told told(const Guidance& g, std::optional<Timestamp> at = std::nullopt) {
@@ -32,7 +33,9 @@ Told told(const Guidance& g, std::optional<Timestamp> at = std::nullopt) {
   builder.write_shown(g, frame);
   Told out;
   for (const ShownHologram& hologram : frame.holograms) {
-    if (hologram.kind == HologramKind::kNumbers) {
+    if (hologram.kind == HologramKind::kNumbers && !hologram.reading) {
+      out.clearance = hologram.text.starts_with("clearance") ? hologram.text : out.clearance;
+    } else if (hologram.kind == HologramKind::kNumbers) {
       out.texts.push_back(hologram.text);
       out.readings.push_back(hologram.reading.value_or(-1.0));
     }
@@ -86,16 +89,16 @@ class ShownNumbers : public ::testing::Test {
 };
 
 TEST_F(ShownNumbers, SayWhereTheTipIsAndWhereTheToolAims) {
-  // +x is to the patient's left: lateral of the left screw. The shaft leans left, so it aims
-  // medial.
+  // +x is to the patient's left: lateral of the left screw. The shaft leans to the right, medially,
+  // so the tool aims lateral.
   const Told here = told(guided({0.0012, 0.010, 0.0008}, 0.0349));
-  EXPECT_THAT(here.texts, ElementsAre("0.8 mm cranial", "1.2 mm lateral", "0.0°", "2.0° medial"));
+  EXPECT_THAT(here.texts, ElementsAre("0.8 mm cranial", "1.2 mm lateral", "0.0°", "2.0° lateral"));
   ASSERT_EQ(here.readings.size(), 4u);
   EXPECT_NEAR(here.readings[0], 0.0008, 1e-12);
   EXPECT_NEAR(here.readings[1], -0.0012, 1e-12);
-  EXPECT_NEAR(here.readings[3], 2.0 * 3.14159265358979 / 180.0, 1e-9);
-  EXPECT_THAT(here.status,
-              ::testing::EndsWith(" | tip 0.8 mm cranial, 1.2 mm lateral; aims 0.0°, 2.0° medial"));
+  EXPECT_NEAR(here.readings[3], -2.0 * 3.14159265358979 / 180.0, 1e-9);
+  EXPECT_THAT(here.status, ::testing::EndsWith(
+                               " | tip 0.8 mm cranial, 1.2 mm lateral; aims 0.0°, 2.0° lateral"));
 }
 
 TEST_F(ShownNumbers, NameTheSameWayMedialOnTheOtherSide) {
@@ -116,7 +119,8 @@ TEST_F(ShownNumbers, AreAbsentWhereTheToolWasNotMeasuredInThisPair) {
 TEST_F(ShownNumbers, GoWithAPoseThatIsTooOldWhereverTheyStand) {
   const Guidance& g = guided({});
   render::Scene scene = scene_of(g);
-  EXPECT_EQ(drawn(scene).size(), 7u) << "four numbers, tip, aims, the row of the status line";
+  EXPECT_EQ(drawn(scene).size(), 11u)
+      << "four numbers, tip, aims, clearance and bound with their words, the status line's row";
   const Told late = told(g, g.tool->pose_time + g.stale_after + Duration(1));
   EXPECT_THAT(late.texts, IsEmpty());
   EXPECT_THAT(late.status, ::testing::Not(::testing::HasSubstr("tip")));
@@ -153,6 +157,39 @@ TEST_F(ShownNumbers, KnowTheErrorThatAllStrokesShare) {
   const Guidance& g = shared.pair();
   EXPECT_EQ(told(g).texts.at(1), "1.2 ± 1.5 mm lateral");
   EXPECT_THAT(drawn(scene_of(g)), ::testing::Not(::testing::Contains("± registration only")));
+}
+
+TEST_F(ShownNumbers, HaveTheClearanceBelowThem) {
+  // The wall at x = 30 mm, a radius of 3 mm; the bound is 1.6 SDs of 0.3 mm less.
+  EXPECT_EQ(told(guided({0.01055, 0.010, 0.0})).clearance, "clearance 1.4 mm, at least 0.9 mm");
+  const Told near = told(guided({0.01185, 0.010, 0.0}));
+  EXPECT_EQ(near.clearance, "clearance 0.1 mm: may break through laterally");
+  const Guidance& out = guided({0.01305, 0.010, 0.0});
+  EXPECT_EQ(told(out).clearance, "clearance −1.1 mm: breaks through laterally");
+  EXPECT_THAT(drawn(scene_of(out)), ::testing::Contains("breaks through laterally"));
+  s.tracker().guide_origin = PoseStatus::kPredicted;
+  EXPECT_EQ(told(s.pair()).clearance, "") << "with the measurement";
+}
+
+TEST_F(ShownNumbers, SayHowTheDrillGoesAndKeepTheStop) {
+  guided({0, 0, 0});
+  s.pairs(20);
+  EXPECT_THAT(drawn(scene_of(s.pair())), ::testing::Contains("tip set"));
+  EXPECT_THAT(drawn(scene_of(guided({0.0025, -0.004, 0}))),
+              ::testing::Contains("drilling: off plan"));
+  const Guidance& deep = guided({0, -0.0345, 0});
+  render::Scene scene = scene_of(deep);
+  EXPECT_THAT(drawn(scene), ::testing::Contains("stop"));
+  render::Scene left;
+  write_head_lost(scene, left);
+  EXPECT_THAT(drawn(left), ElementsAre("stop")) << "in view wherever the head is";
+  hide_tool_guidance(scene);
+  EXPECT_THAT(drawn(scene), ElementsAre("stop", "stop")) << "at the cross and in view";
+  SceneBuilder builder;
+  render::Scene late;
+  builder.update(deep, deep.tool->pose_time + deep.stale_after + Duration(1));
+  builder.write_scene(deep, late);
+  EXPECT_THAT(drawn(late), ElementsAre("stop, tool not seen", "stop, tool not seen"));
 }
 
 TEST_F(ShownNumbers, SayThatNobodyKnowsHowSureTheyAre) {

@@ -45,6 +45,41 @@ TEST(NumbersWording, SaysHowUnsureANumberIs) {
   EXPECT_EQ(line_text(kSure, true), line_text(kSure, false)) << "without an SD, nothing to add";
 }
 
+std::string clearance_text(const nav::ShownClearance& clearance) {
+  std::string out;
+  append_clearance_line(out, clearance);
+  return out;
+}
+
+TEST(NumbersWording, SaysTheClearanceAndWhereAScrewMayBreakThrough) {
+  EXPECT_EQ(clearance_text({24, 11, "medial"}), "clearance 2.4 mm, at least 1.1 mm");
+  EXPECT_EQ(clearance_text({24, std::nullopt, "medial"}), "clearance 2.4 mm");
+  EXPECT_EQ(clearance_text({4, 0, "medial"}), "clearance 0.4 mm, at least 0.0 mm");
+  EXPECT_EQ(clearance_text({4, -1, "medial"}), "clearance 0.4 mm: may break through medially");
+  EXPECT_EQ(clearance_text({-4, -9, "caudal"}), "clearance −0.4 mm: breaks through caudally");
+  EXPECT_EQ(clearance_text({3, -1, "tip"}), "clearance 0.3 mm: may break through at its tip");
+}
+
+std::string drill_text(nav::DrillPhase phase, nav::DrillAlarm alarm, bool watched) {
+  std::string out;
+  append_drill(out, {phase, alarm, watched});
+  return out;
+}
+
+TEST(NumbersWording, SaysHowTheDrillGoes) {
+  using enum nav::DrillPhase;
+  using enum nav::DrillAlarm;
+  EXPECT_EQ(drill_text(kAway, kNone, true), "");
+  EXPECT_EQ(drill_text(kSet, kNone, true), "tip set");
+  EXPECT_EQ(drill_text(kSet, kNone, false), "");
+  EXPECT_EQ(drill_text(kDrilling, kNone, true), "drilling");
+  EXPECT_EQ(drill_text(kDrilling, kNone, false), "drilling, tool not seen");
+  EXPECT_EQ(drill_text(kDrilling, kAmber, true), "drilling: drifting");
+  EXPECT_EQ(drill_text(kDrilling, kRed, true), "drilling: off plan");
+  EXPECT_EQ(drill_text(kDrilling, kStop, true), "stop");
+  EXPECT_EQ(drill_text(kDrilling, kStop, false), "stop, tool not seen");
+}
+
 TEST(NumbersWording, SaysWhatTheNumberSays) {
   EXPECT_NEAR(reading_of(kSure, NumberRow::kTipCranial), 0.0012, 1e-15);
   EXPECT_NEAR(reading_of(kSure, NumberRow::kAimCranial), -2.1 * 3.14159265358979 / 180.0, 1e-12);

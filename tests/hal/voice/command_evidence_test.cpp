@@ -46,7 +46,7 @@ TEST(CommandEvidence, IsNoneWhereMoreWasSaid) {
 }
 
 TEST(CommandEvidence, CountsWhereItIsGoodAndNotWhereItIsBad) {
-  for (const std::string& command : engine::spoken_commands()) {
+  for (const std::string& command : engine::trained_commands()) {
     EXPECT_GT(log_odds(likely(command)), 0.0) << command;
     CommandEvidence poor = likely(command);
     poor.evidence = -2.5;
@@ -91,13 +91,13 @@ TEST(CommandEvidence, WasTrainedForEveryCommandOfTheWorkflow) {
   for (const CommandWeight& row : kTrainedWeights.commands) {
     trained.emplace_back(row.command);
   }
-  EXPECT_THAT(trained, ::testing::UnorderedElementsAreArray(engine::spoken_commands()))
+  EXPECT_THAT(trained, ::testing::UnorderedElementsAreArray(engine::trained_commands()))
       << "run tools/voice/train";
 }
 
 TEST(CommandEvidence, OfAnUnweighedCommandIsTakenForTheWorst) {
   double worst = 1e9;
-  for (const std::string& command : engine::spoken_commands()) {
+  for (const std::string& command : engine::trained_commands()) {
     worst = std::min(worst, log_odds(likely(command)));
   }
   EXPECT_NEAR(log_odds(likely("zoom")), worst, 1e-9);
