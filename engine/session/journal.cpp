@@ -1,29 +1,15 @@
 #include "engine/session/journal.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "base/angle.h"
+#include "engine/session/journal_lines.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json millimetres(Vec3 v) { return Json::array({v.x * 1e3, v.y * 1e3, v.z * 1e3}); }
-
-Json entry(std::int64_t file_ticks, Timestamp time, const char* what) {
-  return Json{{"time_100ns", file_ticks},
-              {"time_ns", std::int64_t{time.time_since_epoch().count()}},
-              {"what", what}};
-}
-
-Json entry(std::int64_t file_ticks, Timestamp time, const char* what, const LevelState& level) {
-  Json line = entry(file_ticks, time, what);
-  line["level"] = level.plan.label;
-  return line;
-}
+using Json = JournalLine;
 
 /// Row-major, translation in mm.
 Json matrix_mm(std::array<double, 16> m) {
@@ -93,14 +79,6 @@ void put_executed(Json& line, const LevelState& level, nav::Side side) {
   }
 }
 
-/// What must survive a loss of power: what is guided on, and what was done to the patient.
-constexpr auto kDurable = LineLog::Keep::kDurable;
-
-/// Labels come from files: bytes that are no UTF-8 must not end the journal.
-void add_line(LineLog& log, const Json& line, LineLog::Keep keep = LineLog::Keep::kWritten) {
-  log.add(line.dump(-1, ' ', false, Json::error_handler_t::replace), keep);
-}
-
 Json plan_of(const std::vector<PlannedLevel>& levels) {
   Json plan = Json::array();
   for (const PlannedLevel& level : levels) {
@@ -168,7 +146,7 @@ Result<std::unique_ptr<Journal>> Journal::create(const std::string& path,
 
 Status Journal::finish(const JournalEnd& end) {
   const Timestamp time = std::max(newest_, end.time.value_or(newest_));
-  Json line = entry(file_ticks(time), time, "ended");
+  Json line = journal_line(file_ticks(time), time, "ended");
   if (!end.reason.empty()) {
     line["reason"] = end.reason;
   }
@@ -178,7 +156,7 @@ Status Journal::finish(const JournalEnd& end) {
 
 void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
   newest_ = std::max(newest_, time);
-  Json line = entry(file_ticks(time), time, "event");
+  Json line = journal_line(file_ticks(time), time, "event");
   line["step"] = name_of(from);
   line["event"] = name_of(event);
   line["action"] = name_of(answer.action);
@@ -195,7 +173,7 @@ void Journal::not_understood(const Phrase& phrase) {
 
 void Journal::registered(Timestamp time, const LevelState& level,
                          const RegistrationOutcome& outcome) {
-  Json line = entry(file_ticks(time), time, "registration", level);
+  Json line = journal_line(file_ticks(time), time, "registration", level);
   line["attempt"] = level.attempts;
   line["accepted"] = outcome.passed();
   if (outcome.provisional) {
@@ -226,7 +204,7 @@ void Journal::registered(Timestamp time, const LevelState& level,
 }
 
 void Journal::accepted(Timestamp time, const LevelState& level) {
-  Json line = entry(file_ticks(time), time, "accepted", level);
+  Json line = journal_line(file_ticks(time), time, "accepted", level);
   line["check_points"] = level.check_points.size();
   line["world_from_vertebra_mm"] = matrix_mm(level.registration->world_from_vertebra.row_major());
   line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
@@ -236,52 +214,9 @@ void Journal::accepted(Timestamp time, const LevelState& level) {
   add_line(*log_, line, kDurable);
 }
 
-void Journal::check_point_recorded(Timestamp time, const LevelState& level) {
-  const nav::CheckPoint& point = level.check_points.back();
-  Json line = entry(file_ticks(time), time, "check point", level);
-  line["number"] = level.check_points.size();
-  line["in_world_mm"] = millimetres(point.place.v);
-  line["distance_mm"] = point.distance_m * 1e3;
-  line["within"] = point.within;
-  add_line(*log_, line);
-}
-
-void Journal::check_point_dropped(Timestamp time, const LevelState& level) {
-  Json line = entry(file_ticks(time), time, "check point dropped", level);
-  line["number"] = level.check_points.size() + 1;
-  add_line(*log_, line);
-}
-
-void Journal::landmark_touched(Timestamp time, const LevelState& level,
-                               const LandmarkTouch& touch) {
-  Json line = entry(file_ticks(time), time, "landmark", level);
-  line["first"] = touch.first;
-  if (touch.first) {
-    line["in_vertebra_mm"] = millimetres(level.landmark->in_vertebra.v);
-  } else {
-    line["off_mm"] = touch.off_m * 1e3;
-    line["within"] = touch.held();
-  }
-  line["limit_mm"] = touch.limit_m * 1e3;
-  add_line(*log_, line, kDurable);
-}
-
-void Journal::tips_compared(Timestamp time, const TipDifference& difference) {
-  Json line = entry(file_ticks(time), time, "tips");
-  line.update({{"apart_mm", difference.apart_m.norm() * 1e3},
-               {"limit_mm", difference.limit_m * 1e3},
-               {"corrected", difference.corrected}});
-  add_line(*log_, line, kDurable);
-}
-
-void Journal::landmark_dropped(Timestamp time, const LevelState& level) {
-  Json line = entry(file_ticks(time), time, "landmark dropped", level);
-  add_line(*log_, line);
-}
-
 void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                          const ToolGuidance* at_depth) {
-  Json line = entry(file_ticks(time), time, "screw", level);
+  Json line = journal_line(file_ticks(time), time, "screw", level);
   line["side"] = name_of(screw.side);
   if (at_depth && at_depth->measured) {
     line["pose_time_100ns"] = ticks_100ns(at_depth->pose_time);
@@ -295,21 +230,8 @@ void Journal::screw_done(Timestamp time, const LevelState& level, const nav::Scr
   add_line(*log_, line, kDurable);
 }
 
-void Journal::head_recorded(Timestamp time, nav::Side side, Point<World> head) {
-  Json line = entry(file_ticks(time), time, "head");
-  line["side"] = name_of(side);
-  line["in_world_mm"] = millimetres(head.v);
-  add_line(*log_, line);
-}
-
-void Journal::head_dropped(Timestamp time, nav::Side side) {
-  Json line = entry(file_ticks(time), time, "head dropped");
-  line["side"] = name_of(side);
-  add_line(*log_, line);
-}
-
 void Journal::rod_done(Timestamp time, const RodState& rod) {
-  Json line = entry(file_ticks(time), time, "rod");
+  Json line = journal_line(file_ticks(time), time, "rod");
   line["side"] = name_of(rod.side);
   line["heads"] = rod.heads.size();
   if (rod.rod) {

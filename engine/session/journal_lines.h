@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "base/time.h"
+#include "engine/io/line_log.h"
+#include "engine/session/guidance.h"
+
+namespace orthonav::engine {
+
+// The lines of a journal, for the files that write them.
+
+/// A line of its own: its keys keep their order.
+using JournalLine = nlohmann::ordered_json;
+
+[[nodiscard]] JournalLine journal_line(std::int64_t file_ticks, Timestamp time, const char* what);
+/// About a level.
+[[nodiscard]] JournalLine journal_line(std::int64_t file_ticks, Timestamp time, const char* what,
+                                       const LevelState& level);
+[[nodiscard]] JournalLine millimetres(Vec3 v_m);
+
+/// What must survive a loss of power: what is guided on, and what was done to the patient.
+inline constexpr auto kDurable = LineLog::Keep::kDurable;
+
+/// Labels come from files: bytes that are no UTF-8 must not end the journal.
+void add_line(LineLog& log, const JournalLine& line, LineLog::Keep keep = LineLog::Keep::kWritten);
+
+}  // namespace orthonav::engine
