@@ -1,6 +1,7 @@
 #include "engine/session/journal.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "base/angle.h"
 #include "engine/session/journal_lines.h"
@@ -165,7 +166,7 @@ void Journal::happened(Timestamp time, Step from, Event event, Cell answer) {
 }
 
 void Journal::not_understood(const Phrase& phrase) {
-  Json line = entry(file_ticks(phrase.time), phrase.time, "not understood");
+  Json line = journal_line(file_ticks(phrase.time), phrase.time, "not understood");
   line["phrase"] = phrase.text;
   line["confidence"] = phrase.confidence;
   add_line(*log_, line);

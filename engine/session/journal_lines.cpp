@@ -1,5 +1,7 @@
 #include "engine/session/journal_lines.h"
 
+#include <nlohmann/json.hpp>
+
 namespace orthonav::engine {
 
 JournalLine millimetres(Vec3 v_m) {

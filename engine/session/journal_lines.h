@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "base/time.h"
 #include "engine/io/line_log.h"

@@ -1,4 +1,7 @@
 #include "engine/session/journal.h"
+
+#include <nlohmann/json.hpp>
+
 #include "engine/session/journal_lines.h"
 
 namespace orthonav::engine {
