@@ -12,8 +12,9 @@ namespace orthonav::engine {
 /// Every phrase that a session understands, lower case.
 [[nodiscard]] std::vector<std::string> spoken_commands();
 
-/// Those of them that our own recognition was trained on (tools/voice/train). The others are heard by
-/// the headset's own and come from scripts; whatever they do, the session finds out by itself too.
+/// Those of them that our own recognition was trained on (tools/voice/train). The others are heard
+/// by the headset's own and come from scripts; whatever they do, the session finds out by itself
+/// too.
 [[nodiscard]] std::vector<std::string> trained_commands();
 
 /// What a phrase asks for; nothing when it is no command.
