@@ -55,10 +55,11 @@ class Block {
   void heading(std::string_view words) {
     add(TextAlign::kRight, column_ - kBetweenColumns_caps, false) = words;
   }
-  /// As long as it is, in a red rim.
+  /// As long as it is, smaller, white in a red rim.
   std::string& warning() {
-    std::string& text = add(left_of_site_ ? TextAlign::kRight : TextAlign::kLeft, 0, true);
+    std::string& text = add(left_of_site_ ? TextAlign::kRight : TextAlign::kLeft, 0, false);
     scene_.texts.back().rim = look::kRed;
+    scene_.texts.back().runs.front().colour = look::kWhite;
     return text;
   }
   /// Above the numbers, as much larger.
