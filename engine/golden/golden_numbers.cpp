@@ -41,7 +41,7 @@ GoldenScene captioned(const std::string& name, const std::string& what, const Ta
                              cross.viewer.up, 0.216f, 0.1404f)});
   add_target_cross(golden.scene, cross, kCrossLabel);
   add_numbers(golden.scene, cross, numbers, registration_only, kNumbersLabel);
-  golden.centred = {{kCrossLabel, places.middle}};
+  golden.covered = {{kCrossDotLabel, places.dots[0]}};
   return golden;
 }
 
@@ -97,6 +97,7 @@ GoldenScene stop_unseen() {
   GoldenScene golden = drilled("h13_stop_late", "tool lost in the outer ring, stop below it",
                                0.0002, nav::DrillAlarm::kStop);
   hide_tool_guidance(golden.scene);
+  golden.covered.clear();
   return golden;
 }
 
@@ -106,6 +107,7 @@ GoldenScene lost() {
   golden.what = "tool lost in the outer ring, no number left";
   add_row_above_status(golden.scene, "tip 1.2 mm cranial", kNumbersRowLabel);
   hide_tool_guidance(golden.scene);
+  golden.covered.clear();
   return golden;
 }
 
