@@ -32,6 +32,9 @@ ChecksAsked checks_asked(const StatusLine& line) {
     if (!landmark->last || landmark->last->missing > 0) {
       return ChecksAsked::kTouchMore;
     }
+    if (landmark->tips == nullptr) {
+      return ChecksAsked::kPassed;
+    }
     if (landmark->tips->due()) {
       return ChecksAsked::kGuideTip;
     }

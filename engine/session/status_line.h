@@ -46,7 +46,7 @@ struct LandmarkSoFar {
   RegistrationFigures figures;
   bool recorded = false;              ///< the landmark was touched once
   std::optional<LandmarkTouch> last;  ///< since the last screw
-  const TipCheck* tips = nullptr;     ///< of the guide against the pointer
+  const TipCheck* tips = nullptr;     ///< of the guide against the pointer; null: not compared
 };
 struct HeadsSoFar {
   std::size_t count = 0;

@@ -90,7 +90,9 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
     append_mm(out, landmark.last->off_m, 1);
     out += " off";
   }
-  write_tips(text, *landmark.tips, "; ");
+  if (landmark.tips != nullptr) {
+    write_tips(text, *landmark.tips, "; ");
+  }
 }
 
 /// How each step stands.
