@@ -22,7 +22,8 @@ ChecksAsked asked_by(const nav::CheckAdvice& advice) {
 
 ChecksAsked checks_asked(const StatusLine& line) {
   if (line.message) {
-    if (std::holds_alternative<LandmarkMissing>(*line.message)) {
+    if (std::holds_alternative<LandmarkMissing>(*line.message) ||
+        std::holds_alternative<LandmarkMoved>(*line.message)) {
       return ChecksAsked::kTouchMore;
     }
     const auto* missing = std::get_if<ChecksMissing>(line.message);

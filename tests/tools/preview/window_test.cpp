@@ -133,7 +133,7 @@ screenshot help.png
   const RgbaImage guide = picture("guide.png");
   // The status line has green dots of its own.
   const RgbaImage without = picture("guide-without-trajectory.png");
-  EXPECT_GT(coloured(guide, kGreen), coloured(without, kGreen) + 60u);
+  EXPECT_GT(coloured(guide, kGreen), coloured(without, kGreen) + 25u);
   EXPECT_LT(different(guide, without), 3000u);
   EXPECT_TRUE(guide == picture("guide-again.png"));
   // The path is dimmed while there are places to check.
