@@ -64,7 +64,7 @@ struct OperationResult {
   std::optional<std::uint64_t> seed;  ///< absent where nothing was drawn by lot: a real headset
   std::string case_name;
   bool patient_reference = false;  ///< World hung on one instead of on the headset's map
-  bool completed = false;  ///< every level accepted, every screw done, the rods too
+  bool completed = false;          ///< every level accepted, every screw done, the rods too
   /// Where it ended instead, and the last refusal: "ended at digitize L4: registration RMSE 3.4 mm,
   /// limit 3.0 mm". Empty when it completed.
   std::string why_not;
