@@ -12,8 +12,9 @@ std::variant<TipDifference, TouchRefusal> TipCheck::take(
   TipDifference found;
   found.apart_m = world_from_guide.rotation().transposed() * (place.place - pointer_tip.place);
   // The pointer's place is that of as many touches as make one; the guide's is one.
-  found.sd_m = std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
-                         each_m2 / landmark_.touches_of(anchored));
+  found.sd_m =
+      std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
+                each_m2 / landmark_.touches_of(anchored) + 2.0 * rules_.tag_sd_m * rules_.tag_sd_m);
   found.limit_m = rules_.sds * found.sd_m;
   if (!(found.apart_m.norm() <= rules_.most_m)) {
     return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), rules_.most_m};

@@ -20,11 +20,16 @@ struct TipDifference {
 };
 
 struct TipCheckRules {
-  /// Of the SD along an axis: beyond √6 of it, more than half of a difference's square is expected
-  /// to be the tools' and not the touches'.
-  double sds = 2.449;
+  /// SD along an axis by which one tool's tag puts it elsewhere for as long as it is seen from one
+  /// side: a tag that was printed 0.3 % too large stands 1.35 mm too far at 0.45 m, and two tools'
+  /// tags are not off alike. From another side the same error points elsewhere, so no correction of
+  /// the tip makes up for it.
+  double tag_sd_m = 0.00078;
+  /// Of the SD along an axis of the difference: one in 200 lies beyond where nothing but touches
+  /// and tags is off (chi-squared with three degrees of freedom).
+  double sds = 3.583;
   /// Farther apart they were not in the same dimple.
-  double most_m = 0.005;
+  double most_m = 0.010;
 };
 
 /// Done once in an operation, after the landmark was touched, or again whenever the surgeon likes.

@@ -44,8 +44,8 @@ class TipsSession : public ::testing::Test {
 
 TEST_F(TipsSession, TipsThatAgreeAreToldAndLeftAlone) {
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTip);
-  const Guidance& g = touches_by_guide(kDimple + Vec3{0.0005, 0, 0});
-  EXPECT_THAT(detail_text(g.status), HasSubstr("tips agree, 0.5 mm apart"));
+  const Guidance& g = touches_by_guide(kDimple + Vec3{0.0025, 0, 0});
+  EXPECT_THAT(detail_text(g.status), HasSubstr("tips agree, 2.5 mm apart"));
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kPassed);
   s.says("accept");
   ASSERT_NE(said<NotPossibleNow>(s.pair()), nullptr) << "there is nothing to correct";
@@ -54,19 +54,19 @@ TEST_F(TipsSession, TipsThatAgreeAreToldAndLeftAlone) {
 }
 
 TEST_F(TipsSession, ADifferenceIsCorrectedOnlyWithConsent) {
-  const Vec3 off{0.0015, 0.0005, -0.001};
+  const Vec3 off{0.004, 0.001, -0.003};
   const Guidance& g = touches_by_guide(kDimple + off);
-  EXPECT_THAT(detail_text(g.status), HasSubstr("guide's tip 1.9 mm from the pointer's"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("guide's tip 5.1 mm from the pointer's"));
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kCorrectTip);
   s.says("next");
   EXPECT_NEAR(tip_off_m(), 0.0, kExact) << "not yet";
 }
 
 TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeld) {
-  const Vec3 off{0.0015, 0.0005, -0.001};
+  const Vec3 off{0.004, 0.001, -0.003};
   touches_by_guide(kDimple + off);
   s.tracker().guide = guide_at({0.3, 0.3, 0.3}, 1.2);  // moved before the consent
-  EXPECT_THAT(detail_text(s.says("accept").status), HasSubstr("guide's tip corrected by 1.9 mm"));
+  EXPECT_THAT(detail_text(s.says("accept").status), HasSubstr("guide's tip corrected by 5.1 mm"));
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kNone) << "while the message stands";
   // The same pose as in the dimple: there its tip is the pointer's now.
   s.says("next");
@@ -76,7 +76,7 @@ TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeld) {
 }
 
 TEST_F(TipsSession, AGuideElsewhereIsNoTouchOfIt) {
-  const TouchRefusal why = touch_refusal(touches_by_guide(kDimple + Vec3{0.010, 0, 0}));
+  const TouchRefusal why = touch_refusal(touches_by_guide(kDimple + Vec3{0.0151, 0, 0}));
   EXPECT_EQ(why.kind, TouchRefusal::Kind::kTouchesApart);
   EXPECT_EQ(checks_asked(s.pairs(120).status), ChecksAsked::kGuideTip) << "still to be done";
 }
@@ -84,7 +84,7 @@ TEST_F(TipsSession, AGuideElsewhereIsNoTouchOfIt) {
 TEST_F(TipsSession, NextIsTakenWithoutIt) { EXPECT_EQ(s.says("next").step, Step::kGuide); }
 
 TEST_F(TipsSession, ThePointerInTheDimpleIsThePointers) {
-  s.tracker().guide = guide_at(kDimple + Vec3{0.015, 0, 0}, 0.0);
+  s.tracker().guide = guide_at(kDimple + Vec3{0.012, 0, 0}, 0.0);
   s.touches_dimple();
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kGuideTip) << "the guide lay beside it";
 }
