@@ -14,7 +14,7 @@ void Session::act(Action action, Event event, Timestamp time) {
   using enum Action;
   switch (action) {
     case kRefuse: return messages_.say(NotPossibleNow{event}, time);
-    case kIgnore: return;
+    case kIgnore: case kCountRefusal: case kFinish: case kWarnLost: return;  // said elsewhere
     case kBeginLevel: return begin_level();
     case kStartSampling: return digitizing_.press(level(), time);
     case kStopSampling: return digitizing_.release(time);
@@ -22,7 +22,6 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kDropRegion: return drop_region(time);
     case kRegister: return register_level(time);
     case kShowRegistration: return show_registration(time);
-    case kCountRefusal: return;  // the reason was said where it arose
     case kJudgeChecks: return judge_checks(time);
     case kAskForChecks: return messages_.say(ChecksMissing{verifying_.verdict().advice}, time);
     case kRecordCheck: return record_check(time);
@@ -48,10 +47,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kMoveRod: return rod_templating_.move_away();
     case kToggleTwin: return guiding_.toggle_twin();
     case kBeginDrill: return guiding_.begin_drill();
-    case kFinish: return;  // rods were told of when they were done
-    case kWarnLost: return;  // the status line shows it from the tool in use
-    case kHideGuidance: return in_use_.hide_guidance(true);
-    case kShowGuidance: return in_use_.hide_guidance(false);
+    case kHideGuidance: case kShowGuidance: return in_use_.hide_guidance(action == kHideGuidance);
     case kForgetMap: return forget_places(event, time);
   }
 }

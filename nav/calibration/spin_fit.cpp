@@ -19,7 +19,7 @@ Eigen::Matrix3d eigen_rotation(const Transform<World, Marker>& pose) {
   Eigen::Matrix3d out;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) {
-      out(r, c) = pose.rotation()[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+      out(r, c) = pose.rotation()[r][static_cast<std::size_t>(c)];
     }
   }
   return out;
