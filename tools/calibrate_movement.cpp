@@ -24,13 +24,9 @@ void MovementArguments::add_to(CLI::App& command, const std::string& changed) {
 }
 
 Result<ToolMovement> movement_of(const MovementArguments& arguments) {
-  const auto tools = engine::load_tools(arguments.tools_file);
-  if (!tools) {
-    return tools.error();
-  }
-  const auto tool = engine::tool_named(*tools, arguments.tool);
+  const auto tool = engine::load_tool(arguments.tools_file, arguments.tool);
   if (!tool) {
-    return Error{arguments.tools_file + ": " + tool.error().message};
+    return tool.error();
   }
   if (const Status s = arguments.json.check(); !s) {
     return s.error();

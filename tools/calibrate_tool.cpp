@@ -78,13 +78,9 @@ Result<std::optional<nav::ToolGeometry>> described_tool(const ToolArguments& arg
   if (arguments.tools_file.empty()) {
     return std::optional<nav::ToolGeometry>();
   }
-  const auto tools = engine::load_tools(arguments.tools_file);
-  if (!tools) {
-    return tools.error();
-  }
-  const auto tool = engine::tool_named(*tools, arguments.tool);
+  const auto tool = engine::load_tool(arguments.tools_file, arguments.tool);
   if (!tool) {
-    return Error{arguments.tools_file + ": " + tool.error().message};
+    return tool.error();
   }
   return std::optional<nav::ToolGeometry>(*tool);
 }

@@ -144,6 +144,18 @@ Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path) {
   return tools_from(*document, path);
 }
 
+Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name) {
+  const auto tools = load_tools(path);
+  if (!tools) {
+    return tools.error();
+  }
+  auto tool = tool_named(*tools, name);
+  if (!tool) {
+    return Error{path + ": " + tool.error().message};
+  }
+  return tool;
+}
+
 std::string tools_text(const std::vector<nav::ToolGeometry>& tools) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const nav::ToolGeometry& tool : tools) {

@@ -18,6 +18,9 @@ namespace orthonav::engine {
 /// `nav::problems_of`.
 Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path);
 
+/// One tool of such a file, by its name.
+Result<nav::ToolGeometry> load_tool(const std::string& path, const std::string& name);
+
 /// Writes what `load_tools` reads back to the same numbers.
 Status save_tools(const std::string& path, const std::vector<nav::ToolGeometry>& tools);
 

@@ -62,17 +62,6 @@ void decide_tool(const ToolGuidance* fresh, const VisibilityRules& rules, Visibi
   out.angle_lost = !out.measurement && (out.triangle || !fresh);
 }
 
-/// Of H13. A frame shown so late that its pose is too old is as unwatched as a pair without one; a
-/// stop stays.
-void decide_drill(const nav::DrillView& drill, bool fresh, Visibility& out) {
-  out.drill = drill;
-  if (!fresh) {
-    out.drill.watched = false;
-    const bool stop = drill.alarm == nav::DrillAlarm::kStop;
-    out.drill.alarm = stop ? drill.alarm : nav::DrillAlarm::kNone;
-  }
-}
-
 /// H7: with the trajectory that it measures against, once it is known where the eyes are. Its dots
 /// are numbers in another shape: of one stereo pair, never of a prediction.
 void decide_cross(const PlacedScrew& screw, const Transform<World, Rig>& head,
@@ -122,7 +111,8 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
     const bool fresh = g.tool && display_time - g.tool->pose_time <= g.stale_after;
     const ToolGuidance* tool = fresh ? &*g.tool : nullptr;
     decide_tool(tool, rules, out);
-    decide_drill(g.drill, tool != nullptr, out);
+    // H13: a frame shown so late that its pose is too old is as unwatched as a pair without one.
+    out.drill = tool ? g.drill : g.drill.unwatched();
     if (g.head) {
       decide_cross(*out.trajectory, *g.head, tool, out);
     }

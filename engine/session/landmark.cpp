@@ -5,17 +5,19 @@
 
 namespace orthonav::engine {
 
-double LandmarkRules::limit_m(double recorded_sd_m, double sd_m, bool anchored) const {
+double LandmarkRules::touch_variance_m2(bool anchored) const {
   const double lasting_m = anchored ? lasting_sd_anchored_m : lasting_sd_m;
-  const double each_m2 = dimple_sd_m * dimple_sd_m + lasting_m * lasting_m;
-  const double variance_m2 =
-      recorded_sd_m * recorded_sd_m + sd_m * sd_m + 2.0 * each_m2 / touches_of(anchored);
+  return dimple_sd_m * dimple_sd_m + lasting_m * lasting_m;
+}
+
+double LandmarkRules::limit_m(double recorded_sd_m, double sd_m, bool anchored) const {
+  const double variance_m2 = recorded_sd_m * recorded_sd_m + sd_m * sd_m +
+                             2.0 * touch_variance_m2(anchored) / touches_of(anchored);
   return std::min(sds * std::sqrt(variance_m2), most_m);
 }
 
 double LandmarkRules::apart_m(double sd_m, bool anchored) const {
-  const double lasting_m = anchored ? lasting_sd_anchored_m : lasting_sd_m;
-  return sds * std::sqrt(2.0 * (sd_m * sd_m + dimple_sd_m * dimple_sd_m + lasting_m * lasting_m));
+  return sds * std::sqrt(2.0 * (sd_m * sd_m + touch_variance_m2(anchored)));
 }
 
 std::vector<std::string> LandmarkRules::check() const {

@@ -52,6 +52,8 @@ struct LandmarkRules {
   [[nodiscard]] int touches_of(bool anchored) const {
     return anchored ? touches_anchored : touches;
   }
+  /// Of one touch along an axis, besides what its press tells of itself.
+  [[nodiscard]] double touch_variance_m2(bool anchored) const;
   /// Of the distance between two places of these SDs along an axis, each of so many touches.
   [[nodiscard]] double limit_m(double recorded_sd_m, double sd_m, bool anchored) const;
   /// Of the distance between two touches of one place: farther apart, they are not one.

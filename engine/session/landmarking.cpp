@@ -59,7 +59,7 @@ std::optional<TouchRefusal> Landmarking::refusal_of(const LevelState& level,
                                                     std::span<const ReferencePost> posts,
                                                     bool anchored) {
   if (touches_ > 0) {
-    const double apart_m = (here.v - sum_m_ / touches_).norm();
+    const double apart_m = (here - mean_place()).norm();
     const double sd_m = std::max(place.sd_m, std::sqrt(variances_m2_ / touches_));
     const double limit_m = rules_.apart_m(sd_m, anchored);
     if (!(apart_m <= limit_m)) {
@@ -88,18 +88,16 @@ std::variant<LandmarkTouch, TouchRefusal> Landmarking::take(LevelState& level,
   sum_m_ += here.v;
   variances_m2_ += pressed->sd_m * pressed->sd_m;
   ++touches_;
-  const Point<Vertebra> mean{sum_m_ / touches_};
-  const double sd_m = std::sqrt(variances_m2_) / touches_;
-  last_ =
-      LandmarkTouch{!level.landmark, std::max(0, rules_.touches_of(anchored) - touches_), 0.0,
-                    rules_.limit_m(level.landmark ? level.landmark->sd_m : sd_m, sd_m, anchored)};
+  const double recorded_sd_m = level.landmark ? level.landmark->sd_m : sd_m();
+  last_ = LandmarkTouch{!level.landmark, std::max(0, rules_.touches_of(anchored) - touches_), 0.0,
+                        rules_.limit_m(recorded_sd_m, sd_m(), anchored)};
   if (last_->missing > 0) {
     return *last_;
   }
   if (level.landmark) {
-    last_->off_m = (mean - level.landmark->in_vertebra).norm();
+    last_->off_m = (mean_place() - level.landmark->in_vertebra).norm();
   } else {
-    level.landmark = Landmark{mean, sd_m, time};
+    level.landmark = Landmark{mean_place(), sd_m(), time};
     recorded_here_ = true;
   }
   return *last_;

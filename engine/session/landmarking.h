@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -41,9 +40,10 @@ class Landmarking {
   [[nodiscard]] Dropped drop(LevelState& level);
   /// Since the step began, and found where it was.
   [[nodiscard]] bool touched() const { return last_ && last_->held(); }
-  /// Where, in the vertebra, once it was touched; the mean of the touches.
-  [[nodiscard]] Point<Vertebra> place() const { return {sum_m_ / std::max(1, touches_)}; }
-  [[nodiscard]] double sd_m() const { return std::sqrt(variances_m2_) / std::max(1, touches_); }
+  /// Where, in the vertebra: the mean of the touches so far, and its SD along an axis; there is
+  /// one.
+  [[nodiscard]] Point<Vertebra> mean_place() const { return {sum_m_ / touches_}; }
+  [[nodiscard]] double sd_m() const { return std::sqrt(variances_m2_) / touches_; }
   [[nodiscard]] const std::optional<LandmarkTouch>& last() const { return last_; }
 
  private:

@@ -165,7 +165,7 @@ void Session::watch_map(const StereoFrame& frame) {
   const bool moved = map_epoch_ && *map_epoch_ != frame.map_epoch;
   map_epoch_ = frame.map_epoch;
   // With a patient reference nothing hangs on the map.
-  if (moved && tools_.tracker().anchor() == nullptr) {
+  if (moved && !anchored()) {
     handle(Event::kMapMoved, frame.time);
   }
 }

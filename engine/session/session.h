@@ -75,6 +75,8 @@ class Session {
   void collect_samples();
   void collect_guide_tip();
   [[nodiscard]] std::optional<std::size_t> tool_of_step() const;
+  /// World is that of a patient reference.
+  [[nodiscard]] bool anchored() const { return tools_.tracker().anchor() != nullptr; }
   [[nodiscard]] bool by_touch(Step step) const;
   [[nodiscard]] bool is_touched_in() const;
 
@@ -98,6 +100,7 @@ class Session {
   void drop_check(Timestamp time);
   void accept(Timestamp time);
   void touch_landmark(Timestamp time);
+  [[nodiscard]] nav::PressedPlace touched_landmark() const;
   [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(const TouchedPlace& pointer);
   void compare_tips(const nav::PressedPlace& guide_tip, Timestamp time);
   void correct_tip(Timestamp time);

@@ -11,8 +11,7 @@ void Session::touch_landmark(Timestamp time) {
   if (const auto guide_tip = guide_tip_in_landmark(place)) {
     return compare_tips(*guide_tip, time);
   }
-  const auto taken = landmarking_.take(level(), place, tools_.reference_posts(),
-                                       tools_.tracker().anchor() != nullptr, time);
+  const auto taken = landmarking_.take(level(), place, tools_.reference_posts(), anchored(), time);
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     messages_.say(TouchNotRecorded{TouchNotRecorded::What::kLandmark, *refusal}, time);
     return;
@@ -26,6 +25,12 @@ void Session::touch_landmark(Timestamp time) {
   }
 }
 
+/// Where the pointer's tip was in it; it was touched.
+nav::PressedPlace Session::touched_landmark() const {
+  return {level().registration->world_from_vertebra * landmarking_.mean_place(),
+          landmarking_.sd_m()};
+}
+
 /// Once the pointer was in the dimple the guide may follow: a press is that of the tool whose tip
 /// is nearer to it.
 std::optional<nav::PressedPlace> Session::guide_tip_in_landmark(const TouchedPlace& pointer) {
@@ -36,7 +41,7 @@ std::optional<nav::PressedPlace> Session::guide_tip_in_landmark(const TouchedPla
   if (!guide_tip || !landmarking_.touched()) {
     return std::nullopt;
   }
-  const Point<World> dimple = level().registration->world_from_vertebra * landmarking_.place();
+  const Point<World> dimple = touched_landmark().place;
   const double guide_m = (guide_tip->place - dimple).norm();
   const auto* pointer_tip = std::get_if<nav::PressedPlace>(&pointer);
   const bool nearer = !pointer_tip || guide_m < (pointer_tip->place - dimple).norm();
@@ -44,11 +49,9 @@ std::optional<nav::PressedPlace> Session::guide_tip_in_landmark(const TouchedPla
 }
 
 void Session::compare_tips(const nav::PressedPlace& guide_tip, Timestamp time) {
-  const nav::PressedPlace pointer_tip{
-      level().registration->world_from_vertebra * landmarking_.place(), landmarking_.sd_m()};
   const auto taken =
       tip_check_.take(guide_tip, tools_.watch(tools_.guide()).last_measured_pose().value,
-                      pointer_tip, tools_.tracker().anchor() != nullptr);
+                      touched_landmark(), anchored());
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     messages_.say(TouchNotRecorded{TouchNotRecorded::What::kGuideTip, *refusal}, time);
   } else if (observer_) {
@@ -89,8 +92,7 @@ void Session::verify_again(Timestamp time) {
   level().accepted = false;
   verifying_.begin_again(level(), touch.off_m);
   guiding_.forget_guidance();
-  messages_.say(LandmarkMoved{touch.off_m, touch.limit_m, tools_.tracker().anchor() != nullptr},
-                time);
+  messages_.say(LandmarkMoved{touch.off_m, touch.limit_m, anchored()}, time);
 }
 
 }  // namespace orthonav::engine

@@ -7,8 +7,7 @@ namespace orthonav::engine {
 std::variant<TipDifference, TouchRefusal> TipCheck::take(
     const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
     const nav::PressedPlace& pointer_tip, bool anchored) {
-  const double lasting_m = anchored ? landmark_.lasting_sd_anchored_m : landmark_.lasting_sd_m;
-  const double each_m2 = landmark_.dimple_sd_m * landmark_.dimple_sd_m + lasting_m * lasting_m;
+  const double each_m2 = landmark_.touch_variance_m2(anchored);
   TipDifference found;
   found.apart_m = world_from_guide.rotation().transposed() * (place.place - pointer_tip.place);
   // The pointer's place is that of as many touches as make one; the guide's is one.

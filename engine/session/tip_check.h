@@ -40,8 +40,6 @@ class TipCheck {
       : rules_(rules), landmark_(landmark) {}
 
   [[nodiscard]] Touch& touch() { return touch_; }
-  /// No press so far is one of the guide's.
-  void begin() { touch_.drop(); }
   /// Of the guide's tip at `place`, the guide standing as `world_from_guide`, the pointer's tip
   /// having been at `pointer_tip`; or why not.
   [[nodiscard]] std::variant<TipDifference, TouchRefusal> take(

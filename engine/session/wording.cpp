@@ -53,7 +53,7 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
   std::string& out = text.out;
   if (tips.due()) {
     text.begin(Importance::kNext, separator);
-    out += "now the guide's tip in it, or next";
+    out += "put the guide's tip in it too, or say next";
     return;
   }
   if (tips.last()->corrected) {
@@ -65,7 +65,7 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
   out += tips.offers() ? " from the pointer's" : " apart";
   if (tips.offers()) {
     text.begin(Importance::kNext, ": ");
-    out += "accept to correct it";
+    out += "say accept to correct it";
   }
 }
 

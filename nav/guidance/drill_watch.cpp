@@ -55,12 +55,6 @@ void DrillWatch::forget() {
   set_depth_m_.reset();
 }
 
-void DrillWatch::drop_deviation() {
-  if (view_.alarm != DrillAlarm::kStop) {
-    view_.alarm = DrillAlarm::kNone;
-  }
-}
-
 double DrillWatch::stop_margin_m(double depth_sd_m) const {
   // Negated, so that NaN is not known either.
   if (!(depth_sd_m >= 0.0) || std::isinf(depth_sd_m)) {

@@ -70,6 +70,10 @@ struct DrillView {
   /// withdrawn, for nobody knows how deep a hidden tip is.
   DrillAlarm alarm = DrillAlarm::kNone;
   bool watched = false;  ///< measured in this pair
+  /// The same while nobody watches: it drills on, and only a stop stays.
+  [[nodiscard]] DrillView unwatched() const {
+    return {phase, alarm == DrillAlarm::kStop ? alarm : DrillAlarm::kNone, false};
+  }
   friend bool operator==(const DrillView&, const DrillView&) = default;
 };
 
@@ -81,8 +85,8 @@ class DrillWatch {
   /// The surgeon says that they drill, wherever the tip is.
   void begin();
   void measured(const DrillReading& reading);
-  /// A pair in which the drill was not measured: it drills on, unwatched.
-  void not_measured() { view_.watched = false, drop_deviation(); }
+  /// A pair in which the drill was not measured.
+  void not_measured() { view_ = view_.unwatched(); }
   /// Another screw.
   void forget();
   [[nodiscard]] const DrillView& view() const { return view_; }
@@ -90,7 +94,6 @@ class DrillWatch {
   [[nodiscard]] double stop_margin_m(double depth_sd_m) const;
 
  private:
-  void drop_deviation();
   void look_for_rest(const DrillReading& reading);
   void look_for_advance(const DrillReading& reading);
   void judge(const DrillReading& reading);

@@ -191,6 +191,14 @@ const engine::Guidance& ScriptedOperation::touches(Vec3 tip) {
   return does({ClickerAction::kRelease, ClickerAction::kClick});
 }
 
+void ScriptedOperation::registers_within(double sd_m) {
+  std::array<double, 36> covariance{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    covariance[7 * k] = sd_m * sd_m;
+  }
+  registration.uncertainty = nav::PoseUncertainty({0, 0, 0}, covariance);
+}
+
 const engine::Guidance& ScriptedOperation::accepts() {
   pair();
   return says("accept");

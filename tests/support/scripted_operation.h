@@ -66,6 +66,8 @@ class ScriptedOperation {
   const engine::Guidance& strokes(int n);
   /// A click of two pairs with the pointer's tip at `tip`.
   const engine::Guidance& touches(Vec3 tip);
+  /// The next registrations leave a shift of this SD along each axis open, and no turn.
+  void registers_within(double sd_m);
   /// From setup to `verify` of the first level.
   const engine::Guidance& registers_first_level();
   /// Looks at the registration, then accepts it.

@@ -20,11 +20,7 @@ constexpr double kSd_m = 0.0005;
 /// ends at y = -15 mm with a radius of 3 mm.
 struct WhileGuiding : ScriptedOperation {
   explicit WhileGuiding(const SessionOptions& options = {}) : ScriptedOperation({"L4"}, options) {
-    std::array<double, 36> covariance{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      covariance[7 * k] = kSd_m * kSd_m;
-    }
-    registration.uncertainty = nav::PoseUncertainty({0, 0, 0}, covariance);
+    registers_within(kSd_m);
     accepts_first_level();
     says("next");
   }

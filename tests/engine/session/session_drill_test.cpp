@@ -21,11 +21,7 @@ constexpr double kSd_m = 0.0004;
 /// While the left screw of the box is guided: 35 mm long, straight in along -y.
 struct Drilling : ScriptedOperation {
   explicit Drilling(const SessionOptions& options = {}) : ScriptedOperation({"L4"}, options) {
-    std::array<double, 36> covariance{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      covariance[7 * k] = kSd_m * kSd_m;
-    }
-    registration.uncertainty = nav::PoseUncertainty({0, 0, 0}, covariance);
+    registers_within(kSd_m);
     accepts_first_level();
     says("next");
   }
