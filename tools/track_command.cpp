@@ -78,6 +78,10 @@ nlohmann::ordered_json as_json(const nav::StereoAlignment& found) {
   };
   return {{"right_camera_turned_mrad", milli(found.rotation_rad)},
           {"sd_mrad", milli(found.sd_rad)},
+          {"focal_percent", 100.0 * found.focal_fraction},
+          {"focal_sd_percent", 100.0 * found.focal_sd},
+          {"baseline_percent", 100.0 * found.baseline_fraction},
+          {"baseline_sd_percent", 100.0 * found.baseline_sd},
           {"significant", found.significant},
           {"applied", found.applied}};
 }
@@ -85,6 +89,7 @@ nlohmann::ordered_json as_json(const nav::StereoAlignment& found) {
 nlohmann::ordered_json as_json(const nav::TagSize& found) {
   return {{"larger_percent", 100.0 * found.fraction},
           {"sd_percent", 100.0 * found.sd},
+          {"applied_percent", 100.0 * found.applied},
           {"disagrees", found.disagrees}};
 }
 

@@ -6,9 +6,10 @@
 namespace orthonav::engine {
 namespace {
 
-/// The tag's motion in the rig (m, rad about its centre), then the right camera's rotation.
+/// The tag's motion in the rig (m, rad about its centre), then what the calibration is off by.
 constexpr int kPose = 6;
-constexpr int kAll = 9;
+constexpr int kCalibration = nav::kCalibrationUnknowns;
+constexpr int kAll = kPose + kCalibration;
 using Normal = Eigen::Matrix<double, kAll, kAll>;
 using Right = Eigen::Matrix<double, kAll, 1>;
 using Row = Eigen::Matrix<double, 2, kAll>;
@@ -31,15 +32,17 @@ Matrix3 cross_matrix(Vec3 v) {
   return m;
 }
 
+Eigen::Vector3d as_eigen(Vec3 v) { return {v.x, v.y, v.z}; }
+
 struct Equations {
   Normal normal = Normal::Zero();
   Right right = Right::Zero();
 
-  /// Corners of one camera. `turns`: it is the one whose rotation is asked for.
+  /// Corners of one camera. `baseline_m`: of the right one, from it to the left one.
   template <class CameraFrame>
   bool add(const nav::TagCorners& corners_px, const CameraModel& camera,
            const Transform<CameraFrame, Rig>& camera_from_rig, const Transform<Rig, Marker>& pose,
-           double size_m, double sd_px, bool turns) {
+           double size_m, double sd_px, const Vec3* baseline_m) {
     const auto in_marker_m = nav::corners_in_marker(size_m);
     const Matrix3 rotation = as_eigen(camera_from_rig.rotation());
     for (std::size_t k = 0; k < corners_px.size(); ++k) {
@@ -58,9 +61,12 @@ struct Equations {
       Row row = Row::Zero();
       row.leftCols<3>() = by_point * rotation;
       row.middleCols<3>(3) = -by_point * rotation * cross_matrix(lever_arm);
-      if (turns) {
-        row.rightCols<3>() = -by_point * cross_matrix(p);
+      if (baseline_m != nullptr) {
+        row.middleCols<3>(kPose) = -by_point * cross_matrix(p);
+        row.col(kPose + nav::kFocalUnknown) << p.x / p.z, p.y / p.z;
+        row.col(kPose + nav::kBaselineUnknown) = by_point * as_eigen(*baseline_m);
       }
+      row.col(kPose + nav::kTagSizeUnknown) = by_point * rotation * as_eigen(lever_arm);
       const Eigen::Vector2d residual(ray->x - p.x / p.z, ray->y - p.y / p.z);
       normal += weight * weight * row.transpose() * row;
       right += weight * weight * row.transpose() * residual;
@@ -68,16 +74,17 @@ struct Equations {
     return true;
   }
 
-  [[nodiscard]] nav::AlignmentEquations alignment() const {
+  [[nodiscard]] nav::CalibrationEquations calibration() const {
+    using Square = Eigen::Matrix<double, kCalibration, kCalibration>;
     const auto pose = normal.topLeftCorner<kPose, kPose>().ldlt();
-    const Eigen::Matrix<double, kPose, 3> cross = normal.topRightCorner<kPose, 3>();
-    const Matrix3 information =
-        normal.bottomRightCorner<3, 3>() - cross.transpose() * pose.solve(cross);
-    const Eigen::Vector3d rest =
-        right.tail<3>() - cross.transpose() * pose.solve(right.head<kPose>());
-    nav::AlignmentEquations out;
-    Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(out.information.data()) = information;
-    Eigen::Map<Eigen::Vector3d>(out.right.data()) = rest;
+    const Eigen::Matrix<double, kPose, kCalibration> cross =
+        normal.topRightCorner<kPose, kCalibration>();
+    nav::CalibrationEquations out;
+    Eigen::Map<Square>(out.information.data()) =
+        normal.bottomRightCorner<kCalibration, kCalibration>() -
+        cross.transpose() * pose.solve(cross);
+    Eigen::Map<Eigen::Matrix<double, kCalibration, 1>>(out.right.data()) =
+        right.tail<kCalibration>() - cross.transpose() * pose.solve(right.head<kPose>());
     return out;
   }
 };
@@ -97,13 +104,15 @@ std::optional<CornerPose> corner_pose(const ModelledSighting& seen,
                                       double sd_px) {
   CornerPose out;
   out.rig_from_marker = start;
+  const Vec3 baseline_m = (cameras.right_from_rig * cameras.left_from_rig.inverse()).translation();
   for (int i = 0;; ++i) {
     Equations e;
     const Transform<Rig, Marker>& pose = out.rig_from_marker;
-    const bool added = (!seen.left_px || e.add(*seen.left_px, cameras.left, cameras.left_from_rig,
-                                               pose, size_m, sd_px, false)) &&
-                       (!seen.right_px || e.add(*seen.right_px, cameras.right,
-                                                cameras.right_from_rig, pose, size_m, sd_px, true));
+    const bool added =
+        (!seen.left_px ||
+         e.add(*seen.left_px, cameras.left, cameras.left_from_rig, pose, size_m, sd_px, nullptr)) &&
+        (!seen.right_px || e.add(*seen.right_px, cameras.right, cameras.right_from_rig, pose,
+                                 size_m, sd_px, &baseline_m));
     const Eigen::Matrix<double, kPose, kPose> normal = e.normal.topLeftCorner<kPose, kPose>();
     const Eigen::LLT<Eigen::Matrix<double, kPose, kPose>> solver(normal);
     if (!added || solver.info() != Eigen::Success) {
@@ -113,7 +122,7 @@ std::optional<CornerPose> corner_pose(const ModelledSighting& seen,
       Eigen::Map<Eigen::Matrix<double, kPose, kPose, Eigen::RowMajor>>(out.covariance.data()) =
           solver.solve(Eigen::Matrix<double, kPose, kPose>::Identity());
       if (seen.left_px && seen.right_px) {
-        out.alignment = e.alignment();
+        out.calibration = e.calibration();
       }
       return out;
     }

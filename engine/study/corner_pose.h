@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "engine/study/modelled_sightings.h"
-#include "nav/tracking/stereo_alignment.h"
+#include "nav/tracking/online_calibration.h"
 
 namespace orthonav::engine {
 
@@ -12,8 +12,8 @@ namespace orthonav::engine {
 struct CornerPose {
   Transform<Rig, Marker> rig_from_marker;
   PoseCovariance covariance{};  ///< in the rig
-  /// Where both cameras saw it: what the corners say about the right camera's rotation.
-  std::optional<nav::AlignmentEquations> alignment;
+  /// Where both cameras saw it: what the corners say about the calibration.
+  std::optional<nav::CalibrationEquations> calibration;
 };
 
 /// Gauss-Newton on the unit planes of the cameras as described, from a pose that is right to a few

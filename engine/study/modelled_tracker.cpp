@@ -81,7 +81,8 @@ class ModelledTracker final : public nav::ToolTracker {
         options_(options),
         model_(model),
         sightings_(room, model),
-        filters_(tools_.size()) {
+        filters_(tools_.size()),
+        online_(tools_.size()) {
     for (std::size_t i = 0; i < tools_.size(); ++i) {
       states_.push_back({i, {}, {}, 0.0});
     }
@@ -97,13 +98,13 @@ class ModelledTracker final : public nav::ToolTracker {
         predict(i, frame);
       }
     }
-    align();
+    calibrate();
     return states_;
   }
 
   [[nodiscard]] std::span<const nav::ToolGeometry> tools() const override { return tools_; }
   [[nodiscard]] std::optional<nav::StereoAlignment> alignment() const override {
-    return applied_ ? applied_ : aligning_.estimate();
+    return online_.alignment();
   }
 
  private:
@@ -119,12 +120,13 @@ class ModelledTracker final : public nav::ToolTracker {
       return false;
     }
     const auto fit =
-        corner_pose(seen, *near, calibration_, tools_[i].marker.size_m, model_.believed_px);
+        corner_pose(seen, *near, calibration_, online_.size_factor(i) * tools_[i].marker.size_m,
+                    model_.believed_px);
     if (!fit) {
       return false;
     }
-    if (fit->alignment) {
-      aligning_.add(*fit->alignment);
+    if (fit->calibration) {
+      online_.add(i, *fit->calibration);
     }
     const nav::TrackedPose measured{*frame.world_from_rig * fit->rig_from_marker, frame.time,
                                     PoseStatus::kMeasured,
@@ -151,9 +153,9 @@ class ModelledTracker final : public nav::ToolTracker {
         frame.world_from_rig->inverse() * states_[i].world_from_marker.value;
   }
 
-  void align() {
-    if (const auto correction_rad = nav::take_correction(aligning_, applied_)) {
-      nav::turn_right_camera(calibration_, *correction_rad);
+  void calibrate() {
+    if (online_.correct()) {
+      nav::turn_right_camera(calibration_, online_.turn_rad());
     }
   }
 
@@ -165,8 +167,7 @@ class ModelledTracker final : public nav::ToolTracker {
   ModelledSightings sightings_;
   std::vector<nav::PoseFilter> filters_;
   std::vector<nav::ToolState> states_;
-  nav::AlignmentEstimator aligning_;
-  std::optional<nav::StereoAlignment> applied_;
+  nav::OnlineCalibration online_;
   std::int64_t pairs_ = -1;
 };
 

@@ -31,6 +31,7 @@ class BlurredTag {
 
   [[nodiscard]] const TagTemplate& cells() const { return tag_; }
   [[nodiscard]] double cell_m() const { return cell_m_; }
+  void set_size(double size_m) { cell_m_ = tag_.cell_m(size_m); }
   /// The nine coefficients of a cell: 1, left, right, above, below, and the four corners.
   [[nodiscard]] const float* coefficients(int row, int column) const {
     return coefficients_.data() + 12 * static_cast<std::size_t>(row * tag_.cells + column);

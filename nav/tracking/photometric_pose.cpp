@@ -75,19 +75,31 @@ Transform<Rig, Marker> moved(const Transform<Rig, Marker>& pose, Vec3 translatio
           pose.translation() + pose.rotation() * translation};
 }
 
-/// The derivative of a small motion of the tag (in its frame, in cells) by a small rotation of the
-/// camera in its own frame.
-Eigen::Matrix<double, 6, 3> tag_by_camera_turn(const CameraFromTag& pose, double cell_m) {
-  Eigen::Matrix<double, 6, 3> out;
+/// The derivative of how a tag seems to move (in its frame, in cells) by what the calibration may
+/// be off by, in the order of `CalibrationEquations`. `baseline_m`: from the right camera to the
+/// left one; null in the left camera, which is as reported.
+Matrix6 tag_by_calibration(const CameraFromTag& pose, const Vec3* baseline_m, double cell_m) {
+  Matrix6 out = Matrix6::Zero();
   const Mat3 back = pose.rotation.transposed();
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 unit_rotation{};
-    unit_rotation[axis] = 1.0;
-    const Vec3 translation = back * unit_rotation.cross(pose.translation_m) / cell_m;
-    const Vec3 rotation = back * unit_rotation;
-    out.col(axis) << translation.x, translation.y, translation.z, rotation.x, rotation.y,
-        rotation.z;
+  const Vec3 place_m = pose.translation_m;
+  const auto moves = [&](std::size_t unknown, Vec3 translation_m) {
+    const Vec3 translation = back * translation_m / cell_m;
+    out.col(static_cast<int>(unknown)).head<3>() << translation.x, translation.y, translation.z;
+  };
+  if (baseline_m != nullptr) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 unit_rotation{};
+      unit_rotation[axis] = 1.0;
+      moves(static_cast<std::size_t>(axis), unit_rotation.cross(place_m));
+      const Vec3 rotation = back * unit_rotation;
+      out.col(axis).tail<3>() << rotation.x, rotation.y, rotation.z;
+    }
+    // Magnified, it seems as much nearer along the optical axis.
+    moves(kFocalUnknown, {0.0, 0.0, -place_m.z});
+    moves(kBaselineUnknown, *baseline_m);
   }
+  // Larger, it seems as much nearer.
+  moves(kTagSizeUnknown, -place_m);
   return out;
 }
 
@@ -235,16 +247,18 @@ bool PhotometricSolver::learn_new_light(std::span<TagView> views) const {
   return all_known;
 }
 
-std::optional<AlignmentEquations> PhotometricSolver::alignment(
+std::optional<CalibrationEquations> PhotometricSolver::calibration_equations(
     const PhotometricFit& fit, std::span<const TagView> views) const {
   if (!fit.left || !fit.right || equations_.size() != views.size()) {
     return std::nullopt;
   }
+  const Vec3 baseline_m =
+      (calibration_.right_from_rig * calibration_.left_from_rig.inverse()).translation();
   Matrix6 pose = Matrix6::Zero();
-  Eigen::Matrix<double, 6, 3> cross = Eigen::Matrix<double, 6, 3>::Zero();
-  Eigen::Matrix3d rotation_normal = Eigen::Matrix3d::Zero();
+  Matrix6 cross = Matrix6::Zero();
+  Matrix6 normal = Matrix6::Zero();
   Vector6 pose_right = Vector6::Zero();
-  Eigen::Vector3d turn_right = Eigen::Vector3d::Zero();
+  Vector6 right = Vector6::Zero();
   for (std::size_t i = 0; i < views.size(); ++i) {
     const TagView& view = views[i];
     if (!view.used) {
@@ -255,23 +269,18 @@ std::optional<AlignmentEquations> PhotometricSolver::alignment(
     const Eigen::Map<const Vector6> own_right(own.right.data());
     const double cell_m = view.tag->cell_m();
     const Matrix6 motion = tag_by_tool(view.marker_from_tag, cell_m);
+    const Matrix6 by_calibration = tag_by_calibration(camera_from_tag(view, fit.rig_from_marker),
+                                                      view.right ? &baseline_m : nullptr, cell_m);
     pose += motion.transpose() * own_normal * motion;
     pose_right += motion.transpose() * own_right;
-    if (!view.right) {
-      continue;
-    }
-    const Eigen::Matrix<double, 6, 3> by_rotation =
-        tag_by_camera_turn(camera_from_tag(view, fit.rig_from_marker), cell_m);
-    cross += motion.transpose() * own_normal * by_rotation;
-    rotation_normal += by_rotation.transpose() * own_normal * by_rotation;
-    turn_right += by_rotation.transpose() * own_right;
+    cross += motion.transpose() * own_normal * by_calibration;
+    normal += by_calibration.transpose() * own_normal * by_calibration;
+    right += by_calibration.transpose() * own_right;
   }
   const Eigen::LDLT<Matrix6> solver(pose);
-  AlignmentEquations out;
-  Eigen::Map<Eigen::Matrix3d>(out.information.data()) =
-      rotation_normal - cross.transpose() * solver.solve(cross);
-  Eigen::Map<Eigen::Vector3d>(out.right.data()) =
-      turn_right - cross.transpose() * solver.solve(pose_right);
+  CalibrationEquations out;
+  Eigen::Map<Matrix6>(out.information.data()) = normal - cross.transpose() * solver.solve(cross);
+  Eigen::Map<Vector6>(out.right.data()) = right - cross.transpose() * solver.solve(pose_right);
   return out;
 }
 

@@ -7,8 +7,8 @@
 
 #include "base/tracked.h"
 #include "hal/api/devices.h"
+#include "nav/tracking/online_calibration.h"
 #include "nav/tracking/photometric_view.h"
-#include "nav/tracking/stereo_alignment.h"
 
 namespace orthonav::nav {
 
@@ -57,10 +57,9 @@ class PhotometricSolver {
                                                     const Transform<Rig, Marker>& start,
                                                     double doubt_m, std::span<TagView> views,
                                                     const PhotometricOptions& options = {});
-  /// What the last fit says about the right camera's rotation; nothing when only one camera was
-  /// used.
-  [[nodiscard]] std::optional<AlignmentEquations> alignment(const PhotometricFit& fit,
-                                                            std::span<const TagView> views) const;
+  /// What the last fit says about the calibration; nothing when only one camera was used.
+  [[nodiscard]] std::optional<CalibrationEquations> calibration_equations(
+      const PhotometricFit& fit, std::span<const TagView> views) const;
   /// Pixels per unit of the unit plane, near the middle of the left or the right image.
   [[nodiscard]] double focal_px(bool right) const {
     return right ? right_rays_.focal_px : left_rays_.focal_px;

@@ -24,7 +24,8 @@ PhotometricTracker::PhotometricTracker(const StereoCalibration& calibration,
       tools_(std::move(tools)),
       options_(options),
       near_(std::move(near)),
-      full_search_(std::move(whole)) {
+      full_search_(std::move(whole)),
+      calibration_(tools_.size()) {
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}, {}});
     states_.push_back({i, {}, {}, 0.0});
@@ -45,7 +46,7 @@ std::span<const ToolState> PhotometricTracker::track(const StereoFrame& frame) {
       ++tracked;
     }
   }
-  align();
+  calibrate();
   if (!frame.world_from_rig || tracked == tools_.size()) {
     return states_;
   }
@@ -66,11 +67,16 @@ std::span<const ToolState> PhotometricTracker::track(const StereoFrame& frame) {
 }
 
 std::optional<StereoAlignment> PhotometricTracker::alignment() const {
-  return applied_ ? applied_ : aligning_.estimate();
+  return calibration_.alignment();
 }
 
 std::optional<TagSize> PhotometricTracker::tag_size(std::size_t tool) const {
-  return trails_.at(tool).size.estimate();
+  auto size = trails_.at(tool).size.estimate();
+  if (size) {
+    size->applied = calibration_.size_factor(tool) - 1.0;
+    size->fraction += size->applied;
+  }
+  return size;
 }
 
 void PhotometricTracker::forget_map() {
@@ -80,18 +86,15 @@ void PhotometricTracker::forget_map() {
   }
 }
 
-void PhotometricTracker::align() {
-  if (may_be_of_wrong_size()) {
+void PhotometricTracker::calibrate() {
+  if (may_be_of_wrong_size() || !calibration_.correct()) {
     return;
   }
-  const auto correction_rad = take_correction(aligning_, applied_);
-  if (!correction_rad) {
-    return;
-  }
-  solver_.turn_right_camera(*correction_rad);
+  solver_.turn_right_camera(calibration_.turn_rad());
   geometry_ = TagGeometry(solver_.calibration());
-  for (Trail& trail : trails_) {
-    trail.size.restart();
+  for (std::size_t i = 0; i < trails_.size(); ++i) {
+    trails_[i].follower.set_size_factor(calibration_.size_factor(i));
+    trails_[i].size.restart();
   }
 }
 
@@ -136,8 +139,8 @@ bool PhotometricTracker::take(std::size_t i, const StereoFrame& frame,
   if (!fit || (by_both && !(fit->left && fit->right))) {
     return false;
   }
-  if (fit->alignment) {
-    aligning_.add(*fit->alignment);
+  if (fit->calibration) {
+    calibration_.add(i, *fit->calibration);
   }
   if (fit->left && fit->right && trail.size.is_due()) {
     if (const auto size = trail.follower.measured_size(frame, fit->rig_from_marker, solver_)) {

@@ -41,9 +41,9 @@ class PhotometricTracker final : public ToolTracker {
 
   /// Where the tools were in another map says nothing about where they are in this one.
   void forget_map();
-  /// Once it is certain that the cameras are not aligned as reported, poses use their true
-  /// alignment.
-  void align();
+  /// Once it is certain that the cameras are not aligned as reported, or tags not as large, poses
+  /// use what was found.
+  void calibrate();
   /// A tag printed at the wrong size looks like cameras that are turned towards each other.
   [[nodiscard]] bool may_be_of_wrong_size() const;
   [[nodiscard]] bool is_measured(std::size_t i) const;
@@ -84,8 +84,7 @@ class PhotometricTracker final : public ToolTracker {
   std::unique_ptr<FullImageSearch> full_search_;
   std::vector<Trail> trails_;
   std::vector<ToolState> states_;
-  AlignmentEstimator aligning_;
-  std::optional<StereoAlignment> applied_;
+  OnlineCalibration calibration_;
   std::int64_t pairs_ = -1;
   std::int64_t map_epoch_ = 0;
 };

@@ -116,6 +116,7 @@ Status ToolFollower::add(const MarkerDefinition& marker,
     return Error{"tag family '" + marker.family + "' has no id " + std::to_string(marker.id)};
   }
   tags_.emplace_back(std::move(*tag), marker.size_m);
+  stated_sizes_m_.push_back(marker.size_m);
   for (const bool right : {false, true}) {
     TagView view;
     view.marker_from_tag = marker_from_tag;
@@ -136,6 +137,12 @@ Result<ToolFollower> ToolFollower::create(const ToolGeometry& tool) {
   }
   follower.light_.resize(follower.views_.size());
   return follower;
+}
+
+void ToolFollower::set_size_factor(double factor) {
+  for (std::size_t i = 0; i < tags_.size(); ++i) {
+    tags_[i].set_size(factor * stated_sizes_m_[i]);
+  }
 }
 
 void ToolFollower::forget() { light_.assign(views_.size(), {}); }
@@ -212,7 +219,7 @@ std::optional<ToolFit> ToolFollower::follow(const StereoFrame& frame,
   }
   learn_exposure(frame, fit->rig_from_marker, solver);
   return ToolFit{fit->rig_from_marker, turned(fit->covariance, fit->rig_from_marker.rotation()),
-                 fit->left, fit->right, solver.alignment(*fit, views_)};
+                 fit->left, fit->right, solver.calibration_equations(*fit, views_)};
 }
 
 void ToolFollower::learn_exposure(const StereoFrame& frame, const Transform<Rig, Marker>& pose,

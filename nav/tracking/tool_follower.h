@@ -20,7 +20,7 @@ struct ToolFit {
   PoseCovariance covariance_in_rig{};
   bool left = false;
   bool right = false;
-  std::optional<AlignmentEquations> alignment;  ///< where both cameras saw it
+  std::optional<CalibrationEquations> calibration;  ///< where both cameras saw it
 };
 
 /// Finds a tool again near where it is expected and measures it photometrically, in whichever
@@ -44,6 +44,8 @@ class ToolFollower {
                                                           PhotometricSolver& solver);
   /// How long the cameras expose, as far as the tool's motion has shown.
   [[nodiscard]] double exposure_s() const { return exposure_.exposure_s(); }
+  /// Its tags are as large as stated, times this.
+  void set_size_factor(double factor);
   /// Forgets the light.
   void forget();
 
@@ -58,6 +60,7 @@ class ToolFollower {
                       const PhotometricSolver& solver);
 
   std::vector<BlurredTag> tags_;
+  std::vector<double> stated_sizes_m_;
   std::vector<TagView> views_;     ///< every tag in both cameras
   std::vector<Photometry> light_;  ///< of the views, from the last good fit
   ExposureEstimator exposure_;

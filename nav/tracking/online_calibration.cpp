@@ -1,0 +1,164 @@
+#include "nav/tracking/online_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <Eigen/Dense>
+#include <limits>
+
+namespace orthonav::nav {
+namespace {
+
+constexpr int kCameras = kCameraUnknowns;
+using CamerasMatrix = Eigen::Matrix<double, kCameras, kCameras>;
+using CamerasVector = Eigen::Matrix<double, kCameras, 1>;
+using PairMatrix = Eigen::Matrix<double, kCalibrationUnknowns, kCalibrationUnknowns>;
+
+double precision(double sd) { return 1.0 / (sd * sd); }
+
+}  // namespace
+
+/// Of what is left to correct, the sizes eliminated.
+struct OnlineCalibration::Estimate {
+  CamerasVector cameras;
+  CamerasMatrix covariance;
+  double gain = 0.0;  ///< by which the squared, normalised error falls
+};
+
+OnlineCalibration::OnlineCalibration(std::size_t tools, const CalibrationOptions& options)
+    : options_(options), tools_(tools) {}
+
+void OnlineCalibration::add(std::size_t tool, const CalibrationEquations& pair) {
+  const Eigen::Map<const PairMatrix> information(pair.information.data());
+  const Eigen::Map<const Eigen::Matrix<double, kCalibrationUnknowns, 1>> right(pair.right.data());
+  if (!information.allFinite() || !right.allFinite()) {
+    return;
+  }
+  const double fraction = options_.independent_fraction;
+  Eigen::Map<CamerasMatrix>(information_.data()) +=
+      fraction * information.topLeftCorner<kCameras, kCameras>();
+  Eigen::Map<CamerasVector>(right_.data()) += fraction * right.head<kCameras>();
+  Tool& t = tools_.at(tool);
+  Eigen::Map<CamerasVector>(t.cross.data()) += fraction * information.topRightCorner<kCameras, 1>();
+  t.information += fraction * information(kTagSizeUnknown, kTagSizeUnknown);
+  t.right += fraction * right(kTagSizeUnknown);
+  ++pairs_;
+}
+
+double OnlineCalibration::size_change(const Tool& tool, const Camera& cameras) const {
+  const Eigen::Map<const CamerasVector> cross(tool.cross.data());
+  const Eigen::Map<const CamerasVector> x(cameras.data());
+  const double prior = precision(options_.size_sd);
+  return (tool.right - prior * tool.applied - cross.dot(x)) / (tool.information + prior);
+}
+
+std::optional<OnlineCalibration::Estimate> OnlineCalibration::estimate() const {
+  if (pairs_ == 0) {
+    return std::nullopt;
+  }
+  CamerasMatrix information = Eigen::Map<const CamerasMatrix>(information_.data());
+  CamerasVector right = Eigen::Map<const CamerasVector>(right_.data());
+  information(kFocalUnknown, kFocalUnknown) += precision(options_.focal_sd);
+  information(kBaselineUnknown, kBaselineUnknown) += precision(options_.baseline_sd);
+  const double prior = precision(options_.size_sd);
+  double gain = 0.0;
+  for (const Tool& tool : tools_) {
+    const Eigen::Map<const CamerasVector> cross(tool.cross.data());
+    const double own = tool.information + prior;
+    const double own_right = tool.right - prior * tool.applied;
+    information -= cross * cross.transpose() / own;
+    right -= cross * (own_right / own);
+    gain += own_right * own_right / own;
+  }
+  const Eigen::LLT<CamerasMatrix> solver(information);
+  Estimate out;
+  out.cameras = solver.solve(right);
+  out.covariance = solver.solve(CamerasMatrix::Identity());
+  out.gain = gain + right.dot(out.cameras);
+  if (solver.info() != Eigen::Success || !out.cameras.allFinite() || !out.covariance.allFinite()) {
+    return std::nullopt;
+  }
+  return out;
+}
+
+bool OnlineCalibration::correct() {
+  if (pairs_ < options_.min_pairs) {
+    return false;
+  }
+  const auto found = estimate();
+  if (!found || !(found->gain > options_.significance)) {
+    return false;
+  }
+  Camera cameras{};
+  Eigen::Map<CamerasVector>(cameras.data()) = found->cameras;
+  const Vec3 turn_rad{cameras[0], cameras[1], cameras[2]};
+  bool matters = turn_rad.norm() > options_.min_rotation_rad;
+  for (const Tool& tool : tools_) {
+    const double change = size_change(tool, cameras);
+    matters = matters || std::abs(change) > options_.min_size;
+    if (!(std::abs(tool.applied + change) < options_.max_size)) {
+      return false;
+    }
+  }
+  if (!matters || !((applied_rad_ + turn_rad).norm() < options_.max_rotation_rad)) {
+    return false;
+  }
+  apply(cameras);
+  return true;
+}
+
+/// The equations are about what is left from now on. Focal length and baseline stay as reported.
+void OnlineCalibration::apply(const Camera& cameras) {
+  CamerasVector x = CamerasVector::Zero();
+  x.head<3>() << cameras[0], cameras[1], cameras[2];
+  Eigen::Map<CamerasVector> right(right_.data());
+  right -= Eigen::Map<const CamerasMatrix>(information_.data()) * x;
+  for (Tool& tool : tools_) {
+    const double change = size_change(tool, cameras);
+    const Eigen::Map<const CamerasVector> cross(tool.cross.data());
+    right -= change * cross;
+    tool.right -= tool.information * change + cross.dot(x);
+    tool.applied += change;
+  }
+  turn_rad_ = {cameras[0], cameras[1], cameras[2]};
+  applied_rad_ = applied_rad_ + turn_rad_;
+  applied_ = true;
+}
+
+double OnlineCalibration::size_factor(std::size_t tool) const {
+  return std::exp(tools_.at(tool).applied);
+}
+
+double OnlineCalibration::size_sd(std::size_t tool) const {
+  const Tool& t = tools_.at(tool);
+  const double own = t.information + precision(options_.size_sd);
+  const auto found = estimate();
+  if (!found) {
+    return options_.size_sd;
+  }
+  const Eigen::Map<const CamerasVector> cross(t.cross.data());
+  return std::sqrt(1.0 / own + cross.dot(found->covariance * cross) / (own * own));
+}
+
+std::optional<StereoAlignment> OnlineCalibration::alignment() const {
+  const auto found = estimate();
+  if (!found) {
+    return std::nullopt;
+  }
+  const CamerasVector& x = found->cameras;
+  const CamerasVector sd = found->covariance.diagonal().cwiseSqrt();
+  StereoAlignment out;
+  out.rotation_rad = applied_rad_ + Vec3{x(0), x(1), x(2)};
+  out.sd_rad = {sd(0), sd(1), sd(2)};
+  out.pairs = pairs_;
+  out.within_bounds = out.rotation_rad.norm() <= options_.max_rotation_rad;
+  out.applied = applied_;
+  out.significant =
+      applied_ || (pairs_ >= options_.min_pairs && found->gain > options_.significance);
+  out.focal_fraction = x(kFocalUnknown);
+  out.focal_sd = sd(kFocalUnknown);
+  out.baseline_fraction = x(kBaselineUnknown);
+  out.baseline_sd = sd(kBaselineUnknown);
+  return out;
+}
+
+}  // namespace orthonav::nav
