@@ -41,6 +41,9 @@ class Watched final : public nav::ToolTracker {
   [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t tool) const override {
     return tracker_->tag_size(tool);
   }
+  [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
+    return tracker_->tag_size_difference_sd(tool, other);
+  }
 
  private:
   /// Errors are those of the pose in the rig, in the axes of the left camera.

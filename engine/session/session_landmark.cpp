@@ -51,7 +51,7 @@ std::optional<nav::PressedPlace> Session::guide_tip_in_landmark(const TouchedPla
 void Session::compare_tips(const nav::PressedPlace& guide_tip, Timestamp time) {
   const auto taken =
       tip_check_.take(guide_tip, tools_.watch(tools_.guide()).last_measured_pose().value,
-                      touched_landmark(), anchored());
+                      touched_landmark(), anchored(), tools_.tag_size_difference_sd());
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     messages_.say(TouchNotRecorded{TouchNotRecorded::What::kGuideTip, *refusal}, time);
   } else if (observer_) {

@@ -1,19 +1,21 @@
 #include "engine/session/tip_check.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace orthonav::engine {
 
 std::variant<TipDifference, TouchRefusal> TipCheck::take(
     const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
-    const nav::PressedPlace& pointer_tip, bool anchored) {
+    const nav::PressedPlace& pointer_tip, bool anchored, double size_sd) {
+  const double along_sight_m = rules_.distance_m * std::max(size_sd, rules_.least_size_sd);
   const double each_m2 = landmark_.touch_variance_m2(anchored);
   TipDifference found;
   found.apart_m = world_from_guide.rotation().transposed() * (place.place - pointer_tip.place);
   // The pointer's place is that of as many touches as make one; the guide's is one.
   found.sd_m =
       std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
-                each_m2 / landmark_.touches_of(anchored) + 2.0 * rules_.tag_sd_m * rules_.tag_sd_m);
+                each_m2 / landmark_.touches_of(anchored) + along_sight_m * along_sight_m / 3.0);
   found.limit_m = rules_.sds * found.sd_m;
   if (!(found.apart_m.norm() <= rules_.most_m)) {
     return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), rules_.most_m};

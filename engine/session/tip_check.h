@@ -20,14 +20,15 @@ struct TipDifference {
 };
 
 struct TipCheckRules {
-  /// SD along an axis by which one tool's tag puts it elsewhere for as long as it is seen from one
-  /// side: a tag that was printed 0.3 % too large stands 1.35 mm too far at 0.45 m, and two tools'
-  /// tags are not off alike. From another side the same error points elsewhere, so no correction of
-  /// the tip makes up for it.
-  double tag_sd_m = 0.00078;
-  /// Of the SD along an axis of the difference: one in 200 lies beyond where nothing but touches
+  /// Tags that are 0.3 % larger put their tool 1.35 mm too far at this distance from the cameras.
+  /// From another side the same error points elsewhere, so no correction of the tip makes up for
+  /// it: what is not known of the two tools' tag sizes is part of the difference's SD.
+  double distance_m = 0.45;
+  /// The SD of that, as a fraction, is never taken to be less: lenses differ from place to place.
+  double least_size_sd = 0.0003;
+  /// Of the SD along an axis of the difference: one in ten lies beyond where nothing but touches
   /// and tags is off (chi-squared with three degrees of freedom).
-  double sds = 3.583;
+  double sds = 2.5;
   /// Farther apart they were not in the same dimple.
   double most_m = 0.010;
 };
@@ -41,10 +42,11 @@ class TipCheck {
 
   [[nodiscard]] Touch& touch() { return touch_; }
   /// Of the guide's tip at `place`, the guide standing as `world_from_guide`, the pointer's tip
-  /// having been at `pointer_tip`; or why not.
+  /// having been at `pointer_tip`; or why not. `size_sd`: of how much larger
+  /// the tags of one are than those of the other, as a fraction.
   [[nodiscard]] std::variant<TipDifference, TouchRefusal> take(
       const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
-      const nav::PressedPlace& pointer_tip, bool anchored);
+      const nav::PressedPlace& pointer_tip, bool anchored, double size_sd);
   /// Still to be done.
   [[nodiscard]] bool due() const { return !last_; }
   /// A difference waits for consent to be corrected.

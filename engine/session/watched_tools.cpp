@@ -127,4 +127,8 @@ std::optional<double> WatchedTools::tag_size_off(std::size_t tool) const {
   return size && size->disagrees ? std::optional(size->fraction) : std::nullopt;
 }
 
+double WatchedTools::tag_size_difference_sd() const {
+  return tracker_->tag_size_difference_sd(pointer_, guide_);
+}
+
 }  // namespace orthonav::engine

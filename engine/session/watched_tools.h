@@ -50,6 +50,8 @@ class WatchedTools {
   /// A tag that is not as large as its tool's definition says gives wrong poses: larger by this
   /// fraction. Absent when all is well.
   [[nodiscard]] std::optional<double> tag_size_off(std::size_t tool) const;
+  /// SD of how much larger the tags of pointer and guide are against each other, as a fraction.
+  [[nodiscard]] double tag_size_difference_sd() const;
 
   [[nodiscard]] std::span<const nav::ToolState> states() const { return states_; }
   [[nodiscard]] std::span<const ToolSight> sights() const { return sights_; }

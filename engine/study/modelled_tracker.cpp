@@ -106,6 +106,9 @@ class ModelledTracker final : public nav::ToolTracker {
   [[nodiscard]] std::optional<nav::StereoAlignment> alignment() const override {
     return online_.alignment();
   }
+  [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
+    return online_.size_difference_sd(tool, other);
+  }
 
  private:
   [[nodiscard]] bool is_followed(std::size_t i, Timestamp time) const {

@@ -61,6 +61,9 @@ class AnchoredTracker final : public ToolTracker {
   [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override {
     return tracker_->tag_size(tool);
   }
+  [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
+    return tracker_->tag_size_difference_sd(tool, other);
+  }
   [[nodiscard]] const Anchor* anchor() const override { return &anchor_; }
 
  private:

@@ -139,6 +139,21 @@ double OnlineCalibration::size_sd(std::size_t tool) const {
   return std::sqrt(1.0 / own + cross.dot(found->covariance * cross) / (own * own));
 }
 
+double OnlineCalibration::size_difference_sd(std::size_t tool, std::size_t other) const {
+  const double prior = precision(options_.size_sd);
+  const Tool& a = tools_.at(tool);
+  const Tool& b = tools_.at(other);
+  const double own_a = a.information + prior;
+  const double own_b = b.information + prior;
+  const auto found = tool == other ? std::nullopt : estimate();
+  if (!found) {
+    return tool == other ? 0.0 : std::sqrt(2.0) * options_.size_sd;
+  }
+  const CamerasVector apart = Eigen::Map<const CamerasVector>(a.cross.data()) / own_a -
+                              Eigen::Map<const CamerasVector>(b.cross.data()) / own_b;
+  return std::sqrt(1.0 / own_a + 1.0 / own_b + apart.dot(found->covariance * apart));
+}
+
 std::optional<StereoAlignment> OnlineCalibration::alignment() const {
   const auto found = estimate();
   if (!found) {

@@ -66,6 +66,8 @@ class OnlineCalibration {
   [[nodiscard]] double size_factor(std::size_t tool) const;
   /// The SD of that factor. That of the prior while nothing was seen.
   [[nodiscard]] double size_sd(std::size_t tool) const;
+  /// The SD of how much larger one tool's tags are than another's, as a fraction.
+  [[nodiscard]] double size_difference_sd(std::size_t tool, std::size_t other) const;
   /// With what was applied. Nothing before the first pair, or while a direction is undetermined.
   [[nodiscard]] std::optional<StereoAlignment> alignment() const;
 

@@ -29,6 +29,9 @@ class PhotometricTracker final : public ToolTracker {
   [[nodiscard]] std::span<const ToolGeometry> tools() const override { return tools_; }
   [[nodiscard]] std::optional<StereoAlignment> alignment() const override;
   [[nodiscard]] std::optional<TagSize> tag_size(std::size_t tool) const override;
+  [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
+    return calibration_.size_difference_sd(tool, other);
+  }
 
  private:
   struct Trail {

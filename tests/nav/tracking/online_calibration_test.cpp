@@ -87,6 +87,9 @@ TEST(OnlineCalibration, FindsRotationAndSizes) {
   EXPECT_NEAR(std::log(calibration.size_factor(0)), 0.004, 0.0004 + 4 * calibration.size_sd(0));
   EXPECT_NEAR(std::log(calibration.size_factor(1)), -0.002, 0.0004 + 4 * calibration.size_sd(1));
   EXPECT_LT(calibration.size_sd(0), 0.0005);
+  const double apart = std::log(calibration.size_factor(0) / calibration.size_factor(1));
+  EXPECT_NEAR(apart, 0.006, 0.0004 + 4 * calibration.size_difference_sd(0, 1));
+  EXPECT_LT(calibration.size_difference_sd(0, 1), 0.0005);
 }
 
 TEST(OnlineCalibration, LeavesWhatIsRightAlone) {
@@ -117,6 +120,8 @@ TEST(OnlineCalibration, SaysNothingOfWhatWasNotSeen) {
     calibration.add(0, world.pair(0));
   }
   EXPECT_NEAR(calibration.size_sd(1), CalibrationOptions{}.size_sd, 1e-9);
+  EXPECT_GE(calibration.size_difference_sd(0, 1), CalibrationOptions{}.size_sd);
+  EXPECT_EQ(calibration.size_difference_sd(1, 1), 0.0);
 }
 
 TEST(OnlineCalibration, PassesOverEquationsThatAreNoNumbers) {
