@@ -29,6 +29,7 @@ inline constexpr render::Label kVertebraLabel = label_of(HologramKind::kVertebra
 inline constexpr render::Label kEntryLabel = label_of(HologramKind::kEntry, 1);
 inline constexpr render::Label kOtherEntryLabel = label_of(HologramKind::kEntry, 2);
 inline constexpr render::Label kTrajectoryLabel = label_of(HologramKind::kTrajectory, 1);
+inline constexpr render::Label kPlacedWireLabel = label_of(HologramKind::kTrajectory, 2);
 inline constexpr render::Label kTriangleLabel = label_of(HologramKind::kTriangle, 1);
 inline constexpr render::Label kAngleLabel = label_of(HologramKind::kAngle, 1);
 inline constexpr render::Label kCrossLabel = label_of(HologramKind::kCross, 1);

@@ -33,6 +33,9 @@ std::vector<std::string> SessionOptions::check() const {
   for (const std::string& problem : landmark.check()) {
     problems.push_back(problem);
   }
+  for (const std::string& problem : placed.check()) {
+    problems.push_back(problem);
+  }
   for (const std::string& problem : drill.check()) {
     problems.push_back("drill: " + problem);
   }
