@@ -21,7 +21,6 @@ const StepOnDisplay kDigitize{Step::kDigitize, "L4", {}};
 const StepOnDisplay kVerify{Step::kVerify, "L4", {}};
 const StepOnDisplay kAccepted{Step::kAccepted, "L4", {}};
 const StepOnDisplay kGuide{Step::kGuide, "L4", Side::kLeft};
-const StepOnDisplay kPlaced{Step::kPlaced, "L4", Side::kLeft};
 const StepOnDisplay kGuideNext{Step::kGuide, "L5", Side::kLeft};
 
 /// `detail` is what the status line says after the step; empty: nothing.
@@ -212,34 +211,6 @@ GoldenScene guide_lost() {
   return golden;
 }
 
-/// The wire off the plan by the angle about the entry, and so far beside it.
-GoldenScene placed(const std::string& name, const std::string& what, const std::string& detail,
-                   const std::string& text, double angle_deg, float beside_m, bool within) {
-  GoldenScene golden = step(name, what, kPlaced, detail);
-  add_entries(golden, false, true);
-  add_planned_trajectory(golden.scene, kEntry, kTarget, kTrajectoryLabel);
-  const Float3 out = render::unit_or(tool_point(angle_deg) - kEntry, {0, 1, 0});
-  const Float3 near = kEntry + Float3{beside_m, 0, 0};
-  const Float3 outside = near + kTrajectoryOutside_m * out;
-  add_placed_wire(golden.scene, outside, near - render::length(kTarget - kEntry) * out, text,
-                  within, kPlacedWireLabel);
-  golden.covered.push_back({kPlacedWireLabel, outside});
-  return golden;
-}
-
-GoldenScene placed_within() {
-  return placed("placed", "plan and a cyan line beside it, both numbers with their SDs, a tick",
-                "placed: 0.8 ± 0.7°, 0.6 ± 0.5 mm from the plan", "0.8 ± 0.7°, 0.6 ± 0.5 mm", 0.8,
-                0.0006f, true);
-}
-
-GoldenScene placed_beyond() {
-  return placed("placed_beyond",
-                "plan and a red line that leaves it, numbers in a red rim, a cross",
-                "angle 4.1°, limit 2.0°: say accept to keep it, delete to redo it",
-                "4.1 ± 0.7°, 1.7 ± 0.5 mm", 4.1, 0.0017f, false);
-}
-
 GoldenScene screws_done() {
   GoldenScene golden = step("guide_done", "two entries with ticks", kGuideNext, "say start");
   add_entries(golden, true, true);
@@ -261,8 +232,6 @@ void add_step_scenes(std::vector<GoldenScene>& scenes) {
   scenes.push_back(guide_drilling());
   scenes.push_back(guide_predicted());
   scenes.push_back(guide_lost());
-  scenes.push_back(placed_within());
-  scenes.push_back(placed_beyond());
   scenes.push_back(screws_done());
 }
 
