@@ -193,12 +193,8 @@ class Reading {
                        line.number("limit_mm") * kMetresPerMm, line.flag_or("corrected", false)};
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
-    } else if (what == "screw") {
-      replay_.screw_done(line.text("level"), screw_of(line, time), line);
-    } else if (what == "wire") {
-      replay_.wire_measured(line.text("level"), side_of(line), wire_of(line), line);
-    } else if (what == "screw replanned") {
-      replay_.screw_replanned(line.text("level"), side_of(line), line);
+    } else if (what == "screw" || what == "wire" || what == "screw replanned") {
+      take_screw_line(what, line, time);
     } else if (what == "head" || what == "head dropped") {
       replay_.head(side_of(line), what == "head");
     } else if (what == "rod") {
@@ -208,6 +204,17 @@ class Reading {
       ended_ = true;
     } else if (what != "not understood") {
       line.refuse("what", "\"" + what.substr(0, 40) + "\" is unknown");
+    }
+  }
+
+  void take_screw_line(const std::string& what, const JsonNode& line, Timestamp time) {
+    const std::string level = line.text("level");
+    if (what == "screw") {
+      replay_.screw_done(level, screw_of(line, time), line);
+    } else if (what == "wire") {
+      replay_.wire_measured(level, side_of(line), wire_of(line), line);
+    } else {
+      replay_.screw_replanned(level, side_of(line), line);
     }
   }
 
