@@ -184,7 +184,7 @@ void add_planned_trajectory(Scene& scene, Float3 entry, Float3 target, Label lab
 void add_placed_wire(Scene& scene, Float3 outside, Float3 deep, std::string_view text, bool within,
                      Label label) {
   add_line(scene, {outside, deep}, kPlacedWireWidth_m, within ? look::kCyan : look::kRed, label);
-  render::TextItem& item = add_text_beside(scene, outside, 1.5f, 0.0045f, 0.55f, label);
+  render::TextItem& item = add_text_beside(scene, outside, 2.5f, 0.0045f, 0.55f, label);
   if (!within) {
     item.rim = look::kRed;
   }
