@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/check.h"
 #include "engine/session/session.h"
 #include "nav/guidance/predicted_error.h"
 
@@ -25,10 +26,9 @@ void Session::act_on_screw(Action action, Timestamp time) {
       return judge_redo(time);
     case Action::kOfferToKeep:
       return messages_.say(NoOtherEntry{}, time);
-    case Action::kFinishScrew:
-      return finish_screw(time);
     default:
-      return;
+      ORTHONAV_CHECK(action == Action::kFinishScrew);
+      return finish_screw(time);
   }
 }
 
