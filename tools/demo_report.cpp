@@ -25,6 +25,7 @@ std::string caption_of(const std::string& step) {
       {"verify", "The registered vertebra is laid over the bone to be judged before use."},
       {"accepted", "The registration was accepted: entry points appear."},
       {"guide", "Entry, planned trajectory, the triangle towards the tool's axis, and the angle."},
+      {"placed", "The sleeve is set over the wire: the line beside the plan is how it stands."},
       {"rod", "The heads are touched one by one; the rod follows as a spline through them."},
       {"done", "The operation is over."}};
   const auto found = kCaptions.find(step.substr(0, step.find(' ')));

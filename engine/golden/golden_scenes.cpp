@@ -30,6 +30,7 @@ std::vector<GoldenScene> golden_scenes() {
   golden::add_number_scenes(scenes);
   golden::add_other_scenes(scenes);
   golden::add_step_scenes(scenes);
+  golden::add_placed_scenes(scenes);
   golden::add_view_scenes(scenes);
   golden::add_label_scenes(scenes);
   for (GoldenScene& golden : scenes) {

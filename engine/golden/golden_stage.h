@@ -29,6 +29,7 @@ inline constexpr render::Label kVertebraLabel = label_of(HologramKind::kVertebra
 inline constexpr render::Label kEntryLabel = label_of(HologramKind::kEntry, 1);
 inline constexpr render::Label kOtherEntryLabel = label_of(HologramKind::kEntry, 2);
 inline constexpr render::Label kTrajectoryLabel = label_of(HologramKind::kTrajectory, 1);
+inline constexpr render::Label kPlacedWireLabel = label_of(HologramKind::kTrajectory, 2);
 inline constexpr render::Label kTriangleLabel = label_of(HologramKind::kTriangle, 1);
 inline constexpr render::Label kAngleLabel = label_of(HologramKind::kAngle, 1);
 inline constexpr render::Label kCrossLabel = label_of(HologramKind::kCross, 1);
@@ -94,6 +95,7 @@ void add_precision_scenes(std::vector<GoldenScene>& scenes);  ///< H7 to H9
 void add_number_scenes(std::vector<GoldenScene>& scenes);     ///< H13
 void add_other_scenes(std::vector<GoldenScene>& scenes);      ///< H10 to H12
 void add_step_scenes(std::vector<GoldenScene>& scenes);       ///< the workflow, step by step
+void add_placed_scenes(std::vector<GoldenScene>& scenes);     ///< a wire beside its plan
 void add_view_scenes(std::vector<GoldenScene>& scenes);       ///< distances and head rolls
 void add_label_scenes(std::vector<GoldenScene>& scenes);      ///< labels that make way
 void add_text_scenes(std::vector<GoldenScene>& scenes);       ///< every text on every ground

@@ -30,6 +30,7 @@ constexpr float kEntryRadius_m = 0.0015f;
 constexpr float kEntryRingRadius_m = 0.003f;
 constexpr float kEntryRingWidth_m = 0.0006f;
 constexpr float kTrajectoryWidth_m = 0.002f;
+constexpr float kPlacedWireWidth_m = 0.0015f;
 constexpr float kDash_m = 0.004f;
 constexpr float kTriangleEdge_m = 0.001f;
 constexpr float kTriangleFill = 0.30f;
@@ -178,6 +179,17 @@ void add_planned_trajectory(Scene& scene, Float3 entry, Float3 target, Label lab
   }
   add_line(scene, {entry + kDash_m * inward, target}, kTrajectoryWidth_m, look::kGreen, label,
            kDash_m);
+}
+
+void add_placed_wire(Scene& scene, Float3 outside, Float3 deep, std::string_view text, bool within,
+                     Label label) {
+  add_line(scene, {outside, deep}, kPlacedWireWidth_m, within ? look::kCyan : look::kRed, label);
+  render::TextItem& item = add_text_beside(scene, outside, 2.5f, 0.0045f, 0.55f, label);
+  if (!within) {
+    item.rim = look::kRed;
+  }
+  add_run(item, text, look::kWhite);
+  add_run(item, within ? " ✓" : " ✗", look::kWhite);
 }
 
 void add_deviation_triangle(Scene& scene, Float3 a, Float3 b, Float3 c, Grade grade, Label label) {

@@ -95,6 +95,11 @@ inline constexpr float kTrajectoryOutside_m = 0.060f;
 void add_planned_trajectory(render::Scene& scene, render::Float3 entry, render::Float3 target,
                             render::Label label);
 
+/// Beside H4: a wire as it was measured, solid from its outer end to as deep as planned, and
+/// `text` at the outer end; cyan, or red and in a red rim where it lies beyond a limit.
+void add_placed_wire(render::Scene& scene, render::Float3 outside, render::Float3 deep,
+                     std::string_view text, bool within, render::Label label);
+
 /// H5: A the entry, B on the tool's axis, C on the planned axis (`nav::ScrewGuidance`).
 void add_deviation_triangle(render::Scene& scene, render::Float3 a, render::Float3 b,
                             render::Float3 c, Grade grade, render::Label label);

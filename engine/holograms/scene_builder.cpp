@@ -169,6 +169,9 @@ void SceneBuilder::add_screw(const PlacedScrew& screw, render::Scene& scene) {
   const TrajectoryLine line = trajectory_of(screw);
   add_planned_trajectory(scene, to_float3(line.entry.v), to_float3(line.target.v),
                          label_of(HologramKind::kTrajectory, 1));
+  if (visible_.wire) {
+    add_wire(scene, screw, *visible_.wire, text_);
+  }
   if (visible_.triangle) {
     add_tool_guidance(*visible_.triangle, scene);
   }

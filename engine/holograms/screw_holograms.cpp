@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/holograms/hologram_label.h"
 #include "engine/holograms/render_values.h"
+#include "engine/session/wire_wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -29,6 +31,25 @@ TrajectoryLine trajectory_of(const PlacedScrew& screw) {
   const Vec3 out = (plan.entry - plan.target).normalized();
   return {world_from_vertebra * (plan.entry + out * static_cast<double>(kTrajectoryOutside_m)),
           world_from_vertebra * plan.entry, world_from_vertebra * plan.target};
+}
+
+TrajectoryLine line_of(const PlacedWire& wire, const PlacedScrew& screw) {
+  const auto& world_from_vertebra = screw.at.world_from_vertebra;
+  const nav::Axis<Vertebra>& line = wire.axis.line;
+  const double length_m = (screw.plan().target - screw.plan().entry).norm();
+  return {world_from_vertebra *
+              (line.point - static_cast<double>(kTrajectoryOutside_m) * line.direction),
+          world_from_vertebra * line.point,
+          world_from_vertebra * (line.point + length_m * line.direction)};
+}
+
+void add_wire(render::Scene& scene, const PlacedScrew& screw, const PlacedWire& wire,
+              std::string& text) {
+  const TrajectoryLine line = line_of(wire, screw);
+  text.clear();
+  append_wire(text, wire);
+  add_placed_wire(scene, to_float3(line.outside.v), to_float3(line.target.v), text, wire.within(),
+                  label_of(HologramKind::kTrajectory, 2));
 }
 
 Grade grade_of_tool(const Visibility& visible, const VisibilityRules& rules) {

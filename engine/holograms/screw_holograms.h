@@ -17,6 +17,13 @@ struct TrajectoryLine {
 };
 [[nodiscard]] TrajectoryLine trajectory_of(const PlacedScrew& screw);
 
+/// A wire as it was measured, in the world: its outer end, abreast of the entry, as deep as
+/// planned.
+[[nodiscard]] TrajectoryLine line_of(const PlacedWire& wire, const PlacedScrew& screw);
+/// That, beside H4; `text` is room for its words.
+void add_wire(render::Scene& scene, const PlacedScrew& screw, const PlacedWire& wire,
+              std::string& text);
+
 /// Of a visible H5 and its H6. What is only predicted has no number and is never called good.
 [[nodiscard]] Grade grade_of_tool(const Visibility& visible, const VisibilityRules& rules);
 

@@ -7,6 +7,7 @@
 #include "engine/holograms/render_values.h"
 #include "engine/holograms/screw_holograms.h"
 #include "engine/session/numbers_wording.h"
+#include "engine/session/wire_wording.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
@@ -141,6 +142,12 @@ void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& v
                                    const VisibilityRules& rules, ShownFrame& frame) {
   const TrajectoryLine line = trajectory_of(screw);
   add(frame, HologramKind::kTrajectory).points_in_world = {line.outside, line.entry, line.target};
+  if (visible.wire) {
+    const TrajectoryLine placed = line_of(*visible.wire, screw);
+    ShownHologram& wire = add(frame, HologramKind::kTrajectory);
+    append_wire(wire.text, *visible.wire);
+    wire.points_in_world = {placed.outside, placed.entry, placed.target};
+  }
   if (visible.triangle) {
     const nav::ScrewGuidance& shown = *visible.triangle;
     add(frame, HologramKind::kTriangle).points_in_world = {shown.a, shown.b, shown.c};

@@ -33,7 +33,8 @@ std::optional<PlacedLevel> usable(const LevelState& level) {
 
 /// H4 depends on the registration alone, so a lost tool leaves it.
 std::optional<PlacedScrew> selected_screw(const Guidance& g) {
-  if (g.step != Step::kGuide || g.level >= g.levels.size()) {
+  const bool at_screw = g.step == Step::kGuide || g.step == Step::kPlaced;
+  if (!at_screw || g.level >= g.levels.size()) {
     return std::nullopt;
   }
   const auto level = usable(g.levels[g.level]);
@@ -107,7 +108,10 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   // Once every screw is in, the names would only cover the rod's lengths.
   out.entry_labels = g.step != Step::kRod && g.step != Step::kDone;
   out.trajectory = selected_screw(g);
-  if (out.trajectory) {
+  // What is measured of a wire that stands in the bone is as old as its registration, not as a
+  // pose.
+  out.wire = out.trajectory && g.step == Step::kPlaced ? g.wire : nullptr;
+  if (out.trajectory && g.step == Step::kGuide) {
     const bool fresh = g.tool && display_time - g.tool->pose_time <= g.stale_after;
     const ToolGuidance* tool = fresh ? &*g.tool : nullptr;
     decide_tool(tool, rules, out);

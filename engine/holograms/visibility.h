@@ -49,6 +49,7 @@ struct Visibility {
   std::vector<PlacedLevel> entries_of;              ///< H3: the levels whose entry points are shown
   bool entry_labels = false;                        ///< their names too
   std::optional<PlacedScrew> trajectory;            ///< H4 of the selected screw
+  const PlacedWire* wire = nullptr;                 ///< beside H4, as it was measured; or null
   const nav::ScrewGuidance* triangle = nullptr;     ///< H5, predicted to the display time; or null
   const nav::ScrewGuidance* measurement = nullptr;  ///< the numbers of H6 and H9; or null
   /// H13 and its row of the status line: of the pair of `measurement`, or null.

@@ -53,6 +53,10 @@ ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
   if (index < state.clearance_at_depth.size()) {
     screw.tracked = state.clearance_at_depth[index];
   }
+  if (index < state.wires.size()) {
+    screw.wire = state.wires[index];
+    screw.redone = state.redone[index];
+  }
   return screw;
 }
 

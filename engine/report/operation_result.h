@@ -28,6 +28,8 @@ struct ScrewOutcome {
   std::optional<nav::ScrewClearance> tracked = {};
   /// Of the planned screw along the executed axis, against the truth.
   std::optional<nav::Clearance> executed = {};
+  WireOutcome wire = {};  ///< as it was measured where it stood
+  int redone = 0;         ///< so often through another entry
 };
 
 struct LevelOutcome {

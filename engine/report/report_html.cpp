@@ -16,6 +16,7 @@
 #include "engine/report/registration_page.h"
 #include "engine/report/report_values.h"
 #include "engine/report/script_json.h"
+#include "engine/report/wire_section.h"
 #include "nav/evaluation/errors.h"
 
 namespace orthonav::engine {
@@ -77,7 +78,7 @@ void table_of_levels(const json& report, std::string& html) {
       "<th>RMSE <small>mm</small></th><th>TRE at the screws <small>mm</small></th>"
       "<th>predicted <small>mm</small></th><th>points</th><th>time <small>s</small></th>"
       "<th>screw</th><th>angle error <small>\u00b0</small></th>"
-      "<th>entry error <small>mm</small></th></tr></thead><tbody>";
+      "<th>entry error <small>mm</small></th><th>wire as placed</th></tr></thead><tbody>";
   for (const json& level : report["levels"]) {
     const json screws = level.value("screws", json::array());
     const std::size_t rows = std::max<std::size_t>(1, screws.size());
@@ -94,9 +95,10 @@ void table_of_levels(const json& report, std::string& html) {
       if (i < screws.size()) {
         html += "<td>" + html_escaped(text_of(screws[i], "side")) + "</td><td>" +
                 figure(screws[i], "angle_error_deg", 2) + "</td><td>" +
-                figure(screws[i], "entry_error_mm", 2) + "</td>";
+                figure(screws[i], "entry_error_mm", 2) + "</td><td>" + wire_as_placed(screws[i]) +
+                "</td>";
       } else {
-        html += "<td>\u2013</td><td>\u2013</td><td>\u2013</td>";
+        html += "<td>\u2013</td><td>\u2013</td><td>\u2013</td><td>\u2013</td>";
       }
       html += "</tr>";
     }

@@ -23,6 +23,24 @@ void put_quantile(Json& object, const char* key, const std::vector<double>& valu
   }
 }
 
+/// Nothing where nobody was asked to measure it.
+void put_wire(Json& out, const ScrewOutcome& screw) {
+  if (!screw.wire.asked) {
+    return;
+  }
+  if (const auto& wire = screw.wire.measured) {
+    out["wire"] = Json{{"angle_deg", degrees(wire->axis.angle_rad.value)},
+                       {"angle_sd_deg", degrees(wire->axis.angle_rad.sd)},
+                       {"entry_mm", wire->axis.entry_m.value * 1e3},
+                       {"entry_sd_mm", wire->axis.entry_m.sd * 1e3},
+                       {"within", wire->within()},
+                       {"kept", wire->kept}};
+  } else {
+    out["wire"] = "not measured";
+  }
+  out["redone"] = screw.redone;
+}
+
 Json screw_json(const ScrewOutcome& screw) {
   Json out{{"side", name_of(screw.side)}};
   if (screw.angle_error_rad) {
@@ -30,6 +48,7 @@ Json screw_json(const ScrewOutcome& screw) {
   }
   put_mm(out, "entry_error_mm", screw.entry_error_m);
   put_clearance(out, screw);
+  put_wire(out, screw);
   return out;
 }
 

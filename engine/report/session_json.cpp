@@ -15,6 +15,23 @@ void put_length_mm(Json& object, const char* key, const std::optional<double>& l
   }
 }
 
+/// Nothing where nobody was asked to measure it.
+void put_recorded_wire(Json& out, const RecordedScrew& screw) {
+  if (!screw.wire_asked && !screw.wire) {
+    return;
+  }
+  if (const auto& wire = screw.wire) {
+    out["wire"] = Json{{"angle_deg", degrees(wire->angle_rad)},
+                       {"angle_sd_deg", degrees(wire->angle_sd_rad)},
+                       {"entry_mm", wire->entry_m * 1e3},
+                       {"entry_sd_mm", wire->entry_sd_m * 1e3},
+                       {"within", wire->within},
+                       {"kept", wire->kept}};
+  } else {
+    out["wire"] = "not measured";
+  }
+}
+
 Json recorded_screw_json(const RecordedScrew& screw) {
   Json out{{"side", name_of(screw.side)}, {"done", screw.done}};
   if (screw.at_depth) {
@@ -24,6 +41,10 @@ Json recorded_screw_json(const RecordedScrew& screw) {
                            {"depth_mm", screw.at_depth->depth_m * 1e3}};
     put_length_mm(out["at_depth"], "clearance_mm", screw.at_depth->clearance_m);
     put_length_mm(out["at_depth"], "clearance_95_mm", screw.at_depth->clearance_95_m);
+  }
+  put_recorded_wire(out, screw);
+  if (screw.redone > 0) {
+    out["redone"] = screw.redone;
   }
   return out;
 }

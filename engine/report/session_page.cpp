@@ -108,18 +108,38 @@ void put_levels(const SessionRecord& session, std::string& html) {
   }
 }
 
+/// "0.8 ± 0.4°, 0.6 ± 0.3 mm, kept; redone once": how the wire was measured where it stood.
+std::string wire_text(const RecordedScrew& screw) {
+  std::string text = "\u2013";
+  if (const auto& wire = screw.wire) {
+    text = html_number(degrees(wire->angle_rad), 1) + " \u00b1 " +
+           html_number(degrees(wire->angle_sd_rad), 1) + "\u00b0, " +
+           html_number(wire->entry_m * 1e3, 1) + " \u00b1 " +
+           html_number(wire->entry_sd_m * 1e3, 1) + " mm";
+    if (!wire->within) {
+      text = "<span class=bad>" + text + "</span>" + (wire->kept ? ", kept" : "");
+    }
+  } else if (screw.wire_asked) {
+    text = "not measured";
+  }
+  if (screw.redone > 0) {
+    text += "; redone" + (screw.redone > 1 ? " " + std::to_string(screw.redone) + " times" : "");
+  }
+  return text;
+}
+
 void put_screws(const SessionRecord& session, std::string& html) {
   const bool any = std::any_of(session.levels.begin(), session.levels.end(),
                                [](const RecordedLevel& level) { return !level.screws.empty(); });
   if (!any) {
     return put_nothing("Screws", html);
   }
-  html +=
-      table_head("Screws, as measured at depth",
-                 "<th>screw</th><th>done at</th><th>angle to the plan <small>\u00b0</small></th>"
-                 "<th>tip off the axis <small>mm</small></th><th>tip to entry "
-                 "<small>mm</small></th><th>depth <small>mm</small></th><th>clearance "
-                 "<small>mm</small></th><th>95 % above <small>mm</small></th>");
+  html += table_head(
+      "Screws, as measured at depth",
+      "<th>screw</th><th>done at</th><th>angle to the plan <small>\u00b0</small></th>"
+      "<th>tip off the axis <small>mm</small></th><th>tip to entry "
+      "<small>mm</small></th><th>depth <small>mm</small></th><th>clearance "
+      "<small>mm</small></th><th>95 % above <small>mm</small></th><th>wire as placed</th>");
   for (const RecordedLevel& level : session.levels) {
     for (const RecordedScrew& screw : level.screws) {
       html += "<tr>" + cell(html_escaped(level.label) + " " + name_of(screw.side)) +
@@ -130,11 +150,11 @@ void put_screws(const SessionRecord& session, std::string& html) {
                 cell(html_number(pose->tip_to_entry_m * 1e3, 2)) +
                 cell(html_number(pose->depth_m * 1e3, 2)) +
                 cell(recorded(pose->clearance_m, 1e3, 2)) +
-                cell(recorded(pose->clearance_95_m, 1e3, 2)) + "</tr>";
+                cell(recorded(pose->clearance_95_m, 1e3, 2)) + cell(wire_text(screw)) + "</tr>";
         continue;
       }
       const std::string none = cell(screw.done ? kNotRecorded : "\u2013");
-      html += none + none + none + none + none + none + "</tr>";
+      html += none + none + none + none + none + none + cell(wire_text(screw)) + "</tr>";
     }
   }
   html += kTableEnd;

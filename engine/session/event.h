@@ -29,6 +29,10 @@ enum class Event : std::uint8_t {
   kLandmarkTouched,      ///< "next" was said and the landmark was found where it was recorded
   kLandmarkMissing,      ///< "next" was said before the landmark was touched
   kLandmarkMoved,        ///< the landmark was touched, farther from where it was than may be
+  kWireSettled,          ///< "next" was said, and nothing of the wire is left to decide
+  kWireUndecided,        ///< "next" was said of a wire beyond a limit
+  kScrewReplanned,       ///< "delete" was said of it, and another entry was found
+  kNoOtherEntry,         ///< and none was found
   kAnotherScrew,         ///< the level has a further screw
   kAnotherLevel,         ///< the level is finished, a further one is planned
   kNoScrewLeft,          ///< every screw of the plan is done
@@ -43,7 +47,7 @@ enum class Event : std::uint8_t {
   kReferenceSeen,        ///< one is seen again, or for the first time
   kReferenceMoved,       ///< references moved against each other: what hangs on them means nothing
 };
-inline constexpr std::size_t kEventCount = 35;
+inline constexpr std::size_t kEventCount = 39;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -71,6 +75,13 @@ enum class Action : std::uint8_t {
   kVerifyAgain,
   kCorrectTip,
   kSelectScrew,
+  kExpectWire,
+  kMeasureWire,
+  kJudgeWire,
+  kAskAboutWire,
+  kKeepWire,
+  kJudgeRedo,
+  kOfferToKeep,
   kFinishScrew,
   kBeginRod,
   kBeginTouch,
@@ -88,6 +99,6 @@ enum class Action : std::uint8_t {
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 40;
+inline constexpr std::size_t kActionCount = 47;
 
 }  // namespace orthonav::engine

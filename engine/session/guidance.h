@@ -10,6 +10,7 @@
 #include "base/tracked.h"
 #include "engine/case/operation.h"
 #include "engine/session/landmark.h"
+#include "engine/session/placed_wire.h"
 #include "engine/session/status_line.h"
 #include "engine/session/workflow.h"
 #include "nav/guidance/clearance_spread.h"
@@ -41,6 +42,12 @@ struct TagSizeWarning {
   double fraction = 0.0;
 };
 
+/// What became of a wire that was placed.
+struct WireOutcome {
+  bool asked = false;  ///< for a measurement, before the screw was declared done
+  std::optional<PlacedWire> measured;
+};
+
 /// Where one level of the operation stands.
 struct LevelState {
   OperatedLevel plan;
@@ -64,6 +71,9 @@ struct LevelState {
   std::vector<std::optional<nav::ScrewClearance>> clearance_at_depth;
   /// Of each screw that is done: where its tool went, as tracked.
   std::vector<std::optional<nav::ExecutedTrajectory>> executed;
+  std::vector<WireOutcome> wires;  ///< of each screw that is done
+  /// How often each screw was redone; its plan has the newest entry.
+  std::vector<int> redone;
   /// Finished, and the map has moved since: kept for the report, shown nowhere.
   bool map_moved = false;
 
@@ -159,6 +169,8 @@ struct Guidance {
   std::optional<ToolGuidance> tool;  ///< absent: not guiding, or nothing fresh to guide on
   /// While guiding, whether the tool is seen or not: a stop stays while it is hidden.
   nav::DrillView drill;
+  /// In `placed`, the wire as it was measured; null before that.
+  const PlacedWire* wire = nullptr;
   std::span<const RodState> rods;
   bool rods_moved_away = false;
   std::span<const ToolSight> tools;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/session/tool_in_vertebra.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -13,27 +15,6 @@ constexpr double kWithdrawn_m = 0.001;
 constexpr double kOffTheScrew_m = 0.015;
 /// A tool that is turned farther from the plan is not aimed at it: 30°.
 constexpr double kAway_rad = 0.52;
-
-/// A tool as the bone has it.
-struct ToolInVertebra {
-  nav::Axis<Vertebra> axis;  ///< from the tip into the bone
-  /// Of its pose relative to the bone; absent where the registration's is not known.
-  std::optional<nav::PoseUncertainty> uncertainty;
-};
-
-ToolInVertebra in_vertebra(const nav::Registration& registration, const nav::TrackedPose& pose,
-                           const nav::ToolGeometry& tool) {
-  const auto vertebra_from_world = registration.world_from_vertebra.inverse();
-  const auto vertebra_from_marker = vertebra_from_world * pose.value;
-  ToolInVertebra found{
-      {vertebra_from_marker * tool.tip_in_marker, -(vertebra_from_marker * tool.axis_in_marker).v},
-      std::nullopt};
-  if (registration.uncertainty) {
-    found.uncertainty = nav::with_tool(*registration.uncertainty, vertebra_from_world,
-                                       vertebra_from_marker * Point<Marker>{}, pose.covariance);
-  }
-  return found;
-}
 
 }  // namespace
 

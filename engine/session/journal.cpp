@@ -37,49 +37,6 @@ void put_judgement(Json& line, const nav::Registration& result) {
   }
 }
 
-/// Along the tool at depth, where it is known.
-void put_clearance_at_depth(Json& line, const LevelState& level, nav::Side side) {
-  for (std::size_t s = 0; s < level.clearance_at_depth.size(); ++s) {
-    const auto& clearance = level.clearance_at_depth[s];
-    if (level.plan.screws[s].side != side || !clearance) {
-      continue;
-    }
-    line["clearance_mm"] = clearance->least.clearance_m * 1e3;
-    line["grade"] = nav::name_of(nav::grade_of(clearance->least.clearance_m));
-    if (clearance->spread) {
-      line["clearance_95_mm"] = clearance->spread->lower_95_m * 1e3;
-    }
-  }
-}
-
-Json scaled(const std::array<double, 9>& covariance, double factor) {
-  Json out = Json::array();
-  for (const double value : covariance) {
-    out.push_back(value * factor);
-  }
-  return out;
-}
-
-/// Where the tool went, in the vertebra's frame.
-void put_executed(Json& line, const LevelState& level, nav::Side side) {
-  for (std::size_t s = 0; s < level.executed.size(); ++s) {
-    const auto& executed = level.executed[s];
-    if (level.plan.screws[s].side != side || !executed) {
-      continue;
-    }
-    const Vec3 direction = executed->axis.direction;
-    Json& out = line["executed"];
-    out["pairs"] = executed->pairs;
-    out["entry_mm"] = millimetres(executed->axis.point.v);
-    out["direction"] = Json::array({direction.x, direction.y, direction.z});
-    out["depth_mm"] = executed->depth_m * 1e3;
-    if (executed->point_covariance_m2) {
-      out["entry_covariance_mm2"] = scaled(*executed->point_covariance_m2, 1e6);
-      out["direction_covariance_rad2"] = scaled(*executed->direction_covariance_rad2, 1.0);
-    }
-  }
-}
-
 Json plan_of(const std::vector<PlannedLevel>& levels) {
   Json plan = Json::array();
   for (const PlannedLevel& level : levels) {
@@ -212,22 +169,6 @@ void Journal::accepted(Timestamp time, const LevelState& level) {
   if (level.registration->tre_95_m > 0.0) {
     line["tre_95_mm"] = level.registration->tre_95_m * 1e3;
   }
-  add_line(*log_, line, kDurable);
-}
-
-void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
-                         const ToolGuidance* at_depth) {
-  Json line = journal_line(file_ticks(time), time, "screw", level);
-  line["side"] = name_of(screw.side);
-  if (at_depth && at_depth->measured) {
-    line["pose_time_100ns"] = ticks_100ns(at_depth->pose_time);
-    line["angle_deg"] = degrees(at_depth->measured->angle_rad);
-    line["tip_to_entry_mm"] = at_depth->measured->tip_to_entry_m * 1e3;
-    line["tip_off_axis_mm"] = at_depth->measured->tip_off_axis_m * 1e3;
-    line["depth_mm"] = at_depth->measured->depth_m * 1e3;
-  }
-  put_clearance_at_depth(line, level, screw.side);
-  put_executed(line, level, screw.side);
   add_line(*log_, line, kDurable);
 }
 

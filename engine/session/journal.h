@@ -68,6 +68,10 @@ class Journal : public SessionObserver {
                         const LandmarkTouch& touch) override;
   void tips_compared(Timestamp time, const TipDifference& difference) override;
   void landmark_dropped(Timestamp time, const LevelState& level) override;
+  void wire_measured(Timestamp time, const LevelState& level, std::size_t screw,
+                     const PlacedWire& wire) override;
+  void screw_replanned(Timestamp time, const LevelState& level, std::size_t screw,
+                       const nav::OtherEntry& entry) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;

@@ -9,6 +9,7 @@
 #include "base/angle.h"
 #include "engine/io/json_document.h"
 #include "engine/session/journal_replay.h"
+#include "engine/session/journal_screw_reading.h"
 
 namespace orthonav::engine {
 namespace {
@@ -20,24 +21,12 @@ constexpr auto kMostBack = std::chrono::minutes(1);
 /// Beyond it a time in nanoseconds is no time.
 constexpr double kLatest_ns = 4e18;
 
-std::optional<double> optional_number(const JsonNode& line, const char* key, double unit = 1.0) {
-  return line.has(key) ? std::optional(line.number(key) * unit) : std::nullopt;
-}
-
 std::size_t count_of(const JsonNode& line, const char* key) {
   const int count = line.integer(key);
   if (count < 0) {
     line.refuse(key, "is negative");
   }
   return static_cast<std::size_t>(std::max(0, count));
-}
-
-Side side_of(const JsonNode& line) {
-  const std::string side = line.text("side");
-  if (side != "left" && side != "right") {
-    line.refuse("side", "is \"" + side + "\", must be left or right");
-  }
-  return side == "right" ? Side::kRight : Side::kLeft;
 }
 
 /// The value of an enumeration whose name stands under `key`.
@@ -75,18 +64,6 @@ RecordedLandmark landmark_of(const JsonNode& line) {
   const bool first = line.flag_or("first", false);
   return {first, first ? 0.0 : line.number("off_mm") * kMetresPerMm,
           line.number("limit_mm") * kMetresPerMm, first || line.flag_or("within", false), false};
-}
-
-std::optional<RecordedPose> pose_of(const JsonNode& line) {
-  if (!line.has("angle_deg")) {
-    return std::nullopt;
-  }
-  return RecordedPose{line.number("angle_deg") * kRadiansPerDegree,
-                      line.number("tip_to_entry_mm") * kMetresPerMm,
-                      line.number("tip_off_axis_mm") * kMetresPerMm,
-                      line.number("depth_mm") * kMetresPerMm,
-                      optional_number(line, "clearance_mm", kMetresPerMm),
-                      optional_number(line, "clearance_95_mm", kMetresPerMm)};
 }
 
 RecordedRod rod_of(const JsonNode& line) {
@@ -216,8 +193,8 @@ class Reading {
                        line.number("limit_mm") * kMetresPerMm, line.flag_or("corrected", false)};
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
-    } else if (what == "screw") {
-      replay_.screw_done(line.text("level"), {side_of(line), true, time, pose_of(line)}, line);
+    } else if (what == "screw" || what == "wire" || what == "screw replanned") {
+      take_screw_line(what, line, time);
     } else if (what == "head" || what == "head dropped") {
       replay_.head(side_of(line), what == "head");
     } else if (what == "rod") {
@@ -227,6 +204,17 @@ class Reading {
       ended_ = true;
     } else if (what != "not understood") {
       line.refuse("what", "\"" + what.substr(0, 40) + "\" is unknown");
+    }
+  }
+
+  void take_screw_line(const std::string& what, const JsonNode& line, Timestamp time) {
+    const std::string level = line.text("level");
+    if (what == "screw") {
+      replay_.screw_done(level, screw_of(line, time), line);
+    } else if (what == "wire") {
+      replay_.wire_measured(level, side_of(line), wire_of(line), line);
+    } else {
+      replay_.screw_replanned(level, side_of(line), line);
     }
   }
 

@@ -19,7 +19,7 @@ void JournalReplay::plan(const std::string& label, const std::vector<std::string
       return line.refuse("screws", "must be left or right");
     }
     if (level) {
-      level->screws.push_back({side == "right" ? Side::kRight : Side::kLeft, false, {}, {}});
+      level->screws.emplace_back().side = side == "right" ? Side::kRight : Side::kLeft;
     }
   }
 }
@@ -173,19 +173,47 @@ void JournalReplay::landmark_dropped(const std::string& label, const JsonNode& l
   }
 }
 
-void JournalReplay::screw_done(const std::string& label, const RecordedScrew& screw,
-                               const JsonNode& line) {
+RecordedScrew* JournalReplay::screw_of(const std::string& label, Side side, const JsonNode& line) {
   RecordedLevel* const level = level_named(label, line);
   if (!level) {
+    return nullptr;
+  }
+  for (RecordedScrew& screw : level->screws) {
+    if (screw.side == side) {
+      return &screw;
+    }
+  }
+  level->screws.emplace_back().side = side;
+  return &level->screws.back();
+}
+
+void JournalReplay::wire_measured(const std::string& label, Side side, const RecordedWire& wire,
+                                  const JsonNode& line) {
+  if (RecordedScrew* const screw = screw_of(label, side, line)) {
+    screw->wire = wire;
+  }
+}
+
+/// What was measured is of a wire that is taken out.
+void JournalReplay::screw_replanned(const std::string& label, Side side, const JsonNode& line) {
+  if (RecordedScrew* const screw = screw_of(label, side, line)) {
+    screw->wire.reset();
+    ++screw->redone;
+  }
+}
+
+void JournalReplay::screw_done(const std::string& label, const RecordedScrew& screw,
+                               const JsonNode& line) {
+  RecordedScrew* const known = screw_of(label, screw.side, line);
+  if (!known) {
     return;
   }
-  const auto found =
-      std::find_if(level->screws.begin(), level->screws.end(),
-                   [&](const RecordedScrew& planned) { return planned.side == screw.side; });
-  if (found == level->screws.end()) {
-    level->screws.push_back(screw);
-  } else {
-    *found = screw;
+  known->done = screw.done;
+  known->time = screw.time;
+  known->at_depth = screw.at_depth;
+  known->wire_asked = screw.wire_asked;
+  if (line.text_or("wire", "") == "not measured") {
+    known->wire.reset();  // an earlier one was of a registration that is gone
   }
 }
 

@@ -29,6 +29,9 @@ class JournalReplay {
   void check_dropped(const std::string& label, const JsonNode& line);
   void landmark(const std::string& label, RecordedLandmark touch, const JsonNode& line);
   void landmark_dropped(const std::string& label, const JsonNode& line);
+  void wire_measured(const std::string& label, Side side, const RecordedWire& wire,
+                     const JsonNode& line);
+  void screw_replanned(const std::string& label, Side side, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
   /// A head was touched, or the last one taken back.
   void head(Side side, bool touched);
@@ -38,6 +41,8 @@ class JournalReplay {
   /// The level of that name, made where the plan did not tell of it. Null, with the line refused,
   /// where there are too many.
   RecordedLevel* level_named(const std::string& label, const JsonNode& line);
+  /// Null where there is no such level. Made where the plan did not tell of it.
+  RecordedScrew* screw_of(const std::string& label, Side side, const JsonNode& line);
   RecordedLevel* current();
   RecordedRod& rod_of(Side side);
   void forget_registration(RecordedLevel& level);

@@ -25,10 +25,20 @@ struct TouchRefusal {
     kTooMany,       ///< there are nav::kMostCheckPoints already
     kTouchesApart,  ///< of one place, by `value_m`, above `limit_m`
     kTooNear,       ///< `value_m` from a patient reference, at least `limit_m` needed
+    // Of the sleeve over a wire.
+    kGuideNotSeen,
+    kReferenceNotSeen,
+    kSleeveTurned,    ///< by `turn_rad` (root mean square), above `turn_limit_rad`
+    kOffTheScrew,     ///< its axis passes the entry at `value_m`, limit `limit_m`
+    kAcrossTheScrew,  ///< it is turned off the plan by `turn_rad`, limit `turn_limit_rad`
+    kEntryUnsure,     ///< SD `value_m` of the wire's place, limit `limit_m`
+    kAngleUnsure,     ///< SD `turn_rad` of its angle, limit `turn_limit_rad`
   };
   Kind kind = Kind::kPressAgain;
   double value_m = 0.0;
   double limit_m = 0.0;
+  double turn_rad = 0.0;
+  double turn_limit_rad = 0.0;
 };
 
 // What the surgeon must be told, as data; engine/session/wording.h makes the text of it.
@@ -40,7 +50,7 @@ struct NotUnderstood {};
 /// "accept" was said before the registration was shown.
 struct SaidBeforeShown {};
 struct NothingToDelete {
-  enum class What : std::uint8_t { kRegion, kCheckPoint, kHead, kLandmark };
+  enum class What : std::uint8_t { kRegion, kCheckPoint, kHead, kLandmark, kWire };
   What what;
 };
 /// The last saved region goes when "delete" is said again.
@@ -58,7 +68,7 @@ struct ChecksMissing {
   nav::CheckAdvice advice;
 };
 struct TouchNotRecorded {
-  enum class What : std::uint8_t { kCheckPoint, kHead, kLandmark, kGuideTip };
+  enum class What : std::uint8_t { kCheckPoint, kHead, kLandmark, kGuideTip, kWire };
   What what;
   TouchRefusal why;
 };
@@ -76,6 +86,19 @@ struct LandmarkMoved {
   double limit_m = 0.0;
   bool anchored = false;  ///< to a patient reference: what moves with it shows nowhere
 };
+/// "next" was said of a wire beyond a limit, before it was kept or redone.
+struct WireUndecided {};
+/// There is no other entry through which the screw stays inside the bone.
+struct NoOtherEntry {};
+/// A screw that was redone so often is redone again when "delete" is said again.
+struct ConfirmRedo {
+  int redone = 0;
+};
+/// A screw is redone through another entry.
+struct ScrewReplanned {
+  double from_hole_m = 0.0;
+  double clearance_m = 0.0;  ///< to the cortex, as planned now
+};
 struct NoRod {
   Error why;
 };
@@ -90,10 +113,11 @@ struct NoImages {};
 struct Ended {};
 
 /// Nothing, or one of these.
-using Message = std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown,
-                             NothingToDelete, ConfirmDelete, RegistrationRefused, ChecksMissing,
-                             TouchNotRecorded, LandmarkMissing, LandmarkMoved, TipCorrected, NoRod,
-                             MapMoved, ReferenceMoved, NoImages, Ended>;
+using Message =
+    std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
+                 ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
+                 LandmarkMissing, LandmarkMoved, TipCorrected, WireUndecided, NoOtherEntry,
+                 ConfirmRedo, ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// What it is about, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);

@@ -2,14 +2,56 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
+#include "base/angle.h"
 #include "base/length_text.h"
 #include "base/printed.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
 namespace {
+
+/// Of what only a sleeve over a wire is refused for.
+void append_sleeve_refusal(std::string& out, const TouchRefusal& why) {
+  using enum TouchRefusal::Kind;
+  const auto length = [&](const char* format) {
+    append_beside_limit(out, format, why.value_m * 1e3, why.limit_m * 1e3);
+  };
+  const auto angle = [&](const char* format) {
+    append_beside_limit(out, format, degrees(why.turn_rad), degrees(why.turn_limit_rad));
+  };
+  switch (why.kind) {
+    case kGuideNotSeen:
+      out += "guide not seen all the while";
+      break;
+    case kReferenceNotSeen:
+      out += "reference not seen";
+      break;
+    case kSleeveTurned:
+      angle("sleeve turned %.1f°, limit %.1f°");
+      break;
+    case kOffTheScrew:
+      length("sleeve %.0f mm off the entry, limit %.0f mm");
+      break;
+    case kAcrossTheScrew:
+      angle("sleeve %.0f° off the plan, limit %.0f°");
+      break;
+    case kEntryUnsure:
+      if (std::isfinite(why.value_m)) {
+        length("place known to ± %.1f mm, limit %.1f mm");
+      } else {
+        out += "how sure the registration is, is not known";
+      }
+      break;
+    case kAngleUnsure:
+      angle("angle known to ± %.1f°, limit %.1f°");
+      break;
+    default:
+      break;
+  }
+}
 
 void append_refusal(std::string& out, const TouchRefusal& why) {
   switch (why.kind) {
@@ -37,6 +79,8 @@ void append_refusal(std::string& out, const TouchRefusal& why) {
       append_beside_limit(out, "%.0f mm from the reference, at least %.0f mm: make it farther away",
                           why.value_m * 1e3, why.limit_m * 1e3);
       break;
+    default:
+      append_sleeve_refusal(out, why);
   }
 }
 
@@ -60,9 +104,9 @@ struct MessageWriter {
   }
   void operator()(const NothingToDelete& m) {
     text.begin(Importance::kMessage);
-    constexpr std::array<std::string_view, 4> kTexts = {
+    constexpr std::array<std::string_view, 5> kTexts = {
         "nothing to delete", "no check point to delete", "no head to delete",
-        "no touch of the dimple to delete"};
+        "no touch of the dimple to delete", "measure the wire first"};
     out += kTexts[static_cast<std::size_t>(m.what)];
   }
   void operator()(const ConfirmDelete& m) {
@@ -97,8 +141,8 @@ struct MessageWriter {
   }
   void operator()(const TouchNotRecorded& m) {
     text.begin(Importance::kMessage);
-    constexpr std::array<std::string_view, 4> kWhat = {"check point", "head", "dimple",
-                                                       "guide's tip"};
+    constexpr std::array<std::string_view, 5> kWhat = {"check point", "head", "dimple",
+                                                       "guide's tip", "wire"};
     out.append(kWhat[static_cast<std::size_t>(m.what)]).append(" not recorded: ");
     append_refusal(out, m.why);
   }
@@ -118,6 +162,30 @@ struct MessageWriter {
     text.begin(Importance::kMessage);
     out += "guide's tip corrected by ";
     append_mm(out, m.by_m, 1);
+  }
+  void operator()(const WireUndecided& /*m*/) {
+    text.begin(Importance::kNext);
+    out += "not yet: ";
+    out += words::kKeepOrRedo;
+  }
+  void operator()(const NoOtherEntry& /*m*/) {
+    text.begin(Importance::kNext);
+    out += words::kNoOtherEntry;
+  }
+  void operator()(const ConfirmRedo& m) {
+    text.begin(Importance::kNext);
+    append_printed(out, m.redone == 1 ? "redone once already" : "redone %d times already",
+                   m.redone);
+    out += ": say delete again to redo it, accept to keep it";
+  }
+  void operator()(const ScrewReplanned& m) {
+    text.begin(Importance::kMessage);
+    out += "new entry ";
+    append_mm(out, m.from_hole_m, 1);
+    out += " from the hole, clearance ";
+    append_mm(out, m.clearance_m, 1);
+    text.begin(Importance::kNext, ": ");
+    out += "take the wire out and touch the dimple";
   }
   void operator()(const NoRod& m) {
     text.begin(Importance::kMessage);

@@ -66,6 +66,18 @@ class ObserverList : public SessionObserver {
       o->landmark_dropped(time, level);
     }
   }
+  void wire_measured(Timestamp time, const LevelState& level, std::size_t screw,
+                     const PlacedWire& wire) override {
+    for (auto* o : observers_) {
+      o->wire_measured(time, level, screw, wire);
+    }
+  }
+  void screw_replanned(Timestamp time, const LevelState& level, std::size_t screw,
+                       const nav::OtherEntry& entry) override {
+    for (auto* o : observers_) {
+      o->screw_replanned(time, level, screw, entry);
+    }
+  }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override {
     for (auto* o : observers_) {

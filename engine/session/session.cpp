@@ -61,12 +61,15 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
       landmarking_(options.landmark),
       tip_check_(options.tips, options.landmark),
       guiding_(options.drill),
+      placing_(options.placed),
       messages_(options.message_for, options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
     LevelState state;
     state.screw_done.assign(plan.screws.size(), false);
     state.clearance_at_depth.resize(plan.screws.size());
     state.executed.resize(plan.screws.size());
+    state.wires.resize(plan.screws.size());
+    state.redone.resize(plan.screws.size());
     state.plan = std::move(plan);
     levels_.push_back(std::move(state));
   }
@@ -203,6 +206,8 @@ void Session::collect_samples() {
   if (step_ == Step::kDigitize) {
     digitizing_.collect(pose, pointer);
     digitizing_.coach(level().plan);
+  } else if (step_ == Step::kPlaced) {
+    collect_sleeve();
   } else if (is_touched_in()) {
     if (pose.status == PoseStatus::kMeasured) {
       touch_of_step().add(pose.value * pointer.tip_in_marker);
@@ -224,7 +229,8 @@ void Session::collect_guide_tip() {
 
 std::optional<std::size_t> Session::tool_of_step() const {
   // With the landmark touched, what comes next is the guide's.
-  if (step_ == Step::kGuide || (by_touch(Step::kAccepted) && landmarking_.touched())) {
+  if (step_ == Step::kGuide || step_ == Step::kPlaced ||
+      (by_touch(Step::kAccepted) && landmarking_.touched())) {
     return tools_.guide();
   }
   if (step_ == Step::kDigitize || is_touched_in()) {

@@ -13,6 +13,7 @@
 #include "engine/session/landmarking.h"
 #include "engine/session/messages.h"
 #include "engine/session/method.h"
+#include "engine/session/placing.h"
 #include "engine/session/rod_templating.h"
 #include "engine/session/session_observer.h"
 #include "engine/session/session_options.h"
@@ -74,6 +75,7 @@ class Session {
   void watch_tool_in_use(Timestamp now);
   void collect_samples();
   void collect_guide_tip();
+  void collect_sleeve();
   [[nodiscard]] std::optional<std::size_t> tool_of_step() const;
   /// World is that of a patient reference.
   [[nodiscard]] bool anchored() const { return tools_.tracker().anchor() != nullptr; }
@@ -107,8 +109,8 @@ class Session {
   void drop_landmark(Timestamp time);
   void judge_landmark(Timestamp time);
   void verify_again(Timestamp time);
-  void select_screw();
-  void finish_screw(Timestamp time);
+  void begin_touch();
+  void end_touch();
   void drop_touch(Timestamp time);
   void record_head(Timestamp time);
   void drop_head(Timestamp time);
@@ -117,6 +119,15 @@ class Session {
   void forget_places(Event why, Timestamp time);
   [[nodiscard]] TouchedPlace touched_place(Timestamp time);
   [[nodiscard]] Touch& touch_of_step();
+
+  // session_screws.cpp: a screw is guided, its wire measured, finished or redone.
+  void act_on_screw(Action action, Timestamp time);
+  void select_screw();
+  void measure_wire(Timestamp time);
+  void keep_wire(Timestamp time);
+  void judge_redo(Timestamp time);
+  void finish_screw(Timestamp time);
+
   [[nodiscard]] LevelState& level() { return levels_[level_]; }
   [[nodiscard]] const LevelState& level() const { return levels_[level_]; }
 
@@ -137,6 +148,7 @@ class Session {
   Landmarking landmarking_;
   TipCheck tip_check_;
   Guiding guiding_;
+  Placing placing_;
   RodTemplating rod_templating_;
 
   Messages messages_;

@@ -35,11 +35,11 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kExpectLandmark: return landmarking_.begin();
     case kVerifyAgain: return verify_again(time);
     case kCorrectTip: return correct_tip(time);
-    case kSelectScrew: return select_screw();
-    case kFinishScrew: return finish_screw(time);
+    case kSelectScrew: case kExpectWire: case kMeasureWire: case kJudgeWire: case kAskAboutWire:
+    case kKeepWire: case kJudgeRedo: case kOfferToKeep: case kFinishScrew: return act_on_screw(action, time);
     case kBeginRod: return rod_templating_.begin();
-    case kBeginTouch: tip_check_.touch().begin(); return touch_of_step().begin();
-    case kEndTouch: tip_check_.touch().release(); return touch_of_step().release();
+    case kBeginTouch: return begin_touch();
+    case kEndTouch: return end_touch();
     case kDropTouch: return drop_touch(time);
     case kRecordHead: return record_head(time);
     case kDropHead: return drop_head(time);
@@ -95,6 +95,7 @@ void Session::clear_level() {
   digitizing_.clear();
   verifying_ = Verifying{};
   landmarking_.begin();
+  placing_.begin();
   guiding_.forget_guidance();
 }
 
@@ -127,38 +128,29 @@ void Session::drop_check(Timestamp time) {
   }
 }
 
-void Session::select_screw() {
-  digitizing_.clear();
-  guiding_.select_open_screw(level());
-}
-
-void Session::finish_screw(Timestamp time) {
-  LevelState& now = level();
-  const std::size_t screw = guiding_.screw();
-  now.screw_done[screw] = true;
-  now.clearance_at_depth[screw] = guiding_.clearance_at_depth(now, tools_.geometry(tools_.guide()));
-  now.executed[screw] = guiding_.executed();
-  if (observer_) {
-    observer_->screw_done(time, now, now.plan.screws[screw], guiding_.at_depth());
-  }
-  const auto finished = [](const LevelState& state) { return state.finished(); };
-  if (!finished(now)) {
-    handle(Event::kAnotherScrew, time);
-  } else if (!std::all_of(levels_.begin(), levels_.end(), finished)) {
-    handle(Event::kAnotherLevel, time);
-  } else if (rod_planned(levels_, nav::Side::kLeft) || rod_planned(levels_, nav::Side::kRight)) {
-    handle(Event::kNoScrewLeft, time);
-  } else {
-    handle(Event::kNoRodPlanned, time);
-  }
-}
-
-/// Only `verify`, `accepted` and `rod` are touched in: the table asks for no touch elsewhere.
+/// Places are touched in `verify`, `accepted` and `rod`: the table asks for no such touch
+/// elsewhere.
 Touch& Session::touch_of_step() {
   if (step_ == Step::kRod) {
     return rod_templating_.touch();
   }
   return step_ == Step::kAccepted ? landmarking_.touch() : verifying_.touch();
+}
+
+void Session::begin_touch() {
+  if (step_ == Step::kPlaced) {
+    return placing_.touch().begin();
+  }
+  tip_check_.touch().begin();
+  touch_of_step().begin();
+}
+
+void Session::end_touch() {
+  if (step_ == Step::kPlaced) {
+    return placing_.touch().release();
+  }
+  tip_check_.touch().release();
+  touch_of_step().release();
 }
 
 TouchedPlace Session::touched_place(Timestamp time) {
@@ -167,10 +159,17 @@ TouchedPlace Session::touched_place(Timestamp time) {
 }
 
 void Session::drop_touch(Timestamp time) {
-  touch_of_step().drop();
   using What = TouchNotRecorded::What;
-  const What elsewhere = step_ == Step::kAccepted ? What::kLandmark : What::kCheckPoint;
-  const What what = step_ == Step::kRod ? What::kHead : elsewhere;
+  What what = What::kCheckPoint;
+  if (step_ == Step::kPlaced) {
+    placing_.touch().drop();
+    what = What::kWire;
+  } else {
+    touch_of_step().drop();
+    what = step_ == Step::kRod        ? What::kHead
+           : step_ == Step::kAccepted ? What::kLandmark
+                                      : What::kCheckPoint;
+  }
   messages_.say(TouchNotRecorded{what, {TouchRefusal::Kind::kHeldTooLong}}, time);
 }
 
@@ -226,6 +225,7 @@ void Session::forget_places(Event why, Timestamp time) {
   digitizing_.forget_map();
   verifying_ = Verifying{};
   landmarking_.begin();
+  placing_.begin();
   guiding_.forget_guidance();
   rod_templating_.forget_map();
   tools_.forget_poses();

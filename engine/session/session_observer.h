@@ -3,6 +3,7 @@
 #include "engine/session/guidance.h"
 #include "engine/session/registration_outcome.h"
 #include "hal/api/devices.h"
+#include "nav/guidance/other_entry.h"
 
 namespace orthonav::engine {
 
@@ -31,6 +32,12 @@ class SessionObserver {
   virtual void tips_compared(Timestamp /*time*/, const TipDifference& /*difference*/) {}
   /// That touch was taken back; with a first one, the landmark.
   virtual void landmark_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// The wire of that screw was measured, or is kept as it was measured.
+  virtual void wire_measured(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
+                             const PlacedWire& /*wire*/) {}
+  /// That screw is redone; its plan has another entry by now.
+  virtual void screw_replanned(Timestamp /*time*/, const LevelState& /*level*/,
+                               std::size_t /*screw*/, const nav::OtherEntry& /*entry*/) {}
   /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
   /// at its depth, or null where it never did.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,

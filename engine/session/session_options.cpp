@@ -27,11 +27,8 @@ std::vector<std::string> SessionOptions::check() const {
   if (!(max_touch_spread_m > 0.0 && max_touch_spread_m <= 0.01)) {
     problems.push_back("max_touch_spread_m must lie in (0, 0.01]");
   }
-  for (const std::string& problem : check_points.check()) {
-    problems.push_back(problem);
-  }
-  for (const std::string& problem : landmark.check()) {
-    problems.push_back(problem);
+  for (const auto& of_a_part : {check_points.check(), landmark.check(), placed.check()}) {
+    problems.insert(problems.end(), of_a_part.begin(), of_a_part.end());
   }
   for (const std::string& problem : drill.check()) {
     problems.push_back("drill: " + problem);

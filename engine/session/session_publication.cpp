@@ -60,6 +60,7 @@ void Session::publish_steps(Timestamp now, Timestamp display_time) {
   if (step_ == Step::kGuide && in_use_.guidance_hidden()) {
     guiding_.lose_measurement();
   }
+  out.wire = step_ == Step::kPlaced && placing_.wire() ? &*placing_.wire() : nullptr;
   out.drill = step_ == Step::kGuide ? guiding_.drill() : nav::DrillView{};
   out.rods = rod_templating_.rods();
   out.rods_moved_away = rod_templating_.moved_away();
@@ -75,6 +76,7 @@ StepOnDisplay Session::step_on_display() const {
     case Step::kAccepted:
       return {step_, level().plan.label, {}};
     case Step::kGuide:
+    case Step::kPlaced:
       return {step_, level().plan.label, level().plan.screws[guiding_.screw()].side};
     case Step::kRod:
       return {step_, {}, rod_templating_.current().side};
@@ -130,6 +132,8 @@ StepState Session::state_of_step() const {
       return figures(level());
     case Step::kGuide:
       return guiding_.state(level());
+    case Step::kPlaced:
+      return placing_.state();
     case Step::kRod:
       return rod_templating_.state();
     case Step::kSetup:

@@ -21,11 +21,25 @@ struct RecordedPose {
   std::optional<double> clearance_95_m;
 };
 
+/// A wire as it was measured where it stood.
+struct RecordedWire {
+  double angle_rad = 0.0;
+  double angle_sd_rad = 0.0;
+  double entry_m = 0.0;
+  double entry_sd_m = 0.0;
+  bool within = false;  ///< both limits
+  bool kept = false;    ///< by the surgeon's word, beyond one
+};
+
 struct RecordedScrew {
   Side side = Side::kLeft;
   bool done = false;
   std::optional<Timestamp> time;         ///< when it was declared done
   std::optional<RecordedPose> at_depth;  ///< absent where the tool never stood at its depth
+  bool wire_asked =
+      false;  ///< its wire was to be measured before it was done; not in older journals
+  std::optional<RecordedWire> wire = {};  ///< as it was measured last, of the newest entry
+  int redone = 0;                         ///< so often through another entry
 };
 
 /// One registration that was asked for. What the journal does not hold is absent.

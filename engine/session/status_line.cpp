@@ -18,16 +18,41 @@ ChecksAsked asked_by(const nav::CheckAdvice& advice) {
   return ChecksAsked::kNone;
 }
 
+ChecksAsked asked_in(const Message& message) {
+  if (std::holds_alternative<LandmarkMissing>(message) ||
+      std::holds_alternative<LandmarkMoved>(message) ||
+      std::holds_alternative<ScrewReplanned>(message)) {
+    return ChecksAsked::kTouchMore;
+  }
+  if (std::holds_alternative<WireUndecided>(message) ||
+      std::holds_alternative<ConfirmRedo>(message)) {
+    return ChecksAsked::kDecideOnWire;
+  }
+  if (std::holds_alternative<NoOtherEntry>(message)) {
+    return ChecksAsked::kKeepWire;
+  }
+  const auto* missing = std::get_if<ChecksMissing>(&message);
+  return missing ? asked_by(missing->advice) : ChecksAsked::kNone;
+}
+
+ChecksAsked asked_about(const WireSoFar& state) {
+  if (state.wire == nullptr) {
+    return ChecksAsked::kMeasureWire;
+  }
+  if (!state.wire->undecided()) {
+    return ChecksAsked::kPassed;
+  }
+  return state.no_other_entry ? ChecksAsked::kKeepWire : ChecksAsked::kDecideOnWire;
+}
+
 }  // namespace
 
 ChecksAsked checks_asked(const StatusLine& line) {
   if (line.message) {
-    if (std::holds_alternative<LandmarkMissing>(*line.message) ||
-        std::holds_alternative<LandmarkMoved>(*line.message)) {
-      return ChecksAsked::kTouchMore;
-    }
-    const auto* missing = std::get_if<ChecksMissing>(line.message);
-    return missing ? asked_by(missing->advice) : ChecksAsked::kNone;
+    return asked_in(*line.message);
+  }
+  if (const auto* wire = std::get_if<WireSoFar>(&line.state)) {
+    return asked_about(*wire);
   }
   if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {
     if (!landmark->last || landmark->last->missing > 0) {

@@ -8,6 +8,7 @@
 
 #include "engine/session/landmark.h"
 #include "engine/session/message.h"
+#include "engine/session/placed_wire.h"
 #include "engine/session/tip_check.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
@@ -48,13 +49,18 @@ struct LandmarkSoFar {
   std::optional<LandmarkTouch> last;  ///< since the last screw
   const TipCheck* tips = nullptr;     ///< of the guide against the pointer; null: not compared
 };
+/// While a wire stands in the bone, before its screw is done.
+struct WireSoFar {
+  const PlacedWire* wire = nullptr;  ///< null: not measured
+  bool no_other_entry = false;       ///< it can't be redone
+};
 struct HeadsSoFar {
   std::size_t count = 0;
   std::optional<double> cut_length_m;  ///< of the rod through them, where it has instructions
   std::size_t bends = 0;
 };
 using StepState = std::variant<std::monostate, StrokesSoFar, RegistrationFigures, ChecksSoFar,
-                               LandmarkSoFar, HeadsSoFar>;
+                               LandmarkSoFar, WireSoFar, HeadsSoFar>;
 
 /// A command as it was heard. A surgeon who was misheard must see it at once, and one who was
 /// heard need not ask.

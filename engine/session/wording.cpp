@@ -8,6 +8,7 @@
 #include "base/length_text.h"
 #include "base/printed.h"
 #include "engine/session/message_wording.h"
+#include "engine/session/wire_wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::string_view kBetweenParts = " | ";
 
 std::string_view word_of(Step step) {
   constexpr std::array<std::string_view, kStepCount> kWords = {
-      "setup", "digitize", "verify", "accepted", "guide", "rod", "done"};
+      "setup", "digitize", "verify", "accepted", "guide", "placed", "rod", "done"};
   return kWords[static_cast<std::size_t>(step)];
 }
 
@@ -129,6 +130,7 @@ struct StateWriter {
     (*this)(landmark.figures);
     write_landmark(text, landmark, "; ");
   }
+  void operator()(const WireSoFar& wire) { write_wire(text, wire, ""); }
   void operator()(const HeadsSoFar& heads) {
     text.begin(Importance::kCount);
     append_printed(out, "%zu heads", heads.count);
@@ -175,6 +177,8 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     write_checks(text, *checks, "; ");
   } else if (const auto* landmark = std::get_if<LandmarkSoFar>(&line.state)) {
     write_landmark(text, *landmark, "; ");
+  } else if (const auto* wire = std::get_if<WireSoFar>(&line.state)) {
+    write_wire(text, *wire, "; ");
   }
 }
 

@@ -15,7 +15,7 @@
 namespace orthonav::engine {
 
 // Everything that a surgeon reads in words, made of data, in this one place: whoever
-// translates orthonav translates wording.cpp, message_wording.cpp and findings_wording.cpp. No
+// translates orthonav translates wording.cpp and the other *_wording.cpp. No
 // decision ever reads these texts.
 //
 // The status line is written anew for every frame, into strings that keep their room: the `append`
@@ -51,6 +51,9 @@ inline constexpr std::string_view kHeadNotLocated =
     "Head not located: nothing is shown in the world";
 inline constexpr std::string_view kTouchDimple = "touch the dimple";
 inline constexpr std::string_view kMakeDimple = "make a dimple in this bone and touch it";
+inline constexpr std::string_view kKeepOrRedo = "say accept to keep it, delete to redo it";
+inline constexpr std::string_view kNoOtherEntry =
+    "no other entry stays inside the bone, say accept to keep it";
 inline constexpr std::string_view kToEntry = "to entry";
 inline constexpr std::string_view kToTarget = "to target";
 inline constexpr std::string_view kPastTarget = "past target";

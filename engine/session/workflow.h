@@ -115,14 +115,10 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kAccepted, kReferenceMoved, kForgetMap, kDigitize},
 
     // A registration that turns out wrong while guiding can be thrown away at any screw.
-    {kGuide, kSayNext, kFinishScrew, kGuide},
+    {kGuide, kSayNext, kExpectWire, kPlaced},
     {kGuide, kSayReject, kClearLevel, kDigitize},
     {kGuide, kSayTwin, kToggleTwin, kGuide},
     {kGuide, kSayDrill, kBeginDrill, kGuide},
-    {kGuide, kAnotherScrew, kExpectLandmark, kAccepted},
-    {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
-    {kGuide, kNoScrewLeft, kBeginRod, kRod},
-    {kGuide, kNoRodPlanned, kFinish, kDone},
     {kGuide, kPress, kIgnore, kGuide},
     {kGuide, kRelease, kIgnore, kGuide},
     {kGuide, kClick, kIgnore, kGuide},
@@ -134,6 +130,33 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kReferenceHidden, kWarnLost, kGuide},
     {kGuide, kReferenceSeen, kIgnore, kGuide},
     {kGuide, kReferenceMoved, kForgetMap, kDigitize},
+
+    // The sleeve is set over the wire and clicked. A wire beyond a limit is kept by a word, or redone
+    // through another entry, once the landmark was touched again.
+    {kPlaced, kSayNext, kJudgeWire, kPlaced},
+    {kPlaced, kSayAccept, kKeepWire, kPlaced},
+    {kPlaced, kSayDelete, kJudgeRedo, kPlaced},
+    {kPlaced, kSayReject, kClearLevel, kDigitize},
+    {kPlaced, kWireSettled, kFinishScrew, kPlaced},
+    {kPlaced, kWireUndecided, kAskAboutWire, kPlaced},
+    {kPlaced, kScrewReplanned, kExpectLandmark, kAccepted},
+    {kPlaced, kNoOtherEntry, kOfferToKeep, kPlaced},
+    {kPlaced, kAnotherScrew, kExpectLandmark, kAccepted},
+    {kPlaced, kAnotherLevel, kBeginLevel, kDigitize},
+    {kPlaced, kNoScrewLeft, kBeginRod, kRod},
+    {kPlaced, kNoRodPlanned, kFinish, kDone},
+    {kPlaced, kPress, kBeginTouch, kPlaced},
+    {kPlaced, kRelease, kEndTouch, kPlaced},
+    {kPlaced, kClick, kMeasureWire, kPlaced},
+    {kPlaced, kDoubleClick, kIgnore, kPlaced},
+    {kPlaced, kHold, kDropTouch, kPlaced},
+    {kPlaced, kTrackingLost, kWarnLost, kPlaced},
+    {kPlaced, kPoseStale, kHideGuidance, kPlaced},
+    {kPlaced, kTrackingRegained, kShowGuidance, kPlaced},
+    {kPlaced, kMapMoved, kForgetMap, kDigitize},
+    {kPlaced, kReferenceHidden, kWarnLost, kPlaced},
+    {kPlaced, kReferenceSeen, kIgnore, kPlaced},
+    {kPlaced, kReferenceMoved, kForgetMap, kDigitize},
 
     // Heads are touched with the pointer's tip; the tip is averaged while the button is down. A
     // button held too long makes no click, so its touch is dropped and the surgeon told.
@@ -197,7 +220,11 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kAccepted, kTrackingLost, kIgnore, kAccepted},
     {kAccepted, kPoseStale, kIgnore, kAccepted},
     {kAccepted, kTrackingRegained, kIgnore, kAccepted},
+    {kGuide, kSayNext, kFinishScrew, kGuide},
     {kGuide, kAnotherScrew, kSelectScrew, kGuide},
+    {kGuide, kAnotherLevel, kBeginLevel, kDigitize},
+    {kGuide, kNoScrewLeft, kBeginRod, kRod},
+    {kGuide, kNoRodPlanned, kFinish, kDone},
 });
 // clang-format on
 

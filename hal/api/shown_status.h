@@ -13,8 +13,17 @@ namespace orthonav {
 
 /// Where the operation stands. One step at a time; the workflow's table decides every change
 /// (engine/session/workflow.h).
-enum class Step : std::uint8_t { kSetup, kDigitize, kVerify, kAccepted, kGuide, kRod, kDone };
-inline constexpr std::size_t kStepCount = 7;
+enum class Step : std::uint8_t {
+  kSetup,
+  kDigitize,
+  kVerify,
+  kAccepted,
+  kGuide,
+  kPlaced,
+  kRod,
+  kDone
+};
+inline constexpr std::size_t kStepCount = 8;
 
 /// A step and what it is about.
 struct StepOnDisplay {
@@ -43,6 +52,10 @@ enum class Notice : std::uint8_t {
   kLandmarkMissing,   ///< "next", before the landmark was touched
   kLandmarkMoved,     ///< it is not where it was: the registration is verified again
   kTipCorrected,      ///< of the guide, by the pointer's
+  kWireUndecided,     ///< "next", while a wire beyond a limit waits for a word
+  kNoOtherEntry,      ///< through which its screw could be redone
+  kConfirmRedo,       ///< a screw that was redone is so again when "delete" is said again
+  kScrewReplanned,    ///< it has another entry
   kNoRod,             ///< the heads give none
   kMapMoved,          ///< the headset's map: what was measured in it is gone
   kReferenceMoved,    ///< the patient's: what hung on it is gone
@@ -50,13 +63,16 @@ enum class Notice : std::uint8_t {
   kEnded,
 };
 
-/// What the status line asks of a surgeon who verifies by touch.
+/// What the status line asks of a surgeon who verifies by touch, in whatever step.
 enum class ChecksAsked : std::uint8_t {
-  kNone,        ///< it says nothing of check points
-  kTouchMore,   ///< further places, or the landmark before a screw
-  kGuideTip,    ///< the guide's tip in the landmark too
-  kCorrectTip,  ///< consent to correct it
-  kReject,      ///< a check point lies too far off the surface
+  kNone,          ///< it says nothing of check points
+  kTouchMore,     ///< further places, or the landmark before a screw
+  kGuideTip,      ///< the guide's tip in the landmark too
+  kCorrectTip,    ///< consent to correct it
+  kMeasureWire,   ///< by the sleeve over it
+  kDecideOnWire,  ///< beyond a limit: to keep it or to redo it
+  kKeepWire,      ///< beyond a limit, and it can't be redone
+  kReject,        ///< a check point lies too far off the surface
   kPassed,
 };
 

@@ -163,6 +163,9 @@ struct ErrorModel {
   /// SD of the bending about each direction across it while it is driven (0.02 to 0.04; in a
   /// cannula or as a drill in a sleeve 0.004 to 0.012).
   double wire_bending_rad = 0.03;
+  /// SD of the direction of a sleeve about that of a wire in it: the play of a long sleeve, 0.25°.
+  /// Estimate.
+  double sleeve_play_rad = 0.0044;
   /// SD of how badly a screw follows the hole that was made for it (0.02 to 0.06); zero for what
   /// makes its own.
   double hole_following_rad = 0.0;

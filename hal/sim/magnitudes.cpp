@@ -7,7 +7,7 @@ namespace orthonav::sim {
 namespace {
 
 // clang-format off
-constexpr std::array<Magnitude, 56> kMagnitudes = {{
+constexpr std::array<Magnitude, 57> kMagnitudes = {{
     {"blur_sigma_px", "px", &ErrorModel::blur_sigma_px, 0.0, 5.0, 0.5, 1.0,
      "estimate: edges in published frames rise over about two pixels"},
     {"exposure_s", "s", &ErrorModel::exposure_s, 0.0, 0.030, 0.002, 0.008,
@@ -114,6 +114,8 @@ constexpr std::array<Magnitude, 56> kMagnitudes = {{
      "sharp 0.4, blunt 1.2 mm; the paper: the tip does not slide away"},
     {"wire_bending_rad", "rad", &ErrorModel::wire_bending_rad, 0.0, 0.5, 0.02, 0.04,
      "unsupported wires; 0.004 to 0.012 in a sleeve"},
+    {"sleeve_play_rad", "rad", &ErrorModel::sleeve_play_rad, 0.0, 0.1, 0.0044, 0.0044,
+     "estimate: 0.2 mm of play over 50 mm"},
     {"hole_following_rad", "rad", &ErrorModel::hole_following_rad, 0.0, 0.5, 0.0, 0.06,
      "screws after a guided hole"},
     {"pace", "", &ErrorModel::pace, 0.1, 10.0, 1.0, 1.0,

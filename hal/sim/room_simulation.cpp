@@ -42,7 +42,7 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
   if (options.surgeon && layout_.levels() > 0) {
     surgeon_ =
         std::make_unique<Surgeon>(layout_, error_model_, Random(options.seed).fork("surgeon"),
-                                  eyes_, truth_.heads, options.guidance);
+                                  eyes_, truth_, options.guidance);
   }
   step();
 }
@@ -89,7 +89,7 @@ void RoomSimulation::let_surgeon_act(RoomState& now) {
     // The hand rests on the patient and moves with them.
     Grip riding = posture.grip;
     riding.tip = riding.tip + spine_moved_m_ + posture.pushed_m;
-    put(now, *tool, riding, posture.contact_normal);
+    put(now, *tool, riding, posture.contact_normal, posture.on_wire);
     const Vec3 view = posture.head.from_gaze;
     // The forearm comes from the surgeon's right, across the shaft, so that it never hides the tag,
     // and below the line of sight to the wound.
@@ -122,7 +122,7 @@ void RoomSimulation::leave_reference(RoomState& now) {
     put(now, *reference, {layout_.middle() + kBesideTheSite_m, {0, 1, 0}, 0.0}, std::nullopt);
     room_from_reference_ = now.room_from_marker[*reference];
   }
-  const bool is_due = static_cast<int>(truth_.wires.size()) >= bump_.after_wires;
+  const bool is_due = wires_driven_ >= bump_.after_wires;
   if (is_due && (bump_.shift_m > 0.0 || bump_.turn_rad > 0.0)) {
     bump_reference();
   }
@@ -143,7 +143,7 @@ void RoomSimulation::bump_reference() {
 }
 
 void RoomSimulation::shift_patient() {
-  if (shift_.shift_m > 0.0 && static_cast<int>(truth_.wires.size()) >= shift_.after_wires) {
+  if (shift_.shift_m > 0.0 && wires_driven_ >= shift_.after_wires) {
     slipped_m_ = shift_.shift_m * normal_vector(shifting_, 1.0).normalized();
     shift_ = {};
   }
@@ -167,7 +167,7 @@ void RoomSimulation::let_tools_hover(RoomState& now) const {
 }
 
 void RoomSimulation::put(RoomState& state, std::size_t tool, const Grip& grip,
-                         std::optional<Vec3> contact) const {
+                         std::optional<Vec3> contact, bool on_wire) const {
   const RoomTool& made = room_.tools[tool];
   Grip shaken = grip;
   if (made.kind != ToolKind::kReference) {
@@ -177,8 +177,12 @@ void RoomSimulation::put(RoomState& state, std::size_t tool, const Grip& grip,
     if (contact) {
       shake = shake - std::min(0.0, shake.dot(*contact)) * *contact;
     }
+    if (on_wire) {
+      shake = shake.dot(grip.axis) * grip.axis;
+    } else {
+      shaken.axis = rotation_from_vector(tremor_rad_.at(t)) * grip.axis;
+    }
     shaken.tip = grip.tip + shake;
-    shaken.axis = rotation_from_vector(tremor_rad_.at(t)) * grip.axis;
   }
   const Point<Room> tag = shaken.tip + made.tip_in_marker.v.norm() * shaken.axis;
   const Vec3 viewer = state.room_from_rig.translation();
@@ -214,9 +218,18 @@ void RoomSimulation::pierce(const WireInsertion& insertion) {
   const auto hit = bone.first_hit(slipped - kSearch_m * direction, direction, 2.0 * kSearch_m);
   const Point<Vertebra> entry{hit ? hit->point : bone.closest(slipped).point};
   const std::string& label = room_.levels[insertion.level].label;
+  take_wire_out(label, insertion.side);
+  ++wires_driven_;
   truth_.wires.push_back({label, insertion.side, entry, direction, now.time});
   truth_.heads.push_back(
       {label, insertion.side, room_from_vertebra * (entry - kHeadOverEntry_m * direction)});
+}
+
+void RoomSimulation::take_wire_out(const std::string& label, Side side) {
+  std::erase_if(truth_.wires,
+                [&](const DrivenWire& w) { return w.level == label && w.side == side; });
+  std::erase_if(truth_.heads,
+                [&](const PlacedHead& h) { return h.level == label && h.side == side; });
 }
 
 RoomSimulation::Around RoomSimulation::around(Timestamp time) const {

@@ -60,7 +60,10 @@ class RoomSimulation {
   void leave_reference(RoomState& now);
   void bump_reference();
   void shift_patient();
-  void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact) const;
+  void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact,
+           bool on_wire = false) const;
+  /// Another wire for a screw takes the place of one that was taken out.
+  void take_wire_out(const std::string& label, Side side);
   void pierce(const WireInsertion& insertion);
   [[nodiscard]] double seconds_in(Timestamp time) const { return seconds(time - start_); }
   [[nodiscard]] RoomState& kept(std::size_t number) { return states_[number % kKept]; }
@@ -87,6 +90,7 @@ class RoomSimulation {
   Vec3 slipped_m_{};  ///< on the table, in Room
   Eyes eyes_;
   Truth truth_;
+  int wires_driven_ = 0;
   std::unique_ptr<Surgeon> surgeon_;
   std::vector<RoomState> states_;
   std::size_t steps_ = 0;  ///< steps simulated; the newest state is number steps_ - 1

@@ -85,16 +85,17 @@ struct OverlayComparison {
 }  // namespace
 
 Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-                 const Eyes& eyes, const std::vector<PlacedHead>& heads, GuidanceProfile guidance)
+                 const Eyes& eyes, const Truth& placed, GuidanceProfile guidance)
     : layout_(&layout),
       error_model_(&error_model),
       eyes_(&eyes),
-      heads_(&heads),
+      placed_(&placed),
       body_(random.fork("hand"), error_model, slowness_of(error_model, random.fork("pace")),
             standing_at(layout)),
       guidance_(guidance),
       checking_(random.fork("checking")),
       seating_(random.fork("seating")),
+      sleeving_(random.fork("sleeving")),
       lightness_(lightness_of(error_model, random.fork("lightness"))),
       regions_(layout.levels()),
       failures_(layout.levels()),
@@ -165,6 +166,8 @@ Script Surgeon::perform(StepOnDisplay step) {
     if (driven_.contains(step)) {
       co_await await_change(step, "next");
     }
+  } else if (step.step == Step::kPlaced && level && step.side) {
+    co_await look_at_wire(*level, *step.side);
   } else if (step.step == Step::kRod && step.side) {
     co_await touch_heads(*step.side);
     co_await await_change(step, "done");

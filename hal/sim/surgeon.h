@@ -31,13 +31,15 @@ struct Bearings {
 };
 
 /// The scripted surgeon. Knows the bones as they lie there (strokes them, compares holograms with
-/// them), sees the screw heads already placed, and learns everything else from the display.
-/// Answers each step of the workflow as the status line names it.
+/// them), sees the screw heads already placed, sets a sleeve over the wires that stand there, and
+/// learns everything else from the display. Answers each step of the workflow as the status line
+/// names it.
 class Surgeon {
  public:
-  /// The layout, the eyes and the heads must outlive it.
+  /// The layout, the eyes and what was placed must outlive it. Of that only heads and wires are
+  /// there to be touched; how they lie against the plan nobody tells the surgeon but the display.
   Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-          const Eyes& eyes, const std::vector<PlacedHead>& heads, GuidanceProfile guidance);
+          const Eyes& eyes, const Truth& placed, GuidanceProfile guidance);
 
   /// Lives on to `now`.
   void tick(Timestamp now, const Bearings& bearings);
@@ -147,6 +149,13 @@ class Surgeon {
   /// Turns the tag to and fro and leans over, so that the cameras find it again.
   void show_tag(const Aim& aim, double since_s, double tick_s);
 
+  // surgeon_placing.cpp
+  /// Measures the wire of the screw that was drilled, and keeps or redoes it.
+  Script look_at_wire(std::size_t level, Side side);
+  /// Sets the guide's sleeve over it and clicks, again where the line says that it was not taken.
+  Script set_sleeve_over(const StepOnDisplay& step, std::size_t level, const DrivenWire& wire);
+  [[nodiscard]] const DrivenWire* wire_of(std::size_t level, Side side) const;
+
   // surgeon_rod.cpp
   Script touch_heads(Side side);
 
@@ -161,17 +170,19 @@ class Surgeon {
   const RoomLayout* layout_;
   const ErrorModel* error_model_;
   const Eyes* eyes_;
-  const std::vector<PlacedHead>* heads_;
+  const Truth* placed_;
   SurgeonBody body_;
   GuidanceProfile guidance_;
   Bearings bearings_;
   Random checking_;  ///< of its own: who need not touch draws the same from the others
   Random seating_;   ///< of the tip in a dimple; of its own likewise
+  Random sleeving_;  ///< of the sleeve over a wire; of its own likewise
   double lightness_ = 1.0;
   std::vector<std::vector<StrokeRegion>> regions_;  ///< for each level; empty where not operated
   std::vector<int> failures_;                       ///< refusals and rejections, for each level
   std::vector<std::optional<BoneSpot>> dimples_;    ///< in Vertebra, for each level
   std::vector<int> moved_;  ///< how often its landmark had moved since a level was registered
+  std::set<StepOnDisplay> redone_;  ///< guide steps whose wire was taken out once
   std::set<StepOnDisplay> driven_;  ///< guide steps whose wire is in
   std::vector<WireInsertion> wire_insertions_;
   bool finished_ = false;

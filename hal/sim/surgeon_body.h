@@ -18,7 +18,8 @@ struct Posture {
   Grip grip;
   /// Outward normal of the bone that the tip rests on.
   std::optional<Vec3> contact_normal;
-  Vec3 pushed_m{};  ///< by which the instrument has pushed the bone, in Room
+  bool on_wire = false;  ///< a wire stands in the tool's sleeve: it turns no more, and slides along
+  Vec3 pushed_m{};       ///< by which the instrument has pushed the bone, in Room
   HeadGoal head;
 };
 

@@ -7,7 +7,7 @@ namespace orthonav::sim {
 Script Surgeon::touch_heads(Side side) {
   const StepOnDisplay step = step_now();
   std::vector<Point<Room>> heads;
-  for (const PlacedHead& head : *heads_) {
+  for (const PlacedHead& head : placed_->heads) {
     if (head.side == side) {
       heads.push_back(head.position);
     }

@@ -8,7 +8,7 @@
 
 namespace orthonav::sim {
 
-/// A wire as it was actually driven, in its vertebra's frame.
+/// A wire as it was actually driven, in its vertebra's frame; of each screw the last.
 struct DrivenWire {
   std::string level;
   Side side = Side::kLeft;  ///< as the surgeon read it off the display

@@ -67,25 +67,43 @@ std::vector<Message> messages() {
       Error{"registration points lie on a line or in one place (0.123 mm wide, at least " +
             std::string(200, 'x') + ")"};
   error.stroke_next = kFarPlace;
-  return {Message(std::monostate{}),
-          Message(NotPossibleNow{Event::kSayMoveRod}),
-          Message(SaidBeforeShown{}),
-          Message(NothingToDelete{NothingToDelete::What::kCheckPoint}),
-          Message(ConfirmDelete{1234567}),
-          Message(refused_for_everything()),
-          Message(error),
-          Message(ChecksMissing{{Advice::kReject, 20, 0.0200001, 0.02}}),
-          Message(ChecksMissing{{Advice::kTouchApart, 2, 0.015, 0.0}}),
-          Message(TouchNotRecorded{What::kCheckPoint,
-                                   {TouchRefusal::Kind::kTipMoved, 0.03000001, 0.03}}),
-          Message(TouchNotRecorded{What::kLandmark, {TouchRefusal::Kind::kTooNear, 0.022, 0.03}}),
-          Message(LandmarkMissing{}),
-          Message(LandmarkMoved{0.0123001, 0.0123, false}),
-          Message(NoRod{{"screw heads 10 and 11 are 4.9999 mm apart, limit 5-150 mm"}}),
-          Message(MapMoved{Step::kDigitize}),
-          Message(MapMoved{Step::kRod}),
-          Message(NoImages{}),
-          Message(Ended{})};
+  return {
+      Message(std::monostate{}),
+      Message(NotPossibleNow{Event::kSayMoveRod}),
+      Message(SaidBeforeShown{}),
+      Message(NothingToDelete{NothingToDelete::What::kCheckPoint}),
+      Message(ConfirmDelete{1234567}),
+      Message(refused_for_everything()),
+      Message(error),
+      Message(ChecksMissing{{Advice::kReject, 20, 0.0200001, 0.02}}),
+      Message(ChecksMissing{{Advice::kTouchApart, 2, 0.015, 0.0}}),
+      Message(
+          TouchNotRecorded{What::kCheckPoint, {TouchRefusal::Kind::kTipMoved, 0.03000001, 0.03}}),
+      Message(TouchNotRecorded{What::kLandmark, {TouchRefusal::Kind::kTooNear, 0.022, 0.03}}),
+      Message(LandmarkMissing{}),
+      Message(LandmarkMoved{0.0123001, 0.0123, false}),
+      Message(TouchNotRecorded{What::kWire, {TouchRefusal::Kind::kOffTheScrew, 0.12300001, 0.123}}),
+      Message(ConfirmRedo{12}),
+      Message(NoOtherEntry{}),
+      Message(ScrewReplanned{0.0123, 0.0123}),
+      Message(NoRod{{"screw heads 10 and 11 are 4.9999 mm apart, limit 5-150 mm"}}),
+      Message(MapMoved{Step::kDigitize}),
+      Message(MapMoved{Step::kRod}),
+      Message(NoImages{}),
+      Message(Ended{})};
+}
+
+/// Beyond both limits, by so little that it takes decimals to tell.
+const PlacedWire& far_off() {
+  static const PlacedWire kWire = [] {
+    PlacedWire wire;
+    wire.angle_limit_rad = 12.3 * kRadiansPerDegree;
+    wire.entry_limit_m = 0.0123;
+    wire.axis.angle_rad = {12.3001 * kRadiansPerDegree, 12.3 * kRadiansPerDegree};
+    wire.axis.entry_m = {0.0123001, 0.0123};
+    return wire;
+  }();
+  return kWire;
 }
 
 /// At every step, without a warning and with each of them. A message hides how a step stands.
@@ -97,7 +115,8 @@ std::vector<StatusLine> lines_about(const Message& message, const Coaching& coac
   if (none) {
     states.insert(states.end(),
                   {StrokesSoFar{123456, &coaching}, RegistrationFigures{0.0123, 0.0123, false},
-                   LandmarkSoFar{{0.0123, 0.0123, false, true}, false, {}}, HeadsSoFar{20}});
+                   LandmarkSoFar{{0.0123, 0.0123, false, true}, false, {}},
+                   WireSoFar{&far_off(), true}, HeadsSoFar{20}});
   }
   std::vector<StatusLine> lines;
   for (int step = 0; step < static_cast<int>(kStepCount); ++step) {

@@ -23,7 +23,7 @@ void draw_step(const Moment& moment) {
   for (std::size_t i = 0; i < engine::kStepCount; ++i) {
     const auto step = static_cast<engine::Step>(i);
     const bool now = step == moment.at.step;
-    // Two rows: seven names are too long for one.
+    // Two rows: eight names are too long for one.
     if (i != 0 && i != 4) {
       ImGui::SameLine(0.0f, 6.0f);
     }

@@ -91,6 +91,22 @@ TEST_F(FrameAllocations, AreNoneWhileVerifying) {
   EXPECT_TRUE(frames.shows(HologramKind::kCheckPoint));
 }
 
+TEST_F(FrameAllocations, AreNoneWhileAWireIsShown) {
+  ScriptedOperation wire({"L4"}, {}, Verification::kByTouch);
+  wire.registers_within(0.0003);
+  wire.accepts_first_by_touch();
+  wire.touches_dimple();
+  wire.says("next");
+  wire.tracker().guide = guide_at(kLeftEntry, 0.1);
+  wire.says("next");
+  wire.does({ClickerAction::kPress});
+  wire.pair();
+  const Guidance& g = wire.does({ClickerAction::kRelease, ClickerAction::kClick});
+  ASSERT_NE(g.wire, nullptr);
+  EXPECT_EQ(allocations_of([&] { frames.make(g); }), 0u);
+  EXPECT_TRUE(frames.shows(HologramKind::kTrajectory));
+}
+
 TEST_F(FrameAllocations, AreNoneWhileAToolIsGuided) {
   guide();
   // The tool is farther off in one frame than in the other: dashes, an arrow, another number.

@@ -77,6 +77,32 @@ TEST(ReportJson, HoldsTheDistancesOfCheckPointsWhereThereAreAny) {
   EXPECT_NEAR(distances[1].get<double>(), -0.5, 1e-6);
 }
 
+TEST(ReportJson, TellsHowEveryWireWasMeasured) {
+  OperationResult result = measured();
+  EXPECT_FALSE(
+      nlohmann::json::parse(report_json(result))["levels"][0]["screws"][0].contains("wire"))
+      << "nobody was asked";
+  PlacedWire wire;
+  wire.axis.angle_rad = {0.05, 0.01};
+  wire.axis.entry_m = {0.0011, 0.0006};
+  wire.angle_limit_rad = 0.035;
+  wire.entry_limit_m = 0.002;
+  wire.kept = true;
+  result.levels[0].screws[0].wire = {true, wire};
+  result.levels[0].screws[0].redone = 1;
+  result.levels[0].screws[1].wire = {true, {}};
+  const auto json = nlohmann::json::parse(report_json(result));
+  const auto& left = json["levels"][0]["screws"][0];
+  EXPECT_NEAR(left["wire"]["angle_deg"].get<double>(), 2.8648, 1e-4);
+  EXPECT_NEAR(left["wire"]["angle_sd_deg"].get<double>(), 0.57296, 1e-4);
+  EXPECT_DOUBLE_EQ(left["wire"]["entry_mm"], 1.1);
+  EXPECT_DOUBLE_EQ(left["wire"]["entry_sd_mm"], 0.6);
+  EXPECT_EQ(left["wire"]["within"], false);
+  EXPECT_EQ(left["wire"]["kept"], true);
+  EXPECT_EQ(left["redone"], 1);
+  EXPECT_EQ(json["levels"][0]["screws"][1]["wire"], "not measured");
+}
+
 TEST(ReportJson, LeavesErrorsOutWhereThereIsNoTruth) {
   test::ScriptedOperation s({"L5"});
   s.accepts_first_level();

@@ -35,6 +35,22 @@ TEST(ReportHtml, ShowsTheFiguresOfTheRunBesideThePapers) {
   EXPECT_THAT(*html, HasSubstr("42.5 mm"));
 }
 
+TEST(ReportHtml, TellsHowEveryWireWasMeasured) {
+  const auto page = [](const std::string& of_screw) {
+    return report_html({.report_json = R"({"levels":[{"label":"L4","screws":[{"side":"left")" +
+                                       of_screw + "}]}]}"})
+        .value();
+  };
+  constexpr const char* kWire =
+      R"("wire":{"angle_deg":2.86,"angle_sd_deg":0.91,"entry_mm":1.1,"entry_sd_mm":0.6,"kept":)";
+  EXPECT_THAT(page(std::string(",") + kWire + R"(true},"redone":1)"),
+              HasSubstr("<td>2.9 ± 0.9°, 1.1 ± 0.6 mm, kept; redone</td>"));
+  EXPECT_THAT(page(std::string(",") + kWire + R"(false},"redone":0)"),
+              HasSubstr("<td>2.9 ± 0.9°, 1.1 ± 0.6 mm</td>"));
+  EXPECT_THAT(page(R"(,"wire":"not measured")"), HasSubstr("<td>not measured</td>"));
+  EXPECT_THAT(page(""), Not(HasSubstr("not measured")));
+}
+
 TEST(ReportHtml, TellsALevelThatWasRefusedFromOneThatWasNeverReached) {
   const auto page = [](const std::string& level) {
     return report_html({.report_json = R"({"levels":[{"label":"L4",)" + level + "}]}"}).value();

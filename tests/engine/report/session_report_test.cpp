@@ -84,6 +84,31 @@ TEST(SessionReport, CallsWhatTheJournalDoesNotHoldNotRecorded) {
   }
 }
 
+TEST(SessionReport, TellsHowEveryWireWasMeasuredKeptRedoneOrNot) {
+  SessionRecord session = cut_session();
+  RecordedScrew& left = session.levels[0].screws[0];
+  RecordedScrew& right = session.levels[0].screws[1];
+  EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("not measured")));
+  left.wire_asked = right.wire_asked = right.done = true;
+  left.wire = RecordedWire{0.05, 0.01, 0.0011, 0.0006, false, true};
+  left.redone = 1;
+  const std::string page = session_page(session, "j");
+  EXPECT_THAT(page,
+              HasSubstr("<span class=bad>2.9 \u00b1 0.6\u00b0, 1.1 \u00b1 0.6 mm</span>, kept; "
+                        "redone</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>not measured</td>"));
+  const auto json = nlohmann::json::parse(session_json(session));
+  const auto& screws = json["levels"][0]["screws"];
+  EXPECT_NEAR(screws[0]["wire"]["angle_deg"].get<double>(), 2.8648, 1e-4);
+  EXPECT_DOUBLE_EQ(screws[0]["wire"]["entry_sd_mm"], 0.6);
+  EXPECT_EQ(screws[0]["wire"]["kept"], true);
+  EXPECT_EQ(screws[0]["redone"], 1);
+  EXPECT_EQ(screws[1]["wire"], "not measured");
+  left.wire->within = true;
+  EXPECT_THAT(session_page(session, "j"),
+              HasSubstr("<td>2.9 \u00b1 0.6\u00b0, 1.1 \u00b1 0.6 mm; redone</td>"));
+}
+
 TEST(SessionReport, HasTheFiguresInTheKeysOfAReport) {
   const auto json = nlohmann::json::parse(session_json(cut_session()));
   EXPECT_EQ(json["completed"], false);

@@ -111,6 +111,7 @@ TEST(JournalReader, TellsTheWholeOperationAsTheSessionHasIt) {
   const auto& pose = record.levels[0].screws[0].at_depth;
   ASSERT_TRUE(pose);
   EXPECT_NEAR(pose->angle_rad, 0.1, 1e-9);
+  EXPECT_FALSE(record.levels[0].screws[0].wire_asked) << "by eye nobody is";
   std::vector<Step> course;
   for (const RecordedStep& step : record.steps) {
     course.push_back(step.step);
@@ -147,6 +148,7 @@ TEST(JournalReader, KnowsEveryTouchOfTheLandmarkAndWhatItTookBack) {
   j.operation.touches_dimple();
   j.operation.says("next");
   j.operation.says("next");
+  j.operation.says("next");
   j.operation.touches_dimple(Vec3{0.0006, 0, 0});
   j.operation.says("delete");
   j.operation.touches_dimple(Vec3{0, 0, 0.0031});
@@ -164,6 +166,50 @@ TEST(JournalReader, KnowsEveryTouchOfTheLandmarkAndWhatItTookBack) {
   EXPECT_NEAR(touches[2].off_m, 0.0031, 1e-9);
   EXPECT_FALSE(touches[2].within || touches[2].dropped);
   EXPECT_NEAR(touches[2].limit_m, LandmarkRules{}.most_m, 1e-9);
+}
+
+TEST(JournalReader, KnowsHowEveryWireWasMeasuredKeptOrRedone) {
+  using enum ClickerAction;
+  Journaled j({"L4"}, Verification::kByTouch);
+  test::ScriptedOperation& s = j.operation;
+  s.registers_within(0.0003);
+  s.accepts_first_by_touch();
+  const auto measure = [&s](double beside_m, double angle_rad) {
+    s.tracker().guide = test::guide_at(Vec3{0.015 + beside_m, 0.020, 0.0}, angle_rad);
+    s.does({kPress});
+    s.pair();
+    s.does({kRelease, kClick});
+  };
+  const auto drill = [&s] {
+    s.touches_dimple();
+    s.says("next");
+    s.says("next");
+  };
+  drill();
+  measure(0.0025, 0.0);
+  s.says("delete");
+  drill();
+  measure(0.0, 0.3);
+  s.says("accept");
+  s.says("next");
+  drill();
+  s.says("next");
+  const SessionRecord record = j.finished("");
+  ASSERT_EQ(record.levels.at(0).screws.size(), 2U);
+  const RecordedScrew& left = record.levels[0].screws[0];
+  EXPECT_TRUE(left.done && left.wire_asked);
+  EXPECT_EQ(left.redone, 1);
+  ASSERT_TRUE(left.wire);
+  const PlacedWire& wire = *s.session().levels()[0].wires[0].measured;
+  EXPECT_NEAR(left.wire->angle_rad, wire.axis.angle_rad.value, 1e-9);
+  EXPECT_NEAR(left.wire->angle_sd_rad, wire.axis.angle_rad.sd, 1e-9);
+  EXPECT_NEAR(left.wire->entry_m, wire.axis.entry_m.value, 1e-9);
+  EXPECT_NEAR(left.wire->entry_sd_m, wire.axis.entry_m.sd, 1e-9);
+  EXPECT_TRUE(left.wire->kept && !left.wire->within);
+  const RecordedScrew& right = record.levels[0].screws[1];
+  EXPECT_TRUE(right.done && right.wire_asked);
+  EXPECT_FALSE(right.wire) << "not measured";
+  EXPECT_EQ(right.redone, 0);
 }
 
 TEST(JournalReader, FollowsRejectionsCheckPointsAndAMovedMap) {

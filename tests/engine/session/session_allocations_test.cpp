@@ -129,10 +129,28 @@ TEST(SessionAllocations, AreNoneWhileTheLandmarkIsTouchedAndAfterItMoved) {
   s.touches_dimple();
   EXPECT_EQ(allocations_once_warm(s), 0u);
   s.says("next");
+  s.says("next");
   EXPECT_EQ(s.says("next").step, Step::kAccepted);
   EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().pointer), 0u);
   EXPECT_EQ(s.touches_dimple(Vec3{0, 0, 0.003}).step, Step::kVerify);
   EXPECT_EQ(allocations_once_warm(s), 0u);
+}
+
+TEST(SessionAllocations, AreNoneWhileAWireIsMeasuredAndWaitsForAWord) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.registers_within(0.0003);
+  s.accepts_first_by_touch();
+  s.touches_dimple();
+  s.says("next");
+  s.tracker().guide = guide_at(kLeftEntry, 0.1);
+  EXPECT_EQ(s.says("next").step, Step::kPlaced);
+  EXPECT_EQ(allocations_once_warm(s), 0u) << "with nothing measured";
+  s.does({kPress});
+  EXPECT_EQ(allocations_of(s, 15), 0u) << "while the sleeve is pressed";
+  s.does({kRelease, kClick});
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kDecideOnWire);
+  EXPECT_EQ(allocations_once_warm(s), 0u);
+  EXPECT_EQ(allocations_while_a_tool_comes_and_goes(s, s.tracker().guide), 0u);
 }
 
 TEST(SessionAllocations, AreNoneWhileVerifyingByEyeAndOnceAccepted) {

@@ -41,10 +41,14 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
                                                 {Step::kAccepted, Event::kLandmarkTouched},
                                                 {Step::kAccepted, Event::kLandmarkMissing},
                                                 {Step::kAccepted, Event::kLandmarkMoved},
-                                                {Step::kGuide, Event::kAnotherScrew},
-                                                {Step::kGuide, Event::kAnotherLevel},
-                                                {Step::kGuide, Event::kNoScrewLeft},
-                                                {Step::kGuide, Event::kNoRodPlanned},
+                                                {Step::kPlaced, Event::kWireSettled},
+                                                {Step::kPlaced, Event::kWireUndecided},
+                                                {Step::kPlaced, Event::kScrewReplanned},
+                                                {Step::kPlaced, Event::kNoOtherEntry},
+                                                {Step::kPlaced, Event::kAnotherScrew},
+                                                {Step::kPlaced, Event::kAnotherLevel},
+                                                {Step::kPlaced, Event::kNoScrewLeft},
+                                                {Step::kPlaced, Event::kNoRodPlanned},
                                                 {Step::kRod, Event::kAnotherSide},
                                                 {Step::kRod, Event::kNoSideLeft}};
   for (const auto& [step, event] : kRaised) {
@@ -104,8 +108,13 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
       const auto step = static_cast<Step>(s);
       const auto event = static_cast<Event>(e);
       const Step next = answer(step, event, GetParam()).next;
+      if (!by_touch && step == Step::kPlaced) {
+        EXPECT_NE(answer(Step::kGuide, event, GetParam()).next, Step::kPlaced) << "never reached";
+        continue;
+      }
       if (next == Step::kAccepted && step != Step::kAccepted) {
-        const bool after_screw = by_touch && step == Step::kGuide && event == Event::kAnotherScrew;
+        const bool after_screw = by_touch && step == Step::kPlaced &&
+                                 (event == Event::kAnotherScrew || event == Event::kScrewReplanned);
         EXPECT_TRUE(after_screw || (step == Step::kVerify && event == accepting)) << s << " " << e;
       }
       if (next == Step::kGuide && step != Step::kGuide) {
@@ -122,8 +131,9 @@ TEST(Workflow, VerifyingByTouchTheWordAloneAcceptsNothing) {
 }
 
 TEST(Workflow, BeforeEveryScrewTheLandmarkIsTouched) {
-  EXPECT_EQ(answer(Step::kGuide, Event::kAnotherScrew),
-            (Cell{Step::kAccepted, Action::kExpectLandmark}));
+  for (const Event event : {Event::kAnotherScrew, Event::kScrewReplanned}) {
+    EXPECT_EQ(answer(Step::kPlaced, event), (Cell{Step::kAccepted, Action::kExpectLandmark}));
+  }
   EXPECT_EQ(answer(Step::kAccepted, Event::kSayNext),
             (Cell{Step::kAccepted, Action::kJudgeLandmark}));
   EXPECT_EQ(answer(Step::kAccepted, Event::kLandmarkMoved),
@@ -132,14 +142,25 @@ TEST(Workflow, BeforeEveryScrewTheLandmarkIsTouched) {
             (Cell{Step::kGuide, Action::kSelectScrew}));
 }
 
-TEST(Workflow, VerifyingByEyeDiffersInVerifyAndInTheLandmark) {
+TEST(Workflow, AfterEveryScrewItsWireIsLookedAt) {
+  EXPECT_EQ(answer(Step::kGuide, Event::kSayNext), (Cell{Step::kPlaced, Action::kExpectWire}));
+  EXPECT_EQ(answer(Step::kPlaced, Event::kSayNext), (Cell{Step::kPlaced, Action::kJudgeWire}));
+  EXPECT_EQ(answer(Step::kPlaced, Event::kWireUndecided).next, Step::kPlaced);
+  EXPECT_EQ(answer(Step::kGuide, Event::kAnotherScrew).action, Action::kRefuse);
+  EXPECT_EQ(answer(Step::kGuide, Event::kSayNext, Verification::kByEye),
+            (Cell{Step::kGuide, Action::kFinishScrew}));
+}
+
+TEST(Workflow, VerifyingByEyeDiffersInVerifyLandmarkAndWire) {
   for (std::size_t s = 0; s < kStepCount; ++s) {
     for (std::size_t e = 0; e < kEventCount; ++e) {
       const auto step = static_cast<Step>(s);
       const auto event = static_cast<Event>(e);
-      const bool landmark =
-          step == Step::kAccepted || (step == Step::kGuide && event == Event::kAnotherScrew);
-      if (step == Step::kVerify || landmark) {
+      const bool after_screw =
+          step == Step::kGuide && (event == Event::kSayNext || event == Event::kAnotherScrew ||
+                                   event == Event::kAnotherLevel || event == Event::kNoScrewLeft ||
+                                   event == Event::kNoRodPlanned);
+      if (step == Step::kVerify || step == Step::kAccepted || after_screw) {
         continue;
       }
       EXPECT_EQ(answer(step, event, Verification::kByEye), answer(step, event)) << s << " " << e;
@@ -166,7 +187,7 @@ TEST(Workflow, LosingAToolNeverChangesTheStep) {
 
 TEST(Workflow, AStalePoseHidesWhereverAToolIsUsed) {
   for (const Step step :
-       {Step::kDigitize, Step::kVerify, Step::kAccepted, Step::kGuide, Step::kRod}) {
+       {Step::kDigitize, Step::kVerify, Step::kAccepted, Step::kGuide, Step::kPlaced, Step::kRod}) {
     EXPECT_EQ(answer(step, Event::kPoseStale).action, Action::kHideGuidance) << name_of(step);
   }
 }

@@ -98,6 +98,8 @@ void FakeEngine::take(const ClickerEvent& event) {
   const bool checking = options_.check_points > 0 && (step_.step == Step::kVerify);
   if (event.action == ClickerAction::kClick && step_.step == Step::kAccepted && options_.landmark) {
     touched_landmark();
+  } else if (event.action == ClickerAction::kClick && step_.step == Step::kPlaced) {
+    measured_wire();
   } else if (event.action == ClickerAction::kClick && (checking || (step_.step == Step::kRod))) {
     touched();
   }
@@ -134,6 +136,34 @@ void FakeEngine::touched_landmark() {
     --options_.landmark_moves;
     enter({Step::kVerify, level_label(), {}});
     notice_ = Notice::kLandmarkMoved;
+  }
+}
+
+void FakeEngine::look_at_wire() {
+  enter({Step::kPlaced, level_label(), case_.screws[screw_].side});
+  checks_ = ChecksAsked::kMeasureWire;
+}
+
+void FakeEngine::measured_wire() {
+  const std::size_t guide = tool_of(case_.room, ToolKind::kGuide);
+  const RoomTool& tool = case_.room.tools[guide];
+  const auto vertebra_from_marker =
+      room_from_vertebra(level_label()).inverse() * headset_.state().room_from_marker[guide];
+  levels_[level_label()].sleeves_in_vertebra.emplace_back(
+      (vertebra_from_marker * tool.tip_in_marker).v,
+      -(vertebra_from_marker * Direction<Marker>{tool.axis_in_marker}).v);
+  checks_ = options_.wires_off-- > 0 ? ChecksAsked::kDecideOnWire : ChecksAsked::kPassed;
+}
+
+void FakeEngine::answer_about_wire(const std::string& phrase) {
+  if (phrase == "accept") {
+    checks_ = ChecksAsked::kPassed;
+  } else if (phrase == "delete" && options_.no_other_entry) {
+    checks_ = ChecksAsked::kKeepWire;
+  } else if (phrase == "delete") {
+    enter({Step::kGuide, level_label(), case_.screws[screw_].side});
+  } else if (phrase == "next" && checks_ != ChecksAsked::kDecideOnWire) {
+    next_screw();
   }
 }
 
@@ -185,6 +215,10 @@ void FakeEngine::take(const Phrase& phrase) {
     level = {};
     first_press_.reset();
     enter({Step::kDigitize, level_label(), {}});
+  } else if (step_.step == Step::kGuide && options_.wire && phrase.text == "next") {
+    look_at_wire();
+  } else if (step_.step == Step::kPlaced) {
+    answer_about_wire(phrase.text);
   } else if (((step_.step == Step::kAccepted) || (step_.step == Step::kGuide)) &&
              phrase.text == "next") {
     next_screw();

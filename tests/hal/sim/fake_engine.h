@@ -18,6 +18,8 @@ struct DigitizedLevel {
   std::vector<Vec3> samples_in_vertebra;   ///< saved ones
   std::vector<Vec3> checks_in_vertebra;    ///< touched in `verify`
   std::vector<Vec3> landmark_in_vertebra;  ///< touched in `accepted`
+  /// The guide in `placed`, when it was clicked: its tip, and its direction into the bone.
+  std::vector<std::pair<Vec3, Vec3>> sleeves_in_vertebra;
 };
 
 struct EngineOptions {
@@ -27,12 +29,15 @@ struct EngineOptions {
   Vec3 registration_turn_rad;
   double blind_from_s = 0.0;  ///< the tools are lost in this span of time
   double blind_to_s = 0.0;
-  bool deaf = false;       ///< hears no voice
-  int lost_touches = 0;    ///< the first touches are not recorded
-  int check_points = 0;    ///< asked for in `verify`
-  bool off = false;        ///< what is touched then turns out too far off
-  bool landmark = false;   ///< is asked for in `accepted`, before every screw
-  int landmark_moves = 0;  ///< so many touches before a level's second screw find it elsewhere
+  bool deaf = false;            ///< hears no voice
+  int lost_touches = 0;         ///< the first touches are not recorded
+  int check_points = 0;         ///< asked for in `verify`
+  bool off = false;             ///< what is touched then turns out too far off
+  bool landmark = false;        ///< is asked for in `accepted`, before every screw
+  bool wire = false;            ///< is looked at in `placed`, after every screw
+  int wires_off = 0;            ///< so many of them are told to lie beyond a limit
+  bool no_other_entry = false;  ///< through which they could be redone
+  int landmark_moves = 0;       ///< so many touches before a level's second screw find it elsewhere
 };
 
 /// For a simulation that renders nothing: who only talks to the engine needs no images.
@@ -65,6 +70,9 @@ class FakeEngine {
   void ask_for_checks();
   [[nodiscard]] Point<World> tip() const;
   void touched_landmark();
+  void measured_wire();
+  void answer_about_wire(const std::string& phrase);
+  void look_at_wire();
   void next_screw();
   void draw(const StereoFrame& frame);
   /// H13 of a tip off the entry and an axis out of the bone, all in World.

@@ -1,0 +1,120 @@
+#include <nlohmann/json.hpp>
+
+#include "base/angle.h"
+#include "engine/session/journal.h"
+#include "engine/session/journal_lines.h"
+
+namespace orthonav::engine {
+
+// What became of a screw: its wire as it was measured, another entry, and how it was left.
+
+namespace {
+
+/// Along the tool at depth, where it is known.
+void put_clearance_at_depth(JournalLine& line, const LevelState& level, nav::Side side) {
+  for (std::size_t s = 0; s < level.clearance_at_depth.size(); ++s) {
+    const auto& clearance = level.clearance_at_depth[s];
+    if (level.plan.screws[s].side != side || !clearance) {
+      continue;
+    }
+    line["clearance_mm"] = clearance->least.clearance_m * 1e3;
+    line["grade"] = nav::name_of(nav::grade_of(clearance->least.clearance_m));
+    if (clearance->spread) {
+      line["clearance_95_mm"] = clearance->spread->lower_95_m * 1e3;
+    }
+  }
+}
+
+JournalLine scaled(const std::array<double, 9>& covariance, double factor) {
+  JournalLine out = JournalLine::array();
+  for (const double value : covariance) {
+    out.push_back(value * factor);
+  }
+  return out;
+}
+
+/// Where the tool went, in the vertebra's frame.
+void put_executed(JournalLine& line, const LevelState& level, nav::Side side) {
+  for (std::size_t s = 0; s < level.executed.size(); ++s) {
+    const auto& executed = level.executed[s];
+    if (level.plan.screws[s].side != side || !executed) {
+      continue;
+    }
+    const Vec3 direction = executed->axis.direction;
+    JournalLine& out = line["executed"];
+    out["pairs"] = executed->pairs;
+    out["entry_mm"] = millimetres(executed->axis.point.v);
+    out["direction"] = JournalLine::array({direction.x, direction.y, direction.z});
+    out["depth_mm"] = executed->depth_m * 1e3;
+    if (executed->point_covariance_m2) {
+      out["entry_covariance_mm2"] = scaled(*executed->point_covariance_m2, 1e6);
+      out["direction_covariance_rad2"] = scaled(*executed->direction_covariance_rad2, 1.0);
+    }
+  }
+}
+
+/// How its wire was left: measured within the limits, kept beyond one, or not measured.
+void put_wire_outcome(JournalLine& line, const LevelState& level, nav::Side side) {
+  for (std::size_t s = 0; s < level.wires.size(); ++s) {
+    const WireOutcome& outcome = level.wires[s];
+    if (level.plan.screws[s].side != side || !outcome.asked) {
+      continue;
+    }
+    line["wire"] = !outcome.measured ? "not measured" : outcome.measured->kept ? "kept" : "within";
+    line["redone"] = level.redone[s];
+  }
+}
+
+}  // namespace
+
+void Journal::wire_measured(Timestamp time, const LevelState& level, std::size_t screw,
+                            const PlacedWire& wire) {
+  const nav::PlacedAxis& axis = wire.axis;
+  const Vec3 direction = axis.line.direction;
+  JournalLine line = journal_line(file_ticks(time), time, "wire", level);
+  line["side"] = name_of(level.plan.screws[screw].side);
+  line["pairs"] = wire.pairs;
+  line["angle_deg"] = degrees(axis.angle_rad.value);
+  line["angle_sd_deg"] = degrees(axis.angle_rad.sd);
+  line["angle_limit_deg"] = degrees(wire.angle_limit_rad);
+  line["entry_mm"] = axis.entry_m.value * 1e3;
+  line["entry_sd_mm"] = axis.entry_m.sd * 1e3;
+  line["entry_limit_mm"] = wire.entry_limit_m * 1e3;
+  line["within"] = wire.within();
+  line["kept"] = wire.kept;
+  line["point_mm"] = millimetres(axis.line.point.v);
+  line["direction"] = JournalLine::array({direction.x, direction.y, direction.z});
+  line["point_covariance_mm2"] = scaled(axis.point_covariance_m2, 1e6);
+  line["direction_covariance_rad2"] = scaled(axis.direction_covariance_rad2, 1.0);
+  add_line(*log_, line, kDurable);
+}
+
+void Journal::screw_replanned(Timestamp time, const LevelState& level, std::size_t screw,
+                              const nav::OtherEntry& entry) {
+  JournalLine line = journal_line(file_ticks(time), time, "screw replanned", level);
+  line["side"] = name_of(level.plan.screws[screw].side);
+  line["redone"] = level.redone[screw];
+  line["entry_mm"] = millimetres(entry.entry.v);
+  line["from_hole_mm"] = entry.from_hole_m * 1e3;
+  line["clearance_mm"] = entry.clearance.clearance_m * 1e3;
+  add_line(*log_, line, kDurable);
+}
+
+void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+                         const ToolGuidance* at_depth) {
+  JournalLine line = journal_line(file_ticks(time), time, "screw", level);
+  line["side"] = name_of(screw.side);
+  if (at_depth && at_depth->measured) {
+    line["pose_time_100ns"] = ticks_100ns(at_depth->pose_time);
+    line["angle_deg"] = degrees(at_depth->measured->angle_rad);
+    line["tip_to_entry_mm"] = at_depth->measured->tip_to_entry_m * 1e3;
+    line["tip_off_axis_mm"] = at_depth->measured->tip_off_axis_m * 1e3;
+    line["depth_mm"] = at_depth->measured->depth_m * 1e3;
+  }
+  put_clearance_at_depth(line, level, screw.side);
+  put_executed(line, level, screw.side);
+  put_wire_outcome(line, level, screw.side);
+  add_line(*log_, line, kDurable);
+}
+
+}  // namespace orthonav::engine

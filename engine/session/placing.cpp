@@ -1,0 +1,90 @@
+#include "engine/session/placing.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/session/tool_in_vertebra.h"
+
+namespace orthonav::engine {
+
+void Placing::begin() {
+  wire_.reset();
+  no_other_entry_ = false;
+  confirming_ = false;
+  touch_.drop();
+}
+
+void Placing::collect(const nav::TrackedPose& pose, const nav::ToolGeometry& guide) {
+  if (pose.status == PoseStatus::kMeasured) {
+    touch_.add({pose.value * guide.tip_in_marker, (pose.value * guide.axis_in_marker).v});
+  } else {
+    touch_.lose();
+  }
+}
+
+std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t screw,
+                                          const nav::TrackedPose& pose,
+                                          const nav::ToolGeometry& guide, double max_spread_m) {
+  const auto taken = touch_.take(max_spread_m, rules_.most_turn_rad);
+  if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
+    return *refusal;
+  }
+  const auto& resting = std::get<RestingAxis>(taken);
+  const auto now = in_vertebra(*level.registration, pose, guide);
+  if (!now.uncertainty) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    return TouchRefusal{TouchRefusal::Kind::kEntryUnsure, kUnknown, rules_.most_entry_sd_m};
+  }
+  const auto vertebra_from_world = level.registration->world_from_vertebra.inverse();
+  const nav::Axis<Vertebra> sleeve{
+      vertebra_from_world * resting.mean.point,
+      -(vertebra_from_world * Direction<World>{resting.mean.direction}).v};
+  const nav::SleeveErrors errors{
+      std::hypot(rules_.axis_sd_rad, rules_.play_rad, resting.direction_sd_rad),
+      std::hypot(rules_.tip_sd_m, resting.tip_sd_m)};
+  const nav::PlacedAxis axis =
+      nav::placed_axis(level.plan.screws[screw], sleeve, *now.uncertainty, errors);
+  if (const auto refusal = refusal_of(axis)) {
+    return refusal;
+  }
+  wire_ = PlacedWire{axis, resting.pairs, rules_.angle_limit_rad, rules_.entry_limit_m, false};
+  no_other_entry_ = false;
+  confirming_ = false;
+  return std::nullopt;
+}
+
+std::optional<TouchRefusal> Placing::refusal_of(const nav::PlacedAxis& axis) const {
+  using Kind = TouchRefusal::Kind;
+  if (!(axis.entry_m.value <= rules_.on_screw_m)) {
+    return TouchRefusal{Kind::kOffTheScrew, axis.entry_m.value, rules_.on_screw_m};
+  }
+  if (!(axis.angle_rad.value <= rules_.on_screw_rad)) {
+    return TouchRefusal{Kind::kAcrossTheScrew, 0.0, 0.0, axis.angle_rad.value, rules_.on_screw_rad};
+  }
+  if (!(axis.entry_m.sd <= rules_.most_entry_sd_m)) {
+    return TouchRefusal{Kind::kEntryUnsure, axis.entry_m.sd, rules_.most_entry_sd_m};
+  }
+  if (!(axis.angle_rad.sd <= rules_.most_angle_sd_rad)) {
+    return TouchRefusal{Kind::kAngleUnsure, 0.0, 0.0, axis.angle_rad.sd, rules_.most_angle_sd_rad};
+  }
+  return std::nullopt;
+}
+
+bool Placing::must_confirm(int redone) { return redone > 0 && !std::exchange(confirming_, true); }
+
+std::optional<nav::OtherEntry> Placing::other_entry(const LevelState& level, std::size_t screw) {
+  const nav::ScrewPlan& plan = level.plan.screws[screw];
+  const nav::SurfaceIndex& bone = level.plan.model->surface();
+  const auto driven = nav::cylinder_along(wire_->axis.line, plan, bone);
+  nav::OtherEntryRules rules;
+  rules.from_hole_m = rules_.drill_diameter_m;
+  const auto found =
+      nav::other_entry(plan, driven ? driven->entry : wire_->axis.line.point, bone, rules);
+  no_other_entry_ = !found;
+  return found;
+}
+
+StepState Placing::state() const { return WireSoFar{wire_ ? &*wire_ : nullptr, no_other_entry_}; }
+
+}  // namespace orthonav::engine

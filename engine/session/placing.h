@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "engine/session/axis_touch.h"
+#include "engine/session/guidance.h"
+#include "engine/session/placed_wire.h"
+#include "engine/session/tool_watch.h"
+#include "nav/guidance/other_entry.h"
+
+namespace orthonav::engine {
+
+/// The step `placed`: the sleeve is set over the wire, and what is measured is kept or redone.
+class Placing {
+ public:
+  Placing() = default;
+  explicit Placing(const PlacedWireRules& rules) : rules_(rules) {}
+
+  /// A wire was placed: nothing is known of it.
+  void begin();
+  [[nodiscard]] AxisTouch& touch() { return touch_; }
+  /// Takes the guide in this pair, if it was measured.
+  void collect(const nav::TrackedPose& pose, const nav::ToolGeometry& guide);
+  /// The wire of that screw as the touch has it, or why it does not count. The level has a
+  /// registration.
+  [[nodiscard]] std::optional<TouchRefusal> take(const LevelState& level, std::size_t screw,
+                                                 const nav::TrackedPose& pose,
+                                                 const nav::ToolGeometry& guide,
+                                                 double max_spread_m);
+  /// As it was measured last.
+  [[nodiscard]] const std::optional<PlacedWire>& wire() const { return wire_; }
+  [[nodiscard]] bool undecided() const { return wire_ && wire_->undecided(); }
+  /// The surgeon says so.
+  void keep() { wire_->kept = true; }
+
+  /// Whether "delete" has to be said again: a screw is redone once without.
+  [[nodiscard]] bool must_confirm(int redone);
+  /// Where the screw may enter instead of through the wire's hole; it was measured. Remembers where
+  /// there is no such place.
+  [[nodiscard]] std::optional<nav::OtherEntry> other_entry(const LevelState& level,
+                                                           std::size_t screw);
+  [[nodiscard]] StepState state() const;
+
+ private:
+  [[nodiscard]] std::optional<TouchRefusal> refusal_of(const nav::PlacedAxis& axis) const;
+
+  PlacedWireRules rules_;
+  std::optional<PlacedWire> wire_;
+  bool no_other_entry_ = false;
+  bool confirming_ = false;
+  AxisTouch touch_;
+};
+
+}  // namespace orthonav::engine

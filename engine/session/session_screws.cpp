@@ -1,0 +1,131 @@
+#include <algorithm>
+
+#include "base/check.h"
+#include "engine/session/session.h"
+#include "nav/guidance/predicted_error.h"
+
+namespace orthonav::engine {
+
+// What is done about a screw: it is guided, its wire is measured, and it is finished or redone.
+
+void Session::act_on_screw(Action action, Timestamp time) {
+  switch (action) {
+    case Action::kSelectScrew:
+      return select_screw();
+    case Action::kExpectWire:
+      return placing_.begin();
+    case Action::kMeasureWire:
+      return measure_wire(time);
+    case Action::kJudgeWire:
+      return handle(placing_.undecided() ? Event::kWireUndecided : Event::kWireSettled, time);
+    case Action::kAskAboutWire:
+      return messages_.say(WireUndecided{}, time);
+    case Action::kKeepWire:
+      return keep_wire(time);
+    case Action::kJudgeRedo:
+      return judge_redo(time);
+    case Action::kOfferToKeep:
+      return messages_.say(NoOtherEntry{}, time);
+    default:
+      ORTHONAV_CHECK(action == Action::kFinishScrew);
+      return finish_screw(time);
+  }
+}
+
+void Session::select_screw() {
+  digitizing_.clear();
+  guiding_.select_open_screw(level());
+}
+
+void Session::collect_sleeve() {
+  const ToolWatch& guide = tools_.watch(tools_.guide());
+  placing_.collect(guide.newest(), tools_.geometry(tools_.guide()));
+}
+
+void Session::measure_wire(Timestamp time) {
+  const ToolWatch& guide = tools_.watch(tools_.guide());
+  std::optional<TouchRefusal> refusal;
+  if (anchored() && reference_hidden_) {
+    placing_.touch().drop();
+    refusal = TouchRefusal{TouchRefusal::Kind::kReferenceNotSeen};
+  } else if (!guide.fresh(time, options_.stale_after)) {
+    placing_.touch().drop();
+    refusal = TouchRefusal{TouchRefusal::Kind::kGuideNotSeen};
+  } else {
+    refusal = placing_.take(level(), guiding_.screw(), guide.last_measured_pose(),
+                            tools_.geometry(tools_.guide()), options_.max_touch_spread_m);
+  }
+  if (refusal) {
+    messages_.say(TouchNotRecorded{TouchNotRecorded::What::kWire, *refusal}, time);
+  } else if (observer_) {
+    observer_->wire_measured(time, level(), guiding_.screw(), *placing_.wire());
+  }
+}
+
+void Session::keep_wire(Timestamp time) {
+  if (!placing_.undecided()) {
+    messages_.say(NotPossibleNow{Event::kSayAccept}, time);
+    return;
+  }
+  placing_.keep();
+  if (observer_) {
+    observer_->wire_measured(time, level(), guiding_.screw(), *placing_.wire());
+  }
+}
+
+/// Another entry for the same screw, whose landmark is touched before: what drove the wire astray
+/// may have moved the bone against its registration.
+void Session::judge_redo(Timestamp time) {
+  LevelState& now = level();
+  const std::size_t screw = guiding_.screw();
+  if (!placing_.wire()) {
+    return messages_.say(NothingToDelete{NothingToDelete::What::kWire}, time);
+  }
+  if (!placing_.undecided()) {
+    return messages_.say(NotPossibleNow{Event::kSayDelete}, time);
+  }
+  if (placing_.must_confirm(now.redone[screw])) {
+    return messages_.say(ConfirmRedo{now.redone[screw]}, time);
+  }
+  const auto other = placing_.other_entry(now, screw);
+  if (!other) {
+    return handle(Event::kNoOtherEntry, time);
+  }
+  now.plan.screws[screw].entry = other->entry;
+  ++now.redone[screw];
+  if (now.registration) {
+    now.predicted = nav::predicted_errors(*now.registration, now.plan.screws);
+  }
+  guiding_.forget_guidance();
+  if (observer_) {
+    observer_->screw_replanned(time, now, screw, *other);
+  }
+  handle(Event::kScrewReplanned, time);
+  messages_.say(ScrewReplanned{other->from_hole_m, other->clearance.clearance_m}, time);
+}
+
+void Session::finish_screw(Timestamp time) {
+  LevelState& now = level();
+  const std::size_t screw = guiding_.screw();
+  now.screw_done[screw] = true;
+  now.clearance_at_depth[screw] = guiding_.clearance_at_depth(now, tools_.geometry(tools_.guide()));
+  now.executed[screw] = guiding_.executed();
+  if (step_ == Step::kPlaced) {
+    now.wires[screw] = {true, placing_.wire()};
+  }
+  if (observer_) {
+    observer_->screw_done(time, now, now.plan.screws[screw], guiding_.at_depth());
+  }
+  const auto finished = [](const LevelState& state) { return state.finished(); };
+  if (!finished(now)) {
+    handle(Event::kAnotherScrew, time);
+  } else if (!std::all_of(levels_.begin(), levels_.end(), finished)) {
+    handle(Event::kAnotherLevel, time);
+  } else if (rod_planned(levels_, nav::Side::kLeft) || rod_planned(levels_, nav::Side::kRight)) {
+    handle(Event::kNoScrewLeft, time);
+  } else {
+    handle(Event::kNoRodPlanned, time);
+  }
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/session/placed_wire.h"
+#include "engine/session/status_line.h"
+#include "engine/session/status_parts.h"
+
+namespace orthonav::engine {
+
+// What a wire's measurement says, in words: a part of engine/session/wording.h.
+
+/// "0.8 ± 0.4°, 0.6 ± 0.3 mm".
+void append_wire(std::string& out, const PlacedWire& wire);
+/// "placed: 2.6 ± 0.4°, 0.6 ± 0.3 mm from the plan; angle 2.6°, limit 2.0°: say accept to keep it,
+/// delete to redo it".
+void write_wire(PartedText text, const WireSoFar& state, std::string_view separator);
+
+}  // namespace orthonav::engine

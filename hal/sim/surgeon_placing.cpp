@@ -1,0 +1,77 @@
+#include "hal/sim/noise.h"
+#include "hal/sim/surgeon.h"
+
+namespace orthonav::sim {
+namespace {
+
+/// The sleeve stands on the bone's cortex or a little above it.
+constexpr double kSleeveOverBone_m = 0.004;
+constexpr double kOverWire_m = 0.050;
+constexpr double kSetOver_s = 2.0;
+constexpr double kAtRest_s = 1.0;
+constexpr double kReadNumbers_s = 1.0;
+
+}  // namespace
+
+const DrivenWire* Surgeon::wire_of(std::size_t level, Side side) const {
+  const std::string& label = layout_->room().levels[level].label;
+  for (const DrivenWire& wire : placed_->wires) {
+    if (wire.level == label && wire.side == side) {
+      return &wire;
+    }
+  }
+  return nullptr;
+}
+
+Script Surgeon::look_at_wire(std::size_t level, Side side) {
+  const StepOnDisplay step = step_now();
+  const StepOnDisplay guiding{Step::kGuide, step.level, step.side};
+  const DrivenWire* wire = wire_of(level, side);
+  if (wire != nullptr && asked(ChecksAsked::kMeasureWire)) {
+    co_await set_sleeve_over(step, level, *wire);
+  }
+  if (in_step(step) && asked(ChecksAsked::kDecideOnWire) && redone_.insert(guiding).second) {
+    body_.say("delete");
+    co_await body_.rest(kReadNumbers_s);
+    // The line goes on to the landmark, or says that nothing but keeping is left.
+    if (!in_step(step)) {
+      driven_.erase(guiding);
+      co_return;
+    }
+  }
+  if (in_step(step) && (asked(ChecksAsked::kDecideOnWire) || asked(ChecksAsked::kKeepWire))) {
+    body_.say("accept");
+    co_await body_.rest(kReadNumbers_s);
+  }
+  if (in_step(step)) {
+    body_.say("next");
+    co_await await_change(step, "next");
+  }
+}
+
+Script Surgeon::set_sleeve_over(const StepOnDisplay& step, std::size_t level,
+                                const DrivenWire& wire) {
+  const auto& room_from_vertebra = layout_->room_from_vertebra(level);
+  const Vec3 outwards = -(room_from_vertebra * Direction<Vertebra>{wire.direction}).v;
+  const Point<Room> entry = room_from_vertebra * wire.entry;
+  const Vec3 play = normal_vector(sleeving_, error_model_->sleeve_play_rad);
+  const Vec3 axis = (rotation_from_vector(play) * outwards).normalized();
+  co_await body_.take(ToolKind::kGuide, layout_->site(level));
+  body_.look(entry, body_.best_view(outwards));
+  co_await body_.move({entry + kOverWire_m * outwards, axis, 0.0}, kSetOver_s);
+  co_await body_.move({entry + kSleeveOverBone_m * outwards, axis, 0.0}, kSetOver_s);
+  body_.posture().on_wire = true;
+  // The line says when it was not taken: rest a little longer and click again.
+  for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
+    co_await body_.rest(kAtRest_s);
+    co_await body_.click();
+    co_await body_.rest(kReadNumbers_s / body_.slowness());
+    if (!told(Notice::kTouchNotRecorded)) {
+      break;
+    }
+  }
+  body_.posture().on_wire = false;
+  co_await body_.move({entry + kOverWire_m * outwards, axis, 0.0}, kSetOver_s);
+}
+
+}  // namespace orthonav::sim

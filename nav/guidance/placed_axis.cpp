@@ -1,0 +1,76 @@
+#include "nav/guidance/placed_axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthonav::nav {
+namespace {
+
+using Covariance = std::array<double, 9>;
+
+/// Shorter than this a deviation has no direction of its own: micrometres, or microradians.
+constexpr double kNone = 1e-6;
+
+double variance_along(const Covariance& covariance, Vec3 direction) {
+  double variance = 0.0;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      variance += direction[r] * covariance[static_cast<std::size_t>(3 * r + c)] * direction[c];
+    }
+  }
+  return variance;
+}
+
+/// Of the length of a deviation across `axis`, by the errors across it.
+double sd_of_length(const Covariance& covariance, Vec3 deviation, Vec3 axis) {
+  const double length = deviation.norm();
+  if (length > kNone) {
+    return std::sqrt(variance_along(covariance, deviation / length));
+  }
+  const double all = covariance[0] + covariance[4] + covariance[8];
+  return std::sqrt(std::max(0.0, all - variance_along(covariance, axis)) / 2.0);
+}
+
+void add_across(Covariance& covariance, Vec3 axis, double variance) {
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      covariance[static_cast<std::size_t>(3 * r + c)] +=
+          variance * ((r == c ? 1.0 : 0.0) - axis[r] * axis[c]);
+    }
+  }
+}
+
+Covariance turn_of(const PoseUncertainty& pose) {
+  Covariance turn{};
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      turn[3 * r + c] = pose.covariance()[6 * (r + 3) + c + 3];
+    }
+  }
+  return turn;
+}
+
+}  // namespace
+
+PlacedAxis placed_axis(const ScrewPlan& plan, const Axis<Vertebra>& sleeve,
+                       const PoseUncertainty& pose, const SleeveErrors& errors) {
+  const Vec3 inward = (plan.target - plan.entry).normalized();
+  const Vec3 direction = sleeve.direction.normalized();
+  const double way_m = (plan.entry - sleeve.point).dot(direction);
+  PlacedAxis out;
+  out.line = {sleeve.point + way_m * direction, direction};
+  const double axis_variance = errors.axis_rad * errors.axis_rad;
+  out.direction_covariance_rad2 = turn_of(pose);
+  add_across(out.direction_covariance_rad2, direction, axis_variance);
+  out.point_covariance_m2 = pose.covariance_at(out.line.point);
+  add_across(out.point_covariance_m2, direction,
+             errors.tip_m * errors.tip_m + way_m * way_m * axis_variance);
+  const Vec3 about = inward.cross(direction);
+  out.angle_rad = {std::atan2(about.norm(), inward.dot(direction)),
+                   sd_of_length(out.direction_covariance_rad2, about, direction)};
+  const Vec3 off_m = out.line.point - plan.entry;
+  out.entry_m = {off_m.norm(), sd_of_length(out.point_covariance_m2, off_m, direction)};
+  return out;
+}
+
+}  // namespace orthonav::nav
