@@ -31,7 +31,7 @@ enum class Event : std::uint8_t {
   kLandmarkMoved,        ///< the landmark was touched, farther from where it was than may be
   kWireSettled,          ///< "next" was said, and nothing of the wire is left to decide
   kWireUndecided,        ///< "next" was said of a wire beyond a limit
-  kScrewReplanned,       ///< "delete" was said of it, and another entry was found
+  kScrewRedone,       ///< "delete" was said of it, and another entry was found
   kNoOtherEntry,         ///< and none was found
   kAnotherScrew,         ///< the level has a further screw
   kAnotherLevel,         ///< the level is finished, a further one is planned

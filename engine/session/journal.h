@@ -70,7 +70,7 @@ class Journal : public SessionObserver {
   void landmark_dropped(Timestamp time, const LevelState& level) override;
   void wire_measured(Timestamp time, const LevelState& level, std::size_t screw,
                      const PlacedWire& wire) override;
-  void screw_replanned(Timestamp time, const LevelState& level, std::size_t screw,
+  void screw_redone(Timestamp time, const LevelState& level, std::size_t screw,
                        const nav::OtherEntry& entry) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override;

@@ -193,7 +193,7 @@ class Reading {
                        line.number("limit_mm") * kMetresPerMm, line.flag_or("corrected", false)};
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
-    } else if (what == "screw" || what == "wire" || what == "screw replanned") {
+    } else if (what == "screw" || what == "wire" || what == "screw redone") {
       take_screw_line(what, line, time);
     } else if (what == "head" || what == "head dropped") {
       replay_.head(side_of(line), what == "head");
@@ -214,7 +214,7 @@ class Reading {
     } else if (what == "wire") {
       replay_.wire_measured(level, side_of(line), wire_of(line), line);
     } else {
-      replay_.screw_replanned(level, side_of(line), line);
+      replay_.screw_redone(level, side_of(line), line);
     }
   }
 

@@ -195,7 +195,7 @@ void JournalReplay::wire_measured(const std::string& label, Side side, const Rec
 }
 
 /// What was measured is of a wire that is taken out.
-void JournalReplay::screw_replanned(const std::string& label, Side side, const JsonNode& line) {
+void JournalReplay::screw_redone(const std::string& label, Side side, const JsonNode& line) {
   if (RecordedScrew* const screw = screw_of(label, side, line)) {
     screw->wire.reset();
     ++screw->redone;

@@ -31,7 +31,7 @@ class JournalReplay {
   void landmark_dropped(const std::string& label, const JsonNode& line);
   void wire_measured(const std::string& label, Side side, const RecordedWire& wire,
                      const JsonNode& line);
-  void screw_replanned(const std::string& label, Side side, const JsonNode& line);
+  void screw_redone(const std::string& label, Side side, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
   /// A head was touched, or the last one taken back.
   void head(Side side, bool touched);

@@ -89,9 +89,9 @@ void Journal::wire_measured(Timestamp time, const LevelState& level, std::size_t
   add_line(*log_, line, kDurable);
 }
 
-void Journal::screw_replanned(Timestamp time, const LevelState& level, std::size_t screw,
+void Journal::screw_redone(Timestamp time, const LevelState& level, std::size_t screw,
                               const nav::OtherEntry& entry) {
-  JournalLine line = journal_line(file_ticks(time), time, "screw replanned", level);
+  JournalLine line = journal_line(file_ticks(time), time, "screw redone", level);
   line["side"] = name_of(level.plan.screws[screw].side);
   line["redone"] = level.redone[screw];
   line["entry_mm"] = millimetres(entry.entry.v);

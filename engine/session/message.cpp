@@ -19,7 +19,7 @@ struct ToNotice {
   Notice operator()(const WireUndecided& /*m*/) const { return Notice::kWireUndecided; }
   Notice operator()(const NoOtherEntry& /*m*/) const { return Notice::kNoOtherEntry; }
   Notice operator()(const ConfirmRedo& /*m*/) const { return Notice::kConfirmRedo; }
-  Notice operator()(const ScrewReplanned& /*m*/) const { return Notice::kScrewReplanned; }
+  Notice operator()(const ScrewRedone& /*m*/) const { return Notice::kScrewRedone; }
   Notice operator()(const NoRod& /*m*/) const { return Notice::kNoRod; }
   Notice operator()(const MapMoved& /*m*/) const { return Notice::kMapMoved; }
   Notice operator()(const ReferenceMoved& /*m*/) const { return Notice::kReferenceMoved; }

@@ -95,7 +95,7 @@ struct ConfirmRedo {
   int redone = 0;
 };
 /// A screw is redone through another entry.
-struct ScrewReplanned {
+struct ScrewRedone {
   double from_hole_m = 0.0;
   double clearance_m = 0.0;  ///< to the cortex, as planned now
 };
@@ -117,7 +117,7 @@ using Message =
     std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
                  ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
                  LandmarkMissing, LandmarkMoved, TipCorrected, WireUndecided, NoOtherEntry,
-                 ConfirmRedo, ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
+                 ConfirmRedo, ScrewRedone, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// What it is about, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);

@@ -178,7 +178,7 @@ struct MessageWriter {
                    m.redone);
     out += ": say delete again to redo it, accept to keep it";
   }
-  void operator()(const ScrewReplanned& m) {
+  void operator()(const ScrewRedone& m) {
     text.begin(Importance::kMessage);
     out += "new entry ";
     append_mm(out, m.from_hole_m, 1);

@@ -72,10 +72,10 @@ class ObserverList : public SessionObserver {
       o->wire_measured(time, level, screw, wire);
     }
   }
-  void screw_replanned(Timestamp time, const LevelState& level, std::size_t screw,
+  void screw_redone(Timestamp time, const LevelState& level, std::size_t screw,
                        const nav::OtherEntry& entry) override {
     for (auto* o : observers_) {
-      o->screw_replanned(time, level, screw, entry);
+      o->screw_redone(time, level, screw, entry);
     }
   }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,

@@ -36,7 +36,7 @@ class SessionObserver {
   virtual void wire_measured(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
                              const PlacedWire& /*wire*/) {}
   /// That screw is redone; its plan has another entry by now.
-  virtual void screw_replanned(Timestamp /*time*/, const LevelState& /*level*/,
+  virtual void screw_redone(Timestamp /*time*/, const LevelState& /*level*/,
                                std::size_t /*screw*/, const nav::OtherEntry& /*entry*/) {}
   /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
   /// at its depth, or null where it never did.

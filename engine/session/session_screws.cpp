@@ -98,10 +98,10 @@ void Session::judge_redo(Timestamp time) {
   }
   guiding_.forget_guidance();
   if (observer_) {
-    observer_->screw_replanned(time, now, screw, *other);
+    observer_->screw_redone(time, now, screw, *other);
   }
-  handle(Event::kScrewReplanned, time);
-  messages_.say(ScrewReplanned{other->from_hole_m, other->clearance.clearance_m}, time);
+  handle(Event::kScrewRedone, time);
+  messages_.say(ScrewRedone{other->from_hole_m, other->clearance.clearance_m}, time);
 }
 
 void Session::finish_screw(Timestamp time) {

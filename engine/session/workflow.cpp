@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, kEventCount> kEventNames = {
     "landmark moved",
     "wire settled",
     "wire undecided",
-    "screw replanned",
+    "screw redone",
     "no other entry",
     "another screw",
     "another level",

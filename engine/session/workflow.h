@@ -139,7 +139,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kPlaced, kSayReject, kClearLevel, kDigitize},
     {kPlaced, kWireSettled, kFinishScrew, kPlaced},
     {kPlaced, kWireUndecided, kAskAboutWire, kPlaced},
-    {kPlaced, kScrewReplanned, kExpectLandmark, kAccepted},
+    {kPlaced, kScrewRedone, kExpectLandmark, kAccepted},
     {kPlaced, kNoOtherEntry, kOfferToKeep, kPlaced},
     {kPlaced, kAnotherScrew, kExpectLandmark, kAccepted},
     {kPlaced, kAnotherLevel, kBeginLevel, kDigitize},

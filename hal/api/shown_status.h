@@ -55,7 +55,7 @@ enum class Notice : std::uint8_t {
   kWireUndecided,     ///< "next", while a wire beyond a limit waits for a word
   kNoOtherEntry,      ///< through which its screw could be redone
   kConfirmRedo,       ///< a screw that was redone is so again when "delete" is said again
-  kScrewReplanned,    ///< it has another entry
+  kScrewRedone,    ///< it has another entry
   kNoRod,             ///< the heads give none
   kMapMoved,          ///< the headset's map: what was measured in it is gone
   kReferenceMoved,    ///< the patient's: what hung on it is gone

@@ -85,7 +85,7 @@ std::vector<Message> messages() {
       Message(TouchNotRecorded{What::kWire, {TouchRefusal::Kind::kOffTheScrew, 0.12300001, 0.123}}),
       Message(ConfirmRedo{12}),
       Message(NoOtherEntry{}),
-      Message(ScrewReplanned{0.0123, 0.0123}),
+      Message(ScrewRedone{0.0123, 0.0123}),
       Message(NoRod{{"screw heads 10 and 11 are 4.9999 mm apart, limit 5-150 mm"}}),
       Message(MapMoved{Step::kDigitize}),
       Message(MapMoved{Step::kRod}),

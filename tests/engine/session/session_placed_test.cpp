@@ -177,13 +177,13 @@ TEST_F(PlacedSession, DeleteRedoesItThroughAnotherEntryOnceTheLandmarkWasTouched
   measures(0.0025, 0.0);
   const Guidance& g = s.says("delete");
   EXPECT_EQ(step_of(g), "accepted L4");
-  ASSERT_NE(said<ScrewReplanned>(g), nullptr);
+  ASSERT_NE(said<ScrewRedone>(g), nullptr);
   EXPECT_EQ(checks_asked(g.status), ChecksAsked::kTouchMore);
   const nav::ScrewPlan& plan = level().plan.screws[0];
   const Point<Vertebra> hole{kLeftEntry + Vec3{0.0025, 0, 0}};
   EXPECT_GE((plan.entry - hole).norm(), PlacedWireRules{}.drill_diameter_m - kJoined);
-  EXPECT_NEAR(said<ScrewReplanned>(g)->from_hole_m, (plan.entry - hole).norm(), kJoined);
-  EXPECT_GT(said<ScrewReplanned>(g)->clearance_m, 0.0);
+  EXPECT_NEAR(said<ScrewRedone>(g)->from_hole_m, (plan.entry - hole).norm(), kJoined);
+  EXPECT_GT(said<ScrewRedone>(g)->clearance_m, 0.0);
   EXPECT_EQ(plan.target, target);
   EXPECT_NEAR(plan.entry.v.y, 0.020, kExact) << "on the bone's surface";
   EXPECT_FALSE(level().screw_done[0]);

@@ -288,7 +288,7 @@ TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {
             "redone once already: say delete again to redo it, accept to keep it");
   EXPECT_EQ(line_with(Message(ConfirmRedo{2})),
             "redone 2 times already: say delete again to redo it, accept to keep it");
-  EXPECT_EQ(line_with(Message(ScrewReplanned{0.0034, 0.0018})),
+  EXPECT_EQ(line_with(Message(ScrewRedone{0.0034, 0.0018})),
             "new entry 3.4 mm from the hole, clearance 1.8 mm: take the wire out and touch the "
             "dimple");
 }

@@ -43,7 +43,7 @@ TEST(Workflow, NothingTheEngineFindsOutIsRefusedWhereItCanHappen) {
                                                 {Step::kAccepted, Event::kLandmarkMoved},
                                                 {Step::kPlaced, Event::kWireSettled},
                                                 {Step::kPlaced, Event::kWireUndecided},
-                                                {Step::kPlaced, Event::kScrewReplanned},
+                                                {Step::kPlaced, Event::kScrewRedone},
                                                 {Step::kPlaced, Event::kNoOtherEntry},
                                                 {Step::kPlaced, Event::kAnotherScrew},
                                                 {Step::kPlaced, Event::kAnotherLevel},
@@ -114,7 +114,7 @@ TEST_P(EveryVerification, OnlyTheSurgeonsWordLeadsToGuidance) {
       }
       if (next == Step::kAccepted && step != Step::kAccepted) {
         const bool after_screw = by_touch && step == Step::kPlaced &&
-                                 (event == Event::kAnotherScrew || event == Event::kScrewReplanned);
+                                 (event == Event::kAnotherScrew || event == Event::kScrewRedone);
         EXPECT_TRUE(after_screw || (step == Step::kVerify && event == accepting)) << s << " " << e;
       }
       if (next == Step::kGuide && step != Step::kGuide) {
@@ -131,7 +131,7 @@ TEST(Workflow, VerifyingByTouchTheWordAloneAcceptsNothing) {
 }
 
 TEST(Workflow, BeforeEveryScrewTheLandmarkIsTouched) {
-  for (const Event event : {Event::kAnotherScrew, Event::kScrewReplanned}) {
+  for (const Event event : {Event::kAnotherScrew, Event::kScrewRedone}) {
     EXPECT_EQ(answer(Step::kPlaced, event), (Cell{Step::kAccepted, Action::kExpectLandmark}));
   }
   EXPECT_EQ(answer(Step::kAccepted, Event::kSayNext),
