@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/angle.h"
+#include "engine/report/replan_figures.h"
 #include "engine/report/session_report.h"
 
 namespace orthonav::engine {
@@ -25,6 +26,7 @@ Json recorded_screw_json(const RecordedScrew& screw) {
     put_length_mm(out["at_depth"], "clearance_mm", screw.at_depth->clearance_m);
     put_length_mm(out["at_depth"], "clearance_95_mm", screw.at_depth->clearance_95_m);
   }
+  put_planned_in_surgery(out, screw.planned_in_surgery);
   return out;
 }
 

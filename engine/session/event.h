@@ -22,6 +22,7 @@ enum class Event : std::uint8_t {
   kSayMoveRod,
   kSayTwin,
   kSayDrill,
+  kSayReplan,            ///< a change of the screw, with what it is to be: Replan
   kRegistered,           ///< a registration passed its limits
   kRegistrationRefused,  ///< a registration failed its limits
   kChecked,              ///< "accept" was said and the check points bear it out
@@ -43,7 +44,7 @@ enum class Event : std::uint8_t {
   kReferenceSeen,        ///< one is seen again, or for the first time
   kReferenceMoved,       ///< references moved against each other: what hangs on them means nothing
 };
-inline constexpr std::size_t kEventCount = 35;
+inline constexpr std::size_t kEventCount = 36;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -82,12 +83,14 @@ enum class Action : std::uint8_t {
   kMoveRod,
   kToggleTwin,
   kBeginDrill,
+  kReplan,
+  kConsent,
   kFinish,
   kWarnLost,
   kHideGuidance,
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 40;
+inline constexpr std::size_t kActionCount = 42;
 
 }  // namespace orthonav::engine

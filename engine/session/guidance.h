@@ -43,7 +43,13 @@ struct TagSizeWarning {
 
 /// Where one level of the operation stands.
 struct LevelState {
+  /// Its screws are the plan in use, for everybody; only Replanning writes to them.
   OperatedLevel plan;
+  /// Its screws as they were planned before surgery. Nothing writes to them.
+  std::vector<nav::ScrewPlan> preoperative;
+  /// Of each screw, what was in use before each of its changes that was not undone, the newest
+  /// last.
+  std::vector<std::vector<nav::ScrewPlan>> earlier_plans;
   int attempts = 0;  ///< registrations asked for so far
   /// The newest registration that passed its limits; gone when the surgeon rejects it.
   std::optional<nav::Registration> registration;
@@ -69,6 +75,16 @@ struct LevelState {
 
   [[nodiscard]] bool finished() const {
     return std::find(screw_done.begin(), screw_done.end(), false) == screw_done.end();
+  }
+  [[nodiscard]] bool replanned(std::size_t screw) const {
+    return screw < earlier_plans.size() && !earlier_plans[screw].empty();
+  }
+  /// The first screw that is not done; none where all are.
+  [[nodiscard]] std::optional<std::size_t> open_screw() const {
+    const auto open = std::find(screw_done.begin(), screw_done.end(), false);
+    return open == screw_done.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(open - screw_done.begin()));
   }
   /// Throws the registration away with what stands on it. Wires driven on it are not undone: what
   /// was done stays.

@@ -38,9 +38,7 @@ ToolInVertebra in_vertebra(const nav::Registration& registration, const nav::Tra
 }  // namespace
 
 void Guiding::select_open_screw(const LevelState& level) {
-  const auto& done = level.screw_done;
-  const auto open = std::find(done.begin(), done.end(), false);
-  screw_ = open == done.end() ? 0 : static_cast<std::size_t>(open - done.begin());
+  screw_ = level.open_screw().value_or(0);
   forget_guidance();
 }
 
@@ -173,7 +171,7 @@ StepState Guiding::state(const LevelState& level) const {
     return {};
   }
   return RegistrationFigures{level.registration->rmse_m, level.predicted[screw_].worst_m(), true,
-                             level.registration_only()};
+                             level.registration_only(), level.replanned(screw_)};
 }
 
 }  // namespace orthonav::engine

@@ -68,6 +68,8 @@ class Journal : public SessionObserver {
                         const LandmarkTouch& touch) override;
   void tips_compared(Timestamp time, const TipDifference& difference) override;
   void landmark_dropped(Timestamp time, const LevelState& level) override;
+  void replanned(Timestamp time, const LevelState& level, const Replan& asked,
+                 const ScrewReplanned& done) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;

@@ -77,6 +77,22 @@ RecordedLandmark landmark_of(const JsonNode& line) {
           line.number("limit_mm") * kMetresPerMm, first || line.flag_or("within", false), false};
 }
 
+std::optional<nav::ScrewDifference> planned_in_surgery(const JsonNode& line) {
+  if (!line.has("planned_in_surgery")) {
+    return std::nullopt;
+  }
+  const JsonNode by = line.child("planned_in_surgery");
+  return nav::ScrewDifference{by.number("entry_cranial_mm") * kMetresPerMm,
+                              by.number("entry_medial_mm") * kMetresPerMm,
+                              by.number("entry_inward_mm") * kMetresPerMm,
+                              by.number("aim_cranial_deg") * kRadiansPerDegree,
+                              by.number("aim_medial_deg") * kRadiansPerDegree,
+                              by.number("diameter_from_mm") * kMetresPerMm,
+                              by.number("diameter_to_mm") * kMetresPerMm,
+                              by.number("length_from_mm") * kMetresPerMm,
+                              by.number("length_to_mm") * kMetresPerMm};
+}
+
 std::optional<RecordedPose> pose_of(const JsonNode& line) {
   if (!line.has("angle_deg")) {
     return std::nullopt;
@@ -216,6 +232,8 @@ class Reading {
                        line.number("limit_mm") * kMetresPerMm, line.flag_or("corrected", false)};
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
+    } else if (what == "replanned") {
+      replay_.replanned(line.text("level"), side_of(line), planned_in_surgery(line), line);
     } else if (what == "screw") {
       replay_.screw_done(line.text("level"), {side_of(line), true, time, pose_of(line)}, line);
     } else if (what == "head" || what == "head dropped") {

@@ -173,19 +173,31 @@ void JournalReplay::landmark_dropped(const std::string& label, const JsonNode& l
   }
 }
 
+RecordedScrew& JournalReplay::screw_of(RecordedLevel& level, Side side) {
+  const auto found = std::find_if(level.screws.begin(), level.screws.end(),
+                                  [side](const RecordedScrew& s) { return s.side == side; });
+  if (found != level.screws.end()) {
+    return *found;
+  }
+  level.screws.push_back({side, false, {}, {}});
+  return level.screws.back();
+}
+
 void JournalReplay::screw_done(const std::string& label, const RecordedScrew& screw,
                                const JsonNode& line) {
-  RecordedLevel* const level = level_named(label, line);
-  if (!level) {
-    return;
+  if (RecordedLevel* const level = level_named(label, line)) {
+    RecordedScrew& known = screw_of(*level, screw.side);
+    const auto planned_in_surgery = known.planned_in_surgery;
+    known = screw;
+    known.planned_in_surgery = planned_in_surgery;
   }
-  const auto found =
-      std::find_if(level->screws.begin(), level->screws.end(),
-                   [&](const RecordedScrew& planned) { return planned.side == screw.side; });
-  if (found == level->screws.end()) {
-    level->screws.push_back(screw);
-  } else {
-    *found = screw;
+}
+
+void JournalReplay::replanned(const std::string& label, Side side,
+                              const std::optional<nav::ScrewDifference>& difference,
+                              const JsonNode& line) {
+  if (RecordedLevel* const level = level_named(label, line)) {
+    screw_of(*level, side).planned_in_surgery = difference;
   }
 }
 

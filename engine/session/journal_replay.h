@@ -29,6 +29,9 @@ class JournalReplay {
   void check_dropped(const std::string& label, const JsonNode& line);
   void landmark(const std::string& label, RecordedLandmark touch, const JsonNode& line);
   void landmark_dropped(const std::string& label, const JsonNode& line);
+  /// Absent: as it was planned before surgery again.
+  void replanned(const std::string& label, Side side,
+                 const std::optional<nav::ScrewDifference>& difference, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
   /// A head was touched, or the last one taken back.
   void head(Side side, bool touched);
@@ -39,6 +42,7 @@ class JournalReplay {
   /// where there are too many.
   RecordedLevel* level_named(const std::string& label, const JsonNode& line);
   RecordedLevel* current();
+  static RecordedScrew& screw_of(RecordedLevel& level, Side side);
   RecordedRod& rod_of(Side side);
   void forget_registration(RecordedLevel& level);
   void forget_map();

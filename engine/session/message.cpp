@@ -16,6 +16,9 @@ struct ToNotice {
   Notice operator()(const LandmarkMissing& /*m*/) const { return Notice::kLandmarkMissing; }
   Notice operator()(const LandmarkMoved& /*m*/) const { return Notice::kLandmarkMoved; }
   Notice operator()(const TipCorrected& /*m*/) const { return Notice::kTipCorrected; }
+  Notice operator()(const ReplanUnclear& /*m*/) const { return Notice::kNotUnderstood; }
+  Notice operator()(const ReplanRefusal& /*m*/) const { return Notice::kReplanRefused; }
+  Notice operator()(const ScrewReplanned& /*m*/) const { return Notice::kReplanned; }
   Notice operator()(const NoRod& /*m*/) const { return Notice::kNoRod; }
   Notice operator()(const MapMoved& /*m*/) const { return Notice::kMapMoved; }
   Notice operator()(const ReferenceMoved& /*m*/) const { return Notice::kReferenceMoved; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "engine/session/replan.h"
 #include "engine/session/workflow.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
@@ -76,6 +77,10 @@ struct LandmarkMoved {
   double limit_m = 0.0;
   bool anchored = false;  ///< to a patient reference: what moves with it shows nowhere
 };
+/// A change of the screw was said, and not understood to its end.
+struct ReplanUnclear {
+  Error why;
+};
 struct NoRod {
   Error why;
 };
@@ -90,10 +95,11 @@ struct NoImages {};
 struct Ended {};
 
 /// Nothing, or one of these.
-using Message = std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown,
-                             NothingToDelete, ConfirmDelete, RegistrationRefused, ChecksMissing,
-                             TouchNotRecorded, LandmarkMissing, LandmarkMoved, TipCorrected, NoRod,
-                             MapMoved, ReferenceMoved, NoImages, Ended>;
+using Message =
+    std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
+                 ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
+                 LandmarkMissing, LandmarkMoved, TipCorrected, ReplanUnclear, ReplanRefusal,
+                 ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// What it is about, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);

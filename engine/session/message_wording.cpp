@@ -6,6 +6,7 @@
 
 #include "base/length_text.h"
 #include "base/printed.h"
+#include "engine/session/replan_wording.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
@@ -48,6 +49,11 @@ struct MessageWriter {
   void operator()(std::monostate /*none*/) {}
   void operator()(const NotPossibleNow& m) {
     text.begin(Importance::kMessage);
+    if (m.event == Event::kSayReplan) {
+      out +=
+          "not possible now: a screw is changed once its level is accepted, before it is drilled";
+      return;
+    }
     out.append("not possible now: ").append(name_of(m.event));
   }
   void operator()(const NotUnderstood& /*m*/) {
@@ -119,6 +125,12 @@ struct MessageWriter {
     out += "guide's tip corrected by ";
     append_mm(out, m.by_m, 1);
   }
+  void operator()(const ReplanUnclear& m) {
+    text.begin(Importance::kMessage);
+    out += m.why.message;
+  }
+  void operator()(const ReplanRefusal& m) { write(text, m); }
+  void operator()(const ScrewReplanned& m) { write(text, m); }
   void operator()(const NoRod& m) {
     text.begin(Importance::kMessage);
     out.append("no rod: ").append(m.why.message);

@@ -66,6 +66,12 @@ class ObserverList : public SessionObserver {
       o->landmark_dropped(time, level);
     }
   }
+  void replanned(Timestamp time, const LevelState& level, const Replan& asked,
+                 const ScrewReplanned& done) override {
+    for (auto* o : observers_) {
+      o->replanned(time, level, asked, done);
+    }
+  }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override {
     for (auto* o : observers_) {

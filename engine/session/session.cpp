@@ -4,6 +4,7 @@
 
 #include "base/joined.h"
 #include "engine/session/spoken_commands.h"
+#include "engine/session/spoken_replan.h"
 
 namespace orthonav::engine {
 namespace {
@@ -61,12 +62,15 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
       landmarking_(options.landmark),
       tip_check_(options.tips, options.landmark),
       guiding_(options.drill),
+      replanning_(options.replan),
       messages_(options.message_for, options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
     LevelState state;
     state.screw_done.assign(plan.screws.size(), false);
     state.clearance_at_depth.resize(plan.screws.size());
     state.executed.resize(plan.screws.size());
+    state.preoperative = plan.screws;
+    state.earlier_plans.resize(plan.screws.size());
     state.plan = std::move(plan);
     levels_.push_back(std::move(state));
   }
@@ -126,6 +130,9 @@ void Session::answer_inputs(const Inputs& inputs) {
 
 void Session::hear(const Phrase& phrase) {
   const auto event = command_event(phrase.text);
+  if (const auto replan = event ? std::nullopt : replan_from(phrase.text)) {
+    return hear_replan(phrase, *replan);
+  }
   const bool sure = phrase.confidence >= options_.min_voice_confidence;
   if (event) {
     messages_.echo(phrase, sure);
@@ -157,6 +164,9 @@ void Session::handle(Event event, Timestamp time) {
   step_ = cell.next;
   if (!keeps_message(cell.action)) {
     messages_.clear();
+    if (event != Event::kSayAccept) {
+      replanning_.withdraw_question();
+    }
   }
   act(cell.action, event, time);
 }

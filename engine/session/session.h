@@ -13,6 +13,7 @@
 #include "engine/session/landmarking.h"
 #include "engine/session/messages.h"
 #include "engine/session/method.h"
+#include "engine/session/replanning.h"
 #include "engine/session/rod_templating.h"
 #include "engine/session/session_observer.h"
 #include "engine/session/session_options.h"
@@ -68,6 +69,7 @@ class Session {
   // session.cpp: the order of one step.
   void answer_inputs(const Inputs& inputs);
   void hear(const Phrase& phrase);
+  void hear_replan(const Phrase& phrase, const Result<Replan>& replan);
   void handle(Event event, Timestamp time);
   void watch_map(const StereoFrame& frame);
   void watch_reference(Timestamp now);
@@ -107,6 +109,12 @@ class Session {
   void drop_landmark(Timestamp time);
   void judge_landmark(Timestamp time);
   void verify_again(Timestamp time);
+  // session_replan.cpp
+  void replan(Timestamp time);
+  void consent(Timestamp time);
+  [[nodiscard]] bool consents_to_breach(Timestamp time);
+  [[nodiscard]] std::variant<std::size_t, ReplanRefusal> screw_to_replan() const;
+  void take_replan(const Replanning::Outcome& outcome, Timestamp time);
   void select_screw();
   void finish_screw(Timestamp time);
   void drop_touch(Timestamp time);
@@ -137,6 +145,7 @@ class Session {
   Landmarking landmarking_;
   TipCheck tip_check_;
   Guiding guiding_;
+  Replanning replanning_;
   RodTemplating rod_templating_;
 
   Messages messages_;

@@ -31,6 +31,9 @@ class SessionObserver {
   virtual void tips_compared(Timestamp /*time*/, const TipDifference& /*difference*/) {}
   /// That touch was taken back; with a first one, the landmark.
   virtual void landmark_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
+  /// The surgeon changed a planned screw, or took a change back.
+  virtual void replanned(Timestamp /*time*/, const LevelState& /*level*/, const Replan& /*asked*/,
+                         const ScrewReplanned& /*done*/) {}
   /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
   /// at its depth, or null where it never did.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,

@@ -36,6 +36,9 @@ std::vector<std::string> SessionOptions::check() const {
   for (const std::string& problem : drill.check()) {
     problems.push_back("drill: " + problem);
   }
+  for (const std::string& problem : replan.check()) {
+    problems.push_back("replan: " + problem);
+  }
   for (const double sd_m : {common.tip_m, common.cameras_m, common.map_m}) {
     if (!(sd_m >= 0.0 && sd_m <= 0.01)) {
       problems.push_back("common errors must lie in [0, 0.01]");

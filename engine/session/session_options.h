@@ -6,6 +6,7 @@
 
 #include "base/time.h"
 #include "engine/session/landmark.h"
+#include "engine/session/replan_limits.h"
 #include "engine/session/tip_check.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/rod_bends.h"
@@ -32,6 +33,7 @@ struct SessionOptions {
   LandmarkRules landmark;
   TipCheckRules tips;
   nav::DrillLimits drill;
+  ReplanLimits replan;
   /// What is known of errors that all strokes share; without, the errors that are expected are
   /// those of the registration alone, and called so.
   nav::CommonErrors common;

@@ -98,6 +98,7 @@ void Session::publish_status() {
     line.tool = tools_.geometry(*reference).name;
     line.tool_lost = true;
   }
+  replanning_.show(guidance_.display_time);
   line.message = messages_.message();
   line.heard = messages_.heard();
   line.state = state_of_step();

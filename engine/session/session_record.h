@@ -8,6 +8,7 @@
 #include "base/side.h"
 #include "base/time.h"
 #include "engine/session/workflow.h"
+#include "nav/guidance/changed_screw.h"
 
 namespace orthonav::engine {
 
@@ -26,6 +27,8 @@ struct RecordedScrew {
   bool done = false;
   std::optional<Timestamp> time;         ///< when it was declared done
   std::optional<RecordedPose> at_depth;  ///< absent where the tool never stood at its depth
+  /// How it was planned in surgery, against how it was before; absent: as before.
+  std::optional<nav::ScrewDifference> planned_in_surgery = {};
 };
 
 /// One registration that was asked for. What the journal does not hold is absent.

@@ -29,6 +29,7 @@ struct RegistrationFigures {
   double expected_m = 0.0;  ///< error at the worst of the screws, or at the selected one
   bool of_one_screw = false;
   bool registration_only = false;  ///< what all strokes share is not known, so not in it
+  bool replanned = false;          ///< the selected screw was changed in surgery
 };
 /// While a registration is verified by touch.
 struct ChecksSoFar {

@@ -116,6 +116,10 @@ struct StateWriter {
     append_mm(out, figures.expected_m, 1);
     out += figures.of_one_screw ? " expected" : " expected at the screws";
     out += figures.registration_only ? kRegistrationOnly : "";
+    if (figures.replanned) {
+      text.begin(Importance::kMessage, "; ");
+      out += "planned in surgery";
+    }
   }
   void operator()(const ChecksSoFar& checks) {
     text.begin(Importance::kFigures);

@@ -43,6 +43,8 @@ enum class Notice : std::uint8_t {
   kLandmarkMissing,   ///< "next", before the landmark was touched
   kLandmarkMoved,     ///< it is not where it was: the registration is verified again
   kTipCorrected,      ///< of the guide, by the pointer's
+  kReplanRefused,     ///< a change of the screw
+  kReplanned,         ///< the screw was changed
   kNoRod,             ///< the heads give none
   kMapMoved,          ///< the headset's map: what was measured in it is gone
   kReferenceMoved,    ///< the patient's: what hung on it is gone
