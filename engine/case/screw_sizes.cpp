@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/printed.h"
+#include "nav/guidance/changed_screw.h"
 
 namespace orthonav::engine {
 namespace {
@@ -108,6 +109,30 @@ std::optional<double> ScrewSizes::next_length_m(double diameter_m, double length
     return std::nullopt;
   }
   return next_of(nearest->lengths_m, length_m, longer, kAnotherLength_m);
+}
+
+std::optional<double> ScrewSizes::head_to_seat_m(double diameter_m) const {
+  const ScrewSize* size = of_diameter(diameter_m);
+  return size != nullptr ? size->head_to_seat_m : std::nullopt;
+}
+
+std::vector<std::string> sizes_not_listed(const Operation& operation, const ScrewSizes& sizes) {
+  std::vector<std::string> lines;
+  for (const OperatedLevel& level : operation.levels) {
+    for (const nav::ScrewPlan& screw : level.screws) {
+      const double diameter_m = 2.0 * screw.radius_m;
+      const double length_m = nav::screw_length_m(screw);
+      const bool stated = diameter_m > 0.0;
+      if (stated ? sizes.has(diameter_m, length_m) : sizes.has_length(length_m)) {
+        continue;
+      }
+      const std::string size = stated ? printed("%.1f x %.1f mm", diameter_m * 1e3, length_m * 1e3)
+                                      : printed("length %.1f mm", length_m * 1e3);
+      lines.push_back(level.label + " " + name_of(screw.side) + ": " + size +
+                      " is not in the list of screws");
+    }
+  }
+  return lines;
 }
 
 std::vector<std::string> ScrewSizes::check() const {

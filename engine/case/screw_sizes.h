@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/case/operation.h"
+
 namespace orthonav::engine {
 
 /// The screws of one diameter.
@@ -35,9 +37,17 @@ struct ScrewSizes {
   [[nodiscard]] std::optional<double> next_length_m(double diameter_m, double length_m,
                                                     bool longer) const;
 
+  /// Of that size; none where it is not in the list or does not state it.
+  [[nodiscard]] std::optional<double> head_to_seat_m(double diameter_m) const;
+
   /// Every problem at once: nothing in it, diameters outside 2-12 mm, lengths outside 10-120 mm,
   /// seats outside 0-30 mm, numbers that do not ascend or repeat. Empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
+
+/// A line for each planned screw that is not in the list, such as "L4 left: 6.2 x 43.0 mm is not
+/// in the list of screws"; of a plan without a radius the length alone.
+[[nodiscard]] std::vector<std::string> sizes_not_listed(const Operation& operation,
+                                                        const ScrewSizes& sizes);
 
 }  // namespace orthonav::engine

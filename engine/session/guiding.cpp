@@ -111,7 +111,7 @@ void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
                    on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
                    measured.tip_off_axis_m, measured.angle_rad, measured.depth_m,
                    deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity(),
-                   measured.to_target_m});
+                   measured.to_target_m, tool.stop_m});
 }
 
 void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,

@@ -77,6 +77,11 @@ RecordedLandmark landmark_of(const JsonNode& line) {
           line.number("limit_mm") * kMetresPerMm, first || line.flag_or("within", false), false};
 }
 
+RecordedTips tips_of(const JsonNode& line) {
+  return {line.number("apart_mm") * kMetresPerMm, line.number("limit_mm") * kMetresPerMm,
+          line.flag_or("corrected", false)};
+}
+
 std::optional<nav::ScrewDifference> planned_in_surgery(const JsonNode& line) {
   if (!line.has("planned_in_surgery")) {
     return std::nullopt;
@@ -227,9 +232,7 @@ class Reading {
     } else if (what == "landmark") {
       replay_.landmark(line.text("level"), landmark_of(line), line);
     } else if (what == "tips") {
-      record_.tips =
-          RecordedTips{line.number("apart_mm") * kMetresPerMm,
-                       line.number("limit_mm") * kMetresPerMm, line.flag_or("corrected", false)};
+      record_.tips = tips_of(line);
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
     } else if (what == "replanned") {

@@ -99,6 +99,29 @@ void write_size_refusal(std::string& out, const ReplanRefusal& refusal) {
   }
 }
 
+/// Of a kind without numbers.
+std::string_view plain_reason(ReplanRefusal::Kind kind) {
+  using enum ReplanRefusal::Kind;
+  switch (kind) {
+    case kDrillSet:
+      return "the tip is set on the bone, lift it first";
+    case kDrilling:
+      return "drilling, draw the drill out first";
+    case kNoScrewLeft:
+      return "every screw of this level is done";
+    case kNothingToUndo:
+      return "nothing to undo";
+    case kNoDiameter:
+      return "the plan states no diameter";
+    case kNoDirections:
+      return "it runs too far off the usual directions";
+    case kOffTheBone:
+      return "its axis misses the bone that a pointer reaches";
+    default:
+      return {};
+  }
+}
+
 void write_breach(PartedText text, const ReplanRefusal& refusal) {
   text.out += "breaks through the cortex: clearance ";
   append_beside_limit(text.out, "%.1f mm, limit %.1f mm", refusal.value * 1e3, refusal.limit * 1e3);
@@ -141,42 +164,20 @@ void write(PartedText text, const ReplanRefusal& refusal) {
   text.begin(refusal.kind == kBreach ? Importance::kDanger : Importance::kMessage);
   out += "screw not changed: ";
   switch (refusal.kind) {
-    case kDrillSet:
-      out += "the tip is set on the bone, lift it first";
-      break;
-    case kDrilling:
-      out += "drilling, draw the drill out first";
-      break;
-    case kNoScrewLeft:
-      out += "every screw of this level is done";
-      break;
-    case kNothingToUndo:
-      out += "nothing to undo";
-      break;
     case kNoSuchSize:
     case kLastSize:
-      write_size_refusal(out, refusal);
-      break;
-    case kNoDiameter:
-      out += "the plan states no diameter";
-      break;
-    case kNoDirections:
-      out += "it runs too far off the usual directions";
-      break;
-    case kOffTheBone:
-      out += "its axis misses the bone that a pointer reaches";
-      break;
+      return write_size_refusal(out, refusal);
     case kEntryTooFar:
-      append_beside_limit(out, "entry %.1f mm from the preoperative plan, limit %.1f mm",
-                          refusal.value * 1e3, refusal.limit * 1e3);
-      break;
+      return append_beside_limit(out, "entry %.1f mm from the preoperative plan, limit %.1f mm",
+                                 refusal.value * 1e3, refusal.limit * 1e3);
     case kTiltTooFar:
-      append_beside_limit(out, "tilted %.1f\u00b0 from the preoperative plan, limit %.1f\u00b0",
-                          degrees(refusal.value), degrees(refusal.limit));
-      break;
+      return append_beside_limit(out,
+                                 "tilted %.1f\u00b0 from the preoperative plan, limit %.1f\u00b0",
+                                 degrees(refusal.value), degrees(refusal.limit));
     case kBreach:
-      write_breach(text, refusal);
-      break;
+      return write_breach(text, refusal);
+    default:
+      out += plain_reason(refusal.kind);
   }
 }
 

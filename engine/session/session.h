@@ -19,6 +19,7 @@
 #include "engine/session/session_options.h"
 #include "engine/session/tip_check.h"
 #include "engine/session/tool_in_use.h"
+#include "engine/session/tools_in_hand.h"
 #include "engine/session/verifying.h"
 #include "engine/session/watched_tools.h"
 #include "engine/session/workflow.h"
@@ -86,6 +87,7 @@ class Session {
   void publish(const StereoFrame& frame, Timestamp display_time);
   void publish_steps(Timestamp now, Timestamp display_time);
   void publish_status();
+  void publish_instruments();
   [[nodiscard]] StepOnDisplay step_on_display() const;
   [[nodiscard]] StepState state_of_step() const;
   [[nodiscard]] std::optional<std::size_t> hidden_reference() const;
@@ -136,6 +138,7 @@ class Session {
   std::int64_t reference_moves_ = 0;       ///< that were answered
   bool reference_hidden_ = true;           ///< where one is in use
   ToolInUse in_use_;
+  ToolsInHand in_hand_;
 
   Step step_ = Step::kSetup;
   std::vector<LevelState> levels_;

@@ -71,7 +71,10 @@ struct StatusLine {
   std::string_view tool;               ///< of the step, where it has one
   bool tool_lost = false;              ///< and it was seen before
   std::optional<double> tag_size_off;  ///< its tag is larger than stated by this fraction
-  const Message* message = nullptr;    ///< null: none
+  /// The guide's depth stop lets the drill so far past the target of the selected screw.
+  std::optional<double> stop_past_target_m;
+  std::string_view unused_tool;      ///< in hand, with a role that the step has no use for
+  const Message* message = nullptr;  ///< null: none
   StepState state;
   const HeardCommand* heard = nullptr;  ///< null: nothing lately
 };

@@ -149,6 +149,25 @@ TEST(NumberWords, TakesNothingWhereThereIsNoNumber) {
   }
 }
 
+TEST(ReplanWording, EveryRefusalHasItsReasonInOneLine) {
+  using enum ReplanRefusal::Kind;
+  for (const auto kind :
+       {kDrillSet, kDrilling, kNoScrewLeft, kNothingToUndo, kNoSuchSize, kLastSize, kNoDiameter,
+        kNoDirections, kOffTheBone, kEntryTooFar, kTiltTooFar, kBreach}) {
+    ReplanRefusal refusal{kind, -0.0013, 0.0, 0.006, 0.032, "medial"};
+    std::string text;
+    write(PartedText{text}, refusal);
+    EXPECT_THAT(text, ::testing::StartsWith("screw not changed: ")) << text;
+    EXPECT_GT(text.size(), std::string("screw not changed: ").size() + 8) << text;
+    EXPECT_THAT(text, Not(HasSubstr("\n")));
+  }
+  std::string text;
+  write(PartedText{text}, ReplanRefusal{kBreach, -0.0013, 0.0, 0.0, 0.0, "medial"});
+  EXPECT_EQ(text,
+            "screw not changed: breaks through the cortex: clearance -1.3 mm, limit 0.0 mm "
+            "(medial): say accept to take it");
+}
+
 TEST(ReplanWording, SaysHowAScrewDiffersFromItsPlanBeforeSurgery) {
   nav::ScrewDifference d;
   d.diameter_from_m = d.diameter_to_m = 0.006;
