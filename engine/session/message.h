@@ -101,6 +101,12 @@ using Message =
                  LandmarkMissing, LandmarkMoved, TipCorrected, ReplanUnclear, ReplanRefusal,
                  ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
+/// It is about a change of the screw, and what the step asks for stays asked beside it.
+[[nodiscard]] inline bool is_about_replan(const Message& message) {
+  return std::holds_alternative<ReplanUnclear>(message) ||
+         std::holds_alternative<ReplanRefusal>(message) ||
+         std::holds_alternative<ScrewReplanned>(message);
+}
 /// What it is about, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);
 

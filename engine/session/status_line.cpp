@@ -21,7 +21,7 @@ ChecksAsked asked_by(const nav::CheckAdvice& advice) {
 }  // namespace
 
 ChecksAsked checks_asked(const StatusLine& line) {
-  if (line.message) {
+  if (line.message && !is_about_replan(*line.message)) {
     if (std::holds_alternative<LandmarkMissing>(*line.message) ||
         std::holds_alternative<LandmarkMoved>(*line.message)) {
       return ChecksAsked::kTouchMore;

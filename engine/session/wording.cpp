@@ -184,6 +184,10 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
   if (line.message) {
     out += told ? "; " : "";
     write_message(text, *line.message);
+    const auto* landmark = std::get_if<LandmarkSoFar>(&line.state);
+    if (landmark && is_about_replan(*line.message)) {
+      write_landmark(text, *landmark, "; ");
+    }
   } else if (!taken) {
     out += told && !std::holds_alternative<std::monostate>(line.state) ? "; " : "";
     std::visit(StateWriter{text}, line.state);

@@ -316,6 +316,17 @@ TEST(SessionReplanSteps, TheLandmarkOfTheNextScrewIsNotTheLast) {
   EXPECT_EQ(done->to.side, Side::kRight) << "the left one is done";
 }
 
+TEST(SessionReplanSteps, WhatTheStepAsksForStaysAskedBesideIt) {
+  Replan4 s({}, Verification::kByTouch);
+  s.accepts_first_by_touch();
+  for (const char* phrase : {"shorter", "move cranial", "undo", "undo"}) {
+    const Guidance& g = s.says(phrase);
+    ASSERT_NE(g.status.message, nullptr) << phrase;
+    EXPECT_THAT(detail_text(g.status), HasSubstr("; make a dimple in this bone and touch it"));
+    EXPECT_EQ(checks_asked(g.status), ChecksAsked::kTouchMore) << phrase;
+  }
+}
+
 TEST(SessionReplanSteps, APhraseThatIsNotUnderstoodChangesNothing) {
   Replan4 s;
   s.guides_left();
