@@ -134,6 +134,14 @@ std::vector<nav::AttachedMarker> further_tags(const nav::TagBody& body) {
   return more;
 }
 
+std::vector<std::string> role_names() {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < nav::kToolRoles; ++i) {
+    names.push_back(engine::to_text(static_cast<nav::ToolRole>(i)));
+  }
+  return names;
+}
+
 Result<std::string> tools_with(const ToolArguments& arguments, const nav::TagBody& body) {
   if (!arguments.tools_file.empty()) {
     return engine::changed_tools(arguments.tools_file, arguments.tool,
@@ -141,8 +149,8 @@ Result<std::string> tools_with(const ToolArguments& arguments, const nav::TagBod
   }
   nav::ToolGeometry tool;
   tool.name = arguments.tool;
-  for (const nav::ToolRole role :
-       {nav::ToolRole::kPointer, nav::ToolRole::kGuide, nav::ToolRole::kReference}) {
+  for (std::size_t i = 0; i < nav::kToolRoles; ++i) {
+    const auto role = static_cast<nav::ToolRole>(i);
     if (engine::to_text(role) == arguments.role) {
       tool.role = role;
     }
@@ -267,7 +275,7 @@ void add_calibrate_tool(CLI::App& calibrate, Action& action) {
       ->capture_default_str()
       ->type_name("NAME");
   command->add_option("--role", arguments->role, "Of a new tool")
-      ->check(CLI::IsMember({"pointer", "guide", "reference"}))
+      ->check(CLI::IsMember(role_names()))
       ->capture_default_str();
   arguments->json.add_to(*command);
   command->footer(kToolFooter);

@@ -146,6 +146,7 @@ class LiveRun {
     if (const Status joined = join_parts(); !joined) {
       return joined;
     }
+    warn_of_sizes(*operation, sizes_);
     return start(std::move(*operation));
   }
 
@@ -165,6 +166,11 @@ class LiveRun {
       }
       tools_ = std::move(*tools);
     }
+    auto sizes = arguments_.screws.sizes();
+    if (!sizes) {
+      return sizes.error();
+    }
+    sizes_ = std::move(*sizes);
     return {};
   }
 
@@ -194,6 +200,7 @@ class LiveRun {
     engine::AssemblyOptions options;
     options.use_reference = arguments_.reference;
     options.session.common = arguments_.common.in_metres();
+    options.session.replan.sizes = sizes_;
     options.loop.max_frames = arguments_.frames;
     options.loop.max_time = from_seconds(arguments_.for_s);
     options.loop.draw_every = headset_->pixels() ? 1 : 0;
@@ -263,7 +270,8 @@ class LiveRun {
   RunArguments arguments_;
   StopSignals& signals_;
   engine::Method method_;
-  std::optional<std::vector<nav::ToolGeometry>> tools_;  ///< of the file, where one was named
+  std::optional<std::vector<nav::ToolGeometry>> tools_;
+  engine::ScrewSizes sizes_;  ///< of the file, where one was named
   engine::ModelCache models_;
   std::string case_name_;
   std::unique_ptr<Headset> headset_;

@@ -8,6 +8,7 @@
 #include "tools/command.h"
 #include "tools/model_notes.h"
 #include "tools/preview/preview_app.h"
+#include "tools/screw_arguments.h"
 #include "tools/stopped_run.h"
 
 namespace orthonav::tools {
@@ -19,6 +20,7 @@ struct PreviewArguments {
   std::string method = "best";
   std::vector<std::string> levels;
   std::string tools_file;
+  ScrewArguments screws;
   std::string script;
   std::string models;
   bool perfect = false;
@@ -36,6 +38,11 @@ Result<preview::OperationSource> source_of(const PreviewArguments& arguments) {
     return method.error();
   }
   source.method = std::move(*method);
+  auto sizes = arguments.screws.sizes();
+  if (!sizes) {
+    return sizes.error();
+  }
+  source.screw_sizes = std::move(*sizes);
   auto loaded = load_checked_case(arguments.case_folder);
   if (!loaded) {
     return loaded.error();
@@ -92,6 +99,7 @@ int preview_window(PreviewArguments arguments, StopSignals& signals) {
     return bad_input(operation.error().message);
   }
   source->operation = std::move(*operation);
+  warn_of_sizes(source->operation, source->screw_sizes);
   models.keep();
   print_notes(models);
   if (const Status opened = app.open_operation(std::move(*source)); !opened) {
@@ -166,6 +174,7 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
       ->add_option("--tools", arguments->tools_file,
                    "tool definitions (default: the headset's own, else the built-in)")
       ->check(some_text());
+  arguments->screws.add_to(*preview);
   preview->add_flag("--perfect", arguments->perfect, "every source of error at zero");
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());

@@ -18,13 +18,26 @@ namespace {
 constexpr double kMetresPerMm = 1e-3;
 
 std::optional<nav::ToolRole> role_from(const std::string& text) {
-  for (const nav::ToolRole role :
-       {nav::ToolRole::kPointer, nav::ToolRole::kGuide, nav::ToolRole::kReference}) {
-    if (to_text(role) == text) {
-      return role;
+  for (std::size_t i = 0; i < nav::kToolRoles; ++i) {
+    if (to_text(static_cast<nav::ToolRole>(i)) == text) {
+      return static_cast<nav::ToolRole>(i);
     }
   }
   return std::nullopt;
+}
+
+/// "pointer, guide, ... or wire".
+std::string known_roles() {
+  std::string text;
+  for (std::size_t i = 0; i < nav::kToolRoles; ++i) {
+    const char* const before = i + 1 == nav::kToolRoles ? " or " : ", ";
+    text += (i == 0 ? "" : before) + to_text(static_cast<nav::ToolRole>(i));
+  }
+  return text;
+}
+
+std::optional<double> length_from(const JsonNode& node, const char* key) {
+  return node.has(key) ? std::optional(node.number(key) * kMetresPerMm) : std::nullopt;
 }
 
 nav::MarkerDefinition marker_from(const JsonNode& node) {
@@ -58,7 +71,7 @@ nav::ToolGeometry tool_from(const JsonNode& node) {
   if (const auto known = role_from(role)) {
     tool.role = *known;
   } else {
-    node.refuse("role", "is \"" + role + "\", must be pointer, guide or reference");
+    node.refuse("role", "is \"" + role + "\", must be " + known_roles());
   }
   tool.marker = marker_from(node.child("marker"));
   if (node.has("markers")) {
@@ -76,6 +89,8 @@ nav::ToolGeometry tool_from(const JsonNode& node) {
       node.refuse("level", "is for a reference: no other tool is clamped to a vertebra");
     }
   }
+  tool.sleeve_length_m = length_from(node, "sleeve_length_mm");
+  tool.stop_m = length_from(node, "stop_mm");
   const Vec3 axis = node.has("axis") ? node.vec3("axis") : Vec3{0, 1, 0};
   if (axis.norm() < 1e-9) {
     node.refuse("axis", "must not be zero");
@@ -124,17 +139,7 @@ nlohmann::ordered_json json_of(const nav::AttachedMarker& more) {
 
 }  // namespace
 
-std::string to_text(nav::ToolRole role) {
-  switch (role) {
-    case nav::ToolRole::kPointer:
-      return "pointer";
-    case nav::ToolRole::kGuide:
-      return "guide";
-    case nav::ToolRole::kReference:
-      return "reference";
-  }
-  return {};
-}
+std::string to_text(nav::ToolRole role) { return name_of(role); }
 
 Result<std::vector<nav::ToolGeometry>> load_tools(const std::string& path) {
   const Result<JsonDocument> document = JsonDocument::read(path);
@@ -170,6 +175,12 @@ std::string tools_text(const std::vector<nav::ToolGeometry>& tools) {
     entry["axis"] = list_of(tool.axis_in_marker.v);
     if (!tool.level.empty()) {
       entry["level"] = tool.level;
+    }
+    if (tool.sleeve_length_m) {
+      entry["sleeve_length_mm"] = *tool.sleeve_length_m / kMetresPerMm;
+    }
+    if (tool.stop_m) {
+      entry["stop_mm"] = *tool.stop_m / kMetresPerMm;
     }
     list.push_back(entry);
   }

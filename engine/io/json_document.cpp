@@ -1,8 +1,6 @@
 #include "engine/io/json_document.h"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -28,29 +26,6 @@ struct JsonNode::Value {
     return found == content->end() || found->is_null() ? nullptr : &*found;
   }
 };
-
-Result<std::string> read_text(const std::string& path, std::size_t max_bytes) {
-  std::error_code problem;
-  if (std::filesystem::is_directory(path, problem)) {
-    return Error{path + ": is a folder, not a file"};
-  }
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    return Error{path + ": cannot be opened"};
-  }
-  std::string text;
-  std::vector<char> block(1u << 16u);
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
-    if (text.size() > max_bytes) {
-      return Error{path + ": larger than " + std::to_string(max_bytes >> 20u) + " MiB"};
-    }
-  }
-  if (in.bad()) {
-    return Error{path + ": cannot be read"};
-  }
-  return text;
-}
 
 Result<JsonDocument> JsonDocument::read(const std::string& path) {
   const Result<std::string> text = read_text(path);
@@ -213,6 +188,18 @@ std::vector<double> JsonNode::numbers(const char* key, std::size_t count) const 
            "holds " + std::to_string(out.size()) + " numbers, must be " + std::to_string(count));
   }
   out.resize(count, 0.0);
+  return out;
+}
+
+std::vector<double> JsonNode::number_list(const char* key, std::size_t most) const {
+  std::vector<double> out;
+  const json* found = value_->find(key);
+  if (found == nullptr) {
+    refuse(key, "is missing");
+  } else if (!found->is_array() || found->size() > most || !flatten(*found, 1, out)) {
+    refuse(key, "must be a list of at most " + std::to_string(most) + " finite numbers");
+    out.clear();
+  }
   return out;
 }
 

@@ -35,6 +35,8 @@ class JsonNode {
   [[nodiscard]] std::vector<std::string> texts(const char* key) const;
   /// Exactly `count` finite numbers; nested lists (a matrix by rows) are flattened.
   [[nodiscard]] std::vector<double> numbers(const char* key, std::size_t count) const;
+  /// At most so many finite numbers, one after another.
+  [[nodiscard]] std::vector<double> number_list(const char* key, std::size_t most) const;
   [[nodiscard]] Vec3 vec3(const char* key) const;
   /// A list of vectors, at most 1,000,000.
   [[nodiscard]] std::vector<Vec3> vec3s(const char* key) const;

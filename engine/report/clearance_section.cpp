@@ -58,6 +58,10 @@ void row_of(const std::string& name, const json& screw, std::string& html) {
           millimetre_cell(tracked, "clearance_mm") + millimetre_cell(tracked, "clearance_95_mm") +
           grades_cell(tracked) + millimetre_cell(screw, "clearance_mm") + "<td>" +
           word_of(screw, "grade") + "</td></tr>";
+  if (const json in_surgery = part_of(screw, "planned_in_surgery"); !in_surgery.empty()) {
+    html += "<tr><td></td><td colspan=9>planned in surgery: " + word_of(in_surgery, "text") +
+            "</td></tr>";
+  }
   if (planned.contains("accepted_breach")) {
     html += "<tr><td></td><td colspan=9 class=bad>planned to leave the cortex: " +
             word_of(planned, "accepted_breach") + "</td></tr>";
@@ -70,7 +74,8 @@ std::string clearance_section(const json& report) {
   std::string rows;
   for (const json& level : report["levels"]) {
     for (const json& screw : level.value("screws", json::array())) {
-      if (screw.contains("planned") || screw.contains("clearance_mm")) {
+      if (screw.contains("planned") || screw.contains("clearance_mm") ||
+          screw.contains("planned_in_surgery")) {
         row_of(level.value("label", "") + " " + screw.value("side", ""), screw, rows);
       }
     }

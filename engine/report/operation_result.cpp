@@ -38,6 +38,9 @@ ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
   const nav::ScrewPlan& plan = state.plan.screws[index];
   ScrewOutcome screw{plan.side, state.screw_done[index], {}, {}};
   screw.accepted_breach = plan.accepted_breach;
+  if (state.replanned(index)) {
+    screw.planned_in_surgery = nav::difference_of(state.preoperative[index], plan);
+  }
   const auto cylinder = nav::cylinder_of(plan);
   if (cylinder && state.plan.model) {
     constexpr double kStep_m = 0.002;

@@ -10,6 +10,7 @@
 #include "engine/report/registration_figures.h"
 #include "engine/session/guidance.h"
 #include "engine/session/session_observer.h"
+#include "nav/guidance/changed_screw.h"
 
 namespace orthonav::engine {
 
@@ -22,6 +23,8 @@ struct ScrewOutcome {
   /// As planned, and what the registration leaves open of a screw that is guided there exactly;
   /// absent where the plan states no radius.
   std::optional<nav::ScrewClearance> planned = {};
+  /// How it was planned in surgery, against how it was before; absent: as before.
+  std::optional<nav::ScrewDifference> planned_in_surgery = {};
   /// Of that, the least depth every 2 mm or so from 6 mm past the entry to the tip.
   std::vector<double> planned_profile_m = {};
   /// Along the tool as it was tracked at depth, with what registration and tracking leave open.

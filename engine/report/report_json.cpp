@@ -4,6 +4,7 @@
 #include "base/angle.h"
 #include "engine/report/clearance_figures.h"
 #include "engine/report/operation_result.h"
+#include "engine/report/replan_figures.h"
 
 namespace orthonav::engine {
 namespace {
@@ -47,6 +48,7 @@ Json screw_json(const ScrewOutcome& screw) {
     out["angle_error_deg"] = degrees(*screw.angle_error_rad);
   }
   put_mm(out, "entry_error_mm", screw.entry_error_m);
+  put_planned_in_surgery(out, screw.planned_in_surgery);
   put_clearance(out, screw);
   put_wire(out, screw);
   return out;

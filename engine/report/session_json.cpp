@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/angle.h"
+#include "engine/report/replan_figures.h"
 #include "engine/report/session_report.h"
 
 namespace orthonav::engine {
@@ -46,6 +47,7 @@ Json recorded_screw_json(const RecordedScrew& screw) {
   if (screw.redone > 0) {
     out["redone"] = screw.redone;
   }
+  put_planned_in_surgery(out, screw.planned_in_surgery);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include "embedded/report_css.h"
 #include "engine/report/html_text.h"
 #include "engine/report/session_report.h"
+#include "engine/session/replan_wording.h"
 
 namespace orthonav::engine {
 namespace {
@@ -151,10 +152,14 @@ void put_screws(const SessionRecord& session, std::string& html) {
                 cell(html_number(pose->depth_m * 1e3, 2)) +
                 cell(recorded(pose->clearance_m, 1e3, 2)) +
                 cell(recorded(pose->clearance_95_m, 1e3, 2)) + cell(wire_text(screw)) + "</tr>";
-        continue;
+      } else {
+        const std::string none = cell(screw.done ? kNotRecorded : "\u2013");
+        html += none + none + none + none + none + none + cell(wire_text(screw)) + "</tr>";
       }
-      const std::string none = cell(screw.done ? kNotRecorded : "\u2013");
-      html += none + none + none + none + none + none + cell(wire_text(screw)) + "</tr>";
+      if (screw.planned_in_surgery) {
+        html += "<tr><td></td><td colspan=8>planned in surgery: " +
+                html_escaped(text_of(*screw.planned_in_surgery)) + "</td></tr>";
+      }
     }
   }
   html += kTableEnd;

@@ -22,6 +22,7 @@ enum class Event : std::uint8_t {
   kSayMoveRod,
   kSayTwin,
   kSayDrill,
+  kSayReplan,            ///< a change of the screw, with what it is to be: Replan
   kRegistered,           ///< a registration passed its limits
   kRegistrationRefused,  ///< a registration failed its limits
   kChecked,              ///< "accept" was said and the check points bear it out
@@ -31,7 +32,7 @@ enum class Event : std::uint8_t {
   kLandmarkMoved,        ///< the landmark was touched, farther from where it was than may be
   kWireSettled,          ///< "next" was said, and nothing of the wire is left to decide
   kWireUndecided,        ///< "next" was said of a wire beyond a limit
-  kScrewRedone,       ///< "delete" was said of it, and another entry was found
+  kScrewRedone,          ///< "delete" was said of it, and another entry was found
   kNoOtherEntry,         ///< and none was found
   kAnotherScrew,         ///< the level has a further screw
   kAnotherLevel,         ///< the level is finished, a further one is planned
@@ -47,7 +48,7 @@ enum class Event : std::uint8_t {
   kReferenceSeen,        ///< one is seen again, or for the first time
   kReferenceMoved,       ///< references moved against each other: what hangs on them means nothing
 };
-inline constexpr std::size_t kEventCount = 39;
+inline constexpr std::size_t kEventCount = 40;
 
 /// What the session does about it. The first is the answer of a forgotten cell.
 enum class Action : std::uint8_t {
@@ -93,12 +94,14 @@ enum class Action : std::uint8_t {
   kMoveRod,
   kToggleTwin,
   kBeginDrill,
+  kReplan,
+  kConsent,
   kFinish,
   kWarnLost,
   kHideGuidance,
   kShowGuidance,
   kForgetMap,
 };
-inline constexpr std::size_t kActionCount = 47;
+inline constexpr std::size_t kActionCount = 49;
 
 }  // namespace orthonav::engine

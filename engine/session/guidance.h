@@ -50,7 +50,14 @@ struct WireOutcome {
 
 /// Where one level of the operation stands.
 struct LevelState {
+  /// Its screws are the plan in use, for everybody; only Replanning and a redo write to
+  /// them.
   OperatedLevel plan;
+  /// Its screws as they were planned before surgery. Nothing writes to them.
+  std::vector<nav::ScrewPlan> preoperative;
+  /// Of each screw, what was in use before each of its changes that was not undone, the newest
+  /// last. Once it was redone, the first is that of the hole, to which nobody goes back.
+  std::vector<std::vector<nav::ScrewPlan>> earlier_plans;
   int attempts = 0;  ///< registrations asked for so far
   /// The newest registration that passed its limits; gone when the surgeon rejects it.
   std::optional<nav::Registration> registration;
@@ -79,6 +86,19 @@ struct LevelState {
 
   [[nodiscard]] bool finished() const {
     return std::find(screw_done.begin(), screw_done.end(), false) == screw_done.end();
+  }
+  [[nodiscard]] bool replanned(std::size_t screw) const {
+    return screw < earlier_plans.size() && !earlier_plans[screw].empty();
+  }
+  [[nodiscard]] bool can_undo(std::size_t screw) const {
+    return earlier_plans[screw].size() > (redone[screw] > 0 ? 1U : 0U);
+  }
+  /// The first screw that is not done; none where all are.
+  [[nodiscard]] std::optional<std::size_t> open_screw() const {
+    const auto open = std::find(screw_done.begin(), screw_done.end(), false);
+    return open == screw_done.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(open - screw_done.begin()));
   }
   /// Throws the registration away with what stands on it. Wires driven on it are not undone: what
   /// was done stays.

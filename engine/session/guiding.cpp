@@ -19,9 +19,7 @@ constexpr double kAway_rad = 0.52;
 }  // namespace
 
 void Guiding::select_open_screw(const LevelState& level) {
-  const auto& done = level.screw_done;
-  const auto open = std::find(done.begin(), done.end(), false);
-  screw_ = open == done.end() ? 0 : static_cast<std::size_t>(open - done.begin());
+  screw_ = level.open_screw().value_or(0);
   forget_guidance();
 }
 
@@ -94,7 +92,7 @@ void Guiding::take_measurement(ToolGuidance& guidance, const LevelState& level,
                    on_bone ? on_bone->distance_m : std::numeric_limits<double>::infinity(),
                    measured.tip_off_axis_m, measured.angle_rad, measured.depth_m,
                    deviation ? deviation->depth_m.sd : std::numeric_limits<double>::infinity(),
-                   measured.to_target_m});
+                   measured.to_target_m, tool.stop_m});
 }
 
 void Guiding::remember_depth(const ToolGuidance& guidance, const nav::ScrewGuidance& measured,
@@ -154,7 +152,7 @@ StepState Guiding::state(const LevelState& level) const {
     return {};
   }
   return RegistrationFigures{level.registration->rmse_m, level.predicted[screw_].worst_m(), true,
-                             level.registration_only()};
+                             level.registration_only(), level.replanned(screw_)};
 }
 
 }  // namespace orthonav::engine

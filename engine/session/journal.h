@@ -71,7 +71,9 @@ class Journal : public SessionObserver {
   void wire_measured(Timestamp time, const LevelState& level, std::size_t screw,
                      const PlacedWire& wire) override;
   void screw_redone(Timestamp time, const LevelState& level, std::size_t screw,
-                       const nav::OtherEntry& entry) override;
+                    const nav::OtherEntry& entry) override;
+  void replanned(Timestamp time, const LevelState& level, const Replan& asked,
+                 const ScrewReplanned& done) override;
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
                   const ToolGuidance* at_depth) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;

@@ -5,6 +5,7 @@
 #include "base/time.h"
 #include "engine/io/line_log.h"
 #include "engine/session/guidance.h"
+#include "nav/guidance/changed_screw.h"
 
 namespace orthonav::engine {
 
@@ -18,6 +19,8 @@ using JournalLine = nlohmann::ordered_json;
 [[nodiscard]] JournalLine journal_line(std::int64_t file_ticks, Timestamp time, const char* what,
                                        const LevelState& level);
 [[nodiscard]] JournalLine millimetres(Vec3 v_m);
+/// In mm and degrees.
+[[nodiscard]] JournalLine difference_line(const nav::ScrewDifference& difference);
 
 /// What must survive a loss of power: what is guided on, and what was done to the patient.
 inline constexpr auto kDurable = LineLog::Keep::kDurable;

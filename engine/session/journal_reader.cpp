@@ -66,6 +66,27 @@ RecordedLandmark landmark_of(const JsonNode& line) {
           line.number("limit_mm") * kMetresPerMm, first || line.flag_or("within", false), false};
 }
 
+RecordedTips tips_of(const JsonNode& line) {
+  return {line.number("apart_mm") * kMetresPerMm, line.number("limit_mm") * kMetresPerMm,
+          line.flag_or("corrected", false)};
+}
+
+std::optional<nav::ScrewDifference> planned_in_surgery(const JsonNode& line) {
+  if (!line.has("planned_in_surgery")) {
+    return std::nullopt;
+  }
+  const JsonNode by = line.child("planned_in_surgery");
+  return nav::ScrewDifference{by.number("entry_cranial_mm") * kMetresPerMm,
+                              by.number("entry_medial_mm") * kMetresPerMm,
+                              by.number("entry_inward_mm") * kMetresPerMm,
+                              by.number("aim_cranial_deg") * kRadiansPerDegree,
+                              by.number("aim_medial_deg") * kRadiansPerDegree,
+                              by.number("diameter_from_mm") * kMetresPerMm,
+                              by.number("diameter_to_mm") * kMetresPerMm,
+                              by.number("length_from_mm") * kMetresPerMm,
+                              by.number("length_to_mm") * kMetresPerMm};
+}
+
 RecordedRod rod_of(const JsonNode& line) {
   RecordedRod rod;
   rod.side = side_of(line);
@@ -188,13 +209,13 @@ class Reading {
     } else if (what == "landmark") {
       replay_.landmark(line.text("level"), landmark_of(line), line);
     } else if (what == "tips") {
-      record_.tips =
-          RecordedTips{line.number("apart_mm") * kMetresPerMm,
-                       line.number("limit_mm") * kMetresPerMm, line.flag_or("corrected", false)};
+      record_.tips = tips_of(line);
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
     } else if (what == "screw" || what == "wire" || what == "screw redone") {
       take_screw_line(what, line, time);
+    } else if (what == "replanned") {
+      replay_.replanned(line.text("level"), side_of(line), planned_in_surgery(line), line);
     } else if (what == "head" || what == "head dropped") {
       replay_.head(side_of(line), what == "head");
     } else if (what == "rod") {

@@ -217,6 +217,14 @@ void JournalReplay::screw_done(const std::string& label, const RecordedScrew& sc
   }
 }
 
+void JournalReplay::replanned(const std::string& label, Side side,
+                              const std::optional<nav::ScrewDifference>& difference,
+                              const JsonNode& line) {
+  if (RecordedScrew* const screw = screw_of(label, side, line)) {
+    screw->planned_in_surgery = difference;
+  }
+}
+
 void JournalReplay::head(Side side, bool touched) {
   RecordedRod& rod = rod_of(side);
   if (touched) {

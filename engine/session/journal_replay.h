@@ -32,6 +32,9 @@ class JournalReplay {
   void wire_measured(const std::string& label, Side side, const RecordedWire& wire,
                      const JsonNode& line);
   void screw_redone(const std::string& label, Side side, const JsonNode& line);
+  /// Absent: as it was planned before surgery again.
+  void replanned(const std::string& label, Side side,
+                 const std::optional<nav::ScrewDifference>& difference, const JsonNode& line);
   void screw_done(const std::string& label, const RecordedScrew& screw, const JsonNode& line);
   /// A head was touched, or the last one taken back.
   void head(Side side, bool touched);

@@ -90,7 +90,7 @@ void Journal::wire_measured(Timestamp time, const LevelState& level, std::size_t
 }
 
 void Journal::screw_redone(Timestamp time, const LevelState& level, std::size_t screw,
-                              const nav::OtherEntry& entry) {
+                           const nav::OtherEntry& entry) {
   JournalLine line = journal_line(file_ticks(time), time, "screw redone", level);
   line["side"] = name_of(level.plan.screws[screw].side);
   line["redone"] = level.redone[screw];

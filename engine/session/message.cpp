@@ -20,6 +20,9 @@ struct ToNotice {
   Notice operator()(const NoOtherEntry& /*m*/) const { return Notice::kNoOtherEntry; }
   Notice operator()(const ConfirmRedo& /*m*/) const { return Notice::kConfirmRedo; }
   Notice operator()(const ScrewRedone& /*m*/) const { return Notice::kScrewRedone; }
+  Notice operator()(const ReplanUnclear& /*m*/) const { return Notice::kNotUnderstood; }
+  Notice operator()(const ReplanRefusal& /*m*/) const { return Notice::kReplanRefused; }
+  Notice operator()(const ScrewReplanned& /*m*/) const { return Notice::kReplanned; }
   Notice operator()(const NoRod& /*m*/) const { return Notice::kNoRod; }
   Notice operator()(const MapMoved& /*m*/) const { return Notice::kMapMoved; }
   Notice operator()(const ReferenceMoved& /*m*/) const { return Notice::kReferenceMoved; }

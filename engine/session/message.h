@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "engine/session/replan.h"
 #include "engine/session/workflow.h"
 #include "hal/api/shown_status.h"
 #include "nav/registration/check_points.h"
@@ -99,6 +100,10 @@ struct ScrewRedone {
   double from_hole_m = 0.0;
   double clearance_m = 0.0;  ///< to the cortex, as planned now
 };
+/// A change of the screw was said, and not understood to its end.
+struct ReplanUnclear {
+  Error why;
+};
 struct NoRod {
   Error why;
 };
@@ -117,8 +122,15 @@ using Message =
     std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
                  ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
                  LandmarkMissing, LandmarkMoved, TipCorrected, WireUndecided, NoOtherEntry,
-                 ConfirmRedo, ScrewRedone, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
+                 ConfirmRedo, ScrewRedone, ReplanUnclear, ReplanRefusal, ScrewReplanned, NoRod,
+                 MapMoved, ReferenceMoved, NoImages, Ended>;
 
+/// It is about a change of the screw, and what the step asks for stays asked beside it.
+[[nodiscard]] inline bool is_about_replan(const Message& message) {
+  return std::holds_alternative<ReplanUnclear>(message) ||
+         std::holds_alternative<ReplanRefusal>(message) ||
+         std::holds_alternative<ScrewReplanned>(message);
+}
 /// What it is about, for the display.
 [[nodiscard]] Notice notice_of(const Message& message);
 

@@ -8,6 +8,7 @@
 #include "base/angle.h"
 #include "base/length_text.h"
 #include "base/printed.h"
+#include "engine/session/replan_wording.h"
 #include "engine/session/wording.h"
 
 namespace orthonav::engine {
@@ -92,6 +93,11 @@ struct MessageWriter {
   void operator()(std::monostate /*none*/) {}
   void operator()(const NotPossibleNow& m) {
     text.begin(Importance::kMessage);
+    if (m.event == Event::kSayReplan) {
+      out +=
+          "not possible now: a screw is changed once its level is accepted, before it is drilled";
+      return;
+    }
     out.append("not possible now: ").append(name_of(m.event));
   }
   void operator()(const NotUnderstood& /*m*/) {
@@ -187,6 +193,12 @@ struct MessageWriter {
     text.begin(Importance::kNext, ": ");
     out += "take the wire out and touch the dimple";
   }
+  void operator()(const ReplanUnclear& m) {
+    text.begin(Importance::kMessage);
+    out += m.why.message;
+  }
+  void operator()(const ReplanRefusal& m) { write(text, m); }
+  void operator()(const ScrewReplanned& m) { write(text, m); }
   void operator()(const NoRod& m) {
     text.begin(Importance::kMessage);
     out.append("no rod: ").append(m.why.message);

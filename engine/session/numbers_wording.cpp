@@ -1,6 +1,7 @@
 #include "engine/session/numbers_wording.h"
 
 #include <array>
+#include <cmath>
 #include <cstdlib>
 
 #include "base/printed.h"
@@ -92,12 +93,26 @@ void append_clearance_line(std::string& out, const nav::ShownClearance& clearanc
   }
 }
 
+bool stop_too_deep(const nav::DrillView& drill) {
+  constexpr double kLeastPast_m = 0.0001;
+  return drill.stop_past_target_m && *drill.stop_past_target_m >= kLeastPast_m;
+}
+
+void append_stop_too_deep(std::string& out, double past_target_m) {
+  append_printed(out, "stop lets the drill %.0f mm past the target",
+                 std::ceil(past_target_m * 1e3));
+}
+
 void append_drill(std::string& out, const nav::DrillView& drill) {
   if (drill.phase == nav::DrillPhase::kAway) {
     return;
   }
   if (drill.phase == nav::DrillPhase::kSet) {
     out += drill.watched ? "tip set" : "";
+    if (drill.watched && stop_too_deep(drill)) {
+      out += ", ";
+      append_stop_too_deep(out, *drill.stop_past_target_m);
+    }
     return;
   }
   constexpr std::array<std::string_view, 4> kTexts = {"drilling", "drilling: drifting",

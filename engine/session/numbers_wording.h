@@ -41,6 +41,10 @@ void append_clearance_line(std::string& out, const nav::ShownClearance& clearanc
 /// "tip set", "drilling", "drilling: drifting", "drilling: off plan", "stop"; "drilling, tool not
 /// seen" and "stop, tool not seen" where nobody watches; nothing for a tool that is away.
 void append_drill(std::string& out, const nav::DrillView& drill);
+/// By a tenth of a millimetre or more.
+[[nodiscard]] bool stop_too_deep(const nav::DrillView& drill);
+/// "stop lets the drill 4 mm past the target", rounded up.
+void append_stop_too_deep(std::string& out, double past_target_m);
 
 namespace words {
 inline constexpr std::string_view kClearance = "clearance";

@@ -73,9 +73,15 @@ class ObserverList : public SessionObserver {
     }
   }
   void screw_redone(Timestamp time, const LevelState& level, std::size_t screw,
-                       const nav::OtherEntry& entry) override {
+                    const nav::OtherEntry& entry) override {
     for (auto* o : observers_) {
       o->screw_redone(time, level, screw, entry);
+    }
+  }
+  void replanned(Timestamp time, const LevelState& level, const Replan& asked,
+                 const ScrewReplanned& done) override {
+    for (auto* o : observers_) {
+      o->replanned(time, level, asked, done);
     }
   }
   void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,

@@ -12,6 +12,7 @@ namespace {
 struct PlacedScrew {
   Vec3 entry;
   Vec3 to_tip;
+  double diameter_m = 0.0;
 };
 
 std::vector<PlacedScrew> screws_in_world(std::span<const LevelState> levels, nav::Side side) {
@@ -24,25 +25,45 @@ std::vector<PlacedScrew> screws_in_world(std::span<const LevelState> levels, nav
     for (const nav::ScrewPlan& screw : level.plan.screws) {
       if (screw.side == side) {
         const Vec3 entry = (world_from_vertebra * screw.entry).v;
-        screws.push_back({entry, (world_from_vertebra * screw.target).v - entry});
+        screws.push_back(
+            {entry, (world_from_vertebra * screw.target).v - entry, 2.0 * screw.radius_m});
       }
     }
   }
   return screws;
 }
 
-/// For every head the direction of the screw whose entry is nearest; empty without screws.
-std::vector<Vec3> directions_of_screws(std::span<const Vec3> heads_m,
-                                       const std::vector<PlacedScrew>& screws) {
-  std::vector<Vec3> directions;
+/// For every head the screw whose entry is nearest; empty without screws.
+std::vector<PlacedScrew> nearest_screws(std::span<const Vec3> heads_m,
+                                        const std::vector<PlacedScrew>& screws) {
+  std::vector<PlacedScrew> nearest_ones;
   for (const Vec3& head_m : screws.empty() ? std::span<const Vec3>() : heads_m) {
     const auto nearest = std::min_element(
         screws.begin(), screws.end(), [&](const PlacedScrew& a, const PlacedScrew& b) {
           return (a.entry - head_m).squared_norm() < (b.entry - head_m).squared_norm();
         });
-    directions.push_back(nearest->to_tip);
+    nearest_ones.push_back(*nearest);
+  }
+  return nearest_ones;
+}
+
+std::vector<Vec3> directions_of(const std::vector<PlacedScrew>& screws) {
+  std::vector<Vec3> directions;
+  for (const PlacedScrew& screw : screws) {
+    directions.push_back(screw.to_tip);
   }
   return directions;
+}
+
+/// Each screw's own where the list of screws states it.
+nav::RodSeating seating_of(const std::vector<PlacedScrew>& screws, const SessionOptions& options,
+                           double overhang_m) {
+  nav::RodSeating seating{options.head_to_seat_m, overhang_m, {}};
+  for (const PlacedScrew& screw : screws) {
+    seating.each_head_to_seat_m.push_back(
+        options.replan.sizes.head_to_seat_m(screw.diameter_m).value_or(options.head_to_seat_m));
+  }
+  return seating;
 }
 
 }  // namespace
@@ -73,14 +94,15 @@ bool RodTemplating::drop_head() {
 
 void RodTemplating::instruct(const SessionOptions& options, std::span<const LevelState> levels) {
   const nav::RodTemplate& shape = *rod().rod;
-  const auto directions = directions_of_screws(shape.heads_m, screws_in_world(levels, rod().side));
-  if (directions.empty()) {
+  const auto screws = nearest_screws(shape.heads_m, screws_in_world(levels, rod().side));
+  if (screws.empty()) {
     rod().no_instructions = "the direction of no screw is known";
     return;
   }
   nav::RodBending bending = options.rod_bending;
   bending.diameter_m = options.rod_diameter_m;
-  const auto cut = nav::rod_cut(shape, directions, {options.head_to_seat_m, bending.overhang_m});
+  const auto cut =
+      nav::rod_cut(shape, directions_of(screws), seating_of(screws, options, bending.overhang_m));
   auto told = cut ? nav::rod_instructions(cut->seats_m, bending)
                   : Result<nav::RodInstructions>(cut.error());
   if (told) {

@@ -4,6 +4,7 @@
 
 #include "base/joined.h"
 #include "engine/session/spoken_commands.h"
+#include "engine/session/spoken_replan.h"
 
 namespace orthonav::engine {
 namespace {
@@ -62,6 +63,7 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
       tip_check_(options.tips, options.landmark),
       guiding_(options.drill),
       placing_(options.placed),
+      replanning_(options.replan),
       messages_(options.message_for, options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
     LevelState state;
@@ -70,6 +72,8 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
     state.executed.resize(plan.screws.size());
     state.wires.resize(plan.screws.size());
     state.redone.resize(plan.screws.size());
+    state.preoperative = plan.screws;
+    state.earlier_plans.resize(plan.screws.size());
     state.plan = std::move(plan);
     levels_.push_back(std::move(state));
   }
@@ -129,6 +133,9 @@ void Session::answer_inputs(const Inputs& inputs) {
 
 void Session::hear(const Phrase& phrase) {
   const auto event = command_event(phrase.text);
+  if (const auto replan = event ? std::nullopt : replan_from(phrase.text)) {
+    return hear_replan(phrase, *replan);
+  }
   const bool sure = phrase.confidence >= options_.min_voice_confidence;
   if (event) {
     messages_.echo(phrase, sure);
@@ -160,6 +167,9 @@ void Session::handle(Event event, Timestamp time) {
   step_ = cell.next;
   if (!keeps_message(cell.action)) {
     messages_.clear();
+    if (event != Event::kSayAccept) {
+      replanning_.withdraw_question();
+    }
   }
   act(cell.action, event, time);
 }

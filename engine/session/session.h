@@ -14,11 +14,13 @@
 #include "engine/session/messages.h"
 #include "engine/session/method.h"
 #include "engine/session/placing.h"
+#include "engine/session/replanning.h"
 #include "engine/session/rod_templating.h"
 #include "engine/session/session_observer.h"
 #include "engine/session/session_options.h"
 #include "engine/session/tip_check.h"
 #include "engine/session/tool_in_use.h"
+#include "engine/session/tools_in_hand.h"
 #include "engine/session/verifying.h"
 #include "engine/session/watched_tools.h"
 #include "engine/session/workflow.h"
@@ -69,6 +71,7 @@ class Session {
   // session.cpp: the order of one step.
   void answer_inputs(const Inputs& inputs);
   void hear(const Phrase& phrase);
+  void hear_replan(const Phrase& phrase, const Result<Replan>& replan);
   void handle(Event event, Timestamp time);
   void watch_map(const StereoFrame& frame);
   void watch_reference(Timestamp now);
@@ -86,6 +89,7 @@ class Session {
   void publish(const StereoFrame& frame, Timestamp display_time);
   void publish_steps(Timestamp now, Timestamp display_time);
   void publish_status();
+  void publish_instruments();
   [[nodiscard]] StepOnDisplay step_on_display() const;
   [[nodiscard]] StepState state_of_step() const;
   [[nodiscard]] std::optional<std::size_t> hidden_reference() const;
@@ -111,6 +115,12 @@ class Session {
   void verify_again(Timestamp time);
   void begin_touch();
   void end_touch();
+  // session_replan.cpp
+  void replan(Timestamp time);
+  void consent(Timestamp time);
+  [[nodiscard]] bool consents_to_breach(Timestamp time);
+  [[nodiscard]] std::variant<std::size_t, ReplanRefusal> screw_to_replan() const;
+  void take_replan(const Replanning::Outcome& outcome, Timestamp time);
   void drop_touch(Timestamp time);
   void record_head(Timestamp time);
   void drop_head(Timestamp time);
@@ -139,6 +149,7 @@ class Session {
   std::int64_t reference_moves_ = 0;       ///< that were answered
   bool reference_hidden_ = true;           ///< where one is in use
   ToolInUse in_use_;
+  ToolsInHand in_hand_;
 
   Step step_ = Step::kSetup;
   std::vector<LevelState> levels_;
@@ -149,6 +160,7 @@ class Session {
   TipCheck tip_check_;
   Guiding guiding_;
   Placing placing_;
+  Replanning replanning_;
   RodTemplating rod_templating_;
 
   Messages messages_;

@@ -47,6 +47,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kMoveRod: return rod_templating_.move_away();
     case kToggleTwin: return guiding_.toggle_twin();
     case kBeginDrill: return guiding_.begin_drill();
+    case kReplan: case kConsent: return action == kReplan ? replan(time) : consent(time);
     case kHideGuidance: case kShowGuidance: return in_use_.hide_guidance(action == kHideGuidance);
     case kForgetMap: return forget_places(event, time);
   }

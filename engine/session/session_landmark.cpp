@@ -60,6 +60,9 @@ void Session::compare_tips(const nav::PressedPlace& guide_tip, Timestamp time) {
 }
 
 void Session::correct_tip(Timestamp time) {
+  if (consents_to_breach(time)) {
+    return;
+  }
   if (!tip_check_.offers()) {
     messages_.say(NotPossibleNow{Event::kSayAccept}, time);
     return;

@@ -36,8 +36,11 @@ class SessionObserver {
   virtual void wire_measured(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
                              const PlacedWire& /*wire*/) {}
   /// That screw is redone; its plan has another entry by now.
-  virtual void screw_redone(Timestamp /*time*/, const LevelState& /*level*/,
-                               std::size_t /*screw*/, const nav::OtherEntry& /*entry*/) {}
+  virtual void screw_redone(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
+                            const nav::OtherEntry& /*entry*/) {}
+  /// The surgeon changed a planned screw, or took a change back.
+  virtual void replanned(Timestamp /*time*/, const LevelState& /*level*/, const Replan& /*asked*/,
+                         const ScrewReplanned& /*done*/) {}
   /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
   /// at its depth, or null where it never did.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,

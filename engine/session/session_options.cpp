@@ -12,6 +12,11 @@ double SessionOptions::drift_since_m(Duration spread) const {
 
 std::vector<std::string> SessionOptions::check() const {
   std::vector<std::string> problems;
+  const auto add = [&problems](const char* of, const std::vector<std::string>& more) {
+    for (const std::string& problem : more) {
+      problems.push_back(of + problem);
+    }
+  };
   if (stale_after <= Duration::zero() || stale_after > std::chrono::seconds(1)) {
     problems.push_back("stale_after must lie in (0, 1000] ms");
   }
@@ -27,12 +32,11 @@ std::vector<std::string> SessionOptions::check() const {
   if (!(max_touch_spread_m > 0.0 && max_touch_spread_m <= 0.01)) {
     problems.push_back("max_touch_spread_m must lie in (0, 0.01]");
   }
-  for (const auto& of_a_part : {check_points.check(), landmark.check(), placed.check()}) {
-    problems.insert(problems.end(), of_a_part.begin(), of_a_part.end());
-  }
-  for (const std::string& problem : drill.check()) {
-    problems.push_back("drill: " + problem);
-  }
+  add("", check_points.check());
+  add("", landmark.check());
+  add("", placed.check());
+  add("drill: ", drill.check());
+  add("replan: ", replan.check());
   for (const double sd_m : {common.tip_m, common.cameras_m, common.map_m}) {
     if (!(sd_m >= 0.0 && sd_m <= 0.01)) {
       problems.push_back("common errors must lie in [0, 0.01]");

@@ -7,6 +7,7 @@
 #include "base/time.h"
 #include "engine/session/landmark.h"
 #include "engine/session/placed_wire.h"
+#include "engine/session/replan_limits.h"
 #include "engine/session/tip_check.h"
 #include "nav/guidance/drill_watch.h"
 #include "nav/guidance/rod_bends.h"
@@ -34,6 +35,7 @@ struct SessionOptions {
   TipCheckRules tips;
   nav::DrillLimits drill;
   PlacedWireRules placed;
+  ReplanLimits replan;
   /// What is known of errors that all strokes share; without, the errors that are expected are
   /// those of the registration alone, and called so.
   nav::CommonErrors common;

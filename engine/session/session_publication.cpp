@@ -1,3 +1,4 @@
+#include "engine/session/numbers_wording.h"
 #include "engine/session/session.h"
 
 namespace orthonav::engine {
@@ -100,9 +101,25 @@ void Session::publish_status() {
     line.tool = tools_.geometry(*reference).name;
     line.tool_lost = true;
   }
+  publish_instruments();
+  replanning_.show(guidance_.display_time);
   line.message = messages_.message();
   line.heard = messages_.heard();
   line.state = state_of_step();
+}
+
+/// What is in hand that the step has no use for, and a depth stop that is set too deep.
+void Session::publish_instruments() {
+  StatusLine& line = guidance_.status;
+  const bool on_a_level = step_ != Step::kSetup && step_ != Step::kDone;
+  in_hand_.look(tools_, step_, tool_of_step(), on_a_level ? &level() : nullptr,
+                guidance_.frame_time);
+  const auto unused = in_hand_.unused();
+  line.unused_tool = unused ? std::string_view(tools_.geometry(*unused).name) : std::string_view();
+  line.stop_past_target_m.reset();
+  if (stop_too_deep(guidance_.drill)) {
+    line.stop_past_target_m = guidance_.drill.stop_past_target_m;
+  }
 }
 
 /// The first of them, while none is seen in a step that needs one.

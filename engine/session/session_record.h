@@ -8,6 +8,7 @@
 #include "base/side.h"
 #include "base/time.h"
 #include "engine/session/workflow.h"
+#include "nav/guidance/changed_screw.h"
 
 namespace orthonav::engine {
 
@@ -40,6 +41,8 @@ struct RecordedScrew {
       false;  ///< its wire was to be measured before it was done; not in older journals
   std::optional<RecordedWire> wire = {};  ///< as it was measured last, of the newest entry
   int redone = 0;                         ///< so often through another entry
+  /// How it was planned in surgery, against how it was before; absent: as before.
+  std::optional<nav::ScrewDifference> planned_in_surgery = {};
 };
 
 /// One registration that was asked for. What the journal does not hold is absent.

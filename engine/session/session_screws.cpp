@@ -91,6 +91,7 @@ void Session::judge_redo(Timestamp time) {
   if (!other) {
     return handle(Event::kNoOtherEntry, time);
   }
+  now.earlier_plans[screw].assign(1, now.plan.screws[screw]);
   now.plan.screws[screw].entry = other->entry;
   ++now.redone[screw];
   if (now.registration) {

@@ -48,7 +48,7 @@ ChecksAsked asked_about(const WireSoFar& state) {
 }  // namespace
 
 ChecksAsked checks_asked(const StatusLine& line) {
-  if (line.message) {
+  if (line.message && !is_about_replan(*line.message)) {
     return asked_in(*line.message);
   }
   if (const auto* wire = std::get_if<WireSoFar>(&line.state)) {

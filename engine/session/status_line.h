@@ -30,6 +30,7 @@ struct RegistrationFigures {
   double expected_m = 0.0;  ///< error at the worst of the screws, or at the selected one
   bool of_one_screw = false;
   bool registration_only = false;  ///< what all strokes share is not known, so not in it
+  bool replanned = false;          ///< the selected screw was changed in surgery
 };
 /// While a registration is verified by touch.
 struct ChecksSoFar {
@@ -76,7 +77,10 @@ struct StatusLine {
   std::string_view tool;               ///< of the step, where it has one
   bool tool_lost = false;              ///< and it was seen before
   std::optional<double> tag_size_off;  ///< its tag is larger than stated by this fraction
-  const Message* message = nullptr;    ///< null: none
+  /// The guide's depth stop lets the drill so far past the target of the selected screw.
+  std::optional<double> stop_past_target_m;
+  std::string_view unused_tool;      ///< in hand, with a role that the step has no use for
+  const Message* message = nullptr;  ///< null: none
   StepState state;
   const HeardCommand* heard = nullptr;  ///< null: nothing lately
 };

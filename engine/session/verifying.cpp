@@ -64,6 +64,10 @@ void Verifying::begin_again(LevelState& level, double moved_m) {
   pressed_.clear();
   level.check_points.clear();
   moved_m_ = moved_m;
+  if (by_touch_) {
+    // A screw may have been changed since.
+    limits_.targets = nav::entries_and_targets(level.plan.screws);
+  }
   visible_at_.reset();
   touch_.drop();
   judge(level);

@@ -8,6 +8,7 @@
 #include "base/length_text.h"
 #include "base/printed.h"
 #include "engine/session/message_wording.h"
+#include "engine/session/numbers_wording.h"
 #include "engine/session/wire_wording.h"
 
 namespace orthonav::engine {
@@ -96,6 +97,13 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
   }
 }
 
+void write_unused_tool(PartedText text, const StatusLine& line, std::string_view separator) {
+  if (!line.unused_tool.empty()) {
+    text.begin(Importance::kNext, separator);
+    text.out.append(line.unused_tool).append(" in view: not used in this step");
+  }
+}
+
 /// How each step stands.
 struct StateWriter {
   PartedText text;
@@ -117,6 +125,10 @@ struct StateWriter {
     append_mm(out, figures.expected_m, 1);
     out += figures.of_one_screw ? " expected" : " expected at the screws";
     out += figures.registration_only ? kRegistrationOnly : "";
+    if (figures.replanned) {
+      text.begin(Importance::kMessage, "; ");
+      out += "planned in surgery";
+    }
   }
   void operator()(const ChecksSoFar& checks) {
     text.begin(Importance::kFigures);
@@ -166,10 +178,20 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
     append_tag_size_off(out, line.tool, *line.tag_size_off);
   }
   const bool taken = out.size() > begin;
+  if (line.stop_past_target_m) {
+    text.begin(Importance::kDanger, taken ? "; " : "");
+    append_stop_too_deep(out, *line.stop_past_target_m);
+  }
+  const bool told = out.size() > begin;
   if (line.message) {
-    out += taken ? "; " : "";
+    out += told ? "; " : "";
     write_message(text, *line.message);
+    const auto* landmark = std::get_if<LandmarkSoFar>(&line.state);
+    if (landmark && is_about_replan(*line.message)) {
+      write_landmark(text, *landmark, "; ");
+    }
   } else if (!taken) {
+    out += told && !std::holds_alternative<std::monostate>(line.state) ? "; " : "";
     std::visit(StateWriter{text}, line.state);
   } else if (const auto* checks = std::get_if<ChecksSoFar>(&line.state)) {
     // What is to be touched counts on beside a warning that stays.
@@ -180,6 +202,7 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
   } else if (const auto* wire = std::get_if<WireSoFar>(&line.state)) {
     write_wire(text, *wire, "; ");
   }
+  write_unused_tool(text, line, out.size() > begin ? "; " : "");
 }
 
 void append_heard(std::string& out, const HeardCommand& heard) {

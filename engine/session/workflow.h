@@ -99,6 +99,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kAccepted, kLandmarkTouched, kSelectScrew, kGuide},
     {kAccepted, kLandmarkMissing, kAskForLandmark, kAccepted},
     {kAccepted, kLandmarkMoved, kVerifyAgain, kVerify},
+    {kAccepted, kSayReplan, kReplan, kAccepted},
     {kAccepted, kSayReject, kClearLevel, kDigitize},
     {kAccepted, kPress, kBeginTouch, kAccepted},
     {kAccepted, kRelease, kEndTouch, kAccepted},
@@ -114,11 +115,14 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kAccepted, kReferenceSeen, kIgnore, kAccepted},
     {kAccepted, kReferenceMoved, kForgetMap, kDigitize},
 
-    // A registration that turns out wrong while guiding can be thrown away at any screw.
+    // A registration that turns out wrong while guiding can be thrown away at any screw. The screw
+    // is changed until its drill is set; one that would leave the cortex wants an "accept".
     {kGuide, kSayNext, kExpectWire, kPlaced},
     {kGuide, kSayReject, kClearLevel, kDigitize},
     {kGuide, kSayTwin, kToggleTwin, kGuide},
     {kGuide, kSayDrill, kBeginDrill, kGuide},
+    {kGuide, kSayReplan, kReplan, kGuide},
+    {kGuide, kSayAccept, kConsent, kGuide},
     {kGuide, kPress, kIgnore, kGuide},
     {kGuide, kRelease, kIgnore, kGuide},
     {kGuide, kClick, kIgnore, kGuide},
@@ -207,7 +211,7 @@ inline constexpr auto kRulesByEye = std::to_array<Rule>({
     {kVerify, kPoseStale, kIgnore, kVerify},
     {kVerify, kTrackingRegained, kIgnore, kVerify},
     {kAccepted, kSayNext, kSelectScrew, kGuide},
-    {kAccepted, kSayAccept, kRefuse, kAccepted},
+    {kAccepted, kSayAccept, kConsent, kAccepted},
     {kAccepted, kLandmarkTouched, kRefuse, kAccepted},
     {kAccepted, kLandmarkMissing, kRefuse, kAccepted},
     {kAccepted, kLandmarkMoved, kRefuse, kAccepted},

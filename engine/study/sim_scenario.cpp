@@ -2,18 +2,23 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace orthonav::engine {
 namespace {
 
-sim::ToolKind kind_of(nav::ToolRole role) {
-  if (role == nav::ToolRole::kPointer) {
-    return sim::ToolKind::kPointer;
+/// None of a tool that the simulated surgeon does not use.
+std::optional<sim::ToolKind> kind_of(nav::ToolRole role) {
+  switch (role) {
+    case nav::ToolRole::kPointer:
+      return sim::ToolKind::kPointer;
+    case nav::ToolRole::kGuide:
+      return sim::ToolKind::kGuide;
+    case nav::ToolRole::kReference:
+      return sim::ToolKind::kReference;
+    default:
+      return std::nullopt;
   }
-  if (role == nav::ToolRole::kGuide) {
-    return sim::ToolKind::kGuide;
-  }
-  return sim::ToolKind::kReference;
 }
 
 }  // namespace
@@ -26,8 +31,10 @@ sim::RoomDescription room_of(const Case& source, const Operation& operation,
         {level.label, level.mesh.vertices_m, level.mesh.triangles, level.spine_from_vertebra});
   }
   for (const nav::ToolGeometry& tool : tools) {
-    room.tools.push_back({tool.name, kind_of(tool.role), tool.marker.family, tool.marker.id,
-                          tool.marker.size_m, tool.tip_in_marker, tool.axis_in_marker.v});
+    if (const auto kind = kind_of(tool.role)) {
+      room.tools.push_back({tool.name, *kind, tool.marker.family, tool.marker.id,
+                            tool.marker.size_m, tool.tip_in_marker, tool.axis_in_marker.v});
+    }
   }
   for (const OperatedLevel& level : operation.levels) {
     room.operated.push_back(level.label);

@@ -55,7 +55,9 @@ enum class Notice : std::uint8_t {
   kWireUndecided,     ///< "next", while a wire beyond a limit waits for a word
   kNoOtherEntry,      ///< through which its screw could be redone
   kConfirmRedo,       ///< a screw that was redone is so again when "delete" is said again
-  kScrewRedone,    ///< it has another entry
+  kScrewRedone,       ///< it has another entry
+  kReplanRefused,     ///< a change of the screw
+  kReplanned,         ///< the screw was changed
   kNoRod,             ///< the heads give none
   kMapMoved,          ///< the headset's map: what was measured in it is gone
   kReferenceMoved,    ///< the patient's: what hung on it is gone

@@ -14,7 +14,29 @@ constexpr std::array kConfidences = {0.9, 0.6, 0.3, 0.0};
 }  // namespace
 
 std::vector<std::string> workflow_phrases() {
-  return {"start", "save", "delete", "accept", "reject", "next", "done", "move rod", "twin"};
+  return {"start",
+          "save",
+          "delete",
+          "accept",
+          "reject",
+          "next",
+          "done",
+          "move rod",
+          "twin",
+          "drill",
+          "move cranial one",
+          "move caudal one",
+          "move medial one",
+          "move lateral one",
+          "tilt cranial one",
+          "tilt caudal one",
+          "tilt medial one",
+          "tilt lateral one",
+          "longer",
+          "shorter",
+          "thicker",
+          "thinner",
+          "undo"};
 }
 
 Result<std::vector<std::uint8_t>> vocabulary_bytes(const std::vector<std::string>& phrases) {

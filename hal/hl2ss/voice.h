@@ -12,7 +12,8 @@ namespace orthonav::hl2ss {
 inline constexpr std::uint8_t kStopVoice = 0;
 inline constexpr std::uint8_t kPollVoice = 1;
 
-/// The words of the workflow: what the headset is to listen for, unless told otherwise.
+/// The words of the workflow, and changes of a screw by one step each way: what the headset is to
+/// listen for, unless told otherwise. A test holds them against the session's.
 [[nodiscard]] std::vector<std::string> workflow_phrases();
 
 /// u16 count, then each phrase as u16 byte length and UTF-16LE. Phrases are ASCII, at most 64 of at

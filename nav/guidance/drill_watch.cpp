@@ -83,7 +83,17 @@ void DrillWatch::measured(const DrillReading& reading) {
   if (view_.phase == DrillPhase::kDrilling) {
     judge(reading);
   }
+  look_at_stop(reading);
   newest_ = reading.time;
+}
+
+/// The drill goes on along the planned axis as far as the stop lets it.
+void DrillWatch::look_at_stop(const DrillReading& reading) {
+  view_.stop_past_target_m.reset();
+  if (reading.stop_m) {
+    const double length_m = reading.depth_m + reading.to_target_m;
+    view_.stop_past_target_m = set_depth_m_.value_or(0.0) + *reading.stop_m - length_m;
+  }
 }
 
 void DrillWatch::look_for_rest(const DrillReading& reading) {

@@ -54,6 +54,8 @@ struct DrillReading {
   double depth_m = 0.0;      ///< past the planned entry, along the planned axis
   double depth_sd_m = 0.0;   ///< infinite: not known
   double to_target_m = 0.0;  ///< along the planned axis; < 0: past it
+  /// How far the depth stop lets the drill get past where its tip was set; absent: there is none.
+  std::optional<double> stop_m = {};
 };
 
 enum class DrillPhase : std::uint8_t {
@@ -70,9 +72,14 @@ struct DrillView {
   /// withdrawn, for nobody knows how deep a hidden tip is.
   DrillAlarm alarm = DrillAlarm::kNone;
   bool watched = false;  ///< measured in this pair
+  /// So far the depth stop lets the drill past the target; < 0: it ends before. Of where the tip
+  /// was set, and until then as if it were set on the planned entry. Absent: there is no stop, or
+  /// the tool was not measured yet at this screw.
+  std::optional<double> stop_past_target_m = {};
   /// The same while nobody watches: it drills on, and only a stop stays.
   [[nodiscard]] DrillView unwatched() const {
-    return {phase, alarm == DrillAlarm::kStop ? alarm : DrillAlarm::kNone, false};
+    return {phase, alarm == DrillAlarm::kStop ? alarm : DrillAlarm::kNone, false,
+            stop_past_target_m};
   }
   friend bool operator==(const DrillView&, const DrillView&) = default;
 };
@@ -97,6 +104,7 @@ class DrillWatch {
   void look_for_rest(const DrillReading& reading);
   void look_for_advance(const DrillReading& reading);
   void judge(const DrillReading& reading);
+  void look_at_stop(const DrillReading& reading);
 
   DrillLimits limits_;
   DrillView view_;

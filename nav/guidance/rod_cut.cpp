@@ -46,6 +46,17 @@ Status check_rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
       !s) {
     return s;
   }
+  if (!seating.each_head_to_seat_m.empty() &&
+      seating.each_head_to_seat_m.size() != rod.heads_m.size()) {
+    return Error{printed("rod to cut has %zu screw heads, but %zu distances to a seat",
+                         rod.heads_m.size(), seating.each_head_to_seat_m.size())};
+  }
+  for (const double seat_m : seating.each_head_to_seat_m) {
+    if (const Status s = check_rod_distance("distance from head to seat", seat_m, kDeepestSeat_m);
+        !s) {
+      return s;
+    }
+  }
   return check_rod_distance("overhang of the rod", seating.overhang_m, kLongestOverhang_m);
 }
 
@@ -58,7 +69,9 @@ Result<RodCut> rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
   }
   RodCut cut;
   for (std::size_t i = 0; i < to_bone.size(); ++i) {
-    cut.seats_m.push_back(rod.heads_m[i] + seating.head_to_seat_m * to_bone[i].normalized());
+    const double seat_m = seating.each_head_to_seat_m.empty() ? seating.head_to_seat_m
+                                                              : seating.each_head_to_seat_m[i];
+    cut.seats_m.push_back(rod.heads_m[i] + seat_m * to_bone[i].normalized());
   }
   const auto spline = CatmullRom::through(cut.seats_m);
   if (!spline) {

@@ -16,6 +16,8 @@ struct RodSeating {
   double head_to_seat_m = 0.006;
   /// Wanted beyond the middle of the first and of the last seat.
   double overhang_m = 0.005;
+  /// Of each head in their order, where they differ; empty: `head_to_seat_m` for all.
+  std::vector<double> each_head_to_seat_m = {};
 };
 
 struct RodCut {
@@ -33,8 +35,8 @@ inline constexpr double kLongestOverhang_m = 0.05;
 /// tip (any length but zero, in the order of `rod.heads_m`). In a lordosis the seats lie on the
 /// outside of the curve, so their spline is longer than the heads': by the depth times the angle
 /// of the curve, 4 mm for 6 mm and 40°. Refuses fewer than 2 heads, another number of directions
-/// than heads, what is not finite, distances that are negative or beyond the limits above, and
-/// seats that meet.
+/// or of seats than heads, what is not finite, distances that are negative or beyond the limits
+/// above, and seats that meet.
 Result<RodCut> rod_cut(const RodTemplate& rod, std::span<const Vec3> to_bone,
                        const RodSeating& seating = {});
 

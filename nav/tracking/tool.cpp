@@ -58,6 +58,21 @@ void check_geometry(const ToolGeometry& tool, const std::string& name,
   }
 }
 
+void check_guide(const ToolGeometry& tool, const std::string& name,
+                 std::vector<std::string>& problems) {
+  const auto check = [&](const std::optional<double>& length_m, const char* what, double least_mm,
+                         double most_mm) {
+    if (length_m && tool.role != ToolRole::kGuide) {
+      problems.push_back(name + ": " + what + " is for a guide");
+    } else if (length_m && !(*length_m * 1e3 >= least_mm && *length_m * 1e3 <= most_mm)) {
+      problems.push_back(name + ": " + what + " " + number(*length_m * 1e3) + " mm, must be " +
+                         number(least_mm) + "-" + number(most_mm) + " mm");
+    }
+  };
+  check(tool.sleeve_length_m, "sleeve length", 10.0, 300.0);
+  check(tool.stop_m, "stop", 1.0, 150.0);
+}
+
 std::string title_of(const std::vector<ToolGeometry>& tools, std::size_t i) {
   return tools[i].name.empty() ? "tool " + std::to_string(i + 1) : "tool '" + tools[i].name + "'";
 }
@@ -75,6 +90,12 @@ void check_given_once(const MarkerDefinition& marker, const std::string& name,
 
 }  // namespace
 
+const char* name_of(ToolRole role) {
+  constexpr std::array<const char*, kToolRoles> kNames = {
+      "pointer", "guide", "reference", "awl", "drill", "tap", "screwdriver", "wire"};
+  return kNames[static_cast<std::size_t>(role)];
+}
+
 std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {
   std::vector<std::string> problems;
   std::map<std::pair<std::string, int>, std::string> tags;
@@ -89,6 +110,7 @@ std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {
     }
     check_marker(tool.marker, name, problems);
     check_geometry(tool, name, problems);
+    check_guide(tool, name, problems);
     for (std::size_t j = 0; j < i; ++j) {
       if (!tool.name.empty() && tools[j].name == tool.name) {
         problems.push_back(name + ": the name is given twice");

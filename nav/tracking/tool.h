@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,7 +10,19 @@
 
 namespace orthonav::nav {
 
-enum class ToolRole { kPointer, kGuide, kReference };
+enum class ToolRole : std::uint8_t {
+  kPointer,
+  kGuide,  ///< the only one that is guided
+  kReference,
+  kAwl,
+  kDrill,
+  kTap,
+  kScrewdriver,
+  kWire,
+};
+inline constexpr std::size_t kToolRoles = 8;
+/// As in files: "pointer", "screwdriver".
+[[nodiscard]] const char* name_of(ToolRole role);
 
 struct MarkerDefinition {
   std::string family = "tag36h11";
@@ -33,11 +48,17 @@ struct ToolGeometry {
   /// those of `marker`.
   std::vector<AttachedMarker> more_markers;
   std::string level = {};  ///< of a reference: the vertebra that it is clamped to; empty: not said
+  /// Of a guide with a sleeve, whose end is the tip: how long the sleeve is. Absent: not said.
+  std::optional<double> sleeve_length_m = {};
+  /// Of a guide with a depth stop: how far the drill gets past where the tip was set on the bone,
+  /// until the stop is met. Absent: it has none, or nobody knows.
+  std::optional<double> stop_m = {};
 };
 
 /// Every problem at once: empty names, unknown families, duplicate names, a tag given twice on any
 /// tool, sizes outside 5-200 mm, tips or further tags farther than 1 m, axes that are not unit
-/// vectors. Empty when all is well.
+/// vectors, sleeves outside 10-300 mm, stops outside 1-150 mm, either on another tool than a
+/// guide. Empty when all is well.
 [[nodiscard]] std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools);
 /// Families of the tags, each once.
 [[nodiscard]] std::vector<std::string> families_of(const std::vector<MarkerDefinition>& tags);

@@ -7,6 +7,8 @@
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
 #include "engine/session/observer_list.h"
+#include "engine/session/spoken_commands.h"
+#include "engine/session/spoken_replan.h"
 #include "engine/study/evaluation.h"
 #include "engine/study/sim_scenario.h"
 #include "engine/study/simulated_operation.h"
@@ -187,6 +189,11 @@ TEST(OverTcp, TheHeadsetListensForTheWordsOfTheWorkflow) {
   ASSERT_TRUE(headset->cameras().next(frame).ok());
   session->step(frame, inputs);
   EXPECT_THAT(misheard.phrases, ::testing::ElementsAre("accepted"));
+  std::vector<std::string> understood = spoken_commands();
+  for (const std::string& phrase : replan_phrases()) {
+    understood.push_back(phrase);
+  }
+  EXPECT_THAT(hl2ss::workflow_phrases(), ::testing::UnorderedElementsAreArray(understood));
 }
 
 }  // namespace

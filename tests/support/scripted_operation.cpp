@@ -93,6 +93,12 @@ void ScriptedTracker::hang_on_reference() {
   tools_.push_back(
       {"reference", nav::ToolRole::kReference, {"tag36h11", 17, 0.04}, {{0, -0.06, 0}}});
   states_.resize(3);
+  hangs_on_reference_ = true;
+}
+
+void ScriptedTracker::add_other(const nav::ToolGeometry& tool) {
+  tools_.push_back(tool);
+  states_.resize(tools_.size());
 }
 
 std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame) {
@@ -100,8 +106,12 @@ std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame)
   if (reference_seen) {
     reference.last_seen = frame.time;
   }
-  const std::optional<Transform<World, Marker>> poses[] = {pointer, guide, reference_pose};
-  const PoseStatus origins[] = {pointer_origin, guide_origin, PoseStatus::kMeasured};
+  // The reference, where there is one, stands before the other tool.
+  const bool anchored = hangs_on_reference_;
+  const std::optional<Transform<World, Marker>> poses[] = {
+      pointer, guide, anchored ? reference_pose : other, other};
+  const PoseStatus origins[] = {pointer_origin, guide_origin, PoseStatus::kMeasured,
+                                PoseStatus::kMeasured};
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].tool = i;
     states_[i].world_from_marker = {};
@@ -118,7 +128,8 @@ std::span<const nav::ToolState> ScriptedTracker::track(const StereoFrame& frame)
 ScriptedOperation::ScriptedOperation(std::vector<std::string> labels,
                                      engine::SessionOptions options,
                                      engine::Verification verification, bool coaching,
-                                     bool reference) {
+                                     bool reference,
+                                     const std::optional<nav::ToolGeometry>& other) {
   registration.accepted = true;
   registration.rmse_m = 0.0006;
   registration.points = 300;
@@ -126,6 +137,9 @@ ScriptedOperation::ScriptedOperation(std::vector<std::string> labels,
   tracker_ = tracker.get();
   if (reference) {
     tracker->hang_on_reference();
+  }
+  if (other) {
+    tracker->add_other(*other);
   }
   auto registrar = [this](const engine::RegistrationRequest& request) -> Result<nav::Registration> {
     registered_points.push_back(request.points_in_world.size());

@@ -36,16 +36,21 @@ class ScriptedTracker : public nav::ToolTracker {
   std::optional<Transform<World, Marker>> reference_pose;  ///< absent: not told
   nav::Anchor reference;                                   ///< what is said of it
   std::optional<nav::TagSize> size;                        ///< of every tool
+  /// A further tool, the last; before the session is made.
+  void add_other(const nav::ToolGeometry& tool);
+  std::optional<Transform<World, Marker>> other;  ///< where that one is
+  [[nodiscard]] nav::ToolGeometry& guide_tool() { return tools_[1]; }
   [[nodiscard]] std::optional<nav::TagSize> tag_size(std::size_t /*tool*/) const override {
     return size;
   }
   [[nodiscard]] const nav::Anchor* anchor() const override {
-    return tools_.size() > 2 ? &reference : nullptr;
+    return hangs_on_reference_ ? &reference : nullptr;
   }
 
  private:
   std::vector<nav::ToolGeometry> tools_;
   std::vector<nav::ToolState> states_;
+  bool hangs_on_reference_ = false;
 };
 
 /// A session whose surgeon, tools and registrations are said line by line. Pairs come every 33 ms.
@@ -54,7 +59,8 @@ class ScriptedOperation {
   explicit ScriptedOperation(std::vector<std::string> labels = {"L4", "L5"},
                              engine::SessionOptions options = {},
                              engine::Verification verification = engine::Verification::kByEye,
-                             bool coaching = false, bool reference = false);
+                             bool coaching = false, bool reference = false,
+                             const std::optional<nav::ToolGeometry>& other = std::nullopt);
 
   const engine::Guidance& pair();
   const engine::Guidance& pairs(int n);

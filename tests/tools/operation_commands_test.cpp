@@ -30,6 +30,7 @@ TEST(RunCommand, RefusesItsArgumentsBeforeItPreparesAnything) {
   expect_refusal(orthonav({"run", "--headset", "sim:?sed=3", "--case", "/none"}),
                  "unknown key \"sed\"");
   expect_refusal(orthonav({"run", "--tools", "none.json", "--case", "/none"}), "none.json");
+  expect_refusal(orthonav({"run", "--screws", "none.json", "--case", "/none"}), "none.json");
 }
 
 TEST(DemoCommand, RefusesWhatItCannotDoAndLeavesNothing) {

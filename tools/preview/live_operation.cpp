@@ -86,8 +86,10 @@ Status LiveOperation::prepare(const OperationSource& source) {
   if (!tools) {
     return tools.error();
   }
-  auto assembled = engine::assemble_operation(gated_, source.operation, source.method, *tools,
-                                              {.loop = loop_options()});
+  engine::AssemblyOptions options{.loop = loop_options()};
+  options.session.replan.sizes = source.screw_sizes;
+  auto assembled =
+      engine::assemble_operation(gated_, source.operation, source.method, *tools, options);
   if (!assembled) {
     return assembled.error();
   }

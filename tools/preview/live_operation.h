@@ -20,7 +20,8 @@ struct OperationSource {
   engine::Case source;
   engine::Method method;
   engine::Operation operation;  ///< its models are shared by all starts
-  std::string tools_file;       ///< empty: what the headset itself knows of its tools
+  engine::ScrewSizes screw_sizes = engine::ScrewSizes::built_in();
+  std::string tools_file;  ///< empty: what the headset itself knows of its tools
 };
 
 /// An operation that runs in a thread of its own: pairs come through the gate, moments go into the

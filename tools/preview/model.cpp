@@ -74,6 +74,12 @@ void PreviewModel::obey(const KeyBinding& binding) {
   }
 }
 
+void PreviewModel::say(const std::string& phrase) {
+  if (!phrase.empty()) {
+    keyboard_.say(phrase);
+  }
+}
+
 void PreviewModel::pause(bool paused) {
   gate_.pause(paused);
   if (!paused) {

@@ -49,6 +49,8 @@ class PreviewModel {
   void set_speed(double speed) { gate_.set_speed(speed); }
   void orbit(bool orbits);
   void mute(bool muted) { keyboard_.mute(muted); }
+  /// As the surgeon says it; an empty phrase is none.
+  void say(const std::string& phrase);
   /// Where the newest picture was seen from; an orbit begins there.
   void seen_from(const Transform<sim::Room, Eye>& stage_from_eye) { eye_ = stage_from_eye; }
   /// Another operation begins.

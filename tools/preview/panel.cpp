@@ -8,6 +8,7 @@
 
 #include "engine/session/wording.h"
 #include "tools/preview/error_sources.h"
+#include "tools/preview/screw_panel.h"
 
 namespace orthonav::preview {
 namespace {
@@ -220,6 +221,9 @@ void draw_moment(PreviewModel& model, const Moment& moment, const PanelFacts& fa
   draw_buttons(model, facts);
   if (ImGui::CollapsingHeader("workflow", ImGuiTreeNodeFlags_DefaultOpen)) {
     draw_step(moment);
+  }
+  if (ImGui::CollapsingHeader("planned screw")) {
+    draw_screw(model);
   }
   if (ImGui::CollapsingHeader("tracking", ImGuiTreeNodeFlags_DefaultOpen)) {
     draw_tools(moment);

@@ -23,6 +23,7 @@ constexpr auto kWords = std::to_array<Word>({
     {"key", Follows::kKey},          // down and up
     {"press", Follows::kKey},        // down
     {"release", Follows::kKey},      // up
+    {"say", Follows::kText},         // as the surgeon says it
     {"until", Follows::kText},       // waits until the step begins with this
     {"first", Follows::kText},       // the same, then pauses and shows its first pair
     {"pause", Follows::kNothing},    // waits until nothing moves any more
@@ -198,6 +199,10 @@ bool Script::perform(const ScriptLine& line, PreviewModel& model, const ScriptSt
   }
   if (line.word == "pairs" || line.word == "scrub") {
     return reaches_pair(static_cast<std::int64_t>(one), line.word == "scrub", model);
+  }
+  if (line.word == "say") {
+    model.say(line.rest);
+    return true;
   }
   if (line.word == "wait") {
     return waited_++ >= static_cast<int>(one);

@@ -94,7 +94,45 @@ TEST(ToolFile, RefusesAnUnknownRole) {
               HasSubstr("is for a reference"));
   EXPECT_THAT(refusal(R"({"tools": [{"name": "x", "role": "hammer", )" + kMarker +
                       R"(, "tip_mm": [0, 0, 0]}]})"),
-              HasSubstr("\"hammer\", must be pointer, guide or reference"));
+              HasSubstr("\"hammer\", must be pointer, guide, reference, awl, drill, tap, "
+                        "screwdriver or wire"));
+}
+
+TEST(ToolFile, KnowsEveryInstrumentByItsRole) {
+  for (const char* role :
+       {"pointer", "guide", "reference", "awl", "drill", "tap", "screwdriver", "wire"}) {
+    const auto tools = parse_tools(R"({"tools": [{"name": "x", "role": ")" + std::string(role) +
+                                       R"(", "tip_mm": [0, -100, 0], )" + kMarker + "}]}",
+                                   "t");
+    ASSERT_TRUE(tools.ok()) << tools.error().message;
+    EXPECT_EQ(to_text(tools->front().role), role);
+    EXPECT_FALSE(tools->front().stop_m || tools->front().sleeve_length_m);
+  }
+}
+
+std::string guide_with(const std::string& fields, const std::string& role = "guide") {
+  return R"({"tools": [{"name": "g", "role": ")" + role + R"(", "tip_mm": [0, -100, 0], )" +
+         kMarker + ", " + fields + "}]}";
+}
+
+TEST(ToolFile, ReadsAndWritesSleeveAndStopOfAGuide) {
+  const auto tools =
+      parse_tools(guide_with(R"("sleeve_length_mm": 90, "stop_mm": 42.5)"), "t").value();
+  EXPECT_DOUBLE_EQ(*tools[0].sleeve_length_m, 0.090);
+  EXPECT_DOUBLE_EQ(*tools[0].stop_m, 0.0425);
+  const auto back = parse_tools(tools_text(tools), "t").value();
+  EXPECT_DOUBLE_EQ(*back[0].sleeve_length_m, 0.090);
+  EXPECT_DOUBLE_EQ(*back[0].stop_m, 0.0425);
+}
+
+TEST(ToolFile, RefusesSleevesAndStopsThatCanNotBe) {
+  EXPECT_THAT(refusal(guide_with(R"("stop_mm": -3)")), HasSubstr("stop -3 mm, must be 1-150 mm"));
+  EXPECT_THAT(refusal(guide_with(R"("stop_mm": 0.042)")), HasSubstr("stop 0.042 mm"))
+      << "metres taken for millimetres";
+  EXPECT_THAT(refusal(guide_with(R"("stop_mm": "deep")")), HasSubstr("stop_mm"));
+  EXPECT_THAT(refusal(guide_with(R"("stop_mm": 1e999)")), HasSubstr("too large"));
+  EXPECT_THAT(refusal(guide_with(R"("sleeve_length_mm": 5)")), HasSubstr("must be 10-300 mm"));
+  EXPECT_THAT(refusal(guide_with(R"("stop_mm": 40)", "pointer")), HasSubstr("is for a guide"));
 }
 
 TEST(ToolFile, RefusesAnUnknownFamily) {

@@ -15,6 +15,21 @@ TEST(JsonNode, NamesItsKeysAlsoThoseWithoutAValue) {
   EXPECT_THAT(document->root().child("b").keys(), ElementsAre("a", "z"));
 }
 
+TEST(JsonNode, ReadsAListOfNumbersOfAnyLengthUpToALimit) {
+  const auto document = JsonDocument::parse(R"({"a": [1, 2.5, -3], "none": []})", "x.json");
+  EXPECT_EQ(document->root().number_list("a", 3), (std::vector<double>{1.0, 2.5, -3.0}));
+  EXPECT_TRUE(document->root().number_list("none", 3).empty());
+  EXPECT_TRUE(document->status().ok());
+  for (const char* bad : {R"({"a": 1})", R"({"a": [1, "b"]})", R"({"a": [[1]]})", "{}",
+                          R"({"a": [1, 2, 3, 4]})", R"({"a": [1e999]})"}) {
+    const auto refused = JsonDocument::parse(bad, "x.json");
+    if (refused) {
+      EXPECT_TRUE(refused->root().number_list("a", 3).empty()) << bad;
+      EXPECT_FALSE(refused->status().ok()) << bad;
+    }
+  }
+}
+
 TEST(JsonNode, HasNoKeysWhereItIsNoObject) {
   const auto document = JsonDocument::parse(R"({"a": [1]})", "x.json");
   ASSERT_TRUE(document.ok()) << document.error().message;

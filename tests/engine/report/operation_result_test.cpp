@@ -7,6 +7,7 @@
 
 #include "engine/case/operation_plan.h"
 #include "engine/phantom/phantom.h"
+#include "engine/report/clearance_section.h"
 #include "tests/support/scripted_operation.h"
 
 namespace orthonav::engine {
@@ -60,6 +61,20 @@ TEST(ReportJson, HoldsWhatTheFormatSays) {
   EXPECT_EQ(json["frames"]["displayed"], 101);
   EXPECT_DOUBLE_EQ(json["frames"]["median_ms"], 50.0);
   EXPECT_DOUBLE_EQ(json["frames"]["p99_ms"], 99.0);
+}
+
+TEST(ReportJson, HoldsWhatWasPlannedInSurgery) {
+  test::ScriptedOperation s({"L4"});
+  s.accepts_first_level();
+  s.says("next");
+  s.says("move cranial two");
+  const auto json = nlohmann::json::parse(report_json(outcome_of(s.session().levels(), {}, {})));
+  const auto& screws = json["levels"][0]["screws"];
+  EXPECT_NEAR(screws[0]["planned_in_surgery"]["entry_cranial_mm"].get<double>(), 2.0, 1e-9);
+  EXPECT_EQ(screws[0]["planned_in_surgery"]["text"], "entry moved 2.0 mm cranial");
+  EXPECT_FALSE(screws[1].contains("planned_in_surgery"));
+  EXPECT_THAT(clearance_section(json),
+              ::testing::HasSubstr("planned in surgery: entry moved 2.0 mm cranial"));
 }
 
 TEST(ReportJson, HoldsTheDistancesOfCheckPointsWhereThereAreAny) {

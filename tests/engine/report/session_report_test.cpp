@@ -47,6 +47,26 @@ SessionRecord cut_session() {
   return session;
 }
 
+TEST(SessionReport, SaysWhatWasPlannedInSurgery) {
+  SessionRecord session = cut_session();
+  EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("planned in surgery")));
+  EXPECT_THAT(session_json(session), Not(HasSubstr("planned_in_surgery")));
+  nav::ScrewDifference difference;
+  difference.entry_cranial_m = 0.001;
+  difference.diameter_from_m = 0.0055;
+  difference.diameter_to_m = 0.006;
+  difference.length_from_m = difference.length_to_m = 0.040;
+  session.levels[0].screws[1].planned_in_surgery = difference;
+  EXPECT_THAT(session_page(session, "j"),
+              HasSubstr("planned in surgery: entry moved 1.0 mm cranial, 6.0 \u00d7 40 mm instead "
+                        "of 5.5 \u00d7 40 mm"));
+  const auto json = nlohmann::json::parse(session_json(session));
+  const auto& screws = json["levels"][0]["screws"];
+  EXPECT_FALSE(screws[0].contains("planned_in_surgery"));
+  EXPECT_NEAR(screws[1]["planned_in_surgery"]["entry_cranial_mm"].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(screws[1]["planned_in_surgery"]["diameter_to_mm"].get<double>(), 6.0, 1e-9);
+}
+
 TEST(SessionReport, SaysFirstOfAllThatTheSessionWasCutOffAndWhen) {
   const std::string page = session_page(cut_session(), "a/session.orthonav.part");
   const std::size_t cut = page.find("This session was cut off");

@@ -212,6 +212,31 @@ TEST(JournalReader, KnowsHowEveryWireWasMeasuredKeptOrRedone) {
   EXPECT_EQ(right.redone, 0);
 }
 
+TEST(JournalReader, KnowsWhatWasPlannedInSurgery) {
+  Journaled j({"L4"});
+  j.operation.accepts_first_level();
+  j.operation.says("next");
+  j.operation.says("move cranial one");
+  j.operation.says("shorter");
+  j.operation.says("undo");
+  j.operation.says("next");
+  j.operation.says("move medial two");
+  j.operation.says("undo");
+  j.operation.says("next");
+  const SessionRecord record = j.finished("");
+  const auto& screws = record.levels[0].screws;
+  ASSERT_EQ(screws.size(), 2u);
+  EXPECT_TRUE(screws[0].done) << "what was done later left the plan alone";
+  ASSERT_TRUE(screws[0].planned_in_surgery);
+  const LevelState& level = j.operation.session().levels()[0];
+  const auto difference = nav::difference_of(level.preoperative[0], level.plan.screws[0]);
+  EXPECT_NEAR(screws[0].planned_in_surgery->entry_cranial_m, 0.001, 1e-9);
+  EXPECT_NEAR(screws[0].planned_in_surgery->length_to_m, difference.length_to_m, 1e-9);
+  EXPECT_NEAR(screws[0].planned_in_surgery->length_from_m, 0.035, 1e-9);
+  EXPECT_NEAR(screws[0].planned_in_surgery->diameter_to_m, 0.006, 1e-9);
+  EXPECT_FALSE(screws[1].planned_in_surgery) << "as before surgery again";
+}
+
 TEST(JournalReader, FollowsRejectionsCheckPointsAndAMovedMap) {
   Journaled j({"L4", "L5"}, Verification::kByTouch);
   j.operation.registers_first_level();

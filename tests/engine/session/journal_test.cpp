@@ -42,6 +42,41 @@ class JournalTest : public ::testing::Test {
   std::string path_;
 };
 
+TEST_F(JournalTest, TellsEveryChangeOfAScrewAndItsUndoing) {
+  auto journal = Journal::create(path_, {"0.1.0", "fake", "paper", "boxes", 7, kEpoch}).value();
+  test::ScriptedOperation s({"L4"});
+  s.session().observe(journal.get());
+  s.accepts_first_level();
+  s.says("next");
+  s.says("move cranial one");
+  s.says("move cranial");
+  s.says("move cranial ten");
+  s.says("tilt lateral two");
+  s.says("undo");
+  ASSERT_TRUE(journal->finish().ok());
+  std::vector<nlohmann::json> changes;
+  for (const auto& line : lines()) {
+    if (line.value("what", "") == "replanned") {
+      changes.push_back(line);
+    }
+  }
+  ASSERT_EQ(changes.size(), 3u) << "neither what was not understood nor what was refused";
+  EXPECT_EQ(changes[0]["level"], "L4");
+  EXPECT_EQ(changes[0]["side"], "left");
+  EXPECT_EQ(changes[0]["asked"], "move cranial 1.0 mm");
+  EXPECT_EQ(changes[0]["undone"], false);
+  EXPECT_NEAR(changes[0]["from"]["entry_mm"][2].get<double>(), 0.0, 1e-9);
+  EXPECT_NEAR(changes[0]["to"]["entry_mm"][2].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(changes[0]["to"]["target_mm"][2].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(changes[0]["to"]["diameter_mm"].get<double>(), 6.0, 1e-9);
+  EXPECT_NEAR(changes[0]["planned_in_surgery"]["entry_cranial_mm"].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(changes[1]["planned_in_surgery"]["aim_medial_deg"].get<double>(), -2.0, 1e-9);
+  EXPECT_EQ(changes[2]["asked"], "undo");
+  EXPECT_EQ(changes[2]["undone"], true);
+  EXPECT_EQ(changes[2]["to"], changes[0]["to"]);
+  EXPECT_EQ(changes[2]["from"], changes[1]["to"]);
+}
+
 TEST_F(JournalTest, TellsTheWholeOperation) {
   auto journal = Journal::create(path_, {"0.1.0", "fake", "paper", "boxes", 7, kEpoch}).value();
   test::ScriptedOperation s;

@@ -73,6 +73,17 @@ TEST_F(RodSession, InstructsHowToBendTheRod) {
   EXPECT_FALSE(s.says("delete").rods[0].instructions->bends.size() > 0);
 }
 
+TEST(RodSeats, AreThoseOfTheScrewsWhereTheListStatesThem) {
+  SessionOptions options;
+  options.replan.sizes = {{{0.006, {0.035}, 0.0085}}};  // the box's screws
+  ScriptedOperation s({"L4", "L5"}, options);
+  s.finishes_every_screw();
+  s.touches({0.02, 0.03, 0.00});
+  const Guidance& g = s.touches({0.02, 0.03, 0.04});
+  ASSERT_TRUE(g.rods[0].instructions) << g.rods[0].no_instructions;
+  EXPECT_NEAR((g.rods[0].instructions->seats_m[0] - Vec3{0.02, 0.03, 0.00}).norm(), 0.0085, kExact);
+}
+
 TEST_F(RodSession, SaysWhyThereAreNoInstructions) {
   s.touches({0.02, 0.03, 0.00});
   s.touches({0.02, 0.035, 0.02});

@@ -55,6 +55,23 @@ TEST(DrillWatch, BeginsByItselfWhereATipThatRestedAdvances) {
   EXPECT_EQ(d.at(0.0021).phase, DrillPhase::kDrilling);
 }
 
+TEST(DrillWatch, KnowsWhereTheDepthStopComes) {
+  Drilled d;
+  EXPECT_FALSE(d.at(-0.020).stop_past_target_m) << "there is none";
+  d.reading.stop_m = 0.044;
+  EXPECT_NEAR(*d.at(-0.020).stop_past_target_m, 0.004, 1e-12) << "as if set on the entry";
+  d.rests(0.001, 20);
+  ASSERT_EQ(d.watch.view().phase, DrillPhase::kSet);
+  EXPECT_NEAR(*d.watch.view().stop_past_target_m, 0.005, 1e-12) << "from where it was set";
+  EXPECT_NEAR(*d.at(0.010).stop_past_target_m, 0.005, 1e-12) << "however deep it is now";
+  d.watch.not_measured();
+  EXPECT_NEAR(*d.watch.view().stop_past_target_m, 0.005, 1e-12);
+  d.watch.forget();
+  EXPECT_FALSE(d.watch.view().stop_past_target_m) << "another screw";
+  d.reading.stop_m = 0.035;
+  EXPECT_NEAR(*d.at(-0.020).stop_past_target_m, -0.005, 1e-12) << "short of it";
+}
+
 TEST(DrillWatch, TakesNoPassingTipForOneThatIsSet) {
   Drilled moving;
   for (int i = 0; i < 60; ++i) {

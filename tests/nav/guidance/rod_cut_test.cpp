@@ -54,6 +54,19 @@ TEST(RodCut, AddsTheOverhangAtBothEndsOfAStraightRod) {
   EXPECT_LT((cut->seats_m[2] - Vec3{0, -0.006, 0.07}).norm(), 1e-15);
 }
 
+TEST(RodCut, TakesTheSeatOfEachHeadWhereTheyDiffer) {
+  const std::vector<Vec3> to_bone(4, kAnterior);
+  RodSeating seating{0.006, 0.005, {0.006, 0.008, 0.006, 0.0}};
+  const auto cut = rod_cut(straight_rod(), to_bone, seating);
+  ASSERT_TRUE(cut.ok()) << cut.error().message;
+  EXPECT_NEAR(cut->seats_m[1].y, -0.008, 1e-12);
+  EXPECT_NEAR(cut->seats_m[3].y, 0.0, 1e-12);
+  seating.each_head_to_seat_m = {0.006};
+  EXPECT_THAT(refusal(straight_rod(), to_bone, seating), HasSubstr("1 distances to a seat"));
+  seating.each_head_to_seat_m = {0.006, 0.006, -0.001, 0.006};
+  EXPECT_THAT(refusal(straight_rod(), to_bone, seating), HasSubstr("distance from head to seat"));
+}
+
 TEST(RodCut, WithoutDepthAndOverhangIsTheTemplatesLength) {
   const Arc arc = arc_of(0.2, 0.17, 5);
   const auto cut = rod_cut(arc.rod, arc.outwards, {0.0, 0.0});

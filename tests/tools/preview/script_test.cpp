@@ -49,6 +49,17 @@ TEST(Script, WaitsForAStepAndTakesOnePictureACall) {
   EXPECT_THAT(said, ElementsAre("start"));
 }
 
+TEST(Script, SaysWholePhrases) {
+  Bench bench;
+  Script script = Script::parse("say screw six forty five\nkey z\nkey y\n", "t").value();
+  ASSERT_TRUE(bench.go_on(script).ok());
+  EXPECT_TRUE(script.done());
+  std::vector<std::string> said;
+  bench.keyboard.take_phrases(said);
+  EXPECT_THAT(said, ElementsAre("screw six forty five", "undo", "move cranial one"));
+  EXPECT_FALSE(Script::parse("say\n", "t").ok());
+}
+
 TEST(Script, CountsPairsFromWhereItWaits) {
   Bench bench;
   bench.show(1, {Step::kSetup, {}, {}});

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/case/operation.h"
+
+namespace orthonav::engine {
+
+/// The screws of one diameter.
+struct ScrewSize {
+  double diameter_m = 0.0;
+  std::vector<double> lengths_m;  ///< ascending
+  /// From the head's end to where the rod lies in it, along the screw; absent: not stated.
+  std::optional<double> head_to_seat_m = {};
+
+  friend bool operator==(const ScrewSize&, const ScrewSize&) = default;
+};
+
+/// The screws that there are.
+struct ScrewSizes {
+  std::vector<ScrewSize> by_diameter;  ///< ascending
+
+  /// 4.5 to 7.5 mm by 0.5 mm and 8.5 mm, each 25 to 60 mm long by 5 mm.
+  [[nodiscard]] static ScrewSizes built_in();
+
+  /// Of that diameter, to 0.05 mm; null: there is none.
+  [[nodiscard]] const ScrewSize* of_diameter(double diameter_m) const;
+  /// Whether a screw of that diameter and length (to 0.5 mm) is among them.
+  [[nodiscard]] bool has(double diameter_m, double length_m) const;
+  /// Whether a screw of any diameter has that length (to 0.5 mm).
+  [[nodiscard]] bool has_length(double length_m) const;
+  /// The next thicker one, or thinner; none at the end of the list.
+  [[nodiscard]] std::optional<double> next_diameter_m(double diameter_m, bool thicker) const;
+  /// Of that diameter the next longer one, or shorter; of the nearest diameter where none has it.
+  [[nodiscard]] std::optional<double> next_length_m(double diameter_m, double length_m,
+                                                    bool longer) const;
+
+  /// Of that size; none where it is not in the list or does not state it.
+  [[nodiscard]] std::optional<double> head_to_seat_m(double diameter_m) const;
+
+  /// Every problem at once: nothing in it, diameters outside 2-12 mm, lengths outside 10-120 mm,
+  /// seats outside 0-30 mm, numbers that do not ascend or repeat. Empty when all is well.
+  [[nodiscard]] std::vector<std::string> check() const;
+};
+
+/// A line for each planned screw that is not in the list, such as "L4 left: 6.2 x 43.0 mm is not
+/// in the list of screws"; of a plan without a radius the length alone.
+[[nodiscard]] std::vector<std::string> sizes_not_listed(const Operation& operation,
+                                                        const ScrewSizes& sizes);
+
+}  // namespace orthonav::engine

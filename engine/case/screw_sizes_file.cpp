@@ -1,0 +1,72 @@
+#include "engine/case/screw_sizes_file.h"
+
+#include <algorithm>
+
+#include "base/joined.h"
+#include "base/printed.h"
+#include "engine/io/json_document.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr double kMetresPerStatedMm = 1e-3;
+constexpr std::size_t kMostLengths = 100;
+
+ScrewSize size_from(const JsonNode& node) {
+  ScrewSize size;
+  size.diameter_m = node.number("diameter_mm") * kMetresPerStatedMm;
+  for (const double length_mm : node.number_list("lengths_mm", kMostLengths)) {
+    size.lengths_m.push_back(length_mm * kMetresPerStatedMm);
+  }
+  if (node.has("head_to_seat_mm")) {
+    size.head_to_seat_m = node.number("head_to_seat_mm") * kMetresPerStatedMm;
+  }
+  std::sort(size.lengths_m.begin(), size.lengths_m.end());
+  const auto twice = std::adjacent_find(size.lengths_m.begin(), size.lengths_m.end());
+  if (twice != size.lengths_m.end()) {
+    node.refuse("lengths_mm", printed("holds %g twice", *twice / kMetresPerStatedMm));
+  }
+  return size;
+}
+
+Result<ScrewSizes> sizes_from(const JsonDocument& document, const std::string& name) {
+  ScrewSizes sizes;
+  for (const JsonNode& node : document.root().list("screws")) {
+    sizes.by_diameter.push_back(size_from(node));
+    const double diameter_m = sizes.by_diameter.back().diameter_m;
+    for (std::size_t i = 0; i + 1 < sizes.by_diameter.size(); ++i) {
+      if (sizes.by_diameter[i].diameter_m == diameter_m) {
+        node.refuse("diameter_mm", printed("is %g, given twice", diameter_m / kMetresPerStatedMm));
+      }
+    }
+  }
+  if (const Status status = document.status(); !status) {
+    return status.error();
+  }
+  std::sort(sizes.by_diameter.begin(), sizes.by_diameter.end(),
+            [](const ScrewSize& a, const ScrewSize& b) { return a.diameter_m < b.diameter_m; });
+  if (const auto problems = sizes.check(); !problems.empty()) {
+    return Error{name + ": " + joined(problems)};
+  }
+  return sizes;
+}
+
+}  // namespace
+
+Result<ScrewSizes> load_screw_sizes(const std::string& path) {
+  const Result<JsonDocument> document = JsonDocument::read(path);
+  if (!document) {
+    return document.error();
+  }
+  return sizes_from(*document, path);
+}
+
+Result<ScrewSizes> parse_screw_sizes(const std::string& text, const std::string& name) {
+  const auto document = JsonDocument::parse(text, name);
+  if (!document) {
+    return document.error();
+  }
+  return sizes_from(*document, name);
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "base/result.h"
+#include "engine/case/screw_sizes.h"
+
+namespace orthonav::engine {
+
+/// Reads the screws that there are: `{"screws": [{"diameter_mm", "lengths_mm": [...],
+/// "head_to_seat_mm"?}]}`. Order does not matter. Refuses in one line, with file and field, what is
+/// missing, of the wrong type or no finite number, a diameter or length that is given twice, and
+/// what `ScrewSizes::check` finds.
+Result<ScrewSizes> load_screw_sizes(const std::string& path);
+/// The same of its content; `name` stands for the file in messages.
+Result<ScrewSizes> parse_screw_sizes(const std::string& text, const std::string& name);
+
+}  // namespace orthonav::engine

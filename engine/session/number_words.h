@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace orthonav::engine {
+
+/// The words of a phrase in lower case: what stands between spaces.
+[[nodiscard]] std::vector<std::string> words_of(std::string_view phrase);
+
+/// Reads spoken and typed numbers from words, one after another. What it does not understand it
+/// leaves.
+class NumberWords {
+ public:
+  explicit NumberWords(std::span<const std::string> words) : words_(words) {}
+
+  /// "six", "forty five", "twelve point five", "half", "two and a half", "6.5": from 0 to 99.9.
+  [[nodiscard]] std::optional<double> take();
+  /// A diameter as surgeons say it before a length: also "six five" for 6.5, where another number
+  /// follows.
+  [[nodiscard]] std::optional<double> take_diameter();
+  /// One of these words, where it comes next.
+  [[nodiscard]] bool take_word(std::span<const std::string_view> any_of);
+  [[nodiscard]] bool at_end() const { return next_ == words_.size(); }
+
+ private:
+  [[nodiscard]] std::string_view word(std::size_t ahead = 0) const {
+    return next_ + ahead < words_.size() ? std::string_view(words_[next_ + ahead])
+                                         : std::string_view();
+  }
+  [[nodiscard]] std::optional<double> take_whole();
+  [[nodiscard]] double take_fraction();
+
+  std::span<const std::string> words_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace orthonav::engine

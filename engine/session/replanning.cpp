@@ -1,0 +1,220 @@
+#include "engine/session/replanning.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "nav/guidance/anatomical_deviation.h"
+#include "nav/guidance/predicted_error.h"
+#include "nav/guidance/screw_clearance.h"
+
+namespace orthonav::engine {
+namespace {
+
+using Kind = ReplanRefusal::Kind;
+using ChangedOrNot = std::variant<nav::ScrewPlan, ReplanRefusal>;
+
+constexpr const char* kConsented = "accepted in surgery";
+/// A move by all that is allowed is allowed, whatever the last bits say.
+constexpr double kLastBits = 1e-9;
+/// Of the search for the least clearance: a screw that is no worse may look so much worse.
+constexpr double kNoWorse_m = 0.00005;
+
+std::optional<nav::Clearance> clearance_of(const nav::VertebraModel& bone,
+                                           const nav::ScrewPlan& screw) {
+  const auto cylinder = nav::cylinder_of(screw);
+  return cylinder ? nav::least_clearance(bone.surface(), *cylinder) : std::nullopt;
+}
+
+ReplanRefusal no_size(Kind kind, double diameter_m, double length_m) {
+  ReplanRefusal refusal{kind};
+  refusal.diameter_m = diameter_m;
+  refusal.length_m = length_m;
+  return refusal;
+}
+
+/// What each change makes of a screw.
+struct Changer {
+  const nav::ScrewPlan& now;
+  const nav::VertebraModel& bone;
+  const ScrewSizes& sizes;
+
+  ChangedOrNot operator()(const SetScrewSize& size) const {
+    const double diameter_m = size.diameter_m.value_or(2.0 * now.radius_m);
+    const double length_m = size.length_m.value_or(nav::screw_length_m(now));
+    // What was planned before and is not named stays, listed or not.
+    const bool of_both = size.diameter_m && size.length_m;
+    const bool listed = of_both           ? sizes.has(diameter_m, length_m)
+                        : size.diameter_m ? sizes.of_diameter(diameter_m) != nullptr
+                                          : sizes.has_length(length_m);
+    if (!listed) {
+      return no_size(Kind::kNoSuchSize, size.diameter_m.value_or(0.0), size.length_m.value_or(0.0));
+    }
+    return nav::resized_screw(now, 0.5 * diameter_m, size.length_m.value_or(0.0));
+  }
+  ChangedOrNot operator()(const NextScrewSize& next) const {
+    using Which = NextScrewSize::Which;
+    const double diameter_m = 2.0 * now.radius_m;
+    if (next.which == Which::kThicker || next.which == Which::kThinner) {
+      if (!(diameter_m > 0.0)) {
+        return ReplanRefusal{Kind::kNoDiameter};
+      }
+      const auto other_m = sizes.next_diameter_m(diameter_m, next.which == Which::kThicker);
+      return other_m ? ChangedOrNot(nav::resized_screw(now, 0.5 * *other_m, 0.0))
+                     : no_size(Kind::kLastSize, diameter_m, 0.0);
+    }
+    const double length_m = nav::screw_length_m(now);
+    const auto other_m = sizes.next_length_m(diameter_m, length_m, next.which == Which::kLonger);
+    return other_m ? ChangedOrNot(nav::resized_screw(now, 0.0, *other_m))
+                   : no_size(Kind::kLastSize, 0.0, length_m);
+  }
+  ChangedOrNot operator()(const MoveScrew& move) const {
+    if (!nav::directions_of(now)) {
+      return ReplanRefusal{Kind::kNoDirections};
+    }
+    const auto moved = nav::moved_screw(now, move.part, move.direction, move.by_m, bone.surface(),
+                                        bone.reachable_surface());
+    return moved ? ChangedOrNot(*moved) : ReplanRefusal{Kind::kOffTheBone};
+  }
+  ChangedOrNot operator()(const TiltScrew& tilt) const {
+    const auto tilted = nav::tilted_screw(now, tilt.direction, tilt.by_rad);
+    return tilted ? ChangedOrNot(*tilted) : ReplanRefusal{Kind::kNoDirections};
+  }
+  /// That is no change of the screw's own.
+  ChangedOrNot operator()(const UndoChange& /*undo*/) const { return now; }
+};
+
+std::optional<ReplanRefusal> too_far(const nav::ScrewPlan& changed,
+                                     const nav::ScrewPlan& preoperative,
+                                     const ReplanLimits& limits) {
+  const double moved_m = (changed.entry - preoperative.entry).norm();
+  if (!(moved_m <= limits.entry_m + kLastBits)) {
+    return ReplanRefusal{Kind::kEntryTooFar, moved_m, limits.entry_m};
+  }
+  const double tilted_rad = nav::tilt_between_rad(preoperative, changed);
+  if (!(tilted_rad <= limits.tilt_rad + kLastBits)) {
+    return ReplanRefusal{Kind::kTiltTooFar, tilted_rad, limits.tilt_rad};
+  }
+  return std::nullopt;
+}
+
+/// The reason for an earlier breach holds as long as this one is no worse.
+std::optional<ReplanRefusal> worse_breach(const nav::VertebraModel& bone, const nav::ScrewPlan& now,
+                                          const nav::ScrewPlan& changed) {
+  const auto least = clearance_of(bone, changed);
+  if (!least || !(least->clearance_m < 0.0)) {
+    return std::nullopt;
+  }
+  const auto before = now.accepted_breach.empty() ? std::nullopt : clearance_of(bone, now);
+  if (before && least->clearance_m >= before->clearance_m - kNoWorse_m) {
+    return std::nullopt;
+  }
+  ReplanRefusal refusal{Kind::kBreach, least->clearance_m, 0.0};
+  refusal.towards = nav::direction_of(*least, changed.side);
+  return refusal;
+}
+
+/// From here on it is the plan in use.
+ScrewReplanned put(LevelState& level, std::size_t screw, const nav::ScrewPlan& plan) {
+  nav::ScrewPlan& in_use = level.plan.screws[screw];
+  ScrewReplanned done;
+  done.level = level.plan.label;
+  done.from = std::exchange(in_use, plan);
+  const auto least = clearance_of(*level.plan.model, in_use);
+  if (least) {
+    done.clearance_m = least->clearance_m;
+    done.towards = nav::direction_of(*least, in_use.side);
+  }
+  if (least && least->clearance_m >= 0.0 && !level.earlier_plans[screw].empty()) {
+    in_use.accepted_breach.clear();
+  }
+  if (level.registration) {
+    level.predicted = nav::predicted_errors(*level.registration, level.plan.screws);
+  }
+  done.to = in_use;
+  done.difference = nav::difference_of(level.preoperative[screw], in_use);
+  done.as_before_surgery = level.earlier_plans[screw].empty();
+  return done;
+}
+
+ScrewReplanned put_new(LevelState& level, std::size_t screw, const nav::ScrewPlan& plan) {
+  level.earlier_plans[screw].push_back(level.plan.screws[screw]);
+  return put(level, screw, plan);
+}
+
+}  // namespace
+
+std::vector<std::string> ReplanLimits::check() const {
+  std::vector<std::string> problems;
+  if (!(entry_m >= 0.0 && entry_m <= 0.02)) {
+    problems.push_back("entry_m must lie in [0, 0.02]");
+  }
+  if (!(tilt_rad >= 0.0 && tilt_rad <= 0.5)) {
+    problems.push_back("tilt_rad must lie in [0, 0.5]");
+  }
+  for (const std::string& problem : sizes.check()) {
+    problems.push_back("screw sizes: " + problem);
+  }
+  return problems;
+}
+
+ChangedOrNot changed(const Replan& replan, const nav::ScrewPlan& now,
+                     const nav::ScrewPlan& preoperative, const nav::VertebraModel& bone,
+                     const ReplanLimits& limits) {
+  ChangedOrNot made = std::visit(Changer{now, bone, limits.sizes}, replan);
+  if (const auto* screw = std::get_if<nav::ScrewPlan>(&made)) {
+    if (const auto refusal = too_far(*screw, preoperative, limits)) {
+      return *refusal;
+    }
+  }
+  return made;
+}
+
+Replanning::Outcome Replanning::change(LevelState& level, std::size_t screw) {
+  question_.reset();
+  if (std::holds_alternative<UndoChange>(asked_)) {
+    return undo(level, screw);
+  }
+  const nav::ScrewPlan& now = level.plan.screws[screw];
+  const ChangedOrNot made =
+      changed(asked_, now, level.preoperative[screw], *level.plan.model, limits_);
+  if (const auto* refusal = std::get_if<ReplanRefusal>(&made)) {
+    return *refusal;
+  }
+  const auto& plan = std::get<nav::ScrewPlan>(made);
+  if (const auto breach = worse_breach(*level.plan.model, now, plan)) {
+    question_ = Question{level.plan.label, screw, plan, {}};
+    question_->plan.accepted_breach = kConsented;
+    return *breach;
+  }
+  return put_new(level, screw, plan);
+}
+
+void Replanning::show(Timestamp display_time) {
+  if (question_ && !question_->shown_at) {
+    question_->shown_at = display_time;
+  }
+}
+
+std::optional<Replanning::Outcome> Replanning::consent(LevelState& level, std::size_t screw,
+                                                       Timestamp said, Duration within) {
+  const auto question = std::exchange(question_, std::nullopt);
+  if (!question || question->level != level.plan.label || question->screw != screw ||
+      !question->shown_at || said < *question->shown_at || said > *question->shown_at + within) {
+    return std::nullopt;
+  }
+  return put_new(level, screw, question->plan);
+}
+
+Replanning::Outcome Replanning::undo(LevelState& level, std::size_t screw) const {
+  auto& earlier = level.earlier_plans[screw];
+  if (!level.can_undo(screw)) {
+    return ReplanRefusal{Kind::kNothingToUndo};
+  }
+  const nav::ScrewPlan plan = earlier.back();
+  earlier.pop_back();
+  ScrewReplanned done = put(level, screw, plan);
+  done.undone = true;
+  return done;
+}
+
+}  // namespace orthonav::engine
