@@ -10,6 +10,7 @@
 #include "engine/io/json_document.h"
 #include "engine/session/journal_replay.h"
 #include "engine/session/journal_screw_reading.h"
+#include "engine/session/recorded_replan.h"
 
 namespace orthonav::engine {
 namespace {
@@ -69,22 +70,6 @@ RecordedLandmark landmark_of(const JsonNode& line) {
 RecordedTips tips_of(const JsonNode& line) {
   return {line.number("apart_mm") * kMetresPerMm, line.number("limit_mm") * kMetresPerMm,
           line.flag_or("corrected", false)};
-}
-
-std::optional<nav::ScrewDifference> planned_in_surgery(const JsonNode& line) {
-  if (!line.has("planned_in_surgery")) {
-    return std::nullopt;
-  }
-  const JsonNode by = line.child("planned_in_surgery");
-  return nav::ScrewDifference{by.number("entry_cranial_mm") * kMetresPerMm,
-                              by.number("entry_medial_mm") * kMetresPerMm,
-                              by.number("entry_inward_mm") * kMetresPerMm,
-                              by.number("aim_cranial_deg") * kRadiansPerDegree,
-                              by.number("aim_medial_deg") * kRadiansPerDegree,
-                              by.number("diameter_from_mm") * kMetresPerMm,
-                              by.number("diameter_to_mm") * kMetresPerMm,
-                              by.number("length_from_mm") * kMetresPerMm,
-                              by.number("length_to_mm") * kMetresPerMm};
 }
 
 RecordedRod rod_of(const JsonNode& line) {

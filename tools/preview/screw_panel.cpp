@@ -18,11 +18,12 @@ void say_button(PreviewModel& model, const std::string& shown, const std::string
   ImGui::PopID();
 }
 
-/// "move one mm:" and a button for each direction.
+/// "move 1 mm" and a button for each direction.
 void row_of_ways(PreviewModel& model, const char* title, const std::string& verb) {
+  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(title);
   for (std::size_t i = 0; i < kWays.size(); ++i) {
-    ImGui::SameLine(i == 0 ? 70.0f : 0.0f, i == 0 ? -1.0f : 4.0f);
+    ImGui::SameLine(i == 0 ? 90.0f : 0.0f, i == 0 ? -1.0f : 4.0f);
     say_button(model, kWays[i], verb + " " + kWays[i] + " one");
   }
 }
@@ -30,8 +31,8 @@ void row_of_ways(PreviewModel& model, const char* title, const std::string& verb
 }  // namespace
 
 void draw_screw(PreviewModel& model) {
-  row_of_ways(model, "1 mm", "move");
-  row_of_ways(model, "1\u00b0", "tilt");
+  row_of_ways(model, "move 1 mm", "move");
+  row_of_ways(model, "tilt 1\u00b0", "tilt");
   for (const char* word : {"longer", "shorter", "thicker", "thinner", "undo"}) {
     say_button(model, word, word);
     ImGui::SameLine(0.0f, 4.0f);
