@@ -28,12 +28,12 @@ struct TagSizeOptions {
 struct TagSize {
   double fraction = 0.0;  ///< by which they are larger than stated
   double sd = 0.0;
-  double applied = 0.0;  ///< of `fraction`: what poses take into account
   std::int64_t measurements = 0;
   bool notable = false;  ///< more than small errors of the cameras could look like
   /// Certainly another size than stated: a wrong print or a wrong unit (or misaligned cameras).
   /// Poses are then wrong.
   bool disagrees = false;
+  double applied = 0.0;  ///< of `fraction`: what poses take into account
 };
 
 /// Accumulates measurements of one tool.

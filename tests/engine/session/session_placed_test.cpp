@@ -172,6 +172,23 @@ TEST_F(PlacedSession, MeasuredAnewItIsUndecidedAnew) {
   EXPECT_EQ(step_of(s.says("next")), "accepted L4");
 }
 
+TEST_F(PlacedSession, NobodyGoesBackToTheHole) {
+  measures(0.0025, 0.0);
+  s.says("delete");
+  const Point<Vertebra> entry = level().plan.screws[0].entry;
+  const auto* refusal = said<ReplanRefusal>(s.says("undo"));
+  ASSERT_NE(refusal, nullptr);
+  EXPECT_EQ(refusal->kind, ReplanRefusal::Kind::kNothingToUndo);
+  EXPECT_EQ(level().plan.screws[0].entry, entry);
+  EXPECT_TRUE(level().replanned(0)) << "the status line says so";
+  // What is changed from there on is taken back to there.
+  ASSERT_NE(said<ScrewReplanned>(s.says("move cranial one")), nullptr);
+  EXPECT_NE(level().plan.screws[0].entry, entry);
+  ASSERT_NE(said<ScrewReplanned>(s.says("undo")), nullptr);
+  EXPECT_EQ(level().plan.screws[0].entry, entry);
+  ASSERT_NE(said<ReplanRefusal>(s.says("undo")), nullptr);
+}
+
 TEST_F(PlacedSession, DeleteRedoesItThroughAnotherEntryOnceTheLandmarkWasTouched) {
   const Point<Vertebra> target = level().plan.screws[0].target;
   measures(0.0025, 0.0);
