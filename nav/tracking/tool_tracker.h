@@ -71,8 +71,8 @@ class ToolTracker {
   [[nodiscard]] virtual std::optional<TagSize> tag_size(std::size_t /*tool*/) const {
     return std::nullopt;
   }
-  /// SD of how much larger one tool's tags are than another's, as a fraction, beside what poses take
-  /// into account; that of printers from a method that does not estimate it.
+  /// SD of how much larger one tool's tags are than another's, as a fraction, beside what poses
+  /// take into account; that of printers from a method that does not estimate it.
   [[nodiscard]] virtual double tag_size_difference_sd(std::size_t /*tool*/,
                                                       std::size_t /*other*/) const {
     constexpr double kOfTwoPrints = 0.0042;
