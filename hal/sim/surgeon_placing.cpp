@@ -10,6 +10,9 @@ constexpr double kOverWire_m = 0.050;
 constexpr double kSetOver_s = 2.0;
 constexpr double kAtRest_s = 1.0;
 constexpr double kReadNumbers_s = 1.0;
+/// An instrument that bends by more (SD an axis) does so again: surgeons know which they hold, and
+/// keep what a wire without support has come to.
+constexpr double kBendsAgain_rad = 0.02;
 
 }  // namespace
 
@@ -30,7 +33,9 @@ Script Surgeon::look_at_wire(std::size_t level, Side side) {
   if (wire != nullptr && asked(ChecksAsked::kMeasureWire)) {
     co_await set_sleeve_over(step, level, *wire);
   }
-  if (in_step(step) && asked(ChecksAsked::kDecideOnWire) && redone_.insert(guiding).second) {
+  const bool betters = error_model_->wire_bending_rad < kBendsAgain_rad;
+  if (in_step(step) && asked(ChecksAsked::kDecideOnWire) && betters &&
+      redone_.insert(guiding).second) {
     body_.say("delete");
     co_await body_.rest(kReadNumbers_s);
     // The line goes on to the landmark, or says that nothing but keeping is left.
