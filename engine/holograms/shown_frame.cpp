@@ -138,16 +138,22 @@ void ShownFrameWriter::write_angle(std::optional<double> angle_rad, ShownFrame& 
   angle.reading = read_angle_rad(angle_rad);
 }
 
+void ShownFrameWriter::write_wire(const PlacedScrew& screw, const Visibility& visible,
+                                  ShownFrame& frame) {
+  if (!visible.wire) {
+    return;
+  }
+  const TrajectoryLine placed = line_of(*visible.wire, screw);
+  ShownHologram& wire = add(frame, HologramKind::kTrajectory);
+  append_wire(wire.text, *visible.wire);
+  wire.points_in_world = {placed.outside, placed.entry, placed.target};
+}
+
 void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& visible,
                                    const VisibilityRules& rules, ShownFrame& frame) {
   const TrajectoryLine line = trajectory_of(screw);
   add(frame, HologramKind::kTrajectory).points_in_world = {line.outside, line.entry, line.target};
-  if (visible.wire) {
-    const TrajectoryLine placed = line_of(*visible.wire, screw);
-    ShownHologram& wire = add(frame, HologramKind::kTrajectory);
-    append_wire(wire.text, *visible.wire);
-    wire.points_in_world = {placed.outside, placed.entry, placed.target};
-  }
+  write_wire(screw, visible, frame);
   if (visible.triangle) {
     const nav::ScrewGuidance& shown = *visible.triangle;
     add(frame, HologramKind::kTriangle).points_in_world = {shown.a, shown.b, shown.c};

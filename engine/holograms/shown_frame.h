@@ -24,6 +24,7 @@ class ShownFrameWriter {
   void write_verifying(const PlacedLevel& at, std::span<const Point<World>> to_check,
                        ShownFrame& frame);
   void write_entries(const Visibility& visible, ShownFrame& frame);
+  void write_wire(const PlacedScrew& screw, const Visibility& visible, ShownFrame& frame);
   void write_screw(const PlacedScrew& screw, const Visibility& visible,
                    const VisibilityRules& rules, ShownFrame& frame);
   void write_cross(const PlacedScrew& screw, const VisibleCross& visible,

@@ -78,6 +78,16 @@ void decide_cross(const PlacedScrew& screw, const Transform<World, Rig>& head,
   out.cross = cross;
 }
 
+/// H3: entry points of everything that may be guided on, never faded by distance. An unaccepted
+/// registration shows none: an entry point on display reads as "drill here".
+void decide_entries(const Guidance& g, Visibility& out) {
+  for (const LevelState& level : g.levels) {
+    if (const auto there = usable(level)) {
+      out.entries_of.push_back(*there);
+    }
+  }
+}
+
 }  // namespace
 
 void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestamp display_time,
@@ -98,13 +108,7 @@ void decide_visibility(const Guidance& g, const VisibilityRules& rules, Timestam
   if (g.step == Step::kVerify && g.level < g.levels.size()) {
     out.vertebra = placed(g.levels[g.level]);
   }
-  // H3: entry points of everything that may be guided on, never faded by distance. An unaccepted
-  // registration shows none: an entry point on display reads as "drill here".
-  for (const LevelState& level : g.levels) {
-    if (const auto there = usable(level)) {
-      out.entries_of.push_back(*there);
-    }
-  }
+  decide_entries(g, out);
   // Once every screw is in, the names would only cover the rod's lengths.
   out.entry_labels = g.step != Step::kRod && g.step != Step::kDone;
   out.trajectory = selected_screw(g);

@@ -10,6 +10,27 @@ double SessionOptions::drift_since_m(Duration spread) const {
   return map_drift_m_per_sqrt_s * std::sqrt(std::max(0.0, seconds(spread)) / 3.0);
 }
 
+namespace {
+
+std::vector<std::string> problems_of_times(const SessionOptions& o) {
+  std::vector<std::string> problems;
+  if (o.stale_after <= Duration::zero() || o.stale_after > std::chrono::seconds(1)) {
+    problems.push_back("stale_after must lie in (0, 1000] ms");
+  }
+  if (o.fade < Duration::zero()) {
+    problems.push_back("fade must not be negative");
+  }
+  if (o.message_for <= Duration::zero()) {
+    problems.push_back("message_for must be positive");
+  }
+  if (o.heard_for < Duration::zero()) {
+    problems.push_back("heard_for must not be negative");
+  }
+  return problems;
+}
+
+}  // namespace
+
 std::vector<std::string> SessionOptions::check() const {
   std::vector<std::string> problems;
   const auto add = [&problems](const char* of, const std::vector<std::string>& more) {
@@ -17,21 +38,16 @@ std::vector<std::string> SessionOptions::check() const {
       problems.push_back(of + problem);
     }
   };
-  if (stale_after <= Duration::zero() || stale_after > std::chrono::seconds(1)) {
-    problems.push_back("stale_after must lie in (0, 1000] ms");
-  }
   if (!(min_voice_confidence >= 0.0 && min_voice_confidence <= 1.0)) {
     problems.push_back("min_voice_confidence must lie in [0, 1]");
   }
   if (!(rod_diameter_m >= 0.001 && rod_diameter_m <= 0.02)) {
     problems.push_back("rod_diameter_m must lie in [0.001, 0.02]");
   }
-  if (fade < Duration::zero()) {
-    problems.push_back("fade must not be negative");
-  }
   if (!(max_touch_spread_m > 0.0 && max_touch_spread_m <= 0.01)) {
     problems.push_back("max_touch_spread_m must lie in (0, 0.01]");
   }
+  add("", problems_of_times(*this));
   add("", check_points.check());
   add("", landmark.check());
   add("", placed.check());
@@ -44,12 +60,6 @@ std::vector<std::string> SessionOptions::check() const {
   }
   if (!(map_drift_m_per_sqrt_s >= 0.0 && map_drift_m_per_sqrt_s <= 0.001)) {
     problems.push_back("map_drift_m_per_sqrt_s must lie in [0, 0.001]");
-  }
-  if (message_for <= Duration::zero()) {
-    problems.push_back("message_for must be positive");
-  }
-  if (heard_for < Duration::zero()) {
-    problems.push_back("heard_for must not be negative");
   }
   return problems;
 }

@@ -60,8 +60,8 @@ void check_geometry(const ToolGeometry& tool, const std::string& name,
 
 void check_guide(const ToolGeometry& tool, const std::string& name,
                  std::vector<std::string>& problems) {
-  const auto check = [&](const std::optional<double>& length_m, const char* what, double least_mm,
-                         double most_mm) {
+  const auto check_length = [&](const std::optional<double>& length_m, const char* what,
+                                double least_mm, double most_mm) {
     if (length_m && tool.role != ToolRole::kGuide) {
       problems.push_back(name + ": " + what + " is for a guide");
     } else if (length_m && !(*length_m * 1e3 >= least_mm && *length_m * 1e3 <= most_mm)) {
@@ -69,8 +69,8 @@ void check_guide(const ToolGeometry& tool, const std::string& name,
                          number(least_mm) + "-" + number(most_mm) + " mm");
     }
   };
-  check(tool.sleeve_length_m, "sleeve length", 10.0, 300.0);
-  check(tool.stop_m, "stop", 1.0, 150.0);
+  check_length(tool.sleeve_length_m, "sleeve length", 10.0, 300.0);
+  check_length(tool.stop_m, "stop", 1.0, 150.0);
 }
 
 std::string title_of(const std::vector<ToolGeometry>& tools, std::size_t i) {
