@@ -4,27 +4,27 @@
 
 #include "base/joined.h"
 #include "base/printed.h"
+#include "base/units.h"
 #include "engine/io/json_document.h"
 
 namespace orthonav::engine {
 namespace {
 
-constexpr double kMetresPerStatedMm = 1e-3;
 constexpr std::size_t kMostLengths = 100;
 
 ScrewSize size_from(const JsonNode& node) {
   ScrewSize size;
-  size.diameter_m = node.number("diameter_mm") * kMetresPerStatedMm;
+  size.diameter_m = node.number("diameter_mm") * kMetresPerMm;
   for (const double length_mm : node.number_list("lengths_mm", kMostLengths)) {
-    size.lengths_m.push_back(length_mm * kMetresPerStatedMm);
+    size.lengths_m.push_back(length_mm * kMetresPerMm);
   }
   if (node.has("head_to_seat_mm")) {
-    size.head_to_seat_m = node.number("head_to_seat_mm") * kMetresPerStatedMm;
+    size.head_to_seat_m = node.number("head_to_seat_mm") * kMetresPerMm;
   }
   std::sort(size.lengths_m.begin(), size.lengths_m.end());
   const auto twice = std::adjacent_find(size.lengths_m.begin(), size.lengths_m.end());
   if (twice != size.lengths_m.end()) {
-    node.refuse("lengths_mm", printed("holds %g twice", *twice / kMetresPerStatedMm));
+    node.refuse("lengths_mm", printed("holds %g twice", *twice / kMetresPerMm));
   }
   return size;
 }
@@ -36,7 +36,7 @@ Result<ScrewSizes> sizes_from(const JsonDocument& document, const std::string& n
     const double diameter_m = sizes.by_diameter.back().diameter_m;
     for (std::size_t i = 0; i + 1 < sizes.by_diameter.size(); ++i) {
       if (sizes.by_diameter[i].diameter_m == diameter_m) {
-        node.refuse("diameter_mm", printed("is %g, given twice", diameter_m / kMetresPerStatedMm));
+        node.refuse("diameter_mm", printed("is %g, given twice", diameter_m / kMetresPerMm));
       }
     }
   }

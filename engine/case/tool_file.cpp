@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/joined.h"
+#include "base/units.h"
 #include "embedded/tools_json.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
@@ -14,8 +15,6 @@
 namespace orthonav::engine {
 
 namespace {
-
-constexpr double kMetresPerMm = 1e-3;
 
 std::optional<nav::ToolRole> role_from(const std::string& text) {
   for (std::size_t i = 0; i < nav::kToolRoles; ++i) {

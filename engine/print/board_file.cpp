@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/joined.h"
+#include "base/units.h"
 #include "engine/io/atomic_file.h"
 #include "engine/io/json_document.h"
 
@@ -12,7 +13,6 @@ namespace orthonav::engine {
 namespace {
 
 constexpr const char* kFormat = "orthonav board";
-constexpr double kMetresPerMm = 1e-3;
 // Beyond it no count is worth a list.
 constexpr int kMostInFile = 1000;
 

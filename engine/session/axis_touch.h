@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <variant>
-#include <vector>
 
 #include "engine/session/message.h"
+#include "engine/session/pressed_samples.h"
 #include "nav/guidance/screw.h"
 
 namespace orthonav::engine {
@@ -22,17 +22,16 @@ struct RestingAxis {
 /// place. Where the tool rested already before the press, that counts too.
 class AxisTouch {
  public:
-  AxisTouch();
   /// A press: the axes from here on are one.
-  void begin();
+  void begin() { axes_.begin(); }
   /// The button is up; the click that may follow still uses what was touched.
-  void release() { down_ = false; }
-  /// There is none any more. Keeps its room.
-  void drop();
+  void release() { axes_.release(); }
+  /// There is none any more.
+  void drop() { axes_.drop(); }
   /// Measured, once for each pair.
-  void add(const nav::Axis<World>& axis);
+  void add(const nav::Axis<World>& axis) { axes_.add(axis); }
   /// Not measured in this pair: a touch under way is not one of a tool that was seen.
-  void lose();
+  void lose() { axes_.lose(); }
 
   /// Ends the touch, whatever the answer. Refused where the press fell into another step, the tool
   /// was not seen all the while, its tip scatters more than `max_spread_m` or its direction more
@@ -41,15 +40,10 @@ class AxisTouch {
                                                              double max_turn_rad);
 
  private:
-  void take_rest_before();
   [[nodiscard]] std::variant<RestingAxis, TouchRefusal> mean(double max_spread_m,
                                                              double max_turn_rad) const;
 
-  std::vector<nav::Axis<World>> axes_;    ///< while the button is down
-  std::vector<nav::Axis<World>> before_;  ///< of the last half second before, the oldest first
-  bool begun_ = false;
-  bool down_ = false;
-  bool lost_ = false;  ///< since it was begun
+  PressedSamples<nav::Axis<World>> axes_;
 };
 
 }  // namespace orthonav::engine

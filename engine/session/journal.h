@@ -74,7 +74,7 @@ class Journal : public SessionObserver {
                     const nav::OtherEntry& entry) override;
   void replanned(Timestamp time, const LevelState& level, const Replan& asked,
                  const ScrewReplanned& done) override;
-  void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+  void screw_done(Timestamp time, const LevelState& level, std::size_t screw,
                   const ToolGuidance* at_depth) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/angle.h"
+#include "base/units.h"
 #include "engine/io/json_document.h"
 #include "engine/session/journal_replay.h"
 #include "engine/session/journal_screw_reading.h"
@@ -16,7 +17,6 @@ namespace orthonav::engine {
 namespace {
 
 constexpr std::size_t kLongestLine = 1U << 20U;
-constexpr double kMetresPerMm = 1e-3;
 /// Clicks and words that a network delays come some seconds after what was seen meanwhile.
 constexpr auto kMostBack = std::chrono::minutes(1);
 /// Beyond it a time in nanoseconds is no time.

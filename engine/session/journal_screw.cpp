@@ -11,17 +11,15 @@ namespace orthonav::engine {
 namespace {
 
 /// Along the tool at depth, where it is known.
-void put_clearance_at_depth(JournalLine& line, const LevelState& level, nav::Side side) {
-  for (std::size_t s = 0; s < level.clearance_at_depth.size(); ++s) {
-    const auto& clearance = level.clearance_at_depth[s];
-    if (level.plan.screws[s].side != side || !clearance) {
-      continue;
-    }
-    line["clearance_mm"] = clearance->least.clearance_m * 1e3;
-    line["grade"] = nav::name_of(nav::grade_of(clearance->least.clearance_m));
-    if (clearance->spread) {
-      line["clearance_95_mm"] = clearance->spread->lower_95_m * 1e3;
-    }
+void put_clearance_at_depth(JournalLine& line, const LevelState& level, std::size_t screw) {
+  const auto& clearance = level.clearance_at_depth[screw];
+  if (!clearance) {
+    return;
+  }
+  line["clearance_mm"] = clearance->least.clearance_m * 1e3;
+  line["grade"] = nav::name_of(nav::grade_of(clearance->least.clearance_m));
+  if (clearance->spread) {
+    line["clearance_95_mm"] = clearance->spread->lower_95_m * 1e3;
   }
 }
 
@@ -34,35 +32,31 @@ JournalLine scaled(const std::array<double, 9>& covariance, double factor) {
 }
 
 /// Where the tool went, in the vertebra's frame.
-void put_executed(JournalLine& line, const LevelState& level, nav::Side side) {
-  for (std::size_t s = 0; s < level.executed.size(); ++s) {
-    const auto& executed = level.executed[s];
-    if (level.plan.screws[s].side != side || !executed) {
-      continue;
-    }
-    const Vec3 direction = executed->axis.direction;
-    JournalLine& out = line["executed"];
-    out["pairs"] = executed->pairs;
-    out["entry_mm"] = millimetres(executed->axis.point.v);
-    out["direction"] = JournalLine::array({direction.x, direction.y, direction.z});
-    out["depth_mm"] = executed->depth_m * 1e3;
-    if (executed->point_covariance_m2) {
-      out["entry_covariance_mm2"] = scaled(*executed->point_covariance_m2, 1e6);
-      out["direction_covariance_rad2"] = scaled(*executed->direction_covariance_rad2, 1.0);
-    }
+void put_executed(JournalLine& line, const LevelState& level, std::size_t screw) {
+  const auto& executed = level.executed[screw];
+  if (!executed) {
+    return;
+  }
+  const Vec3 direction = executed->axis.direction;
+  JournalLine& out = line["executed"];
+  out["pairs"] = executed->pairs;
+  out["entry_mm"] = millimetres(executed->axis.point.v);
+  out["direction"] = JournalLine::array({direction.x, direction.y, direction.z});
+  out["depth_mm"] = executed->depth_m * 1e3;
+  if (executed->point_covariance_m2) {
+    out["entry_covariance_mm2"] = scaled(*executed->point_covariance_m2, 1e6);
+    out["direction_covariance_rad2"] = scaled(*executed->direction_covariance_rad2, 1.0);
   }
 }
 
 /// How its wire was left: measured within the limits, kept beyond one, or not measured.
-void put_wire_outcome(JournalLine& line, const LevelState& level, nav::Side side) {
-  for (std::size_t s = 0; s < level.wires.size(); ++s) {
-    const WireOutcome& outcome = level.wires[s];
-    if (level.plan.screws[s].side != side || !outcome.asked) {
-      continue;
-    }
-    line["wire"] = !outcome.measured ? "not measured" : outcome.measured->kept ? "kept" : "within";
-    line["redone"] = level.redone[s];
+void put_wire_outcome(JournalLine& line, const LevelState& level, std::size_t screw) {
+  const WireOutcome& outcome = level.wires[screw];
+  if (!outcome.asked) {
+    return;
   }
+  line["wire"] = !outcome.measured ? "not measured" : outcome.measured->kept ? "kept" : "within";
+  line["redone"] = level.redone[screw];
 }
 
 }  // namespace
@@ -100,10 +94,10 @@ void Journal::screw_redone(Timestamp time, const LevelState& level, std::size_t 
   add_line(*log_, line, kDurable);
 }
 
-void Journal::screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+void Journal::screw_done(Timestamp time, const LevelState& level, std::size_t screw,
                          const ToolGuidance* at_depth) {
   JournalLine line = journal_line(file_ticks(time), time, "screw", level);
-  line["side"] = name_of(screw.side);
+  line["side"] = name_of(level.plan.screws[screw].side);
   if (at_depth && at_depth->measured) {
     line["pose_time_100ns"] = ticks_100ns(at_depth->pose_time);
     line["angle_deg"] = degrees(at_depth->measured->angle_rad);
@@ -111,9 +105,9 @@ void Journal::screw_done(Timestamp time, const LevelState& level, const nav::Scr
     line["tip_off_axis_mm"] = at_depth->measured->tip_off_axis_m * 1e3;
     line["depth_mm"] = at_depth->measured->depth_m * 1e3;
   }
-  put_clearance_at_depth(line, level, screw.side);
-  put_executed(line, level, screw.side);
-  put_wire_outcome(line, level, screw.side);
+  put_clearance_at_depth(line, level, screw);
+  put_executed(line, level, screw);
+  put_wire_outcome(line, level, screw);
   add_line(*log_, line, kDurable);
 }
 

@@ -1,22 +1,21 @@
 #include "engine/session/journal_screw_reading.h"
 
 #include "base/angle.h"
+#include "base/units.h"
 
 namespace orthonav::engine {
 namespace {
-
-constexpr double kMetresPerMillimetre = 1e-3;
 
 std::optional<RecordedPose> pose_of(const JsonNode& line) {
   if (!line.has("angle_deg")) {
     return std::nullopt;
   }
   return RecordedPose{line.number("angle_deg") * kRadiansPerDegree,
-                      line.number("tip_to_entry_mm") * kMetresPerMillimetre,
-                      line.number("tip_off_axis_mm") * kMetresPerMillimetre,
-                      line.number("depth_mm") * kMetresPerMillimetre,
-                      optional_number(line, "clearance_mm", kMetresPerMillimetre),
-                      optional_number(line, "clearance_95_mm", kMetresPerMillimetre)};
+                      line.number("tip_to_entry_mm") * kMetresPerMm,
+                      line.number("tip_off_axis_mm") * kMetresPerMm,
+                      line.number("depth_mm") * kMetresPerMm,
+                      optional_number(line, "clearance_mm", kMetresPerMm),
+                      optional_number(line, "clearance_95_mm", kMetresPerMm)};
 }
 
 }  // namespace
@@ -36,8 +35,8 @@ Side side_of(const JsonNode& line) {
 RecordedWire wire_of(const JsonNode& line) {
   return {line.number("angle_deg") * kRadiansPerDegree,
           line.number("angle_sd_deg") * kRadiansPerDegree,
-          line.number("entry_mm") * kMetresPerMillimetre,
-          line.number("entry_sd_mm") * kMetresPerMillimetre,
+          line.number("entry_mm") * kMetresPerMm,
+          line.number("entry_sd_mm") * kMetresPerMm,
           line.flag_or("within", false),
           line.flag_or("kept", false)};
 }

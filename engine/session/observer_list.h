@@ -84,7 +84,7 @@ class ObserverList : public SessionObserver {
       o->replanned(time, level, asked, done);
     }
   }
-  void screw_done(Timestamp time, const LevelState& level, const nav::ScrewPlan& screw,
+  void screw_done(Timestamp time, const LevelState& level, std::size_t screw,
                   const ToolGuidance* at_depth) override {
     for (auto* o : observers_) {
       o->screw_done(time, level, screw, at_depth);

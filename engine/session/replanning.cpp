@@ -113,6 +113,12 @@ std::optional<ReplanRefusal> worse_breach(const nav::VertebraModel& bone, const 
   return refusal;
 }
 
+void predict_again(LevelState& level) {
+  if (level.registration) {
+    level.predicted = nav::predicted_errors(*level.registration, level.plan.screws);
+  }
+}
+
 /// From here on it is the plan in use.
 ScrewReplanned put(LevelState& level, std::size_t screw, const nav::ScrewPlan& plan) {
   nav::ScrewPlan& in_use = level.plan.screws[screw];
@@ -127,9 +133,7 @@ ScrewReplanned put(LevelState& level, std::size_t screw, const nav::ScrewPlan& p
   if (least && least->clearance_m >= 0.0 && !level.earlier_plans[screw].empty()) {
     in_use.accepted_breach.clear();
   }
-  if (level.registration) {
-    level.predicted = nav::predicted_errors(*level.registration, level.plan.screws);
-  }
+  predict_again(level);
   done.to = in_use;
   done.difference = nav::difference_of(level.preoperative[screw], in_use);
   done.as_before_surgery = level.earlier_plans[screw].empty();
@@ -187,6 +191,13 @@ Replanning::Outcome Replanning::change(LevelState& level, std::size_t screw) {
     return *breach;
   }
   return put_new(level, screw, plan);
+}
+
+void put_other_entry(LevelState& level, std::size_t screw, Point<Vertebra> entry) {
+  nav::ScrewPlan& in_use = level.plan.screws[screw];
+  level.earlier_plans[screw].assign(1, in_use);
+  in_use.entry = entry;
+  predict_again(level);
 }
 
 void Replanning::show(Timestamp display_time) {

@@ -50,6 +50,10 @@ class Replanning {
   std::optional<Question> question_;
 };
 
+/// Another entry beside the hole of a screw's first wire becomes the plan in use. There is no way
+/// back to the hole: what was planned for it is kept, as the one earlier plan.
+void put_other_entry(LevelState& level, std::size_t screw, Point<Vertebra> entry);
+
 /// The screw as it would be, or why it may not be so; the cortex is not looked at.
 [[nodiscard]] std::variant<nav::ScrewPlan, ReplanRefusal> changed(
     const Replan& replan, const nav::ScrewPlan& now, const nav::ScrewPlan& preoperative,

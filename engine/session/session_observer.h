@@ -43,8 +43,8 @@ class SessionObserver {
                          const ScrewReplanned& /*done*/) {}
   /// The surgeon declared the screw done; `at_depth` is what was measured last while the tool stood
   /// at its depth, or null where it never did.
-  virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/,
-                          const nav::ScrewPlan& /*screw*/, const ToolGuidance* /*at_depth*/) {}
+  virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
+                          const ToolGuidance* /*at_depth*/) {}
   virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, Point<World> /*head*/) {}
   virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/) {}
   virtual void rod_done(Timestamp /*time*/, const RodState& /*rod*/) {}

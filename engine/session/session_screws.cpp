@@ -2,7 +2,6 @@
 
 #include "base/check.h"
 #include "engine/session/session.h"
-#include "nav/guidance/predicted_error.h"
 
 namespace orthonav::engine {
 
@@ -91,12 +90,8 @@ void Session::judge_redo(Timestamp time) {
   if (!other) {
     return handle(Event::kNoOtherEntry, time);
   }
-  now.earlier_plans[screw].assign(1, now.plan.screws[screw]);
-  now.plan.screws[screw].entry = other->entry;
+  put_other_entry(now, screw, other->entry);
   ++now.redone[screw];
-  if (now.registration) {
-    now.predicted = nav::predicted_errors(*now.registration, now.plan.screws);
-  }
   guiding_.forget_guidance();
   if (observer_) {
     observer_->screw_redone(time, now, screw, *other);
@@ -115,7 +110,7 @@ void Session::finish_screw(Timestamp time) {
     now.wires[screw] = {true, placing_.wire()};
   }
   if (observer_) {
-    observer_->screw_done(time, now, now.plan.screws[screw], guiding_.at_depth());
+    observer_->screw_done(time, now, screw, guiding_.at_depth());
   }
   const auto finished = [](const LevelState& state) { return state.finished(); };
   if (!finished(now)) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/angle.h"
+#include "base/units.h"
 #include "engine/session/number_words.h"
 
 namespace orthonav::engine {
@@ -15,7 +16,6 @@ using nav::ScrewDirection;
 using nav::ScrewPart;
 using Which = NextScrewSize::Which;
 
-constexpr double kMetresPerSaidMm = 1e-3;
 constexpr std::array<std::pair<std::string_view, ScrewDirection>, 4> kDirections = {
     {{"cranial", ScrewDirection::kCranial},
      {"caudal", ScrewDirection::kCaudal},
@@ -79,7 +79,7 @@ Result<Replan> move_from(std::span<const std::string> words, ScrewPart part) {
   if (!step) {
     return step.error();
   }
-  return Replan(MoveScrew{part, step->direction, step->by * kMetresPerSaidMm});
+  return Replan(MoveScrew{part, step->direction, step->by * kMetresPerMm});
 }
 
 Result<Replan> tilt_from(std::span<const std::string> words) {
@@ -104,7 +104,7 @@ Result<Replan> size_from(std::span<const std::string> words) {
   if (!numbers.at_end()) {
     return unclear("screw", "not understood to its end, say it", kExample);
   }
-  return Replan(SetScrewSize{*diameter * kMetresPerSaidMm, *length * kMetresPerSaidMm});
+  return Replan(SetScrewSize{*diameter * kMetresPerMm, *length * kMetresPerMm});
 }
 
 Result<Replan> one_size_from(std::span<const std::string> words) {
@@ -119,7 +119,7 @@ Result<Replan> one_size_from(std::span<const std::string> words) {
   if (!numbers.at_end()) {
     return unclear(words[0], "not understood to its end, say it", example);
   }
-  const double metres = *value * kMetresPerSaidMm;
+  const double metres = *value * kMetresPerMm;
   return Replan(diameter ? SetScrewSize{metres, {}} : SetScrewSize{{}, metres});
 }
 

@@ -2,10 +2,10 @@
 
 #include <optional>
 #include <variant>
-#include <vector>
 
 #include "base/transform.h"
 #include "engine/session/message.h"
+#include "engine/session/pressed_samples.h"
 #include "nav/registration/pressed_places.h"
 
 namespace orthonav::engine {
@@ -18,18 +18,17 @@ using TouchedPlace = std::variant<nav::PressedPlace, TouchRefusal>;
 /// already before the press, that counts too.
 class Touch {
  public:
-  Touch();
   /// A press: the tips from here on are those of one place.
-  void begin();
+  void begin() { tips_.begin(); }
   /// The button is up; the click that may follow still uses what was touched.
-  void release() { down_ = false; }
-  /// There is none any more. Keeps its room: pressing allocates nothing in the frame loop.
-  void drop();
-  [[nodiscard]] bool down() const { return down_; }
+  void release() { tips_.release(); }
+  /// There is none any more.
+  void drop() { tips_.drop(); }
+  [[nodiscard]] bool down() const { return tips_.down(); }
   /// A measured tip, once for each pair.
-  void add(Point<World> tip);
+  void add(Point<World> tip) { tips_.add(tip); }
   /// The tip was not measured: where it was before says nothing of where it rests.
-  void lose() { before_.clear(); }
+  void lose() { tips_.lose(); }
 
   /// Where the tip rested; ends the touch, whatever the answer. `last_tip` answers a click shorter
   /// than a frame: the tip of the pair just before it, if that is fresh. Refused when the press
@@ -40,12 +39,8 @@ class Touch {
 
  private:
   [[nodiscard]] TouchedPlace mean_tip(double max_spread_m) const;
-  void take_rest_before();
 
-  std::vector<Point<World>> tips_;    ///< while the button is down
-  std::vector<Point<World>> before_;  ///< of the last half second before, the oldest first
-  bool begun_ = false;                ///< by a press that no click has used yet
-  bool down_ = false;
+  PressedSamples<Point<World>> tips_;
 };
 
 }  // namespace orthonav::engine

@@ -91,9 +91,9 @@ void check_given_once(const MarkerDefinition& marker, const std::string& name,
 }  // namespace
 
 const char* name_of(ToolRole role) {
-  constexpr std::array<const char*, kToolRoles> kNames = {
+  constexpr std::array<const char*, kToolRoles> kRoleNames = {
       "pointer", "guide", "reference", "awl", "drill", "tap", "screwdriver", "wire"};
-  return kNames[static_cast<std::size_t>(role)];
+  return kRoleNames[static_cast<std::size_t>(role)];
 }
 
 std::vector<std::string> problems_of(const std::vector<ToolGeometry>& tools) {

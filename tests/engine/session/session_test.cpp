@@ -216,7 +216,7 @@ TEST(Session, HidesGuidanceOnceThePoseIsOlderThanItsLimit) {
 
 /// What the session tells of each screw that is done.
 struct DoneScrews : SessionObserver {
-  void screw_done(Timestamp /*time*/, const LevelState& /*level*/, const nav::ScrewPlan& /*screw*/,
+  void screw_done(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
                   const ToolGuidance* at_depth) override {
     told.push_back(at_depth ? std::optional(*at_depth) : std::nullopt);
   }
