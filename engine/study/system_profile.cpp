@@ -126,6 +126,7 @@ SystemProfile read_system(const JsonNode& system) {
   out.entry_mm = read_figure(published, "entry_mm");
   out.angle_deg = read_figure(published, "angle_deg");
   out.rmse_mm = read_figure(published, "rmse_mm");
+  out.tre_mm = read_figure(published, "tre_mm");
   if (published.has("screws")) {
     out.screws = published.integer("screws");
   }

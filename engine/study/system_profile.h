@@ -30,7 +30,8 @@ struct SystemProfile {
   std::optional<PublishedFigure> entry_mm;
   std::optional<PublishedFigure> angle_deg;
   std::optional<PublishedFigure> rmse_mm;
-  std::optional<int> screws;  ///< how many were measured
+  std::optional<PublishedFigure> tre_mm;  ///< of a registration, at the screws
+  std::optional<int> screws;              ///< how many were measured
 
   /// Its settings, for operations.
   void apply(OperationOptions& options) const;

@@ -18,6 +18,7 @@ struct ClusteredMean {
   double sd = 0.0;
   /// Of the mean, from the means of operations: the screws of one operation share their errors.
   double standard_error = 0.0;
+  std::vector<std::vector<double>> by_operation;
 };
 /// `key` of every screw, or of every level, in a study; nothing where there is no value.
 [[nodiscard]] std::optional<ClusteredMean> mean_over(const nlohmann::json& study,
@@ -32,6 +33,11 @@ struct Prediction {
   bool assumed_error = false;    ///< the publication gives no SD or no number of screws
   ClusteredMean predicted;
   double z = 0.0;  ///< difference of the means by their standard error
+  /// Two-sided, of the means (Welch's t; the operations count, not the screws) and of the SDs
+  /// (resampled at the published number); the second absent where no SD was published.
+  double mean_p = 1.0;
+  std::optional<double> sd_p;
+  int screws = 0;  ///< the published number, or the one that is assumed
   /// Within two standard errors.
   [[nodiscard]] bool agrees() const { return z >= -2.0 && z <= 2.0; }
   /// SDs within a factor of 1.5; nothing where none was published.

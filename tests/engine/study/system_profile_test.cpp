@@ -32,7 +32,7 @@ TEST(SystemProfile, EveryPublishedSystemReads) {
   EXPECT_GE(published_systems().size(), 10u);
   int fitted = 0;
   for (const SystemProfile& system : published_systems()) {
-    EXPECT_TRUE(system.entry_mm || system.angle_deg) << system.name;
+    EXPECT_TRUE(system.entry_mm || system.angle_deg || system.tre_mm) << system.name;
     fitted += system.fitted ? 1 : 0;
   }
   EXPECT_EQ(fitted, 2) << "frozen on two systems";
@@ -127,6 +127,9 @@ TEST(SystemTable, AgreesWithinTwoStandardErrorsAndNotBeyond) {
   EXPECT_NEAR(verdict(3.41).z, 2.05, 1e-9);
   EXPECT_FALSE(verdict(3.0).assumed_error);
   EXPECT_FALSE(*verdict(3.0).spread_agrees()) << "no scatter at all is not one of 1.0";
+  EXPECT_GT(verdict(3.39).mean_p, 0.05);
+  EXPECT_LT(verdict(3.42).mean_p, 0.05);
+  EXPECT_LT(*verdict(3.0).sd_p, 0.01);
 }
 
 json level_off_by(double error_mm, double sd_mm) {

@@ -1,0 +1,102 @@
+#include "engine/study/two_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "nav/evaluation/errors.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr int kDraws = 4000;
+
+/// Lentz's evaluation of the continued fraction of I_x(a, b).
+double beta_fraction(double x, double a, double b) {
+  constexpr double kTiny = 1e-300;
+  constexpr int kTerms = 500;
+  const auto safe = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
+  double c = 1.0;
+  double d = 1.0 / safe(1.0 - (a + b) * x / (a + 1.0));
+  double out = d;
+  for (int m = 1; m < kTerms; ++m) {
+    const double even = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
+    d = 1.0 / safe(1.0 + even * d);
+    c = safe(1.0 + even / c);
+    out *= d * c;
+    const double odd = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
+    d = 1.0 / safe(1.0 + odd * d);
+    c = safe(1.0 + odd / c);
+    out *= d * c;
+    if (std::abs(d * c - 1.0) < 1e-14) {
+      break;
+    }
+  }
+  return out;
+}
+
+double incomplete_beta(double x, double a, double b) {
+  if (x <= 0.0 || x >= 1.0) {
+    return x <= 0.0 ? 0.0 : 1.0;
+  }
+  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
+                                a * std::log(x) + b * std::log1p(-x));
+  return x < (a + 1.0) / (a + b + 2.0) ? front * beta_fraction(x, a, b) / a
+                                       : 1.0 - front * beta_fraction(1.0 - x, b, a) / b;
+}
+
+}  // namespace
+
+double student_p(double t, double freedom) {
+  return incomplete_beta(freedom / (freedom + t * t), 0.5 * freedom, 0.5);
+}
+
+double welch_p(const KnownMean& a, const KnownMean& b) {
+  const double va = a.standard_error * a.standard_error;
+  const double vb = b.standard_error * b.standard_error;
+  if (!(va + vb > 0.0)) {
+    return a.mean == b.mean ? 1.0 : 0.0;
+  }
+  const double freedom = (va + vb) * (va + vb) / (va * va / a.freedom + vb * vb / b.freedom);
+  return student_p((a.mean - b.mean) / std::sqrt(va + vb), freedom);
+}
+
+double equivalence_p(std::span<const double> differences, double margin) {
+  const nav::Summary summary = nav::summarize(differences);
+  if (summary.count < 3) {
+    return 1.0;
+  }
+  const double inside = margin - std::abs(summary.mean);
+  const double error = summary.sd / std::sqrt(static_cast<double>(summary.count));
+  if (!(error > 0.0)) {
+    return inside > 0.0 ? 0.0 : 1.0;
+  }
+  const double both = student_p(inside / error, static_cast<double>(summary.count) - 1.0);
+  return inside > 0.0 ? 0.5 * both : 1.0 - 0.5 * both;
+}
+
+double resampled_sd_p(std::span<const std::vector<double>> groups, std::size_t n, double sd,
+                      std::uint64_t seed) {
+  Random random = Random(seed).fork("resampled SD");
+  int above = 0;
+  int below = 0;
+  std::vector<double> drawn;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    drawn.clear();
+    while (drawn.size() < n) {
+      const auto which =
+          static_cast<std::size_t>(random.uniform() * static_cast<double>(groups.size()));
+      for (const double value : groups[which]) {
+        if (drawn.size() < n) {
+          drawn.push_back(value);
+        }
+      }
+    }
+    const double found = nav::summarize(drawn).sd;
+    above += found >= sd ? 1 : 0;
+    below += found <= sd ? 1 : 0;
+  }
+  return std::min(1.0, 2.0 * (std::min(above, below) + 1.0) / (kDraws + 1.0));
+}
+
+}  // namespace orthonav::engine
