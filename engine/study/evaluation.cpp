@@ -28,7 +28,8 @@ void GroundTruthRecorder::note(const LevelState& level,
     return;
   }
   const auto world_from_vertebra =
-      headset_.world_from_room() * headset_.state().room_from_spine * here->spine_from_vertebra;
+      headset_.world_from_room() *
+      headset_.state().room_from_vertebra[static_cast<std::size_t>(here - levels.begin())];
   std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
   registrations_.push_back({level.plan.label, map_from_session() * estimated, world_from_vertebra});
 }

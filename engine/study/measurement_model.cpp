@@ -9,6 +9,7 @@ MeasurementModel MeasurementModel::of(std::string_view method) {
     model.lasting_px = 0.012;
     model.of_blur = 0.02;
     model.believed_px = 0.1;
+    model.drop_hides = true;
   }
   return model;
 }

@@ -21,6 +21,13 @@ struct MeasurementModel {
   double least_facing = 0.17;
   double least_px = 16.0;
   double most_blur_px = 12.0;
+  /// A tag is not seen where what it mirrors of the lamp exceeds this fraction of a white one's
+  /// light: black is then as bright as white can be. Estimate, as the two below: not fitted.
+  double most_glare = 0.85;
+  /// Whether a drop of blood on one of its corners keeps a tag from being found, and else by how
+  /// much the errors of its corners grow.
+  bool drop_hides = false;
+  double drop_factor = 2.0;
   /// SD that the tracker believes of a corner.
   double believed_px = 0.009;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/sim/tag_flaws.h"
+
 namespace orthonav::engine {
 namespace {
 
@@ -10,7 +12,8 @@ template <class CameraFrame>
 std::optional<nav::TagCorners> exact_corners(const CameraModel& camera,
                                              const Transform<CameraFrame, Rig>& camera_from_rig,
                                              const Transform<Rig, Marker>& rig_from_marker,
-                                             double size_m, const MeasurementModel& model) {
+                                             double size_m, const sim::TagFlaws& flaws,
+                                             const MeasurementModel& model) {
   const auto camera_from_marker = camera_from_rig * rig_from_marker;
   const Vec3 away = camera_from_marker.translation();
   const Vec3 face = camera_from_marker.rotation() * Vec3{0, 0, 1};
@@ -20,7 +23,9 @@ std::optional<nav::TagCorners> exact_corners(const CameraModel& camera,
   nav::TagCorners corners;
   const auto in_marker_m = nav::corners_in_marker(size_m);
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const auto seen = camera.project((camera_from_marker * Point<Marker>{in_marker_m[k]}).v);
+    const Vec3 flat_m = in_marker_m[k];
+    const Vec3 bent_m = flat_m + sim::height_m(flaws, size_m, {flat_m.x, flat_m.y}) * Vec3{0, 0, 1};
+    const auto seen = camera.project((camera_from_marker * Point<Marker>{bent_m}).v);
     if (!seen) {
       return std::nullopt;
     }
@@ -63,12 +68,27 @@ void ModelledSightings::look_at(std::size_t tool, const StereoFrame& frame,
   const double size_m = room_->room().tools[tool].size_m;
   Random random = random_.fork(static_cast<std::uint64_t>(frame.sequence)).fork(tool);
   const double dt_s = seconds(frame.time - before_);
-  seen.left_px =
-      with_errors(exact_corners(cameras.left, cameras.left_from_rig, near_[tool], size_m, model_),
-                  trail.lasting.left_px, trail.before_left, random, dt_s);
-  seen.right_px =
-      with_errors(exact_corners(cameras.right, cameras.right_from_rig, near_[tool], size_m, model_),
-                  trail.lasting.right_px, trail.before_right, random, dt_s);
+  const sim::TagFlaws& flaws = room_->room().tag_flaws[tool];
+  const bool covered = sim::covers_a_corner(flaws, size_m);
+  if (is_blinded(tool, now) || (covered && model_.drop_hides)) {
+    trail = {};
+    return;
+  }
+  worse_ = covered ? model_.drop_factor : 1.0;
+  seen.left_px = with_errors(
+      exact_corners(cameras.left, cameras.left_from_rig, near_[tool], size_m, flaws, model_),
+      trail.lasting.left_px, trail.before_left, random, dt_s);
+  seen.right_px = with_errors(
+      exact_corners(cameras.right, cameras.right_from_rig, near_[tool], size_m, flaws, model_),
+      trail.lasting.right_px, trail.before_right, random, dt_s);
+}
+
+bool ModelledSightings::is_blinded(std::size_t tool, const sim::RoomState& now) const {
+  const auto& room_from_marker = now.room_from_marker[tool];
+  const Vec3 to_viewer =
+      (now.room_from_rig.translation() - room_from_marker.translation()).normalized();
+  return sim::glare(room_->options().error_model.tag_gloss, room_from_marker.rotation().column(2),
+                    sim::lamp_in_room(), to_viewer) > model_.most_glare;
 }
 
 std::optional<nav::TagCorners> ModelledSightings::with_errors(
@@ -79,7 +99,7 @@ std::optional<nav::TagCorners> ModelledSightings::with_errors(
     return std::nullopt;
   }
   const double kept = before ? std::exp(-dt_s / model_.lasts_s) : 0.0;
-  const double fresh_px = model_.lasting_px * std::sqrt(1.0 - kept * kept);
+  const double fresh_px = worse_ * model_.lasting_px * std::sqrt(1.0 - kept * kept);
   const double exposed = dt_s > 0.0 ? room_->options().error_model.exposure_s / dt_s : 0.0;
   nav::TagCorners corners = *exact;
   double blur_px = 0.0;
@@ -92,8 +112,8 @@ std::optional<nav::TagCorners> ModelledSightings::with_errors(
     const double u = random.normal();
     const double v = random.normal();
     const double along = random.normal();
-    corners[k] =
-        corners[k] + lasting[k] + model_.white_px * Vec2{u, v} + model_.of_blur * along * moved_px;
+    corners[k] = corners[k] + lasting[k] + worse_ * model_.white_px * Vec2{u, v} +
+                 model_.of_blur * along * moved_px;
   }
   before = exact;
   return blur_px > model_.most_blur_px ? std::nullopt : std::optional(corners);

@@ -42,6 +42,8 @@ class ModelledSightings {
     std::optional<nav::TagCorners> before_right;
   };
   void look_at(std::size_t tool, const StereoFrame& frame, const sim::RoomState& now);
+  /// Whether it mirrors the lamp into the cameras.
+  [[nodiscard]] bool is_blinded(std::size_t tool, const sim::RoomState& now) const;
   std::optional<nav::TagCorners> with_errors(const std::optional<nav::TagCorners>& exact,
                                              nav::TagCorners& lasting,
                                              std::optional<nav::TagCorners>& before, Random& random,
@@ -53,6 +55,7 @@ class ModelledSightings {
   std::vector<Trail> trails_;
   std::vector<ModelledSighting> seen_;
   std::vector<Transform<Rig, Marker>> near_;
+  double worse_ = 1.0;  ///< of the tag at hand: by how much a drop on it makes errors grow
   Timestamp before_{};
 };
 

@@ -44,7 +44,8 @@ Result<nav::Registration> registered(const StatedNavigation& stated, const sim::
   const auto level = std::find_if(levels.begin(), levels.end(),
                                   [&](const sim::RoomLevel& l) { return l.label == known->label; });
   const auto truth =
-      room.world_from_room() * room.state().room_from_spine * level->spine_from_vertebra;
+      room.world_from_room() *
+      room.state().room_from_vertebra[static_cast<std::size_t>(level - levels.begin())];
   Random random = Random(room.options().seed).fork("stated navigation").fork(known->label);
   const Vec3 off_m = sim::normal_vector(random, stated.target_m / std::sqrt(3.0));
   const Mat3 turn = rotation_from_vector(sim::normal_vector(random, stated.angle_rad));

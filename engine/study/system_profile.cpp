@@ -69,7 +69,8 @@ void leave_to_navigation(sim::ErrorModel& model) {
         &sim::ErrorModel::head_pose_noise_rad, &sim::ErrorModel::map_drift_m_per_sqrt_s,
         &sim::ErrorModel::map_drift_rad_per_sqrt_s, &sim::ErrorModel::map_step_m,
         &sim::ErrorModel::tip_calibration_m, &sim::ErrorModel::axis_calibration_rad,
-        &sim::ErrorModel::tag_scale, &sim::ErrorModel::model_error_m}) {
+        &sim::ErrorModel::tag_scale, &sim::ErrorModel::tag_bow_m,
+        &sim::ErrorModel::model_error_m}) {
     model.*stated = 0.0;
   }
 }

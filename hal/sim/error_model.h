@@ -69,6 +69,18 @@ struct ErrorModel {
   double axis_calibration_rad = 0.010;
   /// Relative SD of a printed tag's size against the size that is stated (0.001 to 0.01).
   double tag_scale = 0.003;
+  /// SD of how far the edges of a tag stand over its middle: a print that is glued to a plate by
+  /// hand (0 to 0.3 mm). Estimate.
+  double tag_bow_m = 0.0001;
+  /// What a tag mirrors of the lamp in the worst direction, beside what white paper scatters (0 to
+  /// 0.6). Estimate for a matt laser print; a laminated one mirrors more.
+  double tag_gloss = 0.15;
+
+  // The light.
+
+  /// Amplitude of the lamp's light at twice the mains frequency, of its mean. At most 0.08: what
+  /// IEEE 1789-2015 allows at 100 Hz; a surgical lamp on smoothed current has a fraction of it.
+  double light_flicker = 0.02;
 
   // The model against the bone that it was made of.
 
@@ -82,14 +94,18 @@ struct ErrorModel {
   /// Mean thickness of the soft tissue left on what is stroked: thick in valleys, thin on ridges.
   /// 1 mm: a spine that was dissected in a hurry.
   double tissue_m = 0.0;
-  /// How far the spine moves with a breath, from end to end (1.96 +- 1.32 mm in ten patients).
+  /// How far the spine moves with a breath where it moves most, from end to end (1.96 +- 1.32 mm in
+  /// ten patients); other levels move less (spine_motion.h).
   double breathing_m = 0.0;
   double breathing_hz = 0.0;
   /// How far it gives way under the instrument (1.55 +- 1.13 mm).
   double push_m = 0.0;
-  /// The part of such a push that a reference on the neighbouring vertebra moves by as well (0.5 to
-  /// 0.9). Estimate.
+  /// The part of such a push that the neighbouring vertebra, and a reference on it, moves by as
+  /// well (0.5 to 0.9); two levels away it is the square. Estimate.
   double push_reaching_reference = 0.7;
+  /// Mean number of drops of blood on a tag (0 to 2), and how wide one is. Estimates.
+  double drops_per_tag = 0.0;
+  double drop_m = 0.003;
 
   // The hand and the surgeon.
 
@@ -150,8 +166,9 @@ struct ErrorModel {
   double overlay_aligning_rad = 0.02;
   /// How often a number is misread by a degree or a millimetre. Estimate.
   double misreading_probability = 0.01;
-  /// SD of the hand's rotation about each direction across the tool while it drills: without a
-  /// number that it corrects by (0.015 to 0.035), and with one (0.008 to 0.018).
+  /// SD of what a hand that turns while it drills makes of the wire's axis, about each direction
+  /// across it: without a number that it corrects by (0.015 to 0.035), and in all with one (0.008
+  /// to 0.018). drilling.h says how the surgeon comes by the second from the first.
   double hand_drilling_rad = 0.028;
   double hand_drilling_corrected_rad = 0.014;
 

@@ -7,7 +7,7 @@ namespace orthonav::sim {
 namespace {
 
 // clang-format off
-constexpr std::array<Magnitude, 57> kMagnitudes = {{
+constexpr std::array<Magnitude, 62> kMagnitudes = {{
     {"blur_sigma_px", "px", &ErrorModel::blur_sigma_px, 0.0, 5.0, 0.5, 1.0,
      "estimate: edges in published frames rise over about two pixels"},
     {"exposure_s", "s", &ErrorModel::exposure_s, 0.0, 0.030, 0.002, 0.008,
@@ -52,6 +52,12 @@ constexpr std::array<Magnitude, 57> kMagnitudes = {{
      "printed tools"},
     {"tag_scale", "", &ErrorModel::tag_scale, 0.0, 0.1, 0.001, 0.01,
      "printers"},
+    {"tag_bow_m", "m", &ErrorModel::tag_bow_m, 0.0, 0.002, 0.0, 0.0003,
+     "estimate: prints glued to plates by hand"},
+    {"tag_gloss", "", &ErrorModel::tag_gloss, 0.0, 1.0, 0.0, 0.6,
+     "estimate: matt prints to laminated ones"},
+    {"light_flicker", "", &ErrorModel::light_flicker, 0.0, 0.5, 0.0, 0.08,
+     "IEEE 1789-2015: at most 8 % at 100 Hz"},
     {"model_error_m", "m", &ErrorModel::model_error_m, 0.0, 0.01, 0.0003, 0.0008,
      "segmentations of vertebrae in CT"},
     {"model_error_length_m", "m", &ErrorModel::model_error_length_m, 0.0, 0.1, 0.005, 0.010,
@@ -66,6 +72,10 @@ constexpr std::array<Magnitude, 57> kMagnitudes = {{
      "1.55 +- 1.13 mm"},
     {"push_reaching_reference", "", &ErrorModel::push_reaching_reference, 0.0, 1.0, 0.5, 0.9,
      "estimate"},
+    {"drops_per_tag", "", &ErrorModel::drops_per_tag, 0.0, 10.0, 0.0, 2.0,
+     "estimate"},
+    {"drop_m", "m", &ErrorModel::drop_m, 0.0, 0.01, 0.002, 0.006,
+     "estimate: what a splash of 5 to 50 microlitres covers"},
     {"tremor_m", "m", &ErrorModel::tremor_m, 0.0, 0.01, 0.0001, 0.0006,
      "8-12 Hz (Elble and Koller 1990)"},
     {"tremor_rad", "rad", &ErrorModel::tremor_rad, 0.0, 0.1, 0.001, 0.006,

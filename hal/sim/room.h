@@ -32,6 +32,19 @@ using orthonav::ToolKind;
 /// A tool as it was manufactured. What the planning file says about it may be slightly off.
 using RoomTool = DescribedTool;
 
+/// A drop of blood on a tag's face, at x and y of its Marker.
+struct TagDrop {
+  Vec2 place_m;
+  double radius_m = 0.0;
+};
+
+/// What is wrong with a tag's face, besides its size.
+struct TagFlaws {
+  double bow_m = 0.0;    ///< its edges over its middle; negative: its middle stands out
+  double bow_rad = 0.0;  ///< across which direction it is bent, from x of Marker
+  std::vector<TagDrop> drops;
+};
+
 /// How much of a bone lies open, and so can be stroked from behind.
 enum class Exposure : std::uint8_t {
   kLaminae,             ///< spinous process, laminae and facets, out to the roots of the
@@ -45,6 +58,7 @@ struct RoomDescription {
   std::vector<RoomTool> tools;
   std::vector<std::string> operated;  ///< labels to be operated, in order; empty: all
   Exposure exposure = Exposure::kLaminae;
+  std::vector<TagFlaws> tag_flaws = {};  ///< one for each tool; empty: none has any
 };
 
 /// Frame of the room itself: fixed, +y up, origin on the table's top under the spine; the patient
@@ -55,7 +69,9 @@ struct Room;
 struct RoomState {
   Timestamp time{};
   Transform<Room, Rig> room_from_rig;
-  Transform<Room, Spine> room_from_spine;
+  Transform<Room, Spine> room_from_spine;  ///< as it is drawn: with the first level operated
+  /// Each level where it is, moved by breath and push; one for each of the description.
+  std::vector<Transform<Room, Vertebra>> room_from_vertebra;
   std::vector<Transform<Room, Marker>> room_from_marker;  ///< one for each tool of the description
   std::vector<bool> tool_present;                         ///< false: out of the scene
   std::optional<Point<Room>> hand;  ///< centre of the hand holding the active tool

@@ -74,11 +74,21 @@ RoomLayout::RoomLayout(const RoomDescription& room)
     room_from_vertebra_.push_back(room_from_spine_ * level.spine_from_vertebra);
     sites_.push_back(room_from_vertebra_.back() * back_of(level));
   }
+  for (const Point<Room> site : sites_) {
+    ranks_.push_back(static_cast<int>(std::count_if(
+        sites_.begin(), sites_.end(), [site](Point<Room> o) { return o.v.z > site.v.z; })));
+  }
   Vec3 sum;
   for (const std::size_t i : operated_) {
     sum += sites_[i].v;
   }
   middle_ = {sum / static_cast<double>(operated_.size())};
+}
+
+std::optional<std::size_t> RoomLayout::of_rank(int rank) const {
+  const auto found = std::find(ranks_.begin(), ranks_.end(), rank);
+  return found == ranks_.end() ? std::nullopt
+                               : std::optional(static_cast<std::size_t>(found - ranks_.begin()));
 }
 
 std::optional<std::size_t> RoomLayout::find(std::string_view label) const {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hal/sim/room_renderer_room.h"
+#include "hal/sim/tag_flaws.h"
 
 namespace orthonav::sim {
 namespace {
@@ -96,7 +97,8 @@ SoftwareRoomRenderer::SoftwareRoomRenderer(RoomDescription room, const ErrorMode
     : room_(std::move(room)),
       ground_(room_),
       coarse_bones_(room_, ground_, kBoneCellM),
-      bodies_(room_.tools),
+      error_model_(error_model),
+      bodies_(room_),
       sensor_(error_model),
       painter_(room_, ground_) {}
 
@@ -154,10 +156,12 @@ void SoftwareRoomRenderer::render(std::span<const RoomState> states, const Camer
   draw_background(lens, camera_from_rig * middle.room_from_rig.inverse() * middle.room_from_spine);
   foreground_.reset(camera.width_px(), camera.height_px(), 1);
   for (const RoomState& state : states) {
-    bodies_.gather(state, camera_from_rig * state.room_from_rig.inverse(), solids_);
+    bodies_.gather(state, camera_from_rig * state.room_from_rig.inverse(), solids_,
+                   error_model_.tag_gloss);
     layers_.add_moment(solids_, lens, 1.0F / static_cast<float>(states.size()), foreground_);
   }
-  sensor_.expose(background_, foreground_, noise_seed, image);
+  const double light = flicker(error_model_, seconds(middle.time.time_since_epoch()));
+  sensor_.expose(background_, foreground_, noise_seed, static_cast<float>(light), image);
 }
 
 void SoftwareRoomRenderer::picture(const RoomState& state, const PinholeView& view,

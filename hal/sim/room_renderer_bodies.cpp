@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hal/sim/room_renderer_layers.h"
+#include "hal/sim/tag_flaws.h"
 
 // How single bodies are drawn into their layers.
 namespace orthonav::sim {
@@ -71,7 +72,9 @@ void Layers::draw(const Plate& plate, const Lens& lens) {
   layer->nearness_x = plane[1];
   layer->nearness_y = plane[2];
   const float albedo = front ? kWhiteAlbedo : kBackAlbedo;
-  const double sign = fill_outline(*layer, static_cast<double>(kFullGrey * plate.light * albedo));
+  const double sign = fill_outline(
+      *layer,
+      static_cast<double>(kFullGrey * (plate.light * albedo + (front ? plate.glare : 0.0F))));
   if (front && plate.pattern != nullptr) {
     draw_face(plate, lens, *layer, sign);
   }
@@ -115,7 +118,8 @@ void Layers::project_face(const Plate& plate, const Lens& lens, const Layer& lay
       if (black == 0 || black == 4) {
         continue;
       }
-      const Vec3 at{(column - 0.5 * n) * plate.cell_m, (0.5 * n - row) * plate.cell_m, 0.0};
+      Vec3 at{(column - 0.5 * n) * plate.cell_m, (0.5 * n - row) * plate.cell_m, 0.0};
+      at.z = plate.flaws != nullptr ? height_m(*plate.flaws, plate.size_m, {at.x, at.y}) : 0.0;
       const Vec2 pixel = lens.pixel((plate.camera_from_marker * Point<Marker>{at}).v);
       corners_px_[static_cast<std::size_t>(row * (n + 1) + column)] = {
           pixel.x - static_cast<double>(layer.x0), pixel.y - static_cast<double>(layer.y0)};
@@ -211,6 +215,7 @@ void Layers::shade(const Capsule& capsule, Vec3 lamp_in_camera, Vec2 a, Vec2 b, 
   const double squared = std::max(axis.dot(axis), 1e-6);
   layer.tint = capsule.tint;
   layer.tool = capsule.tool;
+  layer.rank = capsule.rank;
   const float ax = static_cast<float>(axis.x / squared);
   const float ay = static_cast<float>(axis.y / squared);
   const float r0 = static_cast<float>(radius_a);

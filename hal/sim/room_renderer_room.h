@@ -30,6 +30,7 @@ class SoftwareRoomRenderer final : public RoomRenderer {
   RoomDescription room_;
   Ground ground_;
   ShownBones coarse_bones_;
+  ErrorModel error_model_;
   ToolBodies bodies_;
   Sensor sensor_;
   Layers layers_;

@@ -198,6 +198,7 @@ void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
   const float dy = static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(height_);
   const float corner = 0.25F * static_cast<float>(width_ * width_ + height_ * height_);
   const float kept = 1.0F - vignetting_ * dy * dy / corner;
+  const float lamp = lamp_;
   const float shot = shot_variance_per_grey_;
   const float read = read_variance_;
   const int width = width_;
@@ -210,14 +211,15 @@ void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
     draw_noise(y, noise_seed);
   }
   for (int x = 0; x < width; ++x) {
-    const float mean = std::max(light[x] * (kept - loss[x]), 0.0F);
+    const float mean = std::max(lamp * light[x] * (kept - loss[x]), 0.0F);
     const float v = mean + std::sqrt(shot * mean + read) * noise[x] + 0.5F;
     out[x] = static_cast<std::uint8_t>(static_cast<int>(std::min(std::max(v, 0.0F), 255.0F)));
   }
 }
 
 void Sensor::expose(const HalfImage& background, const Foreground& foreground,
-                    std::uint64_t noise_seed, GreyImage& image) {
+                    std::uint64_t noise_seed, float light_of_lamp, GreyImage& image) {
+  lamp_ = light_of_lamp;
   resize(foreground.width_px, foreground.height_px);
   image.width_px = width_;
   image.height_px = height_;

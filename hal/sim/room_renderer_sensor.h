@@ -26,8 +26,9 @@ struct HalfImage {
 class Sensor {
  public:
   explicit Sensor(const ErrorModel& error_model);
+  /// `light`: of the lamp, as a fraction of its mean.
   void expose(const HalfImage& background, const Foreground& foreground, std::uint64_t noise_seed,
-              GreyImage& image);
+              float light, GreyImage& image);
 
  private:
   void resize(int width, int height);
@@ -36,6 +37,7 @@ class Sensor {
   [[nodiscard]] const float* blur_across(int y, CoverageWindow::Span span);
   void draw_noise(int y, std::uint64_t noise_seed);
   void finish_row(const float* light, int y, std::uint64_t noise_seed, std::uint8_t* out);
+  float lamp_ = 1.0F;  ///< of the image at hand
   [[nodiscard]] float* ring_row(int y);
   [[nodiscard]] CoverageWindow::Span widened(const Foreground& foreground, int low_row,
                                              int high_row) const;

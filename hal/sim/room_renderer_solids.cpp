@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/sim/tag_flaws.h"
+
 namespace orthonav::sim {
 namespace {
 
 /// The white margin extends beyond the quiet zone by this fraction of a cell.
 constexpr double kMarginCells = 0.25;
-constexpr Vec3 kLampInRoom{0.24, 0.94, 0.24};
 constexpr Tint kSteel{0.93F, 0.97F, 1.0F};
 constexpr Tint kHandleTint{0.75F, 0.85F, 1.0F};
 constexpr Tint kGlove{0.93F, 0.96F, 1.0F};
+constexpr Tint kBlood{0.55F, 0.10F, 0.08F};
+constexpr float kBloodAlbedo = 0.10F;
 constexpr Tint kGown{0.42F, 0.78F, 0.80F};
 /// Nothing nearer to the camera than this is drawn.
 constexpr double kNearM = 0.06;
@@ -56,8 +59,19 @@ std::vector<Capsule> rods_of(const RoomTool& tool, double half_m) {
   return rods;
 }
 
+/// Discs on the face of the plate; nothing of them shows from behind it.
+void add_drops(const TagFlaws& flaws, std::vector<Capsule>& bodies) {
+  constexpr int kOnTheFace = 2;
+  for (const TagDrop& drop : flaws.drops) {
+    const Vec3 at{drop.place_m.x, drop.place_m.y, 0.0};
+    Capsule disc = rod(at, at, drop.radius_m, drop.radius_m, kBloodAlbedo, 0.3F, kBlood);
+    disc.rank = kOnTheFace;
+    bodies.push_back(disc);
+  }
+}
+
 float lit(Vec3 normal_in_room) {
-  const double cosine = std::max(0.0, normal_in_room.dot(kLampInRoom.normalized()));
+  const double cosine = std::max(0.0, normal_in_room.dot(lamp_in_room()));
   return static_cast<float>(0.90 + 0.12 * cosine);
 }
 
@@ -124,24 +138,28 @@ void add_hand(const RoomState& state, const Transform<LeftCamera, Room>& camera_
 
 }  // namespace
 
-ToolBodies::ToolBodies(const std::vector<RoomTool>& tools) {
-  for (const RoomTool& tool : tools) {
+ToolBodies::ToolBodies(const RoomDescription& room) {
+  for (std::size_t i = 0; i < room.tools.size(); ++i) {
+    const RoomTool& tool = room.tools[i];
     Body body;
+    body.size_m = tool.size_m;
+    body.flaws = i < room.tag_flaws.size() ? room.tag_flaws[i] : TagFlaws{};
     body.pattern = tag_pattern(tool.family, tool.id);
     const int border = body.pattern ? body.pattern->border_cells : 8;
     const int cells = body.pattern ? body.pattern->cells : 10;
     body.cell_m = tool.size_m / border;
     body.half_m = (0.5 * std::max(cells, border + 2) + kMarginCells) * body.cell_m;
     body.rods = rods_of(tool, body.half_m);
+    add_drops(body.flaws, body.rods);
     bodies_.push_back(std::move(body));
   }
 }
 
 void ToolBodies::gather(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
-                        Solids& solids) const {
+                        Solids& solids, double gloss) const {
   solids.plates.clear();
   solids.capsules.clear();
-  solids.lamp_in_camera = (camera_from_room * Direction<Room>{kLampInRoom.normalized()}).v;
+  solids.lamp_in_camera = (camera_from_room * Direction<Room>{lamp_in_room()}).v;
   const std::size_t known =
       std::min({bodies_.size(), state.room_from_marker.size(), state.tool_present.size()});
   for (std::size_t i = 0; i < known; ++i) {
@@ -154,12 +172,20 @@ void ToolBodies::gather(const RoomState& state, const Transform<LeftCamera, Room
     if (!at.is_finite()) {
       continue;
     }
+    const Vec3 normal = state.room_from_marker[i].rotation().column(2);
+    const Vec3 to_viewer =
+        (camera_from_room.inverse().translation() - state.room_from_marker[i].translation())
+            .normalized();
     if (at.z - 1.5 * body.half_m > kNearM && body.half_m > 0.0) {
-      solids.plates.push_back(
-          {camera_from_marker, body.pattern ? &*body.pattern : nullptr, body.cell_m, body.half_m,
-           lit(state.room_from_marker[i].rotation().column(2)), static_cast<int>(i)});
+      solids.plates.push_back({camera_from_marker, body.pattern ? &*body.pattern : nullptr,
+                               body.cell_m, body.half_m, lit(normal), static_cast<int>(i),
+                               static_cast<float>(glare(gloss, normal, lamp_in_room(), to_viewer)),
+                               &body.flaws, body.size_m});
     }
     for (const Capsule& in_marker : body.rods) {
+      if (in_marker.rank > 1 && !(normal.dot(to_viewer) > 0.0)) {
+        continue;
+      }
       Capsule c = in_marker;
       c.tool = static_cast<int>(i);
       c.a = (camera_from_marker * Point<Marker>{c.a}).v;

@@ -27,6 +27,9 @@ struct Plate {
   double half_m = 0.0;  ///< half the plate's width, quiet zone and margin included
   float light = 1.0F;
   int tool = 0;
+  float glare = 0.0F;               ///< what it mirrors, as a fraction of a white one's light
+  const TagFlaws* flaws = nullptr;  ///< null: flat
+  double size_m = 0.0;              ///< of the tag
 };
 
 /// A tapered rod with round ends in the camera frame.
@@ -39,6 +42,7 @@ struct Capsule {
   float gloss = 0.0F;
   Tint tint{1, 1, 1};
   int tool = -1;  ///< the hand: -1
+  int rank = 0;   ///< decides within one tool; above 1 it lies on the face of the plate
 };
 
 struct Solids {
@@ -50,17 +54,19 @@ struct Solids {
 /// Tools and hand as bodies. Built once per room; `gather` reuses the vectors given.
 class ToolBodies {
  public:
-  explicit ToolBodies(const std::vector<RoomTool>& tools);
-  /// Everything in front of the camera at that moment.
+  explicit ToolBodies(const RoomDescription& room);
+  /// Everything in front of the camera at that moment. `gloss`: of the tags' faces.
   void gather(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
-              Solids& solids) const;
+              Solids& solids, double gloss = 0.0) const;
 
  private:
   struct Body {
     std::optional<TagPattern> pattern;
     double cell_m = 0.0;
     double half_m = 0.0;
-    std::vector<Capsule> rods;  ///< in Marker
+    double size_m = 0.0;
+    TagFlaws flaws;
+    std::vector<Capsule> rods;  ///< in Marker; drops on its face too
   };
   std::vector<Body> bodies_;
 };

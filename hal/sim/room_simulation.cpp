@@ -38,11 +38,13 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
   RoomState nothing;
   nothing.room_from_marker.resize(room_.tools.size());
   nothing.tool_present.resize(room_.tools.size());
+  nothing.room_from_vertebra.resize(layout_.levels());
+  level_moved_m_.resize(layout_.levels());
   states_.resize(kKept, nothing);
   if (options.surgeon && layout_.levels() > 0) {
     surgeon_ =
         std::make_unique<Surgeon>(layout_, error_model_, Random(options.seed).fork("surgeon"),
-                                  eyes_, truth_, options.guidance);
+                                  eyes_, StandingMetal(truth_), options.guidance);
   }
   step();
 }
@@ -57,9 +59,7 @@ void RoomSimulation::step() {
   RoomState& now = kept(steps_);
   now.time = start_ + static_cast<std::int64_t>(steps_) * kStep;
   shift_patient();
-  spine_moved_m_ = spine_.at(seconds_in(now.time)) + slipped_m_;
-  now.room_from_spine = {layout_.room_from_spine().rotation(),
-                         layout_.room_from_spine().translation() + spine_moved_m_};
+  move_patient(now);
   if (surgeon_) {
     head_.advance(seconds(kStep), surgeon_->body().posture().head);
   }
@@ -80,16 +80,43 @@ void RoomSimulation::step() {
   }
 }
 
+/// A breath moves each level by its share. What gives way under an instrument takes its neighbours
+/// along by less and less.
+void RoomSimulation::move_patient(RoomState& now) {
+  const Vec3 breath_m = spine_.at(seconds_in(now.time));
+  back_moved_m_ = breath_m + slipped_m_;
+  for (std::size_t i = 0; i < layout_.levels(); ++i) {
+    level_moved_m_[i] = share_of_breath(room_.levels[i].label) * breath_m + slipped_m_;
+    const auto& at_rest = layout_.room_from_vertebra(i);
+    now.room_from_vertebra[i] = {at_rest.rotation(),
+                                 at_rest.translation() + level_moved_m_[i] + pushed_m(i)};
+  }
+  // The picture of the spine goes with the level that is operated first.
+  const Vec3 drawn_m =
+      layout_.operated().empty() ? back_moved_m_ : level_moved_m_[layout_.operated().front()];
+  now.room_from_spine = {layout_.room_from_spine().rotation(),
+                         layout_.room_from_spine().translation() + drawn_m};
+}
+
+Vec3 RoomSimulation::pushed_m(std::size_t level) const {
+  return surgeon_ ? pushed_m_by(std::abs(layout_.rank(level) - rank_at_hand())) : Vec3{};
+}
+
+int RoomSimulation::rank_at_hand() const { return layout_.rank(surgeon_->body().posture().level); }
+
+Vec3 RoomSimulation::pushed_m_by(int levels_away) const {
+  return std::pow(error_model_.push_reaching_reference, levels_away) *
+         surgeon_->body().posture().pushed_m;
+}
+
 void RoomSimulation::let_surgeon_act(RoomState& now) {
-  surgeon_->tick(now.time, {now.room_from_rig.origin(), spine_moved_m_});
+  surgeon_->tick(now.time, {now.room_from_rig.origin(), level_moved_m_});
   SurgeonBody& body = surgeon_->body();
   const Posture& posture = body.posture();
   const auto tool = posture.in_hand ? layout_.tool(*posture.in_hand) : std::nullopt;
   if (tool) {
     // The hand rests on the patient and moves with them.
-    Grip riding = posture.grip;
-    riding.tip = riding.tip + spine_moved_m_ + posture.pushed_m;
-    put(now, *tool, riding, posture.contact_normal, posture.on_wire);
+    put(now, *tool, on_patient(posture), posture.contact_normal, posture.on_wire);
     const Vec3 view = posture.head.from_gaze;
     // The forearm comes from the surgeon's right, across the shaft, so that it never hides the tag,
     // and below the line of sight to the wound.
@@ -97,10 +124,7 @@ void RoomSimulation::let_surgeon_act(RoomState& now) {
     now.hand = hand_on(room_.tools[*tool], posture.grip);
     now.hand_axis = (0.9 * across + 0.35 * Vec3{view.x, 0.0, view.z}).normalized();
   }
-  for (const WireInsertion& insertion : surgeon_->wire_insertions()) {
-    pierce(insertion);
-  }
-  surgeon_->wire_insertions().clear();
+  drive_wire();
   clicks_.insert(clicks_.end(), body.clicks.begin(), body.clicks.end());
   phrases_.insert(phrases_.end(), body.phrases.begin(), body.phrases.end());
   body.clicks.clear();
@@ -126,8 +150,11 @@ void RoomSimulation::leave_reference(RoomState& now) {
   if (is_due && (bump_.shift_m > 0.0 || bump_.turn_rad > 0.0)) {
     bump_reference();
   }
-  const Vec3 pushed_m = surgeon_ ? surgeon_->body().posture().pushed_m : Vec3{};
-  const Vec3 moved_m = spine_moved_m_ + error_model_.push_reaching_reference * pushed_m;
+  // On the vertebra above the first that is operated.
+  const std::size_t below = layout_.operated().empty() ? 0 : layout_.operated().front();
+  const int rank = layout_.rank(below) - 1;
+  const Vec3 moved_m = level_moved_m_[layout_.of_rank(rank).value_or(below)] +
+                       (surgeon_ ? pushed_m_by(std::abs(rank - rank_at_hand())) : Vec3{});
   now.room_from_marker[*reference] = {room_from_reference_->rotation(),
                                       room_from_reference_->translation() + moved_m};
   now.tool_present[*reference] = true;
@@ -188,48 +215,6 @@ void RoomSimulation::put(RoomState& state, std::size_t tool, const Grip& grip,
   const Vec3 viewer = state.room_from_rig.translation();
   state.room_from_marker[tool] = held(made, shaken, (viewer - tag.v).normalized());
   state.tool_present[tool] = true;
-}
-
-void RoomSimulation::pierce(const WireInsertion& insertion) {
-  constexpr double kSearch_m = 0.02;
-  constexpr double kHeadOverEntry_m = 0.010;
-  const RoomState& now = kept(steps_ - 1);
-  const auto guide = layout_.tool(ToolKind::kGuide);
-  if (!guide) {
-    return;
-  }
-  const auto& room_from_vertebra = layout_.room_from_vertebra(insertion.level);
-  const Vec3 moved_m = spine_moved_m_ + surgeon_->body().posture().pushed_m;
-  const Transform<Room, Room> at_rest{Mat3::identity(), -moved_m};
-  const RoomTool& tool = room_.tools[*guide];
-  const auto vertebra_from_marker =
-      room_from_vertebra.inverse() * at_rest * now.room_from_marker[*guide];
-  const Vec3 tip = (vertebra_from_marker * tool.tip_in_marker).v;
-  const Vec3 straight = -(vertebra_from_marker * Direction<Marker>{tool.axis_in_marker}).v;
-  const BoneSurface& bone = layout_.bone(insertion.level);
-  const Vec3 slip = normal_vector(physics_, error_model_.wire_skiving_m);
-  const Vec3 normal = bone.closest(tip).normal;
-  const Vec3 slipped = tip + (slip - slip.dot(normal) * normal);
-  const Vec3 bend = normal_vector(physics_, error_model_.wire_bending_rad) +
-                    normal_vector(physics_, error_model_.hole_following_rad) +
-                    (room_from_vertebra.inverse() * Direction<Room>{insertion.hand_turn_rad}).v;
-  const Vec3 direction =
-      (rotation_from_vector(bend - bend.dot(straight) * straight) * straight).normalized();
-  const auto hit = bone.first_hit(slipped - kSearch_m * direction, direction, 2.0 * kSearch_m);
-  const Point<Vertebra> entry{hit ? hit->point : bone.closest(slipped).point};
-  const std::string& label = room_.levels[insertion.level].label;
-  take_wire_out(label, insertion.side);
-  ++wires_driven_;
-  truth_.wires.push_back({label, insertion.side, entry, direction, now.time});
-  truth_.heads.push_back(
-      {label, insertion.side, room_from_vertebra * (entry - kHeadOverEntry_m * direction)});
-}
-
-void RoomSimulation::take_wire_out(const std::string& label, Side side) {
-  std::erase_if(truth_.wires,
-                [&](const DrivenWire& w) { return w.level == label && w.side == side; });
-  std::erase_if(truth_.heads,
-                [&](const PlacedHead& h) { return h.level == label && h.side == side; });
 }
 
 RoomSimulation::Around RoomSimulation::around(Timestamp time) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/api/devices.h"
+#include "hal/sim/drilling.h"
 #include "hal/sim/eyes.h"
 #include "hal/sim/head_motion.h"
 #include "hal/sim/noise.h"
@@ -62,9 +63,23 @@ class RoomSimulation {
   void shift_patient();
   void put(RoomState& state, std::size_t tool, const Grip& grip, std::optional<Vec3> contact,
            bool on_wire = false) const;
+  void move_patient(RoomState& now);
+  /// By which a level gives way under the instrument, in Room.
+  [[nodiscard]] Vec3 pushed_m(std::size_t level) const;
+  [[nodiscard]] Vec3 pushed_m_by(int levels_away) const;
+  [[nodiscard]] int rank_at_hand() const;
+
+  // room_simulation_wires.cpp
+  [[nodiscard]] Transform<Vertebra, Marker> guide_in(std::size_t level) const;
+  [[nodiscard]] Vec3 guide_inwards(std::size_t level) const;
+  /// The tool as it is held by a hand that rests on the patient.
+  [[nodiscard]] Grip on_patient(const Posture& posture) const;
+  /// Carries on what the surgeon's hand does with the wire.
+  void drive_wire();
+  void pierce(const Drilling& drilling);
+  void leave_wire();
   /// Another wire for a screw takes the place of one that was taken out.
   void take_wire_out(const std::string& label, Side side);
-  void pierce(const WireInsertion& insertion);
   [[nodiscard]] double seconds_in(Timestamp time) const { return seconds(time - start_); }
   [[nodiscard]] RoomState& kept(std::size_t number) { return states_[number % kKept]; }
   [[nodiscard]] const RoomState& kept(std::size_t number) const { return states_[number % kKept]; }
@@ -80,7 +95,11 @@ class RoomSimulation {
   SmoothNoise3 tremor_m_;
   SmoothNoise3 tremor_rad_;
   SpineMotion spine_;
-  Vec3 spine_moved_m_{};  ///< with the breath and on the table, at the newest step, in Room
+  // With the breath and on the table, at the newest step, in Room.
+  std::vector<Vec3> level_moved_m_;
+  Vec3 back_moved_m_{};
+  std::optional<AdvancingWire> wire_;
+  Vec3 back_against_level_m_{};  ///< of the back against the bone, when the wire pierced it
   /// Since the first step, with the patient at rest.
   std::optional<Transform<Room, Marker>> room_from_reference_;
   ReferenceBump bump_;

@@ -10,6 +10,7 @@
 #include "hal/sim/sim_cameras.h"
 #include "hal/sim/sim_room.h"
 #include "hal/sim/surface_field.h"
+#include "hal/sim/tag_flaws.h"
 
 namespace orthonav::sim {
 namespace {
@@ -171,6 +172,8 @@ Result<std::unique_ptr<SimHeadset>> SimHeadset::open(RoomDescription room,
   }
   room = with_bones_off_their_models(std::move(room), options.error_model,
                                      Random(options.seed).fork("bones"));
+  room = with_flawed_tags(std::move(room), options.error_model,
+                          Random(options.seed).fork("tag flaws"));
   return std::unique_ptr<SimHeadset>(std::make_unique<SimulatedHeadset>(
       std::move(room), options, reported, std::move(actual).value()));
 }

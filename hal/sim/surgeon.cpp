@@ -85,11 +85,11 @@ struct OverlayComparison {
 }  // namespace
 
 Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-                 const Eyes& eyes, const Truth& placed, GuidanceProfile guidance)
+                 const Eyes& eyes, StandingMetal metal, GuidanceProfile guidance)
     : layout_(&layout),
       error_model_(&error_model),
       eyes_(&eyes),
-      placed_(&placed),
+      metal_(metal),
       body_(random.fork("hand"), error_model, slowness_of(error_model, random.fork("pace")),
             standing_at(layout)),
       guidance_(guidance),
@@ -104,6 +104,7 @@ Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const 
       life_(operate()) {
   const Random tissue = random.fork("tissue");
   for (const std::size_t level : layout.operated()) {
+    body_.posture().level = layout.operated().front();
     regions_[level] = plan_strokes(layout.room().levels[level], layout.room().exposure);
     cover_with_tissue(regions_[level], error_model.tissue_m, tissue.fork(level));
   }
@@ -112,6 +113,9 @@ Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const 
 
 void Surgeon::tick(Timestamp now, const Bearings& bearings) {
   bearings_ = bearings;
+  if (const auto level = eyes_->status() ? layout_->find(step_now().level) : std::nullopt) {
+    body_.posture().level = *level;
+  }
   body_.tick(now);
 }
 
@@ -252,8 +256,7 @@ Script Surgeon::compare_overlay(std::size_t level, bool& fits, bool& asked_to_to
     }
     asked_to_touch = asked_to_touch || asked(ChecksAsked::kTouchMore);
     const auto& at_rest = layout_->room_from_vertebra(level);
-    overlay.glance({at_rest.rotation(), at_rest.translation() + bearings_.spine_moved_m}, *eyes_,
-                   *model);
+    overlay.glance({at_rest.rotation(), at_rest.translation() + moved_m()}, *eyes_, *model);
   }
   fits = overlay.fits(misperceived(layout_->site(level), error_model_->overlay_comparison_m));
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,23 +12,18 @@
 #include "hal/sim/guidance_profile.h"
 #include "hal/sim/number_reading.h"
 #include "hal/sim/room_layout.h"
+#include "hal/sim/standing_metal.h"
 #include "hal/sim/stroke_plan.h"
 #include "hal/sim/surgeon_body.h"
-#include "hal/sim/truth.h"
 
 namespace orthonav::sim {
-
-/// A wire that pierces the bone, for the room to carry out and to remember.
-struct WireInsertion {
-  std::size_t level = 0;
-  Side side = Side::kLeft;
-  Vec3 hand_turn_rad{};  ///< by which the hand turned while it drilled, in Room
-};
 
 /// What the surgeon knows of their own body and of the patient's, whatever the display shows.
 struct Bearings {
   Point<Room> eyes;
-  Vec3 spine_moved_m{};  ///< with the breath, in Room; the hands go with it
+  /// Of each level, with the breath, in Room; the hands go with the level that they work on. What
+  /// it views must last for the tick.
+  std::span<const Vec3> levels_moved_m;
 };
 
 /// The scripted surgeon. Knows the bones as they lie there (strokes them, compares holograms with
@@ -36,15 +32,14 @@ struct Bearings {
 /// names it.
 class Surgeon {
  public:
-  /// The layout, the eyes and what was placed must outlive it. Of that only heads and wires are
-  /// there to be touched; how they lie against the plan nobody tells the surgeon but the display.
+  /// The layout and the eyes must outlive it. How what stands in the bones lies against the plan
+  /// nobody tells the surgeon but the display.
   Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const Random& random,
-          const Eyes& eyes, const Truth& placed, GuidanceProfile guidance);
+          const Eyes& eyes, StandingMetal metal, GuidanceProfile guidance);
 
   /// Lives on to `now`.
   void tick(Timestamp now, const Bearings& bearings);
   [[nodiscard]] SurgeonBody& body() { return body_; }
-  [[nodiscard]] std::vector<WireInsertion>& wire_insertions() { return wire_insertions_; }
   /// Has seen the end of the operation, or has given up.
   [[nodiscard]] bool finished() const { return finished_; }
   [[nodiscard]] bool gave_up() const { return gave_up_; }
@@ -119,14 +114,18 @@ class Surgeon {
   /// Aims the tool by what the guidance profile lets the surgeon go by.
   Script aim_tool(const StepOnDisplay& step, std::size_t level, const Aim& aim);
   Script drive_wire(std::size_t level, Side side, const Aim& aim);
+  /// Moves hand and wire in together, turning as hands do; in a closed loop, by what is read.
+  Script drill(const Aim& aim, Vec3 turn_of_wire);
   [[nodiscard]] BoneSpot put_on_bone(std::size_t level, Vec3 entry, Vec3 outwards) const;
 
   // surgeon_perceiving.cpp
   /// A draw of how far off a place is perceived: more along the line of sight than across it.
   [[nodiscard]] Vec3 misperceived(Point<Room> place, double across_sd_m);
+  /// Of the level that is worked on, with the breath.
+  [[nodiscard]] Vec3 moved_m() const { return bearings_.levels_moved_m[body_.posture().level]; }
   /// Where a hologram's point hangs, relative to a patient who does not breathe.
   [[nodiscard]] Point<Room> seen_at_rest(Point<World> in_world) const {
-    return eyes_->place(in_world) - bearings_.spine_moved_m;
+    return eyes_->place(in_world) - moved_m();
   }
   /// Holds the tool along the shown trajectory by eye.
   Script align_by_eye(const StepOnDisplay& step, const Aim& aim);
@@ -153,8 +152,7 @@ class Surgeon {
   /// Measures the wire of the screw that was drilled, and keeps or redoes it.
   Script look_at_wire(std::size_t level, Side side);
   /// Sets the guide's sleeve over it and clicks, again where the line says that it was not taken.
-  Script set_sleeve_over(const StepOnDisplay& step, std::size_t level, const DrivenWire& wire);
-  [[nodiscard]] const DrivenWire* wire_of(std::size_t level, Side side) const;
+  Script set_sleeve_over(const StepOnDisplay& step, std::size_t level, const StandingWire& wire);
 
   // surgeon_rod.cpp
   Script touch_heads(Side side);
@@ -170,9 +168,10 @@ class Surgeon {
   const RoomLayout* layout_;
   const ErrorModel* error_model_;
   const Eyes* eyes_;
-  const Truth* placed_;
+  StandingMetal metal_;
   SurgeonBody body_;
   GuidanceProfile guidance_;
+  Vec3 misread_rad_{};  ///< by which the angle was taken for another, before the wire went in
   Bearings bearings_;
   Random checking_;  ///< of its own: who need not touch draws the same from the others
   Random seating_;   ///< of the tip in a dimple; of its own likewise
@@ -184,7 +183,6 @@ class Surgeon {
   std::vector<int> moved_;  ///< how often its landmark had moved since a level was registered
   std::set<StepOnDisplay> redone_;  ///< guide steps whose wire was taken out once
   std::set<StepOnDisplay> driven_;  ///< guide steps whose wire is in
-  std::vector<WireInsertion> wire_insertions_;
   bool finished_ = false;
   bool gave_up_ = false;
   Script life_;

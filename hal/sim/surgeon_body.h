@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/api/devices.h"
+#include "hal/sim/drilling.h"
 #include "hal/sim/error_model.h"
 #include "hal/sim/grip.h"
 #include "hal/sim/head_motion.h"
@@ -19,7 +20,9 @@ struct Posture {
   /// Outward normal of the bone that the tip rests on.
   std::optional<Vec3> contact_normal;
   bool on_wire = false;  ///< a wire stands in the tool's sleeve: it turns no more, and slides along
-  Vec3 pushed_m{};       ///< by which the instrument has pushed the bone, in Room
+  std::size_t level = 0;             ///< index of the one that hands work on, and go with
+  std::optional<Drilling> drilling;  ///< while a wire is driven
+  Vec3 pushed_m{};                   ///< by which the instrument has pushed the bone, in Room
   HeadGoal head;
 };
 

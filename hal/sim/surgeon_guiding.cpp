@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,8 +12,8 @@ constexpr double kLook_s = 0.6;
 constexpr double kMoveHead_s = 2.0;
 constexpr double kOverBone_m = 0.030;
 constexpr double kBoneSearch_m = 0.015;
-constexpr double kDriving_s = 3.5;
-constexpr double kAdvance_m = 0.010;
+
+Vec3 across(Vec3 v, Vec3 axis) { return v - v.dot(axis) * axis; }
 
 }  // namespace
 
@@ -139,23 +140,50 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
 }
 
 Script Surgeon::drive_wire(std::size_t level, Side side, const Aim& aim) {
-  const double hand_rad = guidance_ == GuidanceProfile::kClosedLoop
-                              ? error_model_->hand_drilling_corrected_rad
-                              : error_model_->hand_drilling_rad;
-  const Grip pierced = body_.posture().grip;
-  const Vec3 turn = normal_vector(body_.random(), hand_rad);
-  const Vec3 across = turn - turn.dot(pierced.axis) * pierced.axis;
-  wire_insertions_.push_back({level, side, across});
+  const HandWhileDrilling hand = hand_while_drilling(*error_model_, guidance_);
+  const Vec3 axis = body_.posture().grip.axis;
+  const Vec3 turn = across(normal_vector(body_.random(), hand.of_wire_rad), axis);
+  const Vec3 unseen = across(normal_vector(body_.random(), hand.unseen_rad), axis);
   body_.posture().contact_normal.reset();
-  Grip deep = pierced;
-  deep.axis = (rotation_from_vector(across) * pierced.axis).normalized();
-  deep.tip = pierced.tip - kAdvance_m * deep.axis;
-  co_await body_.move(deep, kDriving_s);
+  body_.posture().drilling = Drilling{level, side, 0.0, unseen};
+  co_await drill(aim, turn);
   co_await body_.rest(0.3);
+  body_.posture().drilling.reset();
+  co_await body_.next_tick();
   body_.posture().pushed_m = {};
-  Grip out = deep;
-  out.tip = Point<Room>{aim.on_bone.point} + kOverBone_m * deep.axis;
+  Grip out = body_.posture().grip;
+  out.tip = Point<Room>{aim.on_bone.point} + kOverBone_m * out.axis;
   co_await body_.move(out, 1.0);
+}
+
+Script Surgeon::drill(const Aim& aim, Vec3 turn_of_wire) {
+  const Grip pierced = body_.posture().grip;
+  const double length_s = body_.slowness() * kDriving_s;
+  const Timestamp begin = body_.now();
+  Timestamp before = begin;
+  DeviationMemory memory;
+  Vec3 corrected;
+  for (double t = 0.0; t < 1.0;) {
+    co_await body_.next_tick();
+    t = std::min(1.0, seconds(body_.now() - begin) / length_s);
+    if (guidance_ == GuidanceProfile::kClosedLoop) {
+      if (const auto reading = read_turn(aim)) {
+        memory.add(*reading);
+      }
+      if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s))) {
+        const double part = kGain_per_s * seconds(body_.now() - before);
+        corrected += part * across(acted_on->turn + misread_rad_, pierced.axis);
+      }
+    }
+    before = body_.now();
+    const double way = minimum_jerk(t);
+    Grip& grip = body_.posture().grip;
+    // The axis of the wire is the chord of its way, which turns by half of what the hand does.
+    grip.axis =
+        (rotation_from_vector(corrected + 2.0 * way * turn_of_wire) * pierced.axis).normalized();
+    grip.tip = pierced.tip - way * kAdvance_m * grip.axis;
+    body_.posture().drilling->way = way;
+  }
 }
 
 }  // namespace orthonav::sim

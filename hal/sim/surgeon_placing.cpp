@@ -16,21 +16,11 @@ constexpr double kBendsAgain_rad = 0.02;
 
 }  // namespace
 
-const DrivenWire* Surgeon::wire_of(std::size_t level, Side side) const {
-  const std::string& label = layout_->room().levels[level].label;
-  for (const DrivenWire& wire : placed_->wires) {
-    if (wire.level == label && wire.side == side) {
-      return &wire;
-    }
-  }
-  return nullptr;
-}
-
 Script Surgeon::look_at_wire(std::size_t level, Side side) {
   const StepOnDisplay step = step_now();
   const StepOnDisplay guiding{Step::kGuide, step.level, step.side};
-  const DrivenWire* wire = wire_of(level, side);
-  if (wire != nullptr && asked(ChecksAsked::kMeasureWire)) {
+  const auto wire = metal_.wire(layout_->room().levels[level].label, side);
+  if (wire && asked(ChecksAsked::kMeasureWire)) {
     co_await set_sleeve_over(step, level, *wire);
   }
   const bool betters = error_model_->wire_bending_rad < kBendsAgain_rad;
@@ -55,7 +45,7 @@ Script Surgeon::look_at_wire(std::size_t level, Side side) {
 }
 
 Script Surgeon::set_sleeve_over(const StepOnDisplay& step, std::size_t level,
-                                const DrivenWire& wire) {
+                                const StandingWire& wire) {
   const auto& room_from_vertebra = layout_->room_from_vertebra(level);
   const Vec3 outwards = -(room_from_vertebra * Direction<Vertebra>{wire.direction}).v;
   const Point<Room> entry = room_from_vertebra * wire.entry;

@@ -8,11 +8,6 @@
 namespace orthonav::sim {
 namespace {
 
-/// Visual reaction to a moving target (Jeannerod 1988: 0.2-0.3 s).
-constexpr double kReaction_s = 0.25;
-/// Share of the seen deviation taken out in a second; times the reaction well below 1, or the hand
-/// would swing.
-constexpr double kGain_per_s = 1.6;
 constexpr double kSteady_s = 0.7;
 /// So long a number is watched before the last correction.
 constexpr double kHold_s = 0.7;
@@ -128,6 +123,7 @@ Script Surgeon::settle(const Aim& aim, double content_rad, bool& settled) {
   if (body_.random().uniform() < error_model_->misreading_probability) {
     misread = misread + kMisread_rad * perpendicular_to(body_.posture().grip.axis);
   }
+  misread_rad_ = misread;
   Grip last_grip = body_.posture().grip;
   last_grip.axis = (rotation_from_vector(sum / readings + misread) * last_grip.axis).normalized();
   co_await body_.move(last_grip, kLastMove_s);

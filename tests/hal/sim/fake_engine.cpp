@@ -270,7 +270,8 @@ Transform<Room, Vertebra> FakeEngine::room_from_shown(const std::string& label) 
 }
 
 Transform<World, Vertebra> FakeEngine::world_from_vertebra(const std::string& label) const {
-  return headset_.world_from_room() * room_from_shown(label);
+  return headset_.world_from_room() *
+         (options_.peeks ? room_from_vertebra(label) : room_from_shown(label));
 }
 
 Transform<Vertebra, Vertebra> FakeEngine::vertebra_from_shown(const std::string& label) const {
