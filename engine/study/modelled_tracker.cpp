@@ -141,6 +141,7 @@ class ModelledTracker final : public nav::ToolTracker {
     nav::ToolState& state = states_[i];
     state.world_from_marker = filters_[i].state();
     state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
+    nav::add_head(state, frame);
     state.cameras = (seen.left_px ? 1 : 0) + (seen.right_px ? 1 : 0);
     state.pair = nav::PairPose{fit->rig_from_marker, fit->covariance,
                                room_.options().error_model.exposure_s};
@@ -154,6 +155,7 @@ class ModelledTracker final : public nav::ToolTracker {
     states_[i].world_from_marker = filters_[i].predicted(frame.time);
     states_[i].rig_from_marker =
         frame.world_from_rig->inverse() * states_[i].world_from_marker.value;
+    nav::add_head(states_[i], frame);
   }
 
   void calibrate() {

@@ -68,6 +68,21 @@ const char* problem_of(ClickerAction action, const ButtonState& button) {
   return nullptr;
 }
 
+/// What a device says of its own error is finite, and no variance is negative.
+Status check_covariance(const char* what, const StereoFrame& frame) {
+  if (!frame.head_covariance) {
+    return {};
+  }
+  bool sound = true;
+  for (std::size_t i = 0; i < frame.head_covariance->size(); ++i) {
+    const double entry = (*frame.head_covariance)[i];
+    sound = sound && std::isfinite(entry) && (i % 7 != 0 || entry >= 0.0);
+  }
+  return sound ? Status{}
+               : Status(Error{std::string(what) + ": covariance of the head's pose at " +
+                              in_seconds(frame.time) + " is none"});
+}
+
 }  // namespace
 
 void StereoFrame::clear() {
@@ -75,13 +90,17 @@ void StereoFrame::clear() {
   right.clear();
   sequence = -1;
   world_from_rig.reset();
+  head_covariance.reset();
 }
 
 Result<Next> StereoCamera::next(StereoFrame& frame) {
   constexpr const char* kWhat = "camera pair";
   return order_.next(
       kWhat, frame, [&] { return do_next(frame); },
-      [&] { return check_images(kWhat, frame, calibration()); });
+      [&] {
+        Status good = check_images(kWhat, frame, calibration());
+        return good ? check_covariance(kWhat, frame) : good;
+      });
 }
 
 Tracked<Transform<World, Rig>> HeadTracker::world_from_rig(Timestamp at) const {

@@ -86,7 +86,9 @@ void SimCameras::expose(Timestamp time, StereoFrame& frame) {
   room_.last_frame = time;
   frame.sequence = number_;
   frame.time = time;
-  frame.world_from_rig = room_.head.at(time).value;
+  const auto head = room_.head.at(time);
+  frame.world_from_rig = head.value;
+  frame.head_covariance = head.covariance;
 }
 
 void SimCameras::render(StereoFrame& frame) {

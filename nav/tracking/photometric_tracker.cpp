@@ -154,6 +154,7 @@ bool PhotometricTracker::take(std::size_t i, const StereoFrame& frame,
   ToolState& state = states_[i];
   state.world_from_marker = trail.filter.state();
   state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
+  add_head(state, frame);
   state.cameras = (fit->left ? 1 : 0) + (fit->right ? 1 : 0);
   state.pair = PairPose{fit->rig_from_marker, fit->covariance_in_rig, trail.follower.exposure_s()};
   trail.last_seen = state.world_from_marker.value;
@@ -172,6 +173,7 @@ void PhotometricTracker::predict(std::size_t i, const StereoFrame& frame) {
   ToolState& state = states_[i];
   state.world_from_marker = trail.filter.predicted(frame.time);
   state.rig_from_marker = frame.world_from_rig->inverse() * state.world_from_marker.value;
+  add_head(state, frame);
 }
 
 Result<std::unique_ptr<ToolTracker>> create_photometric_tracker(

@@ -41,6 +41,10 @@ struct ToolState {
   std::optional<PairPose> pair = {};
 };
 
+/// Adds the head's own error, as the device states it, to the covariance in World: over the lever
+/// arm from the rig to the tag. What the device does not state is left out.
+void add_head(ToolState& state, const StereoFrame& frame);
+
 struct TrackerOptions {
   /// 1: search the whole of both images in every pair. n: only around predictions, and the whole
   /// image every n-th pair while something is missing.
