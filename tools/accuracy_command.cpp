@@ -159,11 +159,11 @@ void add_accuracy_command(CLI::App& app, Action& action) {
   command->add_option("RECORDING", arguments->recording, "Folder of a StreamRecorder recording")
       ->required();
   command->add_option("--tools", arguments->tools_file, "Tool definitions (JSON)")->required();
-  command->add_option("--pointer", arguments->pointer, "Name of the tool; without it the pointer")
+  command->add_option("--pointer", arguments->pointer, "Name of the tool; default: pointer")
       ->check(some_text());
   command
       ->add_option("--board", arguments->board_file,
-                   "Description of the board that was touched; without it no distances")
+                   "Description of the board that was touched; default: no distances")
       ->check(some_text());
   command->add_option("--method", arguments->method, "Tracking")
       ->type_name("NAME")
@@ -172,7 +172,7 @@ void add_accuracy_command(CLI::App& app, Action& action) {
   for (LimitArgument& limit : arguments->limits) {
     const nav::AccuracyLimits& given = defaults.*limit.limits;
     char text[160];
-    std::snprintf(text, sizeof text, "%s; without it %g %g", limit.what, given.pass_m * 1e3,
+    std::snprintf(text, sizeof text, "%s; default: %g %g", limit.what, given.pass_m * 1e3,
                   given.note_m * 1e3);
     command->add_option(limit.option, limit.mm, text)
         ->expected(2)

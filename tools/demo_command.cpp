@@ -111,7 +111,7 @@ class Demo {
     if (signals_.caught()) {
       tell_what_is_kept(signals_, {arguments_.out, arguments_.record});
     } else if (!result->completed) {
-      std::fprintf(stderr, "orthonav: the operation did not come to its end\n");
+      std::fprintf(stderr, "orthonav: operation incomplete\n");
     }
     return result->completed ? kDone : kNo;
   }

@@ -61,7 +61,7 @@ Status write_demo_report(const std::filesystem::path& folder, const engine::Oper
   }
   content.plots = report.plots;
   content.notes = notes_of(report);
-  content.timings = {{"track a stereo pair and all that follows", result.loop.step_wall_ms}};
+  content.timings = {{"tracking and update", result.loop.step_wall_ms}};
   if (!result.loop.draw_wall_ms.empty()) {
     content.timings.push_back(
         {"draw the surgeon's view (room and holograms)", result.loop.draw_wall_ms});

@@ -144,7 +144,7 @@ void add_detect_command(CLI::App& app, Action& action) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       ->add_option("--max-hamming", arguments->max_hamming,
-                   "Corrected bits, 0-2; without it 2, 1 for families of over 10,000 codes")
+                   "Corrected bits, 0-2; default: 2, or 1 for families of over 10,000 codes")
       ->check(whole_number(0, 2));
   command
       ->add_option("--min-margin", arguments->min_log_likelihood_ratio,

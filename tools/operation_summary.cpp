@@ -28,9 +28,9 @@ std::string operation_summary(const engine::OperationResult& result) {
       continue;
     }
     out += level.label + ": " + (level.accepted ? "accepted" : "not accepted") + " after " +
-           std::to_string(level.attempts) + " attempt(s), RMSE " + number(level.rmse_m, 1e3, "mm") +
-           ", TRE " + number(level.tre_m, 1e3, "mm") + ", " +
-           (level.points ? std::to_string(*level.points) : "-") + " points in " +
+           std::to_string(level.attempts) + (level.attempts == 1 ? " attempt" : " attempts") +
+           ", RMSE " + number(level.rmse_m, 1e3, "mm") + ", TRE " + number(level.tre_m, 1e3, "mm") +
+           ", " + (level.points ? std::to_string(*level.points) : "-") + " points in " +
            number(level.digitization_s, 1.0, "s") + "\n";
     for (const engine::ScrewOutcome& screw : level.screws) {
       out += "  " + std::string(name_of(screw.side)) + ": angle error " +

@@ -229,7 +229,7 @@ void add_board(CLI::App& print, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--gap-mm", arguments->gap_mm,
-                   "Between the borders of neighbours; without it 0.3 of the size")
+                   "Between the borders of neighbours; default: 0.3 of the size")
       ->check(finite_number(0, 500));
   command->add_option("--family", arguments->family, "Tag family")->capture_default_str();
   command->add_option("--first-id", arguments->first_id, "Id of the first tag")
@@ -238,7 +238,7 @@ void add_board(CLI::App& print, Action& action) {
   arguments->page.add_to(*command);
   command
       ->add_option("--json", arguments->json,
-                   "The board's description; without it beside the PDF, with its name")
+                   "The board's description; default: beside the PDF, with its name")
       ->check(some_text())
       ->type_name("FILE");
   command->callback(

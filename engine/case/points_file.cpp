@@ -55,7 +55,7 @@ Result<Vec3> point_from(const std::vector<std::string>& fields, const Columns& c
     }
     const auto value = number_from(fields[column]);
     if (!value) {
-      return Error{"field \"" + fields[column].substr(0, 40) + "\" is no finite number"};
+      return Error{"field \"" + fields[column].substr(0, 40) + "\" is not a number"};
     }
     point[axis] = *value;
   }

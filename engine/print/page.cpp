@@ -18,7 +18,7 @@ constexpr int kRulerMm = 100;
 constexpr double kTickWidthMm = 0.15;
 constexpr double kTextMm = 2.6;
 constexpr double kHeadingTextMm = 3.2;
-constexpr const char* kCheck = "check: 100 mm";
+constexpr const char* kCheck = "measure 100 mm";
 
 double tick_length_mm(int mm) { return mm % 10 == 0 ? 4.0 : (mm % 5 == 0 ? 3.0 : 2.0); }
 

@@ -267,8 +267,8 @@ std::string registration_legend(const RegisteredLevel& level, const Registration
   out += "</b> +" + html_number(scene.full_colour_m * 1e3, 1) +
          " mm<em>points inside the bone, on it, outside it</em></span>";
   if (scene.off_bone > 0) {
-    out += std::string("<span><b class=cross>\u00d7</b>off the bone") +
-           (level.registration.noise_m > 0.0 ? ", without a say" : "") + "</span>";
+    out += std::string("<span><b class=cross>\u00d7</b>outlier") +
+           (level.registration.noise_m > 0.0 ? ", not used" : "") + "</span>";
   }
   if (!scene.checks.empty()) {
     out += "<span><b class=cross>\u25c7</b>touched to verify it</span>";
@@ -277,10 +277,9 @@ std::string registration_legend(const RegisteredLevel& level, const Registration
          swatch(hex(kOpenBone), "not stroked") +
          swatch(hex(kUntouchable), "out of the pointer\u2019s reach");
   if (!level.screws.empty() && level.registration.uncertainty) {
-    out += "<span><i class=oval></i><em>holds 95 of 100 errors at entry and target" +
-           (scene.magnified > 1.0
-                ? ", drawn <b>" + html_number(scene.magnified, 0) + "\u00d7</b> as large as it is"
-                : std::string(", true size")) +
+    out += "<span><i class=oval></i><em>95 % error ellipsoid at entry and target" +
+           (scene.magnified > 1.0 ? " (drawn <b>" + html_number(scene.magnified, 0) + "\u00d7</b>)"
+                                  : std::string(", true size")) +
            "</em></span>";
   }
   return out + "</div>";

@@ -158,10 +158,10 @@ std::string certainty_of(const RegisteredLevel& level) {
     out += " " + sources_of(r.common);
   }
   if (r.weakest) {
-    out += " Least sure: " + text_of(*r.weakest) + ".";
+    out += " Least certain: " + text_of(*r.weakest) + ".";
   }
   if (r.stroke_next) {
-    out += " To know it better: " + text_of(*r.stroke_next) + ".";
+    out += " To improve: " + text_of(*r.stroke_next) + ".";
   }
   return out;
 }

@@ -80,18 +80,17 @@ std::string rows_of_best(const RegisteredLevel& level) {
   const nav::Registration& r = level.registration;
   const nav::PoseSearchRegistrationOptions limits;
   return figure_row("RMSE <small>mm</small>", plain(r.rmse_m * 1e3, 2),
-                    "of all points to the surface; hardly tells the error at the screws") +
+                    "of all points to the surface; a poor indicator of the error at the screws") +
          figure_row("Points on the bone <small>%</small>",
                     at_least(r.inlier_fraction * 1e2, 0, limits.min_inlier_fraction * 1e2, 0),
-                    "the rest lies farther off than the scatter explains and has no say") +
+                    "the rest lie farther off than the scatter explains and are ignored") +
          figure_row("Scatter <small>mm</small>",
                     at_most(r.noise_m * 1e3, 2, limits.max_noise_m * 1e3, 1),
                     "standard deviation of the points on the bone about its surface") +
-         figure_row("Height of the tip above the bone <small>mm</small>",
-                    plain(r.standoff_m * 1e3, 2),
-                    "its mean over the strokes, as far as they tell it; taken into account") +
-         figure_row("Independent points", plain(r.effective_points, 0),
-                    "what the points are worth: neighbours share the tracker’s error") +
+         figure_row("Estimated offset of the tip above the bone <small>mm</small>",
+                    plain(r.standoff_m * 1e3, 2), "mean over the strokes; corrected") +
+         figure_row("Effective sample size", plain(r.effective_points, 0),
+                    "effective points: neighbours share the tracker’s error") +
          figure_row("Surface stroked <small>%</small>",
                     at_least(r.coverage_fraction * 1e2, 0, limits.min_coverage_fraction * 1e2, 0),
                     "of what a pointer reaches from behind") +
@@ -108,7 +107,7 @@ std::string rows_of_paper(const RegisteredLevel& level) {
   const nav::RegistrationOptions limits;
   return figure_row("RMSE <small>mm</small>",
                     at_most(r.rmse_m * 1e3, 2, limits.max_rmse_m * 1e3, 1),
-                    "of all points to the surface; hardly tells the error at the screws") +
+                    "of all points to the surface; a poor indicator of the error at the screws") +
          figure_row(
              "RMSE of the next best pose <small>mm</small>",
              at_least(r.runner_up_rmse_m * 1e3, 2, limits.min_runner_up_ratio * r.rmse_m * 1e3, 2),
@@ -265,7 +264,7 @@ Result<std::string> registration_section(const RegisteredLevel& level) {
     return tissue;
   }
   return "<section class=registration><h2>" + title_of(level) + ": " +
-         (level.registration.accepted ? "<span class=good>accepted by its figures</span>"
+         (level.registration.accepted ? "<span class=good>passed the numeric checks</span>"
                                       : "<span class=bad>refused</span>") +
          "</h2>" + in_words(level) + *drawn + *tissue + figures(level) + "</section>";
 }

@@ -169,7 +169,7 @@ ReportPlot timing_plot(const std::vector<ReportTiming>& timings) {
 
 void timing_table(const std::vector<ReportTiming>& timings, std::string& html) {
   html +=
-      "<section><h2>What a frame costs</h2><table><thead><tr><th></th><th>median "
+      "<section><h2>Frame timing</h2><table><thead><tr><th></th><th>median "
       "<small>ms</small></th><th>99 % <small>ms</small></th><th>n</th></tr></thead><tbody>";
   for (const ReportTiming& timing : timings) {
     const auto at = [&timing](double fraction) {
@@ -244,7 +244,7 @@ std::string head(const json& report) {
 void add_notes(const json& report, const std::vector<std::string>& notes, std::string& html) {
   html += "<ul class=notes>";
   if (const std::string why = text_of(report, "why_not"); !why.empty()) {
-    html += "<li><b>The operation did not come to its end</b>: " + html_escaped(why) + "</li>";
+    html += "<li><b>Operation incomplete</b>: " + html_escaped(why) + "</li>";
   }
   for (const std::string& note : notes) {
     html += "<li>" + html_escaped(note) + "</li>";

@@ -85,11 +85,11 @@ void append(std::string& out, const nav::BonePlace& place) {
 void append(std::string& out, const nav::UncertainMotion& motion) {
   using Kind = nav::UncertainMotion::Kind;
   constexpr std::array<std::string_view, 6> kMotions = {
-      "slides sideways",  "moves in and out",   "slides along the spine",
-      "nods up and down", "rolls to the sides", "twists about the spine's axis"};
+      "medial-lateral shift", "anterior-posterior shift", "cranial-caudal shift",
+      "flexion/extension",    "lateral bending",          "axial rotation"};
   static_assert(static_cast<std::size_t>(Kind::kUnconstrained) == kMotions.size());
   if (motion.kind == Kind::kUnconstrained) {
-    out += "a motion of the bone is left wholly open";
+    out += "one motion of the bone is not determined";
     return;
   }
   out += kMotions[static_cast<std::size_t>(motion.kind)];
@@ -162,7 +162,7 @@ void write_coaching(PartedText text, const Coaching& coaching, std::string_view 
   if (!coaching.unique) {
     // An error about a pose that may be the wrong one says nothing.
     text.begin(Importance::kMessage, separator);
-    out += "could be more than one pose";
+    out += "ambiguous";
   } else {
     text.begin(Importance::kFigures, separator);
     append_mm(out, coaching.expected_m, 1);

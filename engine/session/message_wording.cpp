@@ -134,7 +134,7 @@ struct MessageWriter {
     }
     if (m.another_level_fits) {
       text.begin(Importance::kNext, "; ");
-      out += "make sure of the level";
+      out += "verify the vertebral level";
     } else if (m.stroke_next) {
       text.begin(Importance::kNext, "; ");
       append(out, *m.stroke_next);

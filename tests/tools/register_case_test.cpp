@@ -226,8 +226,9 @@ TEST_P(RegisterCase, DrawsTheRegistrationOnAPageOfItsOwn) {
   EXPECT_EQ(count(page, "<ellipse "), 3U * 4U) << "two screws, entry and target, three views";
   EXPECT_EQ(count(page, "class=\"points\""), 3U);
   EXPECT_EQ(count(page, "class=\"off\""), 3U) << "12 % lie off the bone";
-  for (const char* piece : {"Registration of L4", "accepted by its figures", "95 of 100 errors",
-                            "not stroked", "left entry", "right target", "points.csv"}) {
+  for (const char* piece :
+       {"Registration of L4", "passed the numeric checks", "95 % error ellipsoid", "not stroked",
+        "left entry", "right target", "points.csv"}) {
     EXPECT_THAT(page, HasSubstr(piece));
   }
   for (const char* piece :

@@ -109,7 +109,7 @@ void draw_time(PreviewModel& model, const Moment& moment, const PanelFacts& fact
   if (ImGui::SliderScalar("##pair", ImGuiDataType_S64, &pair, &first, &last, "pair %lld")) {
     model.scrub_to(pair);
   }
-  ImGui::TextColored(model.looks_back() ? kFair : kDim, "%s%.2f s of the headset's clock",
+  ImGui::TextColored(model.looks_back() ? kFair : kDim, "%s%.2f s (headset clock)",
                      model.looks_back() ? "looking back, " : "",
                      seconds(moment.time.time_since_epoch()));
 }

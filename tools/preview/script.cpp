@@ -118,7 +118,8 @@ Status Script::check(const ScriptLine& line) const {
   const auto word = std::find_if(kWords.begin(), kWords.end(),
                                  [&](const Word& w) { return w.word == line.word; });
   if (word == kWords.end()) {
-    return error(line, "is no word of a script");
+    return Error{name_ + ":" + std::to_string(line.number) + ": unknown script command \"" +
+                 line.word + "\""};
   }
   switch (word->follows) {
     case Follows::kNothing:

@@ -301,8 +301,8 @@ TEST(RegistrationFigures, SayHowSureInPlainWords) {
                                     nav::BonePlace::Height::kMiddle};
   EXPECT_THAT(certainty_of(level),
               AllOf(StartsWith("95 of 100 errors at the screws are expected to be below 0.6"),
-                    HasSubstr("Least sure: slides along the spine (0.4 mm at the screws). To know "
-                              "it better: stroke the left lamina.")));
+                    HasSubstr("Least certain: cranial-caudal shift (0.4 mm at the screws). To "
+                              "improve: stroke the left lamina.")));
   level.registration.accepted = false;
   EXPECT_THAT(certainty_of(level), StartsWith("Were this pose right, "));
 }

@@ -74,7 +74,7 @@ TEST(Coaching, PromisesNoErrorOfAPoseThatMayBeTheWrongOne) {
   nav::Registration r = promising();
   r.log_likelihood_ratio = 3.0;
   r.predicted_tre_m = 0.0006;
-  EXPECT_EQ(text_of(coaching_from(r)), "could be more than one pose, stroke the left lamina");
+  EXPECT_EQ(text_of(coaching_from(r)), "ambiguous, stroke the left lamina");
 }
 
 TEST(Coaching, SaysWhatElseStandsAgainstASmallError) {

@@ -127,11 +127,11 @@ TEST(Wording, SaysWhichPartsGiveWayFirst) {
 
 TEST(Wording, NamesTheMotionBehindAnError) {
   const nav::UncertainMotion motion{nav::UncertainMotion::Kind::kCraniocaudal, 0.0012};
-  EXPECT_EQ(text_of(motion), "slides along the spine (1.2 mm at the screws)");
+  EXPECT_EQ(text_of(motion), "cranial-caudal shift (1.2 mm at the screws)");
   EXPECT_EQ(text_of(nav::RefusalReason{Reason::kTreAtScrews, 0.0024, 0.0015, motion, {}}),
-            "error expected at the screws 2.4 mm, limit 1.5 mm: slides along the spine (1.2 mm at "
+            "error expected at the screws 2.4 mm, limit 1.5 mm: cranial-caudal shift (1.2 mm at "
             "the screws)");
-  EXPECT_EQ(text_of(nav::UncertainMotion{}), "a motion of the bone is left wholly open");
+  EXPECT_EQ(text_of(nav::UncertainMotion{}), "one motion of the bone is not determined");
 }
 
 TEST(Wording, SaysWhereToStroke) {
@@ -180,7 +180,7 @@ TEST(Wording, SaysWhatStrokesAreWorth) {
   EXPECT_EQ(text_of(coaching), "-- mm expected, enough to register");
   coaching.unique = coaching.enough = false;
   coaching.against.reset();
-  EXPECT_EQ(text_of(coaching), "could be more than one pose, stroke the left lamina")
+  EXPECT_EQ(text_of(coaching), "ambiguous, stroke the left lamina")
       << "no error is promised of a pose that may be the wrong one";
 }
 
@@ -355,7 +355,7 @@ TEST(Wording, SaysWhyARegistrationWasRefusedAndWhatToDo) {
   refused.another_level_fits = true;
   EXPECT_EQ(line_with(Message(refused)),
             "refused: the points scatter 1.9 mm about the surface, limit 1.6 mm; the points fit "
-            "level L3 as well; make sure of the level");
+            "level L3 as well; verify the vertebral level");
   RegistrationRefused none;
   none.error = Error{"0 points, at least 100 needed"};
   EXPECT_EQ(line_with(Message(none)), "refused: 0 points, at least 100 needed");
