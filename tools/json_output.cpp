@@ -1,6 +1,8 @@
 #include "tools/json_output.h"
 
 #include <cstdio>
+#include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "engine/io/atomic_file.h"
@@ -38,6 +40,25 @@ Status JsonOutput::write_text(const std::string& text) const {
     return engine::write_file(place_, text);
   }
   return {};
+}
+
+Status JsonOutput::stream(const std::function<Status(std::ostream&)>& make) const {
+  if (on_stdout()) {
+    return make(std::cout);
+  }
+  if (!given()) {
+    return {};
+  }
+  auto file = engine::AtomicFile::create(place_);
+  if (!file) {
+    return file.error();
+  }
+  std::ofstream out(file->temporary_path(), std::ios::binary);
+  if (const Status made = make(out); !made) {
+    return made;
+  }
+  out.close();
+  return out ? file->commit() : Status(Error{place_ + ": cannot be written"});
 }
 
 }  // namespace orthonav::tools

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "engine/case/operation_plan.h"
+#include "engine/study/system_profile.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
 #include "tools/command.h"
@@ -23,10 +24,31 @@ struct PreviewArguments {
   ScrewArguments screws;
   std::string script;
   std::string models;
+  std::string profile;
   bool perfect = false;
   std::optional<double> pace;
   preview::PreviewOptions options;
 };
+
+/// The room, the guidance and the method of a published system. One whose navigation is stated as
+/// an error shows nothing that its cameras see.
+Status take_profile(PreviewArguments& arguments) {
+  if (arguments.profile.empty()) {
+    return {};
+  }
+  const auto system = engine::system_named(arguments.profile);
+  if (!system) {
+    return system.error();
+  }
+  if (system->navigation) {
+    return Error{"--profile " + arguments.profile +
+                 ": its navigation is an error that was stated, not one that can be watched"};
+  }
+  arguments.method = system->method;
+  arguments.options.room.guidance = system->guidance;
+  arguments.options.room.error_model = system->magnitudes;
+  return {};
+}
 
 /// What is to be previewed, still without the prepared models.
 Result<preview::OperationSource> source_of(const PreviewArguments& arguments) {
@@ -70,6 +92,9 @@ int run_until_closed(preview::PreviewApp& app, const std::string& out, StopSigna
 }
 
 int preview_window(PreviewArguments arguments, StopSignals& signals) {
+  if (const Status taken = take_profile(arguments); !taken) {
+    return bad_input(taken.error().message);
+  }
   auto source = source_of(arguments);
   if (!source) {
     return bad_input(source.error().message);
@@ -163,9 +188,18 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
       ->add_option("--case", arguments->case_folder,
                    "case folder with case.json (default: the built-in phantom)")
       ->check(some_text());
-  preview->add_option("--seed", arguments->options.room.seed, "seed of every random number")
+  auto* seed =
+      preview->add_option("--seed", arguments->options.room.seed, "seed of every random number");
+  seed->check(seed_number())->capture_default_str();
+  preview
+      ->add_option("--replay", arguments->options.room.seed,
+                   "the operation of a study that had this seed")
       ->check(seed_number())
-      ->capture_default_str();
+      ->excludes(seed);
+  preview
+      ->add_option("--profile", arguments->profile,
+                   "the room of a published system, by its name or as a file")
+      ->check(some_text());
   preview->add_option("--method", arguments->method, "best or paper (the published one)")
       ->capture_default_str();
   preview->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")

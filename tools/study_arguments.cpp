@@ -8,6 +8,7 @@
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
 #include "tools/arguments.h"
+#include "tools/build_name.h"
 #include "tools/case_source.h"
 
 namespace orthonav::tools {
@@ -72,7 +73,7 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   }
   options.runs = arguments.runs;
   options.store = arguments.store;
-  options.version = ORTHONAV_VERSION;
+  options.version = build_name();
   options.first_seed = arguments.first_seed;
   options.jobs = jobs_or_cores(arguments.jobs);
   int used = 0;

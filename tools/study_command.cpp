@@ -94,6 +94,11 @@ int merge(const StudyArguments& arguments) {
     return bad_input(place.error().message);
   }
   if (std::all_of(arguments.merged.begin(), arguments.merged.end(), is_store)) {
+    if (arguments.merged_report.empty()) {
+      const Status merged = arguments.merged_json.stream(
+          [&](std::ostream& out) { return engine::merge_stores(arguments.merged, out); });
+      return merged ? kDone : bad_input(merged.error().message);
+    }
     const auto study = engine::merge_stores(arguments.merged);
     if (!study) {
       return bad_input(study.error().message);

@@ -2,11 +2,28 @@
 
 #include <map>
 
+#include "engine/study/system_profile.h"
+
 namespace orthonav::tools {
 namespace {
 
-std::string preview_words(const StudyArguments& arguments, const std::string& folder) {
-  std::string words = " --method " + quoted(arguments.method);
+/// Whether the preview can show an operation of the study: by what its cameras see, in the room of
+/// its profile.
+bool can_be_shown(const StudyArguments& arguments) {
+  if (arguments.navigation_alone || arguments.reference) {
+    return false;
+  }
+  const auto system = arguments.profile.empty()
+                          ? Result<engine::SystemProfile>(engine::SystemProfile())
+                          : engine::system_named(arguments.profile);
+  return system.ok() && !system->navigation;
+}
+
+std::string preview_of(const StudyArguments& arguments, const std::string& folder,
+                       std::uint64_t seed) {
+  std::string words = "orthonav preview --replay " + std::to_string(seed);
+  words += arguments.profile.empty() ? " --method " + quoted(arguments.method)
+                                     : " --profile " + quoted(arguments.profile);
   words += folder.empty() ? "" : " --case " + quoted(folder);
   for (const std::string& level : arguments.levels) {
     words += " --levels " + quoted(level);
@@ -22,14 +39,18 @@ engine::ReplayCommand replay_of(const StudyArguments& arguments,
   for (const engine::Case& one : cases) {
     folders.emplace(one.name, one.folder);
   }
-  const bool shown =
-      arguments.profile.empty() && arguments.measurement == "pixels" && !arguments.navigation_alone;
-  return [arguments, folders, shown](const std::string& case_name, std::uint64_t seed) {
+  const bool shown = can_be_shown(arguments);
+  const bool pixels = arguments.measurement == "pixels";
+  return [arguments, folders, shown, pixels](const std::string& case_name, std::uint64_t seed) {
     const auto known = folders.find(case_name);
     const std::string folder = known == folders.end() ? "" : known->second;
-    const std::string number = " --seed " + std::to_string(seed);
-    return shown ? "orthonav preview" + number + preview_words(arguments, folder)
-                 : "orthonav study" + operation_words(arguments, folder) + " --runs 1" + number;
+    const std::string look = preview_of(arguments, folder, seed);
+    if (shown && pixels) {
+      return look;
+    }
+    const std::string again = "orthonav study" + operation_words(arguments, folder) +
+                              " --runs 1 --seed " + std::to_string(seed);
+    return shown ? again + "  # the same bones and hands on pixels: " + look : again;
   };
 }
 

@@ -6,9 +6,10 @@
 
 namespace orthonav::tools {
 
-/// The command that repeats an operation of this study. On pixels, with the room as documented, the
-/// preview shows it; what the preview can't show (a profile, the measurement model, magnitudes at
-/// zero) is a study of that one operation.
+/// The command that repeats an operation of this study. On pixels the preview shows it. In the
+/// measurement model it is a study of that one operation, with the preview of the same room on
+/// pixels as a comment; alone, where the preview can't show the room at all (stated navigation, a
+/// reference, magnitudes at zero).
 [[nodiscard]] engine::ReplayCommand replay_of(const StudyArguments& arguments,
                                               std::span<const engine::Case> cases);
 

@@ -6,6 +6,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/study/sensitivity.h"
 #include "engine/study/sensitivity_page.h"
+#include "engine/study/sensitivity_regression.h"
 #include "engine/study/system_profile.h"
 #include "tools/arguments.h"
 #include "tools/case_source.h"
@@ -34,9 +35,15 @@ int run_sensitivity(const SensitivityArguments& arguments) {
   engine::SensitivityOptions options = arguments.options;
   options.operation = modelled_operation(*system);
   options.jobs = jobs_or_cores(arguments.jobs);
-  const auto found = engine::sensitivities(*spine, options, counted("points"));
+  std::size_t used = 0;
+  const auto found = options.points > 0 ? engine::regressed_sensitivities(*spine, options, used,
+                                                                          counted("operations"))
+                                        : engine::sensitivities(*spine, options, counted("points"));
   if (!found) {
     return bad_input(found.error().message);
+  }
+  if (options.points > 0) {
+    std::printf("%zu of %d operations placed a screw.\n\n", used, options.points);
   }
   std::fputs(engine::sensitivity_table(*found, options).c_str(), stdout);
   if (arguments.report.empty()) {
@@ -55,6 +62,11 @@ void add_sensitivity_command(CLI::App& study, Action& action) {
       "sensitivity", "Which magnitude of the simulated room decides entry and angle (Morris)");
   command->add_option("--profile", arguments->profile, "a published system")
       ->check(some_text())
+      ->capture_default_str();
+  command
+      ->add_option("--points", arguments->options.points,
+                   "operations at random places, regressed, in place of Morris's method")
+      ->check(whole_number(0, 1'000'000))
       ->capture_default_str();
   command->add_option("--trajectories", arguments->options.trajectories, "of Morris's method")
       ->check(whole_number(1, 1000))

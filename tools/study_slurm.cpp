@@ -8,8 +8,10 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "engine/io/atomic_file.h"
 #include "engine/study/study_definition.h"
@@ -110,16 +112,25 @@ int shell(const std::string& command) {
   return answer;
 }
 
+/// Whether the shell would find a program.
+bool is_there(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 Status submit(const std::string& folder, const std::set<int>& shards) {
   const std::string log = (fs::path(folder) / "task-%a.log").string();
   const std::string command =
       "sbatch --wait --requeue --job-name=orthonav-study --array=" + ranges(shards) +
       " --output=" + quoted(log) + " " + quoted((fs::path(folder) / "task.sh").string()) + " 1>&2";
   const int answer = shell(command);
-  if (answer == -1 || (WIFEXITED(answer) && WEXITSTATUS(answer) == 127)) {
-    return Error{"--slurm: sbatch was not found (Debian: slurm-wlm)"};
-  }
-  return {};
+  return answer == -1 ? Status(Error{"--slurm: sbatch could not be started"}) : Status();
 }
 
 }  // namespace
@@ -147,6 +158,9 @@ int run_on_slurm(const StudyArguments& arguments, std::span<const engine::Case> 
         return bad_input(study.error().message);
       }
       return write_study(arguments.json, arguments.report, *study, replay_of(arguments, cases));
+    }
+    if (!is_there("sbatch")) {
+      return bad_input("--slurm: sbatch was not found (Debian: slurm-wlm)");
     }
     std::fprintf(stderr, "study: %zu of %d tasks to run\n", shards->size(), tasks);
     if (const Status submitted = submit(arguments.slurm, *shards); !submitted) {

@@ -7,6 +7,7 @@
 #include "engine/study/study.h"
 #include "engine/study/system_table.h"
 #include "tools/arguments.h"
+#include "tools/build_name.h"
 #include "tools/case_source.h"
 #include "tools/count_progress.h"
 #include "tools/study_arguments.h"
@@ -29,7 +30,7 @@ Result<engine::Study> study_of(const engine::SystemProfile& system, const engine
   options.runs = arguments.runs;
   options.first_seed = arguments.first_seed;
   options.jobs = jobs_or_cores(arguments.jobs);
-  options.version = ORTHONAV_VERSION;
+  options.version = build_name();
   if (!arguments.folder.empty()) {
     options.store = arguments.folder + "/" + system.name + ".db";
   }

@@ -42,32 +42,35 @@ ReportPart bound_json(const ClearanceQuality::Bound& bound) {
 
 }  // namespace
 
+void add_run(const nlohmann::ordered_json& run, ClearanceQuality& sum) {
+  for (const auto& level : run["levels"]) {
+    if (!level.contains("screws")) {
+      continue;
+    }
+    for (const auto& screw : level["screws"]) {
+      if (!screw.contains("clearance_mm")) {
+        continue;
+      }
+      count(screw, "planned", sum.planned);
+      count(screw, "tracked", sum.tracked);
+      if (bound_of(screw, "tracked")) {
+        const auto truth =
+            static_cast<std::size_t>(nav::grade_of(screw["clearance_mm"].get<double>() * 1e-3));
+        ++sum.grades[likeliest_of(screw["tracked"]["grade_probability"])][truth];
+      }
+    }
+  }
+}
+
 ClearanceQuality clearance_quality(const nlohmann::ordered_json& runs) {
   ClearanceQuality out;
   for (const auto& run : runs) {
-    for (const auto& level : run["levels"]) {
-      if (!level.contains("screws")) {
-        continue;
-      }
-      for (const auto& screw : level["screws"]) {
-        if (!screw.contains("clearance_mm")) {
-          continue;
-        }
-        count(screw, "planned", out.planned);
-        count(screw, "tracked", out.tracked);
-        if (bound_of(screw, "tracked")) {
-          const auto truth =
-              static_cast<std::size_t>(nav::grade_of(screw["clearance_mm"].get<double>() * 1e-3));
-          ++out.grades[likeliest_of(screw["tracked"]["grade_probability"])][truth];
-        }
-      }
-    }
+    add_run(run, out);
   }
   return out;
 }
 
-nlohmann::ordered_json clearance_quality_json(const nlohmann::ordered_json& runs) {
-  const ClearanceQuality quality = clearance_quality(runs);
+nlohmann::ordered_json clearance_json(const ClearanceQuality& quality) {
   ReportPart table = ReportPart::object();
   for (std::size_t g = 0; g < nav::kPedicleGrades; ++g) {
     table[nav::name_of(static_cast<nav::PedicleGrade>(g))] = quality.grades[g];

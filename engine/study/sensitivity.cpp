@@ -92,13 +92,18 @@ std::vector<Sensitivity> ranked(const std::vector<const sim::Magnitude*>& magnit
                    nav::summarize(effects[i].entry_mm).sd,
                    nav::summarize(effects[i].angle_deg).sd});
   }
-  std::stable_sort(out.begin(), out.end(), [](const Sensitivity& a, const Sensitivity& b) {
-    return a.entry_mm + a.angle_deg > b.entry_mm + b.angle_deg;
-  });
+  sort_by_effect(out);
   return out;
 }
 
 }  // namespace
+
+void sort_by_effect(std::vector<Sensitivity>& found) {
+  std::stable_sort(found.begin(), found.end(), [](const Sensitivity& a, const Sensitivity& b) {
+    return std::abs(a.entry_mm) + std::abs(a.angle_deg) >
+           std::abs(b.entry_mm) + std::abs(b.angle_deg);
+  });
+}
 
 std::vector<const sim::Magnitude*> studied_magnitudes(const sim::ErrorModel& own) {
   const sim::ErrorModel usual;
@@ -149,10 +154,13 @@ Result<std::vector<Sensitivity>> sensitivities(const Case& source,
 
 std::string sensitivity_table(const std::vector<Sensitivity>& found,
                               const SensitivityOptions& options) {
-  std::string out = "Mean change of a screw's error over the range, ± SD over " +
-                    std::to_string(options.trajectories) + " trajectories, " +
-                    std::to_string(options.runs) +
-                    " operations at each point.\n\n"
+  const std::string how =
+      options.points > 0 ? "95 % interval, regressed over " + std::to_string(options.points) +
+                               " operations at random places of all ranges"
+                         : "SD over " + std::to_string(options.trajectories) + " trajectories, " +
+                               std::to_string(options.runs) + " operations at each point";
+  std::string out = "Mean change of a screw's error over the range, ± " + how +
+                    ".\n\n"
                     "| magnitude | range | entry, mm | angle, ° |\n|---|---|---|---|\n";
   for (const Sensitivity& s : found) {
     char line[200];

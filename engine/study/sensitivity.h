@@ -16,9 +16,12 @@ struct Sensitivity {
   std::string unit;
   double low = 0.0;
   double high = 0.0;
-  double entry_mm = 0.0;  ///< mean of the absolute elementary effects (Morris's mu*)
+  /// Mean of the absolute elementary effects (Morris's mu*), or, regressed, the change over the
+  /// range.
+  double entry_mm = 0.0;
   double angle_deg = 0.0;
-  /// SD of the effects: large where it acts with others, or not in proportion.
+  /// SD of the effects: large where it acts with others, or not in proportion. Regressed: half
+  /// width of the 95 % interval.
   double entry_spread_mm = 0.0;
   double angle_spread_deg = 0.0;
 };
@@ -26,7 +29,9 @@ struct Sensitivity {
 struct SensitivityOptions {
   OperationOptions operation;  ///< its seed and the magnitudes that are studied are replaced
   int trajectories = 4;        ///< of the method
-  int runs = 3;                ///< operations at each point, the same seeds everywhere
+  /// Above 0: regressed over so many random places, with one operation at each, in place of it.
+  int points = 0;
+  int runs = 3;  ///< operations at each point, the same seeds everywhere
   std::uint64_t seed = 1;
   int jobs = 1;
 };
@@ -41,6 +46,9 @@ struct SensitivityOptions {
 Result<std::vector<Sensitivity>> sensitivities(const Case& source,
                                                const SensitivityOptions& options,
                                                const std::function<void(int, int)>& progress = {});
+
+/// What decides entry and angle most comes first.
+void sort_by_effect(std::vector<Sensitivity>& found);
 
 /// A table in Markdown.
 [[nodiscard]] std::string sensitivity_table(const std::vector<Sensitivity>& found,

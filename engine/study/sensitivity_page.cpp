@@ -47,15 +47,23 @@ std::string sensitivity_html(const std::vector<Sensitivity>& found,
   page.intro =
       "How far a magnitude of the simulated room moves a screw's mean error when it goes through "
       "its range: " +
-      std::to_string(options.trajectories) + " trajectories (Morris's method), " +
-      std::to_string(options.runs) + " operations at each point.";
+      (options.points > 0
+           ? std::to_string(options.points) +
+                 " operations, one at each random place of all ranges, regressed."
+           : std::to_string(options.trajectories) + " trajectories (Morris's method), " +
+                 std::to_string(options.runs) + " operations at each point.");
   const std::size_t bars = std::min(found.size(), kMostBars);
   page.body = "<section><h2>What decides</h2><div class=plots></div><p class=notes>The " +
               std::to_string(bars) + " of " + std::to_string(found.size()) +
-              " magnitudes that move entry and angle most. Bars: μ*, the mean of the absolute "
-              "effects. Whiskers: ± SD of the effects, large where a magnitude acts with others or "
-              "not in proportion; a whisker as long as its bar says that more trajectories are "
-              "needed, or that the effect changes its sign.</p></section>";
+              " magnitudes that move entry and angle most. " +
+              (options.points > 0
+                   ? "Bars: the change of the mean error over the range. Whiskers: its 95 % "
+                     "interval."
+                   : "Bars: μ*, the mean of the absolute "
+                     "effects. Whiskers: ± SD of the effects, large where a magnitude acts with "
+                     "others or not in proportion; a whisker as long as its bar says that more "
+                     "trajectories are needed, or that the effect changes its sign.") +
+              "</p></section>";
   add_effects(found, page.body);
   return framed(page, {{"bars",
                         {bars_of(found, "Entry point error", "mm", &Sensitivity::entry_mm,

@@ -7,6 +7,7 @@
 
 #include "base/printed.h"
 #include "engine/study/study_reading.h"
+#include "engine/study/two_samples.h"
 #include "nav/evaluation/errors.h"
 
 namespace orthonav::engine {
@@ -99,6 +100,7 @@ ComparedQuantity compared(const ReportQuantity& quantity, const Operations& firs
   out.first_mean = nav::summarize(of_first).mean;
   out.second_mean = nav::summarize(of_second).mean;
   out.difference = mean_interval(differences);
+  out.equivalent_p = equivalence_p(differences, margin_of(quantity));
   return out;
 }
 
@@ -150,22 +152,28 @@ Result<StudyComparison> compare_studies(const std::array<std::string, 2>& texts,
   return out;
 }
 
+double margin_of(const ReportQuantity& quantity) { return quantity.unit == "s" ? 5.0 : 0.5; }
+
 std::string comparison_table(const StudyComparison& comparison) {
   const std::string& a = comparison.first;
   const std::string& b = comparison.second;
-  std::string out =
-      std::to_string(comparison.operations) + " operations in both studies (only in `" + a +
-      "`: " + std::to_string(comparison.only_first) + ", only in `" + b +
-      "`: " + std::to_string(comparison.only_second) + "); completed: `" + a + "` " +
-      std::to_string(comparison.completed_first) + ", `" + b + "` " +
-      std::to_string(comparison.completed_second) +
-      ". Means over operations, pair by pair.\n\n| | `" + a + "` | `" + b + "` | `" + a +
-      "` less `" + b + "` | 95 % interval | operations | pairs |\n|---|---|---|---|---|---|---|\n";
+  std::string out = std::to_string(comparison.operations) +
+                    " operations in both studies (only in `" + a +
+                    "`: " + std::to_string(comparison.only_first) + ", only in `" + b +
+                    "`: " + std::to_string(comparison.only_second) + "); completed: `" + a + "` " +
+                    std::to_string(comparison.completed_first) + ", `" + b + "` " +
+                    std::to_string(comparison.completed_second) +
+                    ". Means over operations, pair by pair.\n\n| | `" + a + "` | `" + b + "` | `" +
+                    a + "` less `" + b +
+                    "` | 95 % interval | equivalent within | p | operations | pairs "
+                    "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const ComparedQuantity& q : comparison.quantities) {
     out += "| " + std::string(q.quantity.name) + ", " + std::string(q.quantity.unit) +
            printed(" | %.2f | %.2f | %+.2f | ", q.first_mean, q.second_mean, q.difference.mean) +
-           interval_text(q.difference, 2) + " | " + std::to_string(q.operations.size()) + " | " +
-           std::to_string(q.pairs) + (q.quantity.per_screw ? " screws |\n" : " levels |\n");
+           interval_text(q.difference, 2) +
+           printed(" | %g | %.3f | ", margin_of(q.quantity), q.equivalent_p) +
+           std::to_string(q.operations.size()) + " | " + std::to_string(q.pairs) +
+           (q.quantity.per_screw ? " screws |\n" : " levels |\n");
   }
   return out;
 }
@@ -196,6 +204,8 @@ nlohmann::ordered_json comparison_json(const StudyComparison& comparison) {
                                  {"difference", q.difference.mean},
                                  {"low_95", q.difference.low},
                                  {"high_95", q.difference.high},
+                                 {"margin", margin_of(q.quantity)},
+                                 {"equivalent_p", q.equivalent_p},
                                  {"operations", operations}});
   }
   return out;

@@ -39,6 +39,8 @@ struct ComparedQuantity {
   double first_mean = 0.0;
   double second_mean = 0.0;
   MeanInterval difference;  ///< first less second, over the operations
+  /// Of two one-sided tests: that the true difference is no smaller than the margin (`margin_of`).
+  double equivalent_p = 1.0;
 };
 
 /// Two studies over the same cases and seeds.
@@ -57,6 +59,9 @@ struct StudyComparison {
 /// messages. Refuses in one line what is no study, and studies without an operation in common.
 Result<StudyComparison> compare_studies(const std::array<std::string, 2>& texts,
                                         const std::array<std::string, 2>& names);
+
+/// Within which two studies are called equivalent: half a degree, half a millimetre; 5 s.
+[[nodiscard]] double margin_of(const ReportQuantity& quantity);
 
 /// A table in Markdown.
 [[nodiscard]] std::string comparison_table(const StudyComparison& comparison);

@@ -1,13 +1,16 @@
 #include "engine/study/study_definition.h"
 
-#include <map>
 #include <nlohmann/json.hpp>
+#include <ostream>
+#include <set>
+#include <sstream>
 #include <utility>
 
 #include "base/angle.h"
 #include "engine/case/prepared_parts_file.h"
-#include "engine/study/study_store.h"
+#include "engine/study/stored_study.h"
 #include "engine/study/study_text.h"
+#include "engine/study/study_totals.h"
 #include "hal/sim/magnitudes.h"
 
 namespace orthonav::engine {
@@ -24,40 +27,36 @@ Json case_json(const Case& source) {
   return {{"name", source.name}, {"levels", levels}};
 }
 
-/// The operations of all files by their numbers.
-Result<std::map<int, StoredOperation>> joined_operations(std::span<const std::string> paths,
-                                                         std::string& definition) {
-  std::map<int, StoredOperation> all;
-  for (const std::string& path : paths) {
-    const auto store = StudyStore::read(path);
-    if (!store) {
-      return store.error();
-    }
-    if (!definition.empty() && definition != store->definition()) {
-      return Error{path + ": holds study " + study_hash(store->definition()) +
-                   ", the others hold " + study_hash(definition)};
-    }
-    definition = store->definition();
-    auto operations = store->operations();
-    if (!operations) {
-      return operations.error();
-    }
-    for (StoredOperation& operation : *operations) {
-      const auto [there, added] = all.try_emplace(operation.index, operation);
-      if (!added && there->second.report != operation.report) {
-        return Error{path + ": operation " + std::to_string(operation.index) +
-                     " has another result than in the other files"};
-      }
-    }
-  }
-  return all;
-}
-
 std::size_t planned_in(const Json& definition) {
   const bool whole = definition.is_object() && definition.contains("runs") &&
                      definition["runs"].is_number_unsigned() && definition.contains("cases") &&
                      definition["cases"].is_array() && definition.contains("method");
   return whole ? definition["runs"].get<std::size_t>() * definition["cases"].size() : 0;
+}
+
+/// `text` of a study without runs, with the runs of the files in their place.
+Status write_merged(const std::string& text, std::span<const std::string> paths,
+                    std::ostream& out) {
+  constexpr std::string_view kRuns = "\n \"runs\": [";
+  const std::size_t place = text.find(std::string(kRuns) + "]") + kRuns.size();
+  out << text.substr(0, place);
+  const char* before = "\n  ";
+  const auto written = for_each_operation(paths, [&](const StoredOperation& operation) {
+    if (operation.report.empty()) {
+      return Status();
+    }
+    out << before;
+    before = ",\n  ";
+    for (const char c : text_of(Json::parse(operation.report))) {
+      out << c << (c == '\n' ? "  " : "");
+    }
+    return out ? Status() : Status(Error{"study merge: what was joined cannot be written"});
+  });
+  if (!written) {
+    return written.error();
+  }
+  out << (*before == ',' ? "\n " : "") << text.substr(place) << "\n" << std::flush;
+  return out ? Status() : Status(Error{"study merge: what was joined cannot be written"});
 }
 
 }  // namespace
@@ -98,41 +97,54 @@ std::string definition_of(std::span<const Case> cases, const StudyOptions& optio
   return out.dump();
 }
 
-Result<std::string> merge_stores(std::span<const std::string> paths) {
-  std::string definition;
-  const auto operations = joined_operations(paths, definition);
-  if (!operations) {
-    return operations.error();
-  }
-  const Json defined = Json::parse(definition, nullptr, false);
-  const std::size_t planned = planned_in(defined);
-  if (planned == 0) {
-    return Error{paths.front() + ": its definition is not one of a study"};
-  }
-  Json runs = Json::array();
+Status merge_stores(std::span<const std::string> paths, std::ostream& out) {
+  StudyTotals totals;
   Json failed = Json::array();
-  for (const auto& [number, operation] : *operations) {
+  const auto definition = for_each_operation(paths, [&](const StoredOperation& operation) {
     if (!operation.report.empty()) {
-      runs.push_back(Json::parse(operation.report));
+      totals.add(Json::parse(operation.report));
     } else {
       failed.push_back(
           {{"case", operation.case_name}, {"seed", operation.seed}, {"why", operation.why}});
     }
+    return Status();
+  });
+  if (!definition) {
+    return definition.error();
   }
-  return study_text(defined["method"], runs, failed, planned);
+  const Json defined = Json::parse(*definition, nullptr, false);
+  const std::size_t planned = planned_in(defined);
+  if (planned == 0) {
+    return Error{paths.front() + ": its definition is not one of a study"};
+  }
+  return write_merged(text_of(totals.study(defined["method"], Json::array(), failed, planned)),
+                      paths, out);
+}
+
+Result<std::string> merge_stores(std::span<const std::string> paths) {
+  std::ostringstream out;
+  const Status merged = merge_stores(paths, out);
+  return merged ? Result<std::string>(out.str()) : Result<std::string>(merged.error());
 }
 
 Result<std::vector<int>> missing_operations(const std::string& definition,
                                             std::span<const std::string> paths) {
-  std::string found = definition;
-  const auto operations = joined_operations(paths, found);
-  if (!operations) {
-    return operations.error();
+  std::set<int> made;
+  const auto found = for_each_operation(paths, [&](const StoredOperation& operation) {
+    made.insert(operation.index);
+    return Status();
+  });
+  if (!found) {
+    return found.error();
+  }
+  if (!paths.empty() && *found != definition) {
+    return Error{paths.front() + ": holds study " + study_hash(*found) + ", this is " +
+                 study_hash(definition)};
   }
   std::vector<int> missing;
   const auto planned = static_cast<int>(planned_in(Json::parse(definition, nullptr, false)));
   for (int number = 0; number < planned; ++number) {
-    if (!operations->contains(number)) {
+    if (!made.contains(number)) {
       missing.push_back(number);
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <span>
 #include <string>
 
@@ -20,6 +21,10 @@ namespace orthonav::engine {
 /// Joins shards in SQLite files as if they had been one study. Refuses shards of different studies,
 /// and files that are none. Operations that are in none of them count as not made.
 Result<std::string> merge_stores(std::span<const std::string> paths);
+
+/// The same, written as it goes: it keeps a few numbers of each operation in memory and one report
+/// a file, so that a million fit.
+Status merge_stores(std::span<const std::string> paths, std::ostream& out);
 
 /// Which operations of the study are in none of these files; all of them where there is no file.
 Result<std::vector<int>> missing_operations(const std::string& definition,

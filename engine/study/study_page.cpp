@@ -104,7 +104,7 @@ std::string command_cell(const std::string& command) {
 /// In the preview, on the phantom.
 ReplayCommand preview_of(const std::string& method) {
   return [method](const std::string& /*case_name*/, std::uint64_t seed) {
-    return "orthonav preview --seed " + std::to_string(seed) +
+    return "orthonav preview --replay " + std::to_string(seed) +
            (method == "stated" ? "" : " --method " + method);
   };
 }

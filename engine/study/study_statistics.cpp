@@ -73,38 +73,48 @@ double upper_limit_95(int hits, int of) {
   return high;
 }
 
-RegistrationQuality registration_quality(const nlohmann::ordered_json& runs) {
-  RegistrationQuality out;
-  int in_68 = 0;
-  int in_95 = 0;
-  for (const auto& run : runs) {
-    for (const auto& level : run["levels"]) {
-      const auto errors = errors_of(level);
-      if (!level.value("accepted", false) || errors.empty()) {
+void add_run(const nlohmann::ordered_json& run, RegistrationCounts& counts) {
+  for (const auto& level : run["levels"]) {
+    const auto errors = errors_of(level);
+    if (!level.value("accepted", false) || errors.empty()) {
+      continue;
+    }
+    ++counts.levels;
+    const auto covariances = covariances_of(level);
+    double worst_mm = 0.0;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      worst_mm = std::max(worst_mm, errors[i].norm());
+      if (covariances.size() != errors.size()) {
         continue;
       }
-      ++out.levels;
-      const auto covariances = covariances_of(level);
-      double worst_mm = 0.0;
-      for (std::size_t i = 0; i < errors.size(); ++i) {
-        worst_mm = std::max(worst_mm, errors[i].norm());
-        if (covariances.size() != errors.size()) {
-          continue;
-        }
-        const double squared = errors[i].dot(covariances[i].ldlt().solve(errors[i]));
-        ++out.places;
-        in_68 += squared <= kChi68 ? 1 : 0;
-        in_95 += squared <= kChi95 ? 1 : 0;
-      }
-      out.silent += worst_mm * 1e-3 > RegistrationQuality::kSilent_m ? 1 : 0;
+      const double squared = errors[i].dot(covariances[i].ldlt().solve(errors[i]));
+      ++counts.places;
+      counts.in_68 += squared <= kChi68 ? 1 : 0;
+      counts.in_95 += squared <= kChi95 ? 1 : 0;
     }
+    counts.silent += worst_mm * 1e-3 > RegistrationQuality::kSilent_m ? 1 : 0;
   }
-  if (out.places > 0) {
-    out.within_68 = static_cast<double>(in_68) / out.places;
-    out.within_95 = static_cast<double>(in_95) / out.places;
+}
+
+RegistrationQuality RegistrationCounts::quality() const {
+  RegistrationQuality out;
+  out.levels = levels;
+  out.places = places;
+  out.silent = silent;
+  if (places > 0) {
+    out.within_68 = static_cast<double>(in_68) / places;
+    out.within_95 = static_cast<double>(in_95) / places;
   }
-  out.silent_upper_95 = upper_limit_95(out.silent, out.levels);
+  out.silent_upper_95 = upper_limit_95(silent, levels);
   return out;
+}
+
+RegistrationQuality registration_quality(const nlohmann::ordered_json& runs) {
+  RegistrationCounts counts;
+  for (const auto& run : runs) {
+    add_run(run, counts);
+  }
+  return counts.quality();
 }
 
 }  // namespace orthonav::engine

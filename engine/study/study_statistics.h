@@ -14,6 +14,16 @@ struct RegistrationQuality {
   double silent_upper_95 = 1.0;  ///< upper limit of their fraction (Clopper and Pearson 1934)
   static constexpr double kSilent_m = 0.002;
 };
+/// The same in counts, run by run.
+struct RegistrationCounts {
+  int levels = 0;
+  int places = 0;
+  int in_68 = 0;
+  int in_95 = 0;
+  int silent = 0;
+  [[nodiscard]] RegistrationQuality quality() const;
+};
+void add_run(const nlohmann::ordered_json& run, RegistrationCounts& counts);
 /// Of the reports in a study's `runs`.
 [[nodiscard]] RegistrationQuality registration_quality(const nlohmann::ordered_json& runs);
 

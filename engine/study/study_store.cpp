@@ -194,27 +194,43 @@ Result<StudyStore> StudyStore::read(const std::string& path) {
 
 Result<std::vector<StoredOperation>> StudyStore::operations() const {
   std::vector<StoredOperation> out;
+  for (int number = -1;;) {
+    auto next = next_after(number);
+    if (!next) {
+      return next.error();
+    }
+    if (!*next) {
+      return out;
+    }
+    number = (*next)->index;
+    out.push_back(std::move(**next));
+  }
+}
+
+Result<std::optional<StoredOperation>> StudyStore::next_after(int number) const {
   Statement asked(database_->handle,
                   "SELECT number, case_name, seed, report, why FROM operation WHERE study = ? "
-                  "ORDER BY number");
+                  "AND number > ? ORDER BY number LIMIT 1");
   asked.bind(1, study_hash(definition_));
-  int answer = asked.step();
-  for (; answer == SQLITE_ROW; answer = asked.step()) {
-    const auto seed = as_seed(asked.text(2));
-    if (!seed) {
-      return Error{path_ + ": seed of operation " + asked.text(0) + " is '" + asked.text(2) +
-                   "', must be a whole number"};
-    }
-    out.push_back(
-        {static_cast<int>(asked.number(0)), asked.text(1), *seed, asked.text(3), asked.text(4)});
-    if (!out.back().report.empty() && !nlohmann::json::accept(out.back().report)) {
-      return Error{path_ + ": report of operation " + asked.text(0) + " is no JSON"};
-    }
+  asked.bind(2, number);
+  const int answer = asked.step();
+  if (answer == SQLITE_DONE) {
+    return std::optional<StoredOperation>();
   }
-  if (answer != SQLITE_DONE) {
+  if (answer != SQLITE_ROW) {
     return database_->failed(path_);
   }
-  return out;
+  const auto seed = as_seed(asked.text(2));
+  if (!seed) {
+    return Error{path_ + ": seed of operation " + asked.text(0) + " is '" + asked.text(2) +
+                 "', must be a whole number"};
+  }
+  StoredOperation out{static_cast<int>(asked.number(0)), asked.text(1), *seed, asked.text(3),
+                      asked.text(4)};
+  if (!out.report.empty() && !nlohmann::json::accept(out.report)) {
+    return Error{path_ + ": report of operation " + asked.text(0) + " is no JSON"};
+  }
+  return std::optional(std::move(out));
 }
 
 Status StudyStore::add(const StoredOperation& operation) {

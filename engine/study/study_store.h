@@ -36,6 +36,8 @@ class StudyStore {
 
   [[nodiscard]] const std::string& definition() const { return definition_; }
   [[nodiscard]] Result<std::vector<StoredOperation>> operations() const;
+  /// The one with the least number above `number`; nothing where there is none.
+  [[nodiscard]] Result<std::optional<StoredOperation>> next_after(int number) const;
   /// An operation that is there already stays as it is: a task that ran twice made the same.
   Status add(const StoredOperation& operation);
   Status finish();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "tests/tools/command_line.h"
@@ -72,6 +73,18 @@ TEST(StudyMerge, WritesThePageToo) {
   EXPECT_THAT(content_of(folder.file("page.html")), HasSubstr("phantom, L5 left"));
 }
 
+TEST(StudySlurm, SaysInOneLineThatThereIsNone) {
+  if (std::system("command -v sbatch >/dev/null 2>&1") == 0) {
+    GTEST_SKIP() << "Slurm is installed here";
+  }
+  const ScratchFolder folder;
+  const Called called = orthonav({"study", "--measurement", "model", "--levels", "L5", "--runs",
+                                  "1", "--slurm", folder.file("job")});
+  EXPECT_EQ(called.code, 2);
+  EXPECT_THAT(called.out, IsEmpty());
+  EXPECT_EQ(called.err, "orthonav: --slurm: sbatch was not found (Debian: slurm-wlm)\n");
+}
+
 // What is done already needs no Slurm: the shard is there, and only the joining is left.
 TEST(StudySlurm, WritesThePageOfWhatItsTasksMade) {
   const ScratchFolder folder;
@@ -91,7 +104,9 @@ TEST(StudySlurm, WritesThePageOfWhatItsTasksMade) {
   EXPECT_THAT(content_of(page),
               HasSubstr("<span>orthonav study</span> <span>--method paper</span> "
                         "<span>--measurement model</span> <span>--levels L5</span> "
-                        "<span>--runs 1</span> <span>--seed 1</span>"));
+                        "<span>--runs 1</span> <span>--seed 1  # the same bones and hands on "
+                        "pixels: orthonav preview</span> <span>--replay 1</span> "
+                        "<span>--method paper</span> <span>--levels L5</span>"));
 }
 
 }  // namespace

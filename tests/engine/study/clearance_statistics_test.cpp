@@ -23,7 +23,7 @@ TEST(ClearanceQuality, CountsBoundsThatHeldAndGradesAgainstTheTruth) {
   EXPECT_DOUBLE_EQ(quality.tracked.share(), 0.5);
   EXPECT_EQ(quality.grades[0][0], 1);
   EXPECT_EQ(quality.grades[1][2], 1) << "expected B, in truth C";
-  const auto json = clearance_quality_json(runs);
+  const auto json = clearance_json(quality);
   EXPECT_EQ(json["true_grades_by_likeliest"]["B"][2], 1);
   EXPECT_EQ(clearance_quality(nlohmann::ordered_json::array()).tracked.share(), 0.0);
 }

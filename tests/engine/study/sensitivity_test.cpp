@@ -2,7 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
+#include "base/random.h"
 #include "engine/study/sensitivity_page.h"
+#include "engine/study/sensitivity_regression.h"
 #include "engine/study/system_profile.h"
 
 namespace orthonav::engine {
@@ -38,6 +42,35 @@ TEST(Sensitivity, LeavesWhatAProfileHasDecided) {
   EXPECT_THAT(names, AllOf(Contains("tremor_m"), Contains("wire_skiving_m")));
   EXPECT_THAT(studied_in("robot-wires"), Not(Contains("tremor_m"))) << "a robot's arm";
   EXPECT_THAT(studied_in("xvision"), Not(Contains("tissue_m"))) << "its own magnitude";
+}
+
+/// Errors that two of three magnitudes decide, with noise.
+std::vector<RandomPoint> random_points(int count) {
+  Random random(5);
+  std::vector<RandomPoint> points;
+  for (int i = 0; i < count; ++i) {
+    RandomPoint point;
+    point.place = {random.uniform(), random.uniform(), random.uniform()};
+    point.entry_mm = 2.0 + 0.8 * point.place[0] + random.normal(0.0, 0.5);
+    point.angle_deg = 3.0 - 1.5 * point.place[2] + random.normal(0.0, 0.5 + point.place[2]);
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+TEST(RegressedSensitivities, FindWhatDecidesWithAnIntervalThatHoldsIt) {
+  const auto all = sim::magnitudes();
+  const std::vector<const sim::Magnitude*> three = {&all[0], &all[1], &all[2]};
+  const auto found = regressed(three, random_points(2000));
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].magnitude, all[2].name);
+  EXPECT_NEAR(found[0].angle_deg, -1.5, 1.5 * found[0].angle_spread_deg);
+  EXPECT_NEAR(found[0].entry_mm, 0.0, 1.5 * found[0].entry_spread_mm);
+  EXPECT_EQ(found[1].magnitude, all[0].name);
+  EXPECT_NEAR(found[1].entry_mm, 0.8, 1.5 * found[1].entry_spread_mm);
+  // 0.5 mm of scatter over the square root of 2000 uniform places.
+  EXPECT_NEAR(found[1].entry_spread_mm, 1.96 * 0.5 / std::sqrt(2000.0 / 12.0), 0.01);
+  EXPECT_TRUE(regressed(three, random_points(7)).empty());
 }
 
 TEST(SensitivityPage, ShowsBarsOfTheFirstAndATableOfAll) {

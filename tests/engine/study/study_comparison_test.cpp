@@ -105,9 +105,8 @@ TEST(StudyComparison, TellsAllInItsTableAndItsJson) {
   const std::string table = comparison_table(*found);
   EXPECT_THAT(table, HasSubstr("3 operations in both studies"));
   EXPECT_THAT(table, HasSubstr("| | `best` | `paper` | `best` less `paper` | 95 % interval |"));
-  EXPECT_THAT(
-      table,
-      HasSubstr("| Trajectory error, ° | 2.00 | 3.00 | -1.00 | -1.00 to -1.00 | 3 | 6 screws |"));
+  EXPECT_THAT(table, HasSubstr("| Trajectory error, ° | 2.00 | 3.00 | -1.00 | -1.00 to -1.00 | 0.5 "
+                               "| 1.000 | 3 | 6 screws |"));
   const nlohmann::ordered_json json = comparison_json(*found);
   EXPECT_EQ(json["completed_second"], 3);
   EXPECT_EQ(json["quantities"][0]["difference"], -1.0);
@@ -118,7 +117,7 @@ TEST(StudyComparison, TellsAllInItsTableAndItsJson) {
 TEST(StudyComparison, SaysWhereOperationsAreTooFewForAnInterval) {
   const auto found = compared_by(study_with("best", {operation_with(1, 1.0, 1.0)}),
                                  study_with("paper", {operation_with(1, 2.0, 2.0)}));
-  EXPECT_THAT(comparison_table(*found), HasSubstr("| -1.00 | too few | 1 |"));
+  EXPECT_THAT(comparison_table(*found), HasSubstr("| -1.00 | too few | 0.5 | 1.000 | 1 |"));
   EXPECT_TRUE(comparison_json(*found)["quantities"][0].dump().find("\"low_95\":null") !=
               std::string::npos);
   EXPECT_THAT(comparison_html(*found), HasSubstr("too few operations"));

@@ -35,13 +35,13 @@ TEST(StudyPage, ShowsTheWorstScrewsFirstAndTheirCommand) {
   EXPECT_LT(worst, page.find("phantom, L5 left"));
   EXPECT_THAT(
       page, HasSubstr("<td>6.50</td><td>–</td><td class=again><code><span>orthonav preview</span> "
-                      "<span>--seed 3</span> <span>--method paper</span></code>"));
+                      "<span>--replay 3</span> <span>--method paper</span></code>"));
 }
 
 TEST(StudyPage, ShowsWhatWasNotCompletedAndWhy) {
   EXPECT_THAT(study_html(small_study("phantom")),
               HasSubstr("<td>4</td><td>ended at setup</td><td class=again><code><span>orthonav "
-                        "preview</span> <span>--seed 4</span>"));
+                        "preview</span> <span>--replay 4</span>"));
 }
 
 TEST(StudyPage, RepeatsAnOperationByTheCommandOfItsStudy) {

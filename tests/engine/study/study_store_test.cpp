@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <filesystem>
 
 #include "engine/case/tool_file.h"
@@ -165,6 +168,68 @@ TEST_F(StudyStoreTest, DoesNotMakeAgainWhatItHolds) {
   ASSERT_TRUE(second.ok()) << second.error().message;
   EXPECT_EQ(made, 0);
   EXPECT_EQ(second->text, first->text);
+}
+
+TEST_F(StudyStoreTest, ADatabaseThatIsDamagedIsNamedInOneLine) {
+  {
+    auto store = StudyStore::open(file("a.db"), "{}");
+    ASSERT_TRUE(store.ok());
+    for (int number = 0; number < 40; ++number) {
+      ASSERT_TRUE(
+          store->add({number, "phantom", 1, "{\"a\":\"" + std::string(800, 'x') + "\"}", ""}).ok());
+    }
+    ASSERT_TRUE(store->finish().ok());
+  }
+  std::string bytes = test::content_of(file("a.db"));
+  bytes.replace(3 * 4096, bytes.size() - 3 * 4096, bytes.size() - 3 * 4096, '\xee');
+  const std::vector<std::string> files = {folder_.with("a.db", bytes)};
+  const auto joined = merge_stores(files);
+  ASSERT_FALSE(joined.ok());
+  EXPECT_THAT(joined.error().message, HasSubstr("a.db: "));
+  EXPECT_THAT(joined.error().message, Not(HasSubstr("\n")));
+}
+
+/// No file may grow beyond this while it lives, as on a full disk.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : before_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &limit_);
+    const rlimit small{bytes, limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &limit_);
+    std::signal(SIGXFSZ, before_);
+  }
+
+ private:
+  rlimit limit_{};
+  void (*before_)(int);
+};
+
+TEST_F(StudyStoreTest, OnAFullDiskAStudyEndsInOneLineAndKeepsWhatItHas) {
+  const Case spine = phantom({"L5"});
+  StudyOptions options = short_runs();
+  options.runs = 30;
+  options.store = file("a.db");
+  {
+    const FullDisk disk(48 * 1024);
+    const auto study = run_study({&spine, 1}, options);
+    ASSERT_FALSE(study.ok()) << "30 operations do not fit";
+    EXPECT_THAT(study.error().message, HasSubstr("a.db: "));
+    EXPECT_THAT(study.error().message, Not(HasSubstr("\n")));
+  }
+  EXPECT_FALSE(fs::exists(file("a.db")));
+  const std::vector<std::string> files = {file("a.db.part")};
+  const auto missing = missing_operations(definition_of({&spine, 1}, options), files);
+  ASSERT_TRUE(missing.ok()) << missing.error().message;
+  EXPECT_LT(missing->size(), 30u);
+  EXPECT_GT(missing->size(), 0u);
+  const auto rest = run_study({&spine, 1}, options);
+  ASSERT_TRUE(rest.ok()) << rest.error().message;
+  EXPECT_EQ(rest->made, 30);
 }
 
 }  // namespace

@@ -1,0 +1,169 @@
+#include "engine/study/sensitivity_regression.h"
+
+#include <atomic>
+#include <cmath>
+#include <Eigen/Dense>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "base/mutex.h"
+#include "base/random.h"
+#include "engine/case/operation_plan.h"
+#include "engine/report/report_values.h"
+#include "nav/evaluation/errors.h"
+
+namespace orthonav::engine {
+namespace {
+
+constexpr double kHalfWidth = 1.96;
+
+struct Regressed {
+  Eigen::VectorXd slopes;
+  Eigen::VectorXd standard_errors;
+};
+
+Regressed least_squares(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
+  const Eigen::MatrixXd inverse =
+      (x.transpose() * x).ldlt().solve(Eigen::MatrixXd::Identity(x.cols(), x.cols()));
+  const Eigen::VectorXd slopes = inverse * (x.transpose() * y);
+  const Eigen::VectorXd residuals = y - x * slopes;
+  const Eigen::MatrixXd weighted = residuals.asDiagonal() * x;
+  const double small = static_cast<double>(x.rows()) / static_cast<double>(x.rows() - x.cols());
+  const Eigen::MatrixXd covariance = small * inverse * (weighted.transpose() * weighted) * inverse;
+  return {slopes, covariance.diagonal().cwiseSqrt()};
+}
+
+/// The operations at all places, on several threads; each depends on its number alone.
+class Points {
+ public:
+  Points(const Case& source, const Operation& planned, const SensitivityOptions& options,
+         const std::function<void(int, int)>& progress)
+      : source_(source),
+        planned_(planned),
+        options_(options),
+        magnitudes_(studied_magnitudes(options.operation.sim.error_model)),
+        progress_(progress),
+        points_(static_cast<std::size_t>(options.points)) {}
+
+  Status run() {
+    std::vector<std::thread> threads;
+    for (int i = 1; i < options_.jobs; ++i) {
+      threads.emplace_back([this] { work(); });
+    }
+    work();
+    for (std::thread& thread : threads) {
+      thread.join();
+    }
+    const MutexLock lock(mutex_);
+    return failed_;
+  }
+  [[nodiscard]] std::vector<RandomPoint> found() const {
+    std::vector<RandomPoint> out;
+    for (const auto& point : points_) {
+      if (point) {
+        out.push_back(*point);
+      }
+    }
+    return out;
+  }
+
+ private:
+  void work() {
+    for (std::size_t i = next_++; i < points_.size(); i = next_++) {
+      OperationOptions operation = options_.operation;
+      operation.sim.seed = options_.seed + i;
+      operation.tracker.parallel = false;
+      operation.session.live_clearance = false;
+      Random random = Random(options_.seed).fork("random points").fork(i);
+      RandomPoint point;
+      for (const sim::Magnitude* m : magnitudes_) {
+        point.place.push_back(random.uniform());
+        operation.sim.error_model.*m->value = m->low + point.place.back() * (m->high - m->low);
+      }
+      take(i, std::move(point), run_operation(source_, planned_, operation));
+    }
+  }
+
+  void take(std::size_t i, RandomPoint point, const Result<OperationResult>& result) {
+    const MutexLock lock(mutex_);
+    ++done_;
+    if (!result) {
+      failed_ = result.error();
+      next_ = points_.size();
+    } else {
+      const auto report = nlohmann::json::parse(report_json(*result), nullptr, false);
+      const auto entries = values_of(report, "entry_error_mm", true);
+      const auto angles = values_of(report, "angle_error_deg", true);
+      if (!entries.empty() && !angles.empty()) {
+        point.entry_mm = nav::summarize(entries).mean;
+        point.angle_deg = nav::summarize(angles).mean;
+        points_[i] = std::move(point);
+      }
+    }
+    if (progress_) {
+      progress_(done_, options_.points);
+    }
+  }
+
+  const Case& source_;
+  const Operation& planned_;
+  const SensitivityOptions& options_;
+  std::vector<const sim::Magnitude*> magnitudes_;
+  const std::function<void(int, int)>& progress_;
+  std::atomic<std::size_t> next_ = 0;
+  Mutex mutex_;
+  std::vector<std::optional<RandomPoint>> points_;
+  Status failed_ ORTHONAV_GUARDED_BY(mutex_);
+  int done_ ORTHONAV_GUARDED_BY(mutex_) = 0;
+};
+
+}  // namespace
+
+std::vector<Sensitivity> regressed(std::span<const sim::Magnitude* const> magnitudes,
+                                   std::span<const RandomPoint> points) {
+  if (points.size() < 2 * (magnitudes.size() + 1)) {
+    return {};
+  }
+  const auto rows = static_cast<Eigen::Index>(points.size());
+  const auto columns = static_cast<Eigen::Index>(magnitudes.size());
+  Eigen::MatrixXd x(rows, columns + 1);
+  Eigen::VectorXd entry(rows);
+  Eigen::VectorXd angle(rows);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const RandomPoint& point = points[static_cast<std::size_t>(r)];
+    x.row(r) << 1.0, Eigen::Map<const Eigen::RowVectorXd>(point.place.data(), columns);
+    entry(r) = point.entry_mm;
+    angle(r) = point.angle_deg;
+  }
+  const Regressed of_entry = least_squares(x, entry);
+  const Regressed of_angle = least_squares(x, angle);
+  std::vector<Sensitivity> out;
+  for (Eigen::Index i = 0; i < columns; ++i) {
+    const sim::Magnitude& m = *magnitudes[static_cast<std::size_t>(i)];
+    out.push_back({std::string(m.name), std::string(m.unit), m.low, m.high, of_entry.slopes(i + 1),
+                   of_angle.slopes(i + 1), kHalfWidth * of_entry.standard_errors(i + 1),
+                   kHalfWidth * of_angle.standard_errors(i + 1)});
+  }
+  sort_by_effect(out);
+  return out;
+}
+
+Result<std::vector<Sensitivity>> regressed_sensitivities(
+    const Case& source, const SensitivityOptions& options, std::size_t& used,
+    const std::function<void(int, int)>& progress) {
+  ModelCache models;
+  const auto planned = plan_operation(source, options.operation.levels, models);
+  if (!planned) {
+    return planned.error();
+  }
+  Points points(source, *planned, options, progress);
+  if (const Status made = points.run(); !made) {
+    return made.error();
+  }
+  const std::vector<RandomPoint> found = points.found();
+  used = found.size();
+  return regressed(studied_magnitudes(options.operation.sim.error_model), found);
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/report/paper_table.h"
+#include "engine/study/clearance_statistics.h"
+#include "engine/study/study_statistics.h"
+
+namespace orthonav::engine {
+
+/// What a study says over all its runs, added up run by run: it keeps a few numbers of each, not
+/// its report.
+class StudyTotals {
+ public:
+  void add(const nlohmann::ordered_json& run);
+  [[nodiscard]] std::size_t runs() const { return runs_; }
+  /// The JSON of a study (docs/file-formats.md) with `runs` in its place. `planned`: how many there
+  /// were to be; more than there are where it was stopped.
+  [[nodiscard]] nlohmann::ordered_json study(const std::string& method,
+                                             const nlohmann::ordered_json& runs,
+                                             const nlohmann::ordered_json& failed,
+                                             std::size_t planned) const;
+
+ private:
+  std::size_t runs_ = 0;
+  int completed_ = 0;
+  std::array<std::vector<double>, kPaperTable.size()> rows_;
+  RegistrationCounts registrations_;
+  ClearanceQuality clearance_;
+};
+
+}  // namespace orthonav::engine
