@@ -111,6 +111,7 @@ void Session::finish_screw(Timestamp time) {
   }
   if (observer_) {
     observer_->screw_done(time, now, screw, guiding_.at_depth());
+    observer_->calibration_found(time, calibration_in_use(tools_.tracker()));
   }
   const auto finished = [](const LevelState& state) { return state.finished(); };
   if (!finished(now)) {
