@@ -22,8 +22,10 @@ engine::ReplayCommand replay_of(const StudyArguments& arguments,
   for (const engine::Case& one : cases) {
     folders.emplace(one.name, one.folder);
   }
-  const bool shown =
-      arguments.profile.empty() && arguments.measurement == "pixels" && !arguments.navigation_alone;
+  const bool shown = arguments.profile.empty() && arguments.measurement == "pixels" &&
+                     !arguments.navigation_alone && arguments.without.empty() &&
+                     arguments.guidance.empty() && arguments.instrument.empty() &&
+                     arguments.tools.empty();
   return [arguments, folders, shown](const std::string& case_name, std::uint64_t seed) {
     const auto known = folders.find(case_name);
     const std::string folder = known == folders.end() ? "" : known->second;

@@ -80,7 +80,8 @@ std::optional<nav::OtherEntry> Placing::other_entry(const LevelState& level, std
   nav::OtherEntryRules rules;
   rules.from_hole_m = rules_.drill_diameter_m;
   const auto found =
-      nav::other_entry(plan, driven ? driven->entry : wire_->axis.line.point, bone, rules);
+      redo_ ? nav::other_entry(plan, driven ? driven->entry : wire_->axis.line.point, bone, rules)
+            : std::nullopt;
   no_other_entry_ = !found;
   return found;
 }

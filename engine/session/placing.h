@@ -15,7 +15,8 @@ namespace orthonav::engine {
 class Placing {
  public:
   Placing() = default;
-  explicit Placing(const PlacedWireRules& rules) : rules_(rules) {}
+  /// `redo` false: no wire is redone; one beyond a limit is kept by a word, or its level rejected.
+  explicit Placing(const PlacedWireRules& rules, bool redo = true) : rules_(rules), redo_(redo) {}
 
   /// A wire was placed: nothing is known of it.
   void begin();
@@ -46,6 +47,7 @@ class Placing {
   [[nodiscard]] std::optional<TouchRefusal> refusal_of(const nav::PlacedAxis& axis) const;
 
   PlacedWireRules rules_;
+  bool redo_ = true;
   std::optional<PlacedWire> wire_;
   bool no_other_entry_ = false;
   bool confirming_ = false;

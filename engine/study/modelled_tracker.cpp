@@ -82,7 +82,7 @@ class ModelledTracker final : public nav::ToolTracker {
         model_(model),
         sightings_(room, model),
         filters_(tools_.size()),
-        online_(tools_.size()) {
+        online_(tools_.size(), nav::CalibrationOptions{.sizes = options.correct_tag_sizes}) {
     for (std::size_t i = 0; i < tools_.size(); ++i) {
       states_.push_back({i, {}, {}, 0.0});
     }

@@ -1,11 +1,13 @@
 #include "engine/study/study_text.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "engine/report/paper_table.h"
 #include "engine/report/report_values.h"
 #include "engine/study/clearance_statistics.h"
+#include "engine/study/guided_statistics.h"
 #include "engine/study/study_statistics.h"
 #include "nav/evaluation/errors.h"
 
@@ -64,8 +66,11 @@ std::string study_text(const std::string& method, const Json& runs, const Json& 
              {"completed", completed},
              {"table", table_of(runs)},
              {"registrations", registrations_of(runs)},
-             {"clearance", clearance_quality_json(runs)},
-             {"runs", runs}};
+             {"clearance", clearance_quality_json(runs)}};
+  if (nlohmann::ordered_json guided = guided_quality_json(runs); !guided.is_null()) {
+    study["guided"] = std::move(guided);
+  }
+  study["runs"] = runs;
   if (!failed.empty()) {
     study["failed"] = failed;
   }
