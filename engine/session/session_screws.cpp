@@ -62,6 +62,9 @@ void Session::measure_wire(Timestamp time) {
 }
 
 void Session::keep_wire(Timestamp time) {
+  if (consents_to_breach(time)) {
+    return;
+  }
   if (!placing_.undecided()) {
     messages_.say(NotPossibleNow{Event::kSayAccept}, time);
     return;

@@ -124,11 +124,12 @@ inline constexpr auto kRules = std::to_array<Rule>({
     {kGuide, kReferenceSeen, kIgnore, kGuide},
     {kGuide, kReferenceMoved, kForgetMap, kDigitize},
 
-    // The sleeve is set over the wire and clicked. A wire beyond a limit is kept by a word, or redone
-    // through another entry, once the landmark was touched again.
+    // The sleeve is set over the wire and clicked. A wire beyond a limit is kept by a word, redone
+    // through another entry once the landmark was touched again, or the plan is changed to suit it.
     {kPlaced, kSayNext, kJudgeWire, kPlaced},
     {kPlaced, kSayAccept, kKeepWire, kPlaced},
     {kPlaced, kSayDelete, kJudgeRedo, kPlaced},
+    {kPlaced, kSayReplan, kReplan, kPlaced},
     {kPlaced, kSayReject, kClearLevel, kDigitize},
     {kPlaced, kWireSettled, kFinishScrew, kPlaced},
     {kPlaced, kWireUndecided, kAskAboutWire, kPlaced},

@@ -15,7 +15,7 @@ constexpr std::array<NamedStep, 8> kSteps = {{
     {"check points", [](OperationOptions& o) { o.session.steps.check_points = false; }},
     {"landmark", [](OperationOptions& o) { o.session.steps.landmark = false; }},
     {"tips", [](OperationOptions& o) { o.session.steps.tips = false; }},
-    {"tag sizes", [](OperationOptions& o) { o.tracker.correct_tag_sizes = false; }},
+    {"tag sizes", [](OperationOptions& o) { o.correct_tag_sizes = false; }},
     {"wire", [](OperationOptions& o) { o.session.steps.wire = false; }},
     {"redo", [](OperationOptions& o) { o.session.steps.redo = false; }},
     {"numbers",

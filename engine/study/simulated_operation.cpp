@@ -110,8 +110,9 @@ Result<Method> method_in(const sim::SimHeadset& room, const Operation& operation
   }
   auto method = method_named(options.method);
   if (method && options.measurement == Measurement::kModel) {
-    method->create_tracker = [name = method->name, &room](const auto&... given) {
-      return create_modelled_tracker(name, room, given...);
+    method->create_tracker = [name = method->name, sizes = options.correct_tag_sizes,
+                              &room](const auto&... given) {
+      return create_modelled_tracker(name, room, given..., sizes);
     };
     method->coaching = false;  // the simulated surgeon does not read it, and it is not for free
   }
@@ -124,6 +125,9 @@ std::vector<std::string> OperationOptions::check() const {
   std::vector<std::string> problems;
   if (const auto known = method_named(method); !known) {
     problems.push_back(known.error().message);
+  }
+  if (!correct_tag_sizes && measurement != Measurement::kModel) {
+    problems.push_back("tag sizes are left out in the measurement model alone");
   }
   for (const std::string& problem : nav::problems_of(tools)) {
     problems.push_back("tools: " + problem);

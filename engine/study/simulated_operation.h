@@ -30,6 +30,8 @@ struct OperationOptions : AssemblyOptions {
   std::vector<nav::ToolGeometry> tools;
   sim::Exposure exposure = sim::Exposure::kLaminae;
   sim::SimOptions sim;
+  /// In the measurement model: poses of `best` use the sizes of tags that were found in use.
+  bool correct_tag_sizes = true;
   std::vector<std::string> left_out;  ///< by `leave_out` (left_out.h): of the method
   std::string record_folder;          ///< empty: nothing is recorded
 

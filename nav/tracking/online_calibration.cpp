@@ -45,9 +45,6 @@ void OnlineCalibration::add(std::size_t tool, const CalibrationEquations& pair) 
 }
 
 double OnlineCalibration::size_change(const Tool& tool, const Camera& cameras) const {
-  if (!options_.sizes) {
-    return 0.0;
-  }
   const Eigen::Map<const CamerasVector> cross(tool.cross.data());
   const Eigen::Map<const CamerasVector> x(cameras.data());
   const double prior = precision(options_.size_sd);
@@ -65,9 +62,6 @@ std::optional<OnlineCalibration::Estimate> OnlineCalibration::estimate() const {
   const double prior = precision(options_.size_sd);
   double gain = 0.0;
   for (const Tool& tool : tools_) {
-    if (!options_.sizes) {
-      break;
-    }
     const Eigen::Map<const CamerasVector> cross(tool.cross.data());
     const double own = tool.information + prior;
     const double own_right = tool.right - prior * tool.applied;
@@ -137,7 +131,7 @@ double OnlineCalibration::size_factor(std::size_t tool) const {
 double OnlineCalibration::size_sd(std::size_t tool) const {
   const Tool& t = tools_.at(tool);
   const double own = t.information + precision(options_.size_sd);
-  const auto found = options_.sizes ? estimate() : std::nullopt;
+  const auto found = estimate();
   if (!found) {
     return options_.size_sd;
   }
@@ -151,7 +145,7 @@ double OnlineCalibration::size_difference_sd(std::size_t tool, std::size_t other
   const Tool& b = tools_.at(other);
   const double own_a = a.information + prior;
   const double own_b = b.information + prior;
-  const auto found = tool == other || !options_.sizes ? std::nullopt : estimate();
+  const auto found = tool == other ? std::nullopt : estimate();
   if (!found) {
     return tool == other ? 0.0 : std::sqrt(2.0) * options_.size_sd;
   }

@@ -46,8 +46,6 @@ struct CalibrationOptions {
   double focal_sd = 0.001;
   double baseline_sd = 0.0015;
   double size_sd = 0.003;
-  /// Without, every tag counts as large as it is stated.
-  bool sizes = true;
 };
 
 /// Estimates from tags in use how the right camera is turned and how large each tool's tags are

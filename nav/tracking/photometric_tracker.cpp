@@ -25,7 +25,7 @@ PhotometricTracker::PhotometricTracker(const StereoCalibration& calibration,
       options_(options),
       near_(std::move(near)),
       full_search_(std::move(whole)),
-      calibration_(tools_.size(), CalibrationOptions{.sizes = options.correct_tag_sizes}) {
+      calibration_(tools_.size()) {
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     trails_.push_back({std::move(followers[i]), PoseFilter{}, {}, {}, {}});
     states_.push_back({i, {}, {}, 0.0});

@@ -58,8 +58,6 @@ struct TrackerOptions {
   /// Small, since the filter adapts by itself when a hand accelerates more than that.
   double corner_acceleration_px2_per_s3 = 400.0;
   double corner_noise_px = 0.1;
-  /// Poses use the sizes of tags that were found in use; without, tags count as large as stated.
-  bool correct_tag_sizes = true;
 };
 
 /// Tracks every tool through stereo pairs. One thread at a time.

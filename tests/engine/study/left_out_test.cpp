@@ -20,7 +20,9 @@ TEST(LeftOut, EachStepIsSwitchedOffAlone) {
   options.use_reference = true;
   options.sim.guidance = sim::GuidanceProfile::kClosedLoop;
   ASSERT_TRUE(leave_out("tag-sizes", options).ok());
-  EXPECT_FALSE(options.tracker.correct_tag_sizes);
+  EXPECT_FALSE(options.correct_tag_sizes);
+  EXPECT_THAT(run_operation(phantom({"L5"}), options).error().message,
+              HasSubstr("measurement model alone"));
   EXPECT_TRUE(options.session.steps.tips);
   EXPECT_TRUE(options.use_reference);
   EXPECT_EQ(options.sim.guidance, sim::GuidanceProfile::kClosedLoop);
