@@ -61,6 +61,7 @@ class LiveRun {
     result.method = method_.name;
     result.case_name = case_name_;
     result.patient_reference = arguments_.reference;
+    result.calibration = engine::calibration_in_use(session.tracker());
     if (room_) {
       result.seed = room_->options().seed;
     }

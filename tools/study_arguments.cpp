@@ -1,12 +1,16 @@
 #include "tools/study_arguments.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <thread>
+#include <utility>
 
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
+#include "engine/study/left_out.h"
+#include "hal/sim/instruments.h"
 #include "tools/arguments.h"
 #include "tools/build_name.h"
 #include "tools/case_source.h"
@@ -49,6 +53,42 @@ Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
   return cases;
 }
 
+namespace {
+
+constexpr std::array<std::pair<const char*, sim::GuidanceProfile>, 3> kGuidance = {{
+    {"overlay", sim::GuidanceProfile::kOverlay},
+    {"numbers", sim::GuidanceProfile::kNumbers},
+    {"closed loop", sim::GuidanceProfile::kClosedLoop},
+}};
+
+/// What the words of the command line choose beside method and profile.
+Status choose(const StudyArguments& arguments, engine::OperationOptions& operation) {
+  for (const auto& [name, guidance] : kGuidance) {
+    operation.sim.guidance = arguments.guidance == name ? guidance : operation.sim.guidance;
+  }
+  if (!arguments.instrument.empty()) {
+    if (Status known = sim::use_instrument(arguments.instrument, operation.sim.error_model);
+        !known) {
+      return Error{"--instrument: " + known.error().message};
+    }
+  }
+  if (!arguments.tools.empty()) {
+    auto tools = engine::load_tools(arguments.tools);
+    if (!tools) {
+      return tools.error();
+    }
+    operation.tools = std::move(*tools);
+  }
+  for (const std::string& step : arguments.without) {
+    if (Status known = engine::leave_out(step, operation); !known) {
+      return Error{"--without " + known.error().message};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   engine::StudyOptions options;
   options.operation = study_operation();
@@ -70,6 +110,9 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments) {
   }
   if (arguments.navigation_alone) {
     options.operation.sim.error_model = sim::ErrorModel::navigation_alone();
+  }
+  if (const Status chosen = choose(arguments, options.operation); !chosen) {
+    return chosen.error();
   }
   options.runs = arguments.runs;
   options.store = arguments.store;
@@ -136,6 +179,12 @@ std::string operation_words(const StudyArguments& arguments, const std::string& 
   words += arguments.perfect ? " --perfect" : "";
   words += arguments.navigation_alone ? " --navigation-alone" : "";
   words += arguments.reference ? " --reference" : "";
+  add("--guidance", arguments.guidance);
+  add("--instrument", arguments.instrument);
+  add("--tools", arguments.tools.empty() ? "" : fs::absolute(arguments.tools, code).string());
+  for (const std::string& step : arguments.without) {
+    add("--without", step);
+  }
   return words;
 }
 
@@ -205,6 +254,21 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
   study.add_option("--levels", arguments.levels, "levels to operate (default: the two lowest)")
       ->delimiter(',');
   add_reference_flag(study, arguments.reference);
+  study
+      .add_option("--without", arguments.without,
+                  "steps of the method that are left out: check-points, landmark, tips, tag-sizes, "
+                  "wire, redo, numbers, reference")
+      ->delimiter(',');
+  study
+      .add_option("--guidance", arguments.guidance,
+                  "what the surgeon goes by: overlay, numbers (default) or \"closed loop\"")
+      ->check(CLI::IsMember({"overlay", "numbers", "closed loop"}));
+  study
+      .add_option("--instrument", arguments.instrument,
+                  "wire, cannula, \"sleeved drill\", screw or \"robot arm\"")
+      ->check(some_text());
+  study.add_option("--tools", arguments.tools, "tools file (default: the built-in ones)")
+      ->check(some_text());
   add_cohort_options(study, arguments);
 }
 

@@ -27,7 +27,11 @@ struct StudyArguments {
   bool perfect = false;
   bool navigation_alone = false;
   bool reference = false;
-  std::string slurm;  ///< folder of an array job; empty: on this machine
+  std::vector<std::string> without;  ///< steps of the method that are left out
+  std::string guidance;              ///< empty: the profile's, or numbers
+  std::string instrument;            ///< empty: the profile's, or as documented
+  std::string tools;                 ///< file; empty: the built-in ones
+  std::string slurm;                 ///< folder of an array job; empty: on this machine
   int slurm_tasks = 0;
   std::string report;  ///< HTML page; empty: none
   std::vector<std::string> merged;

@@ -10,7 +10,8 @@ namespace {
 /// Whether the preview can show an operation of the study: by what its cameras see, in the room of
 /// its profile.
 bool can_be_shown(const StudyArguments& arguments) {
-  if (arguments.navigation_alone || arguments.reference) {
+  if (arguments.navigation_alone || arguments.reference || !arguments.without.empty() ||
+      !arguments.guidance.empty() || !arguments.instrument.empty() || !arguments.tools.empty()) {
     return false;
   }
   const auto system = arguments.profile.empty()

@@ -56,6 +56,9 @@ ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
   if (index < state.clearance_at_depth.size()) {
     screw.tracked = state.clearance_at_depth[index];
   }
+  if (index < state.executed.size()) {
+    screw.trajectory = state.executed[index];
+  }
   if (index < state.wires.size()) {
     screw.wire = state.wires[index];
     screw.redone = state.redone[index];
@@ -64,6 +67,11 @@ ScrewOutcome outcome_of_screw(const LevelState& state, std::size_t index) {
 }
 
 }  // namespace
+
+bool ScrewOutcome::warned() const {
+  const bool breach_bound = tracked && tracked->spread && tracked->spread->lower_95_m < 0.0;
+  return breach_bound || !accepted_breach.empty() || (wire.measured && !wire.measured->within());
+}
 
 OperationResult outcome_of(std::span<const LevelState> levels, std::span<const RodState> rods,
                            LoopReport loop) {

@@ -8,11 +8,19 @@
 
 #include "engine/live/frame_loop.h"
 #include "engine/report/registration_figures.h"
+#include "engine/session/calibration_in_use.h"
 #include "engine/session/guidance.h"
 #include "engine/session/session_observer.h"
 #include "nav/guidance/changed_screw.h"
 
 namespace orthonav::engine {
+
+/// The guide as it was tracked and registered against how it was, in its vertebra's frame.
+struct GuidedError {
+  double tip_m = 0.0;      ///< distance of the two tips
+  double across_m = 0.0;   ///< of that, across the planned axis
+  double angle_rad = 0.0;  ///< between the two axes
+};
 
 struct ScrewOutcome {
   nav::Side side = nav::Side::kLeft;
@@ -31,8 +39,18 @@ struct ScrewOutcome {
   std::optional<nav::ScrewClearance> tracked = {};
   /// Of the planned screw along the executed axis, against the truth.
   std::optional<nav::Clearance> executed = {};
+  /// Where its tool went, as tracked; absent of a screw that is done: not measured.
+  std::optional<nav::ExecutedTrajectory> trajectory = {};
   WireOutcome wire = {};  ///< as it was measured where it stood
   int redone = 0;         ///< so often through another entry
+  /// When the wire pierced the bone, where there is a truth.
+  std::optional<GuidedError> guided = {};
+  /// Of a screw that was planned anew in surgery, against the plan before surgery.
+  std::optional<double> preoperative_angle_error_rad = {};
+  std::optional<double> preoperative_entry_error_m = {};
+  /// Somebody was told, while it could still be changed or was measured: the wire lies beyond a
+  /// limit, or the screw may break through the cortex.
+  [[nodiscard]] bool warned() const;
 };
 
 struct LevelOutcome {
@@ -74,7 +92,8 @@ struct OperationResult {
   /// limit 3.0 mm". Empty when it completed.
   std::string why_not;
   std::vector<LevelOutcome> levels;
-  std::vector<RodOutcome> rods;  ///< none where no side has two screws
+  std::optional<CalibrationInUse> calibration;  ///< absent: nobody asked
+  std::vector<RodOutcome> rods;                 ///< none where no side has two screws
   LoopReport loop;
   Status recording;  ///< why the session's recording is incomplete, where one was asked for
 };

@@ -16,6 +16,7 @@
 #include "engine/report/registration_page.h"
 #include "engine/report/report_values.h"
 #include "engine/report/script_json.h"
+#include "engine/report/tracked_section.h"
 #include "engine/report/wire_section.h"
 #include "nav/evaluation/errors.h"
 
@@ -277,6 +278,7 @@ Result<std::string> report_html(const ReportContent& content) {
   add_notes(report, content.notes, html);
   table_of_levels(report, html);
   html += clearance_section(report);
+  html += tracked_section(report);
   for (const RegisteredLevel& level : content.registrations) {
     const auto section = registration_section(level);
     if (!section) {

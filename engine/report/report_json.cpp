@@ -5,6 +5,7 @@
 #include "engine/report/clearance_figures.h"
 #include "engine/report/operation_result.h"
 #include "engine/report/replan_figures.h"
+#include "engine/session/journal_lines.h"
 
 namespace orthonav::engine {
 namespace {
@@ -42,14 +43,46 @@ void put_wire(Json& out, const ScrewOutcome& screw) {
   out["redone"] = screw.redone;
 }
 
+/// What only a truth can tell of how it was guided.
+void put_guided(Json& out, const ScrewOutcome& screw) {
+  if (screw.preoperative_angle_error_rad) {
+    out["preoperative_angle_error_deg"] = degrees(*screw.preoperative_angle_error_rad);
+  }
+  put_mm(out, "preoperative_entry_error_mm", screw.preoperative_entry_error_m);
+  if (screw.guided) {
+    out["guided"] = Json{{"tip_mm", screw.guided->tip_m * 1e3},
+                         {"across_mm", screw.guided->across_m * 1e3},
+                         {"angle_deg", degrees(screw.guided->angle_rad)}};
+  }
+  if (screw.guided || screw.executed) {
+    out["warned"] = screw.warned();
+  }
+}
+
+/// Of a screw that is done, what was not measured is named.
+void put_trajectory(Json& out, const ScrewOutcome& screw) {
+  if (screw.trajectory) {
+    out["executed"] = executed_json(*screw.trajectory);
+  } else if (screw.done) {
+    out["not_measured"].push_back("executed");
+  }
+  if (screw.done && !screw.tracked) {
+    out["not_measured"].push_back("clearance");
+  } else if (screw.done && !screw.tracked->spread) {
+    out["not_measured"].push_back("grade_probability");
+  }
+}
+
 Json screw_json(const ScrewOutcome& screw) {
   Json out{{"side", name_of(screw.side)}};
   if (screw.angle_error_rad) {
     out["angle_error_deg"] = degrees(*screw.angle_error_rad);
   }
   put_mm(out, "entry_error_mm", screw.entry_error_m);
+  put_guided(out, screw);
   put_planned_in_surgery(out, screw.planned_in_surgery);
   put_clearance(out, screw);
+  put_trajectory(out, screw);
   put_wire(out, screw);
   return out;
 }
@@ -152,6 +185,9 @@ std::string report_json(const OperationResult& result) {
   out["completed"] = result.completed;
   if (!result.why_not.empty()) {
     out["why_not"] = result.why_not;
+  }
+  if (result.calibration) {
+    out["calibration"] = calibration_json(*result.calibration);
   }
   out["levels"] = Json::array();
   for (const LevelOutcome& level : result.levels) {

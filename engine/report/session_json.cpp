@@ -4,6 +4,7 @@
 #include "base/angle.h"
 #include "engine/report/replan_figures.h"
 #include "engine/report/session_report.h"
+#include "engine/session/journal_lines.h"
 
 namespace orthonav::engine {
 namespace {
@@ -42,6 +43,18 @@ Json recorded_screw_json(const RecordedScrew& screw) {
                            {"depth_mm", screw.at_depth->depth_m * 1e3}};
     put_length_mm(out["at_depth"], "clearance_mm", screw.at_depth->clearance_m);
     put_length_mm(out["at_depth"], "clearance_95_mm", screw.at_depth->clearance_95_m);
+    if (!screw.at_depth->grade.empty()) {
+      out["at_depth"]["grade"] = screw.at_depth->grade;
+    }
+    if (screw.at_depth->grade_probability) {
+      out["at_depth"]["grade_probability"] = grades_json(*screw.at_depth->grade_probability);
+    }
+  }
+  if (screw.executed) {
+    out["executed"] = executed_json(*screw.executed);
+  }
+  if (!screw.not_measured.empty()) {
+    out["not_measured"] = screw.not_measured;
   }
   put_recorded_wire(out, screw);
   if (screw.redone > 0) {
@@ -163,6 +176,9 @@ std::string session_json(const SessionRecord& session) {
     out["tips"] = Json{{"apart_mm", session.tips->apart_m * 1e3},
                        {"limit_mm", session.tips->limit_m * 1e3},
                        {"corrected", session.tips->corrected}};
+  }
+  if (session.calibration) {
+    out["calibration"] = calibration_json(*session.calibration);
   }
   out["levels"] = Json::array();
   for (const RecordedLevel& level : session.levels) {

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/angle.h"
 #include "embedded/report_css.h"
 #include "engine/report/html_text.h"
 #include "engine/report/session_report.h"
+#include "engine/report/tracked_section.h"
 #include "engine/session/replan_wording.h"
 
 namespace orthonav::engine {
@@ -275,6 +277,7 @@ std::string session_page(const SessionRecord& session, const std::string& source
   put_ending(session, html);
   put_levels(session, html);
   put_screws(session, html);
+  html += tracked_section(nlohmann::json::parse(session_json(session)));
   put_rods(session, html);
   put_registrations(session, html);
   put_steps(session, html);

@@ -76,6 +76,7 @@ class Journal : public SessionObserver {
                  const ScrewReplanned& done) override;
   void screw_done(Timestamp time, const LevelState& level, std::size_t screw,
                   const ToolGuidance* at_depth) override;
+  void calibration_found(Timestamp time, const CalibrationInUse& found) override;
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override;
   void head_dropped(Timestamp time, nav::Side side) override;
   void rod_done(Timestamp time, const RodState& rod) override;

@@ -8,6 +8,35 @@ JournalLine millimetres(Vec3 v_m) {
   return JournalLine::array({v_m.x * 1e3, v_m.y * 1e3, v_m.z * 1e3});
 }
 
+JournalLine scaled(const std::array<double, 9>& covariance, double factor) {
+  JournalLine out = JournalLine::array();
+  for (const double value : covariance) {
+    out.push_back(value * factor);
+  }
+  return out;
+}
+
+JournalLine executed_json(const nav::ExecutedTrajectory& executed) {
+  const Vec3 direction = executed.axis.direction;
+  JournalLine out{{"pairs", executed.pairs},
+                  {"entry_mm", millimetres(executed.axis.point.v)},
+                  {"direction", JournalLine::array({direction.x, direction.y, direction.z})},
+                  {"depth_mm", executed.depth_m * 1e3}};
+  if (executed.point_covariance_m2) {
+    out["entry_covariance_mm2"] = scaled(*executed.point_covariance_m2, 1e6);
+    out["direction_covariance_rad2"] = scaled(*executed.direction_covariance_rad2, 1.0);
+  }
+  return out;
+}
+
+JournalLine grades_json(const std::array<double, nav::kPedicleGrades>& probability) {
+  JournalLine out = JournalLine::object();
+  for (std::size_t g = 0; g < nav::kPedicleGrades; ++g) {
+    out[nav::name_of(static_cast<nav::PedicleGrade>(g))] = probability[g];
+  }
+  return out;
+}
+
 JournalLine journal_line(std::int64_t file_ticks, Timestamp time, const char* what) {
   return JournalLine{{"time_100ns", file_ticks},
                      {"time_ns", std::int64_t{time.time_since_epoch().count()}},

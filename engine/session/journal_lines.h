@@ -19,6 +19,12 @@ using JournalLine = nlohmann::ordered_json;
 [[nodiscard]] JournalLine journal_line(std::int64_t file_ticks, Timestamp time, const char* what,
                                        const LevelState& level);
 [[nodiscard]] JournalLine millimetres(Vec3 v_m);
+/// Where a tool went, in the vertebra's frame, with its covariances where they are known.
+[[nodiscard]] JournalLine executed_json(const nav::ExecutedTrajectory& executed);
+/// Of a 3x3 by rows.
+[[nodiscard]] JournalLine scaled(const std::array<double, 9>& covariance, double factor);
+/// The probability of each grade, A to E.
+[[nodiscard]] JournalLine grades_json(const std::array<double, nav::kPedicleGrades>& probability);
 /// In mm and degrees.
 [[nodiscard]] JournalLine difference_line(const nav::ScrewDifference& difference);
 

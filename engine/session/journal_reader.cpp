@@ -195,6 +195,8 @@ class Reading {
       replay_.landmark(line.text("level"), landmark_of(line), line);
     } else if (what == "tips") {
       record_.tips = tips_of(line);
+    } else if (what == "calibration") {
+      record_.calibration = calibration_of(line);
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
     } else if (what == "screw" || what == "wire" || what == "screw redone") {

@@ -20,32 +20,21 @@ void put_clearance_at_depth(JournalLine& line, const LevelState& level, std::siz
   line["grade"] = nav::name_of(nav::grade_of(clearance->least.clearance_m));
   if (clearance->spread) {
     line["clearance_95_mm"] = clearance->spread->lower_95_m * 1e3;
+    line["grade_probability"] = grades_json(clearance->spread->grade_probability);
   }
 }
 
-JournalLine scaled(const std::array<double, 9>& covariance, double factor) {
-  JournalLine out = JournalLine::array();
-  for (const double value : covariance) {
-    out.push_back(value * factor);
-  }
-  return out;
-}
-
-/// Where the tool went, in the vertebra's frame.
+/// Where the tool went; what was not measured is named.
 void put_executed(JournalLine& line, const LevelState& level, std::size_t screw) {
-  const auto& executed = level.executed[screw];
-  if (!executed) {
-    return;
+  if (level.executed[screw]) {
+    line["executed"] = executed_json(*level.executed[screw]);
+  } else {
+    line["not_measured"].push_back("executed");
   }
-  const Vec3 direction = executed->axis.direction;
-  JournalLine& out = line["executed"];
-  out["pairs"] = executed->pairs;
-  out["entry_mm"] = millimetres(executed->axis.point.v);
-  out["direction"] = JournalLine::array({direction.x, direction.y, direction.z});
-  out["depth_mm"] = executed->depth_m * 1e3;
-  if (executed->point_covariance_m2) {
-    out["entry_covariance_mm2"] = scaled(*executed->point_covariance_m2, 1e6);
-    out["direction_covariance_rad2"] = scaled(*executed->direction_covariance_rad2, 1.0);
+  if (!level.clearance_at_depth[screw]) {
+    line["not_measured"].push_back("clearance");
+  } else if (!level.clearance_at_depth[screw]->spread) {
+    line["not_measured"].push_back("grade_probability");
   }
 }
 
@@ -92,6 +81,12 @@ void Journal::screw_redone(Timestamp time, const LevelState& level, std::size_t 
   line["from_hole_mm"] = entry.from_hole_m * 1e3;
   line["clearance_mm"] = entry.clearance.clearance_m * 1e3;
   add_line(*log_, line, kDurable);
+}
+
+void Journal::calibration_found(Timestamp time, const CalibrationInUse& found) {
+  JournalLine line = journal_line(file_ticks(time), time, "calibration");
+  line.update(calibration_json(found));
+  add_line(*log_, line);
 }
 
 void Journal::screw_done(Timestamp time, const LevelState& level, std::size_t screw,

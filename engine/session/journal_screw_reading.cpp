@@ -1,10 +1,26 @@
 #include "engine/session/journal_screw_reading.h"
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include "base/angle.h"
 #include "base/units.h"
 
 namespace orthonav::engine {
 namespace {
+
+std::optional<std::array<double, nav::kPedicleGrades>> grades_of(const JsonNode& line) {
+  if (!line.has("grade_probability")) {
+    return std::nullopt;
+  }
+  const JsonNode node = line.child("grade_probability");
+  std::array<double, nav::kPedicleGrades> out{};
+  for (std::size_t g = 0; g < nav::kPedicleGrades; ++g) {
+    out[g] = node.number(nav::name_of(static_cast<nav::PedicleGrade>(g)));
+  }
+  return out;
+}
 
 std::optional<RecordedPose> pose_of(const JsonNode& line) {
   if (!line.has("angle_deg")) {
@@ -15,7 +31,37 @@ std::optional<RecordedPose> pose_of(const JsonNode& line) {
                       line.number("tip_off_axis_mm") * kMetresPerMm,
                       line.number("depth_mm") * kMetresPerMm,
                       optional_number(line, "clearance_mm", kMetresPerMm),
-                      optional_number(line, "clearance_95_mm", kMetresPerMm)};
+                      optional_number(line, "clearance_95_mm", kMetresPerMm),
+                      line.text_or("grade", ""),
+                      grades_of(line)};
+}
+
+std::optional<std::array<double, 9>> covariance_of(const JsonNode& node, const char* key,
+                                                   double unit) {
+  if (!node.has(key)) {
+    return std::nullopt;
+  }
+  const std::vector<double> values = node.numbers(key, 9);
+  std::array<double, 9> out{};
+  for (std::size_t i = 0; i < std::min(values.size(), out.size()); ++i) {
+    out[i] = values[i] * unit;
+  }
+  return out;
+}
+
+std::optional<nav::ExecutedTrajectory> executed_of(const JsonNode& line) {
+  if (!line.has("executed")) {
+    return std::nullopt;
+  }
+  const JsonNode node = line.child("executed");
+  nav::ExecutedTrajectory out;
+  out.axis = {{node.vec3("entry_mm") * kMetresPerMm}, node.vec3("direction")};
+  out.depth_m = node.number("depth_mm") * kMetresPerMm;
+  out.pairs = static_cast<std::size_t>(std::max(0, node.integer("pairs")));
+  out.point_covariance_m2 =
+      covariance_of(node, "entry_covariance_mm2", kMetresPerMm * kMetresPerMm);
+  out.direction_covariance_rad2 = covariance_of(node, "direction_covariance_rad2", 1.0);
+  return out;
 }
 
 }  // namespace
@@ -47,6 +93,10 @@ RecordedScrew screw_of(const JsonNode& line, Timestamp time) {
   screw.done = true;
   screw.time = time;
   screw.at_depth = pose_of(line);
+  screw.executed = executed_of(line);
+  if (line.has("not_measured")) {
+    screw.not_measured = line.texts("not_measured");
+  }
   screw.wire_asked = line.has("wire");
   return screw;
 }

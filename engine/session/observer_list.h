@@ -90,6 +90,11 @@ class ObserverList : public SessionObserver {
       o->screw_done(time, level, screw, at_depth);
     }
   }
+  void calibration_found(Timestamp time, const CalibrationInUse& found) override {
+    for (auto* o : observers_) {
+      o->calibration_found(time, found);
+    }
+  }
   void head_recorded(Timestamp time, nav::Side side, Point<World> head) override {
     for (auto* o : observers_) {
       o->head_recorded(time, side, head);

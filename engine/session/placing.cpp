@@ -49,9 +49,18 @@ std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t s
     return refusal;
   }
   wire_ = PlacedWire{axis, resting.pairs, rules_.angle_limit_rad, rules_.entry_limit_m, false};
+  measured_ = Measured{sleeve, *now.uncertainty, errors, resting.pairs};
   no_other_entry_ = false;
   confirming_ = false;
   return std::nullopt;
+}
+
+void Placing::judge_again(const nav::ScrewPlan& plan) {
+  wire_ = PlacedWire{
+      nav::placed_axis(plan, measured_->sleeve, measured_->uncertainty, measured_->errors),
+      measured_->pairs, rules_.angle_limit_rad, rules_.entry_limit_m, false};
+  no_other_entry_ = false;
+  confirming_ = false;
 }
 
 std::optional<TouchRefusal> Placing::refusal_of(const nav::PlacedAxis& axis) const {
@@ -80,7 +89,8 @@ std::optional<nav::OtherEntry> Placing::other_entry(const LevelState& level, std
   nav::OtherEntryRules rules;
   rules.from_hole_m = rules_.drill_diameter_m;
   const auto found =
-      nav::other_entry(plan, driven ? driven->entry : wire_->axis.line.point, bone, rules);
+      redo_ ? nav::other_entry(plan, driven ? driven->entry : wire_->axis.line.point, bone, rules)
+            : std::nullopt;
   no_other_entry_ = !found;
   return found;
 }

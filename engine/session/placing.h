@@ -15,7 +15,8 @@ namespace orthonav::engine {
 class Placing {
  public:
   Placing() = default;
-  explicit Placing(const PlacedWireRules& rules) : rules_(rules) {}
+  /// `redo` false: no wire is redone; one beyond a limit is kept by a word, or its level rejected.
+  explicit Placing(const PlacedWireRules& rules, bool redo = true) : rules_(rules), redo_(redo) {}
 
   /// A wire was placed: nothing is known of it.
   void begin();
@@ -28,6 +29,8 @@ class Placing {
                                                  const nav::TrackedPose& pose,
                                                  const nav::ToolGeometry& guide,
                                                  double max_spread_m);
+  /// The plan was changed: the wire, which was measured, is held against that one.
+  void judge_again(const nav::ScrewPlan& plan);
   /// As it was measured last.
   [[nodiscard]] const std::optional<PlacedWire>& wire() const { return wire_; }
   [[nodiscard]] bool undecided() const { return wire_ && wire_->undecided(); }
@@ -43,10 +46,19 @@ class Placing {
   [[nodiscard]] StepState state() const;
 
  private:
+  /// The sleeve as it stood.
+  struct Measured {
+    nav::Axis<Vertebra> sleeve;
+    nav::PoseUncertainty uncertainty;
+    nav::SleeveErrors errors;
+    std::size_t pairs = 0;
+  };
   [[nodiscard]] std::optional<TouchRefusal> refusal_of(const nav::PlacedAxis& axis) const;
 
   PlacedWireRules rules_;
+  bool redo_ = true;
   std::optional<PlacedWire> wire_;
+  std::optional<Measured> measured_;  ///< that `wire_` is made of
   bool no_other_entry_ = false;
   bool confirming_ = false;
   AxisTouch touch_;

@@ -49,6 +49,7 @@ struct ReplanRefusal {
   enum class Kind : std::uint8_t {
     kDrillSet,       ///< the tip rests on the bone at the entry
     kDrilling,       ///< the drill is in the bone
+    kWireIn,         ///< its wire is in, and none that was measured waits for a word
     kNoScrewLeft,    ///< every screw of the level is done
     kNothingToUndo,  ///< this screw was not changed
     kNoSuchSize,     ///< `diameter_m` × `length_m` is not in the list

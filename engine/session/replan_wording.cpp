@@ -107,6 +107,8 @@ std::string_view plain_reason(ReplanRefusal::Kind kind) {
       return "the tip is set on the bone, lift it first";
     case kDrilling:
       return "drilling, draw the drill out first";
+    case kWireIn:
+      return "its wire is in: measure it first; one beyond a limit can be suited";
     case kNoScrewLeft:
       return "every screw of this level is done";
     case kNothingToUndo:

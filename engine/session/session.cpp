@@ -49,8 +49,14 @@ Result<std::unique_ptr<Session>> Session::create(Operation operation,
   if (!tools) {
     return tools.error();
   }
+  SessionOptions taken = options;
+  if (method.verification == Verification::kByEye) {
+    taken.steps = MethodSteps::none();
+  } else if (!taken.steps.check_points) {
+    method.verification = Verification::kByEye;
+  }
   return std::unique_ptr<Session>(
-      new Session(std::move(operation), std::move(*tools), std::move(method), options));
+      new Session(std::move(operation), std::move(*tools), std::move(method), taken));
 }
 
 Session::Session(Operation operation, WatchedTools tools, Method method,
@@ -58,11 +64,12 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
     : tools_(std::move(tools)),
       method_(std::move(method)),
       options_(options),
+      workflow_(workflow_of(options.steps)),
       digitizing_(method_, options),
       landmarking_(options.landmark),
-      tip_check_(options.tips, options.landmark),
+      tip_check_(options.tips, options.landmark, options.steps.tips),
       guiding_(options.drill),
-      placing_(options.placed),
+      placing_(options.placed, options.steps.redo),
       replanning_(options.replan),
       messages_(options.message_for, options.heard_for) {
   for (OperatedLevel& plan : operation.levels) {
@@ -159,7 +166,7 @@ void Session::hear(const Phrase& phrase) {
 }
 
 void Session::handle(Event event, Timestamp time) {
-  const Cell cell = answer(step_, event, method_.verification);
+  const Cell cell = answer(workflow_, step_, event);
   if (observer_) {
     observer_->happened(time, step_, event, cell);
   }
@@ -250,7 +257,9 @@ std::optional<std::size_t> Session::tool_of_step() const {
 }
 
 bool Session::by_touch(Step step) const {
-  return step_ == step && method_.verification == Verification::kByTouch;
+  const bool touched =
+      step == Step::kVerify ? options_.steps.check_points : options_.steps.dimple();
+  return step_ == step && touched;
 }
 
 bool Session::is_touched_in() const {

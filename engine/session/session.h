@@ -64,6 +64,12 @@ class Session {
   [[nodiscard]] std::span<const RodState> rods() const { return rod_templating_.rods(); }
   [[nodiscard]] std::span<const nav::ToolState> tool_states() const { return tools_.states(); }
   [[nodiscard]] const nav::ToolTracker& tracker() const { return tools_.tracker(); }
+  /// The index of the guide among the tools, and the guide as it is believed to be: as described,
+  /// or corrected since.
+  [[nodiscard]] std::size_t guide() const { return tools_.guide(); }
+  [[nodiscard]] const nav::ToolGeometry& guide_geometry() const {
+    return tools_.geometry(tools_.guide());
+  }
 
  private:
   Session(Operation operation, WatchedTools tools, Method method, const SessionOptions& options);
@@ -144,6 +150,7 @@ class Session {
   WatchedTools tools_;
   Method method_;
   SessionOptions options_;
+  Workflow workflow_;
   SessionObserver* observer_ = nullptr;
   std::optional<std::int64_t> map_epoch_;  ///< of the newest pair
   std::int64_t reference_moves_ = 0;       ///< that were answered

@@ -35,6 +35,9 @@ nav::PressedPlace Session::touched_landmark() const {
 /// is nearer to it.
 std::optional<nav::PressedPlace> Session::guide_tip_in_landmark(const TouchedPlace& pointer) {
   constexpr double kInReach_m = 0.02;
+  if (!options_.steps.tips) {
+    return std::nullopt;
+  }
   const TouchedPlace guide =
       tip_check_.touch().take_place(std::nullopt, options_.max_touch_spread_m);
   const auto* guide_tip = std::get_if<nav::PressedPlace>(&guide);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/session/calibration_in_use.h"
 #include "engine/session/guidance.h"
 #include "engine/session/registration_outcome.h"
 #include "hal/api/devices.h"
@@ -45,6 +46,8 @@ class SessionObserver {
   /// at its depth, or null where it never did.
   virtual void screw_done(Timestamp /*time*/, const LevelState& /*level*/, std::size_t /*screw*/,
                           const ToolGuidance* /*at_depth*/) {}
+  /// What tags and cameras in use have told so far, after each screw.
+  virtual void calibration_found(Timestamp /*time*/, const CalibrationInUse& /*found*/) {}
   virtual void head_recorded(Timestamp /*time*/, nav::Side /*side*/, Point<World> /*head*/) {}
   virtual void head_dropped(Timestamp /*time*/, nav::Side /*side*/) {}
   virtual void rod_done(Timestamp /*time*/, const RodState& /*rod*/) {}

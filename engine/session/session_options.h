@@ -6,6 +6,7 @@
 
 #include "base/time.h"
 #include "engine/session/landmark.h"
+#include "engine/session/method_steps.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/replan_limits.h"
 #include "engine/session/tip_check.h"
@@ -30,6 +31,7 @@ struct SessionOptions {
   /// lever already make up to 2.5 mm over three pairs in the simulated room; a moving tip makes 5
   /// mm and more.
   double max_touch_spread_m = 0.003;
+  MethodSteps steps;  ///< where the eye alone verifies: none
   nav::CheckPointRules check_points;
   LandmarkRules landmark;
   TipCheckRules tips;

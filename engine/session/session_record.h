@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -7,8 +8,10 @@
 
 #include "base/side.h"
 #include "base/time.h"
+#include "engine/session/calibration_in_use.h"
 #include "engine/session/workflow.h"
 #include "nav/guidance/changed_screw.h"
+#include "nav/guidance/executed_trajectory.h"
 
 namespace orthonav::engine {
 
@@ -20,6 +23,8 @@ struct RecordedPose {
   double depth_m = 0.0;
   std::optional<double> clearance_m;  ///< of the planned screw along the tool
   std::optional<double> clearance_95_m;
+  std::string grade;  ///< of the clearance; empty: not recorded
+  std::optional<std::array<double, nav::kPedicleGrades>> grade_probability;  ///< A to E
 };
 
 /// A wire as it was measured where it stood.
@@ -37,6 +42,9 @@ struct RecordedScrew {
   bool done = false;
   std::optional<Timestamp> time;         ///< when it was declared done
   std::optional<RecordedPose> at_depth;  ///< absent where the tool never stood at its depth
+  std::optional<nav::ExecutedTrajectory> executed = {};  ///< where its tool went, as tracked
+  /// What of this the session did not measure; empty in older journals.
+  std::vector<std::string> not_measured = {};
   bool wire_asked =
       false;  ///< its wire was to be measured before it was done; not in older journals
   std::optional<RecordedWire> wire = {};  ///< as it was measured last, of the newest entry
@@ -143,7 +151,8 @@ struct SessionRecord {
   std::string reason;              ///< what ended it before its time; empty: nothing did, or cut
   std::vector<RecordedLevel> levels;
   std::vector<RecordedRegistration> registrations;
-  std::optional<RecordedTips> tips;  ///< as they were compared last
+  std::optional<CalibrationInUse> calibration;  ///< after the last screw; absent: not recorded
+  std::optional<RecordedTips> tips;             ///< as they were compared last
   std::vector<RecordedRod> rods;
   std::vector<RecordedStep> steps;
 

@@ -2,7 +2,8 @@
 
 namespace orthonav::engine {
 
-// The screw in work is changed: the next one in `accepted`, the selected one in `guide`.
+// The screw in work is changed: the next one in `accepted`, the selected one in `guide`, and in
+// `placed` one whose wire waits for a word.
 
 void Session::hear_replan(const Phrase& phrase, const Result<Replan>& replan) {
   const bool sure = phrase.confidence >= options_.min_voice_confidence;
@@ -30,6 +31,10 @@ std::variant<std::size_t, ReplanRefusal> Session::screw_to_replan() const {
         return ReplanRefusal{Kind::kDrilling};
     }
   }
+  if (step_ == Step::kPlaced) {
+    return placing_.undecided() ? std::variant<std::size_t, ReplanRefusal>(guiding_.screw())
+                                : ReplanRefusal{Kind::kWireIn};
+  }
   const auto open = level().open_screw();
   if (!open) {
     return ReplanRefusal{Kind::kNoScrewLeft};
@@ -49,12 +54,19 @@ void Session::take_replan(const Replanning::Outcome& outcome, Timestamp time) {
   if (const auto* refusal = std::get_if<ReplanRefusal>(&outcome)) {
     return messages_.say(*refusal, time);
   }
-  // Not one frame shows a number, a depth or an alarm of the plan before.
-  guiding_.forget_guidance();
   const auto& done = std::get<ScrewReplanned>(outcome);
   messages_.say(done, time);
   if (observer_) {
     observer_->replanned(time, level(), replanning_.asked(), done);
+  }
+  if (step_ != Step::kPlaced) {
+    // Not one frame shows a number, a depth or an alarm of the plan before.
+    return guiding_.forget_guidance();
+  }
+  // Where the tool went stays; its wire is held against the plan in use.
+  placing_.judge_again(level().plan.screws[guiding_.screw()]);
+  if (observer_) {
+    observer_->wire_measured(time, level(), guiding_.screw(), *placing_.wire());
   }
 }
 

@@ -62,6 +62,9 @@ void Session::measure_wire(Timestamp time) {
 }
 
 void Session::keep_wire(Timestamp time) {
+  if (consents_to_breach(time)) {
+    return;
+  }
   if (!placing_.undecided()) {
     messages_.say(NotPossibleNow{Event::kSayAccept}, time);
     return;
@@ -111,6 +114,7 @@ void Session::finish_screw(Timestamp time) {
   }
   if (observer_) {
     observer_->screw_done(time, now, screw, guiding_.at_depth());
+    observer_->calibration_found(time, calibration_in_use(tools_.tracker()));
   }
   const auto finished = [](const LevelState& state) { return state.finished(); };
   if (!finished(now)) {

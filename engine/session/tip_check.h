@@ -37,8 +37,9 @@ struct TipCheckRules {
 class TipCheck {
  public:
   TipCheck() = default;
-  TipCheck(const TipCheckRules& rules, const LandmarkRules& landmark)
-      : rules_(rules), landmark_(landmark) {}
+  /// `compare` false: the tips are not asked for.
+  TipCheck(const TipCheckRules& rules, const LandmarkRules& landmark, bool compare = true)
+      : rules_(rules), landmark_(landmark), compare_(compare) {}
 
   [[nodiscard]] Touch& touch() { return touch_; }
   /// Of the guide's tip at `place`, the guide standing as `world_from_guide`, the pointer's tip
@@ -48,7 +49,7 @@ class TipCheck {
       const nav::PressedPlace& place, const Transform<World, Marker>& world_from_guide,
       const nav::PressedPlace& pointer_tip, bool anchored, double size_sd);
   /// Still to be done.
-  [[nodiscard]] bool due() const { return !last_; }
+  [[nodiscard]] bool due() const { return compare_ && !last_; }
   /// A difference waits for consent to be corrected.
   [[nodiscard]] bool offers() const { return last_ && !last_->corrected && !last_->agrees(); }
   /// The surgeon consents: the difference, which is none from now on.
@@ -58,6 +59,7 @@ class TipCheck {
  private:
   TipCheckRules rules_;
   LandmarkRules landmark_;
+  bool compare_ = true;
   std::optional<TipDifference> last_;
   Touch touch_;
 };

@@ -149,10 +149,9 @@ void append_table(std::string& out) {
   }
 }
 
-void append_by_eye(std::string& out) {
-  out += "Where the eye alone verifies (`paper`), these answers stand instead:\n\n";
+void append_rules(std::string& out, const auto& rules) {
   out += "| step | event | answer |\n|---|---|---|\n";
-  for (const Rule& rule : workflow_detail::kRulesByEye) {
+  for (const Rule& rule : rules) {
     out += "| " + std::string(name_of(rule.step)) + " | " + std::string(name_of(rule.event)) +
            " | " + std::string(name_of(rule.action));
     if (rule.next != rule.step) {
@@ -160,6 +159,20 @@ void append_by_eye(std::string& out) {
     }
     out += " |\n";
   }
+}
+
+void append_instead(std::string& out) {
+  out +=
+      "Where the eye alone verifies (`paper`), these answers stand instead; a study that leaves "
+      "out ";
+  out +=
+      "check points, the\ndimple or the wire's measurement has those of `verify`, `accepted` or ";
+  out += "`guide`:\n\n";
+  append_rules(out, workflow_detail::kRulesByEye);
+  out += "\nWhere a study leaves out that the landmark is touched again:\n\n";
+  append_rules(out, workflow_detail::kRulesTouchedOnce);
+  out += "\nWhere it is touched, and a study leaves out that wires are measured:\n\n";
+  append_rules(out, workflow_detail::kRulesWireUnmeasured);
 }
 
 }  // namespace
@@ -173,7 +186,7 @@ std::string workflow_diagram() {
   out += "\n";
   append_table(out);
   out += "\n";
-  append_by_eye(out);
+  append_instead(out);
   return out;
 }
 

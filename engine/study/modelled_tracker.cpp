@@ -69,12 +69,20 @@ class ModelledFinder final : public nav::TagFinder {
   std::vector<nav::MarkerCorners> right_;
 };
 
+/// Without sizes, tags are known to be as large as stated: what differs goes elsewhere.
+nav::CalibrationOptions calibration_options(bool correct_tag_sizes) {
+  constexpr double kKnown = 1e-6;
+  nav::CalibrationOptions out;
+  out.size_sd = correct_tag_sizes ? out.size_sd : kKnown;
+  return out;
+}
+
 /// The tracker of `best` with corners in place of pixels.
 class ModelledTracker final : public nav::ToolTracker {
  public:
   ModelledTracker(const sim::SimHeadset& room, const StereoCalibration& calibration,
                   std::vector<nav::ToolGeometry> tools, const nav::TrackerOptions& options,
-                  const MeasurementModel& model)
+                  const MeasurementModel& model, bool correct_tag_sizes)
       : room_(room),
         calibration_(calibration),
         tools_(std::move(tools)),
@@ -82,7 +90,8 @@ class ModelledTracker final : public nav::ToolTracker {
         model_(model),
         sightings_(room, model),
         filters_(tools_.size()),
-        online_(tools_.size()) {
+        online_(tools_.size(), calibration_options(correct_tag_sizes)),
+        correct_tag_sizes_(correct_tag_sizes) {
     for (std::size_t i = 0; i < tools_.size(); ++i) {
       states_.push_back({i, {}, {}, 0.0});
     }
@@ -107,7 +116,8 @@ class ModelledTracker final : public nav::ToolTracker {
     return online_.alignment();
   }
   [[nodiscard]] double tag_size_difference_sd(std::size_t tool, std::size_t other) const override {
-    return online_.size_difference_sd(tool, other);
+    return correct_tag_sizes_ ? online_.size_difference_sd(tool, other)
+                              : ToolTracker::tag_size_difference_sd(tool, other);
   }
 
  private:
@@ -173,6 +183,7 @@ class ModelledTracker final : public nav::ToolTracker {
   std::vector<nav::PoseFilter> filters_;
   std::vector<nav::ToolState> states_;
   nav::OnlineCalibration online_;
+  bool correct_tag_sizes_;
   std::int64_t pairs_ = -1;
 };
 
@@ -180,7 +191,8 @@ class ModelledTracker final : public nav::ToolTracker {
 
 Result<std::unique_ptr<nav::ToolTracker>> create_modelled_tracker(
     std::string_view method, const sim::SimHeadset& room, const StereoCalibration& calibration,
-    std::vector<nav::ToolGeometry> tools, const nav::TrackerOptions& options) {
+    std::vector<nav::ToolGeometry> tools, const nav::TrackerOptions& options,
+    bool correct_tag_sizes) {
   const MeasurementModel model = MeasurementModel::of(method);
   if (method == "paper") {
     return nav::create_tracker_of_corners(calibration, std::move(tools), options,
@@ -189,8 +201,8 @@ Result<std::unique_ptr<nav::ToolTracker>> create_modelled_tracker(
   if (Status status = nav::check(calibration, tools, options); !status) {
     return status.error();
   }
-  return std::unique_ptr<nav::ToolTracker>(
-      std::make_unique<ModelledTracker>(room, calibration, std::move(tools), options, model));
+  return std::unique_ptr<nav::ToolTracker>(std::make_unique<ModelledTracker>(
+      room, calibration, std::move(tools), options, model, correct_tag_sizes));
 }
 
 }  // namespace orthonav::engine

@@ -5,6 +5,7 @@
 #include "engine/case/tool_file.h"
 #include "engine/live/known_tools.h"
 #include "engine/study/evaluation.h"
+#include "engine/study/guide_truth.h"
 #include "engine/study/modelled_tracker.h"
 #include "engine/study/sim_scenario.h"
 #include "hal/replay/recorder.h"
@@ -22,14 +23,14 @@ Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
   return replay::RecordingHeadset::around(room, folder, {tools_text(tools)});
 }
 
-void observe(const OperationHooks& hooks, GroundTruthRecorder& ground_truth, EndNote& end_note,
-             AssembledOperation& live) {
+void observe(const OperationHooks& hooks, GroundTruthRecorder& ground_truth, GuideTruth& guide,
+             EndNote& end_note, AssembledOperation& live) {
   live.observe(&ground_truth);
   live.observe(&end_note);
   for (SessionObserver* hook : hooks.session) {
     live.observe(hook);
   }
-  live.observe(hooks.loop);
+  live.observe(&guide);
   live.draw_into(hooks.sink);
 }
 
@@ -65,8 +66,9 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   }
   AssembledOperation& live = **assembled;
   GroundTruthRecorder ground_truth(room, live.session());
+  GuideTruth guide_truth(room, live.session(), hooks.loop);
   EndNote end_note;
-  observe(hooks, ground_truth, end_note, live);
+  observe(hooks, ground_truth, guide_truth, end_note, live);
   auto recorder = recorder_of(room, options.record_folder, *tools);
   if (!recorder) {
     return recorder.error();
@@ -83,11 +85,13 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   }
   OperationResult result =
       outcome_of(live.session().levels(), live.session().rods(), std::move(*report));
+  result.calibration = calibration_in_use(live.session().tracker());
   // A recording that failed must not cost the operation its result.
   if (*recorder) {
     result.recording = (*recorder)->close();
   }
   ground_truth.evaluate(live.session().levels(), result);
+  guide_truth.evaluate(result);
   end_note.explain(result);
   return result;
 }
@@ -106,8 +110,9 @@ Result<Method> method_in(const sim::SimHeadset& room, const Operation& operation
   }
   auto method = method_named(options.method);
   if (method && options.measurement == Measurement::kModel) {
-    method->create_tracker = [name = method->name, &room](const auto&... given) {
-      return create_modelled_tracker(name, room, given...);
+    method->create_tracker = [name = method->name, sizes = options.correct_tag_sizes,
+                              &room](const auto&... given) {
+      return create_modelled_tracker(name, room, given..., sizes);
     };
     method->coaching = false;  // the simulated surgeon does not read it, and it is not for free
   }
@@ -120,6 +125,9 @@ std::vector<std::string> OperationOptions::check() const {
   std::vector<std::string> problems;
   if (const auto known = method_named(method); !known) {
     problems.push_back(known.error().message);
+  }
+  if (!correct_tag_sizes && measurement != Measurement::kModel) {
+    problems.push_back("tag sizes are left out in the measurement model alone");
   }
   for (const std::string& problem : nav::problems_of(tools)) {
     problems.push_back("tools: " + problem);

@@ -30,7 +30,10 @@ struct OperationOptions : AssemblyOptions {
   std::vector<nav::ToolGeometry> tools;
   sim::Exposure exposure = sim::Exposure::kLaminae;
   sim::SimOptions sim;
-  std::string record_folder;  ///< empty: nothing is recorded
+  /// In the measurement model: poses of `best` use the sizes of tags that were found in use.
+  bool correct_tag_sizes = true;
+  std::vector<std::string> left_out;  ///< by `leave_out` (left_out.h): of the method
+  std::string record_folder;          ///< empty: nothing is recorded
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;

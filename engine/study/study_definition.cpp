@@ -8,6 +8,8 @@
 
 #include "base/angle.h"
 #include "engine/case/prepared_parts_file.h"
+#include "engine/case/tool_file.h"
+#include "engine/study/left_out.h"
 #include "engine/study/stored_study.h"
 #include "engine/study/study_text.h"
 #include "engine/study/study_totals.h"
@@ -65,7 +67,9 @@ std::string method_label(const OperationOptions& operation) {
   if (operation.navigation) {
     return "stated";
   }
-  return operation.method + (operation.use_reference ? " with reference" : "");
+  const std::string without = left_out_of(operation);
+  return operation.method + (operation.use_reference ? " with reference" : "") +
+         (without.empty() ? "" : " without " + without);
 }
 
 std::string definition_of(std::span<const Case> cases, const StudyOptions& options) {
@@ -85,6 +89,13 @@ std::string definition_of(std::span<const Case> cases, const StudyOptions& optio
            {"magnitudes", magnitudes}};
   if (operation.exposure != sim::Exposure::kLaminae) {
     out["exposure"] = static_cast<int>(operation.exposure);
+  }
+  if (!operation.left_out.empty()) {
+    out["left_out"] = operation.left_out;
+  }
+  if (const std::string tools = tools_text(operation.tools);
+      tools != tools_text(built_in_tools())) {
+    out["tools"] = tools;
   }
   if (operation.navigation) {
     out["navigation"] = {{"target_mm", operation.navigation->target_m * 1e3},

@@ -89,6 +89,30 @@ void add_registrations(const nlohmann::json& study, std::string& html) {
           html_number(100.0 * silent["upper_95"].get<double>(), 1) + " %.</p></section>";
 }
 
+/// As the guide was shown when the wires pierced the bone, against how it was.
+void add_guided(const nlohmann::json& study, std::string& html) {
+  if (!study.contains("guided")) {
+    return;
+  }
+  const auto& guided = study["guided"];
+  const auto count_of = [](const nlohmann::json& counted) {
+    return std::to_string(counted["n"].get<int>()) + " of " +
+           std::to_string(counted["of"].get<int>()) + " screws, with 95 % certainty at most " +
+           html_number(100.0 * counted["upper_95"].get<double>(), 1) + " %";
+  };
+  html +=
+      "<section><h2>As the guide was shown</h2><p>When the wires pierced the bone, tip and "
+      "axis were shown " +
+      html_number(guided["across_mm"]["mean"].get<double>(), 2) +
+      " mm off across the plan (95 % within " +
+      html_number(guided["across_mm"]["p95"].get<double>(), 2) + " mm) and " +
+      html_number(guided["angle_deg"]["mean"].get<double>(), 2) +
+      "° off. More than 2 mm without a warning: " + count_of(guided["silent_failures"]) +
+      ". Breaches of the cortex: " +
+      std::to_string(guided["unwarned_breaches"]["breaches"].get<int>()) +
+      ", without a warning: " + count_of(guided["unwarned_breaches"]) + ".</p></section>";
+}
+
 /// A command that is broken before its options only, so that it reads well and is copied whole.
 std::string command_cell(const std::string& command) {
   std::string html = "<td class=again><code>";
@@ -192,6 +216,7 @@ std::string study_html(const std::string& text, const ReplayCommand& replay) {
                std::to_string(study.value("completed", 0)) + " of them completed.";
   add_means(study, page.body);
   add_registrations(study, page.body);
+  add_guided(study, page.body);
   page.body += "<section><h2>How the errors spread</h2><div class=plots></div></section>";
   const std::vector<WorstScrew> screws = screws_of(study);
   add_worst(screws, again, page.body);

@@ -1,6 +1,7 @@
 #include "engine/study/study_totals.h"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/report/report_values.h"
 #include "nav/evaluation/errors.h"
@@ -41,6 +42,7 @@ void StudyTotals::add(const Json& run) {
   }
   add_run(run, registrations_);
   add_run(run, clearance_);
+  add_run(run, guided_);
 }
 
 Json StudyTotals::study(const std::string& method, const Json& runs, const Json& failed,
@@ -54,8 +56,11 @@ Json StudyTotals::study(const std::string& method, const Json& runs, const Json&
              {"completed", completed_},
              {"table", table},
              {"registrations", registrations_json(registrations_.quality())},
-             {"clearance", clearance_json(clearance_)},
-             {"runs", runs}};
+             {"clearance", clearance_json(clearance_)}};
+  if (Json guided = guided_json(guided_); !guided.is_null()) {
+    study["guided"] = std::move(guided);
+  }
+  study["runs"] = runs;
   if (!failed.empty()) {
     study["failed"] = failed;
   }

@@ -8,6 +8,7 @@
 
 #include "engine/report/paper_table.h"
 #include "engine/study/clearance_statistics.h"
+#include "engine/study/guided_statistics.h"
 #include "engine/study/study_statistics.h"
 
 namespace orthonav::engine {
@@ -31,6 +32,7 @@ class StudyTotals {
   std::array<std::vector<double>, kPaperTable.size()> rows_;
   RegistrationCounts registrations_;
   ClearanceQuality clearance_;
+  GuidedQuality guided_;
 };
 
 }  // namespace orthonav::engine

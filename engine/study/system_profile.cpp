@@ -7,6 +7,7 @@
 #include "base/angle.h"
 #include "embedded/systems_json.h"
 #include "engine/io/json_document.h"
+#include "engine/study/left_out.h"
 #include "hal/sim/instruments.h"
 #include "hal/sim/magnitudes.h"
 
@@ -90,6 +91,20 @@ void read_magnitudes(const JsonNode& system, sim::ErrorModel& model) {
   }
 }
 
+void read_without(const JsonNode& system, SystemProfile& out) {
+  if (!system.has("without")) {
+    return;
+  }
+  out.without = system.texts("without");
+  OperationOptions tried;
+  for (const std::string& step : out.without) {
+    if (const Status known = leave_out(step, tried); !known) {
+      system.refuse("without", known.error().message);
+      return;
+    }
+  }
+}
+
 void read_ways(const JsonNode& system, SystemProfile& out) {
   if (system.has("navigation")) {
     const JsonNode stated = system.child("navigation");
@@ -106,6 +121,8 @@ void read_ways(const JsonNode& system, SystemProfile& out) {
   if (system.has("exposure")) {
     read_name(system, "exposure", kExposure, out.exposure);
   }
+  out.reference = system.flag_or("reference", false);
+  read_without(system, out);
   out.instrument = system.text("instrument");
   if (const Status known = sim::use_instrument(out.instrument, out.magnitudes); !known) {
     system.refuse("instrument", known.error().message);
@@ -142,6 +159,10 @@ void SystemProfile::apply(OperationOptions& options) const {
   options.exposure = exposure;
   options.sim.guidance = guidance;
   options.sim.error_model = magnitudes;
+  options.use_reference = reference;
+  for (const std::string& step : without) {
+    static_cast<void>(leave_out(step, options));  // known since it was read
+  }
 }
 
 Result<std::vector<SystemProfile>> parse_systems(std::string_view text, const std::string& name) {

@@ -25,6 +25,8 @@ struct SystemProfile {
   std::optional<StatedNavigation> navigation;  ///< in place of a method of ours
   sim::GuidanceProfile guidance = sim::GuidanceProfile::kNumbers;
   std::string instrument;
+  bool reference = false;            ///< everything hangs on the patient reference
+  std::vector<std::string> without;  ///< steps of the method (left_out.h)
   sim::Exposure exposure = sim::Exposure::kLaminae;
   sim::ErrorModel magnitudes;
   std::optional<PublishedFigure> entry_mm;

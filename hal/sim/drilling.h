@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "base/side.h"
+#include "base/time.h"
 #include "hal/sim/error_model.h"
 #include "hal/sim/guidance_profile.h"
 #include "hal/sim/room.h"
@@ -43,17 +44,20 @@ struct HandWhileDrilling {
 /// is the chord of its way: what the hand does early counts as much as what it does late.
 class AdvancingWire {
  public:
-  AdvancingWire(const Drilling& begun, Point<Vertebra> entry) : begun_(begun), entry_(entry) {}
+  AdvancingWire(const Drilling& begun, Point<Vertebra> entry, Timestamp pierced = {})
+      : begun_(begun), entry_(entry), pierced_(pierced) {}
   /// The tool points along `inwards` (Vertebra, unit) as the wire gets to `way`.
   void follow(Vec3 inwards, const Drilling& now);
   [[nodiscard]] const Drilling& last() const { return begun_; }
   [[nodiscard]] Point<Vertebra> entry() const { return entry_; }
+  [[nodiscard]] Timestamp pierced() const { return pierced_; }
   /// Unit; `first` before it advanced at all.
   [[nodiscard]] Vec3 direction(Vec3 first) const;
 
  private:
   Drilling begun_;
   Point<Vertebra> entry_;
+  Timestamp pierced_{};
   Vec3 sum_{};
 };
 

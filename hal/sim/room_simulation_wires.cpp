@@ -48,7 +48,8 @@ void RoomSimulation::pierce(const Drilling& drilling) {
   const Vec3 normal = bone.closest(tip).normal;
   const Vec3 slipped = tip + (slip - slip.dot(normal) * normal);
   const auto hit = bone.first_hit(slipped - kSearch_m * straight, straight, 2.0 * kSearch_m);
-  wire_.emplace(drilling, Point<Vertebra>{hit ? hit->point : bone.closest(slipped).point});
+  wire_.emplace(drilling, Point<Vertebra>{hit ? hit->point : bone.closest(slipped).point},
+                kept(steps_ - 1).time);
   back_against_level_m_ = back_moved_m_ - level_moved_m_[drilling.level];
 }
 
@@ -65,7 +66,8 @@ void RoomSimulation::leave_wire() {
   const std::string& label = room_.levels[driven.level].label;
   take_wire_out(label, driven.side);
   ++wires_driven_;
-  truth_.wires.push_back({label, driven.side, wire_->entry(), direction, kept(steps_ - 1).time});
+  truth_.wires.push_back(
+      {label, driven.side, wire_->entry(), direction, kept(steps_ - 1).time, wire_->pierced()});
   truth_.heads.push_back(
       {label, driven.side, room_from_vertebra * (wire_->entry() - kHeadOverEntry_m * direction)});
   wire_.reset();

@@ -13,8 +13,9 @@ struct DrivenWire {
   std::string level;
   Side side = Side::kLeft;  ///< as the surgeon read it off the display
   Point<Vertebra> entry;
-  Vec3 direction;  ///< unit, into the bone
-  Timestamp time{};
+  Vec3 direction;       ///< unit, into the bone
+  Timestamp time{};     ///< when it was in
+  Timestamp pierced{};  ///< when its tip went through the cortex
 };
 
 /// A screw head where it actually stands.

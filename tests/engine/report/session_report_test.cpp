@@ -47,6 +47,40 @@ SessionRecord cut_session() {
   return session;
 }
 
+TEST(SessionReport, SaysWhereTheToolsWentAndWhatWasNotMeasured) {
+  SessionRecord session = cut_session();
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("Where the tools went: not recorded."));
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("Tags and cameras in use: not recorded."));
+  RecordedScrew& left = session.levels[0].screws[0];
+  nav::ExecutedTrajectory executed;
+  executed.axis = {{{0.0151, 0.0202, 0.0003}}, {0.0, -1.0, 0.0}};
+  executed.depth_m = 0.0112;
+  executed.pairs = 27;
+  executed.point_covariance_m2 = {0.36e-6, 0, 0, 0, 0.36e-6, 0, 0, 0, 0.36e-6};
+  executed.direction_covariance_rad2 = {1e-4, 0, 0, 0, 0, 0, 0, 0, 1e-4};
+  left.executed = executed;
+  left.at_depth->grade = "A";
+  left.at_depth->grade_probability = {0.93, 0.07, 0.0, 0.0, 0.0};
+  session.levels[0].screws[1].done = true;
+  session.levels[0].screws[1].not_measured = {"executed", "clearance"};
+  session.calibration = CalibrationInUse{{{"guide", 0.003, 0.004, 0.001}}, {}};
+  const std::string page = session_page(session, "j");
+  EXPECT_THAT(page, HasSubstr("15.1, 20.2, 0.3 ± 0.60"));
+  EXPECT_THAT(page, HasSubstr("0.000, -1.000, 0.000 ± 0.57"));
+  EXPECT_THAT(page, HasSubstr("A 93 %, B 7 %"));
+  EXPECT_THAT(page, HasSubstr("<td>L4 right</td><td>not measured</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>guide</td><td>0.40 ± 0.10</td><td>0.30</td>"));
+  EXPECT_THAT(page, HasSubstr("Cameras against their calibration: not measured."));
+  const auto json = nlohmann::json::parse(session_json(session));
+  EXPECT_EQ(json["levels"][0]["screws"][0]["executed"]["pairs"], 27);
+  EXPECT_EQ(json["levels"][0]["screws"][1]["not_measured"][0], "executed");
+  EXPECT_EQ(json["calibration"]["not_measured"][0], "cameras");
+  executed.point_covariance_m2.reset();
+  executed.direction_covariance_rad2.reset();
+  left.executed = executed;
+  EXPECT_THAT(session_page(session, "j"), HasSubstr("± not known"));
+}
+
 TEST(SessionReport, SaysWhatWasPlannedInSurgery) {
   SessionRecord session = cut_session();
   EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("planned in surgery")));

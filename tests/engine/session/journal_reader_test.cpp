@@ -168,6 +168,65 @@ TEST(JournalReader, KnowsEveryTouchOfTheLandmarkAndWhatItTookBack) {
   EXPECT_NEAR(touches[2].limit_m, LandmarkRules{}.most_m, 1e-9);
 }
 
+TEST(JournalReader, KnowsWhereTheToolWentAndNamesWhatWasNotMeasured) {
+  Journaled j({"L4"}, Verification::kByTouch);
+  test::ScriptedOperation& s = j.operation;
+  s.registers_within(0.0003);
+  s.accepts_first_by_touch();
+  s.touches_dimple();
+  s.says("next");
+  for (const double depth_m : {0.0, 0.005, 0.010, 0.010, 0.010}) {
+    s.tracker().guide = test::guide_at({0.0153, 0.020 - depth_m, 0.0}, 0.01);
+    s.pair();
+  }
+  s.says("next");
+  s.says("next");
+  s.tracker().guide.reset();
+  s.touches_dimple();
+  s.says("next");
+  s.says("next");
+  s.says("next");
+  const LevelState& level = s.session().levels()[0];
+  ASSERT_TRUE(level.executed[0]);
+  ASSERT_FALSE(level.executed[1]);
+  const SessionRecord record = j.finished("");
+  const RecordedScrew& left = record.levels.at(0).screws.at(0);
+  ASSERT_TRUE(left.executed);
+  EXPECT_EQ(left.executed->pairs, level.executed[0]->pairs);
+  EXPECT_NEAR((left.executed->axis.point - level.executed[0]->axis.point).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(left.executed->axis.direction.dot(level.executed[0]->axis.direction), 1.0, 1e-12);
+  EXPECT_NEAR(left.executed->depth_m, 0.010, 1e-3);
+  EXPECT_EQ(left.executed->point_covariance_m2.has_value(),
+            level.executed[0]->point_covariance_m2.has_value());
+  ASSERT_TRUE(left.at_depth);
+  EXPECT_EQ(left.at_depth->grade, "A");
+  EXPECT_EQ(left.at_depth->grade_probability.has_value(),
+            level.clearance_at_depth[0]->spread.has_value());
+  const RecordedScrew& right = record.levels[0].screws.at(1);
+  EXPECT_FALSE(right.executed);
+  EXPECT_THAT(right.not_measured, ::testing::IsSupersetOf({"executed", "clearance"}));
+  ASSERT_TRUE(record.calibration);
+  EXPECT_TRUE(record.calibration->tags.empty()) << "nothing tells of it here";
+  EXPECT_FALSE(record.calibration->cameras);
+}
+
+TEST(JournalReader, KnowsWhatTagsAndCamerasInUseHaveTold) {
+  Journaled j({"L4"});
+  test::ScriptedOperation& s = j.operation;
+  s.tracker().size = nav::TagSize{0.004, 0.001, 40, false, false, 0.003};
+  s.accepts_first_level();
+  s.says("next");
+  s.says("next");
+  const SessionRecord record = j.finished("");
+  ASSERT_TRUE(record.calibration);
+  ASSERT_EQ(record.calibration->tags.size(), 2U);
+  EXPECT_EQ(record.calibration->tags[1].tool, "guide");
+  EXPECT_NEAR(record.calibration->tags[1].measured, 0.004, 1e-12);
+  EXPECT_NEAR(record.calibration->tags[1].sd, 0.001, 1e-12);
+  EXPECT_NEAR(record.calibration->tags[1].applied, 0.003, 1e-12);
+  EXPECT_FALSE(record.calibration->cameras);
+}
+
 TEST(JournalReader, KnowsHowEveryWireWasMeasuredKeptOrRedone) {
   using enum ClickerAction;
   Journaled j({"L4"}, Verification::kByTouch);

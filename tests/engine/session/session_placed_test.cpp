@@ -287,6 +287,40 @@ TEST_F(PlacedSession, TheLastScrewOfALevelGoesOnToTheNextLevel) {
   EXPECT_EQ(step_of(s.says("next")), "digitize L5");
 }
 
+TEST_F(PlacedSession, APlanIsChangedToSuitTheWire) {
+  // +x is left of the patient, so lateral of a left screw.
+  ASSERT_FALSE(measures(0.0025, 0.0).wire->within());
+  const Guidance& g = s.says("move lateral two");
+  ASSERT_NE(said<ScrewReplanned>(g), nullptr);
+  EXPECT_EQ(step_of(g), "placed L4 left");
+  EXPECT_NEAR(level().plan.screws[0].entry.v.x, kLeftEntry.x + 0.002, 1e-4);
+  ASSERT_NE(s.pair().wire, nullptr);
+  EXPECT_NEAR(s.pair().wire->axis.entry_m.value, 0.0005, 1e-4);
+  EXPECT_TRUE(s.pair().wire->within());
+  EXPECT_TRUE(level().replanned(0));
+  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  EXPECT_TRUE(level().executed[0]) << "where the tool went is not forgotten";
+}
+
+TEST_F(PlacedSession, APlanThatSuitsItLessStillWaitsForAWord) {
+  measures(0.0025, 0.0);
+  s.says("move medial two");
+  EXPECT_NEAR(s.pair().wire->axis.entry_m.value, 0.0045, 1e-4);
+  EXPECT_EQ(step_of(s.says("next")), "placed L4 left");
+  EXPECT_EQ(step_of(s.says("delete")), "accepted L4");
+}
+
+TEST_F(PlacedSession, NoPlanIsChangedAwayFromAWireThatNobodyLookedAt) {
+  const auto refused = [this] {
+    const auto* refusal = said<ReplanRefusal>(s.says("move lateral two"));
+    return refusal != nullptr && refusal->kind == ReplanRefusal::Kind::kWireIn;
+  };
+  EXPECT_TRUE(refused()) << "not measured";
+  measures(0.0005, 0.0);
+  EXPECT_TRUE(refused()) << "nothing waits";
+  EXPECT_EQ(level().plan.screws[0].entry.v, kLeftEntry);
+}
+
 // What is no measurement.
 
 TEST_F(PlacedSession, AGuideThatIsNotSeenMeasuresNothing) {

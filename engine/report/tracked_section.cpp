@@ -1,0 +1,169 @@
+#include "engine/report/tracked_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/angle.h"
+#include "engine/report/html_text.h"
+#include "engine/report/report_values.h"
+
+namespace orthonav::engine {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kNotMeasured = "not measured";
+constexpr const char* kNotRecorded = "not recorded";
+
+std::string cell(const std::string& content) { return "<td>" + content + "</td>"; }
+
+std::string text_at(const json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// Why there is no such figure.
+const char* why_none(const json& screw, const char* what) {
+  const auto names = screw.find("not_measured");
+  const bool known = names != screw.end() && names->is_array() &&
+                     std::find(names->begin(), names->end(), json(what)) != names->end();
+  return known ? kNotMeasured : kNotRecorded;
+}
+
+/// The root mean square SD over `axes` of a 3x3 by rows; nothing where it is none.
+std::optional<double> sd_of(const json& object, const char* key, double axes) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_array() || found->size() != 9) {
+    return std::nullopt;
+  }
+  double trace = 0.0;
+  for (const std::size_t i : {0U, 4U, 8U}) {
+    trace += (*found)[i].is_number() ? (*found)[i].get<double>() : 0.0;
+  }
+  return std::sqrt(std::max(0.0, trace) / axes);
+}
+
+std::string triple(const json& object, const char* key, int decimals) {
+  const auto found = object.find(key);
+  std::string out;
+  if (found != object.end() && found->is_array()) {
+    for (const json& value : *found) {
+      out += (out.empty() ? "" : ", ") +
+             (value.is_number() ? html_number(value.get<double>(), decimals) : "–");
+    }
+  }
+  return out;
+}
+
+std::string with_sd(const std::string& value, std::optional<double> sd, int decimals) {
+  return value + " ± " + (sd ? html_number(*sd, decimals) : "not known");
+}
+
+std::string number_at(const json& object, const char* key, int decimals) {
+  const auto value = value_of(object, key);
+  return value ? html_number(*value, decimals) : "–";
+}
+
+void put_trajectory(const json& screw, std::string& html) {
+  const auto found = screw.find("executed");
+  if (found == screw.end() || !found->is_object()) {
+    const std::string none = cell(why_none(screw, "executed"));
+    html += none + none + none + none;
+    return;
+  }
+  const auto direction_sd = sd_of(*found, "direction_covariance_rad2", 2.0);
+  html +=
+      cell(with_sd(triple(*found, "entry_mm", 1), sd_of(*found, "entry_covariance_mm2", 3.0), 2)) +
+      cell(with_sd(triple(*found, "direction", 3),
+                   direction_sd ? std::optional(degrees(*direction_sd)) : std::nullopt, 2)) +
+      cell(number_at(*found, "depth_mm", 1)) + cell(number_at(*found, "pairs", 0));
+}
+
+/// "A 97 %, B 3 %": those that are likely at all.
+std::string grades(const json& screw) {
+  for (const char* where : {"at_depth", "tracked"}) {
+    const auto pose = screw.find(where);
+    if (pose == screw.end() || !pose->is_object() || !pose->contains("grade_probability")) {
+      continue;
+    }
+    std::string out;
+    for (const auto& [grade, probability] : (*pose)["grade_probability"].items()) {
+      const double percent = probability.is_number() ? 100.0 * probability.get<double>() : 0.0;
+      if (percent >= 0.5) {
+        out +=
+            (out.empty() ? "" : ", ") + html_escaped(grade) + " " + html_number(percent, 0) + " %";
+      }
+    }
+    return out;
+  }
+  const char* why = why_none(screw, "grade_probability");
+  return why == kNotMeasured ? why : why_none(screw, "clearance");
+}
+
+std::string table_of_tools(const json& report) {
+  std::string rows;
+  for (const json& level : report.value("levels", json::array())) {
+    for (const json& screw : level.value("screws", json::array())) {
+      const bool done = screw.value("done", json(true)) != json(false);
+      if (done && (screw.contains("executed") || screw.contains("not_measured"))) {
+        rows += "<tr>" + cell(html_escaped(text_at(level, "label") + " " + text_at(screw, "side")));
+        put_trajectory(screw, rows);
+        rows += cell(grades(screw)) + "</tr>";
+      }
+    }
+  }
+  if (rows.empty()) {
+    return "<p>Where the tools went: not recorded.</p>";
+  }
+  return "<table><thead><tr><th>screw</th><th>entry in the vertebra <small>mm, LPS, ± SD of an "
+         "axis</small></th><th>direction into the bone <small>± SD °</small></th><th>depth "
+         "<small>mm</small></th><th>pairs</th><th>grade, probability</th></tr></thead><tbody>" +
+         rows + "</tbody></table>";
+}
+
+std::string table_of_tags(const json& found) {
+  if (!found.contains("tags")) {
+    return "<p>Sizes of the tags: not measured.</p>";
+  }
+  std::string html =
+      "<table><thead><tr><th>tags of</th><th>larger than stated, as seen "
+      "<small>%</small></th><th>taken into account <small>%</small></th></tr></thead><tbody>";
+  for (const json& size : found["tags"]) {
+    html += "<tr>" + cell(html_escaped(text_at(size, "tool"))) +
+            cell(with_sd(number_at(size, "measured_percent", 2), value_of(size, "sd_percent"), 2)) +
+            cell(number_at(size, "applied_percent", 2)) + "</tr>";
+  }
+  return html + "</tbody></table>";
+}
+
+std::string cameras_text(const json& found) {
+  if (!found.contains("cameras")) {
+    return "<p>Cameras against their calibration: not measured.</p>";
+  }
+  const json& cameras = found["cameras"];
+  return "<p>Cameras against their calibration, from " + number_at(cameras, "pairs", 0) +
+         " sightings: turned by " + number_at(cameras, "rotation_deg", 3) + "°" +
+         (cameras.value("rotation_applied", json(false)) == json(true)
+              ? ", taken into account"
+              : ", not taken into account") +
+         "; focal lengths differ by " +
+         with_sd(number_at(cameras, "focal_percent", 2), value_of(cameras, "focal_sd_percent"), 2) +
+         " %, baseline by " +
+         with_sd(number_at(cameras, "baseline_percent", 2),
+                 value_of(cameras, "baseline_sd_percent"), 2) +
+         " %, neither taken into account.</p>";
+}
+
+}  // namespace
+
+std::string tracked_section(const json& report) {
+  std::string html = "<section><h2>As tracked, without a truth</h2>" + table_of_tools(report);
+  const auto found = report.find("calibration");
+  if (found == report.end() || !found->is_object()) {
+    return html + "<p>Tags and cameras in use: not recorded.</p></section>";
+  }
+  return html + table_of_tags(*found) + cameras_text(*found) + "</section>";
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,105 @@
+#include "engine/study/guide_truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orthonav::engine {
+namespace {
+
+/// The measurement before a wire pierced the bone is no older than that.
+constexpr Duration kNewest = std::chrono::milliseconds(500);
+
+GuidedError error_between(const nav::Axis<Vertebra>& truth, const nav::Axis<Vertebra>& tracked,
+                          const nav::ScrewPlan& plan) {
+  GuidedError error;
+  const Vec3 apart_m = tracked.point - truth.point;
+  const Vec3 along = (plan.target - plan.entry).normalized();
+  error.tip_m = apart_m.norm();
+  error.across_m = (apart_m - apart_m.dot(along) * along).norm();
+  error.angle_rad = std::atan2(truth.direction.cross(tracked.direction).norm(),
+                               truth.direction.dot(tracked.direction));
+  return error;
+}
+
+nav::Axis<Vertebra> axis_in(const Transform<Vertebra, Marker>& vertebra_from_marker,
+                            Point<Marker> tip, Vec3 outwards) {
+  return {vertebra_from_marker * tip,
+          -(vertebra_from_marker * Direction<Marker>{outwards}).v.normalized()};
+}
+
+}  // namespace
+
+void GuideTruth::stepped(const StereoFrame& frame, const Inputs& inputs, const Guidance& guidance) {
+  note_wires();
+  if (guidance.step == Step::kGuide) {
+    look(frame.time, guidance);
+  } else {
+    sightings_.clear();
+  }
+  if (next_) {
+    next_->stepped(frame, inputs, guidance);
+  }
+}
+
+void GuideTruth::captured(const Snapshot& snapshot) {
+  if (next_) {
+    next_->captured(snapshot);
+  }
+}
+
+void GuideTruth::look(Timestamp time, const Guidance& guidance) {
+  const LevelState& level = guidance.levels[guidance.level];
+  const nav::ToolState& seen = session_.tool_states()[session_.guide()];
+  const auto& room = headset_.room();
+  const auto here = std::find_if(room.levels.begin(), room.levels.end(),
+                                 [&](const auto& one) { return one.label == level.plan.label; });
+  const auto made = std::find_if(room.tools.begin(), room.tools.end(),
+                                 [](const auto& tool) { return tool.kind == ToolKind::kGuide; });
+  if (!level.registration || seen.world_from_marker.status != PoseStatus::kMeasured ||
+      here == room.levels.end() || made == room.tools.end()) {
+    return;
+  }
+  const sim::RoomState now = headset_.state();
+  const auto& room_from_vertebra =
+      now.room_from_vertebra[static_cast<std::size_t>(here - room.levels.begin())];
+  const auto& room_from_marker =
+      now.room_from_marker[static_cast<std::size_t>(made - room.tools.begin())];
+  const nav::ToolGeometry& believed = session_.guide_geometry();
+  const auto truth = axis_in(room_from_vertebra.inverse() * room_from_marker, made->tip_in_marker,
+                             made->axis_in_marker);
+  const auto tracked =
+      axis_in(level.registration->world_from_vertebra.inverse() * seen.world_from_marker.value,
+              believed.tip_in_marker, believed.axis_in_marker.v);
+  sightings_.push_back({time, error_between(truth, tracked, level.plan.screws[guidance.screw])});
+}
+
+void GuideTruth::note_wires() {
+  for (const sim::DrivenWire& wire : headset_.truth().wires) {
+    if (wire.time <= newest_wire_) {
+      continue;
+    }
+    newest_wire_ = wire.time;
+    std::erase_if(pierced_,
+                  [&](const Pierced& p) { return p.level == wire.level && p.side == wire.side; });
+    const auto after =
+        std::upper_bound(sightings_.begin(), sightings_.end(), wire.pierced,
+                         [](Timestamp time, const Sighting& s) { return time < s.time; });
+    if (after != sightings_.begin() && wire.pierced - std::prev(after)->time <= kNewest) {
+      pierced_.push_back({wire.level, wire.side, std::prev(after)->error});
+    }
+  }
+}
+
+void GuideTruth::evaluate(OperationResult& result) const {
+  for (LevelOutcome& level : result.levels) {
+    for (ScrewOutcome& screw : level.screws) {
+      for (const Pierced& pierced : pierced_) {
+        if (pierced.level == level.label && pierced.side == screw.side) {
+          screw.guided = pierced.error;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/live/frame_loop.h"
+#include "engine/report/operation_result.h"
+#include "engine/session/session.h"
+#include "hal/sim/sim_headset.h"
+
+namespace orthonav::engine {
+
+/// How far the guide was from where it was shown when each wire pierced the bone: tip and axis as
+/// tracked and registered against the true ones, both in their vertebra's frame. It holds all that
+/// the navigation gets wrong at once (registration, map, head, tracking, the tool's description)
+/// and nothing of the surgeon or the wire. Observes from outside; nothing flows back.
+class GuideTruth : public LoopObserver {
+ public:
+  /// Headset and session must outlive it; `next` hears everything too, where it is given.
+  GuideTruth(const sim::SimHeadset& headset, const Session& session, LoopObserver* next)
+      : headset_(headset), session_(session), next_(next) {}
+
+  void stepped(const StereoFrame& frame, const Inputs& inputs, const Guidance& guidance) override;
+  void captured(const Snapshot& snapshot) override;
+
+  /// Adds what was found to the screws.
+  void evaluate(OperationResult& result) const;
+
+ private:
+  struct Sighting {
+    Timestamp time{};
+    GuidedError error;
+  };
+  struct Pierced {
+    std::string level;
+    nav::Side side = nav::Side::kLeft;
+    GuidedError error;
+  };
+  void look(Timestamp time, const Guidance& guidance);
+  void note_wires();
+
+  const sim::SimHeadset& headset_;
+  const Session& session_;
+  LoopObserver* next_;
+  std::vector<Sighting> sightings_;  ///< of the guide at the selected screw, pair by pair
+  std::vector<Pierced> pierced_;
+  Timestamp newest_wire_{};
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,69 @@
+#include "engine/study/guided_statistics.h"
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "engine/report/operation_result.h"
+#include "engine/study/study_statistics.h"
+#include "nav/evaluation/errors.h"
+
+namespace orthonav::engine {
+namespace {
+
+using StudyPart = nlohmann::ordered_json;
+
+StudyPart series(const std::vector<double>& values) {
+  const nav::Summary summary = nav::summarize(values);
+  return {{"count", summary.count},
+          {"mean", summary.mean},
+          {"sd", summary.sd},
+          {"p95", quantile(values, 0.95).value_or(0.0)}};
+}
+
+StudyPart counted(int hits, int of) {
+  return {{"n", hits}, {"of", of}, {"upper_95", upper_limit_95(hits, of)}};
+}
+
+void add_screw(const StudyPart& screw, GuidedQuality& sum) {
+  const bool warned = screw.value("warned", false);
+  if (screw.contains("guided")) {
+    const StudyPart& guided = screw["guided"];
+    sum.across_mm.push_back(guided["across_mm"]);
+    sum.tip_mm.push_back(guided["tip_mm"]);
+    sum.angle_deg.push_back(guided["angle_deg"]);
+    sum.silent += sum.across_mm.back() > GuidedQuality::kSilent_mm && !warned ? 1 : 0;
+  }
+  if (screw.contains("clearance_mm")) {
+    ++sum.executed;
+    const bool breach = screw["clearance_mm"].get<double>() < 0.0;
+    sum.breaches += breach ? 1 : 0;
+    sum.unwarned_breaches += breach && !warned ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+void add_run(const nlohmann::ordered_json& run, GuidedQuality& sum) {
+  for (const auto& level : run["levels"]) {
+    for (const auto& screw : level.value("screws", StudyPart::array())) {
+      add_screw(screw, sum);
+    }
+  }
+}
+
+nlohmann::ordered_json guided_json(const GuidedQuality& quality) {
+  if (quality.across_mm.empty()) {
+    return nullptr;
+  }
+  StudyPart silent = counted(quality.silent, static_cast<int>(quality.across_mm.size()));
+  silent["over_mm"] = GuidedQuality::kSilent_mm;
+  StudyPart breaches = counted(quality.unwarned_breaches, quality.executed);
+  breaches["breaches"] = quality.breaches;
+  return {{"across_mm", series(quality.across_mm)},
+          {"tip_mm", series(quality.tip_mm)},
+          {"angle_deg", series(quality.angle_deg)},
+          {"silent_failures", silent},
+          {"unwarned_breaches", breaches}};
+}
+
+}  // namespace orthonav::engine

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+namespace orthonav::engine {
+
+/// Of a study's runs: how far off the guide was shown when wires pierced the bone, screws guided
+/// more than `kSilent_mm` off across the plan without anybody being told, and breaches of the
+/// cortex without a warning (ScrewOutcome::warned).
+struct GuidedQuality {
+  static constexpr double kSilent_mm = 2.0;
+
+  std::vector<double> across_mm;
+  std::vector<double> tip_mm;
+  std::vector<double> angle_deg;
+  int silent = 0;
+  int executed = 0;
+  int breaches = 0;
+  int unwarned_breaches = 0;
+};
+void add_run(const nlohmann::ordered_json& run, GuidedQuality& sum);
+/// As the study's JSON has it: each count with the upper limit of its fraction (95 %, Clopper and
+/// Pearson 1934). Null where no screw has these figures.
+[[nodiscard]] nlohmann::ordered_json guided_json(const GuidedQuality& quality);
+
+}  // namespace orthonav::engine
