@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/angle.h"
+#include "bench/wilson.h"
 #include "engine/case/operation_plan.h"
 #include "engine/case/tool_file.h"
 #include "engine/phantom/phantom.h"
@@ -154,16 +155,11 @@ double quantile(std::vector<double> values, double q) {
              : values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-/// Wilson's 95 % interval of k of n.
 void print_share(const char* name, std::size_t k, std::size_t n) {
-  constexpr double kZ = 1.96;
-  const auto count = static_cast<double>(std::max<std::size_t>(n, 1));
-  const double share = static_cast<double>(k) / count;
-  const double middle = (share + kZ * kZ / (2.0 * count)) / (1.0 + kZ * kZ / count);
-  const double half = kZ / (1.0 + kZ * kZ / count) *
-                      std::sqrt(share * (1.0 - share) / count + kZ * kZ / (4.0 * count * count));
+  const ShareInterval interval = wilson(static_cast<double>(k), n);
   std::fprintf(stderr, "%-42s %zu of %zu = %.1f %% (95 %%: %.1f to %.1f)\n", name, k, n,
-               100.0 * share, 100.0 * (middle - half), 100.0 * (middle + half));
+               100.0 * static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(n, 1)),
+               100.0 * interval.low, 100.0 * interval.high);
 }
 
 void summarize(const std::vector<Outcome>& outcomes) {

@@ -1,95 +1,38 @@
 // Methods of registration on the same strokes over real vertebrae: how often the screws' entries
 // and targets end up within 2 mm, what is accepted, how honest the predicted errors are, times.
-//   bench_registration [--seeds N] [--variants full,...] [--methods paper,...] [--wrong-level]
+//   bench_registration [--summary] [--seeds N] [--variants full,...] [--methods paper,...]
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 
-#include "base/stopwatch.h"
-#include "bench/registration_methods.h"
+#include "bench/registration_asymmetry.h"
+#include "bench/registration_levels.h"
 #include "bench/registration_runs.h"
 #include "bench/registration_tables.h"
-#include "engine/case/case_file.h"
 
 namespace orthonav::bench {
 namespace {
 
 struct Arguments {
-  std::string anatomy = ORTHONAV_SHARED_DIR "/anatomy";
-  std::vector<std::string> levels;
+  LevelOptions level;
   std::vector<std::string> variants;
   std::vector<std::string> methods;
   RunOptions run;
-  std::string tissue = "smooth";
-  double tissue_mm = 0.0;
+  std::vector<std::string> tissues{"smooth"};
+  std::vector<double> tissues_mm{0.0};
   double common_mm = 0.0;
   double segmented_mm = 0.0;
-  double scale = 1.0;
-  bool mirrored = false;
+  double jitter_mm = 0.0;
+  double asymmetric_mm = 0.5;
   bool wrong_level = false;
-  bool alone = false;
+  bool summary = false;
   bool each = false;
 };
 
 bool chosen(const std::vector<std::string>& wanted, const std::string& name) {
   return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-}
-
-/// The bone as the model has it.
-nav::TriangleMesh modelled(nav::TriangleMesh mesh, const Arguments& arguments) {
-  if (arguments.segmented_mm > 0.0) {
-    mesh = test::segmented(mesh, 1e-3 * arguments.segmented_mm, 1);
-  }
-  mesh = test::scaled(mesh, arguments.scale);
-  return arguments.mirrored ? test::mirrored(mesh) : mesh;
-}
-
-Result<std::vector<BenchLevel>> load_levels(const Arguments& arguments) {
-  std::vector<std::string> folders;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(arguments.anatomy, error)) {
-    if (std::filesystem::exists(entry.path() / "case.json", error)) {
-      folders.push_back(entry.path().string());
-    }
-  }
-  std::sort(folders.begin(), folders.end());
-  std::vector<BenchLevel> levels;
-  for (const std::string& folder : folders) {
-    const auto source = engine::load_case(folder);
-    if (!source) {
-      return source.error();
-    }
-    for (const engine::CaseLevel& from : source->levels) {
-      BenchLevel level{std::filesystem::path(folder).filename().string(), from.label, from.mesh,
-                       from.screws};
-      if (!chosen(arguments.levels, level.name())) {
-        continue;
-      }
-      const Stopwatch watch;
-      auto model = nav::VertebraModel::prepare(modelled(from.mesh, arguments));
-      const double prepare_ms = watch.elapsed_ms();
-      if (!model) {
-        return model.error();
-      }
-      level.model = *model;
-      level.prepare_ms = prepare_ms;
-      levels.push_back(std::move(level));
-    }
-  }
-  for (std::size_t i = 0; i < levels.size() && !arguments.alone; ++i) {
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-      if (levels[i].case_name == levels[k].case_name && (k + 1 == i || i + 1 == k)) {
-        levels[i].neighbours.push_back({levels[k].label, levels[k].model.get()});
-      }
-    }
-  }
-  if (levels.empty()) {
-    return Error{"no level of a case is found in " + arguments.anatomy};
-  }
-  return levels;
 }
 
 void print_costs(const std::vector<BenchLevel>& levels) {
@@ -105,15 +48,73 @@ void print_costs(const std::vector<BenchLevel>& levels) {
       levels.size(), slowest_ms, static_cast<double>(usage.ru_maxrss) / 1024.0);
 }
 
+/// One row of the summary for each kind and thickness of tissue.
+void summarize(const std::vector<BenchLevel>& levels,
+               const std::vector<RegistrationMethod>& methods, const Arguments& arguments) {
+  print_summary_head();
+  for (const double mm : arguments.tissues_mm) {
+    for (const test::Tissue tissue : test::kTissues) {
+      const bool any = mm == 0.0 && tissue == test::kTissues[0];
+      if (!any && (mm == 0.0 || !chosen(arguments.tissues, test::name_of(tissue)))) {
+        continue;
+      }
+      RunOptions run = arguments.run;
+      run.truths.tissue = tissue;
+      run.truths.mean_tissue_m = 1e-3 * mm;
+      char truth[32];
+      std::snprintf(truth, sizeof truth, "%.1f mm %s", mm, any ? "(bare)" : test::name_of(tissue));
+      print_summary(truth, measure(levels, methods, run), methods, run.variants);
+    }
+  }
+}
+
+/// The same, of bones that are their own mirror image and of others.
+void summarize_mirrored(const std::vector<BenchLevel>& levels,
+                        const std::vector<RegistrationMethod>& methods,
+                        const Arguments& arguments) {
+  std::vector<BenchLevel> alike;
+  std::vector<BenchLevel> asymmetric;
+  for (const BenchLevel& level : levels) {
+    const double off_mm = 1e3 * asymmetry_m(*level.model);
+    std::printf("%s: %.2f mm from its best mirror image\n", level.name().c_str(), off_mm);
+    (off_mm < arguments.asymmetric_mm ? alike : asymmetric).push_back(level);
+  }
+  std::printf("\n");
+  print_summary_head();
+  print_summary("nearly its own mirror image", measure(alike, methods, arguments.run), methods,
+                arguments.run.variants);
+  print_summary("asymmetric", measure(asymmetric, methods, arguments.run), methods,
+                arguments.run.variants);
+}
+
+void print_tables(const std::vector<BenchLevel>& levels,
+                  const std::vector<RegistrationMethod>& methods, const Arguments& arguments) {
+  const std::vector<Run> runs = measure(levels, methods, arguments.run);
+  if (arguments.each) {
+    print_each(runs, methods);
+    std::printf("\n");
+  }
+  print_success(runs, methods, arguments.run.variants);
+  if (methods.size() > 1) {
+    std::printf("\n");
+    print_against_first(runs, methods, arguments.run.variants);
+  }
+  std::printf("\n");
+  print_honesty(runs, methods, arguments.run.variants);
+  print_costs(levels);
+}
+
 int measured(Arguments& arguments) {
   for (const test::Tissue tissue : test::kTissues) {
-    if (arguments.tissue == test::name_of(tissue)) {
+    if (arguments.tissues[0] == test::name_of(tissue)) {
       arguments.run.truths.tissue = tissue;
     }
   }
-  arguments.run.truths.mean_tissue_m = 1e-3 * arguments.tissue_mm;
+  arguments.run.truths.mean_tissue_m = 1e-3 * arguments.tissues_mm[0];
   arguments.run.truths.common_sd_m = 1e-3 * arguments.common_mm;
-  const auto levels = load_levels(arguments);
+  arguments.run.truths.copy_jitter_m = 1e-3 * arguments.jitter_mm;
+  arguments.level.segmented_m = 1e-3 * arguments.segmented_mm;
+  const auto levels = load_levels(arguments.level);
   if (!levels) {
     std::fprintf(stderr, "bench_registration: %s\n", levels.error().message.c_str());
     return 2;
@@ -132,22 +133,34 @@ int measured(Arguments& arguments) {
   if (arguments.wrong_level) {
     print_wrong_levels(measure_wrong_levels(*levels, methods, arguments.run), methods,
                        arguments.run.variants);
-    return 0;
+  } else if (arguments.summary && arguments.level.mirrored) {
+    summarize_mirrored(*levels, methods, arguments);
+  } else if (arguments.summary) {
+    summarize(*levels, methods, arguments);
+  } else {
+    print_tables(*levels, methods, arguments);
   }
-  const std::vector<Run> runs = measure(*levels, methods, arguments.run);
-  if (arguments.each) {
-    print_each(runs, methods);
-    std::printf("\n");
-  }
-  print_success(runs, methods, arguments.run.variants);
-  if (methods.size() > 1) {
-    std::printf("\n");
-    print_against_first(runs, methods, arguments.run.variants);
-  }
-  std::printf("\n");
-  print_honesty(runs, methods, arguments.run.variants);
-  print_costs(*levels);
   return 0;
+}
+
+void add_truths(CLI::App& app, Arguments& arguments) {
+  app.add_option("--tissue", arguments.tissues,
+                 "uniform, smooth, areas, strokes or valleys; several with --summary")
+      ->delimiter(',');
+  app.add_option("--tissue-mm", arguments.tissues_mm, "mean thickness of soft tissue")
+      ->delimiter(',');
+  app.add_option("--common-mm", arguments.common_mm,
+                 "SD along an axis of a shift that all points share");
+  app.add_option("--copies", arguments.run.truths.copies, "of every point");
+  app.add_option("--jitter-mm", arguments.jitter_mm, "SD of a copy's place about the point's");
+  app.add_flag("--shuffled", arguments.run.truths.shuffled, "points in any order");
+  app.add_flag("--left-handed", arguments.run.truths.left_handed,
+               "points of a left-handed frame: any that are accepted fail silently");
+  app.add_option("--segmented-mm", arguments.segmented_mm, "SD of the model's own error");
+  app.add_option("--scale", arguments.level.scale, "size of the model, of the bone's");
+  app.add_flag("--mirrored", arguments.level.mirrored, "the model is the bone's mirror image");
+  app.add_option("--asymmetric-mm", arguments.asymmetric_mm,
+                 "from its best mirror image; a bone that is off by more is asymmetric");
 }
 
 }  // namespace
@@ -155,15 +168,18 @@ int measured(Arguments& arguments) {
 
 int main(int argc, char** argv) {
   orthonav::bench::Arguments arguments;
+  arguments.level.anatomy = ORTHONAV_SHARED_DIR "/anatomy";
   CLI::App app{"Methods of registration on the same strokes over real vertebrae."};
   app.add_option("--seeds", arguments.run.seeds, "strokes a level and variant")
       ->check(CLI::Range(1, 1000));
+  app.add_option("--first-seed", arguments.run.first_seed, "others follow it")
+      ->check(CLI::Range(1, 1000000));
   app.add_option("--variants", arguments.variants, "full, partial, noisy, outliers, sparse")
       ->delimiter(',');
   app.add_option("--methods", arguments.methods, "the first is what others are held against")
       ->delimiter(',');
-  app.add_option("--levels", arguments.levels, "such as visible-human/L4")->delimiter(',');
-  app.add_option("--anatomy", arguments.anatomy, "folder of case folders");
+  app.add_option("--levels", arguments.level.levels, "such as visible-human/L4")->delimiter(',');
+  app.add_option("--anatomy", arguments.level.anatomy, "folder of case folders");
   app.add_option(
          "--deep", arguments.run.deepest_aside,
          "how deep beside the canal the strokes go, as a share of its depth (1.1); from 1 on "
@@ -171,17 +187,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.3, 1.5));
   app.add_option("--jobs", arguments.run.jobs, "levels beside each other")
       ->check(CLI::Range(1, 64));
-  app.add_option("--tissue", arguments.tissue, "uniform, smooth, areas, strokes or valleys");
-  app.add_option("--tissue-mm", arguments.tissue_mm, "mean thickness of soft tissue");
-  app.add_option("--common-mm", arguments.common_mm,
-                 "SD along an axis of a shift that all points share");
-  app.add_option("--copies", arguments.run.truths.copies, "of every point");
-  app.add_option("--segmented-mm", arguments.segmented_mm, "SD of the model's own error");
-  app.add_option("--scale", arguments.scale, "size of the model, of the bone's");
-  app.add_flag("--mirrored", arguments.mirrored, "the model is the bone's mirror image");
-  app.add_flag("--wrong-level", arguments.wrong_level, "strokes fitted to the neighbouring levels");
-  app.add_flag("--alone", arguments.alone,
-               "one registration is timed, none of the levels beside are tried");
+  orthonav::bench::add_truths(app, arguments);
+  app.add_flag("--wrong-level", arguments.wrong_level,
+               "strokes fitted to every other level of the case");
+  app.add_flag("--alone", arguments.level.alone, "no other levels of the case are known");
+  app.add_flag("--summary", arguments.summary, "a row a truth, with intervals");
   app.add_flag("--each", arguments.each, "a line a run as well");
   CLI11_PARSE(app, argc, argv);
   return orthonav::bench::measured(arguments);

@@ -20,7 +20,7 @@ struct BenchLevel {
   std::vector<nav::ScrewPlan> screws;
   std::shared_ptr<const nav::VertebraModel> model;
   double prepare_ms = 0.0;
-  std::vector<nav::NeighbourLevel> neighbours;  ///< of the same patient, beside it
+  std::vector<nav::NeighbourLevel> neighbours;  ///< every other one of the same patient
 
   [[nodiscard]] std::string name() const { return case_name + "/" + label; }
 };

@@ -21,7 +21,8 @@ struct Run {
   std::string reason;
   double rmse_m = 0.0;
   double error_m = 0.0;  ///< the largest at any entry or target
-  double ms = 0.0;
+  double ms = 0.0;       ///< of one core
+  std::string named;     ///< the level that the points are said to fit better
   /// For each entry and target with a predicted error: whether the error lies in the ellipsoid that
   /// is to hold 68 (95) % of all errors, and whether it is no longer than 68 (95) % are to be.
   struct Honest {
@@ -35,6 +36,7 @@ struct Run {
 
 struct RunOptions {
   std::vector<test::StrokeVariant> variants;
+  std::uint64_t first_seed = 1;
   std::uint64_t seeds = 2;
   double deepest_aside = test::StrokeErrorModel{}.deepest_aside;
   test::StrokeTruths truths;
@@ -53,11 +55,16 @@ struct WrongLevelRun {
   test::StrokeVariant variant{};
   std::size_t method = 0;
   bool accepted = false;
-  bool right_named = false;        ///< the method says which level it is
+  std::string right;               ///< label of the level that was stroked
+  std::string named;               ///< label of the level that the method says it is
   bool right_fits_better = false;  ///< on their own level the same strokes have a smaller RMSE
+
+  [[nodiscard]] bool right_named() const { return named == right; }
+  /// A level that was not stroked; several that fit alike are none.
+  [[nodiscard]] bool wrong_named() const;
 };
 
-/// Every level's strokes, fitted to each neighbour in its case.
+/// Every level's strokes, fitted to each other level of its case.
 [[nodiscard]] std::vector<WrongLevelRun> measure_wrong_levels(
     const std::vector<BenchLevel>& levels, const std::vector<RegistrationMethod>& methods,
     const RunOptions& options);

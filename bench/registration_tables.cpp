@@ -6,6 +6,9 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string>
+
+#include "bench/wilson.h"
 
 namespace orthonav::bench {
 namespace {
@@ -16,6 +19,39 @@ double quantile(std::vector<double> v, double q) {
   }
   std::sort(v.begin(), v.end());
   return v[static_cast<std::size_t>(std::ceil(q * static_cast<double>(v.size() - 1)))];
+}
+
+/// "3 (0.2–1.4 %)": of so many, with the interval.
+std::string counted(std::size_t count, std::size_t all) {
+  const ShareInterval interval = wilson(static_cast<double>(count), all);
+  char text[64];
+  std::snprintf(text, sizeof text, "%zu (%.1f–%.1f %%)", count, 100.0 * interval.low,
+                100.0 * interval.high);
+  return text;
+}
+
+/// What of the places of the accepted runs is `in`. The places of one run are wrong together: the
+/// interval counts the runs.
+std::string share_of_places(const std::vector<Run>& runs, bool Run::Honest::*in) {
+  double sum = 0.0;
+  std::size_t accepted = 0;
+  for (const Run& run : runs) {
+    if (!run.accepted || run.honest.empty()) {
+      continue;
+    }
+    ++accepted;
+    for (const Run::Honest& h : run.honest) {
+      sum += h.*in ? 1.0 / static_cast<double>(run.honest.size()) : 0.0;
+    }
+  }
+  if (accepted == 0) {
+    return "–";
+  }
+  const ShareInterval interval = wilson(sum, accepted);
+  char text[64];
+  std::snprintf(text, sizeof text, "%.1f (%.1f–%.1f)", 100.0 * sum / static_cast<double>(accepted),
+                100.0 * interval.low, 100.0 * interval.high);
+  return text;
 }
 
 using Variants = std::vector<test::StrokeVariant>;
@@ -63,6 +99,37 @@ std::optional<double> right_error_mm(const Run& run) {
 }
 
 }  // namespace
+
+void print_summary_head() {
+  std::printf(
+      "| truth | strokes | method | runs | accepted | silent failures, of these | median error, mm "
+      "| in the 68 %% ellipsoid | in the 95 %% ellipsoid | names another level | median ms | p99 "
+      "ms "
+      "|\n|---|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
+}
+
+void print_summary(const std::string& truth, const std::vector<Run>& runs, const Methods& methods,
+                   const Variants& variants) {
+  for_rows(runs, methods, variants,
+           [&](const char* group, std::size_t m, const std::vector<Run>& chosen) {
+             std::size_t accepted = 0, silent = 0, named = 0;
+             for (const Run& run : chosen) {
+               accepted += run.accepted ? 1 : 0;
+               silent += run.silent_failure() ? 1 : 0;
+               named += run.named.empty() ? 0 : 1;
+             }
+             const auto ms = values(chosen, [](const Run& r) { return std::optional(r.ms); });
+             std::printf("| %s | %s | %s | %zu | %s | %s | %.2f | %s | %s | %zu | %.1f | %.1f |\n",
+                         truth.c_str(), group, methods[m].name.c_str(), chosen.size(),
+                         counted(accepted, chosen.size()).c_str(),
+                         counted(silent, accepted).c_str(),
+                         quantile(values(chosen, accepted_error_mm), 0.5),
+                         share_of_places(chosen, &Run::Honest::in_68).c_str(),
+                         share_of_places(chosen, &Run::Honest::in_95).c_str(), named,
+                         quantile(ms, 0.5), quantile(ms, 0.99));
+           });
+  std::fflush(stdout);
+}
 
 void print_success(const std::vector<Run>& runs, const Methods& methods, const Variants& variants) {
   std::printf(
@@ -151,23 +218,29 @@ void print_honesty(const std::vector<Run>& runs, const Methods& methods, const V
 void print_wrong_levels(const std::vector<WrongLevelRun>& runs, const Methods& methods,
                         const Variants& variants) {
   std::printf(
-      "| strokes | method | runs | accepted | share | the right level fits better | it is named |\n"
-      "|---|---|---:|---:|---:|---:|---:|\n");
-  for (const auto variant : variants) {
+      "| strokes | method | runs | accepted | the right level fits better | it is named | a wrong "
+      "one is |\n|---|---|---:|---:|---:|---:|---:|\n");
+  std::vector<std::optional<test::StrokeVariant>> groups(variants.begin(), variants.end());
+  if (variants.size() > 1) {
+    groups.emplace_back(std::nullopt);
+  }
+  for (const auto& group : groups) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      int all = 0, accepted = 0, better = 0, named = 0;
+      std::size_t all = 0, accepted = 0, better = 0, named = 0, wrong = 0;
       for (const WrongLevelRun& run : runs) {
-        if (run.variant != variant || run.method != m) {
+        if ((group && run.variant != *group) || run.method != m) {
           continue;
         }
         ++all;
         accepted += run.accepted ? 1 : 0;
         better += run.right_fits_better ? 1 : 0;
-        named += run.right_named ? 1 : 0;
+        named += run.right_named() ? 1 : 0;
+        wrong += run.wrong_named() ? 1 : 0;
       }
-      std::printf("| %s | %s | %d | %d | %.1f %% | %.1f %% | %.1f %% |\n", test::name_of(variant),
-                  methods[m].name.c_str(), all, accepted, 100.0 * accepted / std::max(all, 1),
-                  100.0 * better / std::max(all, 1), 100.0 * named / std::max(all, 1));
+      std::printf("| %s | %s | %zu | %s | %s | %s | %s |\n", group ? test::name_of(*group) : "all",
+                  methods[m].name.c_str(), all, counted(accepted, all).c_str(),
+                  counted(better, all).c_str(), counted(named, all).c_str(),
+                  counted(wrong, all).c_str());
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bench/registration_runs.h"
@@ -8,6 +9,12 @@ namespace orthonav::bench {
 
 /// Markdown, to standard output: how often each method is right, what it accepts, errors, times.
 void print_success(const std::vector<Run>& runs, const std::vector<RegistrationMethod>& methods,
+                   const std::vector<test::StrokeVariant>& variants);
+/// A row for each method and kind of strokes, with 95 % intervals (Wilson), under a head of its
+/// own.
+void print_summary_head();
+void print_summary(const std::string& truth, const std::vector<Run>& runs,
+                   const std::vector<RegistrationMethod>& methods,
                    const std::vector<test::StrokeVariant>& variants);
 /// Errors of each method minus those of the first, over the runs that both get right.
 void print_against_first(const std::vector<Run>& runs,

@@ -22,7 +22,7 @@ struct OperatedLevel {
   std::string label;
   std::shared_ptr<const nav::VertebraModel> model;
   std::vector<nav::ScrewPlan> screws;
-  std::vector<NeighbouringLevel> neighbours;  ///< above and below, where the case has them
+  std::vector<NeighbouringLevel> neighbours;  ///< every other one of the case
 };
 
 /// A vertebra of the case, operated or not.

@@ -100,7 +100,7 @@ class Block {
 }  // namespace
 
 void add_numbers(Scene& scene, const TargetCross& cross, const nav::ScrewNumbers& numbers,
-                 bool registration_only, Label label) {
+                 bool registration_only, Label label, bool with_bound) {
   Block block(scene, cross, label);
   for (std::size_t i = 0; i < kNumberRows; ++i) {
     const auto row = static_cast<NumberRow>(i);
@@ -112,7 +112,7 @@ void add_numbers(Scene& scene, const TargetCross& cross, const nav::ScrewNumbers
     append_number(block.text(number_of(numbers, row).sure), numbers, row);
     block.next_row();
   }
-  if (registration_only && !all_sure(numbers)) {
+  if (registration_only && (with_bound || !all_sure(numbers))) {
     block.text(false) = words::kSdOfRegistrationOnly;
   }
 }

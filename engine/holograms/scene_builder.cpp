@@ -179,7 +179,8 @@ void SceneBuilder::add_screw(const PlacedScrew& screw, render::Scene& scene) {
     const TargetCross cross = cross_of(screw, *visible_.cross, rules_);
     add_target_cross(scene, cross, kCross);
     if (visible_.numbers) {
-      add_numbers(scene, cross, *visible_.numbers, screw.at.level->registration_only(), kNumbers);
+      add_numbers(scene, cross, *visible_.numbers, screw.at.level->registration_only(), kNumbers,
+                  visible_.clearance && visible_.clearance->lower_95_tenths);
     }
     if (visible_.clearance) {
       add_clearance(scene, cross, *visible_.clearance, kClearance);

@@ -49,13 +49,23 @@ std::string grades_cell(const json& object) {
   return "<td>" + (text.empty() ? std::string(kAbsent) : text) + "</td>";
 }
 
-void row_of(const std::string& name, const json& screw, std::string& html) {
+/// The bound, and that it lacks what all strokes share.
+std::string bound_cell(const json& object, bool registration_only) {
+  std::string cell = millimetre_cell(object, "clearance_95_mm");
+  constexpr std::string_view kEnd = "</td>";
+  if (registration_only && value_of(object, "clearance_95_mm")) {
+    cell.insert(cell.size() - kEnd.size(), kRegistrationOnlyHtml);
+  }
+  return cell;
+}
+
+void row_of(const std::string& name, const json& screw, bool registration_only, std::string& html) {
   const json planned = part_of(screw, "planned");
   const json tracked = part_of(screw, "tracked");
   html += "<tr><th scope=row>" + html_escaped(name) + "</th>" +
           millimetre_cell(planned, "clearance_mm") + where_cell(planned) +
-          millimetre_cell(planned, "clearance_95_mm") + grades_cell(planned) +
-          millimetre_cell(tracked, "clearance_mm") + millimetre_cell(tracked, "clearance_95_mm") +
+          bound_cell(planned, registration_only) + grades_cell(planned) +
+          millimetre_cell(tracked, "clearance_mm") + bound_cell(tracked, registration_only) +
           grades_cell(tracked) + millimetre_cell(screw, "clearance_mm") + "<td>" +
           word_of(screw, "grade") + "</td></tr>";
   if (const json in_surgery = part_of(screw, "planned_in_surgery"); !in_surgery.empty()) {
@@ -76,7 +86,8 @@ std::string clearance_section(const json& report) {
     for (const json& screw : level.value("screws", json::array())) {
       if (screw.contains("planned") || screw.contains("clearance_mm") ||
           screw.contains("planned_in_surgery")) {
-        row_of(level.value("label", "") + " " + screw.value("side", ""), screw, rows);
+        row_of(level.value("label", "") + " " + screw.value("side", ""), screw,
+               level.value("registration_only", false), rows);
       }
     }
   }

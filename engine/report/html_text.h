@@ -4,6 +4,9 @@
 
 namespace orthonav::engine {
 
+/// Beside an error to expect, or a bound, that lacks what all strokes share.
+inline constexpr const char* kRegistrationOnlyHtml = " <small>registration only</small>";
+
 /// Escapes any text for use inside an HTML element or an attribute in double quotes.
 [[nodiscard]] std::string html_escaped(const std::string& text);
 /// printf with up to four numbers.

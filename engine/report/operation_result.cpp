@@ -17,6 +17,7 @@ LevelOutcome outcome_of(const LevelState& state) {
   if (state.registration) {
     level.rmse_m = state.registration->rmse_m;
     level.predicted_tre_m = nav::worst_m(state.predicted);
+    level.registration_only = state.registration_only();
     level.points = state.registration->points;
     level.digitization_s = state.digitization_s;
     for (const nav::CheckPoint& point : state.check_points) {

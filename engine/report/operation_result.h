@@ -64,6 +64,7 @@ struct LevelOutcome {
   std::vector<Vec3> errors_m;
   /// Root mean square error to expect at the worst of the screws' entries and targets.
   std::optional<double> predicted_tre_m;
+  bool registration_only = false;  ///< that and the clearances' bounds lack what all strokes share
   /// Used by that registration; absent without one, as the time is.
   std::optional<std::size_t> points;
   std::optional<double> digitization_s;

@@ -95,6 +95,7 @@ void put_expected(Json& out, const RegisteredLevel& level) {
   if (r.noise_m > 0.0) {
     out["predicted_tre_99_mm"] = mm_or_null(r.tre_99_m);
     out["tissue_sd_mm"] = r.field_sd_m * 1e3;
+    out["correlation_across_strokes"] = r.correlation_across_strokes;
     out["size"] = r.size;
     out["common_sd_mm"] = {{"tip", r.common.tip_m * 1e3},
                            {"cameras", r.common.cameras_m * 1e3},

@@ -63,28 +63,50 @@ std::vector<double> distances_from_strokes_m(const nav::TriangleMesh& mesh,
   return out;
 }
 
-/// Standoff or a field of less is no tissue worth a picture.
-bool shows_tissue(const nav::Registration& r) {
-  constexpr double kShown_m = 0.0003;
-  return r.noise_m > 0.0 && (r.standoff_m > kShown_m || r.field_sd_m > kShown_m);
+/// Refused, and soft tissue is behind it; "press here" is then what helps most.
+bool asks_to_scrape(const nav::Registration& r) {
+  constexpr double kTissue_m = 0.0003;
+  return !r.accepted && r.stroke_next && std::max(r.standoff_m, r.field_sd_m) > kTissue_m;
 }
 
-/// The mean over strokes nearby, those next to a vertex first.
+/// What the registration made of the strokes, or else what the points show: `paper` estimates none.
+std::vector<nav::EstimatedHeight> heights_of(const RegisteredLevel& level,
+                                             const std::vector<PlacedPoint>& points) {
+  const nav::Registration& r = level.registration;
+  constexpr double kShown_m = 0.0003;
+  if (!r.heights.empty()) {
+    return r.heights;
+  }
+  std::vector<nav::EstimatedHeight> out;
+  if (r.noise_m > 0.0 && (r.standoff_m > kShown_m || r.field_sd_m > kShown_m)) {
+    for (const PlacedPoint& p : points) {
+      if (!p.off_bone) {
+        out.push_back({{p.place_m}, p.residual_m + r.standoff_m});
+      }
+    }
+  }
+  return out;
+}
+
+/// The mean over places nearby, those next to a vertex first.
 std::vector<double> tissue_over(const nav::TriangleMesh& mesh,
-                                const std::vector<PlacedPoint>& points, double standoff_m) {
+                                const std::vector<nav::EstimatedHeight>& heights) {
   constexpr double kNear_m = 0.003;
   constexpr double kFarthest_m = 0.008;
   std::vector<double> out;
+  if (heights.empty()) {
+    return out;
+  }
   out.reserve(mesh.vertices_m.size());
   for (const Vec3& vertex : mesh.vertices_m) {
     double weights = 0.0;
     double sum_m = 0.0;
-    for (const PlacedPoint& p : points) {
-      const double apart_m2 = (p.place_m - vertex).squared_norm();
-      if (!p.off_bone && apart_m2 < kFarthest_m * kFarthest_m) {
+    for (const nav::EstimatedHeight& height : heights) {
+      const double apart_m2 = (height.at.v - vertex).squared_norm();
+      if (apart_m2 < kFarthest_m * kFarthest_m) {
         const double weight = std::exp(-0.5 * apart_m2 / (kNear_m * kNear_m));
         weights += weight;
-        sum_m += weight * (p.residual_m + standoff_m);
+        sum_m += weight * height.height_m;
       }
     }
     out.push_back(weights > 0.0 ? std::max(0.0, sum_m / weights)
@@ -125,12 +147,10 @@ RegistrationScene registration_scene(const RegisteredLevel& level) {
     scene.off_bone += p.off_bone ? 1 : 0;
   }
   scene.from_strokes_m = distances_from_strokes_m(level.model->reachable(), scene.points);
-  if (shows_tissue(level.registration)) {
-    scene.tissue_m =
-        tissue_over(level.model->reachable(), scene.points, level.registration.standoff_m);
-    if (!level.registration.accepted && level.registration.stroke_next) {
-      scene.scrape_m = level.registration.stroke_next_at.v;
-    }
+  scene.tissue_m = tissue_over(level.model->reachable(), heights_of(level, scene.points));
+  const nav::Registration& r = level.registration;
+  if (!scene.tissue_m.empty() && asks_to_scrape(r)) {
+    scene.scrape_m = r.stroke_next_at.v;
   }
   for (const nav::CheckPoint& check : level.check_points) {
     scene.checks.push_back({(level.registration.world_from_vertebra.inverse() * check.place).v,

@@ -90,7 +90,8 @@ void table_of_levels(const json& report, std::string& html) {
         html += span + html_escaped(text_of(level, "label")) + "</td>" + span + verdict_on(level) +
                 "</td>" + span + figure(level, "rmse_mm", 2) + "</td>" + span +
                 figure(level, "tre_mm", 2) + "</td>" + span + figure(level, "predicted_tre_mm", 2) +
-                "</td>" + span + figure(level, "points", 0) + "</td>" + span +
+                (level.value("registration_only", false) ? kRegistrationOnlyHtml : "") + "</td>" +
+                span + figure(level, "points", 0) + "</td>" + span +
                 figure(level, "digitization_s", 1) + "</td>";
       }
       if (i < screws.size()) {

@@ -95,6 +95,9 @@ Json level_json(const LevelOutcome& level) {
     out["errors_mm"].push_back({error.x * 1e3, error.y * 1e3, error.z * 1e3});
   }
   put_mm(out, "predicted_tre_mm", level.predicted_tre_m);
+  if (level.predicted_tre_m) {
+    out["registration_only"] = level.registration_only;
+  }
   if (level.points) {
     out["points"] = *level.points;
   }

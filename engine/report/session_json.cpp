@@ -83,6 +83,9 @@ Json recorded_level_json(const RecordedLevel& level, const SessionRecord& sessio
     const RecordedRegistration& in_force = session.registrations[*level.registration];
     put_length_mm(out, "rmse_mm", in_force.rmse_m);
     put_length_mm(out, "predicted_tre_mm", in_force.predicted_tre_m);
+    if (in_force.registration_only) {
+      out["registration_only"] = *in_force.registration_only;
+    }
     if (in_force.points) {
       out["points"] = *in_force.points;
     }

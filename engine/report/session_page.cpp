@@ -75,6 +75,18 @@ std::string touches_of_landmark(const RecordedLevel& level) {
   return text.empty() ? "\u2013" : text;
 }
 
+/// What stands beside an error that lacks what all strokes share.
+std::string of_registration_only(const RecordedRegistration& registration) {
+  const bool only = registration.predicted_tre_m && registration.registration_only.value_or(false);
+  return only ? std::string(kRegistrationOnlyHtml) : "";
+}
+
+/// Whether a bound on a screw's place lacks it.
+bool registration_only(const SessionRecord& session, const RecordedLevel& level) {
+  return level.registration &&
+         session.registrations[*level.registration].registration_only.value_or(false);
+}
+
 void put_levels(const SessionRecord& session, std::string& html) {
   if (session.levels.empty()) {
     return put_nothing("Levels", html);
@@ -90,7 +102,7 @@ void put_levels(const SessionRecord& session, std::string& html) {
     if (level.registration) {
       const RecordedRegistration& in_force = session.registrations[*level.registration];
       html += cell(recorded(in_force.rmse_m, 1e3, 2)) +
-              cell(recorded(in_force.predicted_tre_m, 1e3, 2)) +
+              cell(recorded(in_force.predicted_tre_m, 1e3, 2) + of_registration_only(in_force)) +
               cell(in_force.points ? std::to_string(*in_force.points) : kNotRecorded) +
               cell(recorded(level.digitization_s, 1.0, 1));
     } else {
@@ -153,7 +165,11 @@ void put_screws(const SessionRecord& session, std::string& html) {
                 cell(html_number(pose->tip_to_entry_m * 1e3, 2)) +
                 cell(html_number(pose->depth_m * 1e3, 2)) +
                 cell(recorded(pose->clearance_m, 1e3, 2)) +
-                cell(recorded(pose->clearance_95_m, 1e3, 2)) + cell(wire_text(screw)) + "</tr>";
+                cell(recorded(pose->clearance_95_m, 1e3, 2) +
+                     (pose->clearance_95_m && registration_only(session, level)
+                          ? std::string(kRegistrationOnlyHtml)
+                          : "")) +
+                cell(wire_text(screw)) + "</tr>";
       } else {
         const std::string none = cell(screw.done ? kNotRecorded : "\u2013");
         html += none + none + none + none + none + none + cell(wire_text(screw)) + "</tr>";
@@ -213,7 +229,10 @@ void put_registrations(const SessionRecord& session, std::string& html) {
             cell(each.passed ? "<span class=good>passed</span>"
                              : "<span class=bad>refused</span> " + html_escaped(each.reason)) +
             cell(recorded(each.rmse_m, 1e3, 2)) + cell(recorded(each.runner_up_rmse_m, 1e3, 2)) +
-            cell(recorded(each.tre_95_m, 1e3, 2)) +
+            cell(recorded(each.tre_95_m, 1e3, 2) +
+                 (each.tre_95_m && each.registration_only.value_or(false)
+                      ? std::string(kRegistrationOnlyHtml)
+                      : "")) +
             cell(each.points ? std::to_string(*each.points) : kNotRecorded) + "</tr>";
     if (!each.warning.empty()) {
       html += "<tr><td></td><td colspan=7 class=bad>" + html_escaped(each.warning) + "</td></tr>";

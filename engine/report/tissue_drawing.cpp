@@ -21,7 +21,8 @@ constexpr Rgb kNotStroked{214, 208, 197};
 /// A readable number that hardly any place exceeds.
 double full_scale_m(const RegistrationScene& scene) {
   constexpr double kStep_m = 0.0005;
-  double most_m = kStep_m;
+  constexpr double kLeast_m = 0.001;  // a few tenths must not look like thick tissue
+  double most_m = kLeast_m;
   for (const double tissue_m : scene.tissue_m) {
     most_m = std::isnan(tissue_m) ? most_m : std::max(most_m, tissue_m);
   }
@@ -63,8 +64,9 @@ std::string tissue_legend(const RegistrationScene& scene) {
     out += "<i style=\"background:" + hex(c) + "\"></i>";
   }
   return out + "</b> " + html_number(full_scale_m(scene) * 1e3, 1) +
-         " mm<em>height of the tip above the bone, as strokes within 8 mm tell: soft tissue, or a "
-         "model that is not quite the bone</em></span></div>";
+         " mm<em>height of the tip above the bone, as strokes within 8 mm tell when their noise is "
+         "left "
+         "out: soft tissue, or a model that is not quite the bone</em></span></div>";
 }
 
 }  // namespace

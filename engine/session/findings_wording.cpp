@@ -173,6 +173,11 @@ void write_coaching(PartedText text, const Coaching& coaching, std::string_view 
     text.begin(Importance::kNext, ", ");
     out +=
         coaching.then_touch ? "soft tissue: register, then touch the bone" : "enough to register";
+    if (coaching.then_touch && coaching.stroke_next) {
+      text.begin(Importance::kMore, ", ");
+      out += "or first scrape the ";
+      append_part(out, *coaching.stroke_next);
+    }
   } else if (coaching.against) {
     text.begin(Importance::kMessage, ", ");
     append(out, *coaching.against);

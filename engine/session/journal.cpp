@@ -157,6 +157,7 @@ void Journal::registered(Timestamp time, const LevelState& level,
   // Infinite, that is without a bound, becomes null.
   if (outcome.passed()) {
     line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
+    line["registration_only"] = level.registration_only();
   }
   add_line(*log_, line, kDurable);
 }

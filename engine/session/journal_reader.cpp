@@ -58,6 +58,9 @@ RecordedRegistration registration_of(const JsonNode& line, Timestamp time) {
   found.runner_up_rmse_m = optional_number(line, "runner_up_rmse_mm", kMetresPerMm);
   found.predicted_tre_m = optional_number(line, "predicted_tre_mm", kMetresPerMm);
   found.tre_95_m = optional_number(line, "tre_95_mm", kMetresPerMm);
+  if (line.has("registration_only")) {
+    found.registration_only = line.flag_or("registration_only", false);
+  }
   return found;
 }
 

@@ -81,7 +81,8 @@ void append_breach(std::string& out, const nav::ShownClearance& clearance) {
   }
 }
 
-void append_clearance_line(std::string& out, const nav::ShownClearance& clearance) {
+void append_clearance_line(std::string& out, const nav::ShownClearance& clearance,
+                           bool registration_only) {
   out.append(words::kClearance).append(" ");
   append_clearance(out, clearance.least_tenths);
   if (clearance.may_break()) {
@@ -91,6 +92,7 @@ void append_clearance_line(std::string& out, const nav::ShownClearance& clearanc
     out.append(", ").append(words::kAtLeast).append(" ");
     append_clearance(out, *clearance.lower_95_tenths);
   }
+  out += registration_only && clearance.lower_95_tenths ? kRegistrationOnly : "";
 }
 
 bool stop_too_deep(const nav::DrillView& drill) {

@@ -35,8 +35,10 @@ void append_clearance(std::string& out, int tenths);
 /// 0.
 void append_breach(std::string& out, const nav::ShownClearance& clearance);
 /// All in one line: "clearance 2.4 mm, at least 1.1 mm"; "clearance 0.4 mm: may break through
-/// medially"; "clearance 2.4 mm" where the bound is not known.
-void append_clearance_line(std::string& out, const nav::ShownClearance& clearance);
+/// medially"; "clearance 2.4 mm" where the bound is not known. `registration_only`: the bound lacks
+/// what all strokes share, and says so.
+void append_clearance_line(std::string& out, const nav::ShownClearance& clearance,
+                           bool registration_only = false);
 
 /// "tip set", "drilling", "drilling: drifting", "drilling: off plan", "stop"; "drilling, tool not
 /// seen" and "stop, tool not seen" where nobody watches; nothing for a tool that is away.

@@ -66,6 +66,8 @@ struct RecordedRegistration {
   std::optional<double> runner_up_rmse_m;
   std::optional<double> predicted_tre_m;  ///< at the worst of the screws; passed ones only
   std::optional<double> tre_95_m;
+  /// These lack what all strokes share; absent in older journals.
+  std::optional<bool> registration_only = {};
 };
 
 struct RecordedCheck {

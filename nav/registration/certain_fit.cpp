@@ -26,6 +26,12 @@ std::optional<SurfaceFit> moved(const VertebraModel& model, const Cloud& cloud,
   there.point_sd_m = options.point_sd_m;
   there.max_iterations = 0;
   there.first_standoff_m = field.standoff_m;
+  std::vector<Vec3> near_m;
+  near_m.reserve(fit.points.size());
+  for (const FittedPoint& p : fit.points) {
+    near_m.push_back(p.nearest_m);
+  }
+  there.near_m = near_m;
   CentredPose pose = fit.pose;
   const auto& x = field.step;
   pose.rotation = orthonormalized(rotation_from_vector({x[3], x[4], x[5]}) * pose.rotation);
@@ -48,6 +54,8 @@ std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& clo
   SurfaceFitOptions fine;
   fine.tip_radius_m = options.tip_radius_m;
   fine.point_sd_m = options.point_sd_m;
+  const std::vector<Vec3> near_m = places_near(model, cloud.all_m, start.pose);
+  fine.near_m = near_m;
   CertainFit out;
   for (const bool with_standoff : {true, false}) {
     fine.with_standoff = with_standoff;

@@ -97,12 +97,16 @@ HeightModel::Answer plain(const UnknownsAnswer& a) {
 class HeightModel::Matrices {
  public:
   Matrices(const SurfaceFit& fit, const ResidualUnits& units);
-  [[nodiscard]] Eigen::MatrixXd noise_covariance(const StrokeNoise& noise) const;
-  /// Of a field, between units; that of the last length is kept.
-  [[nodiscard]] const Eigen::MatrixXd& field_correlation(double length_m);
+  [[nodiscard]] Eigen::MatrixXd covariance(const HeightField& field, const StrokeNoise& noise);
   [[nodiscard]] std::optional<Answers> solve(const Eigen::MatrixXd& covariance) const;
+  /// `shared`: of the covariance, what is no noise.
+  [[nodiscard]] std::vector<double> without_noise(const Eigen::MatrixXd& covariance,
+                                                  const Eigen::MatrixXd& shared) const;
 
  private:
+  [[nodiscard]] Eigen::MatrixXd noise_covariance(const StrokeNoise& noise, double stroke_m2) const;
+  /// Of a field, between units; that of the last length is kept.
+  [[nodiscard]] const Eigen::MatrixXd& field_correlation(const HeightField& field);
   [[nodiscard]] double own_noise_m2(const ResidualUnit& unit, const StrokeNoise& noise) const;
 
   const SurfaceFit& fit_;
@@ -128,11 +132,20 @@ HeightModel::Matrices::Matrices(const SurfaceFit& fit, const ResidualUnits& unit
   }
 }
 
-const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(double length_m) {
-  if (length_m == last_length_m_) {
+Eigen::MatrixXd HeightModel::Matrices::covariance(const HeightField& field,
+                                                  const StrokeNoise& noise) {
+  Eigen::MatrixXd out = noise_covariance(noise, field.stroke_m2);
+  if (field.variance_m2 > 0.0) {
+    out += field.variance_m2 * field_correlation(field);
+  }
+  return out;
+}
+
+const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(const HeightField& field) {
+  if (field.length_m == last_length_m_) {
     return last_correlation_;
   }
-  last_length_m_ = length_m;
+  last_length_m_ = field.length_m;
   const Index m = heights_m_.size();
   last_correlation_.resize(m, m);
   for (Index a = 0; a < m; ++a) {
@@ -140,7 +153,7 @@ const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(double length_m)
       double sum = 0.0;
       for (const Vec3& p : units_.all[static_cast<std::size_t>(a)].halves_m) {
         for (const Vec3& q : units_.all[static_cast<std::size_t>(b)].halves_m) {
-          sum += std::exp(-(p - q).norm() / length_m);
+          sum += field.correlation((p - q).norm());
         }
       }
       last_correlation_(a, b) = last_correlation_(b, a) = 0.25 * sum;
@@ -149,20 +162,21 @@ const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(double length_m)
   return last_correlation_;
 }
 
-Eigen::MatrixXd HeightModel::Matrices::noise_covariance(const StrokeNoise& noise) const {
+Eigen::MatrixXd HeightModel::Matrices::noise_covariance(const StrokeNoise& noise,
+                                                        double stroke_m2) const {
   const Index m = heights_m_.size();
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(m, m);
   for (Index a = 0; a < m; ++a) {
     const ResidualUnit& unit = units_.all[static_cast<std::size_t>(a)];
-    out(a, a) = own_noise_m2(unit, noise);
-    for (Index b = a - 1; b >= 0 && noise.wandering_m2 > 0.0; --b) {
+    out(a, a) = own_noise_m2(unit, noise) + stroke_m2;
+    for (Index b = a - 1; b >= 0 && noise.wandering_m2 + stroke_m2 > 0.0; --b) {
       const ResidualUnit& other = units_.all[static_cast<std::size_t>(b)];
       if (other.stroke != unit.stroke) {
         break;
       }
       const double lag = 0.5 * (static_cast<double>(unit.first + unit.end) -
                                 static_cast<double>(other.first + other.end));
-      out(a, b) = out(b, a) = noise.wandering_m2 * std::pow(noise.kept, lag);
+      out(a, b) = out(b, a) = stroke_m2 + noise.wandering_m2 * std::pow(noise.kept, lag);
     }
   }
   return out;
@@ -213,17 +227,36 @@ std::optional<HeightModel::Answers> HeightModel::Matrices::solve(
   return Answers{plain(*fixed), plain(*free)};
 }
 
+std::vector<double> HeightModel::Matrices::without_noise(const Eigen::MatrixXd& covariance,
+                                                         const Eigen::MatrixXd& shared) const {
+  const auto answers = solve(covariance);
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  if (!answers || llt.info() != Eigen::Success) {
+    return {};
+  }
+  const UnknownsVector scaled =
+      Eigen::Map<const UnknownsVector>(answers->fixed_size.unknowns.data()).cwiseQuotient(scales());
+  const Eigen::VectorXd rest = heights_m_ - derivatives_ * scaled;
+  Eigen::VectorXd mean = shared * llt.solve(rest);
+  mean.array() += answers->fixed_size.unknowns[kStandoffUnknown];
+  return {mean.data(), mean.data() + mean.size()};
+}
+
 HeightModel::HeightModel(const SurfaceFit& fit, const ResidualUnits& units)
     : matrices_(std::make_unique<Matrices>(fit, units)) {}
 HeightModel::~HeightModel() = default;
 
-std::optional<HeightModel::Answers> HeightModel::solve(double field_m2, double length_m,
+std::optional<HeightModel::Answers> HeightModel::solve(const HeightField& field,
                                                        const StrokeNoise& noise) {
-  Eigen::MatrixXd covariance = matrices_->noise_covariance(noise);
-  if (field_m2 > 0.0) {
-    covariance += field_m2 * matrices_->field_correlation(length_m);
-  }
-  return matrices_->solve(covariance);
+  return matrices_->solve(matrices_->covariance(field, noise));
+}
+
+std::vector<double> HeightModel::heights_without_noise(const HeightField& field,
+                                                       const StrokeNoise& noise) {
+  const Eigen::MatrixXd all = matrices_->covariance(field, noise);
+  HeightField none;
+  const Eigen::MatrixXd shared = all - matrices_->covariance(none, noise);
+  return matrices_->without_noise(all, shared);
 }
 
 }  // namespace orthonav::nav

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "nav/registration/residual_noise.h"
 #include "nav/registration/residual_units.h"
@@ -29,10 +30,13 @@ class HeightModel {
     Answer fixed_size;
     Answer free_size;
   };
-  /// Given a field's variance and length (no field: 0, any) and the noise beside it. Nothing where
-  /// a motion is undetermined. Fastest when fields of one length come one after the other.
-  [[nodiscard]] std::optional<Answers> solve(double field_m2, double length_m,
-                                             const StrokeNoise& noise);
+  /// Given a field and the noise beside it. Nothing where a motion is undetermined. Fastest when
+  /// fields of one length come one after the other.
+  [[nodiscard]] std::optional<Answers> solve(const HeightField& field, const StrokeNoise& noise);
+  /// The mean of each unit's height without its noise: standoff, field, and the stroke's own. Empty
+  /// where a motion is undetermined.
+  [[nodiscard]] std::vector<double> heights_without_noise(const HeightField& field,
+                                                          const StrokeNoise& noise);
 
  private:
   class Matrices;

@@ -21,6 +21,11 @@ constexpr std::size_t kUnitsCompared = 80;
 /// the others are not asked.
 constexpr std::size_t kMirroredFew = 150;
 constexpr double kHopeless = 100.0;
+/// Starts of the mirrored points are told apart by every third of them, and some tried closer.
+constexpr std::size_t kEveryMirrored = 3;
+constexpr std::size_t kMirroredCloser = 3;
+constexpr int kRoughIterations = 3;
+constexpr int kCloserIterations = 6;
 
 double fit_rmse_m(const SurfaceFit& fit) {
   double sum = 0.0;
@@ -30,13 +35,13 @@ double fit_rmse_m(const SurfaceFit& fit) {
   return std::sqrt(sum / static_cast<double>(fit.points.size()));
 }
 
-MirroredPoints mirrored_points(const VertebraModel& model, const Cloud& cloud,
-                               const CentredPose& pose) {
-  MirroredPoints out;
+/// Left for right in the model's frame, at a pose.
+Cloud mirrored_cloud(const Cloud& cloud, const CentredPose& pose) {
   const auto mirrored = [&](Vec3 p) {
     const Vec3 q = pose.rotation * p;
     return Vec3{-q.x, q.y, q.z};
   };
+  Cloud out;
   for (const Vec3& p : cloud.all_m) {
     out.all_m.push_back(mirrored(p));
   }
@@ -44,8 +49,25 @@ MirroredPoints mirrored_points(const VertebraModel& model, const Cloud& cloud,
   for (std::size_t i = 0; i < cloud.few_m.size(); i += step) {
     out.few_m.push_back(mirrored(cloud.few_m[i]));
   }
-  out.start.centre_m = pose.centre_m;
-  out.start.centre_m.x = 2.0 * model.reachable_axes().centre_m.x - pose.centre_m.x;
+  return out;
+}
+
+/// Itself, and shifted and turned to every side: a crooked bone's mirror image lies askew.
+std::vector<CentredPose> poses_about(const CentredPose& pose) {
+  constexpr double kAside_m = 0.003;
+  constexpr double kTurned_rad = 0.15;
+  std::vector<CentredPose> out{pose};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Vec3 along;
+      along[axis] = side;
+      // Backwards there is no bone, and forwards none that is reached.
+      if (axis != 1) {
+        out.push_back({pose.rotation, pose.centre_m + kAside_m * along});
+      }
+      out.push_back({rotation_from_vector(kTurned_rad * along) * pose.rotation, pose.centre_m});
+    }
+  }
   return out;
 }
 
@@ -143,8 +165,7 @@ std::string OtherExplanations::better_level() const {
     const auto found = find_candidates(*level.model, cloud_, {}, options_.tip_radius_m);
     const auto whole = found.best_first.empty()
                            ? std::nullopt
-                           : fit_to_surface(level.model->reachable_surface(), cloud_.all_m,
-                                            found.best_first[0].fit.pose, fine_);
+                           : fit_closely(*level.model, found.best_first[0].fit.pose);
     if (!whole) {
       continue;
     }
@@ -163,9 +184,17 @@ std::string OtherExplanations::better_level() const {
   return second - least < kLevelLogLikelihoodRatio ? std::string(kSeveralLevels) : label;
 }
 
+std::optional<SurfaceFit> OtherExplanations::fit_closely(const VertebraModel& model,
+                                                         const CentredPose& start) const {
+  const std::vector<Vec3> near_m = places_near(model, cloud_.all_m, start);
+  SurfaceFitOptions closely = fine_;
+  closely.near_m = near_m;
+  return fit_to_surface(model.reachable_surface(), cloud_.all_m, start, closely);
+}
+
 double OtherExplanations::mirror_log_likelihood() const {
-  const MirroredPoints points = mirrored_points(model_, cloud_, best_.fit.pose);
-  const auto few = best_mirrored_fit(points);
+  const Cloud mirrored = mirrored_cloud(cloud_, best_.fit.pose);
+  const auto few = best_mirrored_fit(mirrored.few_m);
   if (!few) {
     return -std::numeric_limits<double>::infinity();
   }
@@ -173,34 +202,48 @@ double OtherExplanations::mirror_log_likelihood() const {
   if (by_cost > kHopeless) {
     return -by_cost;
   }
-  SurfaceFitOptions closely = fine_;
-  closely.max_iterations = 5;  // the few have brought it near
-  const auto whole = fit_to_surface(model_.reachable_surface(), points.all_m, few->pose, closely);
-  return whole ? -log_likelihood_ratio(*whole) : -std::numeric_limits<double>::infinity();
+  // Whatever helps the answer helps its mirror image: the same fit, to the end.
+  const auto whole = final_fit(model_, mirrored, *few, options_);
+  return whole ? -log_likelihood_ratio(whole->fit) : -std::numeric_limits<double>::infinity();
 }
 
-std::optional<SurfaceFit> OtherExplanations::best_mirrored_fit(const MirroredPoints& points) const {
-  constexpr double kAside_m = 0.003;
-  SurfaceFitOptions quick = fine_;
-  quick.point_sd_m = {};
-  quick.max_iterations = 6;
-  std::optional<SurfaceFit> best;
-  double least_m2 = std::numeric_limits<double>::infinity();
-  for (const Vec3 aside : {Vec3{}, Vec3{kAside_m, 0.0, 0.0}, Vec3{-kAside_m, 0.0, 0.0},
-                           Vec3{0.0, 0.0, kAside_m}, Vec3{0.0, 0.0, -kAside_m}}) {
-    CentredPose start = points.start;
-    start.centre_m += aside;
-    auto fit = fit_to_surface(model_.reachable_surface(), points.few_m, start, quick);
-    if (!fit) {
-      continue;
+std::optional<SurfaceFit> OtherExplanations::best_mirrored_fit(
+    std::span<const Vec3> points_m) const {
+  CentredPose start;
+  start.centre_m = best_.fit.pose.centre_m;
+  start.centre_m.x = 2.0 * model_.reachable_axes().centre_m.x - start.centre_m.x;
+  std::vector<Vec3> fewer_m;
+  for (std::size_t i = 0; i < points_m.size(); i += kEveryMirrored) {
+    fewer_m.push_back(points_m[i]);
+  }
+  std::vector<SurfaceFit> rough;
+  for (const CentredPose& aside : poses_about(start)) {
+    if (auto fit = mirrored_fit(fewer_m, aside, kRoughIterations)) {
+      rough.push_back(std::move(*fit));
     }
-    const double cost_m2 = truncated_cost_m2(*fit, width_m_);
-    if (cost_m2 < least_m2) {
-      least_m2 = cost_m2;
+  }
+  const auto cost = [&](const SurfaceFit& fit) { return truncated_cost_m2(fit, width_m_); };
+  std::stable_sort(rough.begin(), rough.end(),
+                   [&](const SurfaceFit& a, const SurfaceFit& b) { return cost(a) < cost(b); });
+  std::optional<SurfaceFit> best;
+  for (std::size_t i = 0; i < std::min(kMirroredCloser, rough.size()); ++i) {
+    auto fit = mirrored_fit(points_m, rough[i].pose, kCloserIterations);
+    if (fit && (!best || cost(*fit) < cost(*best))) {
       best = std::move(fit);
     }
   }
   return best;
+}
+
+std::optional<SurfaceFit> OtherExplanations::mirrored_fit(std::span<const Vec3> points_m,
+                                                          const CentredPose& start,
+                                                          int iterations) const {
+  SurfaceFitOptions quick = fine_;
+  const std::vector<Vec3> near_m = places_near(model_, points_m, start);
+  quick.near_m = near_m;
+  quick.point_sd_m = {};
+  quick.max_iterations = iterations;
+  return fit_to_surface(model_.reachable_surface(), points_m, start, quick);
 }
 
 }  // namespace orthonav::nav

@@ -10,14 +10,6 @@
 
 namespace orthonav::nav {
 
-/// Mirrored left for right in the model's frame, and the pose that they start from: the model is
-/// nearly its own mirror image.
-struct MirroredPoints {
-  std::vector<Vec3> all_m;
-  std::vector<Vec3> few_m;
-  CentredPose start;
-};
-
 /// What else than the best pose of this model could explain the points: another pose, another level
 /// of the patient, the model's mirror image. Compared by the truncated cost of the points, in units
 /// by which independent ones tell; where that comes near, by the evidence. Keeps references.
@@ -43,7 +35,13 @@ class OtherExplanations {
     double rmse_m = 0.0;
     double log_likelihood_ratio = 0.0;
   };
-  [[nodiscard]] std::optional<SurfaceFit> best_mirrored_fit(const MirroredPoints& points) const;
+  [[nodiscard]] std::optional<SurfaceFit> best_mirrored_fit(std::span<const Vec3> points_m) const;
+  [[nodiscard]] std::optional<SurfaceFit> mirrored_fit(std::span<const Vec3> points_m,
+                                                       const CentredPose& start,
+                                                       int iterations) const;
+  /// All points, to a model that need not be this one.
+  [[nodiscard]] std::optional<SurfaceFit> fit_closely(const VertebraModel& model,
+                                                      const CentredPose& start) const;
   [[nodiscard]] std::optional<Rival> judged(const Candidate& candidate,
                                             const Candidate& first) const;
   /// How much worse a fit of all points, to whatever model, explains those that the best one has

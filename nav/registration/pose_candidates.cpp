@@ -52,7 +52,7 @@ void refit_with_standoff(const VertebraModel& model, const Cloud& cloud, Surface
 /// The poses that the field suggests, fitted, in the order found.
 std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& cloud,
                                     std::span<const Point<Vertebra>> targets,
-                                    const SurfaceFitOptions& options) {
+                                    SurfaceFitOptions options) {
   PoseSearchOptions search;
   search.tip_radius_m = options.tip_radius_m;
   std::vector<Vec3> in_world;
@@ -70,8 +70,10 @@ std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& clo
     rivals =
         rivals || targets.empty() ||
         apart_m(pose.world_from_vertebra, poses[0].world_from_vertebra, targets) > kSameAtTargets_m;
-    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m,
-                                  centred(pose.world_from_vertebra, cloud.centre_m), options)) {
+    const CentredPose start = centred(pose.world_from_vertebra, cloud.centre_m);
+    const std::vector<Vec3> near_m = places_near(model, cloud.few_m, start);
+    options.near_m = near_m;
+    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m, start, options)) {
       found.push_back({std::move(*fit), 0.0});
     }
   }
@@ -105,6 +107,16 @@ double apart_m(const Transform<World, Vertebra>& a, const Transform<World, Verte
     most = std::max(most, (a * target - b * target).norm());
   }
   return most;
+}
+
+std::vector<Vec3> places_near(const VertebraModel& model, std::span<const Vec3> points_m,
+                              const CentredPose& pose) {
+  std::vector<Vec3> near_m;
+  near_m.reserve(points_m.size());
+  for (const Vec3& p : points_m) {
+    near_m.push_back(model.reachable_grid().nearest(pose.rotation * p + pose.centre_m));
+  }
+  return near_m;
 }
 
 bool is_credible_standoff(double standoff_m) { return standoff_m > 0.0 && standoff_m < kHighest_m; }

@@ -28,6 +28,11 @@ struct Cloud {
                              const Transform<World, Vertebra>& b,
                              std::span<const Point<Vertebra>> targets);
 
+/// A place of the reachable surface near each point at a pose: where its nearest one is sought.
+[[nodiscard]] std::vector<Vec3> places_near(const VertebraModel& model,
+                                            std::span<const Vec3> points_m,
+                                            const CentredPose& pose);
+
 /// Whether a mean height of the tip above the bone can be true: a tip does not dive into bone.
 [[nodiscard]] bool is_credible_standoff(double standoff_m);
 

@@ -92,6 +92,12 @@ struct NeighbourLevel {
   const VertebraModel* model = nullptr;
 };
 
+/// How high the tip stood above the bone, at one place.
+struct EstimatedHeight {
+  Point<Vertebra> at;
+  double height_m = 0.0;
+};
+
 struct PoseSearchRegistrationOptions {
   std::size_t min_points = 100;
   /// Where the pose must be sure: the plan's entries and targets. Without any, places where screws
@@ -118,7 +124,7 @@ struct PoseSearchRegistrationOptions {
   CommonErrors common;
   /// By how much (natural logarithm) the model's mirror image may explain the points better; and
   /// how far off the model's size may be.
-  double max_mirror_log_likelihood = 2.0;
+  double max_mirror_log_likelihood = 6.0;
   double max_size_off = 0.015;
 };
 
@@ -159,6 +165,9 @@ struct Registration {
   Point<Vertebra> stroke_next_at;  ///< where there is one
   /// SD over the bone of the tip's height: soft tissue, or a model that is not quite the bone.
   double field_sd_m = 0.0;
+  std::vector<EstimatedHeight> heights;  ///< of the tip along the strokes, noise left out
+  /// Of the heights of places beside each other on different strokes: about 0 over bare bone.
+  double correlation_across_strokes = 0.0;
   double size = 1.0;  ///< of the bone, as the points say; that of the model is 1
   double size_sd = 0.0;
   double mirror_log_likelihood = 0.0;  ///< of the mirror image, against the model as it is

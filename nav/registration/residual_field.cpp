@@ -25,8 +25,20 @@ constexpr std::size_t kMostUnits = 160;
 constexpr std::size_t kFewestUnits = 12;
 constexpr std::array<double, 3> kLengths_m = {0.008, 0.020, 0.050};
 constexpr std::array<double, 6> kSds_m = {0.00007, 0.00015, 0.0003, 0.0006, 0.0011, 0.002};
-/// Before anything was stroked: the bone is bare, or one of the fields above is as likely as any.
+constexpr std::array<double, 5> kStrokeSds_m = {0.00015, 0.0003, 0.0006, 0.0011, 0.002};
+/// How slowly a hand wanders is a matter of chance over one set of strokes: were it taken for known
+/// over bare bone, a slow hand would look like tissue.
+constexpr std::array<double, 3> kNoiseTimes = {0.6, 1.0, 1.7};
+constexpr double kFields = kLengths_m.size() * kSds_m.size();
+constexpr double kStrokes = kStrokeSds_m.size();
+/// Before anything was stroked: the bone is bare and the hand even; there is a field; each stroke
+/// has a height of its own; or both. Those of a kind are alike.
 constexpr double kBareProbability = 0.5;
+constexpr double kFieldProbability = 0.25;
+constexpr double kStrokesProbability = 0.125;
+constexpr double kBothProbability = 0.125;
+/// Strokes' heights are tried beside so many fields, those that explain most without.
+constexpr std::size_t kFieldsBesideStrokes = 2;
 /// A field of this much more than what the heights vary by is not tried.
 constexpr double kMostVariance = 4.0;
 /// Larger SDs are not tried once the evidence has fallen by this from its maximum.
@@ -47,7 +59,7 @@ struct Tried {
 class Trial {
  public:
   Trial(const SurfaceFit& fit, const ResidualUnits& units)
-      : model_(fit, units), seen_(along_strokes(fit, units)) {}
+      : model_(fit, units), seen_(along_strokes(fit, units)), with_strokes_(units.along_strokes) {}
 
   [[nodiscard]] bool has_noise() const { return !seen_.covariance_m2.empty(); }
 
@@ -55,18 +67,21 @@ class Trial {
   [[nodiscard]] double variance_m2() const { return seen_.covariance_m2[0]; }
 
   std::vector<Tried> all() {
-    consider({});
+    for (const double noise_time : kNoiseTimes) {
+      FieldHypothesis bare;
+      bare.noise_time = noise_time;
+      consider(bare);
+    }
     for (const double length_m : kLengths_m) {
-      double most = -std::numeric_limits<double>::infinity();
-      for (const double sd_m : kSds_m) {
-        if (sd_m * sd_m > kMostVariance * variance_m2()) {
-          break;
-        }
-        const double evidence = consider({sd_m, length_m, 0.0});
-        most = std::max(most, evidence);
-        if (evidence < most - kEvidenceLost) {
-          break;
-        }
+      FieldHypothesis field;
+      field.length_m = length_m;
+      consider_growing(kSds_m, field, &FieldHypothesis::sd_m);
+    }
+    if (with_strokes_) {
+      const std::vector<FieldHypothesis> fields = likeliest_fields();
+      consider_growing(kStrokeSds_m, {}, &FieldHypothesis::stroke_sd_m);
+      for (const FieldHypothesis& field : fields) {
+        consider_growing(kStrokeSds_m, field, &FieldHypothesis::stroke_sd_m);
       }
     }
     return std::move(tried_);
@@ -80,21 +95,63 @@ class Trial {
   }
 
  private:
-  double consider(FieldHypothesis field) {
-    const double field_m2 = field.sd_m * field.sd_m;
-    const auto answers =
-        model_.solve(field_m2, field.length_m, noise_beside_field(seen_, field_m2, field.length_m));
+  /// With an SD that grows until it is far too large.
+  void consider_growing(std::span<const double> sds_m, FieldHypothesis field,
+                        double FieldHypothesis::*sd) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (const double sd_m : sds_m) {
+      if (sd_m * sd_m > kMostVariance * variance_m2()) {
+        return;
+      }
+      field.*sd = sd_m;
+      const double evidence = consider(field);
+      most = std::max(most, evidence);
+      if (evidence < most - kEvidenceLost) {
+        return;
+      }
+    }
+  }
+
+  double consider(const FieldHypothesis& field) {
+    const HeightField heights = heights_of(field);
+    const auto answers = model_.solve(heights, noise_beside_field(seen_, heights));
     if (!answers) {
       return -std::numeric_limits<double>::infinity();
     }
-    const double fields = static_cast<double>(kLengths_m.size() * kSds_m.size());
-    const double prior = field.sd_m > 0.0 ? (1.0 - kBareProbability) / fields : kBareProbability;
-    tried_.push_back({field, *answers, std::log(prior)});
+    tried_.push_back({field, *answers, log_prior(field)});
     return answers->fixed_size.log_evidence;
+  }
+
+  static double log_prior(const FieldHypothesis& field) {
+    const bool strokes = field.stroke_sd_m > 0.0;
+    if (field.sd_m > 0.0) {
+      return std::log(strokes ? kBothProbability / (kFields * kStrokes)
+                              : kFieldProbability / kFields);
+    }
+    return std::log(strokes ? kStrokesProbability / kStrokes
+                            : kBareProbability / kNoiseTimes.size());
+  }
+
+  [[nodiscard]] std::vector<FieldHypothesis> likeliest_fields() const {
+    std::vector<const Tried*> fields;
+    for (const Tried& t : tried_) {
+      if (t.field.sd_m > 0.0) {
+        fields.push_back(&t);
+      }
+    }
+    std::stable_sort(fields.begin(), fields.end(), [](const Tried* a, const Tried* b) {
+      return a->answers.fixed_size.log_evidence > b->answers.fixed_size.log_evidence;
+    });
+    std::vector<FieldHypothesis> out;
+    for (std::size_t i = 0; i < std::min(kFieldsBesideStrokes, fields.size()); ++i) {
+      out.push_back(fields[i]->field);
+    }
+    return out;
   }
 
   HeightModel model_;
   AlongStrokes seen_;
+  bool with_strokes_;
   std::vector<Tried> tried_;
 };
 
@@ -158,7 +215,8 @@ UnknownsMean average(const std::vector<Tried>& tried, ResidualField& out) {
     FieldHypothesis field = t.field;
     field.probability = std::exp(t.log_prior + fixed_evidence(t) - out.log_evidence);
     mean += field.probability * unknowns_of(t.answers.fixed_size);
-    field_m2 += field.probability * field.sd_m * field.sd_m;
+    field_m2 +=
+        field.probability * (field.sd_m * field.sd_m + field.stroke_sd_m * field.stroke_sd_m);
     if (field.probability > out.likeliest.probability) {
       out.likeliest = field;
     }
@@ -177,14 +235,20 @@ UnknownsSpread total_covariance(const std::vector<Tried>& tried, const UnknownsM
   for (const Tried& t : tried) {
     const double probability = std::exp(t.log_prior + fixed_evidence(t) - log_evidence);
     const UnknownsMean off = unknowns_of(t.answers.fixed_size) - mean;
-    covariance += probability * ((t.field.sd_m > 0.0 ? kUnseenWithField : kUnseen) *
-                                     spread_of(t.answers.fixed_size) +
-                                 off * off.transpose());
+    const bool bare = t.field.sd_m == 0.0 && t.field.stroke_sd_m == 0.0;
+    covariance +=
+        probability * ((bare ? kUnseen : kUnseenWithField) * spread_of(t.answers.fixed_size) +
+                       off * off.transpose());
   }
   return covariance;
 }
 
 }  // namespace
+
+HeightField heights_of(const FieldHypothesis& hypothesis) {
+  return {hypothesis.sd_m * hypothesis.sd_m, hypothesis.length_m,
+          hypothesis.stroke_sd_m * hypothesis.stroke_sd_m, hypothesis.noise_time};
+}
 
 std::optional<ResidualField> residual_field(const SurfaceFit& fit,
                                             std::span<const FieldHypothesis> among) {

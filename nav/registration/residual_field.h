@@ -5,25 +5,34 @@
 #include <span>
 #include <vector>
 
+#include "nav/registration/residual_noise.h"
 #include "nav/registration/residual_units.h"
 #include "nav/registration/surface_fit.h"
 
 namespace orthonav::nav {
 
-/// A field over the bone by which the tip's height deviates from its mean: soft tissue of uneven
-/// thickness, or a model that is not quite the bone. Stationary, Gaussian, exponential covariance.
+/// By what the tip's height may deviate from its mean: a field over the bone (soft tissue of uneven
+/// thickness, or a model that is not quite the bone; stationary, Gaussian, of
+/// exponential covariance), and one height a stroke
+/// (a hand that presses through tissue as it likes).
 struct FieldHypothesis {
-  double sd_m = 0.0;  ///< 0: there is none
+  double sd_m = 0.0;  ///< of the field; 0: there is none
   double length_m = 0.0;
+  double stroke_sd_m = 0.0;  ///< of the strokes' heights; 0: all are pressed alike
+  double noise_time = 1.0;   ///< HeightField::noise_time
   double probability = 0.0;
 };
+
+/// As the model of heights has it.
+[[nodiscard]] HeightField heights_of(const FieldHypothesis& hypothesis);
 
 /// What the heights of a fit's points say when such a field is marginalised: about the pose, the
 /// standoff, and the size of the model.
 struct ResidualField {
   std::vector<FieldHypothesis> hypotheses;  ///< those more probable than 0.3 %
   FieldHypothesis likeliest;
-  double field_sd_m = 0.0;  ///< of the field, root of its mean variance over the hypotheses
+  /// Of the field and the strokes' heights, root of their mean variance over the hypotheses.
+  double field_sd_m = 0.0;
   /// The step (translation m, rotation vector rad) from the fit's pose to the likeliest one, and
   /// the covariance after it by rows, both about the points' centre in the model's frame.
   std::array<double, 6> step{};
@@ -40,10 +49,11 @@ struct ResidualField {
 };
 
 /// Generalised least squares over units of strokes, whose noise is correlated along each stroke and
-/// whose field is correlated over the bone; the field's SD and length are marginalised on a grid
-/// (restricted likelihood: Patterson & Thompson 1971; Rasmussen & Williams 2006, section 2.7, for
-/// the basis functions). `among` limits the search to these hypotheses; empty: all are tried.
-/// Nothing when a motion is undetermined or fewer than 12 units are there.
+/// whose field is correlated over the bone; the field's SD and length, and the SD of
+/// the strokes' heights, are marginalised on a grid (restricted likelihood: Patterson & Thompson
+/// 1971; Rasmussen & Williams 2006, section 2.7, for the basis functions). `among` limits the
+/// search to these hypotheses; empty: all are tried. Nothing when a motion is undetermined or fewer
+/// than 12 units are there.
 [[nodiscard]] std::optional<ResidualField> residual_field(
     const SurfaceFit& fit, std::span<const FieldHypothesis> among = {});
 /// The same over units of the fit's points that were made before.

@@ -17,6 +17,19 @@ constexpr double kFastest = 0.05;
 constexpr double kLeastNoise = 0.05;
 constexpr double kLeastWhite = 0.01;
 
+/// The ratio of a geometric series that begins with 1 and whose first `terms` are `sum` together:
+/// all lags tell of it, where the last one alone would be a matter of chance.
+double ratio_of_series(double sum, std::size_t terms) {
+  double low = kFastest;
+  double high = kSlowest;
+  for (int halved = 0; halved < 30; ++halved) {
+    const double middle = 0.5 * (low + high);
+    const double series = (1.0 - std::pow(middle, static_cast<double>(terms))) / (1.0 - middle);
+    (series < sum ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 AlongStrokes along_strokes(const SurfaceFit& fit, const ResidualUnits& units) {
@@ -48,24 +61,27 @@ AlongStrokes along_strokes(const SurfaceFit& fit, const ResidualUnits& units) {
   return out;
 }
 
-StrokeNoise noise_beside_field(const AlongStrokes& seen, double field_m2, double length_m) {
+double HeightField::correlation(double distance_m) const {
+  return std::exp(-distance_m / length_m);
+}
+
+StrokeNoise noise_beside_field(const AlongStrokes& seen, const HeightField& field) {
   std::vector<double> rest_m2;
   for (std::size_t lag = 0; lag < seen.covariance_m2.size(); ++lag) {
     const double of_field_m2 =
-        field_m2 > 0.0 ? field_m2 * std::exp(-seen.distance_m[lag] / length_m) : 0.0;
-    rest_m2.push_back(seen.covariance_m2[lag] - of_field_m2);
+        field.variance_m2 > 0.0 ? field.variance_m2 * field.correlation(seen.distance_m[lag]) : 0.0;
+    rest_m2.push_back(seen.covariance_m2[lag] - of_field_m2 - field.stroke_m2);
   }
   StrokeNoise out;
   const double all_m2 = std::max(rest_m2[0], kLeastNoise * seen.covariance_m2[0]);
   std::size_t last = 0;
+  double sum_m2 = 0.0;
   while (last + 1 < rest_m2.size() && rest_m2[last + 1] > kNoiseCorrelation * all_m2) {
-    ++last;
+    sum_m2 += rest_m2[++last];
   }
   if (last >= 1) {
-    const double falls =
-        last >= 2 ? std::pow(rest_m2[last] / rest_m2[1], 1.0 / static_cast<double>(last - 1))
-                  : kNoiseCorrelation;
-    out.kept = std::clamp(falls, kFastest, kSlowest);
+    const double kept = last >= 2 ? ratio_of_series(sum_m2 / rest_m2[1], last) : kNoiseCorrelation;
+    out.kept = std::clamp(std::pow(kept, 1.0 / field.noise_time), kFastest, kSlowest);
     out.wandering_m2 = std::min(rest_m2[1] / out.kept, all_m2);
   }
   out.white_m2 = std::max(all_m2 - out.wandering_m2, kLeastWhite * all_m2);

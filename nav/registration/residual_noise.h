@@ -22,9 +22,19 @@ struct StrokeNoise {
   double kept = 0.0;  ///< of what wanders, from one point to the next
 };
 
-/// What is left of `seen` beside a field over the bone that has this variance and forgets itself
-/// exponentially over `length_m`.
-[[nodiscard]] StrokeNoise noise_beside_field(const AlongStrokes& seen, double field_m2,
-                                             double length_m);
+/// By what the tip's height deviates from its mean beside noise: a field over the bone, and how
+/// hard each stroke was pressed.
+struct HeightField {
+  double variance_m2 = 0.0;  ///< of the field; 0: there is none
+  double length_m = 0.0;     ///< over which its covariance falls to 1/e, exponentially
+  double stroke_m2 = 0.0;    ///< variance of what a stroke's heights share, wherever it goes
+  /// By this the noise forgets itself more slowly than the strokes' own heights tell.
+  double noise_time = 1.0;
+
+  [[nodiscard]] double correlation(double distance_m) const;
+};
+
+/// What is left of `seen` beside these.
+[[nodiscard]] StrokeNoise noise_beside_field(const AlongStrokes& seen, const HeightField& field);
 
 }  // namespace orthonav::nav

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <unordered_set>
 
 namespace orthonav::nav {
 namespace {
@@ -15,27 +14,74 @@ constexpr double kSmallestCell_m = 0.005;
 constexpr double kLargestCell_m = 0.1;
 constexpr double kGrows = 1.25;
 
-struct SamePlace {
-  std::size_t operator()(const Vec3& p) const {
+/// A sample that was sent again, or resampled, lies within this of the first; the next one of a
+/// hand that moves does not, nor does another of one that rests, by its tracker's noise.
+constexpr double kSamePlace_m = 0.00005;
+
+/// Places that were seen, in cells of which a place's surroundings meet a few only.
+class SeenPlaces {
+ public:
+  explicit SeenPlaces(std::size_t count) : next_(count), places_m_(count) {
+    heads_.assign(std::bit_ceil(2 * std::max<std::size_t>(count, 1)), kNone);
+  }
+  /// Whether none was seen near it; then it is seen from now on.
+  bool is_new(Vec3 p) {
+    const Cell low = cell(p - Vec3{kSamePlace_m, kSamePlace_m, kSamePlace_m});
+    const Cell high = cell(p + Vec3{kSamePlace_m, kSamePlace_m, kSamePlace_m});
+    for (std::int64_t x = low[0]; x <= high[0]; ++x) {
+      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
+        for (std::int64_t z = low[2]; z <= high[2]; ++z) {
+          if (is_near_one_in({x, y, z}, p)) {
+            return false;
+          }
+        }
+      }
+    }
+    const std::size_t head = bucket(cell(p));
+    places_m_[seen_] = p;
+    next_[seen_] = heads_[head];
+    heads_[head] = static_cast<std::uint32_t>(seen_++);
+    return true;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  static Cell cell(Vec3 p) {
+    constexpr double kCell_m = 4.0 * kSamePlace_m;
+    return {std::llround(p.x / kCell_m), std::llround(p.y / kCell_m), std::llround(p.z / kCell_m)};
+  }
+  [[nodiscard]] std::size_t bucket(const Cell& cell) const {
     std::uint64_t hash = 0;
-    for (const double x : {p.x, p.y, p.z}) {
-      hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15ULL;
+    for (const std::int64_t i : cell) {
+      hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15ULL;
       hash ^= hash >> 29U;
     }
-    return static_cast<std::size_t>(hash);
+    return static_cast<std::size_t>(hash) & (heads_.size() - 1);
   }
-  bool operator()(const Vec3& a, const Vec3& b) const {
-    return a.x == b.x && a.y == b.y && a.z == b.z;
+  [[nodiscard]] bool is_near_one_in(const Cell& cell, Vec3 p) const {
+    for (std::uint32_t i = heads_[bucket(cell)]; i != kNone; i = next_[i]) {
+      if ((places_m_[i] - p).squared_norm() <= kSamePlace_m * kSamePlace_m) {
+        return true;
+      }
+    }
+    return false;
   }
+
+  std::vector<std::uint32_t> heads_;
+  std::vector<std::uint32_t> next_;
+  std::vector<Vec3> places_m_;
+  std::size_t seen_ = 0;
 };
 
 /// What is repeated tells nothing new, whatever came in between.
 std::vector<std::uint32_t> different_points(const SurfaceFit& fit) {
-  std::unordered_set<Vec3, SamePlace, SamePlace> seen(2 * fit.points.size());
+  SeenPlaces seen(fit.points.size());
   std::vector<std::uint32_t> out;
   for (std::size_t i = 0; i < fit.points.size(); ++i) {
     const FittedPoint& p = fit.points[i];
-    if (p.inlier_precision() > 0.0 && seen.insert(p.lever_arm_m).second) {
+    if (p.inlier_precision() > 0.0 && seen.is_new(p.lever_arm_m)) {
       out.push_back(static_cast<std::uint32_t>(i));
     }
   }

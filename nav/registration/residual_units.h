@@ -43,7 +43,8 @@ struct ResidualUnits {
 /// The same points in the same units, with their heights by another fit.
 [[nodiscard]] ResidualUnits refilled(const ResidualUnits& units, const SurfaceFit& fit);
 
-/// About `most` units at most. A step of more than 8 mm begins another stroke.
+/// About `most` units at most. A step of more than 8 mm begins another stroke. Points within
+/// 0.05 mm of an earlier one say nothing new and are left out.
 [[nodiscard]] ResidualUnits residual_units(const SurfaceFit& fit, std::size_t most);
 
 }  // namespace orthonav::nav

@@ -6,6 +6,7 @@
 #include "nav/registration/certain_fit.h"
 #include "nav/registration/degeneracy.h"
 #include "nav/registration/errors_at_targets.h"
+#include "nav/registration/estimated_heights.h"
 #include "nav/registration/other_explanations.h"
 #include "nav/registration/registration.h"
 #include "nav/registration/shaft_collision.h"
@@ -78,6 +79,8 @@ Registration described(const VertebraModel& model, const Cloud& cloud, const Cer
   estimate_errors(model, certain, targets, options.common, r);
   if (certain.field) {
     r.field_sd_m = certain.field->field_sd_m;
+    r.heights = estimated_heights(fit, *certain.field);
+    r.correlation_across_strokes = correlation_across_strokes(fit);
     // Points that scatter about a curved surface lie, on average, outside of it; half of what a
     // field over the bone does to them is no such scatter.
     const double scatter_m2 = r.noise_m * r.noise_m - 0.5 * r.field_sd_m * r.field_sd_m;

@@ -132,6 +132,9 @@ std::optional<SurfaceFit> fit_to_surface(const SurfaceIndex& surface,
   fit.with_standoff = options.with_standoff;
   fit.standoff_m = options.first_standoff_m;
   fit.points.assign(points_m.size(), {{}, {}, {kNowhere_m, 0.0, 0.0}, 0.0, 0.0, 1.0});
+  for (std::size_t i = 0; i < std::min(options.near_m.size(), points_m.size()); ++i) {
+    fit.points[i].nearest_m = options.near_m[i];
+  }
   std::vector<double> scratch;
   double known_m2 = 0.0;
   for (const double sd : options.point_sd_m) {

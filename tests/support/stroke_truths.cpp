@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "base/random.h"
 #include "base/vertex_normals.h"
@@ -117,6 +117,31 @@ std::vector<double> unevenness(Tissue tissue, const nav::TriangleMesh& mesh, con
   return out;
 }
 
+/// Each sample so many times, and all in another order.
+void repeat(const StrokeTruths& truths, const Random& random,
+            std::vector<DigitizedSample>& samples) {
+  if (truths.copies > 1) {
+    Random jitter = random.fork("copies");
+    std::vector<DigitizedSample> all;
+    for (const DigitizedSample& s : samples) {
+      all.push_back(s);
+      for (int copy = 1; copy < truths.copies; ++copy) {
+        all.push_back(s);
+        const double x = jitter.normal(0.0, truths.copy_jitter_m);
+        const double y = jitter.normal(0.0, truths.copy_jitter_m);
+        all.back().tip.v += {x, y, jitter.normal(0.0, truths.copy_jitter_m)};
+      }
+    }
+    samples = std::move(all);
+  }
+  if (truths.shuffled) {
+    Random order = random.fork("order");
+    for (std::size_t i = samples.size(); i > 1; --i) {
+      std::swap(samples[i - 1], samples[order.next() % i]);
+    }
+  }
+}
+
 }  // namespace
 
 const char* name_of(Tissue tissue) {
@@ -154,12 +179,9 @@ void apply_truths(const StrokeTruths& truths, const nav::TriangleMesh& mesh, std
     }
     s.tip = s.tip + common_m;
   }
-  if (truths.copies > 1) {
-    std::vector<DigitizedSample> all;
-    for (const DigitizedSample& s : strokes.samples) {
-      all.insert(all.end(), static_cast<std::size_t>(truths.copies), s);
-    }
-    strokes.samples = std::move(all);
+  repeat(truths, random, strokes.samples);
+  for (DigitizedSample& s : strokes.samples) {
+    s.tip.v.x *= truths.left_handed ? -1.0 : 1.0;
   }
 }
 

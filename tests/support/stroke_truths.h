@@ -26,6 +26,11 @@ struct StrokeTruths {
   /// Of a shift that all points share (calibration, tip), SD along each axis.
   double common_sd_m = 0.0;
   int copies = 1;  ///< of every sample, one after the other
+  /// Of a copy's place about the sample's, SD along an axis: the same place sent again, resampled.
+  double copy_jitter_m = 0.0;
+  bool shuffled = false;  ///< samples in any order, as a file may hold them
+  /// Points of a left-handed frame: their x changes sign. Nothing rigid maps the bone to them.
+  bool left_handed = false;
 };
 
 /// Moves the tips off the bone and all points together. Samples that had left the bone stay. The

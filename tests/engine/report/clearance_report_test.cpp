@@ -65,6 +65,18 @@ TEST(ClearanceReport, ShowsThemOnThePage) {
   EXPECT_EQ(clearance_section({{"levels", {{{"label", "L4"}}}}}), "");
 }
 
+TEST(ClearanceReport, SaysWhereABoundLacksWhatAllStrokesShare) {
+  auto result = with_clearances();
+  result.levels[0].predicted_tre_m = 0.0006;
+  EXPECT_THAT(clearance_section(nlohmann::json::parse(report_json(result))),
+              Not(HasSubstr("registration only")));
+  result.levels[0].registration_only = true;
+  const std::string html = clearance_section(nlohmann::json::parse(report_json(result)));
+  EXPECT_THAT(html, HasSubstr("\u22120.20 <small>registration only</small></td>"));
+  // What has no bound has nothing beside it.
+  EXPECT_THAT(html, Not(HasSubstr("\u2013 <small>registration only")));
+}
+
 TEST(ClearanceReport, OfASessionHasThePlansAndTheTrackedOnes) {
   test::ScriptedOperation s({"L5"});
   s.accepts_first_level();

@@ -101,6 +101,20 @@ TEST(SessionReport, SaysWhatWasPlannedInSurgery) {
   EXPECT_NEAR(screws[1]["planned_in_surgery"]["diameter_to_mm"].get<double>(), 6.0, 1e-9);
 }
 
+TEST(SessionReport, SaysWhichErrorsLackWhatAllStrokesShare) {
+  SessionRecord session = cut_session();
+  RecordedRegistration& registration = session.registrations[0];
+  registration.predicted_tre_m = 0.0006;
+  registration.registration_only = false;
+  session.levels[0].screws[0].at_depth->clearance_95_m = 0.0012;
+  EXPECT_THAT(session_page(session, "j"), Not(HasSubstr("registration only")));
+  registration.registration_only = true;
+  const std::string page = session_page(session, "j");
+  EXPECT_THAT(page, HasSubstr("0.60 <small>registration only</small>"));
+  EXPECT_THAT(page, HasSubstr("1.20 <small>registration only</small>"));
+  EXPECT_EQ(nlohmann::json::parse(session_json(session))["levels"][0]["registration_only"], true);
+}
+
 TEST(SessionReport, SaysFirstOfAllThatTheSessionWasCutOffAndWhen) {
   const std::string page = session_page(cut_session(), "a/session.orthonav.part");
   const std::size_t cut = page.find("This session was cut off");

@@ -45,15 +45,18 @@ TEST(NumbersWording, SaysHowUnsureANumberIs) {
   EXPECT_EQ(line_text(kSure, true), line_text(kSure, false)) << "without an SD, nothing to add";
 }
 
-std::string clearance_text(const nav::ShownClearance& clearance) {
+std::string clearance_text(const nav::ShownClearance& clearance, bool registration_only = false) {
   std::string out;
-  append_clearance_line(out, clearance);
+  append_clearance_line(out, clearance, registration_only);
   return out;
 }
 
 TEST(NumbersWording, SaysTheClearanceAndWhereAScrewMayBreakThrough) {
   EXPECT_EQ(clearance_text({24, 11, "medial"}), "clearance 2.4 mm, at least 1.1 mm");
   EXPECT_EQ(clearance_text({24, std::nullopt, "medial"}), "clearance 2.4 mm");
+  EXPECT_EQ(clearance_text({24, 11, "medial"}, true),
+            "clearance 2.4 mm, at least 1.1 mm (registration only)");
+  EXPECT_EQ(clearance_text({24, std::nullopt, "medial"}, true), "clearance 2.4 mm");
   EXPECT_EQ(clearance_text({4, 0, "medial"}), "clearance 0.4 mm, at least 0.0 mm");
   EXPECT_EQ(clearance_text({4, -1, "medial"}), "clearance 0.4 mm: may break through medially");
   EXPECT_EQ(clearance_text({-4, -9, "caudal"}), "clearance −0.4 mm: breaks through caudally");

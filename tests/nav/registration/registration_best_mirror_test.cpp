@@ -100,6 +100,38 @@ TEST_F(RegisterBest, RefusesABoneThatLooksTheSameFromTwoSides) {
   EXPECT_TRUE(crooked.accepted) << crooked.reasons.size() << " reasons";
 }
 
+/// The few points that candidates are told apart by lie for the wrong pose, all together for the
+/// right one: it takes the first one's place.
+TEST_F(RegisterBest, SwapsInARunnerUpThatIsBetter) {
+  constexpr std::size_t kFew = 300;  // every so many are looked at first
+  const auto model = VertebraModel::prepare(test::slab_bone(test::crooked_back)).value();
+  Random random(5);
+  std::vector<Vec3> places = test::strokes_over(model->surface(), 14);
+  const std::vector<Vec3> once = places;
+  while (places.size() < 6 * kFew) {
+    places.insert(places.end(), once.begin(), once.end());
+  }
+  const std::size_t step = places.size() / kFew;
+  const Mat3 half_a_turn = rotation_from_vector({0.0, std::acos(-1.0), 0.0});
+  const auto points_of = [&](std::size_t first, std::size_t every) {
+    Points points;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const bool turned = i % every == first;
+      const Vec3 noise{random.normal(0, 0.0003), random.normal(0, 0.0003),
+                       random.normal(0, 0.0003)};
+      points.push_back({(turned ? half_a_turn * places[i] : places[i]) + noise});
+    }
+    return points;
+  };
+  // The twin: as many points that lie as wrong, but none of them among the few.
+  for (const std::size_t first : {std::size_t{0}, step - 1}) {
+    const auto r = register_by_pose_search(*model, points_of(first, step)).value();
+    EXPECT_LT(rotation_angle_rad(r.world_from_vertebra.rotation(), Mat3::identity()), 0.02)
+        << first;
+    EXPECT_GT(r.log_likelihood_ratio, 0.0) << first;
+  }
+}
+
 TEST_F(RegisterBest, RefusesTheMirrorImageOfACrookedBone) {
   const Registration mirrored = slab_verdict(test::crooked_back, true);
   EXPECT_FALSE(mirrored.accepted) << "noise " << mirrored.noise_m << " margin "

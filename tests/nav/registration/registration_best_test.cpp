@@ -28,6 +28,8 @@ TEST_F(RegisterBest, AcceptsFullStrokesAndSaysHowSureItIs) {
   EXPECT_GT(r->inlier_fraction, 0.9);
   EXPECT_GT(r->coverage_fraction, 0.3);
   EXPECT_THAT(r->fits_better, IsEmpty());
+  EXPECT_LT(r->correlation_across_strokes, 0.2) << "bare bone: strokes have nothing in common";
+  EXPECT_FALSE(r->heights.empty());
   EXPECT_GT(r->predicted_tre_m, 0.00002);
   EXPECT_LT(r->predicted_tre_m, 0.0005);
   EXPECT_GT(r->tre_95_m, r->predicted_tre_m);

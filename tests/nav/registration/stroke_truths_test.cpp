@@ -22,7 +22,7 @@ TEST_F(StrokeTruthsTest, LiftTheTipByTheThicknessThatTheySay) {
   const DigitizedStrokes bare = strokes();
   for (const Tissue tissue : kTissues) {
     DigitizedStrokes lifted = bare;
-    apply_truths({tissue, 0.001, 0.0, 1}, mesh_, 3, lifted);
+    apply_truths({.tissue = tissue, .mean_tissue_m = 0.001}, mesh_, 3, lifted);
     double mean_m = 0.0;
     double square_m2 = 0.0;
     for (std::size_t i = 0; i < bare.samples.size(); ++i) {
@@ -37,7 +37,7 @@ TEST_F(StrokeTruthsTest, LiftTheTipByTheThicknessThatTheySay) {
     const double sd_m = std::sqrt(std::max(0.0, square_m2 - mean_m * mean_m));
     EXPECT_NEAR(sd_m, tissue == Tissue::kUniform ? 0.0 : 0.0005, 0.0001) << name_of(tissue);
     DigitizedStrokes again = bare;
-    apply_truths({tissue, 0.001, 0.0, 1}, mesh_, 3, again);
+    apply_truths({.tissue = tissue, .mean_tissue_m = 0.001}, mesh_, 3, again);
     EXPECT_EQ(again.tips().back().v.x, lifted.tips().back().v.x) << name_of(tissue);
   }
 }
@@ -45,11 +45,34 @@ TEST_F(StrokeTruthsTest, LiftTheTipByTheThicknessThatTheySay) {
 TEST_F(StrokeTruthsTest, ShiftAllPointsAlikeAndRepeatThem) {
   const DigitizedStrokes bare = strokes();
   DigitizedStrokes moved = bare;
-  apply_truths({Tissue::kUniform, 0.0, 0.0002, 3}, mesh_, 3, moved);
+  apply_truths({.common_sd_m = 0.0002, .copies = 3}, mesh_, 3, moved);
   ASSERT_EQ(moved.samples.size(), 3 * bare.samples.size());
   const Vec3 common = moved.tips()[0] - bare.tips()[0];
   EXPECT_GT(common.norm(), 0.0);
   EXPECT_LT((moved.tips().back() - bare.tips().back() - common).norm(), 1e-12);
+}
+
+TEST_F(StrokeTruthsTest, ResampleReorderAndMirrorThem) {
+  const DigitizedStrokes bare = strokes();
+  const std::size_t count = bare.samples.size();
+  DigitizedStrokes twice = bare;
+  apply_truths({.copies = 2, .copy_jitter_m = 0.00002}, mesh_, 3, twice);
+  ASSERT_EQ(twice.samples.size(), 2 * count);
+  double square_m2 = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    EXPECT_EQ(twice.tips()[2 * i].v.x, bare.tips()[i].v.x);
+    square_m2 += (twice.tips()[2 * i + 1] - bare.tips()[i]).squared_norm() / count;
+  }
+  EXPECT_NEAR(std::sqrt(square_m2 / 3.0), 0.00002, 0.000002);
+  DigitizedStrokes other = bare;
+  apply_truths({.shuffled = true, .left_handed = true}, mesh_, 3, other);
+  ASSERT_EQ(other.samples.size(), count);
+  const auto is_first = [&](const DigitizedSample& s) {
+    return s.tip.v.x == -bare.tips()[0].v.x && s.tip.v.y == bare.tips()[0].v.y;
+  };
+  const auto first = std::find_if(other.samples.begin(), other.samples.end(), is_first);
+  EXPECT_NE(first, other.samples.begin());
+  EXPECT_NE(first, other.samples.end());
 }
 
 TEST_F(StrokeTruthsTest, AModelIsSegmentedScaledAndMirrored) {

@@ -1,0 +1,81 @@
+#include "bench/registration_levels.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/stopwatch.h"
+#include "engine/case/case_file.h"
+#include "tests/support/stroke_truths.h"
+
+namespace orthonav::bench {
+namespace {
+
+/// The bone as the model has it.
+nav::TriangleMesh modelled(nav::TriangleMesh mesh, const LevelOptions& options) {
+  if (options.segmented_m > 0.0) {
+    mesh = test::segmented(mesh, options.segmented_m, 1);
+  }
+  mesh = test::scaled(mesh, options.scale);
+  return options.mirrored ? test::mirrored(mesh) : mesh;
+}
+
+std::vector<std::string> case_folders(const std::string& anatomy) {
+  std::vector<std::string> folders;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(anatomy, error)) {
+    if (std::filesystem::exists(entry.path() / "case.json", error)) {
+      folders.push_back(entry.path().string());
+    }
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+void introduce(std::vector<BenchLevel>& levels) {
+  for (BenchLevel& level : levels) {
+    for (const BenchLevel& other : levels) {
+      if (level.case_name == other.case_name && &level != &other) {
+        level.neighbours.push_back({other.label, other.model.get()});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Result<std::vector<BenchLevel>> load_levels(const LevelOptions& options) {
+  std::vector<BenchLevel> levels;
+  for (const std::string& folder : case_folders(options.anatomy)) {
+    const auto source = engine::load_case(folder);
+    if (!source) {
+      return source.error();
+    }
+    for (const engine::CaseLevel& from : source->levels) {
+      BenchLevel level;
+      level.case_name = std::filesystem::path(folder).filename().string();
+      level.label = from.label, level.mesh = from.mesh, level.screws = from.screws;
+      const auto& wanted = options.levels;
+      if (!wanted.empty() &&
+          std::find(wanted.begin(), wanted.end(), level.name()) == wanted.end()) {
+        continue;
+      }
+      const Stopwatch watch;
+      auto model = nav::VertebraModel::prepare(modelled(from.mesh, options));
+      level.prepare_ms = watch.elapsed_ms();
+      if (!model) {
+        return model.error();
+      }
+      level.model = *model;
+      levels.push_back(std::move(level));
+    }
+  }
+  if (levels.empty()) {
+    return Error{"no level of a case is found in " + options.anatomy};
+  }
+  if (!options.alone) {
+    introduce(levels);
+  }
+  return levels;
+}
+
+}  // namespace orthonav::bench
