@@ -13,12 +13,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kNotMeasured = "not measured";
-constexpr const char* kNotRecorded = "not recorded";
+constexpr const char* kNoMeasurement = "not measured";
+constexpr const char* kNoRecord = "not recorded";
 
-std::string cell(const std::string& content) { return "<td>" + content + "</td>"; }
+std::string tracked_cell(const std::string& content) { return "<td>" + content + "</td>"; }
 
-std::string text_at(const json& object, const char* key) {
+std::string text_under(const json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
@@ -28,11 +28,11 @@ const char* why_none(const json& screw, const char* what) {
   const auto names = screw.find("not_measured");
   const bool known = names != screw.end() && names->is_array() &&
                      std::find(names->begin(), names->end(), json(what)) != names->end();
-  return known ? kNotMeasured : kNotRecorded;
+  return known ? kNoMeasurement : kNoRecord;
 }
 
 /// The root mean square SD over `axes` of a 3x3 by rows; nothing where it is none.
-std::optional<double> sd_of(const json& object, const char* key, double axes) {
+std::optional<double> axis_sd_of(const json& object, const char* key, double axes) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_array() || found->size() != 9) {
     return std::nullopt;
@@ -44,7 +44,7 @@ std::optional<double> sd_of(const json& object, const char* key, double axes) {
   return std::sqrt(std::max(0.0, trace) / axes);
 }
 
-std::string triple(const json& object, const char* key, int decimals) {
+std::string numbers_under(const json& object, const char* key, int decimals) {
   const auto found = object.find(key);
   std::string out;
   if (found != object.end() && found->is_array()) {
@@ -56,32 +56,34 @@ std::string triple(const json& object, const char* key, int decimals) {
   return out;
 }
 
-std::string with_sd(const std::string& value, std::optional<double> sd, int decimals) {
+std::string plus_minus(const std::string& value, std::optional<double> sd, int decimals) {
   return value + " ± " + (sd ? html_number(*sd, decimals) : "not known");
 }
 
-std::string number_at(const json& object, const char* key, int decimals) {
+std::string number_under(const json& object, const char* key, int decimals) {
   const auto value = value_of(object, key);
   return value ? html_number(*value, decimals) : "–";
 }
 
-void put_trajectory(const json& screw, std::string& html) {
+void put_tracked_way(const json& screw, std::string& html) {
   const auto found = screw.find("executed");
   if (found == screw.end() || !found->is_object()) {
-    const std::string none = cell(why_none(screw, "executed"));
+    const std::string none = tracked_cell(why_none(screw, "executed"));
     html += none + none + none + none;
     return;
   }
-  const auto direction_sd = sd_of(*found, "direction_covariance_rad2", 2.0);
-  html +=
-      cell(with_sd(triple(*found, "entry_mm", 1), sd_of(*found, "entry_covariance_mm2", 3.0), 2)) +
-      cell(with_sd(triple(*found, "direction", 3),
-                   direction_sd ? std::optional(degrees(*direction_sd)) : std::nullopt, 2)) +
-      cell(number_at(*found, "depth_mm", 1)) + cell(number_at(*found, "pairs", 0));
+  const auto direction_sd = axis_sd_of(*found, "direction_covariance_rad2", 2.0);
+  html += tracked_cell(plus_minus(numbers_under(*found, "entry_mm", 1),
+                                  axis_sd_of(*found, "entry_covariance_mm2", 3.0), 2)) +
+          tracked_cell(
+              plus_minus(numbers_under(*found, "direction", 3),
+                         direction_sd ? std::optional(degrees(*direction_sd)) : std::nullopt, 2)) +
+          tracked_cell(number_under(*found, "depth_mm", 1)) +
+          tracked_cell(number_under(*found, "pairs", 0));
 }
 
 /// "A 97 %, B 3 %": those that are likely at all.
-std::string grades(const json& screw) {
+std::string likely_grades(const json& screw) {
   for (const char* where : {"at_depth", "tracked"}) {
     const auto pose = screw.find(where);
     if (pose == screw.end() || !pose->is_object() || !pose->contains("grade_probability")) {
@@ -98,7 +100,7 @@ std::string grades(const json& screw) {
     return out;
   }
   const char* why = why_none(screw, "grade_probability");
-  return why == kNotMeasured ? why : why_none(screw, "clearance");
+  return why == kNoMeasurement ? why : why_none(screw, "clearance");
 }
 
 std::string table_of_tools(const json& report) {
@@ -107,9 +109,10 @@ std::string table_of_tools(const json& report) {
     for (const json& screw : level.value("screws", json::array())) {
       const bool done = screw.value("done", json(true)) != json(false);
       if (done && (screw.contains("executed") || screw.contains("not_measured"))) {
-        rows += "<tr>" + cell(html_escaped(text_at(level, "label") + " " + text_at(screw, "side")));
-        put_trajectory(screw, rows);
-        rows += cell(grades(screw)) + "</tr>";
+        rows += "<tr>" + tracked_cell(html_escaped(text_under(level, "label") + " " +
+                                                   text_under(screw, "side")));
+        put_tracked_way(screw, rows);
+        rows += tracked_cell(likely_grades(screw)) + "</tr>";
       }
     }
   }
@@ -130,9 +133,10 @@ std::string table_of_tags(const json& found) {
       "<table><thead><tr><th>tags of</th><th>larger than stated, as seen "
       "<small>%</small></th><th>taken into account <small>%</small></th></tr></thead><tbody>";
   for (const json& size : found["tags"]) {
-    html += "<tr>" + cell(html_escaped(text_at(size, "tool"))) +
-            cell(with_sd(number_at(size, "measured_percent", 2), value_of(size, "sd_percent"), 2)) +
-            cell(number_at(size, "applied_percent", 2)) + "</tr>";
+    html += "<tr>" + tracked_cell(html_escaped(text_under(size, "tool"))) +
+            tracked_cell(plus_minus(number_under(size, "measured_percent", 2),
+                                    value_of(size, "sd_percent"), 2)) +
+            tracked_cell(number_under(size, "applied_percent", 2)) + "</tr>";
   }
   return html + "</tbody></table>";
 }
@@ -142,16 +146,17 @@ std::string cameras_text(const json& found) {
     return "<p>Cameras against their calibration: not measured.</p>";
   }
   const json& cameras = found["cameras"];
-  return "<p>Cameras against their calibration, from " + number_at(cameras, "pairs", 0) +
-         " sightings: turned by " + number_at(cameras, "rotation_deg", 3) + "°" +
+  return "<p>Cameras against their calibration, from " + number_under(cameras, "pairs", 0) +
+         " sightings: turned by " + number_under(cameras, "rotation_deg", 3) + "°" +
          (cameras.value("rotation_applied", json(false)) == json(true)
               ? ", taken into account"
               : ", not taken into account") +
          "; focal lengths differ by " +
-         with_sd(number_at(cameras, "focal_percent", 2), value_of(cameras, "focal_sd_percent"), 2) +
+         plus_minus(number_under(cameras, "focal_percent", 2),
+                    value_of(cameras, "focal_sd_percent"), 2) +
          " %, baseline by " +
-         with_sd(number_at(cameras, "baseline_percent", 2),
-                 value_of(cameras, "baseline_sd_percent"), 2) +
+         plus_minus(number_under(cameras, "baseline_percent", 2),
+                    value_of(cameras, "baseline_sd_percent"), 2) +
          " %, neither taken into account.</p>";
 }
 

@@ -211,6 +211,8 @@ void JournalReplay::screw_done(const std::string& label, const RecordedScrew& sc
   known->done = screw.done;
   known->time = screw.time;
   known->at_depth = screw.at_depth;
+  known->executed = screw.executed;
+  known->not_measured = screw.not_measured;
   known->wire_asked = screw.wire_asked;
   if (line.text_or("wire", "") == "not measured") {
     known->wire.reset();  // an earlier one was of a registration that is gone

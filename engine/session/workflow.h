@@ -55,7 +55,7 @@ constexpr Table make_table(const MethodSteps& steps) {
     }
   }
   for (const Rule& rule : kRulesTouchedOnce) {
-    if (!steps.landmark) {
+    if (!steps.landmark && steps.wire) {
       write(rule);
     }
   }

@@ -12,7 +12,7 @@ namespace {
 
 using StudyPart = nlohmann::ordered_json;
 
-StudyPart series(const std::vector<double>& values) {
+StudyPart guided_series(const std::vector<double>& values) {
   const nav::Summary summary = nav::summarize(values);
   return {{"count", summary.count},
           {"mean", summary.mean},
@@ -20,7 +20,7 @@ StudyPart series(const std::vector<double>& values) {
           {"p95", quantile(values, 0.95).value_or(0.0)}};
 }
 
-StudyPart counted(int hits, int of) {
+StudyPart guided_count(int hits, int of) {
   return {{"n", hits}, {"of", of}, {"upper_95", upper_limit_95(hits, of)}};
 }
 
@@ -55,13 +55,13 @@ nlohmann::ordered_json guided_json(const GuidedQuality& quality) {
   if (quality.across_mm.empty()) {
     return nullptr;
   }
-  StudyPart silent = counted(quality.silent, static_cast<int>(quality.across_mm.size()));
+  StudyPart silent = guided_count(quality.silent, static_cast<int>(quality.across_mm.size()));
   silent["over_mm"] = GuidedQuality::kSilent_mm;
-  StudyPart breaches = counted(quality.unwarned_breaches, quality.executed);
+  StudyPart breaches = guided_count(quality.unwarned_breaches, quality.executed);
   breaches["breaches"] = quality.breaches;
-  return {{"across_mm", series(quality.across_mm)},
-          {"tip_mm", series(quality.tip_mm)},
-          {"angle_deg", series(quality.angle_deg)},
+  return {{"across_mm", guided_series(quality.across_mm)},
+          {"tip_mm", guided_series(quality.tip_mm)},
+          {"angle_deg", guided_series(quality.angle_deg)},
           {"silent_failures", silent},
           {"unwarned_breaches", breaches}};
 }
