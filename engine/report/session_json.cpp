@@ -178,10 +178,17 @@ std::string session_json(const SessionRecord& session) {
   if (session.tips) {
     out["tips"] = Json{{"apart_mm", session.tips->apart_m * 1e3},
                        {"limit_mm", session.tips->limit_m * 1e3},
+                       {"by_mm", session.tips->by_m * 1e3},
                        {"corrected", session.tips->corrected}};
   }
   if (session.calibration) {
     out["calibration"] = calibration_json(*session.calibration);
+  }
+  if (session.axis) {
+    out["axis"] = Json{{"off_deg", degrees(session.axis->off_rad)},
+                       {"sd_deg", degrees(session.axis->sd_rad)},
+                       {"by_deg", degrees(session.axis->by_rad)},
+                       {"corrected", session.axis->corrected}};
   }
   out["levels"] = Json::array();
   for (const RecordedLevel& level : session.levels) {

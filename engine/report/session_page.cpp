@@ -241,14 +241,28 @@ void put_registrations(const SessionRecord& session, std::string& html) {
   html += kTableEnd;
 }
 
-std::string tips_note(const SessionRecord& session) {
+/// What was found of the guide: its tip in one dimple with the pointer's, its axis on a wire.
+std::string guide_notes(const SessionRecord& session) {
+  std::string html = "<ul class=notes><li>";
   if (!session.tips) {
-    return "<ul class=notes><li>The tips of pointer and guide were not compared.</li></ul>";
+    html += "The tips of pointer and guide were not compared.</li>";
+  } else {
+    html += "In one dimple the tips of pointer and guide were " +
+            html_number(session.tips->apart_m * 1e3, 2) + " mm apart" +
+            (session.tips->corrected ? "; the guide\u2019s was corrected by " +
+                                           html_number(session.tips->by_m * 1e3, 2) + " mm"
+                                     : "") +
+            ".</li>";
   }
-  return "<ul class=notes><li>In one dimple the tips of pointer and guide were " +
-         html_number(session.tips->apart_m * 1e3, 2) + " mm apart" +
-         (session.tips->corrected ? "; the guide\u2019s was corrected by that" : "") +
-         ".</li></ul>";
+  if (session.axis) {
+    html += "<li>On the last wire over which its sleeve was turned, the guide\u2019s axis was " +
+            html_number(degrees(session.axis->off_rad), 2) + "\u00b0 off" +
+            (session.axis->corrected
+                 ? "; corrected by " + html_number(degrees(session.axis->by_rad), 2) + "\u00b0"
+                 : "") +
+            ".</li>";
+  }
+  return html + "</ul>";
 }
 
 void put_steps(const SessionRecord& session, std::string& html) {
@@ -300,7 +314,7 @@ std::string session_page(const SessionRecord& session, const std::string& source
   put_rods(session, html);
   put_registrations(session, html);
   put_steps(session, html);
-  html += tips_note(session);
+  html += guide_notes(session);
   return html +
          "<ul class=notes><li>From the journal alone: digitized points, images, frame times and "
          "errors against the truth are not recorded in it.</li><li>Times are of the headset's "

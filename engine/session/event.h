@@ -74,7 +74,7 @@ enum class Action : std::uint8_t {
   kAskForLandmark,
   kExpectLandmark,
   kVerifyAgain,
-  kCorrectTip,
+  kCorrectGuide,
   kSelectScrew,
   kExpectWire,
   kMeasureWire,

@@ -67,6 +67,7 @@ class Journal : public SessionObserver {
   void landmark_touched(Timestamp time, const LevelState& level,
                         const LandmarkTouch& touch) override;
   void tips_compared(Timestamp time, const TipDifference& difference) override;
+  void axis_compared(Timestamp time, const AxisDifference& difference) override;
   void landmark_dropped(Timestamp time, const LevelState& level) override;
   void wire_measured(Timestamp time, const LevelState& level, std::size_t screw,
                      const PlacedWire& wire) override;

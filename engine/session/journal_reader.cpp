@@ -71,8 +71,15 @@ RecordedLandmark landmark_of(const JsonNode& line) {
 }
 
 RecordedTips tips_of(const JsonNode& line) {
-  return {line.number("apart_mm") * kMetresPerMm, line.number("limit_mm") * kMetresPerMm,
+  const double apart_m = line.number("apart_mm") * kMetresPerMm;
+  return {apart_m, line.number("limit_mm") * kMetresPerMm,
+          optional_number(line, "by_mm", kMetresPerMm).value_or(apart_m),
           line.flag_or("corrected", false)};
+}
+
+RecordedAxis axis_of(const JsonNode& line) {
+  return {line.number("off_deg") * kRadiansPerDegree, line.number("sd_deg") * kRadiansPerDegree,
+          line.number("by_deg") * kRadiansPerDegree, line.flag_or("corrected", false)};
 }
 
 RecordedRod rod_of(const JsonNode& line) {
@@ -200,6 +207,8 @@ class Reading {
       record_.tips = tips_of(line);
     } else if (what == "calibration") {
       record_.calibration = calibration_of(line);
+    } else if (what == "axis") {
+      record_.axis = axis_of(line);
     } else if (what == "landmark dropped") {
       replay_.landmark_dropped(line.text("level"), line);
     } else if (what == "screw" || what == "wire" || what == "screw redone") {

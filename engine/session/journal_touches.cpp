@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/angle.h"
 #include "engine/session/journal_lines.h"
 
 namespace orthonav::engine {
@@ -42,6 +43,16 @@ void Journal::tips_compared(Timestamp time, const TipDifference& difference) {
   JournalLine line = journal_line(file_ticks(time), time, "tips");
   line.update({{"apart_mm", difference.apart_m.norm() * 1e3},
                {"limit_mm", difference.limit_m * 1e3},
+               {"by_mm", difference.by_m.norm() * 1e3},
+               {"corrected", difference.corrected}});
+  add_line(*log_, line, kDurable);
+}
+
+void Journal::axis_compared(Timestamp time, const AxisDifference& difference) {
+  JournalLine line = journal_line(file_ticks(time), time, "axis");
+  line.update({{"off_deg", degrees(difference.off_rad)},
+               {"sd_deg", degrees(difference.sd_rad)},
+               {"by_deg", degrees(difference.by_rad)},
                {"corrected", difference.corrected}});
   add_line(*log_, line, kDurable);
 }

@@ -16,6 +16,7 @@ struct ToNotice {
   Notice operator()(const LandmarkMissing& /*m*/) const { return Notice::kLandmarkMissing; }
   Notice operator()(const LandmarkMoved& /*m*/) const { return Notice::kLandmarkMoved; }
   Notice operator()(const TipCorrected& /*m*/) const { return Notice::kTipCorrected; }
+  Notice operator()(const AxisCorrected& /*m*/) const { return Notice::kAxisCorrected; }
   Notice operator()(const WireUndecided& /*m*/) const { return Notice::kWireUndecided; }
   Notice operator()(const NoOtherEntry& /*m*/) const { return Notice::kNoOtherEntry; }
   Notice operator()(const ConfirmRedo& /*m*/) const { return Notice::kConfirmRedo; }

@@ -81,6 +81,10 @@ struct LandmarkMissing {
 struct TipCorrected {
   double by_m = 0.0;
 };
+/// The guide's axis, by what its sleeve told on a wire.
+struct AxisCorrected {
+  double by_rad = 0.0;
+};
 /// The landmark was touched `off_m` from where it was recorded.
 struct LandmarkMoved {
   double off_m = 0.0;
@@ -121,9 +125,9 @@ struct Ended {};
 using Message =
     std::variant<std::monostate, NotPossibleNow, NotUnderstood, SaidBeforeShown, NothingToDelete,
                  ConfirmDelete, RegistrationRefused, ChecksMissing, TouchNotRecorded,
-                 LandmarkMissing, LandmarkMoved, TipCorrected, WireUndecided, NoOtherEntry,
-                 ConfirmRedo, ScrewRedone, ReplanUnclear, ReplanRefusal, ScrewReplanned, NoRod,
-                 MapMoved, ReferenceMoved, NoImages, Ended>;
+                 LandmarkMissing, LandmarkMoved, TipCorrected, AxisCorrected, WireUndecided,
+                 NoOtherEntry, ConfirmRedo, ScrewRedone, ReplanUnclear, ReplanRefusal,
+                 ScrewReplanned, NoRod, MapMoved, ReferenceMoved, NoImages, Ended>;
 
 /// It is about a change of the screw, and what the step asks for stays asked beside it.
 [[nodiscard]] inline bool is_about_replan(const Message& message) {

@@ -169,6 +169,10 @@ struct MessageWriter {
     out += "guide's tip corrected by ";
     append_mm(out, m.by_m, 1);
   }
+  void operator()(const AxisCorrected& m) {
+    text.begin(Importance::kMessage);
+    append_printed(out, "guide's axis corrected by %.1f°", degrees(m.by_rad));
+  }
   void operator()(const WireUndecided& /*m*/) {
     text.begin(Importance::kNext);
     out += "not yet: ";

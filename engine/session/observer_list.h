@@ -56,6 +56,11 @@ class ObserverList : public SessionObserver {
       o->landmark_touched(time, level, touch);
     }
   }
+  void axis_compared(Timestamp time, const AxisDifference& difference) override {
+    for (SessionObserver* o : observers_) {
+      o->axis_compared(time, difference);
+    }
+  }
   void tips_compared(Timestamp time, const TipDifference& difference) override {
     for (auto* o : observers_) {
       o->tips_compared(time, difference);

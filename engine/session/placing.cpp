@@ -1,7 +1,9 @@
 #include "engine/session/placing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "engine/session/tool_in_vertebra.h"
@@ -13,11 +15,17 @@ void Placing::begin() {
   no_other_entry_ = false;
   confirming_ = false;
   touch_.drop();
+  recent_.clear();
+  spin_.reset();
 }
 
 void Placing::collect(const nav::TrackedPose& pose, const nav::ToolGeometry& guide) {
   if (pose.status == PoseStatus::kMeasured) {
     touch_.add({pose.value * guide.tip_in_marker, (pose.value * guide.axis_in_marker).v});
+    if (recent_.size() == kMostRecent) {
+      recent_.erase(recent_.begin());
+    }
+    recent_.push_back(pose.value);
   } else {
     touch_.lose();
   }
@@ -30,7 +38,8 @@ std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t s
   if (const auto* refusal = std::get_if<TouchRefusal>(&taken)) {
     return *refusal;
   }
-  const auto& resting = std::get<RestingAxis>(taken);
+  RestingAxis resting = std::get<RestingAxis>(taken);
+  use_turning(guide, resting);
   const auto now = in_vertebra(*level.registration, pose, guide);
   if (!now.uncertainty) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
@@ -40,9 +49,9 @@ std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t s
   const nav::Axis<Vertebra> sleeve{
       vertebra_from_world * resting.mean.point,
       -(vertebra_from_world * Direction<World>{resting.mean.direction}).v};
-  const nav::SleeveErrors errors{
-      std::hypot(rules_.axis_sd_rad, rules_.play_rad, resting.direction_sd_rad),
-      std::hypot(rules_.tip_sd_m, resting.tip_sd_m)};
+  const double axis_sd_rad = spin_ ? spin_->axis_sigma_rad : rules_.axis_sd_rad;
+  const nav::SleeveErrors errors{std::hypot(axis_sd_rad, rules_.play_rad, resting.direction_sd_rad),
+                                 std::hypot(rules_.tip_sd_m, resting.tip_sd_m)};
   const nav::PlacedAxis axis =
       nav::placed_axis(level.plan.screws[screw], sleeve, *now.uncertainty, errors);
   if (const auto refusal = refusal_of(axis)) {
@@ -61,6 +70,33 @@ void Placing::judge_again(const nav::ScrewPlan& plan) {
       measured_->pairs, rules_.angle_limit_rad, rules_.entry_limit_m, false};
   no_other_entry_ = false;
   confirming_ = false;
+}
+
+/// Where the sleeve was on this wire all the while before it rested, back to where it was not.
+void Placing::use_turning(const nav::ToolGeometry& guide, RestingAxis& resting) {
+  constexpr double kSameWire_m = 0.006;
+  constexpr double kSameWire_rad = 4.0 * kRadiansPerDegree;
+  const auto on_wire = [&](const Transform<World, Marker>& pose) {
+    return (pose * guide.tip_in_marker - resting.mean.point).norm() <= kSameWire_m &&
+           angle_between_rad((pose * guide.axis_in_marker).v, resting.mean.direction) <=
+               kSameWire_rad;
+  };
+  const auto off = std::find_if_not(recent_.rbegin(), recent_.rend(), on_wire);
+  const std::span<const Transform<World, Marker>> poses(off.base(), recent_.end());
+  const auto found = nav::spin_calibration(poses, guide.tip_in_marker, guide.axis_in_marker);
+  spin_ = found ? std::optional(*found) : std::nullopt;
+  if (!spin_) {
+    return;  // it was not turned
+  }
+  // An axis that is off points everywhere about the wire, and so does its tip.
+  Vec3 tip;
+  Vec3 direction;
+  for (const Transform<World, Marker>& pose : poses) {
+    tip += (pose * guide.tip_in_marker).v;
+    direction += (pose * spin_->axis_in_marker).v;
+  }
+  resting.mean = {{tip / static_cast<double>(poses.size())}, direction.normalized()};
+  resting.pairs = poses.size();
 }
 
 std::optional<TouchRefusal> Placing::refusal_of(const nav::PlacedAxis& axis) const {

@@ -2,21 +2,28 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "engine/session/axis_touch.h"
 #include "engine/session/guidance.h"
 #include "engine/session/placed_wire.h"
 #include "engine/session/tool_watch.h"
+#include "nav/calibration/spin.h"
 #include "nav/guidance/other_entry.h"
 
 namespace orthonav::engine {
 
-/// The step `placed`: the sleeve is set over the wire, and what is measured is kept or redone.
+/// The step `placed`: the sleeve is set over the wire, and what is measured is kept or redone. A
+/// sleeve that was turned to and fro on the wire before the click tells the wire's direction
+/// without the guide's own axis, and that axis as well.
 class Placing {
  public:
-  Placing() = default;
+  Placing() { recent_.reserve(kMostRecent); }
   /// `redo` false: no wire is redone; one beyond a limit is kept by a word, or its level rejected.
-  explicit Placing(const PlacedWireRules& rules, bool redo = true) : rules_(rules), redo_(redo) {}
+  explicit Placing(const PlacedWireRules& rules, bool redo = true) : Placing() {
+    rules_ = rules;
+    redo_ = redo;
+  }
 
   /// A wire was placed: nothing is known of it.
   void begin();
@@ -33,6 +40,8 @@ class Placing {
   void judge_again(const nav::ScrewPlan& plan);
   /// As it was measured last.
   [[nodiscard]] const std::optional<PlacedWire>& wire() const { return wire_; }
+  /// What the sleeve turned about, where it was turned for the measurement.
+  [[nodiscard]] const std::optional<nav::SpinCalibration>& spin() const { return spin_; }
   [[nodiscard]] bool undecided() const { return wire_ && wire_->undecided(); }
   /// The surgeon says so.
   void keep() { wire_->kept = true; }
@@ -53,6 +62,10 @@ class Placing {
     nav::SleeveErrors errors;
     std::size_t pairs = 0;
   };
+  /// Ten seconds.
+  static constexpr std::size_t kMostRecent = 300;
+
+  void use_turning(const nav::ToolGeometry& guide, RestingAxis& resting);
   [[nodiscard]] std::optional<TouchRefusal> refusal_of(const nav::PlacedAxis& axis) const;
 
   PlacedWireRules rules_;
@@ -62,6 +75,8 @@ class Placing {
   bool no_other_entry_ = false;
   bool confirming_ = false;
   AxisTouch touch_;
+  std::vector<Transform<World, Marker>> recent_;  ///< of the guide, the oldest first
+  std::optional<nav::SpinCalibration> spin_;
 };
 
 }  // namespace orthonav::engine

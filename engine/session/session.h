@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/case/operation.h"
+#include "engine/session/axis_check.h"
 #include "engine/session/digitizing.h"
 #include "engine/session/guidance.h"
 #include "engine/session/guiding.h"
@@ -115,7 +116,7 @@ class Session {
   [[nodiscard]] nav::PressedPlace touched_landmark() const;
   [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(const TouchedPlace& pointer);
   void compare_tips(const nav::PressedPlace& guide_tip, Timestamp time);
-  void correct_tip(Timestamp time);
+  void correct_guide(Timestamp time);
   void drop_landmark(Timestamp time);
   void judge_landmark(Timestamp time);
   void verify_again(Timestamp time);
@@ -165,6 +166,7 @@ class Session {
   Verifying verifying_;
   Landmarking landmarking_;
   TipCheck tip_check_;
+  AxisCheck axis_check_;
   Guiding guiding_;
   Placing placing_;
   Replanning replanning_;

@@ -34,7 +34,7 @@ void Session::act(Action action, Event event, Timestamp time) {
     case kAskForLandmark: return messages_.say(LandmarkMissing{level().landmark.has_value()}, time);
     case kExpectLandmark: return landmarking_.begin();
     case kVerifyAgain: return verify_again(time);
-    case kCorrectTip: return correct_tip(time);
+    case kCorrectGuide: return correct_guide(time);
     case kSelectScrew: case kExpectWire: case kMeasureWire: case kJudgeWire: case kAskAboutWire:
     case kKeepWire: case kJudgeRedo: case kOfferToKeep: case kFinishScrew: return act_on_screw(action, time);
     case kBeginRod: return rod_templating_.begin();

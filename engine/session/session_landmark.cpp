@@ -62,20 +62,29 @@ void Session::compare_tips(const nav::PressedPlace& guide_tip, Timestamp time) {
   }
 }
 
-void Session::correct_tip(Timestamp time) {
+/// The tip first, then the axis: one word for each.
+void Session::correct_guide(Timestamp time) {
   if (consents_to_breach(time)) {
     return;
   }
-  if (!tip_check_.offers()) {
+  if (!tip_check_.offers() && !axis_check_.offers()) {
     messages_.say(NotPossibleNow{Event::kSayAccept}, time);
     return;
   }
-  const Vec3 apart_m = tip_check_.correct();
-  tools_.correct_guide_tip(tools_.geometry(tools_.guide()).tip_in_marker - apart_m);
   guiding_.forget_guidance();
-  messages_.say(TipCorrected{apart_m.norm()}, time);
+  if (tip_check_.offers()) {
+    const Vec3 by_m = tip_check_.correct();
+    tools_.correct_guide_tip(tools_.geometry(tools_.guide()).tip_in_marker - by_m);
+    messages_.say(TipCorrected{by_m.norm()}, time);
+    if (observer_) {
+      observer_->tips_compared(time, *tip_check_.last());
+    }
+    return;
+  }
+  tools_.correct_guide_axis(axis_check_.correct());
+  messages_.say(AxisCorrected{axis_check_.last()->by_rad}, time);
   if (observer_) {
-    observer_->tips_compared(time, *tip_check_.last());
+    observer_->axis_compared(time, *axis_check_.last());
   }
 }
 

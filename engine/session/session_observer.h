@@ -31,6 +31,7 @@ class SessionObserver {
                                 const LandmarkTouch& /*touch*/) {}
   /// The guide's tip was put into the landmark after the pointer's, or corrected by it.
   virtual void tips_compared(Timestamp /*time*/, const TipDifference& /*difference*/) {}
+  virtual void axis_compared(Timestamp /*time*/, const AxisDifference& /*difference*/) {}
   /// That touch was taken back; with a first one, the landmark.
   virtual void landmark_dropped(Timestamp /*time*/, const LevelState& /*level*/) {}
   /// The wire of that screw was measured, or is kept as it was measured.

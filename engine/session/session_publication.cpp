@@ -144,7 +144,7 @@ StepState Session::state_of_step() const {
       }
       if (by_touch(Step::kAccepted)) {
         return LandmarkSoFar{figures(level()), level().landmark.has_value(), landmarking_.last(),
-                             &tip_check_};
+                             &tip_check_, &axis_check_};
       }
       return figures(level());
     case Step::kGuide:

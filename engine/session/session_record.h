@@ -79,6 +79,15 @@ struct RecordedCheck {
 struct RecordedTips {
   double apart_m = 0.0;
   double limit_m = 0.0;
+  double by_m = 0.0;  ///< what a correction takes away
+  bool corrected = false;
+};
+
+/// The guide's axis against a wire that stood in its sleeve.
+struct RecordedAxis {
+  double off_rad = 0.0;
+  double sd_rad = 0.0;
+  double by_rad = 0.0;  ///< what a correction takes away
   bool corrected = false;
 };
 
@@ -155,6 +164,7 @@ struct SessionRecord {
   std::vector<RecordedRegistration> registrations;
   std::optional<CalibrationInUse> calibration;  ///< after the last screw; absent: not recorded
   std::optional<RecordedTips> tips;             ///< as they were compared last
+  std::optional<RecordedAxis> axis;             ///< likewise
   std::vector<RecordedRod> rods;
   std::vector<RecordedStep> steps;
 

@@ -64,7 +64,8 @@ ChecksAsked checks_asked(const StatusLine& line) {
     if (landmark->tips->due()) {
       return ChecksAsked::kGuideTip;
     }
-    return landmark->tips->offers() ? ChecksAsked::kCorrectTip : ChecksAsked::kPassed;
+    const bool axis = landmark->axis != nullptr && landmark->axis->offers();
+    return landmark->tips->offers() || axis ? ChecksAsked::kCorrectGuide : ChecksAsked::kPassed;
   }
   const auto* checks = std::get_if<ChecksSoFar>(&line.state);
   return checks ? asked_by(checks->verdict->advice) : ChecksAsked::kNone;

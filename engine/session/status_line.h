@@ -6,6 +6,7 @@
 #include <string_view>
 #include <variant>
 
+#include "engine/session/axis_check.h"
 #include "engine/session/landmark.h"
 #include "engine/session/message.h"
 #include "engine/session/placed_wire.h"
@@ -49,6 +50,7 @@ struct LandmarkSoFar {
   bool recorded = false;              ///< the landmark was touched once
   std::optional<LandmarkTouch> last;  ///< since the last screw
   const TipCheck* tips = nullptr;     ///< of the guide against the pointer; null: not compared
+  const AxisCheck* axis = nullptr;    ///< of the guide, by the wires before; null: not looked at
 };
 /// While a wire stands in the bone, before its screw is done.
 struct WireSoFar {

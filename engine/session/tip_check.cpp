@@ -16,7 +16,10 @@ std::variant<TipDifference, TouchRefusal> TipCheck::take(
   found.sd_m =
       std::sqrt(place.sd_m * place.sd_m + pointer_tip.sd_m * pointer_tip.sd_m + each_m2 +
                 each_m2 / landmark_.touches_of(anchored) + along_sight_m * along_sight_m / 3.0);
-  found.limit_m = rules_.sds * found.sd_m;
+  const double prior_m2 = rules_.prior_sd_m * rules_.prior_sd_m;
+  const double known = prior_m2 / (prior_m2 + found.sd_m * found.sd_m);
+  found.by_m = known * found.apart_m;
+  found.limit_m = rules_.worth_m / known;
   if (!(found.apart_m.norm() <= rules_.most_m)) {
     return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), rules_.most_m};
   }
@@ -26,7 +29,7 @@ std::variant<TipDifference, TouchRefusal> TipCheck::take(
 
 Vec3 TipCheck::correct() {
   last_->corrected = true;
-  return last_->apart_m;
+  return last_->by_m;
 }
 
 }  // namespace orthonav::engine

@@ -11,9 +11,11 @@ namespace orthonav::engine {
 /// The guide's tip against the pointer's, both put into the same dimple. The pointer says where the
 /// bone is and the guide is aimed by it, so an error that they do not share goes into every entry.
 struct TipDifference {
-  Vec3 apart_m;            ///< from the pointer's tip to the guide's, in the guide's marker
-  double sd_m = 0.0;       ///< along an axis, of that
-  double limit_m = 0.0;    ///< beyond it, it is offered to be corrected
+  Vec3 apart_m;       ///< from the pointer's tip to the guide's, in the guide's marker
+  double sd_m = 0.0;  ///< along an axis, of that
+  /// By how the tips are known and by this: what they are most probably apart by.
+  Vec3 by_m;
+  double limit_m = 0.0;    ///< of `apart_m`: beyond it, `by_m` is offered as a correction
   bool corrected = false;  ///< with the surgeon's consent
 
   [[nodiscard]] bool agrees() const { return apart_m.norm() <= limit_m; }
@@ -26,9 +28,11 @@ struct TipCheckRules {
   double distance_m = 0.45;
   /// The SD of that, as a fraction, is never taken to be less: lenses differ from place to place.
   double least_size_sd = 0.0003;
-  /// Of the SD along an axis of the difference: one in ten lies beyond where nothing but touches
-  /// and tags is off (chi-squared with three degrees of freedom).
-  double sds = 2.5;
+  /// SD along an axis of how far the two described tips are apart: each as its calibration leaves
+  /// it, 0.5 mm.
+  double prior_sd_m = 0.0007;
+  /// A correction of less is not worth a word.
+  double worth_m = 0.0002;
   /// Farther apart they were not in the same dimple.
   double most_m = 0.010;
 };
@@ -52,7 +56,7 @@ class TipCheck {
   [[nodiscard]] bool due() const { return compare_ && !last_; }
   /// A difference waits for consent to be corrected.
   [[nodiscard]] bool offers() const { return last_ && !last_->corrected && !last_->agrees(); }
-  /// The surgeon consents: the difference, which is none from now on.
+  /// The surgeon consents: what is taken off the guide's tip.
   [[nodiscard]] Vec3 correct();
   [[nodiscard]] const std::optional<TipDifference>& last() const { return last_; }
 

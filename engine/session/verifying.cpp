@@ -46,8 +46,6 @@ Verifying::Verifying(LevelState& level, Verification verification, const Session
       by_touch_(verification == Verification::kByTouch),
       strokes_(level.registration),
       registered_(registered),
-      first_pressed_(registered),
-      last_pressed_(registered),
       residuals_m_(smoothed(distances_m(level))),
       unstroked_(nav::unstroked_surface(*level.plan.model, level.registration->world_from_vertebra,
                                         level.newest->points)) {
@@ -60,8 +58,12 @@ Verifying::Verifying(LevelState& level, Verification verification, const Session
 }
 
 void Verifying::begin_again(LevelState& level, double moved_m) {
-  strokes_ = level.registration;
-  pressed_.clear();
+  // What was pressed before is no check any more, but still tells of the bone: by the same strokes
+  // and the same model, so that neither counts twice, and by how World walked since.
+  constexpr std::size_t kMostEarlier = nav::kMostCheckPoints;
+  if (pressed_.size() > kMostEarlier) {
+    pressed_.erase(pressed_.begin(), pressed_.end() - kMostEarlier);
+  }
   level.check_points.clear();
   moved_m_ = moved_m;
   if (by_touch_) {
@@ -75,8 +77,13 @@ void Verifying::begin_again(LevelState& level, double moved_m) {
 
 void Verifying::judge(LevelState& level) {
   joined_.reset();
+  next_.reset();
   if (by_touch_) {
     joined_ = nav::join_places(*level.plan.model, *strokes_, pressed_, limits_, press_model());
+  }
+  if (joined_) {
+    next_ = nav::place_to_press(*level.plan.model, *strokes_, level.newest->points, pressed_,
+                                limits_, press_model());
   }
   if (strokes_->provisional) {
     // It stands on what was touched, so it is shown with it.
@@ -88,7 +95,7 @@ void Verifying::judge(LevelState& level) {
   }
   if (joined_) {
     nav::weigh(*joined_, level.check_points);
-    verdict_ = nav::verdict_on(level.check_points, options_.check_points, *joined_);
+    verdict_ = nav::verdict_on(level.check_points, options_.check_points, *joined_, next_);
   } else {
     verdict_ = nav::verdict_on(level.check_points, options_.check_points);
   }
@@ -97,19 +104,15 @@ void Verifying::judge(LevelState& level) {
 
 nav::PressModel Verifying::press_model() const {
   nav::PressModel press;
-  const double since_m = options_.map_drift_m_per_sqrt_s *
-                         std::sqrt(std::max(0.0, seconds(first_pressed_ - registered_)));
-  press.moved_sd_m = std::max(press.moved_sd_m, std::hypot(strokes_->common.map_m, since_m));
-  press.moved_since_sd_m = options_.drift_since_m(last_pressed_ - first_pressed_);
+  press.moved_sd_m = std::max(press.moved_sd_m, strokes_->common.map_m);
+  press.drift_m_per_sqrt_s = options_.map_drift_m_per_sqrt_s;
   return press;
 }
 
 void Verifying::propose(const LevelState& level) {
   to_check_ = nav::still_to_check(places_, level.check_points);
-  if (to_check_.empty() && joined_ && !verdict_.passed) {
-    const auto place = nav::place_to_press(*level.plan.model, joined_->registration,
-                                           level.newest->points, pressed_, limits_);
-    to_check_.assign(place ? 1 : 0, place.value_or(Point<World>{}));
+  if (to_check_.empty() && next_ && !verdict_.passed) {
+    to_check_.assign(1, next_->place);
   }
 }
 
@@ -144,11 +147,8 @@ std::optional<TouchRefusal> Verifying::record(LevelState& level, const TouchedPl
   if (level.check_points.size() >= nav::kMostCheckPoints) {
     return TouchRefusal{TouchRefusal::Kind::kTooMany};
   }
-  if (pressed_.empty()) {
-    first_pressed_ = time;
-  }
-  last_pressed_ = time;
   pressed_.push_back(*touched);
+  pressed_.back().time_s = std::max(0.0, seconds(time - registered_));
   level.check_points.emplace_back().place = touched->place;
   judge(level);
   return std::nullopt;

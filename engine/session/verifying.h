@@ -57,11 +57,11 @@ class Verifying {
   bool by_touch_ = false;
   nav::PoseSearchRegistrationOptions limits_;  ///< with the level's screws
   std::optional<nav::Registration> strokes_;   ///< what the strokes alone say
-  std::vector<nav::PressedPlace> pressed_;     ///< of the level's check points
+  /// The level's check points, after those by which it was verified before.
+  std::vector<nav::PressedPlace> pressed_;
   Timestamp registered_{};
-  Timestamp first_pressed_{};
-  Timestamp last_pressed_{};
   std::optional<nav::JoinedPlaces> joined_;  ///< of both; nothing where they can't be joined
+  std::optional<nav::NextPlace> next_;       ///< most worth touching after them
   std::vector<float> residuals_m_;
   std::vector<float> unstroked_;
   std::vector<Point<World>> places_;    ///< proposed to be touched first

@@ -45,6 +45,11 @@ class WatchedTools {
     corrected_guide_ = geometry(guide_);
     corrected_guide_->tip_in_marker = tip_in_marker;
   }
+  /// Likewise its axis.
+  void correct_guide_axis(Direction<Marker> axis_in_marker) {
+    corrected_guide_ = geometry(guide_);
+    corrected_guide_->axis_in_marker = axis_in_marker;
+  }
   /// The pointer's tip where it was last measured, no longer than `within` before `now`.
   [[nodiscard]] std::optional<Point<World>> pointer_tip(Timestamp now, Duration within) const;
   /// A tag that is not as large as its tool's definition says gives wrong poses: larger by this

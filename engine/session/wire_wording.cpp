@@ -16,7 +16,7 @@ void write_wire(PartedText text, const WireSoFar& state, std::string_view separa
   std::string& out = text.out;
   if (state.wire == nullptr) {
     text.begin(Importance::kNext, separator);
-    out += "set the sleeve over the wire and click, or say next";
+    out += "set the sleeve over the wire, turn it and click, or say next";
     return;
   }
   const PlacedWire& wire = *state.wire;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/angle.h"
 #include "base/length_text.h"
 #include "base/printed.h"
 #include "engine/session/message_wording.h"
@@ -71,6 +72,18 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
   }
 }
 
+/// What the last wire told of the guide's axis, where that is worth correcting.
+void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
+  const bool waits = landmark.tips != nullptr && landmark.tips->offers();
+  if (landmark.axis == nullptr || !landmark.axis->offers() || waits) {
+    return;
+  }
+  text.begin(Importance::kDanger, separator);
+  append_printed(text.out, "guide's axis %.1f° off", degrees(landmark.axis->last()->off_rad));
+  text.begin(Importance::kNext, ": ");
+  text.out += "say accept to correct it";
+}
+
 /// Whether the landmark is still to be touched, and how the last touch was.
 void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
   std::string& out = text.out;
@@ -94,6 +107,7 @@ void write_landmark(PartedText text, const LandmarkSoFar& landmark, std::string_
   }
   if (landmark.tips != nullptr) {
     write_tips(text, *landmark.tips, "; ");
+    write_axis(text, landmark, "; ");
   }
 }
 

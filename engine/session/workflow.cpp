@@ -69,7 +69,7 @@ constexpr std::array<std::string_view, kActionCount> kActionNames = {
     "ask for landmark",
     "expect landmark",
     "verify again",
-    "correct tip",
+    "correct guide",
     "select screw",
     "expect wire",
     "measure wire",

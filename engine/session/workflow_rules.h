@@ -84,7 +84,7 @@ inline constexpr auto kRules = std::to_array<Rule>({
     // Before each screw the landmark is touched: recorded the first time, found again from then on.
     // One that is not where it was takes the acceptance back.
     {kAccepted, kSayNext, kJudgeLandmark, kAccepted},
-    {kAccepted, kSayAccept, kCorrectTip, kAccepted},
+    {kAccepted, kSayAccept, kCorrectGuide, kAccepted},
     {kAccepted, kLandmarkTouched, kSelectScrew, kGuide},
     {kAccepted, kLandmarkMissing, kAskForLandmark, kAccepted},
     {kAccepted, kLandmarkMoved, kVerifyAgain, kVerify},

@@ -52,6 +52,7 @@ enum class Notice : std::uint8_t {
   kLandmarkMissing,   ///< "next", before the landmark was touched
   kLandmarkMoved,     ///< it is not where it was: the registration is verified again
   kTipCorrected,      ///< of the guide, by the pointer's
+  kAxisCorrected,     ///< of the guide, by a wire in its sleeve
   kWireUndecided,     ///< "next", while a wire beyond a limit waits for a word
   kNoOtherEntry,      ///< through which its screw could be redone
   kConfirmRedo,       ///< a screw that was redone is so again when "delete" is said again
@@ -70,7 +71,7 @@ enum class ChecksAsked : std::uint8_t {
   kNone,          ///< it says nothing of check points
   kTouchMore,     ///< further places, or the landmark before a screw
   kGuideTip,      ///< the guide's tip in the landmark too
-  kCorrectTip,    ///< consent to correct it
+  kCorrectGuide,  ///< consent to correct its tip or its axis
   kMeasureWire,   ///< by the sleeve over it
   kDecideOnWire,  ///< beyond a limit: to keep it or to redo it
   kKeepWire,      ///< beyond a limit, and it can't be redone

@@ -161,6 +161,7 @@ Script Surgeon::perform(StepOnDisplay step) {
     if (in_step(step) && asked(ChecksAsked::kGuideTip)) {
       co_await compare_tips(*level);
     }
+    co_await consent_to_corrections(step);
     if (in_step(step)) {
       body_.say("next");
       co_await await_change(step, "next");

@@ -77,6 +77,8 @@ class Surgeon {
   Script touch_place(const StepOnDisplay& step, const BoneSpot& place);
   /// Rests the pointer's tip there and clicks, again where the line says that it was not taken.
   Script touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal);
+  /// Of a tip that was set there; `read_s` is how long the line is looked at.
+  Script click_at_rest(const StepOnDisplay& step, Vec3 normal, double settle_s, double read_s);
   /// Spread over what can be stroked, each well away from those before it.
   [[nodiscard]] std::vector<BoneSpot> places_to_check(std::size_t level);
   [[nodiscard]] bool told(Notice notice) const {
@@ -89,8 +91,10 @@ class Surgeon {
   // surgeon_landmark.cpp
   /// Makes a dimple in the bone, or finds it again, and touches it.
   Script touch_landmark(std::size_t level);
-  /// Puts the guide into the same dimple, and consents to its tip being corrected.
+  /// Puts the guide into the same dimple.
   Script compare_tips(std::size_t level);
+  /// To what the line offers to correct of the guide: its tip, its axis.
+  Script consent_to_corrections(const StepOnDisplay& step);
 
   // surgeon_digitizing.cpp
   Script digitize(std::size_t level);
@@ -151,7 +155,8 @@ class Surgeon {
   // surgeon_placing.cpp
   /// Measures the wire of the screw that was drilled, and keeps or redoes it.
   Script look_at_wire(std::size_t level, Side side);
-  /// Sets the guide's sleeve over it and clicks, again where the line says that it was not taken.
+  /// Sets the guide's sleeve over it, turns it to and fro and clicks, again where the line says
+  /// that it was not taken.
   Script set_sleeve_over(const StepOnDisplay& step, std::size_t level, const StandingWire& wire);
 
   // surgeon_rod.cpp

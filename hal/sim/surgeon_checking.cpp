@@ -8,16 +8,31 @@ namespace orthonav::sim {
 namespace {
 
 constexpr double kReach_s = 1.5;
+/// From one place of the bone to the next, the tip not looked for anew: to start and to set down,
+/// and the way at the pace of a hand that taps.
+constexpr double kDab_s = 0.4;
+constexpr double kDabPace_m_per_s = 0.08;
+constexpr double kDabLift_m = 0.008;
 /// What is left of soft tissue under a tip that is pressed through it. Estimate.
 constexpr double kPressedTissue = 0.08;
 constexpr double kTouchLift_m = 0.02;
 constexpr double kSettle_s = 1.0;
+constexpr double kDabSettle_s = 0.6;
 constexpr double kReadLine_s = 0.5;
+/// Whether the line took it is seen beside the tip.
+constexpr double kDabGlance_s = 0.15;
+/// A vertebra is no wider.
+constexpr double kAcross_m = 0.10;
 /// The first ones are as far apart as they can be; those that follow where the line asks for more,
 /// at least so far.
 constexpr double kApart_m = 0.005;
+/// One that does not fit is taken back where at least so many others do, twice at most; then the
+/// registration goes.
+constexpr std::size_t kKnown = 8;
+constexpr std::size_t kMostTakenBack = 2;
+constexpr double kTakeBack_s = 1.5;
 /// As many as count, where the line goes on asking.
-constexpr std::size_t kMostPlaces = 20;
+constexpr std::size_t kMostPlaces = 48;
 /// Nobody touches the very ends of what is stroked: there the tip slips off.
 constexpr double kFromEnd = 0.2;
 
@@ -60,19 +75,34 @@ std::vector<BoneSpot> Surgeon::places_to_check(std::size_t level) {
 Script Surgeon::touch_place(const StepOnDisplay& step, const BoneSpot& place) {
   // The bone stops the tip, so soft tissue can only hold it off.
   const double lift_m = std::abs(checking_.normal(0.0, error_model_->touch_lift_m));
-  co_await touch_at(step, {place.point + lift_m * place.normal}, place.normal);
+  const Point<Room> tip{place.point + lift_m * place.normal};
+  const bool near = body_.posture().in_hand == ToolKind::kPointer &&
+                    (body_.posture().grip.tip - tip).norm() < kAcross_m;
+  if (!near) {
+    co_await touch_at(step, tip, place.normal);
+    co_return;
+  }
+  const double way_m = (body_.posture().grip.tip - tip).norm();
+  co_await body_.move({tip, body_.pointer_axis(place.normal), 0.0},
+                      kDab_s + way_m / kDabPace_m_per_s, kDabLift_m);
+  co_await click_at_rest(step, place.normal, kDabSettle_s, kDabGlance_s);
 }
 
 Script Surgeon::touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal) {
   body_.look(tip);
   body_.posture().contact_normal.reset();
   co_await body_.move({tip, body_.pointer_axis(normal), 0.0}, kReach_s, kTouchLift_m);
+  co_await click_at_rest(step, normal, kSettle_s, kReadLine_s);
+}
+
+Script Surgeon::click_at_rest(const StepOnDisplay& step, Vec3 normal, double settle_s,
+                              double read_s) {
   body_.posture().contact_normal = normal;
   // The line says when a touch was not taken: rest a little longer and click again.
   for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
-    co_await body_.rest(kSettle_s);
+    co_await body_.rest(repeat == 0 ? settle_s : kSettle_s);
     co_await body_.click();
-    co_await body_.rest(kReadLine_s / body_.slowness());
+    co_await body_.rest(read_s / body_.slowness());
     if (!told(Notice::kTouchNotRecorded)) {
       break;
     }
@@ -83,8 +113,16 @@ Script Surgeon::touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal
 Script Surgeon::check_by_touch(std::size_t level, bool& fits) {
   const StepOnDisplay step = step_now();
   const std::vector<BoneSpot> places = places_to_check(level);
+  std::size_t taken_back = 0;
   // Where the line asks for more than there are, a place is pressed a second time.
   for (std::size_t touch = 0; !places.empty() && touch < 2 * kMostPlaces; ++touch) {
+    if (in_step(step) && asked(ChecksAsked::kReject) && touch >= kKnown &&
+        taken_back < kMostTakenBack) {
+      // The others agree: it slipped, or lies where the model is not the bone.
+      ++taken_back;
+      body_.say("delete");
+      co_await body_.rest(kTakeBack_s);
+    }
     if (!in_step(step) || !asked(ChecksAsked::kTouchMore)) {
       break;
     }

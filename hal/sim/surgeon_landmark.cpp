@@ -37,7 +37,6 @@ Script Surgeon::touch_landmark(std::size_t level) {
 }
 
 Script Surgeon::compare_tips(std::size_t level) {
-  constexpr int kMostTimes = 3;
   const StepOnDisplay step = step_now();
   co_await body_.take(ToolKind::kGuide, layout_->site(level));
   const auto& room_from_vertebra = layout_->room_from_vertebra(level);
@@ -45,12 +44,22 @@ Script Surgeon::compare_tips(std::size_t level) {
   const Vec3 off = normal_vector(seating_, error_model_->dimple_seating_m);
   co_await touch_at(step, room_from_vertebra * Point<Vertebra>{spot.point} + off,
                     (room_from_vertebra * Direction<Vertebra>{spot.normal}).v);
+}
+
+Script Surgeon::consent_to_corrections(const StepOnDisplay& step) {
+  constexpr int kMostTimes = 4;
   for (int time = 0; time < kMostTimes && in_step(step); ++time) {
-    if (!asked(ChecksAsked::kCorrectTip)) {
+    if (!asked(ChecksAsked::kCorrectGuide)) {
       break;
     }
     body_.say("accept");
-    co_await body_.rest(2.0);
+    co_await body_.rest(1.0);
+    // What was done is said for a while; then the line offers the next one, or none.
+    const Timestamp end = body_.now() + from_seconds(kPatience_s);
+    while (in_step(step) && (told(Notice::kTipCorrected) || told(Notice::kAxisCorrected)) &&
+           body_.now() < end) {
+      co_await body_.next_tick();
+    }
   }
 }
 

@@ -9,6 +9,10 @@ constexpr double kSleeveOverBone_m = 0.004;
 constexpr double kOverWire_m = 0.050;
 constexpr double kSetOver_s = 2.0;
 constexpr double kAtRest_s = 1.0;
+/// The sleeve is turned to and fro about the wire by so much to either side, fingers only.
+constexpr double kSleeveTurn_rad = 1.0;
+constexpr double kSleeveTurn_s = 0.8;
+constexpr int kSleeveTurns = 6;
 constexpr double kReadNumbers_s = 1.0;
 /// An instrument that bends by more (SD an axis) does so again: surgeons know which they hold, and
 /// keep what a wire without support has come to.
@@ -56,6 +60,16 @@ Script Surgeon::set_sleeve_over(const StepOnDisplay& step, std::size_t level,
   co_await body_.move({entry + kOverWire_m * outwards, axis, 0.0}, kSetOver_s);
   co_await body_.move({entry + kSleeveOverBone_m * outwards, axis, 0.0}, kSetOver_s);
   body_.posture().on_wire = true;
+  // Its play lets it lie another way in each of them.
+  for (int turn = 0; turn < kSleeveTurns && in_step(step); ++turn) {
+    const Vec3 lies = normal_vector(sleeving_, error_model_->sleeve_play_rad);
+    const double roll_rad = turn + 1 == kSleeveTurns ? 0.0
+                            : turn % 2 == 0          ? kSleeveTurn_rad
+                                                     : -kSleeveTurn_rad;
+    co_await body_.move({entry + kSleeveOverBone_m * outwards,
+                         (rotation_from_vector(lies) * outwards).normalized(), roll_rad},
+                        kSleeveTurn_s);
+  }
   // The line says when it was not taken: rest a little longer and click again.
   for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
     co_await body_.rest(kAtRest_s);

@@ -87,6 +87,15 @@ std::vector<std::string> CheckPointRules::check() const {
   if (!(off_line_m >= 0.0 && off_line_m <= 0.5 * apart_m)) {
     problems.push_back("check_points.off_line_m must lie in [0, half of apart_m]");
   }
+  if (enough > kMostCheckPoints) {
+    problems.push_back("check_points.enough must be at most " + std::to_string(kMostCheckPoints));
+  }
+  if (!(wanted_tre_99_m > 0.0 && wanted_tre_99_m <= 0.01)) {
+    problems.push_back("check_points.wanted_tre_99_m must lie in (0, 0.01]");
+  }
+  if (!(least_gain >= 0.0 && least_gain <= 1.0)) {
+    problems.push_back("check_points.least_gain must lie in [0, 1]");
+  }
   return problems;
 }
 
@@ -187,25 +196,32 @@ void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
   // What may be off by chance; less than that is never held against a touch.
   constexpr double kMostSds = 4.0;
   constexpr double kTouch_m = 0.001;
+  const std::size_t before = joined.off_m.size() - points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double limit_m = std::max(kTouch_m, kMostSds * joined.off_sd_m[i]);
-    if (points[i].within && !(std::abs(joined.off_m[i]) <= limit_m)) {
+    const double off_m = joined.off_m[before + i];
+    const double limit_m = std::max(kTouch_m, kMostSds * joined.off_sd_m[before + i]);
+    if (points[i].within && !(std::abs(off_m) <= limit_m)) {
       points[i].within = false;
-      points[i].distance_m = joined.off_m[i];
+      points[i].distance_m = off_m;
       points[i].limit_m = limit_m;
     }
   }
 }
 
 CheckVerdict verdict_on(std::span<const CheckPoint> points, const CheckPointRules& rules,
-                        const JoinedPlaces& joined) {
+                        const JoinedPlaces& joined, const std::optional<NextPlace>& next) {
   CheckVerdict verdict = verdict_on(points, rules);
   const Registration& r = joined.registration;
+  const bool worth = next && next->tre_then_m <= (1.0 - rules.least_gain) * next->tre_m;
   if (verdict.passed && !r.accepted) {
     verdict.passed = false;
     const bool more = points.size() < kMostCheckPoints;
     verdict.advice = {more ? CheckAdvice::Kind::kTouchMore : CheckAdvice::Kind::kUncertain, 1,
                       r.tre_99_m, PoseSearchRegistrationOptions{}.max_tre_99_m};
+  } else if (verdict.passed && points.size() < rules.enough && worth &&
+             !(r.tre_99_m <= rules.wanted_tre_99_m)) {
+    verdict.passed = false;
+    verdict.advice = {CheckAdvice::Kind::kTouchMore, 1, r.tre_99_m, rules.wanted_tre_99_m};
   }
   return verdict;
 }

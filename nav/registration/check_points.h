@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,13 +20,19 @@ struct CheckPointRules {
   double apart_m = 0.015;     ///< each of the three from each other
   double within_m = 0.002;    ///< of the surface, every check point
   double off_line_m = 0.005;  ///< the least height of their triangle
+  /// So many more are asked for as long as 1 of 100 errors at the screws may exceed
+  /// `wanted_tre_99_m` and the next one would take this part of the error away: a second and a half
+  /// each. From then on what a registration is allowed will do.
+  std::size_t enough = 40;
+  double wanted_tre_99_m = 0.001;
+  double least_gain = 0.005;
 
   /// Every problem at once; empty when all is well.
   [[nodiscard]] std::vector<std::string> check() const;
 };
 
 /// More than so many say nothing new.
-inline constexpr std::size_t kMostCheckPoints = 20;
+inline constexpr std::size_t kMostCheckPoints = 48;
 
 /// A place of the bone, touched after the fit.
 struct CheckPoint {
@@ -73,11 +80,14 @@ struct CheckVerdict {
   CheckAdvice advice;
 };
 
-/// The places that check points are, against a registration that took them in.
+/// The places that check points are, against a registration that took them in: the last that it
+/// did.
 void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points);
 /// The verdict, where the registration that took them in must be certain at the screws as well.
+/// `next`: what is worth touching after them.
 [[nodiscard]] CheckVerdict verdict_on(std::span<const CheckPoint> points,
-                                      const CheckPointRules& rules, const JoinedPlaces& joined);
+                                      const CheckPointRules& rules, const JoinedPlaces& joined,
+                                      const std::optional<NextPlace>& next);
 
 /// One check point too far off, wherever it lies, and none of the others helps.
 [[nodiscard]] CheckVerdict verdict_on(std::span<const CheckPoint> points,

@@ -146,7 +146,7 @@ TEST_F(CheckedSession, APressFromTheStrokesIsNoTouch) {
   EXPECT_TRUE(points().empty());
 }
 
-TEST_F(CheckedSession, StopsCountingAtTwenty) {
+TEST_F(CheckedSession, StopsCountingAtTheMost) {
   for (std::size_t i = 0; i < nav::kMostCheckPoints; ++i) {
     s.touches(kFirst);
   }
@@ -221,6 +221,26 @@ TEST(ProvisionalRegistration, AsksForMorePlacesAndTakesOneBackAsIfItHadNotBeen) 
   }
   EXPECT_EQ(advice(s.pair()).kind, nav::CheckAdvice::Kind::kUncertain);
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kReject);
+}
+
+TEST(ManyTouches, AreAskedForAsLongAsTheyTell) {
+  SessionOptions options;
+  options.check_points.enough = 12;
+  ScriptedOperation s({"L4"}, options, Verification::kByTouch);
+  s.registers_within(0.0004);
+  s.registers_first_level();
+  for (const Vec3 place : {kFirst, kSecond, kThird}) {
+    s.touches(place);
+  }
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kTouchMore);
+  EXPECT_EQ(advice(s.pair()).kind, nav::CheckAdvice::Kind::kTouchMore);
+  EXPECT_DOUBLE_EQ(advice(s.pair()).limit_m, nav::CheckPointRules{}.wanted_tre_99_m);
+  EXPECT_EQ(s.says("accept").step, Step::kVerify);
+  for (int k = 0; k < 9; ++k) {
+    s.touches(kFirst + Vec3{0.006 * (k % 3 + 1), 0.0, 0.006 * (k / 3)});
+  }
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kPassed);
+  EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
 }
 
 TEST(ProvisionalRegistration, IsRefusedWhereNobodyTouches) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "base/angle.h"
 #include "engine/session/session.h"
@@ -79,7 +80,7 @@ TEST_F(PlacedSession, FollowsEveryScrewAndAsksForTheSleeve) {
   EXPECT_EQ(g.status.tool, "guide");
   EXPECT_EQ(g.wire, nullptr);
   EXPECT_FALSE(g.tool) << "nothing is guided";
-  EXPECT_THAT(detail_text(g.status), HasSubstr("set the sleeve over the wire and click"));
+  EXPECT_THAT(detail_text(g.status), HasSubstr("set the sleeve over the wire, turn it and click"));
 }
 
 TEST_F(PlacedSession, AWireWithinTheLimitsIsToldWithItsSds) {
@@ -118,6 +119,58 @@ TEST_F(PlacedSession, TheSdHoldsRegistrationPoseAndCalibration) {
   EXPECT_GT(far.axis.entry_m.sd, std::hypot(least_m, 0.04 * rules.axis_sd_rad));
   EXPECT_GE(near.axis.angle_rad.sd, std::hypot(rules.axis_sd_rad, rules.play_rad));
   EXPECT_LT(near.axis.angle_rad.sd, 1.1 * std::hypot(rules.axis_sd_rad, rules.play_rad));
+}
+
+/// A wire as planned, over which a guide whose axis is off by that much was turned to and fro, by
+/// up to `turn_rad`.
+const Guidance& measures_turning(ScriptedOperation& s, double off_rad, double turn_rad) {
+  constexpr int kPairs = 45;
+  const Mat3 off = rotation_from_vector({0, 0, off_rad});
+  for (int k = 0; k <= kPairs; ++k) {
+    const double roll_rad = turn_rad * std::sin(2.0 * std::numbers::pi * k / kPairs);
+    const Mat3 turn = rotation_from_vector({0, roll_rad, 0}) * off.transposed();
+    const Vec3 tip = kLeftEntry + Vec3{0, 0.004, 0};
+    s.tracker().guide = {turn, tip - turn * guide_at({}, 0.0).inverse().translation()};
+    s.pair();
+  }
+  s.pairs(20);
+  s.does({kPress});
+  s.pair();
+  return s.does({kRelease, kClick});
+}
+
+TEST_F(PlacedSession, ATurnedSleeveTellsTheWireWithoutTheGuidesAxis) {
+  const double off_rad = 0.02;
+  const Guidance& turned = measures_turning(s, off_rad, 1.0);
+  ASSERT_NE(turned.wire, nullptr);
+  EXPECT_NEAR(turned.wire->axis.angle_rad.value, 0.0, kJoined);
+  EXPECT_LT(turned.wire->axis.angle_rad.sd, PlacedWireRules{}.axis_sd_rad);
+  const Guidance& still = measures_turning(s, off_rad, 0.0);
+  // What was turned before is still among the last ten seconds, unless the sleeve was elsewhere.
+  ASSERT_NE(still.wire, nullptr);
+  set_over(0.0, 0.3);
+  s.pair();
+  EXPECT_NEAR(measures_turning(s, off_rad, 0.0).wire->axis.angle_rad.value, off_rad, kJoined)
+      << "the twin";
+}
+
+TEST_F(PlacedSession, TheAxisIsCorrectedWithConsentBeforeTheNextScrew) {
+  measures_turning(s, 0.02, 1.0);
+  EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  s.touches_dimple();
+  EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr) << "not without a word";
+  s.says("accept");
+  ASSERT_NE(said<AxisCorrected>(s.pair()), nullptr);
+  // The mean by the described axis (0.57 degrees) and by the spin.
+  EXPECT_GT(said<AxisCorrected>(s.pair())->by_rad, 0.019);
+  EXPECT_LT(said<AxisCorrected>(s.pair())->by_rad, 0.02);
+}
+
+TEST_F(PlacedSession, AnAxisThatIsRightIsLeftAlone) {
+  measures_turning(s, 0.001, 1.0);
+  s.says("next");
+  s.says("accept");
+  EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr);
 }
 
 TEST_F(PlacedSession, NextBeforeAnythingWasMeasuredGoesOnAndIsKnown) {

@@ -236,7 +236,7 @@ PlacedWire wire_off(double angle_deg, double entry_m) {
 }
 
 TEST(Wording, AsksForTheSleeveAndTellsHowTheWireStands) {
-  EXPECT_EQ(line_with(WireSoFar{}), "set the sleeve over the wire and click, or say next");
+  EXPECT_EQ(line_with(WireSoFar{}), "set the sleeve over the wire, turn it and click, or say next");
   const PlacedWire within = wire_off(0.8, 0.0006);
   EXPECT_EQ(line_with(WireSoFar{&within}), "placed: 0.8 ± 0.9°, 0.6 ± 0.6 mm from the plan");
   const PlacedWire turned = wire_off(2.04, 0.0006);
@@ -255,7 +255,8 @@ TEST(Wording, AsksForTheSleeveAndTellsHowTheWireStands) {
   lost.tool = "guide";
   lost.tool_lost = true;
   lost.state = WireSoFar{};
-  EXPECT_EQ(detail_text(lost), "guide lost; set the sleeve over the wire and click, or say next");
+  EXPECT_EQ(detail_text(lost),
+            "guide lost; set the sleeve over the wire, turn it and click, or say next");
 }
 
 TEST(Wording, SaysWhyAWireWasNotMeasuredAndWhatBecomesOfIt) {
@@ -318,7 +319,7 @@ TEST(Wording, SaysEveryMessage) {
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kHead, {Touch::kHeldTooLong}})),
             "head not recorded: hold too long");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kCheckPoint, {Touch::kTooMany}})),
-            "check point not recorded: there are 20 already");
+            "check point not recorded: there are 48 already");
   EXPECT_EQ(line_with(Message(TouchNotRecorded{What::kLandmark, {Touch::kTooNear, 0.022, 0.030}})),
             "dimple not recorded: 22 mm from the reference, at least 30 mm: make it farther away");
   EXPECT_EQ(

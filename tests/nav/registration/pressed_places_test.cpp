@@ -52,14 +52,12 @@ class PressedBone {
   /// Places one after the other, each where it tells most.
   std::vector<PressedPlace> press(std::size_t count) {
     std::vector<PressedPlace> places;
-    Registration now = registration;
     while (places.size() < count) {
-      const auto next = place_to_press(model(), now, points_, places, options);
+      const auto next = place_to_press(model(), registration, points_, places, options);
       if (!next) {
         break;
       }
-      places.push_back(pressed_below(*next));
-      now = join_places(model(), registration, places, options)->registration;
+      places.push_back(pressed_below(next->place));
     }
     return places;
   }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+
+#include "base/angle.h"
+#include "nav/calibration/spin.h"
+
+namespace orthonav::engine {
+
+/// The guide's axis as its sleeve told it, turned over a wire that stands in the bone, against the
+/// axis that is in use.
+struct AxisDifference {
+  double off_rad = 0.0;  ///< as measured
+  double sd_rad = 0.0;   ///< of that, about each direction across the axis
+  /// By what was known before and by this: what the axis in use is most probably off by.
+  double by_rad = 0.0;
+  bool corrected = false;  ///< with the surgeon's consent
+};
+
+struct AxisCheckRules {
+  /// SD of the described axis about each direction across it; a printed tool.
+  double prior_sd_rad = 0.010;
+  /// No measurement is taken to be better: tags and lenses are off alike in all poses. 0.1°.
+  double least_sd_rad = 0.1 * kRadiansPerDegree;
+  /// A correction of less is not worth a word: half of what the numbers are read to.
+  double worth_rad = 0.15 * kRadiansPerDegree;
+};
+
+/// Each wire that is measured so tells of the axis; what is corrected counts as known from then on.
+class AxisCheck {
+ public:
+  AxisCheck() = default;
+  explicit AxisCheck(const AxisCheckRules& rules) : rules_(rules), sd_rad_(rules.prior_sd_rad) {}
+
+  void take(const nav::SpinCalibration& measured, Direction<Marker> in_use);
+  /// A difference waits for consent to be corrected.
+  [[nodiscard]] bool offers() const {
+    return last_ && !last_->corrected && last_->by_rad >= rules_.worth_rad;
+  }
+  /// The surgeon consents: the axis that is used from now on.
+  [[nodiscard]] Direction<Marker> correct();
+  [[nodiscard]] const std::optional<AxisDifference>& last() const { return last_; }
+
+ private:
+  AxisCheckRules rules_;
+  double sd_rad_ = 0.0;  ///< of the axis in use
+  std::optional<AxisDifference> last_;
+  Direction<Marker> better_;
+};
+
+}  // namespace orthonav::engine

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "nav/registration/pressed_places.h"
+
+namespace orthonav::nav {
+
+/// How a model may be off the bone, and the logarithm of how probable that is, up to a constant.
+struct ModelErrorHypothesis {
+  ModelError error;
+  double log_probability = 0.0;
+};
+
+/// What is known before a bone is touched: segmentations of vertebrae in CT are off by 0.3 to 0.8
+/// mm, alike over 5 to 10 mm. Two thirds of the probability lie there, the rest from 0.1 mm, which
+/// is as good as exact, to 1 mm.
+[[nodiscard]] std::vector<ModelErrorHypothesis> model_error_hypotheses();
+
+/// Covariance of a model's error at two places.
+[[nodiscard]] double shared_error_m2(const ModelError& error, Vec3 a, Vec3 b);
+
+/// A pressed place by what its height depends on, in the model's frame.
+struct PressedHeight {
+  Vec3 at_m;
+  Vec3 up;  ///< unit, out of the bone
+  double time_s = 0.0;
+  double sd_m = 0.0;  ///< of its own, by tracking and tremor
+};
+
+/// What the heights of pressed places say about the pose of the strokes: a Gaussian posterior
+/// (Rasmussen & Williams 2006, section 2.7) whose noise is what a press leaves, the model's own
+/// error as a field over the bone, and World's random walk. SD and length of the field are
+/// marginalised on a grid, by a prior and by how probable they make the heights.
+struct PressFit {
+  Vec3 centre_m;                        ///< of the step, in the model's frame
+  std::array<double, 6> step{};         ///< translation m, rotation vector rad; by the heights
+  std::array<double, 36> covariance{};  ///< after it, by rows, of the bone as it lies now
+  /// Of each place: how far off the bone it lies by all that the others and the strokes tell, SD
+  /// and length of the field among it, and the SD of that.
+  std::vector<double> off_m;
+  std::vector<double> off_sd_m;
+  ModelError model;  ///< root mean square SD, mean length
+
+  /// The covariance if this place were pressed next.
+  [[nodiscard]] std::array<double, 36> with(const PressedHeight& next,
+                                            const PressModel& press) const;
+
+  // By the likeliest field, for `with`.
+  ModelError likeliest;
+  std::vector<PressedHeight> heights;
+  std::vector<double> inverse_1_m2;           ///< of the heights' covariance
+  std::vector<std::array<double, 6>> shared;  ///< covariance of the pose now with each height
+  std::array<double, 36> before{};            ///< of the pose of the strokes
+  std::array<double, 36> likeliest_covariance{};
+};
+
+/// Of the pose of `strokes`, which have an uncertainty. No places: the strokes' own. Nothing where
+/// a number is not finite.
+[[nodiscard]] std::optional<PressFit> fit_presses(const VertebraModel& model,
+                                                  const Registration& strokes,
+                                                  std::span<const PressedPlace> places,
+                                                  const PressModel& press);
+
+/// A step of the pose about `centre_m`, from the registered vertebra to the true one.
+[[nodiscard]] inline Transform<Vertebra, Vertebra> moved_by(const std::array<double, 6>& step,
+                                                            Vec3 centre_m) {
+  const Mat3 rotation = orthonormalized(rotation_from_vector({step[3], step[4], step[5]}));
+  return {rotation, centre_m + Vec3{step[0], step[1], step[2]} - rotation * centre_m};
+}
+
+}  // namespace orthonav::nav

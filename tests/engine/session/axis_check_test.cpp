@@ -1,0 +1,61 @@
+#include "engine/session/axis_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace orthonav::engine::axis_check_test {
+namespace {
+
+constexpr double kExact = 1e-12;
+constexpr Direction<Marker> kDescribed{{0, 1, 0}};
+
+nav::SpinCalibration measured(double off_rad, double sigma_rad) {
+  nav::SpinCalibration spin;
+  spin.axis_in_marker = {rotation_from_vector({off_rad, 0, 0}) * kDescribed.v};
+  spin.axis_sigma_rad = sigma_rad;
+  return spin;
+}
+
+TEST(AxisCheck, TakesTheMeanByWhatIsKnown) {
+  AxisCheck check;
+  EXPECT_FALSE(check.offers());
+  // As unsure about each direction as the described axis: half of it is believed.
+  check.take(measured(0.012, 0.010 * std::sqrt(2.0)), kDescribed);
+  ASSERT_TRUE(check.offers());
+  EXPECT_NEAR(check.last()->off_rad, 0.012, kExact);
+  EXPECT_NEAR(check.last()->by_rad, 0.006, kExact);
+  const Direction<Marker> better = check.correct();
+  EXPECT_NEAR(angle_between_rad(better.v, kDescribed.v), 0.006, kExact);
+  EXPECT_NEAR(angle_between_rad(better.v, measured(0.012, 0.0).axis_in_marker.v), 0.006, kExact);
+  EXPECT_FALSE(check.offers());
+}
+
+TEST(AxisCheck, WhatWasCorrectedIsKnownBetterFromThenOn) {
+  AxisCheck check;
+  check.take(measured(0.02, 0.002), kDescribed);
+  const Direction<Marker> better = check.correct();
+  // A poor measurement hardly moves it any more.
+  check.take(measured(0.0, 0.02), better);
+  EXPECT_LT(check.last()->by_rad, 0.001);
+  EXPECT_FALSE(check.offers());
+  AxisCheck fresh;
+  fresh.take(measured(0.02, 0.02), kDescribed);
+  EXPECT_GT(fresh.last()->by_rad, 0.005) << "the twin";
+}
+
+TEST(AxisCheck, IsNeverSurerThanTagsAndLensesAllow) {
+  AxisCheck check;
+  check.take(measured(0.01, 0.0), kDescribed);
+  EXPECT_GE(check.last()->sd_rad, AxisCheckRules{}.least_sd_rad);
+  EXPECT_LT(check.last()->by_rad, 0.01);
+}
+
+TEST(AxisCheck, HardlyOffIsNotWorthAWord) {
+  AxisCheck check;
+  check.take(measured(0.9 * AxisCheckRules{}.worth_rad, 0.001), kDescribed);
+  EXPECT_FALSE(check.offers());
+}
+
+}  // namespace
+}  // namespace orthonav::engine::axis_check_test

@@ -1,0 +1,224 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/random.h"
+#include "engine/phantom/phantom.h"
+#include "nav/guidance/predicted_error.h"
+#include "nav/registration/check_points.h"
+#include "nav/registration/pressed_places.h"
+#include "tests/support/stroke_truths.h"
+
+namespace orthonav::nav::dabs_test {
+namespace {
+
+using orthonav::test::digitize_strokes;
+using orthonav::test::StrokeVariant;
+using orthonav::test::Tissue;
+
+constexpr double kTissue_m = 0.0015;
+/// What a press leaves beneath the tip: SD before it is cut off at 0.
+constexpr double kPress_m = 0.0003;
+constexpr double kTracked_m = 0.00015;
+constexpr double kApart_m = 0.005;
+
+/// The model is what a segmentation saw of a bone, which lies under tissue, is stroked, and then
+/// touched in many places spread over the strokes.
+class DabbedBone {
+ public:
+  DabbedBone(std::uint64_t seed, double model_sd_m)
+      : model_(VertebraModel::prepare(orthonav::test::segmented(level().mesh, model_sd_m, seed))
+                   .value()),
+        strokes_(digitize_strokes(level().mesh, StrokeVariant::kFull, seed).value()),
+        random_(seed) {
+    orthonav::test::apply_truths({Tissue::kSmooth, kTissue_m, 0.0, 1}, level().mesh, seed,
+                                 strokes_);
+    options.targets = entries_and_targets(level().screws);
+    points = strokes_.tips();
+    registration = register_by_pose_search(*model_, points, options).value();
+  }
+  static const engine::CaseLevel& level() {
+    static const auto kPhantom = engine::phantom({"L4"});
+    return kPhantom.levels.at(0);
+  }
+  [[nodiscard]] const VertebraModel& model() const { return *model_; }
+  /// On the bone beneath a stroke, each as far from those before as can be.
+  std::vector<PressedPlace> dab(std::size_t count) {
+    std::vector<Vec3> chosen;
+    std::vector<PressedPlace> places;
+    const SurfaceIndex bone(level().mesh);
+    const auto nearest_m = [&](const orthonav::test::DigitizedSample& s) {
+      double least_m = s.off_bone ? 0.0 : 1.0;
+      for (const Vec3 p : chosen) {
+        least_m = std::min(least_m, (p - s.true_tip.v).norm());
+      }
+      return least_m;
+    };
+    while (places.size() < count) {
+      const auto& s = *std::max_element(
+          strokes_.samples.begin(), strokes_.samples.end(),
+          [&](const auto& a, const auto& b) { return nearest_m(a) < nearest_m(b); });
+      if (nearest_m(s) < kApart_m) {
+        break;
+      }
+      chosen.push_back(s.true_tip.v);
+      const Vec3 on_bone = bone.nearest(s.true_tip.v)->point_m;
+      const Vec3 noise{random_.normal(0.0, kTracked_m), random_.normal(0.0, kTracked_m),
+                       random_.normal(0.0, kTracked_m)};
+      const Vec3 tip = on_bone + std::abs(random_.normal(0.0, kPress_m)) * s.normal + noise;
+      normals.push_back(strokes_.world_from_vertebra.rotation() * s.normal);
+      places.push_back({strokes_.world_from_vertebra * Point<Vertebra>{tip}, kTracked_m});
+    }
+    return places;
+  }
+  [[nodiscard]] JoinedPlaces joined(std::span<const PressedPlace> places,
+                                    const PressModel& press = {}) const {
+    return join_places(*model_, registration, places, options, press).value();
+  }
+  [[nodiscard]] double error_m(const Registration& r) const {
+    double worst = 0.0;
+    for (const Point<Vertebra>& p : options.targets) {
+      worst =
+          std::max(worst, (r.world_from_vertebra * p - strokes_.world_from_vertebra * p).norm());
+    }
+    return worst;
+  }
+  /// By which the first planned axis is turned.
+  [[nodiscard]] double turn_deg(const Registration& r) const {
+    const Vec3 axis = (options.targets[1] - options.targets[0]).normalized();
+    return degrees(angle_between_rad((r.world_from_vertebra * Direction<Vertebra>{axis}).v,
+                                     (strokes_.world_from_vertebra * Direction<Vertebra>{axis}).v));
+  }
+
+  PoseSearchRegistrationOptions options;
+  std::vector<Point<World>> points;
+  std::vector<Vec3> normals;  ///< in World, of the bone beneath each dab
+  Registration registration;
+
+ private:
+  std::shared_ptr<const VertebraModel> model_;
+  orthonav::test::DigitizedStrokes strokes_;
+  Random random_;
+};
+
+/// What two bones come to after so many dabs, on average.
+struct Outcome {
+  double turned_before_deg = 0.0;
+  double turned_deg = 0.0;
+  double model_sd_m = 0.0;
+  int beyond_99 = 0;
+};
+
+Outcome outcome(double model_sd_m, std::size_t dabs) {
+  constexpr int kBones = 2;
+  Outcome out;
+  for (int seed = 1; seed <= kBones; ++seed) {
+    DabbedBone bone(static_cast<std::uint64_t>(seed), model_sd_m);
+    const auto joined = bone.joined(bone.dab(dabs));
+    out.turned_before_deg += bone.turn_deg(bone.registration) / kBones;
+    out.turned_deg += bone.turn_deg(joined.registration) / kBones;
+    out.model_sd_m += joined.model.sd_m / kBones;
+    out.beyond_99 += bone.error_m(joined.registration) > joined.registration.tre_99_m ? 1 : 0;
+  }
+  return out;
+}
+
+TEST(Dabs, TurnTheBoneRightAndTellHowGoodTheModelIs) {
+  const Outcome exact = outcome(0.0, 40);
+  const Outcome usual = outcome(0.0005, 40);
+  const Outcome bad = outcome(0.0008, 40);
+  EXPECT_LT(exact.turned_deg, 0.7 * exact.turned_before_deg);
+  EXPECT_LT(usual.turned_deg, 0.8 * usual.turned_before_deg);
+  EXPECT_LT(exact.model_sd_m, 0.00030);
+  EXPECT_GT(bad.model_sd_m, 0.00055);
+  EXPECT_LT(exact.model_sd_m, usual.model_sd_m);
+  EXPECT_LT(usual.model_sd_m, bad.model_sd_m);
+  EXPECT_EQ(exact.beyond_99 + usual.beyond_99 + bad.beyond_99, 0);
+}
+
+TEST(Dabs, OneThatSlippedStandsOutAndDoesNotPassForABadModel) {
+  DabbedBone bone(3, 0.0);
+  auto places = bone.dab(30);
+  places[11].place = places[11].place + 0.003 * bone.normals[11];
+  const auto joined = bone.joined(places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool far = std::abs(joined.off_m[i]) > std::max(0.001, 4.0 * joined.off_sd_m[i]);
+    EXPECT_EQ(far, i == 11) << i << ": " << joined.off_m[i] << " ± " << joined.off_sd_m[i];
+  }
+}
+
+TEST(Dabs, TheSameModelDoesNotCountTwice) {
+  DabbedBone bone(4, 0.0005);
+  const auto places = bone.dab(20);
+  auto twice = places;
+  twice.insert(twice.end(), places.begin(), places.end());
+  const double once_m = bone.joined(places).registration.predicted_tre_m;
+  EXPECT_GT(bone.joined(twice).registration.predicted_tre_m, 0.85 * once_m);
+  EXPECT_LT(bone.joined(bone.dab(40)).registration.predicted_tre_m, 0.85 * once_m) << "the twin";
+}
+
+TEST(Dabs, OnAMapThatWalksTheNewestCountMost) {
+  DabbedBone bone(5, 0.0);
+  auto places = bone.dab(32);
+  const Vec3 walked_m{0.0015, 0.001, -0.001};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool late = i >= places.size() / 2;
+    places[i].time_s = late ? 100.0 : 10.0;
+    places[i].place = places[i].place + (late ? 1.0 : 0.0) * walked_m;
+  }
+  PressModel walking;
+  walking.drift_m_per_sqrt_s = 0.0002;
+  const auto off_m = [&](const PressModel& press) {
+    const Point<Vertebra> middle = bone.options.targets.front();
+    return (bone.joined(places, press).registration.world_from_vertebra * middle -
+            (bone.joined(bone.dab(32)).registration.world_from_vertebra * middle + walked_m))
+        .norm();
+  };
+  EXPECT_LT(off_m(walking), 0.0008);
+  const Registration r = bone.joined(places, walking).registration;
+  EXPECT_GT(r.uncertainty->predicted_tre_m(bone.options.targets.front()), r.predicted_tre_m)
+      << "limits are about the registration, the uncertainty is not";
+  EXPECT_GT(off_m({}), 0.0008) << "the twin: on a map that is said to stay";
+}
+
+/// What the eighth place that is proposed leaves of the error, and how far it lies from the others.
+struct Eighth {
+  double left = 0.0;
+  double nearest_m = 1.0;
+};
+
+Eighth eighth_place(const DabbedBone& bone, const PressModel& press) {
+  std::vector<PressedPlace> places;
+  Eighth out;
+  for (int k = 0; k < 8; ++k) {
+    const NextPlace next =
+        place_to_press(bone.model(), bone.registration, bone.points, places, bone.options, press)
+            .value();
+    EXPECT_LT(next.tre_then_m, next.tre_m);
+    out = {next.tre_then_m / next.tre_m, 1.0};
+    for (const PressedPlace& place : places) {
+      out.nearest_m = std::min(out.nearest_m, (place.place - next.place).norm());
+    }
+    places.push_back({next.place, kTracked_m});
+  }
+  return out;
+}
+
+TEST(Dabs, AProposalKnowsWhatTheModelLeavesOfIt) {
+  const DabbedBone bone(6, 0.0);
+  PressModel exact;
+  exact.model = ModelError{1e-6};
+  PressModel off;
+  off.model = ModelError{0.0008, 0.010};
+  // About a bad model each place tells less, so more of them are worth while.
+  const Eighth eighth = eighth_place(bone, off);
+  EXPECT_GT(eighth.left, 1.0 - 0.15);
+  EXPECT_LT(eighth.left, 1.0 - 0.01);
+  EXPECT_GT(eighth.nearest_m, 0.008) << "beside another one the model is as wrong";
+  EXPECT_NE(eighth.left, eighth_place(bone, exact).left);
+}
+
+}  // namespace
+}  // namespace orthonav::nav::dabs_test
