@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "nav/registration/registration.h"
 #include "nav/registration/residual_field.h"
 
 namespace orthonav::nav {

@@ -13,7 +13,6 @@ TEST_F(ResidualFieldTest, PredictsTheErrorsOfStrokesThatArePressedUnalike) {
   const Compared c = compare({0.0002, 0.0, 0.3, false, 0.0, 0.0005}, 12);
   EXPECT_GT(c.ratio(), 1.0 - kHonest);
   EXPECT_LT(c.ratio(), 2.0) << "honest, not timid";
-  EXPECT_GT(c.field_m, 0.0003);
   EXPECT_LT(c.effective_points, 200.0) << "of 850";
 }
 
@@ -38,10 +37,21 @@ TEST_F(ResidualFieldTest, ResampledPointsSayNothingNew) {
   EXPECT_GT(units_of(0.0002).order.size(), 3 * places.size());
 }
 
+/// In such an order that no stroke begins within 8 mm of where the last one ended.
+std::vector<Vec3> apart(const std::vector<Vec3>& places, std::size_t lanes) {
+  const std::size_t a_stroke = places.size() / lanes;
+  std::vector<Vec3> out;
+  for (std::size_t k = 0; k < lanes; ++k) {
+    const auto from = places.begin() + static_cast<std::ptrdiff_t>(7 * k % lanes * a_stroke);
+    out.insert(out.end(), from, from + static_cast<std::ptrdiff_t>(a_stroke));
+  }
+  return out;
+}
+
 TEST_F(ResidualFieldTest, EstimatesTheTissueAndFindsWhatStrokesHaveInCommon) {
   for (const double tissue_m : {0.0, 0.001}) {
     Random random(9);
-    std::vector<Vec3> places = test::strokes_over(surface_, 16);
+    std::vector<Vec3> places = apart(test::strokes_over(surface_, 16), 16);
     if (tissue_m > 0.0) {
       lift(tissue_m, random, places);
     }

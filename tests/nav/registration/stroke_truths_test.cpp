@@ -61,7 +61,8 @@ TEST_F(StrokeTruthsTest, ResampleReorderAndMirrorThem) {
   double square_m2 = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     EXPECT_EQ(twice.tips()[2 * i].v.x, bare.tips()[i].v.x);
-    square_m2 += (twice.tips()[2 * i + 1] - bare.tips()[i]).squared_norm() / count;
+    square_m2 +=
+        (twice.tips()[2 * i + 1] - bare.tips()[i]).squared_norm() / static_cast<double>(count);
   }
   EXPECT_NEAR(std::sqrt(square_m2 / 3.0), 0.00002, 0.000002);
   DigitizedStrokes other = bare;
