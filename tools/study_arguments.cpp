@@ -255,9 +255,10 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
       ->delimiter(',');
   add_reference_flag(study, arguments.reference);
   study
-      .add_option("--without", arguments.without,
-                  "steps of the method that are left out: check-points, landmark, tips, tag-sizes, "
-                  "wire, redo, numbers, reference")
+      .add_option(
+          "--without", arguments.without,
+          "steps of the method that are left out: check-points, landmark, tips, axis, tag-sizes, "
+          "wire, redo, numbers, reference")
       ->delimiter(',');
   study
       .add_option("--guidance", arguments.guidance,

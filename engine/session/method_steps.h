@@ -11,10 +11,13 @@ struct MethodSteps {
   bool tips = true;          ///< the guide's is held against the pointer's, in the landmark
   bool wire = true;          ///< is measured where it was placed, with the sleeve
   bool redo = true;          ///< of a wire beyond a limit, through another entry
+  bool axis = true;          ///< of the guide is corrected by its sleeve, turned on a wire
 
   /// Something is touched in `accepted`.
   [[nodiscard]] constexpr bool dimple() const { return landmark || tips; }
-  [[nodiscard]] static constexpr MethodSteps none() { return {false, false, false, false, false}; }
+  [[nodiscard]] static constexpr MethodSteps none() {
+    return {false, false, false, false, false, false};
+  }
 };
 
 }  // namespace orthonav::engine

@@ -59,7 +59,7 @@ void Session::measure_wire(Timestamp time) {
   } else if (observer_) {
     observer_->wire_measured(time, level(), guiding_.screw(), *placing_.wire());
   }
-  if (!refusal && placing_.spin()) {
+  if (!refusal && placing_.spin() && options_.steps.axis) {
     axis_check_.take(*placing_.spin(), tools_.geometry(tools_.guide()).axis_in_marker);
     if (observer_) {
       observer_->axis_compared(time, *axis_check_.last());

@@ -11,10 +11,11 @@ struct NamedStep {
   void (*leave_out)(OperationOptions& options);
 };
 
-constexpr std::array<NamedStep, 8> kSteps = {{
+constexpr std::array<NamedStep, 9> kSteps = {{
     {"check points", [](OperationOptions& o) { o.session.steps.check_points = false; }},
     {"landmark", [](OperationOptions& o) { o.session.steps.landmark = false; }},
     {"tips", [](OperationOptions& o) { o.session.steps.tips = false; }},
+    {"axis", [](OperationOptions& o) { o.session.steps.axis = false; }},
     {"tag sizes", [](OperationOptions& o) { o.correct_tag_sizes = false; }},
     {"wire", [](OperationOptions& o) { o.session.steps.wire = false; }},
     {"redo", [](OperationOptions& o) { o.session.steps.redo = false; }},

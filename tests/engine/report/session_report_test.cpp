@@ -66,7 +66,7 @@ TEST(SessionReport, SaysWhereTheToolsWentAndWhatWasNotMeasured) {
   session.calibration = CalibrationInUse{{{"guide", 0.003, 0.004, 0.001}}, {}};
   const std::string page = session_page(session, "j");
   EXPECT_THAT(page, HasSubstr("15.1, 20.2, 0.3 ± 0.60"));
-  EXPECT_THAT(page, HasSubstr("0.000, -1.000, 0.000 ± 0.57"));
+  EXPECT_THAT(page, HasSubstr("0.000, \u22121.000, 0.000 ± 0.57"));
   EXPECT_THAT(page, HasSubstr("A 93 %, B 7 %"));
   EXPECT_THAT(page, HasSubstr("<td>L4 right</td><td>not measured</td>"));
   EXPECT_THAT(page, HasSubstr("<td>guide</td><td>0.40 ± 0.10</td><td>0.30</td>"));

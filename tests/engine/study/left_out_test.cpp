@@ -26,11 +26,14 @@ TEST(LeftOut, EachStepIsSwitchedOffAlone) {
   EXPECT_TRUE(options.session.steps.tips);
   EXPECT_TRUE(options.use_reference);
   EXPECT_EQ(options.sim.guidance, sim::GuidanceProfile::kClosedLoop);
+  ASSERT_TRUE(leave_out("axis", options).ok());
+  EXPECT_FALSE(options.session.steps.axis);
+  EXPECT_TRUE(options.session.steps.wire);
   ASSERT_TRUE(leave_out("numbers", options).ok());
   EXPECT_EQ(options.sim.guidance, sim::GuidanceProfile::kNumbers);
   ASSERT_TRUE(leave_out("reference", options).ok());
   EXPECT_FALSE(options.use_reference);
-  EXPECT_EQ(left_out_of(options), "tag sizes, numbers, reference");
+  EXPECT_EQ(left_out_of(options), "tag sizes, axis, numbers, reference");
 }
 
 TEST(LeftOut, RefusesWhatIsNoStepAndWhatIsGoneAlready) {
