@@ -196,11 +196,21 @@ void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points) {
   // What may be off by chance; less than that is never held against a touch.
   constexpr double kMostSds = 4.0;
   constexpr double kTouch_m = 0.001;
+  constexpr std::size_t kMany = 8;
+  constexpr double kMostWithin = 2.0;
   const std::size_t before = joined.off_m.size() - points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double off_m = joined.off_m[before + i];
     const double limit_m = std::max(kTouch_m, kMostSds * joined.off_sd_m[before + i]);
-    if (points[i].within && !(std::abs(off_m) <= limit_m)) {
+    const bool fits = std::abs(off_m) <= limit_m;
+    // Of many places some lie beyond a fixed limit, by the model and by how the map walked since;
+    // what the others say of each is the better judge of it.
+    if (fits && joined.off_m.size() >= kMany &&
+        std::abs(points[i].distance_m) <= kMostWithin * points[i].limit_m) {
+      points[i].limit_m = std::max(points[i].limit_m, std::abs(points[i].distance_m));
+      points[i].within = true;
+    }
+    if (points[i].within && !fits) {
       points[i].within = false;
       points[i].distance_m = off_m;
       points[i].limit_m = limit_m;
