@@ -278,8 +278,7 @@ Result<std::string> report_html(const ReportContent& content) {
   table_against_paper(report, html);
   add_notes(report, content.notes, html);
   table_of_levels(report, html);
-  html += clearance_section(report);
-  html += tracked_section(report);
+  html += clearance_section(report) + tracked_section(report);
   for (const RegisteredLevel& level : content.registrations) {
     const auto section = registration_section(level);
     if (!section) {

@@ -6,6 +6,7 @@
 #include "base/angle.h"
 #include "embedded/report_css.h"
 #include "engine/report/html_text.h"
+#include "engine/report/session_notes.h"
 #include "engine/report/session_report.h"
 #include "engine/report/tracked_section.h"
 #include "engine/session/replan_wording.h"
@@ -123,26 +124,6 @@ void put_levels(const SessionRecord& session, std::string& html) {
   }
 }
 
-/// "0.8 ± 0.4°, 0.6 ± 0.3 mm, kept; redone once": how the wire was measured where it stood.
-std::string wire_text(const RecordedScrew& screw) {
-  std::string text = "\u2013";
-  if (const auto& wire = screw.wire) {
-    text = html_number(degrees(wire->angle_rad), 1) + " \u00b1 " +
-           html_number(degrees(wire->angle_sd_rad), 1) + "\u00b0, " +
-           html_number(wire->entry_m * 1e3, 1) + " \u00b1 " +
-           html_number(wire->entry_sd_m * 1e3, 1) + " mm";
-    if (!wire->within) {
-      text = "<span class=bad>" + text + "</span>" + (wire->kept ? ", kept" : "");
-    }
-  } else if (screw.wire_asked) {
-    text = "not measured";
-  }
-  if (screw.redone > 0) {
-    text += "; redone" + (screw.redone > 1 ? " " + std::to_string(screw.redone) + " times" : "");
-  }
-  return text;
-}
-
 void put_screws(const SessionRecord& session, std::string& html) {
   const bool any = std::any_of(session.levels.begin(), session.levels.end(),
                                [](const RecordedLevel& level) { return !level.screws.empty(); });
@@ -239,30 +220,6 @@ void put_registrations(const SessionRecord& session, std::string& html) {
     }
   }
   html += kTableEnd;
-}
-
-/// What was found of the guide: its tip in one dimple with the pointer's, its axis on a wire.
-std::string guide_notes(const SessionRecord& session) {
-  std::string html = "<ul class=notes><li>";
-  if (!session.tips) {
-    html += "The tips of pointer and guide were not compared.</li>";
-  } else {
-    html += "In one dimple the tips of pointer and guide were " +
-            html_number(session.tips->apart_m * 1e3, 2) + " mm apart" +
-            (session.tips->corrected ? "; the guide\u2019s was corrected by " +
-                                           html_number(session.tips->by_m * 1e3, 2) + " mm"
-                                     : "") +
-            ".</li>";
-  }
-  if (session.axis) {
-    html += "<li>On the last wire over which its sleeve was turned, the guide\u2019s axis was " +
-            html_number(degrees(session.axis->off_rad), 2) + "\u00b0 off" +
-            (session.axis->corrected
-                 ? "; corrected by " + html_number(degrees(session.axis->by_rad), 2) + "\u00b0"
-                 : "") +
-            ".</li>";
-  }
-  return html + "</ul>";
 }
 
 void put_steps(const SessionRecord& session, std::string& html) {

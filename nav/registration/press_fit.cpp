@@ -17,7 +17,6 @@ constexpr double kOnSurface_m = 1e-5;
 /// Soft tissue under a pressed tip is alike over such a distance.
 constexpr double kSameTissue_m = 0.003;
 constexpr double kUsualModelSd_m = 0.0005;
-
 /// By a step of the pose, the points moving in the model's frame about `centre`.
 Pose6 slope(const PressedHeight& at, Vec3 centre_m) {
   const Vec3 by_rotation = (at.at_m - centre_m).cross(at.up);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "tests/nav/registration/residual_field_fixture.h"
 
 namespace orthonav::nav::residual_field_test {
