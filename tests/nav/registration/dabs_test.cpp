@@ -178,7 +178,11 @@ TEST(Dabs, OnAMapThatWalksTheNewestCountMost) {
   };
   EXPECT_LT(off_m(walking), 0.0008);
   const Registration r = bone.joined(places, walking).registration;
-  EXPECT_GT(r.uncertainty->predicted_tre_m(bone.options.targets.front()), r.predicted_tre_m)
+  double worst_m = 0.0;
+  for (const Point<Vertebra>& target : bone.options.targets) {
+    worst_m = std::max(worst_m, r.uncertainty->predicted_tre_m(target));
+  }
+  EXPECT_GT(worst_m, r.predicted_tre_m)
       << "limits are about the registration, the uncertainty is not";
   EXPECT_GT(off_m({}), 0.0008) << "the twin: on a map that is said to stay";
 }
