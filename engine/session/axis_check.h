@@ -29,7 +29,7 @@ struct AxisCheckRules {
 /// Each wire that is measured so tells of the axis; what is corrected counts as known from then on.
 class AxisCheck {
  public:
-  AxisCheck() = default;
+  AxisCheck() : AxisCheck(AxisCheckRules{}) {}
   explicit AxisCheck(const AxisCheckRules& rules) : rules_(rules), sd_rad_(rules.prior_sd_rad) {}
 
   void take(const nav::SpinCalibration& measured, Direction<Marker> in_use);

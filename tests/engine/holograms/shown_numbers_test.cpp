@@ -119,8 +119,8 @@ TEST_F(ShownNumbers, AreAbsentWhereTheToolWasNotMeasuredInThisPair) {
 TEST_F(ShownNumbers, GoWithAPoseThatIsTooOldWhereverTheyStand) {
   const Guidance& g = guided({});
   render::Scene scene = scene_of(g);
-  EXPECT_EQ(drawn(scene).size(), 11u)
-      << "four numbers, tip, aims, clearance and bound with their words, the status line's row";
+  EXPECT_EQ(drawn(scene).size(), 12u) << "four numbers, tip, aims, clearance and bound with their "
+                                         "words and what they are of, the row";
   const Told late = told(g, g.tool->pose_time + g.stale_after + Duration(1));
   EXPECT_THAT(late.texts, IsEmpty());
   EXPECT_THAT(late.status, ::testing::Not(::testing::HasSubstr("tip")));
@@ -161,11 +161,12 @@ TEST_F(ShownNumbers, KnowTheErrorThatAllStrokesShare) {
 
 TEST_F(ShownNumbers, HaveTheClearanceBelowThem) {
   // The wall at x = 30 mm, a radius of 3 mm; the bound is 1.6 SDs of 0.3 mm less.
-  EXPECT_EQ(told(guided({0.01055, 0.010, 0.0})).clearance, "clearance 1.4 mm, at least 0.9 mm");
+  EXPECT_EQ(told(guided({0.01055, 0.010, 0.0})).clearance,
+            "clearance 1.4 mm, at least 0.9 mm (registration only)");
   const Told near = told(guided({0.01185, 0.010, 0.0}));
-  EXPECT_EQ(near.clearance, "clearance 0.1 mm: may break through laterally");
+  EXPECT_EQ(near.clearance, "clearance 0.1 mm: may break through laterally (registration only)");
   const Guidance& out = guided({0.01305, 0.010, 0.0});
-  EXPECT_EQ(told(out).clearance, "clearance −1.1 mm: breaks through laterally");
+  EXPECT_EQ(told(out).clearance, "clearance −1.1 mm: breaks through laterally (registration only)");
   EXPECT_THAT(drawn(scene_of(out)), ::testing::Contains("breaks through laterally"));
   s.tracker().guide_origin = PoseStatus::kPredicted;
   EXPECT_EQ(told(s.pair()).clearance, "") << "with the measurement";

@@ -111,7 +111,7 @@ TEST(RegistrationPage, MarksEveryFigureThatFailsInWordsAndNoneAsGood) {
   covariance[0] = covariance[7] = covariance[14] = 1.222e-3 * 1.222e-3;
   r.uncertainty = nav::PoseUncertainty{{}, covariance};
   r.tre_99_m = 0.00411;
-  r.mirror_log_likelihood = 5.0;
+  r.mirror_log_likelihood = 7.0;
   const std::string page = registration_section(level).value();
   for (const char* name : {"Points on the bone", "Surface stroked", "Margin of"}) {
     EXPECT_THAT(row_of(page, name), HasSubstr("✗ <b>below the limit</b>")) << name;
