@@ -177,6 +177,7 @@ void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArgument
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size)
 void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<PreviewArguments>();
   auto* preview = app.add_subcommand(

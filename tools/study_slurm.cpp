@@ -114,6 +114,7 @@ int shell(const std::string& command) {
 
 /// Whether the shell would find a program.
 bool is_there(const std::string& program) {
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing writes the environment.
   const char* path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');) {

@@ -51,6 +51,7 @@ Result<LoopReport> run_until_done(const OperationHooks& hooks, AssembledOperatio
   return report;
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Operation operation,
                                 const OperationOptions& options, const OperationHooks& hooks) {
   // The engine gets the tools as a planning file describes them, not as they really are.

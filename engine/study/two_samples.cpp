@@ -39,8 +39,10 @@ double incomplete_beta(double x, double a, double b) {
   if (x <= 0.0 || x >= 1.0) {
     return x <= 0.0 ? 0.0 : 1.0;
   }
+  // NOLINTBEGIN(concurrency-mt-unsafe): only the sign, which nothing reads, is shared.
   const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
                                 a * std::log(x) + b * std::log1p(-x));
+  // NOLINTEND(concurrency-mt-unsafe)
   return x < (a + 1.0) / (a + b + 2.0) ? front * beta_fraction(x, a, b) / a
                                        : 1.0 - front * beta_fraction(1.0 - x, b, a) / b;
 }

@@ -155,6 +155,7 @@ ToolBodies::ToolBodies(const RoomDescription& room) {
   }
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 void ToolBodies::gather(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
                         Solids& solids, double gloss) const {
   solids.plates.clear();
