@@ -1,5 +1,6 @@
 #include "hal/hl2ss/hl2ss_headset.h"
 
+#include <algorithm>
 #include <thread>
 #include <utility>
 
@@ -47,10 +48,15 @@ Result<StereoCalibration> ask_calibration(const Endpoint& endpoint, const Hl2ssO
 }
 
 /// 0 where nobody tells it: stamps then count from a moment without a name.
-std::int64_t ask_utc_offset(const Endpoint& endpoint, const Hl2ssOptions& options) {
+std::int64_t ask_utc_offset(const Endpoint& endpoint, const Hl2ssOptions& options,
+                            HostTime deadline) {
   const std::uint8_t request[] = {kAskUtcOffset};
+  const HostTime now = HostClock::now();
+  // Where nobody answers, most of the time is left for the images.
+  const HostTime within =
+      now + std::min<HostClock::duration>(kConfigurationWithin, (deadline - now) / 4);
   const auto answer = ask(endpoint, options.first_port + offset_of(Service::kConfiguration),
-                          request, sizeof(std::uint64_t), HostClock::now() + kConfigurationWithin);
+                          request, sizeof(std::uint64_t), within);
   if (!answer) {
     return 0;
   }
@@ -181,7 +187,7 @@ Result<std::unique_ptr<Hl2ssHeadset>> Hl2ssHeadset::open(const Hl2ssOptions& opt
   if (!calibration) {
     return trouble_with(options.host, calibration.error().message);
   }
-  const std::int64_t utc_offset = ask_utc_offset(*endpoint, options);
+  const std::int64_t utc_offset = ask_utc_offset(*endpoint, options, deadline);
   auto receiver = Receiver::start(*endpoint, options, utc_offset);
   if (!receiver) {
     return trouble_with(options.host, receiver.error().message);
