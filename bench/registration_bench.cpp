@@ -31,10 +31,6 @@ struct Arguments {
   bool each = false;
 };
 
-bool chosen(const std::vector<std::string>& wanted, const std::string& name) {
-  return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-}
-
 void print_costs(const std::vector<BenchLevel>& levels) {
   double slowest_ms = 0.0;
   for (const BenchLevel& level : levels) {

@@ -43,6 +43,10 @@ void introduce(std::vector<BenchLevel>& levels) {
 
 }  // namespace
 
+bool chosen(const std::vector<std::string>& wanted, const std::string& name) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+}
+
 Result<std::vector<BenchLevel>> load_levels(const LevelOptions& options) {
   std::vector<BenchLevel> levels;
   for (const std::string& folder : case_folders(options.anatomy)) {
@@ -53,12 +57,12 @@ Result<std::vector<BenchLevel>> load_levels(const LevelOptions& options) {
     for (const engine::CaseLevel& from : source->levels) {
       BenchLevel level;
       level.case_name = std::filesystem::path(folder).filename().string();
-      level.label = from.label, level.mesh = from.mesh, level.screws = from.screws;
-      const auto& wanted = options.levels;
-      if (!wanted.empty() &&
-          std::find(wanted.begin(), wanted.end(), level.name()) == wanted.end()) {
+      level.label = from.label;
+      if (!chosen(options.levels, level.name())) {
         continue;
       }
+      level.mesh = from.mesh;
+      level.screws = from.screws;
       const Stopwatch watch;
       auto model = nav::VertebraModel::prepare(modelled(from.mesh, options));
       level.prepare_ms = watch.elapsed_ms();

@@ -17,6 +17,9 @@ struct LevelOptions {
   bool alone = false;               ///< no level knows of the others of its case
 };
 
+/// Whether a name is among those wanted; none wanted: all are.
+[[nodiscard]] bool chosen(const std::vector<std::string>& wanted, const std::string& name);
+
 /// Sorted by case. Each is prepared; an Error where none is found.
 Result<std::vector<BenchLevel>> load_levels(const LevelOptions& options);
 

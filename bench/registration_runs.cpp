@@ -114,6 +114,31 @@ void measure_level(const BenchLevel& level, const std::vector<RegistrationMethod
   }
 }
 
+/// Strokes of a level, and what a method makes of them there.
+struct OnOwnLevel {
+  test::StrokeVariant variant{};
+  std::vector<Point<World>> points;
+  bool found = false;
+  double rmse_m = 0.0;
+};
+
+std::vector<OnOwnLevel> on_own_level(const BenchLevel& level, const RegistrationMethod& method,
+                                     const RunOptions& options) {
+  const Fit fit = method.prepare(level);
+  std::vector<OnOwnLevel> sets;
+  for (const auto variant : options.variants) {
+    for (std::uint64_t k = 0; k < options.seeds; ++k) {
+      OnOwnLevel set{variant, strokes_of(level, variant, options.first_seed + k, options).tips()};
+      double ms = 0.0;
+      const Fitted right = fitted_by(method, fit, level, set.points, ms);
+      set.found = right.found;
+      set.rmse_m = right.rmse_m;
+      sets.push_back(std::move(set));
+    }
+  }
+  return sets;
+}
+
 /// Calls `work` for 0 to count - 1, some of them concurrently.
 template <class Work>
 void in_parallel(std::size_t count, unsigned jobs, const Work& work) {
@@ -164,27 +189,19 @@ std::vector<WrongLevelRun> measure_wrong_levels(const std::vector<BenchLevel>& l
   std::vector<std::vector<WrongLevelRun>> parts(levels.size());
   in_parallel(levels.size(), options.jobs, [&](std::size_t i) {
     const BenchLevel& stroked = levels[i];
-    std::vector<const BenchLevel*> others;
-    for (const BenchLevel& other : levels) {
-      if (&other != &stroked && other.case_name == stroked.case_name) {
-        others.push_back(&other);
-      }
-    }
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      const Fit own = methods[m].prepare(stroked);
-      for (const BenchLevel* other : others) {
-        const Fit fit = methods[m].prepare(*other);
-        for (const auto variant : options.variants) {
-          for (std::uint64_t k = 0; k < options.seeds; ++k) {
-            const std::uint64_t seed = options.first_seed + k;
-            const auto points = strokes_of(stroked, variant, seed, options).tips();
-            double ms = 0.0;
-            const Fitted wrong = fitted_by(methods[m], fit, *other, points, ms);
-            const Fitted right = fitted_by(methods[m], own, stroked, points, ms);
-            parts[i].push_back({stroked.name(), other->name(), variant, m, wrong.accepted,
-                                stroked.label, wrong.fits_better,
-                                right.found && (!wrong.found || right.rmse_m < wrong.rmse_m)});
-          }
+      const std::vector<OnOwnLevel> sets = on_own_level(stroked, methods[m], options);
+      for (const BenchLevel& other : levels) {
+        if (&other == &stroked || other.case_name != stroked.case_name) {
+          continue;
+        }
+        const Fit fit = methods[m].prepare(other);
+        for (const OnOwnLevel& set : sets) {
+          double ms = 0.0;
+          const Fitted wrong = fitted_by(methods[m], fit, other, set.points, ms);
+          const bool better = set.found && (!wrong.found || set.rmse_m < wrong.rmse_m);
+          parts[i].push_back({stroked.name(), other.name(), set.variant, m, wrong.accepted,
+                              stroked.label, wrong.fits_better, better});
         }
       }
     }

@@ -58,16 +58,17 @@ using Variants = std::vector<test::StrokeVariant>;
 using Methods = std::vector<RegistrationMethod>;
 
 /// Calls `row` for every variant and method, and for all variants together where there are several.
-void for_rows(const std::vector<Run>& runs, const Methods& methods, const Variants& variants,
-              const std::function<void(const char*, std::size_t, const std::vector<Run>&)>& row) {
+template <class R, class Row>
+void for_rows(const std::vector<R>& runs, const Methods& methods, const Variants& variants,
+              const Row& row) {
   std::vector<std::optional<test::StrokeVariant>> groups(variants.begin(), variants.end());
   if (variants.size() > 1) {
     groups.emplace_back(std::nullopt);
   }
   for (const auto& group : groups) {
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      std::vector<Run> chosen;
-      for (const Run& run : runs) {
+      std::vector<R> chosen;
+      for (const R& run : runs) {
         if (run.method == m && (!group || run.variant == *group)) {
           chosen.push_back(run);
         }
@@ -220,29 +221,20 @@ void print_wrong_levels(const std::vector<WrongLevelRun>& runs, const Methods& m
   std::printf(
       "| strokes | method | runs | accepted | the right level fits better | it is named | a wrong "
       "one is |\n|---|---|---:|---:|---:|---:|---:|\n");
-  std::vector<std::optional<test::StrokeVariant>> groups(variants.begin(), variants.end());
-  if (variants.size() > 1) {
-    groups.emplace_back(std::nullopt);
-  }
-  for (const auto& group : groups) {
-    for (std::size_t m = 0; m < methods.size(); ++m) {
-      std::size_t all = 0, accepted = 0, better = 0, named = 0, wrong = 0;
-      for (const WrongLevelRun& run : runs) {
-        if ((group && run.variant != *group) || run.method != m) {
-          continue;
-        }
-        ++all;
-        accepted += run.accepted ? 1 : 0;
-        better += run.right_fits_better ? 1 : 0;
-        named += run.right_named() ? 1 : 0;
-        wrong += run.wrong_named() ? 1 : 0;
-      }
-      std::printf("| %s | %s | %zu | %s | %s | %s | %s |\n", group ? test::name_of(*group) : "all",
-                  methods[m].name.c_str(), all, counted(accepted, all).c_str(),
-                  counted(better, all).c_str(), counted(named, all).c_str(),
-                  counted(wrong, all).c_str());
-    }
-  }
+  for_rows(runs, methods, variants,
+           [&](const char* group, std::size_t m, const std::vector<WrongLevelRun>& chosen) {
+             std::size_t accepted = 0, better = 0, named = 0, wrong = 0;
+             for (const WrongLevelRun& run : chosen) {
+               accepted += run.accepted ? 1 : 0;
+               better += run.right_fits_better ? 1 : 0;
+               named += run.right_named() ? 1 : 0;
+               wrong += run.wrong_named() ? 1 : 0;
+             }
+             const std::size_t all = chosen.size();
+             std::printf("| %s | %s | %zu | %s | %s | %s | %s |\n", group, methods[m].name.c_str(),
+                         all, counted(accepted, all).c_str(), counted(better, all).c_str(),
+                         counted(named, all).c_str(), counted(wrong, all).c_str());
+           });
 }
 
 void print_each(const std::vector<Run>& runs, const Methods& methods) {

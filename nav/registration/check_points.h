@@ -17,12 +17,14 @@ namespace orthonav::nav {
 /// each near the surface. What the fit itself says can't show that it was told the wrong thing;
 /// three spread distances see every motion of a rigid body but those along the surface.
 struct CheckPointRules {
-  double apart_m = 0.015;     ///< each of the three from each other
-  double within_m = 0.002;    ///< of the surface, every check point
+  double apart_m = 0.015;  ///< each of the three from each other
+  /// Of the surface, every check point; from 8 places on up to twice that.
+  double within_m = 0.002;
   double off_line_m = 0.005;  ///< the least height of their triangle
-  /// So many more are asked for as long as 1 of 100 errors at the screws may exceed
-  /// `wanted_tre_99_m` and the next one would take this part of the error away: a second and a half
-  /// each. From then on what a registration is allowed will do.
+  /// With a patient reference, places are asked for, up to so many in all, while 1 of 100 errors at
+  /// the screws may exceed `wanted_tre_99_m` and the next place would reduce the expected error by
+  /// at least this fraction
+  /// (`least_gain`). After that the limits of any registration apply.
   std::size_t enough = 40;
   double wanted_tre_99_m = 0.001;
   double least_gain = 0.005;
@@ -80,8 +82,8 @@ struct CheckVerdict {
   CheckAdvice advice;
 };
 
-/// The places that check points are, against a registration that took them in: the last that it
-/// did.
+/// Judges check points against a registration that took them in; they are the last of its places.
+/// From 8 places on, one that agrees with the others may lie up to twice its limit off.
 void weigh(const JoinedPlaces& joined, std::span<CheckPoint> points);
 /// The verdict, where the registration that took them in must be certain at the screws as well.
 /// `next`: what is worth touching after them.

@@ -1,11 +1,9 @@
 #include "nav/registration/estimated_heights.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <unordered_map>
 
+#include "nav/registration/cells.h"
 #include "nav/registration/height_model.h"
 
 namespace orthonav::nav {
@@ -13,7 +11,6 @@ namespace {
 
 /// The others change nothing that could be seen.
 constexpr std::size_t kMostHypotheses = 3;
-constexpr std::size_t kMostUnits = 160;
 constexpr double kNear_m = 0.004;
 constexpr std::size_t kFewestPairs = 100;
 /// Points about which neighbours are sought; more tell no more.
@@ -24,21 +21,6 @@ std::vector<FieldHypothesis> likeliest(std::vector<FieldHypothesis> all) {
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });
   all.resize(std::min(all.size(), kMostHypotheses));
   return all;
-}
-
-using Cell = std::array<std::int64_t, 3>;
-struct HashOfCell {
-  std::size_t operator()(const Cell& cell) const {
-    std::uint64_t hash = 0;
-    for (const std::int64_t i : cell) {
-      hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15ULL;
-      hash ^= hash >> 29U;
-    }
-    return static_cast<std::size_t>(hash);
-  }
-};
-Cell cell_of(Vec3 p) {
-  return {std::llround(p.x / kNear_m), std::llround(p.y / kNear_m), std::llround(p.z / kNear_m)};
 }
 
 struct OnStroke {
@@ -64,8 +46,8 @@ std::vector<OnStroke> about_their_mean(const SurfaceFit& fit, const ResidualUnit
 
 }  // namespace
 
-std::vector<EstimatedHeight> estimated_heights(const SurfaceFit& fit, const ResidualField& field) {
-  const ResidualUnits units = residual_units(fit, kMostUnits);
+std::vector<EstimatedHeight> estimated_heights(const SurfaceFit& fit, const ResidualUnits& units,
+                                               const ResidualField& field) {
   const AlongStrokes seen = along_strokes(fit, units);
   if (seen.covariance_m2.empty()) {
     return {};
@@ -77,8 +59,8 @@ std::vector<EstimatedHeight> estimated_heights(const SurfaceFit& fit, const Resi
   }
   double probability = 0.0;
   for (const FieldHypothesis& hypothesis : likeliest(field.hypotheses)) {
-    const HeightField heights = heights_of(hypothesis);
-    const auto estimated = model.heights_without_noise(heights, noise_beside_field(seen, heights));
+    const auto estimated =
+        model.heights_without_noise(hypothesis, noise_beside_field(seen, hypothesis));
     if (estimated.empty()) {
       continue;
     }
@@ -96,17 +78,16 @@ std::vector<EstimatedHeight> estimated_heights(const SurfaceFit& fit, const Resi
   return out;
 }
 
-double correlation_across_strokes(const SurfaceFit& fit) {
-  const ResidualUnits units = residual_units(fit, kMostUnits);
+double correlation_across_strokes(const SurfaceFit& fit, const ResidualUnits& units) {
   if (!units.along_strokes) {
     return 0.0;
   }
-  std::unordered_map<Cell, std::vector<OnStroke>, HashOfCell> cells;
+  std::unordered_map<GridCell, std::vector<OnStroke>, HashOfCell> cells;
   double product_m2 = 0.0;
   double squares_m2 = 0.0;
   std::size_t pairs = 0;
   for (const OnStroke& p : about_their_mean(fit, units)) {
-    const Cell here = cell_of(p.at_m);
+    const GridCell here = cell_of(p.at_m, kNear_m);
     for (int i = 0; i < 27; ++i) {
       const auto there =
           cells.find({here[0] + i % 3 - 1, here[1] + i / 3 % 3 - 1, here[2] + i / 9 - 1});

@@ -97,7 +97,7 @@ HeightModel::Answer plain(const UnknownsAnswer& a) {
 class HeightModel::Matrices {
  public:
   Matrices(const SurfaceFit& fit, const ResidualUnits& units);
-  [[nodiscard]] Eigen::MatrixXd covariance(const HeightField& field, const StrokeNoise& noise);
+  [[nodiscard]] Eigen::MatrixXd covariance(const FieldHypothesis& field, const StrokeNoise& noise);
   [[nodiscard]] std::optional<Answers> solve(const Eigen::MatrixXd& covariance) const;
   /// `shared`: of the covariance, what is no noise.
   [[nodiscard]] std::vector<double> without_noise(const Eigen::MatrixXd& covariance,
@@ -106,7 +106,7 @@ class HeightModel::Matrices {
  private:
   [[nodiscard]] Eigen::MatrixXd noise_covariance(const StrokeNoise& noise, double stroke_m2) const;
   /// Of a field, between units; that of the last length is kept.
-  [[nodiscard]] const Eigen::MatrixXd& field_correlation(const HeightField& field);
+  [[nodiscard]] const Eigen::MatrixXd& field_correlation(const FieldHypothesis& field);
   [[nodiscard]] double own_noise_m2(const ResidualUnit& unit, const StrokeNoise& noise) const;
 
   const SurfaceFit& fit_;
@@ -132,16 +132,17 @@ HeightModel::Matrices::Matrices(const SurfaceFit& fit, const ResidualUnits& unit
   }
 }
 
-Eigen::MatrixXd HeightModel::Matrices::covariance(const HeightField& field,
+Eigen::MatrixXd HeightModel::Matrices::covariance(const FieldHypothesis& field,
                                                   const StrokeNoise& noise) {
-  Eigen::MatrixXd out = noise_covariance(noise, field.stroke_m2);
-  if (field.variance_m2 > 0.0) {
-    out += field.variance_m2 * field_correlation(field);
+  Eigen::MatrixXd out = noise_covariance(noise, field.stroke_sd_m * field.stroke_sd_m);
+  const double variance_m2 = field.sd_m * field.sd_m;
+  if (variance_m2 > 0.0) {
+    out += variance_m2 * field_correlation(field);
   }
   return out;
 }
 
-const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(const HeightField& field) {
+const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(const FieldHypothesis& field) {
   if (field.length_m == last_length_m_) {
     return last_correlation_;
   }
@@ -246,15 +247,15 @@ HeightModel::HeightModel(const SurfaceFit& fit, const ResidualUnits& units)
     : matrices_(std::make_unique<Matrices>(fit, units)) {}
 HeightModel::~HeightModel() = default;
 
-std::optional<HeightModel::Answers> HeightModel::solve(const HeightField& field,
+std::optional<HeightModel::Answers> HeightModel::solve(const FieldHypothesis& field,
                                                        const StrokeNoise& noise) {
   return matrices_->solve(matrices_->covariance(field, noise));
 }
 
-std::vector<double> HeightModel::heights_without_noise(const HeightField& field,
+std::vector<double> HeightModel::heights_without_noise(const FieldHypothesis& field,
                                                        const StrokeNoise& noise) {
   const Eigen::MatrixXd all = matrices_->covariance(field, noise);
-  HeightField none;
+  FieldHypothesis none;
   const Eigen::MatrixXd shared = all - matrices_->covariance(none, noise);
   return matrices_->without_noise(all, shared);
 }

@@ -32,10 +32,11 @@ class HeightModel {
   };
   /// Given a field and the noise beside it. Nothing where a motion is undetermined. Fastest when
   /// fields of one length come one after the other.
-  [[nodiscard]] std::optional<Answers> solve(const HeightField& field, const StrokeNoise& noise);
+  [[nodiscard]] std::optional<Answers> solve(const FieldHypothesis& field,
+                                             const StrokeNoise& noise);
   /// The mean of each unit's height without its noise: standoff, field, and the stroke's own. Empty
   /// where a motion is undetermined.
-  [[nodiscard]] std::vector<double> heights_without_noise(const HeightField& field,
+  [[nodiscard]] std::vector<double> heights_without_noise(const FieldHypothesis& field,
                                                           const StrokeNoise& noise);
 
  private:

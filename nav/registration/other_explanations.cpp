@@ -21,7 +21,8 @@ constexpr std::size_t kUnitsCompared = 80;
 /// the others are not asked.
 constexpr std::size_t kMirroredFew = 150;
 constexpr double kHopeless = 100.0;
-/// Starts of the mirrored points are told apart by every third of them, and some tried closer.
+/// Every start is first tried with a third of the mirrored points; the best few are refined with
+/// all of them.
 constexpr std::size_t kEveryMirrored = 3;
 constexpr std::size_t kMirroredCloser = 3;
 constexpr int kRoughIterations = 3;
@@ -163,9 +164,9 @@ std::string OtherExplanations::better_level() const {
   std::string label;
   for (const NeighbourLevel& level : options_.neighbours) {
     const auto found = find_candidates(*level.model, cloud_, {}, options_.tip_radius_m);
-    const auto whole = found.best_first.empty()
-                           ? std::nullopt
-                           : fit_closely(*level.model, found.best_first[0].fit.pose);
+    const auto whole = found.best_first.empty() ? std::nullopt
+                                                : fit_to_bone(*level.model, cloud_.all_m,
+                                                              found.best_first[0].fit.pose, fine_);
     if (!whole) {
       continue;
     }
@@ -184,30 +185,22 @@ std::string OtherExplanations::better_level() const {
   return second - least < kLevelLogLikelihoodRatio ? std::string(kSeveralLevels) : label;
 }
 
-std::optional<SurfaceFit> OtherExplanations::fit_closely(const VertebraModel& model,
-                                                         const CentredPose& start) const {
-  const std::vector<Vec3> near_m = places_near(model, cloud_.all_m, start);
-  SurfaceFitOptions closely = fine_;
-  closely.near_m = near_m;
-  return fit_to_surface(model.reachable_surface(), cloud_.all_m, start, closely);
-}
-
 double OtherExplanations::mirror_log_likelihood() const {
   const Cloud mirrored = mirrored_cloud(cloud_, best_.fit.pose);
   const auto few = best_mirrored_fit(mirrored.few_m);
   if (!few) {
     return -std::numeric_limits<double>::infinity();
   }
-  const double by_cost = (truncated_cost_m2(*few, width_m_) - best_cost_m2_) / unit_m2_;
+  const double by_cost = (few->cost_m2 - best_cost_m2_) / unit_m2_;
   if (by_cost > kHopeless) {
     return -by_cost;
   }
   // Whatever helps the answer helps its mirror image: the same fit, to the end.
-  const auto whole = final_fit(model_, mirrored, *few, options_);
+  const auto whole = final_fit(model_, mirrored, few->fit, options_);
   return whole ? -log_likelihood_ratio(whole->fit) : -std::numeric_limits<double>::infinity();
 }
 
-std::optional<SurfaceFit> OtherExplanations::best_mirrored_fit(
+std::optional<Candidate> OtherExplanations::best_mirrored_fit(
     std::span<const Vec3> points_m) const {
   CentredPose start;
   start.centre_m = best_.fit.pose.centre_m;
@@ -216,34 +209,36 @@ std::optional<SurfaceFit> OtherExplanations::best_mirrored_fit(
   for (std::size_t i = 0; i < points_m.size(); i += kEveryMirrored) {
     fewer_m.push_back(points_m[i]);
   }
-  std::vector<SurfaceFit> rough;
+  std::vector<Candidate> rough;
   for (const CentredPose& aside : poses_about(start)) {
     if (auto fit = mirrored_fit(fewer_m, aside, kRoughIterations)) {
       rough.push_back(std::move(*fit));
     }
   }
-  const auto cost = [&](const SurfaceFit& fit) { return truncated_cost_m2(fit, width_m_); };
   std::stable_sort(rough.begin(), rough.end(),
-                   [&](const SurfaceFit& a, const SurfaceFit& b) { return cost(a) < cost(b); });
-  std::optional<SurfaceFit> best;
+                   [](const Candidate& a, const Candidate& b) { return a.cost_m2 < b.cost_m2; });
+  std::optional<Candidate> best;
   for (std::size_t i = 0; i < std::min(kMirroredCloser, rough.size()); ++i) {
-    auto fit = mirrored_fit(points_m, rough[i].pose, kCloserIterations);
-    if (fit && (!best || cost(*fit) < cost(*best))) {
+    auto fit = mirrored_fit(points_m, rough[i].fit.pose, kCloserIterations);
+    if (fit && (!best || fit->cost_m2 < best->cost_m2)) {
       best = std::move(fit);
     }
   }
   return best;
 }
 
-std::optional<SurfaceFit> OtherExplanations::mirrored_fit(std::span<const Vec3> points_m,
-                                                          const CentredPose& start,
-                                                          int iterations) const {
+std::optional<Candidate> OtherExplanations::mirrored_fit(std::span<const Vec3> points_m,
+                                                         const CentredPose& start,
+                                                         int iterations) const {
   SurfaceFitOptions quick = fine_;
-  const std::vector<Vec3> near_m = places_near(model_, points_m, start);
-  quick.near_m = near_m;
   quick.point_sd_m = {};
   quick.max_iterations = iterations;
-  return fit_to_surface(model_.reachable_surface(), points_m, start, quick);
+  auto fit = fit_to_bone(model_, points_m, start, quick);
+  if (!fit) {
+    return std::nullopt;
+  }
+  const double cost_m2 = truncated_cost_m2(*fit, width_m_);
+  return Candidate{std::move(*fit), cost_m2};
 }
 
 }  // namespace orthonav::nav

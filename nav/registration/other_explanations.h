@@ -35,13 +35,10 @@ class OtherExplanations {
     double rmse_m = 0.0;
     double log_likelihood_ratio = 0.0;
   };
-  [[nodiscard]] std::optional<SurfaceFit> best_mirrored_fit(std::span<const Vec3> points_m) const;
-  [[nodiscard]] std::optional<SurfaceFit> mirrored_fit(std::span<const Vec3> points_m,
-                                                       const CentredPose& start,
-                                                       int iterations) const;
-  /// All points, to a model that need not be this one.
-  [[nodiscard]] std::optional<SurfaceFit> fit_closely(const VertebraModel& model,
-                                                      const CentredPose& start) const;
+  [[nodiscard]] std::optional<Candidate> best_mirrored_fit(std::span<const Vec3> points_m) const;
+  [[nodiscard]] std::optional<Candidate> mirrored_fit(std::span<const Vec3> points_m,
+                                                      const CentredPose& start,
+                                                      int iterations) const;
   [[nodiscard]] std::optional<Rival> judged(const Candidate& candidate,
                                             const Candidate& first) const;
   /// How much worse a fit of all points, to whatever model, explains those that the best one has

@@ -52,7 +52,7 @@ void refit_with_standoff(const VertebraModel& model, const Cloud& cloud, Surface
 /// The poses that the field suggests, fitted, in the order found.
 std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& cloud,
                                     std::span<const Point<Vertebra>> targets,
-                                    SurfaceFitOptions options) {
+                                    const SurfaceFitOptions& options) {
   PoseSearchOptions search;
   search.tip_radius_m = options.tip_radius_m;
   std::vector<Vec3> in_world;
@@ -71,9 +71,7 @@ std::vector<Candidate> fitted_poses(const VertebraModel& model, const Cloud& clo
         rivals || targets.empty() ||
         apart_m(pose.world_from_vertebra, poses[0].world_from_vertebra, targets) > kSameAtTargets_m;
     const CentredPose start = centred(pose.world_from_vertebra, cloud.centre_m);
-    const std::vector<Vec3> near_m = places_near(model, cloud.few_m, start);
-    options.near_m = near_m;
-    if (auto fit = fit_to_surface(model.reachable_surface(), cloud.few_m, start, options)) {
+    if (auto fit = fit_to_bone(model, cloud.few_m, start, options)) {
       found.push_back({std::move(*fit), 0.0});
     }
   }
@@ -117,6 +115,13 @@ std::vector<Vec3> places_near(const VertebraModel& model, std::span<const Vec3> 
     near_m.push_back(model.reachable_grid().nearest(pose.rotation * p + pose.centre_m));
   }
   return near_m;
+}
+
+std::optional<SurfaceFit> fit_to_bone(const VertebraModel& model, std::span<const Vec3> points_m,
+                                      const CentredPose& start, SurfaceFitOptions options) {
+  const std::vector<Vec3> near_m = places_near(model, points_m, start);
+  options.near_m = near_m;
+  return fit_to_surface(model.reachable_surface(), points_m, start, options);
 }
 
 bool is_credible_standoff(double standoff_m) { return standoff_m > 0.0 && standoff_m < kHighest_m; }

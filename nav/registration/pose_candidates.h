@@ -33,6 +33,12 @@ struct Cloud {
                                             std::span<const Vec3> points_m,
                                             const CentredPose& pose);
 
+/// Fits points to the reachable surface; finds `SurfaceFitOptions::near_m` itself.
+[[nodiscard]] std::optional<SurfaceFit> fit_to_bone(const VertebraModel& model,
+                                                    std::span<const Vec3> points_m,
+                                                    const CentredPose& start,
+                                                    SurfaceFitOptions options);
+
 /// Whether a mean height of the tip above the bone can be true: a tip does not dive into bone.
 [[nodiscard]] bool is_credible_standoff(double standoff_m);
 

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <limits>
 
+#include "nav/registration/press_covariance.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -14,48 +16,8 @@ using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>;
 
 /// Nearer to the surface than this, the direction to it says nothing.
 constexpr double kOnSurface_m = 1e-5;
-/// Soft tissue under a pressed tip is alike over such a distance.
-constexpr double kSameTissue_m = 0.003;
-constexpr double kUsualModelSd_m = 0.0005;
-/// By a step of the pose, the points moving in the model's frame about `centre`.
-Pose6 slope(const PressedHeight& at, Vec3 centre_m) {
-  const Vec3 by_rotation = (at.at_m - centre_m).cross(at.up);
-  Pose6 j;
-  j << at.up.x, at.up.y, at.up.z, by_rotation.x, by_rotation.y, by_rotation.z;
-  return j;
-}
 
-/// Of the bone's pose at the time of a press, the random walk of World among it, with its height.
-Pose6 shared_with_pose(const Covariance6& before, const PressedHeight& at, Vec3 centre_m,
-                       const PressModel& press) {
-  Pose6 shared = before * slope(at, centre_m);
-  const double walk_m2 = press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s * at.time_s;
-  shared.head<3>() += walk_m2 * Eigen::Vector3d(at.up.x, at.up.y, at.up.z);
-  return shared;
-}
-
-/// Of two heights, but for what each has alone, and for the model's error.
-double shared_m2(const Covariance6& before, const PressedHeight& a, const PressedHeight& b,
-                 Vec3 centre_m, const PressModel& press) {
-  const double walk_m2 =
-      press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s * std::min(a.time_s, b.time_s);
-  // Over the same tissue, a second press leaves what the first one left.
-  const double tissue = std::exp(-(a.at_m - b.at_m).norm() / kSameTissue_m);
-  return slope(a, centre_m).dot(before * slope(b, centre_m)) + walk_m2 * a.up.dot(b.up) +
-         press.common_sd_m * press.common_sd_m + press.sd_m * press.sd_m * tissue;
-}
-
-/// The pose's covariance once World walked until the last press.
-Covariance6 walked(Covariance6 before, std::span<const PressedPlace> places,
-                   const PressModel& press) {
-  double now_s = 0.0;
-  for (const PressedPlace& place : places) {
-    now_s = std::max(now_s, place.time_s);
-  }
-  before.topLeftCorner<3, 3>().diagonal().array() +=
-      press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s * now_s;
-  return before;
-}
+Pose6 pose_of(const std::array<double, 6>& step) { return Eigen::Map<const Pose6>(step.data()); }
 
 /// The heights of places about a pose, what a press leaves taken off, as of the step 0.
 struct Heights {
@@ -65,19 +27,27 @@ struct Heights {
   Eigen::MatrixXd rest_m2;  ///< covariance, but for the model's error
 };
 
-Heights heights_of(const VertebraModel& model, const Transform<Vertebra, World>& from_world,
-                   std::span<const PressedPlace> places, const Pose6& step, Vec3 centre_m,
-                   const Covariance6& before, const PressModel& press) {
-  const auto n = static_cast<Eigen::Index>(places.size());
+/// What every round is about.
+struct PressProblem {
+  const VertebraModel& model;
+  Transform<Vertebra, World> from_world;
+  std::span<const PressedPlace> places;
+  PressCovariance prior;
+  Covariance6 now;  ///< of the pose, once World walked until the last press
+};
+
+Heights heights_of(const PressProblem& problem, const Pose6& step) {
+  const auto n = static_cast<Eigen::Index>(problem.places.size());
+  const PressCovariance& prior = problem.prior;
   Heights out{{}, Eigen::VectorXd(n), Rows6(n, 6), Eigen::MatrixXd(n, n)};
   std::array<double, 6> here_step{};
   Eigen::Map<Pose6>(here_step.data()) = step;
-  const auto here = moved_by(here_step, centre_m) * from_world;
+  const auto here = moved_by(here_step, prior.centre_m) * problem.from_world;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const PressedPlace& place = places[static_cast<std::size_t>(i)];
+    const PressedPlace& place = problem.places[static_cast<std::size_t>(i)];
     const Vec3 p = (here * place.place).v;
-    const auto nearest = model.reachable_surface().nearest(p);
-    const double sign = model.surface().contains(p) ? -1.0 : 1.0;
+    const auto nearest = problem.model.reachable_surface().nearest(p);
+    const double sign = problem.model.surface().contains(p) ? -1.0 : 1.0;
     const bool apart = nearest && nearest->distance_m > kOnSurface_m;
     const Vec3 up = apart     ? (sign / nearest->distance_m) * (p - nearest->point_m)
                     : nearest ? nearest->normal
@@ -85,13 +55,12 @@ Heights heights_of(const VertebraModel& model, const Transform<Vertebra, World>&
     out.at.push_back({p, up, place.time_s, place.sd_m});
     const double height_m =
         nearest ? sign * nearest->distance_m : std::numeric_limits<double>::quiet_NaN();
-    out.above_m(i) =
-        height_m - press.height_m - press.tip_radius_m - slope(out.at.back(), centre_m).dot(step);
-    out.shared.row(i) = shared_with_pose(before, out.at.back(), centre_m, press).transpose();
+    out.above_m(i) = height_m - prior.press.height_m - prior.press.tip_radius_m -
+                     pose_of(prior.slope(out.at.back())).dot(step);
+    out.shared.row(i) = pose_of(prior.with_pose(out.at.back())).transpose();
     for (Eigen::Index k = 0; k <= i; ++k) {
       const PressedHeight& other = out.at[static_cast<std::size_t>(k)];
-      out.rest_m2(i, k) = out.rest_m2(k, i) =
-          shared_m2(before, out.at.back(), other, centre_m, press);
+      out.rest_m2(i, k) = out.rest_m2(k, i) = prior.between_m2(out.at.back(), other);
     }
     out.rest_m2(i, i) += place.sd_m * place.sd_m;
   }
@@ -145,8 +114,8 @@ Eigen::ArrayXd normalized(const Eigen::ArrayXd& logs) {
   return weights / weights.sum();
 }
 
-/// Each place against all others: they say what the field is like, the place itself does not, or
-/// one that slipped would pass for a bad model.
+/// Each place against all others, with the model's error that these alone suggest; otherwise one
+/// that slipped would look like a bad model.
 void leave_one_out(const std::vector<Answer>& answers, PressFit& out) {
   const auto fields = static_cast<Eigen::Index>(answers.size());
   for (Eigen::Index i = 0; i < answers.front().off_m.size(); ++i) {
@@ -197,32 +166,81 @@ Pose6 mean_of(const std::vector<Answer>& answers) {
   return mean;
 }
 
-void put(const std::vector<Answer>& answers, const Pose6& mean, Heights heights, PressFit& out) {
+/// The heights about a step of the pose, and what they answer.
+struct Round {
+  std::vector<Answer> answers;
+  Heights heights;
+  Pose6 mean;
+};
+
+/// Nothing where a number is not finite.
+std::optional<Round> round_at(const PressProblem& problem, const Pose6& step,
+                              std::span<const ModelErrorHypothesis> by) {
+  Heights heights = heights_of(problem, step);
+  std::vector<Answer> answers = answers_of(heights, by, problem.now);
+  if (answers.empty()) {
+    return std::nullopt;
+  }
+  const Pose6 mean = mean_of(answers);
+  return mean.allFinite() ? std::optional(Round{std::move(answers), std::move(heights), mean})
+                          : std::nullopt;
+}
+
+/// The last round, from which the pose hardly moves any more.
+std::optional<Round> last_round(const PressProblem& problem) {
+  constexpr int kRounds = 6;
+  constexpr int kRoundsByAll = 2;
+  constexpr double kStands_m = 1e-6;
+  const std::optional<ModelError>& known = problem.prior.press.model;
+  // The directions to the bone stand for any model; what they stand for is told by all of them.
+  const std::vector<ModelErrorHypothesis> usual = {
+      {known.value_or(ModelError{kUsualModelError_m}), 0.0}};
+  Pose6 at = Pose6::Zero();
+  std::optional<Round> round;
+  double moved_m = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kRounds && moved_m > kStands_m; ++k) {
+    round = round_at(problem, at, usual);
+    if (!round) {
+      return std::nullopt;
+    }
+    moved_m = (round->mean - at).head<3>().norm();
+    at = round->mean;
+  }
+  const auto all = known ? usual : model_error_hypotheses();
+  for (int k = 0; k < kRoundsByAll && round; ++k) {
+    round = round_at(problem, round->mean, all);
+  }
+  return round;
+}
+
+void put(Round round, PressFit& out) {
+  const std::vector<Answer>& answers = round.answers;
   const Eigen::ArrayXd weights = weights_of(answers);
   Covariance6 covariance = Covariance6::Zero();
   double sd_m2 = 0.0;
   Eigen::Index most = 0;
   weights.maxCoeff(&most);
+  out.model.length_m = 0.0;
   for (std::size_t k = 0; k < answers.size(); ++k) {
-    const Pose6 off = answers[k].step - mean;
+    const Pose6 off = answers[k].step - round.mean;
     const double weight = weights(static_cast<Eigen::Index>(k));
     covariance += weight * (answers[k].covariance + off * off.transpose());
     sd_m2 += weight * answers[k].model.sd_m * answers[k].model.sd_m;
     out.model.length_m += weight * answers[k].model.length_m;
   }
   out.model.sd_m = std::sqrt(sd_m2);
-  Eigen::Map<Pose6>(out.step.data()) = mean;
+  Eigen::Map<Pose6>(out.step.data()) = round.mean;
   Eigen::Map<Covariance6>(out.covariance.data()) = covariance;
   const Answer& likeliest = answers[static_cast<std::size_t>(most)];
   out.likeliest = likeliest.model;
   Eigen::Map<Covariance6>(out.likeliest_covariance.data()) = likeliest.covariance;
   out.inverse_1_m2.assign(likeliest.inverse.data(),
                           likeliest.inverse.data() + likeliest.inverse.size());
-  out.heights = std::move(heights.at);
+  out.heights = std::move(round.heights.at);
   out.shared.resize(out.heights.size());
   for (std::size_t i = 0; i < out.shared.size(); ++i) {
     Eigen::Map<Pose6>(out.shared[i].data()) =
-        heights.shared.row(static_cast<Eigen::Index>(i)).transpose();
+        round.heights.shared.row(static_cast<Eigen::Index>(i)).transpose();
   }
   leave_one_out(answers, out);
 }
@@ -231,69 +249,32 @@ void put(const std::vector<Answer>& answers, const Pose6& mean, Heights heights,
 
 std::optional<PressFit> fit_presses(const VertebraModel& model, const Registration& strokes,
                                     std::span<const PressedPlace> places, const PressModel& press) {
-  constexpr int kRounds = 6;
-  constexpr int kRoundsByAll = 2;
-  constexpr double kStands_m = 1e-6;
+  if (!strokes.uncertainty) {
+    return std::nullopt;
+  }
   PressFit out;
   out.centre_m = strokes.uncertainty->centre_m();
+  for (const PressedPlace& place : places) {
+    out.now_s = std::max(out.now_s, place.time_s);
+  }
   const PoseUncertainty own = without_common(*strokes.uncertainty, strokes.common);
-  Covariance6 before = Eigen::Map<const Covariance6>(own.covariance().data());
-  before.topLeftCorner<3, 3>().diagonal().array() += press.moved_sd_m * press.moved_sd_m;
-  Eigen::Map<Covariance6>(out.before.data()) = before;
-  const Covariance6 now = walked(before, places, press);
-  const auto from_world = strokes.world_from_vertebra.inverse();
-  const std::vector<ModelErrorHypothesis> usual = {
-      {press.model.value_or(ModelError{kUsualModelSd_m}), 0.0}};
-  // The directions to the bone stand for any model; what they stand for is told by all of them.
-  Pose6 at = Pose6::Zero();
-  const auto round = [&](std::span<const ModelErrorHypothesis> by, bool last) {
-    Heights heights = heights_of(model, from_world, places, at, out.centre_m, before, press);
-    const std::vector<Answer> answers = answers_of(heights, by, now);
-    if (answers.empty()) {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-    const Pose6 mean = mean_of(answers);
-    const double moved_m = (mean - at).head<3>().norm();
-    at = mean;
-    if (last) {
-      put(answers, mean, std::move(heights), out);
-    }
-    return moved_m;
-  };
-  for (int k = 0; k < kRounds && round(usual, false) > kStands_m; ++k) {
+  out.before = own.covariance();
+  Eigen::Map<Covariance6>(out.before.data()).topLeftCorner<3, 3>().diagonal().array() +=
+      press.moved_sd_m * press.moved_sd_m;
+  const PressCovariance prior{out.before, out.centre_m, press};
+  const auto now = prior.walked(out.now_s);
+  auto round = last_round({model, strokes.world_from_vertebra.inverse(), places, prior,
+                           Eigen::Map<const Covariance6>(now.data())});
+  if (!round) {
+    return std::nullopt;
   }
-  const auto all = press.model ? usual : model_error_hypotheses();
-  for (int k = 1; k <= kRoundsByAll; ++k) {
-    if (std::isnan(round(all, k == kRoundsByAll))) {
-      return std::nullopt;
-    }
-  }
+  put(std::move(*round), out);
   return out;
 }
 
-std::array<double, 36> PressFit::with(const PressedHeight& next, const PressModel& press) const {
-  const Eigen::Map<const Covariance6> prior(before.data());
-  const auto n = static_cast<Eigen::Index>(heights.size());
-  const Eigen::Map<const Eigen::MatrixXd> inverse(inverse_1_m2.data(), n, n);
-  Pose6 gain = shared_with_pose(prior, next, centre_m, press);
-  double variance_m2 = shared_m2(prior, next, next, centre_m, press) + next.sd_m * next.sd_m +
-                       likeliest.sd_m * likeliest.sd_m;
-  if (n > 0) {
-    Eigen::VectorXd with_others(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const PressedHeight& other = heights[static_cast<std::size_t>(i)];
-      with_others(i) = shared_m2(prior, next, other, centre_m, press) +
-                       shared_error_m2(likeliest, next.at_m, other.at_m);
-    }
-    const Eigen::VectorXd weighed = inverse * with_others;
-    gain -= Eigen::Map<const Rows6>(shared.front().data(), n, 6).transpose() * weighed;
-    variance_m2 -= with_others.dot(weighed);
-  }
-  std::array<double, 36> after{};
-  Eigen::Map<Covariance6>(after.data()) =
-      Eigen::Map<const Covariance6>(likeliest_covariance.data()) -
-      gain * gain.transpose() / variance_m2;
-  return after;
+Transform<World, Vertebra> PressFit::moved(
+    const Transform<World, Vertebra>& world_from_vertebra) const {
+  return world_from_vertebra * moved_by(step, centre_m).inverse();
 }
 
 }  // namespace orthonav::nav

@@ -9,20 +9,6 @@
 
 namespace orthonav::nav {
 
-/// How a model may be off the bone, and the logarithm of how probable that is, up to a constant.
-struct ModelErrorHypothesis {
-  ModelError error;
-  double log_probability = 0.0;
-};
-
-/// What is known before a bone is touched: segmentations of vertebrae in CT are off by 0.3 to 0.8
-/// mm, alike over 5 to 10 mm. Two thirds of the probability lie there, the rest from 0.1 mm, which
-/// is as good as exact, to 1 mm.
-[[nodiscard]] std::vector<ModelErrorHypothesis> model_error_hypotheses();
-
-/// Covariance of a model's error at two places.
-[[nodiscard]] double shared_error_m2(const ModelError& error, Vec3 a, Vec3 b);
-
 /// A pressed place by what its height depends on, in the model's frame.
 struct PressedHeight {
   Vec3 at_m;
@@ -43,8 +29,12 @@ struct PressFit {
   /// and length of the field among it, and the SD of that.
   std::vector<double> off_m;
   std::vector<double> off_sd_m;
-  ModelError model;  ///< root mean square SD, mean length
+  ModelError model;    ///< root mean square SD, mean length
+  double now_s = 0.0;  ///< when the last of the places was pressed
 
+  /// Of the bone as it lies now, given where its strokes put it.
+  [[nodiscard]] Transform<World, Vertebra> moved(
+      const Transform<World, Vertebra>& world_from_vertebra) const;
   /// The covariance if this place were pressed next.
   [[nodiscard]] std::array<double, 36> with(const PressedHeight& next,
                                             const PressModel& press) const;
@@ -58,8 +48,8 @@ struct PressFit {
   std::array<double, 36> likeliest_covariance{};
 };
 
-/// Of the pose of `strokes`, which have an uncertainty. No places: the strokes' own. Nothing where
-/// a number is not finite.
+/// Of the pose of `strokes`. No places: the strokes' own. Nothing where these leave a motion open
+/// or a number is not finite.
 [[nodiscard]] std::optional<PressFit> fit_presses(const VertebraModel& model,
                                                   const Registration& strokes,
                                                   std::span<const PressedPlace> places,

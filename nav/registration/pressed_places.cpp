@@ -16,12 +16,6 @@ namespace {
 /// What the noise of a tip at rest for a second leaves.
 constexpr double kUsualSd_m = 0.0002;
 
-constexpr std::array<double, 8> kModelSds_m = {0.0001, 0.0002,  0.0003, 0.0004,
-                                               0.0005, 0.00065, 0.0008, 0.001};
-constexpr std::array<double, 3> kModelLengths_m = {0.005, 0.007, 0.010};
-constexpr double kUsualModel_m = 0.0005;
-constexpr double kModelSpread = 0.5;  ///< SD of the natural logarithm
-
 /// Places touched do not see what the strokes were refused for otherwise.
 void judge(const PoseSearchRegistrationOptions& options, Registration& r) {
   using Kind = RefusalReason::Kind;
@@ -38,7 +32,8 @@ void judge(const PoseSearchRegistrationOptions& options, Registration& r) {
 
 using Covariance6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
-/// What World's walk makes of the pose's covariance after all presses, by the gain that was used.
+/// What World's walk makes of the pose's covariance after all presses, by the gain of the likeliest
+/// field.
 Covariance6 walk_left(const PressFit& fit, const PressModel& press) {
   const double walk_m2 = press.drift_m_per_sqrt_s * press.drift_m_per_sqrt_s;
   const auto n = static_cast<Eigen::Index>(fit.heights.size());
@@ -47,10 +42,8 @@ Covariance6 walk_left(const PressFit& fit, const PressModel& press) {
       fit.shared.front().data(), n, 6);
   Eigen::MatrixXd with_now = Eigen::MatrixXd::Zero(n, 6);
   Eigen::MatrixXd walk(n, n);
-  double now_s = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
     const PressedHeight& a = fit.heights[static_cast<std::size_t>(i)];
-    now_s = std::max(now_s, a.time_s);
     with_now.row(i).head<3>() << a.time_s * a.up.x, a.time_s * a.up.y, a.time_s * a.up.z;
     for (Eigen::Index k = 0; k < n; ++k) {
       const PressedHeight& b = fit.heights[static_cast<std::size_t>(k)];
@@ -60,8 +53,17 @@ Covariance6 walk_left(const PressFit& fit, const PressModel& press) {
   const Eigen::MatrixXd gain = shared.transpose() * inverse;
   const Covariance6 taken = gain * with_now;
   Covariance6 left = gain * walk * gain.transpose() - taken - taken.transpose();
-  left.topLeftCorner<3, 3>().diagonal().array() += now_s;
+  left.topLeftCorner<3, 3>().diagonal().array() += fit.now_s;
   return walk_m2 * left;
+}
+
+/// The pose's covariance without World's walk. The gain of one field does not quite fit the
+/// covariance of all of them: where the difference is none, the walk stays in.
+std::array<double, 36> without_walk(const PressFit& fit, const PressModel& press) {
+  std::array<double, 36> own = fit.covariance;
+  Eigen::Map<Covariance6> left(own.data());
+  left -= walk_left(fit, press);
+  return Eigen::LLT<Covariance6>(left).info() == Eigen::Success ? own : fit.covariance;
 }
 
 double worst_tre_m(const std::array<double, 36>& covariance, Vec3 centre_m,
@@ -76,51 +78,40 @@ double worst_tre_m(const std::array<double, 36>& covariance, Vec3 centre_m,
 
 }  // namespace
 
-std::vector<ModelErrorHypothesis> model_error_hypotheses() {
-  std::vector<ModelErrorHypothesis> all;
-  for (const double sd_m : kModelSds_m) {
-    const double off = std::log(sd_m / kUsualModel_m) / kModelSpread;
-    for (const double length_m : kModelLengths_m) {
-      all.push_back({{sd_m, length_m}, -0.5 * off * off});
-    }
-  }
-  return all;
-}
-
-double shared_error_m2(const ModelError& error, Vec3 a, Vec3 b) {
-  return error.sd_m * error.sd_m * std::exp(-(a - b).norm() / error.length_m);
-}
-
 std::optional<JoinedPlaces> join_places(const VertebraModel& model, const Registration& strokes,
                                         std::span<const PressedPlace> places,
                                         const PoseSearchRegistrationOptions& options,
                                         const PressModel& press) {
-  if (!strokes.uncertainty || places.empty()) {
+  if (places.empty()) {
     return std::nullopt;
   }
   const auto fit = fit_presses(model, strokes, places, press);
-  if (!fit) {
+  return fit ? join_places(model, strokes, *fit, press, options) : std::nullopt;
+}
+
+std::optional<JoinedPlaces> join_places(const VertebraModel& model, const Registration& strokes,
+                                        const PressFit& fit, const PressModel& press,
+                                        const PoseSearchRegistrationOptions& options) {
+  if (fit.heights.empty()) {
     return std::nullopt;
   }
   JoinedPlaces out;
-  out.off_m = fit->off_m;
-  out.off_sd_m = fit->off_sd_m;
-  out.model = fit->model;
+  out.off_m = fit.off_m;
+  out.off_sd_m = fit.off_sd_m;
+  out.model = fit.model;
   Registration& r = out.registration;
   r = strokes;
-  r.world_from_vertebra =
-      strokes.world_from_vertebra * moved_by(fit->step, fit->centre_m).inverse();
+  r.world_from_vertebra = fit.moved(strokes.world_from_vertebra);
   if (strokes.runner_up == strokes.world_from_vertebra) {
     r.runner_up = r.world_from_vertebra;  // there is none
   }
   CommonErrors common = strokes.common;
-  common.map_m = 0.0;
-  const PoseUncertainty whole(fit->centre_m, fit->covariance);
-  // Limits are about the registration. How World walks no press takes away; it is told with the
-  // rest.
-  std::array<double, 36> own = fit->covariance;
-  Eigen::Map<Covariance6>(own.data()) -= walk_left(*fit, press);
-  put_errors(model, {fit->centre_m, own}, common, targets_of(model, options), r);
+  common.map_m = press.since_sd_m;
+  const PoseUncertainty whole(fit.centre_m, fit.covariance);
+  // Limits judge the registration alone, without World's drift, which no press can reduce. The
+  // drift stays in the uncertainty.
+  put_errors(model, {fit.centre_m, without_walk(fit, press)}, common, targets_of(model, options),
+             r);
   r.uncertainty = with_common(whole, common);
   judge(options, r);
   return out;
@@ -131,25 +122,27 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Regist
                                         std::span<const PressedPlace> pressed,
                                         const PoseSearchRegistrationOptions& options,
                                         const PressModel& press, double apart_m) {
-  if (!strokes.uncertainty || stroked.empty()) {
+  if (stroked.empty()) {
     return std::nullopt;
   }
   const auto fit = fit_presses(model, strokes, pressed, press);
-  if (!fit) {
-    return std::nullopt;
-  }
+  return fit ? place_to_press(model, strokes, stroked, pressed, *fit, press, options, apart_m)
+             : std::nullopt;
+}
+
+std::optional<NextPlace> place_to_press(const VertebraModel& model, const Registration& strokes,
+                                        std::span<const Point<World>> stroked,
+                                        std::span<const PressedPlace> pressed, const PressFit& fit,
+                                        const PressModel& press,
+                                        const PoseSearchRegistrationOptions& options,
+                                        double apart_m) {
   constexpr std::size_t kMostTried = 150;
   constexpr double kOnBone_m = 0.003;
   const auto targets = targets_of(model, options);
-  const auto world_from_vertebra =
-      strokes.world_from_vertebra * moved_by(fit->step, fit->centre_m).inverse();
+  const auto world_from_vertebra = fit.moved(strokes.world_from_vertebra);
   const auto from_world = world_from_vertebra.inverse();
-  double now_s = 0.0;
-  for (const PressedPlace& place : pressed) {
-    now_s = std::max(now_s, place.time_s);
-  }
   NextPlace best;
-  best.tre_m = worst_tre_m(fit->likeliest_covariance, fit->centre_m, targets);
+  best.tre_m = worst_tre_m(fit.likeliest_covariance, fit.centre_m, targets);
   best.tre_then_m = std::numeric_limits<double>::infinity();
   const std::size_t step = std::max<std::size_t>(1, stroked.size() / kMostTried);
   for (std::size_t i = 0; i < stroked.size(); i += step) {
@@ -162,8 +155,8 @@ std::optional<NextPlace> place_to_press(const VertebraModel& model, const Regist
                     [&](const PressedPlace& p) { return (p.place - place).norm() < apart_m; })) {
       continue;
     }
-    const PressedHeight next{nearest->point_m, nearest->normal, now_s, kUsualSd_m};
-    const double then_m = worst_tre_m(fit->with(next, press), fit->centre_m, targets);
+    const PressedHeight next{nearest->point_m, nearest->normal, fit.now_s, kUsualSd_m};
+    const double then_m = worst_tre_m(fit.with(next, press), fit.centre_m, targets);
     if (then_m < best.tre_then_m) {
       best.tre_then_m = then_m;
       best.place = place;

@@ -21,7 +21,6 @@ Eigen::Map<const UnknownsSpread> spread_of(const HeightModel::Answer& a) {
   return Eigen::Map<const UnknownsSpread>(a.covariance.data());
 }
 
-constexpr std::size_t kMostUnits = 160;
 constexpr std::size_t kFewestUnits = 12;
 constexpr std::array<double, 3> kLengths_m = {0.008, 0.020, 0.050};
 constexpr std::array<double, 6> kSds_m = {0.00007, 0.00015, 0.0003, 0.0006, 0.0011, 0.002};
@@ -113,8 +112,7 @@ class Trial {
   }
 
   double consider(const FieldHypothesis& field) {
-    const HeightField heights = heights_of(field);
-    const auto answers = model_.solve(heights, noise_beside_field(seen_, heights));
+    const auto answers = model_.solve(field, noise_beside_field(seen_, field));
     if (!answers) {
       return -std::numeric_limits<double>::infinity();
     }
@@ -244,11 +242,6 @@ UnknownsSpread total_covariance(const std::vector<Tried>& tried, const UnknownsM
 }
 
 }  // namespace
-
-HeightField heights_of(const FieldHypothesis& hypothesis) {
-  return {hypothesis.sd_m * hypothesis.sd_m, hypothesis.length_m,
-          hypothesis.stroke_sd_m * hypothesis.stroke_sd_m, hypothesis.noise_time};
-}
 
 std::optional<ResidualField> residual_field(const SurfaceFit& fit,
                                             std::span<const FieldHypothesis> among) {

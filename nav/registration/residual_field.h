@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,20 +12,8 @@
 
 namespace orthonav::nav {
 
-/// By what the tip's height may deviate from its mean: a field over the bone (soft tissue of uneven
-/// thickness, or a model that is not quite the bone; stationary, Gaussian, of
-/// exponential covariance), and one height a stroke
-/// (a hand that presses through tissue as it likes).
-struct FieldHypothesis {
-  double sd_m = 0.0;  ///< of the field; 0: there is none
-  double length_m = 0.0;
-  double stroke_sd_m = 0.0;  ///< of the strokes' heights; 0: all are pressed alike
-  double noise_time = 1.0;   ///< HeightField::noise_time
-  double probability = 0.0;
-};
-
-/// As the model of heights has it.
-[[nodiscard]] HeightField heights_of(const FieldHypothesis& hypothesis);
+/// Units of a fit's points that are enough to tell what its heights say.
+inline constexpr std::size_t kMostUnits = 160;
 
 /// What the heights of a fit's points say when such a field is marginalised: about the pose, the
 /// standoff, and the size of the model.
@@ -49,11 +38,11 @@ struct ResidualField {
 };
 
 /// Generalised least squares over units of strokes, whose noise is correlated along each stroke and
-/// whose field is correlated over the bone; the field's SD and length, and the SD of
-/// the strokes' heights, are marginalised on a grid (restricted likelihood: Patterson & Thompson
-/// 1971; Rasmussen & Williams 2006, section 2.7, for the basis functions). `among` limits the
-/// search to these hypotheses; empty: all are tried. Nothing when a motion is undetermined or fewer
-/// than 12 units are there.
+/// whose field is correlated over the bone; the field's SD and length, and the SD of the strokes'
+/// heights, are marginalised on a grid (restricted likelihood: Patterson & Thompson 1971; Rasmussen
+/// & Williams 2006, section 2.7, for the basis functions). `among` limits the search to these
+/// hypotheses; empty: all are tried. Nothing when a motion is undetermined or fewer than 12 units
+/// are there.
 [[nodiscard]] std::optional<ResidualField> residual_field(
     const SurfaceFit& fit, std::span<const FieldHypothesis> among = {});
 /// The same over units of the fit's points that were made before.

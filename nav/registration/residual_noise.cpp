@@ -61,16 +61,18 @@ AlongStrokes along_strokes(const SurfaceFit& fit, const ResidualUnits& units) {
   return out;
 }
 
-double HeightField::correlation(double distance_m) const {
+double FieldHypothesis::correlation(double distance_m) const {
   return std::exp(-distance_m / length_m);
 }
 
-StrokeNoise noise_beside_field(const AlongStrokes& seen, const HeightField& field) {
+StrokeNoise noise_beside_field(const AlongStrokes& seen, const FieldHypothesis& field) {
+  const double variance_m2 = field.sd_m * field.sd_m;
+  const double stroke_m2 = field.stroke_sd_m * field.stroke_sd_m;
   std::vector<double> rest_m2;
   for (std::size_t lag = 0; lag < seen.covariance_m2.size(); ++lag) {
     const double of_field_m2 =
-        field.variance_m2 > 0.0 ? field.variance_m2 * field.correlation(seen.distance_m[lag]) : 0.0;
-    rest_m2.push_back(seen.covariance_m2[lag] - of_field_m2 - field.stroke_m2);
+        variance_m2 > 0.0 ? variance_m2 * field.correlation(seen.distance_m[lag]) : 0.0;
+    rest_m2.push_back(seen.covariance_m2[lag] - of_field_m2 - stroke_m2);
   }
   StrokeNoise out;
   const double all_m2 = std::max(rest_m2[0], kLeastNoise * seen.covariance_m2[0]);

@@ -22,19 +22,24 @@ struct StrokeNoise {
   double kept = 0.0;  ///< of what wanders, from one point to the next
 };
 
-/// By what the tip's height deviates from its mean beside noise: a field over the bone, and how
-/// hard each stroke was pressed.
-struct HeightField {
-  double variance_m2 = 0.0;  ///< of the field; 0: there is none
-  double length_m = 0.0;     ///< over which its covariance falls to 1/e, exponentially
-  double stroke_m2 = 0.0;    ///< variance of what a stroke's heights share, wherever it goes
-  /// By this the noise forgets itself more slowly than the strokes' own heights tell.
+/// By what the tip's height may deviate from its mean beside noise: a field over the bone (soft
+/// tissue of uneven thickness, or a model that is not quite the bone; stationary, Gaussian, of
+/// exponential covariance), and one height a stroke (a hand that presses through tissue as it
+/// likes).
+struct FieldHypothesis {
+  double sd_m = 0.0;         ///< of the field; 0: there is none
+  double length_m = 0.0;     ///< over which its covariance falls to 1/e
+  double stroke_sd_m = 0.0;  ///< of the strokes' heights; 0: all are pressed alike
+  /// Factor on how long the noise remembers, against what the strokes' heights say.
   double noise_time = 1.0;
+  double probability = 0.0;
 
+  /// Of the field.
   [[nodiscard]] double correlation(double distance_m) const;
 };
 
 /// What is left of `seen` beside these.
-[[nodiscard]] StrokeNoise noise_beside_field(const AlongStrokes& seen, const HeightField& field);
+[[nodiscard]] StrokeNoise noise_beside_field(const AlongStrokes& seen,
+                                             const FieldHypothesis& field);
 
 }  // namespace orthonav::nav

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "nav/registration/cells.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -14,8 +16,8 @@ constexpr double kSmallestCell_m = 0.005;
 constexpr double kLargestCell_m = 0.1;
 constexpr double kGrows = 1.25;
 
-/// A sample that was sent again, or resampled, lies within this of the first; the next one of a
-/// hand that moves does not, nor does another of one that rests, by its tracker's noise.
+/// Two samples this close are one that was sent again or resampled. A moving hand goes farther, and
+/// a resting one scatters more by tracking noise.
 constexpr double kSamePlace_m = 0.00005;
 
 /// Places that were seen, in cells of which a place's surroundings meet a few only.
@@ -26,8 +28,8 @@ class SeenPlaces {
   }
   /// Whether none was seen near it; then it is seen from now on.
   bool is_new(Vec3 p) {
-    const Cell low = cell(p - Vec3{kSamePlace_m, kSamePlace_m, kSamePlace_m});
-    const Cell high = cell(p + Vec3{kSamePlace_m, kSamePlace_m, kSamePlace_m});
+    const GridCell low = cell(p - Vec3{kSamePlace_m, kSamePlace_m, kSamePlace_m});
+    const GridCell high = cell(p + Vec3{kSamePlace_m, kSamePlace_m, kSamePlace_m});
     for (std::int64_t x = low[0]; x <= high[0]; ++x) {
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
         for (std::int64_t z = low[2]; z <= high[2]; ++z) {
@@ -45,22 +47,13 @@ class SeenPlaces {
   }
 
  private:
-  using Cell = std::array<std::int64_t, 3>;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  static Cell cell(Vec3 p) {
-    constexpr double kCell_m = 4.0 * kSamePlace_m;
-    return {std::llround(p.x / kCell_m), std::llround(p.y / kCell_m), std::llround(p.z / kCell_m)};
+  static GridCell cell(Vec3 p) { return cell_of(p, 4.0 * kSamePlace_m); }
+  [[nodiscard]] std::size_t bucket(const GridCell& cell) const {
+    return HashOfCell{}(cell) & (heads_.size() - 1);
   }
-  [[nodiscard]] std::size_t bucket(const Cell& cell) const {
-    std::uint64_t hash = 0;
-    for (const std::int64_t i : cell) {
-      hash = (hash ^ static_cast<std::uint64_t>(i)) * 0x9E3779B97F4A7C15ULL;
-      hash ^= hash >> 29U;
-    }
-    return static_cast<std::size_t>(hash) & (heads_.size() - 1);
-  }
-  [[nodiscard]] bool is_near_one_in(const Cell& cell, Vec3 p) const {
+  [[nodiscard]] bool is_near_one_in(const GridCell& cell, Vec3 p) const {
     for (std::uint32_t i = heads_[bucket(cell)]; i != kNone; i = next_[i]) {
       if ((places_m_[i] - p).squared_norm() <= kSamePlace_m * kSamePlace_m) {
         return true;

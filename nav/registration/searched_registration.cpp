@@ -64,6 +64,16 @@ void drop_impossible(const VertebraModel& model, const Cloud& cloud,
   }
 }
 
+/// Only for the pose that is answered: no choice between poses needs them.
+void estimate_heights(const CertainFit& certain, Registration& r) {
+  if (!certain.field) {
+    return;
+  }
+  const ResidualUnits units = residual_units(certain.fit, kMostUnits);
+  r.heights = estimated_heights(certain.fit, units, *certain.field);
+  r.correlation_across_strokes = correlation_across_strokes(certain.fit, units);
+}
+
 Registration described(const VertebraModel& model, const Cloud& cloud, const CertainFit& certain,
                        std::span<const Point<Vertebra>> targets,
                        const PoseSearchRegistrationOptions& options) {
@@ -79,8 +89,6 @@ Registration described(const VertebraModel& model, const Cloud& cloud, const Cer
   estimate_errors(model, certain, targets, options.common, r);
   if (certain.field) {
     r.field_sd_m = certain.field->field_sd_m;
-    r.heights = estimated_heights(fit, *certain.field);
-    r.correlation_across_strokes = correlation_across_strokes(fit);
     // Points that scatter about a curved surface lie, on average, outside of it; half of what a
     // field over the bone does to them is no such scatter.
     const double scatter_m2 = r.noise_m * r.noise_m - 0.5 * r.field_sd_m * r.field_sd_m;
@@ -124,6 +132,7 @@ Result<Registration> register_by_pose_search(const VertebraModel& model,
       std::swap(found[0], found[rival]);
       continue;
     }
+    estimate_heights(*certain, r);
     r.fits_better = others.better_level();
     r.levels_compared = options.neighbours.size();
     r.mirror_log_likelihood = others.mirror_log_likelihood();

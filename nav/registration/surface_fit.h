@@ -18,8 +18,8 @@ struct SurfaceFitOptions {
   /// unknowns: surfaces that face different ways distinguish it from a translation.
   bool with_standoff = false;
   double first_standoff_m = 0.0;  ///< where it starts from; stays so where it is not an unknown
-  /// Any place of the surface for each point, the nearer the sooner its nearest one is found; it
-  /// changes nothing but the time. Empty: none is known.
+  /// For each point, any place on the surface: bounds the first search. Saves time only. Empty:
+  /// none known.
   std::span<const Vec3> near_m{};
   /// SD of each point, as far as it is known; empty: all equal.
   std::span<const double> point_sd_m{};

@@ -1,16 +1,12 @@
 #include "nav/tracking/anchored_tracker.h"
 
-#include <Eigen/Dense>
 #include <utility>
 
 #include "nav/tracking/pose_filter.h"
-#include "nav/tracking/symmetric_covariance.h"
 #include "nav/tracking/tag_pose.h"
 
 namespace orthonav::nav {
 namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 
 /// One reference, as it lies in the anchored World.
 struct Reference {
@@ -202,12 +198,7 @@ std::vector<std::string> ReferenceLimits::check() const {
 
 PoseCovariance relative_covariance(const PairPose& tool, const PairPose& reference) {
   const Vec3 arm_m = tool.rig_from_marker.translation() - reference.rig_from_marker.translation();
-  Matrix6 carried = Matrix6::Identity();
-  carried.topRightCorner<3, 3>() << 0, arm_m.z, -arm_m.y, -arm_m.z, 0, arm_m.x, arm_m.y, -arm_m.x,
-      0;
-  const Eigen::Map<const Matrix6> of_tool(tool.covariance.data());
-  const Eigen::Map<const Matrix6> of_reference(reference.covariance.data());
-  return symmetrized(Matrix6(of_tool + carried * of_reference * carried.transpose()));
+  return plus_carried(tool.covariance, reference.covariance, arm_m);
 }
 
 Result<std::unique_ptr<ToolTracker>> create_anchored_tracker(std::unique_ptr<ToolTracker> tracker,

@@ -66,9 +66,10 @@ TEST_F(ResidualFieldTest, EstimatesTheTissueAndFindsWhatStrokesHaveInCommon) {
     ASSERT_TRUE(fit.has_value());
     const auto field = residual_field(*fit);
     ASSERT_TRUE(field.has_value());
-    EXPECT_EQ(correlation_across_strokes(*fit) > 0.2, tissue_m > 0.0)
-        << correlation_across_strokes(*fit);
-    const auto heights = estimated_heights(*fit, *field);
+    const ResidualUnits units = residual_units(*fit, kMostUnits);
+    const double correlation = correlation_across_strokes(*fit, units);
+    EXPECT_EQ(correlation > 0.2, tissue_m > 0.0) << correlation;
+    const auto heights = estimated_heights(*fit, units, *field);
     ASSERT_GT(heights.size(), 50U);
     double square_m2 = 0.0;
     for (const EstimatedHeight& h : heights) {

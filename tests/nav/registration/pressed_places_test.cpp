@@ -4,18 +4,12 @@
 
 #include <cmath>
 
-#include "base/random.h"
-#include "engine/phantom/phantom.h"
-#include "nav/guidance/predicted_error.h"
 #include "nav/registration/check_points.h"
-#include "tests/support/stroke_truths.h"
+#include "tests/nav/registration/stroked_bone.h"
 
 namespace orthonav::nav {
 namespace {
 
-using orthonav::test::digitize_strokes;
-using orthonav::test::StrokeVariant;
-using orthonav::test::Tissue;
 using ::testing::Each;
 using ::testing::SizeIs;
 
@@ -23,25 +17,10 @@ constexpr double kRightWithin_m = 0.002;
 /// What a press leaves beneath the tip, as the simulated surgeon's: SD before it is cut off at 0.
 constexpr double kPress_m = 0.0003;
 
-/// One level of the phantom under soft tissue, stroked, then pressed in places.
-class PressedBone {
+/// Stroked, then pressed in places; the model is exact.
+class PressedBone : public StrokedBone {
  public:
-  PressedBone(std::uint64_t seed, double tissue_m)
-      : strokes_(digitize_strokes(level().mesh, StrokeVariant::kFull, seed).value()),
-        random_(seed) {
-    orthonav::test::apply_truths({Tissue::kSmooth, tissue_m, 0.0, 1}, level().mesh, seed, strokes_);
-    options.targets = entries_and_targets(level().screws);
-    points_ = strokes_.tips();
-    registration = register_by_pose_search(model(), points_, options).value();
-  }
-  static const engine::CaseLevel& level() {
-    static const auto kPhantom = engine::phantom({"L4"});
-    return kPhantom.levels.at(0);
-  }
-  static const VertebraModel& model() {
-    static const auto kModel = VertebraModel::prepare(level().mesh).value();
-    return *kModel;
-  }
+  PressedBone(std::uint64_t seed, double tissue_m) : StrokedBone(exact_model(), seed, tissue_m) {}
   /// On the bone where it truly is, beneath a point of a stroke.
   PressedPlace pressed_below(Point<World> stroked) {
     const Vec3 p = (strokes_.world_from_vertebra.inverse() * stroked).v;
@@ -53,7 +32,7 @@ class PressedBone {
   std::vector<PressedPlace> press(std::size_t count) {
     std::vector<PressedPlace> places;
     while (places.size() < count) {
-      const auto next = place_to_press(model(), registration, points_, places, options);
+      const auto next = place_to_press(model(), registration, points, places, options);
       if (!next) {
         break;
       }
@@ -61,22 +40,12 @@ class PressedBone {
     }
     return places;
   }
-  [[nodiscard]] double error_m(const Registration& r) const {
-    double worst = 0.0;
-    for (const Point<Vertebra>& p : options.targets) {
-      worst =
-          std::max(worst, (r.world_from_vertebra * p - strokes_.world_from_vertebra * p).norm());
-    }
-    return worst;
-  }
-
-  PoseSearchRegistrationOptions options;
-  Registration registration;
 
  private:
-  orthonav::test::DigitizedStrokes strokes_;
-  std::vector<Point<World>> points_;
-  Random random_;
+  static const std::shared_ptr<const VertebraModel>& exact_model() {
+    static const auto kModel = VertebraModel::prepare(level().mesh).value();
+    return kModel;
+  }
 };
 
 TEST(PressedPlaces, TakeTheErrorOfSoftTissueAway) {

@@ -108,7 +108,7 @@ SurfaceFit fit_from_truth(const SurfaceIndex& surface, std::vector<Vec3> places)
 
 /// Far more units than the fewest, 12, so that their number is no reason for nothing.
 constexpr std::size_t kEnoughUnits = 40;
-constexpr std::size_t kMostUnits = 1000;
+constexpr std::size_t kManyUnits = 1000;
 
 TEST_F(ResidualFieldTest, IsNoneWhenAMotionIsOpen) {
   // On a flat front three motions are open.
@@ -118,14 +118,14 @@ TEST_F(ResidualFieldTest, IsNoneWhenAMotionIsOpen) {
     flat.push_back({random.uniform(-0.02, 0.02), -0.02, random.uniform(-0.01, 0.01)});
   }
   const SurfaceFit on_front = fit_from_truth(surface_, flat);
-  EXPECT_GE(residual_units(on_front, kMostUnits).all.size(), kEnoughUnits);
+  EXPECT_GE(residual_units(on_front, kManyUnits).all.size(), kEnoughUnits);
   EXPECT_FALSE(residual_field(on_front).has_value());
   // Along a straight crest one is.
   const TriangleMesh straight =
       test::slab_bone([](double x, double) { return 0.012 * std::exp(-x * x / (0.007 * 0.007)); });
   const SurfaceIndex crest(straight);
   const SurfaceFit on_crest = fit_from_truth(crest, test::strokes_over(crest, 10));
-  EXPECT_GE(residual_units(on_crest, kMostUnits).all.size(), kEnoughUnits);
+  EXPECT_GE(residual_units(on_crest, kManyUnits).all.size(), kEnoughUnits);
   EXPECT_FALSE(residual_field(on_crest).has_value());
   // The twin: the same strokes over a back on which no motion is open.
   EXPECT_TRUE(residual_field(fit_from_truth(surface_, test::strokes_over(surface_, 10))));
