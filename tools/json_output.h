@@ -23,7 +23,8 @@ class JsonOutput {
   /// Refuses a place that can't be written, before the work is done.
   [[nodiscard]] Status check() const;
   [[nodiscard]] Status write(const nlohmann::ordered_json& content) const;
-  /// The same for text that `make` writes piece by piece; nothing is left of it where that fails.
+  /// The same for text that `make` writes piece by piece. Where that fails, no file is left;
+  /// standard output has what was written until then.
   [[nodiscard]] Status stream(const std::function<Status(std::ostream&)>& make) const;
   /// The same for text that is JSON already.
   [[nodiscard]] Status write_text(const std::string& text) const;

@@ -30,8 +30,8 @@ struct PreviewArguments {
   preview::PreviewOptions options;
 };
 
-/// The room, the guidance and the method of a published system. One whose navigation is stated as
-/// an error shows nothing that its cameras see.
+/// The room, the guidance and the method of a published system. Refuses one of which this would
+/// not be all.
 Status take_profile(PreviewArguments& arguments) {
   if (arguments.profile.empty()) {
     return {};
@@ -40,9 +40,11 @@ Status take_profile(PreviewArguments& arguments) {
   if (!system) {
     return system.error();
   }
-  if (system->navigation) {
-    return Error{"--profile " + arguments.profile +
-                 ": its navigation is an error that was stated, not one that can be watched"};
+  if (!system->can_be_previewed()) {
+    return Error{
+        "--profile " + arguments.profile +
+        ": the preview can't show it: it states its navigation, uses the reference, leaves "
+        "steps out or exposes more"};
   }
   arguments.method = system->method;
   arguments.options.room.guidance = system->guidance;
@@ -175,9 +177,29 @@ void add_window_options(CLI::App& preview, const std::shared_ptr<PreviewArgument
                      "part of the name of the Vulkan device");
 }
 
+/// What the room is like, and whose hands work in it.
+void add_room_options(CLI::App& preview, PreviewArguments& arguments) {
+  auto* seed =
+      preview.add_option("--seed", arguments.options.room.seed, "seed of every random number");
+  seed->check(seed_number())->capture_default_str();
+  preview
+      .add_option("--replay", arguments.options.room.seed,
+                  "the operation of a study that had this seed")
+      ->check(seed_number())
+      ->excludes(seed);
+  preview
+      .add_option("--profile", arguments.profile,
+                  "the room of a published system, by its name or as a file")
+      ->check(some_text());
+  preview.add_flag("--perfect", arguments.perfect, "every source of error at zero");
+  // For tests: a hasty surgeon finishes in a fraction of the frames.
+  preview.add_option("--pace", arguments.pace, "how many times as fast the surgeon works")
+      ->check(finite_number(0.5, 4))
+      ->group("");
+}
+
 }  // namespace
 
-// NOLINTNEXTLINE(readability-function-size)
 void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
   auto arguments = std::make_shared<PreviewArguments>();
   auto* preview = app.add_subcommand(
@@ -189,18 +211,7 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
       ->add_option("--case", arguments->case_folder,
                    "case folder with case.json (default: the built-in phantom)")
       ->check(some_text());
-  auto* seed =
-      preview->add_option("--seed", arguments->options.room.seed, "seed of every random number");
-  seed->check(seed_number())->capture_default_str();
-  preview
-      ->add_option("--replay", arguments->options.room.seed,
-                   "the operation of a study that had this seed")
-      ->check(seed_number())
-      ->excludes(seed);
-  preview
-      ->add_option("--profile", arguments->profile,
-                   "the room of a published system, by its name or as a file")
-      ->check(some_text());
+  add_room_options(*preview, *arguments);
   preview->add_option("--method", arguments->method, "best or paper (the published one)")
       ->capture_default_str();
   preview->add_option("--levels", arguments->levels, "levels to operate (default: the two lowest)")
@@ -210,14 +221,9 @@ void add_preview_command(CLI::App& app, Action& action, StopSignals& signals) {
                    "tool definitions (default: the headset's own, else the built-in)")
       ->check(some_text());
   arguments->screws.add_to(*preview);
-  preview->add_flag("--perfect", arguments->perfect, "every source of error at zero");
   preview->add_option("--models", arguments->models, "folder that keeps the prepared models")
       ->check(some_text());
   add_window_options(*preview, arguments);
-  // For tests: a hasty surgeon finishes in a fraction of the frames.
-  preview->add_option("--pace", arguments->pace, "how many times as fast the surgeon works")
-      ->check(finite_number(0.5, 4))
-      ->group("");
   preview->callback([arguments, &action, &signals] {
     action = [arguments, &signals] { return preview_window(*arguments, signals); };
   });

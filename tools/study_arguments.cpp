@@ -10,6 +10,7 @@
 #include "engine/case/tool_file.h"
 #include "engine/io/atomic_file.h"
 #include "engine/study/left_out.h"
+#include "engine/study/study_definition.h"
 #include "hal/sim/instruments.h"
 #include "tools/arguments.h"
 #include "tools/build_name.h"
@@ -55,15 +56,9 @@ Result<std::vector<engine::Case>> cases_in(const std::string& folder) {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, sim::GuidanceProfile>, 3> kGuidance = {{
-    {"overlay", sim::GuidanceProfile::kOverlay},
-    {"numbers", sim::GuidanceProfile::kNumbers},
-    {"closed loop", sim::GuidanceProfile::kClosedLoop},
-}};
-
 /// What the words of the command line choose beside method and profile.
 Status choose(const StudyArguments& arguments, engine::OperationOptions& operation) {
-  for (const auto& [name, guidance] : kGuidance) {
+  for (const auto& [name, guidance] : sim::kGuidanceNames) {
     operation.sim.guidance = arguments.guidance == name ? guidance : operation.sim.guidance;
   }
   if (!arguments.instrument.empty()) {
@@ -160,18 +155,26 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-std::string operation_words(const StudyArguments& arguments, const std::string& cases) {
+std::string absolute_path(const std::string& path) {
   std::error_code code;
+  return fs::absolute(path, code).string();
+}
+
+std::string profile_word(const std::string& name_or_file) {
+  std::error_code code;
+  return fs::is_regular_file(name_or_file, code) ? absolute_path(name_or_file) : name_or_file;
+}
+
+std::string operation_words(const StudyArguments& arguments, const std::string& cases) {
   std::string words;
   const auto add = [&words](const char* name, const std::string& value) {
     if (!value.empty()) {
       words += std::string(" ") + name + " " + quoted(value);
     }
   };
-  add("--cases", cases.empty() ? "" : fs::absolute(cases, code).string());
+  add("--cases", cases.empty() ? "" : absolute_path(cases));
   add("--method", arguments.method);
-  const bool is_file = fs::is_regular_file(arguments.profile, code);
-  add("--profile", is_file ? fs::absolute(arguments.profile, code).string() : arguments.profile);
+  add("--profile", profile_word(arguments.profile));
   add("--measurement", arguments.measurement);
   for (const std::string& level : arguments.levels) {
     add("--levels", level);
@@ -181,7 +184,7 @@ std::string operation_words(const StudyArguments& arguments, const std::string& 
   words += arguments.reference ? " --reference" : "";
   add("--guidance", arguments.guidance);
   add("--instrument", arguments.instrument);
-  add("--tools", arguments.tools.empty() ? "" : fs::absolute(arguments.tools, code).string());
+  add("--tools", arguments.tools.empty() ? "" : absolute_path(arguments.tools));
   for (const std::string& step : arguments.without) {
     add("--without", step);
   }
@@ -198,7 +201,26 @@ int write_study(const JsonOutput& json, const std::string& page, const std::stri
   return drawn ? kDone : bad_input(drawn.error().message);
 }
 
+int write_joined(const JsonOutput& json, const std::string& page,
+                 std::span<const std::string> files, const engine::ReplayCommand& replay) {
+  if (page.empty()) {
+    const Status joined =
+        json.stream([&](std::ostream& out) { return engine::merge_stores(files, out); });
+    return joined ? kDone : bad_input(joined.error().message);
+  }
+  const auto study = engine::merge_stores(files);
+  return study ? write_study(json, page, *study, replay) : bad_input(study.error().message);
+}
+
 namespace {
+
+std::vector<std::string> guidance_names() {
+  std::vector<std::string> names;
+  for (const sim::NamedGuidance& one : sim::kGuidanceNames) {
+    names.emplace_back(one.name);
+  }
+  return names;
+}
 
 /// How many, and where.
 void add_cohort_options(CLI::App& study, StudyArguments& arguments) {
@@ -263,7 +285,7 @@ void add_options(CLI::App& study, StudyArguments& arguments) {
   study
       .add_option("--guidance", arguments.guidance,
                   "what the surgeon goes by: overlay, numbers (default) or \"closed loop\"")
-      ->check(CLI::IsMember({"overlay", "numbers", "closed loop"}));
+      ->check(CLI::IsMember(guidance_names()));
   study
       .add_option("--instrument", arguments.instrument,
                   "wire, cannula, \"sleeved drill\", screw or \"robot arm\"")

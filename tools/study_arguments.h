@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,10 +55,17 @@ Result<engine::StudyOptions> options_of(const StudyArguments& arguments);
 [[nodiscard]] engine::OperationOptions study_operation();
 /// The same of a published system, in the measurement model.
 [[nodiscard]] engine::OperationOptions modelled_operation(const engine::SystemProfile& system);
+/// A path that holds wherever a command is called.
+[[nodiscard]] std::string absolute_path(const std::string& path);
+/// A profile the same way: its name, or its file by an absolute path.
+[[nodiscard]] std::string profile_word(const std::string& name_or_file);
 /// A text as one word of a shell; in quotes where it needs them.
 [[nodiscard]] std::string quoted(const std::string& text);
 /// Writes a study as JSON and, where `page` names one, as a page; the exit code.
 int write_study(const JsonOutput& json, const std::string& page, const std::string& study,
                 const engine::ReplayCommand& replay = {});
+/// The same of shards in SQLite files; without a page, none of them is held in memory.
+int write_joined(const JsonOutput& json, const std::string& page,
+                 std::span<const std::string> files, const engine::ReplayCommand& replay = {});
 
 }  // namespace orthonav::tools

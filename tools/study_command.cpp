@@ -7,7 +7,6 @@
 
 #include "engine/io/json_document.h"
 #include "engine/study/study.h"
-#include "engine/study/study_definition.h"
 #include "tools/arguments.h"
 #include "tools/command.h"
 #include "tools/count_progress.h"
@@ -94,16 +93,7 @@ int merge(const StudyArguments& arguments) {
     return bad_input(place.error().message);
   }
   if (std::all_of(arguments.merged.begin(), arguments.merged.end(), is_store)) {
-    if (arguments.merged_report.empty()) {
-      const Status merged = arguments.merged_json.stream(
-          [&](std::ostream& out) { return engine::merge_stores(arguments.merged, out); });
-      return merged ? kDone : bad_input(merged.error().message);
-    }
-    const auto study = engine::merge_stores(arguments.merged);
-    if (!study) {
-      return bad_input(study.error().message);
-    }
-    return write_study(arguments.merged_json, arguments.merged_report, *study);
+    return write_joined(arguments.merged_json, arguments.merged_report, arguments.merged);
   }
   std::vector<std::string> texts;
   for (const std::string& path : arguments.merged) {

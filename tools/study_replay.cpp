@@ -7,8 +7,8 @@
 namespace orthonav::tools {
 namespace {
 
-/// Whether the preview can show an operation of the study: by what its cameras see, in the room of
-/// its profile.
+/// Whether the preview can show an operation of the study: all that it is must be the room, the
+/// guidance and the method of its profile, by what its cameras see.
 bool can_be_shown(const StudyArguments& arguments) {
   if (arguments.navigation_alone || arguments.reference || !arguments.without.empty() ||
       !arguments.guidance.empty() || !arguments.instrument.empty() || !arguments.tools.empty()) {
@@ -17,15 +17,15 @@ bool can_be_shown(const StudyArguments& arguments) {
   const auto system = arguments.profile.empty()
                           ? Result<engine::SystemProfile>(engine::SystemProfile())
                           : engine::system_named(arguments.profile);
-  return system.ok() && !system->navigation;
+  return system.ok() && system->can_be_previewed();
 }
 
 std::string preview_of(const StudyArguments& arguments, const std::string& folder,
                        std::uint64_t seed) {
   std::string words = "orthonav preview --replay " + std::to_string(seed);
   words += arguments.profile.empty() ? " --method " + quoted(arguments.method)
-                                     : " --profile " + quoted(arguments.profile);
-  words += folder.empty() ? "" : " --case " + quoted(folder);
+                                     : " --profile " + quoted(profile_word(arguments.profile));
+  words += folder.empty() ? "" : " --case " + quoted(absolute_path(folder));
   for (const std::string& level : arguments.levels) {
     words += " --levels " + quoted(level);
   }

@@ -71,7 +71,8 @@ void add_sensitivity_command(CLI::App& study, Action& action) {
   command->add_option("--trajectories", arguments->options.trajectories, "of Morris's method")
       ->check(whole_number(1, 1000))
       ->capture_default_str();
-  command->add_option("--runs", arguments->options.runs, "operations at each point")
+  command
+      ->add_option("--runs", arguments->options.runs, "operations at each point of Morris's method")
       ->check(whole_number(1, 10'000))
       ->capture_default_str();
   command->add_option("--seed", arguments->options.seed, "of everything")

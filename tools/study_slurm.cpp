@@ -8,10 +8,8 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <set>
-#include <sstream>
 
 #include "engine/io/atomic_file.h"
 #include "engine/study/study_definition.h"
@@ -114,15 +112,7 @@ int shell(const std::string& command) {
 
 /// Whether the shell would find a program.
 bool is_there(const std::string& program) {
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing writes the environment.
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path != nullptr ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) {
-      return true;
-    }
-  }
-  return false;
+  return shell("command -v " + quoted(program) + " >/dev/null 2>&1") == 0;
 }
 
 Status submit(const std::string& folder, const std::set<int>& shards) {
@@ -154,11 +144,8 @@ int run_on_slurm(const StudyArguments& arguments, std::span<const engine::Case> 
       return bad_input(shards.error().message);
     }
     if (shards->empty()) {
-      const auto study = engine::merge_stores(files_of(arguments.slurm, tasks));
-      if (!study) {
-        return bad_input(study.error().message);
-      }
-      return write_study(arguments.json, arguments.report, *study, replay_of(arguments, cases));
+      return write_joined(arguments.json, arguments.report, files_of(arguments.slurm, tasks),
+                          replay_of(arguments, cases));
     }
     if (!is_there("sbatch")) {
       return bad_input("--slurm: sbatch was not found (Debian: slurm-wlm)");

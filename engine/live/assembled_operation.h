@@ -40,7 +40,7 @@ class AssembledOperation {
 
   /// Observes the session from now on, after those added before; null: nobody.
   void observe(SessionObserver* observer) { observers_.add(observer); }
-  /// Observes each pair and what is made of it, in place of any earlier observer.
+  /// Observes each pair and what is made of it, after those added before; null: nobody.
   void observe(LoopObserver* observer) { loop_.observe(observer); }
   void draw_into(SnapshotSink* sink) { loop_.draw_into(sink); }
   /// From now on everything goes through `wrapper`, which forwards to the headset given first. For

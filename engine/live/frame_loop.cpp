@@ -204,8 +204,8 @@ Status FrameLoop::step(SnapshotQueue* queue, LoopReport& report) {
   if (!first_frame_) {
     first_frame_ = frame_.time;
   }
-  if (observer_) {
-    observer_->stepped(frame_, inputs, guidance);
+  for (LoopObserver* observer : observers_) {
+    observer->stepped(frame_, inputs, guidance);
   }
   // Tracking took time: guidance that has become too old meanwhile is not shown.
   builder_.update(guidance, std::max(guidance.display_time, next_display_time()));
@@ -251,8 +251,8 @@ void FrameLoop::capture(SnapshotQueue& queue, const Guidance& guidance, std::int
   }
   builder_.write_scene(guidance, snapshot->scene);
   write_patches(guidance, snapshot->patches);
-  if (observer_) {
-    observer_->captured(*snapshot);
+  for (LoopObserver* observer : observers_) {
+    observer->captured(*snapshot);
   }
   queue.publish(snapshot);
 }

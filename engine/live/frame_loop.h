@@ -77,7 +77,12 @@ class FrameLoop {
 
   /// Replaces the headset; not while it runs.
   void use(Headset& headset) { headset_ = &headset; }
-  void observe(LoopObserver* observer) { observer_ = observer; }
+  /// From now on, after those added before; null: nobody. Borrowed.
+  void observe(LoopObserver* observer) {
+    if (observer != nullptr) {
+      observers_.push_back(observer);
+    }
+  }
   void draw_into(SnapshotSink* sink) { sink_ = sink; }
   /// Ends the run early, from any thread.
   void stop() { stop_ = true; }
@@ -105,7 +110,7 @@ class FrameLoop {
   Session& session_;
   SceneBuilder& builder_;
   LoopOptions options_;
-  LoopObserver* observer_ = nullptr;
+  std::vector<LoopObserver*> observers_;
   SnapshotSink* sink_ = nullptr;
   std::atomic<bool> stop_ = false;
 

@@ -62,14 +62,6 @@ void add_run(const nlohmann::ordered_json& run, ClearanceQuality& sum) {
   }
 }
 
-ClearanceQuality clearance_quality(const nlohmann::ordered_json& runs) {
-  ClearanceQuality out;
-  for (const auto& run : runs) {
-    add_run(run, out);
-  }
-  return out;
-}
-
 nlohmann::ordered_json clearance_json(const ClearanceQuality& quality) {
   ReportPart table = ReportPart::object();
   for (std::size_t g = 0; g < nav::kPedicleGrades; ++g) {

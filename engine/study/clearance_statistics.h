@@ -23,9 +23,8 @@ struct ClearanceQuality {
   /// [likeliest grade as tracked][true grade].
   std::array<Counts, nav::kPedicleGrades> grades{};
 };
+/// Adds a run's report.
 void add_run(const nlohmann::ordered_json& run, ClearanceQuality& sum);
-/// Of the reports in a study's `runs`.
-[[nodiscard]] ClearanceQuality clearance_quality(const nlohmann::ordered_json& runs);
 /// As the study's JSON has it.
 [[nodiscard]] nlohmann::ordered_json clearance_json(const ClearanceQuality& quality);
 

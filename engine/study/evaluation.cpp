@@ -20,16 +20,12 @@ void GroundTruthRecorder::accepted(Timestamp /*time*/, const LevelState& level) 
 
 void GroundTruthRecorder::note(const LevelState& level,
                                const Transform<World, Vertebra>& estimated) {
-  const auto& levels = headset_.room().levels;
-  const auto here = std::find_if(levels.begin(), levels.end(), [&](const sim::RoomLevel& l) {
-    return l.label == level.plan.label;
-  });
-  if (here == levels.end()) {
+  const auto room_from_vertebra =
+      sim::room_from_level(headset_.room(), headset_.state(), level.plan.label);
+  if (!room_from_vertebra) {
     return;
   }
-  const auto world_from_vertebra =
-      headset_.world_from_room() *
-      headset_.state().room_from_vertebra[static_cast<std::size_t>(here - levels.begin())];
+  const auto world_from_vertebra = headset_.world_from_room() * *room_from_vertebra;
   std::erase_if(registrations_, [&](const LevelTruth& l) { return l.label == level.plan.label; });
   registrations_.push_back({level.plan.label, map_from_session() * estimated, world_from_vertebra});
 }

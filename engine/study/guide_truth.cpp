@@ -1,7 +1,7 @@
 #include "engine/study/guide_truth.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
 namespace orthonav::engine {
 namespace {
@@ -16,8 +16,7 @@ GuidedError error_between(const nav::Axis<Vertebra>& truth, const nav::Axis<Vert
   const Vec3 along = (plan.target - plan.entry).normalized();
   error.tip_m = apart_m.norm();
   error.across_m = (apart_m - apart_m.dot(along) * along).norm();
-  error.angle_rad = std::atan2(truth.direction.cross(tracked.direction).norm(),
-                               truth.direction.dot(tracked.direction));
+  error.angle_rad = angle_between_rad(truth.direction, tracked.direction);
   return error;
 }
 
@@ -29,21 +28,13 @@ nav::Axis<Vertebra> axis_in(const Transform<Vertebra, Marker>& vertebra_from_mar
 
 }  // namespace
 
-void GuideTruth::stepped(const StereoFrame& frame, const Inputs& inputs, const Guidance& guidance) {
+void GuideTruth::stepped(const StereoFrame& frame, const Inputs& /*inputs*/,
+                         const Guidance& guidance) {
   note_wires();
   if (guidance.step == Step::kGuide) {
     look(frame.time, guidance);
   } else {
     sightings_.clear();
-  }
-  if (next_) {
-    next_->stepped(frame, inputs, guidance);
-  }
-}
-
-void GuideTruth::captured(const Snapshot& snapshot) {
-  if (next_) {
-    next_->captured(snapshot);
   }
 }
 
@@ -51,21 +42,21 @@ void GuideTruth::look(Timestamp time, const Guidance& guidance) {
   const LevelState& level = guidance.levels[guidance.level];
   const nav::ToolState& seen = session_.tool_states()[session_.guide()];
   const auto& room = headset_.room();
-  const auto here = std::find_if(room.levels.begin(), room.levels.end(),
-                                 [&](const auto& one) { return one.label == level.plan.label; });
   const auto made = std::find_if(room.tools.begin(), room.tools.end(),
                                  [](const auto& tool) { return tool.kind == ToolKind::kGuide; });
   if (!level.registration || seen.world_from_marker.status != PoseStatus::kMeasured ||
-      here == room.levels.end() || made == room.tools.end()) {
+      made == room.tools.end()) {
     return;
   }
   const sim::RoomState now = headset_.state();
-  const auto& room_from_vertebra =
-      now.room_from_vertebra[static_cast<std::size_t>(here - room.levels.begin())];
+  const auto room_from_vertebra = sim::room_from_level(room, now, level.plan.label);
+  if (!room_from_vertebra) {
+    return;
+  }
   const auto& room_from_marker =
       now.room_from_marker[static_cast<std::size_t>(made - room.tools.begin())];
   const nav::ToolGeometry& believed = session_.guide_geometry();
-  const auto truth = axis_in(room_from_vertebra.inverse() * room_from_marker, made->tip_in_marker,
+  const auto truth = axis_in(room_from_vertebra->inverse() * room_from_marker, made->tip_in_marker,
                              made->axis_in_marker);
   const auto tracked =
       axis_in(level.registration->world_from_vertebra.inverse() * seen.world_from_marker.value,

@@ -16,12 +16,11 @@ namespace orthonav::engine {
 /// and nothing of the surgeon or the wire. Observes from outside; nothing flows back.
 class GuideTruth : public LoopObserver {
  public:
-  /// Headset and session must outlive it; `next` hears everything too, where it is given.
-  GuideTruth(const sim::SimHeadset& headset, const Session& session, LoopObserver* next)
-      : headset_(headset), session_(session), next_(next) {}
+  /// Headset and session must outlive it.
+  GuideTruth(const sim::SimHeadset& headset, const Session& session)
+      : headset_(headset), session_(session) {}
 
   void stepped(const StereoFrame& frame, const Inputs& inputs, const Guidance& guidance) override;
-  void captured(const Snapshot& snapshot) override;
 
   /// Adds what was found to the screws.
   void evaluate(OperationResult& result) const;
@@ -41,7 +40,6 @@ class GuideTruth : public LoopObserver {
 
   const sim::SimHeadset& headset_;
   const Session& session_;
-  LoopObserver* next_;
   std::vector<Sighting> sightings_;  ///< of the guide at the selected screw, pair by pair
   std::vector<Pierced> pierced_;
   Timestamp newest_wire_{};

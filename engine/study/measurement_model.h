@@ -22,7 +22,8 @@ struct MeasurementModel {
   double least_px = 16.0;
   double most_blur_px = 12.0;
   /// A tag is not seen where what it mirrors of the lamp exceeds this fraction of a white one's
-  /// light: black is then as bright as white can be. Estimate, as the two below: not fitted.
+  /// light: black is then almost as bright as the camera can tell. Estimate, as the two below: not
+  /// fitted, and more than a tag of the documented room mirrors (`tag_gloss`).
   double most_glare = 0.85;
   /// Whether a drop of blood on one of its corners keeps a tag from being found, and else by how
   /// much the errors of its corners grow.

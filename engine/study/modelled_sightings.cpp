@@ -74,13 +74,13 @@ void ModelledSightings::look_at(std::size_t tool, const StereoFrame& frame,
     trail = {};
     return;
   }
-  worse_ = covered ? model_.drop_factor : 1.0;
+  const double worse = covered ? model_.drop_factor : 1.0;
   seen.left_px = with_errors(
       exact_corners(cameras.left, cameras.left_from_rig, near_[tool], size_m, flaws, model_),
-      trail.lasting.left_px, trail.before_left, random, dt_s);
+      trail.lasting.left_px, trail.before_left, random, dt_s, worse);
   seen.right_px = with_errors(
       exact_corners(cameras.right, cameras.right_from_rig, near_[tool], size_m, flaws, model_),
-      trail.lasting.right_px, trail.before_right, random, dt_s);
+      trail.lasting.right_px, trail.before_right, random, dt_s, worse);
 }
 
 bool ModelledSightings::is_blinded(std::size_t tool, const sim::RoomState& now) const {
@@ -93,13 +93,13 @@ bool ModelledSightings::is_blinded(std::size_t tool, const sim::RoomState& now) 
 
 std::optional<nav::TagCorners> ModelledSightings::with_errors(
     const std::optional<nav::TagCorners>& exact, nav::TagCorners& lasting,
-    std::optional<nav::TagCorners>& before, Random& random, double dt_s) const {
+    std::optional<nav::TagCorners>& before, Random& random, double dt_s, double worse) const {
   if (!exact) {
     before.reset();
     return std::nullopt;
   }
   const double kept = before ? std::exp(-dt_s / model_.lasts_s) : 0.0;
-  const double fresh_px = worse_ * model_.lasting_px * std::sqrt(1.0 - kept * kept);
+  const double fresh_px = worse * model_.lasting_px * std::sqrt(1.0 - kept * kept);
   const double exposed = dt_s > 0.0 ? room_->options().error_model.exposure_s / dt_s : 0.0;
   nav::TagCorners corners = *exact;
   double blur_px = 0.0;
@@ -112,7 +112,7 @@ std::optional<nav::TagCorners> ModelledSightings::with_errors(
     const double u = random.normal();
     const double v = random.normal();
     const double along = random.normal();
-    corners[k] = corners[k] + lasting[k] + worse_ * model_.white_px * Vec2{u, v} +
+    corners[k] = corners[k] + lasting[k] + worse * model_.white_px * Vec2{u, v} +
                  model_.of_blur * along * moved_px;
   }
   before = exact;

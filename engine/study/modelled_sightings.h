@@ -44,10 +44,11 @@ class ModelledSightings {
   void look_at(std::size_t tool, const StereoFrame& frame, const sim::RoomState& now);
   /// Whether it mirrors the lamp into the cameras.
   [[nodiscard]] bool is_blinded(std::size_t tool, const sim::RoomState& now) const;
+  /// `worse`: by how much a drop on the tag makes its errors grow.
   std::optional<nav::TagCorners> with_errors(const std::optional<nav::TagCorners>& exact,
                                              nav::TagCorners& lasting,
                                              std::optional<nav::TagCorners>& before, Random& random,
-                                             double dt_s) const;
+                                             double dt_s, double worse) const;
 
   const sim::SimHeadset* room_;
   MeasurementModel model_;
@@ -55,7 +56,6 @@ class ModelledSightings {
   std::vector<Trail> trails_;
   std::vector<ModelledSighting> seen_;
   std::vector<Transform<Rig, Marker>> near_;
-  double worse_ = 1.0;  ///< of the tag at hand: by how much a drop on it makes errors grow
   Timestamp before_{};
 };
 

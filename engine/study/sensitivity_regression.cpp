@@ -5,12 +5,12 @@
 #include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "base/mutex.h"
 #include "base/random.h"
 #include "engine/case/operation_plan.h"
 #include "engine/report/report_values.h"
+#include "engine/study/on_threads.h"
 #include "nav/evaluation/errors.h"
 
 namespace orthonav::engine {
@@ -34,6 +34,19 @@ Regressed least_squares(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
   return {slopes, covariance.diagonal().cwiseSqrt()};
 }
 
+/// The mean errors of its screws; false where it has none.
+bool note_errors(const OperationResult& result, RandomPoint& point) {
+  const auto report = nlohmann::json::parse(report_json(result), nullptr, false);
+  const auto entries = values_of(report, "entry_error_mm", true);
+  const auto angles = values_of(report, "angle_error_deg", true);
+  if (entries.empty() || angles.empty()) {
+    return false;
+  }
+  point.entry_mm = nav::summarize(entries).mean;
+  point.angle_deg = nav::summarize(angles).mean;
+  return true;
+}
+
 /// The operations at all places, on several threads; each depends on its number alone.
 class Points {
  public:
@@ -47,14 +60,7 @@ class Points {
         points_(static_cast<std::size_t>(options.points)) {}
 
   Status run() {
-    std::vector<std::thread> threads;
-    for (int i = 1; i < options_.jobs; ++i) {
-      threads.emplace_back([this] { work(); });
-    }
-    work();
-    for (std::thread& thread : threads) {
-      thread.join();
-    }
+    on_threads(options_.jobs, [this] { work(); });
     const MutexLock lock(mutex_);
     return failed_;
   }
@@ -81,25 +87,20 @@ class Points {
         point.place.push_back(random.uniform());
         operation.sim.error_model.*m->value = m->low + point.place.back() * (m->high - m->low);
       }
-      take(i, std::move(point), run_operation(source_, planned_, operation));
+      const auto result = run_operation(source_, planned_, operation);
+      if (result && note_errors(*result, point)) {
+        points_[i] = std::move(point);
+      }
+      count(result ? Status() : Status(result.error()));
     }
   }
 
-  void take(std::size_t i, RandomPoint point, const Result<OperationResult>& result) {
+  void count(const Status& made) {
     const MutexLock lock(mutex_);
     ++done_;
-    if (!result) {
-      failed_ = result.error();
+    if (!made) {
+      failed_ = made;
       next_ = points_.size();
-    } else {
-      const auto report = nlohmann::json::parse(report_json(*result), nullptr, false);
-      const auto entries = values_of(report, "entry_error_mm", true);
-      const auto angles = values_of(report, "angle_error_deg", true);
-      if (!entries.empty() && !angles.empty()) {
-        point.entry_mm = nav::summarize(entries).mean;
-        point.angle_deg = nav::summarize(angles).mean;
-        points_[i] = std::move(point);
-      }
     }
     if (progress_) {
       progress_(done_, options_.points);
@@ -113,7 +114,7 @@ class Points {
   const std::function<void(int, int)>& progress_;
   std::atomic<std::size_t> next_ = 0;
   Mutex mutex_;
-  std::vector<std::optional<RandomPoint>> points_;
+  std::vector<std::optional<RandomPoint>> points_;  ///< each written by whoever works on it
   Status failed_ ORTHONAV_GUARDED_BY(mutex_);
   int done_ ORTHONAV_GUARDED_BY(mutex_) = 0;
 };
@@ -122,7 +123,7 @@ class Points {
 
 std::vector<Sensitivity> regressed(std::span<const sim::Magnitude* const> magnitudes,
                                    std::span<const RandomPoint> points) {
-  if (points.size() < 2 * (magnitudes.size() + 1)) {
+  if (points.size() < fewest_points(magnitudes.size())) {
     return {};
   }
   const auto rows = static_cast<Eigen::Index>(points.size());
@@ -152,6 +153,13 @@ std::vector<Sensitivity> regressed(std::span<const sim::Magnitude* const> magnit
 Result<std::vector<Sensitivity>> regressed_sensitivities(
     const Case& source, const SensitivityOptions& options, std::size_t& used,
     const std::function<void(int, int)>& progress) {
+  const auto magnitudes = studied_magnitudes(options.operation.sim.error_model);
+  const std::size_t fewest = fewest_points(magnitudes.size());
+  if (options.points < static_cast<int>(fewest)) {
+    return Error{"--points " + std::to_string(options.points) + ": at least " +
+                 std::to_string(fewest) + " needed, for " + std::to_string(magnitudes.size()) +
+                 " magnitudes"};
+  }
   ModelCache models;
   const auto planned = plan_operation(source, options.operation.levels, models);
   if (!planned) {
@@ -163,7 +171,11 @@ Result<std::vector<Sensitivity>> regressed_sensitivities(
   }
   const std::vector<RandomPoint> found = points.found();
   used = found.size();
-  return regressed(studied_magnitudes(options.operation.sim.error_model), found);
+  if (used < fewest) {
+    return Error{"--points " + std::to_string(options.points) + ": " + std::to_string(used) +
+                 " operations placed a screw, at least " + std::to_string(fewest) + " needed"};
+  }
+  return regressed(magnitudes, found);
 }
 
 }  // namespace orthonav::engine

@@ -23,16 +23,36 @@ Result<std::unique_ptr<replay::RecordingHeadset>> recorder_of(
   return replay::RecordingHeadset::around(room, folder, {tools_text(tools)});
 }
 
-void observe(const OperationHooks& hooks, GroundTruthRecorder& ground_truth, GuideTruth& guide,
-             EndNote& end_note, AssembledOperation& live) {
-  live.observe(&ground_truth);
-  live.observe(&end_note);
-  for (SessionObserver* hook : hooks.session) {
-    live.observe(hook);
+/// Whoever watches an operation to its end: what is true in the room, and what was said last.
+class Watchers {
+ public:
+  /// Headset and operation must outlive them; the hooks hear everything after them.
+  Watchers(const sim::SimHeadset& room, AssembledOperation& live, const OperationHooks& hooks)
+      : ground_truth_(room, live.session()), guide_truth_(room, live.session()) {
+    live.observe(&ground_truth_);
+    live.observe(&end_note_);
+    for (SessionObserver* hook : hooks.session) {
+      live.observe(hook);
+    }
+    live.observe(&guide_truth_);
+    live.observe(hooks.loop);
+    live.draw_into(hooks.sink);
   }
-  live.observe(&guide);
-  live.draw_into(hooks.sink);
-}
+  Watchers(const Watchers&) = delete;
+  Watchers& operator=(const Watchers&) = delete;
+
+  /// Adds what they found.
+  void evaluate(std::span<const LevelState> levels, OperationResult& result) const {
+    ground_truth_.evaluate(levels, result);
+    guide_truth_.evaluate(result);
+    end_note_.explain(result);
+  }
+
+ private:
+  GroundTruthRecorder ground_truth_;
+  GuideTruth guide_truth_;
+  EndNote end_note_;
+};
 
 Status tell_opened(const OperationHooks& hooks, sim::SimHeadset& room, const Method& method,
                    const Session& session) {
@@ -51,7 +71,6 @@ Result<LoopReport> run_until_done(const OperationHooks& hooks, AssembledOperatio
   return report;
 }
 
-// NOLINTNEXTLINE(readability-function-size)
 Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Operation operation,
                                 const OperationOptions& options, const OperationHooks& hooks) {
   // The engine gets the tools as a planning file describes them, not as they really are.
@@ -66,10 +85,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
     return assembled.error();
   }
   AssembledOperation& live = **assembled;
-  GroundTruthRecorder ground_truth(room, live.session());
-  GuideTruth guide_truth(room, live.session(), hooks.loop);
-  EndNote end_note;
-  observe(hooks, ground_truth, guide_truth, end_note, live);
+  Watchers watchers(room, live, hooks);
   auto recorder = recorder_of(room, options.record_folder, *tools);
   if (!recorder) {
     return recorder.error();
@@ -91,9 +107,7 @@ Result<OperationResult> operate(sim::SimHeadset& room, const Method& method, Ope
   if (*recorder) {
     result.recording = (*recorder)->close();
   }
-  ground_truth.evaluate(live.session().levels(), result);
-  guide_truth.evaluate(result);
-  end_note.explain(result);
+  watchers.evaluate(live.session().levels(), result);
   return result;
 }
 

@@ -40,12 +40,11 @@ Result<nav::Registration> registered(const StatedNavigation& stated, const sim::
   if (known == models.end()) {
     return Error{"stated navigation: a model of no level"};
   }
-  const auto& levels = room.room().levels;
-  const auto level = std::find_if(levels.begin(), levels.end(),
-                                  [&](const sim::RoomLevel& l) { return l.label == known->label; });
-  const auto truth =
-      room.world_from_room() *
-      room.state().room_from_vertebra[static_cast<std::size_t>(level - levels.begin())];
+  const auto room_from_vertebra = sim::room_from_level(room.room(), room.state(), known->label);
+  if (!room_from_vertebra) {
+    return Error{"stated navigation: the room has no level " + known->label};
+  }
+  const auto truth = room.world_from_room() * *room_from_vertebra;
   Random random = Random(room.options().seed).fork("stated navigation").fork(known->label);
   const Vec3 off_m = sim::normal_vector(random, stated.target_m / std::sqrt(3.0));
   const Mat3 turn = rotation_from_vector(sim::normal_vector(random, stated.angle_rad));

@@ -8,27 +8,25 @@
 namespace orthonav::engine {
 namespace {
 
-/// Files that lie open, each at its next operation.
-class OpenFiles {
+/// A process may have some 1000 files open. Of more than this each is opened anew for its next
+/// operation.
+constexpr std::size_t kMostOpen = 256;
+
+/// Files of one study, each at its next operation.
+class Files {
  public:
-  Status open(std::span<const std::string> paths, std::string& definition) {
+  Status open(std::span<const std::string> paths) {
+    stay_open_ = paths.size() <= kMostOpen;
     for (const std::string& path : paths) {
-      auto store = StudyStore::read(path);
-      if (!store) {
-        return store.error();
-      }
-      if (!definition.empty() && definition != store->definition()) {
-        return Error{path + ": holds study " + study_hash(store->definition()) +
-                     ", the others hold " + study_hash(definition)};
-      }
-      definition = store->definition();
-      stores_.push_back({path, std::move(*store), {}});
-      if (const Status status = advance(stores_.size() - 1, -1); !status) {
+      files_.push_back({path, {}, {}});
+      if (const Status status = advance(files_.size() - 1, -1); !status) {
         return status;
       }
     }
     return {};
   }
+  /// That of all of them.
+  [[nodiscard]] const std::string& definition() const { return definition_; }
 
   /// Nothing at the end.
   Result<std::optional<StoredOperation>> next() {
@@ -36,15 +34,17 @@ class OpenFiles {
     while (!order_.empty() && (!found || order_.begin()->first == found->index)) {
       const std::size_t file = order_.begin()->second;
       order_.erase(order_.begin());
-      StoredOperation here = std::move(*std::exchange(stores_[file].next, {}));
+      StoredOperation here = std::move(*std::exchange(files_[file].next, {}));
       if (found && found->report != here.report) {
-        return Error{stores_[file].path + ": operation " + std::to_string(here.index) +
+        return Error{files_[file].path + ": operation " + std::to_string(here.index) +
                      " has another result than in the other files"};
       }
       if (const Status status = advance(file, here.index); !status) {
         return status.error();
       }
-      found = found ? std::move(found) : std::optional(std::move(here));
+      if (!found) {
+        found = std::move(here);
+      }
     }
     return found;
   }
@@ -52,23 +52,48 @@ class OpenFiles {
  private:
   struct File {
     std::string path;
-    StudyStore store;
+    std::optional<StudyStore> store;  ///< where it is open
     std::optional<StoredOperation> next;
   };
 
-  Status advance(std::size_t file, int after) {
-    auto next = stores_[file].store.next_after(after);
+  Status open(File& file) {
+    auto store = StudyStore::read(file.path);
+    if (!store) {
+      return store.error();
+    }
+    if (!definition_.empty() && definition_ != store->definition()) {
+      return Error{file.path + ": holds study " + study_hash(store->definition()) +
+                   ", the others hold " + study_hash(definition_)};
+    }
+    definition_ = store->definition();
+    file.store = std::move(*store);
+    return {};
+  }
+
+  Status advance(std::size_t which, int after) {
+    File& file = files_[which];
+    if (!file.store) {
+      if (const Status opened = open(file); !opened) {
+        return opened;
+      }
+    }
+    auto next = file.store->next_after(after);
+    if (!stay_open_) {
+      file.store.reset();
+    }
     if (!next) {
       return next.error();
     }
-    stores_[file].next = std::move(*next);
-    if (stores_[file].next) {
-      order_.emplace(stores_[file].next->index, file);
+    file.next = std::move(*next);
+    if (file.next) {
+      order_.emplace(file.next->index, which);
     }
     return {};
   }
 
-  std::vector<File> stores_;
+  bool stay_open_ = true;
+  std::string definition_;
+  std::vector<File> files_;
   std::set<std::pair<int, std::size_t>> order_;
 };
 
@@ -76,9 +101,8 @@ class OpenFiles {
 
 Result<std::string> for_each_operation(std::span<const std::string> paths,
                                        const std::function<Status(const StoredOperation&)>& take) {
-  std::string definition;
-  OpenFiles files;
-  if (const Status opened = files.open(paths, definition); !opened) {
+  Files files;
+  if (const Status opened = files.open(paths); !opened) {
     return opened.error();
   }
   for (;;) {
@@ -87,7 +111,7 @@ Result<std::string> for_each_operation(std::span<const std::string> paths,
       return operation.error();
     }
     if (!*operation) {
-      return definition;
+      return files.definition();
     }
     if (const Status taken = take(**operation); !taken) {
       return taken.error();

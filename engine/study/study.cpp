@@ -5,11 +5,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "base/mutex.h"
 #include "engine/case/operation_plan.h"
+#include "engine/study/on_threads.h"
 #include "engine/study/study_definition.h"
 #include "engine/study/study_store.h"
 #include "engine/study/study_text.h"
@@ -76,15 +76,7 @@ class Workers {
   }
 
   Result<Study> run() {
-    std::vector<std::thread> threads;
-    const int count = std::min<int>(options_.jobs, static_cast<int>(jobs_.size()));
-    for (int i = 1; i < count; ++i) {
-      threads.emplace_back([this] { work(); });
-    }
-    work();
-    for (std::thread& thread : threads) {
-      thread.join();
-    }
+    on_threads(std::min<int>(options_.jobs, static_cast<int>(jobs_.size())), [this] { work(); });
     return keep_and_tell();
   }
 
@@ -172,11 +164,12 @@ class Workers {
   }
 
   void take(std::size_t i, const Result<OperationResult>& result) {
+    auto report = result ? Result<std::string>(report_json(*result)) : result.error();
     const MutexLock lock(mutex_);
     if (stopped_ && result && !result->completed) {
       return;  // it may well have been ended for that
     }
-    reports_[i] = result ? Result<std::string>(report_json(*result)) : result.error();
+    reports_[i] = std::move(report);
     ++done_;
     if (store_ && stored_.ok()) {
       const Job& job = jobs_[i];

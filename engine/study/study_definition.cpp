@@ -141,16 +141,20 @@ Result<std::string> merge_stores(std::span<const std::string> paths) {
 Result<std::vector<int>> missing_operations(const std::string& definition,
                                             std::span<const std::string> paths) {
   std::set<int> made;
-  const auto found = for_each_operation(paths, [&](const StoredOperation& operation) {
-    made.insert(operation.index);
-    return Status();
-  });
-  if (!found) {
-    return found.error();
-  }
-  if (!paths.empty() && *found != definition) {
-    return Error{paths.front() + ": holds study " + study_hash(*found) + ", this is " +
-                 study_hash(definition)};
+  for (const std::string& path : paths) {
+    const auto store = StudyStore::read(path);
+    if (!store) {
+      return store.error();
+    }
+    if (store->definition() != definition) {
+      return Error{path + ": holds study " + study_hash(store->definition()) + ", this is " +
+                   study_hash(definition)};
+    }
+    const auto numbers = store->numbers();
+    if (!numbers) {
+      return numbers.error();
+    }
+    made.insert(numbers->begin(), numbers->end());
   }
   std::vector<int> missing;
   const auto planned = static_cast<int>(planned_in(Json::parse(definition, nullptr, false)));

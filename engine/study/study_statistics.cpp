@@ -109,12 +109,4 @@ RegistrationQuality RegistrationCounts::quality() const {
   return out;
 }
 
-RegistrationQuality registration_quality(const nlohmann::ordered_json& runs) {
-  RegistrationCounts counts;
-  for (const auto& run : runs) {
-    add_run(run, counts);
-  }
-  return counts.quality();
-}
-
 }  // namespace orthonav::engine

@@ -23,9 +23,8 @@ struct RegistrationCounts {
   int silent = 0;
   [[nodiscard]] RegistrationQuality quality() const;
 };
+/// Adds a run's report.
 void add_run(const nlohmann::ordered_json& run, RegistrationCounts& counts);
-/// Of the reports in a study's `runs`.
-[[nodiscard]] RegistrationQuality registration_quality(const nlohmann::ordered_json& runs);
 
 /// The one-sided 95 % upper limit of a fraction of which `hits` of `of` were seen, exact.
 [[nodiscard]] double upper_limit_95(int hits, int of);

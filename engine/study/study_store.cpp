@@ -72,6 +72,21 @@ std::optional<std::uint64_t> as_seed(const std::string& text) {
   return digits ? std::optional(std::stoull(text)) : std::nullopt;
 }
 
+/// The row that `asked` found.
+Result<StoredOperation> operation_in(const Statement& asked, const std::string& path) {
+  const auto seed = as_seed(asked.text(2));
+  if (!seed) {
+    return Error{path + ": seed of operation " + asked.text(0) + " is '" + asked.text(2) +
+                 "', must be a whole number"};
+  }
+  StoredOperation out{static_cast<int>(asked.number(0)), asked.text(1), *seed, asked.text(3),
+                      asked.text(4)};
+  if (!out.report.empty() && !nlohmann::json::accept(out.report)) {
+    return Error{path + ": report of operation " + asked.text(0) + " is no JSON"};
+  }
+  return out;
+}
+
 }  // namespace
 
 struct StudyStore::Database {
@@ -137,6 +152,7 @@ StudyStore::StudyStore(std::unique_ptr<Database> database, std::string path, std
     : database_(std::move(database)),
       path_(std::move(path)),
       definition_(std::move(definition)),
+      hash_(study_hash(definition_)),
       growing_(growing) {}
 StudyStore::StudyStore(StudyStore&&) noexcept = default;
 StudyStore& StudyStore::operator=(StudyStore&&) noexcept = default;
@@ -194,24 +210,44 @@ Result<StudyStore> StudyStore::read(const std::string& path) {
 
 Result<std::vector<StoredOperation>> StudyStore::operations() const {
   std::vector<StoredOperation> out;
-  for (int number = -1;;) {
-    auto next = next_after(number);
-    if (!next) {
-      return next.error();
+  Statement asked(database_->handle,
+                  "SELECT number, case_name, seed, report, why FROM operation WHERE study = ? "
+                  "ORDER BY number");
+  asked.bind(1, hash_);
+  int answer = asked.step();
+  for (; answer == SQLITE_ROW; answer = asked.step()) {
+    auto operation = operation_in(asked, path_);
+    if (!operation) {
+      return operation.error();
     }
-    if (!*next) {
-      return out;
-    }
-    number = (*next)->index;
-    out.push_back(std::move(**next));
+    out.push_back(std::move(*operation));
   }
+  if (answer != SQLITE_DONE) {
+    return database_->failed(path_);
+  }
+  return out;
+}
+
+Result<std::vector<int>> StudyStore::numbers() const {
+  std::vector<int> out;
+  Statement asked(database_->handle,
+                  "SELECT number FROM operation WHERE study = ? ORDER BY number");
+  asked.bind(1, hash_);
+  int answer = asked.step();
+  for (; answer == SQLITE_ROW; answer = asked.step()) {
+    out.push_back(static_cast<int>(asked.number(0)));
+  }
+  if (answer != SQLITE_DONE) {
+    return database_->failed(path_);
+  }
+  return out;
 }
 
 Result<std::optional<StoredOperation>> StudyStore::next_after(int number) const {
   Statement asked(database_->handle,
                   "SELECT number, case_name, seed, report, why FROM operation WHERE study = ? "
                   "AND number > ? ORDER BY number LIMIT 1");
-  asked.bind(1, study_hash(definition_));
+  asked.bind(1, hash_);
   asked.bind(2, number);
   const int answer = asked.step();
   if (answer == SQLITE_DONE) {
@@ -220,22 +256,16 @@ Result<std::optional<StoredOperation>> StudyStore::next_after(int number) const 
   if (answer != SQLITE_ROW) {
     return database_->failed(path_);
   }
-  const auto seed = as_seed(asked.text(2));
-  if (!seed) {
-    return Error{path_ + ": seed of operation " + asked.text(0) + " is '" + asked.text(2) +
-                 "', must be a whole number"};
+  auto operation = operation_in(asked, path_);
+  if (!operation) {
+    return operation.error();
   }
-  StoredOperation out{static_cast<int>(asked.number(0)), asked.text(1), *seed, asked.text(3),
-                      asked.text(4)};
-  if (!out.report.empty() && !nlohmann::json::accept(out.report)) {
-    return Error{path_ + ": report of operation " + asked.text(0) + " is no JSON"};
-  }
-  return std::optional(std::move(out));
+  return std::optional(std::move(*operation));
 }
 
 Status StudyStore::add(const StoredOperation& operation) {
   Statement add(database_->handle, "INSERT OR IGNORE INTO operation VALUES (?, ?, ?, ?, ?, ?)");
-  add.bind(1, study_hash(definition_));
+  add.bind(1, hash_);
   add.bind(2, operation.index);
   add.bind(3, operation.case_name);
   add.bind(4, std::to_string(operation.seed));

@@ -36,6 +36,8 @@ class StudyStore {
 
   [[nodiscard]] const std::string& definition() const { return definition_; }
   [[nodiscard]] Result<std::vector<StoredOperation>> operations() const;
+  /// Those of its operations, in order, without reading them.
+  [[nodiscard]] Result<std::vector<int>> numbers() const;
   /// The one with the least number above `number`; nothing where there is none.
   [[nodiscard]] Result<std::optional<StoredOperation>> next_after(int number) const;
   /// An operation that is there already stays as it is: a task that ran twice made the same.
@@ -50,6 +52,7 @@ class StudyStore {
   std::unique_ptr<Database> database_;
   std::string path_;
   std::string definition_;
+  std::string hash_;  ///< of the definition
   bool growing_ = false;
 };
 

@@ -11,7 +11,7 @@ namespace orthonav::engine {
 [[nodiscard]] std::string study_text(const std::string& method, const nlohmann::ordered_json& runs,
                                      const nlohmann::ordered_json& failed, std::size_t planned);
 
-/// A part of it, or all, as its text has it.
+/// JSON as a study's file writes it: indented by one space.
 [[nodiscard]] std::string text_of(const nlohmann::ordered_json& part);
 
 }  // namespace orthonav::engine

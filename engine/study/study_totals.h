@@ -18,7 +18,6 @@ namespace orthonav::engine {
 class StudyTotals {
  public:
   void add(const nlohmann::ordered_json& run);
-  [[nodiscard]] std::size_t runs() const { return runs_; }
   /// The JSON of a study (docs/file-formats.md) with `runs` in its place. `planned`: how many there
   /// were to be; more than there are where it was stopped.
   [[nodiscard]] nlohmann::ordered_json study(const std::string& method,

@@ -14,16 +14,6 @@
 namespace orthonav::engine {
 namespace {
 
-struct NamedGuidance {
-  std::string_view name;
-  sim::GuidanceProfile value;
-};
-constexpr std::array<NamedGuidance, 3> kGuidance = {{
-    {"overlay", sim::GuidanceProfile::kOverlay},
-    {"numbers", sim::GuidanceProfile::kNumbers},
-    {"closed loop", sim::GuidanceProfile::kClosedLoop},
-}};
-
 struct NamedExposure {
   std::string_view name;
   sim::Exposure value;
@@ -117,7 +107,7 @@ void read_ways(const JsonNode& system, SystemProfile& out) {
       system.refuse("method", known.error().message);
     }
   }
-  read_name(system, "guidance", kGuidance, out.guidance);
+  read_name(system, "guidance", sim::kGuidanceNames, out.guidance);
   if (system.has("exposure")) {
     read_name(system, "exposure", kExposure, out.exposure);
   }
@@ -152,6 +142,10 @@ SystemProfile read_system(const JsonNode& system) {
 }
 
 }  // namespace
+
+bool SystemProfile::can_be_previewed() const {
+  return !navigation && !reference && without.empty() && exposure == sim::Exposure::kLaminae;
+}
 
 void SystemProfile::apply(OperationOptions& options) const {
   options.method = method;

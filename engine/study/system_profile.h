@@ -37,6 +37,9 @@ struct SystemProfile {
 
   /// Its settings, for operations.
   void apply(OperationOptions& options) const;
+  /// Whether the preview can show all that an operation with it is: what its cameras see, with the
+  /// whole method, on the map and on the documented exposure.
+  [[nodiscard]] bool can_be_previewed() const;
 };
 
 /// A list of profiles (docs/file-formats.md). `name` stands for the file in messages.

@@ -31,7 +31,7 @@ std::string mean_and_sd(double mean, const std::optional<double>& sd) {
 }
 
 void test(Prediction& p) {
-  p.mean_p = welch_p({p.published.mean, p.published_error, p.screws - 1.0},
+  p.mean_p = welch_p({p.published.mean, p.published_error, std::max(1.0, p.screws - 1.0)},
                      {p.predicted.mean, p.predicted.standard_error,
                       std::max(1.0, static_cast<double>(p.predicted.operations) - 1.0)});
   if (p.published.sd) {
@@ -97,8 +97,11 @@ std::vector<Prediction> predictions_of(const SystemProfile& system, const nlohma
     if (!quantity.published || !predicted) {
       continue;
     }
-    Prediction p{
-        quantity.name, quantity.unit, *quantity.published, 0.0, false, *predicted, 0.0, 1.0, {}, 0};
+    Prediction p;
+    p.quantity = quantity.name;
+    p.unit = quantity.unit;
+    p.published = *quantity.published;
+    p.predicted = *predicted;
     p.assumed_error = !p.published.sd || !system.screws;
     p.published_error = p.published.sd.value_or(kAssumedSd * p.published.mean) /
                         std::sqrt(static_cast<double>(system.screws.value_or(kAssumedScrews)));

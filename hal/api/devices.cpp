@@ -78,9 +78,10 @@ Status check_covariance(const char* what, const StereoFrame& frame) {
     const double entry = (*frame.head_covariance)[i];
     sound = sound && std::isfinite(entry) && (i % 7 != 0 || entry >= 0.0);
   }
-  return sound ? Status{}
-               : Status(Error{std::string(what) + ": covariance of the head's pose at " +
-                              in_seconds(frame.time) + " is none"});
+  return sound
+             ? Status{}
+             : Status(Error{std::string(what) + ": covariance of the head's pose at " +
+                            in_seconds(frame.time) + " is not finite, or has a negative variance"});
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ struct StereoFrame {
   GreyImage right;
   /// Where the headset was at `time`; absent while the headset is not located.
   std::optional<Transform<World, Rig>> world_from_rig;
-  /// How far that may be off from one frame to the next, where the device says so: of (translation
-  /// m, rotation vector rad about the rig's origin), in World. Absent: it is not stated.
+  /// How far that may be off, drift of the map apart, where the device says so: of (translation m,
+  /// rotation vector rad about the rig's origin), in World. Absent: it is not stated.
   std::optional<PoseCovariance> head_covariance;
 
   /// Empties it and keeps the buffers, so that the next frame allocates nothing.

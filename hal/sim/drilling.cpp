@@ -47,8 +47,8 @@ HandWhileDrilling hand_while_drilling(const ErrorModel& error_model, GuidancePro
 }
 
 void AdvancingWire::follow(Vec3 inwards, const Drilling& now) {
-  sum_ += (now.way - begun_.way) * inwards;
-  begun_.way = now.way;
+  sum_ += (now.way - newest_.way) * inwards;
+  newest_ = now;
 }
 
 Vec3 AdvancingWire::direction(Vec3 first) const {

@@ -32,12 +32,12 @@ struct HandWhileDrilling {
   double unseen_rad = 0.0;   ///< of the wire and not of the tool, so that no display shows it
 };
 /// By the two magnitudes of drilling hands, which are totals: of the wire's axis without a number,
-/// and with one. In a closed loop the hand turns as without a number; what the surgeon's correction
-/// leaves of that and the second magnitude has in addition is unseen.
+/// and with one. In a closed loop the hand turns as without a number and the surgeon takes part of
+/// that out; `unseen_rad` is what is then missing, in quadrature, from the second magnitude.
 [[nodiscard]] HandWhileDrilling hand_while_drilling(const ErrorModel& error_model,
                                                     GuidanceProfile guidance);
 /// What correcting with that reaction and gain leaves of a hand's turn in the wire of a median
-/// surgeon: 0.46, from the two constants alone.
+/// surgeon: 0.46, from reaction, gain and `kDriving_s`.
 [[nodiscard]] double left_by_correcting();
 
 /// A wire on its way into a bone. Its tip goes where the tool points at each moment, so its axis
@@ -45,17 +45,17 @@ struct HandWhileDrilling {
 class AdvancingWire {
  public:
   AdvancingWire(const Drilling& begun, Point<Vertebra> entry, Timestamp pierced = {})
-      : begun_(begun), entry_(entry), pierced_(pierced) {}
+      : newest_(begun), entry_(entry), pierced_(pierced) {}
   /// The tool points along `inwards` (Vertebra, unit) as the wire gets to `way`.
   void follow(Vec3 inwards, const Drilling& now);
-  [[nodiscard]] const Drilling& last() const { return begun_; }
+  [[nodiscard]] const Drilling& last() const { return newest_; }
   [[nodiscard]] Point<Vertebra> entry() const { return entry_; }
   [[nodiscard]] Timestamp pierced() const { return pierced_; }
   /// Unit; `first` before it advanced at all.
   [[nodiscard]] Vec3 direction(Vec3 first) const;
 
  private:
-  Drilling begun_;
+  Drilling newest_;
   Point<Vertebra> entry_;
   Timestamp pierced_{};
   Vec3 sum_{};

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace orthonav::sim {
 
@@ -10,5 +12,16 @@ enum class GuidanceProfile : std::uint8_t {
   kNumbers,     ///< the entry as it hangs there; the angle by number, triangle and cross
   kClosedLoop,  ///< entry and angle by the numbers at the cross, and on while drilling
 };
+
+struct NamedGuidance {
+  std::string_view name;
+  GuidanceProfile value;
+};
+/// As profiles and command lines call them.
+inline constexpr std::array<NamedGuidance, 3> kGuidanceNames = {{
+    {"overlay", GuidanceProfile::kOverlay},
+    {"numbers", GuidanceProfile::kNumbers},
+    {"closed loop", GuidanceProfile::kClosedLoop},
+}};
 
 }  // namespace orthonav::sim

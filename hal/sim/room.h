@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/time.h"
@@ -77,5 +78,16 @@ struct RoomState {
   std::optional<Point<Room>> hand;  ///< centre of the hand holding the active tool
   Vec3 hand_axis{0, 1, 0};          ///< unit, along the forearm, away from the patient
 };
+
+/// Where a level of the room is at that moment; nothing where the room has none of that label.
+[[nodiscard]] inline std::optional<Transform<Room, Vertebra>> room_from_level(
+    const RoomDescription& room, const RoomState& state, std::string_view label) {
+  for (std::size_t i = 0; i < room.levels.size() && i < state.room_from_vertebra.size(); ++i) {
+    if (room.levels[i].label == label) {
+      return state.room_from_vertebra[i];
+    }
+  }
+  return std::nullopt;
+}
 
 }  // namespace orthonav::sim

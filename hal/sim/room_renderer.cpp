@@ -160,8 +160,8 @@ void SoftwareRoomRenderer::render(std::span<const RoomState> states, const Camer
                    error_model_.tag_gloss);
     layers_.add_moment(solids_, lens, 1.0F / static_cast<float>(states.size()), foreground_);
   }
-  const double light = flicker(error_model_, seconds(middle.time.time_since_epoch()));
-  sensor_.expose(background_, foreground_, noise_seed, static_cast<float>(light), image);
+  const double lamp = flicker(error_model_, seconds(middle.time.time_since_epoch()));
+  sensor_.expose(background_, foreground_, noise_seed, static_cast<float>(lamp), image);
 }
 
 void SoftwareRoomRenderer::picture(const RoomState& state, const PinholeView& view,

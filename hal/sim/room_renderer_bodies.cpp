@@ -119,7 +119,7 @@ void Layers::project_face(const Plate& plate, const Lens& lens, const Layer& lay
         continue;
       }
       Vec3 at{(column - 0.5 * n) * plate.cell_m, (0.5 * n - row) * plate.cell_m, 0.0};
-      at.z = plate.flaws != nullptr ? height_m(*plate.flaws, plate.size_m, {at.x, at.y}) : 0.0;
+      at.z = height_m(*plate.flaws, plate.size_m, {at.x, at.y});
       const Vec2 pixel = lens.pixel((plate.camera_from_marker * Point<Marker>{at}).v);
       corners_px_[static_cast<std::size_t>(row * (n + 1) + column)] = {
           pixel.x - static_cast<double>(layer.x0), pixel.y - static_cast<double>(layer.y0)};

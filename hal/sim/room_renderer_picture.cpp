@@ -151,7 +151,7 @@ void PicturePainter::paint(const RoomState& state, const PinholeView& view,
   paint_ground(lens, camera_from_spine.inverse());
   paint_bones(lens, camera_from_spine);
   foreground_.reset(width_, height_, 3);
-  bodies.gather(state, camera_from_room, solids_);
+  bodies.gather(state, camera_from_room, solids_, 0.0);
   layers_.add_moment(solids_, lens, 1.0F, foreground_, nearness_.data());
   merge_tools(image);
 }

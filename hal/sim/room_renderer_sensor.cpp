@@ -218,8 +218,8 @@ void Sensor::finish_row(const float* light_in, int y, std::uint64_t noise_seed,
 }
 
 void Sensor::expose(const HalfImage& background, const Foreground& foreground,
-                    std::uint64_t noise_seed, float light_of_lamp, GreyImage& image) {
-  lamp_ = light_of_lamp;
+                    std::uint64_t noise_seed, float lamp, GreyImage& image) {
+  lamp_ = lamp;
   resize(foreground.width_px, foreground.height_px);
   image.width_px = width_;
   image.height_px = height_;

@@ -18,6 +18,8 @@ constexpr float kBloodAlbedo = 0.10F;
 constexpr Tint kGown{0.42F, 0.78F, 0.80F};
 /// Nothing nearer to the camera than this is drawn.
 constexpr double kNearM = 0.06;
+/// Rank of what lies on the face of a plate.
+constexpr int kOnTheFace = 2;
 
 Capsule rod(Vec3 a, Vec3 b, double radius_a, double radius_b, float albedo, float gloss,
             Tint tint) {
@@ -61,7 +63,6 @@ std::vector<Capsule> rods_of(const RoomTool& tool, double half_m) {
 
 /// Discs on the face of the plate; nothing of them shows from behind it.
 void add_drops(const TagFlaws& flaws, std::vector<Capsule>& bodies) {
-  constexpr int kOnTheFace = 2;
   for (const TagDrop& drop : flaws.drops) {
     const Vec3 at{drop.place_m.x, drop.place_m.y, 0.0};
     Capsule disc = rod(at, at, drop.radius_m, drop.radius_m, kBloodAlbedo, 0.3F, kBlood);
@@ -155,49 +156,52 @@ ToolBodies::ToolBodies(const RoomDescription& room) {
   }
 }
 
-// NOLINTNEXTLINE(readability-function-size)
 void ToolBodies::gather(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
                         Solids& solids, double gloss) const {
   solids.plates.clear();
   solids.capsules.clear();
   solids.lamp_in_camera = (camera_from_room * Direction<Room>{lamp_in_room()}).v;
+  const Vec3 viewer = camera_from_room.inverse().translation();
   const std::size_t known =
       std::min({bodies_.size(), state.room_from_marker.size(), state.tool_present.size()});
   for (std::size_t i = 0; i < known; ++i) {
-    if (!state.tool_present[i]) {
-      continue;
-    }
-    const Body& body = bodies_[i];
-    const auto camera_from_marker = camera_from_room * state.room_from_marker[i];
-    const Vec3 at = camera_from_marker.translation();
-    if (!at.is_finite()) {
-      continue;
-    }
-    const Vec3 normal = state.room_from_marker[i].rotation().column(2);
-    const Vec3 to_viewer =
-        (camera_from_room.inverse().translation() - state.room_from_marker[i].translation())
-            .normalized();
-    if (at.z - 1.5 * body.half_m > kNearM && body.half_m > 0.0) {
-      solids.plates.push_back({camera_from_marker, body.pattern ? &*body.pattern : nullptr,
-                               body.cell_m, body.half_m, lit(normal), static_cast<int>(i),
-                               static_cast<float>(glare(gloss, normal, lamp_in_room(), to_viewer)),
-                               &body.flaws, body.size_m});
-    }
-    for (const Capsule& in_marker : body.rods) {
-      if (in_marker.rank > 1 && !(normal.dot(to_viewer) > 0.0)) {
-        continue;
-      }
-      Capsule c = in_marker;
-      c.tool = static_cast<int>(i);
-      c.a = (camera_from_marker * Point<Marker>{c.a}).v;
-      c.b = (camera_from_marker * Point<Marker>{c.b}).v;
-      if (clip_near(c)) {
-        solids.capsules.push_back(c);
-      }
+    if (state.tool_present[i]) {
+      add_tool(i, state.room_from_marker[i], camera_from_room, viewer, gloss, solids);
     }
   }
   if (state.hand) {
     add_hand(state, camera_from_room, solids.capsules);
+  }
+}
+
+void ToolBodies::add_tool(std::size_t tool, const Transform<Room, Marker>& room_from_marker,
+                          const Transform<LeftCamera, Room>& camera_from_room, Vec3 viewer,
+                          double gloss, Solids& solids) const {
+  const Body& body = bodies_[tool];
+  const auto camera_from_marker = camera_from_room * room_from_marker;
+  const Vec3 at = camera_from_marker.translation();
+  if (!at.is_finite()) {
+    return;
+  }
+  const Vec3 normal = room_from_marker.rotation().column(2);
+  const Vec3 to_viewer = (viewer - room_from_marker.translation()).normalized();
+  if (at.z - 1.5 * body.half_m > kNearM && body.half_m > 0.0) {
+    solids.plates.push_back({camera_from_marker, body.pattern ? &*body.pattern : nullptr,
+                             body.cell_m, body.half_m, lit(normal), static_cast<int>(tool),
+                             static_cast<float>(glare(gloss, normal, lamp_in_room(), to_viewer)),
+                             &body.flaws, body.size_m});
+  }
+  for (const Capsule& in_marker : body.rods) {
+    if (in_marker.rank >= kOnTheFace && !(normal.dot(to_viewer) > 0.0)) {
+      continue;
+    }
+    Capsule c = in_marker;
+    c.tool = static_cast<int>(tool);
+    c.a = (camera_from_marker * Point<Marker>{c.a}).v;
+    c.b = (camera_from_marker * Point<Marker>{c.b}).v;
+    if (clip_near(c)) {
+      solids.capsules.push_back(c);
+    }
   }
 }
 

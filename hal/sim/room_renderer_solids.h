@@ -28,7 +28,7 @@ struct Plate {
   float light = 1.0F;
   int tool = 0;
   float glare = 0.0F;               ///< what it mirrors, as a fraction of a white one's light
-  const TagFlaws* flaws = nullptr;  ///< null: flat
+  const TagFlaws* flaws = nullptr;  ///< never null once gathered
   double size_m = 0.0;              ///< of the tag
 };
 
@@ -57,7 +57,7 @@ class ToolBodies {
   explicit ToolBodies(const RoomDescription& room);
   /// Everything in front of the camera at that moment. `gloss`: of the tags' faces.
   void gather(const RoomState& state, const Transform<LeftCamera, Room>& camera_from_room,
-              Solids& solids, double gloss = 0.0) const;
+              Solids& solids, double gloss) const;
 
  private:
   struct Body {
@@ -68,6 +68,11 @@ class ToolBodies {
     TagFlaws flaws;
     std::vector<Capsule> rods;  ///< in Marker; drops on its face too
   };
+  /// One tool: its plate and its rods.
+  void add_tool(std::size_t tool, const Transform<Room, Marker>& room_from_marker,
+                const Transform<LeftCamera, Room>& camera_from_room, Vec3 viewer, double gloss,
+                Solids& solids) const;
+
   std::vector<Body> bodies_;
 };
 

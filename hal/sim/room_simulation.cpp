@@ -40,6 +40,9 @@ RoomSimulation::RoomSimulation(RoomDescription room, const SimOptions& options, 
   nothing.tool_present.resize(room_.tools.size());
   nothing.room_from_vertebra.resize(layout_.levels());
   level_moved_m_.resize(layout_.levels());
+  for (const RoomLevel& level : room_.levels) {
+    breath_shares_.push_back(share_of_breath(level.label));
+  }
   states_.resize(kKept, nothing);
   if (options.surgeon && layout_.levels() > 0) {
     surgeon_ =
@@ -86,7 +89,7 @@ void RoomSimulation::move_patient(RoomState& now) {
   const Vec3 breath_m = spine_.at(seconds_in(now.time));
   back_moved_m_ = breath_m + slipped_m_;
   for (std::size_t i = 0; i < layout_.levels(); ++i) {
-    level_moved_m_[i] = share_of_breath(room_.levels[i].label) * breath_m + slipped_m_;
+    level_moved_m_[i] = breath_shares_[i] * breath_m + slipped_m_;
     const auto& at_rest = layout_.room_from_vertebra(i);
     now.room_from_vertebra[i] = {at_rest.rotation(),
                                  at_rest.translation() + level_moved_m_[i] + pushed_m(i)};

@@ -76,7 +76,7 @@ class RoomSimulation {
   [[nodiscard]] Grip on_patient(const Posture& posture) const;
   /// Carries on what the surgeon's hand does with the wire.
   void drive_wire();
-  void pierce(const Drilling& drilling);
+  [[nodiscard]] AdvancingWire pierce(const Drilling& drilling);
   void leave_wire();
   /// Another wire for a screw takes the place of one that was taken out.
   void take_wire_out(const std::string& label, Side side);
@@ -97,6 +97,7 @@ class RoomSimulation {
   SpineMotion spine_;
   // With the breath and on the table, at the newest step, in Room.
   std::vector<Vec3> level_moved_m_;
+  std::vector<double> breath_shares_;  ///< of each level; fixed
   Vec3 back_moved_m_{};
   std::optional<AdvancingWire> wire_;
   Vec3 back_against_level_m_{};  ///< of the back against the bone, when the wire pierced it

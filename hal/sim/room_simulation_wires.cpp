@@ -27,18 +27,19 @@ void RoomSimulation::drive_wire() {
     return;
   }
   const auto& drilling = surgeon_->body().posture().drilling;
-  if (drilling && !wire_) {
-    pierce(*drilling);
+  if (!drilling) {
+    if (wire_) {
+      leave_wire();
+    }
+    return;
   }
-  if (drilling && wire_) {
-    wire_->follow(guide_inwards(drilling->level), *drilling);
+  if (!wire_) {
+    wire_ = pierce(*drilling);
   }
-  if (!drilling && wire_) {
-    leave_wire();
-  }
+  wire_->follow(guide_inwards(drilling->level), *drilling);
 }
 
-void RoomSimulation::pierce(const Drilling& drilling) {
+AdvancingWire RoomSimulation::pierce(const Drilling& drilling) {
   constexpr double kSearch_m = 0.02;
   const RoomTool& tool = room_.tools[*layout_.tool(ToolKind::kGuide)];
   const Vec3 tip = (guide_in(drilling.level) * tool.tip_in_marker).v;
@@ -46,11 +47,11 @@ void RoomSimulation::pierce(const Drilling& drilling) {
   const BoneSurface& bone = layout_.bone(drilling.level);
   const Vec3 slip = normal_vector(physics_, error_model_.wire_skiving_m);
   const Vec3 normal = bone.closest(tip).normal;
-  const Vec3 slipped = tip + (slip - slip.dot(normal) * normal);
+  const Vec3 slipped = tip + across_axis(slip, normal);
   const auto hit = bone.first_hit(slipped - kSearch_m * straight, straight, 2.0 * kSearch_m);
-  wire_.emplace(drilling, Point<Vertebra>{hit ? hit->point : bone.closest(slipped).point},
-                kept(steps_ - 1).time);
   back_against_level_m_ = back_moved_m_ - level_moved_m_[drilling.level];
+  return {drilling, Point<Vertebra>{hit ? hit->point : bone.closest(slipped).point},
+          kept(steps_ - 1).time};
 }
 
 void RoomSimulation::leave_wire() {
@@ -62,7 +63,7 @@ void RoomSimulation::leave_wire() {
                     normal_vector(physics_, error_model_.hole_following_rad) +
                     (room_from_vertebra.inverse() * Direction<Room>{driven.unseen_turn_rad}).v;
   const Vec3 direction =
-      (rotation_from_vector(bend - bend.dot(straight) * straight) * straight).normalized();
+      (rotation_from_vector(across_axis(bend, straight)) * straight).normalized();
   const std::string& label = room_.levels[driven.level].label;
   take_wire_out(label, driven.side);
   ++wires_driven_;

@@ -102,9 +102,11 @@ Surgeon::Surgeon(const RoomLayout& layout, const ErrorModel& error_model, const 
       dimples_(layout.levels()),
       moved_(layout.levels()),
       life_(operate()) {
+  if (!layout.operated().empty()) {
+    body_.posture().level = layout.operated().front();
+  }
   const Random tissue = random.fork("tissue");
   for (const std::size_t level : layout.operated()) {
-    body_.posture().level = layout.operated().front();
     regions_[level] = plan_strokes(layout.room().levels[level], layout.room().exposure);
     cover_with_tissue(regions_[level], error_model.tissue_m, tissue.fork(level));
   }

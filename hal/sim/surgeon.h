@@ -77,8 +77,11 @@ class Surgeon {
   Script touch_place(const StepOnDisplay& step, const BoneSpot& place);
   /// Rests the pointer's tip there and clicks, again where the line says that it was not taken.
   Script touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal);
-  /// Of a tip that was set there; `read_s` is how long the line is looked at.
+  /// Of a tip that was set there; `read_s`, on the clock, is how long the line is looked at.
   Script click_at_rest(const StepOnDisplay& step, Vec3 normal, double settle_s, double read_s);
+  /// Rests and clicks; where the line says that it was not taken, rests a second and clicks again.
+  /// Both durations are a median surgeon's.
+  Script click_until_taken(const StepOnDisplay& step, double settle_s, double read_s);
   /// Spread over what can be stroked, each well away from those before it.
   [[nodiscard]] std::vector<BoneSpot> places_to_check(std::size_t level);
   [[nodiscard]] bool told(Notice notice) const {
@@ -176,7 +179,7 @@ class Surgeon {
   StandingMetal metal_;
   SurgeonBody body_;
   GuidanceProfile guidance_;
-  Vec3 misread_rad_{};  ///< by which the angle was taken for another, before the wire went in
+  Vec3 misread_rad_{};  ///< of the angle, drawn before the wire went in; lasts while it does
   Bearings bearings_;
   Random checking_;  ///< of its own: who need not touch draws the same from the others
   Random seating_;   ///< of the tip in a dimple; of its own likewise

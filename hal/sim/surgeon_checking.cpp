@@ -76,13 +76,12 @@ Script Surgeon::touch_place(const StepOnDisplay& step, const BoneSpot& place) {
   // The bone stops the tip, so soft tissue can only hold it off.
   const double lift_m = std::abs(checking_.normal(0.0, error_model_->touch_lift_m));
   const Point<Room> tip{place.point + lift_m * place.normal};
-  const bool near = body_.posture().in_hand == ToolKind::kPointer &&
-                    (body_.posture().grip.tip - tip).norm() < kAcross_m;
+  const double way_m = (body_.posture().grip.tip - tip).norm();
+  const bool near = body_.posture().in_hand == ToolKind::kPointer && way_m < kAcross_m;
   if (!near) {
     co_await touch_at(step, tip, place.normal);
     co_return;
   }
-  const double way_m = (body_.posture().grip.tip - tip).norm();
   co_await body_.move({tip, body_.pointer_axis(place.normal), 0.0},
                       kDab_s + way_m / kDabPace_m_per_s, kDabLift_m);
   co_await click_at_rest(step, place.normal, kDabSettle_s, kDabGlance_s);
@@ -98,16 +97,19 @@ Script Surgeon::touch_at(const StepOnDisplay& step, Point<Room> tip, Vec3 normal
 Script Surgeon::click_at_rest(const StepOnDisplay& step, Vec3 normal, double settle_s,
                               double read_s) {
   body_.posture().contact_normal = normal;
-  // The line says when a touch was not taken: rest a little longer and click again.
+  co_await click_until_taken(step, settle_s, read_s / body_.slowness());
+  body_.posture().contact_normal.reset();
+}
+
+Script Surgeon::click_until_taken(const StepOnDisplay& step, double settle_s, double read_s) {
   for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
     co_await body_.rest(repeat == 0 ? settle_s : kSettle_s);
     co_await body_.click();
-    co_await body_.rest(read_s / body_.slowness());
+    co_await body_.rest(read_s);
     if (!told(Notice::kTouchNotRecorded)) {
       break;
     }
   }
-  body_.posture().contact_normal.reset();
 }
 
 Script Surgeon::check_by_touch(std::size_t level, bool& fits) {

@@ -13,8 +13,6 @@ constexpr double kMoveHead_s = 2.0;
 constexpr double kOverBone_m = 0.030;
 constexpr double kBoneSearch_m = 0.015;
 
-Vec3 across(Vec3 v, Vec3 axis) { return v - v.dot(axis) * axis; }
-
 }  // namespace
 
 Script Surgeon::guide(std::size_t level, Side side) {
@@ -142,8 +140,8 @@ Script Surgeon::look_at_entry(const StepOnDisplay& step, std::size_t level, Side
 Script Surgeon::drive_wire(std::size_t level, Side side, const Aim& aim) {
   const HandWhileDrilling hand = hand_while_drilling(*error_model_, guidance_);
   const Vec3 axis = body_.posture().grip.axis;
-  const Vec3 turn = across(normal_vector(body_.random(), hand.of_wire_rad), axis);
-  const Vec3 unseen = across(normal_vector(body_.random(), hand.unseen_rad), axis);
+  const Vec3 turn = across_axis(normal_vector(body_.random(), hand.of_wire_rad), axis);
+  const Vec3 unseen = across_axis(normal_vector(body_.random(), hand.unseen_rad), axis);
   body_.posture().contact_normal.reset();
   body_.posture().drilling = Drilling{level, side, 0.0, unseen};
   co_await drill(aim, turn);
@@ -169,10 +167,10 @@ Script Surgeon::drill(const Aim& aim, Vec3 turn_of_wire) {
     if (guidance_ == GuidanceProfile::kClosedLoop) {
       if (const auto reading = read_turn(aim)) {
         memory.add(*reading);
-      }
-      if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s))) {
-        const double part = kGain_per_s * seconds(body_.now() - before);
-        corrected += part * across(acted_on->turn + misread_rad_, pierced.axis);
+        if (const auto acted_on = memory.newest(body_.now() - from_seconds(kReaction_s))) {
+          const double part = kGain_per_s * seconds(body_.now() - before);
+          corrected += part * across_axis(acted_on->turn + misread_rad_, pierced.axis);
+        }
       }
     }
     before = body_.now();

@@ -60,7 +60,7 @@ Script Surgeon::set_sleeve_over(const StepOnDisplay& step, std::size_t level,
   co_await body_.move({entry + kOverWire_m * outwards, axis, 0.0}, kSetOver_s);
   co_await body_.move({entry + kSleeveOverBone_m * outwards, axis, 0.0}, kSetOver_s);
   body_.posture().on_wire = true;
-  // Its play lets it lie another way in each of them.
+  // The sleeve's play lets it lie differently at each turn.
   for (int turn = 0; turn < kSleeveTurns && in_step(step); ++turn) {
     const Vec3 lies = normal_vector(sleeving_, error_model_->sleeve_play_rad);
     const double roll_rad = turn + 1 == kSleeveTurns ? 0.0
@@ -70,15 +70,7 @@ Script Surgeon::set_sleeve_over(const StepOnDisplay& step, std::size_t level,
                          (rotation_from_vector(lies) * outwards).normalized(), roll_rad},
                         kSleeveTurn_s);
   }
-  // The line says when it was not taken: rest a little longer and click again.
-  for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
-    co_await body_.rest(kAtRest_s);
-    co_await body_.click();
-    co_await body_.rest(kReadNumbers_s / body_.slowness());
-    if (!told(Notice::kTouchNotRecorded)) {
-      break;
-    }
-  }
+  co_await click_until_taken(step, kAtRest_s, kReadNumbers_s / body_.slowness());
   body_.posture().on_wire = false;
   co_await body_.move({entry + kOverWire_m * outwards, axis, 0.0}, kSetOver_s);
 }

@@ -25,15 +25,7 @@ Script Surgeon::touch_heads(Side side) {
     body_.look(head);
     co_await body_.move({touched, body_.pointer_axis({0, 1, 0}), 0.0}, 1.5, 0.02);
     body_.posture().contact_normal = Vec3{0, 1, 0};
-    // The line says when a touch was not taken: rest a little longer and click again.
-    for (int repeat = 0; repeat <= kRepeats && in_step(step); ++repeat) {
-      co_await body_.rest(1.0);
-      co_await body_.click();
-      co_await body_.rest(0.5);
-      if (!told(Notice::kTouchNotRecorded)) {
-        break;
-      }
-    }
+    co_await click_until_taken(step, 1.0, 0.5);
     body_.posture().contact_normal.reset();
   }
   co_await body_.rest(1.0);

@@ -15,7 +15,10 @@ TEST(ClearanceQuality, CountsBoundsThatHeldAndGradesAgainstTheTruth) {
      "tracked": {"clearance_95_mm": -2.6, "grade_probability": {"A": 0.3, "B": 0.7}}},
     {"clearance_mm": 1.0, "planned": {"clearance_mm": 2.0}},
     {"planned": {"clearance_95_mm": 0.5}}]}, {"label": "L5"}]}])");
-  const ClearanceQuality quality = clearance_quality(runs);
+  ClearanceQuality quality;
+  for (const auto& run : runs) {
+    add_run(run, quality);
+  }
   EXPECT_EQ(quality.planned.screws, 2);
   EXPECT_EQ(quality.planned.held, 2);
   EXPECT_EQ(quality.tracked.screws, 2);
@@ -25,7 +28,7 @@ TEST(ClearanceQuality, CountsBoundsThatHeldAndGradesAgainstTheTruth) {
   EXPECT_EQ(quality.grades[1][2], 1) << "expected B, in truth C";
   const auto json = clearance_json(quality);
   EXPECT_EQ(json["true_grades_by_likeliest"]["B"][2], 1);
-  EXPECT_EQ(clearance_quality(nlohmann::ordered_json::array()).tracked.share(), 0.0);
+  EXPECT_EQ(ClearanceQuality{}.tracked.share(), 0.0);
 }
 
 }  // namespace

@@ -73,6 +73,20 @@ TEST(RegressedSensitivities, FindWhatDecidesWithAnIntervalThatHoldsIt) {
   EXPECT_TRUE(regressed(three, random_points(7)).empty());
 }
 
+TEST(RegressedSensitivities, RefuseTooFewPointsBeforeTheFirstOperation) {
+  SensitivityOptions options;
+  options.points = 5;
+  std::size_t used = 0;
+  bool operated = false;
+  const auto found =
+      regressed_sensitivities({}, options, used, [&operated](int, int) { operated = true; });
+  ASSERT_FALSE(found.ok());
+  const std::size_t fewest = fewest_points(studied_magnitudes({}).size());
+  EXPECT_THAT(found.error().message,
+              HasSubstr("--points 5: at least " + std::to_string(fewest) + " needed"));
+  EXPECT_FALSE(operated);
+}
+
 TEST(SensitivityPage, ShowsBarsOfTheFirstAndATableOfAll) {
   std::vector<Sensitivity> found;
   for (int i = 0; i < 25; ++i) {

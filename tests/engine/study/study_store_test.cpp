@@ -189,6 +189,42 @@ TEST_F(StudyStoreTest, ADatabaseThatIsDamagedIsNamedInOneLine) {
   EXPECT_THAT(joined.error().message, Not(HasSubstr("\n")));
 }
 
+/// So few files may be open while it lives.
+class FewOpenFiles {
+ public:
+  explicit FewOpenFiles(rlim_t most) {
+    getrlimit(RLIMIT_NOFILE, &limit_);
+    const rlimit few{most, limit_.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &few);
+  }
+  FewOpenFiles(const FewOpenFiles&) = delete;
+  FewOpenFiles& operator=(const FewOpenFiles&) = delete;
+  ~FewOpenFiles() { setrlimit(RLIMIT_NOFILE, &limit_); }
+
+ private:
+  rlimit limit_{};
+};
+
+TEST_F(StudyStoreTest, JoinsMoreFilesThanMayBeOpen) {
+  const Case spine = phantom({"L5"});
+  std::vector<std::string> files;
+  ASSERT_NO_FATAL_FAILURE(make_shards(spine, short_runs(), 2, files));
+  const auto joined = merge_stores(files);
+  ASSERT_TRUE(joined.ok()) << joined.error().message;
+  constexpr int kFiles = 300;
+  for (int i = 2; i < kFiles; ++i) {
+    files.push_back(file("copy" + std::to_string(i) + ".db"));
+    fs::copy_file(files[static_cast<std::size_t>(i % 2)], files.back());
+  }
+  const FewOpenFiles few(200);
+  const auto of_all = merge_stores(files);
+  ASSERT_TRUE(of_all.ok()) << of_all.error().message;
+  EXPECT_EQ(*of_all, *joined);
+  const auto missing = missing_operations(definition_of({&spine, 1}, short_runs()), files);
+  ASSERT_TRUE(missing.ok()) << missing.error().message;
+  EXPECT_THAT(*missing, SizeIs(0));
+}
+
 /// No file may grow beyond this while it lives, as on a full disk.
 class FullDisk {
  public:

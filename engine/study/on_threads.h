@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace orthonav::engine {
+
+/// Calls `work` on so many threads at once, the calling one among them, and waits for all of them.
+inline void on_threads(int count, const std::function<void()>& work) {
+  std::vector<std::thread> threads;
+  for (int i = 1; i < count; ++i) {
+    threads.emplace_back(work);
+  }
+  work();
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+}
+
+}  // namespace orthonav::engine
