@@ -180,7 +180,7 @@ void ShownFrameWriter::write_screw(const PlacedScrew& screw, const Visibility& v
   }
   if (visible.clearance) {
     append_clearance_line(add(frame, HologramKind::kNumbers).text, *visible.clearance,
-                          visible.trajectory && visible.trajectory->at.level->registration_only());
+                          screw.at.level->registration_only());
   }
   if (visible.cross && visible.drill.phase != nav::DrillPhase::kAway) {
     append_drill(add(frame, HologramKind::kNumbers).text, visible.drill);

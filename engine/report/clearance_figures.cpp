@@ -17,10 +17,7 @@ nlohmann::ordered_json with_spread(const nav::ScrewClearance& clearance, Side si
   put_least(out, clearance.least, side);
   if (clearance.spread) {
     out["clearance_95_mm"] = clearance.spread->lower_95_m * 1e3;
-    for (std::size_t g = 0; g < nav::kPedicleGrades; ++g) {
-      const auto grade = static_cast<nav::PedicleGrade>(g);
-      out["grade_probability"][nav::name_of(grade)] = clearance.spread->probability(grade);
-    }
+    out["grade_probability"] = grades_json(clearance.spread->grade_probability);
   }
   return out;
 }

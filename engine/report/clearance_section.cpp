@@ -23,10 +23,11 @@ std::string word_of(const json& object, const char* key) {
              : kAbsent;
 }
 
-std::string millimetre_cell(const json& object, const char* key) {
+/// `beside`: what stands behind the number, where there is one.
+std::string millimetre_cell(const json& object, const char* key, const char* beside = "") {
   const auto value = value_of(object, key);
   const char* const open = value && *value < 0.0 ? "<td class=bad>" : "<td>";
-  return open + (value ? html_number(*value, 2) : std::string(kAbsent)) + "</td>";
+  return open + (value ? html_number(*value, 2) + beside : std::string(kAbsent)) + "</td>";
 }
 
 /// "medial, 18 mm".
@@ -51,12 +52,7 @@ std::string grades_cell(const json& object) {
 
 /// The bound, and that it lacks what all strokes share.
 std::string bound_cell(const json& object, bool registration_only) {
-  std::string cell = millimetre_cell(object, "clearance_95_mm");
-  constexpr std::string_view kEnd = "</td>";
-  if (registration_only && value_of(object, "clearance_95_mm")) {
-    cell.insert(cell.size() - kEnd.size(), kRegistrationOnlyHtml);
-  }
-  return cell;
+  return millimetre_cell(object, "clearance_95_mm", registration_only ? kRegistrationOnlyHtml : "");
 }
 
 void row_of(const std::string& name, const json& screw, bool registration_only, std::string& html) {

@@ -48,8 +48,8 @@ struct ScrewOutcome {
   /// Of a screw that was planned anew in surgery, against the plan before surgery.
   std::optional<double> preoperative_angle_error_rad = {};
   std::optional<double> preoperative_entry_error_m = {};
-  /// Somebody was told, while it could still be changed or was measured: the wire lies beyond a
-  /// limit, or the screw may break through the cortex.
+  /// Whether the surgeon was warned of this screw: its wire was measured beyond a limit, its
+  /// clearance's 95 % bound is below 0, or its planned breach was accepted.
   [[nodiscard]] bool warned() const;
 };
 

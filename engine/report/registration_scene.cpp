@@ -63,22 +63,26 @@ std::vector<double> distances_from_strokes_m(const nav::TriangleMesh& mesh,
   return out;
 }
 
-/// Refused, and soft tissue is behind it; "press here" is then what helps most.
-bool asks_to_scrape(const nav::Registration& r) {
+bool shows_tissue(const nav::Registration& r) {
   constexpr double kTissue_m = 0.0003;
-  return !r.accepted && r.stroke_next && std::max(r.standoff_m, r.field_sd_m) > kTissue_m;
+  return std::max(r.standoff_m, r.field_sd_m) > kTissue_m;
 }
 
-/// What the registration made of the strokes, or else what the points show: `paper` estimates none.
+/// Refused, and soft tissue is behind it; "press here" is then what helps most.
+bool asks_to_scrape(const nav::Registration& r) {
+  return !r.accepted && r.stroke_next && shows_tissue(r);
+}
+
+/// What the registration made of the strokes; where it made nothing of them, what the points show.
+/// `paper` has neither.
 std::vector<nav::EstimatedHeight> heights_of(const RegisteredLevel& level,
                                              const std::vector<PlacedPoint>& points) {
   const nav::Registration& r = level.registration;
-  constexpr double kShown_m = 0.0003;
   if (!r.heights.empty()) {
     return r.heights;
   }
   std::vector<nav::EstimatedHeight> out;
-  if (r.noise_m > 0.0 && (r.standoff_m > kShown_m || r.field_sd_m > kShown_m)) {
+  if (r.noise_m > 0.0 && shows_tissue(r)) {
     for (const PlacedPoint& p : points) {
       if (!p.off_bone) {
         out.push_back({{p.place_m}, p.residual_m + r.standoff_m});

@@ -59,20 +59,6 @@ void put_guided(Json& out, const ScrewOutcome& screw) {
   }
 }
 
-/// Of a screw that is done, what was not measured is named.
-void put_trajectory(Json& out, const ScrewOutcome& screw) {
-  if (screw.trajectory) {
-    out["executed"] = executed_json(*screw.trajectory);
-  } else if (screw.done) {
-    out["not_measured"].push_back("executed");
-  }
-  if (screw.done && !screw.tracked) {
-    out["not_measured"].push_back("clearance");
-  } else if (screw.done && !screw.tracked->spread) {
-    out["not_measured"].push_back("grade_probability");
-  }
-}
-
 Json screw_json(const ScrewOutcome& screw) {
   Json out{{"side", name_of(screw.side)}};
   if (screw.angle_error_rad) {
@@ -82,7 +68,9 @@ Json screw_json(const ScrewOutcome& screw) {
   put_guided(out, screw);
   put_planned_in_surgery(out, screw.planned_in_surgery);
   put_clearance(out, screw);
-  put_trajectory(out, screw);
+  if (screw.done) {
+    put_executed(out, screw.trajectory, screw.tracked);
+  }
   put_wire(out, screw);
   return out;
 }

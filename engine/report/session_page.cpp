@@ -76,10 +76,9 @@ std::string touches_of_landmark(const RecordedLevel& level) {
   return text.empty() ? "\u2013" : text;
 }
 
-/// What stands beside an error that lacks what all strokes share.
-std::string of_registration_only(const RecordedRegistration& registration) {
-  const bool only = registration.predicted_tre_m && registration.registration_only.value_or(false);
-  return only ? std::string(kRegistrationOnlyHtml) : "";
+/// An error or a bound in mm, and beside it that it lacks what all strokes share.
+std::string bound_text(const std::optional<double>& value_m, bool registration_only) {
+  return recorded(value_m, 1e3, 2) + (value_m && registration_only ? kRegistrationOnlyHtml : "");
 }
 
 /// Whether a bound on a screw's place lacks it.
@@ -102,10 +101,11 @@ void put_levels(const SessionRecord& session, std::string& html) {
             cell(std::to_string(level.attempts));
     if (level.registration) {
       const RecordedRegistration& in_force = session.registrations[*level.registration];
-      html += cell(recorded(in_force.rmse_m, 1e3, 2)) +
-              cell(recorded(in_force.predicted_tre_m, 1e3, 2) + of_registration_only(in_force)) +
-              cell(in_force.points ? std::to_string(*in_force.points) : kNotRecorded) +
-              cell(recorded(level.digitization_s, 1.0, 1));
+      html +=
+          cell(recorded(in_force.rmse_m, 1e3, 2)) +
+          cell(bound_text(in_force.predicted_tre_m, in_force.registration_only.value_or(false))) +
+          cell(in_force.points ? std::to_string(*in_force.points) : kNotRecorded) +
+          cell(recorded(level.digitization_s, 1.0, 1));
     } else {
       html += "<td>\u2013</td><td>\u2013</td><td>\u2013</td><td>\u2013</td>";
     }
@@ -146,10 +146,7 @@ void put_screws(const SessionRecord& session, std::string& html) {
                 cell(html_number(pose->tip_to_entry_m * 1e3, 2)) +
                 cell(html_number(pose->depth_m * 1e3, 2)) +
                 cell(recorded(pose->clearance_m, 1e3, 2)) +
-                cell(recorded(pose->clearance_95_m, 1e3, 2) +
-                     (pose->clearance_95_m && registration_only(session, level)
-                          ? std::string(kRegistrationOnlyHtml)
-                          : "")) +
+                cell(bound_text(pose->clearance_95_m, registration_only(session, level))) +
                 cell(wire_text(screw)) + "</tr>";
       } else {
         const std::string none = cell(screw.done ? kNotRecorded : "\u2013");
@@ -210,10 +207,7 @@ void put_registrations(const SessionRecord& session, std::string& html) {
             cell(each.passed ? "<span class=good>passed</span>"
                              : "<span class=bad>refused</span> " + html_escaped(each.reason)) +
             cell(recorded(each.rmse_m, 1e3, 2)) + cell(recorded(each.runner_up_rmse_m, 1e3, 2)) +
-            cell(recorded(each.tre_95_m, 1e3, 2) +
-                 (each.tre_95_m && each.registration_only.value_or(false)
-                      ? std::string(kRegistrationOnlyHtml)
-                      : "")) +
+            cell(bound_text(each.tre_95_m, each.registration_only.value_or(false))) +
             cell(each.points ? std::to_string(*each.points) : kNotRecorded) + "</tr>";
     if (!each.warning.empty()) {
       html += "<tr><td></td><td colspan=7 class=bad>" + html_escaped(each.warning) + "</td></tr>";

@@ -64,9 +64,8 @@ std::string tissue_legend(const RegistrationScene& scene) {
     out += "<i style=\"background:" + hex(c) + "\"></i>";
   }
   return out + "</b> " + html_number(full_scale_m(scene) * 1e3, 1) +
-         " mm<em>height of the tip above the bone, as strokes within 8 mm tell when their noise is "
-         "left "
-         "out: soft tissue, or a model that is not quite the bone</em></span></div>";
+         " mm<em>height of the tip above the bone, from strokes within 8 mm, without their noise: "
+         "soft tissue, or a model that is not quite the bone</em></span></div>";
 }
 
 }  // namespace

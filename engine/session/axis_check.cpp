@@ -5,9 +5,12 @@
 
 namespace orthonav::engine {
 
+double sd_of_each_rad(const nav::SpinCalibration& measured, double least_sd_rad) {
+  return std::max(measured.axis_sigma_rad / std::sqrt(2.0), least_sd_rad);
+}
+
 void AxisCheck::take(const nav::SpinCalibration& measured, Direction<Marker> in_use) {
-  // The measured SD is that of the angle, of both directions together.
-  const double sd_rad = std::max(measured.axis_sigma_rad / std::sqrt(2.0), rules_.least_sd_rad);
+  const double sd_rad = sd_of_each_rad(measured, rules_.least_sd_rad);
   const double known = sd_rad_ * sd_rad_ / (sd_rad_ * sd_rad_ + sd_rad * sd_rad);
   AxisDifference found;
   found.off_rad = angle_between_rad(in_use.v, measured.axis_in_marker.v);

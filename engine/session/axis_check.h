@@ -22,9 +22,14 @@ struct AxisCheckRules {
   double prior_sd_rad = 0.010;
   /// No measurement is taken to be better: tags and lenses are off alike in all poses. 0.1°.
   double least_sd_rad = 0.1 * kRadiansPerDegree;
-  /// A correction of less is not worth a word: half of what the numbers are read to.
+  /// A smaller correction is not offered.
   double worth_rad = 0.15 * kRadiansPerDegree;
 };
+
+/// SD of the axis that a turning sleeve told, about each direction across it: the calibration's is
+/// that of both together.
+[[nodiscard]] double sd_of_each_rad(const nav::SpinCalibration& measured,
+                                    double least_sd_rad = AxisCheckRules{}.least_sd_rad);
 
 /// Each wire that is measured so tells of the axis; what is corrected counts as known from then on.
 class AxisCheck {

@@ -22,7 +22,7 @@ struct Coaching;
 [[nodiscard]] std::string_view word_of(Side side);
 /// "stroke the left lamina".
 void append(std::string& out, const nav::BonePlace& place);
-/// "slides along the spine (0.4 mm at the screws)".
+/// "cranial-caudal shift (0.4 mm at the screws)".
 void append(std::string& out, const nav::UncertainMotion& motion);
 /// "registration RMSE 3.4 mm, limit 3.0 mm".
 void append(std::string& out, const nav::RefusalReason& reason);

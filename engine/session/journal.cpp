@@ -147,6 +147,7 @@ void Journal::registered(Timestamp time, const LevelState& level,
     line["world_from_vertebra_mm"] = matrix_mm(result->world_from_vertebra.row_major());
     if (result->tre_95_m > 0.0) {
       put_judgement(line, *result);
+      line["registration_only"] = !(result->common.sd_m() > 0.0);
     }
   }
   if (level.tag_size) {
@@ -157,7 +158,6 @@ void Journal::registered(Timestamp time, const LevelState& level,
   // Infinite, that is without a bound, becomes null.
   if (outcome.passed()) {
     line["predicted_tre_mm"] = nav::worst_m(level.predicted) * 1e3;
-    line["registration_only"] = level.registration_only();
   }
   add_line(*log_, line, kDurable);
 }

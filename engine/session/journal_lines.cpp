@@ -29,6 +29,20 @@ JournalLine executed_json(const nav::ExecutedTrajectory& executed) {
   return out;
 }
 
+void put_executed(JournalLine& line, const std::optional<nav::ExecutedTrajectory>& executed,
+                  const std::optional<nav::ScrewClearance>& at_depth) {
+  if (executed) {
+    line["executed"] = executed_json(*executed);
+  } else {
+    line["not_measured"].push_back("executed");
+  }
+  if (!at_depth) {
+    line["not_measured"].push_back("clearance");
+  } else if (!at_depth->spread) {
+    line["not_measured"].push_back("grade_probability");
+  }
+}
+
 JournalLine grades_json(const std::array<double, nav::kPedicleGrades>& probability) {
   JournalLine out = JournalLine::object();
   for (std::size_t g = 0; g < nav::kPedicleGrades; ++g) {

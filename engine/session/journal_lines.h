@@ -23,6 +23,9 @@ using JournalLine = nlohmann::ordered_json;
 [[nodiscard]] JournalLine executed_json(const nav::ExecutedTrajectory& executed);
 /// Of a 3x3 by rows.
 [[nodiscard]] JournalLine scaled(const std::array<double, 9>& covariance, double factor);
+/// `executed` of a screw that is done; what of it and of its clearance was not measured is named.
+void put_executed(JournalLine& line, const std::optional<nav::ExecutedTrajectory>& executed,
+                  const std::optional<nav::ScrewClearance>& at_depth);
 /// The probability of each grade, A to E.
 [[nodiscard]] JournalLine grades_json(const std::array<double, nav::kPedicleGrades>& probability);
 /// In mm and degrees.

@@ -180,7 +180,6 @@ class Reading {
     return time;
   }
 
-  // NOLINTNEXTLINE(readability-function-size): a case per kind of line
   void take_line(const JsonNode& line) {
     if (ended_) {
       return line.refuse("stands after the end of the session");
@@ -196,22 +195,15 @@ class Reading {
                        {optional_number(line, "predicted_tre_mm", kMetresPerMm),
                         optional_number(line, "tre_95_mm", kMetresPerMm)},
                        line);
-    } else if (what == "check point") {
-      replay_.checked(line.text("level"),
-                      {line.number("distance_mm") * kMetresPerMm, line.flag_or("within", false)},
-                      line);
-    } else if (what == "check point dropped") {
-      replay_.check_dropped(line.text("level"), line);
-    } else if (what == "landmark") {
-      replay_.landmark(line.text("level"), landmark_of(line), line);
+    } else if (what == "check point" || what == "check point dropped" || what == "landmark" ||
+               what == "landmark dropped") {
+      take_touch_line(what, line);
     } else if (what == "tips") {
       record_.tips = tips_of(line);
     } else if (what == "calibration") {
       record_.calibration = calibration_of(line);
     } else if (what == "axis") {
       record_.axis = axis_of(line);
-    } else if (what == "landmark dropped") {
-      replay_.landmark_dropped(line.text("level"), line);
     } else if (what == "screw" || what == "wire" || what == "screw redone") {
       take_screw_line(what, line, time);
     } else if (what == "replanned") {
@@ -225,6 +217,20 @@ class Reading {
       ended_ = true;
     } else if (what != "not understood") {
       line.refuse("what", "\"" + what.substr(0, 40) + "\" is unknown");
+    }
+  }
+
+  void take_touch_line(const std::string& what, const JsonNode& line) {
+    const std::string level = line.text("level");
+    if (what == "check point") {
+      replay_.checked(
+          level, {line.number("distance_mm") * kMetresPerMm, line.flag_or("within", false)}, line);
+    } else if (what == "check point dropped") {
+      replay_.check_dropped(level, line);
+    } else if (what == "landmark") {
+      replay_.landmark(level, landmark_of(line), line);
+    } else {
+      replay_.landmark_dropped(level, line);
     }
   }
 

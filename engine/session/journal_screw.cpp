@@ -24,20 +24,6 @@ void put_clearance_at_depth(JournalLine& line, const LevelState& level, std::siz
   }
 }
 
-/// Where the tool went; what was not measured is named.
-void put_executed(JournalLine& line, const LevelState& level, std::size_t screw) {
-  if (level.executed[screw]) {
-    line["executed"] = executed_json(*level.executed[screw]);
-  } else {
-    line["not_measured"].push_back("executed");
-  }
-  if (!level.clearance_at_depth[screw]) {
-    line["not_measured"].push_back("clearance");
-  } else if (!level.clearance_at_depth[screw]->spread) {
-    line["not_measured"].push_back("grade_probability");
-  }
-}
-
 /// How its wire was left: measured within the limits, kept beyond one, or not measured.
 void put_wire_outcome(JournalLine& line, const LevelState& level, std::size_t screw) {
   const WireOutcome& outcome = level.wires[screw];
@@ -101,7 +87,7 @@ void Journal::screw_done(Timestamp time, const LevelState& level, std::size_t sc
     line["depth_mm"] = at_depth->measured->depth_m * 1e3;
   }
   put_clearance_at_depth(line, level, screw);
-  put_executed(line, level, screw);
+  put_executed(line, level.executed[screw], level.clearance_at_depth[screw]);
   put_wire_outcome(line, level, screw);
   add_line(*log_, line, kDurable);
 }

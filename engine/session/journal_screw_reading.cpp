@@ -61,6 +61,9 @@ std::optional<nav::ExecutedTrajectory> executed_of(const JsonNode& line) {
   out.point_covariance_m2 =
       covariance_of(node, "entry_covariance_mm2", kMetresPerMm * kMetresPerMm);
   out.direction_covariance_rad2 = covariance_of(node, "direction_covariance_rad2", 1.0);
+  if (out.point_covariance_m2.has_value() != out.direction_covariance_rad2.has_value()) {
+    node.refuse("direction_covariance_rad2", "must stand beside entry_covariance_mm2");
+  }
   return out;
 }
 

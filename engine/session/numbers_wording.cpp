@@ -88,6 +88,8 @@ void append_clearance_line(std::string& out, const nav::ShownClearance& clearanc
   if (clearance.may_break()) {
     out += ": ";
     append_breach(out, clearance);
+    // One that breaks through does so by what was measured; "may" is the bound's.
+    registration_only = registration_only && clearance.least_tenths >= 0;
   } else if (clearance.lower_95_tenths) {
     out.append(", ").append(words::kAtLeast).append(" ");
     append_clearance(out, *clearance.lower_95_tenths);

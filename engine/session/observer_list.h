@@ -57,7 +57,7 @@ class ObserverList : public SessionObserver {
     }
   }
   void axis_compared(Timestamp time, const AxisDifference& difference) override {
-    for (SessionObserver* o : observers_) {
+    for (auto* o : observers_) {
       o->axis_compared(time, difference);
     }
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/session/axis_check.h"
 #include "engine/session/tool_in_vertebra.h"
 
 namespace orthonav::engine {
@@ -22,8 +23,8 @@ void Placing::begin() {
 void Placing::collect(const nav::TrackedPose& pose, const nav::ToolGeometry& guide) {
   if (pose.status == PoseStatus::kMeasured) {
     touch_.add({pose.value * guide.tip_in_marker, (pose.value * guide.axis_in_marker).v});
-    if (recent_.size() == kMostRecent) {
-      recent_.erase(recent_.begin());
+    if (recent_.size() == 2 * kMostRecent) {
+      recent_.erase(recent_.begin(), recent_.begin() + kMostRecent);
     }
     recent_.push_back(pose.value);
   } else {
@@ -49,7 +50,7 @@ std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t s
   const nav::Axis<Vertebra> sleeve{
       vertebra_from_world * resting.mean.point,
       -(vertebra_from_world * Direction<World>{resting.mean.direction}).v};
-  const double axis_sd_rad = spin_ ? spin_->axis_sigma_rad : rules_.axis_sd_rad;
+  const double axis_sd_rad = spin_ ? sd_of_each_rad(*spin_) : rules_.axis_sd_rad;
   const nav::SleeveErrors errors{std::hypot(axis_sd_rad, rules_.play_rad, resting.direction_sd_rad),
                                  std::hypot(rules_.tip_sd_m, resting.tip_sd_m)};
   const nav::PlacedAxis axis =
@@ -57,22 +58,22 @@ std::optional<TouchRefusal> Placing::take(const LevelState& level, std::size_t s
   if (const auto refusal = refusal_of(axis)) {
     return refusal;
   }
-  wire_ = PlacedWire{axis, resting.pairs, rules_.angle_limit_rad, rules_.entry_limit_m, false};
   measured_ = Measured{sleeve, *now.uncertainty, errors, resting.pairs};
-  no_other_entry_ = false;
-  confirming_ = false;
+  put(axis);
   return std::nullopt;
 }
 
 void Placing::judge_again(const nav::ScrewPlan& plan) {
-  wire_ = PlacedWire{
-      nav::placed_axis(plan, measured_->sleeve, measured_->uncertainty, measured_->errors),
-      measured_->pairs, rules_.angle_limit_rad, rules_.entry_limit_m, false};
+  put(nav::placed_axis(plan, measured_->sleeve, measured_->uncertainty, measured_->errors));
+}
+
+void Placing::put(const nav::PlacedAxis& axis) {
+  wire_ = PlacedWire{axis, measured_->pairs, rules_.angle_limit_rad, rules_.entry_limit_m, false};
   no_other_entry_ = false;
   confirming_ = false;
 }
 
-/// Where the sleeve was on this wire all the while before it rested, back to where it was not.
+/// Uses the latest unbroken run of poses in which the sleeve was on this wire.
 void Placing::use_turning(const nav::ToolGeometry& guide, RestingAxis& resting) {
   constexpr double kSameWire_m = 0.006;
   constexpr double kSameWire_rad = 4.0 * kRadiansPerDegree;
@@ -81,14 +82,17 @@ void Placing::use_turning(const nav::ToolGeometry& guide, RestingAxis& resting) 
            angle_between_rad((pose * guide.axis_in_marker).v, resting.mean.direction) <=
                kSameWire_rad;
   };
-  const auto off = std::find_if_not(recent_.rbegin(), recent_.rend(), on_wire);
-  const std::span<const Transform<World, Marker>> poses(off.base(), recent_.end());
+  const std::span all = std::span<const Transform<World, Marker>>(recent_).last(
+      std::min(recent_.size(), kMostRecent));
+  const auto off = std::find_if_not(all.rbegin(), all.rend(), on_wire);
+  const std::span<const Transform<World, Marker>> poses(off.base(), all.end());
   const auto found = nav::spin_calibration(poses, guide.tip_in_marker, guide.axis_in_marker);
   spin_ = found ? std::optional(*found) : std::nullopt;
   if (!spin_) {
     return;  // it was not turned
   }
-  // An axis that is off points everywhere about the wire, and so does its tip.
+  // Where the described axis is off, axis and tip circle the wire while the sleeve turns; their
+  // means do not.
   Vec3 tip;
   Vec3 direction;
   for (const Transform<World, Marker>& pose : poses) {

@@ -18,7 +18,7 @@ namespace orthonav::engine {
 /// without the guide's own axis, and that axis as well.
 class Placing {
  public:
-  Placing() { recent_.reserve(kMostRecent); }
+  Placing() { recent_.reserve(2 * kMostRecent); }
   /// `redo` false: no wire is redone; one beyond a limit is kept by a word, or its level rejected.
   explicit Placing(const PlacedWireRules& rules, bool redo = true) : Placing() {
     rules_ = rules;
@@ -62,9 +62,11 @@ class Placing {
     nav::SleeveErrors errors;
     std::size_t pairs = 0;
   };
-  /// Ten seconds.
+  /// Pairs in which the guide was measured: ten seconds at 30 a second.
   static constexpr std::size_t kMostRecent = 300;
 
+  /// The wire, as it was measured, by its axis against a plan.
+  void put(const nav::PlacedAxis& axis);
   void use_turning(const nav::ToolGeometry& guide, RestingAxis& resting);
   [[nodiscard]] std::optional<TouchRefusal> refusal_of(const nav::PlacedAxis& axis) const;
 

@@ -108,7 +108,7 @@ std::string_view plain_reason(ReplanRefusal::Kind kind) {
     case kDrilling:
       return "drilling, draw the drill out first";
     case kWireIn:
-      return "its wire is in: measure it first; one beyond a limit can be suited";
+      return "its wire is in: the plan can change only once the wire was measured beyond a limit";
     case kNoScrewLeft:
       return "every screw of this level is done";
     case kNothingToUndo:

@@ -1,5 +1,6 @@
 #include "engine/session/session.h"
 
+#include <numbers>
 #include <utility>
 
 #include "base/joined.h"
@@ -31,6 +32,13 @@ constexpr bool keeps_message(Action action) {
   return action == kRefuse || action == kIgnore || action == kWarnLost || action == kHideGuidance ||
          action == kShowGuidance || action == kCountRefusal || action == kForgetMap ||
          action == kEndTouch;
+}
+
+/// Both tips are as their calibration left them.
+TipCheckRules tips_known_to(const SessionOptions& options) {
+  TipCheckRules rules = options.tips;
+  rules.prior_sd_m = std::numbers::sqrt2 * options.placed.tip_sd_m;
+  return rules;
 }
 
 }  // namespace
@@ -67,7 +75,7 @@ Session::Session(Operation operation, WatchedTools tools, Method method,
       workflow_(workflow_of(options.steps)),
       digitizing_(method_, options),
       landmarking_(options.landmark),
-      tip_check_(options.tips, options.landmark, options.steps.tips),
+      tip_check_(tips_known_to(options), options.landmark, options.steps.tips),
       axis_check_({options.placed.axis_sd_rad}),
       guiding_(options.drill),
       placing_(options.placed, options.steps.redo),

@@ -117,6 +117,8 @@ class Session {
   [[nodiscard]] std::optional<nav::PressedPlace> guide_tip_in_landmark(const TouchedPlace& pointer);
   void compare_tips(const nav::PressedPlace& guide_tip, Timestamp time);
   void correct_guide(Timestamp time);
+  void correct_tip(Timestamp time);
+  void correct_axis(Timestamp time);
   void drop_landmark(Timestamp time);
   void judge_landmark(Timestamp time);
   void verify_again(Timestamp time);
@@ -141,6 +143,7 @@ class Session {
   void act_on_screw(Action action, Timestamp time);
   void select_screw();
   void measure_wire(Timestamp time);
+  void tell_wire(Timestamp time);
   void keep_wire(Timestamp time);
   void judge_redo(Timestamp time);
   void finish_screw(Timestamp time);

@@ -88,7 +88,7 @@ void Session::register_level(Timestamp time) {
 
 void Session::show_registration(Timestamp time) {
   level().check_points.clear();
-  verifying_ = Verifying(level(), method_.verification, options_, time);
+  verifying_ = Verifying(level(), method_.verification, options_, anchored(), time);
 }
 
 void Session::clear_level() {

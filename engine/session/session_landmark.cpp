@@ -62,25 +62,33 @@ void Session::compare_tips(const nav::PressedPlace& guide_tip, Timestamp time) {
   }
 }
 
-/// The tip first, then the axis: one word for each.
+/// The tip first, then the axis: one word for each, once the landmark was touched and the status
+/// line offers it.
 void Session::correct_guide(Timestamp time) {
   if (consents_to_breach(time)) {
     return;
   }
-  if (!tip_check_.offers() && !axis_check_.offers()) {
-    messages_.say(NotPossibleNow{Event::kSayAccept}, time);
-    return;
+  if (landmarking_.touched() && tip_check_.offers()) {
+    return correct_tip(time);
   }
+  if (landmarking_.touched() && axis_check_.offers()) {
+    return correct_axis(time);
+  }
+  messages_.say(NotPossibleNow{Event::kSayAccept}, time);
+}
+
+void Session::correct_tip(Timestamp time) {
   guiding_.forget_guidance();
-  if (tip_check_.offers()) {
-    const Vec3 by_m = tip_check_.correct();
-    tools_.correct_guide_tip(tools_.geometry(tools_.guide()).tip_in_marker - by_m);
-    messages_.say(TipCorrected{by_m.norm()}, time);
-    if (observer_) {
-      observer_->tips_compared(time, *tip_check_.last());
-    }
-    return;
+  const Vec3 by_m = tip_check_.correct();
+  tools_.correct_guide_tip(tools_.geometry(tools_.guide()).tip_in_marker - by_m);
+  messages_.say(TipCorrected{by_m.norm()}, time);
+  if (observer_) {
+    observer_->tips_compared(time, *tip_check_.last());
   }
+}
+
+void Session::correct_axis(Timestamp time) {
+  guiding_.forget_guidance();
   tools_.correct_guide_axis(axis_check_.correct());
   messages_.say(AxisCorrected{axis_check_.last()->by_rad}, time);
   if (observer_) {

@@ -65,9 +65,7 @@ void Session::take_replan(const Replanning::Outcome& outcome, Timestamp time) {
   }
   // Where the tool went stays; its wire is held against the plan in use.
   placing_.judge_again(level().plan.screws[guiding_.screw()]);
-  if (observer_) {
-    observer_->wire_measured(time, level(), guiding_.screw(), *placing_.wire());
-  }
+  tell_wire(time);
 }
 
 /// False where nothing waits for it.

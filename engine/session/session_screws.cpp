@@ -55,11 +55,10 @@ void Session::measure_wire(Timestamp time) {
                             tools_.geometry(tools_.guide()), options_.max_touch_spread_m);
   }
   if (refusal) {
-    messages_.say(TouchNotRecorded{TouchNotRecorded::What::kWire, *refusal}, time);
-  } else if (observer_) {
-    observer_->wire_measured(time, level(), guiding_.screw(), *placing_.wire());
+    return messages_.say(TouchNotRecorded{TouchNotRecorded::What::kWire, *refusal}, time);
   }
-  if (!refusal && placing_.spin() && options_.steps.axis) {
+  tell_wire(time);
+  if (placing_.spin() && options_.steps.axis) {
     axis_check_.take(*placing_.spin(), tools_.geometry(tools_.guide()).axis_in_marker);
     if (observer_) {
       observer_->axis_compared(time, *axis_check_.last());
@@ -76,6 +75,10 @@ void Session::keep_wire(Timestamp time) {
     return;
   }
   placing_.keep();
+  tell_wire(time);
+}
+
+void Session::tell_wire(Timestamp time) {
   if (observer_) {
     observer_->wire_measured(time, level(), guiding_.screw(), *placing_.wire());
   }

@@ -20,6 +20,9 @@ std::variant<TipDifference, TouchRefusal> TipCheck::take(
   const double known = prior_m2 / (prior_m2 + found.sd_m * found.sd_m);
   found.by_m = known * found.apart_m;
   found.limit_m = rules_.worth_m / known;
+  if (!(known > 0.0)) {
+    found.limit_m = rules_.most_m;  // tips that are known exactly need no correction
+  }
   if (!(found.apart_m.norm() <= rules_.most_m)) {
     return TouchRefusal{TouchRefusal::Kind::kTouchesApart, found.apart_m.norm(), rules_.most_m};
   }

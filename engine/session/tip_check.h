@@ -28,8 +28,8 @@ struct TipCheckRules {
   double distance_m = 0.45;
   /// The SD of that, as a fraction, is never taken to be less: lenses differ from place to place.
   double least_size_sd = 0.0003;
-  /// SD along an axis of how far the two described tips are apart: each as its calibration leaves
-  /// it, 0.5 mm.
+  /// SD along an axis of how far the two described tips are apart, as their calibrations leave
+  /// them. In a session it follows from `PlacedWireRules::tip_sd_m`.
   double prior_sd_m = 0.0007;
   /// A correction of less is not worth a word.
   double worth_m = 0.0002;

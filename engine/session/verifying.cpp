@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "nav/guidance/predicted_error.h"
+#include "nav/registration/press_fit.h"
 #include "nav/registration/unstroked_surface.h"
 
 namespace orthonav::engine {
@@ -41,14 +42,19 @@ std::vector<float> smoothed(std::span<const float> each_m) {
 }  // namespace
 
 Verifying::Verifying(LevelState& level, Verification verification, const SessionOptions& options,
-                     Timestamp registered)
+                     bool anchored, Timestamp registered)
     : options_(options),
       by_touch_(verification == Verification::kByTouch),
+      anchored_(anchored),
       strokes_(level.registration),
       registered_(registered),
       residuals_m_(smoothed(distances_m(level))),
       unstroked_(nav::unstroked_surface(*level.plan.model, level.registration->world_from_vertebra,
                                         level.newest->points)) {
+  if (!anchored_) {
+    // In the time that more take, the map moves by more than they tell.
+    options_.check_points.enough = 3;
+  }
   if (by_touch_) {
     limits_.targets = nav::entries_and_targets(level.plan.screws);
     places_ = nav::places_to_check(*level.plan.model, level.registration->world_from_vertebra,
@@ -61,7 +67,10 @@ void Verifying::begin_again(LevelState& level, double moved_m) {
   // What was pressed before is no check any more, but still tells of the bone: by the same strokes
   // and the same model, so that neither counts twice, and by how World walked since.
   constexpr std::size_t kMostEarlier = nav::kMostCheckPoints;
-  if (pressed_.size() > kMostEarlier) {
+  if (!anchored_) {
+    strokes_ = level.registration;
+    pressed_.clear();
+  } else if (pressed_.size() > kMostEarlier) {
     pressed_.erase(pressed_.begin(), pressed_.end() - kMostEarlier);
   }
   level.check_points.clear();
@@ -78,20 +87,25 @@ void Verifying::begin_again(LevelState& level, double moved_m) {
 void Verifying::judge(LevelState& level) {
   joined_.reset();
   next_.reset();
-  if (by_touch_) {
-    joined_ = nav::join_places(*level.plan.model, *strokes_, pressed_, limits_, press_model());
+  const nav::VertebraModel& model = *level.plan.model;
+  const nav::PressModel press = press_model();
+  const auto fit = by_touch_ && !pressed_.empty()
+                       ? nav::fit_presses(model, *strokes_, pressed_, press)
+                       : std::nullopt;
+  if (fit) {
+    joined_ = nav::join_places(model, *strokes_, *fit, press, limits_);
   }
   if (joined_) {
-    next_ = nav::place_to_press(*level.plan.model, *strokes_, level.newest->points, pressed_,
-                                limits_, press_model());
+    next_ =
+        nav::place_to_press(model, *strokes_, level.newest->points, pressed_, *fit, press, limits_);
   }
   if (strokes_->provisional) {
     // It stands on what was touched, so it is shown with it.
     put(joined_ ? joined_->registration : *strokes_, level);
   }
   for (nav::CheckPoint& point : level.check_points) {
-    point = nav::check_point(*level.plan.model, level.registration->world_from_vertebra,
-                             point.place, options_.check_points);
+    point = nav::check_point(model, level.registration->world_from_vertebra, point.place,
+                             options_.check_points);
   }
   if (joined_) {
     nav::weigh(*joined_, level.check_points);
@@ -104,8 +118,19 @@ void Verifying::judge(LevelState& level) {
 
 nav::PressModel Verifying::press_model() const {
   nav::PressModel press;
-  press.moved_sd_m = std::max(press.moved_sd_m, strokes_->common.map_m);
-  press.drift_m_per_sqrt_s = options_.map_drift_m_per_sqrt_s;
+  if (anchored_) {
+    press.moved_sd_m = std::max(press.moved_sd_m, strokes_->common.map_m);
+    press.drift_m_per_sqrt_s = options_.map_drift_m_per_sqrt_s;
+    return press;
+  }
+  press.model = nav::ModelError{};
+  if (!pressed_.empty()) {
+    const double first_s = pressed_.front().time_s;
+    const double drift = options_.map_drift_m_per_sqrt_s;
+    press.moved_sd_m =
+        std::max(press.moved_sd_m, std::hypot(strokes_->common.map_m, drift * std::sqrt(first_s)));
+    press.since_sd_m = drift * std::sqrt(std::max(0.0, pressed_.back().time_s - first_s));
+  }
   return press;
 }
 

@@ -18,11 +18,13 @@ class Verifying {
  public:
   Verifying() = default;  ///< nothing was registered
   /// Of the level's registration and the points that it was made of; both are there.
+  /// `anchored`: to a patient reference. On the map, which moves while touches go on, three spread
+  /// places are enough, and each is taken to be as the model has the bone.
   Verifying(LevelState& level, Verification verification, const SessionOptions& options,
-            Timestamp registered);
+            bool anchored, Timestamp registered);
 
-  /// Of the registration that was accepted, once something moved by so much since: nothing that was
-  /// touched to verify it counts any more.
+  /// Of the registration that was accepted, once something moved by so much since: what was touched
+  /// before is no check any more. With a reference it stays in the estimate.
   void begin_again(LevelState& level, double moved_m);
 
   /// The registration is shown then, if it was not before.
@@ -55,6 +57,7 @@ class Verifying {
 
   SessionOptions options_;
   bool by_touch_ = false;
+  bool anchored_ = false;
   nav::PoseSearchRegistrationOptions limits_;  ///< with the level's screws
   std::optional<nav::Registration> strokes_;   ///< what the strokes alone say
   /// The level's check points, after those by which it was verified before.

@@ -74,8 +74,7 @@ void write_tips(PartedText text, const TipCheck& tips, std::string_view separato
 
 /// What the last wire told of the guide's axis, where that is worth correcting.
 void write_axis(PartedText text, const LandmarkSoFar& landmark, std::string_view separator) {
-  const bool waits = landmark.tips != nullptr && landmark.tips->offers();
-  if (landmark.axis == nullptr || !landmark.axis->offers() || waits) {
+  if (landmark.axis == nullptr || !landmark.axis->offers() || landmark.tips->offers()) {
     return;
   }
   text.begin(Importance::kDanger, separator);
@@ -181,6 +180,15 @@ void append_step(std::string& out, const StepOnDisplay& at) {
   }
 }
 
+/// What the step asks for stays asked beside what became of a change of the screw.
+void write_beside_replan(PartedText text, const StepState& state) {
+  if (const auto* landmark = std::get_if<LandmarkSoFar>(&state)) {
+    write_landmark(text, *landmark, "; ");
+  } else if (const auto* wire = std::get_if<WireSoFar>(&state)) {
+    write_wire(text, *wire, "; ");
+  }
+}
+
 void append_detail(std::string& out, const StatusLine& line, StatusParts* parts) {
   PartedText text{out, parts};
   const std::size_t begin = out.size();
@@ -200,9 +208,8 @@ void append_detail(std::string& out, const StatusLine& line, StatusParts* parts)
   if (line.message) {
     out += told ? "; " : "";
     write_message(text, *line.message);
-    const auto* landmark = std::get_if<LandmarkSoFar>(&line.state);
-    if (landmark && is_about_replan(*line.message)) {
-      write_landmark(text, *landmark, "; ");
+    if (is_about_replan(*line.message)) {
+      write_beside_replan(text, line.state);
     }
   } else if (!taken) {
     out += told && !std::holds_alternative<std::monostate>(line.state) ? "; " : "";

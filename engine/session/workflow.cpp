@@ -163,11 +163,9 @@ void append_rules(std::string& out, const auto& rules) {
 
 void append_instead(std::string& out) {
   out +=
-      "Where the eye alone verifies (`paper`), these answers stand instead; a study that leaves "
-      "out ";
-  out +=
-      "check points, the\ndimple or the wire's measurement has those of `verify`, `accepted` or ";
-  out += "`guide`:\n\n";
+      "Where the eye alone verifies (`paper`), these answers stand instead. A study that leaves "
+      "out check points,\nthe dimple or the measurement of wires has the rows of `verify`, "
+      "`accepted` or `guide`:\n\n";
   append_rules(out, workflow_detail::kRulesByEye);
   out += "\nWhere a study leaves out that the landmark is touched again:\n\n";
   append_rules(out, workflow_detail::kRulesTouchedOnce);

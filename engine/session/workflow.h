@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +15,6 @@
 namespace orthonav::engine {
 
 using orthonav::kStepCount;
-using orthonav::Step;
 
 struct Cell {
   Step next = Step::kSetup;
@@ -46,23 +46,16 @@ constexpr Table make_table(const MethodSteps& steps) {
     table[static_cast<std::size_t>(rule.step)][static_cast<std::size_t>(rule.event)] = {
         rule.next, rule.action};
   };
-  for (const Rule& rule : kRules) {
-    write(rule);
-  }
+  std::for_each(kRules.begin(), kRules.end(), write);
   for (const Rule& rule : kRulesByEye) {
     if (is_by_eye(rule.step, steps)) {
       write(rule);
     }
   }
-  for (const Rule& rule : kRulesTouchedOnce) {
-    if (!steps.landmark && steps.wire) {
-      write(rule);
-    }
-  }
-  for (const Rule& rule : kRulesWireUnmeasured) {
-    if (steps.landmark && !steps.wire) {
-      write(rule);
-    }
+  if (!steps.landmark && steps.wire) {
+    std::for_each(kRulesTouchedOnce.begin(), kRulesTouchedOnce.end(), write);
+  } else if (steps.landmark && !steps.wire) {
+    std::for_each(kRulesWireUnmeasured.begin(), kRulesWireUnmeasured.end(), write);
   }
   return table;
 }
@@ -112,7 +105,7 @@ using orthonav::name_of;
 [[nodiscard]] std::string_view name_of(Action action);
 
 /// The workflow as docs/safety.md holds it: a mermaid diagram of the changes of step, the whole
-/// table, and what is answered instead where the eye alone verifies.
+/// table, and what is answered instead where the eye alone verifies or a study leaves a step out.
 [[nodiscard]] std::string workflow_diagram();
 
 }  // namespace orthonav::engine

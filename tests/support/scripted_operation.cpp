@@ -133,9 +133,6 @@ ScriptedOperation::ScriptedOperation(std::vector<std::string> labels,
   registration.accepted = true;
   registration.rmse_m = 0.0006;
   registration.points = 300;
-  if (options.check_points.enough == nav::CheckPointRules{}.enough) {
-    options.check_points.enough = 3;  // tests of other things touch no more
-  }
   auto tracker = std::make_unique<ScriptedTracker>();
   tracker_ = tracker.get();
   if (reference) {

@@ -53,6 +53,13 @@ class ScriptedTracker : public nav::ToolTracker {
   bool hangs_on_reference_ = false;
 };
 
+/// With a patient reference many more places would be asked for; tests of other things touch three.
+[[nodiscard]] inline engine::SessionOptions three_places() {
+  engine::SessionOptions options;
+  options.check_points.enough = 3;
+  return options;
+}
+
 /// A session whose surgeon, tools and registrations are said line by line. Pairs come every 33 ms.
 class ScriptedOperation {
  public:

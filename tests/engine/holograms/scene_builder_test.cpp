@@ -133,7 +133,7 @@ TEST(SceneBuilder, ShowsPathsWhileDigitizingAndNothingThatGuides) {
 /// The first screw's wire stands; World is Vertebra.
 class PlacedWireShown : public ::testing::Test {
  protected:
-  PlacedWireShown() : s({"L4"}, {}, Verification::kByTouch, false, true) {
+  PlacedWireShown() : s({"L4"}, test::three_places(), Verification::kByTouch, false, true) {
     s.registers_within(0.0003);
     s.accepts_first_by_touch();
     s.touches_dimple();

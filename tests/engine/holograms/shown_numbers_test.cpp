@@ -166,7 +166,7 @@ TEST_F(ShownNumbers, HaveTheClearanceBelowThem) {
   const Told near = told(guided({0.01185, 0.010, 0.0}));
   EXPECT_EQ(near.clearance, "clearance 0.1 mm: may break through laterally (registration only)");
   const Guidance& out = guided({0.01305, 0.010, 0.0});
-  EXPECT_EQ(told(out).clearance, "clearance −1.1 mm: breaks through laterally (registration only)");
+  EXPECT_EQ(told(out).clearance, "clearance −1.1 mm: breaks through laterally");
   EXPECT_THAT(drawn(scene_of(out)), ::testing::Contains("breaks through laterally"));
   s.tracker().guide_origin = PoseStatus::kPredicted;
   EXPECT_EQ(told(s.pair()).clearance, "") << "with the measurement";

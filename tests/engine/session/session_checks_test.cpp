@@ -195,7 +195,8 @@ TEST(ProvisionalRegistration, CountsOnceTheBoneWasTouched) {
   EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
   const nav::Registration& r = *s.session().levels()[0].registration;
   EXPECT_TRUE(r.accepted);
-  EXPECT_NEAR(r.world_from_vertebra.translation().y, -0.0014, 0.00015) << "0.2 mm under the tip";
+  EXPECT_NEAR(r.world_from_vertebra.translation().y, -0.0013, 0.0001)
+      << "0.2 mm under the tip, less what strokes and the model's own error keep";
   EXPECT_LT(r.tre_99_m, 0.002);
 }
 
@@ -226,7 +227,7 @@ TEST(ProvisionalRegistration, AsksForMorePlacesAndTakesOneBackAsIfItHadNotBeen) 
 TEST(ManyTouches, AreAskedForAsLongAsTheyTell) {
   SessionOptions options;
   options.check_points.enough = 12;
-  ScriptedOperation s({"L4"}, options, Verification::kByTouch);
+  ScriptedOperation s({"L4"}, options, Verification::kByTouch, false, true);
   s.registers_within(0.0004);
   s.registers_first_level();
   for (const Vec3 place : {kFirst, kSecond, kThird}) {
@@ -241,6 +242,16 @@ TEST(ManyTouches, AreAskedForAsLongAsTheyTell) {
   }
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kPassed);
   EXPECT_EQ(step_of(s.says("accept")), "accepted L4");
+}
+
+TEST(ManyTouches, AreNotAskedForOnTheMap) {
+  ScriptedOperation s({"L4"}, {}, Verification::kByTouch);
+  s.registers_within(0.0004);
+  s.registers_first_level();
+  for (const Vec3 place : {kFirst, kSecond, kThird}) {
+    s.touches(place);
+  }
+  EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kPassed);
 }
 
 TEST(ProvisionalRegistration, IsRefusedWhereNobodyTouches) {

@@ -199,7 +199,7 @@ TEST_F(LandmarkSession, APressWhileAWireWasLookedAtIsNoTouch) {
 /// The reference stands on the box's right, its foot 20 mm from the dimple's side.
 class AnchoredLandmark : public ::testing::Test {
  protected:
-  AnchoredLandmark() : s({"L4"}, {}, Verification::kByTouch, false, true) {
+  AnchoredLandmark() : s({"L4"}, test::three_places(), Verification::kByTouch, false, true) {
     s.tracker().reference_pose = {Mat3::identity(), kFoot + Vec3{0, 0.06, 0}};
     s.accepts_first_by_touch();
   }

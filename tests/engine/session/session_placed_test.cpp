@@ -158,10 +158,15 @@ TEST_F(PlacedSession, ATurnedSleeveTellsTheWireWithoutTheGuidesAxis) {
 TEST_F(PlacedSession, TheAxisIsCorrectedWithConsentBeforeTheNextScrew) {
   measures_turning(s, 0.02, 1.0);
   EXPECT_EQ(step_of(s.says("next")), "accepted L4");
+  s.says("accept");
+  EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr) << "nothing was offered yet";
   s.touches_dimple();
   EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr) << "not without a word";
+  EXPECT_THAT(detail_text(s.pair().status),
+              HasSubstr("guide's axis 1.1° off: say accept to correct it"));
   s.says("accept");
   ASSERT_NE(said<AxisCorrected>(s.pair()), nullptr);
+  EXPECT_THAT(detail_text(s.pair().status), HasSubstr("guide's axis corrected by 1.1°"));
   // The mean by the described axis (0.57 degrees) and by the spin.
   EXPECT_GT(said<AxisCorrected>(s.pair())->by_rad, 0.019);
   EXPECT_LT(said<AxisCorrected>(s.pair())->by_rad, 0.02);
@@ -170,6 +175,7 @@ TEST_F(PlacedSession, TheAxisIsCorrectedWithConsentBeforeTheNextScrew) {
 TEST_F(PlacedSession, AnAxisThatIsRightIsLeftAlone) {
   measures_turning(s, 0.001, 1.0);
   s.says("next");
+  s.touches_dimple();
   s.says("accept");
   EXPECT_EQ(said<AxisCorrected>(s.pair()), nullptr);
 }
@@ -479,7 +485,7 @@ TEST_F(LooseAxis, AnAxisThatIsHardlyCalibratedMeasuresNoAngle) {
 
 class AnchoredPlaced : public PlacedSession {
  protected:
-  AnchoredPlaced() : PlacedSession({}, true) {}
+  AnchoredPlaced() : PlacedSession(test::three_places(), true) {}
 };
 
 TEST_F(AnchoredPlaced, MeasuresRelativeToTheReferenceAndNotWithoutIt) {

@@ -22,7 +22,7 @@ constexpr double kTilt_rad = 0.3;
 /// With a reference; the landmark was touched by the pointer, which is laid aside in view.
 class TipsSession : public ::testing::Test {
  protected:
-  TipsSession() : s({"L4", "L5"}, {}, Verification::kByTouch, false, true) {
+  TipsSession() : s({"L4", "L5"}, test::three_places(), Verification::kByTouch, false, true) {
     s.accepts_first_by_touch();
     s.touches_dimple();
     s.tracker().pointer = test::pointer_at(kDimple + Vec3{0.2, 0, 0});
@@ -70,6 +70,7 @@ TEST_F(TipsSession, TheCorrectionIsOfTheToolHoweverItIsHeldAndByWhatIsKnown) {
   const Guidance& g = s.says("accept");
   ASSERT_NE(said<TipCorrected>(g), nullptr);
   const double by_m = said<TipCorrected>(g)->by_m;
+  EXPECT_THAT(detail_text(g.status), HasSubstr("guide's tip corrected by "));
   EXPECT_GT(by_m, 0.1 * off.norm());
   EXPECT_LT(by_m, 0.5 * off.norm());
   EXPECT_EQ(checks_asked(s.pair().status), ChecksAsked::kNone) << "while the message stands";
