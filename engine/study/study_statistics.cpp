@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cmath>
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -87,7 +87,7 @@ void add_run(const nlohmann::ordered_json& run, RegistrationCounts& counts) {
       if (covariances.size() != errors.size()) {
         continue;
       }
-      const double squared = errors[i].dot(covariances[i].ldlt().solve(errors[i]));
+      const double squared = errors[i].dot(covariances[i].inverse() * errors[i]);
       ++counts.places;
       counts.in_68 += squared <= kChi68 ? 1 : 0;
       counts.in_95 += squared <= kChi95 ? 1 : 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "nav/registration/pose_candidates.h"
@@ -13,9 +14,10 @@ struct CertainFit {
 };
 
 /// Fits all points, starting from a candidate's pose: robustly, then with what their heights have
-/// in common. Nothing where no point is near the surface.
+/// in common, told by so many units. Nothing where no point is near the surface.
 [[nodiscard]] std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& cloud,
                                                   const SurfaceFit& start,
-                                                  const PoseSearchRegistrationOptions& options);
+                                                  const PoseSearchRegistrationOptions& options,
+                                                  std::size_t units = kMostUnits);
 
 }  // namespace orthonav::nav

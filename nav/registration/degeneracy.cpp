@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <set>
 
 #include "nav/geometry/triangle.h"
+#include "nav/statistics/symmetric_eigen.h"
 
 namespace orthonav::nav {
 namespace {
@@ -76,6 +77,12 @@ UncertainMotion::Kind kind_of(const Vector6& motion, double lever_m) {
   return kKinds[most];
 }
 
+std::array<double, 36> entries_of(const Matrix6& matrix) {
+  std::array<double, 36> out{};
+  Eigen::Map<Matrix6>(out.data()) = matrix;
+  return out;
+}
+
 /// The motion in whose direction the error at the targets is largest.
 UncertainMotion::Kind worst_motion(const Matrix6& covariance, Vec3 centre_m,
                                    std::span<const Point<Vertebra>> targets) {
@@ -86,10 +93,13 @@ UncertainMotion::Kind worst_motion(const Matrix6& covariance, Vec3 centre_m,
     at_targets += m.transpose() * m;
     lever_m = std::max(lever_m, (target.v - centre_m).norm());
   }
-  const Eigen::LLT<Matrix6> root(covariance + 1e-18 * Matrix6::Identity());
-  const Matrix6 l = root.matrixL();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(l.transpose() * at_targets * l);
-  return kind_of(l * solver.eigenvectors().col(5), lever_m);
+  // Of the covariance: its product with its transpose.
+  const SymmetricEigen6 own = symmetric_eigen(entries_of(covariance));
+  const Eigen::Map<const Vector6> variances(own.values.data());
+  const Matrix6 root = Eigen::Map<const Matrix6>(own.vectors.data()) *
+                       variances.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const SymmetricEigen6 errors = symmetric_eigen(entries_of(root.transpose() * at_targets * root));
+  return kind_of(root * Eigen::Map<const Matrix6>(errors.vectors.data()).col(5), lever_m);
 }
 
 /// The covariance after one more touch there: Kalman's update.

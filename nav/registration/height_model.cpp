@@ -1,95 +1,38 @@
 #include "nav/registration/height_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <Eigen/Dense>
-#include <numbers>
+#include <Eigen/Core>
+
+#include "nav/registration/height_answers.h"
+#include "nav/statistics/whitened_system.h"
 
 namespace orthonav::nav {
-namespace {
 
 using Eigen::Index;
-using UnknownsVector = Eigen::Matrix<double, kHeightUnknowns, 1>;
-using UnknownsMatrix = Eigen::Matrix<double, kHeightUnknowns, kHeightUnknowns>;
-using UnknownsRows = Eigen::Matrix<double, kHeightUnknowns, kHeightUnknowns, Eigen::RowMajor>;
 
-struct UnknownsAnswer {
-  double log_evidence = 0.0;
-  UnknownsVector unknowns = UnknownsVector::Zero();
-  UnknownsMatrix covariance = UnknownsMatrix::Zero();
-};
+namespace {
 
-constexpr Index kStandoff = kStandoffUnknown;
-constexpr Index kSize = kSizeUnknown;
-/// Before anything was stroked: a mean height of this SD, a size of this SD.
-constexpr double kStandoffPrior_m = 0.002;
-constexpr double kSizePrior = 0.05;
-/// Rotations are compared with translations at this lever arm, the size likewise.
-constexpr double kHeightLever_m = 0.03;
-/// The least visible motion may be this much less visible than the most visible one.
-constexpr double kLeastVisible = 1e-6;
-
-UnknownsVector scales() {
-  UnknownsVector s;
-  s << 1, 1, 1, 1 / kHeightLever_m, 1 / kHeightLever_m, 1 / kHeightLever_m, 1, 1 / kHeightLever_m;
-  return s;
-}
-
-/// The standoff is not negative: the rest of the normal distribution is left out (mean and variance
-/// of a truncated normal distribution; the others follow by regression on it).
-void leave_out_negative(UnknownsAnswer& a) {
-  const double sd = std::sqrt(a.covariance(kStandoff, kStandoff));
-  const double t = a.unknowns(kStandoff) / sd;
-  const double kept = std::max(0.5 * std::erfc(-t / std::numbers::sqrt2), 1e-12);
-  const double density = std::exp(-0.5 * t * t) / std::sqrt(2.0 * std::numbers::pi);
-  const double ratio = t < -6.0 ? -t : density / kept;
-  const double mean = sd * std::max(t + ratio, 0.0);
-  const double variance = sd * sd * std::clamp(1.0 - ratio * (ratio + t), 0.02, 1.0);
-  const UnknownsVector slope = a.covariance.col(kStandoff) / (sd * sd);
-  a.unknowns += slope * (mean - a.unknowns(kStandoff));
-  a.covariance -= (sd * sd - variance) * slope * slope.transpose();
-  a.log_evidence += std::log(kept);
-}
-
-/// The first `count` unknowns alone, the others being zero.
-template <int Count>
-std::optional<UnknownsAnswer> answer(const UnknownsMatrix& information, const UnknownsVector& right,
-                                     double squares, double log_determinant, double log_prior) {
-  using Small = Eigen::Matrix<double, Count, Count>;
-  const Small small = information.topLeftCorner<Count, Count>();
-  const Eigen::LLT<Small> llt(small);
-  if (llt.info() != Eigen::Success) {
-    return std::nullopt;
+/// Of the field at a place of one unit and at one of the other: at their halves, or, where they are
+/// far apart for their lengths, at their middles.
+double mean_correlation(const FieldHypothesis& field, const ResidualUnit& a,
+                        const ResidualUnit& b) {
+  constexpr double kFar = 4.0;
+  const Vec3 along_a = a.halves_m[1] - a.halves_m[0];
+  const Vec3 along_b = b.halves_m[1] - b.halves_m[0];
+  const Vec3 apart = 0.5 * (a.halves_m[0] + a.halves_m[1] - b.halves_m[0] - b.halves_m[1]);
+  if (apart.squared_norm() >
+      kFar * kFar * std::max(along_a.squared_norm(), along_b.squared_norm())) {
+    return field.correlation(apart.norm());
   }
-  const Eigen::Matrix<double, Count, 1> x = llt.solve(right.head<Count>());
-  const double log_small = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  UnknownsAnswer out;
-  out.log_evidence =
-      -0.5 * (log_determinant + log_small + squares - right.head<Count>().dot(x)) + log_prior;
-  out.unknowns.head<Count>() = x;
-  out.covariance.topLeftCorner<Count, Count>() = llt.solve(Small::Identity());
-  if (!out.unknowns.allFinite() || !std::isfinite(out.log_evidence)) {
-    return std::nullopt;
+  double sum = 0.0;
+  for (const Vec3& p : a.halves_m) {
+    for (const Vec3& q : b.halves_m) {
+      sum += field.correlation((p - q).norm());
+    }
   }
-  leave_out_negative(out);
-  const UnknownsVector scale = scales();
-  out.unknowns = scale.asDiagonal() * out.unknowns;
-  out.covariance = (scale.asDiagonal() * out.covariance * scale.asDiagonal()).eval();
-  return out;
-}
-
-bool determines_pose(const UnknownsMatrix& information) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(
-      Eigen::Matrix<double, 6, 6>(information.topLeftCorner<6, 6>()), Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] > kLeastVisible * solver.eigenvalues()[5];
-}
-
-HeightModel::Answer plain(const UnknownsAnswer& a) {
-  HeightModel::Answer out;
-  out.log_evidence = a.log_evidence;
-  Eigen::Map<UnknownsVector>(out.unknowns.data()) = a.unknowns;
-  Eigen::Map<UnknownsRows>(out.covariance.data()) = a.covariance;
-  return out;
+  return 0.25 * sum;
 }
 
 }  // namespace
@@ -97,49 +40,52 @@ HeightModel::Answer plain(const UnknownsAnswer& a) {
 class HeightModel::Matrices {
  public:
   Matrices(const SurfaceFit& fit, const ResidualUnits& units);
-  [[nodiscard]] Eigen::MatrixXd covariance(const FieldHypothesis& field, const StrokeNoise& noise);
-  [[nodiscard]] std::optional<Answers> solve(const Eigen::MatrixXd& covariance) const;
-  /// `shared`: of the covariance, what is no noise.
-  [[nodiscard]] std::vector<double> without_noise(const Eigen::MatrixXd& covariance,
-                                                  const Eigen::MatrixXd& shared) const;
+  [[nodiscard]] std::optional<Answers> solve(const FieldHypothesis& field,
+                                             const StrokeNoise& noise);
+  [[nodiscard]] std::vector<double> without_noise(const FieldHypothesis& field,
+                                                  const StrokeNoise& noise);
 
  private:
-  [[nodiscard]] Eigen::MatrixXd noise_covariance(const StrokeNoise& noise, double stroke_m2) const;
-  /// Of a field, between units; that of the last length is kept.
+  /// The covariance of the units from `first` to before `end`, with room for right-hand sides.
+  void fill(std::size_t first, std::size_t end, const FieldHypothesis& field,
+            const StrokeNoise& noise, std::size_t right_sides);
+  /// These units, whitened: what they say is added to the sums. False where
+  /// their covariance is none.
+  [[nodiscard]] bool add_block(std::size_t first, std::size_t end, const FieldHypothesis& field,
+                               const StrokeNoise& noise, WhitenedSums& sums);
+  /// Between two units of one stroke: its own height, and what wanders.
+  [[nodiscard]] double along_stroke_m2(std::size_t a, std::size_t b, const FieldHypothesis& field,
+                                       const StrokeNoise& noise) const;
+  /// Of a field, between units (lower triangle); that of the last length is kept.
   [[nodiscard]] const Eigen::MatrixXd& field_correlation(const FieldHypothesis& field);
   [[nodiscard]] double own_noise_m2(const ResidualUnit& unit, const StrokeNoise& noise) const;
+  /// The last unit of the stroke that begins with `first`, and one.
+  [[nodiscard]] std::size_t end_of_stroke(std::size_t first) const;
 
   const SurfaceFit& fit_;
   const ResidualUnits& units_;
-  Eigen::Matrix<double, Eigen::Dynamic, kHeightUnknowns> derivatives_;  ///< scaled
+  /// By columns, so that one unit's lie beside each other; scaled.
+  Eigen::Matrix<double, kHeightUnknowns, Eigen::Dynamic> derivatives_;
   Eigen::VectorXd heights_m_;
   double last_length_m_ = 0.0;
   Eigen::MatrixXd last_correlation_;
+  WhitenedSystem system_;
 };
 
 HeightModel::Matrices::Matrices(const SurfaceFit& fit, const ResidualUnits& units)
     : fit_(fit), units_(units) {
   const auto m = static_cast<Index>(units.all.size());
-  derivatives_.resize(m, kHeightUnknowns);
+  derivatives_.resize(kHeightUnknowns, m);
   heights_m_.resize(m);
-  const UnknownsVector scale = scales();
+  const auto scale = unknowns_scale();
   for (Index a = 0; a < m; ++a) {
     const ResidualUnit& unit = units.all[static_cast<std::size_t>(a)];
-    for (Index k = 0; k < derivatives_.cols(); ++k) {
-      derivatives_(a, k) = -scale(k) * unit.derivative[static_cast<std::size_t>(k)];
+    for (Index k = 0; k < derivatives_.rows(); ++k) {
+      derivatives_(k, a) =
+          -scale[static_cast<std::size_t>(k)] * unit.derivative[static_cast<std::size_t>(k)];
     }
     heights_m_(a) = unit.height_m;
   }
-}
-
-Eigen::MatrixXd HeightModel::Matrices::covariance(const FieldHypothesis& field,
-                                                  const StrokeNoise& noise) {
-  Eigen::MatrixXd out = noise_covariance(noise, field.stroke_sd_m * field.stroke_sd_m);
-  const double variance_m2 = field.sd_m * field.sd_m;
-  if (variance_m2 > 0.0) {
-    out += variance_m2 * field_correlation(field);
-  }
-  return out;
 }
 
 const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(const FieldHypothesis& field) {
@@ -149,38 +95,39 @@ const Eigen::MatrixXd& HeightModel::Matrices::field_correlation(const FieldHypot
   last_length_m_ = field.length_m;
   const Index m = heights_m_.size();
   last_correlation_.resize(m, m);
-  for (Index a = 0; a < m; ++a) {
-    for (Index b = 0; b <= a; ++b) {
-      double sum = 0.0;
-      for (const Vec3& p : units_.all[static_cast<std::size_t>(a)].halves_m) {
-        for (const Vec3& q : units_.all[static_cast<std::size_t>(b)].halves_m) {
-          sum += field.correlation((p - q).norm());
-        }
-      }
-      last_correlation_(a, b) = last_correlation_(b, a) = 0.25 * sum;
+  for (Index b = 0; b < m; ++b) {
+    const ResidualUnit& unit = units_.all[static_cast<std::size_t>(b)];
+    for (Index a = b; a < m; ++a) {
+      last_correlation_(a, b) =
+          mean_correlation(field, unit, units_.all[static_cast<std::size_t>(a)]);
     }
   }
   return last_correlation_;
 }
 
-Eigen::MatrixXd HeightModel::Matrices::noise_covariance(const StrokeNoise& noise,
-                                                        double stroke_m2) const {
-  const Index m = heights_m_.size();
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(m, m);
-  for (Index a = 0; a < m; ++a) {
-    const ResidualUnit& unit = units_.all[static_cast<std::size_t>(a)];
-    out(a, a) = own_noise_m2(unit, noise) + stroke_m2;
-    for (Index b = a - 1; b >= 0 && noise.wandering_m2 + stroke_m2 > 0.0; --b) {
-      const ResidualUnit& other = units_.all[static_cast<std::size_t>(b)];
-      if (other.stroke != unit.stroke) {
-        break;
-      }
-      const double lag = 0.5 * (static_cast<double>(unit.first + unit.end) -
-                                static_cast<double>(other.first + other.end));
-      out(a, b) = out(b, a) = stroke_m2 + noise.wandering_m2 * std::pow(noise.kept, lag);
-    }
+double HeightModel::Matrices::along_stroke_m2(std::size_t a, std::size_t b,
+                                              const FieldHypothesis& field,
+                                              const StrokeNoise& noise) const {
+  const ResidualUnit& unit = units_.all[a];
+  const double stroke_m2 = field.stroke_sd_m * field.stroke_sd_m;
+  if (a == b) {
+    return own_noise_m2(unit, noise) + stroke_m2;
   }
-  return out;
+  if (noise.wandering_m2 == 0.0) {
+    return stroke_m2;
+  }
+  const ResidualUnit& other = units_.all[b];
+  const double lag = 0.5 * std::abs(static_cast<double>(unit.first + unit.end) -
+                                    static_cast<double>(other.first + other.end));
+  return stroke_m2 + noise.wandering_m2 * std::pow(noise.kept, lag);
+}
+
+std::size_t HeightModel::Matrices::end_of_stroke(std::size_t first) const {
+  std::size_t end = first + 1;
+  while (end < units_.all.size() && units_.all[end].stroke == units_.all[first].stroke) {
+    ++end;
+  }
+  return end;
 }
 
 double HeightModel::Matrices::own_noise_m2(const ResidualUnit& unit,
@@ -200,47 +147,98 @@ double HeightModel::Matrices::own_noise_m2(const ResidualUnit& unit,
                               : noise.white_m2 + noise.wandering_m2;
 }
 
-std::optional<HeightModel::Answers> HeightModel::Matrices::solve(
-    const Eigen::MatrixXd& covariance) const {
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  if (llt.info() != Eigen::Success) {
-    return std::nullopt;
+void HeightModel::Matrices::fill(std::size_t first, std::size_t end, const FieldHypothesis& field,
+                                 const StrokeNoise& noise, std::size_t right_sides) {
+  system_.reset(end - first, right_sides);
+  for (std::size_t b = first; b < end; ++b) {
+    double* const column = system_.column_of(b - first);
+    const std::size_t stroke_end = end_of_stroke(b);
+    for (std::size_t a = b; a < stroke_end; ++a) {
+      column[a - first] = along_stroke_m2(a, b, field, noise);
+    }
   }
-  const Eigen::Matrix<double, Eigen::Dynamic, kHeightUnknowns> A =
-      llt.matrixL().solve(derivatives_);
-  const Eigen::VectorXd z = llt.matrixL().solve(heights_m_);
-  UnknownsMatrix information = A.transpose() * A;
-  if (!information.allFinite() || !determines_pose(information)) {
-    return std::nullopt;
+  if (!(field.sd_m > 0.0)) {
+    return;
   }
-  const double size_precision = std::pow(kSizePrior * kHeightLever_m, -2.0);
-  information(kStandoff, kStandoff) += 1.0 / (kStandoffPrior_m * kStandoffPrior_m);
-  information(kSize, kSize) += size_precision;
-  const UnknownsVector right = A.transpose() * z;
-  const double log_determinant = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-  const auto fixed =
-      answer<kSizeUnknown>(information, right, z.squaredNorm(), log_determinant, 0.0);
-  const auto free = answer<kHeightUnknowns>(information, right, z.squaredNorm(), log_determinant,
-                                            0.5 * std::log(size_precision));
-  if (!fixed || !free) {
-    return std::nullopt;
+  const Eigen::MatrixXd& correlation = field_correlation(field);
+  for (std::size_t b = first; b < end; ++b) {
+    const double* const of_field = correlation.col(static_cast<Index>(b)).data();
+    double* const column = system_.column_of(b - first);
+    for (std::size_t a = b; a < end; ++a) {
+      column[a - first] += field.sd_m * field.sd_m * of_field[a];
+    }
   }
-  return Answers{plain(*fixed), plain(*free)};
 }
 
-std::vector<double> HeightModel::Matrices::without_noise(const Eigen::MatrixXd& covariance,
-                                                         const Eigen::MatrixXd& shared) const {
-  const auto answers = solve(covariance);
-  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  if (!answers || llt.info() != Eigen::Success) {
+bool HeightModel::Matrices::add_block(std::size_t first, std::size_t end,
+                                      const FieldHypothesis& field, const StrokeNoise& noise,
+                                      WhitenedSums& sums) {
+  fill(first, end, field, noise, kHeightUnknowns + 1);
+  for (std::size_t b = first; b < end; ++b) {
+    const auto column = static_cast<Index>(b);
+    for (std::size_t k = 0; k < kHeightUnknowns; ++k) {
+      system_.right_side(b - first, k) = derivatives_(static_cast<Index>(k), column);
+    }
+    system_.right_side(b - first, kHeightUnknowns) = heights_m_(column);
+  }
+  if (!system_.whiten()) {
+    return false;
+  }
+  sums.add(system_);
+  return true;
+}
+
+std::optional<HeightModel::Answers> HeightModel::Matrices::solve(const FieldHypothesis& field,
+                                                                 const StrokeNoise& noise) {
+  WhitenedSums sums;
+  const std::size_t count = units_.all.size();
+  for (std::size_t first = 0; first < count;) {
+    // Without a field strokes know nothing of each other.
+    const std::size_t end = field.sd_m > 0.0 ? count : end_of_stroke(first);
+    if (!add_block(first, end, field, noise, sums)) {
+      return std::nullopt;
+    }
+    first = end;
+  }
+  return answers_of(sums);
+}
+
+std::vector<double> HeightModel::Matrices::without_noise(const FieldHypothesis& field,
+                                                         const StrokeNoise& noise) {
+  const auto answers = solve(field, noise);
+  if (!answers) {
     return {};
   }
-  const UnknownsVector scaled =
-      Eigen::Map<const UnknownsVector>(answers->fixed_size.unknowns.data()).cwiseQuotient(scales());
-  const Eigen::VectorXd rest = heights_m_ - derivatives_ * scaled;
-  Eigen::VectorXd mean = shared * llt.solve(rest);
-  mean.array() += answers->fixed_size.unknowns[kStandoffUnknown];
-  return {mean.data(), mean.data() + mean.size()};
+  // shared · covariance⁻¹ · rest, both sides whitened.
+  const std::size_t m = units_.all.size();
+  const FieldHypothesis none;
+  fill(0, m, field, noise, m + 1);
+  std::array<double, kHeightUnknowns> scaled = answers->fixed_size.unknowns;
+  for (std::size_t k = 0; k < kHeightUnknowns; ++k) {
+    scaled[k] /= unknowns_scale()[k];
+  }
+  const Eigen::Map<const Eigen::Matrix<double, kHeightUnknowns, 1>> step(scaled.data());
+  for (std::size_t b = 0; b < m; ++b) {
+    for (std::size_t a = b; a < m; ++a) {
+      const bool beside = units_.all[a].stroke == units_.all[b].stroke;
+      const double shared_m2 =
+          system_.covariance(a, b) - (beside ? along_stroke_m2(a, b, none, noise) : 0.0);
+      system_.right_side(a, b) = system_.right_side(b, a) = shared_m2;
+    }
+    const auto column = static_cast<Index>(b);
+    system_.right_side(b, m) = heights_m_(column) - derivatives_.col(column).dot(step);
+  }
+  if (!system_.whiten()) {
+    return {};
+  }
+  std::vector<double> mean(m, answers->fixed_size.unknowns[kStandoffUnknown]);
+  for (std::size_t k = 0; k < m; ++k) {
+    const double* const row = system_.right_sides(k);
+    for (std::size_t a = 0; a < m; ++a) {
+      mean[a] += row[a] * row[m];
+    }
+  }
+  return mean;
 }
 
 HeightModel::HeightModel(const SurfaceFit& fit, const ResidualUnits& units)
@@ -249,15 +247,12 @@ HeightModel::~HeightModel() = default;
 
 std::optional<HeightModel::Answers> HeightModel::solve(const FieldHypothesis& field,
                                                        const StrokeNoise& noise) {
-  return matrices_->solve(matrices_->covariance(field, noise));
+  return matrices_->solve(field, noise);
 }
 
 std::vector<double> HeightModel::heights_without_noise(const FieldHypothesis& field,
                                                        const StrokeNoise& noise) {
-  const Eigen::MatrixXd all = matrices_->covariance(field, noise);
-  FieldHypothesis none;
-  const Eigen::MatrixXd shared = all - matrices_->covariance(none, noise);
-  return matrices_->without_noise(all, shared);
+  return matrices_->without_noise(field, noise);
 }
 
 }  // namespace orthonav::nav

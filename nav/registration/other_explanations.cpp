@@ -93,11 +93,15 @@ OtherExplanations::OtherExplanations(const VertebraModel& model, const Cloud& cl
   fine_.point_sd_m = options.point_sd_m;
   fine_.with_standoff = best.fit.with_standoff;
   clamp_m_ = kClampSds * r.noise_m;
-  if (best.field) {
-    units_ = residual_units(best.fit, kUnitsCompared);
-    const auto own = residual_field(best.fit, units_);
-    log_evidence_ = own ? own->log_evidence : 0.0;
+}
+
+const OtherExplanations::Evidence& OtherExplanations::evidence() const {
+  if (!evidence_) {
+    ResidualUnits units = residual_units(best_.fit, kUnitsCompared);
+    const auto own = residual_field(best_.fit, units);
+    evidence_ = Evidence{std::move(units), own ? own->log_evidence : 0.0};
   }
+  return *evidence_;
 }
 
 double OtherExplanations::log_likelihood_ratio(const SurfaceFit& other) const {
@@ -113,8 +117,8 @@ double OtherExplanations::log_likelihood_ratio(const SurfaceFit& other) const {
     p.weight = p.precision = best_.fit.points[i].inlier_precision();
   }
   same_points.standoff_m = best_.fit.standoff_m;
-  const auto field = residual_field(same_points, refilled(units_, same_points));
-  return field ? log_evidence_ - field->log_evidence : by_cost;
+  const auto field = residual_field(same_points, refilled(evidence().units, same_points));
+  return field ? evidence().log_evidence - field->log_evidence : by_cost;
 }
 
 std::size_t OtherExplanations::compare_poses(std::span<const Candidate> found,
@@ -146,7 +150,7 @@ std::optional<OtherExplanations::Rival> OtherExplanations::judged(const Candidat
   if (!(rival.log_likelihood_ratio < kDoubtful * options_.min_log_likelihood_ratio)) {
     return rival;
   }
-  const auto whole = final_fit(model_, cloud_, candidate.fit, options_);
+  const auto whole = final_fit(model_, cloud_, candidate.fit, options_, kUnitsCompared);
   if (!whole || !is_another(whole->fit.pose)) {
     return std::nullopt;
   }
@@ -195,9 +199,26 @@ double OtherExplanations::mirror_log_likelihood() const {
   if (by_cost > kHopeless) {
     return -by_cost;
   }
-  // Whatever helps the answer helps its mirror image: the same fit, to the end.
-  const auto whole = final_fit(model_, mirrored, few->fit, options_);
-  return whole ? -log_likelihood_ratio(whole->fit) : -std::numeric_limits<double>::infinity();
+  // Whatever helps the answer helps its mirror image: the same fit, to the end, but of a part of
+  // the points; where it comes to rest all of them are compared.
+  Cloud some;
+  PoseSearchRegistrationOptions options;
+  options.tip_radius_m = options_.tip_radius_m;
+  for (std::size_t i = 0; i < mirrored.all_m.size(); i += kEveryMirrored) {
+    some.all_m.push_back(mirrored.all_m[i]);
+    if (!options_.point_sd_m.empty()) {
+      options.point_sd_m.push_back(options_.point_sd_m[i]);
+    }
+  }
+  const auto whole = final_fit(model_, some, few->fit, options, kUnitsCompared);
+  if (!whole) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  SurfaceFitOptions there = fine_;
+  there.max_iterations = 0;
+  there.first_standoff_m = whole->fit.standoff_m;
+  const auto all = fit_to_bone(model_, mirrored.all_m, whole->fit.pose, there);
+  return all ? -log_likelihood_ratio(*all) : -std::numeric_limits<double>::infinity();
 }
 
 std::optional<Candidate> OtherExplanations::best_mirrored_fit(

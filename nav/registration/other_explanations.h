@@ -35,6 +35,12 @@ class OtherExplanations {
     double rmse_m = 0.0;
     double log_likelihood_ratio = 0.0;
   };
+  /// For the best fit, by units of the points that it has on the bone.
+  struct Evidence {
+    ResidualUnits units;
+    double log_evidence = 0.0;
+  };
+  [[nodiscard]] const Evidence& evidence() const;
   [[nodiscard]] std::optional<Candidate> best_mirrored_fit(std::span<const Vec3> points_m) const;
   [[nodiscard]] std::optional<Candidate> mirrored_fit(std::span<const Vec3> points_m,
                                                       const CentredPose& start,
@@ -54,10 +60,9 @@ class OtherExplanations {
   const PoseSearchRegistrationOptions& options_;
   Transform<World, Vertebra> world_from_vertebra_;
   double best_cost_m2_;
-  double unit_m2_ = 0.0;       ///< of costs, that is one of the log-likelihood
-  double clamp_m_ = 0.0;       ///< a residual counts as no more than this
-  ResidualUnits units_;        ///< of the points that the best fit has on the bone
-  double log_evidence_ = 0.0;  ///< for the best fit
+  double unit_m2_ = 0.0;                      ///< of costs, that is one of the log-likelihood
+  double clamp_m_ = 0.0;                      ///< a residual counts as no more than this
+  mutable std::optional<Evidence> evidence_;  ///< once something comes near
   SurfaceFitOptions fine_;
 };
 

@@ -25,7 +25,7 @@ constexpr double kInsideFactor = 1.5;
 constexpr double kCostPerM = 250.0 / (kInsideFactor * kFarthest_m);
 
 constexpr int kRotations = 1000;
-constexpr int kPlaceStep = 4;  ///< cells
+constexpr int kPlaceStep = SearchField::Cells::kApart;
 /// Centres of strokes lie inside the box of the reachable surface, at least this far from its rim.
 constexpr double kInset_m = 0.006;
 constexpr std::size_t kPointsAdded = 32;
@@ -76,18 +76,19 @@ class PlaceScan {
 
   /// Finds the two best places that are not neighbours.
   void scan(const Mat3& rotation, std::vector<Scored>& out) {
-    const std::ptrdiff_t row = cells_.size[0];
-    const std::ptrdiff_t slice = row * cells_.size[1];
     for (std::size_t i = 0; i < points_m_.size(); ++i) {
       const Vec3 p = (rotation * points_m_[i] + low_m_ - cells_.low_m) / cells_.cell_m;
-      offsets_[i] = static_cast<std::ptrdiff_t>(p.z) * slice +
-                    static_cast<std::ptrdiff_t>(p.y) * row + static_cast<std::ptrdiff_t>(p.x);
+      offsets_[i] =
+          cells_.index(static_cast<int>(p.x), static_cast<int>(p.y), static_cast<int>(p.z));
     }
     std::array<Place, 2> best;
     for (int z = 0; z < steps_[2]; ++z) {
       for (int y = 0; y < steps_[1]; ++y) {
-        for (int x = 0; x < steps_[0]; ++x) {
-          take({cost(x, y, z, row, slice), {x, y, z}}, best);
+        for (int x = 0; x < steps_[0]; x += kRun) {
+          const std::array<std::uint16_t, kRun> costs = costs_from(x, y, z);
+          for (int i = 0; i < std::min(kRun, steps_[0] - x); ++i) {
+            take({costs[static_cast<std::size_t>(i)], {x + i, y, z}}, best);
+          }
         }
       }
     }
@@ -104,6 +105,9 @@ class PlaceScan {
   }
 
  private:
+  static constexpr int kRun = SearchField::Cells::kRun;
+  static_assert(kPointsAdded * std::numeric_limits<std::uint8_t>::max() <=
+                std::numeric_limits<std::uint16_t>::max());
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   struct Place {
     std::uint32_t cost = kNone;
@@ -118,14 +122,18 @@ class PlaceScan {
     }
   };
 
-  [[nodiscard]] std::uint32_t cost(int x, int y, int z, std::ptrdiff_t row,
-                                   std::ptrdiff_t slice) const {
-    const std::uint8_t* from = cells_.cost.data() + kPlaceStep * (z * slice + y * row + x);
-    std::uint32_t sum = 0;
+  /// At a run of places along x; what lies beyond the last place means nothing.
+  [[nodiscard]] std::array<std::uint16_t, kRun> costs_from(int x, int y, int z) const {
+    const std::uint8_t* const from =
+        cells_.cost.data() + kPlaceStep * (z * cells_.slice() + y * cells_.row()) + x;
+    std::array<std::uint16_t, kRun> sums{};
     for (const std::ptrdiff_t offset : offsets_) {
-      sum += from[offset];
+      const std::uint8_t* const run = from + offset;
+      for (std::size_t i = 0; i < kRun; ++i) {
+        sums[i] = static_cast<std::uint16_t>(sums[i] + run[i]);
+      }
     }
-    return sum;
+    return sums;
   }
 
   static void take(const Place& place, std::array<Place, 2>& best) {
@@ -226,6 +234,8 @@ SearchField::SearchField(const Bounds& reachable_bounds, DistanceField field)
   for (std::size_t k = 0; k < 3; ++k) {
     cells_.size[k] = 1 + static_cast<int>(extent[static_cast<int>(k)] / kSearchCell_m);
   }
+  // What is read beyond the last row's end is there.
+  cells_.cost.resize(static_cast<std::size_t>(cells_.slice() * cells_.size[2] + Cells::kRun));
   for (int z = 0; z < cells_.size[2]; ++z) {
     for (int y = 0; y < cells_.size[1]; ++y) {
       for (int x = 0; x < cells_.size[0]; ++x) {
@@ -235,7 +245,8 @@ SearchField::SearchField(const Bounds& reachable_bounds, DistanceField field)
         const double distance =
             near ? std::min(std::abs(value.distance_m), kFarthest_m) : kFarthest_m;
         const double factor = near && value.distance_m < 0.0 ? kInsideFactor : 1.0;
-        cells_.cost.push_back(static_cast<std::uint8_t>(kCostPerM * factor * distance));
+        cells_.cost[static_cast<std::size_t>(cells_.index(x, y, z))] =
+            static_cast<std::uint8_t>(kCostPerM * factor * distance);
       }
     }
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -25,12 +27,23 @@ class SearchField {
   /// The box within which the centre of the digitized points is tried.
   [[nodiscard]] const Bounds& reachable_bounds() const { return reachable_bounds_; }
 
-  /// The coarse grid: the cost of a point in each cell, and how far apart neighbours are stored.
+  /// The coarse grid: the cost of a point in each cell. Along x every fourth cell lies beside the
+  /// last one, so that a run of places, four cells apart, is read at once.
   struct Cells {
+    static constexpr int kApart = 4;
+    static constexpr int kRun = 16;  ///< places that are read at once
+
     Vec3 low_m;
     double cell_m = 0.0;
     std::array<int, 3> size{};
     std::vector<std::uint8_t> cost;
+
+    [[nodiscard]] std::ptrdiff_t lane() const { return (size[0] + kApart - 1) / kApart; }
+    [[nodiscard]] std::ptrdiff_t row() const { return kApart * lane(); }
+    [[nodiscard]] std::ptrdiff_t slice() const { return row() * size[1]; }
+    [[nodiscard]] std::ptrdiff_t index(int x, int y, int z) const {
+      return z * slice() + y * row() + (x % kApart) * lane() + x / kApart;
+    }
   };
   [[nodiscard]] const Cells& cells() const { return cells_; }
 

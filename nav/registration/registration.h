@@ -124,7 +124,7 @@ struct PoseSearchRegistrationOptions {
   CommonErrors common;
   /// By how much (natural logarithm) the model's mirror image may explain the points better; and
   /// how far off the model's size may be.
-  double max_mirror_log_likelihood = 6.0;
+  double max_mirror_log_likelihood = 4.0;
   double max_size_off = 0.015;
 };
 

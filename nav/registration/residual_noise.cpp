@@ -30,25 +30,44 @@ double ratio_of_series(double sum, std::size_t terms) {
   return 0.5 * (low + high);
 }
 
+struct Weighed {
+  Vec3 at_m;
+  double weight = 0.0;
+  double residual = 0.0;  ///< times its weight
+  int stroke = 0;
+};
+
+/// Beside each other in memory, along the strokes.
+std::vector<Weighed> weighed(const SurfaceFit& fit, const ResidualUnits& units) {
+  std::vector<Weighed> out;
+  out.reserve(units.order.size());
+  for (std::size_t k = 0; k < units.order.size(); ++k) {
+    const FittedPoint& p = fit.points[units.order[k]];
+    const double weight = p.inlier_precision();
+    out.push_back({p.lever_arm_m, weight, weight * p.residual_m, units.stroke[k]});
+  }
+  return out;
+}
+
 }  // namespace
 
 AlongStrokes along_strokes(const SurfaceFit& fit, const ResidualUnits& units) {
   AlongStrokes out;
-  const std::size_t n = units.order.size();
-  for (std::size_t lag = 0; lag < std::min(kLongestLag, n); ++lag) {
+  const std::vector<Weighed> points = weighed(fit, units);
+  for (std::size_t lag = 0; lag < std::min(kLongestLag, points.size()); ++lag) {
     double product = 0.0;
     double distance = 0.0;
     double weights = 0.0;
     double pairs = 0.0;
-    for (std::size_t k = 0; k + lag < n; ++k) {
-      if (units.stroke[k] != units.stroke[k + lag]) {
+    for (std::size_t k = 0; k + lag < points.size(); ++k) {
+      const Weighed& a = points[k];
+      const Weighed& b = points[k + lag];
+      if (a.stroke != b.stroke) {
         continue;
       }
-      const FittedPoint& a = fit.points[units.order[k]];
-      const FittedPoint& b = fit.points[units.order[k + lag]];
-      const double weight = a.inlier_precision() * b.inlier_precision();
-      product += weight * a.residual_m * b.residual_m;
-      distance += weight * (a.lever_arm_m - b.lever_arm_m).norm();
+      const double weight = a.weight * b.weight;
+      product += a.residual * b.residual;
+      distance += weight * (a.at_m - b.at_m).norm();
       weights += weight;
       pairs += 1.0;
     }
@@ -57,6 +76,9 @@ AlongStrokes along_strokes(const SurfaceFit& fit, const ResidualUnits& units) {
     }
     out.covariance_m2.push_back(product / weights);
     out.distance_m.push_back(distance / weights);
+    if (out.covariance_m2.back() < kNoiseCorrelation * kLeastNoise * out.covariance_m2.front()) {
+      break;
+    }
   }
   return out;
 }

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <tuple>
 #include <vector>
 
 #include "nav/registration/registration.h"
+#include "nav/statistics/symmetric_eigen.h"
 
 namespace orthonav::nav {
 namespace {
@@ -97,15 +98,18 @@ Result<PoseUncertainty> PoseUncertainty::estimate(
     squares_m2 += touch.distance_m * touch.distance_m;
   }
   const Matrix6 info = information(found, result.centre_m_);
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(info);
-  if (!(solver.eigenvalues()[0] > kWeakest * solver.eigenvalues()[5])) {
+  std::array<double, 36> entries{};
+  Eigen::Map<Matrix6>(entries.data()) = info;
+  const SymmetricEigen6 eigen = symmetric_eigen(entries);
+  if (!(eigen.values[0] > kWeakest * eigen.values[5])) {
     return Error{
         "the digitized points leave a motion of the bone open: digitize another side of it"};
   }
   Vector6 scale;  // back from rotation · lever arm to rotation
   scale << 1, 1, 1, 1 / kLever_m, 1 / kLever_m, 1 / kLever_m;
-  const Matrix6 inverse = solver.eigenvectors() * solver.eigenvalues().cwiseInverse().asDiagonal() *
-                          solver.eigenvectors().transpose();
+  const Eigen::Map<const Matrix6> vectors(eigen.vectors.data());
+  const Eigen::Map<const Vector6> values(eigen.values.data());
+  const Matrix6 inverse = vectors * values.cwiseInverse().asDiagonal() * vectors.transpose();
   const Matrix6 covariance =
       (squares_m2 / (n - 6.0)) * scale.asDiagonal() * inverse * scale.asDiagonal();
   for (int r = 0; r < 6; ++r) {
