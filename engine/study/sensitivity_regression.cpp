@@ -2,8 +2,7 @@
 
 #include <atomic>
 #include <cmath>
-#include <Eigen/Core>
-#include <limits>
+#include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -13,7 +12,6 @@
 #include "engine/report/report_values.h"
 #include "engine/study/on_threads.h"
 #include "nav/evaluation/errors.h"
-#include "nav/statistics/whitened_system.h"
 
 namespace orthonav::engine {
 namespace {
@@ -25,31 +23,9 @@ struct Regressed {
   Eigen::VectorXd standard_errors;
 };
 
-/// Of a symmetric, positive definite matrix; all NaN where it is none.
-Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) {
-  const auto n = static_cast<std::size_t>(matrix.rows());
-  nav::WhitenedSystem system;
-  system.reset(n, n);
-  for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t i = k; i < n; ++i) {
-      system.covariance(i, k) = matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-    }
-    system.right_side(k, k) = 1.0;
-  }
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
-  if (!system.whiten()) {
-    return Eigen::MatrixXd::Constant(matrix.rows(), matrix.cols(),
-                                     std::numeric_limits<double>::quiet_NaN());
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    const Eigen::Map<const Eigen::VectorXd> row(system.right_sides(k), matrix.cols());
-    out += row * row.transpose();
-  }
-  return out;
-}
-
 Regressed least_squares(const Eigen::MatrixXd& x, const Eigen::VectorXd& y) {
-  const Eigen::MatrixXd inverse = inverse_of(x.transpose() * x);
+  const Eigen::MatrixXd inverse =
+      (x.transpose() * x).ldlt().solve(Eigen::MatrixXd::Identity(x.cols(), x.cols()));
   const Eigen::VectorXd slopes = inverse * (x.transpose() * y);
   const Eigen::VectorXd residuals = y - x * slopes;
   const Eigen::MatrixXd weighted = residuals.asDiagonal() * x;

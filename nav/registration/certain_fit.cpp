@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <vector>
 
+#include "nav/registration/every_nth.h"
+
 namespace orthonav::nav {
 namespace {
 
-/// So many points are fitted robustly; what follows takes all of them.
+/// The robust fit takes about this many of the points; the rounds after it take all of them.
 constexpr std::size_t kFittedRobustly = 700;
-/// Once the bone has moved by more, what lies beyond its rim is asked anew.
-constexpr double kRimAskedAnew_m = 0.0005;
+/// Which points lie beyond the rim is determined again once the bone has moved by more than this.
+constexpr double kRimRecheck_m = 0.0005;
 
 /// Points beyond the rim of the reachable surface are nearer to bone that registration leaves out:
 /// their height above the rim says nothing.
@@ -18,8 +20,8 @@ class BeyondRim {
   explicit BeyondRim(const VertebraModel& model) : model_(model) {}
 
   void drop_from(SurfaceFit& fit) {
-    if (beyond_.empty() || (fit.pose.centre_m - asked_at_m_).norm() > kRimAskedAnew_m) {
-      ask(fit);
+    if (beyond_.empty() || (fit.pose.centre_m - found_at_m_).norm() > kRimRecheck_m) {
+      find(fit);
     }
     for (std::size_t i = 0; i < fit.points.size(); ++i) {
       if (beyond_[i]) {
@@ -29,10 +31,10 @@ class BeyondRim {
   }
 
  private:
-  void ask(const SurfaceFit& fit) {
+  void find(const SurfaceFit& fit) {
     constexpr double kNearer = 1.0 - 1e-6;
     beyond_.assign(fit.points.size(), false);
-    asked_at_m_ = fit.pose.centre_m;
+    found_at_m_ = fit.pose.centre_m;
     for (std::size_t i = 0; i < fit.points.size(); ++i) {
       const FittedPoint& p = fit.points[i];
       const Vec3 at = p.lever_arm_m + fit.pose.centre_m;
@@ -43,18 +45,8 @@ class BeyondRim {
 
   const VertebraModel& model_;
   std::vector<bool> beyond_;
-  Vec3 asked_at_m_;
+  Vec3 found_at_m_;
 };
-
-/// Every so-manieth point; all for 1.
-template <class T>
-std::vector<T> every(std::size_t step, std::span<const T> all) {
-  std::vector<T> out;
-  for (std::size_t i = 0; i < all.size(); i += step) {
-    out.push_back(all[i]);
-  }
-  return out;
-}
 
 /// A part of the points, robustly: standoff and pose, or the pose alone where there is no credible
 /// standoff. Nothing where no point is near the surface.
@@ -62,9 +54,9 @@ std::optional<SurfaceFit> robust_fit(const VertebraModel& model, std::span<const
                                      const CentredPose& start,
                                      const PoseSearchRegistrationOptions& options) {
   const std::size_t step = std::max<std::size_t>(1, points_m.size() / kFittedRobustly);
-  const std::vector<Vec3> some_m = every(step, points_m);
+  const std::vector<Vec3> some_m = every_nth(points_m, step);
   const std::vector<Vec3> near_m = places_near(model, some_m, start);
-  const std::vector<double> sd_m = every(step, std::span<const double>(options.point_sd_m));
+  const std::vector<double> sd_m = every_nth(std::span<const double>(options.point_sd_m), step);
   SurfaceFitOptions fine;
   fine.tip_radius_m = options.tip_radius_m;
   fine.point_sd_m = sd_m;
@@ -79,11 +71,11 @@ std::optional<SurfaceFit> robust_fit(const VertebraModel& model, std::span<const
   return std::nullopt;
 }
 
-/// All points at a pose and height, started from the places that were nearest before.
-std::optional<SurfaceFit> fit_at(const VertebraModel& model, std::span<const Vec3> points_m,
-                                 const CentredPose& pose, double standoff_m,
-                                 std::span<const Vec3> near_m,
-                                 const PoseSearchRegistrationOptions& options) {
+/// All points at a pose and height; `near_m`: places of the surface near each of them.
+std::optional<SurfaceFit> fit_near(const VertebraModel& model, std::span<const Vec3> points_m,
+                                   const CentredPose& pose, double standoff_m,
+                                   std::span<const Vec3> near_m,
+                                   const PoseSearchRegistrationOptions& options) {
   SurfaceFitOptions there;
   there.tip_radius_m = options.tip_radius_m;
   there.point_sd_m = options.point_sd_m;
@@ -106,12 +98,22 @@ std::optional<SurfaceFit> moved(const VertebraModel& model, const Cloud& cloud,
   const auto& x = field.step;
   pose.rotation = orthonormalized(rotation_from_vector({x[3], x[4], x[5]}) * pose.rotation);
   pose.centre_m += {x[0], x[1], x[2]};
-  auto out = fit_at(model, cloud.all_m, pose, field.standoff_m, near_m, options);
+  auto out = fit_near(model, cloud.all_m, pose, field.standoff_m, near_m, options);
   if (out) {
     out->with_standoff = field.standoff_m > 0.0;
   }
   return out;
 }
+
+}  // namespace
+
+std::optional<SurfaceFit> fit_at(const VertebraModel& model, std::span<const Vec3> points_m,
+                                 const CentredPose& pose, double standoff_m,
+                                 const PoseSearchRegistrationOptions& options) {
+  return fit_near(model, points_m, pose, standoff_m, places_near(model, points_m, pose), options);
+}
+
+namespace {
 
 /// All points at the pose of a part of them.
 std::optional<SurfaceFit> first_fit(const VertebraModel& model, const Cloud& cloud,
@@ -121,8 +123,7 @@ std::optional<SurfaceFit> first_fit(const VertebraModel& model, const Cloud& clo
   if (!robust) {
     return std::nullopt;
   }
-  const std::vector<Vec3> near_m = places_near(model, cloud.all_m, robust->pose);
-  auto out = fit_at(model, cloud.all_m, robust->pose, robust->standoff_m, near_m, options);
+  auto out = fit_at(model, cloud.all_m, robust->pose, robust->standoff_m, options);
   if (out) {
     out->with_standoff = robust->with_standoff;
     out->iterations = robust->iterations;

@@ -14,10 +14,17 @@ struct CertainFit {
 };
 
 /// Fits all points, starting from a candidate's pose: robustly, then with what their heights have
-/// in common, told by so many units. Nothing where no point is near the surface.
+/// in common, in at most `units` units. Nothing where no point is near the surface.
 [[nodiscard]] std::optional<CertainFit> final_fit(const VertebraModel& model, const Cloud& cloud,
                                                   const SurfaceFit& start,
                                                   const PoseSearchRegistrationOptions& options,
                                                   std::size_t units = kMostUnits);
+
+/// The points' heights over the surface, with their weights, at a given pose and standoff (m). Of
+/// the options, tip radius and SDs of the points are used.
+[[nodiscard]] std::optional<SurfaceFit> fit_at(const VertebraModel& model,
+                                               std::span<const Vec3> points_m,
+                                               const CentredPose& pose, double standoff_m,
+                                               const PoseSearchRegistrationOptions& options);
 
 }  // namespace orthonav::nav

@@ -93,7 +93,7 @@ UncertainMotion::Kind worst_motion(const Matrix6& covariance, Vec3 centre_m,
     at_targets += m.transpose() * m;
     lever_m = std::max(lever_m, (target.v - centre_m).norm());
   }
-  // Of the covariance: its product with its transpose.
+  // A square root of the covariance: root · rootᵀ.
   const SymmetricEigen6 own = symmetric_eigen(entries_of(covariance));
   const Eigen::Map<const Vector6> variances(own.values.data());
   const Matrix6 root = Eigen::Map<const Matrix6>(own.vectors.data()) *

@@ -52,7 +52,8 @@ void leave_out_negative(UnknownsAnswer& a) {
 std::optional<UnknownsAnswer> answer(std::size_t count, const UnknownsMatrix& information,
                                      const UnknownsVector& right, double squares,
                                      double log_determinant, double log_prior) {
-  // Whitened by the information's root: the unit vectors, and the right side beside them.
+  // Right-hand sides: the unit matrix and `right`. Whitened, they give the inverse and the
+  // solution.
   WhitenedSystem system;
   system.reset(count, count + 1);
   for (std::size_t i = 0; i < count; ++i) {

@@ -8,19 +8,19 @@
 
 namespace orthonav::nav {
 
-/// Of the scaled unknowns, in which rotations and the size are lengths at a lever arm: what makes
-/// them unknowns again.
+/// The factors that turn scaled unknowns, in which rotations and size are lengths at a lever arm,
+/// back into the unknowns.
 [[nodiscard]] std::array<double, kHeightUnknowns> unknowns_scale();
 
-/// What whitened heights say of the scaled unknowns together, summed over blocks of units that know
-/// nothing of each other.
+/// The normal equations of the whitened heights for the scaled unknowns, summed over blocks of
+/// units that are uncorrelated with each other.
 struct WhitenedSums {
   std::array<double, kHeightUnknowns * kHeightUnknowns> information{};
   std::array<double, kHeightUnknowns> right{};
   double squares = 0.0;
   double log_determinant = 0.0;
 
-  /// `system`: its right-hand sides are the derivatives by the unknowns and, last, the heights.
+  /// The right-hand sides of `system` are the derivatives by the unknowns and, last, the heights.
   void add(const WhitenedSystem& system);
 };
 

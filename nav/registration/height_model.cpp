@@ -14,8 +14,8 @@ using Eigen::Index;
 
 namespace {
 
-/// Of the field at a place of one unit and at one of the other: at their halves, or, where they are
-/// far apart for their lengths, at their middles.
+/// The field's mean correlation between two units: between their halves or, where the units are far
+/// apart compared with their lengths, between their middles.
 double mean_correlation(const FieldHypothesis& field, const ResidualUnit& a,
                         const ResidualUnit& b) {
   constexpr double kFar = 4.0;
@@ -49,22 +49,22 @@ class HeightModel::Matrices {
   /// The covariance of the units from `first` to before `end`, with room for right-hand sides.
   void fill(std::size_t first, std::size_t end, const FieldHypothesis& field,
             const StrokeNoise& noise, std::size_t right_sides);
-  /// These units, whitened: what they say is added to the sums. False where
-  /// their covariance is none.
+  /// Whitens these units and adds them to the sums. False where their covariance is not positive
+  /// definite.
   [[nodiscard]] bool add_block(std::size_t first, std::size_t end, const FieldHypothesis& field,
                                const StrokeNoise& noise, WhitenedSums& sums);
-  /// Between two units of one stroke: its own height, and what wanders.
+  /// The covariance of two units of one stroke: its own height, and the wandering noise.
   [[nodiscard]] double along_stroke_m2(std::size_t a, std::size_t b, const FieldHypothesis& field,
                                        const StrokeNoise& noise) const;
-  /// Of a field, between units (lower triangle); that of the last length is kept.
+  /// The field's correlation between units (lower triangle); that of the last length is kept.
   [[nodiscard]] const Eigen::MatrixXd& field_correlation(const FieldHypothesis& field);
   [[nodiscard]] double own_noise_m2(const ResidualUnit& unit, const StrokeNoise& noise) const;
-  /// The last unit of the stroke that begins with `first`, and one.
+  /// One past the last unit of the stroke to which `first` belongs.
   [[nodiscard]] std::size_t end_of_stroke(std::size_t first) const;
 
   const SurfaceFit& fit_;
   const ResidualUnits& units_;
-  /// By columns, so that one unit's lie beside each other; scaled.
+  /// Scaled; one column a unit.
   Eigen::Matrix<double, kHeightUnknowns, Eigen::Dynamic> derivatives_;
   Eigen::VectorXd heights_m_;
   double last_length_m_ = 0.0;
@@ -193,7 +193,7 @@ std::optional<HeightModel::Answers> HeightModel::Matrices::solve(const FieldHypo
   WhitenedSums sums;
   const std::size_t count = units_.all.size();
   for (std::size_t first = 0; first < count;) {
-    // Without a field strokes know nothing of each other.
+    // Without a field, strokes are uncorrelated.
     const std::size_t end = field.sd_m > 0.0 ? count : end_of_stroke(first);
     if (!add_block(first, end, field, noise, sums)) {
       return std::nullopt;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "nav/registration/every_nth.h"
+
 namespace orthonav::nav {
 namespace {
 
@@ -199,25 +201,17 @@ double OtherExplanations::mirror_log_likelihood() const {
   if (by_cost > kHopeless) {
     return -by_cost;
   }
-  // Whatever helps the answer helps its mirror image: the same fit, to the end, but of a part of
-  // the points; where it comes to rest all of them are compared.
+  // The mirror image gets the same fit as the answer, but to some of the points; all of them are
+  // then compared at the pose where it ends.
   Cloud some;
+  some.all_m = every_nth(std::span<const Vec3>(mirrored.all_m), kEveryMirrored);
   PoseSearchRegistrationOptions options;
   options.tip_radius_m = options_.tip_radius_m;
-  for (std::size_t i = 0; i < mirrored.all_m.size(); i += kEveryMirrored) {
-    some.all_m.push_back(mirrored.all_m[i]);
-    if (!options_.point_sd_m.empty()) {
-      options.point_sd_m.push_back(options_.point_sd_m[i]);
-    }
-  }
+  options.point_sd_m = every_nth(std::span<const double>(options_.point_sd_m), kEveryMirrored);
   const auto whole = final_fit(model_, some, few->fit, options, kUnitsCompared);
-  if (!whole) {
-    return -std::numeric_limits<double>::infinity();
-  }
-  SurfaceFitOptions there = fine_;
-  there.max_iterations = 0;
-  there.first_standoff_m = whole->fit.standoff_m;
-  const auto all = fit_to_bone(model_, mirrored.all_m, whole->fit.pose, there);
+  const auto all =
+      whole ? fit_at(model_, mirrored.all_m, whole->fit.pose, whole->fit.standoff_m, options_)
+            : std::nullopt;
   return all ? -log_likelihood_ratio(*all) : -std::numeric_limits<double>::infinity();
 }
 
@@ -226,10 +220,7 @@ std::optional<Candidate> OtherExplanations::best_mirrored_fit(
   CentredPose start;
   start.centre_m = best_.fit.pose.centre_m;
   start.centre_m.x = 2.0 * model_.reachable_axes().centre_m.x - start.centre_m.x;
-  std::vector<Vec3> fewer_m;
-  for (std::size_t i = 0; i < points_m.size(); i += kEveryMirrored) {
-    fewer_m.push_back(points_m[i]);
-  }
+  const std::vector<Vec3> fewer_m = every_nth(points_m, kEveryMirrored);
   std::vector<Candidate> rough;
   for (const CentredPose& aside : poses_about(start)) {
     if (auto fit = mirrored_fit(fewer_m, aside, kRoughIterations)) {

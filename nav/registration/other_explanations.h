@@ -62,7 +62,7 @@ class OtherExplanations {
   double best_cost_m2_;
   double unit_m2_ = 0.0;                      ///< of costs, that is one of the log-likelihood
   double clamp_m_ = 0.0;                      ///< a residual counts as no more than this
-  mutable std::optional<Evidence> evidence_;  ///< once something comes near
+  mutable std::optional<Evidence> evidence_;  ///< computed on first use
   SurfaceFitOptions fine_;
 };
 

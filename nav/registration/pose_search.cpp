@@ -122,7 +122,7 @@ class PlaceScan {
     }
   };
 
-  /// At a run of places along x; what lies beyond the last place means nothing.
+  /// The costs of kRun neighbouring places along x; entries past the last place are meaningless.
   [[nodiscard]] std::array<std::uint16_t, kRun> costs_from(int x, int y, int z) const {
     const std::uint8_t* const from =
         cells_.cost.data() + kPlaceStep * (z * cells_.slice() + y * cells_.row()) + x;
@@ -234,7 +234,7 @@ SearchField::SearchField(const Bounds& reachable_bounds, DistanceField field)
   for (std::size_t k = 0; k < 3; ++k) {
     cells_.size[k] = 1 + static_cast<int>(extent[static_cast<int>(k)] / kSearchCell_m);
   }
-  // What is read beyond the last row's end is there.
+  // Padding: a run may reach past the end of the last row.
   cells_.cost.resize(static_cast<std::size_t>(cells_.slice() * cells_.size[2] + Cells::kRun));
   for (int z = 0; z < cells_.size[2]; ++z) {
     for (int y = 0; y < cells_.size[1]; ++y) {

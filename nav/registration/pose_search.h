@@ -27,8 +27,8 @@ class SearchField {
   /// The box within which the centre of the digitized points is tried.
   [[nodiscard]] const Bounds& reachable_bounds() const { return reachable_bounds_; }
 
-  /// The coarse grid: the cost of a point in each cell. Along x every fourth cell lies beside the
-  /// last one, so that a run of places, four cells apart, is read at once.
+  /// The coarse grid: the cost of a point in each cell. Along x, cells that are kApart apart are
+  /// stored next to each other, so that the search reads kRun neighbouring places at once.
   struct Cells {
     static constexpr int kApart = 4;
     static constexpr int kRun = 16;  ///< places that are read at once

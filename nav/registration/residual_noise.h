@@ -8,7 +8,7 @@ namespace orthonav::nav {
 
 /// How the heights of one stroke go together, from point to point.
 struct AlongStrokes {
-  std::vector<double> covariance_m2;  ///< by lag from 0 on, as far as there is any
+  std::vector<double> covariance_m2;  ///< by lag, from 0 to the last that any hypothesis needs
   std::vector<double> distance_m;     ///< mean, between points of that lag
 };
 /// Heights about the fit's standoff. Empty where there are too few points.

@@ -7,14 +7,14 @@
 namespace orthonav::nav {
 namespace {
 
-/// So many columns are subtracted from those to their right at once: their factors stay in
-/// registers.
+/// Columns are eliminated in panels of this many, so that their factors stay in registers.
 constexpr std::size_t kPanel = 4;
 
 using Columns = std::array<const double*, kPanel>;
 using Factors = std::array<double, kPanel>;
 
-/// out -= a·f0 + b·f1 + ..., and the same for a second column: what was loaded serves both.
+/// Subtracts a panel's columns, times their factors, from two columns at once: each panel entry is
+/// loaded once for both.
 void subtract_from_two(const Columns& from, const Factors& f, const Factors& g, std::size_t rows,
                        double* __restrict__ out, double* __restrict__ beside) {
   const double* __restrict__ a = from[0];
@@ -88,7 +88,7 @@ void WhitenedSystem::subtract_panel(std::size_t first, std::size_t from) {
       Factors g{};
       std::transform(columns.begin(), columns.end(), g.begin(),
                      [](const double* column) { return column[1]; });
-      // The second column's first row lies above the diagonal, where nothing is read.
+      // Row j of column j + 1 lies above the diagonal and is never read.
       subtract_from_two(columns, f, g, rows, column_of(j) + j, column_of(j + 1) + j);
     } else {
       for (std::size_t k = 0; k < kPanel; ++k) {

@@ -27,11 +27,11 @@ class WhitenedSystem {
   [[nodiscard]] double* column_of(std::size_t column) { return entries_.data() + column * stride_; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Cholesky's decomposition, column by column from the left (Golub & Van Loan, Matrix
-  /// Computations, section 4.2.6); the right-hand sides are carried along as further rows. False
-  /// where C is not positive definite; what the system holds then means nothing.
+  /// Blocked Cholesky factorization (Golub & Van Loan, Matrix Computations, section 4.2.6); the
+  /// right-hand sides are carried along as further rows. False where C is not positive definite;
+  /// the contents are then undefined.
   [[nodiscard]] bool whiten();
-  /// Of det C, after `whiten`.
+  /// log det C, after `whiten`.
   [[nodiscard]] double log_determinant() const;
 
  private:
@@ -39,8 +39,8 @@ class WhitenedSystem {
   void subtract_panel(std::size_t first, std::size_t from);
 
   std::size_t size_ = 0;
-  std::size_t rows_ = 0;    ///< of a column: the matrix's and the right-hand sides
-  std::size_t stride_ = 0;  ///< rows, and what rounds them up
+  std::size_t rows_ = 0;    ///< of a column: those of C and one for each right-hand side
+  std::size_t stride_ = 0;  ///< rows_ rounded up to an even number
   std::vector<double> entries_;
 };
 
